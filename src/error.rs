@@ -1,0 +1,142 @@
+//! What can go wrong, and where.
+
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// An error that a user can act on. All of them exit with status 2, but for an interruption.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// Something in an input is not what it should be.
+    #[error("{0}")]
+    Input(Box<Input>),
+    /// A file or directory cannot be read or written.
+    #[error("{}: cannot {action}: {source}", path.display())]
+    Io {
+        /// The file or directory.
+        path: PathBuf,
+        /// What was tried, as a verb: `read`, `write`, `create`.
+        action: &'static str,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The user stopped the run (exit status 130).
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// Shorthand for results of this crate.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// A fault in an input: where it is, what stands there and what was expected.
+#[derive(Debug, Default, Clone, PartialEq)]
+pub struct Input {
+    /// File, or the option of the command line.
+    pub source: String,
+    /// Line and column, counted from 1.
+    pub place: Option<(usize, usize)>,
+    /// Field, row or key.
+    pub field: Option<String>,
+    /// What stands there.
+    pub value: Option<String>,
+    /// What was expected, or what is wrong.
+    pub expected: String,
+}
+
+impl fmt::Display for Input {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.source)?;
+        if let Some((line, column)) = self.place {
+            write!(f, ":{line}:{column}")?;
+        }
+        match (&self.field, &self.value) {
+            (Some(field), Some(value)) => write!(f, ": {field} = {value}")?,
+            (Some(field), None) => write!(f, ": {field}")?,
+            (None, Some(value)) => write!(f, ": {value}")?,
+            (None, None) => {}
+        }
+        write!(f, ": {}", self.expected)
+    }
+}
+
+impl Input {
+    /// A fault in `source` (a file's path or an option).
+    pub fn new(source: impl fmt::Display, expected: impl fmt::Display) -> Self {
+        let (source, expected) = (source.to_string(), expected.to_string());
+        Input { source, expected, ..Input::default() }
+    }
+
+    /// Where in the file, counted from 1.
+    pub fn at(self, line: usize, column: usize) -> Self {
+        Input { place: Some((line, column)), ..self }
+    }
+
+    /// Which field, row or key.
+    pub fn field(self, field: impl fmt::Display) -> Self {
+        Input { field: Some(field.to_string()), ..self }
+    }
+
+    /// What stands there; long values are shortened.
+    pub fn value(self, value: impl fmt::Display) -> Self {
+        let text = value.to_string();
+        let mut short: String = text.chars().take(60).collect();
+        if short.len() < text.len() {
+            short.push_str("...");
+        }
+        Input { value: Some(short), ..self }
+    }
+}
+
+impl From<Input> for Error {
+    fn from(input: Input) -> Self {
+        Error::Input(Box::new(input))
+    }
+}
+
+impl Error {
+    /// For `map_err` around file operations.
+    pub fn io(path: &Path, action: &'static str) -> impl FnOnce(io::Error) -> Error {
+        let path = path.to_owned();
+        move |source| Error::Io { path, action, source }
+    }
+
+    /// Whether the reader of our output has gone, which is no fault.
+    pub fn is_broken_pipe(&self) -> bool {
+        matches!(self, Error::Io { source, .. } if source.kind() == io::ErrorKind::BrokenPipe)
+    }
+}
+
+/// Line and column of a byte offset in `text`, counted from 1; columns count characters.
+pub fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
+    let before = &text[..text.floor_char_boundary(offset)];
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
+/// The text of a file, which has to be UTF-8.
+pub fn read_text(path: &Path) -> Result<String> {
+    let bytes = std::fs::read(path).map_err(Error::io(path, "read"))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let text = String::from_utf8_lossy(&error.as_bytes()[..valid]).into_owned();
+        let (line, column) = line_and_column(&text, valid);
+        Input::new(path.display(), "expected UTF-8 text").at(line, column).into()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_input_error_names_place_field_value_and_expectation() {
+        let error = Input::new("a.toml", "expected metres").at(3, 7).field("target.d").value(-1);
+        assert_eq!(error.to_string(), "a.toml:3:7: target.d = -1: expected metres");
+    }
+
+    #[test]
+    fn columns_count_characters() {
+        assert_eq!(line_and_column("a\néb", 4), (2, 2));
+        assert_eq!(line_and_column("", 0), (1, 1));
+    }
+}

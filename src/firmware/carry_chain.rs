@@ -1,0 +1,243 @@
+//! The tapped delay line of the TDC: 800 taps of carry logic, all registered at every edge.
+//!
+//! Mirrors `rtl_ref/carry_chain.v`. Tap i sees `tdc_stop` after the chain's offset and the delays
+//! of taps 0 .. i - 1; an arrival at or before the edge counts. The line is longer than a clock
+//! period, so several transitions may travel in it.
+
+use crate::kernel::{Thermometer, Time, U};
+use crate::signals;
+
+use super::tdc_decoder::Calibration;
+
+/// Length of the chain: 200 CARRY4 [taps].
+pub const TAPS: usize = 800;
+
+/// The taps, as registers.
+pub type Taps = Thermometer<TAPS>;
+
+signals! {
+    /// Input ports.
+    pub struct In {
+        /// Output of the SPAD, asynchronous.
+        pub tdc_stop: bool,
+    }
+}
+
+signals! {
+    /// Registers, all output ports.
+    pub struct CarryChain {
+        /// Level of each tap at the last edge.
+        pub taps: Taps,
+    }
+}
+
+/// The delays of a chain: what its placement decides.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Delays {
+    /// When each tap is reached, in order of arrival, from the transition of `tdc_stop`.
+    arrivals: Vec<Time>,
+    /// Physical tap at each place of that order.
+    order: Vec<u16>,
+    /// When the transition leaves the last tap.
+    end: Time,
+}
+
+impl Delays {
+    /// From the delay before the first tap and the delay of each of the 800 taps [fs]. A negative
+    /// delay is legal as long as every tap is reached after `tdc_stop` changes: real chains are
+    /// not monotonic, because of carry look-ahead and clock skew.
+    ///
+    /// Returns `None` if the number of taps is wrong or a tap is reached at time 0 or before.
+    pub fn new(offset: Time, tap_delays_fs: &[i64]) -> Option<Self> {
+        let mut at = i64::try_from(offset.fs()).ok()?;
+        let mut reached = Vec::with_capacity(TAPS);
+        for (tap, delay) in tap_delays_fs.iter().enumerate() {
+            reached.push((at, tap as u16));
+            at = at.checked_add(*delay)?;
+        }
+        reached.sort();
+        let end = at.max(reached.last()?.0);
+        (reached.len() == TAPS && reached[0].0 > 0).then(|| Delays {
+            arrivals: reached.iter().map(|&(at, _)| Time::from_fs(at as u64)).collect(),
+            order: reached.iter().map(|&(_, tap)| tap).collect(),
+            end: Time::from_fs(end as u64),
+        })
+    }
+
+    /// How many taps a transition of that age has reached.
+    #[inline]
+    pub fn rank(&self, age: Time) -> usize {
+        self.arrivals.partition_point(|&arrival| arrival <= age)
+    }
+
+    /// When each tap is reached, in order of arrival, from the transition of `tdc_stop`.
+    pub fn arrivals(&self) -> &[Time] {
+        &self.arrivals
+    }
+
+    /// Physical tap at each place in the order of arrival.
+    pub fn order(&self) -> &[u16] {
+        &self.order
+    }
+
+    /// Age at which a transition has reached every tap.
+    pub fn longest(&self) -> Time {
+        self.arrivals[TAPS - 1]
+    }
+
+    /// Age at which a transition reaches physical tap 0, where hits are detected.
+    pub fn tap_0(&self) -> Time {
+        self.arrivals[self.tap_0_position()]
+    }
+
+    /// Place of physical tap 0 in the order of arrival.
+    pub fn tap_0_position(&self) -> usize {
+        self.order.iter().position(|&tap| tap == 0).unwrap_or(0)
+    }
+
+    /// The decoder's ROM for a chain whose delays are known: for each ones count the middle of
+    /// the interval of ages that gives it, rounded half up. The interval that holds a whole clock
+    /// period (time 0 at the edge after the laser's) is clamped so that its time is not negative.
+    pub fn calibration(&self, period: Time) -> Calibration {
+        let boundary = |n: usize| if n < TAPS { self.arrivals[n] } else { self.end }.fs();
+        let unit = |twice_fs: u64| (2 * twice_fs + 3125) / 6250;
+        let mut cal = [U::new(unit(2 * boundary(0))); TAPS + 1];
+        for n in 1..=TAPS {
+            cal[n] = U::new(unit(boundary(n - 1) + boundary(n)));
+        }
+        let at_start = self.rank(period);
+        cal[at_start] = cal[at_start].min(U::new(unit(2 * period.fs())));
+        cal
+    }
+}
+
+/// The wire from the SPAD: its level and the transitions still travelling in the chain.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StopLine {
+    level: bool,
+    /// Times of the last transitions, newest first.
+    recent: [Time; crate::kernel::thermometer::MAX_TRANSITIONS],
+    travelling: usize,
+}
+
+impl StopLine {
+    /// The level now.
+    pub fn level(&self) -> bool {
+        self.level
+    }
+
+    /// The level changes. A change at the same instant as the last one undoes it: a pulse of no
+    /// width is none.
+    pub fn toggle(&mut self, now: Time) {
+        self.level = !self.level;
+        if self.travelling > 0 && self.recent[0] == now {
+            self.recent.rotate_left(1);
+            self.travelling -= 1;
+        } else {
+            self.recent.rotate_right(1);
+            self.recent[0] = now;
+            self.travelling = (self.travelling + 1).min(self.recent.len());
+        }
+    }
+
+    /// When the transition happened that reached physical tap 0 at or before `now`, raising it.
+    pub fn rise_seen_at(&self, now: Time, delays: &Delays) -> Option<Time> {
+        let mut level = self.level;
+        for &at in &self.recent[..self.travelling] {
+            if level && at + delays.tap_0() <= now {
+                return Some(at);
+            }
+            level = !level;
+        }
+        None
+    }
+
+    /// The taps at a clock edge; forgets transitions that have left the chain.
+    #[inline(always)]
+    pub fn sample(&mut self, now: Time, delays: &Delays) -> Taps {
+        if self.travelling == 0 {
+            return Taps::settled(self.level);
+        }
+        self.sample_travelling(now, delays)
+    }
+
+    fn sample_travelling(&mut self, now: Time, delays: &Delays) -> Taps {
+        let ages = self.recent[..self.travelling].iter().map(|&at| now - at);
+        let taps = Taps::new(self.level, ages.map(|age| delays.rank(age)));
+        while self.travelling > 0 && self.recent[self.travelling - 1] + delays.longest() <= now {
+            self.travelling -= 1;
+        }
+        taps
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn uniform(tap_fs: i64, offset_ps: u64) -> Delays {
+        Delays::new(Time::from_fs(offset_ps * 1000), &[tap_fs; TAPS]).unwrap()
+    }
+
+    #[test]
+    fn an_arrival_at_the_edge_counts() {
+        let delays = uniform(11_500, 2_230);
+        assert_eq!(delays.rank(Time::from_fs(2_229_999)), 0);
+        assert_eq!(delays.rank(Time::from_fs(2_230_000)), 1);
+        assert_eq!(delays.rank(Time::from_fs(2_241_499)), 1);
+        assert_eq!(delays.rank(Time::from_fs(2_241_500)), 2);
+    }
+
+    #[test]
+    fn ideal_taps_are_two_to_a_bin_and_time_zero_is_clamped() {
+        let cal = uniform(12_500, 2_000).calibration(Time::from_ns(8));
+        assert_eq!(cal[480], 5116);
+        assert_eq!(cal[479], 5108);
+        assert_eq!(cal[481], 5120, "holds an age of exactly 8 ns");
+        assert_eq!(cal[482], 5132);
+        assert_eq!(cal[0], 1280);
+        assert_eq!(cal[800], 1280 + 8 * 800 - 4);
+    }
+
+    #[test]
+    fn an_old_pulse_travels_beside_a_new_one() {
+        let delays = uniform(11_500, 2_230);
+        let mut line = StopLine::default();
+        line.toggle(Time::from_ns(100));
+        line.toggle(Time::from_ns(103));
+        line.toggle(Time::from_ns(106));
+        let taps = line.sample(Time::from_ns(110), &delays);
+        let rank = |age_ns| delays.rank(Time::from_ns(age_ns));
+        assert_eq!(taps, Taps::new(true, [rank(4), rank(7), rank(10)]));
+        assert_eq!(taps.ones(), rank(4) + rank(10) - rank(7));
+        assert_eq!(line.sample(Time::from_ns(150), &delays), Taps::settled(true));
+        assert_eq!(line.travelling, 0);
+    }
+
+    #[test]
+    fn a_pulse_without_width_is_none() {
+        let mut line = StopLine::default();
+        line.toggle(Time::from_ns(3));
+        line.toggle(Time::from_ns(3));
+        assert_eq!((line.level(), line.travelling), (false, 0));
+    }
+
+    #[test]
+    fn taps_may_be_reached_out_of_order() {
+        let mut tap_delays = [10_000; TAPS];
+        tap_delays[0] = 25_000;
+        tap_delays[1] = -5_000;
+        let delays = Delays::new(Time::from_ns(2), &tap_delays).unwrap();
+        assert_eq!(delays.order()[..4], [0, 2, 1, 3]);
+        assert_eq!(delays.rank(Time::from_fs(2_020_000)), 2);
+    }
+
+    #[test]
+    fn a_tap_before_the_transition_is_refused() {
+        assert_eq!(Delays::new(Time::ZERO, &[10_000; TAPS]), None);
+        assert_eq!(Delays::new(Time::from_ns(2), &[10_000; TAPS - 1]), None);
+        let mut tap_delays = [10_000; TAPS];
+        tap_delays[5] = -3_000_000;
+        assert_eq!(Delays::new(Time::from_ns(2), &tap_delays), None);
+    }
+}

@@ -1,0 +1,87 @@
+//! Brings the acquisition computer's signals into `clk_125`.
+//!
+//! Mirrors `rtl_ref/control_sync.v`. Two flip-flops each, without reset. The two bits of
+//! `laser_freq` cross side by side; a mixed value that an unlucky edge might catch lasts one
+//! cycle and matters only if the laser's counter wraps in it.
+
+use crate::kernel::{Clocked, U};
+use crate::signals;
+
+signals! {
+    /// Input ports, asynchronous.
+    pub struct In {
+        /// SPAD quench mode (Table 6.2).
+        pub mode: bool,
+        /// Laser repetition rate (Table 6.1).
+        pub laser_freq: U<2>,
+        /// Lets the laser fire.
+        pub laser_en: bool,
+        /// Lets the estimator start.
+        pub dsp_en: bool,
+        /// Abandons the frame.
+        pub dsp_rst: bool,
+    }
+}
+
+signals! {
+    /// Registers; the public ones are the output ports.
+    pub struct ControlSync {
+        /// `mode` in `clk_125`.
+        pub mode_sync: bool,
+        /// `laser_freq` in `clk_125`.
+        pub laser_freq_sync: U<2>,
+        /// `laser_en` in `clk_125`.
+        pub laser_en_sync: bool,
+        /// `dsp_en` in `clk_125`.
+        pub dsp_en_sync: bool,
+        /// `dsp_rst` in `clk_125`.
+        pub dsp_rst_sync: bool,
+        /// First flip-flop of `mode`.
+        mode_meta: bool,
+        /// First flip-flops of `laser_freq`.
+        laser_freq_meta: U<2>,
+        /// First flip-flop of `laser_en`.
+        laser_en_meta: bool,
+        /// First flip-flop of `dsp_en`.
+        dsp_en_meta: bool,
+        /// First flip-flop of `dsp_rst`.
+        dsp_rst_meta: bool,
+    }
+}
+
+impl Clocked for ControlSync {
+    type In = In;
+    type Params = ();
+
+    #[inline(always)]
+    fn next(&self, i: &In, (): &()) -> Self {
+        let q = self;
+        ControlSync {
+            mode_sync: q.mode_meta,
+            laser_freq_sync: q.laser_freq_meta,
+            laser_en_sync: q.laser_en_meta,
+            dsp_en_sync: q.dsp_en_meta,
+            dsp_rst_sync: q.dsp_rst_meta,
+            mode_meta: i.mode,
+            laser_freq_meta: i.laser_freq,
+            laser_en_meta: i.laser_en,
+            dsp_en_meta: i.dsp_en,
+            dsp_rst_meta: i.dsp_rst,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_change_arrives_with_the_second_edge() {
+        let i = In { laser_freq: U::new(2), dsp_en: true, ..In::default() };
+        let first = ControlSync::default().next(&i, &());
+        assert_eq!(first.laser_freq_sync, 0);
+        let second = first.next(&i, &());
+        assert_eq!(second.laser_freq_sync, 2);
+        assert!(second.dsp_en_sync && !second.mode_sync);
+    }
+}

@@ -1,0 +1,100 @@
+//! The neural depth estimator: wires its four blocks (thesis Fig. 6.18).
+//!
+//! Mirrors `rtl_ref/depth_estimator.v`. Its ports are a socket (`algo_start count`, `read_en
+//! read_addr depth algo_done`) into which any other estimator fits. 267 cycles, 2.136 us.
+
+use std::sync::Arc;
+
+use crate::kernel::{Clocked, U};
+use crate::{connect, signals};
+
+use super::estimator_ctrl::{self, EstimatorCtrl};
+use super::forward1::{self, Forward1};
+use super::forward2::{self, Forward2};
+use super::tansig::{self, Tansig};
+
+signals! {
+    /// Input ports.
+    pub struct In {
+        /// Synchronous reset.
+        pub rst: bool,
+        /// Starts an estimation.
+        pub algo_start: bool,
+        /// Word of the histogram at `read_addr` [hits].
+        pub count: U<16>,
+    }
+}
+
+/// ROM contents.
+#[derive(Clone, Debug)]
+pub struct Params {
+    /// MEM1.
+    pub forward1: Arc<forward1::Rom>,
+    /// MEM2.
+    pub tansig: Arc<tansig::Rom>,
+    /// MEM3.
+    pub forward2: forward2::Rom,
+}
+
+/// The blocks.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DepthEstimator {
+    /// Sequence.
+    pub estimator_ctrl: EstimatorCtrl,
+    /// Hidden layer.
+    pub forward1: Forward1,
+    /// Activations.
+    pub tansig: Tansig,
+    /// Output layer.
+    pub forward2: Forward2,
+}
+
+connect! {
+    /// Port connections.
+    pub fn wires(this: &DepthEstimator, i: &In) -> Wires;
+    estimator_ctrl: estimator_ctrl::In {
+        rst <- i.rst;
+        algo_start <- i.algo_start;
+    }
+    forward1: forward1::In {
+        rst <- i.rst;
+        forward1_en <- this.estimator_ctrl.forward1_en;
+        read_en <- this.estimator_ctrl.read_en;
+        read_addr <- this.estimator_ctrl.read_addr;
+        rom_addr <- this.estimator_ctrl.rom_addr;
+        count <- i.count;
+    }
+    tansig: tansig::In {
+        rst <- i.rst;
+        tansig_en <- this.estimator_ctrl.tansig_en;
+        l1_in <- this.forward1.l1_in;
+    }
+    forward2: forward2::In {
+        rst <- i.rst;
+        forward2_en <- this.estimator_ctrl.forward2_en;
+        neuron <- this.estimator_ctrl.neuron;
+        l1_out <- this.tansig.l1_out;
+    }
+}
+
+impl DepthEstimator {
+    /// The rising edge of `clk_125`.
+    pub fn rise(&mut self, i: &In, p: &Params) {
+        let wires = Wires::wires(self, i);
+        *self = DepthEstimator {
+            estimator_ctrl: self.estimator_ctrl.next(&wires.estimator_ctrl, &()),
+            forward1: self.forward1.next(&wires.forward1, &p.forward1),
+            tansig: self.tansig.next(&wires.tansig, &p.tansig),
+            forward2: self.forward2.next(&wires.forward2, &p.forward2),
+        };
+    }
+
+    /// Whether an edge would change nothing until `algo_start` or `rst` is high: nothing is under
+    /// way, and the weights of the first row have been fetched.
+    pub fn is_asleep(&self, p: &Params) -> bool {
+        let idle = In { rst: false, algo_start: false, count: U::new(0) };
+        let mut next = *self;
+        next.rise(&idle, p);
+        next == *self
+    }
+}

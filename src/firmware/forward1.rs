@@ -1,0 +1,97 @@
+//! The hidden layer: one multiply-accumulate unit a neuron (U_S1 with MEM1, thesis Fig. 6.19a).
+//!
+//! Mirrors `rtl_ref/forward1.v`. The weights of the coming cycle are fetched into registers, so
+//! that the ROM can be a block RAM; product and sum take one edge. The bias goes through the
+//! multiplier as a 257th product, 1024 x B1, so that each unit is one DSP48E1.
+
+use crate::kernel::{Clocked, S, U};
+use crate::signals;
+
+use super::forward2::NEURONS;
+use super::histogram_builder::BINS;
+
+/// Row of the ROM after the last weight.
+pub const BIAS_ROW: usize = BINS;
+/// Aligns B1 (13 fraction bits) with the sum (23).
+const BIAS_FACTOR: i64 = 1 << 10;
+
+/// A weight or, in the last row, a bias, as an integer.
+pub type Weight = S<16>;
+/// Accumulator of a neuron.
+pub type L1In = S<36, 23>;
+/// MEM1: 256 rows of weights and one of biases; `rom[row][neuron]`.
+pub type Rom = [[Weight; NEURONS]; BINS + 1];
+
+signals! {
+    /// Input ports.
+    pub struct In {
+        /// Synchronous reset.
+        pub rst: bool,
+        /// Accumulates.
+        pub forward1_en: bool,
+        /// `count` is a word of the histogram; if not, the bias is added.
+        pub read_en: bool,
+        /// Which word; 0 begins the sum.
+        pub read_addr: U<8>,
+        /// Row to fetch.
+        pub rom_addr: U<9>,
+        /// Word of the histogram [hits].
+        pub count: U<16>,
+    }
+}
+
+signals! {
+    /// Registers; the public ones are the output ports.
+    pub struct Forward1 {
+        /// Sums of the neurons.
+        pub l1_in: [L1In; NEURONS],
+        /// Weights of this cycle.
+        weight: [Weight; NEURONS],
+    }
+}
+
+impl Clocked for Forward1 {
+    type In = In;
+    type Params = Rom;
+
+    #[inline]
+    fn next(&self, i: &In, rom: &Rom) -> Self {
+        let (q, mut d) = (self, *self);
+        let operand = if i.read_en { i.count.get() as i64 } else { BIAS_FACTOR };
+        let first = i.read_en && i.read_addr == 0;
+        for k in 0..NEURONS {
+            if i.forward1_en {
+                let sum = if first { L1In::new(0) } else { q.l1_in[k] };
+                d.l1_in[k] = sum + operand * q.weight[k].get();
+            }
+        }
+        d.weight = rom[i.rom_addr.index().min(BIAS_ROW)];
+        if i.rst { Self::default() } else { d }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_product_begins_the_sum_and_the_bias_ends_it() {
+        let mut rom = [[S::new(0); NEURONS]; BINS + 1];
+        rom[0][2] = S::new(-3);
+        rom[BIAS_ROW][2] = S::new(5);
+        let i = In {
+            rst: false,
+            forward1_en: true,
+            read_en: true,
+            read_addr: U::new(0),
+            rom_addr: U::new(BIAS_ROW as u64),
+            count: U::new(100),
+        };
+        let stale = Forward1 { l1_in: [S::new(77); NEURONS], weight: rom[0] };
+        let product = stale.next(&i, &rom);
+        assert_eq!(product.l1_in[2].get(), -300);
+        let sum = product.next(&In { read_en: false, ..i }, &rom);
+        assert_eq!(sum.l1_in[2].get(), -300 + 1024 * 5);
+        assert_eq!(sum.l1_in[0].get(), 0);
+    }
+}

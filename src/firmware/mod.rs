@@ -1,0 +1,27 @@
+//! The FPGA firmware: one file per module, the same stems as `rtl_ref/*.v`.
+
+pub mod carry_chain;
+pub mod coarse_counter;
+pub mod code_preload;
+pub mod control_sync;
+pub mod ddr_output;
+pub mod depth_estimator;
+pub mod estimator_ctrl;
+pub mod forward1;
+pub mod forward2;
+pub mod frame_ctrl;
+pub mod hierarchy;
+pub mod histogram_builder;
+pub mod histogram_preload;
+pub mod lvds_output;
+pub mod pll;
+pub mod reset_sync;
+pub mod spad_control;
+pub mod tansig;
+pub mod tdc;
+pub mod tdc_decoder;
+pub mod tdc_latch;
+pub mod tof_top;
+pub mod vcsel_driver;
+
+pub use tof_top::TofTop;

@@ -1,0 +1,145 @@
+//! The time-to-digital converter: wires its four blocks.
+//!
+//! Mirrors `rtl_ref/tdc.v`.
+//!
+//! ```text
+//! tdc_stop ─► carry_chain ─► tdc_latch ─► tdc_decoder ─► tdc_code, tdc_valid
+//! start ────► coarse_counter ──┘
+//! edge             e            e+1        e+2, e+3
+//! ```
+
+use crate::kernel::{Clocked, Time};
+use crate::{connect, signals};
+
+use super::carry_chain::{self, CarryChain, Delays, StopLine};
+use super::coarse_counter::{self, CoarseCounter};
+use super::tdc_decoder::{self, Calibration, TdcDecoder};
+use super::tdc_latch::{self, TdcLatch};
+
+signals! {
+    /// Input ports.
+    pub struct In {
+        /// Synchronous reset.
+        pub rst: bool,
+        /// A shot begins.
+        pub start: bool,
+        /// Output of the SPAD, asynchronous.
+        pub tdc_stop: bool,
+    }
+}
+
+/// What elaboration and placement fix.
+#[derive(Clone, Debug)]
+pub struct Params {
+    /// Delays of the chain.
+    pub delays: Delays,
+    /// ROM of the decoder.
+    pub cal: Box<Calibration>,
+    /// Place of physical tap 0 in the order of arrival.
+    tap_0: usize,
+}
+
+impl Params {
+    /// For a chain and the ROM that goes with it.
+    pub fn new(delays: Delays, cal: Calibration) -> Self {
+        let tap_0 = delays.tap_0_position();
+        Params { delays, cal: Box::new(cal), tap_0 }
+    }
+}
+
+/// The blocks.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tdc {
+    /// Delay line and its registers.
+    pub carry_chain: CarryChain,
+    /// Cycles of the shot.
+    pub coarse_counter: CoarseCounter,
+    /// First hit of the shot.
+    pub tdc_latch: TdcLatch,
+    /// Code of the hit.
+    pub tdc_decoder: TdcDecoder,
+}
+
+connect! {
+    /// Port connections.
+    pub fn wires(this: &Tdc, i: &In) -> Wires;
+    carry_chain: carry_chain::In {
+        tdc_stop <- i.tdc_stop;
+    }
+    coarse_counter: coarse_counter::In {
+        rst <- i.rst;
+        start <- i.start;
+    }
+    tdc_latch: tdc_latch::In {
+        rst <- i.rst;
+        start <- i.start;
+        window <- this.coarse_counter.window;
+        coarse <- this.coarse_counter.coarse;
+        taps <- this.carry_chain.taps;
+    }
+    tdc_decoder: tdc_decoder::In {
+        rst <- i.rst;
+        hit <- this.tdc_latch.hit;
+        hit_coarse <- this.tdc_latch.hit_coarse;
+        hit_taps <- this.tdc_latch.hit_taps;
+    }
+}
+
+impl Tdc {
+    /// The rising edge of `clk_125` at `now`.
+    #[inline(always)]
+    pub fn rise(&mut self, i: &In, p: &Params, line: &mut StopLine, now: Time) {
+        let wires = Wires::wires(self, i);
+        *self = Tdc {
+            carry_chain: CarryChain { taps: line.sample(now, &p.delays) },
+            coarse_counter: self.coarse_counter.next(&wires.coarse_counter, &()),
+            tdc_latch: self.tdc_latch.next(&wires.tdc_latch, &p.tap_0),
+            tdc_decoder: self.tdc_decoder.next(&wires.tdc_decoder, &p.cal),
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::firmware::carry_chain::TAPS;
+
+    /// The code of a photon, with the laser edge at edge 10 and the cycle of `tdc_valid`.
+    fn code_of(photon_fs: u64) -> Option<(u64, u64)> {
+        let delays = Delays::new(Time::from_fs(2_230_000), &[11_500; TAPS]).unwrap();
+        let cal = delays.calibration(Time::from_ns(8));
+        let params = Params::new(delays, cal);
+        let (mut tdc, mut line) = (Tdc::default(), StopLine::default());
+        let photon = Time::from_ns(80) + Time::from_fs(photon_fs);
+        for edge in 0..30 {
+            let now = Time::from_ns(8 * edge);
+            if photon <= now && !line.level() {
+                line.toggle(photon);
+            }
+            let i = In { rst: false, start: edge == 11, tdc_stop: line.level() };
+            tdc.rise(&i, &params, &mut line, now);
+            if tdc.tdc_decoder.tdc_valid {
+                return Some((edge, tdc.tdc_decoder.tdc_code.get()));
+            }
+        }
+        None
+    }
+
+    #[test]
+    fn a_photon_on_the_laser_edge_has_code_0() {
+        assert_eq!(code_of(0), Some((11 + 3, 0)));
+    }
+
+    #[test]
+    fn the_code_is_up_three_edges_after_the_one_that_samples_the_taps() {
+        assert_eq!(code_of(3_300_000), Some((11 + 3, 132)));
+        assert_eq!(code_of(5_770_000), Some((11 + 3, 230)), "reaches the chain at edge 11");
+        assert_eq!(code_of(5_770_001), Some((12 + 3, 230)), "reaches the chain after it");
+    }
+
+    #[test]
+    fn a_photon_past_the_range_has_no_code() {
+        assert!(code_of(6_385_000).is_some());
+        assert_eq!(code_of(6_415_000), None);
+    }
+}

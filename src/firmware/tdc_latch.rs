@@ -1,0 +1,101 @@
+//! Keeps the taps and the coarse count of a shot's first hit.
+//!
+//! Mirrors `rtl_ref/tdc_latch.v`. A hit is tap 0 high now and low at the edge before, inside the
+//! window, and only the first of a shot; a level held from before is none. Taps sampled at edge e
+//! are here after e + 1. At the edge that takes `start`, a hit of the shot before may still be
+//! kept (it is too late to have a code), and the new shot is unused.
+
+use crate::kernel::{Clocked, U};
+use crate::signals;
+
+use super::carry_chain::Taps;
+
+signals! {
+    /// Input ports.
+    pub struct In {
+        /// Synchronous reset.
+        pub rst: bool,
+        /// A shot begins.
+        pub start: bool,
+        /// A hit now belongs to the shot.
+        pub window: bool,
+        /// Coarse count, in step with the taps.
+        pub coarse: U<3>,
+        /// Taps sampled at the last edge.
+        pub taps: Taps,
+    }
+}
+
+signals! {
+    /// Registers; the public ones are the output ports.
+    pub struct TdcLatch {
+        /// A new hit is kept; one cycle.
+        pub hit: bool,
+        /// Its coarse count.
+        pub hit_coarse: U<3>,
+        /// Its taps.
+        pub hit_taps: Taps,
+        /// The shot has had its hit.
+        used: bool,
+        /// Tap 0 at the edge before.
+        tap_0_last: bool,
+    }
+}
+
+impl Clocked for TdcLatch {
+    type In = In;
+    /// Place of physical tap 0 in the order of arrival.
+    type Params = usize;
+
+    #[inline(always)]
+    fn next(&self, i: &In, tap_0: &usize) -> Self {
+        let (q, mut d) = (self, *self);
+        d.tap_0_last = i.taps.tap(*tap_0);
+        d.hit = d.tap_0_last && !q.tap_0_last && i.window && !q.used;
+        if d.hit {
+            (d.hit_coarse, d.hit_taps) = (i.coarse, i.taps);
+        }
+        d.used = (q.used || d.hit) && !i.start;
+        if i.rst { Self::default() } else { d }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const OPEN: In = In {
+        rst: false,
+        start: false,
+        window: true,
+        coarse: U::new(2),
+        taps: Taps::settled(false),
+    };
+
+    fn high(ranks: usize) -> In {
+        In { taps: Taps::new(true, [ranks]), ..OPEN }
+    }
+
+    #[test]
+    fn the_first_hit_of_a_shot_is_kept_and_the_second_is_not() {
+        let first = TdcLatch::default().next(&high(40), &0);
+        assert!(first.hit);
+        assert_eq!((first.hit_coarse.get(), first.hit_taps.ones()), (2, 40));
+        let second = first.next(&OPEN, &0).next(&high(7), &0);
+        assert!(!second.hit);
+        assert_eq!(second.hit_taps.ones(), 40);
+    }
+
+    #[test]
+    fn a_level_held_from_before_the_window_is_no_hit() {
+        let held = TdcLatch::default().next(&In { window: false, ..high(800) }, &0);
+        assert!(!held.next(&high(800), &0).hit);
+    }
+
+    #[test]
+    fn a_hit_at_the_edge_of_start_leaves_the_new_shot_unused() {
+        let late = TdcLatch::default().next(&In { start: true, ..high(5) }, &0);
+        assert!(late.hit);
+        assert!(late.next(&OPEN, &0).next(&high(9), &0).hit);
+    }
+}

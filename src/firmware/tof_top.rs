@@ -1,0 +1,303 @@
+//! The device: its modules and the wires between them.
+//!
+//! Mirrors `rtl_ref/tof_top.v`. It only wires; time and light are the business of who steps it
+//! (see [`crate::sim`]).
+
+use crate::kernel::{Clocked, Time, U};
+use crate::{connect, signals};
+
+use super::carry_chain::StopLine;
+use super::code_preload::{self, CodePreload};
+use super::control_sync::{self, ControlSync};
+use super::depth_estimator::{self, DepthEstimator};
+use super::frame_ctrl::{self, FrameCtrl};
+use super::histogram_builder::{self, HistogramBuilder};
+use super::reset_sync::{self, ResetSync};
+use super::spad_control::{self, SpadControl};
+use super::tdc::{self, Tdc};
+use super::vcsel_driver::{self, VcselDriver};
+use super::{histogram_preload, lvds_output, pll};
+
+signals! {
+    /// Input pins beside the clock.
+    pub struct Pins {
+        /// Reset button of the board, asynchronous.
+        pub rst: bool,
+        /// Output of the SPAD, asynchronous.
+        pub tdc_stop: bool,
+        /// SPAD quench mode (Table 6.2), asynchronous.
+        pub mode: bool,
+        /// Laser repetition rate (Table 6.1), asynchronous.
+        pub laser_freq: U<2>,
+        /// Lets the laser fire, asynchronous.
+        pub laser_en: bool,
+        /// Lets the estimator start, asynchronous.
+        pub dsp_en: bool,
+        /// Abandons the frame, asynchronous.
+        pub dsp_rst: bool,
+    }
+}
+
+signals! {
+    /// Levels of the clocks; kept for waveforms, the simulation steps by edges.
+    pub struct Clocks {
+        /// Oscillator of the board.
+        pub clk_200: bool,
+        /// PLL output.
+        pub clk_125: bool,
+        /// PLL output.
+        pub clk_250: bool,
+    }
+}
+
+signals! {
+    /// Wires of the top that are no register of a module.
+    pub struct Nets {
+        /// Reset of the TDC and the estimator: the board's or the acquisition computer's.
+        pub rst_dsp: bool = true,
+        /// Code of a hit, from the source in use [25 ps].
+        pub tdc_code: U<8>,
+        /// `tdc_code` is new.
+        pub tdc_valid: bool,
+        /// Word of the histogram, from the source in use [hits].
+        pub count: U<16>,
+        /// Single-ended laser pulse.
+        pub laser_on: bool,
+    }
+}
+
+/// Where codes come from.
+#[derive(Clone, Debug)]
+pub enum CodeSource {
+    /// The TDC.
+    Tdc,
+    /// A ROM, one code a shot (thesis 6.6.1).
+    Preload(Box<[U<8>]>),
+}
+
+/// Where the estimator's histogram comes from.
+#[derive(Clone, Debug)]
+pub enum HistogramSource {
+    /// The histogram builder.
+    Builder,
+    /// A ROM (thesis 6.7.4).
+    Preload(Box<histogram_preload::Rom>),
+}
+
+/// What elaboration fixes.
+#[derive(Clone, Debug)]
+pub struct Params {
+    /// Clocks.
+    pub pll: pll::Params,
+    /// Frame length.
+    pub frame_ctrl: frame_ctrl::Params,
+    /// Delay chain and its ROM.
+    pub tdc: tdc::Params,
+    /// ROMs of the network.
+    pub depth_estimator: depth_estimator::Params,
+    /// Where codes come from.
+    pub code_source: CodeSource,
+    /// Where the estimator's histogram comes from.
+    pub histogram_source: HistogramSource,
+}
+
+/// The state of the firmware.
+#[derive(Clone, Debug)]
+pub struct TofTop {
+    /// Input pins.
+    pub pins: Pins,
+    /// Clock levels.
+    pub clocks: Clocks,
+    /// Combinational wires.
+    pub nets: Nets,
+    /// PLL outputs beside the clocks.
+    pub pll: pll::Out,
+    /// Reset in `clk_125`.
+    pub reset_sync_125: ResetSync,
+    /// Reset in `clk_250`.
+    pub reset_sync_250: ResetSync,
+    /// The acquisition computer's signals in `clk_125`.
+    pub control_sync: ControlSync,
+    /// Frame sequence.
+    pub frame_ctrl: FrameCtrl,
+    /// Laser.
+    pub vcsel_driver: VcselDriver,
+    /// Laser pins.
+    pub lvds_output: lvds_output::Out,
+    /// SPAD.
+    pub spad_control: SpadControl,
+    /// Converter.
+    pub tdc: Tdc,
+    /// Its stand-in.
+    pub code_preload: CodePreload,
+    /// Histogram.
+    pub histogram_builder: HistogramBuilder,
+    /// Estimator.
+    pub depth_estimator: DepthEstimator,
+    /// No edge would change the estimator until it is started or reset.
+    estimator_asleep: bool,
+}
+
+connect! {
+    /// Port connections. Every module output is a register, so one pass settles them.
+    pub fn wires(this: &TofTop) -> Wires;
+    reset_sync_125: reset_sync::In {
+        rst <- this.pins.rst;
+        locked <- this.pll.locked;
+    }
+    reset_sync_250: reset_sync::In {
+        rst <- this.pins.rst;
+        locked <- this.pll.locked;
+    }
+    control_sync: control_sync::In {
+        mode <- this.pins.mode;
+        laser_freq <- this.pins.laser_freq;
+        laser_en <- this.pins.laser_en;
+        dsp_en <- this.pins.dsp_en;
+        dsp_rst <- this.pins.dsp_rst;
+    }
+    frame_ctrl: frame_ctrl::In {
+        rst <- this.reset_sync_125.rst_sync;
+        start <- this.vcsel_driver.registers.start;
+        dsp_rst <- this.control_sync.dsp_rst_sync;
+        dsp_en <- this.control_sync.dsp_en_sync;
+        algo_done <- this.depth_estimator.estimator_ctrl.algo_done;
+    }
+    vcsel_driver: vcsel_driver::In {
+        rst <- this.reset_sync_125.rst_sync;
+        rst_250 <- this.reset_sync_250.rst_sync;
+        acquire <- this.frame_ctrl.acquire;
+        laser_en <- this.control_sync.laser_en_sync;
+        laser_freq <- this.control_sync.laser_freq_sync;
+    }
+    lvds_output: lvds_output::In {
+        i <- this.vcsel_driver.ddr_output.q;
+    }
+    spad_control: spad_control::In {
+        rst <- this.reset_sync_125.rst_sync;
+        mode <- this.control_sync.mode_sync;
+        pre_start <- this.vcsel_driver.registers.pre_start;
+    }
+    tdc: tdc::In {
+        rst <- this.nets.rst_dsp;
+        start <- this.vcsel_driver.registers.start;
+        tdc_stop <- this.pins.tdc_stop;
+    }
+    code_preload: code_preload::In {
+        rst <- this.nets.rst_dsp;
+        start <- this.vcsel_driver.registers.start;
+    }
+    histogram_builder: histogram_builder::In {
+        clear <- this.frame_ctrl.clear;
+        clear_addr <- this.frame_ctrl.clear_addr;
+        tdc_valid <- this.nets.tdc_valid;
+        tdc_code <- this.nets.tdc_code;
+        read_en <- this.depth_estimator.estimator_ctrl.read_en;
+        read_addr <- this.depth_estimator.estimator_ctrl.read_addr;
+    }
+    histogram_preload: histogram_preload::In {
+        read_addr <- this.depth_estimator.estimator_ctrl.read_addr;
+    }
+    depth_estimator: depth_estimator::In {
+        rst <- this.nets.rst_dsp;
+        algo_start <- this.frame_ctrl.algo_start;
+        count <- this.nets.count;
+    }
+}
+
+impl TofTop {
+    /// The firmware at power-up, with its control pins at `pins`.
+    pub fn new(pins: Pins) -> Self {
+        TofTop {
+            pins,
+            clocks: Clocks::default(),
+            nets: Nets::default(),
+            pll: pll::Out::default(),
+            reset_sync_125: ResetSync::default(),
+            reset_sync_250: ResetSync::default(),
+            control_sync: ControlSync::default(),
+            frame_ctrl: FrameCtrl::default(),
+            vcsel_driver: VcselDriver::default(),
+            lvds_output: lvds_output::Out::default(),
+            spad_control: SpadControl::default(),
+            tdc: Tdc::default(),
+            code_preload: CodePreload::default(),
+            histogram_builder: HistogramBuilder::default(),
+            depth_estimator: DepthEstimator::default(),
+            estimator_asleep: false,
+        }
+    }
+
+    /// An edge at which `clk_125` and `clk_250` rise, at `now`.
+    #[inline(always)]
+    pub fn rise(&mut self, p: &Params, line: &mut StopLine, now: Time) {
+        let wires = Wires::wires(self);
+        self.reset_sync_250 = self.reset_sync_250.next(&wires.reset_sync_250, &());
+        self.vcsel_driver.rise_250(&wires.vcsel_driver);
+
+        self.reset_sync_125 = self.reset_sync_125.next(&wires.reset_sync_125, &());
+        self.control_sync = self.control_sync.next(&wires.control_sync, &());
+        self.frame_ctrl = self.frame_ctrl.next(&wires.frame_ctrl, &p.frame_ctrl);
+        self.vcsel_driver.registers =
+            self.vcsel_driver.registers.next(&wires.vcsel_driver, &());
+        self.spad_control = self.spad_control.next(&wires.spad_control, &());
+        match &p.code_source {
+            CodeSource::Tdc => self.tdc.rise(&wires.tdc, &p.tdc, line, now),
+            CodeSource::Preload(rom) => {
+                self.code_preload = self.code_preload.next(&wires.code_preload, rom);
+            }
+        }
+        self.histogram_builder.tick(&wires.histogram_builder);
+        self.estimate(&wires.depth_estimator, &p.depth_estimator);
+        self.settle(p);
+    }
+
+    /// An edge at which only `clk_250` rises: the middle of a cycle of `clk_125`.
+    #[inline(always)]
+    pub fn rise_250(&mut self) {
+        let wires = Wires::wires(self);
+        self.reset_sync_250 = self.reset_sync_250.next(&wires.reset_sync_250, &());
+        self.vcsel_driver.rise_250(&wires.vcsel_driver);
+        self.drive_laser();
+    }
+
+    /// A falling edge of `clk_250`.
+    #[inline(always)]
+    pub fn fall_250(&mut self) {
+        self.vcsel_driver.fall_250();
+        self.drive_laser();
+    }
+
+    #[inline(always)]
+    fn estimate(&mut self, i: &depth_estimator::In, p: &depth_estimator::Params) {
+        if self.estimator_asleep && !i.algo_start && !i.rst {
+            return;
+        }
+        self.depth_estimator.rise(i, p);
+        self.estimator_asleep = self.depth_estimator.is_asleep(p);
+    }
+
+    /// Combinational wires, which only registers drive.
+    #[inline(always)]
+    fn settle(&mut self, p: &Params) {
+        self.nets.rst_dsp = self.reset_sync_125.rst_sync || self.control_sync.dsp_rst_sync;
+        (self.nets.tdc_valid, self.nets.tdc_code) = match &p.code_source {
+            CodeSource::Tdc => (self.tdc.tdc_decoder.tdc_valid, self.tdc.tdc_decoder.tdc_code),
+            CodeSource::Preload(_) => (self.code_preload.tdc_valid, self.code_preload.tdc_code),
+        };
+        let wires = Wires::wires(self);
+        self.nets.count = match &p.histogram_source {
+            HistogramSource::Builder => self.histogram_builder.count(&wires.histogram_builder),
+            HistogramSource::Preload(rom) => {
+                histogram_preload::count(&wires.histogram_preload, rom)
+            }
+        };
+        self.drive_laser();
+    }
+
+    #[inline(always)]
+    fn drive_laser(&mut self) {
+        self.nets.laser_on = self.vcsel_driver.laser_on();
+        self.lvds_output = lvds_output::out(&lvds_output::In { i: self.nets.laser_on });
+    }
+}

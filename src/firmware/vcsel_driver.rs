@@ -1,0 +1,225 @@
+//! Fires the laser at one of four rates.
+//!
+//! Mirrors `rtl_ref/vcsel_driver.v`. A counter in `clk_125` runs through the period while
+//! `acquire` is high; with the laser edge at edge s of `clk_125`:
+//!
+//! ```text
+//! clk_125      __/^^\__/^^\__/^^\__
+//! edge          s-2   s-1    s
+//! pre_start    __/^^^^^\___________
+//! fire         ________/^^^^^\_____
+//! laser_pulse  ___________/^^\_____   clk_250
+//! start        ______________/^^^^^
+//! laser_on     ______________/^\___   2 ns, from a DDR output register
+//! ```
+//!
+//! A new `laser_freq` or `laser_en` takes effect when the counter wraps. Without `laser_en` there
+//! is no pulse, but shots go on.
+
+use crate::kernel::{Clocked, U};
+use crate::{connect, signals};
+
+use super::ddr_output::{self, DdrOutput};
+
+/// Laser period for each `laser_freq` (Table 6.1) [cycles of clk_125].
+pub const PERIODS: [u64; 4] = [25, 13, 8, 6];
+
+signals! {
+    /// Input ports.
+    pub struct In {
+        /// Synchronous reset of `clk_125`.
+        pub rst: bool,
+        /// Synchronous reset of `clk_250`.
+        pub rst_250: bool,
+        /// Lets the counter run.
+        pub acquire: bool,
+        /// Lets the laser fire.
+        pub laser_en: bool,
+        /// Repetition rate.
+        pub laser_freq: U<2>,
+    }
+}
+
+signals! {
+    /// Registers in `clk_125`; the public ones are output ports.
+    pub struct Registers {
+        /// Two cycles before the laser edge; one cycle.
+        pub pre_start: bool,
+        /// From the laser edge on; one cycle.
+        pub start: bool,
+        /// Asks `clk_250` for a pulse; the cycle before the laser edge.
+        fire: bool,
+        /// Place in the period.
+        count: U<5>,
+        /// The period in force, less one [cycles of clk_125].
+        last: U<5>,
+        /// The `laser_en` in force.
+        enable: bool,
+    }
+}
+
+signals! {
+    /// Registers in `clk_250`.
+    pub struct Registers250 {
+        /// Enable of the output register; the cycle of `clk_250` before the laser edge.
+        laser_pulse: bool,
+    }
+}
+
+/// The driver: two register banks and the output register.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct VcselDriver {
+    /// Registers in `clk_125`.
+    pub registers: Registers,
+    /// Registers in `clk_250`.
+    pub registers_250: Registers250,
+    /// The DDR output register, port `laser_on`.
+    pub ddr_output: DdrOutput,
+}
+
+connect! {
+    /// Port connections inside the driver.
+    pub fn wires(this: &VcselDriver) -> Wires;
+    ddr_output: ddr_output::In {
+        d <- this.registers_250.laser_pulse;
+    }
+}
+
+impl Registers {
+    /// Whether the next edge raises `pre_start`.
+    pub fn shot_is_near(&self, i: &In) -> bool {
+        i.acquire && self.count + 2 == self.last
+    }
+}
+
+impl Clocked for Registers {
+    type In = In;
+    type Params = ();
+
+    #[inline(always)]
+    fn next(&self, i: &In, (): &()) -> Self {
+        let (q, mut d) = (self, *self);
+        d.pre_start = i.acquire && q.count + 2 == q.last;
+        d.fire = i.acquire && q.enable && q.count + 1 == q.last;
+        d.start = i.acquire && q.count == q.last;
+        d.count = q.count + 1;
+        if !i.acquire || q.count == q.last {
+            d.count = U::new(0);
+            d.last = U::new(PERIODS[i.laser_freq.index()] - 1);
+            d.enable = i.laser_en;
+        }
+        if i.rst { Self::default() } else { d }
+    }
+}
+
+impl Clocked for Registers250 {
+    type In = In250;
+    type Params = ();
+
+    #[inline(always)]
+    fn next(&self, i: &In250, (): &()) -> Self {
+        Registers250 { laser_pulse: i.fire && !self.laser_pulse && !i.rst_250 }
+    }
+}
+
+/// What `clk_250` sees: the driver's own `fire` and its reset.
+#[derive(Clone, Copy, Debug)]
+pub struct In250 {
+    fire: bool,
+    rst_250: bool,
+}
+
+impl VcselDriver {
+    /// A rising edge of `clk_250`, to be stepped before `clk_125` where both rise.
+    #[inline(always)]
+    pub fn rise_250(&mut self, i: &In) {
+        self.ddr_output = self.ddr_output.rise(&Wires::wires(self).ddr_output);
+        let i = In250 { fire: self.registers.fire, rst_250: i.rst_250 };
+        self.registers_250 = self.registers_250.next(&i, &());
+    }
+
+    /// A falling edge of `clk_250`.
+    #[inline(always)]
+    pub fn fall_250(&mut self) {
+        self.ddr_output = self.ddr_output.fall();
+    }
+
+    /// The single-ended laser pulse.
+    pub fn laser_on(&self) -> bool {
+        self.ddr_output.q
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Runs for `cycles` of clk_125 and returns, for each, `pre_start`, `start`, the pulse in the
+    /// first and in the second half, and `laser_on` in the first quarter and anywhere later.
+    fn run(driver: &mut VcselDriver, i: &In, cycles: usize) -> Vec<[bool; 6]> {
+        let mut seen = Vec::new();
+        for _ in 0..cycles {
+            driver.rise_250(i);
+            driver.registers = driver.registers.next(i, &());
+            let (pulse_first, on_first) = (driver.registers_250.laser_pulse, driver.laser_on());
+            driver.fall_250();
+            let mut on_later = driver.laser_on();
+            driver.rise_250(i);
+            let pulse_second = driver.registers_250.laser_pulse;
+            on_later |= driver.laser_on();
+            driver.fall_250();
+            on_later |= driver.laser_on();
+            let registers = driver.registers;
+            seen.push([
+                registers.pre_start, registers.start, pulse_first, pulse_second, on_first, on_later,
+            ]);
+        }
+        seen
+    }
+
+    fn input(laser_freq: u64) -> In {
+        let laser_freq = U::new(laser_freq);
+        In { rst: false, rst_250: false, acquire: true, laser_en: true, laser_freq }
+    }
+
+    fn ready(i: &In) -> VcselDriver {
+        let mut driver = VcselDriver::default();
+        run(&mut driver, &In { acquire: false, ..*i }, 1);
+        driver
+    }
+
+    #[test]
+    fn the_first_laser_edge_comes_a_period_after_acquire_and_then_every_period() {
+        for (code, period) in PERIODS.into_iter().enumerate() {
+            let i = input(code as u64);
+            let seen = run(&mut ready(&i), &i, 3 * period as usize);
+            let at = |k: usize| (1..=3).map(|shot| shot * period as usize - 1 - k).collect::<Vec<_>>();
+            let cycles = |signal: usize| -> Vec<usize> {
+                (0..seen.len()).filter(|&cycle| seen[cycle][signal]).collect()
+            };
+            assert_eq!(cycles(0), at(2), "pre_start");
+            assert_eq!(cycles(1), at(0), "start");
+            assert_eq!(cycles(2), [], "laser_pulse in a first half");
+            assert_eq!(cycles(3), at(1), "laser_pulse in the half before the laser edge");
+            assert_eq!(cycles(4), at(0), "laser_on in the 2 ns after the laser edge");
+            assert_eq!(cycles(5), [], "laser_on later");
+        }
+    }
+
+    #[test]
+    fn a_new_rate_waits_for_the_wrap() {
+        let mut driver = ready(&input(3));
+        run(&mut driver, &input(3), 3);
+        let seen = run(&mut driver, &input(1), 3 + 13);
+        let starts: Vec<_> = (0..seen.len()).filter(|&cycle| seen[cycle][1]).collect();
+        assert_eq!(starts, [2, 15]);
+    }
+
+    #[test]
+    fn without_laser_en_shots_go_on_in_the_dark() {
+        let i = In { laser_en: false, ..input(3) };
+        let seen = run(&mut ready(&i), &i, 12);
+        assert_eq!(seen.iter().filter(|cycle| cycle[1]).count(), 2);
+        assert!(seen.iter().all(|cycle| !cycle[2..].contains(&true)));
+    }
+}

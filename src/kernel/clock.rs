@@ -1,0 +1,58 @@
+//! One output of a PLL: an ideal clock whose edges are computed, never accumulated.
+
+use super::Time;
+
+/// A clock of `reference_hz * multiply / divide`, low until its first rising edge at `phase`.
+///
+/// Edge `n` is computed from `n`, so that a period which is no whole number of femtoseconds
+/// does not drift.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Clock {
+    period_numerator: u128,
+    period_denominator: u128,
+    phase: Time,
+}
+
+impl Clock {
+    /// The clock with its first rising edge at `phase`.
+    pub fn new(reference_hz: u64, multiply: u64, divide: u64, phase: Time) -> Self {
+        Clock {
+            period_numerator: divide as u128 * 1_000_000_000_000_000,
+            period_denominator: reference_hz as u128 * multiply as u128,
+            phase,
+        }
+    }
+
+    /// Instant of rising edge `n`, counted from 0.
+    pub fn rise(&self, n: u64) -> Time {
+        self.phase + self.half_periods(2 * n as u128)
+    }
+
+    /// Instant of the falling edge that follows rising edge `n`.
+    pub fn fall(&self, n: u64) -> Time {
+        self.phase + self.half_periods(2 * n as u128 + 1)
+    }
+
+    fn half_periods(&self, count: u128) -> Time {
+        Time::from_fs((count * self.period_numerator / (2 * self.period_denominator)) as u64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_period_that_is_not_whole_does_not_drift() {
+        let clk = Clock::new(100_000_000, 3, 1, Time::ZERO);
+        assert_eq!(clk.rise(1).fs(), 3_333_333);
+        assert_eq!(clk.rise(300_000_000), Time::from_ns(1_000_000_000));
+    }
+
+    #[test]
+    fn the_falling_edge_is_half_a_period_later() {
+        let clk = Clock::new(200_000_000, 5, 8, Time::from_ns(10));
+        assert_eq!(clk.rise(2), Time::from_ns(26));
+        assert_eq!(clk.fall(2), Time::from_ns(30));
+    }
+}

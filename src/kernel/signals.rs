@@ -1,0 +1,215 @@
+//! Named signals: a struct made by [`signals!`](crate::signals) can list and report its fields.
+
+use super::{S, Thermometer, U};
+
+/// How a value reads best.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// One bit, or a word whose value is a pattern.
+    Bits,
+    /// A count or an address.
+    Unsigned,
+    /// A two's complement number with `fraction` bits after the point.
+    Signed {
+        /// Bits after the binary point.
+        fraction: u32,
+    },
+    /// A state machine's state; the names in the order of their codes.
+    State(&'static [&'static str]),
+    /// The taps of a delay line.
+    Taps,
+}
+
+/// One signal of a module.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Signal {
+    /// Its name, the same in Rust, Verilog and waveform.
+    pub name: String,
+    /// Its width [bits].
+    pub width: u32,
+    /// How to show it.
+    pub format: Format,
+    /// Whether other modules may read it.
+    pub output: bool,
+    /// What it means.
+    pub doc: &'static str,
+}
+
+/// Takes signal values; `id` is the signal's place in the list of its module plus an offset.
+pub trait Sink {
+    /// A word of up to 64 bits.
+    fn word(&mut self, id: usize, value: u64);
+    /// The taps of a delay line.
+    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>);
+}
+
+/// A value that stands for one or more signals.
+pub trait Field: Copy + PartialEq {
+    /// How many signals.
+    const COUNT: usize;
+    /// Appends the signals, shaped after `like` (its name, doc and direction).
+    fn declare(like: Signal, list: &mut Vec<Signal>);
+    /// Reports what differs from `before`, or everything.
+    fn changes(&self, before: Option<&Self>, id: usize, sink: &mut impl Sink);
+}
+
+/// A struct of signals: the ports or the registers of one module.
+pub trait Signals: Copy + PartialEq {
+    /// How many signals.
+    const COUNT: usize;
+    /// The signals in order of declaration.
+    fn list() -> Vec<Signal>;
+    /// Reports what differs from `before`, or everything.
+    fn changes(&self, before: Option<&Self>, id: usize, sink: &mut impl Sink);
+}
+
+/// A field that is a single word.
+pub trait Word: Copy + PartialEq {
+    /// Its width [bits].
+    const WIDTH: u32;
+    /// How to show it.
+    const FORMAT: Format;
+    /// Its bits.
+    fn bits(&self) -> u64;
+}
+
+impl Word for bool {
+    const WIDTH: u32 = 1;
+    const FORMAT: Format = Format::Bits;
+    fn bits(&self) -> u64 {
+        *self as u64
+    }
+}
+
+impl<const N: u32> Word for U<N> {
+    const WIDTH: u32 = N;
+    const FORMAT: Format = Format::Unsigned;
+    fn bits(&self) -> u64 {
+        self.get()
+    }
+}
+
+impl<const N: u32, const F: u32> Word for S<N, F> {
+    const WIDTH: u32 = N;
+    const FORMAT: Format = Format::Signed { fraction: F };
+    fn bits(&self) -> u64 {
+        S::bits(*self)
+    }
+}
+
+impl<T: Word> Field for T {
+    const COUNT: usize = 1;
+    fn declare(like: Signal, list: &mut Vec<Signal>) {
+        list.push(Signal { width: T::WIDTH, format: T::FORMAT, ..like });
+    }
+    #[inline(always)]
+    fn changes(&self, before: Option<&Self>, id: usize, sink: &mut impl Sink) {
+        if before != Some(self) {
+            sink.word(id, self.bits());
+        }
+    }
+}
+
+impl<T: Word, const K: usize> Field for [T; K] {
+    const COUNT: usize = K;
+    fn declare(like: Signal, list: &mut Vec<Signal>) {
+        for k in 0..K {
+            T::declare(Signal { name: format!("{}_{k}", like.name), ..like.clone() }, list);
+        }
+    }
+    fn changes(&self, before: Option<&Self>, id: usize, sink: &mut impl Sink) {
+        for k in 0..K {
+            self[k].changes(before.map(|b| &b[k]), id + k, sink);
+        }
+    }
+}
+
+impl<const N: usize> Field for Thermometer<N> {
+    const COUNT: usize = 1;
+    fn declare(like: Signal, list: &mut Vec<Signal>) {
+        list.push(Signal { width: N as u32, format: Format::Taps, ..like });
+    }
+    fn changes(&self, before: Option<&Self>, id: usize, sink: &mut impl Sink) {
+        if before != Some(self) {
+            sink.taps(id, self);
+        }
+    }
+}
+
+/// Declares a struct of signals. One line gives a signal's meaning, name, width and, after `=`,
+/// its reset value where that is not zero; public fields are output ports.
+#[macro_export]
+macro_rules! signals {
+    ($(#[$meta:meta])* $vis:vis struct $name:ident {
+        $($(#[doc = $doc:literal])+ $field_vis:vis $field:ident: $ty:ty $(= $reset:expr)?,)*
+    }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        $vis struct $name { $($(#[doc = $doc])+ $field_vis $field: $ty,)* }
+
+        impl Default for $name {
+            fn default() -> Self {
+                $name { $($field: $crate::signals!(@reset $($reset)?),)* }
+            }
+        }
+
+        impl $crate::kernel::signals::Signals for $name {
+            const COUNT: usize = 0 $(+ <$ty as $crate::kernel::signals::Field>::COUNT)*;
+
+            fn list() -> Vec<$crate::kernel::signals::Signal> {
+                #[allow(unused_mut, reason = "a module may have no signals of one kind")]
+                let mut list = Vec::new();
+                $(<$ty as $crate::kernel::signals::Field>::declare(
+                    $crate::kernel::signals::Signal {
+                        name: stringify!($field).to_owned(),
+                        width: 0,
+                        format: $crate::kernel::signals::Format::Bits,
+                        output: !stringify!($field_vis).is_empty(),
+                        doc: concat!($($doc),+).trim_ascii(),
+                    },
+                    &mut list,
+                );)*
+                list
+            }
+
+            #[inline]
+            fn changes(
+                &self,
+                before: Option<&Self>,
+                id: usize,
+                sink: &mut impl $crate::kernel::signals::Sink,
+            ) {
+                let _next = id;
+                $(
+                    $crate::kernel::signals::Field::changes(
+                        &self.$field, before.map(|b| &b.$field), _next, sink);
+                    let _next = _next + <$ty as $crate::kernel::signals::Field>::COUNT;
+                )*
+            }
+        }
+    };
+    (@reset) => { Default::default() };
+    (@reset $reset:expr) => { $reset };
+}
+
+/// Declares the states of a machine: a fieldless enum with its width, the first state the reset
+/// value, codes counted from 0.
+#[macro_export]
+macro_rules! states {
+    ($(#[$meta:meta])* $vis:vis enum $name:ident: $width:literal {
+        $($(#[$state_meta:meta])* $state:ident,)+
+    }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        $vis enum $name { #[default] $($(#[$state_meta])* $state,)+ }
+
+        impl $crate::kernel::signals::Word for $name {
+            const WIDTH: u32 = $width;
+            const FORMAT: $crate::kernel::signals::Format =
+                $crate::kernel::signals::Format::State(&[$(stringify!($state)),+]);
+            fn bits(&self) -> u64 {
+                *self as u64
+            }
+        }
+    };
+}

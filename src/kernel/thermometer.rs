@@ -1,0 +1,135 @@
+//! The state of a tapped delay line, kept as the ranks of the transitions travelling in it.
+
+use bitvec::prelude::*;
+
+/// Transitions that a [`Thermometer`] can hold.
+pub const MAX_TRANSITIONS: usize = 8;
+
+/// `N` taps, in order of arrival, that show the level which has reached them.
+///
+/// The input of the line alternates, so its taps are a few runs of ones and zeros. The newest
+/// level fills the taps before the first rank, the opposite one the taps up to the second, and so
+/// on: 18 bytes instead of `N` bits, and the ones count is an alternating sum. The form is
+/// canonical (ranks strictly increasing, from 1 to N - 1, unused ones zero), so that equal taps
+/// compare equal.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Thermometer<const N: usize> {
+    ranks: [u16; MAX_TRANSITIONS],
+    len: u8,
+    level: bool,
+}
+
+impl<const N: usize> Thermometer<N> {
+    /// All taps at one level.
+    pub const fn settled(level: bool) -> Self {
+        Thermometer { ranks: [0; MAX_TRANSITIONS], len: 0, level }
+    }
+
+    /// The taps when the line's input is now at `level` and its last transitions, newest first,
+    /// have reached `ranks` taps each (0 = none yet, N or more = all). Transitions beyond
+    /// [`MAX_TRANSITIONS`] are not seen; the caller's limits keep them from being there.
+    pub fn new(level: bool, ranks: impl IntoIterator<Item = usize>) -> Self {
+        let mut taps = Self::settled(level);
+        for rank in ranks {
+            let len = taps.len as usize;
+            if rank == 0 {
+                taps.level = !taps.level;
+            } else if rank >= N || len == MAX_TRANSITIONS {
+                break;
+            } else if len > 0 && taps.ranks[len - 1] as usize == rank {
+                taps.len -= 1;
+                taps.ranks[len - 1] = 0;
+            } else {
+                taps.ranks[len] = rank as u16;
+                taps.len += 1;
+            }
+        }
+        taps
+    }
+
+    /// Whether no transition is inside.
+    pub const fn is_settled(&self) -> bool {
+        self.len == 0
+    }
+
+    /// The level of the tap that is `position`-th to be reached, from 0.
+    pub fn tap(&self, position: usize) -> bool {
+        let passed = self.ranks().iter().take_while(|&&rank| rank as usize <= position).count();
+        self.level ^ (passed % 2 == 1)
+    }
+
+    /// How many taps are high, from 0 to N.
+    pub fn ones(&self) -> usize {
+        let (mut ones, mut start, mut level) = (0, 0, self.level);
+        for &rank in self.ranks() {
+            if level {
+                ones += rank as usize - start;
+            }
+            (start, level) = (rank as usize, !level);
+        }
+        if level { ones + N - start } else { ones }
+    }
+
+    /// Writes the taps as bits, in order of arrival, into the first `N` bits of `out`.
+    pub fn expand(&self, out: &mut BitSlice<u64, Lsb0>) {
+        let (mut start, mut level) = (0, self.level);
+        for &rank in self.ranks() {
+            out[start..rank as usize].fill(level);
+            (start, level) = (rank as usize, !level);
+        }
+        out[start..N].fill(level);
+    }
+
+    fn ranks(&self) -> &[u16] {
+        &self.ranks[..self.len as usize]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bits(taps: &Thermometer<12>) -> String {
+        let mut out = bitvec![u64, Lsb0; 0; 12];
+        taps.expand(&mut out);
+        out.iter().map(|bit| if *bit { '1' } else { '0' }).collect()
+    }
+
+    #[test]
+    fn a_pulse_travels_as_two_ranks() {
+        let taps = Thermometer::<12>::new(false, [3, 8]);
+        assert_eq!(bits(&taps), "000111110000");
+        assert_eq!(taps.ones(), 5);
+        assert!(!taps.tap(2) && taps.tap(3) && taps.tap(7) && !taps.tap(8));
+    }
+
+    #[test]
+    fn a_transition_that_has_reached_no_tap_is_not_seen() {
+        assert_eq!(Thermometer::<12>::new(true, [0, 4]), Thermometer::new(false, [4]));
+        assert_eq!(Thermometer::<12>::new(true, [0]), Thermometer::settled(false));
+    }
+
+    #[test]
+    fn a_transition_past_the_end_leaves_the_line_settled() {
+        assert_eq!(Thermometer::<12>::new(true, [12]), Thermometer::settled(true));
+        assert_eq!(Thermometer::<12>::new(false, [5, 12, 14]), Thermometer::new(false, [5]));
+        assert_eq!(Thermometer::<12>::settled(true).ones(), 12);
+    }
+
+    #[test]
+    fn two_transitions_between_the_same_taps_cancel() {
+        assert_eq!(Thermometer::<12>::new(true, [4, 4, 9]), Thermometer::new(true, [9]));
+        assert_eq!(bits(&Thermometer::new(true, [4, 4])), "111111111111");
+    }
+
+    #[test]
+    fn ones_agree_with_the_bits() {
+        for code in 0..12usize.pow(3) {
+            let ranks = [code % 12, code / 12 % 12, code / 144];
+            if ranks.is_sorted() {
+                let taps = Thermometer::<12>::new(code % 5 > 2, ranks);
+                assert_eq!(taps.ones(), bits(&taps).matches('1').count(), "{ranks:?}");
+            }
+        }
+    }
+}

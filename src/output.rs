@@ -1,0 +1,170 @@
+//! Output files that are whole or not there: written beside the target, then renamed.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use crate::error::{Error, Result};
+
+/// A file under construction. Dropped without [`OutputFile::commit`], it leaves no trace.
+///
+/// A target that exists and is no regular file (a device, a pipe) is written in place.
+#[derive(Debug)]
+pub struct OutputFile {
+    target: PathBuf,
+    sink: Sink,
+}
+
+#[derive(Debug)]
+enum Sink {
+    Beside(Box<BufWriter<NamedTempFile>>),
+    InPlace(Box<BufWriter<File>>),
+}
+
+/// Bytes gathered before they go to the system.
+const BUFFER: usize = 1 << 16;
+
+impl OutputFile {
+    /// Begins a file; a symbolic link is followed, so that its target is what is replaced.
+    pub fn create(target: &Path) -> Result<Self> {
+        let sink = match fs::metadata(target) {
+            Ok(found) if found.is_dir() => {
+                let source = io::Error::from(io::ErrorKind::IsADirectory);
+                return Err(Error::Io { path: target.to_owned(), action: "write", source });
+            }
+            Ok(found) if !found.is_file() => {
+                let file = File::options().write(true).open(target);
+                let file = file.map_err(Error::io(target, "write"))?;
+                Sink::InPlace(Box::new(BufWriter::with_capacity(BUFFER, file)))
+            }
+            _ => Sink::Beside(Box::new(BufWriter::with_capacity(BUFFER, beside(target)?))),
+        };
+        Ok(OutputFile { target: target.to_owned(), sink })
+    }
+
+    /// The file's final path.
+    pub fn target(&self) -> &Path {
+        &self.target
+    }
+
+    /// Turns an error of writing here into one that names the file.
+    pub fn fault(&self, source: io::Error) -> Error {
+        Error::Io { path: self.target.clone(), action: "write", source }
+    }
+
+    /// Puts the finished file in place.
+    pub fn commit(self) -> Result<()> {
+        let OutputFile { target, sink } = self;
+        let fault = Error::io(&target, "write");
+        match sink {
+            Sink::InPlace(mut file) => file.flush().map_err(fault),
+            Sink::Beside(file) => {
+                let file = file.into_inner().map_err(|error| error.into_error()).map_err(fault)?;
+                let target = fs::canonicalize(&target).unwrap_or(target);
+                let renamed = file.persist(&target);
+                renamed.map(drop).map_err(|error| Error::io(&target, "write")(error.error))
+            }
+        }
+    }
+}
+
+impl Write for OutputFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match &mut self.sink {
+            Sink::Beside(file) => file.write(bytes),
+            Sink::InPlace(file) => file.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match &mut self.sink {
+            Sink::Beside(file) => file.flush(),
+            Sink::InPlace(file) => file.flush(),
+        }
+    }
+}
+
+impl Seek for OutputFile {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        match &mut self.sink {
+            Sink::Beside(file) => file.seek(to),
+            Sink::InPlace(file) => file.seek(to),
+        }
+    }
+}
+
+fn beside(target: &Path) -> Result<NamedTempFile> {
+    let target = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
+    let directory = match target.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".tofsim-").suffix(".part");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(directory).map_err(Error::io(&target, "write"))
+}
+
+/// Writes a whole file from what `fill` produces.
+pub fn write_file(
+    target: &Path,
+    fill: impl FnOnce(&mut OutputFile) -> io::Result<()>,
+) -> Result<()> {
+    let mut file = OutputFile::create(target)?;
+    fill(&mut file).map_err(|source| file.fault(source))?;
+    file.commit()
+}
+
+/// Makes a directory and those above it.
+pub fn create_directory(path: &Path) -> Result<()> {
+    fs::create_dir_all(path).map_err(Error::io(path, "create"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_that_is_not_finished_leaves_the_old_one() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("depths.csv");
+        fs::write(&path, "old").unwrap();
+        let failed = write_file(&path, |file| {
+            file.write_all(b"half")?;
+            Err(io::Error::other("stop"))
+        });
+        assert!(failed.unwrap_err().to_string().contains("depths.csv"));
+        assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+        assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
+        write_file(&path, |file| file.write_all(b"new")).unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "new");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_device_is_written_in_place() {
+        use std::os::unix::fs::FileTypeExt;
+        let full = write_file(Path::new("/dev/full"), |file| file.write_all(b"x"));
+        assert!(full.is_err());
+        assert!(fs::metadata("/dev/full").unwrap().file_type().is_char_device());
+        write_file(Path::new("/dev/null"), |file| file.write_all(b"x")).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_keeps_pointing_at_what_was_written() {
+        let directory = tempfile::tempdir().unwrap();
+        let (real, link) = (directory.path().join("real"), directory.path().join("link"));
+        fs::write(&real, "old").unwrap();
+        std::os::unix::fs::symlink(&real, &link).unwrap();
+        write_file(&link, |file| file.write_all(b"new")).unwrap();
+        assert_eq!(fs::read_to_string(&real).unwrap(), "new");
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    }
+}
