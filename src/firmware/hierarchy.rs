@@ -237,10 +237,29 @@ fn within(scope: &str, parent: &str) -> bool {
 /// Modules in the order of data flow, each parent before its children.
 fn place(scope: &str) -> Vec<usize> {
     const FLOW: &[&str] = &[
-        "tof_top", "pll", "reset_sync_125", "reset_sync_250", "control_sync", "frame_ctrl",
-        "vcsel_driver", "ddr_output", "lvds_output", "spad_control", "tdc", "carry_chain",
-        "coarse_counter", "tdc_latch", "tdc_decoder", "code_preload", "histogram_builder",
-        "histogram_preload", "depth_estimator", "estimator_ctrl", "forward1", "tansig", "forward2",
+        "tof_top",
+        "pll",
+        "reset_sync_125",
+        "reset_sync_250",
+        "control_sync",
+        "frame_ctrl",
+        "vcsel_driver",
+        "ddr_output",
+        "lvds_output",
+        "spad_control",
+        "tdc",
+        "carry_chain",
+        "coarse_counter",
+        "tdc_latch",
+        "tdc_decoder",
+        "code_preload",
+        "histogram_builder",
+        "histogram_preload",
+        "depth_estimator",
+        "estimator_ctrl",
+        "forward1",
+        "tansig",
+        "forward2",
     ];
     let at = |module| FLOW.iter().position(|&name| name == module).unwrap_or(FLOW.len());
     scope.split('.').map(at).collect()
@@ -283,7 +302,8 @@ impl Build {
         connections: &[Connection],
     ) {
         for &(module, port, source) in connections {
-            let scope = if parent.is_empty() { module.into() } else { format!("{parent}.{module}") };
+            let scope =
+                if parent.is_empty() { module.into() } else { format!("{parent}.{module}") };
             let signals = modules.iter().filter(|(name, _)| *name == module);
             let doc = |port: &str| {
                 let mut list = signals.clone().flat_map(|(_, list)| list);
@@ -308,7 +328,14 @@ impl Build {
     }
 
     /// Shows, under `name`, what `holder` holds; an array under `name_0`, `name_1` ...
-    fn alias(&mut self, scope: &str, name: &str, kind: Kind, holder: &str, doc: Option<&'static str>) {
+    fn alias(
+        &mut self,
+        scope: &str,
+        name: &str,
+        kind: Kind,
+        holder: &str,
+        doc: Option<&'static str>,
+    ) {
         let element = format!("{holder}_");
         let found: Vec<_> = (self.held.iter())
             .filter_map(|(path, id)| match path.strip_prefix(&element) {

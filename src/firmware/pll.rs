@@ -4,8 +4,8 @@
 //! both outputs stay low; their first rising edges come together, one period of `clk_125` after
 //! `locked`, and from then on they rise together every 8 ns. `rst` does not reach it.
 
-use crate::kernel::clock::Clock;
 use crate::kernel::Time;
+use crate::kernel::clock::Clock;
 use crate::signals;
 
 signals! {
@@ -58,7 +58,6 @@ impl Pll {
         }
     }
 }
-
 
 #[cfg(test)]
 mod tests {

@@ -82,7 +82,9 @@ impl Clocked for TdcDecoder {
             d.n_coarse = i.hit_coarse;
         }
         d.tdc_valid = false;
-        if q.n_valid && let Some(code) = code(q.n_coarse.get(), q.n.index(), cal) {
+        if q.n_valid
+            && let Some(code) = code(q.n_coarse.get(), q.n.index(), cal)
+        {
             (d.tdc_valid, d.tdc_code) = (true, code);
         }
         if i.rst { Self::default() } else { d }

@@ -238,8 +238,7 @@ impl TofTop {
         self.reset_sync_125 = self.reset_sync_125.next(&wires.reset_sync_125, &());
         self.control_sync = self.control_sync.next(&wires.control_sync, &());
         self.frame_ctrl = self.frame_ctrl.next(&wires.frame_ctrl, &p.frame_ctrl);
-        self.vcsel_driver.registers =
-            self.vcsel_driver.registers.next(&wires.vcsel_driver, &());
+        self.vcsel_driver.registers = self.vcsel_driver.registers.next(&wires.vcsel_driver, &());
         self.spad_control = self.spad_control.next(&wires.spad_control, &());
         match &p.code_source {
             CodeSource::Tdc => self.tdc.rise(&wires.tdc, &p.tdc, line, now),
