@@ -124,6 +124,14 @@ pub fn read_text(path: &Path) -> Result<String> {
     })
 }
 
+/// The known name that `name` was probably meant to be.
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let likeness = |known: &str| strsim::jaro_winkler(name, known);
+    let scored = known.into_iter().map(|known| (likeness(known), known));
+    let best = scored.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (best.0 > 0.75).then_some(best.1)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,1 +1,28 @@
-fn main() {}
+//! The command `tofsim`.
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use tofsim::cli::Cli;
+use tofsim::error::Error;
+
+/// Interrupted by the user, as shells have it.
+const INTERRUPTED: u8 = 130;
+/// Usage or input error.
+const FAULT: u8 = 2;
+
+fn main() -> ExitCode {
+    match Cli::parse().run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
+        Err(Error::Interrupted) => {
+            eprintln!("tofsim: interrupted");
+            ExitCode::from(INTERRUPTED)
+        }
+        Err(error) => {
+            eprintln!("tofsim: {error}");
+            ExitCode::from(FAULT)
+        }
+    }
+}

@@ -1,1 +1,57 @@
 //! The command line: one file per subcommand, each with its `Args` and `run`.
+
+pub mod budget;
+pub mod completions;
+pub mod estimate;
+pub mod man;
+pub mod run;
+pub mod scenario;
+pub mod stdout;
+pub mod talk;
+pub mod vectors;
+
+use clap::{Parser, Subcommand};
+
+use crate::error::Result;
+
+use talk::Talk;
+
+/// Cycle-accurate simulator of the FPGA firmware of a time-of-flight rangefinder
+#[derive(Debug, Parser)]
+#[command(name = "tofsim", version, propagate_version = true, disable_help_subcommand = true)]
+#[command(after_help = "Data goes to standard output, talk to standard error.\n\
+    Exit status: 0 fine or same, 1 differences found or a check failed, \
+    2 usage or input error, 130 interrupted.")]
+pub struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+    #[command(flatten)]
+    talk: talk::Args,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    Run(run::Args),
+    Budget(budget::Args),
+    Estimate(estimate::Args),
+    Vectors(vectors::Args),
+    Scenario(scenario::Args),
+    Completions(completions::Args),
+    Man(man::Args),
+}
+
+impl Cli {
+    /// Does what the command line asks for.
+    pub fn run(&self) -> Result<()> {
+        let talk = Talk::new(&self.talk);
+        match &self.verb {
+            Verb::Run(args) => run::run(args, &talk),
+            Verb::Budget(args) => budget::run(args),
+            Verb::Estimate(args) => estimate::run(args),
+            Verb::Vectors(args) => vectors::run(args),
+            Verb::Scenario(args) => scenario::run(args),
+            Verb::Completions(args) => completions::run(args),
+            Verb::Man(args) => man::run(args),
+        }
+    }
+}

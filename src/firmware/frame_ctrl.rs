@@ -86,6 +86,23 @@ impl FrameCtrl {
     pub fn state(&self) -> State {
         self.state
     }
+
+    /// Shots begun in this frame.
+    pub fn shots(&self) -> u64 {
+        self.shots.get()
+    }
+
+    /// Whether the estimator works, is about to, or has just finished.
+    pub fn is_estimating(&self, p: &Params) -> bool {
+        const NEAR: u64 = 2;
+        match self.state {
+            State::Clear if self.frame_done => true,
+            State::Clear => p.preloaded && self.clear_addr.get() + NEAR >= LAST_WORD,
+            State::Acquire => false,
+            State::Drain => self.drain.get() + NEAR >= LAST_DRAIN,
+            State::Estimate => true,
+        }
+    }
 }
 
 impl Clocked for FrameCtrl {

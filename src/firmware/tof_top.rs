@@ -87,8 +87,6 @@ pub enum HistogramSource {
 /// What elaboration fixes.
 #[derive(Clone, Debug)]
 pub struct Params {
-    /// Clocks.
-    pub pll: pll::Params,
     /// Frame length.
     pub frame_ctrl: frame_ctrl::Params,
     /// Delay chain and its ROM.

@@ -86,9 +86,9 @@ connect! {
 }
 
 impl Registers {
-    /// Whether the next edge raises `pre_start`.
-    pub fn shot_is_near(&self, i: &In) -> bool {
-        i.acquire && self.count + 2 == self.last
+    /// Whether a shot begins in four cycles: two before `pre_start` rises.
+    pub fn shot_is_near(&self, acquire: bool) -> bool {
+        acquire && self.count + 3 == self.last
     }
 }
 

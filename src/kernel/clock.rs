@@ -10,31 +10,41 @@ use super::Time;
 pub struct Clock {
     period_numerator: u128,
     period_denominator: u128,
+    /// Half a period, if that is a whole number [fs].
+    whole_half: Option<u64>,
     phase: Time,
 }
 
 impl Clock {
     /// The clock with its first rising edge at `phase`.
     pub fn new(reference_hz: u64, multiply: u64, divide: u64, phase: Time) -> Self {
-        Clock {
-            period_numerator: divide as u128 * 1_000_000_000_000_000,
-            period_denominator: reference_hz as u128 * multiply as u128,
-            phase,
-        }
+        let period_numerator = divide as u128 * 1_000_000_000_000_000;
+        let period_denominator = reference_hz as u128 * multiply as u128;
+        let is_whole = period_numerator.is_multiple_of(2 * period_denominator);
+        let whole_half = is_whole.then_some((period_numerator / (2 * period_denominator)) as u64);
+        Clock { period_numerator, period_denominator, whole_half, phase }
     }
 
     /// Instant of rising edge `n`, counted from 0.
+    #[inline(always)]
     pub fn rise(&self, n: u64) -> Time {
-        self.phase + self.half_periods(2 * n as u128)
+        self.phase + self.half_periods(2 * n)
     }
 
     /// Instant of the falling edge that follows rising edge `n`.
+    #[inline(always)]
     pub fn fall(&self, n: u64) -> Time {
-        self.phase + self.half_periods(2 * n as u128 + 1)
+        self.phase + self.half_periods(2 * n + 1)
     }
 
-    fn half_periods(&self, count: u128) -> Time {
-        Time::from_fs((count * self.period_numerator / (2 * self.period_denominator)) as u64)
+    #[inline(always)]
+    fn half_periods(&self, count: u64) -> Time {
+        Time::from_fs(match self.whole_half {
+            Some(half) => count * half,
+            None => {
+                (count as u128 * self.period_numerator / (2 * self.period_denominator)) as u64
+            }
+        })
     }
 }
 

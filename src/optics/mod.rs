@@ -1,1 +1,11 @@
-//! Under construction.
+//! From the scene to photons: link budget, eye safety and the statistics of the first avalanche.
+
+pub mod budget;
+pub mod closed_form;
+pub mod eye_safety;
+pub mod geometry;
+pub mod hazard;
+
+pub use budget::Budget;
+pub use closed_form::{BinProbabilities, Bins};
+pub use hazard::{Cause, Hazard, exponential};

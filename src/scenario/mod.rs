@@ -1,5 +1,12 @@
 //! The scenario file: typed, checked, every number with unit, default and source.
 
+pub mod builtin;
+pub mod chain;
+mod check;
+mod load;
 mod model;
+pub mod show;
+mod validate;
 
+pub use load::{DEFAULT, Loaded, load};
 pub use model::*;

@@ -194,7 +194,7 @@ table! {
         #[schemars(range(min = 0.0, max = 1e6), extend("unit" = "us", "source" = "choice: short, to keep runs short"))]
         pub lock_time_us: f64 = 1.0,
         /// Jitter of each edge of the outputs, Gaussian; 0 switches it off (7.7 is the wizard's 107 ps peak to peak).
-        #[schemars(range(min = 0.0, max = 200.0), extend("unit" = "ps rms", "source" = "choice: off"))]
+        #[schemars(range(min = 0.0, max = 100.0), extend("unit" = "ps rms", "source" = "choice: off"))]
         pub jitter_rms_ps: f64 = 0.0,
     }
 }
@@ -247,7 +247,7 @@ table! {
 table! {
     /// What stands in for parts of the chain. At most one; without any, light drives the sensor.
     pub struct Stimulus {
-        /// Photon list: a CSV file with columns `shot` (laser pulses since power-up, from 0) and
+        /// Photon list: a CSV file with columns `shot` (since power-up, from 0) and
         /// `arrival_ps` (from the laser edge). Replaces the light.
         #[schemars(extend("source" = "thesis 6.5.2"))]
         pub photons: Option<String> = None,
@@ -266,6 +266,10 @@ table! {
         /// A row for each shot's TDC result (thesis Table 6.3).
         #[schemars(extend("source" = "Table 6.3"))]
         pub tdc: bool = false,
+        /// Parts of the run that go into the waveform where `--window` is not given; an empty list
+        /// stands for `shot:0..16` and `estimation`.
+        #[schemars(extend("source" = "choice: a first look under 5 MB"))]
+        pub windows: Vec<String> = Vec::new(),
     }
 }
 

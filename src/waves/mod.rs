@@ -1,1 +1,253 @@
-//! Under construction.
+//! Waveform files of the firmware's signals: VCD and FST, and set-ups for their viewers.
+//!
+//! A waveform holds windows of the run; outside them every signal is `x`. Times are picoseconds,
+//! rounded down. What a file contains follows from the hierarchy ([`crate::firmware::hierarchy`]):
+//! ports that pass a signal on are aliases, written once.
+
+#[cfg(test)]
+mod bench;
+mod date;
+mod digits;
+#[cfg(test)]
+mod file_tests;
+mod fst;
+mod gtkwave;
+mod layout;
+#[cfg(test)]
+mod readback;
+mod scopes;
+mod select;
+mod spool;
+mod surfer;
+#[cfg(test)]
+mod tests;
+mod vcd;
+mod views;
+
+use std::io;
+use std::path::Path;
+
+use crate::error::{Error, Result};
+use crate::firmware::TofTop;
+use crate::firmware::hierarchy::{Entry, changes};
+use crate::kernel::Time;
+use crate::kernel::signals::Sink;
+
+use fst::Fst;
+use vcd::Vcd;
+
+pub use select::select;
+pub use views::{Marks, write_views};
+
+/// A format of waveform files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Value change dump: text, read by everything.
+    Vcd,
+    /// GTKWave's binary format, some twenty times smaller.
+    Fst,
+}
+
+impl Format {
+    /// The ending of its files, without the dot.
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Format::Vcd => "vcd",
+            Format::Fst => "fst",
+        }
+    }
+}
+
+/// A waveform file being written. Dropped without [`Waves::finish`], it leaves no trace.
+pub struct Waves {
+    writer: Writer,
+    state: State,
+    /// What the file shows, since the first window.
+    before: Option<Box<TofTop>>,
+    /// Time of the last call [ps].
+    last: u64,
+    /// The first error of writing, for calls after it.
+    failed: Option<(io::ErrorKind, String)>,
+}
+
+enum Writer {
+    Vcd(Box<Vcd>),
+    Fst(Box<Fst>),
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum State {
+    /// No window has begun.
+    Blank,
+    /// In a window.
+    Open,
+    /// The window has ended, at this time [ps]; its end is not written yet, because the next
+    /// window may begin there.
+    Ended(u64),
+}
+
+/// What a time step is.
+#[derive(Clone, Copy, PartialEq)]
+enum Step {
+    /// The first one, at time 0: every signal.
+    Start,
+    /// A window begins: every signal.
+    Open,
+    /// Some signals change.
+    Change,
+    /// A window ends: every signal is unknown.
+    Close,
+}
+
+/// A file format, given the values of one time step after the other.
+trait Body: Sink {
+    /// Writes a step; `at` is never earlier than the step before [ps].
+    fn step(&mut self, at: u64, step: Step, fill: impl FnOnce(&mut Self)) -> io::Result<()>;
+    /// All signals unknown; for use in a step.
+    fn unknown(&mut self);
+    /// Puts the finished file, which ends at `at`, in place [ps].
+    fn finish(self, at: u64) -> Result<()>;
+    /// Turns an error of writing here into one that names the file.
+    fn fault(&self, source: io::Error) -> Error;
+}
+
+impl Waves {
+    /// Begins a file of `entries`. `order` is the physical tap at each place in the order of
+    /// arrival; `provenance` says where the file comes from, a line each.
+    pub fn create(
+        path: &Path,
+        format: Format,
+        entries: &[Entry],
+        order: &[u16],
+        provenance: &[String],
+    ) -> Result<Waves> {
+        let writer = match format {
+            Format::Vcd => Writer::Vcd(Box::new(Vcd::create(path, entries, order, provenance)?)),
+            Format::Fst => Writer::Fst(Box::new(Fst::create(path, entries, order, provenance)?)),
+        };
+        Ok(Waves { writer, state: State::Blank, before: None, last: 0, failed: None })
+    }
+
+    /// A window begins: every signal is shown as it is now. Within a window, only what has changed.
+    pub fn begin(&mut self, now: Time, top: &TofTop) -> Result<()> {
+        let at = self.at(now);
+        match self.state {
+            State::Open => return self.sample(now, top),
+            State::Ended(end) if end == at => {
+                self.state = State::Open;
+                return self.sample(now, top);
+            }
+            State::Ended(end) => self.close(end)?,
+            State::Blank if at > 0 => self.unknown(0, Step::Start)?,
+            State::Blank => {}
+        }
+        let step = if at > 0 { Step::Open } else { Step::Start };
+        self.state = State::Open;
+        match &mut self.before {
+            Some(before) => keep(before, top),
+            None => self.before = Some(Box::new(top.clone())),
+        }
+        let result = match &mut self.writer {
+            Writer::Vcd(file) => file.step(at, step, |file| changes(top, None, file)),
+            Writer::Fst(file) => file.step(at, step, |file| changes(top, None, file)),
+        };
+        self.checked(result)
+    }
+
+    /// Shows what has changed since the last call; outside windows nothing.
+    #[inline]
+    pub fn sample(&mut self, now: Time, top: &TofTop) -> Result<()> {
+        if self.state != State::Open {
+            return Ok(());
+        }
+        let at = self.at(now);
+        let Some(before) = &mut self.before else { return Ok(()) };
+        let result = match &mut self.writer {
+            Writer::Vcd(file) => {
+                file.step(at, Step::Change, |file| changes(top, Some(before), file))
+            }
+            Writer::Fst(file) => {
+                file.step(at, Step::Change, |file| changes(top, Some(before), file))
+            }
+        };
+        keep(before, top);
+        self.checked(result)
+    }
+
+    /// A window ends: from now on every signal is unknown.
+    pub fn end(&mut self, now: Time) -> Result<()> {
+        let at = self.at(now);
+        if self.state == State::Open {
+            self.state = State::Ended(at);
+        }
+        Ok(())
+    }
+
+    /// The run has ended: puts the file in place.
+    pub fn finish(mut self, end: Time) -> Result<()> {
+        let at = self.at(end);
+        match self.state {
+            State::Blank => self.unknown(0, Step::Start)?,
+            State::Ended(end) if end < at => self.close(end)?,
+            State::Ended(_) | State::Open => {}
+        }
+        self.checked(Ok(()))?;
+        match self.writer {
+            Writer::Vcd(file) => file.finish(at),
+            Writer::Fst(file) => file.finish(at),
+        }
+    }
+
+    fn close(&mut self, at: u64) -> Result<()> {
+        self.unknown(at, Step::Close)
+    }
+
+    fn unknown(&mut self, at: u64, step: Step) -> Result<()> {
+        let result = match &mut self.writer {
+            Writer::Vcd(file) => file.step(at, step, Body::unknown),
+            Writer::Fst(file) => file.step(at, step, Body::unknown),
+        };
+        self.checked(result)
+    }
+
+    /// Time as the file has it, which never goes back [ps].
+    fn at(&mut self, now: Time) -> u64 {
+        self.last = now.ps().max(self.last);
+        self.last
+    }
+
+    /// Keeps the first error of writing and returns it, now and later.
+    fn checked(&mut self, result: io::Result<()>) -> Result<()> {
+        if let (Err(error), None) = (&result, &self.failed) {
+            self.failed = Some((error.kind(), error.to_string()));
+        }
+        let source = match (result, &self.failed) {
+            (Ok(()), None) => return Ok(()),
+            (Err(error), _) => error,
+            (Ok(()), Some((kind, text))) => io::Error::new(*kind, text.clone()),
+        };
+        Err(match &self.writer {
+            Writer::Vcd(file) => file.fault(source),
+            Writer::Fst(file) => file.fault(source),
+        })
+    }
+}
+
+/// Makes `before` what `top` is, without the allocation that a clone of the RAM would cost.
+fn keep(before: &mut TofTop, top: &TofTop) {
+    before.pins = top.pins;
+    before.clocks = top.clocks;
+    before.nets = top.nets;
+    before.pll = top.pll;
+    before.reset_sync_125 = top.reset_sync_125;
+    before.reset_sync_250 = top.reset_sync_250;
+    before.control_sync = top.control_sync;
+    before.frame_ctrl = top.frame_ctrl;
+    before.vcsel_driver = top.vcsel_driver;
+    before.lvds_output = top.lvds_output;
+    before.spad_control = top.spad_control;
+    before.tdc = top.tdc;
+    before.code_preload = top.code_preload;
+    before.histogram_builder.ram.copy_from_slice(&top.histogram_builder.ram[..]);
+    before.depth_estimator = top.depth_estimator;
+}

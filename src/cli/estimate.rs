@@ -1,0 +1,112 @@
+//! `tofsim estimate`: depths of histograms from files, bit for bit as the firmware computes them.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use comfy_table::CellAlignment;
+use serde::Serialize;
+
+use crate::error::{Error, Result};
+use crate::histogram_file;
+use crate::network::{Estimate, Network, estimate};
+use crate::report::table::plain;
+
+use super::stdout::print;
+
+/// Estimate depths of histograms, bit for bit as the firmware does
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// CSV with header bin,count and 256 rows, or .npy of 256 or n x 256 whole numbers
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Built-in network (uniform, ideal) or network file
+    #[arg(long, value_name = "NAME|FILE", default_value = Network::DEFAULT)]
+    network: String,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// A line of the result.
+#[derive(Serialize)]
+struct Row<'a> {
+    /// Place among all histograms of all files.
+    index: usize,
+    file: &'a str,
+    #[serde(flatten)]
+    numbers: Numbers,
+}
+
+#[derive(Clone, Serialize)]
+struct Numbers {
+    /// The 36-bit word in hexadecimal.
+    depth_raw: String,
+    depth_m: f64,
+    /// Sums of the hidden neurons as integers, 23 fraction bits.
+    l1_in: [i64; 8],
+}
+
+#[derive(Serialize)]
+struct Report<'a> {
+    schema: &'static str,
+    network: &'a str,
+    /// The same again for scripts, if there is just one histogram.
+    #[serde(flatten)]
+    only: Option<Numbers>,
+    histograms: &'a [Row<'a>],
+}
+
+/// Runs the verb.
+pub fn run(args: &Args) -> Result<()> {
+    let network = Network::find(&args.network, None)?;
+    let params = network.params();
+    let names: Vec<String> = args.files.iter().map(|file| file.display().to_string()).collect();
+    let mut rows = Vec::new();
+    for (path, file) in args.files.iter().zip(&names) {
+        for histogram in histogram_file::open(path)? {
+            let numbers = Numbers::of(&estimate(&params, &histogram?));
+            rows.push(Row { index: rows.len(), file, numbers });
+        }
+    }
+    if !args.json {
+        return print(
+            &rows.chunks(TABLE).map(|rows| table(rows, names.len() > 1)).collect::<String>(),
+        );
+    }
+    let only = if let [row] = &rows[..] { Some(row.numbers.clone()) } else { None };
+    let schema = "tofsim.estimate/1";
+    let report = Report { schema, network: &network.name, only, histograms: &rows };
+    let text = serde_json::to_string(&report).map_err(io::Error::from);
+    print(&(text.map_err(Error::io(Path::new("stdout"), "write"))? + "\n"))
+}
+
+impl Numbers {
+    fn of(estimate: &Estimate) -> Self {
+        Numbers {
+            depth_raw: format!("{:09x}", estimate.depth.bits()),
+            depth_m: estimate.depth.to_f64(),
+            l1_in: estimate.l1_in.map(|sum| sum.get()),
+        }
+    }
+}
+
+/// Rows of a table; what has more goes into several.
+const TABLE: usize = 10_000;
+
+fn table(rows: &[Row], several: bool) -> String {
+    let mut table = plain();
+    let mut header = vec!["index", "depth_raw", "depth_m", "l1_in (23 fraction bits)"];
+    header.extend(several.then_some("file"));
+    table.set_header(header);
+    for Row { index, file, numbers } in rows {
+        let sums = numbers.l1_in.map(|sum| sum.to_string()).join(" ");
+        let depth_m = format!("{:.6}", numbers.depth_m);
+        let mut cells = vec![index.to_string(), numbers.depth_raw.clone(), depth_m, sums];
+        cells.extend(several.then(|| file.to_string()));
+        table.add_row(cells);
+    }
+    for column in table.column_iter_mut().take(3) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    format!("{table}\n")
+}

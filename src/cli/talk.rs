@@ -1,0 +1,59 @@
+//! What the program says on standard error while it works.
+
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// How much to say.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Say nothing but errors
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Say what is read and written
+    #[arg(short, long, global = true)]
+    verbose: bool,
+}
+
+/// The voice.
+#[derive(Debug)]
+pub struct Talk {
+    quiet: bool,
+    verbose: bool,
+}
+
+impl Talk {
+    /// As loud as the options say.
+    pub fn new(args: &Args) -> Self {
+        Talk { quiet: args.quiet, verbose: args.verbose }
+    }
+
+    /// Something worth knowing.
+    pub fn note(&self, text: impl std::fmt::Display) {
+        if !self.quiet {
+            eprintln!("{text}");
+        }
+    }
+
+    /// Something for who asked for it.
+    pub fn detail(&self, text: impl std::fmt::Display) {
+        if self.verbose {
+            eprintln!("{text}");
+        }
+    }
+
+    /// A progress bar over `count` frames, visible on a terminal only.
+    pub fn progress(&self, count: u64) -> ProgressBar {
+        let target = match self.quiet || count < 2 {
+            true => ProgressDrawTarget::hidden(),
+            false => ProgressDrawTarget::stderr(),
+        };
+        let bar = ProgressBar::with_draw_target(Some(count), target);
+        let style = ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} to go");
+        if let Ok(style) = style {
+            bar.set_style(style);
+        }
+        bar.enable_steady_tick(Duration::from_millis(200));
+        bar
+    }
+}

@@ -1,0 +1,134 @@
+//! The network file: a TOML text with weights, their formats and where they come from.
+
+use std::path::Path;
+
+use crate::error::{Error, Input, Result, read_text};
+
+use super::float::Float;
+use super::formats::Fixed;
+
+/// A network and what its file says about it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Network {
+    /// Built-in name, or the file's path.
+    pub name: String,
+    /// What it is, in a sentence.
+    pub description: String,
+    /// How it came about.
+    pub training: Training,
+    /// Errors measured, if any were.
+    pub accuracy: Option<Accuracy>,
+    /// The weights of the firmware.
+    pub fixed: Fixed,
+    /// The weights before rounding, if the file has them.
+    pub float: Option<Float>,
+}
+
+/// How a network came about.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Training {
+    /// Recipe and data, in words.
+    pub origin: String,
+    /// Chain whose bins it was trained on.
+    pub chain: String,
+    /// Command that trains it again, if there is one.
+    pub command: Option<String>,
+}
+
+/// Spread of the fixed-point depth over a test set.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Accuracy {
+    /// Distances tested [m].
+    pub distances_m: Vec<f64>,
+    /// Two standard deviations of the depth at each [mm].
+    pub two_sd_mm: Vec<f64>,
+}
+
+/// Networks that come with the program: name and file.
+const BUILTIN: &[(&str, &str)] = &[
+    ("uniform", include_str!("../../stimuli/networks/uniform.toml")),
+    ("ideal", include_str!("../../stimuli/networks/ideal.toml")),
+];
+
+impl Network {
+    /// Name of the network used when none is given.
+    pub const DEFAULT: &str = "uniform";
+
+    /// Names of the networks that come with the program.
+    pub fn builtin_names() -> impl Iterator<Item = &'static str> {
+        BUILTIN.iter().map(|(name, _)| *name)
+    }
+
+    /// Text of the file of a network that comes with the program.
+    pub fn builtin_text(name: &str) -> Option<&'static str> {
+        BUILTIN.iter().find(|(builtin, _)| *builtin == name).map(|(_, text)| *text)
+    }
+
+    /// A network that comes with the program; `None` if it has none of that name.
+    pub fn builtin(name: &str) -> Option<Result<Network>> {
+        Network::builtin_text(name).map(|text| Network::parse(text, name))
+    }
+
+    /// A network from a file.
+    pub fn load(path: &Path) -> Result<Network> {
+        Network::parse(&read_text(path)?, &path.display().to_string())
+    }
+
+    /// A network by built-in name or path; a relative path starts from `base`, if given.
+    pub fn find(name: &str, base: Option<&Path>) -> Result<Network> {
+        if let Some(builtin) = Network::builtin(name) {
+            return builtin;
+        }
+        let path = base.map_or_else(|| Path::new(name).to_owned(), |base| base.join(name));
+        Network::load(&path).map_err(|error| match error {
+            Error::Io { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
+                let names = Network::builtin_names().collect::<Vec<_>>().join(", ");
+                Input::new(path.display(), format!("no such file; built-in networks are {names}"))
+                    .into()
+            }
+            other => other,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::network::formats::{B1, B2, Overflow, W1, W2};
+
+    #[test]
+    fn the_shipped_files_are_as_the_writer_lays_them_out() {
+        for name in Network::builtin_names() {
+            let network = Network::builtin(name).unwrap().unwrap();
+            assert!(Network::builtin_text(name).unwrap() == network.to_toml(), "{name}");
+        }
+    }
+
+    #[test]
+    fn the_integers_are_the_float_weights_rounded() {
+        for name in Network::builtin_names() {
+            let Network { fixed, float, .. } = Network::builtin(name).unwrap().unwrap();
+            let float = float.unwrap();
+            for (row, twin) in fixed.w1.iter().zip(float.w1.iter()) {
+                for (weight, value) in row.iter().zip(twin) {
+                    let rounded = W1.round(*value, Overflow::Refuse);
+                    assert_eq!(rounded, Some(weight.to_bits().into()));
+                }
+            }
+            for k in 0..8 {
+                let b1 = B1.round(float.b1[k], Overflow::Refuse);
+                assert_eq!(b1, Some(fixed.b1[k].to_bits().into()));
+                let w2 = W2.round(float.w2[k], Overflow::Refuse);
+                assert_eq!(w2, Some(fixed.w2[k].to_bits().into()));
+            }
+            let b2 = B2.round(float.b2, Overflow::Refuse);
+            assert_eq!(b2, Some(fixed.b2.to_bits().into()));
+        }
+    }
+
+    #[test]
+    fn a_name_that_is_neither_built_in_nor_a_file_lists_the_built_in_ones() {
+        let error = Network::find("unifrom", None).unwrap_err().to_string();
+        assert!(error.contains("unifrom") && error.contains("uniform, ideal"), "{error}");
+    }
+}

@@ -1,0 +1,62 @@
+//! The network in double precision: what the fixed-point datapath approximates.
+
+use super::formats::Fixed;
+use super::{Histogram, Network, Weights};
+
+/// A network's weights before rounding.
+pub type Float = Weights<f64, f64, f64, f64>;
+
+impl Float {
+    /// Values of the rounded weights.
+    pub fn from_fixed(fixed: &Fixed) -> Float {
+        Float {
+            w1: Box::new(fixed.w1.map(|row| row.map(f64::from))),
+            b1: fixed.b1.map(f64::from),
+            w2: fixed.w2.map(f64::from),
+            b2: f64::from(fixed.b2),
+        }
+    }
+
+    /// Depth of a histogram [m].
+    pub fn forward(&self, histogram: &Histogram) -> f64 {
+        let neuron = |(row, bias): (&[f64; 256], &f64)| {
+            let products = row.iter().zip(histogram).map(|(weight, &count)| weight * count as f64);
+            libm::tanh(products.sum::<f64>() + bias)
+        };
+        let hidden = self.w1.iter().zip(&self.b1).map(neuron);
+        hidden.zip(&self.w2).map(|(activation, weight)| activation * weight).sum::<f64>() + self.b2
+    }
+}
+
+impl Network {
+    /// The weights in double precision: those before rounding, or else the values of the integers.
+    pub fn twin(&self) -> Float {
+        self.float.clone().unwrap_or_else(|| Float::from_fixed(&self.fixed))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_bin_and_one_neuron_by_hand() {
+        let mut w1 = Box::new([[0.0; 256]; 8]);
+        w1[3][7] = 0.001;
+        let (mut b1, mut w2) = ([0.0; 8], [0.0; 8]);
+        (b1[3], w2[3]) = (-0.5, 0.25);
+        let float = Float { w1, b1, w2, b2: 0.3 };
+        let mut histogram = [0; 256];
+        histogram[7] = 1500;
+        assert!((float.forward(&histogram) - (0.25 * 1f64.tanh() + 0.3)).abs() < 1e-15);
+    }
+
+    #[test]
+    fn without_float_weights_the_twin_has_the_integers_values() {
+        let mut network = Network::builtin("ideal").unwrap().unwrap();
+        network.float = None;
+        let twin = network.twin();
+        assert_eq!(twin.b2, 32116.0 / 131072.0);
+        assert_eq!(twin.w1[0][0], -141.0 / 8388608.0);
+    }
+}

@@ -1,0 +1,87 @@
+//! What the estimator's ROMs hold for a network.
+
+use std::sync::{Arc, LazyLock};
+
+use crate::firmware::depth_estimator::Params;
+use crate::firmware::forward1::{self, BIAS_ROW};
+use crate::firmware::forward2::{self, NEURONS};
+use crate::firmware::histogram_builder::BINS;
+use crate::firmware::tansig;
+use crate::kernel::S;
+
+use super::Network;
+use super::formats::{Fixed, L1_OUT, Overflow, TANSIG_RANGE};
+
+impl Network {
+    /// The estimator's ROMs.
+    pub fn params(&self) -> Params {
+        Params {
+            forward1: Arc::new(hidden(&self.fixed)),
+            tansig: tansig_table(),
+            forward2: output(&self.fixed),
+        }
+    }
+}
+
+/// MEM1: a row of eight weights for each bin, and the biases.
+fn hidden(fixed: &Fixed) -> forward1::Rom {
+    let mut rom = [[S::new(0); NEURONS]; BINS + 1];
+    for (neuron, row) in fixed.w1.iter().enumerate() {
+        for (bin, weight) in row.iter().enumerate() {
+            rom[bin][neuron] = S::new(weight.to_bits().into());
+        }
+    }
+    rom[BIAS_ROW] = fixed.b1.map(|bias| S::new(bias.to_bits().into()));
+    rom
+}
+
+/// MEM3.
+fn output(fixed: &Fixed) -> forward2::Rom {
+    forward2::Rom {
+        w2: fixed.w2.map(|weight| S::new(weight.to_bits().into())),
+        b2: S::new(fixed.b2.to_bits().into()),
+    }
+}
+
+/// MEM2: tanh at each address, a signed 12-bit word over +-4, rounded half away from zero. The
+/// last entries would be 1.0, which the word does not have; they are 32767.
+pub fn tansig_table() -> Arc<tansig::Rom> {
+    static TABLE: LazyLock<Arc<tansig::Rom>> = LazyLock::new(|| {
+        let step = 2.0 * TANSIG_RANGE as f64 / tansig::ENTRIES as f64;
+        Arc::new(std::array::from_fn(|place| {
+            let address = S::<{ tansig::ADDRESS_BITS }>::new(place as i64).get();
+            let entry = L1_OUT.round(libm::tanh(address as f64 * step), Overflow::Saturate);
+            S::new(entry.unwrap_or_default())
+        }))
+    });
+    TABLE.clone()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_table_is_tanh_from_minus_4_to_4_with_its_sign_in_the_top_address_bit() {
+        let table = tansig_table();
+        let entry = |place: usize| table[place].get();
+        assert_eq!([entry(0), entry(1), entry(4095)], [0, 64, -64]);
+        assert_eq!(entry(512), 24956, "tanh(1) = 0.761594");
+        assert_eq!(entry(2048), -32746, "tanh(-4) = -0.999329");
+        assert_eq!(entry(2047), 32746);
+        for place in 1..2048 {
+            assert_eq!(entry(place), -entry(4096 - place));
+            assert!(entry(place) >= entry(place - 1));
+        }
+    }
+
+    #[test]
+    fn a_row_of_the_hidden_rom_is_a_bin_and_the_last_one_the_biases() {
+        let network = Network::builtin("uniform").unwrap().unwrap();
+        let params = network.params();
+        assert_eq!(params.forward1[5][0].get(), -103);
+        assert_eq!(params.forward1[256].map(|bias| bias.get())[..3], [1782, 10347, -10739]);
+        assert_eq!(params.forward2.w2[7].get(), -2928);
+        assert_eq!(params.forward2.b2.get(), 32116);
+    }
+}

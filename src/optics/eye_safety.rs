@@ -1,0 +1,62 @@
+//! Class 1 limits of IEC 60825-1:2014 as the thesis has them (Table 3.1).
+
+/// Accessible emission limit of a pulse or exposure of that length: Table 3.1 [J].
+///
+/// C4 multiplies: the exponent -1 printed at it is the mark of the table's footnote, and only so
+/// does eq. 3.3 give its 12.77 mW. `None` outside the table (1e-13 .. 10 s) and outside the range
+/// of C4 (700 .. 1050 nm).
+pub fn accessible_emission_limit_j(exposure_s: f64, wavelength_nm: f64) -> Option<f64> {
+    let c4 = correction_c4(wavelength_nm)?;
+    match exposure_s {
+        t if (1e-13..1e-11).contains(&t) => Some(3.8e-8),
+        t if (1e-11..5e-6).contains(&t) => Some(7.7e-8 * c4),
+        t if (5e-6..=10.0).contains(&t) => Some(7e-4 * libm::pow(t, 0.75) * c4),
+        _ => None,
+    }
+}
+
+/// Highest average power over an exposure: eq. 3.2 [W].
+pub fn maximum_average_power_w(exposure_s: f64, wavelength_nm: f64) -> Option<f64> {
+    Some(accessible_emission_limit_j(exposure_s, wavelength_nm)? / exposure_s)
+}
+
+/// C4 of IEC 60825-1: 3.02 at 940 nm.
+fn correction_c4(wavelength_nm: f64) -> Option<f64> {
+    let in_range = (700.0..=1050.0).contains(&wavelength_nm);
+    in_range.then(|| libm::pow(10.0, 0.002 * (wavelength_nm - 700.0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rows_of_table_3_1() {
+        let at_700 = |t| accessible_emission_limit_j(t, 700.0);
+        assert_eq!(at_700(1e-12), Some(3.8e-8));
+        assert_eq!(at_700(1e-9), Some(7.7e-8));
+        assert_eq!(at_700(1.0), Some(7e-4));
+        let at_940 = |t| accessible_emission_limit_j(t, 940.0).unwrap();
+        assert_eq!(at_940(1e-12), 3.8e-8, "the first row is without C4");
+        assert!((at_940(1e-9) / 7.7e-8 - 3.01995).abs() < 1e-5);
+        assert!((at_940(1.0) / 7e-4 - 3.01995).abs() < 1e-5);
+    }
+
+    #[test]
+    fn a_row_begins_where_the_one_before_ends() {
+        let at_700 = |t| accessible_emission_limit_j(t, 700.0);
+        assert_eq!(at_700(1e-13), Some(3.8e-8));
+        assert_eq!(at_700(1e-11), Some(7.7e-8));
+        assert!(at_700(5e-6).unwrap() < 7.5e-8, "the table steps down by 4 %");
+        assert!(at_700(10.0).is_some());
+    }
+
+    #[test]
+    fn outside_the_table_there_is_no_limit_to_tell() {
+        for exposure_s in [0.0, -1.0, 0.9e-13, 10.1, f64::NAN, f64::INFINITY] {
+            assert_eq!(accessible_emission_limit_j(exposure_s, 940.0), None);
+        }
+        assert_eq!(maximum_average_power_w(1e-3, 699.0), None);
+        assert_eq!(maximum_average_power_w(1e-3, 1051.0), None);
+    }
+}

@@ -1,0 +1,8 @@
+//! What a run leaves behind for people and scripts.
+
+pub mod causes;
+pub mod events;
+pub mod histogram_csv;
+pub mod histogram_svg;
+pub mod summary;
+pub mod table;

@@ -1,0 +1,134 @@
+//! The short table that a run prints.
+
+use std::time::Duration;
+
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
+
+use crate::sim::Outcome;
+use crate::sim::frames::Frame;
+use crate::sim::setup::{CYCLE, Setup};
+
+use super::summary::{Spread, TdcSummary, depth_m, spread};
+
+/// Frames of which each has a row of its own.
+const ROWS: usize = 20;
+
+/// An empty table without borders.
+pub fn plain() -> Table {
+    let mut table = Table::new();
+    table.load_style(NOTHING);
+    table
+}
+
+/// What came of a run, in a dozen lines.
+pub fn run(setup: &Setup, frames: &[Frame], outcome: &Outcome, wall: Duration) -> String {
+    let mut text = format!("{}: {}\n\n", setup.name, setup.scenario.description);
+    if let [frame] = frames {
+        text += &one_frame(setup, frame).to_string();
+    } else {
+        text += &many_frames(frames).to_string();
+    }
+    let rate = outcome.cycles as f64 / wall.as_secs_f64();
+    text += &format!(
+        "\n\n{} cycles in {:.1} ms: {:.1} million cycles per second\n",
+        grouped(outcome.cycles),
+        wall.as_secs_f64() * 1e3,
+        rate / 1e6,
+    );
+    text
+}
+
+fn one_frame(setup: &Setup, frame: &Frame) -> Table {
+    let mut table = plain();
+    let mut row = |name: &str, value: String| {
+        table.add_row([name.to_owned(), value]);
+    };
+    if let Some(truth) = setup.true_depth_m() {
+        row("true depth", format!("{truth:.6} m"));
+        let error_mm = (depth_m(frame) - truth) * 1e3;
+        let raw = frame.depth.bits();
+        row("estimated", format!("{:.6} m  {raw:09x}  {error_mm:+.2} mm", depth_m(frame)));
+    } else {
+        row("estimated", format!("{:.6} m  {:09x}", depth_m(frame), frame.depth.bits()));
+    }
+    row("shots", grouped(frame.shots));
+    row("TDC hits", grouped(frame.tdc_hits));
+    row("codes counted", grouped(frame.hits()));
+    row("estimator", format!("{} cycles", frame.estimator_cycles));
+    let board_ms = frame.frame_cycles as f64 * CYCLE.seconds() * 1e3;
+    row("frame", format!("{} cycles, {board_ms:.6} ms on the board", grouped(frame.frame_cycles)));
+    table
+}
+
+fn many_frames(frames: &[Frame]) -> Table {
+    let mut table = plain();
+    table.set_header(["frame", "depth [m]", "word", "TDC hits", "codes", "estimator", "cycles"]);
+    for frame in frames.iter().take(ROWS) {
+        table.add_row([
+            frame.index.to_string(),
+            format!("{:.6}", depth_m(frame)),
+            format!("{:09x}", frame.depth.bits()),
+            grouped(frame.tdc_hits),
+            grouped(frame.hits()),
+            frame.estimator_cycles.to_string(),
+            grouped(frame.frame_cycles),
+        ]);
+    }
+    if frames.len() > ROWS {
+        table.add_row([format!("... {} more", frames.len() - ROWS)]);
+    }
+    if let Some(Spread { mean_m, two_sd_m }) = spread(frames) {
+        table.add_row(["mean".to_owned(), format!("{mean_m:.6}")]);
+        table.add_row(["2 sd".to_owned(), format!("{two_sd_m:.6}")]);
+    }
+    for column in table.column_iter_mut() {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+/// Thesis Table 6.3.
+pub fn tdc(results: &[TdcSummary]) -> String {
+    let mut table = plain();
+    table.set_header(["T2 [ps]", "N", "T1 [ns]", "code"]);
+    for result in results {
+        let number = |value: Option<u64>| value.map_or("-".to_owned(), |value| value.to_string());
+        table.add_row([
+            result.t2_ps.map_or("-".to_owned(), |ps| format!("{ps:.3}")),
+            number(result.n),
+            number(result.t1_ns),
+            if result.valid { "valid" } else { "none" }.to_owned(),
+        ]);
+    }
+    for column in table.column_iter_mut() {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    format!("\n{table}\n")
+}
+
+/// A number with its thousands apart.
+pub fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (k, digit) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thousands_are_set_apart() {
+        assert_eq!(grouped(0), "0");
+        assert_eq!(grouped(999), "999");
+        assert_eq!(grouped(1_000), "1,000");
+        assert_eq!(grouped(12_345_678), "12,345,678");
+    }
+}

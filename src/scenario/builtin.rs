@@ -1,0 +1,73 @@
+//! Files built into the program, and where a scenario's own files are looked for.
+
+use std::path::{Path, PathBuf};
+
+use crate::error::{Result, read_text};
+
+macro_rules! files {
+    ($folder:literal, $extension:literal: $($name:literal),* $(,)?) => {
+        &[$((
+            $name,
+            include_str!(concat!("../../stimuli/", $folder, "/", $name, ".", $extension)),
+        ),)*]
+    };
+}
+
+/// Name and text of each built-in scenario.
+pub const SCENARIOS: &[(&str, &str)] = files!("scenarios", "toml":
+    "kc705", "near", "far", "bright",
+    "spad_validation", "tdc_validation", "histogram_validation", "estimator_validation",
+);
+
+/// Name and text of each built-in chain.
+pub const CHAINS: &[(&str, &str)] = files!("chains", "toml": "uniform", "table6_3", "ideal");
+
+/// Files that built-in scenarios refer to.
+const STIMULI: &[(&str, &str)] = &[
+    ("../photons/tdc_validation.csv", include_str!("../../stimuli/photons/tdc_validation.csv")),
+    ("../codes/kc705.csv", include_str!("../../stimuli/codes/kc705.csv")),
+    ("../histograms/kc705.csv", include_str!("../../stimuli/histograms/kc705.csv")),
+];
+
+fn find(files: &[(&'static str, &'static str)], name: &str) -> Option<&'static str> {
+    files.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
+}
+
+/// The text of a built-in scenario.
+pub fn scenario(name: &str) -> Option<&'static str> {
+    find(SCENARIOS, name)
+}
+
+/// The text of a built-in chain.
+pub fn chain(name: &str) -> Option<&'static str> {
+    find(CHAINS, name)
+}
+
+/// Where the files are that a scenario names.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Source {
+    /// In the program.
+    BuiltIn,
+    /// In a folder.
+    Folder(PathBuf),
+}
+
+impl Source {
+    /// The folder that the program runs in.
+    pub fn working_directory() -> Self {
+        Source::Folder(PathBuf::new())
+    }
+
+    /// The full name and the text of the file called `name`.
+    pub fn read(&self, name: &str) -> Result<(String, String)> {
+        let folder = match self {
+            Source::BuiltIn => match find(STIMULI, name) {
+                Some(text) => return Ok((name.trim_start_matches("../").to_owned(), text.into())),
+                None => Path::new(""),
+            },
+            Source::Folder(folder) => folder,
+        };
+        let path = folder.join(name);
+        Ok((path.display().to_string(), read_text(&path)?))
+    }
+}

@@ -1,0 +1,143 @@
+//! Chain files: the delays of a carry chain, as data.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::error::{Input, Result, nearest};
+use crate::firmware::carry_chain::{Delays, TAPS};
+use crate::firmware::tdc_decoder::Calibration;
+use crate::kernel::Time;
+
+use super::builtin::{self, Source};
+use super::check::{Checked, read};
+
+/// A chain file. Either all taps are alike (`tap_ps`) or each has its own delay.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Chain {
+    /// What the chain is and where its numbers come from.
+    #[serde(default)]
+    pub description: String,
+    /// From `tdc_stop` to tap 0, beyond the clock's own delay to the registers.
+    #[schemars(range(min = 0.001, max = 100_000.0), extend("unit" = "ps"))]
+    pub offset_ps: f64,
+    /// Delay of each tap, if all are alike.
+    #[schemars(range(min = 0.001, max = 1000.0), extend("unit" = "ps"))]
+    pub tap_ps: Option<f64>,
+    /// Delays of the 800 taps, one by one; a tap may be reached before the one below it.
+    pub tap_delays_ps: Option<Vec<f64>>,
+    /// Delays that come on top.
+    #[serde(default)]
+    pub extra: Vec<Extra>,
+}
+
+/// A delay on top of a tap's own, as where the chain crosses a clock region.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Extra {
+    /// The tap, from 0.
+    #[schemars(range(min = 0, max = 799), extend("unit" = "tap"))]
+    pub tap: usize,
+    /// The delay.
+    #[schemars(range(min = -10_000.0, max = 10_000.0), extend("unit" = "ps"))]
+    pub ps: f64,
+}
+
+/// The longest chain: its transitions must be few enough to follow, and `cal` has 14 bits [ns].
+const LONGEST_NS: u64 = 17;
+
+/// The chain called `name`: a built-in profile, or a file whose path is taken from `base`.
+pub fn load(name: &str, base: &Source) -> Result<Delays> {
+    if let Some(text) = builtin::chain(name) {
+        return parse(&format!("chain {name}"), text);
+    }
+    if !name.contains(['/', '.']) {
+        let known = builtin::CHAINS.iter().map(|(name, _)| *name);
+        let hint = nearest(name, known.clone()).map_or(String::new(), |n| format!(" (`{n}`?)"));
+        let known: Vec<_> = known.collect();
+        let expected = format!("expected {} or a chain file{hint}", known.join(", "));
+        return Err(Input::new("tdc.profile", expected).value(name).into());
+    }
+    let (source, text) = base.read(name)?;
+    parse(&source, &text)
+}
+
+/// The decoder's ROM for the chain called `name`.
+pub fn calibration(name: &str) -> Result<Box<Calibration>> {
+    let delays = load(name, &Source::working_directory())?;
+    Ok(Box::new(delays.calibration(Time::from_ns(8))))
+}
+
+fn parse(source: &str, text: &str) -> Result<Delays> {
+    let checked = Checked::parse::<Chain>(source, text)?;
+    for required in ["offset_ps"] {
+        if !checked.table().contains_key(required) {
+            return Err(checked.fault(required, "missing; expected a number [ps]").into());
+        }
+    }
+    let chain: Chain = read(source, checked.table())?;
+    let mut taps_ps = match (chain.tap_ps, chain.tap_delays_ps) {
+        (Some(tap_ps), None) => vec![tap_ps; TAPS],
+        (None, Some(taps_ps)) if taps_ps.len() == TAPS => taps_ps,
+        (None, Some(taps_ps)) => {
+            let expected = format!("has {} delays, expected {TAPS}", taps_ps.len());
+            return Err(checked.fault("tap_delays_ps", expected).into());
+        }
+        _ => return Err(Input::new(source, "expected either tap_ps or tap_delays_ps").into()),
+    };
+    for extra in &chain.extra {
+        taps_ps[extra.tap] += extra.ps;
+    }
+    if let Some(tap) = taps_ps.iter().position(|ps| !(ps.abs() <= 1e5)) {
+        let fault = checked.fault(&format!("tap_delays_ps.{tap}"), "expected a delay up to 1e5 ps");
+        return Err(fault.into());
+    }
+    let taps_fs: Vec<_> = taps_ps.iter().map(|ps| (ps * 1e3).round() as i64).collect();
+    let delays = Delays::new(Time::from_ps_f64(chain.offset_ps), &taps_fs);
+    let Some(delays) = delays else {
+        let expected = "a tap would be reached before `tdc_stop` changes";
+        return Err(checked.fault("offset_ps", expected).into());
+    };
+    if delays.longest() > Time::from_ns(LONGEST_NS) {
+        let expected = format!(
+            "the last tap is reached after {} ps, expected {LONGEST_NS} ns at most",
+            delays.longest().ps()
+        );
+        return Err(checked.fault("offset_ps", expected).into());
+    }
+    Ok(delays)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn table_6_3_is_reproduced() {
+        let delays = load("table6_3", &Source::working_directory()).unwrap();
+        assert_eq!(delays.rank(Time::from_ns(8 - 2)), 328);
+        assert_eq!(delays.rank(Time::from_ns(8 - 4)), 154);
+        assert_eq!(delays.rank(Time::from_ns(16 - 8)), 492);
+        assert_eq!(delays.rank(Time::from_ns(8 - 8)), 0, "8 ns is not seen at 8 ns");
+    }
+
+    #[test]
+    fn a_fault_names_key_and_place() {
+        let message = |text| parse("c.toml", text).unwrap_err().to_string();
+        assert_eq!(
+            message("offset_ps = 2000\ntap_ps = -1"),
+            "c.toml:2:10: tap_ps = -1: expected a number from 0.001 to 1000.0 [ps]"
+        );
+        assert!(message("tap_ps = 12").contains("offset_ps: missing"));
+        assert!(message("offset_ps = 2000\ntap_delays_ps = [1.0]").contains("has 1 delays"));
+        assert!(message("offset_ps = 2000\ntap_ps = 30").contains("17 ns at most"));
+        assert!(message("offset_ps = 2000\ntap_pz = 1").contains("did you mean `tap_ps`?"));
+        assert!(message("offset_ps = 10\ntap_ps = 11\n[[extra]]\ntap=0\nps=-100").contains("before"));
+    }
+
+    #[test]
+    fn an_unknown_profile_lists_the_known_ones() {
+        let error = load("unifrom", &Source::working_directory()).unwrap_err().to_string();
+        assert!(error.contains("uniform, table6_3, ideal"), "{error}");
+    }
+}

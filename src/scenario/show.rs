@@ -1,0 +1,126 @@
+//! A scenario written out in full: every key with its meaning, unit, range and source.
+
+use std::fmt::Write;
+
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::Value as Json;
+
+use super::Scenario;
+
+/// The JSON Schema of a scenario.
+pub fn schema() -> Json {
+    schemars::schema_for!(Scenario).to_value()
+}
+
+/// The resolved scenario as TOML, with the schema's words as comments.
+pub fn show(scenario: &Scenario) -> String {
+    commented(scenario)
+}
+
+fn commented<T: Serialize + JsonSchema>(value: &T) -> String {
+    let schema = schemars::schema_for!(T).to_value();
+    let values = serde_json::to_value(value).unwrap_or(Json::Null);
+    let mut text = String::new();
+    table(&mut text, &schema, &schema, &values, "");
+    text.trim_start().to_owned()
+}
+
+fn table(text: &mut String, root: &Json, schema: &Json, values: &Json, path: &str) {
+    let empty = serde_json::Map::new();
+    let keys = schema["properties"].as_object().unwrap_or(&empty);
+    let resolve = |schema: &Json| match schema["$ref"].as_str() {
+        Some(path) => root.pointer(path.trim_start_matches('#')).cloned().unwrap_or(Json::Null),
+        None => schema.clone(),
+    };
+    let is_table = |key: &str| values[key].is_object();
+    for (key, schema) in keys.iter().filter(|(key, _)| !is_table(key)) {
+        let (schema, value) = (with_description(schema, resolve(schema)), &values[key.as_str()]);
+        match value {
+            Json::Null => {}
+            Json::Array(elements) if elements.iter().all(Json::is_object) => {
+                for element in elements {
+                    let _ = write!(text, "\n[[{path}{key}]]\n");
+                    let item = resolve(&schema["items"]);
+                    table(text, root, &item, element, &format!("{path}{key}."));
+                }
+            }
+            value => {
+                let _ = writeln!(text, "# {}\n{key} = {}", comment(&schema), literal(value));
+            }
+        }
+    }
+    for (key, schema) in keys.iter().filter(|(key, _)| is_table(key)) {
+        let description = schema["description"].as_str().unwrap_or_default();
+        let _ = write!(text, "\n# {description}\n[{path}{key}]\n");
+        table(text, root, &resolve(schema), &values[key.as_str()], &format!("{path}{key}."));
+    }
+}
+
+fn with_description(outer: &Json, mut inner: Json) -> Json {
+    if let (Some(description), Some(inner)) = (outer.get("description"), inner.as_object_mut()) {
+        inner.insert("description".into(), description.clone());
+    }
+    inner
+}
+
+fn comment(schema: &Json) -> String {
+    let text = |name| schema[name].as_str();
+    let mut comment = text("description").unwrap_or_default().replace('\n', " ");
+    if let Some(unit) = text("unit").filter(|&unit| unit != "1") {
+        let _ = write!(comment, " [{unit}]");
+    }
+    if let (Some(low), Some(high)) = (schema.get("minimum"), schema.get("maximum")) {
+        let _ = write!(comment, " {low} .. {high}");
+    }
+    if let Some(source) = text("source") {
+        let _ = write!(comment, " ({source})");
+    }
+    comment
+}
+
+fn literal(value: &Json) -> String {
+    match value {
+        Json::Number(number) if number.is_f64() => {
+            let number = number.as_f64().unwrap_or_default();
+            if number.abs() >= 1e6 { format!("{number:e}") } else { format!("{number:?}") }
+        }
+        Json::String(text) => toml_edit::Value::from(text.as_str()).to_string(),
+        Json::Array(elements) => {
+            let elements: Vec<_> = elements.iter().map(literal).collect();
+            format!("[{}]", elements.join(", "))
+        }
+        other => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::{Control, load};
+
+    #[test]
+    fn what_is_shown_can_be_read_again() {
+        let mut scenario = load("spad_validation", &[]).unwrap().scenario;
+        scenario.control.push(Control { at_us: 99.5, rst: Some(true), ..Control::default() });
+        let text = show(&scenario);
+        let again: Scenario = toml::from_str(&text).unwrap();
+        assert_eq!(again, scenario);
+    }
+
+    #[test]
+    fn every_number_has_a_unit_a_range_and_a_source() {
+        let schema = schema();
+        for (name, table) in schema["$defs"].as_object().unwrap() {
+            let Some(keys) = table["properties"].as_object() else { continue };
+            for (key, field) in keys {
+                let kind = field["type"].as_str().or(field["type"][0].as_str());
+                if matches!(kind, Some("number" | "integer")) {
+                    for attribute in ["unit", "minimum", "maximum", "source", "description"] {
+                        assert!(!field[attribute].is_null(), "{name}.{key}: no {attribute}");
+                    }
+                }
+            }
+        }
+    }
+}

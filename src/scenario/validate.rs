@@ -1,0 +1,68 @@
+//! What the scenario's keys must be to one another.
+
+use crate::error::Result;
+
+use super::Scenario;
+use super::check::Checked;
+
+/// Frequency of the whole-cycle clock that the firmware is built for [Hz].
+const CLK_125_HZ: u64 = 125_000_000;
+/// Range of the PLL's oscillator, Kintex-7 speed grade -2 (DS182) [Hz].
+const VCO_HZ: std::ops::RangeInclusive<u64> = 800_000_000..=1_866_000_000;
+
+/// Checks what no single key shows.
+pub fn validate(scenario: &Scenario, checked: &Checked) -> Result<()> {
+    clocks(scenario, checked)?;
+    stimulus(scenario, checked)?;
+    control(scenario, checked)
+}
+
+fn clocks(scenario: &Scenario, checked: &Checked) -> Result<()> {
+    let pll = &scenario.pll;
+    let vco = pll.input_hz * pll.multiply / pll.divide;
+    if !VCO_HZ.contains(&vco) {
+        let expected = format!("the VCO would run at {vco} Hz, expected 800 to 1866 MHz");
+        return Err(checked.fault("pll.multiply", expected).into());
+    }
+    if pll.input_hz * pll.multiply != CLK_125_HZ * pll.divide * pll.output_divide {
+        let expected = format!(
+            "clk_125 would run at {} Hz, expected exactly {CLK_125_HZ}",
+            vco as f64 / pll.output_divide as f64
+        );
+        return Err(checked.fault("pll.output_divide", expected).into());
+    }
+    if pll.output_divide % 2 != 0 {
+        let expected = "expected an even number: clk_250 has half of it";
+        return Err(checked.fault("pll.output_divide", expected).into());
+    }
+    Ok(())
+}
+
+fn stimulus(scenario: &Scenario, checked: &Checked) -> Result<()> {
+    let stimulus = &scenario.stimulus;
+    let given = [
+        ("stimulus.photons", &stimulus.photons),
+        ("stimulus.codes", &stimulus.codes),
+        ("stimulus.histogram", &stimulus.histogram),
+    ];
+    let mut given = given.iter().filter(|(_, file)| file.is_some());
+    if let (Some((first, _)), Some((second, _))) = (given.next(), given.next()) {
+        let expected = format!("expected one stimulus only, {first} is given too");
+        return Err(checked.fault(second, expected).into());
+    }
+    if scenario.report.tdc && (stimulus.codes.is_some() || stimulus.histogram.is_some()) {
+        let expected = "the TDC takes no part with preloaded codes or a preloaded histogram";
+        return Err(checked.fault("report.tdc", expected).into());
+    }
+    Ok(())
+}
+
+fn control(scenario: &Scenario, checked: &Checked) -> Result<()> {
+    for (k, pair) in scenario.control.windows(2).enumerate() {
+        if pair[1].at_us < pair[0].at_us {
+            let expected = format!("expected {} or later: changes in order", pair[0].at_us);
+            return Err(checked.fault(&format!("control.{}.at_us", k + 1), expected).into());
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,194 @@
+//! When the next avalanche comes: from optics, from a photon list, or never.
+//!
+//! Optics draws one time an avalanche from the cumulative hazard of the shot. A shot begins with
+//! its laser edge; what an armed diode was waiting for is then drawn anew, which is exact, because
+//! photons before and after an instant are independent.
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::Rng;
+
+use crate::kernel::Time;
+use crate::optics::hazard::{Cause, Hazard, exponential};
+
+use super::photon_list::PhotonList;
+use super::streams::{Source, seek, stream, uniform};
+
+/// What reaches the detector.
+#[derive(Clone, Debug)]
+pub enum Light {
+    /// Laser, ambient light and dark counts.
+    Optics(Box<Optics>),
+    /// Given photons.
+    List(Given),
+    /// Nothing, ever.
+    None,
+}
+
+impl Light {
+    /// A new frame begins: its streams are taken up with the next shot.
+    pub fn begin_frame(&mut self, frame: u64) {
+        if let Light::Optics(optics) = self {
+            optics.begin_frame(frame);
+        }
+    }
+
+    /// A shot begins at `now`, with the laser or in the dark.
+    #[inline(always)]
+    pub fn begin_shot(&mut self, now: Time, laser: bool) {
+        match self {
+            Light::Optics(optics) => optics.begin_shot(now, laser),
+            Light::List(given) => given.begin_shot(now),
+            Light::None => {}
+        }
+    }
+
+    /// The first avalanche of a diode armed at `now`.
+    #[inline(always)]
+    pub fn next_avalanche(&mut self, now: Time) -> Time {
+        match self {
+            Light::Optics(optics) => optics.next_avalanche(now),
+            Light::List(given) => given.next_photon(now),
+            Light::None => Time::NEVER,
+        }
+    }
+
+    /// What set off the avalanche at `at`, in the present shot; unknown for given photons.
+    pub fn cause(&mut self, at: Time) -> Option<Cause> {
+        match self {
+            Light::Optics(optics) => Some(optics.cause(at)),
+            Light::List(_) | Light::None => None,
+        }
+    }
+}
+
+/// Light by the link budget.
+#[derive(Clone, Debug)]
+pub struct Optics {
+    /// Hazard of a shot with the laser, and of one without.
+    hazards: [Hazard; 2],
+    seed: u64,
+    first: ChaCha8Rng,
+    further: ChaCha8Rng,
+    causes: ChaCha8Rng,
+    /// Whether the present shot has the laser.
+    lit: bool,
+    /// Begin of the present shot.
+    origin: Time,
+    /// Shots of this frame, the time before its first one counted as shot 0.
+    shot: u64,
+    /// Word of the shot's first avalanche, until used.
+    word: Option<u64>,
+    /// Further avalanches drawn in this shot, and causes.
+    further_drawn: u64,
+    causes_drawn: u64,
+}
+
+impl Optics {
+    /// Light with those hazards of a lit and of a dark shot, before the first frame's first shot.
+    pub fn new(lit: Hazard, dark: Hazard, seed: u64) -> Self {
+        Optics {
+            hazards: [dark, lit],
+            seed,
+            first: stream(seed, Source::Avalanche, 0),
+            further: stream(seed, Source::FurtherAvalanches, 0),
+            causes: stream(seed, Source::Cause, 0),
+            lit: false,
+            origin: Time::ZERO,
+            shot: 0,
+            word: None,
+            further_drawn: 0,
+            causes_drawn: 0,
+        }
+    }
+
+    fn begin_frame(&mut self, frame: u64) {
+        self.first = stream(self.seed, Source::Avalanche, frame);
+        self.further = stream(self.seed, Source::FurtherAvalanches, frame);
+        self.causes = stream(self.seed, Source::Cause, frame);
+        (self.shot, self.further_drawn, self.causes_drawn) = (0, 0, 0);
+    }
+
+    #[inline(always)]
+    fn begin_shot(&mut self, now: Time, laser: bool) {
+        (self.origin, self.lit) = (now, laser);
+        self.shot += 1;
+        self.word = Some(self.first.next_u64());
+        (self.further_drawn, self.causes_drawn) = (0, 0);
+    }
+
+    #[inline(always)]
+    fn next_avalanche(&mut self, now: Time) -> Time {
+        let word = match self.word.take() {
+            Some(word) => word,
+            None => self.further_word(),
+        };
+        let hazard = &self.hazards[self.lit as usize];
+        let reached = hazard.at(now.since(self.origin)) + exponential(word);
+        self.origin.saturating_add(hazard.inverse(reached)).max(now)
+    }
+
+    #[cold]
+    fn further_word(&mut self) -> u64 {
+        if self.further_drawn == 0 {
+            seek(&mut self.further, self.shot, 0);
+        }
+        self.further_drawn += 1;
+        self.further.next_u64()
+    }
+
+    fn cause(&mut self, at: Time) -> Cause {
+        seek(&mut self.causes, self.shot, self.causes_drawn);
+        self.causes_drawn += 1;
+        let hazard = &self.hazards[self.lit as usize];
+        hazard.cause(at.since(self.origin), uniform(self.causes.next_u64()))
+    }
+}
+
+/// Given photons, as they come due.
+#[derive(Clone, Debug)]
+pub struct Given {
+    list: PhotonList,
+    /// Shots begun.
+    shots: u64,
+    /// Photons of begun shots that are still to come, the latest first.
+    pending: Vec<Time>,
+}
+
+impl Given {
+    /// The photons of a list, none of them due yet.
+    pub fn new(list: PhotonList) -> Self {
+        Given { list, shots: 0, pending: Vec::new() }
+    }
+
+    fn begin_shot(&mut self, now: Time) {
+        let photons = self.list.of_shot(self.shots).iter();
+        self.pending.extend(photons.map(|(_, arrival)| now.saturating_add(*arrival)));
+        self.pending.sort_by(|a, b| b.cmp(a));
+        self.shots += 1;
+    }
+
+    fn next_photon(&mut self, now: Time) -> Time {
+        while self.pending.last().is_some_and(|&photon| photon < now) {
+            self.pending.pop();
+        }
+        self.pending.last().copied().unwrap_or(Time::NEVER)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn photons_of_an_old_shot_may_come_after_those_of_the_new() {
+        let list = PhotonList::parse("p", "shot,arrival_ps\n0,1000\n0,60000\n1,2000\n").unwrap();
+        let mut light = Light::List(Given::new(list));
+        light.begin_shot(Time::from_ns(100), true);
+        assert_eq!(light.next_avalanche(Time::from_ns(100)), Time::from_ns(101));
+        assert_eq!(light.next_avalanche(Time::from_ns(102)), Time::from_ns(160));
+        light.begin_shot(Time::from_ns(148), true);
+        assert_eq!(light.next_avalanche(Time::from_ns(148)), Time::from_ns(150));
+        assert_eq!(light.next_avalanche(Time::from_ns(151)), Time::from_ns(160));
+        assert_eq!(light.next_avalanche(Time::from_ns(161)), Time::NEVER);
+    }
+}

@@ -1,0 +1,6 @@
+//! The detector and the light that reaches it, as avalanches in time.
+
+pub mod light;
+pub mod photon_list;
+pub mod spad;
+pub mod streams;

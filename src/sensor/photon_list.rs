@@ -1,0 +1,79 @@
+//! Explicit photons: a CSV file of arrival times, shot by shot.
+//!
+//! Columns `shot` (shots since power-up, from 0) and `arrival_ps` (from the laser edge, with
+//! up to three decimals). Rows go up in `shot`, and within a shot in `arrival_ps`. Lines that begin
+//! with `#` are comments; the seed and the origin of the list belong there.
+
+use crate::csv_input::CsvInput;
+use crate::error::Result;
+use crate::kernel::Time;
+
+/// The photons of one run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PhotonList {
+    rows: Vec<(u64, Time)>,
+}
+
+impl PhotonList {
+    /// Reads a list; `source` names it in errors.
+    pub fn parse(source: &str, text: &str) -> Result<Self> {
+        let mut input = CsvInput::new(source, text, &["shot", "arrival_ps"])?;
+        let mut rows: Vec<(u64, Time)> = Vec::new();
+        while input.next()? {
+            let Some(shot) = input.field::<u64>(0) else {
+                return Err(input.fault(0, "expected a whole number from 0").into());
+            };
+            let arrival = match input.field::<f64>(1) {
+                Some(ps) if (0.0..=MAX_PS).contains(&ps) => Time::from_ps_f64(ps),
+                _ => return Err(input.fault(1, "expected a time from 0 to 1e9 [ps]").into()),
+            };
+            if rows.last().is_some_and(|last| last.0 > shot) {
+                return Err(input.fault(0, "expected rows in order of shots").into());
+            }
+            if rows.last().is_some_and(|last| *last > (shot, arrival)) {
+                let expected = "expected the photons of a shot in order of time";
+                return Err(input.fault(1, expected).into());
+            }
+            rows.push((shot, arrival));
+        }
+        Ok(PhotonList { rows })
+    }
+
+    /// The photons of a shot, in order of time from its laser edge.
+    pub fn of_shot(&self, shot: u64) -> &[(u64, Time)] {
+        let from = self.rows.partition_point(|row| row.0 < shot);
+        let to = self.rows.partition_point(|row| row.0 <= shot);
+        &self.rows[from..to]
+    }
+}
+
+/// Latest arrival, 1 ms [ps].
+const MAX_PS: f64 = 1e9;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn photons_are_found_by_shot() {
+        let text = "# seed: 4\nshot,arrival_ps\n0,2000\n2,0.5\n2,3000\n";
+        let list = PhotonList::parse("p.csv", text).unwrap();
+        assert_eq!(list.of_shot(0), [(0, Time::from_ns(2))]);
+        assert_eq!(list.of_shot(1), []);
+        assert_eq!(list.of_shot(2), [(2, Time::from_fs(500)), (2, Time::from_ns(3))]);
+    }
+
+    #[test]
+    fn faults_name_line_column_and_field() {
+        let error = |text| PhotonList::parse("p.csv", text).unwrap_err().to_string();
+        let rows = |rows: &str| error(&format!("shot,arrival_ps\n{rows}"));
+        assert_eq!(rows("3,-1"), "p.csv:2:3: arrival_ps = -1: expected a time from 0 to 1e9 [ps]");
+        assert!(rows("1,10\n0,10").starts_with("p.csv:3:1: shot = 0: expected rows in order"));
+        assert!(rows("1,10\n1,9").contains("p.csv:3:3: arrival_ps = 9: expected the photons"));
+        assert!(rows("x,10").contains("shot = x"));
+        assert!(rows("1,NaN").contains("arrival_ps = NaN"));
+        assert!(rows("1,2,3").contains("has 3 fields, expected 2"));
+        assert!(error("shot;arrival\n").contains("expected the header"));
+        assert!(error("# nothing\n").contains("empty"));
+    }
+}

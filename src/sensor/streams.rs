@@ -1,0 +1,78 @@
+//! Random numbers: one stream for each noise source and frame, all from one seed.
+//!
+//! A source takes a fixed number of words for each shot, so that a draw that is not used moves
+//! nothing, and no source, frame or thread moves another.
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+/// What a stream is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Source {
+    /// First avalanche of each shot, one word a shot.
+    Avalanche = 1,
+    /// Further avalanches of a shot; each shot has its own stretch.
+    FurtherAvalanches = 2,
+    /// What set an avalanche off; each shot has its own stretch.
+    Cause = 3,
+    /// Jitter of the PLL, one word an edge of `clk_250` since power-up.
+    Jitter = 4,
+}
+
+/// Words of 32 bits that a shot may take from its stretch.
+const STRETCH: u128 = 1 << 32;
+
+/// The stream of a source in a frame.
+pub fn stream(seed: u64, source: Source, frame: u64) -> ChaCha8Rng {
+    let mut key = *b"........tofsim random streams v1";
+    key[..8].copy_from_slice(&seed.to_le_bytes());
+    let mut rng = ChaCha8Rng::from_seed(key);
+    rng.set_stream((source as u64) << 56 | frame);
+    rng
+}
+
+/// Moves a stream to the stretch of a shot, and in it to the `nth` word of 64 bits.
+pub fn seek(stream: &mut ChaCha8Rng, shot: u64, nth: u64) {
+    stream.set_word_pos(shot as u128 * STRETCH + 2 * nth as u128);
+}
+
+/// A number between 0 and 1, both excluded, from a word.
+pub fn uniform(word: u64) -> f64 {
+    ((word >> 11) as f64 + 0.5) * (1.0 / (1u64 << 53) as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand_chacha::rand_core::Rng;
+
+    #[test]
+    fn sources_and_frames_have_streams_of_their_own() {
+        let first = |seed, source, frame| stream(seed, source, frame).next_u64();
+        let words = [
+            first(1, Source::Avalanche, 0),
+            first(2, Source::Avalanche, 0),
+            first(1, Source::Cause, 0),
+            first(1, Source::Avalanche, 1),
+        ];
+        for (k, word) in words.iter().enumerate() {
+            assert!(!words[..k].contains(word));
+        }
+    }
+
+    #[test]
+    fn a_seek_finds_the_same_word_again() {
+        let mut further = stream(1, Source::FurtherAvalanches, 3);
+        seek(&mut further, 7, 0);
+        let words = [further.next_u64(), further.next_u64()];
+        seek(&mut further, 7, 1);
+        assert_eq!(further.next_u64(), words[1]);
+    }
+
+    #[test]
+    fn a_uniform_number_is_never_0_or_1() {
+        assert!(uniform(0) > 0.0);
+        assert!(uniform(u64::MAX) < 1.0);
+    }
+}

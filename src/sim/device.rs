@@ -1,0 +1,252 @@
+//! The firmware, the detector and the light, stepped together, one cycle of `clk_125` at a time.
+//!
+//! Nothing is searched for inside a cycle: an avalanche or a control change is a time to compare
+//! with, and asynchronous events go before the clock edges of the same instant.
+
+use crate::firmware::carry_chain::StopLine;
+use crate::firmware::pll::Pll;
+use crate::firmware::tof_top::{Params, Pins, TofTop};
+use crate::kernel::Time;
+use crate::optics::hazard::Cause;
+use crate::sensor::light::Light;
+use crate::sensor::spad::{Event, Spad};
+
+use super::jitter::Jitter;
+use super::timeline::Timeline;
+
+/// Sees the signals after every instant at which one may have changed.
+pub trait Trace {
+    /// Whether it looks at all.
+    const ON: bool;
+    /// The signals as they are from `now` on.
+    fn sample(&mut self, now: Time, top: &TofTop);
+}
+
+/// Hears of every avalanche.
+pub trait Record {
+    /// Whether it listens at all.
+    const ON: bool;
+    /// An avalanche at `at`, `None` of a known cause.
+    fn avalanche(&mut self, at: Time, cause: Option<Cause>);
+}
+
+/// Neither looks nor listens.
+#[derive(Clone, Copy, Debug)]
+pub struct Off;
+
+impl Trace for Off {
+    const ON: bool = false;
+    fn sample(&mut self, _: Time, _: &TofTop) {}
+}
+
+impl Record for Off {
+    const ON: bool = false;
+    fn avalanche(&mut self, _: Time, _: Option<Cause>) {}
+}
+
+/// Everything that has a state in a run.
+#[derive(Clone, Debug)]
+pub struct Device {
+    /// The firmware.
+    pub top: TofTop,
+    /// The wire from detector to firmware.
+    pub line: StopLine,
+    /// The light.
+    pub light: Light,
+    spad: Spad,
+    timeline: Timeline,
+    pll: Pll,
+    jitter: Option<Jitter>,
+    /// Edges of `clk_125` so far.
+    cycle: u64,
+    /// Next edge of `clk_200`, rising and falling counted; kept up only while tracing.
+    oscillator: u64,
+}
+
+impl Device {
+    /// At power-up.
+    pub fn new(
+        pins: Pins,
+        pll: Pll,
+        jitter: Option<Jitter>,
+        mut light: Light,
+        dead_time: Time,
+        timeline: Timeline,
+    ) -> Self {
+        Device {
+            top: TofTop::new(pins),
+            line: StopLine::default(),
+            spad: Spad::new(dead_time, light.next_avalanche(Time::ZERO)),
+            light,
+            timeline,
+            pll,
+            jitter,
+            cycle: 0,
+            oscillator: 0,
+        }
+    }
+
+    /// Rising edges of `clk_125` so far.
+    pub fn cycle(&self) -> u64 {
+        self.cycle
+    }
+
+    /// The last rising edge of `clk_125`: its number and instant.
+    pub fn last_edge(&mut self) -> (u64, Time) {
+        let cycle = self.cycle - 1;
+        (cycle, self.rise_250_at(2 * cycle))
+    }
+
+    /// Begin and end of the coming cycle of `clk_125`.
+    pub fn coming_cycle(&mut self) -> (Time, Time) {
+        let end = self.rise_250_at(2 * self.cycle + 2);
+        (self.next_edge(), end)
+    }
+
+    /// Instant of the next rising edge of `clk_125`.
+    #[inline(always)]
+    pub fn next_edge(&mut self) -> Time {
+        self.rise_250_at(2 * self.cycle)
+    }
+
+    /// From power-up until just before the first clock edge.
+    pub fn power_up<T: Trace, R: Record>(&mut self, trace: &mut T, record: &mut R) {
+        self.settle(self.pll.locked_at, trace, record);
+        self.top.pll.locked = true;
+        if T::ON {
+            trace.sample(self.pll.locked_at, &self.top);
+        }
+    }
+
+    /// One cycle: the edge at which both clocks rise, and the one in its middle.
+    #[inline(always)]
+    pub fn step<T: Trace, R: Record>(&mut self, p: &Params, trace: &mut T, record: &mut R) {
+        let now = self.next_edge();
+        self.settle(now, trace, record);
+        self.top.rise(p, &mut self.line, now);
+        self.react(now);
+        if T::ON {
+            self.clocks(true, true);
+            trace.sample(now, &self.top);
+        }
+        let middle = self.rise_250_at(2 * self.cycle + 1);
+        let quarter = self.pll.clk_250.fall(0) - self.pll.clk_250.rise(0);
+        self.fall_250(now + quarter, trace, record);
+        self.settle(middle, trace, record);
+        self.top.rise_250();
+        if T::ON {
+            self.clocks(false, true);
+            trace.sample(middle, &self.top);
+        }
+        self.fall_250(middle + quarter, trace, record);
+        self.cycle += 1;
+    }
+
+    /// Brings the levels of the clocks up to date where tracing begins, before the next edge.
+    pub fn resume_clocks(&mut self, now: Time) {
+        self.oscillator = 0;
+        let half = self.pll.clk_200.rise(0);
+        if now >= half {
+            self.oscillator = (now - half).fs() / half.fs() + 1;
+        }
+        self.top.clocks.clk_200 = self.oscillator % 2 == 1;
+        self.clocks(false, false);
+    }
+
+    #[inline(always)]
+    fn fall_250<T: Trace, R: Record>(&mut self, at: Time, trace: &mut T, record: &mut R) {
+        if T::ON {
+            self.settle(at, trace, record);
+        }
+        self.top.fall_250();
+        if T::ON {
+            self.top.clocks.clk_250 = false;
+            trace.sample(at, &self.top);
+        }
+    }
+
+    fn clocks(&mut self, clk_125: bool, clk_250: bool) {
+        (self.top.clocks.clk_125, self.top.clocks.clk_250) = (clk_125, clk_250);
+    }
+
+    /// Instant of rising edge `n` of `clk_250`.
+    #[inline(always)]
+    fn rise_250_at(&mut self, n: u64) -> Time {
+        let ideal = self.pll.clk_250.rise(n);
+        match &mut self.jitter {
+            None => ideal,
+            Some(jitter) => jitter.shift(ideal, n),
+        }
+    }
+
+    /// Asynchronous events up to and at `until`, in order of time.
+    #[inline(always)]
+    pub fn settle<T: Trace, R: Record>(&mut self, until: Time, trace: &mut T, record: &mut R) {
+        loop {
+            let mut next = self.spad.next_event().min(self.timeline.next_event());
+            if T::ON {
+                next = next.min(self.next_oscillator_edge());
+            }
+            if next > until {
+                break;
+            }
+            self.happen::<T, R>(next, record);
+            if T::ON && next < until {
+                trace.sample(next, &self.top);
+            }
+        }
+    }
+
+    fn happen<T: Trace, R: Record>(&mut self, now: Time, record: &mut R) {
+        if self.timeline.next_event() == now {
+            self.timeline.event(&mut self.top.pins);
+        }
+        if self.spad.next_event() == now {
+            match self.spad.event() {
+                Event::Avalanche if R::ON => record.avalanche(now, self.light.cause(now)),
+                Event::Avalanche => {}
+                Event::Recovery => self.spad.arm(self.light.next_avalanche(now)),
+            }
+            self.toggle_stop(now);
+        }
+        if T::ON && self.next_oscillator_edge() == now {
+            self.oscillator += 1;
+            self.top.clocks.clk_200 = self.oscillator % 2 == 1;
+        }
+    }
+
+    /// What the detector and the light do about the signals that the edge at `now` changed.
+    #[inline(always)]
+    fn react(&mut self, now: Time) {
+        let (start, laser) = (self.top.vcsel_driver.registers.start, self.top.nets.laser_on);
+        let (hold, passive) = (self.top.spad_control.spad_rst, self.top.control_sync.mode_sync);
+        if start || laser {
+            self.light.begin_shot(now, laser);
+            if self.spad.is_armed() {
+                self.spad.arm(self.light.next_avalanche(now));
+            }
+        }
+        if passive != self.spad.is_passive() {
+            self.spad.set_passive(passive, now);
+        }
+        if hold && !self.spad.is_off() && self.spad.hold() {
+            self.toggle_stop(now);
+        } else if !hold && self.spad.is_off() {
+            self.spad.arm(self.light.next_avalanche(now));
+        }
+    }
+
+    fn toggle_stop(&mut self, now: Time) {
+        self.line.toggle(now);
+        self.top.pins.tdc_stop = self.line.level();
+    }
+
+    fn next_oscillator_edge(&self) -> Time {
+        let clk_200 = &self.pll.clk_200;
+        if self.oscillator.is_multiple_of(2) {
+            clk_200.rise(self.oscillator / 2)
+        } else {
+            clk_200.fall(self.oscillator / 2)
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! Follows the firmware's frames: when they begin and end, and what they gave.
+
+use crate::firmware::forward2::Depth;
+use crate::firmware::histogram_builder::BINS;
+use crate::firmware::tof_top::{HistogramSource, Params, TofTop};
+
+/// One finished frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// From 0.
+    pub index: u64,
+    /// The estimator's word.
+    pub depth: Depth,
+    /// Shots counted.
+    pub shots: u64,
+    /// Hits that the TDC kept, with a code or without.
+    pub tdc_hits: u64,
+    /// The estimator's histogram [hits].
+    pub histogram: [u16; BINS],
+    /// From the edge that takes `algo_start` to the one that raises `algo_done` [cycles of clk_125].
+    pub estimator_cycles: u64,
+    /// From the edge that begins Clear to the one that raises `algo_done` [cycles of clk_125].
+    pub frame_cycles: u64,
+}
+
+impl Frame {
+    /// Hits in the histogram.
+    pub fn hits(&self) -> u64 {
+        self.histogram.iter().map(|&count| count as u64).sum()
+    }
+}
+
+/// What is counted while a frame runs.
+#[derive(Clone, Debug, Default)]
+pub struct Frames {
+    done: u64,
+    /// Shots begun since power-up.
+    shots: u64,
+    tdc_hits: u64,
+    clear_at: u64,
+    start_at: u64,
+    estimator_busy: bool,
+}
+
+impl Frames {
+    /// Shots begun since power-up.
+    pub fn shots(&self) -> u64 {
+        self.shots
+    }
+
+    /// Frames finished since power-up.
+    pub fn done(&self) -> u64 {
+        self.done
+    }
+
+    /// Looks at the registers after edge `cycle`; returns the frame that it finished.
+    #[inline(always)]
+    pub fn edge(&mut self, cycle: u64, top: &TofTop, p: &Params) -> Option<Frame> {
+        let ctrl = &top.frame_ctrl;
+        self.shots += top.vcsel_driver.registers.start as u64;
+        self.tdc_hits += top.tdc.tdc_latch.hit as u64;
+        if ctrl.clear || ctrl.algo_start || top.depth_estimator.estimator_ctrl.algo_done {
+            return self.turn(cycle, top, p);
+        }
+        None
+    }
+
+    fn turn(&mut self, cycle: u64, top: &TofTop, p: &Params) -> Option<Frame> {
+        let ctrl = &top.frame_ctrl;
+        if ctrl.clear && ctrl.clear_addr == 0 {
+            (self.clear_at, self.tdc_hits, self.estimator_busy) = (cycle, 0, false);
+        }
+        if ctrl.algo_start {
+            (self.start_at, self.estimator_busy) = (cycle + 1, true);
+        }
+        if !(top.depth_estimator.estimator_ctrl.algo_done && self.estimator_busy) {
+            return None;
+        }
+        self.estimator_busy = false;
+        let histogram = match &p.histogram_source {
+            HistogramSource::Builder => &top.histogram_builder.ram,
+            HistogramSource::Preload(rom) => rom,
+        };
+        self.done += 1;
+        Some(Frame {
+            index: self.done - 1,
+            depth: top.depth_estimator.forward2.depth,
+            shots: ctrl.shots(),
+            tdc_hits: self.tdc_hits,
+            histogram: std::array::from_fn(|bin| histogram[bin].get() as u16),
+            estimator_cycles: cycle - self.start_at,
+            frame_cycles: cycle - self.clear_at,
+        })
+    }
+}

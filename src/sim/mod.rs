@@ -1,0 +1,13 @@
+//! A run: the device, the light on it and the acquisition computer, stepped in time.
+
+pub mod device;
+pub mod frames;
+pub mod jitter;
+pub mod recorder;
+pub mod run;
+pub mod setup;
+pub mod timeline;
+pub mod window;
+
+pub use device::Device;
+pub use run::{Outcome, Run};

@@ -1,0 +1,137 @@
+//! What became of each shot: its photon, and the TDC's result.
+
+use std::collections::VecDeque;
+
+use crate::firmware::tof_top::{CodeSource, Params, TofTop};
+use crate::kernel::Time;
+use crate::optics::hazard::Cause;
+
+use super::device::Record;
+
+/// One shot.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Shot {
+    /// Frame, from 0.
+    pub frame: u64,
+    /// Shot in the frame, from 0.
+    pub shot: u64,
+    /// The avalanche that the TDC kept, or else the first one: from the laser edge [fs]. Negative
+    /// if it came before (MODE 1).
+    pub arrival_fs: Option<i64>,
+    /// What set it off; unknown for given photons.
+    pub cause: Option<Cause>,
+    /// Ones count of the taps.
+    pub n: Option<u64>,
+    /// Coarse count.
+    pub coarse: Option<u64>,
+    /// TDC code, which is also the histogram's bin.
+    pub code: Option<u64>,
+    begun: Time,
+    cycle: u64,
+    has_hit: bool,
+}
+
+/// Follows shots through the TDC's pipeline.
+#[derive(Debug, Default)]
+pub struct Recorder {
+    /// Shots whose result may still come, oldest first.
+    open: VecDeque<Shot>,
+    /// Shots that are complete, oldest first.
+    complete: Vec<Shot>,
+    avalanches: VecDeque<(Time, Option<Cause>)>,
+    shot: u64,
+    frame: u64,
+    last_edge: Time,
+    /// Whether a hit was in the decoder's second stage at the last edge.
+    decoding: bool,
+}
+
+/// Shots that can be open at once.
+const OPEN: usize = 3;
+/// Avalanches that may still travel in the chain, and then some.
+const AVALANCHES: usize = 16;
+
+impl Record for Recorder {
+    const ON: bool = true;
+
+    fn avalanche(&mut self, at: Time, cause: Option<Cause>) {
+        self.avalanches.push_back((at, cause));
+        if self.avalanches.len() > AVALANCHES {
+            self.avalanches.pop_front();
+        }
+        if let Some(shot) = self.open.back_mut()
+            && shot.arrival_fs.is_none()
+        {
+            (shot.arrival_fs, shot.cause) = (Some(between(shot.begun, at)), cause);
+        }
+    }
+}
+
+impl Recorder {
+    /// Looks at the registers after the edge `cycle` at `now`.
+    pub fn edge(&mut self, cycle: u64, now: Time, top: &TofTop, p: &Params) {
+        match p.code_source {
+            CodeSource::Tdc => self.follow_tdc(cycle, top, p),
+            CodeSource::Preload(_) => self.follow_preload(top),
+        }
+        if top.vcsel_driver.registers.start {
+            let (frame, shot) = (self.frame, self.shot);
+            self.open.push_back(Shot { frame, shot, begun: now, cycle, ..Shot::default() });
+            self.shot += 1;
+            if self.open.len() > OPEN {
+                self.complete.extend(self.open.pop_front());
+            }
+        }
+        if top.frame_ctrl.clear && top.frame_ctrl.clear_addr == 0 {
+            self.complete.extend(self.open.drain(..));
+            self.shot = 0;
+        }
+        self.last_edge = now;
+    }
+
+    /// A new frame begins.
+    pub fn begin_frame(&mut self, frame: u64) {
+        self.frame = frame;
+    }
+
+    /// The shots that have been completed since the last call.
+    pub fn take(&mut self) -> std::vec::Drain<'_, Shot> {
+        self.complete.drain(..)
+    }
+
+    fn follow_tdc(&mut self, cycle: u64, top: &TofTop, p: &Params) {
+        let decoder = &top.tdc.tdc_decoder;
+        if self.decoding && let Some(shot) = self.open.iter_mut().rfind(|shot| shot.n.is_some()) {
+            shot.code = decoder.tdc_valid.then(|| decoder.tdc_code.get());
+        }
+        let decoding = decoder.decoding();
+        if let Some((n, coarse)) = decoding
+            && let Some(shot) = self.open.iter_mut().find(|shot| shot.has_hit && shot.n.is_none())
+        {
+            (shot.n, shot.coarse) = (Some(n), Some(coarse));
+        }
+        self.decoding = decoding.is_some();
+        if top.tdc.tdc_latch.hit {
+            let seen = |&&(at, _): &&(Time, Option<Cause>)| {
+                at + p.tdc.delays.tap_0() <= self.last_edge
+            };
+            let avalanche = self.avalanches.iter().rfind(seen).copied();
+            if let Some(shot) = self.open.iter_mut().rfind(|shot| shot.cycle + 2 <= cycle) {
+                shot.has_hit = true;
+                if let Some((at, cause)) = avalanche {
+                    (shot.arrival_fs, shot.cause) = (Some(between(shot.begun, at)), cause);
+                }
+            }
+        }
+    }
+
+    fn follow_preload(&mut self, top: &TofTop) {
+        if top.code_preload.tdc_valid && let Some(shot) = self.open.back_mut() {
+            shot.code = Some(top.code_preload.tdc_code.get());
+        }
+    }
+}
+
+fn between(from: Time, to: Time) -> i64 {
+    to.fs() as i64 - from.fs() as i64
+}

@@ -1,0 +1,339 @@
+//! Runs a device for a number of frames, and hands on what it shows.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::error::{Error, Input, Result};
+use crate::firmware::tof_top::{Params, TofTop};
+use crate::kernel::Time;
+use crate::waves::{Marks, Waves};
+
+use super::device::{Device, Off, Record, Trace};
+use super::frames::{Frame, Frames};
+use super::recorder::{Recorder, Shot};
+use super::setup::Setup;
+use super::window::{Moment, Window};
+
+/// Cycles between two looks at the world outside.
+const BREATH: u64 = 1 << 14;
+
+/// What a run is to do beside simulating.
+#[derive(Default)]
+pub struct Watch<'a> {
+    /// The waveform, and the parts of the run that go into it.
+    pub waves: Option<(Waves, Vec<Window>)>,
+    /// Takes each shot, in order.
+    pub shots: Option<&'a mut dyn FnMut(&Shot) -> Result<()>>,
+    /// Takes each frame, in order.
+    pub frames: Option<&'a mut dyn FnMut(&Frame) -> Result<()>>,
+    /// Set from outside to stop the run.
+    pub stop: Option<&'a AtomicBool>,
+}
+
+/// What a run has come to.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// When it ended.
+    pub end: Time,
+    /// Edges of `clk_125` simulated.
+    pub cycles: u64,
+    /// Shots begun.
+    pub shots: u64,
+    /// Where to look in the waveform.
+    pub marks: Marks,
+}
+
+/// A run in progress.
+pub struct Run<'a> {
+    device: Device,
+    params: &'a Params,
+    frames: Frames,
+    limit: u64,
+}
+
+impl<'a> Run<'a> {
+    /// A run of `setup` from power-up.
+    pub fn new(setup: &'a Setup) -> Self {
+        let (device, params) = (setup.device(), &setup.params);
+        Run { device, params, frames: Frames::default(), limit: 0 }
+    }
+
+    /// Simulates until `count` frames are done.
+    ///
+    /// # Errors
+    /// When the control signals keep a frame from ending, a window lies past the end, a sink
+    /// fails, or the run is stopped.
+    pub fn frames(mut self, count: u64, setup: &Setup, watch: Watch) -> Result<Outcome> {
+        let Watch { waves, shots, frames, stop } = watch;
+        let mut sinks = Sinks { shots, frames, stop };
+        let mut recorder = sinks.shots.is_some().then(Recorder::default);
+        let mut tracer = waves.map(|(waves, windows)| Tracer::new(waves, windows));
+        self.limit = setup.longest_run(count);
+
+        let first_edge = self.device.next_edge();
+        match &mut tracer {
+            Some(tracer) if tracer.begins_before(first_edge) => {
+                tracer.state = State::Writing;
+                self.device.resume_clocks(Time::ZERO);
+                tracer.begin(Time::ZERO, &self.device.top);
+                self.device.power_up(tracer, &mut Off);
+            }
+            _ => self.device.power_up(&mut Off, &mut Off),
+        }
+        match (&mut tracer, &mut recorder) {
+            (None, None) => self.go(count, &mut Off, &mut Off, &mut sinks)?,
+            (None, Some(recorder)) => self.go(count, &mut Off, recorder, &mut sinks)?,
+            (Some(tracer), None) => self.go(count, tracer, &mut Off, &mut sinks)?,
+            (Some(tracer), Some(recorder)) => self.go(count, tracer, recorder, &mut sinks)?,
+        }
+        let end = self.device.next_edge();
+        let shots = self.frames.shots();
+        let marks = match tracer {
+            Some(tracer) => tracer.finish(end, shots)?,
+            None => Marks::default(),
+        };
+        Ok(Outcome { end, cycles: self.device.cycle(), shots, marks })
+    }
+
+    fn go<T: Windowed, R: Recorded>(
+        &mut self,
+        count: u64,
+        trace: &mut T,
+        record: &mut R,
+        sinks: &mut Sinks,
+    ) -> Result<()> {
+        loop {
+            self.cycle(trace, record)?;
+            let frame = self.frames.edge(self.device.cycle() - 1, &self.device.top, self.params);
+            if let Some(frame) = frame {
+                sinks.frame(&frame)?;
+            }
+            if self.device.top.frame_ctrl.frame_done {
+                self.device.light.begin_frame(self.frames.done());
+                record.pass_on(sinks)?;
+                record.begin_frame(self.frames.done());
+                if self.frames.done() >= count {
+                    return Ok(());
+                }
+            }
+            if self.device.cycle().is_multiple_of(BREATH) {
+                record.pass_on(sinks)?;
+                self.breathe(sinks)?;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn cycle<T: Windowed, R: Recorded>(&mut self, trace: &mut T, record: &mut R) -> Result<()> {
+        if T::ON && trace.is_wanted(&mut self.device, &self.frames, self.params)? {
+            self.device.step(self.params, trace, record);
+        } else {
+            self.device.step(self.params, &mut Off, record);
+        }
+        if R::ON {
+            record.look(&mut self.device, self.params);
+        }
+        Ok(())
+    }
+
+    fn breathe(&self, sinks: &Sinks) -> Result<()> {
+        if sinks.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+            return Err(Error::Interrupted);
+        }
+        if self.device.cycle() > self.limit {
+            let pins = &self.device.top.pins;
+            let held = match (pins.rst, pins.dsp_rst, pins.dsp_en) {
+                (true, ..) => "rst stays high",
+                (_, true, _) => "dsp_rst stays high",
+                (.., false) => "dsp_en stays low",
+                _ => "the control signals keep it from ending",
+            };
+            let expected = format!("frame {} never ends: {held}", self.frames.done());
+            return Err(Input::new("scenario", expected).field("control").into());
+        }
+        Ok(())
+    }
+}
+
+struct Sinks<'a> {
+    shots: Option<&'a mut dyn FnMut(&Shot) -> Result<()>>,
+    frames: Option<&'a mut dyn FnMut(&Frame) -> Result<()>>,
+    stop: Option<&'a AtomicBool>,
+}
+
+impl Sinks<'_> {
+    fn frame(&mut self, frame: &Frame) -> Result<()> {
+        self.frames.as_mut().map_or(Ok(()), |take| take(frame))
+    }
+}
+
+/// A recorder, or none.
+trait Recorded: Record {
+    fn look(&mut self, device: &mut Device, p: &Params);
+    fn begin_frame(&mut self, frame: u64);
+    fn pass_on(&mut self, sinks: &mut Sinks) -> Result<()>;
+}
+
+impl Recorded for Off {
+    fn look(&mut self, _: &mut Device, _: &Params) {}
+    fn begin_frame(&mut self, _: u64) {}
+    fn pass_on(&mut self, _: &mut Sinks) -> Result<()> {
+        Ok(())
+    }
+}
+
+impl Recorded for Recorder {
+    fn look(&mut self, device: &mut Device, p: &Params) {
+        let (cycle, now) = device.last_edge();
+        self.edge(cycle, now, &device.top, p);
+    }
+    fn begin_frame(&mut self, frame: u64) {
+        Recorder::begin_frame(self, frame);
+    }
+    fn pass_on(&mut self, sinks: &mut Sinks) -> Result<()> {
+        let take = sinks.shots.as_mut();
+        take.map_or(Ok(()), |take| self.take().try_for_each(|shot| take(&shot)))
+    }
+}
+
+/// A trace that is on only within windows, or none.
+trait Windowed: Trace {
+    /// Whether the coming cycle is to be traced.
+    fn is_wanted(&mut self, device: &mut Device, frames: &Frames, p: &Params) -> Result<bool>;
+}
+
+impl Windowed for Off {
+    fn is_wanted(&mut self, _: &mut Device, _: &Frames, _: &Params) -> Result<bool> {
+        Ok(false)
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    Waiting,
+    /// Begins with the coming edge.
+    Opening,
+    Writing,
+}
+
+/// Writes the waveform while a window is open.
+struct Tracer {
+    waves: Waves,
+    windows: Vec<Window>,
+    state: State,
+    error: Option<Error>,
+    marks: Marks,
+    /// Shot under way, from three cycles before its laser edge.
+    shot: Option<u64>,
+    began: Option<Time>,
+}
+
+impl Tracer {
+    fn new(waves: Waves, windows: Vec<Window>) -> Self {
+        let (marks, shot, began) = (Marks::default(), None, None);
+        Tracer { waves, windows, state: State::Waiting, error: None, marks, shot, began }
+    }
+
+    fn begins_before(&self, first_edge: Time) -> bool {
+        let cycle = (Time::ZERO, first_edge);
+        let moment = Moment { cycle, shot: None, estimating: false };
+        self.windows.iter().any(|window| window.wants(&moment))
+    }
+
+    fn begin(&mut self, now: Time, top: &TofTop) {
+        let result = self.waves.begin(now, top);
+        self.keep(result);
+        self.began.get_or_insert(now);
+    }
+
+    fn close(&mut self, now: Time) -> Result<()> {
+        if self.marks.to == Time::ZERO {
+            self.marks.to = now;
+        }
+        self.waves.end(now)
+    }
+
+    fn keep(&mut self, result: Result<()>) {
+        if let Err(error) = result {
+            self.error.get_or_insert(error);
+        }
+    }
+
+    fn mark(&mut self, now: Time, top: &TofTop) {
+        let marks = &mut self.marks;
+        if marks.laser_edge.is_none() && top.nets.laser_on {
+            marks.laser_edge = Some(now);
+        }
+        if marks.spad_edge.is_none() && marks.laser_edge.is_some() && top.pins.tdc_stop {
+            marks.spad_edge = Some(now);
+        }
+        if marks.algo_done.is_none() && top.depth_estimator.estimator_ctrl.algo_done {
+            marks.algo_done = Some(now);
+        }
+    }
+
+    fn follow_shot(&mut self, device: &Device, frames: &Frames) {
+        let top = &device.top;
+        if top.vcsel_driver.registers.shot_is_near(top.frame_ctrl.acquire) {
+            self.shot = Some(frames.shots());
+        } else if top.frame_ctrl.clear {
+            self.shot = None;
+        }
+    }
+
+    fn finish(mut self, end: Time, shots: u64) -> Result<Marks> {
+        if let Some(error) = self.error {
+            return Err(error);
+        }
+        self.windows.iter().try_for_each(|window| window.check(shots, end))?;
+        if self.state == State::Writing {
+            self.close(end)?;
+        }
+        self.marks.from = self.began.unwrap_or_default();
+        self.waves.finish(end)?;
+        Ok(self.marks)
+    }
+}
+
+impl Trace for Tracer {
+    const ON: bool = true;
+
+    fn sample(&mut self, now: Time, top: &TofTop) {
+        match self.state {
+            State::Opening if top.clocks.clk_125 => {
+                self.state = State::Writing;
+                self.begin(now, top);
+            }
+            State::Writing => {
+                let result = self.waves.sample(now, top);
+                self.keep(result);
+            }
+            State::Opening | State::Waiting => return,
+        }
+        self.mark(now, top);
+    }
+}
+
+impl Windowed for Tracer {
+    fn is_wanted(&mut self, device: &mut Device, frames: &Frames, p: &Params) -> Result<bool> {
+        if let Some(error) = self.error.take() {
+            return Err(error);
+        }
+        self.follow_shot(device, frames);
+        let cycle = device.coming_cycle();
+        let estimating = device.top.frame_ctrl.is_estimating(&p.frame_ctrl);
+        let moment = Moment { cycle, shot: self.shot, estimating };
+        let wanted = self.windows.iter().any(|window| window.wants(&moment));
+        match (self.state, wanted) {
+            (State::Waiting, true) => {
+                self.state = State::Opening;
+                device.resume_clocks(cycle.0);
+            }
+            (State::Writing, false) => {
+                self.state = State::Waiting;
+                self.close(cycle.0)?;
+            }
+            _ => {}
+        }
+        Ok(wanted)
+    }
+}

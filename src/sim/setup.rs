@@ -1,0 +1,181 @@
+//! From a scenario to a device: what elaboration, optics and stimuli come to.
+
+use crate::csv_input::CsvInput;
+use crate::error::{Input, Result};
+use crate::firmware::histogram_preload;
+use crate::firmware::pll::{self, Pll};
+use crate::firmware::tof_top::{CodeSource, HistogramSource, Params, Pins};
+use crate::firmware::{frame_ctrl, tdc, vcsel_driver};
+use crate::histogram_file;
+use crate::kernel::{Time, U};
+use crate::network::Network;
+use crate::optics::{Budget, Hazard};
+use crate::scenario::builtin::Source;
+use crate::scenario::{Loaded, Scenario, chain};
+use crate::sensor::light::{Given, Light, Optics};
+use crate::sensor::photon_list::PhotonList;
+
+use super::device::Device;
+use super::jitter::Jitter;
+use super::timeline::{Timeline, pins_at_power_up};
+
+/// Period of `clk_125`.
+pub const CYCLE: Time = Time::from_ns(8);
+/// Cycles of a frame beside its shots: Clear, Drain, two hand-overs and the estimator.
+const OVERHEAD: u64 = 256 + 1 + 16 + 1 + 267;
+/// The same with a preloaded histogram.
+const OVERHEAD_PRELOADED: u64 = 256 + 1 + 267;
+
+/// A scenario, ready to run.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// The scenario's name.
+    pub name: String,
+    /// The scenario's values.
+    pub scenario: Scenario,
+    /// The link budget.
+    pub budget: Budget,
+    /// What elaboration fixes in the firmware.
+    pub params: Params,
+    /// The network in the estimator.
+    pub network: Network,
+    pll: Pll,
+    light: Light,
+    pins: Pins,
+}
+
+impl Setup {
+    /// Loads the files that the scenario names and works out what it sets.
+    ///
+    /// # Errors
+    /// When one of the files cannot be read or used.
+    pub fn new(loaded: Loaded) -> Result<Self> {
+        let Loaded { name, scenario, files } = loaded;
+        let network = network(&scenario, &files)?;
+        let pll_params = pll_params(&scenario);
+        let delays = chain::load(&scenario.tdc.profile, &files)?;
+        let cal = delays.calibration(CYCLE);
+        let (code_source, histogram_source, light) = stimulus(&scenario, &files)?;
+        let budget = Budget::new(&scenario);
+        let light = light.unwrap_or_else(|| {
+            let (lit, dark) = (Hazard::new(&budget), Hazard::dark(&budget));
+            Light::Optics(Box::new(Optics::new(lit, dark, scenario.seed)))
+        });
+        let params = Params {
+            frame_ctrl: frame_ctrl::Params {
+                shots_per_frame: scenario.firmware.shots_per_frame as u16,
+                preloaded: matches!(histogram_source, HistogramSource::Preload(_)),
+            },
+            tdc: tdc::Params::new(delays, cal),
+            depth_estimator: network.params(),
+            code_source,
+            histogram_source,
+        };
+        let (pll, pins) = (Pll::new(&pll_params), pins_at_power_up(&scenario.firmware));
+        Ok(Setup { name, scenario, budget, params, network, pll, light, pins })
+    }
+
+    /// The device at power-up.
+    pub fn device(&self) -> Device {
+        let scenario = &self.scenario;
+        let rms_ps = scenario.pll.jitter_rms_ps;
+        let jitter = (rms_ps > 0.0).then(|| Jitter::new(rms_ps, scenario.seed));
+        Device::new(
+            self.pins,
+            self.pll.clone(),
+            jitter,
+            self.light.clone(),
+            Time::from_ps_f64(scenario.spad.dead_time_ns * 1e3),
+            Timeline::new(scenario),
+        )
+    }
+
+    /// Length of an undisturbed frame at a laser rate: from the edge that begins Clear to the one
+    /// that raises `algo_done` [cycles of clk_125].
+    pub fn frame_cycles(&self, laser_freq: usize) -> u64 {
+        let ctrl = &self.params.frame_ctrl;
+        if ctrl.preloaded {
+            return OVERHEAD_PRELOADED;
+        }
+        ctrl.shots_per_frame as u64 * vcsel_driver::PERIODS[laser_freq] + OVERHEAD
+    }
+
+    /// A number of cycles that no run of `frames` frames reaches unless its control signals keep
+    /// it from ending: each change of theirs may begin a frame again.
+    pub fn longest_run(&self, frames: u64) -> u64 {
+        let changes = &self.scenario.control;
+        let last_us = changes.last().map_or(0.0, |change| change.at_us);
+        let longest_frame = self.frame_cycles(0) + 16;
+        let begun = frames.saturating_add(changes.len() as u64 + 1);
+        begun.saturating_mul(longest_frame).saturating_add((last_us * 125.0) as u64)
+    }
+
+    /// Distance of the target, where light and not a list or a ROM decides the depth [m].
+    pub fn true_depth_m(&self) -> Option<f64> {
+        matches!(self.light, Light::Optics(_)).then_some(self.scenario.target.distance_m)
+    }
+}
+
+fn network(scenario: &Scenario, files: &Source) -> Result<Network> {
+    let folder = match files {
+        Source::BuiltIn => None,
+        Source::Folder(folder) => Some(folder.as_path()),
+    };
+    Network::find(&scenario.estimator.network, folder)
+}
+
+fn pll_params(scenario: &Scenario) -> pll::Params {
+    let pll = &scenario.pll;
+    pll::Params {
+        input_hz: pll.input_hz,
+        multiply: pll.multiply,
+        divide: pll.divide,
+        output_divide: pll.output_divide,
+        lock_time: Time::from_ps_f64(pll.lock_time_us * 1e6),
+    }
+}
+
+/// Sources of codes and histogram, and the light unless it comes from the link budget.
+fn stimulus(
+    scenario: &Scenario,
+    files: &Source,
+) -> Result<(CodeSource, HistogramSource, Option<Light>)> {
+    let stimulus = &scenario.stimulus;
+    if let Some(name) = &stimulus.photons {
+        let (source, text) = files.read(name)?;
+        let light = Light::List(Given::new(PhotonList::parse(&source, &text)?));
+        return Ok((CodeSource::Tdc, HistogramSource::Builder, Some(light)));
+    }
+    if let Some(name) = &stimulus.codes {
+        let (source, text) = files.read(name)?;
+        let codes = CodeSource::Preload(codes(&source, &text)?);
+        return Ok((codes, HistogramSource::Builder, Some(Light::None)));
+    }
+    if let Some(name) = &stimulus.histogram {
+        let (source, text) = files.read(name)?;
+        let counts = histogram_file::parse_csv(&source, &text)?;
+        let rom: histogram_preload::Rom = counts.map(|count| U::new(count as u64));
+        let rom = HistogramSource::Preload(Box::new(rom));
+        return Ok((CodeSource::Tdc, rom, Some(Light::None)));
+    }
+    Ok((CodeSource::Tdc, HistogramSource::Builder, None))
+}
+
+/// Words of the code ROM.
+const CODES: usize = 1 << 16;
+
+fn codes(source: &str, text: &str) -> Result<Box<[U<8>]>> {
+    let mut input = CsvInput::new(source, text, &["code"])?;
+    let mut codes = Vec::new();
+    while input.next()? {
+        match input.field::<u8>(0) {
+            Some(code) if codes.len() < CODES => codes.push(U::new(code as u64)),
+            Some(_) => return Err(input.fault(0, format!("expected {CODES} codes at most")).into()),
+            None => return Err(input.fault(0, "expected a code from 0 to 255").into()),
+        }
+    }
+    if codes.is_empty() {
+        return Err(Input::new(source, "expected at least one code").into());
+    }
+    Ok(codes.into_boxed_slice())
+}

@@ -1,0 +1,110 @@
+//! A firmware driven by hand, for the tests of this folder.
+
+use std::sync::Arc;
+
+use super::Waves;
+use crate::firmware::carry_chain::{Delays, StopLine, TAPS};
+use crate::firmware::tof_top::{CodeSource, HistogramSource, Params, Pins, TofTop};
+use crate::firmware::{depth_estimator, forward2, frame_ctrl, tdc};
+use crate::kernel::{S, Time, U};
+
+/// Shots in a frame.
+pub(super) const SHOTS: u16 = 12;
+
+/// A chain without bubbles, small ROMs, short frames.
+pub(super) fn params() -> Params {
+    with_delays(&[11_500; TAPS])
+}
+
+/// The same with a chain of those delays [fs].
+pub(super) fn with_delays(taps: &[i64]) -> Params {
+    let delays = Delays::new(Time::from_fs(2_230_000), taps).unwrap();
+    let cal = delays.calibration(Time::from_ns(8));
+    let weight = |row: usize, neuron: usize| S::new((row * 37 + neuron * 911) as i64 % 4001 - 2000);
+    let rom = std::array::from_fn(|row| std::array::from_fn(|neuron| weight(row, neuron)));
+    let tansig = std::array::from_fn(|address| S::new((address as i64 - 2048) * 8));
+    Params {
+        frame_ctrl: frame_ctrl::Params { shots_per_frame: SHOTS, preloaded: false },
+        tdc: tdc::Params::new(delays, cal),
+        depth_estimator: depth_estimator::Params {
+            forward1: Arc::new(rom),
+            tansig: Arc::new(tansig),
+            forward2: forward2::Rom { w2: [S::new(9000); 8], b2: S::new(700) },
+        },
+        code_source: CodeSource::Tdc,
+        histogram_source: HistogramSource::Builder,
+    }
+}
+
+/// The firmware with a SPAD that fires some time after each laser pulse.
+pub(super) struct Bench {
+    /// The firmware as it is now.
+    pub(super) top: TofTop,
+    params: Params,
+    line: StopLine,
+    cycle: u64,
+    shot: u64,
+    photon: Time,
+}
+
+impl Bench {
+    /// At power-up, locked, the laser at its fastest.
+    pub(super) fn new(params: Params) -> Self {
+        let pins = Pins { laser_freq: U::new(3), laser_en: true, dsp_en: true, ..Pins::default() };
+        let mut top = TofTop::new(pins);
+        top.pll.locked = true;
+        let line = StopLine::default();
+        Bench { top, params, line, cycle: 0, shot: 0, photon: Time::NEVER }
+    }
+
+    /// The edge that the next cycle begins with.
+    pub(super) fn now(&self) -> Time {
+        Time::from_ns(8 * self.cycle)
+    }
+
+    /// One cycle of `clk_125`; `see` is shown every instant at which something may have changed.
+    pub(super) fn cycle(&mut self, see: &mut impl FnMut(Time, &TofTop)) {
+        let start = self.now();
+        for quarter in 0..4 {
+            let now = start + Time::from_ns(2 * quarter);
+            let held = self.line.level();
+            self.top.clocks.clk_250 = quarter % 2 == 0;
+            self.top.clocks.clk_125 = quarter < 2;
+            match quarter {
+                0 => self.top.rise(&self.params, &mut self.line, now),
+                2 => self.top.rise_250(),
+                _ => self.top.fall_250(),
+            }
+            if quarter == 0 && self.top.spad_control.spad_rst && held {
+                self.stop(now);
+            }
+            see(now, &self.top);
+            if quarter == 0 && self.top.nets.laser_on {
+                self.shot += 1;
+                self.photon = now + Time::from_fs(900_400 + self.shot % 5 * 1_300_000);
+            }
+            if self.photon < start + Time::from_ns(2 * quarter + 2) {
+                let at = std::mem::replace(&mut self.photon, Time::NEVER);
+                self.stop(at);
+                see(at, &self.top);
+            }
+        }
+        self.cycle += 1;
+    }
+
+    fn stop(&mut self, now: Time) {
+        self.line.toggle(now);
+        self.top.pins.tdc_stop = self.line.level();
+    }
+
+    /// Cycles of `clk_125`, sampled by each of `waves`.
+    pub(super) fn run(&mut self, cycles: u64, waves: &mut [Waves]) {
+        for _ in 0..cycles {
+            self.cycle(&mut |now, top| {
+                for waves in &mut *waves {
+                    waves.sample(now, top).unwrap();
+                }
+            });
+        }
+    }
+}

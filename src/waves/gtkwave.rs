@@ -1,0 +1,165 @@
+//! Save files of GTKWave (checked with 3.3.118).
+
+use std::fmt::Write;
+
+use crate::firmware::hierarchy::Entry;
+use crate::kernel::signals::Format as Shape;
+
+use super::layout::{Group, Row};
+use super::views::Marks;
+
+/// Trace flags, as the save file has them in hexadecimal.
+mod flag {
+    pub(super) const HEXADECIMAL: u64 = 0x2;
+    pub(super) const DECIMAL: u64 = 0x4;
+    pub(super) const BINARY: u64 = 0x8;
+    pub(super) const RIGHT: u64 = 0x20;
+    pub(super) const BLANK: u64 = 0x200;
+    pub(super) const SIGNED: u64 = 0x400;
+    pub(super) const COLLAPSED: u64 = 0x1000;
+    pub(super) const NAMES: u64 = 0x2000;
+    pub(super) const STEPS: u64 = 0x8000;
+    pub(super) const STRETCH: u64 = 0x20000;
+    pub(super) const FULL_SCALE: u64 = 0x80000;
+    pub(super) const CLOSED: u64 = 0x400000;
+    pub(super) const BEGIN: u64 = 0x800000;
+    pub(super) const END: u64 = 0x1000000;
+    pub(super) const ONES: u64 = 0x20000000;
+    pub(super) const FIXED_POINT: u64 = 0x40000000;
+}
+
+/// Window [pixels].
+const SIZE: (u32, u32) = (1600, 900);
+/// Width of the columns of scopes and of names and values [pixels].
+const COLUMNS: (u32, u32) = (180, 320);
+/// What frames and scroll bars take beside them [pixels].
+const FRAMES: u32 = 110;
+/// Pixels in which a zoom of -n shows 2^n units of time.
+const ZOOM_PIXELS: f64 = 200.0;
+/// Rows that a curve takes beside its first.
+const CURVE_ROWS: usize = 2;
+/// Named markers that the format has.
+const MARKERS: usize = 26;
+
+/// The save file for the waveform `wave`, whose names files begin with `stem`.
+pub(super) fn save_file(wave: &str, stem: &str, groups: &[Group<'_>], marks: &Marks) -> String {
+    let mut text = String::new();
+    let mut lines = Lines { text: &mut text, stem };
+    lines.header(wave, marks);
+    for group in groups {
+        let closed = if group.closed { flag::CLOSED } else { 0 };
+        let hidden = if group.closed { flag::CLOSED | flag::COLLAPSED } else { 0 };
+        lines.label(flag::BEGIN | flag::BLANK | closed, group.name);
+        for row in &group.rows {
+            lines.row(row);
+        }
+        lines.label(flag::END | flag::BLANK | hidden, group.name);
+    }
+    text
+}
+
+/// The file that names the states of `row`.
+pub(super) fn names_file(stem: &str, row: &Row<'_>) -> String {
+    format!("{stem}.{}.txt", row.name)
+}
+
+/// Its contents: each code as GTKWave prints it in binary, and its name.
+pub(super) fn names(states: &[&str], width: usize) -> String {
+    states.iter().enumerate().map(|(code, state)| format!("{code:0width$b} {state}\n")).collect()
+}
+
+struct Lines<'a> {
+    text: &'a mut String,
+    stem: &'a str,
+}
+
+impl Lines<'_> {
+    fn line(&mut self, line: impl std::fmt::Display) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(self.text, "{line}");
+    }
+
+    fn header(&mut self, wave: &str, marks: &Marks) {
+        self.line(format_args!("[dumpfile] \"{wave}\""));
+        // With its own name in it, the paths in a save file count from where it is.
+        let stem = self.stem;
+        self.line(format_args!("[savefile] \"{stem}.gtkw\""));
+        self.line(format_args!("[timestart] {}", marks.from.ps()));
+        self.line(format_args!("[size] {} {}", SIZE.0, SIZE.1));
+        self.line("[pos] -1 -1");
+        let named = marks.named();
+        let mut places: Vec<String> = named.iter().map(|(_, at)| at.ps().to_string()).collect();
+        places.resize(MARKERS, "-1".into());
+        let primary = marks.laser_edge.map_or("-1".into(), |at| at.ps().to_string());
+        let zoom = zoom(marks.to.since(marks.from).ps());
+        self.line(format_args!("*{zoom:.6} {primary} {}", places.join(" ")));
+        for ((name, _), letter) in named.iter().zip('A'..) {
+            self.line(format_args!("[markername] {letter}{name}"));
+        }
+        self.line("[treeopen] tof_top.");
+        self.line(format_args!("[sst_width] {}", COLUMNS.0));
+        self.line(format_args!("[signals_width] {}", COLUMNS.1));
+        self.line("[sst_expanded] 1");
+    }
+
+    fn label(&mut self, flags: u64, name: &str) {
+        self.line(format_args!("@{flags:x}"));
+        self.line(format_args!("-{name}"));
+    }
+
+    fn row(&mut self, row: &Row<'_>) {
+        let signal = &row.entry.signal;
+        let radix = match signal.format {
+            Shape::State(_) => flag::BINARY | flag::NAMES,
+            Shape::Bits if signal.width == 1 => flag::BINARY,
+            Shape::Bits => flag::HEXADECIMAL,
+            Shape::Unsigned if signal.width > 32 => flag::HEXADECIMAL,
+            Shape::Unsigned => flag::DECIMAL,
+            Shape::Signed { fraction: 0 } => flag::SIGNED,
+            Shape::Signed { .. } => flag::SIGNED | flag::FIXED_POINT,
+            Shape::Taps => flag::DECIMAL | flag::ONES,
+        };
+        self.line(format_args!("@{:x}", radix | flag::RIGHT));
+        match signal.format {
+            Shape::Signed { fraction } if fraction > 0 => {
+                self.line(format_args!("[fpshift_count] {fraction}"));
+            }
+            Shape::State(_) => self.line(format_args!("^1 {}", names_file(self.stem, row))),
+            _ => {}
+        }
+        let note = if signal.format == Shape::Taps { " (ones)" } else { "" };
+        self.named(row, note);
+        if row.curve {
+            let signed = matches!(signal.format, Shape::Signed { .. });
+            let radix = if signed { flag::SIGNED } else { flag::DECIMAL };
+            let curve = radix | flag::RIGHT | flag::STEPS | flag::FULL_SCALE;
+            self.line(format_args!("@{curve:x}"));
+            self.named(row, " (curve)");
+            self.line(format_args!("@{:x}", flag::STRETCH));
+            for _ in 0..CURVE_ROWS {
+                self.line("-");
+            }
+        }
+    }
+
+    fn named(&mut self, row: &Row<'_>, note: &str) {
+        // GTKWave would show a name with dots from the last dot on.
+        let parts: Vec<_> = row.name.rsplit('.').take(2).collect();
+        let shown = parts.into_iter().rev().collect::<Vec<_>>().join("/");
+        self.line(format_args!("+{{{shown}{note}}} {}", full_name(row.entry)));
+    }
+}
+
+/// The name by which GTKWave knows a signal.
+fn full_name(entry: &Entry) -> String {
+    match entry.signal.width {
+        1 => entry.path(),
+        width => format!("{}[{}:0]", entry.path(), width - 1),
+    }
+}
+
+/// The zoom that shows `span` in the window [ps].
+fn zoom(span: u64) -> f64 {
+    let pixels = f64::from(SIZE.0 - COLUMNS.0 - COLUMNS.1 - FRAMES);
+    -(span.max(1) as f64 * ZOOM_PIXELS / pixels).log2()
+}

@@ -1,0 +1,149 @@
+//! What a viewer shows first, and in which order: along the flow of data.
+
+use std::collections::BTreeSet;
+
+use crate::firmware::hierarchy::{Entry, TOP};
+
+/// Signals under one heading.
+pub(super) struct Group<'a> {
+    /// The heading.
+    pub(super) name: &'static str,
+    /// Whether only the heading is shown at first.
+    pub(super) closed: bool,
+    /// Signals.
+    pub(super) rows: Vec<Row<'a>>,
+}
+
+/// One signal.
+pub(super) struct Row<'a> {
+    /// The signal.
+    pub(super) entry: &'a Entry,
+    /// Its path below the top.
+    pub(super) name: String,
+    /// Whether it is shown as a curve as well.
+    pub(super) curve: bool,
+}
+
+/// Headings, and below each the signals: paths below the top, `*` at the end for any number.
+const FLOW: &[(&str, &[&str])] = &[
+    ("Clocks and reset", &["clk_125", "clk_250", "rst_dsp"]),
+    ("Control", &["frame_ctrl.state", "frame_ctrl.shots", "clear_addr", "acquire"]),
+    (
+        "Laser",
+        &["vcsel_driver.count", "pre_start", "vcsel_driver.laser_pulse", "laser_on", "start"],
+    ),
+    ("SPAD", &["spad_rst", "tdc_stop"]),
+    (
+        "TDC",
+        &[
+            "tdc.carry_chain.taps",
+            "tdc.coarse_counter.coarse",
+            "tdc.tdc_latch.hit",
+            "tdc.tdc_decoder.n",
+            "tdc_valid",
+            "tdc_code",
+        ],
+    ),
+    ("Histogram", &["hist_valid", "hist_bin", "hist_count"]),
+    (
+        "Estimator",
+        &[
+            "algo_start",
+            "depth_estimator.estimator_ctrl.forward1_en",
+            "depth_estimator.estimator_ctrl.tansig_en",
+            "depth_estimator.estimator_ctrl.forward2_en",
+        ],
+    ),
+    ("Outputs", &["depth", "algo_done", "frame_done"]),
+    (
+        "Control pins",
+        &["rst", "mode", "laser_freq", "laser_en", "dsp_en", "dsp_rst", "locked", "clk_200"],
+    ),
+    ("Hidden layer", &["depth_estimator.forward1.l1_in_*", "depth_estimator.tansig.l1_out_*"]),
+    ("Histogram, word by word", &["histogram_builder.ram_*"]),
+];
+/// Heading of what is left.
+const OTHER: &str = "Other signals";
+/// Signals whose shape over time says something.
+const CURVES: [&str; 3] = ["hist_count", "depth", "depth_estimator.forward1.l1_in_*"];
+/// Signals under a heading beyond which it is shown closed, where space is short.
+const FEW: usize = 7;
+/// Signals that a screen has room for.
+const SCREEN: usize = 24;
+
+/// The written signals under their headings; each value once, under its first name.
+pub(super) fn groups(entries: &[Entry]) -> Vec<Group<'_>> {
+    let mut shown = BTreeSet::new();
+    let mut groups: Vec<Group<'_>> = Vec::new();
+    let flow = FLOW.iter().copied().chain([(OTHER, &["*"] as &[&str])]);
+    for (name, patterns) in flow {
+        let mut rows = Vec::new();
+        for pattern in patterns {
+            for entry in entries {
+                let name = below_top(entry);
+                if matches(&name, pattern) && shown.insert(entry.id) {
+                    let curve = CURVES.iter().any(|pattern| matches(&name, pattern));
+                    rows.push(Row { entry, name, curve });
+                }
+            }
+        }
+        groups.push(Group { name, closed: false, rows });
+    }
+    groups.retain(|group| !group.rows.is_empty());
+    if shown.len() > SCREEN {
+        for group in &mut groups {
+            group.closed = group.rows.len() > FEW;
+        }
+    }
+    groups
+}
+
+fn below_top(entry: &Entry) -> String {
+    let path = entry.path();
+    let below = path.strip_prefix(TOP).and_then(|rest| rest.strip_prefix('.'));
+    below.map_or(path.clone(), str::to_owned)
+}
+
+fn matches(name: &str, pattern: &str) -> bool {
+    match pattern.strip_suffix('*') {
+        Some(start) => name.starts_with(start),
+        None => name == pattern,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::bench::params;
+    use super::*;
+    use crate::firmware::hierarchy::{entries, ram_entries};
+
+    #[test]
+    fn every_value_is_shown_once() {
+        let all = [entries(&params()), ram_entries()].concat();
+        let ids: BTreeSet<_> = all.iter().map(|entry| entry.id).collect();
+        let groups = groups(&all);
+        let rows: Vec<_> = groups.iter().flat_map(|group| &group.rows).collect();
+        assert_eq!(rows.len(), ids.len());
+        let last = groups.last().unwrap();
+        assert!(last.name == OTHER && last.closed);
+    }
+
+    #[test]
+    fn every_name_in_the_flow_is_a_signal() {
+        let all = [entries(&params()), ram_entries()].concat();
+        for pattern in FLOW.iter().flat_map(|(_, patterns)| *patterns).chain(&CURVES) {
+            assert!(all.iter().any(|entry| matches(&below_top(entry), pattern)), "{pattern}");
+        }
+    }
+
+    #[test]
+    fn a_few_chosen_signals_are_all_in_sight() {
+        let mut all = entries(&params());
+        all.retain(|entry| entry.scope.ends_with(".tansig") || entry.signal.name == "weight_3");
+        all.retain(|entry| entry.kind != crate::firmware::hierarchy::Kind::Input);
+        let groups = groups(&all);
+        let names: Vec<_> = groups.iter().map(|group| group.name).collect();
+        assert_eq!(names, ["Hidden layer", OTHER]);
+        assert!(groups.iter().all(|group| !group.closed));
+    }
+}

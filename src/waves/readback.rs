@@ -1,0 +1,102 @@
+//! Waveforms written in tests, read back with a library that is not ours.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use wellen::simple::Waveform;
+
+use super::bench::{Bench, SHOTS};
+use super::{Format, Waves};
+use crate::firmware::hierarchy::{Entry, entries, ram_entries};
+use crate::firmware::tof_top::Params;
+
+/// Both formats.
+pub(super) const FORMATS: [Format; 2] = [Format::Vcd, Format::Fst];
+/// A frame and a little more [cycles of clk_125].
+pub(super) const FRAME: u64 = 256 + 6 * SHOTS as u64 + 16 + 268 + 20;
+
+/// Begins a file with some provenance.
+pub(super) fn create(path: &Path, format: Format, entries: &[Entry], params: &Params) -> Waves {
+    let provenance = ["scenario kc705".to_owned(), "seed 1".to_owned()];
+    Waves::create(path, format, entries, params.tdc.delays.order(), &provenance).unwrap()
+}
+
+/// The run that most tests look at: from 0 on, or only two windows of it.
+pub(super) fn record(directory: &Path, windows: bool, params: Params) -> Vec<PathBuf> {
+    let entries = [entries(&params), ram_entries()].concat();
+    let paths = FORMATS.map(|format| directory.join("run").with_extension(format.extension()));
+    let mut waves: Vec<_> = FORMATS
+        .iter()
+        .zip(&paths)
+        .map(|(&format, path)| create(path, format, &entries, &params))
+        .collect();
+    let mut bench = Bench::new(params);
+    let parts = if windows { vec![260, 40, 30, FRAME] } else { vec![0, FRAME] };
+    for (part, cycles) in parts.into_iter().enumerate() {
+        for waves in &mut waves {
+            match part % 2 {
+                0 => waves.end(bench.now()).unwrap(),
+                _ => waves.begin(bench.now(), &bench.top).unwrap(),
+            }
+        }
+        bench.run(cycles, &mut waves);
+    }
+    for waves in waves {
+        waves.finish(bench.now()).unwrap();
+    }
+    paths.to_vec()
+}
+
+/// Path, width and changes of each signal: time [ps] and digits, the last ones at that time.
+pub(super) type Contents = BTreeMap<String, (u32, Vec<(u64, String)>)>;
+
+/// All that a file holds.
+pub(super) fn contents(wave: &mut Waveform) -> Contents {
+    let variables: Vec<_> = wave.hierarchy().all_vars().collect();
+    let references: Vec<_> = variables.iter().map(|&var| var.deref_in(wave).signal_ref()).collect();
+    wave.load_signals(&references);
+    let times = wave.time_table().to_vec();
+    let mut contents = Contents::new();
+    for var in variables {
+        let var = var.deref_in(wave);
+        let signal = wave.get_signal(var.signal_ref()).unwrap();
+        let mut changes: Vec<(u64, String)> = Vec::new();
+        for (index, value) in signal.iter_changes() {
+            let change = (times[index as usize], value.to_bit_string().unwrap());
+            changes.pop_if(|last| last.0 == change.0);
+            changes.push(change);
+        }
+        let width = var.length(wave.hierarchy()).unwrap();
+        contents.insert(var.full_name(wave.hierarchy()), (width, changes));
+    }
+    contents
+}
+
+/// Looks a variable up.
+pub(super) trait DerefIn {
+    /// The variable in `wave`.
+    fn deref_in(self, wave: &Waveform) -> &wellen::Var;
+}
+
+impl DerefIn for wellen::VarRef {
+    fn deref_in(self, wave: &Waveform) -> &wellen::Var {
+        &wave.hierarchy()[self]
+    }
+}
+
+/// Says where two files differ first, not all that they hold.
+pub(super) fn assert_same(one: &Contents, other: &Contents) {
+    assert!(one.keys().eq(other.keys()));
+    for (path, (width, changes)) in one {
+        let (other_width, others) = &other[path];
+        let differs = changes.iter().zip(others).find(|(a, b)| a != b);
+        assert_eq!(differs, None, "{path}");
+        assert_eq!((width, changes.len()), (other_width, others.len()), "{path}");
+    }
+}
+
+/// The value at a time [ps].
+pub(super) fn at(changes: &[(u64, String)], time: u64) -> &str {
+    let after = changes.partition_point(|change| change.0 <= time);
+    &changes[after - 1].1
+}

@@ -1,0 +1,48 @@
+//! The nesting of scopes that a header spells out.
+
+use crate::firmware::hierarchy::Entry;
+
+/// One element of a header's hierarchy.
+pub(super) enum Element<'a> {
+    /// A scope inside the one open now.
+    Enter(&'a str),
+    /// The end of the scope open now.
+    Leave,
+    /// A signal of the scope open now.
+    Signal(&'a Entry),
+}
+
+/// The hierarchy of `entries`, in which the signals of a scope stand together.
+pub(super) fn elements(entries: &[Entry]) -> Vec<Element<'_>> {
+    let mut elements = Vec::new();
+    let mut open: Vec<&str> = Vec::new();
+    for entry in entries {
+        let scope: Vec<&str> = entry.scope.split('.').collect();
+        let common = open.iter().zip(&scope).take_while(|(a, b)| a == b).count();
+        elements.extend(open[common..].iter().map(|_| Element::Leave));
+        elements.extend(scope[common..].iter().map(|name| Element::Enter(name)));
+        elements.push(Element::Signal(entry));
+        open = scope;
+    }
+    elements.extend(open.iter().map(|_| Element::Leave));
+    elements
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::firmware::hierarchy::ram_entries;
+
+    #[test]
+    fn scopes_open_and_close_as_they_nest() {
+        let at = |scope: &str| Entry { scope: scope.into(), ..ram_entries()[0].clone() };
+        let entries = ["a", "a.b.c", "a.b.c", "a.d"].map(at);
+        let elements = elements(&entries);
+        let text = elements.iter().map(|element| match element {
+            Element::Enter(name) => name,
+            Element::Leave => "<",
+            Element::Signal(_) => "*",
+        });
+        assert_eq!(text.collect::<String>(), "a*bc**<<d*<<");
+    }
+}

@@ -1,0 +1,174 @@
+//! Which signals a waveform holds.
+
+use globset::{Glob, GlobMatcher};
+
+use crate::error::{Input, Result};
+use crate::firmware::hierarchy::{Entry, TOP};
+
+/// The option that gives the globs.
+const OPTION: &str = "--signals";
+/// Names offered in place of a glob that matches nothing.
+const OFFERED: usize = 3;
+
+/// The entries whose names match one of `globs`, or without globs all but the words of the RAM.
+///
+/// A glob is matched against the dotted path, the path below the top, and the bare name; `*`
+/// crosses dots. A word of the RAM is matched only by a glob that has `ram` in it, so that `*`
+/// does not bring 256 of them.
+pub fn select(entries: Vec<Entry>, ram: Vec<Entry>, globs: &[String]) -> Result<Vec<Entry>> {
+    if globs.is_empty() {
+        return Ok(entries);
+    }
+    let candidates = with_ram(entries, ram);
+    let mut chosen = vec![false; candidates.len()];
+    for glob in globs {
+        let matcher = compile(glob)?;
+        let mut found = false;
+        for (candidate, chosen) in candidates.iter().zip(&mut chosen) {
+            let matches = (!candidate.in_ram || glob.contains("ram"))
+                && names(&candidate.entry).iter().any(|name| matcher.is_match(name));
+            found |= matches;
+            *chosen |= matches;
+        }
+        if !found {
+            let near = nearest(glob, &candidates);
+            let fault = Input::new(OPTION, format!("matches no signal; near it: {near}"));
+            return Err(fault.field(glob).into());
+        }
+    }
+    let pairs = candidates.into_iter().zip(chosen);
+    Ok(pairs.filter(|(_, chosen)| *chosen).map(|(candidate, _)| candidate.entry).collect())
+}
+
+struct Candidate {
+    entry: Entry,
+    in_ram: bool,
+}
+
+/// All entries, the RAM's words at the end of their scope, or nowhere if that is absent.
+fn with_ram(entries: Vec<Entry>, ram: Vec<Entry>) -> Vec<Candidate> {
+    let home = ram.first().map(|word| word.scope.clone());
+    let last = entries.iter().rposition(|entry| Some(&entry.scope) == home.as_ref());
+    let mut ram = Some(ram);
+    let mut candidates = Vec::new();
+    for (place, entry) in entries.into_iter().enumerate() {
+        candidates.push(Candidate { entry, in_ram: false });
+        if Some(place) == last {
+            let words = ram.take().unwrap_or_default().into_iter();
+            candidates.extend(words.map(|entry| Candidate { entry, in_ram: true }));
+        }
+    }
+    candidates
+}
+
+fn compile(glob: &str) -> Result<GlobMatcher> {
+    let compiled = Glob::new(glob).map_err(|error| {
+        Input::new(OPTION, format!("expected a pattern such as `tdc.*`: {}", error.kind()))
+            .field(glob)
+    })?;
+    Ok(compiled.compile_matcher())
+}
+
+/// What a user may call a signal: its path, the path below the top, its bare name.
+fn names(entry: &Entry) -> [String; 3] {
+    let path = entry.path();
+    let below = path.strip_prefix(TOP).and_then(|rest| rest.strip_prefix('.'));
+    let below = below.unwrap_or(&path).to_owned();
+    [path, below, entry.signal.name.clone()]
+}
+
+/// The paths below the top most like `glob`.
+fn nearest(glob: &str, candidates: &[Candidate]) -> String {
+    let plain: String = glob.chars().filter(|c| !"*?[]{}".contains(*c)).collect();
+    let mut scored: Vec<(f64, String)> = (candidates.iter().filter(|candidate| !candidate.in_ram))
+        .map(|candidate| {
+            let [path, below, name] = names(&candidate.entry);
+            let likeness = [&path, &below, &name]
+                .map(|name| strsim::normalized_damerau_levenshtein(&plain.to_lowercase(), name));
+            (likeness.into_iter().fold(0.0, f64::max), below)
+        })
+        .collect();
+    scored.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let bare = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
+    let mut offered: Vec<String> = Vec::new();
+    for (_, path) in scored {
+        if offered.len() < OFFERED && offered.iter().all(|other| bare(other) != bare(&path)) {
+            offered.push(path);
+        }
+    }
+    offered.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::bench::params;
+    use super::*;
+    use crate::firmware::hierarchy::{entries, ram_entries};
+    use crate::kernel::U;
+
+    fn chosen(globs: &[&str]) -> Result<Vec<String>> {
+        let globs: Vec<_> = globs.iter().map(ToString::to_string).collect();
+        let entries = select(entries(&params()), ram_entries(), &globs)?;
+        Ok(entries.iter().map(Entry::path).collect())
+    }
+
+    #[test]
+    fn without_globs_everything_but_the_ram_is_chosen() {
+        assert_eq!(chosen(&[]).unwrap().len(), entries(&params()).len());
+        assert_eq!(chosen(&["*"]).unwrap(), chosen(&[]).unwrap());
+    }
+
+    #[test]
+    fn a_glob_may_name_path_tail_or_bare_name() {
+        let one = ["tof_top.frame_ctrl.state"];
+        assert_eq!(chosen(&["tof_top.frame_ctrl.state"]).unwrap(), one);
+        assert_eq!(chosen(&["frame_ctrl.state"]).unwrap(), one);
+        assert_eq!(chosen(&["state"]).unwrap(), one);
+        let scopes = chosen(&["tdc_code"]).unwrap();
+        assert!(scopes.contains(&"tof_top.tdc_code".into()));
+        assert!(scopes.contains(&"tof_top.tdc.tdc_decoder.tdc_code".into()));
+    }
+
+    #[test]
+    fn a_star_crosses_dots_and_case_counts() {
+        assert!(chosen(&["tdc.*"]).unwrap().contains(&"tof_top.tdc.tdc_latch.hit".into()));
+        assert!(chosen(&["TDC.*"]).is_err());
+    }
+
+    #[test]
+    fn words_of_the_ram_come_when_named_and_stand_in_their_scope() {
+        assert_eq!(chosen(&["ram_7"]).unwrap(), ["tof_top.histogram_builder.ram_7"]);
+        assert_eq!(chosen(&["ram_*"]).unwrap().len(), 256);
+        let all = chosen(&["*", "ram_*"]).unwrap();
+        let scopes = all.iter().map(|path| path.rsplit_once('.').unwrap().0);
+        let mut blocks: Vec<_> = scopes.collect();
+        blocks.dedup();
+        let count = blocks.len();
+        blocks.sort();
+        blocks.dedup();
+        assert_eq!(blocks.len(), count, "no scope stands in two places");
+    }
+
+    #[test]
+    fn the_ram_is_absent_with_its_module() {
+        let mut params = params();
+        params.histogram_source =
+            crate::firmware::tof_top::HistogramSource::Preload(Box::new([U::new(0); 256]));
+        let globs = ["ram_*".to_owned()];
+        assert!(select(entries(&params), ram_entries(), &globs).is_err());
+    }
+
+    #[test]
+    fn a_glob_that_matches_nothing_is_refused_with_the_nearest_names() {
+        let text = chosen(&["tdc_cod"]).unwrap_err().to_string();
+        assert!(text.starts_with("--signals: tdc_cod: matches no signal; near it: tdc_code"));
+        let text = chosen(&["*", "frame_ctl.*tate"]).unwrap_err().to_string();
+        assert!(text.contains("frame_ctrl.state"), "{text}");
+    }
+
+    #[test]
+    fn a_malformed_glob_is_refused() {
+        let text = chosen(&["tdc[", "*"]).unwrap_err().to_string();
+        assert!(text.starts_with("--signals: tdc[: expected a pattern"), "{text}");
+    }
+}

@@ -1,0 +1,82 @@
+//! A file that can seek and knows where it is, whatever stands at its path.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
+use std::path::Path;
+
+use crate::error::{Error, Result};
+use crate::output::OutputFile;
+
+/// An [`OutputFile`] that can seek. Where the target is a pipe or a device, the bytes are kept in
+/// a temporary file without a name until they are all there.
+pub(super) struct Spool {
+    file: OutputFile,
+    kept: Option<BufWriter<File>>,
+    at: u64,
+}
+
+impl Spool {
+    /// Begins a file.
+    pub(super) fn create(path: &Path) -> Result<Self> {
+        let file = OutputFile::create(path)?;
+        let kept = match fs::metadata(path) {
+            Ok(found) if !found.is_file() => {
+                let kept = tempfile::tempfile().map_err(Error::io(path, "write"))?;
+                Some(BufWriter::new(kept))
+            }
+            _ => None,
+        };
+        Ok(Spool { file, kept, at: 0 })
+    }
+
+    /// Puts the finished file in place.
+    pub(super) fn commit(self) -> Result<()> {
+        let Spool { mut file, kept, .. } = self;
+        if let Some(kept) = kept {
+            let copied =
+                kept.into_inner().map_err(|error| error.into_error()).and_then(|mut all| {
+                    all.rewind()?;
+                    io::copy(&mut all, &mut file)
+                });
+            copied.map_err(|error| file.fault(error))?;
+        }
+        file.commit()
+    }
+}
+
+impl Write for Spool {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = match &mut self.kept {
+            Some(kept) => kept.write(bytes)?,
+            None => self.file.write(bytes)?,
+        };
+        self.at += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match &mut self.kept {
+            Some(kept) => kept.flush(),
+            None => self.file.flush(),
+        }
+    }
+}
+
+impl Seek for Spool {
+    /// Asking for the place, or going there, does not empty the buffer.
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        let target = match to {
+            SeekFrom::Start(place) => Some(place),
+            SeekFrom::Current(step) => self.at.checked_add_signed(step),
+            SeekFrom::End(_) => None,
+        };
+        if target != Some(self.at) {
+            let to = target.map_or(to, SeekFrom::Start);
+            self.at = match &mut self.kept {
+                Some(kept) => kept.seek(to)?,
+                None => self.file.seek(to)?,
+            };
+        }
+        Ok(self.at)
+    }
+}

@@ -1,0 +1,152 @@
+//! What waveforms hold: every signal, with the values that the firmware had.
+
+use std::collections::BTreeSet;
+
+use wellen::simple::read;
+
+use super::bench::{Bench, SHOTS, params, with_delays};
+use super::readback::{DerefIn, FORMATS, FRAME, assert_same, at, contents, create, record};
+use super::*;
+use crate::firmware::carry_chain::TAPS;
+use crate::firmware::depth_estimator;
+use crate::firmware::hierarchy::{entries, ram_entries};
+use crate::firmware::tof_top::{CodeSource, HistogramSource, Pins};
+use crate::kernel::{Thermometer, U};
+
+#[test]
+fn vcd_and_fst_hold_every_entry_and_the_same_changes() {
+    let directory = tempfile::tempdir().unwrap();
+    let params = params();
+    let expected = [entries(&params), ram_entries()].concat();
+    let paths = record(directory.path(), false, params);
+    let [vcd, fst] = [0, 1].map(|k| contents(&mut read(&paths[k]).unwrap()));
+    assert_eq!(vcd.len(), expected.len());
+    for entry in &expected {
+        let (path, width) = (entry.path(), entry.signal.width);
+        assert_eq!(vcd[&path].0, width, "{path}");
+    }
+    assert_same(&vcd, &fst);
+    let edges = &vcd["tof_top.start"].1;
+    assert!(edges.len() > 2 * SHOTS as usize);
+    assert_eq!(at(&vcd["tof_top.frame_done"].1, 8000 * FRAME), "0");
+    assert!(vcd["tof_top.frame_done"].1.iter().any(|change| change.1 == "1"));
+}
+
+#[test]
+fn values_are_those_that_the_firmware_had() {
+    let directory = tempfile::tempdir().unwrap();
+    let params = params();
+    let paths = record(directory.path(), false, params.clone());
+    let vcd = contents(&mut read(&paths[0]).unwrap());
+    let mut bench = Bench::new(params);
+    let word = |path: &str, now: Time| {
+        u64::from_str_radix(at(&vcd[&format!("tof_top.{path}")].1, now.ps()), 2).unwrap()
+    };
+    for _ in 0..FRAME {
+        bench.cycle(&mut |now, top| {
+            let taps = at(&vcd["tof_top.tdc.carry_chain.taps"].1, now.ps());
+            assert_eq!(taps.len(), TAPS);
+            assert_eq!(taps.matches('1').count(), top.tdc.carry_chain.taps.ones());
+            assert_eq!(word("tdc_stop", now), top.pins.tdc_stop as u64);
+            assert_eq!(word("depth", now), top.depth_estimator.forward2.depth.bits());
+            assert_eq!(word("frame_ctrl.state", now), top.frame_ctrl.state() as u64);
+            let bin = now.ps() as usize / 100 % 256;
+            let hits = top.histogram_builder.ram[bin].get();
+            assert_eq!(word(&format!("histogram_builder.ram_{bin}"), now), hits);
+        });
+    }
+    let depth = &vcd["tof_top.depth"].1;
+    assert!(depth.iter().any(|change| change.1.starts_with('1')), "a negative depth");
+}
+
+#[test]
+fn aliases_share_one_identifier() {
+    let directory = tempfile::tempdir().unwrap();
+    for path in record(directory.path(), false, params()) {
+        let wave = read(&path).unwrap();
+        let variables = wave.hierarchy().all_vars().map(|var| var.deref_in(&wave));
+        let signals: BTreeSet<_> = variables.map(|var| var.signal_ref().index()).collect();
+        let ids: BTreeSet<_> = entries(&params()).iter().map(|entry| entry.id).collect();
+        assert_eq!(signals.len(), ids.len() + 256);
+    }
+}
+
+#[test]
+fn surfer_is_told_the_names_of_states() {
+    let directory = tempfile::tempdir().unwrap();
+    let wave = read(&record(directory.path(), false, params())[0]).unwrap();
+    let hierarchy = wave.hierarchy();
+    let with_names = hierarchy.all_vars().filter_map(|var| {
+        let var = var.deref_in(&wave);
+        Some((var.full_name(hierarchy), var.enum_type(hierarchy)?.1))
+    });
+    let names = vec![("00", "Clear"), ("01", "Acquire"), ("10", "Drain"), ("11", "Estimate")];
+    assert_eq!(Vec::from_iter(with_names), [("tof_top.frame_ctrl.state".to_owned(), names)]);
+}
+
+#[test]
+fn taps_stand_in_their_physical_place() {
+    let mut delays = [11_500; TAPS];
+    delays[0] = 40_000;
+    delays[1] = -20_000;
+    let params = with_delays(&delays);
+    assert_eq!(params.tdc.delays.order()[..4], [0, 2, 3, 1]);
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("run.vcd");
+    let mut waves = create(&path, Format::Vcd, &entries(&params), &params);
+    let mut top = TofTop::new(Pins::default());
+    top.tdc.carry_chain.taps = Thermometer::new(true, [3]);
+    waves.begin(Time::ZERO, &top).unwrap();
+    waves.finish(Time::from_ns(1)).unwrap();
+    let vcd = contents(&mut read(&path).unwrap());
+    assert!(at(&vcd["tof_top.tdc.carry_chain.taps"].1, 0).ends_with("0001101"));
+}
+
+#[test]
+fn a_file_of_many_blocks_is_read_back_whole() {
+    let directory = tempfile::tempdir().unwrap();
+    let params = params();
+    let all = [entries(&params), ram_entries()].concat();
+    let paths =
+        FORMATS.map(|format| directory.path().join("run").with_extension(format.extension()));
+    let mut waves: Vec<_> = FORMATS
+        .iter()
+        .zip(&paths)
+        .map(|(&format, path)| create(path, format, &all, &params))
+        .collect();
+    let mut bench = Bench::new(params);
+    for waves in &mut waves {
+        waves.begin(bench.now(), &bench.top).unwrap();
+    }
+    bench.run(40 * FRAME, &mut waves);
+    for waves in waves {
+        waves.finish(bench.now()).unwrap();
+    }
+    let [vcd, fst] = [0, 1].map(|k| contents(&mut read(&paths[k]).unwrap()));
+    assert_same(&vcd, &fst);
+}
+
+#[test]
+fn every_input_port_has_an_entry() {
+    use crate::firmware::{tdc, tof_top, vcsel_driver};
+    let mut params = params();
+    let rom = Box::new([U::new(0); 256]);
+    let mut paths: BTreeSet<_> = entries(&params).iter().map(Entry::path).collect();
+    params.code_source = CodeSource::Preload(Box::new([U::new(0)]));
+    params.histogram_source = HistogramSource::Preload(rom);
+    paths.extend(entries(&params).iter().map(Entry::path));
+    let modules = [
+        ("tof_top", tof_top::Wires::inputs()),
+        ("tof_top.tdc", tdc::Wires::inputs()),
+        ("tof_top.vcsel_driver", vcsel_driver::Wires::inputs()),
+        ("tof_top.depth_estimator", depth_estimator::Wires::inputs()),
+    ];
+    for (parent, modules) in modules {
+        for (module, ports) in modules {
+            for port in ports {
+                let path = format!("{parent}.{module}.{}", port.name);
+                assert!(paths.contains(&path), "{path}");
+            }
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! Set-ups of viewers, beside a waveform: open it and see the signals in order, named and scaled.
+//!
+//! `X.gtkw` for GTKWave (`gtkwave X.gtkw`), with a file of names for each state machine, and
+//! `X.sucl` for Surfer (`surfer --command-file X.sucl X.vcd`). Files refer to each other by name
+//! only, so a folder can be moved.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use crate::error::Result;
+use crate::firmware::hierarchy::Entry;
+use crate::kernel::Time;
+use crate::kernel::signals::Format as Shape;
+use crate::output::{create_directory, write_file};
+
+use super::layout::groups;
+use super::{Format, gtkwave, surfer};
+
+/// Instants to mark and to show first.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Marks {
+    /// First laser edge in a written window.
+    pub laser_edge: Option<Time>,
+    /// First edge of the SPAD's output after it.
+    pub spad_edge: Option<Time>,
+    /// End of an estimation in a written window.
+    pub algo_done: Option<Time>,
+    /// Begin of what is shown at first.
+    pub from: Time,
+    /// End of what is shown at first.
+    pub to: Time,
+}
+
+impl Marks {
+    /// The marks that are known, with their names.
+    pub(super) fn named(&self) -> Vec<(&'static str, Time)> {
+        let marks =
+            [("laser", self.laser_edge), ("SPAD", self.spad_edge), ("done", self.algo_done)];
+        marks.into_iter().filter_map(|(name, at)| Some((name, at?))).collect()
+    }
+}
+
+/// Writes the set-ups for the waveform at `wave_path`, which holds `entries`, and returns their
+/// paths. A waveform that went to a device or a pipe has none.
+pub fn write_views(
+    wave_path: &Path,
+    format: Format,
+    entries: &[Entry],
+    marks: &Marks,
+) -> Result<Vec<PathBuf>> {
+    let regular = fs::metadata(wave_path).is_ok_and(|found| found.is_file());
+    let (Some(name), Some(stem)) = (text(wave_path.file_name()), text(wave_path.file_stem()))
+    else {
+        return Ok(Vec::new());
+    };
+    if !regular {
+        return Ok(Vec::new());
+    }
+    let folder = wave_path.parent().unwrap_or(Path::new(""));
+    let groups = groups(entries);
+    let mut files = Vec::new();
+    for row in groups.iter().flat_map(|group| &group.rows) {
+        if let Shape::State(states) = row.entry.signal.format {
+            let width = row.entry.signal.width as usize;
+            let path = folder.join(gtkwave::names_file(&stem, row));
+            files.push((path, gtkwave::names(states, width)));
+            if format == Format::Fst {
+                let mappings = folder.join(surfer::MAPPINGS);
+                create_directory(&mappings)?;
+                files
+                    .push((mappings.join(surfer::mapping_name(row)), surfer::mapping(states, row)));
+            }
+        }
+    }
+    files
+        .push((wave_path.with_extension("gtkw"), gtkwave::save_file(&name, &stem, &groups, marks)));
+    files.push((wave_path.with_extension("sucl"), surfer::commands(format, &groups, marks)));
+    let mut paths = Vec::new();
+    for (path, contents) in files {
+        write_file(&path, |file| file.write_all(contents.as_bytes()))?;
+        paths.push(path);
+    }
+    Ok(paths)
+}
+
+fn text(part: Option<&std::ffi::OsStr>) -> Option<String> {
+    Some(part?.to_string_lossy().into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::super::bench::params;
+    use super::*;
+    use crate::firmware::hierarchy::{entries, ram_entries};
+
+    fn written(folder: &Path, format: Format, entries: &[Entry]) -> Vec<(String, String)> {
+        let wave = folder.join("run").with_extension(format.extension());
+        fs::write(&wave, "").unwrap();
+        let marks = Marks {
+            laser_edge: Some(Time::from_ns(2104)),
+            spad_edge: None,
+            algo_done: Some(Time::from_ns(5000)),
+            from: Time::from_ns(2000),
+            to: Time::from_ns(6000),
+        };
+        let paths = write_views(&wave, format, entries, &marks).unwrap();
+        let read = |path: &PathBuf| fs::read_to_string(path).unwrap();
+        let name = |path: &Path| path.strip_prefix(folder).unwrap().display().to_string();
+        paths.iter().map(|path| (name(path), read(path))).collect()
+    }
+
+    fn file<'a>(files: &'a [(String, String)], name: &str) -> &'a str {
+        &files.iter().find(|(other, _)| other == name).unwrap().1
+    }
+
+    #[test]
+    fn a_save_file_lists_what_was_written_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut some = [entries(&params()), ram_entries()].concat();
+        some.retain(|entry| !entry.scope.contains(".tdc"));
+        let files = written(folder.path(), Format::Vcd, &some);
+        let save = file(&files, "run.gtkw");
+        let bare = |line: &str| line.split('[').next().unwrap().to_owned();
+        let listed: BTreeSet<_> = (save.lines())
+            .filter_map(|line| line.strip_prefix('+')?.split_once("} "))
+            .map(|(_, path)| bare(path))
+            .collect();
+        let paths: BTreeSet<_> = some.iter().map(Entry::path).collect();
+        let ids: BTreeSet<_> = some.iter().map(|entry| entry.id).collect();
+        assert!(listed.is_subset(&paths));
+        assert_eq!(listed.len(), ids.len());
+        let commands = file(&files, "run.sucl").lines();
+        let added: Vec<_> = commands.filter_map(|l| l.strip_prefix("variable_add ")).collect();
+        assert!(!added.is_empty() && added.iter().all(|&path| paths.contains(path)));
+    }
+
+    #[test]
+    fn marks_and_zoom_are_those_of_the_run() {
+        let folder = tempfile::tempdir().unwrap();
+        let files = written(folder.path(), Format::Vcd, &entries(&params()));
+        let save = file(&files, "run.gtkw");
+        assert!(save.contains("[timestart] 2000000\n"));
+        assert!(save.contains(" 2104000 2104000 5000000 -1 "));
+        assert!(save.contains("[markername] Alaser\n[markername] Bdone\n"));
+        assert!(file(&files, "run.sucl").contains("marker_set done 5000000\n"));
+    }
+
+    #[test]
+    fn states_have_names_in_both_viewers() {
+        let folder = tempfile::tempdir().unwrap();
+        let files = written(folder.path(), Format::Fst, &entries(&params()));
+        let names = file(&files, "run.frame_ctrl.state.txt");
+        assert_eq!(names, "00 Clear\n01 Acquire\n10 Drain\n11 Estimate\n");
+        assert!(file(&files, "run.gtkw").contains("\n@2028\n^1 run.frame_ctrl.state.txt\n"));
+        let mapping = file(&files, ".surfer/mappings/frame_ctrl_state");
+        assert!(mapping.starts_with("Name = frame_ctrl_state\nBits = 2\n0 Clear\n"));
+    }
+
+    #[test]
+    fn no_path_leads_out_of_the_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, text) in written(folder.path(), Format::Fst, &entries(&params())) {
+            assert!(!text.contains(&folder.path().display().to_string()), "{name}");
+        }
+    }
+
+    #[test]
+    fn groups_begin_and_end_in_turn() {
+        let folder = tempfile::tempdir().unwrap();
+        let files = written(folder.path(), Format::Vcd, &entries(&params()));
+        let save = file(&files, "run.gtkw").lines();
+        let bounds: Vec<_> = (save.filter_map(|line| line.strip_prefix('@')))
+            .map(|flags| u64::from_str_radix(flags, 16).unwrap() >> 23 & 3)
+            .filter(|bound| *bound > 0)
+            .collect();
+        assert!(bounds.chunks(2).all(|pair| pair == [1, 2]));
+    }
+
+    #[test]
+    fn a_device_has_no_views() {
+        let marks = Marks::default();
+        let paths = write_views(Path::new("/dev/null"), Format::Vcd, &[], &marks).unwrap();
+        assert!(paths.is_empty());
+    }
+}
