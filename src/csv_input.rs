@@ -71,7 +71,8 @@ mod tests {
 
     #[test]
     fn comments_and_blank_lines_are_passed_over() {
-        let mut input = CsvInput::new("a.csv", "# seed 3\n\na,b\n1,2\n\n3,x\n", &["a", "b"]).unwrap();
+        let mut input =
+            CsvInput::new("a.csv", "# seed 3\n\na,b\n1,2\n\n3,x\n", &["a", "b"]).unwrap();
         assert!(input.next().unwrap());
         assert_eq!((input.field::<u8>(0), input.field::<f64>(1)), (Some(1), Some(2.0)));
         assert!(input.next().unwrap());

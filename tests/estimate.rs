@@ -200,7 +200,9 @@ fn the_program_prints_the_naive_integers() {
     let expect = |json: &serde_json::Value, histogram: &Histogram| {
         let (depth, sums) = naive.estimate(histogram);
         assert_eq!(json["depth_raw"], format!("{:09x}", depth.rem_euclid(1 << 36)));
-        assert_eq!(json["depth_m"].as_f64(), Some(depth as f64 / (1u64 << 29) as f64));
+        let depth_m = depth as f64 / (1u64 << 29) as f64;
+        // The parser of this test may miss the last bit.
+        assert!((json["depth_m"].as_f64().unwrap() - depth_m).abs() < 1e-12);
         let found = json["l1_in"].as_array().unwrap().iter().map(|sum| sum.as_i64().unwrap());
         assert_eq!(found.map(i128::from).collect::<Vec<_>>(), sums);
     };

@@ -54,7 +54,8 @@ impl Report {
         let (laser, shots) = (&scenario.laser, scenario.firmware.shots_per_frame as f64);
         let period = PERIODS[scenario.firmware.laser_freq as usize] as f64 * CYCLE.seconds();
         let exposure_s = shots / laser.repetition_rate_hz;
-        let limit = |exposure_s| eye_safety::maximum_average_power_w(exposure_s, laser.wavelength_nm);
+        let limit =
+            |exposure_s| eye_safety::maximum_average_power_w(exposure_s, laser.wavelength_nm);
         Report {
             schema: "tofsim.budget/1",
             scenario: name,

@@ -203,13 +203,16 @@ fn windows(args: &Args, setup: &Setup) -> Result<Vec<Window>> {
         false => args.frames * setup.scenario.firmware.shots_per_frame,
     };
     if !args.window.is_empty() {
-        args.window.iter().try_for_each(|window| window.check(shots, crate::kernel::Time::NEVER))?;
+        args.window
+            .iter()
+            .try_for_each(|window| window.check(shots, crate::kernel::Time::NEVER))?;
         return Ok(args.window.clone());
     }
     let given = &setup.scenario.report.windows;
     if !given.is_empty() {
         let parsed = given.iter().map(|text| {
-            let fault = |expected| Input::new("scenario", expected).field("report.windows").value(text);
+            let fault =
+                |expected| Input::new("scenario", expected).field("report.windows").value(text);
             Ok(text.parse::<Window>().map_err(fault)?)
         });
         return parsed.collect();
@@ -245,7 +248,8 @@ impl<'a> Products<'a> {
         let folder = args.output.as_deref();
         folder.map_or(Ok(()), create_directory)?;
         let events = args.events.as_deref();
-        let events = events.map(|path| Events::create(path, &provenance(args, setup))).transpose()?;
+        let events =
+            events.map(|path| Events::create(path, &provenance(args, setup))).transpose()?;
         let wants_tdc = setup.scenario.report.tdc;
         Ok(Products { folder, events, causes: Causes::default(), tdc: Vec::new(), wants_tdc })
     }
@@ -282,7 +286,9 @@ impl<'a> Products<'a> {
             Ok::<_, Error>(())
         };
         write("summary.json", &json(summary)?)?;
-        write_file(&folder.join("histogram.csv"), |file| histogram_csv::write(file, &frame.histogram))?;
+        write_file(&folder.join("histogram.csv"), |file| {
+            histogram_csv::write(file, &frame.histogram)
+        })?;
         if setup.params.frame_ctrl.preloaded {
             self.causes.add_unknown(&frame.histogram);
         }

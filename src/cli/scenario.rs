@@ -83,9 +83,7 @@ fn list(as_json: bool) -> Result<()> {
         rows.push((*name, scenario::load(name, &[])?.scenario.description));
     }
     if as_json {
-        let object = |(name, description): &(&str, String)| {
-            json!({ "name": name, "description": description })
-        };
+        let object = |(name, description): &(&str, String)| json!({ "name": name, "description": description });
         return print(&format!("{}\n", json!(rows.iter().map(object).collect::<Vec<_>>())));
     }
     let mut table = plain();

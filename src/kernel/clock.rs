@@ -41,9 +41,7 @@ impl Clock {
     fn half_periods(&self, count: u64) -> Time {
         Time::from_fs(match self.whole_half {
             Some(half) => count * half,
-            None => {
-                (count as u128 * self.period_numerator / (2 * self.period_denominator)) as u64
-            }
+            None => (count as u128 * self.period_numerator / (2 * self.period_denominator)) as u64,
         })
     }
 }

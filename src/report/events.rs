@@ -139,7 +139,9 @@ impl Parquet {
         column!(Int64Type, |row| row.frame as i64, required);
         column!(Int64Type, |row| row.shot as i64, required);
         column!(DoubleType, |row: &Shot| row.arrival_fs.map(|fs| fs as f64 / 1e3));
-        column!(ByteArrayType, |row: &Shot| row.cause.map(|c| ByteArray::from(causes::name(Some(c)))));
+        column!(ByteArrayType, |row: &Shot| row
+            .cause
+            .map(|c| ByteArray::from(causes::name(Some(c)))));
         column!(Int32Type, |row: &Shot| row.n.map(|n| n as i32));
         column!(Int32Type, |row: &Shot| row.coarse.map(|coarse| coarse as i32));
         column!(Int32Type, |row: &Shot| row.code.map(|code| code as i32));

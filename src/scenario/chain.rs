@@ -132,7 +132,9 @@ mod tests {
         assert!(message("offset_ps = 2000\ntap_delays_ps = [1.0]").contains("has 1 delays"));
         assert!(message("offset_ps = 2000\ntap_ps = 30").contains("17 ns at most"));
         assert!(message("offset_ps = 2000\ntap_pz = 1").contains("did you mean `tap_ps`?"));
-        assert!(message("offset_ps = 10\ntap_ps = 11\n[[extra]]\ntap=0\nps=-100").contains("before"));
+        assert!(
+            message("offset_ps = 10\ntap_ps = 11\n[[extra]]\ntap=0\nps=-100").contains("before")
+        );
     }
 
     #[test]

@@ -122,7 +122,11 @@ impl<'a> Walk<'a> {
                 if in_range(number, schema) { Ok(()) } else { fault(&expected) }
             }
             ("number", Item::Value(Value::Float(number))) => {
-                if in_range(*number.value(), schema) { Ok(()) } else { fault(&expected) }
+                if in_range(*number.value(), schema) {
+                    Ok(())
+                } else {
+                    fault(&expected)
+                }
             }
             _ => fault(&expected),
         }

@@ -30,7 +30,8 @@ impl Jitter {
             if self.position != n {
                 seek(&mut self.stream, 0, n);
             }
-            let normal = -std::f64::consts::SQRT_2 * erfc_inv(2.0 * uniform(self.stream.next_u64()));
+            let normal =
+                -std::f64::consts::SQRT_2 * erfc_inv(2.0 * uniform(self.stream.next_u64()));
             self.last = (n, (normal * self.rms_fs).round() as i64);
             self.position = n + 1;
         }

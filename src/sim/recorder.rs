@@ -101,7 +101,9 @@ impl Recorder {
 
     fn follow_tdc(&mut self, cycle: u64, top: &TofTop, p: &Params) {
         let decoder = &top.tdc.tdc_decoder;
-        if self.decoding && let Some(shot) = self.open.iter_mut().rfind(|shot| shot.n.is_some()) {
+        if self.decoding
+            && let Some(shot) = self.open.iter_mut().rfind(|shot| shot.n.is_some())
+        {
             shot.code = decoder.tdc_valid.then(|| decoder.tdc_code.get());
         }
         let decoding = decoder.decoding();
@@ -112,9 +114,8 @@ impl Recorder {
         }
         self.decoding = decoding.is_some();
         if top.tdc.tdc_latch.hit {
-            let seen = |&&(at, _): &&(Time, Option<Cause>)| {
-                at + p.tdc.delays.tap_0() <= self.last_edge
-            };
+            let seen =
+                |&&(at, _): &&(Time, Option<Cause>)| at + p.tdc.delays.tap_0() <= self.last_edge;
             let avalanche = self.avalanches.iter().rfind(seen).copied();
             if let Some(shot) = self.open.iter_mut().rfind(|shot| shot.cycle + 2 <= cycle) {
                 shot.has_hit = true;
@@ -126,7 +127,9 @@ impl Recorder {
     }
 
     fn follow_preload(&mut self, top: &TofTop) {
-        if top.code_preload.tdc_valid && let Some(shot) = self.open.back_mut() {
+        if top.code_preload.tdc_valid
+            && let Some(shot) = self.open.back_mut()
+        {
             shot.code = Some(top.code_preload.tdc_code.get());
         }
     }

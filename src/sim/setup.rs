@@ -170,7 +170,9 @@ fn codes(source: &str, text: &str) -> Result<Box<[U<8>]>> {
     while input.next()? {
         match input.field::<u8>(0) {
             Some(code) if codes.len() < CODES => codes.push(U::new(code as u64)),
-            Some(_) => return Err(input.fault(0, format!("expected {CODES} codes at most")).into()),
+            Some(_) => {
+                return Err(input.fault(0, format!("expected {CODES} codes at most")).into());
+            }
             None => return Err(input.fault(0, "expected a code from 0 to 255").into()),
         }
     }

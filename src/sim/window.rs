@@ -95,10 +95,10 @@ impl FromStr for Window {
 
 /// A number with its unit.
 fn time(text: &str) -> Option<Time> {
-    const UNITS: &[(&str, f64)] = &[("ps", 1.0), ("ns", 1e3), ("us", 1e6), ("ms", 1e9), ("s", 1e12)];
+    const UNITS: &[(&str, f64)] =
+        &[("ps", 1.0), ("ns", 1e3), ("us", 1e6), ("ms", 1e9), ("s", 1e12)];
     let text = text.trim();
-    let (number, ps) =
-        UNITS.iter().find_map(|(unit, ps)| Some((text.strip_suffix(unit)?, ps)))?;
+    let (number, ps) = UNITS.iter().find_map(|(unit, ps)| Some((text.strip_suffix(unit)?, ps)))?;
     let number: f64 = number.trim().parse().ok()?;
     let ps = number * ps;
     (0.0..=1e16).contains(&ps).then(|| Time::from_ps_f64(ps))

@@ -149,3 +149,36 @@ fn a_device_that_cannot_seek_is_written_all_the_same() {
         waves.finish(Time::from_ns(1)).unwrap();
     }
 }
+
+#[test]
+fn a_single_instant_and_the_end_of_the_run_are_kept() {
+    let directory = tempfile::tempdir().unwrap();
+    let params = params();
+    for format in FORMATS {
+        for end in [0, 9] {
+            let path = directory.path().join("run").with_extension(format.extension());
+            let mut waves = create(&path, format, &entries(&params), &params);
+            let pins = Pins { rst: true, ..Pins::default() };
+            waves.begin(Time::ZERO, &TofTop::new(pins)).unwrap();
+            waves.finish(Time::from_ns(end)).unwrap();
+            let mut wave = read(&path).unwrap();
+            let last = *wave.time_table().last().unwrap();
+            assert!(last == 1000 * end || (end == 0 && last <= 1), "{format:?}");
+            assert_eq!(at(&contents(&mut wave)["tof_top.rst"].1, 0), "1");
+        }
+    }
+}
+
+#[test]
+fn a_file_with_a_gap_is_not_put_in_place() {
+    let directory = tempfile::tempdir().unwrap();
+    let params = params();
+    for format in FORMATS {
+        let path = directory.path().join("run").with_extension(format.extension());
+        let mut waves = create(&path, format, &entries(&params), &params);
+        waves.begin(Time::ZERO, &TofTop::new(Pins::default())).unwrap();
+        waves.failed = Some((io::ErrorKind::StorageFull, "no space then".into()));
+        let error = waves.finish(Time::from_ns(1)).unwrap_err().to_string();
+        assert!(error.contains("no space then") && !path.exists(), "{error}");
+    }
+}

@@ -1,6 +1,7 @@
 //! What waveforms hold: every signal, with the values that the firmware had.
 
 use std::collections::BTreeSet;
+use std::fs;
 
 use wellen::simple::read;
 
@@ -118,10 +119,12 @@ fn a_file_of_many_blocks_is_read_back_whole() {
     for waves in &mut waves {
         waves.begin(bench.now(), &bench.top).unwrap();
     }
-    bench.run(40 * FRAME, &mut waves);
+    bench.run(120 * FRAME, &mut waves);
     for waves in waves {
         waves.finish(bench.now()).unwrap();
     }
+    let sections = fs::read(&paths[1]).unwrap()[65..73].iter().fold(0, |n, &b| n << 8 | b as u64);
+    assert!(sections > 1, "{sections}");
     let [vcd, fst] = [0, 1].map(|k| contents(&mut read(&paths[k]).unwrap()));
     assert_same(&vcd, &fst);
 }

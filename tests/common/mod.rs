@@ -1,0 +1,71 @@
+//! What several tests share.
+#![allow(dead_code, reason = "each test file uses a part of it")]
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use tofsim::scenario;
+use tofsim::sim::Run;
+use tofsim::sim::frames::Frame;
+use tofsim::sim::run::Watch;
+use tofsim::sim::setup::Setup;
+
+/// A scenario with overrides, ready to run.
+pub fn setup(name: &str, overrides: &[&str]) -> Setup {
+    let overrides: Vec<_> = overrides.iter().map(|&text| text.to_owned()).collect();
+    Setup::new(scenario::load(name, &overrides).unwrap()).unwrap()
+}
+
+/// The first `count` frames of a setup.
+pub fn frames(setup: &Setup, count: u64) -> Vec<Frame> {
+    let mut frames = Vec::new();
+    let mut take = |frame: &Frame| {
+        frames.push(frame.clone());
+        Ok(())
+    };
+    let watch = Watch { frames: Some(&mut take), ..Watch::default() };
+    Run::new(setup).frames(count, setup, watch).unwrap();
+    frames
+}
+
+/// The program, to be run in `folder`.
+pub fn tofsim(folder: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tofsim"));
+    command.current_dir(folder).args(args);
+    command
+}
+
+/// What the program did.
+pub fn output(folder: &Path, args: &[&str]) -> Output {
+    tofsim(folder, args).output().unwrap()
+}
+
+/// Standard output of a run that has to succeed.
+pub fn stdout(folder: &Path, args: &[&str]) -> String {
+    let output = output(folder, args);
+    assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Standard output of a run that has to succeed, as JSON.
+pub fn json(folder: &Path, args: &[&str]) -> serde_json::Value {
+    serde_json::from_str(&stdout(folder, args)).unwrap()
+}
+
+/// Standard error of a run that has to be refused with status 2, without a panic.
+pub fn refused(folder: &Path, args: &[&str]) -> String {
+    let output = output(folder, args);
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{args:?}: {error}");
+    assert!(!error.contains("panicked"), "{args:?}: {error}");
+    error
+}
+
+/// Names of the files in a folder, hidden ones too.
+pub fn files(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> = std::fs::read_dir(folder)
+        .map(|entries| entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect())
+        .unwrap_or_default();
+    names.sort();
+    names
+}
