@@ -31,8 +31,10 @@ const CELL_BITS: u32 = 7;
 const GUIDE_FLOOR: f64 = 1.0 / 16384.0;
 /// Bits of an `f64` that tell nothing of its cell.
 const CELL_SHIFT: u32 = f64::MANTISSA_DIGITS - 1 - CELL_BITS;
-/// Cells of the guide: 14 octaves, and the end [1].
-const CELLS: usize = (14 << CELL_BITS) + 1;
+/// A part of the hazard's span that is past the last node and its cell [1].
+const PAST: f64 = 1.0 + 2.0 / (1 << CELL_BITS) as f64;
+/// Cells of the guide: 14 octaves up to the last node, its own, and those up to `PAST` [1].
+const CELLS: usize = (14 << CELL_BITS) + 3;
 
 /// The broken line of Phi: its nodes, every 1/64 sigma.
 static NORMAL: LazyLock<[f64; PIECES + 1]> = LazyLock::new(|| {
@@ -63,13 +65,17 @@ pub struct Hazard {
     ambient: f64,
     /// Rate of ambient and dark avalanches, N [1/fs].
     background: f64,
+    /// Mean time between ambient and dark avalanches, 1 / N; may be infinite [fs].
+    pause: f64,
     /// Time between nodes [fs].
     step: f64,
+    /// Part of the broken line's hazard to a unit of it [1].
+    scale: f64,
     /// First node; it may be before the laser edge, and is never reached without signal.
     first: Node,
     /// Last node.
     last: Node,
-    /// H at the nodes, and then infinity.
+    /// H at the nodes, and then NaN, which no search passes.
     nodes: Vec<f64>,
     /// For each cell the number of nodes in the cells before it.
     guide: Vec<u16>,
@@ -103,8 +109,9 @@ impl Hazard {
                 let time = start + node as f64 * hazard.step;
                 Node { time, h: hazard.background * time + hazard.signal * hazard.normal[node] }
             };
-            hazard.nodes = (0..=PIECES).map(|k| node(k).h).chain([f64::INFINITY]).collect();
+            hazard.nodes = (0..=PIECES).map(|k| node(k).h).chain([f64::NAN]).collect();
             (hazard.first, hazard.last) = (node(0), node(PIECES));
+            hazard.scale = 1.0 / (hazard.last.h - hazard.first.h);
             hazard.guide = hazard.make_guide();
         }
         hazard
@@ -116,7 +123,9 @@ impl Hazard {
             signal: 0.0,
             ambient: budget.ambient_rate_hz * 1e-15,
             background: budget.background_rate_hz() * 1e-15,
+            pause: 1e15 / budget.background_rate_hz(),
             step: 1.0,
+            scale: 1.0,
             first: Node::NEVER,
             last: Node::NEVER,
             nodes: Vec::new(),
@@ -151,13 +160,13 @@ impl Hazard {
     /// is none.
     #[inline]
     pub fn inverse(&self, h: f64) -> Time {
-        let before = h / self.background;
+        let before = h * self.pause;
         if self.guide.is_empty() {
             return Time::from_fs(if h > 0.0 { before as u64 } else { 0 });
         }
         // A step up, however small, so that without background it takes forever.
         let past = (h - self.last.h).max(f64::MIN_POSITIVE);
-        let after = self.last.time + past / self.background;
+        let after = self.last.time + past * self.pause;
         // All three are computed and one is taken: no branch could foretell which.
         let time = select_unpredictable(h < self.last.h, self.on_the_line(h), after);
         let time = select_unpredictable(h < self.first.h, before, time);
@@ -181,8 +190,8 @@ impl Hazard {
     /// signal puts nearly all avalanches.
     #[inline]
     fn cell(&self, h: f64) -> usize {
-        let part = (h - self.first.h) / (self.last.h - self.first.h);
-        let bits = (part.clamp(0.0, 1.0) + GUIDE_FLOOR).to_bits() - GUIDE_FLOOR.to_bits();
+        let part = (h - self.first.h) * self.scale;
+        let bits = (part.clamp(0.0, PAST) + GUIDE_FLOOR).to_bits() - GUIDE_FLOOR.to_bits();
         (bits >> CELL_SHIFT) as usize
     }
 
@@ -193,6 +202,7 @@ impl Hazard {
             let filled = guide.len().max(self.cell(node) + 1);
             guide.resize(filled, before as u16);
         }
+        guide.resize(CELLS, PIECES as u16 + 1);
         guide
     }
 
