@@ -7,6 +7,7 @@ use crate::error::{Input, Result};
 /// The rows of a CSV text below its header.
 pub struct CsvInput<'a> {
     source: &'a str,
+    text: &'a str,
     header: &'a [&'a str],
     reader: csv::Reader<&'a [u8]>,
     record: csv::StringRecord,
@@ -18,7 +19,7 @@ impl<'a> CsvInput<'a> {
         let mut reader = csv::ReaderBuilder::new();
         reader.has_headers(false).flexible(true).comment(Some(b'#'));
         let reader = reader.from_reader(text.as_bytes());
-        let mut input = CsvInput { source, header, reader, record: csv::StringRecord::new() };
+        let mut input = CsvInput { source, text, header, reader, record: csv::StringRecord::new() };
         let expected = || format!("expected the header `{}`", header.join(","));
         if !input.next_row()? {
             return Err(Input::new(source, format!("empty; {}", expected())).into());
@@ -32,7 +33,7 @@ impl<'a> CsvInput<'a> {
     }
 
     /// Goes to the next row; false at the end. A row with another number of fields is an error.
-    pub fn next(&mut self) -> Result<bool> {
+    pub fn advance(&mut self) -> Result<bool> {
         let more = self.next_row()?;
         if more && self.record.len() != self.header.len() {
             let (found, expected) = (self.record.len(), self.header.len());
@@ -60,8 +61,12 @@ impl<'a> CsvInput<'a> {
         Ok(more.map_err(|error| Input::new(self.source, error))?)
     }
 
+    /// Line of the row; the reader's position is where the comments before it begin.
     fn line(&self) -> usize {
-        self.record.position().map_or(1, |position| position.line() as usize)
+        let Some(position) = self.record.position() else { return 1 };
+        let rest = self.text.get(position.byte() as usize..).unwrap_or_default();
+        let passed = rest.lines().take_while(|line| line.is_empty() || line.starts_with('#'));
+        position.line() as usize + passed.count()
     }
 }
 
@@ -73,19 +78,21 @@ mod tests {
     fn comments_and_blank_lines_are_passed_over() {
         let mut input =
             CsvInput::new("a.csv", "# seed 3\n\na,b\n1,2\n\n3,x\n", &["a", "b"]).unwrap();
-        assert!(input.next().unwrap());
+        assert!(input.advance().unwrap());
         assert_eq!((input.field::<u8>(0), input.field::<f64>(1)), (Some(1), Some(2.0)));
-        assert!(input.next().unwrap());
+        assert!(input.advance().unwrap());
         assert_eq!(input.field::<u8>(1), None);
         let fault = input.fault(1, "expected a number").to_string();
         assert_eq!(fault, "a.csv:6:3: b = x: expected a number");
-        assert!(!input.next().unwrap());
+        assert!(!input.advance().unwrap());
     }
 
     #[test]
     fn a_short_row_and_another_header_are_faults() {
         let mut input = CsvInput::new("a.csv", "a,b\n1\n", &["a", "b"]).unwrap();
-        assert!(input.next().unwrap_err().to_string().contains("a.csv:2:1: the row has 1 fields"));
+        assert!(
+            input.advance().unwrap_err().to_string().contains("a.csv:2:1: the row has 1 fields")
+        );
         let error = |text| CsvInput::new("a.csv", text, &["a", "b"]).err().unwrap().to_string();
         assert!(error("a;b\n").contains("a;b: expected the header `a,b`"));
         assert!(error("# none\n").contains("empty; expected the header"));

@@ -1,7 +1,7 @@
 //! What can go wrong, and where.
 
 use std::fmt;
-use std::io;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// An error that a user can act on. All of them exit with status 2, but for an interruption.
@@ -113,9 +113,17 @@ pub fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
-/// The text of a file, which has to be UTF-8.
+/// Longest text that is read [bytes].
+const LONGEST: u64 = 1 << 28;
+
+/// The text of a file, which has to be UTF-8 and end within 256 MiB.
 pub fn read_text(path: &Path) -> Result<String> {
-    let bytes = std::fs::read(path).map_err(Error::io(path, "read"))?;
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(path).map_err(Error::io(path, "read"))?;
+    file.take(LONGEST + 1).read_to_end(&mut bytes).map_err(Error::io(path, "read"))?;
+    if bytes.len() as u64 > LONGEST {
+        return Err(Input::new(path.display(), "expected 256 MiB at most").into());
+    }
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let text = String::from_utf8_lossy(&error.as_bytes()[..valid]).into_owned();

@@ -21,6 +21,8 @@ const HEADER: [&str; 2] = ["bin", "count"];
 const CSV: u64 = 1 << 20;
 /// Longest header of an `.npy` file; that of a plain array has 118 [bytes].
 const NPY_HEADER: usize = 1024;
+/// Most digits in that header, so that the product of the lengths fits in 64 bits.
+const NPY_DIGITS: usize = 18;
 
 /// What a count has to be.
 const COUNT: &str = "expected a whole number from 0 to 65535";
@@ -109,7 +111,7 @@ pub fn parse_csv(source: &str, text: &str) -> Result<Histogram> {
     let mut input = CsvInput::new(source, text, &HEADER)?;
     let mut histogram = [0; BINS];
     let mut bins = 0;
-    while input.next()? {
+    while input.advance()? {
         if bins == BINS {
             return Err(input.fault(0, "a row after bin 255, expected 256 rows").into());
         }
@@ -149,8 +151,7 @@ fn csv(reader: Reader, path: &str) -> Result<Histogram> {
 /// Reads the header of an `.npy` file.
 fn array(mut reader: Reader, path: &str) -> Result<Left> {
     let fault = |expected: String| Error::from(Input::new(path, expected));
-    let header =
-        header(&mut reader).map_err(|error| fault(format!("not a whole .npy: {error}")))?;
+    let header = header(&mut reader).map_err(|error| fault(format!("unreadable .npy: {error}")))?;
     let shape = header.shape().to_vec();
     let rows = match shape[..] {
         [bins] if bins == BINS as u64 => 1,
@@ -172,7 +173,8 @@ fn array(mut reader: Reader, path: &str) -> Result<Left> {
     Ok(Left::Npy { elements, next: 0, rows })
 }
 
-/// The header, refused before it is read if it is too long for a plain array's.
+/// The header, refused before it is parsed if it is not like a plain array's: nested brackets take
+/// the parser forever.
 fn header(reader: &mut Reader) -> io::Result<NpyHeader> {
     let mut bytes = vec![0; 10];
     reader.read_exact(&mut bytes)?;
@@ -189,6 +191,10 @@ fn header(reader: &mut Reader) -> io::Result<NpyHeader> {
     let begin = bytes.len();
     bytes.resize(begin + length, 0);
     reader.read_exact(&mut bytes[begin..])?;
+    let count = |of: fn(&u8) -> bool| bytes[begin..].iter().filter(|&byte| of(byte)).count();
+    if count(|byte| b"([{".contains(byte)) > 2 || count(u8::is_ascii_digit) > NPY_DIGITS {
+        return Err(io::Error::other("its header is not that of a plain array"));
+    }
     NpyHeader::from_reader(&bytes[..])
 }
 

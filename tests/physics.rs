@@ -7,8 +7,9 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use tofsim::firmware::carry_chain::{Delays, TAPS};
 use tofsim::kernel::Time;
 use tofsim::optics::eye_safety::maximum_average_power_w;
-use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard, exponential};
+use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 use tofsim::scenario::{AmbientModel, Scenario};
+use tofsim::sensor::streams::exponential;
 
 /// Distances of the thesis's tables [m].
 const DISTANCES_M: [f64; 6] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];

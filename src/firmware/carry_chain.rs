@@ -102,8 +102,8 @@ impl Delays {
         let boundary = |n: usize| if n < TAPS { self.arrivals[n] } else { self.end }.fs();
         let unit = |twice_fs: u64| (2 * twice_fs + 3125) / 6250;
         let mut cal = [U::new(unit(2 * boundary(0))); TAPS + 1];
-        for n in 1..=TAPS {
-            cal[n] = U::new(unit(boundary(n - 1) + boundary(n)));
+        for (n, word) in cal.iter_mut().enumerate().skip(1) {
+            *word = U::new(unit(boundary(n - 1) + boundary(n)));
         }
         let at_start = self.rank(period);
         cal[at_start] = cal[at_start].min(U::new(unit(2 * period.fs())));

@@ -51,7 +51,7 @@ pub struct DepthEstimator {
 
 connect! {
     /// Port connections.
-    pub fn wires(this: &DepthEstimator, i: &In) -> Wires;
+    pub fn of(this: &DepthEstimator, i: &In) -> Wires;
     estimator_ctrl: estimator_ctrl::In {
         rst <- i.rst;
         algo_start <- i.algo_start;
@@ -80,7 +80,7 @@ connect! {
 impl DepthEstimator {
     /// The rising edge of `clk_125`.
     pub fn rise(&mut self, i: &In, p: &Params) {
-        let wires = Wires::wires(self, i);
+        let wires = Wires::of(self, i);
         *self = DepthEstimator {
             estimator_ctrl: self.estimator_ctrl.next(&wires.estimator_ctrl, &()),
             forward1: self.forward1.next(&wires.forward1, &p.forward1),

@@ -62,7 +62,7 @@ pub struct Tdc {
 
 connect! {
     /// Port connections.
-    pub fn wires(this: &Tdc, i: &In) -> Wires;
+    pub fn of(this: &Tdc, i: &In) -> Wires;
     carry_chain: carry_chain::In {
         tdc_stop <- i.tdc_stop;
     }
@@ -89,7 +89,7 @@ impl Tdc {
     /// The rising edge of `clk_125` at `now`.
     #[inline(always)]
     pub fn rise(&mut self, i: &In, p: &Params, line: &mut StopLine, now: Time) {
-        let wires = Wires::wires(self, i);
+        let wires = Wires::of(self, i);
         *self = Tdc {
             carry_chain: CarryChain { taps: line.sample(now, &p.delays) },
             coarse_counter: self.coarse_counter.next(&wires.coarse_counter, &()),

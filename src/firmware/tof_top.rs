@@ -138,7 +138,7 @@ pub struct TofTop {
 
 connect! {
     /// Port connections. Every module output is a register, so one pass settles them.
-    pub fn wires(this: &TofTop) -> Wires;
+    pub fn of(this: &TofTop) -> Wires;
     reset_sync_125: reset_sync::In {
         rst <- this.pins.rst;
         locked <- this.pll.locked;
@@ -229,7 +229,7 @@ impl TofTop {
     /// An edge at which `clk_125` and `clk_250` rise, at `now`.
     #[inline(always)]
     pub fn rise(&mut self, p: &Params, line: &mut StopLine, now: Time) {
-        let wires = Wires::wires(self);
+        let wires = Wires::of(self);
         self.reset_sync_250 = self.reset_sync_250.next(&wires.reset_sync_250, &());
         self.vcsel_driver.rise_250(&wires.vcsel_driver);
 
@@ -252,7 +252,7 @@ impl TofTop {
     /// An edge at which only `clk_250` rises: the middle of a cycle of `clk_125`.
     #[inline(always)]
     pub fn rise_250(&mut self) {
-        let wires = Wires::wires(self);
+        let wires = Wires::of(self);
         self.reset_sync_250 = self.reset_sync_250.next(&wires.reset_sync_250, &());
         self.vcsel_driver.rise_250(&wires.vcsel_driver);
         self.drive_laser();
@@ -282,7 +282,7 @@ impl TofTop {
             CodeSource::Tdc => (self.tdc.tdc_decoder.tdc_valid, self.tdc.tdc_decoder.tdc_code),
             CodeSource::Preload(_) => (self.code_preload.tdc_valid, self.code_preload.tdc_code),
         };
-        let wires = Wires::wires(self);
+        let wires = Wires::of(self);
         self.nets.count = match &p.histogram_source {
             HistogramSource::Builder => self.histogram_builder.count(&wires.histogram_builder),
             HistogramSource::Preload(rom) => {

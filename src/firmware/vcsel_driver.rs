@@ -79,7 +79,7 @@ pub struct VcselDriver {
 
 connect! {
     /// Port connections inside the driver.
-    pub fn wires(this: &VcselDriver) -> Wires;
+    pub fn of(this: &VcselDriver) -> Wires;
     ddr_output: ddr_output::In {
         d <- this.registers_250.laser_pulse;
     }
@@ -133,7 +133,7 @@ impl VcselDriver {
     /// A rising edge of `clk_250`, to be stepped before `clk_125` where both rise.
     #[inline(always)]
     pub fn rise_250(&mut self, i: &In) {
-        self.ddr_output = self.ddr_output.rise(&Wires::wires(self).ddr_output);
+        self.ddr_output = self.ddr_output.rise(&Wires::of(self).ddr_output);
         let i = In250 { fire: self.registers.fire, rst_250: i.rst_250 };
         self.registers_250 = self.registers_250.next(&i, &());
     }

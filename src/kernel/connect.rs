@@ -12,7 +12,7 @@ pub type Connection = (&'static str, &'static str, &'static str);
 macro_rules! connect {
     (
         $(#[$doc:meta])*
-        $vis:vis fn wires($this:ident: &$Top:ty $(, $input:ident: &$In:ty)?) -> $Wires:ident;
+        $vis:vis fn of($this:ident: &$Top:ty $(, $input:ident: &$In:ty)?) -> $Wires:ident;
         $($module:ident: $file:ident::In {
             $($port:ident <- $root:ident $(. $field:ident)+;)*
         })*
@@ -27,7 +27,7 @@ macro_rules! connect {
         }
 
         impl $Wires {
-            /// Every connection that `wires` makes.
+            /// Every connection that `of` makes.
             $vis const CONNECTIONS: &[$crate::kernel::connect::Connection] = &[
                 $($((
                     stringify!($module),
@@ -46,7 +46,7 @@ macro_rules! connect {
 
             $(#[$doc])*
             #[inline(always)]
-            $vis fn wires($this: &$Top $(, $input: &$In)?) -> $Wires {
+            $vis fn of($this: &$Top $(, $input: &$In)?) -> $Wires {
                 $Wires {
                     $($module: $file::In { $($port: $root $(. $field)+,)* },)*
                 }

@@ -8,4 +8,4 @@ pub mod hazard;
 
 pub use budget::Budget;
 pub use closed_form::{BinProbabilities, Bins};
-pub use hazard::{Cause, Hazard, exponential};
+pub use hazard::{Cause, Hazard};

@@ -31,7 +31,7 @@ fn clocks(scenario: &Scenario, checked: &Checked) -> Result<()> {
         );
         return Err(checked.fault("pll.output_divide", expected).into());
     }
-    if pll.output_divide % 2 != 0 {
+    if !pll.output_divide.is_multiple_of(2) {
         let expected = "expected an even number: clk_250 has half of it";
         return Err(checked.fault("pll.output_divide", expected).into());
     }

@@ -8,10 +8,10 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 
 use crate::kernel::Time;
-use crate::optics::hazard::{Cause, Hazard, exponential};
+use crate::optics::hazard::{Cause, Hazard};
 
 use super::photon_list::PhotonList;
-use super::streams::{Source, seek, stream, uniform};
+use super::streams::{Source, exponential, seek, stream, uniform};
 
 /// What reaches the detector.
 #[derive(Clone, Debug)]

@@ -37,9 +37,17 @@ pub fn seek(stream: &mut ChaCha8Rng, shot: u64, nth: u64) {
     stream.set_word_pos(shot as u128 * STRETCH + 2 * nth as u128);
 }
 
-/// A number between 0 and 1, both excluded, from a word.
+/// A number between 0 and 1 from a word: its upper 52 bits choose the middle of one of 2^52 equal
+/// parts, which is exact in an `f64` and never 0 or 1.
+#[inline]
 pub fn uniform(word: u64) -> f64 {
-    ((word >> 11) as f64 + 0.5) * (1.0 / (1u64 << 53) as f64)
+    ((word >> 12) as f64 + 0.5) * (1.0 / (1u64 << 52) as f64)
+}
+
+/// An exponential draw of mean 1 from a word.
+#[inline]
+pub fn exponential(word: u64) -> f64 {
+    -libm::log(uniform(word))
 }
 
 #[cfg(test)]
@@ -68,6 +76,13 @@ mod tests {
         let words = [further.next_u64(), further.next_u64()];
         seek(&mut further, 7, 1);
         assert_eq!(further.next_u64(), words[1]);
+    }
+
+    #[test]
+    fn exponential_draws_are_finite_and_positive() {
+        assert!((exponential(0) - 53.0 * std::f64::consts::LN_2).abs() < 1e-12);
+        assert!(exponential(u64::MAX) > 0.0);
+        assert!((exponential(1 << 63) - std::f64::consts::LN_2).abs() < 1e-15);
     }
 
     #[test]

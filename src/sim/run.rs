@@ -3,18 +3,22 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::error::{Error, Input, Result};
-use crate::firmware::tof_top::{Params, TofTop};
+use crate::firmware::tof_top::Params;
 use crate::kernel::Time;
 use crate::waves::{Marks, Waves};
 
-use super::device::{Device, Off, Record, Trace};
+use super::device::{Device, Off, Record};
 use super::frames::{Frame, Frames};
 use super::recorder::{Recorder, Shot};
 use super::setup::Setup;
-use super::window::{Moment, Window};
+use super::tracer::{Tracer, Windowed};
+use super::window::Window;
 
 /// Cycles between two looks at the world outside.
 const BREATH: u64 = 1 << 14;
+
+/// Takes what a run gives, piece by piece; an error ends the run.
+pub type Taker<'a, T> = &'a mut dyn FnMut(&T) -> Result<()>;
 
 /// What a run is to do beside simulating.
 #[derive(Default)]
@@ -22,9 +26,9 @@ pub struct Watch<'a> {
     /// The waveform, and the parts of the run that go into it.
     pub waves: Option<(Waves, Vec<Window>)>,
     /// Takes each shot, in order.
-    pub shots: Option<&'a mut dyn FnMut(&Shot) -> Result<()>>,
+    pub shots: Option<Taker<'a, Shot>>,
     /// Takes each frame, in order.
-    pub frames: Option<&'a mut dyn FnMut(&Frame) -> Result<()>>,
+    pub frames: Option<Taker<'a, Frame>>,
     /// Set from outside to stop the run.
     pub stop: Option<&'a AtomicBool>,
 }
@@ -72,7 +76,6 @@ impl<'a> Run<'a> {
         let first_edge = self.device.next_edge();
         match &mut tracer {
             Some(tracer) if tracer.begins_before(first_edge) => {
-                tracer.state = State::Writing;
                 self.device.resume_clocks(Time::ZERO);
                 tracer.begin(Time::ZERO, &self.device.top);
                 self.device.power_up(tracer, &mut Off);
@@ -155,8 +158,8 @@ impl<'a> Run<'a> {
 }
 
 struct Sinks<'a> {
-    shots: Option<&'a mut dyn FnMut(&Shot) -> Result<()>>,
-    frames: Option<&'a mut dyn FnMut(&Frame) -> Result<()>>,
+    shots: Option<Taker<'a, Shot>>,
+    frames: Option<Taker<'a, Frame>>,
     stop: Option<&'a AtomicBool>,
 }
 
@@ -192,148 +195,5 @@ impl Recorded for Recorder {
     fn pass_on(&mut self, sinks: &mut Sinks) -> Result<()> {
         let take = sinks.shots.as_mut();
         take.map_or(Ok(()), |take| self.take().try_for_each(|shot| take(&shot)))
-    }
-}
-
-/// A trace that is on only within windows, or none.
-trait Windowed: Trace {
-    /// Whether the coming cycle is to be traced.
-    fn is_wanted(&mut self, device: &mut Device, frames: &Frames, p: &Params) -> Result<bool>;
-}
-
-impl Windowed for Off {
-    fn is_wanted(&mut self, _: &mut Device, _: &Frames, _: &Params) -> Result<bool> {
-        Ok(false)
-    }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum State {
-    Waiting,
-    /// Begins with the coming edge.
-    Opening,
-    Writing,
-}
-
-/// Writes the waveform while a window is open.
-struct Tracer {
-    waves: Waves,
-    windows: Vec<Window>,
-    state: State,
-    error: Option<Error>,
-    marks: Marks,
-    /// Shot under way, from three cycles before its laser edge.
-    shot: Option<u64>,
-    began: Option<Time>,
-}
-
-impl Tracer {
-    fn new(waves: Waves, windows: Vec<Window>) -> Self {
-        let (marks, shot, began) = (Marks::default(), None, None);
-        Tracer { waves, windows, state: State::Waiting, error: None, marks, shot, began }
-    }
-
-    fn begins_before(&self, first_edge: Time) -> bool {
-        let cycle = (Time::ZERO, first_edge);
-        let moment = Moment { cycle, shot: None, estimating: false };
-        self.windows.iter().any(|window| window.wants(&moment))
-    }
-
-    fn begin(&mut self, now: Time, top: &TofTop) {
-        let result = self.waves.begin(now, top);
-        self.keep(result);
-        self.began.get_or_insert(now);
-    }
-
-    fn close(&mut self, now: Time) -> Result<()> {
-        if self.marks.to == Time::ZERO {
-            self.marks.to = now;
-        }
-        self.waves.end(now)
-    }
-
-    fn keep(&mut self, result: Result<()>) {
-        if let Err(error) = result {
-            self.error.get_or_insert(error);
-        }
-    }
-
-    fn mark(&mut self, now: Time, top: &TofTop) {
-        let marks = &mut self.marks;
-        if marks.laser_edge.is_none() && top.nets.laser_on {
-            marks.laser_edge = Some(now);
-        }
-        if marks.spad_edge.is_none() && marks.laser_edge.is_some() && top.pins.tdc_stop {
-            marks.spad_edge = Some(now);
-        }
-        if marks.algo_done.is_none() && top.depth_estimator.estimator_ctrl.algo_done {
-            marks.algo_done = Some(now);
-        }
-    }
-
-    fn follow_shot(&mut self, device: &Device, frames: &Frames) {
-        let top = &device.top;
-        if top.vcsel_driver.registers.shot_is_near(top.frame_ctrl.acquire) {
-            self.shot = Some(frames.shots());
-        } else if top.frame_ctrl.clear {
-            self.shot = None;
-        }
-    }
-
-    fn finish(mut self, end: Time, shots: u64) -> Result<Marks> {
-        if let Some(error) = self.error {
-            return Err(error);
-        }
-        self.windows.iter().try_for_each(|window| window.check(shots, end))?;
-        if self.state == State::Writing {
-            self.close(end)?;
-        }
-        self.marks.from = self.began.unwrap_or_default();
-        self.waves.finish(end)?;
-        Ok(self.marks)
-    }
-}
-
-impl Trace for Tracer {
-    const ON: bool = true;
-
-    fn sample(&mut self, now: Time, top: &TofTop) {
-        match self.state {
-            State::Opening if top.clocks.clk_125 => {
-                self.state = State::Writing;
-                self.begin(now, top);
-            }
-            State::Writing => {
-                let result = self.waves.sample(now, top);
-                self.keep(result);
-            }
-            State::Opening | State::Waiting => return,
-        }
-        self.mark(now, top);
-    }
-}
-
-impl Windowed for Tracer {
-    fn is_wanted(&mut self, device: &mut Device, frames: &Frames, p: &Params) -> Result<bool> {
-        if let Some(error) = self.error.take() {
-            return Err(error);
-        }
-        self.follow_shot(device, frames);
-        let cycle = device.coming_cycle();
-        let estimating = device.top.frame_ctrl.is_estimating(&p.frame_ctrl);
-        let moment = Moment { cycle, shot: self.shot, estimating };
-        let wanted = self.windows.iter().any(|window| window.wants(&moment));
-        match (self.state, wanted) {
-            (State::Waiting, true) => {
-                self.state = State::Opening;
-                device.resume_clocks(cycle.0);
-            }
-            (State::Writing, false) => {
-                self.state = State::Waiting;
-                self.close(cycle.0)?;
-            }
-            _ => {}
-        }
-        Ok(wanted)
     }
 }

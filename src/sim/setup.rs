@@ -167,7 +167,7 @@ const CODES: usize = 1 << 16;
 fn codes(source: &str, text: &str) -> Result<Box<[U<8>]>> {
     let mut input = CsvInput::new(source, text, &["code"])?;
     let mut codes = Vec::new();
-    while input.next()? {
+    while input.advance()? {
         match input.field::<u8>(0) {
             Some(code) if codes.len() < CODES => codes.push(U::new(code as u64)),
             Some(_) => {

@@ -13,8 +13,8 @@ const OFFERED: usize = 3;
 /// The entries whose names match one of `globs`, or without globs all but the words of the RAM.
 ///
 /// A glob is matched against the dotted path, the path below the top, and the bare name; `*`
-/// crosses dots. A word of the RAM is matched only by a glob that has `ram` in it, so that `*`
-/// does not bring 256 of them.
+/// crosses dots. A word of the RAM is matched only by a glob whose last part begins with `ram`, so
+/// that `*` or `histogram_builder.*` does not bring 256 of them.
 pub fn select(entries: Vec<Entry>, ram: Vec<Entry>, globs: &[String]) -> Result<Vec<Entry>> {
     if globs.is_empty() {
         return Ok(entries);
@@ -25,7 +25,7 @@ pub fn select(entries: Vec<Entry>, ram: Vec<Entry>, globs: &[String]) -> Result<
         let matcher = compile(glob)?;
         let mut found = false;
         for (candidate, chosen) in candidates.iter().zip(&mut chosen) {
-            let matches = (!candidate.in_ram || glob.contains("ram"))
+            let matches = (!candidate.in_ram || asks_for_ram(glob))
                 && names(&candidate.entry).iter().any(|name| matcher.is_match(name));
             found |= matches;
             *chosen |= matches;
@@ -38,6 +38,10 @@ pub fn select(entries: Vec<Entry>, ram: Vec<Entry>, globs: &[String]) -> Result<
     }
     let pairs = candidates.into_iter().zip(chosen);
     Ok(pairs.filter(|(_, chosen)| *chosen).map(|(candidate, _)| candidate.entry).collect())
+}
+
+fn asks_for_ram(glob: &str) -> bool {
+    glob.rsplit('.').next().is_some_and(|name| name.starts_with("ram"))
 }
 
 struct Candidate {
