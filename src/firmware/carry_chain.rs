@@ -40,7 +40,12 @@ pub struct Delays {
     order: Vec<u16>,
     /// When the transition leaves the last tap.
     end: Time,
+    /// For each [`CELL`] of age, how many taps are reached at its begin.
+    guide: Vec<u16>,
 }
+
+/// Ages that share an entry of the guide, as a power of two: about a tap [fs].
+const CELL: u32 = 13;
 
 impl Delays {
     /// From the delay before the first tap and the delay of each of the 800 taps [fs]. A negative
@@ -57,8 +62,15 @@ impl Delays {
         }
         reached.sort();
         let end = at.max(reached.last()?.0);
-        (reached.len() == TAPS && reached[0].0 > 0).then(|| Delays {
-            arrivals: reached.iter().map(|&(at, _)| Time::from_fs(at as u64)).collect(),
+        if reached.len() != TAPS || reached[0].0 <= 0 {
+            return None;
+        }
+        let arrivals: Vec<_> = reached.iter().map(|&(at, _)| Time::from_fs(at as u64)).collect();
+        let cells = 0..=arrivals[TAPS - 1].fs() >> CELL;
+        let begins = cells.map(|cell| Time::from_fs(cell << CELL));
+        Some(Delays {
+            guide: begins.map(|age| arrivals.partition_point(|&at| at < age) as u16).collect(),
+            arrivals,
             order: reached.iter().map(|&(_, tap)| tap).collect(),
             end: Time::from_fs(end as u64),
         })
@@ -67,7 +79,9 @@ impl Delays {
     /// How many taps a transition of that age has reached.
     #[inline]
     pub fn rank(&self, age: Time) -> usize {
-        self.arrivals.partition_point(|&arrival| arrival <= age)
+        let Some(&before) = self.guide.get((age.fs() >> CELL) as usize) else { return TAPS };
+        let rest = self.arrivals[before as usize..].iter();
+        before as usize + rest.take_while(|&&arrival| arrival <= age).count()
     }
 
     /// When each tap is reached, in order of arrival, from the transition of `tdc_stop`.
@@ -186,6 +200,18 @@ mod tests {
         assert_eq!(delays.rank(Time::from_fs(2_230_000)), 1);
         assert_eq!(delays.rank(Time::from_fs(2_241_499)), 1);
         assert_eq!(delays.rank(Time::from_fs(2_241_500)), 2);
+    }
+
+    #[test]
+    fn the_rank_is_the_number_of_arrivals_at_every_boundary() {
+        let uneven: Vec<_> = (0..TAPS as i64).map(|tap| (tap * 7919 % 41 - 9) * 1_000).collect();
+        for delays in [uniform(11_500, 2_230), Delays::new(Time::from_ns(3), &uneven).unwrap()] {
+            for age in delays.arrivals.iter().flat_map(|at| [at.fs() - 1, at.fs(), at.fs() + 1]) {
+                let counted = delays.arrivals.iter().filter(|at| at.fs() <= age).count();
+                assert_eq!(delays.rank(Time::from_fs(age)), counted);
+            }
+            assert_eq!(delays.rank(Time::from_ns(1_000_000)), TAPS);
+        }
     }
 
     #[test]

@@ -51,7 +51,7 @@ pub struct DepthEstimator {
 
 connect! {
     /// Port connections.
-    pub fn of(this: &DepthEstimator, i: &In) -> Wires;
+    pub struct Wires(this: &DepthEstimator, i: &In);
     estimator_ctrl: estimator_ctrl::In {
         rst <- i.rst;
         algo_start <- i.algo_start;
@@ -80,12 +80,11 @@ connect! {
 impl DepthEstimator {
     /// The rising edge of `clk_125`.
     pub fn rise(&mut self, i: &In, p: &Params) {
-        let wires = Wires::of(self, i);
         *self = DepthEstimator {
-            estimator_ctrl: self.estimator_ctrl.next(&wires.estimator_ctrl, &()),
-            forward1: self.forward1.next(&wires.forward1, &p.forward1),
-            tansig: self.tansig.next(&wires.tansig, &p.tansig),
-            forward2: self.forward2.next(&wires.forward2, &p.forward2),
+            estimator_ctrl: self.estimator_ctrl.next(&Wires::estimator_ctrl(self, i), &()),
+            forward1: self.forward1.next(&Wires::forward1(self, i), &p.forward1),
+            tansig: self.tansig.next(&Wires::tansig(self, i), &p.tansig),
+            forward2: self.forward2.next(&Wires::forward2(self, i), &p.forward2),
         };
     }
 

@@ -62,7 +62,7 @@ pub struct Tdc {
 
 connect! {
     /// Port connections.
-    pub fn of(this: &Tdc, i: &In) -> Wires;
+    pub struct Wires(this: &Tdc, i: &In);
     carry_chain: carry_chain::In {
         tdc_stop <- i.tdc_stop;
     }
@@ -89,12 +89,11 @@ impl Tdc {
     /// The rising edge of `clk_125` at `now`.
     #[inline(always)]
     pub fn rise(&mut self, i: &In, p: &Params, line: &mut StopLine, now: Time) {
-        let wires = Wires::of(self, i);
         *self = Tdc {
+            coarse_counter: self.coarse_counter.next(&Wires::coarse_counter(self, i), &()),
+            tdc_latch: self.tdc_latch.next(&Wires::tdc_latch(self, i), &p.tap_0),
+            tdc_decoder: self.tdc_decoder.next(&Wires::tdc_decoder(self, i), &p.cal),
             carry_chain: CarryChain { taps: line.sample(now, &p.delays) },
-            coarse_counter: self.coarse_counter.next(&wires.coarse_counter, &()),
-            tdc_latch: self.tdc_latch.next(&wires.tdc_latch, &p.tap_0),
-            tdc_decoder: self.tdc_decoder.next(&wires.tdc_decoder, &p.cal),
         };
     }
 }

@@ -138,7 +138,7 @@ pub struct TofTop {
 
 connect! {
     /// Port connections. Every module output is a register, so one pass settles them.
-    pub fn of(this: &TofTop) -> Wires;
+    pub struct Wires(this: &TofTop);
     reset_sync_125: reset_sync::In {
         rst <- this.pins.rst;
         locked <- this.pll.locked;
@@ -229,39 +229,43 @@ impl TofTop {
     /// An edge at which `clk_125` and `clk_250` rise, at `now`.
     #[inline(always)]
     pub fn rise(&mut self, p: &Params, line: &mut StopLine, now: Time) {
-        let wires = Wires::of(self);
-        self.reset_sync_250 = self.reset_sync_250.next(&wires.reset_sync_250, &());
-        self.vcsel_driver.rise_250(&wires.vcsel_driver);
+        let reset_sync_250 = self.reset_sync_250.next(&Wires::reset_sync_250(self), &());
+        let reset_sync_125 = self.reset_sync_125.next(&Wires::reset_sync_125(self), &());
+        let control_sync = self.control_sync.next(&Wires::control_sync(self), &());
+        let frame_ctrl = self.frame_ctrl.next(&Wires::frame_ctrl(self), &p.frame_ctrl);
+        let vcsel_driver = self.vcsel_driver.rise(&Wires::vcsel_driver(self));
+        let spad_control = self.spad_control.next(&Wires::spad_control(self), &());
+        let (tdc, code_preload) = (Wires::tdc(self), Wires::code_preload(self));
+        let histogram_builder = Wires::histogram_builder(self);
+        let depth_estimator = Wires::depth_estimator(self);
 
-        self.reset_sync_125 = self.reset_sync_125.next(&wires.reset_sync_125, &());
-        self.control_sync = self.control_sync.next(&wires.control_sync, &());
-        self.frame_ctrl = self.frame_ctrl.next(&wires.frame_ctrl, &p.frame_ctrl);
-        self.vcsel_driver.registers = self.vcsel_driver.registers.next(&wires.vcsel_driver, &());
-        self.spad_control = self.spad_control.next(&wires.spad_control, &());
+        (self.reset_sync_125, self.reset_sync_250) = (reset_sync_125, reset_sync_250);
+        (self.control_sync, self.frame_ctrl) = (control_sync, frame_ctrl);
+        (self.vcsel_driver, self.spad_control) = (vcsel_driver, spad_control);
         match &p.code_source {
-            CodeSource::Tdc => self.tdc.rise(&wires.tdc, &p.tdc, line, now),
+            CodeSource::Tdc => self.tdc.rise(&tdc, &p.tdc, line, now),
             CodeSource::Preload(rom) => {
-                self.code_preload = self.code_preload.next(&wires.code_preload, rom);
+                self.code_preload = self.code_preload.next(&code_preload, rom);
             }
         }
-        self.histogram_builder.tick(&wires.histogram_builder);
-        self.estimate(&wires.depth_estimator, &p.depth_estimator);
+        self.histogram_builder.tick(&histogram_builder);
+        self.estimate(&depth_estimator, &p.depth_estimator);
         self.settle(p);
     }
 
     /// An edge at which only `clk_250` rises: the middle of a cycle of `clk_125`.
     #[inline(always)]
     pub fn rise_250(&mut self) {
-        let wires = Wires::of(self);
-        self.reset_sync_250 = self.reset_sync_250.next(&wires.reset_sync_250, &());
-        self.vcsel_driver.rise_250(&wires.vcsel_driver);
+        let reset_sync_250 = self.reset_sync_250.next(&Wires::reset_sync_250(self), &());
+        self.vcsel_driver = self.vcsel_driver.rise_250(&Wires::vcsel_driver(self));
+        self.reset_sync_250 = reset_sync_250;
         self.drive_laser();
     }
 
     /// A falling edge of `clk_250`.
     #[inline(always)]
     pub fn fall_250(&mut self) {
-        self.vcsel_driver.fall_250();
+        self.vcsel_driver = self.vcsel_driver.fall_250();
         self.drive_laser();
     }
 
@@ -282,11 +286,12 @@ impl TofTop {
             CodeSource::Tdc => (self.tdc.tdc_decoder.tdc_valid, self.tdc.tdc_decoder.tdc_code),
             CodeSource::Preload(_) => (self.code_preload.tdc_valid, self.code_preload.tdc_code),
         };
-        let wires = Wires::of(self);
         self.nets.count = match &p.histogram_source {
-            HistogramSource::Builder => self.histogram_builder.count(&wires.histogram_builder),
+            HistogramSource::Builder => {
+                self.histogram_builder.count(&Wires::histogram_builder(self))
+            }
             HistogramSource::Preload(rom) => {
-                histogram_preload::count(&wires.histogram_preload, rom)
+                histogram_preload::count(&Wires::histogram_preload(self), rom)
             }
         };
         self.drive_laser();

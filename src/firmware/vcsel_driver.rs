@@ -79,7 +79,7 @@ pub struct VcselDriver {
 
 connect! {
     /// Port connections inside the driver.
-    pub fn of(this: &VcselDriver) -> Wires;
+    pub struct Wires(this: &VcselDriver);
     ddr_output: ddr_output::In {
         d <- this.registers_250.laser_pulse;
     }
@@ -130,18 +130,27 @@ pub struct In250 {
 }
 
 impl VcselDriver {
-    /// A rising edge of `clk_250`, to be stepped before `clk_125` where both rise.
+    /// After an edge at which both clocks rise.
     #[inline(always)]
-    pub fn rise_250(&mut self, i: &In) {
-        self.ddr_output = self.ddr_output.rise(&Wires::of(self).ddr_output);
-        let i = In250 { fire: self.registers.fire, rst_250: i.rst_250 };
-        self.registers_250 = self.registers_250.next(&i, &());
+    pub fn rise(&self, i: &In) -> Self {
+        VcselDriver { registers: self.registers.next(i, &()), ..self.rise_250(i) }
     }
 
-    /// A falling edge of `clk_250`.
+    /// After an edge at which only `clk_250` rises.
     #[inline(always)]
-    pub fn fall_250(&mut self) {
-        self.ddr_output = self.ddr_output.fall();
+    pub fn rise_250(&self, i: &In) -> Self {
+        let i = In250 { fire: self.registers.fire, rst_250: i.rst_250 };
+        VcselDriver {
+            registers: self.registers,
+            registers_250: self.registers_250.next(&i, &()),
+            ddr_output: self.ddr_output.rise(&Wires::ddr_output(self)),
+        }
+    }
+
+    /// After a falling edge of `clk_250`.
+    #[inline(always)]
+    pub fn fall_250(&self) -> Self {
+        VcselDriver { ddr_output: self.ddr_output.fall(), ..*self }
     }
 
     /// The single-ended laser pulse.
@@ -159,15 +168,14 @@ mod tests {
     fn run(driver: &mut VcselDriver, i: &In, cycles: usize) -> Vec<[bool; 6]> {
         let mut seen = Vec::new();
         for _ in 0..cycles {
-            driver.rise_250(i);
-            driver.registers = driver.registers.next(i, &());
+            *driver = driver.rise(i);
             let (pulse_first, on_first) = (driver.registers_250.laser_pulse, driver.laser_on());
-            driver.fall_250();
+            *driver = driver.fall_250();
             let mut on_later = driver.laser_on();
-            driver.rise_250(i);
+            *driver = driver.rise_250(i);
             let pulse_second = driver.registers_250.laser_pulse;
             on_later |= driver.laser_on();
-            driver.fall_250();
+            *driver = driver.fall_250();
             on_later |= driver.laser_on();
             let registers = driver.registers;
             seen.push([

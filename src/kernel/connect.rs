@@ -5,29 +5,25 @@ pub type Connection = (&'static str, &'static str, &'static str);
 
 /// Joins the input ports of a container's modules to their sources.
 ///
-/// From one list it makes a method that builds every module's `In` and a table of the same
-/// connections, by which waveforms declare an input port as an alias of the signal that drives
-/// it. A source is a path that begins with the container (`this`) or its own input ports.
+/// From one list it makes, on an empty struct, a function for each module that reads its input
+/// ports, and a table of the same connections, by which waveforms declare an input port as an alias
+/// of the signal that drives it. A source is a path that begins with the container (`this`) or with
+/// the container's own input ports.
 #[macro_export]
 macro_rules! connect {
     (
         $(#[$doc:meta])*
-        $vis:vis fn of($this:ident: &$Top:ty $(, $input:ident: &$In:ty)?) -> $Wires:ident;
+        $vis:vis struct $Wires:ident $from:tt;
         $($module:ident: $file:ident::In {
             $($port:ident <- $root:ident $(. $field:ident)+;)*
         })*
     ) => {
-        /// The input ports of every module, as they stand between two edges.
-        #[derive(Clone, Copy, Debug, PartialEq)]
-        $vis struct $Wires {
-            $(
-                #[doc = concat!("Input ports of `", stringify!($module), "`.")]
-                $vis $module: $file::In,
-            )*
-        }
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        $vis struct $Wires;
 
         impl $Wires {
-            /// Every connection that `of` makes.
+            /// Every connection.
             $vis const CONNECTIONS: &[$crate::kernel::connect::Connection] = &[
                 $($((
                     stringify!($module),
@@ -44,13 +40,14 @@ macro_rules! connect {
                 ),)*]
             }
 
-            $(#[$doc])*
-            #[inline(always)]
-            $vis fn of($this: &$Top $(, $input: &$In)?) -> $Wires {
-                $Wires {
-                    $($module: $file::In { $($port: $root $(. $field)+,)* },)*
+            $(
+                #[doc = concat!("Input ports of `", stringify!($module), "` as they stand.")]
+                #[inline(always)]
+                #[allow(unused_variables, reason = "a module may be fed from one side only")]
+                $vis fn $module $from -> $file::In {
+                    $file::In { $($port: $root $(. $field)+,)* }
                 }
-            }
+            )*
         }
     };
 }
