@@ -178,6 +178,62 @@ impl Given {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::optics::Budget;
+
+    fn optics() -> Light {
+        let ambient_rate_hz = 0.27e9;
+        let mean_arrival = Time::from_ns(3);
+        let budget = Budget {
+            signal_per_shot: 0.9,
+            ambient_rate_hz,
+            mean_arrival,
+            pulse_sigma_ps: 137.0,
+            ..Budget::default()
+        };
+        Light::Optics(Box::new(Optics::new(Hazard::new(&budget), Hazard::dark(&budget), 1)))
+    }
+
+    /// First avalanches of ten shots, with `more` further ones drawn in each, and causes or not.
+    fn first_avalanches(more: usize, causes: bool) -> Vec<Time> {
+        let mut light = optics();
+        light.begin_frame(3);
+        let shot = |shot: u64| {
+            let begun = Time::from_ns(48 * shot);
+            light.begin_shot(begun, true);
+            let first = light.next_avalanche(begun);
+            for _ in 0..more {
+                assert!(light.next_avalanche(begun + Time::from_ns(20)) > begun);
+            }
+            if causes {
+                light.cause(first);
+            }
+            first
+        };
+        (0..10).map(shot).collect()
+    }
+
+    #[test]
+    fn further_avalanches_and_causes_do_not_move_the_first_ones_of_later_shots() {
+        let alone = first_avalanches(0, false);
+        assert_eq!(first_avalanches(5, false), alone);
+        assert_eq!(first_avalanches(0, true), alone);
+    }
+
+    #[test]
+    fn further_avalanches_depend_on_the_shot_alone() {
+        let further = |skipped: u64| {
+            let mut light = optics();
+            for shot in 0..5 {
+                light.begin_shot(Time::from_ns(48 * shot), true);
+                light.next_avalanche(Time::from_ns(48 * shot));
+                if shot >= skipped {
+                    light.next_avalanche(Time::from_ns(48 * shot + 20));
+                }
+            }
+            light.next_avalanche(Time::from_ns(48 * 4 + 40))
+        };
+        assert_eq!(further(0), further(4));
+    }
 
     #[test]
     fn photons_of_an_old_shot_may_come_after_those_of_the_new() {
