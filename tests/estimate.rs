@@ -1,9 +1,12 @@
 //! Histograms through `estimate`, against a separate and deliberately naive integer implementation.
 
+mod common;
+
 use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
 
+use common::{csv, npy};
 use tofsim::network::{Histogram, Network, estimate};
 
 /// A small generator of random words (SplitMix64).
@@ -124,25 +127,6 @@ fn histograms(random: &mut Random) -> Vec<Histogram> {
         list.push(histogram);
     }
     list
-}
-
-fn csv(histogram: &Histogram) -> String {
-    let mut text = String::from("# made by hand\nbin,count\n");
-    for (bin, count) in histogram.iter().enumerate() {
-        writeln!(text, "{bin},{count}").unwrap();
-    }
-    text
-}
-
-/// An `.npy` file of that type and shape, by the format's description.
-fn npy(descr: &str, shape: &str, data: &[u8]) -> Vec<u8> {
-    let dict = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}");
-    let header = format!("{dict:<117}\n");
-    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-    bytes.extend((header.len() as u16).to_le_bytes());
-    bytes.extend(header.as_bytes());
-    bytes.extend(data);
-    bytes
 }
 
 #[test]

@@ -1,29 +1,12 @@
 //! Files of histograms: what is read, and what is said about a faulty one.
 
-use std::fmt::Write as _;
+mod common;
+
 use std::path::Path;
 
+use common::{csv, npy};
 use tofsim::histogram_file;
 use tofsim::network::Histogram;
-
-fn csv(histogram: &Histogram) -> String {
-    let mut text = String::from("# made by hand\nbin,count\n");
-    for (bin, count) in histogram.iter().enumerate() {
-        writeln!(text, "{bin},{count}").unwrap();
-    }
-    text
-}
-
-/// An `.npy` file of that type and shape, by the format's description.
-fn npy(descr: &str, shape: &str, data: &[u8]) -> Vec<u8> {
-    let dict = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}");
-    let header = format!("{dict:<117}\n");
-    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-    bytes.extend((header.len() as u16).to_le_bytes());
-    bytes.extend(header.as_bytes());
-    bytes.extend(data);
-    bytes
-}
 
 #[test]
 fn every_type_of_whole_number_reads_the_same_in_either_byte_order() {

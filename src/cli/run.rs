@@ -5,14 +5,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use crate::error::{Error, Input, Result};
+use crate::error::{Input, Result};
 use crate::firmware::hierarchy;
-use crate::output::{create_directory, write_file};
-use crate::report::causes::Causes;
-use crate::report::events::Events;
-use crate::report::histogram_svg::Plot;
-use crate::report::summary::{Summary, depth_m};
-use crate::report::{histogram_csv, table};
+use crate::output::create_directory;
+use crate::report::products::Products;
+use crate::report::summary::Summary;
+use crate::report::table;
 use crate::scenario;
 use crate::sim::frames::Frame;
 use crate::sim::recorder::Shot;
@@ -98,7 +96,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     }
     let setup = Setup::new(loaded)?;
     let plan = WavePlan::new(args, &setup)?;
-    let mut products = Products::new(args, &setup)?;
+    let (folder, events) = (args.output.as_deref(), args.events.as_deref());
+    let mut products = Products::new(folder, events, &provenance(args, &setup), &setup)?;
     let waves = plan.as_ref().map(|plan| plan.open(args, &setup)).transpose()?;
 
     let stop = stop_signal();
@@ -129,8 +128,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         talk.note(format_args!("waveform: {}", plan.path.display()));
     }
     let waves = plan.map(|plan| plan.path.display().to_string());
-    let summary = Summary::new(&setup, waves, &frames, &products.tdc);
-    products.finish(&setup, &frames, &summary, talk)?;
+    let summary = Summary::new(&setup, waves, &frames, products.tdc());
+    for path in products.finish(&setup, &frames, &summary)? {
+        talk.detail(format_args!("wrote {}", path.display()));
+    }
     print(&text(args, &setup, &frames, &outcome, &summary, wall)?)
 }
 
@@ -143,19 +144,13 @@ fn text(
     wall: std::time::Duration,
 ) -> Result<String> {
     if args.json {
-        return json(summary);
+        return summary.json();
     }
     let mut text = table::run(setup, frames, outcome, wall);
     if let Some(results) = &summary.tdc {
         text += &table::tdc(results);
     }
     Ok(text)
-}
-
-fn json(summary: &Summary) -> Result<String> {
-    let text = serde_json::to_string(summary);
-    let text = text.map_err(|error| Input::new("--json", error))?;
-    Ok(text + "\n")
 }
 
 /// Set when the user interrupts. `None` if the system offers no way to hear of it.
@@ -231,74 +226,4 @@ fn provenance(args: &Args, setup: &Setup) -> Vec<String> {
     ];
     lines.extend(args.set.iter().map(|set| format!("set {set}")));
     lines
-}
-
-/// Files other than the waveform.
-struct Products<'a> {
-    folder: Option<&'a Path>,
-    events: Option<Events>,
-    causes: Causes,
-    /// Rows for the scenario's TDC report.
-    tdc: Vec<Shot>,
-    wants_tdc: bool,
-}
-
-impl<'a> Products<'a> {
-    fn new(args: &'a Args, setup: &Setup) -> Result<Self> {
-        let folder = args.output.as_deref();
-        folder.map_or(Ok(()), create_directory)?;
-        let events = args.events.as_deref();
-        let events =
-            events.map(|path| Events::create(path, &provenance(args, setup))).transpose()?;
-        let wants_tdc = setup.scenario.report.tdc;
-        Ok(Products { folder, events, causes: Causes::default(), tdc: Vec::new(), wants_tdc })
-    }
-
-    fn want_shots(&self) -> bool {
-        self.folder.is_some() || self.events.is_some() || self.wants_tdc
-    }
-
-    fn shot(&mut self, shot: &Shot) -> Result<()> {
-        if shot.frame == 0 {
-            self.causes.add(shot);
-        }
-        if self.wants_tdc {
-            self.tdc.push(*shot);
-        }
-        self.events.as_mut().map_or(Ok(()), |events| events.write(shot))
-    }
-
-    fn finish(
-        &mut self,
-        setup: &Setup,
-        frames: &[Frame],
-        summary: &Summary,
-        talk: &Talk,
-    ) -> Result<()> {
-        if let Some(events) = self.events.take() {
-            events.finish()?;
-        }
-        let (Some(folder), Some(frame)) = (self.folder, frames.first()) else { return Ok(()) };
-        let write = |name: &str, text: &str| {
-            let path = folder.join(name);
-            write_file(&path, |file| std::io::Write::write_all(file, text.as_bytes()))?;
-            talk.detail(format_args!("wrote {}", path.display()));
-            Ok::<_, Error>(())
-        };
-        write("summary.json", &json(summary)?)?;
-        write_file(&folder.join("histogram.csv"), |file| {
-            histogram_csv::write(file, &frame.histogram)
-        })?;
-        if setup.params.frame_ctrl.preloaded {
-            self.causes.add_unknown(&frame.histogram);
-        }
-        let plot = Plot {
-            title: format!("{}, seed {}, {} shots", setup.name, setup.scenario.seed, frame.shots),
-            causes: &self.causes,
-            true_depth_m: setup.true_depth_m(),
-            depth_m: depth_m(frame),
-        };
-        let svg = plot.svg().map_err(|fault| Input::new("histogram.svg", fault))?;
-        write("histogram.svg", &svg)
-    }
 }

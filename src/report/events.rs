@@ -4,7 +4,7 @@
 //! count), `coarse`, `code`, `bin`. What a shot does not have is empty (CSV) or null (Parquet). A
 //! photon that is given has no cause.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use parquet::basic::Compression;
@@ -85,26 +85,26 @@ impl Events {
         }
     }
 
-    /// Puts the file in place.
-    pub fn finish(self) -> Result<()> {
+    /// Puts the file in place, and returns its path.
+    pub fn finish(self) -> Result<PathBuf> {
         match self {
             Events::Csv(csv) => {
                 let target = csv.get_ref().target().to_owned();
                 let file = csv.into_inner().map_err(|error| fault(&target, error.error()))?;
-                file.commit()
+                file.commit().map(|()| target)
             }
             Events::Parquet(mut parquet) => {
                 parquet.flush()?;
                 let target = parquet.target();
                 let file = parquet.writer.into_inner().map_err(|error| fault(&target, error))?;
-                file.commit()
+                file.commit().map(|()| target)
             }
         }
     }
 }
 
 impl Parquet {
-    fn target(&self) -> std::path::PathBuf {
+    fn target(&self) -> PathBuf {
         self.writer.inner().target().to_owned()
     }
 

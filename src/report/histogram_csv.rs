@@ -1,15 +1,9 @@
 //! A histogram as CSV: `bin,count`, 256 rows.
 
-use std::io;
-
 use crate::firmware::histogram_builder::BINS;
 
-/// Writes one histogram.
-pub fn write(out: impl io::Write, histogram: &[u16; BINS]) -> io::Result<()> {
-    let mut csv = csv::Writer::from_writer(out);
-    csv.write_record(["bin", "count"])?;
-    for (bin, count) in histogram.iter().enumerate() {
-        csv.write_record([bin.to_string(), count.to_string()])?;
-    }
-    csv.flush()
+/// The text of the file.
+pub fn text(histogram: &[u16; BINS]) -> Vec<u8> {
+    let rows = histogram.iter().enumerate().map(|(bin, count)| format!("{bin},{count}\n"));
+    ["bin,count\n".to_owned()].into_iter().chain(rows).collect::<String>().into_bytes()
 }

@@ -4,5 +4,6 @@ pub mod causes;
 pub mod events;
 pub mod histogram_csv;
 pub mod histogram_svg;
+pub mod products;
 pub mod summary;
 pub mod table;

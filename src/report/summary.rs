@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::error::{Input, Result};
 use crate::firmware::histogram_builder::BINS;
 use crate::network::formats::Depth;
 use crate::sim::frames::Frame;
@@ -98,6 +99,14 @@ impl Summary {
     }
 }
 
+impl Summary {
+    /// As one line of JSON.
+    pub fn json(&self) -> Result<String> {
+        let text = serde_json::to_string(self).map_err(|error| Input::new("--json", error))?;
+        Ok(text + "\n")
+    }
+}
+
 impl FrameSummary {
     fn new(setup: &Setup, frame: &Frame) -> Self {
         FrameSummary {
@@ -145,6 +154,6 @@ pub fn spread(frames: &[Frame]) -> Option<Spread> {
 fn serialize_histogram<S: serde::Serializer>(
     histogram: &[u16; BINS],
     serializer: S,
-) -> Result<S::Ok, S::Error> {
+) -> std::result::Result<S::Ok, S::Error> {
     serializer.collect_seq(histogram)
 }

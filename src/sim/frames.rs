@@ -39,7 +39,6 @@ pub struct Frames {
     tdc_hits: u64,
     clear_at: u64,
     start_at: u64,
-    estimator_busy: bool,
 }
 
 impl Frames {
@@ -68,15 +67,14 @@ impl Frames {
     fn turn(&mut self, cycle: u64, top: &TofTop, p: &Params) -> Option<Frame> {
         let ctrl = &top.frame_ctrl;
         if ctrl.clear && ctrl.clear_addr == 0 {
-            (self.clear_at, self.tdc_hits, self.estimator_busy) = (cycle, 0, false);
+            (self.clear_at, self.tdc_hits) = (cycle, 0);
         }
         if ctrl.algo_start {
-            (self.start_at, self.estimator_busy) = (cycle + 1, true);
+            self.start_at = cycle + 1;
         }
-        if !(top.depth_estimator.estimator_ctrl.algo_done && self.estimator_busy) {
+        if !top.depth_estimator.estimator_ctrl.algo_done {
             return None;
         }
-        self.estimator_busy = false;
         let histogram = match &p.histogram_source {
             HistogramSource::Builder => &top.histogram_builder.ram,
             HistogramSource::Preload(rom) => rom,

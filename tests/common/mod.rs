@@ -1,9 +1,11 @@
 //! What several tests share.
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
+use std::fmt::Write;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use tofsim::network::Histogram;
 use tofsim::scenario;
 use tofsim::sim::Run;
 use tofsim::sim::frames::Frame;
@@ -68,4 +70,24 @@ pub fn files(folder: &Path) -> Vec<String> {
         .unwrap_or_default();
     names.sort();
     names
+}
+
+/// A histogram as CSV with a comment.
+pub fn csv(histogram: &Histogram) -> String {
+    let mut text = String::from("# made by hand\nbin,count\n");
+    for (bin, count) in histogram.iter().enumerate() {
+        writeln!(text, "{bin},{count}").unwrap();
+    }
+    text
+}
+
+/// An `.npy` file of that type and shape, by the format's description.
+pub fn npy(descr: &str, shape: &str, data: &[u8]) -> Vec<u8> {
+    let dict = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}");
+    let header = format!("{dict:<117}\n");
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((header.len() as u16).to_le_bytes());
+    bytes.extend(header.as_bytes());
+    bytes.extend(data);
+    bytes
 }

@@ -1,0 +1,98 @@
+//! The files that a run leaves beside its waveform.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use crate::error::{Error, Input, Result};
+use crate::output::{create_directory, write_file};
+use crate::sim::frames::Frame;
+use crate::sim::recorder::Shot;
+use crate::sim::setup::Setup;
+
+use super::causes::Causes;
+use super::events::Events;
+use super::histogram_csv;
+use super::histogram_svg::Plot;
+use super::summary::{Summary, depth_m};
+
+/// Files under construction, and what they are made from.
+pub struct Products<'a> {
+    folder: Option<&'a Path>,
+    events: Option<Events>,
+    causes: Causes,
+    /// Rows for the scenario's TDC report.
+    tdc: Vec<Shot>,
+    wants_tdc: bool,
+}
+
+impl<'a> Products<'a> {
+    /// Begins the files: a row for each shot in `events`, the rest in `folder`.
+    pub fn new(
+        folder: Option<&'a Path>,
+        events: Option<&Path>,
+        provenance: &[String],
+        setup: &Setup,
+    ) -> Result<Self> {
+        folder.map_or(Ok(()), create_directory)?;
+        let events = events.map(|path| Events::create(path, provenance)).transpose()?;
+        let wants_tdc = setup.scenario.report.tdc;
+        Ok(Products { folder, events, causes: Causes::default(), tdc: Vec::new(), wants_tdc })
+    }
+
+    /// Whether [`Products::shot`] has to be told of every shot.
+    pub fn want_shots(&self) -> bool {
+        self.folder.is_some() || self.events.is_some() || self.wants_tdc
+    }
+
+    /// Rows for the scenario's TDC report.
+    pub fn tdc(&self) -> &[Shot] {
+        &self.tdc
+    }
+
+    /// Takes a shot.
+    pub fn shot(&mut self, shot: &Shot) -> Result<()> {
+        if shot.frame == 0 {
+            self.causes.add(shot);
+        }
+        if self.wants_tdc {
+            self.tdc.push(*shot);
+        }
+        self.events.as_mut().map_or(Ok(()), |events| events.write(shot))
+    }
+
+    /// Puts the files in place; the first frame is the one shown. Returns their paths.
+    pub fn finish(
+        &mut self,
+        setup: &Setup,
+        frames: &[Frame],
+        summary: &Summary,
+    ) -> Result<Vec<PathBuf>> {
+        let mut written = Vec::new();
+        if let Some(events) = self.events.take() {
+            written.push(events.finish()?);
+        }
+        let (Some(folder), Some(frame)) = (self.folder, frames.first()) else {
+            return Ok(written);
+        };
+        if setup.params.frame_ctrl.preloaded {
+            self.causes.add_unknown(&frame.histogram);
+        }
+        let plot = Plot {
+            title: format!("{}, seed {}, {} shots", setup.name, setup.scenario.seed, frame.shots),
+            causes: &self.causes,
+            true_depth_m: setup.true_depth_m(),
+            depth_m: depth_m(frame),
+        };
+        let mut write = |name: &str, text: &[u8]| {
+            let path = folder.join(name);
+            write_file(&path, |file| file.write_all(text))?;
+            written.push(path);
+            Ok::<_, Error>(())
+        };
+        write("summary.json", summary.json()?.as_bytes())?;
+        write("histogram.csv", &histogram_csv::text(&frame.histogram))?;
+        let svg = plot.svg().map_err(|fault| Input::new("histogram.svg", fault))?;
+        write("histogram.svg", svg.as_bytes())?;
+        Ok(written)
+    }
+}
