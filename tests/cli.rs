@@ -241,6 +241,10 @@ fn a_scenario_that_cannot_be_used_is_refused_with_its_place() {
         scenario(b"[stimulus]\nphotons = \"a\"\ncodes = \"b\"\n").contains("one stimulus only")
     );
     assert!(scenario(b"[[control]]\nat_us = 2\n[[control]]\nat_us = 1\n").contains("s.toml:4:9"));
+    assert!(
+        scenario(b"[report]\nwindows = [\"shot:3..1\"]\n")
+            .contains("s.toml:2:12: report.windows.0")
+    );
     assert!(refused(path, &["run", "missing.toml"]).contains("missing.toml: cannot read"));
     assert!(refused(path, &["run", "."]).contains("cannot read"));
     assert!(refused(path, &["run", "kc750"]).contains("`kc705`?"));

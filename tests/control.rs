@@ -60,6 +60,26 @@ fn without_the_laser_shots_go_on_in_the_dark() {
 }
 
 #[test]
+fn the_laser_stops_in_mid_run_and_shots_go_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let control = format!("control=[{{at_us={},laser_en=false}}]", edge_us(257 + 6 * 10 + 1));
+    let signals = ["--signals", "laser_on", "--signals", "start"];
+    let args = ["run", "-o", ".", "--window", "shot:0..100", "-s", SHOTS, "-s", &control];
+    stdout(folder.path(), &[&args[..], &signals].concat());
+    let vcd = fs::read_to_string(folder.path().join("kc705.vcd")).unwrap();
+    let code = |name: &str| {
+        let line =
+            vcd.lines().find(|line| line.starts_with("$var") && line.contains(name)).unwrap();
+        format!("1{}", line.split(' ').nth(3).unwrap())
+    };
+    let rises = |name: &str| {
+        let rise = code(name);
+        vcd.lines().filter(|line| *line == rise).count()
+    };
+    assert_eq!((rises(" laser_on "), rises(" start ")), (11, 100));
+}
+
+#[test]
 fn a_change_of_rate_counts_from_the_next_wrap() {
     let at = edge_us(257 + 6 * 10 + 1);
     let frame = &with_control(&format!("[{{at_us={at},laser_freq=0}}]"), &[], 1)[0];

@@ -1,6 +1,7 @@
 //! What the scenario's keys must be to one another.
 
 use crate::error::Result;
+use crate::sim::window::Window;
 
 use super::Scenario;
 use super::check::Checked;
@@ -14,6 +15,7 @@ const VCO_HZ: std::ops::RangeInclusive<u64> = 800_000_000..=1_866_000_000;
 pub fn validate(scenario: &Scenario, checked: &Checked) -> Result<()> {
     clocks(scenario, checked)?;
     stimulus(scenario, checked)?;
+    windows(scenario, checked)?;
     control(scenario, checked)
 }
 
@@ -53,6 +55,14 @@ fn stimulus(scenario: &Scenario, checked: &Checked) -> Result<()> {
     if scenario.report.tdc && (stimulus.codes.is_some() || stimulus.histogram.is_some()) {
         let expected = "the TDC takes no part with preloaded codes or a preloaded histogram";
         return Err(checked.fault("report.tdc", expected).into());
+    }
+    Ok(())
+}
+
+fn windows(scenario: &Scenario, checked: &Checked) -> Result<()> {
+    for (k, text) in scenario.report.windows.iter().enumerate() {
+        let fault = |expected: String| checked.fault(&format!("report.windows.{k}"), expected);
+        text.parse::<Window>().map_err(fault)?;
     }
     Ok(())
 }

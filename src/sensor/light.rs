@@ -235,6 +235,51 @@ mod tests {
         assert_eq!(further(0), further(4));
     }
 
+    /// Times from re-arming, 20 ns into a shot, to the next avalanche [ns].
+    fn waits_after_dead_time(shots: u64) -> Vec<f64> {
+        let mut light = optics();
+        let wait = |shot: u64| {
+            let begun = Time::from_ns(1000 * shot);
+            light.begin_shot(begun, true);
+            light.next_avalanche(begun);
+            let armed = begun + Time::from_ns(20);
+            (light.next_avalanche(armed) - armed).seconds() * 1e9
+        };
+        (0..shots).map(wait).collect()
+    }
+
+    #[test]
+    fn an_avalanche_after_the_dead_time_waits_for_ambient_light_alone() {
+        let waits = waits_after_dead_time(20_000);
+        let mean_ns = waits.iter().sum::<f64>() / waits.len() as f64;
+        let expected_ns = 1.0 / 0.27;
+        assert!((mean_ns / expected_ns - 1.0).abs() < 4.0 / 141.0, "{mean_ns} ns");
+        let late = waits.iter().filter(|&&wait| wait > expected_ns).count() as f64 / 20_000.0;
+        assert!((late - (-1.0f64).exp()).abs() < 4.0 * 0.0034, "{late}");
+    }
+
+    #[test]
+    fn further_avalanches_differ_from_shot_to_shot() {
+        let mut waits = waits_after_dead_time(100);
+        waits.sort_by(f64::total_cmp);
+        waits.dedup();
+        assert_eq!(waits.len(), 100);
+    }
+
+    #[test]
+    fn causes_differ_from_shot_to_shot() {
+        let mut light = optics();
+        let at_peak = |shot: u64| {
+            let begun = Time::from_ns(1000 * shot);
+            light.begin_shot(begun, true);
+            light.cause(begun + Time::from_fs(3_300_000))
+        };
+        let causes: Vec<_> = (0..200).map(at_peak).collect();
+        for cause in [Cause::Signal, Cause::Ambient] {
+            assert!(causes.iter().filter(|&&found| found == Some(cause)).count() > 5, "{cause:?}");
+        }
+    }
+
     #[test]
     fn photons_of_an_old_shot_may_come_after_those_of_the_new() {
         let list = PhotonList::parse("p", "shot,arrival_ps\n0,1000\n0,60000\n1,2000\n").unwrap();
