@@ -303,3 +303,21 @@ impl TofTop {
         self.lvds_output = lvds_output::out(&lvds_output::In { i: self.nets.laser_on });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_asynchronous_pin_reaches_only_the_module_that_synchronises_it() {
+        for &(module, port, source) in Wires::CONNECTIONS {
+            let Some(pin) = source.strip_prefix("this.pins.") else { continue };
+            let expected: &[&str] = match pin {
+                "rst" => &["reset_sync_125", "reset_sync_250"],
+                "tdc_stop" => &["tdc"],
+                _ => &["control_sync"],
+            };
+            assert!(expected.contains(&module), "{pin} reaches {module}.{port}");
+        }
+    }
+}
