@@ -12,7 +12,7 @@ use tofsim::sim::run::Watch;
 use tofsim::sim::setup::Setup;
 
 fn frame(setup: &Setup) -> u64 {
-    let done = Run::new(setup).frames(1, setup, Watch::default());
+    let done = Run::new(setup).frames(1, Watch::default());
     black_box(done.expect("a built-in scenario runs")).cycles
 }
 

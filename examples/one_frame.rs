@@ -16,7 +16,7 @@ fn main() -> tofsim::error::Result<()> {
         Ok(())
     };
     let watch = Watch { frames: Some(&mut show), ..Watch::default() };
-    let outcome = Run::new(&setup).frames(1, &setup, watch)?;
+    let outcome = Run::new(&setup).frames(1, watch)?;
     println!("{} cycles of clk_125", outcome.cycles);
     Ok(())
 }

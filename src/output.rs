@@ -108,7 +108,9 @@ fn beside(target: &Path) -> Result<NamedTempFile> {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    builder.tempfile_in(directory).map_err(Error::io(&target, "write"))
+    // The crate's error names the temporary file, which says nothing to a user.
+    let made = builder.tempfile_in(directory).map_err(|error| io::Error::from(error.kind()));
+    made.map_err(Error::io(&target, "write"))
 }
 
 /// Writes a whole file from what `fill` produces.

@@ -240,6 +240,7 @@ fn a_scenario_that_cannot_be_used_is_refused_with_its_place() {
     assert!(
         scenario(b"[stimulus]\nphotons = \"a\"\ncodes = \"b\"\n").contains("one stimulus only")
     );
+    assert!(scenario(b"[[control]]\nlaser_freq = 2\n").contains("control.0.at_us: missing"));
     assert!(scenario(b"[[control]]\nat_us = 2\n[[control]]\nat_us = 1\n").contains("s.toml:4:9"));
     assert!(
         scenario(b"[report]\nwindows = [\"shot:3..1\"]\n")
@@ -298,9 +299,42 @@ fn a_window_or_a_glob_that_matches_nothing_is_refused_and_leaves_nothing() {
 fn a_frame_that_can_never_end_is_refused() {
     let folder = empty();
     let error = |set: &str| refused(folder.path(), &run(&["--waves", "none", "-s", set]));
-    assert!(error("firmware.dsp_en=false").contains("frame 0 never ends: dsp_en stays low"));
+    let dsp_en = error("firmware.dsp_en=false");
+    assert!(
+        dsp_en.contains("scenario kc705: firmware.dsp_en: frame 0 never ends: dsp_en stays low")
+    );
+    let control = error("control=[{at_us=1,dsp_en=true},{at_us=2,dsp_en=false}]");
+    assert!(control.contains("control.1.dsp_en: frame 0 never ends"), "{control}");
     assert!(error("firmware.rst=true").contains("rst stays high"));
     assert!(error("firmware.dsp_rst=true").contains("dsp_rst stays high"));
+}
+
+#[test]
+fn what_has_no_effect_is_said() {
+    let folder = empty();
+    let said = |args: &[&str]| {
+        let output = output(folder.path(), &run(&[&["--waves", "none"], args].concat()));
+        assert!(output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    assert_eq!(said(&[]), "");
+    assert!(
+        said(&["-s", "control=[{at_us=9999,mode=1}]"]).contains("the last 1 changes of control")
+    );
+    assert!(said(&["-s", "tdc.profile=ideal"]).contains("trained on chain uniform, not on ideal"));
+    let photons = folder.path().join("late.csv");
+    fs::write(&photons, "shot,arrival_ps\n3,100\n400,100\n").unwrap();
+    let photons = format!("stimulus.photons={:?}", photons.to_str().unwrap());
+    assert!(said(&["-s", &photons]).contains("1 rows of the photon list"));
+    assert_eq!(said(&["-q", "-s", &photons]), "");
+}
+
+#[test]
+fn two_files_of_one_name_are_refused_before_the_run() {
+    let folder = empty();
+    let error = refused(folder.path(), &run(&["-o", "out", "--events", "out/histogram.csv"]));
+    assert!(error.contains("--events: out/histogram.csv: expected another name"), "{error}");
+    assert_eq!(files(&folder.path().join("out")), [""; 0]);
 }
 
 #[cfg(unix)]

@@ -192,3 +192,12 @@ fn a_low_that_no_edge_samples_is_no_gap_between_hits() {
         "low from 65 to 68 ns, edges at 64 and 72"
     );
 }
+
+#[test]
+fn the_arrival_is_that_of_the_avalanche_which_had_reached_the_chain() {
+    let quick = ["-s", "firmware.mode=1", "-s", "spad.dead_time_ns=5"];
+    let rows = events("0,1000\n0,7000\n", &quick);
+    assert!(rows[0].starts_with("0,0,1000.000,"), "{}", rows[0]);
+    let code = rows[0].split(',').nth(6).unwrap();
+    assert_eq!(code, "40", "a bin of 25 ps at 1 ns");
+}

@@ -227,4 +227,5 @@ fn the_control_timeline_takes_effect_two_edges_later_and_at_the_wrap() {
     assert_eq!(synchronised, [10_112_000], "edges at 10.104 and 10.112 us");
     let resets = wave.rises("spad_rst");
     assert!(resets.iter().all(|&reset| reset <= synchronised[0]));
+    assert!(on.iter().filter(|&&on| on > synchronised[0] + 48_000).count() > 30, "shots in MODE 1");
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use crate::error::{Input, Result};
+use crate::error::Result;
 use crate::firmware::hierarchy;
 use crate::output::create_directory;
 use crate::report::products::Products;
@@ -38,10 +38,10 @@ pub struct Args {
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Seed of every random stream, instead of the scenario's
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
     seed: Option<u64>,
     /// How many frames to simulate, one after the other
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..))]
     frames: u64,
     /// How to simulate; this version has the cycle-accurate model only
     #[arg(long, value_enum, default_value_t = Fidelity::Cycle)]
@@ -84,9 +84,6 @@ enum WavesFormat {
     None,
 }
 
-/// Shots of the waveform when nothing else is asked for.
-const FIRST_SHOTS: u64 = 16;
-
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let Fidelity::Cycle = args.fidelity;
@@ -117,9 +114,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         stop: stop.as_deref(),
     };
     let began = Instant::now();
-    let outcome = Run::new(&setup).frames(args.frames, &setup, watch)?;
+    let outcome = Run::new(&setup).frames(args.frames, watch)?;
     let wall = began.elapsed();
     progress.finish_and_clear();
+    outcome.notes.iter().chain(&setup.notes()).for_each(|note| talk.note(note));
 
     if let Some(plan) = &plan {
         for view in write_views(&plan.path, plan.format, &plan.entries, &outcome.marks)? {
@@ -178,7 +176,7 @@ impl WavePlan {
         };
         let entries = hierarchy::entries(&setup.params);
         let entries = waves::select(entries, hierarchy::ram_entries(), &args.signals)?;
-        let windows = windows(args, setup)?;
+        let windows = setup.windows(&args.window, args.frames)?;
         let folder = args.output.as_deref().unwrap_or(Path::new("waves"));
         create_directory(folder)?;
         let path = folder.join(format!("{}.{ending}", setup.name));
@@ -190,31 +188,6 @@ impl WavePlan {
         let waves = Waves::create(&self.path, self.format, &self.entries, order, &provenance)?;
         Ok((waves, self.windows.clone()))
     }
-}
-
-fn windows(args: &Args, setup: &Setup) -> Result<Vec<Window>> {
-    let shots = match setup.params.frame_ctrl.preloaded {
-        true => 0,
-        false => args.frames * setup.scenario.firmware.shots_per_frame,
-    };
-    if !args.window.is_empty() {
-        args.window
-            .iter()
-            .try_for_each(|window| window.check(shots, crate::kernel::Time::NEVER))?;
-        return Ok(args.window.clone());
-    }
-    let given = &setup.scenario.report.windows;
-    if !given.is_empty() {
-        let parsed = given.iter().map(|text| {
-            let fault =
-                |expected| Input::new("scenario", expected).field("report.windows").value(text);
-            Ok(text.parse::<Window>().map_err(fault)?)
-        });
-        return parsed.collect();
-    }
-    let first = Window::Shots { from: 0, to: shots.min(FIRST_SHOTS) };
-    let first = (shots > 0).then_some(first);
-    Ok(first.into_iter().chain([Window::Estimation]).collect())
 }
 
 /// Who made a file, from what.

@@ -68,6 +68,7 @@ pub fn run(args: &Args) -> Result<()> {
         }
         What::Check { which, json } => {
             let setup = Setup::new(scenario::load(&which.scenario, &which.set)?)?;
+            setup.windows(&[], 1)?;
             match json {
                 true => print(&format!("{}\n", json!({ "scenario": setup.name, "ok": true }))),
                 false => print(&format!("{}: ok\n", setup.name)),

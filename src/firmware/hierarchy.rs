@@ -72,6 +72,12 @@ macro_rules! groups {
             )*
             ram_changes(top, before, sink);
         }
+
+        /// Makes all that [`changes`] looks at in `to` what it is in `from`, without allocating.
+        pub fn copy(from: &TofTop, to: &mut TofTop) {
+            $(to.$root $(.$field)* = from.$root $(.$field)*;)*
+            to.histogram_builder.ram.copy_from_slice(&from.histogram_builder.ram[..]);
+        }
     };
 }
 

@@ -226,7 +226,8 @@ impl TofTop {
         }
     }
 
-    /// An edge at which `clk_125` and `clk_250` rise, at `now`.
+    /// An edge at which `clk_125` and `clk_250` rise, at `now`. All inputs are read in the first
+    /// block, before any register changes in the second: the order within a block decides nothing.
     #[inline(always)]
     pub fn rise(&mut self, p: &Params, line: &mut StopLine, now: Time) {
         let reset_sync_250 = self.reset_sync_250.next(&Wires::reset_sync_250(self), &());

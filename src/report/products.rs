@@ -15,6 +15,18 @@ use super::histogram_csv;
 use super::histogram_svg::Plot;
 use super::summary::{Summary, depth_m};
 
+/// What is written into the folder.
+const NAMES: [&str; 3] = ["summary.json", "histogram.csv", "histogram.svg"];
+
+/// Whether two paths lead to one place in one folder.
+fn is_same(a: &Path, b: &Path) -> bool {
+    let folder = |path: &Path| match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder.canonicalize().ok(),
+        _ => Path::new(".").canonicalize().ok(),
+    };
+    a.file_name() == b.file_name() && folder(a) == folder(b)
+}
+
 /// Files under construction, and what they are made from.
 pub struct Products<'a> {
     folder: Option<&'a Path>,
@@ -34,6 +46,12 @@ impl<'a> Products<'a> {
         setup: &Setup,
     ) -> Result<Self> {
         folder.map_or(Ok(()), create_directory)?;
+        if let (Some(folder), Some(events)) = (folder, events)
+            && NAMES.iter().any(|name| is_same(&folder.join(name), events))
+        {
+            let expected = "expected another name: the run writes a file of its own there";
+            return Err(Input::new("--events", expected).value(events.display()).into());
+        }
         let events = events.map(|path| Events::create(path, provenance)).transpose()?;
         let wants_tdc = setup.scenario.report.tdc;
         Ok(Products { folder, events, causes: Causes::default(), tdc: Vec::new(), wants_tdc })
@@ -89,10 +107,10 @@ impl<'a> Products<'a> {
             written.push(path);
             Ok::<_, Error>(())
         };
-        write("summary.json", summary.json()?.as_bytes())?;
-        write("histogram.csv", &histogram_csv::text(&frame.histogram))?;
+        write(NAMES[0], summary.json()?.as_bytes())?;
+        write(NAMES[1], &histogram_csv::text(&frame.histogram))?;
         let svg = plot.svg().map_err(|fault| Input::new("histogram.svg", fault))?;
-        write("histogram.svg", svg.as_bytes())?;
+        write(NAMES[2], svg.as_bytes())?;
         Ok(written)
     }
 }

@@ -71,11 +71,6 @@ pub fn calibration(name: &str) -> Result<Box<Calibration>> {
 
 fn parse(source: &str, text: &str) -> Result<Delays> {
     let checked = Checked::parse::<Chain>(source, text)?;
-    for required in ["offset_ps"] {
-        if !checked.table().contains_key(required) {
-            return Err(checked.fault(required, "missing; expected a number [ps]").into());
-        }
-    }
     let chain: Chain = read(source, checked.table())?;
     let mut taps_ps = match (chain.tap_ps, chain.tap_delays_ps) {
         (Some(tap_ps), None) => vec![tap_ps; TAPS],

@@ -72,7 +72,14 @@ type Checkup = std::result::Result<(), Input>;
 
 impl<'a> Walk<'a> {
     fn table(&self, table: &dyn TableLike, schema: &'a Json, path: &str) -> Checkup {
-        let known = self.resolve(schema).get("properties").and_then(Json::as_object);
+        let schema = self.resolve(schema);
+        let required = schema.get("required").and_then(Json::as_array).into_iter().flatten();
+        if let Some(key) = required.filter_map(Json::as_str).find(|key| !table.contains_key(key)) {
+            let full = if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
+            let expected = self.expected(&schema["properties"][key]);
+            return Err(Input::new(self.source, format!("missing; {expected}")).field(full));
+        }
+        let known = schema.get("properties").and_then(Json::as_object);
         let empty = Map::new();
         let known = known.unwrap_or(&empty);
         for (key, item) in table.iter() {

@@ -65,6 +65,9 @@ fn lay_over(table: &mut Table, assignment: &str) -> Result<()> {
     let Some((key, value)) = assignment.split_once('=') else {
         return Err(Input::new(source, "expected key=value").into());
     };
+    if assignment.contains(char::is_control) {
+        return Err(Input::new("-s", "expected one key=value, on one line").value(key).into());
+    }
     let (key, value) = (key.trim(), value.trim());
     let as_toml = format!("{key} = {value}");
     let text = match as_toml.parse::<DocumentMut>() {

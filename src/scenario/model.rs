@@ -273,27 +273,27 @@ table! {
     }
 }
 
-table! {
-    /// A change of the acquisition computer's signals, asynchronous to the clocks.
-    pub struct Control {
-        /// When, from power-up.
-        #[schemars(range(min = 0.0, max = 1e9), extend("unit" = "us", "source" = "choice"))]
-        pub at_us: f64 = 0.0,
-        /// Laser repetition rate, 0 .. 3.
-        #[schemars(range(min = 0, max = 3), extend("unit" = "code", "source" = "Table 6.1"))]
-        pub laser_freq: Option<u64> = None,
-        /// SPAD quench mode, 0 or 1.
-        #[schemars(range(min = 0, max = 1), extend("unit" = "code", "source" = "Table 6.2"))]
-        pub mode: Option<u64> = None,
-        /// Lets the laser fire.
-        pub laser_en: Option<bool> = None,
-        /// Lets the estimator start.
-        pub dsp_en: Option<bool> = None,
-        /// Abandons the frame.
-        pub dsp_rst: Option<bool> = None,
-        /// Reset button of the board.
-        pub rst: Option<bool> = None,
-    }
+/// A change of the acquisition computer's signals, asynchronous to the clocks.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Control {
+    /// When, from power-up.
+    #[schemars(range(min = 0.0, max = 1e9), extend("unit" = "us", "source" = "choice"))]
+    pub at_us: f64,
+    /// Laser repetition rate, 0 .. 3.
+    #[schemars(range(min = 0, max = 3), extend("unit" = "code", "source" = "Table 6.1"))]
+    pub laser_freq: Option<u64>,
+    /// SPAD quench mode, 0 or 1.
+    #[schemars(range(min = 0, max = 1), extend("unit" = "code", "source" = "Table 6.2"))]
+    pub mode: Option<u64>,
+    /// Lets the laser fire.
+    pub laser_en: Option<bool>,
+    /// Lets the estimator start.
+    pub dsp_en: Option<bool>,
+    /// Abandons the frame.
+    pub dsp_rst: Option<bool>,
+    /// Reset button of the board.
+    pub rst: Option<bool>,
 }
 
 impl Spad {

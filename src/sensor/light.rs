@@ -52,6 +52,14 @@ impl Light {
         }
     }
 
+    /// Given photons of shots that have not begun.
+    pub fn left(&self) -> usize {
+        match self {
+            Light::List(given) => given.list.from_shot(given.shots).len(),
+            Light::Optics(_) | Light::None => 0,
+        }
+    }
+
     /// What set off the avalanche at `at`, in the present shot; unknown for given photons.
     pub fn cause(&mut self, at: Time) -> Option<Cause> {
         match self {

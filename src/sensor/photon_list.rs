@@ -41,9 +41,13 @@ impl PhotonList {
 
     /// The photons of a shot, in order of time from its laser edge.
     pub fn of_shot(&self, shot: u64) -> &[(u64, Time)] {
-        let from = self.rows.partition_point(|row| row.0 < shot);
-        let to = self.rows.partition_point(|row| row.0 <= shot);
-        &self.rows[from..to]
+        let rows = self.from_shot(shot);
+        &rows[..rows.partition_point(|row| row.0 <= shot)]
+    }
+
+    /// The photons of a shot and of those after it.
+    pub fn from_shot(&self, shot: u64) -> &[(u64, Time)] {
+        &self.rows[self.rows.partition_point(|row| row.0 < shot)..]
     }
 }
 

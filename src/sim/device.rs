@@ -86,6 +86,17 @@ impl Device {
         }
     }
 
+    /// What has not come due: control changes and given photons, a line each.
+    pub fn unused(&self) -> Vec<String> {
+        let (changes, photons) = (self.timeline.left(), self.light.left());
+        let changes = (changes > 0)
+            .then(|| format!("note: the run ended before the last {changes} changes of control"));
+        let photons = (photons > 0).then(|| {
+            format!("note: the run ended before the shots of {photons} rows of the photon list")
+        });
+        changes.into_iter().chain(photons).collect()
+    }
+
     /// Rising edges of `clk_125` so far.
     pub fn cycle(&self) -> u64 {
         self.cycle

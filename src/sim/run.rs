@@ -44,10 +44,13 @@ pub struct Outcome {
     pub shots: u64,
     /// Where to look in the waveform.
     pub marks: Marks,
+    /// What a user may not expect, a line each.
+    pub notes: Vec<String>,
 }
 
 /// A run in progress.
 pub struct Run<'a> {
+    setup: &'a Setup,
     device: Device,
     params: &'a Params,
     frames: Frames,
@@ -58,7 +61,7 @@ impl<'a> Run<'a> {
     /// A run of `setup` from power-up.
     pub fn new(setup: &'a Setup) -> Self {
         let (device, params) = (setup.device(), &setup.params);
-        Run { device, params, frames: Frames::default(), limit: 0 }
+        Run { setup, device, params, frames: Frames::default(), limit: 0 }
     }
 
     /// Simulates until `count` frames are done.
@@ -66,12 +69,12 @@ impl<'a> Run<'a> {
     /// # Errors
     /// When the control signals keep a frame from ending, a window lies past the end, a sink
     /// fails, or the run is stopped.
-    pub fn frames(mut self, count: u64, setup: &Setup, watch: Watch) -> Result<Outcome> {
+    pub fn frames(mut self, count: u64, watch: Watch) -> Result<Outcome> {
         let Watch { waves, shots, frames, stop } = watch;
         let mut sinks = Sinks { shots, frames, stop };
         let mut recorder = sinks.shots.is_some().then(Recorder::default);
         let mut tracer = waves.map(|(waves, windows)| Tracer::new(waves, windows));
-        self.limit = setup.longest_run(count);
+        self.limit = self.setup.longest_run(count);
 
         let first_edge = self.device.next_edge();
         match &mut tracer {
@@ -94,7 +97,8 @@ impl<'a> Run<'a> {
             Some(tracer) => tracer.finish(end, shots)?,
             None => Marks::default(),
         };
-        Ok(Outcome { end, cycles: self.device.cycle(), shots, marks })
+        let notes = self.device.unused();
+        Ok(Outcome { end, cycles: self.device.cycle(), shots, marks, notes })
     }
 
     fn go<T: Windowed, R: Recorded>(
@@ -143,17 +147,33 @@ impl<'a> Run<'a> {
             return Err(Error::Interrupted);
         }
         if self.device.cycle() > self.limit {
-            let pins = &self.device.top.pins;
-            let held = match (pins.rst, pins.dsp_rst, pins.dsp_en) {
-                (true, ..) => "rst stays high",
-                (_, true, _) => "dsp_rst stays high",
-                (.., false) => "dsp_en stays low",
-                _ => "the control signals keep it from ending",
-            };
-            let expected = format!("frame {} never ends: {held}", self.frames.done());
-            return Err(Input::new("scenario", expected).field("control").into());
+            return Err(self.stuck());
         }
         Ok(())
+    }
+}
+
+impl Run<'_> {
+    /// That the control signals keep a frame from ending, and which.
+    fn stuck(&self) -> Error {
+        let pins = &self.device.top.pins;
+        let (pin, held) = match (pins.rst, pins.dsp_rst, pins.dsp_en) {
+            (true, ..) => ("rst", "stays high"),
+            (_, true, _) => ("dsp_rst", "stays high"),
+            (.., false) => ("dsp_en", "stays low"),
+            _ => ("control", "begins it again and again"),
+        };
+        let changes = self.setup.scenario.control.iter().rposition(|change| match pin {
+            "rst" => change.rst.is_some(),
+            "dsp_rst" => change.dsp_rst.is_some(),
+            _ => change.dsp_en.is_some(),
+        });
+        let field = match changes {
+            Some(last) => format!("control.{last}.{pin}"),
+            None => format!("firmware.{pin}"),
+        };
+        let expected = format!("frame {} never ends: {pin} {held}", self.frames.done());
+        Input::new(format!("scenario {}", self.setup.name), expected).field(field).into()
     }
 }
 

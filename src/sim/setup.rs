@@ -18,6 +18,7 @@ use crate::sensor::photon_list::PhotonList;
 use super::device::Device;
 use super::jitter::Jitter;
 use super::timeline::{Timeline, pins_at_power_up};
+use super::window::Window;
 
 /// Period of `clk_125`.
 pub const CYCLE: Time = Time::from_ns(8);
@@ -25,6 +26,9 @@ pub const CYCLE: Time = Time::from_ns(8);
 const OVERHEAD: u64 = 256 + 1 + 16 + 1 + 267;
 /// The same with a preloaded histogram.
 const OVERHEAD_PRELOADED: u64 = 256 + 1 + 267;
+
+/// Shots of the waveform when nothing else is asked for.
+const FIRST_SHOTS: u64 = 16;
 
 /// A scenario, ready to run.
 #[derive(Clone, Debug)]
@@ -98,6 +102,60 @@ impl Setup {
             return OVERHEAD_PRELOADED;
         }
         ctrl.shots_per_frame as u64 * vcsel_driver::PERIODS[laser_freq] + OVERHEAD
+    }
+
+    /// What a user may not expect of the scenario, a line each.
+    pub fn notes(&self) -> Vec<String> {
+        let (trained, chain) = (&self.network.training.chain, &self.scenario.tdc.profile);
+        let differ = trained != chain && self.true_depth_m().is_some();
+        let note = || format!("note: the network was trained on chain {trained}, not on {chain}");
+        differ.then(note).into_iter().collect()
+    }
+
+    /// Shots of a run.
+    pub fn shots(&self, frames: u64) -> u64 {
+        let ctrl = &self.params.frame_ctrl;
+        if ctrl.preloaded { 0 } else { frames.saturating_mul(ctrl.shots_per_frame as u64) }
+    }
+
+    /// When a run ends, if no control signal changes on the way: with the cycle after `frame_done`
+    /// of the last frame. Jitter may move it by less than a nanosecond.
+    pub fn end(&self, frames: u64) -> Option<Time> {
+        let firmware = &self.scenario.firmware;
+        let held = firmware.rst || firmware.dsp_rst || !firmware.dsp_en;
+        if held || !self.scenario.control.is_empty() {
+            return None;
+        }
+        let frame = self.frame_cycles(firmware.laser_freq as usize) + 1;
+        Some(self.pll.clk_125.rise(frames.checked_mul(frame)?.checked_add(2)?))
+    }
+
+    /// The windows that go into the waveform: those given, or the scenario's, or a first look.
+    ///
+    /// # Errors
+    /// When one lies past the end of the run, as far as that is known before.
+    pub fn windows(&self, given: &[Window], frames: u64) -> Result<Vec<Window>> {
+        let shots = self.shots(frames);
+        let own = &self.scenario.report.windows;
+        let (source, windows) = match (given, own.as_slice()) {
+            ([], []) => {
+                let first = Window::Shots { from: 0, to: shots.min(FIRST_SHOTS) };
+                return Ok((shots > 0)
+                    .then_some(first)
+                    .into_iter()
+                    .chain([Window::Estimation])
+                    .collect());
+            }
+            ([], own) => ("report.windows", own.iter().flat_map(|text| text.parse()).collect()),
+            (given, _) => ("--window", given.to_vec()),
+        };
+        let end = self.end(frames).unwrap_or(Time::NEVER);
+        for window in &windows {
+            window
+                .check(shots, end)
+                .map_err(|expected| Input::new(source, expected).value(window))?;
+        }
+        Ok(windows)
     }
 
     /// A number of cycles that no run of `frames` frames reaches unless its control signals keep

@@ -41,6 +41,11 @@ impl Timeline {
         self.look_ahead();
     }
 
+    /// Changes still to come.
+    pub fn left(&self) -> usize {
+        self.changes.len()
+    }
+
     fn look_ahead(&mut self) {
         self.next = self.changes.as_slice().first().map_or(Time::NEVER, |(at, _)| *at);
     }

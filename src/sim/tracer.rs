@@ -1,6 +1,6 @@
 //! Writes the waveform while a window is open.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Input, Result};
 use crate::firmware::tof_top::{Params, TofTop};
 use crate::kernel::Time;
 use crate::waves::{Marks, Waves};
@@ -39,13 +39,16 @@ pub(super) struct Tracer {
     /// Shot under way, from three cycles before its laser edge.
     shot: Option<u64>,
     began: Option<Time>,
+    /// Windows that the cycle under way belongs to; the viewer first shows what one of them has.
+    wanting: usize,
 }
 
 impl Tracer {
     /// For a waveform and its windows.
     pub(super) fn new(waves: Waves, windows: Vec<Window>) -> Self {
         let (marks, shot, began) = (Marks::default(), None, None);
-        Tracer { waves, windows, state: State::Waiting, error: None, marks, shot, began }
+        let (state, error) = (State::Waiting, None);
+        Tracer { waves, windows, state, error, marks, shot, began, wanting: 0 }
     }
 
     /// Whether a window begins before the first clock edge.
@@ -103,7 +106,10 @@ impl Tracer {
         if let Some(error) = self.error {
             return Err(error);
         }
-        self.windows.iter().try_for_each(|window| window.check(shots, end))?;
+        for window in &self.windows {
+            let fault = |expected| Input::new("--window", expected).value(window);
+            window.check(shots, end).map_err(fault)?;
+        }
         if self.state == State::Writing {
             self.close(end)?;
         }
@@ -138,7 +144,12 @@ impl Windowed for Tracer {
         let cycle = device.coming_cycle();
         let estimating = device.top.frame_ctrl.is_estimating(&p.frame_ctrl);
         let moment = Moment { cycle, shot: self.shot, estimating };
-        let wanted = self.windows.iter().any(|window| window.wants(&moment));
+        let wanting = self.windows.iter().filter(|window| window.wants(&moment)).count();
+        let wanted = wanting > 0;
+        if self.state == State::Writing && wanting != self.wanting && self.marks.to == Time::ZERO {
+            self.marks.to = cycle.0;
+        }
+        self.wanting = wanting;
         match (self.state, wanted) {
             (State::Waiting, true) => {
                 self.state = State::Opening;

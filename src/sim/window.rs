@@ -3,7 +3,6 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::error::{Input, Result};
 use crate::kernel::Time;
 
 /// A part of a run: `shot:0..8`, `10us..12us` or `estimation`.
@@ -55,22 +54,24 @@ impl Window {
         }
     }
 
-    /// That the run reaches the window's end.
-    pub fn check(&self, shots: u64, end: Time) -> Result<()> {
-        let past = match *self {
-            Window::Shots { to, .. } if to > shots => format!("the run has {shots} shots"),
-            Window::Span { to, .. } if to > end => format!("the run ends at {end}"),
-            _ => return Ok(()),
-        };
-        let expected = format!("past the end: {past}");
-        Err(Input::new("--window", expected).value(self).into())
+    /// That a run of so many shots and that end reaches the window's end; if not, why.
+    pub fn check(&self, shots: u64, end: Time) -> Result<(), String> {
+        match *self {
+            Window::Shots { to, .. } if to > shots => {
+                Err(format!("past the end: the run has {shots} shots"))
+            }
+            Window::Span { to, .. } if to > end => {
+                Err(format!("past the end: the run ends at {end}"))
+            }
+            _ => Ok(()),
+        }
     }
 }
 
 impl FromStr for Window {
     type Err = String;
 
-    fn from_str(text: &str) -> std::result::Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, String> {
         let expected = "expected `shot:0..8`, `10us..12us` or `estimation`";
         let reversed = |from: &dyn fmt::Display, to: &dyn fmt::Display| {
             Err(format!("reversed or empty: {from} is not before {to}"))

@@ -27,7 +27,7 @@ pub(super) struct Row<'a> {
 /// Headings, and below each the signals: paths below the top, `*` at the end for any number.
 const FLOW: &[(&str, &[&str])] = &[
     ("Clocks and reset", &["clk_125", "clk_250", "rst_dsp"]),
-    ("Control", &["frame_ctrl.state", "frame_ctrl.shots", "clear_addr", "acquire"]),
+    ("Control", &["mode", "laser_freq", "laser_en", "frame_ctrl.state", "frame_ctrl.shots"]),
     (
         "Laser",
         &["vcsel_driver.count", "pre_start", "vcsel_driver.laser_pulse", "laser_on", "start"],
@@ -57,7 +57,7 @@ const FLOW: &[(&str, &[&str])] = &[
     ("Outputs", &["depth", "algo_done", "frame_done"]),
     (
         "Control pins",
-        &["rst", "mode", "laser_freq", "laser_en", "dsp_en", "dsp_rst", "locked", "clk_200"],
+        &["rst", "dsp_en", "dsp_rst", "locked", "clk_200", "clear", "clear_addr", "acquire"],
     ),
     ("Hidden layer", &["depth_estimator.forward1.l1_in_*", "depth_estimator.tansig.l1_out_*"]),
     ("Histogram, word by word", &["histogram_builder.ram_*"]),

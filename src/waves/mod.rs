@@ -29,7 +29,7 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 use crate::firmware::TofTop;
-use crate::firmware::hierarchy::{Entry, changes};
+use crate::firmware::hierarchy::{Entry, changes, copy};
 use crate::kernel::Time;
 use crate::kernel::signals::Sink;
 
@@ -144,7 +144,7 @@ impl Waves {
         let step = if at > 0 { Step::Open } else { Step::Start };
         self.state = State::Open;
         match &mut self.before {
-            Some(before) => keep(before, top),
+            Some(before) => copy(top, before),
             None => self.before = Some(Box::new(top.clone())),
         }
         let result = match &mut self.writer {
@@ -170,7 +170,7 @@ impl Waves {
                 file.step(at, Step::Change, |file| changes(top, Some(before), file))
             }
         };
-        keep(before, top);
+        copy(top, before);
         self.checked(result)
     }
 
@@ -231,23 +231,4 @@ impl Waves {
             Writer::Fst(file) => file.fault(source),
         })
     }
-}
-
-/// Makes `before` what `top` is, without the allocation that a clone of the RAM would cost.
-fn keep(before: &mut TofTop, top: &TofTop) {
-    before.pins = top.pins;
-    before.clocks = top.clocks;
-    before.nets = top.nets;
-    before.pll = top.pll;
-    before.reset_sync_125 = top.reset_sync_125;
-    before.reset_sync_250 = top.reset_sync_250;
-    before.control_sync = top.control_sync;
-    before.frame_ctrl = top.frame_ctrl;
-    before.vcsel_driver = top.vcsel_driver;
-    before.lvds_output = top.lvds_output;
-    before.spad_control = top.spad_control;
-    before.tdc = top.tdc;
-    before.code_preload = top.code_preload;
-    before.histogram_builder.ram.copy_from_slice(&top.histogram_builder.ram[..]);
-    before.depth_estimator = top.depth_estimator;
 }

@@ -26,7 +26,7 @@ pub fn frames(setup: &Setup, count: u64) -> Vec<Frame> {
         Ok(())
     };
     let watch = Watch { frames: Some(&mut take), ..Watch::default() };
-    Run::new(setup).frames(count, setup, watch).unwrap();
+    Run::new(setup).frames(count, watch).unwrap();
     frames
 }
 
