@@ -11,6 +11,10 @@ use super::histogram_builder::BINS;
 use super::tof_top::{CodeSource, HistogramSource, Params, TofTop, Wires};
 use super::{depth_estimator, tdc, vcsel_driver};
 
+mod ports;
+
+use ports::{CLOCKS, SHOWN, place};
+
 /// Name of the top scope.
 pub const TOP: &str = "tof_top";
 
@@ -119,71 +123,6 @@ fn ram_changes(top: &TofTop, before: Option<&TofTop>, sink: &mut impl Sink) {
     }
 }
 
-/// Clock inputs, by scope below the top.
-const CLOCKS: &[(&str, &[&str])] = &[
-    ("pll", &["clk_200"]),
-    ("reset_sync_125", &["clk_125"]),
-    ("reset_sync_250", &["clk_250"]),
-    ("control_sync", &["clk_125"]),
-    ("frame_ctrl", &["clk_125"]),
-    ("vcsel_driver", &["clk_125", "clk_250"]),
-    ("vcsel_driver.ddr_output", &["clk_250"]),
-    ("spad_control", &["clk_125"]),
-    ("tdc", &["clk_125"]),
-    ("tdc.carry_chain", &["clk_125"]),
-    ("tdc.coarse_counter", &["clk_125"]),
-    ("tdc.tdc_latch", &["clk_125"]),
-    ("tdc.tdc_decoder", &["clk_125"]),
-    ("code_preload", &["clk_125"]),
-    ("histogram_builder", &["clk_125"]),
-    ("depth_estimator", &["clk_125"]),
-    ("depth_estimator.estimator_ctrl", &["clk_125"]),
-    ("depth_estimator.forward1", &["clk_125"]),
-    ("depth_estimator.tansig", &["clk_125"]),
-    ("depth_estimator.forward2", &["clk_125"]),
-];
-
-/// Ports and wires that show a value held elsewhere: scope below the top, name, kind, holder.
-const SHOWN: &[(&str, &str, Kind, &str)] = &[
-    ("", "rst_125", Kind::Internal, "reset_sync_125.rst_sync"),
-    ("", "rst_250", Kind::Internal, "reset_sync_250.rst_sync"),
-    ("", "mode_sync", Kind::Internal, "control_sync.mode_sync"),
-    ("", "laser_freq_sync", Kind::Internal, "control_sync.laser_freq_sync"),
-    ("", "laser_en_sync", Kind::Internal, "control_sync.laser_en_sync"),
-    ("", "dsp_en_sync", Kind::Internal, "control_sync.dsp_en_sync"),
-    ("", "dsp_rst_sync", Kind::Internal, "control_sync.dsp_rst_sync"),
-    ("", "clear", Kind::Internal, "frame_ctrl.clear"),
-    ("", "clear_addr", Kind::Internal, "frame_ctrl.clear_addr"),
-    ("", "acquire", Kind::Internal, "frame_ctrl.acquire"),
-    ("", "algo_start", Kind::Internal, "frame_ctrl.algo_start"),
-    ("", "pre_start", Kind::Internal, "vcsel_driver.registers.pre_start"),
-    ("", "start", Kind::Internal, "vcsel_driver.registers.start"),
-    ("", "read_en", Kind::Internal, "depth_estimator.estimator_ctrl.read_en"),
-    ("", "read_addr", Kind::Internal, "depth_estimator.estimator_ctrl.read_addr"),
-    ("", "laser_on_lvds_p", Kind::Output, "lvds_output.o"),
-    ("", "laser_on_lvds_n", Kind::Output, "lvds_output.ob"),
-    ("", "spad_rst", Kind::Output, "spad_control.spad_rst"),
-    ("", "spad_sel", Kind::Output, "spad_control.spad_sel"),
-    ("", "depth", Kind::Output, "depth_estimator.forward2.depth"),
-    ("", "algo_done", Kind::Output, "depth_estimator.estimator_ctrl.algo_done"),
-    ("", "hist_valid", Kind::Output, "depth_estimator.estimator_ctrl.read_en"),
-    ("", "hist_bin", Kind::Output, "depth_estimator.estimator_ctrl.read_addr"),
-    ("", "hist_count", Kind::Output, "nets.count"),
-    ("", "frame_done", Kind::Output, "frame_ctrl.frame_done"),
-    ("", "locked", Kind::Output, "pll.locked"),
-    ("pll", "clk_125", Kind::Output, "clocks.clk_125"),
-    ("pll", "clk_250", Kind::Output, "clocks.clk_250"),
-    ("vcsel_driver", "laser_on", Kind::Output, "vcsel_driver.ddr_output.q"),
-    ("tdc", "tdc_code", Kind::Output, "tdc.tdc_decoder.tdc_code"),
-    ("tdc", "tdc_valid", Kind::Output, "tdc.tdc_decoder.tdc_valid"),
-    ("histogram_builder", "count", Kind::Output, "nets.count"),
-    ("histogram_preload", "count", Kind::Output, "nets.count"),
-    ("depth_estimator", "read_en", Kind::Output, "depth_estimator.estimator_ctrl.read_en"),
-    ("depth_estimator", "read_addr", Kind::Output, "depth_estimator.estimator_ctrl.read_addr"),
-    ("depth_estimator", "depth", Kind::Output, "depth_estimator.forward2.depth"),
-    ("depth_estimator", "algo_done", Kind::Output, "depth_estimator.estimator_ctrl.algo_done"),
-];
-
 /// Every name in every scope, in the order of the hierarchy, without the RAM's words.
 pub fn entries(params: &Params) -> Vec<Entry> {
     let mut build = Build::default();
@@ -238,37 +177,6 @@ fn absent(params: &Params) -> Vec<&'static str> {
 
 fn within(scope: &str, parent: &str) -> bool {
     scope.strip_prefix(parent).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-}
-
-/// Modules in the order of data flow, each parent before its children.
-fn place(scope: &str) -> Vec<usize> {
-    const FLOW: &[&str] = &[
-        "tof_top",
-        "pll",
-        "reset_sync_125",
-        "reset_sync_250",
-        "control_sync",
-        "frame_ctrl",
-        "vcsel_driver",
-        "ddr_output",
-        "lvds_output",
-        "spad_control",
-        "tdc",
-        "carry_chain",
-        "coarse_counter",
-        "tdc_latch",
-        "tdc_decoder",
-        "code_preload",
-        "histogram_builder",
-        "histogram_preload",
-        "depth_estimator",
-        "estimator_ctrl",
-        "forward1",
-        "tansig",
-        "forward2",
-    ];
-    let at = |module| FLOW.iter().position(|&name| name == module).unwrap_or(FLOW.len());
-    scope.split('.').map(at).collect()
 }
 
 #[derive(Default)]
