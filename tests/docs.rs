@@ -7,7 +7,7 @@ mod common;
 use std::fmt::Write;
 use std::fs;
 
-use tofsim::firmware::hierarchy::{Entry, Kind, entries};
+use tofsim::hierarchy::{Entry, Kind, entries};
 
 const MODEL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/model.md");
 

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use crate::error::Result;
-use crate::firmware::hierarchy;
+use crate::hierarchy;
 use crate::output::create_directory;
 use crate::report::products::Products;
 use crate::report::summary::Summary;

@@ -10,7 +10,6 @@ pub mod estimator_ctrl;
 pub mod forward1;
 pub mod forward2;
 pub mod frame_ctrl;
-pub mod hierarchy;
 pub mod histogram_builder;
 pub mod histogram_preload;
 pub mod lvds_output;

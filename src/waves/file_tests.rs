@@ -7,8 +7,8 @@ use wellen::simple::read;
 use super::bench::{Bench, params};
 use super::readback::{FORMATS, FRAME, at, contents, create, record};
 use super::*;
-use crate::firmware::hierarchy::{entries, ram_entries};
 use crate::firmware::tof_top::Pins;
+use crate::hierarchy::{entries, ram_entries};
 
 #[test]
 fn outside_the_windows_everything_is_unknown() {

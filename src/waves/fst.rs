@@ -12,7 +12,7 @@ use fst_writer::{
 };
 
 use crate::error::{Error, Result};
-use crate::firmware::hierarchy::{Entry, IDS, Kind};
+use crate::hierarchy::{Entry, IDS, Kind};
 use crate::kernel::Thermometer;
 use crate::kernel::signals::Sink;
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::firmware::hierarchy::Entry;
+use crate::hierarchy::Entry;
 use crate::kernel::signals::Format as Shape;
 
 use super::layout::{Group, Row};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::firmware::hierarchy::{Entry, TOP};
+use crate::hierarchy::{Entry, TOP};
 
 /// Signals under one heading.
 pub(super) struct Group<'a> {
@@ -115,7 +115,7 @@ fn matches(name: &str, pattern: &str) -> bool {
 mod tests {
     use super::super::bench::params;
     use super::*;
-    use crate::firmware::hierarchy::{entries, ram_entries};
+    use crate::hierarchy::{entries, ram_entries};
 
     #[test]
     fn every_value_is_shown_once() {
@@ -140,7 +140,7 @@ mod tests {
     fn a_few_chosen_signals_are_all_in_sight() {
         let mut all = entries(&params());
         all.retain(|entry| entry.scope.ends_with(".tansig") || entry.signal.name == "weight_3");
-        all.retain(|entry| entry.kind != crate::firmware::hierarchy::Kind::Input);
+        all.retain(|entry| entry.kind != crate::hierarchy::Kind::Input);
         let groups = groups(&all);
         let names: Vec<_> = groups.iter().map(|group| group.name).collect();
         assert_eq!(names, ["Hidden layer", OTHER]);

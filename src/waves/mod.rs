@@ -1,7 +1,7 @@
 //! Waveform files of the firmware's signals: VCD and FST, and set-ups for their viewers.
 //!
 //! A waveform holds windows of the run; outside them every signal is `x`. Times are picoseconds,
-//! rounded down. What a file contains follows from the hierarchy ([`crate::firmware::hierarchy`]):
+//! rounded down. What a file contains follows from the hierarchy ([`crate::hierarchy`]):
 //! ports that pass a signal on are aliases, written once.
 
 #[cfg(test)]
@@ -29,7 +29,7 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 use crate::firmware::TofTop;
-use crate::firmware::hierarchy::{Entry, changes, copy};
+use crate::hierarchy::{Entry, changes, copy};
 use crate::kernel::Time;
 use crate::kernel::signals::Sink;
 

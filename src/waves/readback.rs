@@ -7,8 +7,8 @@ use wellen::simple::Waveform;
 
 use super::bench::{Bench, SHOTS};
 use super::{Format, Waves};
-use crate::firmware::hierarchy::{Entry, entries, ram_entries};
 use crate::firmware::tof_top::Params;
+use crate::hierarchy::{Entry, entries, ram_entries};
 
 /// Both formats.
 pub(super) const FORMATS: [Format; 2] = [Format::Vcd, Format::Fst];

@@ -1,6 +1,6 @@
 //! The nesting of scopes that a header spells out.
 
-use crate::firmware::hierarchy::Entry;
+use crate::hierarchy::Entry;
 
 /// One element of a header's hierarchy.
 pub(super) enum Element<'a> {
@@ -31,7 +31,7 @@ pub(super) fn elements(entries: &[Entry]) -> Vec<Element<'_>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::firmware::hierarchy::ram_entries;
+    use crate::hierarchy::ram_entries;
 
     #[test]
     fn scopes_open_and_close_as_they_nest() {

@@ -3,7 +3,7 @@
 use globset::{Glob, GlobMatcher};
 
 use crate::error::{Input, Result};
-use crate::firmware::hierarchy::{Entry, TOP};
+use crate::hierarchy::{Entry, TOP};
 
 /// The option that gives the globs.
 const OPTION: &str = "--signals";
@@ -107,7 +107,7 @@ fn nearest(glob: &str, candidates: &[Candidate]) -> String {
 mod tests {
     use super::super::bench::params;
     use super::*;
-    use crate::firmware::hierarchy::{entries, ram_entries};
+    use crate::hierarchy::{entries, ram_entries};
     use crate::kernel::U;
 
     fn chosen(globs: &[&str]) -> Result<Vec<String>> {

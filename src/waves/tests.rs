@@ -10,8 +10,8 @@ use super::readback::{DerefIn, FORMATS, FRAME, assert_same, at, contents, create
 use super::*;
 use crate::firmware::carry_chain::TAPS;
 use crate::firmware::depth_estimator;
-use crate::firmware::hierarchy::{entries, ram_entries};
 use crate::firmware::tof_top::{CodeSource, HistogramSource, Pins};
+use crate::hierarchy::{entries, ram_entries};
 use crate::kernel::{Thermometer, U};
 
 #[test]

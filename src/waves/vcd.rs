@@ -9,7 +9,7 @@ use std::path::Path;
 use vcd::{IdCode, ReferenceIndex, TimescaleUnit, VarType};
 
 use crate::error::{Error, Result};
-use crate::firmware::hierarchy::{Entry, IDS, Kind};
+use crate::hierarchy::{Entry, IDS, Kind};
 use crate::kernel::Thermometer;
 use crate::kernel::signals::{Format, Sink};
 use crate::output::OutputFile;

@@ -9,7 +9,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::error::Result;
-use crate::firmware::hierarchy::Entry;
+use crate::hierarchy::Entry;
 use crate::kernel::Time;
 use crate::kernel::signals::Format as Shape;
 use crate::output::{create_directory, write_file};
@@ -94,7 +94,7 @@ mod tests {
 
     use super::super::bench::params;
     use super::*;
-    use crate::firmware::hierarchy::{entries, ram_entries};
+    use crate::hierarchy::{entries, ram_entries};
 
     fn written(folder: &Path, format: Format, entries: &[Entry]) -> Vec<(String, String)> {
         let wave = folder.join("run").with_extension(format.extension());

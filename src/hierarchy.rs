@@ -7,9 +7,9 @@
 use crate::kernel::connect::Connection;
 use crate::kernel::signals::{Format, Signal, Signals, Sink};
 
-use super::histogram_builder::BINS;
-use super::tof_top::{CodeSource, HistogramSource, Params, TofTop, Wires};
-use super::{depth_estimator, tdc, vcsel_driver};
+use crate::firmware::histogram_builder::BINS;
+use crate::firmware::tof_top::{CodeSource, HistogramSource, Params, TofTop, Wires};
+use crate::firmware::{depth_estimator, tdc, vcsel_driver};
 
 mod ports;
 
@@ -86,29 +86,29 @@ macro_rules! groups {
 }
 
 groups! {
-    "" => clocks: super::tof_top::Clocks;
-    "" => pins: super::tof_top::Pins;
-    "" => nets: super::tof_top::Nets;
-    "pll" => pll: super::pll::Out;
-    "reset_sync_125" => reset_sync_125: super::reset_sync::ResetSync;
-    "reset_sync_250" => reset_sync_250: super::reset_sync::ResetSync;
-    "control_sync" => control_sync: super::control_sync::ControlSync;
-    "frame_ctrl" => frame_ctrl: super::frame_ctrl::FrameCtrl;
+    "" => clocks: crate::firmware::tof_top::Clocks;
+    "" => pins: crate::firmware::tof_top::Pins;
+    "" => nets: crate::firmware::tof_top::Nets;
+    "pll" => pll: crate::firmware::pll::Out;
+    "reset_sync_125" => reset_sync_125: crate::firmware::reset_sync::ResetSync;
+    "reset_sync_250" => reset_sync_250: crate::firmware::reset_sync::ResetSync;
+    "control_sync" => control_sync: crate::firmware::control_sync::ControlSync;
+    "frame_ctrl" => frame_ctrl: crate::firmware::frame_ctrl::FrameCtrl;
     "vcsel_driver" => vcsel_driver.registers: vcsel_driver::Registers;
     "vcsel_driver" => vcsel_driver.registers_250: vcsel_driver::Registers250;
-    "vcsel_driver.ddr_output" => vcsel_driver.ddr_output: super::ddr_output::DdrOutput;
-    "lvds_output" => lvds_output: super::lvds_output::Out;
-    "spad_control" => spad_control: super::spad_control::SpadControl;
-    "tdc.carry_chain" => tdc.carry_chain: super::carry_chain::CarryChain;
-    "tdc.coarse_counter" => tdc.coarse_counter: super::coarse_counter::CoarseCounter;
-    "tdc.tdc_latch" => tdc.tdc_latch: super::tdc_latch::TdcLatch;
-    "tdc.tdc_decoder" => tdc.tdc_decoder: super::tdc_decoder::TdcDecoder;
-    "code_preload" => code_preload: super::code_preload::CodePreload;
+    "vcsel_driver.ddr_output" => vcsel_driver.ddr_output: crate::firmware::ddr_output::DdrOutput;
+    "lvds_output" => lvds_output: crate::firmware::lvds_output::Out;
+    "spad_control" => spad_control: crate::firmware::spad_control::SpadControl;
+    "tdc.carry_chain" => tdc.carry_chain: crate::firmware::carry_chain::CarryChain;
+    "tdc.coarse_counter" => tdc.coarse_counter: crate::firmware::coarse_counter::CoarseCounter;
+    "tdc.tdc_latch" => tdc.tdc_latch: crate::firmware::tdc_latch::TdcLatch;
+    "tdc.tdc_decoder" => tdc.tdc_decoder: crate::firmware::tdc_decoder::TdcDecoder;
+    "code_preload" => code_preload: crate::firmware::code_preload::CodePreload;
     "depth_estimator.estimator_ctrl" =>
-        depth_estimator.estimator_ctrl: super::estimator_ctrl::EstimatorCtrl;
-    "depth_estimator.forward1" => depth_estimator.forward1: super::forward1::Forward1;
-    "depth_estimator.tansig" => depth_estimator.tansig: super::tansig::Tansig;
-    "depth_estimator.forward2" => depth_estimator.forward2: super::forward2::Forward2;
+        depth_estimator.estimator_ctrl: crate::firmware::estimator_ctrl::EstimatorCtrl;
+    "depth_estimator.forward1" => depth_estimator.forward1: crate::firmware::forward1::Forward1;
+    "depth_estimator.tansig" => depth_estimator.tansig: crate::firmware::tansig::Tansig;
+    "depth_estimator.forward2" => depth_estimator.forward2: crate::firmware::forward2::Forward2;
 }
 
 fn ram_changes(top: &TofTop, before: Option<&TofTop>, sink: &mut impl Sink) {
