@@ -229,3 +229,22 @@ fn the_control_timeline_takes_effect_two_edges_later_and_at_the_wrap() {
     assert!(resets.iter().all(|&reset| reset <= synchronised[0]));
     assert!(on.iter().filter(|&&on| on > synchronised[0] + 48_000).count() > 30, "shots in MODE 1");
 }
+
+#[test]
+fn the_viewer_opens_on_the_first_window() {
+    let folder = tempfile::tempdir().unwrap();
+    // GTKWave shows 2^-zoom units in 200 pixels; a window of 1000 pixels has to hold the span.
+    for (scenario, from_ns, span_ns) in
+        [("kc705", 3_088, 768), ("tdc_validation", 3_088, 240), ("spad_validation", 0, 14_000)]
+    {
+        run(folder.path(), &[scenario]);
+        let text = std::fs::read_to_string(folder.path().join(format!("{scenario}.gtkw"))).unwrap();
+        let line = |start: &str| text.lines().find_map(|line| line.strip_prefix(start)).unwrap();
+        let begin: u64 = line("[timestart] ").parse().unwrap();
+        assert!(begin.abs_diff(from_ns * 1000) < span_ns * 100, "{scenario} from {begin} ps");
+        let zoom: f64 = line("*").split(' ').next().unwrap().parse().unwrap();
+        let shown_ns = 5.0 * (-zoom).exp2() / 1000.0;
+        let ratio = shown_ns / span_ns as f64;
+        assert!((0.5..3.0).contains(&ratio), "{scenario} shows {shown_ns} ns");
+    }
+}

@@ -146,7 +146,8 @@ impl Windowed for Tracer {
         let moment = Moment { cycle, shot: self.shot, estimating };
         let wanting = self.windows.iter().filter(|window| window.wants(&moment)).count();
         let wanted = wanting > 0;
-        if self.state == State::Writing && wanting != self.wanting && self.marks.to == Time::ZERO {
+        let changes = self.wanting > 0 && wanting != self.wanting;
+        if self.state == State::Writing && changes && self.marks.to == Time::ZERO {
             self.marks.to = cycle.0;
         }
         self.wanting = wanting;
