@@ -108,17 +108,20 @@ impl<'a> Run<'a> {
         record: &mut R,
         sinks: &mut Sinks,
     ) -> Result<()> {
+        let mut ended = 0;
         loop {
             self.cycle(trace, record)?;
             let frame = self.frames.edge(self.device.cycle() - 1, &self.device.top, self.params);
             if let Some(frame) = frame {
                 sinks.frame(&frame)?;
             }
-            if self.device.top.frame_ctrl.frame_done {
-                self.device.light.begin_frame(self.frames.done());
+            let done = self.frames.done();
+            if done > ended && !self.device.top.depth_estimator.estimator_ctrl.algo_done {
+                ended = done;
+                self.device.light.begin_frame(done);
                 record.pass_on(sinks)?;
-                record.begin_frame(self.frames.done());
-                if self.frames.done() >= count {
+                record.begin_frame(done);
+                if done >= count {
                     return Ok(());
                 }
             }

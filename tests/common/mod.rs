@@ -27,6 +27,7 @@ pub fn frames(setup: &Setup, count: u64) -> Vec<Frame> {
     };
     let watch = Watch { frames: Some(&mut take), ..Watch::default() };
     Run::new(setup).frames(count, watch).unwrap();
+    assert_eq!(frames.len() as u64, count);
     frames
 }
 
