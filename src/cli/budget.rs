@@ -96,7 +96,7 @@ impl Report {
         row("eye safety", milliwatts(self.eye_safety_limit_w), note);
         let note = exposure(self.eye_safety_exposure_at_laser_rate_s) + " at the firmware's rate";
         row("", milliwatts(self.eye_safety_limit_at_laser_rate_w), note);
-        format!("{table}\n")
+        format!("{}\n", table.trim_fmt())
     }
 }
 

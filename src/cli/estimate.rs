@@ -108,5 +108,5 @@ fn table(rows: &[Row], several: bool) -> String {
     for column in table.column_iter_mut().take(3) {
         column.set_cell_alignment(CellAlignment::Right);
     }
-    format!("{table}\n")
+    format!("{}\n", table.trim_fmt())
 }

@@ -91,5 +91,5 @@ fn list(as_json: bool) -> Result<()> {
     for (name, description) in rows {
         table.add_row([name.to_owned(), description]);
     }
-    print(&format!("{table}\n"))
+    print(&format!("{}\n", table.trim_fmt()))
 }

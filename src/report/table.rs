@@ -25,9 +25,9 @@ pub fn plain() -> Table {
 pub fn run(setup: &Setup, frames: &[Frame], outcome: &Outcome, wall: Duration) -> String {
     let mut text = format!("{}: {}\n\n", setup.name, setup.scenario.description);
     if let [frame] = frames {
-        text += &one_frame(setup, frame).to_string();
+        text += &one_frame(setup, frame).trim_fmt();
     } else {
-        text += &many_frames(frames).to_string();
+        text += &many_frames(frames).trim_fmt();
     }
     let rate = outcome.cycles as f64 / wall.as_secs_f64();
     text += &format!(
@@ -104,7 +104,7 @@ pub fn tdc(results: &[TdcSummary]) -> String {
     for column in table.column_iter_mut() {
         column.set_cell_alignment(CellAlignment::Right);
     }
-    format!("\n{table}\n")
+    format!("\n{}\n", table.trim_fmt())
 }
 
 /// A number with its thousands apart.
