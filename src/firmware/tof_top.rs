@@ -3,8 +3,8 @@
 //! Mirrors `rtl_ref/tof_top.v`. It only wires; time and light are the business of who steps it
 //! (see [`crate::sim`]).
 
-use crate::kernel::{Clocked, Time, U};
-use crate::{connect, signals};
+use crate::connect;
+use crate::kernel::{Clocked, Time};
 
 use super::carry_chain::StopLine;
 use super::code_preload::{self, CodePreload};
@@ -18,86 +18,9 @@ use super::tdc::{self, Tdc};
 use super::vcsel_driver::{self, VcselDriver};
 use super::{histogram_preload, lvds_output, pll};
 
-signals! {
-    /// Input pins beside the clock.
-    pub struct Pins {
-        /// Reset button of the board, asynchronous.
-        pub rst: bool,
-        /// Output of the SPAD, asynchronous.
-        pub tdc_stop: bool,
-        /// SPAD quench mode (Table 6.2), asynchronous.
-        pub mode: bool,
-        /// Laser repetition rate (Table 6.1), asynchronous.
-        pub laser_freq: U<2>,
-        /// Lets the laser fire, asynchronous.
-        pub laser_en: bool,
-        /// Lets the estimator start, asynchronous.
-        pub dsp_en: bool,
-        /// Abandons the frame, asynchronous.
-        pub dsp_rst: bool,
-    }
-}
+mod ports;
 
-signals! {
-    /// Levels of the clocks; kept for waveforms, the simulation steps by edges.
-    pub struct Clocks {
-        /// Oscillator of the board.
-        pub clk_200: bool,
-        /// PLL output.
-        pub clk_125: bool,
-        /// PLL output.
-        pub clk_250: bool,
-    }
-}
-
-signals! {
-    /// Wires of the top that are no register of a module.
-    pub struct Nets {
-        /// Reset of the TDC and the estimator: the board's or the acquisition computer's.
-        pub rst_dsp: bool = true,
-        /// Code of a hit, from the source in use [25 ps].
-        pub tdc_code: U<8>,
-        /// `tdc_code` is new.
-        pub tdc_valid: bool,
-        /// Word of the histogram, from the source in use [hits].
-        pub count: U<16>,
-        /// Single-ended laser pulse.
-        pub laser_on: bool,
-    }
-}
-
-/// Where codes come from.
-#[derive(Clone, Debug)]
-pub enum CodeSource {
-    /// The TDC.
-    Tdc,
-    /// A ROM, one code a shot (thesis 6.6.1).
-    Preload(Box<[U<8>]>),
-}
-
-/// Where the estimator's histogram comes from.
-#[derive(Clone, Debug)]
-pub enum HistogramSource {
-    /// The histogram builder.
-    Builder,
-    /// A ROM (thesis 6.7.4).
-    Preload(Box<histogram_preload::Rom>),
-}
-
-/// What elaboration fixes.
-#[derive(Clone, Debug)]
-pub struct Params {
-    /// Frame length.
-    pub frame_ctrl: frame_ctrl::Params,
-    /// Delay chain and its ROM.
-    pub tdc: tdc::Params,
-    /// ROMs of the network.
-    pub depth_estimator: depth_estimator::Params,
-    /// Where codes come from.
-    pub code_source: CodeSource,
-    /// Where the estimator's histogram comes from.
-    pub histogram_source: HistogramSource,
-}
+pub use ports::{Clocks, CodeSource, HistogramSource, Nets, Params, Pins};
 
 /// The state of the firmware.
 #[derive(Clone, Debug)]

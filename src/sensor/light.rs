@@ -10,7 +10,7 @@ use rand_chacha::rand_core::Rng;
 use crate::kernel::Time;
 use crate::optics::hazard::{Cause, Hazard};
 
-use super::photon_list::PhotonList;
+use super::photon_list::Given;
 use super::streams::{Source, exponential, seek, stream, uniform};
 
 /// What reaches the detector.
@@ -55,7 +55,7 @@ impl Light {
     /// Given photons of shots that have not begun.
     pub fn left(&self) -> usize {
         match self {
-            Light::List(given) => given.list.from_shot(given.shots).len(),
+            Light::List(given) => given.left(),
             Light::Optics(_) | Light::None => 0,
         }
     }
@@ -149,37 +149,6 @@ impl Optics {
         self.causes_drawn += 1;
         let hazard = &self.hazards[self.lit as usize];
         hazard.cause(at.since(self.origin), uniform(self.causes.next_u64()))
-    }
-}
-
-/// Given photons, as they come due.
-#[derive(Clone, Debug)]
-pub struct Given {
-    list: PhotonList,
-    /// Shots begun.
-    shots: u64,
-    /// Photons of begun shots that are still to come, the latest first.
-    pending: Vec<Time>,
-}
-
-impl Given {
-    /// The photons of a list, none of them due yet.
-    pub fn new(list: PhotonList) -> Self {
-        Given { list, shots: 0, pending: Vec::new() }
-    }
-
-    fn begin_shot(&mut self, now: Time) {
-        let photons = self.list.of_shot(self.shots).iter();
-        self.pending.extend(photons.map(|(_, arrival)| now.saturating_add(*arrival)));
-        self.pending.sort_by(|a, b| b.cmp(a));
-        self.shots += 1;
-    }
-
-    fn next_photon(&mut self, now: Time) -> Time {
-        while self.pending.last().is_some_and(|&photon| photon < now) {
-            self.pending.pop();
-        }
-        self.pending.last().copied().unwrap_or(Time::NEVER)
     }
 }
 
@@ -286,18 +255,5 @@ mod tests {
         for cause in [Cause::Signal, Cause::Ambient] {
             assert!(causes.iter().filter(|&&found| found == Some(cause)).count() > 5, "{cause:?}");
         }
-    }
-
-    #[test]
-    fn photons_of_an_old_shot_may_come_after_those_of_the_new() {
-        let list = PhotonList::parse("p", "shot,arrival_ps\n0,1000\n0,60000\n1,2000\n").unwrap();
-        let mut light = Light::List(Given::new(list));
-        light.begin_shot(Time::from_ns(100), true);
-        assert_eq!(light.next_avalanche(Time::from_ns(100)), Time::from_ns(101));
-        assert_eq!(light.next_avalanche(Time::from_ns(102)), Time::from_ns(160));
-        light.begin_shot(Time::from_ns(148), true);
-        assert_eq!(light.next_avalanche(Time::from_ns(148)), Time::from_ns(150));
-        assert_eq!(light.next_avalanche(Time::from_ns(151)), Time::from_ns(160));
-        assert_eq!(light.next_avalanche(Time::from_ns(161)), Time::NEVER);
     }
 }

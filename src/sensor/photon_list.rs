@@ -54,6 +54,44 @@ impl PhotonList {
 /// Latest arrival, 1 ms [ps].
 const MAX_PS: f64 = 1e9;
 
+/// Given photons, as they come due.
+#[derive(Clone, Debug)]
+pub struct Given {
+    list: PhotonList,
+    /// Shots begun.
+    shots: u64,
+    /// Photons of begun shots that are still to come, the latest first.
+    pending: Vec<Time>,
+}
+
+impl Given {
+    /// The photons of a list, none of them due yet.
+    pub fn new(list: PhotonList) -> Self {
+        Given { list, shots: 0, pending: Vec::new() }
+    }
+
+    /// A shot begins at `now`: its photons become due.
+    pub fn begin_shot(&mut self, now: Time) {
+        let photons = self.list.of_shot(self.shots).iter();
+        self.pending.extend(photons.map(|(_, arrival)| now.saturating_add(*arrival)));
+        self.pending.sort_by(|a, b| b.cmp(a));
+        self.shots += 1;
+    }
+
+    /// The first photon at or after `now`; those before it are lost.
+    pub fn next_photon(&mut self, now: Time) -> Time {
+        while self.pending.last().is_some_and(|&photon| photon < now) {
+            self.pending.pop();
+        }
+        self.pending.last().copied().unwrap_or(Time::NEVER)
+    }
+
+    /// Photons of shots that have not begun.
+    pub fn left(&self) -> usize {
+        self.list.from_shot(self.shots).len()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -65,6 +103,19 @@ mod tests {
         assert_eq!(list.of_shot(0), [(0, Time::from_ns(2))]);
         assert!(list.of_shot(1).is_empty());
         assert_eq!(list.of_shot(2), [(2, Time::from_fs(500)), (2, Time::from_ns(3))]);
+    }
+
+    #[test]
+    fn photons_of_an_old_shot_may_come_after_those_of_the_new() {
+        let list = PhotonList::parse("p", "shot,arrival_ps\n0,1000\n0,60000\n1,2000\n").unwrap();
+        let mut given = Given::new(list);
+        given.begin_shot(Time::from_ns(100));
+        assert_eq!(given.next_photon(Time::from_ns(100)), Time::from_ns(101));
+        assert_eq!(given.next_photon(Time::from_ns(102)), Time::from_ns(160));
+        given.begin_shot(Time::from_ns(148));
+        assert_eq!(given.next_photon(Time::from_ns(148)), Time::from_ns(150));
+        assert_eq!(given.next_photon(Time::from_ns(151)), Time::from_ns(160));
+        assert_eq!(given.next_photon(Time::from_ns(161)), Time::NEVER);
     }
 
     #[test]

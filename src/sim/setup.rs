@@ -12,8 +12,8 @@ use crate::network::Network;
 use crate::optics::{Budget, Hazard};
 use crate::scenario::builtin::Source;
 use crate::scenario::{Loaded, Scenario, chain};
-use crate::sensor::light::{Given, Light, Optics};
-use crate::sensor::photon_list::PhotonList;
+use crate::sensor::light::{Light, Optics};
+use crate::sensor::photon_list::{Given, PhotonList};
 
 use super::device::Device;
 use super::jitter::Jitter;
