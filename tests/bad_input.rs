@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::Duration;
 
-use common::{files, output, refused, stdout, tofsim};
+use common::{device, files, output, refused, stdout, tofsim};
 
 /// A frame that takes no time.
 const SHORT: [&str; 2] = ["-s", "firmware.shots_per_frame=40"];
@@ -164,20 +164,23 @@ fn a_full_disk_is_an_error_and_devices_stay_devices() {
     use std::os::unix::fs::{FileTypeExt, symlink};
     let folder = empty();
     let path = folder.path();
-    let is_device = || fs::metadata("/dev/full").unwrap().file_type().is_char_device();
+    let devices = empty();
+    let (full, null) = (device(devices.path(), "full"), device(devices.path(), "null"));
+    let (full_name, null_name) = (full.to_str().unwrap(), null.to_str().unwrap());
+    let is_device = || fs::metadata(&full).unwrap().file_type().is_char_device();
     fs::create_dir(path.join("waves")).unwrap();
     for format in ["vcd", "fst"] {
-        symlink("/dev/full", path.join(format!("waves/kc705.{format}"))).unwrap();
+        symlink(&full, path.join(format!("waves/kc705.{format}"))).unwrap();
         assert!(refused(path, &run(&["--waves", format])).contains("cannot write"), "{format}");
         fs::remove_file(path.join(format!("waves/kc705.{format}"))).unwrap();
     }
     assert!(
-        refused(path, &run(&["--events", "/dev/full", "--waves", "none"])).contains("/dev/full")
+        refused(path, &run(&["--events", full_name, "--waves", "none"])).contains("cannot write")
     );
     assert!(is_device());
-    stdout(path, &run(&["--events", "/dev/null", "--waves", "none"]));
-    assert!(fs::metadata("/dev/null").unwrap().file_type().is_char_device());
-    let full = fs::File::options().write(true).open("/dev/full").unwrap();
+    stdout(path, &run(&["--events", null_name, "--waves", "none"]));
+    assert!(fs::metadata(&null).unwrap().file_type().is_char_device());
+    let full = fs::File::options().write(true).open(&full).unwrap();
     let status = tofsim(path, &run(&["--json", "--waves", "none"])).stdout(full).status().unwrap();
     assert_eq!(status.code(), Some(2));
 }

@@ -9,6 +9,8 @@ use super::readback::{FORMATS, FRAME, at, contents, create, record};
 use super::*;
 use crate::firmware::tof_top::Pins;
 use crate::hierarchy::{entries, ram_entries};
+#[cfg(unix)]
+use crate::output::device;
 
 #[test]
 fn outside_the_windows_everything_is_unknown() {
@@ -121,9 +123,10 @@ fn an_unfinished_waveform_leaves_nothing_behind() {
 #[cfg(unix)]
 #[test]
 fn a_full_disk_is_an_error_that_names_the_file_now_and_later() {
+    let folder = tempfile::tempdir().unwrap();
     for format in FORMATS {
         let params = params();
-        let mut waves = create(Path::new("/dev/full"), format, &entries(&params), &params);
+        let mut waves = create(&device(folder.path(), "full"), format, &entries(&params), &params);
         let mut bench = Bench::new(params);
         waves.begin(Time::ZERO, &bench.top).unwrap();
         let mut first = None;
@@ -136,16 +139,17 @@ fn a_full_disk_is_an_error_that_names_the_file_now_and_later() {
         }
         assert_eq!(first.is_some(), format == Format::Vcd, "VCD is written as it goes");
         let last = waves.finish(bench.now()).unwrap_err().to_string();
-        assert!(last.contains("/dev/full") && last.contains("space"), "{last}");
+        assert!(last.contains("full: cannot write") && last.contains("space"), "{last}");
     }
 }
 
 #[cfg(unix)]
 #[test]
 fn a_device_that_cannot_seek_is_written_all_the_same() {
+    let folder = tempfile::tempdir().unwrap();
     for format in FORMATS {
         let params = params();
-        let waves = create(Path::new("/dev/null"), format, &entries(&params), &params);
+        let waves = create(&device(folder.path(), "null"), format, &entries(&params), &params);
         waves.finish(Time::from_ns(1)).unwrap();
     }
 }

@@ -2,7 +2,8 @@
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
 use std::fmt::Write;
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use tofsim::network::Histogram;
@@ -66,7 +67,7 @@ pub fn refused(folder: &Path, args: &[&str]) -> String {
 
 /// Names of the files in a folder, hidden ones too.
 pub fn files(folder: &Path) -> Vec<String> {
-    let mut names: Vec<_> = std::fs::read_dir(folder)
+    let mut names: Vec<_> = fs::read_dir(folder)
         .map(|entries| entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect())
         .unwrap_or_default();
     names.sort();
@@ -91,4 +92,18 @@ pub fn npy(descr: &str, shape: &str, data: &[u8]) -> Vec<u8> {
     bytes.extend(header.as_bytes());
     bytes.extend(data);
     bytes
+}
+
+/// A device called `name` like `/dev/{name}`, in `folder` where the system lets us make one: a fault
+/// in our own writing must not cost the machine its devices.
+pub fn device(folder: &Path, name: &str) -> PathBuf {
+    let own = folder.join(name);
+    let minor = if name == "full" { "7" } else { "3" };
+    let made = std::process::Command::new("mknod")
+        .args([own.as_os_str(), "c".as_ref(), "1".as_ref(), minor.as_ref()])
+        .stderr(std::process::Stdio::null())
+        .status();
+    let usable = made.is_ok_and(|status| status.success())
+        && fs::File::options().write(true).open(&own).is_ok();
+    if usable { own } else { Path::new("/dev").join(name) }
 }
