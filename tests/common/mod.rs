@@ -98,6 +98,9 @@ pub fn npy(descr: &str, shape: &str, data: &[u8]) -> Vec<u8> {
 /// in our own writing must not cost the machine its devices.
 pub fn device(folder: &Path, name: &str) -> PathBuf {
     let own = folder.join(name);
+    if own.exists() {
+        return own;
+    }
     let minor = if name == "full" { "7" } else { "3" };
     let made = std::process::Command::new("mknod")
         .args([own.as_os_str(), "c".as_ref(), "1".as_ref(), minor.as_ref()])
