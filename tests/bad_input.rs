@@ -8,18 +8,7 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::Duration;
 
-use common::{device, files, output, refused, stdout, tofsim};
-
-/// A frame that takes no time.
-const SHORT: [&str; 2] = ["-s", "firmware.shots_per_frame=40"];
-
-fn run<'a>(args: &[&'a str]) -> Vec<&'a str> {
-    [&["run"], args, &SHORT].concat()
-}
-
-fn empty() -> tempfile::TempDir {
-    tempfile::tempdir().unwrap()
-}
+use common::{device, empty, files, output, refused, short_run as run, stdout, tofsim};
 
 #[test]
 fn a_scenario_that_cannot_be_used_is_refused_with_its_place() {

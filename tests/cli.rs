@@ -4,18 +4,7 @@ mod common;
 
 use std::fs;
 
-use common::{files, json, stdout};
-
-/// A frame that takes no time.
-const SHORT: [&str; 2] = ["-s", "firmware.shots_per_frame=40"];
-
-fn run<'a>(args: &[&'a str]) -> Vec<&'a str> {
-    [&["run"], args, &SHORT].concat()
-}
-
-fn empty() -> tempfile::TempDir {
-    tempfile::tempdir().unwrap()
-}
+use common::{empty, files, json, short_run as run, stdout};
 
 #[test]
 fn the_same_seed_gives_the_same_bytes_and_another_does_not() {

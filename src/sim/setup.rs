@@ -30,6 +30,9 @@ const OVERHEAD_PRELOADED: u64 = 256 + 1 + 267;
 /// Shots of the waveform when nothing else is asked for.
 const FIRST_SHOTS: u64 = 16;
 
+/// Edges of `clk_125` in 2.4 hours, well within what [`Time`] can count.
+const LONGEST: u64 = 1 << 40;
+
 /// A scenario, ready to run.
 #[derive(Clone, Debug)]
 pub struct Setup {
@@ -119,7 +122,8 @@ impl Setup {
     }
 
     /// When a run ends, if no control signal changes on the way: with the cycle after `frame_done`
-    /// of the last frame. Jitter may move it by less than a nanosecond.
+    /// of the last frame. Jitter may move it by less than a nanosecond. Not said of runs that nobody
+    /// could wait for.
     pub fn end(&self, frames: u64) -> Option<Time> {
         let firmware = &self.scenario.firmware;
         let held = firmware.rst || firmware.dsp_rst || !firmware.dsp_en;
@@ -127,7 +131,8 @@ impl Setup {
             return None;
         }
         let frame = self.frame_cycles(firmware.laser_freq as usize) + 1;
-        Some(self.pll.clk_125.rise(frames.checked_mul(frame)?.checked_add(2)?))
+        let edge = frames.checked_mul(frame).filter(|edge| *edge < LONGEST)? + 2;
+        Some(self.pll.clk_125.rise(edge))
     }
 
     /// The windows that go into the waveform: those given, or the scenario's, or a first look.

@@ -110,3 +110,13 @@ pub fn device(folder: &Path, name: &str) -> PathBuf {
         && fs::File::options().write(true).open(&own).is_ok();
     if usable { own } else { Path::new("/dev").join(name) }
 }
+
+/// A folder with nothing in it, gone at the end of the test.
+pub fn empty() -> tempfile::TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+/// The arguments of a run whose frame has 40 shots and so takes no time.
+pub fn short_run<'a>(args: &[&'a str]) -> Vec<&'a str> {
+    [&["run"], args, &["-s", "firmware.shots_per_frame=40"]].concat()
+}
