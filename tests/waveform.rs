@@ -248,3 +248,19 @@ fn the_viewer_opens_on_the_first_window() {
         assert!((0.5..3.0).contains(&ratio), "{scenario} shows {shown_ns} ns");
     }
 }
+
+#[test]
+fn an_oscillator_without_a_whole_period_is_found_again_late_in_a_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let pll = ["pll.input_hz=150000000", "pll.multiply=10", "pll.output_divide=12"];
+    let pll: Vec<_> = pll.iter().flat_map(|set| ["-s", set]).collect();
+    run(folder.path(), &[&["--window", "1400us..1401us", "--signals", "clk_*"], &pll[..]].concat());
+    let wave = Wave::open(&folder.path().join("kc705.vcd"));
+    let rises = wave.rises("clk_200");
+    assert!(rises.len() > 140);
+    for rise in rises {
+        let edge = ((rise as f64 * 1e-12 * 150e6 - 0.5).round() + 0.5) / 150e6 * 1e12;
+        assert!((rise as f64 - edge).abs() < 1.5, "{rise} ps, expected {edge}");
+    }
+    assert!(gaps(&wave.rises("clk_125")).iter().all(|&gap| gap == 8_000));
+}

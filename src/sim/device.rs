@@ -155,10 +155,12 @@ impl Device {
 
     /// Brings the levels of the clocks up to date where tracing begins, before the next edge.
     pub fn resume_clocks(&mut self, now: Time) {
-        self.oscillator = 0;
-        let half = self.pll.clk_200.rise(0);
-        if now >= half {
-            self.oscillator = (now - half).fs() / half.fs() + 1;
+        self.oscillator = now.fs() / self.pll.clk_200.rise(0).fs();
+        while self.oscillator > 0 && self.oscillator_edge(self.oscillator - 1) > now {
+            self.oscillator -= 1;
+        }
+        while self.oscillator_edge(self.oscillator) <= now {
+            self.oscillator += 1;
         }
         self.top.clocks.clk_200 = self.oscillator % 2 == 1;
         self.clocks(false, false);
@@ -253,11 +255,12 @@ impl Device {
     }
 
     fn next_oscillator_edge(&self) -> Time {
+        self.oscillator_edge(self.oscillator)
+    }
+
+    /// Edge `n` of `clk_200`, rising and falling counted.
+    fn oscillator_edge(&self, n: u64) -> Time {
         let clk_200 = &self.pll.clk_200;
-        if self.oscillator.is_multiple_of(2) {
-            clk_200.rise(self.oscillator / 2)
-        } else {
-            clk_200.fall(self.oscillator / 2)
-        }
+        if n.is_multiple_of(2) { clk_200.rise(n / 2) } else { clk_200.fall(n / 2) }
     }
 }
