@@ -123,8 +123,16 @@ fn ram_changes(top: &TofTop, before: Option<&TofTop>, sink: &mut impl Sink) {
     }
 }
 
-/// Every name in every scope, in the order of the hierarchy, without the RAM's words.
+/// Every name in every scope that those parameters have, without the RAM's words.
 pub fn entries(params: &Params) -> Vec<Entry> {
+    let absent = absent(params);
+    let mut entries = every_entry();
+    entries.retain(|entry| !absent.iter().any(|scope| within(&entry.scope, scope)));
+    entries
+}
+
+/// Every name in every scope, in the order of the hierarchy, without the RAM's words.
+pub fn every_entry() -> Vec<Entry> {
     let mut build = Build::default();
     build.held();
     build.shown();
@@ -135,8 +143,6 @@ pub fn entries(params: &Params) -> Vec<Entry> {
     let driver = vcsel_driver::Wires::inputs();
     build.inputs("vcsel_driver", &driver, vcsel_driver::Wires::CONNECTIONS);
     build.clocks();
-    let absent = absent(params);
-    build.entries.retain(|entry| !absent.iter().any(|scope| within(&entry.scope, scope)));
     build.entries.sort_by_key(|entry| (place(&entry.scope), entry.kind as u8));
     build.entries
 }
@@ -175,7 +181,8 @@ fn absent(params: &Params) -> Vec<&'static str> {
     absent
 }
 
-fn within(scope: &str, parent: &str) -> bool {
+/// Whether a dotted path lies in another or is the same.
+pub fn within(scope: &str, parent: &str) -> bool {
     scope.strip_prefix(parent).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 

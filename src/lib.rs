@@ -11,6 +11,7 @@ pub mod cli;
 pub mod csv_input;
 pub mod error;
 pub mod firmware;
+pub mod golden;
 pub mod hierarchy;
 pub mod histogram_file;
 pub mod kernel;

@@ -48,7 +48,7 @@ impl Cli {
             Verb::Run(args) => run::run(args, &talk),
             Verb::Budget(args) => budget::run(args),
             Verb::Estimate(args) => estimate::run(args),
-            Verb::Vectors(args) => vectors::run(args),
+            Verb::Vectors(args) => vectors::run(args, &talk),
             Verb::Scenario(args) => scenario::run(args),
             Verb::Completions(args) => completions::run(args),
             Verb::Man(args) => man::run(args),

@@ -90,6 +90,13 @@ impl Registers {
     pub fn shot_is_near(&self, acquire: bool) -> bool {
         acquire && self.count + 3 == self.last
     }
+
+    /// The rate in force, the place in its period, and whether that is the last; `None` before a
+    /// rate has been taken.
+    pub fn place(&self) -> Option<(u64, u64, bool)> {
+        let rate = PERIODS.iter().position(|period| self.last == period - 1)?;
+        Some((rate as u64, self.count.get(), self.count == self.last))
+    }
 }
 
 impl Clocked for Registers {

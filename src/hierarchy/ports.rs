@@ -3,11 +3,9 @@
 
 use super::Kind;
 
-/// Clock inputs, by scope below the top.
+/// Clock inputs, by scope below the top; a module that serves any domain calls its clock `clk`.
 pub(super) const CLOCKS: &[(&str, &[&str])] = &[
     ("pll", &["clk_200"]),
-    ("reset_sync_125", &["clk_125"]),
-    ("reset_sync_250", &["clk_250"]),
     ("control_sync", &["clk_125"]),
     ("frame_ctrl", &["clk_125"]),
     ("vcsel_driver", &["clk_125", "clk_250"]),
@@ -55,6 +53,8 @@ pub(super) const SHOWN: &[(&str, &str, Kind, &str)] = &[
     ("", "hist_count", Kind::Output, "nets.count"),
     ("", "frame_done", Kind::Output, "frame_ctrl.frame_done"),
     ("", "locked", Kind::Output, "pll.locked"),
+    ("reset_sync_125", "clk", Kind::Input, "clocks.clk_125"),
+    ("reset_sync_250", "clk", Kind::Input, "clocks.clk_250"),
     ("pll", "clk_125", Kind::Output, "clocks.clk_125"),
     ("pll", "clk_250", Kind::Output, "clocks.clk_250"),
     ("vcsel_driver", "laser_on", Kind::Output, "vcsel_driver.ddr_output.q"),

@@ -173,6 +173,7 @@ macro_rules! signals {
             }
 
             #[inline]
+            #[allow(unused_variables, reason = "a module may have no signals of one kind")]
             fn changes(
                 &self,
                 before: Option<&Self>,

@@ -55,7 +55,8 @@ fn word(row: &[Weight; NEURONS]) -> u128 {
     row.iter().rev().fold(0, |word, weight| word << 16 | u128::from(weight.bits()))
 }
 
-fn lines(words: impl IntoIterator<Item = u128>, digits: usize) -> String {
+/// Words as lines of that many hexadecimal digits.
+pub fn lines(words: impl IntoIterator<Item = u128>, digits: usize) -> String {
     let mut text = String::new();
     for word in words {
         // Writing to a string does not fail.

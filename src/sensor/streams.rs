@@ -18,6 +18,8 @@ pub enum Source {
     Cause = 3,
     /// Jitter of the PLL, one word an edge of `clk_250` since power-up.
     Jitter = 4,
+    /// Stimulus of the golden vectors; the frame's place is the block's.
+    Stimulus = 5,
 }
 
 /// Words of 32 bits that a shot may take from its stretch.

@@ -1,0 +1,117 @@
+`timescale 1ps / 1fs
+`default_nettype none
+
+// The tapped delay line of the TDC: 800 taps of carry logic, all registered at every edge.
+module carry_chain #(
+    parameter DelaysFile = "rtl_ref/tap_delays.mem"  // for simulation: tdc_stop to each tap [fs]
+) (
+    input wire clk_125,
+    input wire tdc_stop,     // output of the SPAD, asynchronous
+    output reg [799:0] taps  // level of each tap at the last edge
+);
+    initial taps = 800'd0;
+
+`ifdef SYNTHESIS
+    // Every carry bit passes the one before it on, so tdc_stop runs up the column of slices.
+    wire [799:0] carry;
+
+    genvar k;
+    generate
+        for (k = 0; k < 200; k = k + 1) begin : slice
+            (* keep, DONT_TOUCH = "TRUE" *)
+            CARRY4 carry4 (
+                .CI(k == 0 ? 1'b0 : carry[(k == 0 ? 0 : 4*k - 1)]),
+                .CYINIT(k == 0 ? tdc_stop : 1'b0),
+                .DI(4'b0000),
+                .S(4'b1111),
+                .CO(carry[4*k +: 4]),
+                .O()
+            );
+        end
+    endgenerate
+
+    always @(posedge clk_125) taps <= carry;
+`else
+    reg [39:0] arrival [0:799];   // time to each tap [fs]
+    reg [39:0] sorted [0:799];    // the same, earliest first [fs]
+    integer order [0:799];        // the taps in that order
+    reg [799:0] reached [0:800];  // the taps that an edge has reached first, by their number
+
+    reg level;                    // tdc_stop, as far as its changes are noted
+    reg [63:0] changed [0:7];     // its last changes, a ring [fs after Epoch]
+    reg [2:0] newest;             // the last of them
+
+    // So long before time 0 are the changes that never were [fs].
+    localparam [63:0] Epoch = 64'd1000000000000;
+
+    integer i, place;
+    initial begin
+        $readmemh(DelaysFile, arrival);
+        for (i = 0; i < 800; i = i + 1) begin
+            place = i;
+            while (place > 0 && sorted[place-1] > arrival[i]) begin
+                sorted[place] = sorted[place-1];
+                order[place] = order[place-1];
+                place = place - 1;
+            end
+            sorted[place] = arrival[i];
+            order[place] = i;
+        end
+        reached[0] = 800'd0;
+        for (i = 0; i < 800; i = i + 1) reached[i+1] = reached[i] | (800'd1 << order[i]);
+    end
+
+    // Number of taps that a change of this age has reached; one that it reaches just now counts.
+    function [9:0] rank;
+        input [63:0] age;
+        reg [10:0] low, high, middle;  // one bit more, for low + high
+        begin
+            low = 11'd0;
+            high = 11'd800;
+            while (low < high) begin
+                middle = (low + high) >> 1;
+                if ({24'd0, sorted[middle[9:0]]} <= age) low = middle + 11'd1;
+                else high = middle;
+            end
+            rank = low[9:0];
+        end
+    endfunction
+
+    integer k;
+    initial begin
+        level = 1'b0;
+        newest = 3'd0;
+        for (k = 0; k < 8; k = k + 1) changed[k] = 64'd0;
+    end
+
+    // Rounding to the nearest femtosecond is what is wanted.
+    // verilator lint_off REALCVT
+    // A second change in the same instant has to see the first.
+    // verilator lint_off BLKSEQ
+    always @(tdc_stop) if (tdc_stop != level) begin
+        level = tdc_stop;
+        newest = newest + 3'd1;
+        changed[newest] = $realtime * 1000.0 + Epoch;
+    end
+    // verilator lint_on BLKSEQ
+
+    // Each tap shows the present level, turned over by every change that has not reached it. A
+    // change of this very instant has reached none, so it does not matter which block runs first.
+    always @(posedge clk_125) begin : sample
+        reg [63:0] now, age;
+        reg [799:0] levels;
+        integer n;
+        now = $realtime * 1000.0 + Epoch;
+        levels = {800{level}};
+        age = now - changed[newest];
+        n = 1;
+        while (n <= 8 && age < {24'd0, sorted[799]}) begin
+            levels = levels ^ ~reached[rank(age)];
+            age = now - changed[newest - n[2:0]];
+            n = n + 1;
+        end
+        taps <= levels;
+    end
+    // verilator lint_on REALCVT
+`endif
+endmodule

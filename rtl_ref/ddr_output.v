@@ -1,0 +1,33 @@
+`timescale 1ps / 1fs
+`default_nettype none
+
+// A double-data-rate output register with its second input low: half-cycle pulses without glitches.
+module ddr_output (
+    input wire clk_250,
+    input wire d,  // level for the first half of the coming cycle
+    output wire q  // the output
+);
+`ifdef SYNTHESIS
+    ODDR #(
+        .DDR_CLK_EDGE("SAME_EDGE"),
+        .INIT(1'b0),
+        .SRTYPE("SYNC")
+    ) oddr (
+        .C(clk_250),
+        .CE(1'b1),
+        .D1(d),
+        .D2(1'b0),
+        .R(1'b0),
+        .S(1'b0),
+        .Q(q)
+    );
+`else
+    reg level;
+
+    initial level = 1'b0;
+
+    always @(posedge clk_250 or negedge clk_250) level <= clk_250 && d;
+
+    assign q = level;
+`endif
+endmodule

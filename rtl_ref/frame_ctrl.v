@@ -1,0 +1,121 @@
+`timescale 1ps / 1fs
+`default_nettype none
+
+// Runs a frame: clear the histogram, acquire, let the TDC drain, estimate, again.
+module frame_ctrl #(
+    parameter [15:0] ShotsPerFrame = 16'd30000,  // [shots]
+    parameter [0:0] Preloaded = 1'b0             // skips Acquire and Drain
+) (
+    input wire clk_125,
+    input wire rst,
+    // vcsel_driver
+    input wire start,             // a shot begins
+    output reg acquire,           // lets the laser's counter run
+    // Acquisition computer
+    input wire dsp_rst,           // abandons the frame
+    input wire dsp_en,            // lets the estimator start
+    output reg frame_done,        // the frame has ended; one cycle
+    // histogram_builder
+    output reg clear,             // sets a word of the histogram to zero
+    output reg [7:0] clear_addr,  // which word
+    // depth_estimator
+    output reg algo_start,        // starts the estimator; one cycle
+    input wire algo_done          // the estimator has finished
+);
+    localparam [1:0] Clear = 2'd0, Acquire = 2'd1, Drain = 2'd2, Estimate = 2'd3;
+
+    reg [1:0] state;   // state of the frame
+    reg [15:0] shots;  // shots begun in this frame
+    reg [3:0] drain;   // cycles spent in Drain
+
+    reg acquire_next, frame_done_next, clear_next, algo_start_next;
+    reg [7:0] clear_addr_next;
+    reg [1:0] state_next;
+    reg [15:0] shots_next;
+    reg [3:0] drain_next;
+
+    initial begin
+        {acquire, frame_done, algo_start} = 3'd0;
+        clear = 1'b1;
+        clear_addr = 8'd0;
+        state = Clear;
+        shots = 16'd0;
+        drain = 4'd0;
+    end
+
+    always @* begin
+        acquire_next = acquire;
+        frame_done_next = 1'b0;
+        clear_next = clear;
+        clear_addr_next = clear_addr;
+        algo_start_next = 1'b0;
+        state_next = state;
+        shots_next = shots;
+        drain_next = drain;
+        case (state)
+            Clear: begin
+                if (clear_addr != 8'd255) begin
+                    clear_addr_next = clear_addr + 8'd1;
+                end else if (!Preloaded) begin
+                    clear_next = 1'b0;
+                    clear_addr_next = 8'd0;
+                    acquire_next = 1'b1;
+                    shots_next = 16'd0;
+                    state_next = Acquire;
+                end else if (dsp_en) begin
+                    clear_next = 1'b0;
+                    clear_addr_next = 8'd0;
+                    algo_start_next = 1'b1;
+                    state_next = Estimate;
+                end
+            end
+            Acquire: begin
+                if (start) begin
+                    shots_next = shots + 16'd1;
+                    if (shots_next == ShotsPerFrame) begin
+                        acquire_next = 1'b0;
+                        drain_next = 4'd0;
+                        state_next = Drain;
+                    end
+                end
+            end
+            Drain: begin
+                if (drain != 4'd15) begin
+                    drain_next = drain + 4'd1;
+                end else if (dsp_en) begin
+                    algo_start_next = 1'b1;
+                    state_next = Estimate;
+                end
+            end
+            Estimate: begin
+                if (algo_done) begin
+                    frame_done_next = 1'b1;
+                    clear_next = 1'b1;
+                    state_next = Clear;
+                end
+            end
+        endcase
+    end
+
+    always @(posedge clk_125) begin
+        if (rst || dsp_rst) begin
+            acquire <= 1'b0;
+            frame_done <= 1'b0;
+            clear <= 1'b1;
+            clear_addr <= 8'd0;
+            algo_start <= 1'b0;
+            state <= Clear;
+            shots <= 16'd0;
+            drain <= 4'd0;
+        end else begin
+            acquire <= acquire_next;
+            frame_done <= frame_done_next;
+            clear <= clear_next;
+            clear_addr <= clear_addr_next;
+            algo_start <= algo_start_next;
+            state <= state_next;
+            shots <= shots_next;
+            drain <= drain_next;
+        end
+    end
+endmodule

@@ -1,0 +1,36 @@
+`timescale 1ps / 1fs
+`default_nettype none
+
+// Resets the SPAD before each shot and selects one out of the array.
+module spad_control (
+    input wire clk_125,
+    input wire rst,
+    input wire mode,             // quench mode: 0 reset by the firmware, 1 by the SPAD itself
+    input wire pre_start,        // two cycles before the laser edge
+    // SPAD array
+    output reg spad_rst,         // recharges the SPAD and keeps it off
+    output reg [39:0] spad_sel   // row of the array, one-hot; row 0 is the one in use
+);
+    reg spad_rst_next;
+    reg [39:0] spad_sel_next;
+
+    initial begin
+        spad_rst = 1'b0;
+        spad_sel = 40'd1;
+    end
+
+    always @* begin
+        spad_rst_next = pre_start && !mode;
+        spad_sel_next = spad_sel;
+    end
+
+    always @(posedge clk_125) begin
+        if (rst) begin
+            spad_rst <= 1'b0;
+            spad_sel <= 40'd1;
+        end else begin
+            spad_rst <= spad_rst_next;
+            spad_sel <= spad_sel_next;
+        end
+    end
+endmodule

@@ -1,0 +1,66 @@
+`timescale 1ps / 1fs
+`default_nettype none
+
+// The time-to-digital converter: wires its four blocks.
+//
+//   tdc_stop -> carry_chain -> tdc_latch -> tdc_decoder -> tdc_code, tdc_valid
+//   start ----> coarse_counter --^
+//   edge             e             e+1        e+2, e+3
+module tdc #(
+    parameter DelaysFile = "rtl_ref/tap_delays.mem",  // for simulation, see carry_chain
+    parameter CalFile = "rtl_ref/tdc_cal.mem"         // see tdc_decoder
+) (
+    input wire clk_125,
+    input wire rst,
+    input wire start,            // a shot begins
+    input wire tdc_stop,         // output of the SPAD, asynchronous
+    output wire [7:0] tdc_code,  // time from the laser edge to the hit [25 ps]
+    output wire tdc_valid        // tdc_code is new; one cycle
+);
+    wire [799:0] taps;
+    wire [2:0] coarse;
+    wire window;
+    wire hit;
+    wire [2:0] hit_coarse;
+    wire [799:0] hit_taps;
+
+    carry_chain #(
+        .DelaysFile(DelaysFile)
+    ) carry_chain (
+        .clk_125(clk_125),
+        .tdc_stop(tdc_stop),
+        .taps(taps)
+    );
+
+    coarse_counter coarse_counter (
+        .clk_125(clk_125),
+        .rst(rst),
+        .start(start),
+        .coarse(coarse),
+        .window(window)
+    );
+
+    tdc_latch tdc_latch (
+        .clk_125(clk_125),
+        .rst(rst),
+        .start(start),
+        .window(window),
+        .coarse(coarse),
+        .taps(taps),
+        .hit(hit),
+        .hit_coarse(hit_coarse),
+        .hit_taps(hit_taps)
+    );
+
+    tdc_decoder #(
+        .CalFile(CalFile)
+    ) tdc_decoder (
+        .clk_125(clk_125),
+        .rst(rst),
+        .hit(hit),
+        .hit_coarse(hit_coarse),
+        .hit_taps(hit_taps),
+        .tdc_valid(tdc_valid),
+        .tdc_code(tdc_code)
+    );
+endmodule

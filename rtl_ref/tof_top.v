@@ -1,0 +1,213 @@
+`timescale 1ps / 1fs
+`default_nettype none
+
+// The device: its modules and the wires between them.
+module tof_top #(
+    parameter [15:0] ShotsPerFrame = 16'd30000,  // [shots]
+    parameter [0:0] CodeSource = 1'b0,           // 0: tdc, 1: code_preload
+    parameter [0:0] HistogramSource = 1'b0,      // 0: histogram_builder, 1: histogram_preload
+    parameter integer LockTime = 1000000,        // of the PLL in simulation [ps]
+    parameter integer Codes = 27756,             // words in CodeFile
+    // Contents of ROMs, and the simulated chain's delays
+    parameter W1File = "rtl_ref/w1.mem",
+    parameter B1File = "rtl_ref/b1.mem",
+    parameter W2File = "rtl_ref/w2.mem",
+    parameter B2File = "rtl_ref/b2.mem",
+    parameter TansigFile = "rtl_ref/tansig.mem",
+    parameter CalFile = "rtl_ref/tdc_cal.mem",
+    parameter DelaysFile = "rtl_ref/tap_delays.mem",
+    parameter CodeFile = "rtl_ref/codes.mem",
+    parameter HistogramFile = "rtl_ref/histogram.mem"
+) (
+    // Board
+    input wire clk_200,               // oscillator
+    input wire rst,                   // reset button, asynchronous
+    output wire locked,               // the clocks run
+    // Laser
+    output wire laser_on_lvds_p,      // positive pin
+    output wire laser_on_lvds_n,      // negative pin
+    // SPAD array
+    input wire tdc_stop,              // its output, asynchronous
+    output wire spad_rst,             // recharges the SPAD and keeps it off
+    output wire [39:0] spad_sel,      // row, one-hot
+    // Acquisition computer
+    input wire mode,                  // SPAD quench mode, asynchronous
+    input wire [1:0] laser_freq,      // laser repetition rate, asynchronous
+    input wire laser_en,              // lets the laser fire, asynchronous
+    input wire dsp_en,                // lets the estimator start, asynchronous
+    input wire dsp_rst,               // abandons the frame, asynchronous
+    output wire signed [35:0] depth,  // when algo_done is high; before, a partial sum [2^-29 m]
+    output wire algo_done,            // the depth is ready; one cycle
+    output wire hist_valid,           // a word of the histogram is being read
+    output wire [7:0] hist_bin,       // which word
+    output wire [15:0] hist_count,    // the word [hits]
+    output wire frame_done            // the frame has ended; one cycle
+);
+    wire clk_125, clk_250;
+    wire rst_125, rst_250;
+    wire mode_sync, laser_en_sync, dsp_en_sync, dsp_rst_sync;
+    wire [1:0] laser_freq_sync;
+    wire clear;
+    wire [7:0] clear_addr;
+    wire acquire, algo_start;
+    wire pre_start, start, laser_on;
+    wire read_en;
+    wire [7:0] read_addr;
+
+    // Modules that a source leaves out stay in place, with constant inputs: a generate block would
+    // put its own scope into their paths. Synthesis removes them.
+    wire [7:0] tdc_code, measured_code, preloaded_code;
+    wire tdc_valid, measured_valid, preloaded_valid;
+    wire [15:0] count, built_count, preloaded_count;
+
+    assign tdc_code = CodeSource ? preloaded_code : measured_code;
+    assign tdc_valid = CodeSource ? preloaded_valid : measured_valid;
+    assign count = HistogramSource ? preloaded_count : built_count;
+
+    // The acquisition computer's reset leaves the laser and the synchronisers alone.
+    wire rst_dsp = rst_125 || dsp_rst_sync;
+
+    assign hist_valid = read_en;
+    assign hist_bin = read_addr;
+    assign hist_count = count;
+
+    pll #(
+        .LockTime(LockTime)
+    ) pll (
+        .clk_200(clk_200),
+        .clk_125(clk_125),
+        .clk_250(clk_250),
+        .locked(locked)
+    );
+
+    reset_sync reset_sync_125 (
+        .clk(clk_125),
+        .rst(rst),
+        .locked(locked),
+        .rst_sync(rst_125)
+    );
+
+    reset_sync reset_sync_250 (
+        .clk(clk_250),
+        .rst(rst),
+        .locked(locked),
+        .rst_sync(rst_250)
+    );
+
+    control_sync control_sync (
+        .clk_125(clk_125),
+        .mode(mode),
+        .laser_freq(laser_freq),
+        .laser_en(laser_en),
+        .dsp_en(dsp_en),
+        .dsp_rst(dsp_rst),
+        .mode_sync(mode_sync),
+        .laser_freq_sync(laser_freq_sync),
+        .laser_en_sync(laser_en_sync),
+        .dsp_en_sync(dsp_en_sync),
+        .dsp_rst_sync(dsp_rst_sync)
+    );
+
+    frame_ctrl #(
+        .ShotsPerFrame(ShotsPerFrame),
+        .Preloaded(HistogramSource)
+    ) frame_ctrl (
+        .clk_125(clk_125),
+        .rst(rst_125),
+        .start(start),
+        .acquire(acquire),
+        .dsp_rst(dsp_rst_sync),
+        .dsp_en(dsp_en_sync),
+        .frame_done(frame_done),
+        .clear(clear),
+        .clear_addr(clear_addr),
+        .algo_start(algo_start),
+        .algo_done(algo_done)
+    );
+
+    vcsel_driver vcsel_driver (
+        .clk_125(clk_125),
+        .clk_250(clk_250),
+        .rst(rst_125),
+        .rst_250(rst_250),
+        .acquire(acquire),
+        .laser_en(laser_en_sync),
+        .laser_freq(laser_freq_sync),
+        .pre_start(pre_start),
+        .start(start),
+        .laser_on(laser_on)
+    );
+
+    lvds_output lvds_output (
+        .i(laser_on),
+        .o(laser_on_lvds_p),
+        .ob(laser_on_lvds_n)
+    );
+
+    spad_control spad_control (
+        .clk_125(clk_125),
+        .rst(rst_125),
+        .mode(mode_sync),
+        .pre_start(pre_start),
+        .spad_rst(spad_rst),
+        .spad_sel(spad_sel)
+    );
+
+    tdc #(
+        .DelaysFile(DelaysFile),
+        .CalFile(CalFile)
+    ) tdc (
+        .clk_125(clk_125),
+        .rst(rst_dsp),
+        .start(start && !CodeSource),
+        .tdc_stop(tdc_stop && !CodeSource),
+        .tdc_code(measured_code),
+        .tdc_valid(measured_valid)
+    );
+
+    code_preload #(
+        .Codes(Codes),
+        .CodeFile(CodeFile)
+    ) code_preload (
+        .clk_125(clk_125),
+        .rst(rst_dsp),
+        .start(start && CodeSource),
+        .tdc_valid(preloaded_valid),
+        .tdc_code(preloaded_code)
+    );
+
+    histogram_builder histogram_builder (
+        .clk_125(clk_125),
+        .clear(clear && !HistogramSource),
+        .clear_addr(clear_addr),
+        .tdc_valid(tdc_valid && !HistogramSource),
+        .tdc_code(tdc_code),
+        .read_en(read_en && !HistogramSource),
+        .read_addr(read_addr),
+        .count(built_count)
+    );
+
+    histogram_preload #(
+        .HistogramFile(HistogramFile)
+    ) histogram_preload (
+        .read_addr(read_addr),
+        .count(preloaded_count)
+    );
+
+    depth_estimator #(
+        .W1File(W1File),
+        .B1File(B1File),
+        .W2File(W2File),
+        .B2File(B2File),
+        .TansigFile(TansigFile)
+    ) depth_estimator (
+        .clk_125(clk_125),
+        .rst(rst_dsp),
+        .algo_start(algo_start),
+        .read_en(read_en),
+        .read_addr(read_addr),
+        .count(count),
+        .depth(depth),
+        .algo_done(algo_done)
+    );
+endmodule

@@ -1,0 +1,260 @@
+//! The self-checking Verilog bench of a block.
+//!
+//! One process applies the inputs 1 ps after the edge, moves the clocks and looks 1 ps before the
+//! next edge, so that nothing depends on the order in which a simulator takes simultaneous events.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+
+use super::block::Parameter;
+use super::table::Column;
+use super::timing::Step;
+use super::vectors::Vectors;
+
+/// A bench, with what another implementation is allowed.
+#[derive(Clone, Debug)]
+pub struct Bench<'a> {
+    vectors: &'a Vectors,
+    /// Clock cycles that an output comes later than the reference.
+    pub delays: BTreeMap<String, i64>,
+    /// Outputs that are not compared.
+    pub ignored: BTreeSet<String>,
+    /// Low bits of an output that are compared, where not all are.
+    pub bits: BTreeMap<String, usize>,
+}
+
+impl<'a> Bench<'a> {
+    /// The bench for the reference itself.
+    pub fn new(vectors: &'a Vectors) -> Self {
+        let (delays, ignored) = (BTreeMap::new(), BTreeSet::new());
+        Bench { vectors, delays, ignored, bits: BTreeMap::new() }
+    }
+
+    /// Its Verilog.
+    pub fn text(&self) -> String {
+        let (vectors, spec) = (self.vectors, self.vectors.spec);
+        let (name, timing) = (spec.name, &spec.timing);
+        let mut text = format!(
+            "// Golden vectors for {name} by tofsim {version}: scenario {source}, seed {seed}.\n\
+             // Line k of stimulus.mem is taken by edge k, line k of expected.mem seen just before \
+             it.\n\
+             // Define REGISTERS to compare registers inside too; +got=FILE writes what was seen.\n\
+             `timescale 1ps/1fs\n`default_nettype none\n\n\
+             module tb_{name};\n  \
+               localparam Cycles = {cycles};\n  \
+               localparam [63:0] FirstEdge = 64'd{first}; // [ps]\n  \
+               localparam [63:0] Period = 64'd{period}; // [ps]\n",
+            version = env!("CARGO_PKG_VERSION"),
+            source = vectors.source,
+            seed = vectors.seed,
+            cycles = vectors.stimulus.rows(),
+            first = vectors.first_edge_ps,
+            period = timing.period_ps(),
+        );
+        text.push_str(&self.signals());
+        text.push_str(&self.instance());
+        text.push_str(&self.tasks());
+        text.push_str(&self.process());
+        text.push_str("endmodule\n\n`default_nettype wire\n");
+        text
+    }
+
+    /// Declarations of what is connected to the block, and their drivers.
+    fn signals(&self) -> String {
+        let (vectors, spec) = (self.vectors, self.vectors.spec);
+        let driven = |name: &str| vectors.stimulus.columns().iter().any(|c| c.name == name);
+        let mut text = String::from("\n");
+        for port in spec.ports() {
+            let (name, range) = (&port.name, range(port.width as usize));
+            text += &match port.output {
+                true => format!("  wire {range}{name};\n"),
+                false if driven(name) || name.starts_with("clk") || name == "tdc_stop" => {
+                    format!("  reg {range}{name} = {}'d0;\n", port.width)
+                }
+                false => continue,
+            };
+        }
+        let ports: Vec<_> = spec.ports().into_iter().map(|port| port.name).collect();
+        for column in vectors.stimulus.columns().iter().filter(|c| !ports.contains(&c.name)) {
+            let Column { name, width, .. } = column;
+            text += &format!("  reg {}{name} = {width}'d0;\n", range(*width));
+        }
+        text += spec.glue.map_or("", |glue| glue.verilog);
+        if spec.timing.oscillator {
+            text += "  always #2500 clk_200 = !clk_200;\n";
+        }
+        if !vectors.stops.is_empty() {
+            text += &format!(
+                "\n  reg [63:0] tdc_stop_at [0:{last}]; // [fs]\n  \
+                 reg [63:0] now;\n  integer stop;\n  initial begin\n    \
+                 $readmemh(\"tdc_stop.mem\", tdc_stop_at);\n    now = 64'd0;\n    \
+                 for (stop = 0; stop <= {last}; stop = stop + 1) begin\n      \
+                 #((tdc_stop_at[stop] - now) / 1000.0) tdc_stop = !tdc_stop;\n      \
+                 now = tdc_stop_at[stop];\n    end\n  end\n",
+                last = vectors.stops.len() - 1,
+            );
+        }
+        text
+    }
+
+    fn instance(&self) -> String {
+        let spec = self.vectors.spec;
+        let parameter = |(name, value): &(&str, Parameter)| match value {
+            Parameter::Number(number) => format!("    .{name}({number})"),
+            Parameter::File(file) => format!("    .{name}(\"{file}\")"),
+        };
+        let parameters: Vec<_> = self.vectors.parameters.iter().map(parameter).collect();
+        let parameters = match parameters.as_slice() {
+            [] => String::new(),
+            list => format!("#(\n{}\n  ) ", list.join(",\n")),
+        };
+        let ports: Vec<_> =
+            spec.ports().iter().map(|port| format!("    .{0}({0})", port.name)).collect();
+        format!("\n  {} {parameters}dut (\n{}\n  );\n", spec.name, ports.join(",\n"))
+    }
+
+    /// The comparison.
+    fn tasks(&self) -> String {
+        let (expected, spec) = (&self.vectors.expected, self.vectors.spec);
+        let (lines_in, lines_out) = (self.vectors.stimulus.width().max(1), expected.width());
+        let mut text = format!(
+            "\n  reg {}stimulus [0:Cycles-1];\n  reg {1}expected [0:Cycles-1];\n  \
+             reg {1}got;\n  reg {1}want;\n  integer cycle;\n  integer mismatches;\n  \
+             integer got_file;\n  reg [8191:0] got_name;\n",
+            range(lines_in),
+            range(lines_out),
+        );
+        for sample in 0..spec.timing.samples() {
+            let columns = expected.columns().iter().filter(|column| column.sample == sample);
+            let (inner, ports): (Vec<_>, Vec<_>) = columns.partition(|column| column.internal);
+            let take = |path: &str, column: &Column| {
+                format!("    got[{}] = {path}{};\n", place(column), column.name)
+            };
+            let _ = writeln!(text, "\n  task look_{sample};\n  begin");
+            text.extend(ports.iter().map(|column| take("", column)));
+            if !inner.is_empty() {
+                text += "`ifdef REGISTERS\n";
+                text.extend(inner.iter().map(|column| take("dut.", column)));
+                text += "`endif\n";
+            }
+            text += "  end\n  endtask\n";
+        }
+        text += "\n  task compare;\n  begin\n";
+        text.extend(expected.columns().iter().filter_map(|column| self.allowance(column)));
+        text += "    if (got !== want) begin\n      if (mismatches == 0) show;\n      \
+                 mismatches = mismatches + 1;\n    end\n    \
+                 if (got_file != 0) $fdisplay(got_file, \"%h\", got);\n  end\n  endtask\n";
+        text += "\n  task show;\n  begin\n";
+        for column in expected.columns() {
+            let (place, name) = (place(column), &column.name);
+            let before = spec.timing.before_edge_ps(column.sample) + 1;
+            let _ = write!(
+                text,
+                "    if (got[{place}] !== want[{place}])\n      \
+                 $display(\"mismatch: cycle %0d, time %0d ps, {name}: expected %h, got %h\",\n        \
+                 cycle, FirstEdge + cycle * Period - 64'd{before}, want[{place}], got[{place}]);\n",
+            );
+        }
+        text += "  end\n  endtask\n";
+        text
+    }
+
+    /// What is allowed of a column: nothing, a delay, or anything.
+    fn allowance(&self, column: &Column) -> Option<String> {
+        let place = place(column);
+        if self.ignored.contains(&column.name) {
+            return Some(format!("    want[{place}] = got[{place}];\n"));
+        }
+        let delay = self.delays.get(&column.name).copied().unwrap_or(0);
+        let mut text = String::new();
+        if delay != 0 {
+            let _ = write!(
+                text,
+                "    if (cycle - ({delay}) >= 0 && cycle - ({delay}) < Cycles)\n      \
+                 want[{place}] = expected[cycle - ({delay})][{place}];\n    \
+                 else\n      want[{place}] = got[{place}];\n",
+            );
+        }
+        if let Some(bits) = self.bits.get(&column.name).filter(|bits| **bits < column.width) {
+            let top = format!("{}:{}", column.low + column.width - 1, column.low + bits);
+            let _ = writeln!(text, "    want[{top}] = got[{top}];");
+        }
+        (!text.is_empty()).then_some(text)
+    }
+
+    /// The process that drives everything.
+    fn process(&self) -> String {
+        let (vectors, timing) = (self.vectors, &self.vectors.spec.timing);
+        let name = vectors.spec.name;
+        let mut text = String::from(
+            "\n  initial begin\n    $readmemh(\"stimulus.mem\", stimulus);\n    \
+             $readmemh(\"expected.mem\", expected);\n    mismatches = 0;\n    got_file = 0;\n    \
+             if ($value$plusargs(\"got=%s\", got_name)) got_file = $fopen(got_name, \"w\");\n",
+        );
+        if vectors.first_edge_ps > timing.period_ps() {
+            text += "    #(FirstEdge - Period);\n";
+        }
+        text += "    for (cycle = 0; cycle < Cycles; cycle = cycle + 1) begin\n      \
+                 want = expected[cycle];\n      got = want;\n";
+        let columns: Vec<_> =
+            vectors.stimulus.columns().iter().map(|column| column.name.as_str()).collect();
+        if columns.is_empty() {
+            text += "      #1;\n";
+        } else {
+            let _ = writeln!(text, "      #1 {{{}}} = stimulus[cycle];", columns.join(", "));
+        }
+        let mut sample = 0;
+        for (k, step) in timing.steps.iter().enumerate() {
+            let rest = step.length_ps - u64::from(k == 0);
+            let last = k + 1 == timing.steps.len();
+            if step.sample {
+                let _ = writeln!(text, "      #{} look_{sample};", rest - 1);
+                sample += 1;
+                text += if last { "      compare;\n      #1" } else { "      #1" };
+            } else {
+                let _ = write!(text, "      #{rest}");
+            }
+            text += &edges(step, last);
+        }
+        let _ = write!(
+            text,
+            "    end\n    if (got_file != 0) $fclose(got_file);\n    \
+             if (mismatches == 0) begin\n      \
+             $display(\"tb_{name}: PASS, %0d cycles, 0 mismatches\", Cycles);\n      \
+             $finish;\n    end else begin\n      \
+             $display(\"tb_{name}: FAIL, %0d cycles, %0d mismatches\", Cycles, mismatches);\n      \
+             $fatal(1, \"tb_{name}: %0d mismatches\", mismatches);\n    end\n  end\n",
+        );
+        text
+    }
+}
+
+/// The clocks that change together, in one assignment.
+fn edges(step: &Step, last: bool) -> String {
+    let names: Vec<_> = step.edges.iter().map(|(name, _)| *name).collect();
+    let levels: String =
+        step.edges.iter().map(|(_, level)| if *level { '1' } else { '0' }).collect();
+    let rises = step.edges.iter().any(|(_, level)| *level);
+    match names.as_slice() {
+        [] => ";\n".to_owned(),
+        _ => {
+            let first = if rises && !last { " if (cycle != 0)" } else { "" };
+            let width = names.len();
+            match names.as_slice() {
+                [name] => format!("{first} {name} = 1'b{levels};\n"),
+                _ => format!("{first} {{{}}} = {width}'b{levels};\n", names.join(", ")),
+            }
+        }
+    }
+}
+
+fn range(width: usize) -> String {
+    if width == 1 { String::new() } else { format!("[{}:0] ", width - 1) }
+}
+
+fn place(column: &Column) -> String {
+    if column.width == 1 {
+        return column.low.to_string();
+    }
+    format!("{}:{}", column.low + column.width - 1, column.low)
+}

@@ -1,0 +1,157 @@
+//! A block as the golden vectors see it.
+
+use crate::error::Result;
+use crate::firmware::carry_chain::TAPS;
+use crate::firmware::histogram_builder::BINS;
+use crate::firmware::tof_top::TofTop;
+use crate::hierarchy;
+use crate::kernel::Time;
+use crate::kernel::signals::Signals;
+use crate::network::mem::Mem;
+use crate::sim::setup::Setup;
+
+use super::Vectors;
+use super::cover::Cover;
+use super::draw::Draw;
+use super::timing::Timing;
+
+/// What vectors are made from.
+#[derive(Clone, Debug)]
+pub struct Setting {
+    /// Network, chain, frame length and, for the top, light and control signals.
+    pub setup: Setup,
+    /// Whether the scenario, and not random control, is what the top runs.
+    pub as_told: bool,
+    /// Seed of the stimulus.
+    pub seed: u64,
+    /// Lines [clock cycles].
+    pub cycles: usize,
+    /// Ones in the taps at most, for a design with a shorter chain [taps].
+    pub taps: usize,
+    /// Words of the histogram, for a design with a smaller one.
+    pub bins: u64,
+}
+
+impl Setting {
+    /// Lines of each block unless told otherwise.
+    pub const CYCLES: usize = 20_000;
+
+    /// Full-size chain and histogram, random control, the scenario's own seed.
+    pub fn new(setup: Setup) -> Self {
+        let seed = setup.scenario.seed;
+        let (taps, bins) = (TAPS, BINS as u64);
+        Setting { setup, as_told: false, seed, cycles: Self::CYCLES, taps, bins }
+    }
+}
+
+/// How many clocks an effect takes: in the cycle before edge k + `cycles` the output shows what
+/// edge k took. 0 is a combinational path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Latency {
+    /// Input port.
+    pub from: &'static str,
+    /// Output port.
+    pub to: &'static str,
+    /// Clock cycles.
+    pub cycles: u64,
+}
+
+/// An input that answers an output within the cycle, and so is no part of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Glue {
+    /// The input port.
+    pub drives: &'static str,
+    /// Its declaration and driver in the bench.
+    pub verilog: &'static str,
+}
+
+/// What a block is, beside its ports.
+#[derive(Debug)]
+pub struct Spec {
+    /// Its module.
+    pub name: &'static str,
+    /// One place of it in the hierarchy, below the top.
+    pub scope: &'static str,
+    /// When its clocks move and when it is looked at.
+    pub timing: Timing,
+    /// Its synchronous reset, active high.
+    pub reset: Option<&'static str>,
+    /// Outputs and registers that change within a cycle of the clock that counts.
+    pub fast: &'static [&'static str],
+    /// How long effects take.
+    pub latency: &'static [Latency],
+    /// A loop around the block, if it needs one.
+    pub glue: Option<Glue>,
+    /// Steps the Rust model.
+    pub record: fn(&'static Spec, &Setting) -> Result<Vectors>,
+}
+
+impl Spec {
+    /// Dotted path of the block in the hierarchy.
+    pub fn path(&self) -> String {
+        match self.scope {
+            "" => hierarchy::TOP.to_owned(),
+            scope => format!("{}.{scope}", hierarchy::TOP),
+        }
+    }
+}
+
+/// A Verilog parameter's value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// A number.
+    Number(u64),
+    /// A file name.
+    File(&'static str),
+}
+
+/// A block that can be stepped alone, inside an otherwise idle top.
+pub trait Block {
+    /// What a line of the stimulus drives: its input ports, or what the bench makes them from.
+    type Stimulus: Signals;
+
+    /// The input of the coming edge. `top` shows the block before that edge.
+    fn stimulus(&mut self, cycle: usize, top: &TofTop, draw: &mut Draw) -> Self::Stimulus;
+
+    /// Combinational outputs, with the input in place.
+    fn settle(&mut self, _: &Self::Stimulus, _: &mut TofTop) {}
+
+    /// The edge that the cycle ends with.
+    fn edge(&mut self, i: &Self::Stimulus, top: &mut TofTop);
+
+    /// The whole cycle; `look` is called wherever the bench takes a sample.
+    fn cycle(
+        &mut self,
+        _cycle: usize,
+        i: &Self::Stimulus,
+        top: &mut TofTop,
+        look: &mut dyn FnMut(&TofTop),
+    ) {
+        self.settle(i, top);
+        look(top);
+        self.edge(i, top);
+    }
+
+    /// Verilog parameters.
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        Vec::new()
+    }
+
+    /// Memories that the Verilog loads.
+    fn roms(&self) -> Vec<Mem> {
+        Vec::new()
+    }
+
+    /// When `tdc_stop` has changed, from the begin of the bench, in order.
+    fn stops(&self) -> &[Time] {
+        &[]
+    }
+
+    /// What the stimulus has reached.
+    fn coverage(self) -> Vec<Cover>
+    where
+        Self: Sized,
+    {
+        Vec::new()
+    }
+}

@@ -1,0 +1,63 @@
+//! What a stimulus has reached, against what it should.
+
+use std::collections::BTreeSet;
+
+/// One goal: a set of cases, each to be met at least once.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cover {
+    /// What the cases are of.
+    pub what: &'static str,
+    missing: BTreeSet<u64>,
+    cases: usize,
+}
+
+impl Cover {
+    /// No case met yet.
+    pub fn new(what: &'static str, cases: impl IntoIterator<Item = u64>) -> Self {
+        let missing: BTreeSet<_> = cases.into_iter().collect();
+        Cover { what, cases: missing.len(), missing }
+    }
+
+    /// A case is met; one that is no goal is let pass.
+    pub fn see(&mut self, case: u64) {
+        self.missing.remove(&case);
+    }
+
+    /// A case is met if `met`.
+    pub fn see_if(&mut self, met: bool, case: u64) {
+        if met {
+            self.see(case);
+        }
+    }
+
+    /// Cases not met.
+    pub fn missing(&self) -> impl Iterator<Item = u64> + '_ {
+        self.missing.iter().copied()
+    }
+
+    /// Cases in all.
+    pub fn cases(&self) -> usize {
+        self.cases
+    }
+
+    /// Cases met.
+    pub fn met(&self) -> usize {
+        self.cases - self.missing.len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_case_counts_once() {
+        let mut cover = Cover::new("codes", 0..4);
+        cover.see(2);
+        cover.see(2);
+        cover.see(9);
+        cover.see_if(false, 1);
+        assert_eq!((cover.met(), cover.cases()), (1, 4));
+        assert_eq!(cover.missing().collect::<Vec<_>>(), [0, 1, 3]);
+    }
+}

@@ -1,0 +1,40 @@
+//! The memories that the Verilog loads, for a setting.
+
+use crate::firmware::carry_chain::Delays;
+use crate::firmware::tof_top::{CodeSource, HistogramSource, Params};
+use crate::kernel::U;
+use crate::network::mem::{self, Mem, lines};
+
+/// When each tap is reached after a change of `tdc_stop`, in the order of the taps [fs].
+pub fn tap_delays(delays: &Delays) -> Mem {
+    let mut arrivals = vec![0; delays.order().len()];
+    for (&tap, at) in delays.order().iter().zip(delays.arrivals()) {
+        arrivals[tap as usize] = u128::from(at.fs());
+    }
+    Mem { name: "tap_delays.mem", text: lines(arrivals, 8) }
+}
+
+/// The ROM of `code_preload`.
+pub fn codes(rom: &[U<8>]) -> Mem {
+    Mem { name: "codes.mem", text: lines(rom.iter().map(|code| code.get().into()), 2) }
+}
+
+/// The ROM of `histogram_preload`.
+pub fn histogram(rom: &[U<16>]) -> Mem {
+    Mem { name: "histogram.mem", text: lines(rom.iter().map(|count| count.get().into()), 4) }
+}
+
+/// All memories of the firmware: the estimator's and the converter's, and what stands in for codes
+/// or histogram.
+pub fn tof_top(params: &Params) -> Vec<Mem> {
+    let mut roms = mem::depth_estimator(&params.depth_estimator);
+    roms.push(mem::tdc_decoder(&params.tdc.cal));
+    roms.push(tap_delays(&params.tdc.delays));
+    if let CodeSource::Preload(rom) = &params.code_source {
+        roms.push(codes(rom));
+    }
+    if let HistogramSource::Preload(rom) = &params.histogram_source {
+        roms.push(histogram(&rom[..]));
+    }
+    roms
+}

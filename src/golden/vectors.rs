@@ -1,0 +1,64 @@
+//! The vectors of a block, and the files they become.
+
+use std::io::Write;
+use std::path::Path;
+
+use crate::error::Result;
+use crate::kernel::Time;
+use crate::network::mem::{Mem, lines};
+use crate::output::{create_directory, write_file};
+
+use super::bench::Bench;
+use super::block::{Parameter, Spec};
+use super::cover::Cover;
+use super::ports;
+use super::table::Table;
+
+/// What a block was given and what it did.
+#[derive(Debug)]
+pub struct Vectors {
+    /// The block.
+    pub spec: &'static Spec,
+    /// Seed of the stimulus.
+    pub seed: u64,
+    /// Name of the scenario.
+    pub source: String,
+    /// Verilog parameters.
+    pub parameters: Vec<(&'static str, Parameter)>,
+    /// What goes in: line k is taken by edge k.
+    pub stimulus: Table,
+    /// What comes out: line k is seen just before edge k.
+    pub expected: Table,
+    /// Edge 0 [ps].
+    pub first_edge_ps: u64,
+    /// When `tdc_stop` changes; it starts low.
+    pub stops: Vec<Time>,
+    /// Memories that the Verilog loads.
+    pub roms: Vec<Mem>,
+    /// What the stimulus has reached.
+    pub coverage: Vec<Cover>,
+}
+
+impl Vectors {
+    /// Writes all files into a folder, which is made if it is not there.
+    pub fn write(&self, folder: &Path) -> Result<()> {
+        create_directory(folder)?;
+        for rom in &self.roms {
+            write_file(&folder.join(rom.name), |file| file.write_all(rom.text.as_bytes()))?;
+        }
+        if !self.stops.is_empty() {
+            let times = self.stops.iter().map(|at| at.fs().into());
+            let text = lines(times, 16);
+            write_file(&folder.join("tdc_stop.mem"), |file| file.write_all(text.as_bytes()))?;
+        }
+        let table =
+            |table: &Table, name: &str| write_file(&folder.join(name), |file| table.write(file));
+        table(&self.stimulus, "stimulus.mem")?;
+        table(&self.expected, "expected.mem")?;
+        let ports = ports::json(self);
+        write_file(&folder.join("ports.json"), |file| writeln!(file, "{ports:#}"))?;
+        let bench = Bench::new(self).text();
+        let name = format!("tb_{}.v", self.spec.name);
+        write_file(&folder.join(name), |file| file.write_all(bench.as_bytes()))
+    }
+}
