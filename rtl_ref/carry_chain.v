@@ -77,6 +77,15 @@ module carry_chain #(
         end
     endfunction
 
+    // Rounds to the nearest femtosecond. A variable for the time, because Verilator 5.006 cuts a
+    // $realtime inside an expression down to whole picoseconds.
+    function [63:0] fs_after_epoch;
+        input real time_ps;
+        // verilator lint_off REALCVT
+        fs_after_epoch = time_ps * 1000.0 + Epoch;
+        // verilator lint_on REALCVT
+    endfunction
+
     integer k;
     initial begin
         level = 1'b0;
@@ -84,14 +93,12 @@ module carry_chain #(
         for (k = 0; k < 8; k = k + 1) changed[k] = 64'd0;
     end
 
-    // Rounding to the nearest femtosecond is what is wanted.
-    // verilator lint_off REALCVT
     // A second change in the same instant has to see the first.
     // verilator lint_off BLKSEQ
     always @(tdc_stop) if (tdc_stop != level) begin
         level = tdc_stop;
         newest = newest + 3'd1;
-        changed[newest] = $realtime * 1000.0 + Epoch;
+        changed[newest] = fs_after_epoch($realtime);
     end
     // verilator lint_on BLKSEQ
 
@@ -100,18 +107,20 @@ module carry_chain #(
     always @(posedge clk_125) begin : sample
         reg [63:0] now, age;
         reg [799:0] levels;
+        reg [2:0] change;  // a name of its own, so that it wraps in every simulator
         integer n;
-        now = $realtime * 1000.0 + Epoch;
+        now = fs_after_epoch($realtime);
         levels = {800{level}};
-        age = now - changed[newest];
+        change = newest;
+        age = now - changed[change];
         n = 1;
         while (n <= 8 && age < {24'd0, sorted[799]}) begin
             levels = levels ^ ~reached[rank(age)];
-            age = now - changed[newest - n[2:0]];
+            change = change - 3'd1;
+            age = now - changed[change];
             n = n + 1;
         end
         taps <= levels;
     end
-    // verilator lint_on REALCVT
 `endif
 endmodule

@@ -22,4 +22,5 @@ pub mod report;
 pub mod scenario;
 pub mod sensor;
 pub mod sim;
+pub mod verify;
 pub mod waves;

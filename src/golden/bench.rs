@@ -83,16 +83,8 @@ impl<'a> Bench<'a> {
         if spec.timing.oscillator {
             text += "  always #2500 clk_200 = !clk_200;\n";
         }
-        if !vectors.stops.is_empty() {
-            text += &format!(
-                "\n  reg [63:0] tdc_stop_at [0:{last}]; // [fs]\n  \
-                 reg [63:0] now;\n  integer stop;\n  initial begin\n    \
-                 $readmemh(\"tdc_stop.mem\", tdc_stop_at);\n    now = 64'd0;\n    \
-                 for (stop = 0; stop <= {last}; stop = stop + 1) begin\n      \
-                 #((tdc_stop_at[stop] - now) / 1000.0) tdc_stop = !tdc_stop;\n      \
-                 now = tdc_stop_at[stop];\n    end\n  end\n",
-                last = vectors.stops.len() - 1,
-            );
+        if let Some(last) = vectors.stops.len().checked_sub(1) {
+            text += &stops(last);
         }
         text
     }
@@ -119,8 +111,8 @@ impl<'a> Bench<'a> {
         let (lines_in, lines_out) = (self.vectors.stimulus.width().max(1), expected.width());
         let mut text = format!(
             "\n  reg {}stimulus [0:Cycles-1];\n  reg {1}expected [0:Cycles-1];\n  \
-             reg {1}got;\n  reg {1}want;\n  integer cycle;\n  integer mismatches;\n  \
-             integer got_file;\n  reg [8191:0] got_name;\n",
+             reg {1}got;\n  reg {1}want;\n  integer cycle;\n  \
+             integer mismatches = 0;\n  integer got_file = 0;\n  reg [8191:0] got_name;\n",
             range(lines_in),
             range(lines_out),
         );
@@ -188,7 +180,7 @@ impl<'a> Bench<'a> {
         let name = vectors.spec.name;
         let mut text = String::from(
             "\n  initial begin\n    $readmemh(\"stimulus.mem\", stimulus);\n    \
-             $readmemh(\"expected.mem\", expected);\n    mismatches = 0;\n    got_file = 0;\n    \
+             $readmemh(\"expected.mem\", expected);\n    \
              if ($value$plusargs(\"got=%s\", got_name)) got_file = $fopen(got_name, \"w\");\n",
         );
         if vectors.first_edge_ps > timing.period_ps() {
@@ -227,6 +219,18 @@ impl<'a> Bench<'a> {
         );
         text
     }
+}
+
+/// The process that drives `tdc_stop`. The fifth of a femtosecond makes a simulator that rounds a
+/// delay and one that cuts it off agree.
+fn stops(last: usize) -> String {
+    format!(
+        "\n  reg [63:0] tdc_stop_at [0:{last}]; // [fs]\n  reg [63:0] now;\n  integer change;\n  \
+         initial begin\n    $readmemh(\"tdc_stop.mem\", tdc_stop_at);\n    now = 64'd0;\n    \
+         for (change = 0; change <= {last}; change = change + 1) begin\n      \
+         #((tdc_stop_at[change] - now + 0.2) / 1000.0) tdc_stop = !tdc_stop;\n      \
+         now = tdc_stop_at[change];\n    end\n  end\n",
+    )
 }
 
 /// The clocks that change together, in one assignment.
