@@ -18,7 +18,7 @@ module carry_chain #(
     genvar k;
     generate
         for (k = 0; k < 200; k = k + 1) begin : slice
-            (* keep, DONT_TOUCH = "TRUE" *)
+            (* keep = "true", DONT_TOUCH = "true" *)
             CARRY4 carry4 (
                 .CI(k == 0 ? 1'b0 : carry[(k == 0 ? 0 : 4*k - 1)]),
                 .CYINIT(k == 0 ? tdc_stop : 1'b0),

@@ -19,7 +19,7 @@ module depth_estimator #(
     output wire [7:0] read_addr,      // word of the histogram
     input wire [15:0] count,          // word of the histogram at read_addr [hits]
     // Result
-    output wire signed [35:0] depth,  // when algo_done is high; before that, a partial sum [2^-29 m]
+    output wire signed [35:0] depth,  // when algo_done is high; before, a partial sum [2^-29 m]
     output wire algo_done             // the depth is ready; one cycle
 );
     wire [8:0] rom_addr;

@@ -34,8 +34,9 @@ module forward1 #(
     reg signed [15:0] weight_0_next, weight_1_next, weight_2_next, weight_3_next;
     reg signed [15:0] weight_4_next, weight_5_next, weight_6_next, weight_7_next;
 
+    // Block RAM, or LUTs for gate-level simulation, since Yosys has no model of a block RAM.
 `ifdef ROM_IN_LUTS
-    (* rom_style = "distributed" *)
+    (* rom_style = "logic" *)
 `else
     (* rom_style = "block" *)
 `endif

@@ -5,7 +5,7 @@
 module pll #(
     // Not read by synthesis, nor by Verilator without --timing, which cannot run the model below.
     // verilator lint_off UNUSEDPARAM
-    parameter integer LockTime = 1000000  // of the simulation model, from time 0 [ps]
+    parameter [63:0] LockTime = 64'd1000000  // of the simulation model, from time 0 [ps]
     // verilator lint_on UNUSEDPARAM
 ) (
     // Not read by Verilator without --timing.

@@ -32,8 +32,9 @@ module tansig #(
     reg signed [15:0] l1_out_0_next, l1_out_1_next, l1_out_2_next, l1_out_3_next;
     reg signed [15:0] l1_out_4_next, l1_out_5_next, l1_out_6_next, l1_out_7_next;
 
+    // Block RAM, or LUTs for gate-level simulation, since Yosys has no model of a block RAM.
 `ifdef ROM_IN_LUTS
-    (* rom_style = "distributed" *)
+    (* rom_style = "logic" *)
 `else
     (* rom_style = "block" *)
 `endif

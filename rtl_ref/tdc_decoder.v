@@ -34,7 +34,7 @@ module tdc_decoder #(
         n_coarse = 3'd0;
     end
 
-    // Ones among the taps, as a balanced tree over bytes. Counting all of them makes bubbles harmless.
+    // Ones among the taps, as a balanced tree over bytes. All taps count, so bubbles do no harm.
     function [9:0] ones;
         input [799:0] taps;
         reg [1279:0] sums;

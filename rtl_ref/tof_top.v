@@ -6,7 +6,7 @@ module tof_top #(
     parameter [15:0] ShotsPerFrame = 16'd30000,  // [shots]
     parameter [0:0] CodeSource = 1'b0,           // 0: tdc, 1: code_preload
     parameter [0:0] HistogramSource = 1'b0,      // 0: histogram_builder, 1: histogram_preload
-    parameter integer LockTime = 1000000,        // of the PLL in simulation [ps]
+    parameter [63:0] LockTime = 64'd1000000,        // of the PLL in simulation [ps]
     parameter integer Codes = 27756,             // words in CodeFile
     // Contents of ROMs, and the simulated chain's delays
     parameter W1File = "rtl_ref/w1.mem",

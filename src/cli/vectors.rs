@@ -32,16 +32,22 @@ pub struct Args {
 /// What the vectors are made from.
 #[derive(Clone, Debug, clap::Args)]
 pub struct From {
-    /// Clock cycles of each block
-    #[arg(long, value_name = "N", default_value_t = 20_000,
-        value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
-    cycles: u64,
+    /// Clock cycles of each block [default: 20000, or whole frames of a scenario]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
+    cycles: Option<u64>,
     /// Seed of the stimulus [default: the scenario's]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     /// Built-in scenario or file: network, chain and, for tof_top, what it runs
     #[arg(long, value_name = "NAME|FILE")]
     scenario: Option<String>,
+    /// Override a key of the scenario, e.g. firmware.shots_per_frame=300
+    #[arg(short = 's', long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Frames of the scenario that tof_top runs
+    #[arg(long, value_name = "N", default_value_t = 1,
+        value_parser = clap::value_parser!(u64).range(1..=1000))]
+    frames: u64,
 }
 
 impl From {
@@ -51,11 +57,11 @@ impl From {
     /// When the scenario cannot be loaded.
     pub fn setting(&self) -> Result<Setting> {
         let name = self.scenario.as_deref().unwrap_or(scenario::DEFAULT);
-        let setup = Setup::new(scenario::load(name, &[])?)?;
+        let setup = Setup::new(scenario::load(name, &self.set)?)?;
         let seed = self.seed.unwrap_or(setup.scenario.seed);
-        let cycles = self.cycles as usize;
-        let as_told = self.scenario.is_some();
-        Ok(Setting { as_told, seed, cycles, ..Setting::new(setup) })
+        let cycles = self.cycles.map(|cycles| cycles as usize);
+        let as_told = self.scenario.is_some() || !self.set.is_empty() || self.frames > 1;
+        Ok(Setting { as_told, seed, cycles, frames: self.frames, ..Setting::new(setup) })
     }
 }
 

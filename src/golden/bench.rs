@@ -207,6 +207,9 @@ impl<'a> Bench<'a> {
                 let _ = write!(text, "      #{rest}");
             }
             text += &edges(step, last);
+            if let Some((input, column)) = step.late {
+                let _ = writeln!(text, "      {input} = {column};");
+            }
         }
         let _ = write!(
             text,
@@ -222,12 +225,15 @@ impl<'a> Bench<'a> {
 }
 
 /// The process that drives `tdc_stop`. The fifth of a femtosecond makes a simulator that rounds a
-/// delay and one that cuts it off agree.
+/// delay and one that cuts it off agree; long waits are taken in steps of 1 us, because Verilator 5.006
+/// has 32 bits for a delay that is no integer.
 fn stops(last: usize) -> String {
     format!(
         "\n  reg [63:0] tdc_stop_at [0:{last}]; // [fs]\n  reg [63:0] now;\n  integer change;\n  \
          initial begin\n    $readmemh(\"tdc_stop.mem\", tdc_stop_at);\n    now = 64'd0;\n    \
          for (change = 0; change <= {last}; change = change + 1) begin\n      \
+         while (tdc_stop_at[change] - now > 64'd1000000000) begin\n        \
+         #1000000 now = now + 64'd1000000000;\n      end\n      \
          #((tdc_stop_at[change] - now + 0.2) / 1000.0) tdc_stop = !tdc_stop;\n      \
          now = tdc_stop_at[change];\n    end\n  end\n",
     )

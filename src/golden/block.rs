@@ -24,8 +24,10 @@ pub struct Setting {
     pub as_told: bool,
     /// Seed of the stimulus.
     pub seed: u64,
-    /// Lines [clock cycles].
-    pub cycles: usize,
+    /// Lines, if not as many as usual [clock cycles].
+    pub cycles: Option<usize>,
+    /// Frames of a scenario that the top runs as it is.
+    pub frames: u64,
     /// Ones in the taps at most, for a design with a shorter chain [taps].
     pub taps: usize,
     /// Words of the histogram, for a design with a smaller one.
@@ -33,14 +35,19 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// Lines of each block unless told otherwise.
-    pub const CYCLES: usize = 20_000;
+    /// Lines of each block unless told otherwise [clock cycles].
+    const CYCLES: usize = 20_000;
 
     /// Full-size chain and histogram, random control, the scenario's own seed.
     pub fn new(setup: Setup) -> Self {
         let seed = setup.scenario.seed;
         let (taps, bins) = (TAPS, BINS as u64);
-        Setting { setup, as_told: false, seed, cycles: Self::CYCLES, taps, bins }
+        Setting { setup, as_told: false, seed, cycles: None, frames: 1, taps, bins }
+    }
+
+    /// Lines of a block [clock cycles].
+    pub fn cycles(&self) -> usize {
+        self.cycles.unwrap_or(Self::CYCLES)
     }
 }
 

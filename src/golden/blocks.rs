@@ -4,10 +4,12 @@ use super::block::Spec;
 
 mod carry_chain;
 mod coarse_counter;
+mod tof_top;
 mod vcsel_driver;
 
 /// Every block, in the order of their names.
-pub static BLOCKS: &[Spec] = &[carry_chain::SPEC, coarse_counter::SPEC, vcsel_driver::SPEC];
+pub static BLOCKS: &[Spec] =
+    &[carry_chain::SPEC, coarse_counter::SPEC, tof_top::SPEC, vcsel_driver::SPEC];
 
 /// The block called `name`.
 pub fn find(name: &str) -> Option<&'static Spec> {

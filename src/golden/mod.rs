@@ -15,6 +15,7 @@ pub mod roms;
 pub mod stops;
 pub mod table;
 pub mod timing;
+mod top;
 pub mod vectors;
 
 pub use block::{Setting, Spec};

@@ -83,7 +83,7 @@ pub(super) fn record<B: Block>(
     let place = super::BLOCKS.iter().position(|other| other.name == spec.name);
     let mut draw = Draw::new(setting.seed, place.unwrap_or_default() as u64);
     let mut top = TofTop::new(Pins::default());
-    for cycle in 0..setting.cycles {
+    for cycle in 0..setting.cycles() {
         let i = block.stimulus(cycle, &top, &mut draw);
         let mut fill = Fill { table: &mut stimulus, places: &own_places, order: &identity };
         i.changes(None, 0, &mut fill);

@@ -1,6 +1,7 @@
 //! The memories that the Verilog loads, for a setting.
 
 use crate::firmware::carry_chain::Delays;
+use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tof_top::{CodeSource, HistogramSource, Params};
 use crate::kernel::U;
 use crate::network::mem::{self, Mem, lines};
@@ -24,17 +25,18 @@ pub fn histogram(rom: &[U<16>]) -> Mem {
     Mem { name: "histogram.mem", text: lines(rom.iter().map(|count| count.get().into()), 4) }
 }
 
-/// All memories of the firmware: the estimator's and the converter's, and what stands in for codes
-/// or histogram.
+/// All memories of the firmware. The Verilog loads those of an unused stand-in too: zeros.
 pub fn tof_top(params: &Params) -> Vec<Mem> {
     let mut roms = mem::depth_estimator(&params.depth_estimator);
     roms.push(mem::tdc_decoder(&params.tdc.cal));
     roms.push(tap_delays(&params.tdc.delays));
-    if let CodeSource::Preload(rom) = &params.code_source {
-        roms.push(codes(rom));
-    }
-    if let HistogramSource::Preload(rom) = &params.histogram_source {
-        roms.push(histogram(&rom[..]));
-    }
+    roms.push(match &params.code_source {
+        CodeSource::Tdc => codes(&[U::new(0)]),
+        CodeSource::Preload(rom) => codes(rom),
+    });
+    roms.push(match &params.histogram_source {
+        HistogramSource::Builder => histogram(&[U::new(0); BINS]),
+        HistogramSource::Preload(rom) => histogram(&rom[..]),
+    });
     roms
 }

@@ -9,6 +9,8 @@ pub struct Step {
     pub sample: bool,
     /// Clock ports that change at its end, and to what.
     pub edges: &'static [(&'static str, bool)],
+    /// An input that changes within the cycle, to the value of another column, at its end.
+    pub late: Option<(&'static str, &'static str)>,
 }
 
 /// A cycle of the clock that the lines of the vectors count. It ends with the edge that takes the
@@ -51,7 +53,7 @@ impl Timing {
 }
 
 const fn step(length_ps: u64, sample: bool, edges: &'static [(&'static str, bool)]) -> Step {
-    Step { length_ps, sample, edges }
+    Step { length_ps, sample, edges, late: None }
 }
 
 /// One clock of 125 MHz.
@@ -99,6 +101,19 @@ pub const OWN: Timing = Timing {
     oscillator: true,
 };
 
+/// The same with a reset that the edge in the middle of the cycle sees too: it may change after it.
+pub const OWN_WITH_RESET: Timing = Timing {
+    clock: "clk_125",
+    steps: &[
+        step(2000, true, &[]),
+        step(2000, true, &[]),
+        Step { length_ps: 1, sample: false, edges: &[], late: Some(("rst", "rst_late")) },
+        step(1999, true, &[]),
+        step(2000, true, &[]),
+    ],
+    oscillator: true,
+};
+
 /// No clock: a look every 8 ns.
 pub const NONE: Timing =
     Timing { clock: "none", steps: &[step(8000, true, &[])], oscillator: false };
@@ -112,6 +127,7 @@ mod tests {
         assert_eq!((BOTH.period_ps(), BOTH.samples()), (8000, 4));
         assert_eq!(BOTH.before_edge_ps(0), 6000);
         assert_eq!(BOTH.before_edge_ps(3), 0);
+        assert_eq!((OWN_WITH_RESET.period_ps(), OWN_WITH_RESET.before_edge_ps(2)), (8000, 2000));
         assert_eq!((CLK_125.samples(), CLK_125.before_edge_ps(0)), (1, 0));
     }
 }

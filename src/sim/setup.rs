@@ -82,6 +82,11 @@ impl Setup {
         Ok(Setup { name, scenario, budget, params, network, pll, light, pins })
     }
 
+    /// The clocks.
+    pub fn pll(&self) -> &Pll {
+        &self.pll
+    }
+
     /// The device at power-up.
     pub fn device(&self) -> Device {
         let scenario = &self.scenario;

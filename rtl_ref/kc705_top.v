@@ -1,0 +1,62 @@
+`timescale 1ps / 1fs
+`default_nettype none
+
+// The device on a KC705: tof_top with the board's differential oscillator; for synthesis only.
+`ifdef SYNTHESIS
+module kc705_top (
+    // Board
+    input wire sysclk_p,              // 200 MHz oscillator
+    input wire sysclk_n,
+    input wire cpu_reset,             // button, active high
+    output wire locked,               // LED: the clocks run
+    // Laser
+    output wire laser_on_lvds_p,      // positive pin
+    output wire laser_on_lvds_n,      // negative pin
+    // SPAD array
+    input wire tdc_stop,              // its output, asynchronous
+    output wire spad_rst,             // recharges the SPAD and keeps it off
+    output wire [39:0] spad_sel,      // row, one-hot
+    // Acquisition computer
+    input wire mode,                  // SPAD quench mode
+    input wire [1:0] laser_freq,      // laser repetition rate
+    input wire laser_en,              // lets the laser fire
+    input wire dsp_en,                // lets the estimator start
+    input wire dsp_rst,               // abandons the frame
+    output wire signed [35:0] depth,  // when algo_done is high; before, a partial sum [2^-29 m]
+    output wire algo_done,            // the depth is ready; one cycle
+    output wire hist_valid,           // a word of the histogram is being read
+    output wire [7:0] hist_bin,       // which word
+    output wire [15:0] hist_count,    // the word [hits]
+    output wire frame_done            // the frame has ended; one cycle
+);
+    wire clk_200;
+
+    IBUFDS ibufds (
+        .I(sysclk_p),
+        .IB(sysclk_n),
+        .O(clk_200)
+    );
+
+    tof_top tof_top (
+        .clk_200(clk_200),
+        .rst(cpu_reset),
+        .locked(locked),
+        .laser_on_lvds_p(laser_on_lvds_p),
+        .laser_on_lvds_n(laser_on_lvds_n),
+        .tdc_stop(tdc_stop),
+        .spad_rst(spad_rst),
+        .spad_sel(spad_sel),
+        .mode(mode),
+        .laser_freq(laser_freq),
+        .laser_en(laser_en),
+        .dsp_en(dsp_en),
+        .dsp_rst(dsp_rst),
+        .depth(depth),
+        .algo_done(algo_done),
+        .hist_valid(hist_valid),
+        .hist_bin(hist_bin),
+        .hist_count(hist_count),
+        .frame_done(frame_done)
+    );
+endmodule
+`endif
