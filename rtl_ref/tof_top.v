@@ -55,7 +55,7 @@ module tof_top #(
     wire [7:0] read_addr;
 
     // Modules that a source leaves out stay in place, with constant inputs: a generate block would
-    // put its own scope into their paths. Synthesis removes them.
+    // put its own scope into their paths. Synthesis removes them, but for the carry chain.
     wire [7:0] tdc_code, measured_code, preloaded_code;
     wire tdc_valid, measured_valid, preloaded_valid;
     wire [15:0] count, built_count, preloaded_count;

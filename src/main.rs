@@ -14,7 +14,7 @@ const FAULT: u8 = 2;
 
 fn main() -> ExitCode {
     match Cli::parse().run() {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(status) => status,
         Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
         Err(Error::Interrupted) => {
             eprintln!("tofsim: interrupted");

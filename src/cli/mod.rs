@@ -3,12 +3,16 @@
 pub mod budget;
 pub mod completions;
 pub mod estimate;
+pub mod interrupt;
 pub mod man;
 pub mod run;
 pub mod scenario;
 pub mod stdout;
 pub mod talk;
 pub mod vectors;
+pub mod verify;
+
+use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
@@ -35,23 +39,26 @@ enum Verb {
     Budget(budget::Args),
     Estimate(estimate::Args),
     Vectors(vectors::Args),
+    Verify(verify::Args),
     Scenario(scenario::Args),
     Completions(completions::Args),
     Man(man::Args),
 }
 
 impl Cli {
-    /// Does what the command line asks for.
-    pub fn run(&self) -> Result<()> {
+    /// Does what the command line asks for; the status says whether all was the same or fine.
+    pub fn run(&self) -> Result<ExitCode> {
         let talk = Talk::new(&self.talk);
         match &self.verb {
             Verb::Run(args) => run::run(args, &talk),
             Verb::Budget(args) => budget::run(args),
             Verb::Estimate(args) => estimate::run(args),
             Verb::Vectors(args) => vectors::run(args, &talk),
+            Verb::Verify(args) => return verify::run(args, &talk),
             Verb::Scenario(args) => scenario::run(args),
             Verb::Completions(args) => completions::run(args),
             Verb::Man(args) => man::run(args),
-        }
+        }?;
+        Ok(ExitCode::SUCCESS)
     }
 }

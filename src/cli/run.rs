@@ -1,8 +1,6 @@
 //! `tofsim run`: photons to depth.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use crate::error::Result;
@@ -20,6 +18,7 @@ use crate::sim::window::Window;
 use crate::sim::{Outcome, Run};
 use crate::waves::{self, Format, Waves, write_views};
 
+use super::interrupt::stop_signal;
 use super::stdout::print;
 use super::talk::Talk;
 
@@ -149,14 +148,6 @@ fn text(
         text += &table::tdc(results);
     }
     Ok(text)
-}
-
-/// Set when the user interrupts. `None` if the system offers no way to hear of it.
-fn stop_signal() -> Option<Arc<AtomicBool>> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let heard = Arc::clone(&stop);
-    ctrlc::set_handler(move || heard.store(true, Ordering::Relaxed)).ok()?;
-    Some(stop)
 }
 
 /// The waveform: what goes into it, and where.

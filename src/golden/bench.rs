@@ -21,13 +21,28 @@ pub struct Bench<'a> {
     pub ignored: BTreeSet<String>,
     /// Low bits of an output that are compared, where not all are.
     pub bits: BTreeMap<String, usize>,
+    /// Outputs that are compared only where another one is high.
+    pub valid: BTreeMap<String, String>,
+    /// The module that is instantiated.
+    pub module: String,
 }
 
 impl<'a> Bench<'a> {
     /// The bench for the reference itself.
     pub fn new(vectors: &'a Vectors) -> Self {
-        let (delays, ignored) = (BTreeMap::new(), BTreeSet::new());
-        Bench { vectors, delays, ignored, bits: BTreeMap::new() }
+        Bench {
+            vectors,
+            delays: BTreeMap::new(),
+            ignored: BTreeSet::new(),
+            bits: BTreeMap::new(),
+            valid: BTreeMap::new(),
+            module: vectors.spec.name.to_owned(),
+        }
+    }
+
+    /// Names of the parameters that it sets.
+    pub fn parameters(&self) -> impl Iterator<Item = &'static str> {
+        self.vectors.parameters.iter().map(|(name, _)| *name)
     }
 
     /// Its Verilog.
@@ -102,7 +117,7 @@ impl<'a> Bench<'a> {
         };
         let ports: Vec<_> =
             spec.ports().iter().map(|port| format!("    .{0}({0})", port.name)).collect();
-        format!("\n  {} {parameters}dut (\n{}\n  );\n", spec.name, ports.join(",\n"))
+        format!("\n  {} {parameters}dut (\n{}\n  );\n", self.module, ports.join(",\n"))
     }
 
     /// The comparison.
@@ -170,6 +185,16 @@ impl<'a> Bench<'a> {
         if let Some(bits) = self.bits.get(&column.name).filter(|bits| **bits < column.width) {
             let top = format!("{}:{}", column.low + column.width - 1, column.low + bits);
             let _ = writeln!(text, "    want[{top}] = got[{top}];");
+        }
+        let columns = || self.vectors.expected.columns().iter();
+        let valid = self.valid.get(&column.name);
+        if let Some(valid) = valid.and_then(|name| columns().find(|c| c.name == *name)) {
+            let at = match self.delays.get(&valid.name).copied().unwrap_or(0) {
+                0 => "cycle".to_owned(),
+                delay => format!("cycle - ({delay})"),
+            };
+            let low = valid.low;
+            let _ = writeln!(text, "    if (!expected[{at}][{low}]) want[{place}] = got[{place}];");
         }
         (!text.is_empty()).then_some(text)
     }

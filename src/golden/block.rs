@@ -32,6 +32,9 @@ pub struct Setting {
     pub taps: usize,
     /// Words of the histogram, for a design with a smaller one.
     pub bins: u64,
+    /// Clock cycles that the estimator under test may take longer than ours; so long it is not
+    /// started again.
+    pub slack: u64,
 }
 
 impl Setting {
@@ -42,7 +45,7 @@ impl Setting {
     pub fn new(setup: Setup) -> Self {
         let seed = setup.scenario.seed;
         let (taps, bins) = (TAPS, BINS as u64);
-        Setting { setup, as_told: false, seed, cycles: None, frames: 1, taps, bins }
+        Setting { setup, as_told: false, seed, cycles: None, frames: 1, taps, bins, slack: 0 }
     }
 
     /// Lines of a block [clock cycles].

@@ -126,7 +126,7 @@ fn check(setup: &Setup) -> Result<()> {
         let expected = "expected the board's 200 MHz, M 5, D 1, O 8, as pll.v has them";
         return fault("pll.input_hz", pll.input_hz.to_string(), expected);
     }
-    if setup.pll().locked_at.fs() % 1000 != 0 {
+    if !setup.pll().locked_at.fs().is_multiple_of(1000) {
         let expected = "expected whole picoseconds, as pll.v counts them";
         return fault("pll.lock_time_us", pll.lock_time_us.to_string(), expected);
     }

@@ -40,8 +40,24 @@ pub struct Vectors {
 }
 
 impl Vectors {
+    /// File name of the bench.
+    pub fn bench_name(&self) -> String {
+        format!("tb_{}.v", self.spec.name)
+    }
+
     /// Writes all files into a folder, which is made if it is not there.
+    ///
+    /// # Errors
+    /// When one cannot be written.
     pub fn write(&self, folder: &Path) -> Result<()> {
+        self.write_with(folder, &Bench::new(self))
+    }
+
+    /// The same with a bench that allows another implementation something.
+    ///
+    /// # Errors
+    /// When one cannot be written.
+    pub fn write_with(&self, folder: &Path, bench: &Bench) -> Result<()> {
         create_directory(folder)?;
         for rom in &self.roms {
             write_file(&folder.join(rom.name), |file| file.write_all(rom.text.as_bytes()))?;
@@ -57,8 +73,7 @@ impl Vectors {
         table(&self.expected, "expected.mem")?;
         let ports = ports::json(self);
         write_file(&folder.join("ports.json"), |file| writeln!(file, "{ports:#}"))?;
-        let bench = Bench::new(self).text();
-        let name = format!("tb_{}.v", self.spec.name);
-        write_file(&folder.join(name), |file| file.write_all(bench.as_bytes()))
+        let bench = bench.text();
+        write_file(&folder.join(self.bench_name()), |file| file.write_all(bench.as_bytes()))
     }
 }

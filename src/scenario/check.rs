@@ -84,7 +84,8 @@ impl<'a> Walk<'a> {
         let known = known.unwrap_or(&empty);
         for (key, item) in table.iter() {
             let full = if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
-            let Some(schema) = known.get(key) else {
+            let any = schema.get("additionalProperties").filter(|any| any.is_object());
+            let Some(schema) = known.get(key).or(any) else {
                 let span = table.get_key_value(key).and_then(|(key, _)| key.span());
                 let fault = Input::new(self.source, unknown_key(key, known)).field(full);
                 return Err(located(fault, self.text, span));

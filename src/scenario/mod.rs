@@ -2,7 +2,7 @@
 
 pub mod builtin;
 pub mod chain;
-mod check;
+pub mod check;
 mod load;
 mod model;
 pub mod show;

@@ -1,6 +1,19 @@
 //! Runs Verilog against the golden vectors, and reports where it differs.
 
+mod adapter;
+pub mod check;
+pub mod interface;
+pub mod map;
 pub mod process;
+pub mod report;
 pub mod rtl;
+pub mod seen;
+pub mod simulator;
+pub mod verdict;
+mod wave;
 
+pub use check::{Check, Report};
+pub use map::Map;
 pub use rtl::Rtl;
+pub use simulator::Simulator;
+pub use verdict::Verdict;

@@ -1,0 +1,160 @@
+//! `tofsim verify`: holds Verilog to the golden vectors.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
+
+use crate::error::{Error, Input, Result};
+use crate::golden::{BLOCKS, Setting, Spec};
+use crate::output::write_file;
+use crate::verify::process::Limits;
+use crate::verify::{Check, Map, Report, Rtl, Simulator, report};
+
+use super::interrupt::stop_signal;
+use super::stdout::print;
+use super::talk::Talk;
+use super::vectors::{From, find};
+
+/// Run Verilog against the golden vectors
+///
+/// Makes the vectors of each block, compiles its bench with your Verilog, runs it, and says where it
+/// first differs, with a table of the cycles around and a waveform of both sides. Without --rtl it
+/// checks tofsim's own Verilog, which is in the program. Simulators are looked for on PATH. Benches are
+/// Verilog only, not VHDL.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Exit status: 0 all pass, 1 something differs, 2 it could not be checked.")]
+pub struct Args {
+    /// Folder with the Verilog to check: all its .v and .sv files
+    #[arg(long, value_name = "DIR")]
+    rtl: Option<PathBuf>,
+    /// Block to check; may be repeated [default: all]
+    #[arg(long, value_name = "BLOCK")]
+    block: Vec<String>,
+    /// Check the whole firmware with a full frame of the scenario too (alone, unless --block is given)
+    #[arg(long)]
+    top: bool,
+    /// Simulator to run
+    #[arg(long, value_enum, default_value = "icarus")]
+    simulator: Simulator,
+    /// How your design differs by intention: names, polarities, latencies, adapters (TOML)
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
+    /// Compare registers inside the blocks too, which have to have our names [default for our own]
+    #[arg(long, conflicts_with = "map")]
+    registers: bool,
+    /// Most that a compilation or a simulation may take
+    #[arg(long, value_name = "SECONDS", default_value_t = 300,
+        value_parser = clap::value_parser!(u64).range(1..))]
+    time_limit: u64,
+    /// Where waveforms of mismatches go
+    #[arg(short, long, value_name = "DIR", default_value = "waves/verify")]
+    output: PathBuf,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+    /// Write JUnit XML too
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+    #[command(flatten)]
+    from: From,
+}
+
+/// One thing to check.
+struct Task {
+    name: String,
+    spec: &'static Spec,
+    setting: Setting,
+}
+
+/// Runs the verb.
+pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+    let map = args.map.as_deref().map(Map::read).transpose()?;
+    let work = tempfile::tempdir().map_err(Error::io(&std::env::temp_dir(), "write"))?;
+    let rtl = match &args.rtl {
+        Some(folder) => Rtl::folder(folder)?,
+        None => Rtl::own(work.path())?,
+    };
+    let tasks = tasks(args, map.as_ref())?;
+    let stop = stop_signal();
+    let limits = Limits { time: Duration::from_secs(args.time_limit), stop: stop.as_deref() };
+    let check = |task: &Task| {
+        let check = Check {
+            rtl: &rtl,
+            map: map.as_ref().and_then(|map| map.block.get(task.spec.name)),
+            simulator: args.simulator,
+            registers: args.registers || args.rtl.is_none(),
+            limits,
+            output: &args.output,
+        };
+        let report = check.run(&task.name, task.spec, &task.setting, &work.path().join(&task.name));
+        talk.detail(format_args!("{}: done", task.name));
+        report
+    };
+    let reports = in_parallel(&tasks, check)?;
+
+    let simulator = args.simulator.name();
+    if let Some(path) = &args.junit {
+        let fault = |error| Input::new(path.display(), format!("no XML: {error}"));
+        let text = report::junit(simulator, &reports).map_err(fault)?;
+        write_file(path, |file| file.write_all(text.as_bytes()))?;
+    }
+    match args.json {
+        true => print(&format!("{:#}\n", report::json(&rtl.source, simulator, &reports)))?,
+        false => print(&report::text(&reports))?,
+    }
+    let passed = reports.iter().all(Report::passed);
+    Ok(ExitCode::from(u8::from(!passed)))
+}
+
+/// The blocks that are asked for, then the whole.
+fn tasks(args: &Args, map: Option<&Map>) -> Result<Vec<Task>> {
+    let setting = args.from.setting()?;
+    let setting = map.map_or(setting.clone(), |map| map.fit(&setting));
+    let specs: Vec<_> = match (args.block.as_slice(), args.top) {
+        ([], true) => Vec::new(),
+        ([], false) => BLOCKS.iter().collect(),
+        (names, _) => names.iter().map(|name| find(name, "--block")).collect::<Result<_>>()?,
+    };
+    let task =
+        |spec: &'static Spec| Task { name: spec.name.to_owned(), spec, setting: setting.clone() };
+    let mut tasks: Vec<_> = specs.into_iter().map(task).collect();
+    if args.top {
+        let setting = Setting { as_told: true, ..setting.clone() };
+        let name = format!("tof_top.{}", setting.setup.name);
+        tasks.push(Task { name, spec: find("tof_top", "--top")?, setting });
+    }
+    Ok(tasks)
+}
+
+/// Does all tasks on as many threads as the machine has, in any order; the reports, and the first
+/// error, are in the order of the tasks.
+fn in_parallel(
+    tasks: &[Task],
+    check: impl Fn(&Task) -> Result<Report> + Sync,
+) -> Result<Vec<Report>> {
+    let threads = std::thread::available_parallelism().map_or(1, |n| n.get()).min(tasks.len());
+    let (next, slots) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                while let Some(task) = tasks.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let place = tasks.iter().position(|other| std::ptr::eq(other, task));
+                    let report = check(task);
+                    let failed = report.is_err();
+                    if let Ok(mut slots) = slots.lock() {
+                        slots.push((place, report));
+                    }
+                    if failed {
+                        next.store(tasks.len(), Ordering::Relaxed);
+                    }
+                }
+            });
+        }
+    });
+    let mut reports = slots.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+    reports.sort_by_key(|(place, _)| *place);
+    reports.into_iter().map(|(_, report)| report).collect()
+}

@@ -1,0 +1,130 @@
+//! Checks one block: vectors, ports, compilation, run, and a second look where it differs.
+
+use std::path::{Path, PathBuf};
+
+use crate::error::Result;
+use crate::golden::bench::Bench;
+use crate::golden::{Setting, Spec, Vectors};
+use crate::output::create_directory;
+
+use super::interface;
+use super::map::BlockMap;
+use super::process::Limits;
+use super::rtl::Rtl;
+use super::seen::Seen;
+use super::simulator::{Compiled, Simulator};
+use super::verdict::{Mismatch, Verdict};
+use super::wave;
+
+/// What is checked, and how.
+#[derive(Clone, Debug)]
+pub struct Check<'a> {
+    /// The Verilog.
+    pub rtl: &'a Rtl,
+    /// How it differs from ours by intention.
+    pub map: Option<&'a BlockMap>,
+    /// The simulator.
+    pub simulator: Simulator,
+    /// Whether registers are compared, too.
+    pub registers: bool,
+    /// When to give up.
+    pub limits: Limits<'a>,
+    /// Where the waveform of a mismatch goes.
+    pub output: &'a Path,
+}
+
+/// How a block came out.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// The block, and what of it if that is not its own bench.
+    pub name: String,
+    /// Lines compared.
+    pub cycles: usize,
+    /// How it came out.
+    pub verdict: Verdict,
+    /// The cycles around the first mismatch.
+    pub around: Option<String>,
+    /// The waveform of both sides.
+    pub wave: Option<PathBuf>,
+    /// Goals of the stimulus met, and goals.
+    pub coverage: (usize, usize),
+}
+
+impl Check<'_> {
+    /// Checks a block in `work`, a folder of its own.
+    ///
+    /// # Errors
+    /// When something keeps the check from being made: a missing simulator, module or port,
+    /// Verilog that does not compile, files that cannot be written.
+    pub fn run(
+        &self,
+        name: &str,
+        spec: &'static Spec,
+        setting: &Setting,
+        work: &Path,
+    ) -> Result<Report> {
+        create_directory(work)?;
+        let module = self.map.map_or(spec.name, |map| map.module(spec.name));
+        let found = self.simulator.ports(work, module, self.rtl, &self.limits)?;
+        let wanted = match self.map {
+            Some(map) => map.wanted(spec, &found)?,
+            None => spec.ports(),
+        };
+        interface::check(&self.rtl.source, module, &wanted, &found)?;
+
+        let vectors = (spec.record)(spec, setting)?;
+        let mut bench = Bench::new(&vectors);
+        let mut sources = vec![work.join(vectors.bench_name())];
+        if let Some(map) = self.map {
+            sources.extend(map.apply(&mut bench, spec, &found, work)?);
+        }
+        vectors.write_with(work, &bench)?;
+        let top = format!("tb_{}", spec.name);
+        let compiled =
+            self.simulator.compile(work, &top, &sources, self.rtl, self.registers, &self.limits)?;
+        let verdict = self.verdict(&compiled, None)?;
+        let mut report = Report {
+            name: name.to_owned(),
+            cycles: vectors.stimulus.rows(),
+            verdict,
+            around: None,
+            wave: None,
+            coverage: coverage(&vectors),
+        };
+        if let Verdict::Differs { first, .. } = report.verdict.clone() {
+            self.look_again(&mut report, &compiled, &vectors, &first, work)?;
+        }
+        Ok(report)
+    }
+
+    fn verdict(&self, compiled: &Compiled, got: Option<&str>) -> Result<Verdict> {
+        let finished = compiled.run(got, &self.limits)?;
+        let limit = finished.timed_out.then_some(self.limits.time.as_secs());
+        Ok(Verdict::read(&finished.output, limit))
+    }
+
+    /// Runs once more to see everything, for the table and the waveform.
+    fn look_again(
+        &self,
+        report: &mut Report,
+        compiled: &Compiled,
+        vectors: &Vectors,
+        first: &Mismatch,
+        work: &Path,
+    ) -> Result<()> {
+        const GOT: &str = "got.mem";
+        self.verdict(compiled, Some(GOT))?;
+        let seen = Seen::read(&work.join(GOT))?;
+        report.around = Some(seen.around(vectors, first));
+        create_directory(self.output)?;
+        wave::write(self.output, &report.name, vectors, &seen, first)?;
+        report.wave = Some(self.output.join(format!("{}.vcd", report.name)));
+        Ok(())
+    }
+}
+
+fn coverage(vectors: &Vectors) -> (usize, usize) {
+    let met = vectors.coverage.iter().map(|cover| cover.met()).sum();
+    let goals = vectors.coverage.iter().map(|cover| cover.cases()).sum();
+    (met, goals)
+}

@@ -1,0 +1,142 @@
+//! The reports as a table, as JSON and as JUnit XML.
+
+use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
+use serde_json::{Value, json};
+
+use crate::report::table::{grouped, plain};
+
+use super::check::Report;
+use super::verdict::Verdict;
+
+impl Report {
+    /// Whether the block does what it should.
+    pub fn passed(&self) -> bool {
+        self.verdict == Verdict::Pass
+    }
+
+    /// What went wrong, in a line; empty if nothing did.
+    pub fn fault(&self) -> String {
+        match &self.verdict {
+            Verdict::Pass => String::new(),
+            Verdict::Differs { first, .. } => format!(
+                "cycle {}, {} ps: {} expected {}, got {}",
+                first.cycle,
+                first.time_ps,
+                first.signal,
+                short(&first.expected),
+                short(&first.got),
+            ),
+            Verdict::TimedOut { seconds } => {
+                format!("the bench has not ended in {seconds} s and was killed")
+            }
+            Verdict::Broke { message } => format!("the bench broke off: {}", message.trim()),
+        }
+    }
+
+    fn mismatches(&self) -> usize {
+        match &self.verdict {
+            Verdict::Differs { mismatches, .. } => *mismatches,
+            _ => 0,
+        }
+    }
+
+    fn word(&self) -> &'static str {
+        match self.verdict {
+            Verdict::Pass => "pass",
+            Verdict::Differs { .. } => "differs",
+            Verdict::TimedOut { .. } => "timed out",
+            Verdict::Broke { .. } => "broke off",
+        }
+    }
+}
+
+/// A value too long to read, shortened in its middle.
+fn short(digits: &str) -> String {
+    const LONGEST: usize = 40;
+    match (digits.get(..16), digits.len().checked_sub(16).and_then(|end| digits.get(end..))) {
+        (Some(head), Some(tail)) if digits.len() > LONGEST => format!("{head}..{tail}"),
+        _ => digits.to_owned(),
+    }
+}
+
+/// A line for each block, and the cycles around each first mismatch.
+pub fn text(reports: &[Report]) -> String {
+    let mut table = plain();
+    table.set_header(["block", "cycles", "mismatches", "stimulus goals", "verdict"]);
+    for report in reports {
+        let (met, goals) = report.coverage;
+        table.add_row([
+            report.name.clone(),
+            grouped(report.cycles as u64),
+            grouped(report.mismatches() as u64),
+            if goals == 0 { "-".to_owned() } else { format!("{met} of {goals}") },
+            report.word().to_owned(),
+        ]);
+    }
+    let mut text = table.trim_fmt() + "\n";
+    for report in reports.iter().filter(|report| !report.passed()) {
+        text += &format!("\n{}: {}\n", report.name, report.fault());
+        if let Some(around) = &report.around {
+            text += &format!("{around}\n");
+        }
+        if let Some(wave) = &report.wave {
+            text += &format!("both sides: {}\n", wave.display());
+        }
+    }
+    text
+}
+
+/// One object, `tofsim.verify/1`.
+pub fn json(rtl: &str, simulator: &str, reports: &[Report]) -> Value {
+    let block = |report: &Report| {
+        let first = match &report.verdict {
+            Verdict::Differs { first, .. } => json!({
+                "cycle": first.cycle,
+                "time_ps": first.time_ps,
+                "signal": first.signal,
+                "expected": first.expected,
+                "got": first.got,
+            }),
+            _ => Value::Null,
+        };
+        json!({
+            "block": report.name,
+            "verdict": report.word(),
+            "cycles": report.cycles,
+            "mismatches": report.mismatches(),
+            "first": first,
+            "fault": (!report.passed()).then(|| report.fault()),
+            "waves": report.wave.as_ref().map(|path| path.display().to_string()),
+            "goals": {"met": report.coverage.0, "of": report.coverage.1},
+        })
+    };
+    json!({
+        "schema": "tofsim.verify/1",
+        "rtl": rtl,
+        "simulator": simulator,
+        "passed": reports.iter().all(Report::passed),
+        "blocks": reports.iter().map(block).collect::<Vec<_>>(),
+    })
+}
+
+/// A test suite with a case for each block.
+///
+/// # Errors
+/// When it cannot be put into XML.
+pub fn junit(simulator: &str, reports: &[Report]) -> Result<String, quick_junit::SerializeError> {
+    let mut suite = TestSuite::new(format!("tofsim verify {simulator}"));
+    for report in reports {
+        let mut status = match report.passed() {
+            true => TestCaseStatus::success(),
+            false => TestCaseStatus::non_success(NonSuccessKind::Failure),
+        };
+        if !report.passed() {
+            status.set_message(report.fault());
+            status.set_description(report.around.clone().unwrap_or_default());
+        }
+        suite.add_test_case(TestCase::new(report.name.clone(), status));
+    }
+    let mut all = quick_junit::Report::new("tofsim verify");
+    all.add_test_suite(suite);
+    all.to_string()
+}
