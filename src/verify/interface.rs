@@ -66,26 +66,26 @@ pub(super) fn of_verilator(text: &str, module: &str) -> Result<Ports> {
 /// Names the first port that is missing, or is no output, or has another width.
 pub fn check(source: &str, module: &str, wanted: &[Port], found: &Ports) -> Result<()> {
     for port in wanted {
-        let fault = |value: String, what: String| {
-            let field = format!("module {module}");
-            Err(Input::new(source, what).field(field).value(value).into())
+        let fault = |what: String| {
+            let field = format!("module {module}, port {}", port.name);
+            Err(Input::new(source, what).field(field).into())
         };
         let Some(real) = found.get(&port.name) else {
             let names: Vec<_> = found.keys().map(String::as_str).collect();
             let hint = nearest(&port.name, names.iter().copied());
             let hint = hint.map_or(String::new(), |name| format!(" (`{name}`?)"));
             let what = format!("no such port{hint}; it has {}", names.join(", "));
-            return fault(port.name.clone(), what);
+            return fault(what);
         };
         let direction = |output| if output { "an output" } else { "an input" };
         if real.output != port.output {
             let what =
                 format!("is {}, expected {}", direction(real.output), direction(port.output));
-            return fault(port.name.clone(), what);
+            return fault(what);
         }
         if real.width != port.width {
             let what = format!("has {} bits, expected {}", real.width, port.width);
-            return fault(port.name.clone(), what);
+            return fault(what);
         }
     }
     Ok(())
@@ -116,15 +116,15 @@ mod tests {
         let fault = |port| check("rtl", "a", &[port], &ports).unwrap_err().to_string();
         assert_eq!(
             fault(port("dept", 36, true)),
-            "rtl: module a = dept: no such port (`depth`?); it has clk, depth"
+            "rtl: module a, port dept: no such port (`depth`?); it has clk, depth"
         );
         assert_eq!(
             fault(port("depth", 32, true)),
-            "rtl: module a = depth: has 36 bits, expected 32"
+            "rtl: module a, port depth: has 36 bits, expected 32"
         );
         assert_eq!(
             fault(port("clk", 1, true)),
-            "rtl: module a = clk: is an input, expected an output"
+            "rtl: module a, port clk: is an input, expected an output"
         );
         assert!(check("rtl", "a", &[port("clk", 1, false)], &ports).is_ok());
     }

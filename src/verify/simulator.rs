@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::error::{Input, Result};
+use crate::error::{Error, Input, Result};
 
 use super::interface::{Ports, of_icarus, of_verilator};
 use super::process::{self, Finished, IVERILOG, Limits, VERILATOR, VVP};
@@ -112,8 +112,8 @@ impl Simulator {
         if !finished.success {
             return Err(refused(rtl, &finished).into());
         }
-        let text =
-            std::fs::read_to_string(&output).map_err(crate::error::Error::io(&output, "read"))?;
+        let bytes = std::fs::read(&output).map_err(Error::io(&output, "read"))?;
+        let text = String::from_utf8_lossy(&bytes);
         match self {
             Simulator::Icarus => Ok(of_icarus(&text)),
             Simulator::Verilator => of_verilator(&text, module),

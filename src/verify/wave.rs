@@ -44,6 +44,11 @@ pub fn write(
 /// The names of the two sides and of the inputs, as scopes.
 const SCOPES: [&str; 3] = ["expected", "got", "input"];
 
+/// The scope that has everything.
+fn scope(vectors: &Vectors) -> String {
+    format!("tb_{}", vectors.spec.name)
+}
+
 /// Columns of one signal, one for each sample of a cycle that it has.
 fn signals(columns: &[Column]) -> Vec<Vec<&Column>> {
     let mut signals: Vec<Vec<&Column>> = Vec::new();
@@ -65,11 +70,12 @@ fn body(
     let timing = &vectors.spec.timing;
     let mut vcd = Writer::new(file);
     vcd.timescale(1, TimescaleUnit::PS)?;
+    vcd.add_module(&scope(vectors))?;
     let clock = vcd.add_wire(1, timing.clock)?;
     let tables = [&vectors.expected, &vectors.expected, &vectors.stimulus];
     let mut sides: Vec<Vec<(IdCode, Vec<&Column>)>> = Vec::new();
-    for (scope, table) in SCOPES.iter().zip(tables) {
-        vcd.add_module(scope)?;
+    for (name, table) in SCOPES.iter().zip(tables) {
+        vcd.add_module(name)?;
         let mut side = Vec::new();
         for signal in signals(table.columns()) {
             side.push((vcd.add_wire(signal[0].width as u32, &signal[0].name)?, signal));
@@ -77,6 +83,7 @@ fn body(
         vcd.upscope()?;
         sides.push(side);
     }
+    vcd.upscope()?;
     vcd.enddefinitions()?;
     let slot = timing.period_ps() / timing.samples() as u64;
     let mut last: Vec<Vec<String>> =
@@ -135,13 +142,18 @@ fn value(digit: char) -> Value {
 fn save_file(wave: &str, vectors: &Vectors, seen: &Seen, first: &Mismatch) -> String {
     let period = vectors.spec.timing.period_ps();
     let begin = first.time_ps.saturating_sub(8 * period);
+    let top = scope(vectors);
     let mut text = format!(
-        "[dumpfile] \"{wave}\"\n[timestart] {begin}\n[size] 1400 700\n*-14.0 {}\n@28\n{}\n",
+        "[dumpfile] \"{wave}\"\n[timestart] {begin}\n[size] 1400 700\n*-14.0 {}\n@28\n{top}.{}\n",
         first.time_ps, vectors.spec.timing.clock
     );
-    let name = |scope: &str, column: &Column| match column.width {
-        1 => format!("{scope}.{}", column.name),
-        width => format!("{scope}.{}[{}:0]", column.name, width - 1),
+    let name = |side: &str, column: &Column| {
+        let range = match column.width {
+            1 => String::new(),
+            width => format!("[{}:0]", width - 1),
+        };
+        let name = format!("{}{range}", column.name);
+        format!("+{{{name} {side}}} {top}.{side}.{name}")
     };
     for signal in signals(vectors.expected.columns()) {
         let differs = |column: &&&Column| {

@@ -1,0 +1,91 @@
+//! Rust and Verilog do the same, clock by clock: each block alone, the whole with short frames and
+//! under random control, and full frames at every laser rate.
+
+mod common;
+
+use serde_json::Value;
+
+use tofsim::golden::BLOCKS;
+
+/// Lines of a block's own bench.
+const CYCLES: u64 = 20_000;
+
+/// The reports of a `verify` that has to pass.
+fn verified(args: &[&str]) -> Vec<Value> {
+    let folder = common::empty();
+    let output = common::output(folder.path(), &[&["verify", "--json"], args].concat());
+    let text = String::from_utf8(output.stdout).unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+    let reports: Value = serde_json::from_str(&text).unwrap_or_else(|_| panic!("{errors}"));
+    assert_eq!(output.status.code(), Some(0), "{text}{errors}");
+    assert_eq!(reports["passed"], true);
+    let blocks = reports["blocks"].as_array().unwrap().clone();
+    for block in &blocks {
+        assert_eq!((&block["verdict"], &block["mismatches"]), (&"pass".into(), &0.into()));
+    }
+    blocks
+}
+
+fn every_block_passes_in(simulator: &str) {
+    let blocks = verified(&["--simulator", simulator]);
+    let names: Vec<_> = blocks.iter().map(|block| block["block"].as_str().unwrap()).collect();
+    let expected: Vec<_> = BLOCKS.iter().map(|spec| spec.name).collect();
+    assert_eq!(names, expected);
+    for block in &blocks {
+        assert_eq!(block["cycles"], CYCLES, "{block}");
+        assert_eq!(block["goals"]["met"], block["goals"]["of"], "{block}");
+    }
+}
+
+#[test]
+fn every_block_passes_in_icarus() {
+    every_block_passes_in("icarus");
+}
+
+#[test]
+fn every_block_passes_in_verilator() {
+    every_block_passes_in("verilator");
+}
+
+#[test]
+fn other_seeds_pass_too() {
+    for seed in ["2", "3", "4"] {
+        verified(&["--seed", seed, "--cycles", "8000"]);
+    }
+}
+
+#[test]
+fn two_frames_of_300_shots_pass_in_icarus() {
+    for rate in 0..4 {
+        let rate = format!("firmware.laser_freq={rate}");
+        let short = ["--top", "--frames", "2", "-s", "firmware.shots_per_frame=300", "-s", &rate];
+        verified(&short);
+    }
+}
+
+#[test]
+fn the_validation_scenarios_pass_in_icarus() {
+    for scenario in ["spad_validation", "histogram_validation", "estimator_validation"] {
+        verified(&["--top", "--scenario", scenario, "--cycles", "20000"]);
+    }
+}
+
+#[test]
+fn uneven_chains_and_passive_quenching_pass_in_icarus() {
+    for chain in ["table6_3", "ideal"] {
+        let chain = format!("tdc.profile={chain}");
+        let short = ["--top", "-s", "firmware.shots_per_frame=300", "-s", "firmware.mode=1"];
+        verified(&[&short[..], &["-s", &chain]].concat());
+    }
+}
+
+#[test]
+fn full_frames_at_every_rate_pass_in_verilator() {
+    for (rate, period) in [(0, 25), (1, 13), (2, 8), (3, 6)] {
+        let rate = format!("firmware.laser_freq={rate}");
+        let blocks = verified(&["--top", "--simulator", "verilator", "-s", &rate]);
+        let frame = 30_000 * period + 541;
+        let cycles = blocks[0]["cycles"].as_u64().unwrap();
+        assert!((frame..frame + 8).contains(&cycles), "{cycles} cycles");
+    }
+}
