@@ -10,6 +10,7 @@ use std::time::Duration;
 use crate::error::{Error, Input, Result};
 use crate::golden::{BLOCKS, Setting, Spec};
 use crate::output::write_file;
+use crate::verify::cycle_counts::Count;
 use crate::verify::process::Limits;
 use crate::verify::{Check, Map, Report, Rtl, Simulator, report};
 
@@ -36,6 +37,9 @@ pub struct Args {
     /// Check the whole firmware with a full frame of the scenario too (alone, unless --block is given)
     #[arg(long)]
     top: bool,
+    /// Count cycles in the model and in the RTL, and prove them (Icarus and Yosys), instead of vectors
+    #[arg(long, conflicts_with_all = ["block", "top", "map", "registers", "junit", "simulator"])]
+    cycle_counts: bool,
     /// Simulator to run
     #[arg(long, value_enum, default_value = "icarus")]
     simulator: Simulator,
@@ -77,9 +81,12 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         Some(folder) => Rtl::folder(folder)?,
         None => Rtl::own(work.path())?,
     };
-    let tasks = tasks(args, map.as_ref())?;
     let stop = stop_signal();
     let limits = Limits { time: Duration::from_secs(args.time_limit), stop: stop.as_deref() };
+    if args.cycle_counts {
+        return cycle_counts(args, &rtl, &limits);
+    }
+    let tasks = tasks(args, map.as_ref())?;
     let check = |task: &Task| {
         let check = Check {
             rtl: &rtl,
@@ -107,6 +114,16 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     }
     let passed = reports.iter().all(Report::passed);
     Ok(ExitCode::from(u8::from(!passed)))
+}
+
+fn cycle_counts(args: &Args, rtl: &Rtl, limits: &Limits) -> Result<ExitCode> {
+    let counts = crate::verify::cycle_counts::cycle_counts(rtl, limits)?;
+    match args.json {
+        true => print(&format!("{:#}\n", report::counts_json(&rtl.source, &counts)))?,
+        false => print(&report::counts_text(&counts))?,
+    }
+    let holds = counts.iter().all(Count::holds);
+    Ok(ExitCode::from(u8::from(!holds)))
 }
 
 /// The blocks that are asked for, then the whole.

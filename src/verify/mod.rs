@@ -2,6 +2,7 @@
 
 mod adapter;
 pub mod check;
+pub mod cycle_counts;
 pub mod interface;
 pub mod map;
 pub mod process;

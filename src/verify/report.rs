@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use crate::report::table::{grouped, plain};
 
 use super::check::Report;
+use super::cycle_counts::{Count, Proof};
 use super::verdict::Verdict;
 
 impl Report {
@@ -139,4 +140,50 @@ pub fn junit(simulator: &str, reports: &[Report]) -> Result<String, quick_junit:
     let mut all = quick_junit::Report::new("tofsim verify");
     all.add_test_suite(suite);
     all.to_string()
+}
+
+/// What, expected, counted twice, proven.
+pub fn counts_text(counts: &[Count]) -> String {
+    let mut table = plain();
+    table.set_header(["what", "expected", "unit", "Rust model", "RTL simulation", "proven"]);
+    let number = |count: Option<u64>| count.map_or("never".to_owned(), |n| n.to_string());
+    for count in counts {
+        table.add_row([
+            count.what.clone(),
+            count.expected.to_string(),
+            count.unit.to_owned(),
+            number(count.model),
+            number(count.rtl),
+            match &count.proven {
+                Proof::Proven => "yes".to_owned(),
+                Proof::NotProven(reason) => format!("no: {reason}"),
+            },
+        ]);
+    }
+    table.trim_fmt() + "\n"
+}
+
+/// One object, `tofsim.cycle_counts/1`.
+pub fn counts_json(rtl: &str, counts: &[Count]) -> Value {
+    let row = |count: &Count| {
+        let reason = match &count.proven {
+            Proof::Proven => Value::Null,
+            Proof::NotProven(reason) => json!(reason),
+        };
+        json!({
+            "what": count.what,
+            "expected": count.expected,
+            "unit": count.unit,
+            "model": count.model,
+            "rtl": count.rtl,
+            "proven": count.proven == Proof::Proven,
+            "reason": reason,
+        })
+    };
+    json!({
+        "schema": "tofsim.cycle_counts/1",
+        "rtl": rtl,
+        "passed": counts.iter().all(Count::holds),
+        "counts": counts.iter().map(row).collect::<Vec<_>>(),
+    })
 }

@@ -1,0 +1,76 @@
+`default_nettype none
+
+// What holds of the laser pulse in every half cycle of clk_250, whatever the inputs do. One step
+// of the proof is such a half cycle, 2 ns; `HOLDS names the property to prove. It is the output
+// register of synthesis that is proven; the one of simulation is what the bench measures.
+module check_pulse #(
+    parameter Expected = 2000  // the number to prove [ps]
+) (
+    input wire rst,
+    input wire rst_250,
+    input wire acquire,
+    input wire laser_en,
+    input wire [1:0] laser_freq
+);
+    (* gclk *) wire step;
+    reg [1:0] half = 2'd3;  // half cycles since clk_125 rose; both clocks rise together
+    always @(posedge step) half <= half + 2'd1;
+    wire clk_125 = !half[1];
+    wire clk_250 = !half[0];
+    wire start, laser_on;
+
+    vcsel_driver dut (
+        .clk_125(clk_125),
+        .clk_250(clk_250),
+        .rst(rst),
+        .rst_250(rst_250),
+        .acquire(acquire),
+        .laser_en(laser_en),
+        .laser_freq(laser_freq),
+        .start(start),
+        .laser_on(laser_on)
+    );
+
+    reg first = 1'b1;           // the first cycle of clk_125
+    reg undisturbed = 1'b0;     // the last edge of clk_125 found acquire high and rst low
+    reg [2:0] no_reset = 3'd0;  // the last edges of clk_250 found rst_250 low
+    reg [13:0] width = 14'd0;   // time for which laser_on had been high [ps]
+
+    always @(posedge clk_125) {first, undisturbed} <= {1'b0, acquire && !rst};
+    always @(posedge clk_250) no_reset <= {no_reset[1:0], !rst_250};
+    always @(posedge step) width <= laser_on ? width + 14'd2000 : 14'd0;
+
+    // Whatever the edges find.
+    wire laser_on_width = width <= Expected && (laser_on || width == 0 || width == Expected);
+    // If neither a reset nor the end of acquire comes between the request and the laser edge.
+    wire laser_on_lag =
+        !(laser_on && undisturbed && &no_reset) || start && 2000 * half == Expected;
+
+    always @* begin
+        if (first) assume (rst && rst_250);
+        else assert (`HOLDS);
+    end
+endmodule
+
+// The output register of 7-series parts in its SAME_EDGE mode, after Xilinx UG471.
+module ODDR #(
+    parameter DDR_CLK_EDGE = "SAME_EDGE",
+    parameter INIT = 1'b0,
+    parameter SRTYPE = "SYNC"
+) (
+    input wire C,
+    input wire CE,
+    input wire D1,
+    input wire D2,
+    input wire R,
+    input wire S,
+    output wire Q
+);
+    reg q1 = INIT, q2 = INIT;
+    always @(posedge C) begin
+        if (R) {q1, q2} <= 2'b00;
+        else if (S) {q1, q2} <= 2'b11;
+        else if (CE) {q1, q2} <= {D1, D2};
+    end
+    assign Q = C ? q1 : q2;
+endmodule

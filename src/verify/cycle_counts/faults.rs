@@ -1,0 +1,49 @@
+//! Faults planted in our own Verilog are counted, and what they break is not proven.
+
+use super::Proof;
+use super::tests::{Edit, with_fault};
+
+/// A fault, what it is found by, and what is counted then.
+fn fault(key: &str, edits: &[Edit], seen: u64) {
+    let count = with_fault(key, edits);
+    assert_eq!(count.rtl, Some(seen), "{key}");
+    assert_eq!(count.model, Some(count.expected), "{key}");
+    assert!(matches!(count.proven, Proof::NotProven(_)) && !count.holds(), "{key}");
+}
+
+#[test]
+fn a_fault_of_the_estimator_is_counted_and_not_proven() {
+    let control = |from, to| [["estimator_ctrl.v", from, to]];
+    fault("latency", &control("Bias2 = 9'd266", "Bias2 = 9'd265"), 266);
+    fault("forward1_cycles", &control("<= Bias1;", "< Bias1;"), 256);
+    fault("tansig_cycles", &control("== Tansig;", ">= Tansig;"), 10);
+    fault("forward2_cycles", &control(">= Neuron0)", "> Neuron0)"), 9);
+}
+
+#[test]
+fn a_fault_of_the_laser_is_counted_and_not_proven() {
+    let laser = |from, to| [["vcsel_driver.v", from, to]];
+    fault("laser_period_0", &laser("5'd24", "5'd23"), 24);
+    fault("laser_period_1", &laser("5'd12", "5'd13"), 14);
+    fault("laser_period_2", &laser("5'd7", "5'd6"), 7);
+    fault(
+        "laser_period_3",
+        &laser("default: last_of_freq = 5'd5", "default: last_of_freq = 5'd9"),
+        10,
+    );
+    fault("first_shot_3", &laser("count_next = 5'd0", "count_next = {4'd0, !acquire}"), 5);
+    fault("pre_start_lead", &laser("count + 5'd2 == last", "count + 5'd3 == last"), 3);
+}
+
+#[test]
+fn a_fault_of_the_spad_reset_or_of_the_pulse_is_counted_and_not_proven() {
+    let laser = |from, to| [["vcsel_driver.v", from, to]];
+    let twice = "(count + 5'd2 == last || count + 5'd3 == last)";
+    fault("spad_rst_lead", &laser("count + 5'd2 == last", "count + 5'd1 == last"), 0);
+    fault("spad_rst_width", &laser("count + 5'd2 == last", twice), 2);
+    fault("spad_rst_mode_1", &[["spad_control.v", "pre_start && !mode", "pre_start"]], 1);
+    fault("laser_on_lag", &laser("fire && !laser_pulse", "fire"), 4000);
+    let simulated = ["ddr_output.v", "level <= clk_250 && d", "level <= clk_250 ? d : level"];
+    let synthesized = ["ddr_output.v", ".D2(1'b0)", ".D2(d)"];
+    fault("laser_on_width", &[simulated, synthesized], 4000);
+}
