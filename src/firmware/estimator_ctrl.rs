@@ -27,7 +27,7 @@ const TANSIG: u64 = BIAS + 1;
 /// First cycle of the output layer.
 const FORWARD2: u64 = TANSIG + 1;
 /// Cycle in which the depth is ready: the estimator's latency [cycles of clk_125].
-const DONE: u64 = FORWARD2 + NEURONS as u64 + 1;
+pub const DONE: u64 = FORWARD2 + NEURONS as u64 + 1;
 
 signals! {
     /// Input ports.
@@ -62,6 +62,13 @@ signals! {
         busy: bool,
         /// Cycles since e0.
         step: U<9>,
+    }
+}
+
+impl EstimatorCtrl {
+    /// Cycles since e0, up to the one of `algo_done`.
+    pub fn phase(&self) -> Option<u64> {
+        if self.algo_done { Some(DONE) } else { self.busy.then(|| self.step.get()) }
     }
 }
 

@@ -42,6 +42,13 @@ signals! {
     }
 }
 
+impl TdcLatch {
+    /// Whether the shot has had its hit, and tap 0 at the edge before.
+    pub fn before(&self) -> (bool, bool) {
+        (self.used, self.tap_0_last)
+    }
+}
+
 impl Clocked for TdcLatch {
     type In = In;
     /// Place of physical tap 0 in the order of arrival.

@@ -48,14 +48,21 @@ impl Setting {
         Setting { setup, as_told: false, seed, cycles: None, frames: 1, taps, bins, slack: 0 }
     }
 
+    /// How many taps may be high, in the order of arrival, but tap 0 always.
+    pub fn places(&self) -> usize {
+        let delays = &self.setup.params.tdc.delays;
+        let allowed = delays.order().iter().take_while(|&&tap| (tap as usize) < self.taps).count();
+        allowed.max(delays.tap_0_position() + 1)
+    }
+
     /// Lines of a block [clock cycles].
     pub fn cycles(&self) -> usize {
         self.cycles.unwrap_or(Self::CYCLES)
     }
 }
 
-/// How many clocks an effect takes: in the cycle before edge k + `cycles` the output shows what
-/// edge k took. 0 is a combinational path.
+/// How many clocks an effect takes at least, from the edge that takes the input to the one that
+/// changes the output: 0 for a plain register. A combinational path has none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Latency {
     /// Input port.

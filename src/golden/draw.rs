@@ -6,6 +6,9 @@ use rand_chacha::rand_core::Rng;
 use crate::kernel::{S, U};
 use crate::sensor::streams::{Source, stream};
 
+/// The place, after all blocks, of the draws that fill a block's memories.
+pub const MEMORIES: u64 = 1 << 32;
+
 /// Draws for the stimulus of one block.
 #[derive(Clone, Debug)]
 pub struct Draw(ChaCha8Rng);

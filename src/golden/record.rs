@@ -78,14 +78,13 @@ pub(super) fn record<B: Block>(
     let mut stimulus = Table::new(inputs(&B::Stimulus::list()));
     let own_places: Vec<_> = (0..B::Stimulus::COUNT).map(|column| vec![column]).collect();
     let order = setting.setup.params.tdc.delays.order();
-    let identity: Vec<u16> = (0..order.len() as u16).collect();
 
     let place = super::BLOCKS.iter().position(|other| other.name == spec.name);
     let mut draw = Draw::new(setting.seed, place.unwrap_or_default() as u64);
     let mut top = TofTop::new(Pins::default());
     for cycle in 0..setting.cycles() {
         let i = block.stimulus(cycle, &top, &mut draw);
-        let mut fill = Fill { table: &mut stimulus, places: &own_places, order: &identity };
+        let mut fill = Fill { table: &mut stimulus, places: &own_places, order };
         i.changes(None, 0, &mut fill);
         stimulus.push();
         let mut samples = places.iter();

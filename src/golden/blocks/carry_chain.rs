@@ -3,7 +3,7 @@
 
 use crate::firmware::carry_chain::{CarryChain as Chain, Delays, TAPS};
 use crate::firmware::tof_top::TofTop;
-use crate::golden::block::{Block, Parameter, Setting, Spec};
+use crate::golden::block::{Block, Latency, Parameter, Setting, Spec};
 use crate::golden::cover::Cover;
 use crate::golden::draw::Draw;
 use crate::golden::record::record;
@@ -20,7 +20,7 @@ pub(super) const SPEC: Spec = Spec {
     timing: CLK_125,
     reset: None,
     fast: &[],
-    latency: &[],
+    latency: &[Latency { from: "tdc_stop", to: "taps", cycles: 0 }],
     glue: None,
     record: |spec, setting| record(spec, setting, CarryChain::new(setting)),
 };
@@ -39,12 +39,21 @@ struct CarryChain {
 
 impl CarryChain {
     fn new(setting: &Setting) -> Self {
+        let delays = setting.setup.params.tdc.delays.clone();
+        let arrivals = delays.arrivals();
+        let ones = (0..=TAPS).filter(|&n| n == 0 || n == TAPS || arrivals[n - 1] < arrivals[n]);
         CarryChain {
-            delays: setting.setup.params.tdc.delays.clone(),
             stops: Stops::default(),
-            ones: Cover::new("ones in the taps", 0..=TAPS as u64),
+            ones: Cover::new("ones in the taps", ones.map(|n| n as u64)),
+            delays,
             travelling: Cover::new("changes from tap to tap", 0..4),
         }
+    }
+
+    /// A change at that instant, or as soon after the last one as the chain can hold.
+    fn toggle(&mut self, edge: Time, at: Time) {
+        let gap = Time::from_fs(self.delays.longest().fs() / 5);
+        self.stops.toggle(at.max(self.stops.last() + gap).max(edge + Time::from_fs(1)));
     }
 }
 
@@ -52,13 +61,30 @@ impl Block for CarryChain {
     type Stimulus = Stimulus;
 
     fn stimulus(&mut self, cycle: usize, _: &TofTop, draw: &mut Draw) -> Stimulus {
-        let gap = Time::from_fs(self.delays.longest().fs() / 5);
-        let pause = if draw.one_in(3) { Time::from_ns(draw.below(50)) } else { Time::ZERO };
         let edge = stops::edge(cycle);
-        if self.stops.last() <= edge {
-            let coming = stops::edge(cycle + draw.below(3) as usize + 1);
-            let wanted = stops::before(coming, &self.delays, draw) + pause;
-            self.stops.toggle(wanted.max(self.stops.last() + gap).max(edge + Time::from_fs(1)));
+        if self.stops.last() > edge {
+            return Stimulus {};
+        }
+        let coming = stops::edge(cycle + 2);
+        let quiet = !self.stops.ends_high() && self.stops.last() + self.delays.longest() <= coming;
+        let goal = self.ones.missing().find(|ones| *ones > 0);
+        match (draw.below(4), goal) {
+            (0, _) => {
+                let pause = Time::from_ns(draw.below(50));
+                self.toggle(edge, stops::before(coming, &self.delays, draw) + pause);
+            }
+            (1, _) => {
+                for _ in 0..4 {
+                    self.toggle(edge, self.stops.last() + Time::from_fs(draw.below(4_000_000)));
+                }
+            }
+            (_, Some(ones)) if quiet => {
+                self.toggle(edge, coming - self.delays.arrivals()[ones as usize - 1]);
+            }
+            _ => {
+                let coming = stops::edge(cycle + draw.below(3) as usize + 1);
+                self.toggle(edge, stops::before(coming, &self.delays, draw));
+            }
         }
         Stimulus {}
     }

@@ -34,8 +34,10 @@ pub(super) const SPEC: Spec = Spec {
     record,
 };
 
+/// A little more than Clear takes after a reset [ns].
+const ACQUIRE_NS: u64 = 2_120;
 /// Shots of a frame under random control.
-const SHOTS: u16 = 5;
+const SHOTS: u16 = 8;
 
 fn record(spec: &'static Spec, setting: &Setting) -> crate::error::Result<Vectors> {
     if setting.as_told {
@@ -49,12 +51,14 @@ fn record(spec: &'static Spec, setting: &Setting) -> crate::error::Result<Vector
     Ok(Vectors { coverage: covered.goals, ..vectors })
 }
 
-/// Control signals that change at random times.
+/// Control signals that change at random times; some frames are abandoned twice, the second time in
+/// Acquire.
 fn control(setup: &Setup, setting: &Setting) -> Vec<Control> {
     let mut draw = Draw::new(setting.seed, u64::MAX);
     let mut changes = Vec::new();
     let first_us = setup.pll().locked_at.fs() as f64 * 1e-9;
     let (mut at_ns, end_ns) = (0, 8 * setting.cycles() as u64);
+    let mut again = false;
     while at_ns < end_ns {
         let mut change = Control {
             at_us: first_us + at_ns as f64 * 1e-3,
@@ -62,7 +66,7 @@ fn control(setup: &Setup, setting: &Setting) -> Vec<Control> {
             mode: draw.one_in(8).then(|| draw.below(2)),
             laser_en: draw.one_in(8).then(|| !draw.one_in(4)),
             dsp_en: draw.one_in(4).then(|| !draw.one_in(4)),
-            dsp_rst: draw.one_in(20).then_some(true),
+            dsp_rst: (again || draw.one_in(20)).then_some(true),
             rst: draw.one_in(60).then_some(true),
         };
         changes.push(change.clone());
@@ -72,7 +76,10 @@ fn control(setup: &Setup, setting: &Setting) -> Vec<Control> {
             change.at_us = first_us + at_ns as f64 * 1e-3;
             (change.dsp_rst, change.rst) = (Some(false), Some(false));
             changes.push(change);
-            at_ns += 1 + draw.below(12_000);
+            again = draw.one_in(3);
+            at_ns += if again { ACQUIRE_NS + draw.below(600) } else { 1 + draw.below(12_000) };
+        } else {
+            again = false;
         }
     }
     changes

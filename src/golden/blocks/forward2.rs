@@ -1,0 +1,113 @@
+//! Activations of the whole range in the estimator's order and in any, and one product over and over
+//! until the depth has wrapped both ways.
+
+use crate::firmware::forward2::{In, NEURONS, Rom};
+use crate::firmware::tof_top::TofTop;
+use crate::golden::block::{Block, Latency, Parameter, Setting, Spec};
+use crate::golden::cover::Cover;
+use crate::golden::draw::Draw;
+use crate::golden::record::record;
+use crate::golden::timing::CLK_125;
+use crate::kernel::{Clocked, S, U};
+use crate::network::mem::{self, Mem};
+
+/// Cycles in one style.
+const STRETCH: usize = 512;
+/// A change of the depth that is larger than any product: it has wrapped.
+const WRAP: i64 = 1 << 34;
+
+pub(super) const SPEC: Spec = Spec {
+    name: "forward2",
+    scope: "depth_estimator.forward2",
+    timing: CLK_125,
+    reset: Some("rst"),
+    fast: &[],
+    latency: &[Latency { from: "l1_out_0", to: "depth", cycles: 0 }],
+    glue: None,
+    record: |spec, setting| record(spec, setting, Forward2::new(setting)),
+};
+
+struct Forward2 {
+    rom: Rom,
+    /// Neuron of the strongest weight but the first, which would begin the sum anew.
+    strongest: usize,
+    /// Neuron of the cycle before, if it was added.
+    last: Option<u64>,
+    neurons: Cover,
+    order: Cover,
+    wraps: Cover,
+}
+
+impl Forward2 {
+    fn new(setting: &Setting) -> Self {
+        let rom = setting.setup.params.depth_estimator.forward2;
+        let strength = |neuron: &usize| rom.w2[*neuron].get().abs();
+        Forward2 {
+            strongest: (1..NEURONS).max_by_key(strength).unwrap_or(1),
+            rom,
+            last: None,
+            neurons: Cover::new("rst x 32 + forward2_en x 16 + neuron", 0..64),
+            order: Cover::new("neuron from x 16 + to, both enabled", 0..256),
+            wraps: Cover::new("depth wraps upwards, downwards", 0..2),
+        }
+    }
+}
+
+impl Block for Forward2 {
+    type Stimulus = In;
+
+    fn stimulus(&mut self, cycle: usize, _: &TofTop, draw: &mut Draw) -> In {
+        let any = In {
+            rst: draw.one_in(8),
+            forward2_en: !draw.one_in(4),
+            neuron: draw.word(),
+            l1_out: std::array::from_fn(|_| draw.signed()),
+        };
+        let goal = self.wraps.missing().next();
+        let i = match (cycle / STRETCH % 4, goal) {
+            (1, _) => {
+                let neuron = U::new(cycle as u64 % 12);
+                In { rst: false, forward2_en: neuron.get() < 10, neuron, ..any }
+            }
+            (2 | 3, Some(goal)) => {
+                let up = (self.rom.w2[self.strongest].get() > 0) == (goal == 0);
+                let mut l1_out = any.l1_out;
+                l1_out[self.strongest] = S::new(if up { 32_767 } else { -32_768 });
+                let neuron = U::new(self.strongest as u64);
+                In { rst: false, forward2_en: true, neuron, l1_out }
+            }
+            _ => any,
+        };
+        let bits = u64::from(i.rst) * 32 + u64::from(i.forward2_en) * 16;
+        self.neurons.see(bits + i.neuron.get());
+        let now = (i.forward2_en && !i.rst).then(|| i.neuron.get());
+        if let (Some(last), Some(now)) = (self.last, now) {
+            self.order.see(last * 16 + now);
+        }
+        self.last = now;
+        i
+    }
+
+    fn edge(&mut self, i: &In, top: &mut TofTop) {
+        let forward2 = &mut top.depth_estimator.forward2;
+        let before = forward2.depth;
+        *forward2 = forward2.next(i, &self.rom);
+        let change = forward2.depth.get() - before.get();
+        let goes_on = i.forward2_en && !i.rst && i.neuron != 0;
+        self.wraps.see_if(goes_on && change < -WRAP, 0);
+        self.wraps.see_if(goes_on && change > WRAP, 1);
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        let file = Parameter::File;
+        vec![("W2File", file("w2.mem")), ("B2File", file("b2.mem"))]
+    }
+
+    fn roms(&self) -> Vec<Mem> {
+        mem::forward2(&self.rom).into()
+    }
+
+    fn coverage(self) -> Vec<Cover> {
+        vec![self.neurons, self.order, self.wraps]
+    }
+}
