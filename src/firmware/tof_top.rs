@@ -202,9 +202,10 @@ impl TofTop {
         self.estimator_asleep = self.depth_estimator.is_asleep(p);
     }
 
-    /// Combinational wires, which only registers drive.
+    /// Combinational wires, which only registers drive. Every edge does this; at power-up it is for
+    /// who makes the device.
     #[inline(always)]
-    fn settle(&mut self, p: &Params) {
+    pub fn settle(&mut self, p: &Params) {
         self.nets.rst_dsp = self.reset_sync_125.rst_sync || self.control_sync.dsp_rst_sync;
         (self.nets.tdc_valid, self.nets.tdc_code) = match &p.code_source {
             CodeSource::Tdc => (self.tdc.tdc_decoder.tdc_valid, self.tdc.tdc_decoder.tdc_code),

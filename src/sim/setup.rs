@@ -92,14 +92,16 @@ impl Setup {
         let scenario = &self.scenario;
         let rms_ps = scenario.pll.jitter_rms_ps;
         let jitter = (rms_ps > 0.0).then(|| Jitter::new(rms_ps, scenario.seed));
-        Device::new(
+        let mut device = Device::new(
             self.pins,
             self.pll.clone(),
             jitter,
             self.light.clone(),
             Time::from_ps_f64(scenario.spad.dead_time_ns * 1e3),
             Timeline::new(scenario),
-        )
+        );
+        device.top.settle(&self.params);
+        device
     }
 
     /// Length of an undisturbed frame at a laser rate: from the edge that begins Clear to the one

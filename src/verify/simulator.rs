@@ -103,7 +103,7 @@ impl Simulator {
         };
         let missing = match self {
             Simulator::Icarus => finished.output.contains("Unable to find the root module"),
-            Simulator::Verilator => finished.output.contains("top-module was not found"),
+            Simulator::Verilator => finished.output.contains("was not found in design"),
         };
         if missing {
             let fault = Input::new(&rtl.source, "no such module in it").field("module");
