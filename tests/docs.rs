@@ -31,7 +31,9 @@ fn table(module: &str, entries: &[Entry]) -> String {
     for entry in entries.iter().filter(|entry| entry.scope == scope) {
         let name = entry.signal.name.as_str();
         found = true;
-        if ["clk_125", "clk_250", "rst", "rst_250"].contains(&name) && entry.kind == Kind::Input {
+        if ["clk", "clk_125", "clk_250", "rst", "rst_250"].contains(&name)
+            && entry.kind == Kind::Input
+        {
             continue;
         }
         let direction = match entry.kind {
