@@ -71,6 +71,11 @@ impl Rtl {
         Ok(Rtl { files, source })
     }
 
+    /// Whether a file says by its name that it is SystemVerilog.
+    pub fn is_system_verilog(&self) -> bool {
+        self.files.iter().any(|file| file.extension().is_some_and(|end| end == "sv"))
+    }
+
     /// Our own, written into `folder`.
     ///
     /// # Errors
@@ -83,5 +88,19 @@ impl Rtl {
             files.push(path);
         }
         Ok(Rtl { files, source: "rtl_ref".to_owned() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_module_of_ours_is_in_the_program() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("rtl_ref");
+        let files = Rtl::folder(&folder).unwrap().files;
+        let names = files.iter().map(|path| path.file_name().unwrap().to_str().unwrap());
+        let own: Vec<_> = OWN.iter().map(|(name, _)| *name).collect();
+        assert_eq!(names.filter(|name| *name != "kc705_top.v").collect::<Vec<_>>(), own);
     }
 }

@@ -141,10 +141,9 @@ impl Compiled {
     }
 }
 
-/// The language: Verilog-2005 unless a file says by its name that it is SystemVerilog.
-fn generation(rtl: &Rtl) -> &'static str {
-    let system = rtl.files.iter().any(|file| file.extension().is_some_and(|end| end == "sv"));
-    if system { "-g2012" } else { "-g2005" }
+/// The language: Verilog-2005 unless there is SystemVerilog.
+pub(super) fn generation(rtl: &Rtl) -> &'static str {
+    if rtl.is_system_verilog() { "-g2012" } else { "-g2005" }
 }
 
 /// Lines of a simulator's message that are passed on.

@@ -83,8 +83,3 @@ fn count(rows: &[Row], rtl: &Rtl, limits: &Limits) -> Result<Vec<Count>> {
         })
         .collect()
 }
-
-/// Whether a file says by its name that it is SystemVerilog.
-fn is_system_verilog(rtl: &Rtl) -> bool {
-    rtl.files.iter().any(|file| file.extension().is_some_and(|end| end == "sv"))
-}

@@ -9,8 +9,8 @@ use crate::output::write_file;
 use crate::verify::Rtl;
 use crate::verify::process::{Finished, Limits, YOSYS};
 
+use super::Proof;
 use super::rows::Row;
-use super::{Proof, is_system_verilog};
 
 /// What one run of Yosys says.
 enum Answer {
@@ -55,7 +55,7 @@ pub fn mutants(expected: u64) -> impl Iterator<Item = u64> {
 }
 
 fn ask(row: &Row, number: u64, rtl: &Rtl, folder: &Path, limits: &Limits) -> Result<Answer> {
-    let frontend = if is_system_verilog(rtl) { "verilog -defer -sv" } else { "verilog -defer" };
+    let frontend = if rtl.is_system_verilog() { "verilog -defer -sv" } else { "verilog -defer" };
     let mut args: Vec<OsString> = ["-f", frontend, "-p"].map(OsString::from).into();
     args.push(script(row, number).into());
     args.extend(rtl.files.iter().map(|file| OsStr::new(file).to_owned()));

@@ -8,8 +8,8 @@ use crate::error::{Input, Result};
 use crate::output::write_file;
 use crate::verify::Rtl;
 use crate::verify::process::{IVERILOG, Limits, VVP};
+use crate::verify::simulator::generation;
 
-use super::is_system_verilog;
 use super::seen::Seen;
 
 /// The benches: name of the module, which is the file's stem, and text.
@@ -30,7 +30,7 @@ pub fn seen(rtl: &Rtl, folder: &Path, limits: &Limits) -> Result<Seen> {
     for (name, text) in BENCHES {
         let bench = format!("{name}.v");
         write_file(&folder.join(&bench), |file| file.write_all(text.as_bytes()))?;
-        let language = if is_system_verilog(rtl) { "-g2012" } else { "-g2005" };
+        let language = generation(rtl);
         let mut args: Vec<OsString> =
             [language, "-s", name, "-o", "bench.vvp", &bench].map(OsString::from).into();
         args.extend(rtl.files.iter().map(|file| OsStr::new(file).to_owned()));
