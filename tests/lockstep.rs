@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use tofsim::golden::BLOCKS;
 
-/// Lines of a block's own bench.
+/// Lines of a block's own bench, at least.
 const CYCLES: u64 = 20_000;
 
 /// The reports of a `verify` that has to pass.
@@ -32,7 +32,7 @@ fn every_block_passes_in(simulator: &str) {
     let expected: Vec<_> = BLOCKS.iter().map(|spec| spec.name).collect();
     assert_eq!(names, expected);
     for block in &blocks {
-        assert_eq!(block["cycles"], CYCLES, "{block}");
+        assert!(block["cycles"].as_u64() >= Some(CYCLES), "{block}");
         assert_eq!(block["goals"]["met"], block["goals"]["of"], "{block}");
     }
 }

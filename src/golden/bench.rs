@@ -42,6 +42,11 @@ impl<'a> Bench<'a> {
         }
     }
 
+    /// What it runs.
+    pub fn vectors(&self) -> &Vectors {
+        self.vectors
+    }
+
     /// Names of the parameters that it sets.
     pub fn parameters(&self) -> impl Iterator<Item = &'static str> {
         self.vectors.parameters.iter().map(|(name, _)| *name)

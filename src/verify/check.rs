@@ -92,7 +92,7 @@ impl Check<'_> {
             coverage: coverage(&vectors),
         };
         if let Verdict::Differs { first, .. } = report.verdict.clone() {
-            self.look_again(&mut report, &compiled, &vectors, &first, work)?;
+            self.look_again(&mut report, &compiled, &bench, &first, work)?;
         }
         Ok(report)
     }
@@ -108,16 +108,16 @@ impl Check<'_> {
         &self,
         report: &mut Report,
         compiled: &Compiled,
-        vectors: &Vectors,
+        bench: &Bench,
         first: &Mismatch,
         work: &Path,
     ) -> Result<()> {
         const GOT: &str = "got.mem";
         self.verdict(compiled, Some(GOT))?;
-        let seen = Seen::read(&work.join(GOT))?;
-        report.around = Some(seen.around(vectors, first));
+        let seen = Seen::read(&work.join(GOT), bench)?;
+        report.around = Some(seen.around(first));
         create_directory(self.output)?;
-        wave::write(self.output, &report.name, vectors, &seen, first)?;
+        wave::write(self.output, &report.name, bench.vectors(), &seen, first)?;
         report.wave = Some(self.output.join(format!("{}.vcd", report.name)));
         Ok(())
     }

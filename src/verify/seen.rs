@@ -5,59 +5,84 @@ use std::path::Path;
 use comfy_table::Table as Text;
 
 use crate::error::{Input, Result, read_text};
-use crate::golden::Vectors;
+use crate::golden::bench::Bench;
 use crate::golden::table::{Column, Table};
 use crate::report::table::plain;
 
 use super::verdict::Mismatch;
 
-/// The lines that a bench writes with `+got=`.
+/// The lines that a bench writes with `+got=`, and what it compared them with.
 #[derive(Clone, Debug)]
-pub struct Seen(Vec<String>);
+pub struct Seen<'a> {
+    lines: Vec<String>,
+    bench: &'a Bench<'a>,
+}
 
 /// Cycles shown before and after the first mismatch.
 const AROUND: usize = 2;
 /// Inputs wider than this are not shown [bits].
 const WIDEST: usize = 64;
 
-impl Seen {
+impl<'a> Seen<'a> {
     /// From the file.
     ///
     /// # Errors
     /// When it cannot be read.
-    pub fn read(path: &Path) -> Result<Self> {
+    pub fn read(path: &Path, bench: &'a Bench<'a>) -> Result<Self> {
         let text = read_text(path)?;
         if text.is_empty() {
             return Err(Input::new(path.display(), "the bench has written nothing").into());
         }
-        Ok(Seen(text.lines().map(str::to_owned).collect()))
+        Ok(Seen { lines: text.lines().map(str::to_owned).collect(), bench })
     }
 
     /// Lines.
     pub fn len(&self) -> usize {
-        self.0.len()
+        self.lines.len()
     }
 
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.lines.is_empty()
     }
 
     /// A value as binary digits, the highest first, with x and z.
     pub fn bits(&self, row: usize, column: &Column) -> String {
-        let digits = self.0.get(row).map_or("", String::as_str).trim();
+        let digits = self.lines.get(row).map_or("", String::as_str).trim();
+        let Column { low, width, .. } = *column;
+        let (first, last) = (low / 4, (low + width).div_ceil(4));
+        let Some(end) = digits.len().checked_sub(first) else { return String::new() };
+        let begin = digits.len().saturating_sub(last);
         let nibble = |digit: char| match digit.to_digit(16) {
             Some(value) => format!("{value:04b}"),
             None => String::from(digit.to_ascii_lowercase()).repeat(4),
         };
-        let line: String = digits.chars().map(nibble).collect();
-        let end = line.len().saturating_sub(column.low);
-        let begin = end.saturating_sub(column.width);
-        line.get(begin..end).unwrap_or("").to_owned()
+        let bits: String = digits.get(begin..end).unwrap_or("").chars().map(nibble).collect();
+        let end = bits.len().saturating_sub(low % 4);
+        bits.get(end.saturating_sub(width)..end).unwrap_or("").to_owned()
+    }
+
+    /// What a value should have been, as binary digits, or x where nothing is expected: before an
+    /// output that comes later has come, and of one that is not compared.
+    pub fn wanted(&self, cycle: usize, column: &Column) -> String {
+        let expected = &self.bench.vectors().expected;
+        let delay = self.bench.delays.get(&column.name).copied().unwrap_or(0);
+        let row = usize::try_from(cycle as i64 - delay).ok().filter(|row| *row < expected.rows());
+        match row.filter(|_| !self.bench.ignored.contains(&column.name)) {
+            Some(row) => binary(expected, row, column),
+            None => "x".repeat(column.width),
+        }
+    }
+
+    /// Whether the two sides differ there.
+    pub fn differs(&self, cycle: usize, column: &Column) -> bool {
+        let wanted = self.wanted(cycle, column);
+        !wanted.contains('x') && wanted != self.bits(cycle, column)
     }
 
     /// The five cycles around the first mismatch: inputs, and both sides of what differs there.
-    pub fn around(&self, vectors: &Vectors, first: &Mismatch) -> String {
+    pub fn around(&self, first: &Mismatch) -> String {
+        let vectors = self.bench.vectors();
         let begin = first.cycle.saturating_sub(AROUND);
         let cycles = begin..(first.cycle + AROUND + 1).min(self.len());
         let mut text = plain();
@@ -72,11 +97,9 @@ impl Seen {
                 add(&mut text, &column.name, "input", values);
             }
         }
-        let expected = &vectors.expected;
-        for (k, column) in expected.columns().iter().enumerate() {
-            let differs = self.bits(first.cycle, column) != binary(expected, first.cycle, column);
-            if differs && column.width <= WIDEST {
-                let wanted = cycles.clone().map(|cycle| expected.hex(cycle, k));
+        for column in vectors.expected.columns() {
+            if self.differs(first.cycle, column) && column.width <= WIDEST {
+                let wanted = cycles.clone().map(|cycle| hexadecimal(&self.wanted(cycle, column)));
                 add(&mut text, &column.name, "expected", wanted);
                 let got = cycles.clone().map(|cycle| hexadecimal(&self.bits(cycle, column)));
                 add(&mut text, &column.name, "got", got);
@@ -90,7 +113,7 @@ fn add(text: &mut Text, name: &str, side: &str, values: impl Iterator<Item = Str
     text.add_row([name.to_owned(), side.to_owned()].into_iter().chain(values));
 }
 
-/// An expected value as binary digits, the highest first.
+/// A value of a line as binary digits, the highest first.
 pub fn binary(table: &Table, row: usize, column: &Column) -> String {
     let bits = &table.row(row)[column.low..column.low + column.width];
     bits.iter().rev().map(|bit| if *bit { '1' } else { '0' }).collect()
@@ -110,6 +133,9 @@ fn hexadecimal(bits: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::golden::{Setting, blocks};
+    use crate::scenario;
+    use crate::sim::setup::Setup;
 
     fn column(width: usize, low: usize) -> Column {
         Column { name: String::new(), width, low, sample: 0, internal: false }
@@ -117,11 +143,22 @@ mod tests {
 
     #[test]
     fn a_column_is_cut_out_of_a_line_with_unknown_bits() {
-        let seen = Seen(vec!["0x5".to_owned(), "fff".to_owned()]);
+        let setup = Setup::new(scenario::load(scenario::DEFAULT, &[]).unwrap()).unwrap();
+        let spec = blocks::find("coarse_counter").unwrap();
+        let setting = Setting { cycles: Some(9), ..Setting::new(setup) };
+        let vectors = (spec.record)(spec, &setting).unwrap();
+        let mut bench = Bench::new(&vectors);
+        bench.delays.insert("window".to_owned(), 1);
+        let lines = vec!["0x5".to_owned(), "fff".to_owned()];
+        let seen = Seen { lines, bench: &bench };
         assert_eq!(seen.bits(0, &column(6, 1)), "xxx010");
         assert_eq!(seen.bits(1, &column(3, 9)), "111");
+        assert_eq!(seen.bits(7, &column(1, 0)), "");
         assert_eq!(hexadecimal("xxx010"), "xx");
         assert_eq!(hexadecimal("10101"), "15");
-        assert_eq!(seen.bits(7, &column(1, 0)), "");
+
+        let window = &vectors.expected.columns()[1];
+        assert_eq!(seen.wanted(0, window), "x", "comes a clock later");
+        assert_eq!(seen.wanted(1, window), binary(&vectors.expected, 0, window));
     }
 }

@@ -101,7 +101,7 @@ fn body(
                 for (n, (code, columns)) in side.iter().enumerate() {
                     let Some(column) = shown(columns, sample) else { continue };
                     let bits = match k {
-                        0 => binary(&vectors.expected, cycle, column),
+                        0 => seen.wanted(cycle, column),
                         1 => seen.bits(cycle, column),
                         _ => binary(&vectors.stimulus, cycle, column),
                     };
@@ -156,10 +156,7 @@ fn save_file(wave: &str, vectors: &Vectors, seen: &Seen, first: &Mismatch) -> St
         format!("+{{{name} {side}}} {top}.{side}.{name}")
     };
     for signal in signals(vectors.expected.columns()) {
-        let differs = |column: &&&Column| {
-            seen.bits(first.cycle, column) != binary(&vectors.expected, first.cycle, column)
-        };
-        if signal.iter().any(|column| differs(&column)) {
+        if signal.iter().any(|column| seen.differs(first.cycle, column)) {
             for scope in ["expected", "got"] {
                 let _ = writeln!(text, "@22\n{}", name(scope, signal[0]));
             }

@@ -6,13 +6,13 @@ use crate::firmware::depth_estimator::{In, Params};
 use crate::firmware::estimator_ctrl::DONE;
 use crate::firmware::tansig::{ENTRIES, address};
 use crate::firmware::tof_top::TofTop;
-use crate::golden::block::{Block, Glue, Latency, Parameter, Setting, Spec};
+use crate::golden::block::{Block, Latency, Parameter, Setting, Spec};
 use crate::golden::cover::Cover;
 use crate::golden::draw::{Draw, MEMORIES};
 use crate::golden::record::record;
 use crate::golden::timing::CLK_125;
 use crate::kernel::U;
-use crate::network::mem::{self, Mem, lines};
+use crate::network::mem::{self, Mem};
 use crate::signals;
 
 mod histograms;
@@ -29,12 +29,7 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     fast: &[],
     latency: &[Latency { from: "algo_start", to: "algo_done", cycles: DONE }],
-    glue: Some(Glue {
-        drives: "count",
-        verilog: "  reg [15:0] histograms [0:8191];\n  \
-                  initial $readmemh(\"histograms.mem\", histograms);\n  \
-                  wire [15:0] count = read_en ? histograms[{histogram, read_addr}] : 16'd0;\n",
-    }),
+    glue: Some(histograms::GLUE),
     record: |spec, setting| record(spec, setting, DepthEstimator::new(setting)),
 };
 
@@ -142,10 +137,8 @@ impl Block for DepthEstimator {
     }
 
     fn roms(&self) -> Vec<Mem> {
-        let words = self.histograms.iter().flatten().map(|count| count.get().into());
-        let mut roms = mem::depth_estimator(&self.params);
-        roms.push(Mem { name: "histograms.mem", text: lines(words, 4) });
-        roms
+        let own = histograms::mem(&self.histograms);
+        mem::depth_estimator(&self.params).into_iter().chain([own]).collect()
     }
 
     fn coverage(self) -> Vec<Cover> {

@@ -58,7 +58,7 @@ impl EstimatorCtrl {
 impl Block for EstimatorCtrl {
     type Stimulus = In;
 
-    fn stimulus(&mut self, _: usize, top: &TofTop, draw: &mut Draw) -> In {
+    fn stimulus(&mut self, cycle: usize, top: &TofTop, draw: &mut Draw) -> In {
         let phase = top.depth_estimator.estimator_ctrl.phase();
         let i = match phase {
             Some(phase) => In {
@@ -66,7 +66,7 @@ impl Block for EstimatorCtrl {
                 // Every phase within four estimations.
                 algo_start: (phase + self.runs).is_multiple_of(4) || draw.one_in(50),
             },
-            None => In { rst: draw.one_in(6), algo_start: draw.one_in(3) },
+            None => In { rst: draw.one_in(6) && cycle > 0, algo_start: draw.one_in(3) },
         };
         match phase {
             Some(phase) => {

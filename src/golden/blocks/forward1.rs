@@ -94,8 +94,8 @@ impl Block for Forward1 {
                 self.sequence.see_if(place > 0, word);
                 In {
                     rst: false,
-                    forward1_en: place > 0,
-                    read_en: word < BIAS_ROW as u64,
+                    forward1_en: true,
+                    read_en: word != BIAS_ROW as u64,
                     read_addr: U::new(word),
                     rom_addr: U::new(next),
                     count,

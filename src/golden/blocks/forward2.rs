@@ -1,5 +1,5 @@
 //! Activations of the whole range in the estimator's order and in any, and one product over and over
-//! until the depth has wrapped both ways.
+//! until the depth has wrapped both ways; with the scenario's network, but the bias negative.
 
 use crate::firmware::forward2::{In, NEURONS, Rom};
 use crate::firmware::tof_top::TofTop;
@@ -40,7 +40,8 @@ struct Forward2 {
 
 impl Forward2 {
     fn new(setting: &Setting) -> Self {
-        let rom = setting.setup.params.depth_estimator.forward2;
+        let mut rom = setting.setup.params.depth_estimator.forward2;
+        rom.b2 = S::new(-rom.b2.get().abs());
         let strength = |neuron: &usize| rom.w2[*neuron].get().abs();
         Forward2 {
             strongest: (1..NEURONS).max_by_key(strength).unwrap_or(1),

@@ -1,5 +1,5 @@
-//! Clear, hits and readout as in a frame, each overlapped by the others; one word counts on and on;
-//! and all three at once at equal and different addresses.
+//! Clear, hits and readout as in a frame, each overlapped by the others; all three at once at equal
+//! and different addresses; and then hits of one word until it wraps.
 
 use crate::firmware::histogram_builder::In;
 use crate::firmware::tof_top::TofTop;
@@ -10,7 +10,11 @@ use crate::golden::record::record;
 use crate::golden::timing::CLK_125;
 use crate::kernel::U;
 
-/// Hits that pass a word of 11 bits; to pass 16 takes longer than the vectors.
+/// Lines before one word is hit until it wraps.
+const MIXED: usize = 20_000;
+/// Lines in all, if not told otherwise.
+const LINES: usize = MIXED + 67_500;
+/// Hits of that word before it is cleared.
 const MANY: u64 = 2600;
 
 pub(super) const SPEC: Spec = Spec {
@@ -24,13 +28,18 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "tdc_valid", to: "count", cycles: 0 },
     ],
     glue: None,
-    record: |spec, setting| record(spec, setting, HistogramBuilder::new(setting)),
+    record: |spec, setting| {
+        let cycles = setting.cycles.or(Some(LINES));
+        record(spec, &Setting { cycles, ..setting.clone() }, HistogramBuilder::new(setting))
+    },
 };
 
 struct HistogramBuilder {
     bins: u64,
     /// The word that counts on.
     hot: u64,
+    /// It has been seen close to its highest count.
+    full: bool,
     cleared: Cover,
     hit: Cover,
     shown: Cover,
@@ -44,11 +53,12 @@ impl HistogramBuilder {
         HistogramBuilder {
             bins: setting.bins,
             hot: setting.seed % setting.bins,
+            full: false,
             cleared: Cover::new("words cleared that were not 0", words.clone()),
             hit: Cover::new("words hit", words.clone()),
             shown: Cover::new("words shown that are not 0", words),
             overlaps: Cover::new("clear, tdc_valid, read_en as bits x 5 + equal addresses", 0..40),
-            sizes: Cover::new("bits of a count shown", 1..=12),
+            sizes: Cover::new("bits of a count shown, or wrapped (17)", 1..=17),
         }
     }
 }
@@ -82,7 +92,9 @@ impl Block for HistogramBuilder {
             tdc_valid: draw.one_in(2),
             read_en: draw.one_in(2),
         };
+        let hammers = cycle >= MIXED && !draw.one_in(64);
         match round % 5 {
+            _ if hammers => (i.clear, i.tdc_valid, i.tdc_code) = (false, true, U::new(self.hot)),
             0 => (i.clear, i.clear_addr) = (true, U::new(word)),
             1 | 2 => {
                 let code = if round % 5 == 1 { word } else { self.hot };
@@ -96,7 +108,8 @@ impl Block for HistogramBuilder {
         }
         // The word that counts on is not cleared before it has many hits.
         let count = |address: U<8>| histogram.ram[address.index()].get();
-        i.clear &= i.clear_addr != self.hot || count(i.clear_addr) >= MANY;
+        let may_clear = cycle < MIXED && count(U::new(self.hot)) >= MANY;
+        i.clear &= i.clear_addr != self.hot || may_clear;
 
         let [clear, hit] = [i.clear, i.tdc_valid && !i.clear];
         let shown = histogram.count(&i).get();
@@ -104,6 +117,9 @@ impl Block for HistogramBuilder {
         self.hit.see_if(hit, i.tdc_code.get());
         self.shown.see_if(shown > 0 && !clear && !hit, i.read_addr.get());
         self.sizes.see(64 - u64::from(shown.leading_zeros()));
+        let is_hot = hit && i.tdc_code == self.hot && i.read_en;
+        self.sizes.see_if(self.full && is_hot && shown < 64, 17);
+        self.full |= shown >= 65_472;
         let bits = [i.clear, i.tdc_valid, i.read_en];
         let bits = bits.iter().fold(0, |sum, &bit| sum * 2 + u64::from(bit));
         self.overlaps.see(bits * 5 + equal(&i));

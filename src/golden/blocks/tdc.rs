@@ -3,7 +3,6 @@
 //! sweep through every number of taps that a hit can have.
 
 use crate::firmware::tdc::{In, Params};
-use crate::firmware::tdc_decoder::code;
 use crate::firmware::tof_top::TofTop;
 use crate::golden::block::{Block, Latency, Parameter, Setting, Spec};
 use crate::golden::cover::Cover;
@@ -16,9 +15,11 @@ use crate::kernel::Time;
 use crate::network::mem::{self, Mem};
 use crate::signals;
 
+mod goals;
 mod light;
 
-use light::{Ages, Light};
+use goals::{Goals, LAST_RESET};
+use light::Light;
 
 pub(super) const SPEC: Spec = Spec {
     name: "tdc",
@@ -52,64 +53,15 @@ struct Tdc {
     next: usize,
     /// Cycle after a start in which the next reset comes.
     reset: usize,
-    last_code: Option<u64>,
-    taps: Cover,
-    codes: Cover,
-    coarse: Cover,
-    rises: Cover,
-    resets: Cover,
-    corners: Cover,
+    goals: Goals,
 }
 
 impl Tdc {
     fn new(setting: &Setting) -> Self {
         let params = setting.setup.params.tdc.clone();
         let light = Light::new(&params.delays);
-        let code_of = |ages: &Ages| {
-            Some(code(light::coarse(ages.first), ages.taps as usize, &params.cal)?.get())
-        };
-        Tdc {
-            started: 0,
-            next: 3,
-            reset: 0,
-            last_code: None,
-            taps: Cover::new("taps of a hit", light.ages.iter().map(|ages| ages.taps)),
-            codes: Cover::new("codes", light.ages.iter().filter_map(code_of)),
-            coarse: Cover::new("coarse of a hit", 0..8),
-            rises: Cover::new("edges from the one of start to the one that sees a rise", 0..10),
-            resets: Cover::new("reset in cycle after start", 0..12),
-            corners: Cover::new(
-                "level held over, second hit, hit kept with start, last edge, equal codes",
-                0..5,
-            ),
-            light,
-            params,
-        }
-    }
-
-    /// What has come to pass.
-    fn see(&mut self, cycle: usize, start: bool, rst: bool, top: &TofTop) {
-        let (latch, decoder) = (&top.tdc.tdc_latch, &top.tdc.tdc_decoder);
-        let (window, coarse) = (top.tdc.coarse_counter.window, top.tdc.coarse_counter.coarse);
-        let high = top.tdc.carry_chain.taps.tap(self.params.delays.tap_0_position());
-        let (used, before) = latch.before();
-        let rise = high && !before && !rst;
-        self.rises.see_if(rise, cycle.saturating_sub(self.started + 1) as u64);
-        self.corners.see_if(start && high && before, 0);
-        self.corners.see_if(rise && window && used, 1);
-        self.corners.see_if(rise && window && !used && start, 2);
-        self.corners.see_if(rise && window && coarse == 7, 3);
-        if let Some((taps, coarse)) = decoder.decoding().filter(|_| !rst) {
-            self.taps.see(taps);
-            self.coarse.see(coarse);
-            self.light.counted(taps);
-        }
-        if decoder.tdc_valid {
-            let code = decoder.tdc_code.get();
-            self.codes.see(code);
-            self.corners.see_if(self.last_code == Some(code), 4);
-            self.last_code = Some(code);
-        }
+        let goals = Goals::new(&light.ages, &params);
+        Tdc { params, light, started: 0, next: 3, reset: LAST_RESET, goals }
     }
 }
 
@@ -120,10 +72,11 @@ impl Block for Tdc {
         let start = cycle == self.next;
         let since = if start { 0 } else { cycle - self.started };
         let rst = since == self.reset && draw.one_in(6);
-        self.see(cycle, start, rst, top);
+        if let Some(taps) = self.goals.see(cycle - self.started, start, rst, top) {
+            self.light.counted(taps);
+        }
         if rst {
-            self.resets.see(self.reset as u64);
-            self.reset = (self.reset + 1) % 12;
+            self.reset = (self.reset + 1) % (LAST_RESET + 1);
         }
         if start {
             let period = match draw.below(8) {
@@ -172,6 +125,6 @@ impl Block for Tdc {
     }
 
     fn coverage(self) -> Vec<Cover> {
-        vec![self.taps, self.codes, self.coarse, self.rises, self.resets, self.corners]
+        self.goals.coverage()
     }
 }

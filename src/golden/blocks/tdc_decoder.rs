@@ -87,9 +87,9 @@ impl TdcDecoder {
 impl Block for TdcDecoder {
     type Stimulus = In;
 
-    fn stimulus(&mut self, _: usize, top: &TofTop, draw: &mut Draw) -> In {
+    fn stimulus(&mut self, cycle: usize, top: &TofTop, draw: &mut Draw) -> In {
         let decoder = &top.tdc.tdc_decoder;
-        let (rst, hit) = (draw.one_in(40), draw.one_in(2));
+        let (rst, hit) = (cycle > 0 && draw.one_in(40), draw.one_in(2));
         let (round, n) = (self.hits / (self.taps + 1), self.hits % (self.taps + 1));
         let special = draw.below(8);
         let (coarse, n) = match special {

@@ -73,13 +73,15 @@ impl TdcLatch {
 impl Block for TdcLatch {
     type Stimulus = In;
 
-    fn stimulus(&mut self, _: usize, top: &TofTop, draw: &mut Draw) -> In {
+    fn stimulus(&mut self, cycle: usize, top: &TofTop, draw: &mut Draw) -> In {
         let (used, before) = top.tdc.tdc_latch.before();
-        let high = draw.one_in(2);
+        // A hit at the first edge shows how the registers begin.
+        let first = cycle == 0;
+        let high = first || draw.one_in(2);
         let i = In {
-            rst: draw.one_in(10),
+            rst: !first && draw.one_in(10),
             start: draw.one_in(3),
-            window: !draw.one_in(3),
+            window: first || !draw.one_in(3),
             coarse: draw.word(),
             taps: self.draw(high, draw),
         };

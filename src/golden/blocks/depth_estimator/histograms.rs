@@ -5,19 +5,29 @@ use crate::firmware::forward1::BIAS_ROW;
 use crate::firmware::forward2::NEURONS;
 use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tansig::{ENTRIES, address};
+use crate::golden::block::Glue;
 use crate::golden::draw::Draw;
 use crate::kernel::{S, U};
+use crate::network::mem::{Mem, lines};
 
 /// Hits of a full frame.
 const HITS: u64 = u16::MAX as u64;
 /// How many histograms.
 pub(super) const COUNT: usize = 32;
 
+/// How the bench reads them.
+pub(super) const GLUE: Glue = Glue {
+    drives: "count",
+    verilog: "  reg [15:0] histograms [0:8191];\n  \
+                  initial $readmemh(\"histograms.mem\", histograms);\n  \
+                  wire [15:0] count = read_en ? histograms[{histogram, read_addr}] : 16'd0;\n",
+};
+
 /// Words of a histogram [hits].
 pub(super) type Histogram = [U<16>; BINS];
 
-/// Empty, level, random, all hits in the bin that drives each neuron to either end, and measured
-/// ones; and what of the tansig's ends they reach, as neuron x 4096 + address.
+/// Empty, level, random, all hits in the bin that drives each neuron to either end, more than there
+/// can be for sums of the whole width, and measured ones; and what of the tansig's ends they reach, as neuron x 4096 + address.
 pub(super) fn new(params: &Params, draw: &mut Draw) -> (Vec<Histogram>, Vec<u64>) {
     let level = [U::new(HITS / BINS as u64); BINS];
     let random = std::array::from_fn(|_| draw.word());
@@ -37,6 +47,10 @@ pub(super) fn new(params: &Params, draw: &mut Draw) -> (Vec<Histogram>, Vec<u64>
             }
         }
     }
+    histograms.extend((0..NEURONS).map(|neuron| {
+        let up = |bin: usize| params.forward1[bin][neuron].get() > 0;
+        std::array::from_fn(|bin| if up(bin) { U::MAX } else { U::new(0) })
+    }));
     histograms.resize_with(COUNT, || measured(draw));
     (histograms, ends)
 }
@@ -51,4 +65,10 @@ fn measured(draw: &mut Draw) -> Histogram {
         histogram[bin as usize] = histogram[bin as usize] + 1;
     }
     histogram
+}
+
+/// Their memory, one after the other.
+pub(super) fn mem(histograms: &[Histogram]) -> Mem {
+    let words = histograms.iter().flatten().map(|count| count.get().into());
+    Mem { name: "histograms.mem", text: lines(words, 4) }
 }
