@@ -4,7 +4,7 @@ mod common;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::Path;
+use std::path::PathBuf;
 use std::time::Duration;
 
 use tofsim::golden::BLOCKS;
@@ -24,9 +24,13 @@ const PRIMITIVES: &[(&str, &[&str])] = &[
     ("IBUFDS", &["kc705_top"]),
 ];
 
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
 /// Stems of the files in a folder of the repository, without those that have no twin by design.
 fn stems(folder: &str, end: &str, alone: &str) -> Vec<String> {
-    let files = common::files(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder));
+    let files = common::files(&root().join(folder));
     let stems = files.iter().filter_map(|name| name.strip_suffix(end));
     stems.filter(|stem| *stem != alone).map(str::to_owned).collect()
 }
@@ -37,13 +41,8 @@ fn modules() -> Vec<String> {
 
 /// Name and text of every Verilog file.
 fn sources() -> Vec<(String, String)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("rtl_ref");
-    let mut sources = Vec::new();
-    for stem in stems("rtl_ref", ".v", "") {
-        let text = fs::read_to_string(folder.join(format!("{stem}.v"))).unwrap();
-        sources.push((stem, text));
-    }
-    sources
+    let text = |stem: &str| fs::read_to_string(root().join(format!("rtl_ref/{stem}.v"))).unwrap();
+    stems("rtl_ref", ".v", "").into_iter().map(|stem| (stem.clone(), text(&stem))).collect()
 }
 
 /// Ports of each module as Rust has them; a module with several instances has one name for all.
@@ -78,7 +77,7 @@ fn every_module_has_golden_vectors() {
 #[test]
 fn ports_widths_and_directions_are_the_same() {
     let folder = common::empty();
-    let rtl = Rtl::own(folder.path()).unwrap();
+    let rtl = Rtl::folder(&root().join("rtl_ref")).unwrap();
     let limits = Limits { time: Duration::from_secs(60), stop: None };
     let rust = rust_ports();
     assert!(rust.keys().eq(&modules()), "{:?}", rust.keys());

@@ -1,6 +1,6 @@
 //! Yosys, run only when what it would read has changed.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
@@ -34,24 +34,25 @@ pub fn modules(sources: &Sources) -> impl Iterator<Item = &str> {
     sources.keys().filter_map(|name| name.strip_suffix(".v"))
 }
 
-/// What synthesis of `top` may read: the files that its text names, in a comment too, and what they
-/// name in turn.
+/// What synthesis of `top` may read: its file, those that its code names, and so on.
 pub fn needed(sources: &Sources, top: &str) -> Sources {
-    let mut names = BTreeSet::new();
+    let mut needed = Sources::new();
     let mut open = vec![format!("{top}.v")];
     while let Some(name) = open.pop() {
-        let Some(text) = sources.get(&name).filter(|_| names.insert(name.clone())) else {
+        let Some(text) = sources.get(&name).filter(|_| !needed.contains_key(&name)) else {
             continue;
         };
         if name.ends_with(".v") {
-            let words = text.split(|c: char| !c.is_alphanumeric() && c != '_');
-            let words: BTreeSet<_> = words.collect();
-            open.extend(words.iter().map(|word| format!("{word}.v")));
-            open.extend(words.iter().map(|word| format!("{word}.mem")));
+            for code in text.lines().filter_map(|line| line.split("//").next()) {
+                let words = code.split(|c: char| !c.is_alphanumeric() && c != '_');
+                open.extend(words.map(|word| format!("{word}.v")));
+                let memories = code.split('"').filter_map(|word| word.strip_prefix("rtl_ref/"));
+                open.extend(memories.map(str::to_owned));
+            }
         }
+        needed.insert(name, text.clone());
     }
-    let all = sources.iter().filter(|(name, _)| names.contains(*name));
-    all.map(|(name, text)| (name.clone(), text.clone())).collect()
+    needed
 }
 
 /// `read_verilog`'s arguments for those modules.
