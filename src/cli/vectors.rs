@@ -32,7 +32,8 @@ pub struct Args {
 /// What the vectors are made from.
 #[derive(Clone, Debug, clap::Args)]
 pub struct From {
-    /// Clock cycles of each block [default: 20000, or whole frames of a scenario]
+    /// Clock cycles of each block [default: 20000, more where a goal of the stimulus needs them;
+    /// whole frames of a scenario]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
     cycles: Option<u64>,
     /// Seed of the stimulus [default: the scenario's]

@@ -114,6 +114,9 @@ impl<'a> Bench<'a> {
     fn instance(&self) -> String {
         let spec = self.vectors.spec;
         let parameter = |(name, value): &(&str, Parameter)| match value {
+            Parameter::Number(number) if *number > i32::MAX as u64 => {
+                format!("    .{name}(64'd{number})")
+            }
             Parameter::Number(number) => format!("    .{name}({number})"),
             Parameter::File(file) => format!("    .{name}(\"{file}\")"),
         };

@@ -48,6 +48,12 @@ const ANALYSER: &[&str] = &[
     "depth_estimator.estimator_ctrl.tansig_en",
     "depth_estimator.estimator_ctrl.forward2_en",
     "depth_estimator.forward1.l1_in_0",
+    "depth_estimator.forward1.l1_in_1",
+    "depth_estimator.forward1.l1_in_2",
+    "depth_estimator.forward1.l1_in_3",
+    "depth_estimator.forward1.l1_in_4",
+    "depth_estimator.forward1.l1_in_5",
+    "depth_estimator.forward1.l1_in_6",
     "depth_estimator.forward1.l1_in_7",
 ];
 
