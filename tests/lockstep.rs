@@ -80,6 +80,17 @@ fn uneven_chains_and_passive_quenching_pass_in_icarus() {
 }
 
 #[test]
+fn a_chain_whose_taps_are_reached_out_of_order_passes_in_icarus() {
+    let folder = common::empty();
+    let delays: Vec<_> = (0..800).map(|tap| [30.0, -5.0, 25.0, -4.0][tap % 4]).collect();
+    let chain = folder.path().join("uneven.toml");
+    std::fs::write(&chain, format!("offset_ps = 2230.0\ntap_delays_ps = {delays:?}\n")).unwrap();
+    let chain = format!("tdc.profile={}", chain.display());
+    verified(&["--block", "carry_chain", "--block", "tdc", "-s", &chain]);
+    verified(&["--top", "-s", "firmware.shots_per_frame=300", "-s", &chain]);
+}
+
+#[test]
 fn full_frames_at_every_rate_pass_in_verilator() {
     for (rate, period) in [(0, 25), (1, 13), (2, 8), (3, 6)] {
         let rate = format!("firmware.laser_freq={rate}");

@@ -36,6 +36,21 @@ pub(super) const SPEC: Spec = Spec {
 
 /// A little more than Clear takes after a reset [ns].
 const ACQUIRE_NS: u64 = 2_120;
+/// From the end of `dsp_rst` to the first shot, and to the start of the estimator [ns].
+const SHOTS_NS: u64 = 2_040;
+const ESTIMATE_NS: u64 = 8 * 320;
+/// A whole frame [ns].
+const FRAME_NS: u64 = 5_000;
+/// Nothing.
+const NO_CHANGE: Control = Control {
+    at_us: 0.0,
+    laser_freq: None,
+    mode: None,
+    laser_en: None,
+    dsp_en: None,
+    dsp_rst: None,
+    rst: None,
+};
 /// Shots of a frame under random control.
 const SHOTS: u16 = 8;
 
@@ -45,11 +60,17 @@ fn record(spec: &'static Spec, setting: &Setting) -> crate::error::Result<Vector
     }
     let mut setup = setting.setup.clone();
     setup.params.frame_ctrl.shots_per_frame = SHOTS;
-    setup.scenario.control = control(&setup, setting);
+    let cycles = setting.cycles.unwrap_or(RANDOM + PLANTED);
+    let setting = Setting { cycles: Some(cycles), ..setting.clone() };
+    setup.scenario.control = control(&setup, &setting);
     let mut covered = Covered::new();
-    let vectors = top::record(spec, &setup, setting, &mut |pins, top| covered.see(pins, top))?;
+    let vectors = top::record(spec, &setup, &setting, &mut |pins, top| covered.see(pins, top))?;
     Ok(Vectors { coverage: covered.goals, ..vectors })
 }
+
+/// Cycles under random control, and then under pulses planted in the first shots of a frame.
+const RANDOM: usize = 20_000;
+const PLANTED: usize = 28_000;
 
 /// Control signals that change at random times; some frames are abandoned twice, the second time in
 /// Acquire.
@@ -57,7 +78,7 @@ fn control(setup: &Setup, setting: &Setting) -> Vec<Control> {
     let mut draw = Draw::new(setting.seed, u64::MAX);
     let mut changes = Vec::new();
     let first_us = setup.pll().locked_at.fs() as f64 * 1e-9;
-    let (mut at_ns, end_ns) = (0, 8 * setting.cycles() as u64);
+    let (mut at_ns, end_ns) = (0, 8 * setting.cycles().min(RANDOM) as u64);
     let mut again = false;
     while at_ns < end_ns {
         let mut change = Control {
@@ -82,7 +103,45 @@ fn control(setup: &Setup, setting: &Setting) -> Vec<Control> {
             again = false;
         }
     }
+    while at_ns < 8 * setting.cycles() as u64 {
+        for (span_ns, change) in planted(&mut draw) {
+            changes.push(Control { at_us: first_us + at_ns as f64 * 1e-3, ..change });
+            at_ns += span_ns;
+        }
+    }
     changes
+}
+
+/// A frame begun anew, and in it a short reset, another mode or a hold, in some cycle of the shots or
+/// about the one that starts the estimator; each change and how long it lasts [ns].
+fn planted(draw: &mut Draw) -> [(u64, Control); 4] {
+    let begin = Control {
+        laser_freq: Some(3),
+        mode: Some(0),
+        laser_en: Some(true),
+        dsp_en: Some(true),
+        dsp_rst: Some(true),
+        ..NO_CHANGE
+    };
+    let go = Control { dsp_rst: Some(false), ..NO_CHANGE };
+    let shots_ns = SHOTS_NS + draw.below(8 * 6 * u64::from(SHOTS));
+    let kind = draw.below(9);
+    let (wait_ns, span_ns, change) = match kind {
+        0..4 => (shots_ns, 3 + draw.below(14), Control { rst: Some(true), ..NO_CHANGE }),
+        4..6 => (shots_ns, 8, Control { dsp_rst: Some(true), ..NO_CHANGE }),
+        6 => (shots_ns, 8 + draw.below(90), Control { mode: Some(1), ..NO_CHANGE }),
+        _ => (ESTIMATE_NS + 8 * draw.below(3), 80, Control { dsp_en: Some(false), ..NO_CHANGE }),
+    };
+    let end = Control {
+        rst: Some(false),
+        dsp_rst: Some(false),
+        mode: Some(0),
+        dsp_en: Some(true),
+        ..NO_CHANGE
+    };
+    // After another dsp_rst the frame is seen to its end.
+    let rest_ns = if (4..6).contains(&kind) { FRAME_NS } else { 400 + draw.below(300) };
+    [(24, begin), (wait_ns, go), (span_ns, change), (rest_ns, end)]
 }
 
 struct Covered {
