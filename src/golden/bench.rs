@@ -87,7 +87,7 @@ impl<'a> Bench<'a> {
         let driven = |name: &str| vectors.stimulus.columns().iter().any(|c| c.name == name);
         let mut text = String::from("\n");
         for port in spec.ports() {
-            let (name, range) = (&port.name, range(port.width as usize));
+            let (name, range) = (&port.name, range(port.width));
             text += &match port.output {
                 true => format!("  wire {range}{name};\n"),
                 false if driven(name) || name.starts_with("clk") || name == "tdc_stop" => {
@@ -99,7 +99,7 @@ impl<'a> Bench<'a> {
         let ports: Vec<_> = spec.ports().into_iter().map(|port| port.name).collect();
         for column in vectors.stimulus.columns().iter().filter(|c| !ports.contains(&c.name)) {
             let Column { name, width, .. } = column;
-            text += &format!("  reg {}{name} = {width}'d0;\n", range(*width));
+            text += &format!("  reg {}{name} = {width}'d0;\n", range(*width as u32));
         }
         text += spec.glue.map_or("", |glue| glue.verilog);
         if spec.timing.oscillator {
@@ -201,20 +201,16 @@ fn edges(step: &Step, last: bool) -> String {
     let levels: String =
         step.edges.iter().map(|(_, level)| if *level { '1' } else { '0' }).collect();
     let rises = step.edges.iter().any(|(_, level)| *level);
+    let first = if rises && !last { " if (cycle != 0)" } else { "" };
     match names.as_slice() {
         [] => ";\n".to_owned(),
-        _ => {
-            let first = if rises && !last { " if (cycle != 0)" } else { "" };
-            let width = names.len();
-            match names.as_slice() {
-                [name] => format!("{first} {name} = 1'b{levels};\n"),
-                _ => format!("{first} {{{}}} = {width}'b{levels};\n", names.join(", ")),
-            }
-        }
+        [name] => format!("{first} {name} = 1'b{levels};\n"),
+        _ => format!("{first} {{{}}} = {}'b{levels};\n", names.join(", "), names.len()),
     }
 }
 
-fn range(width: usize) -> String {
+/// The range of a vector in a declaration, with a space after it; nothing for a single bit.
+pub(crate) fn range(width: u32) -> String {
     if width == 1 { String::new() } else { format!("[{}:0] ", width - 1) }
 }
 

@@ -40,14 +40,12 @@ impl Watched {
     }
 }
 
-/// Everything in the block but inputs and the clocks that it makes for itself.
+/// Everything in the block but inputs, and clocks that are not its own outputs.
 fn is_watched(spec: &Spec, entry: &Entry) -> bool {
-    let own_clock = entry.kind == Kind::Internal && entry.signal.name.starts_with("clk_");
-    let inner_clock = entry.scope != spec.path() && entry.signal.name.starts_with("clk_");
+    let is_port = entry.scope == spec.path() && entry.kind == Kind::Output;
     hierarchy::within(&entry.scope, &spec.path())
         && entry.kind != Kind::Input
-        && !own_clock
-        && !inner_clock
+        && (is_port || !entry.signal.name.starts_with("clk_"))
 }
 
 /// Path of a signal inside the block.

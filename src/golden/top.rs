@@ -57,8 +57,8 @@ const ANALYSER: &[&str] = &[
     "depth_estimator.forward1.l1_in_7",
 ];
 
-/// What a line of pins was, and the firmware just before the edge that takes it.
-pub(super) type Watch<'a> = &'a mut dyn FnMut(&Pins, &TofTop);
+/// Sees the firmware just before the edge that takes a line.
+pub(super) type Watch<'a> = &'a mut dyn FnMut(&TofTop);
 
 /// The vectors of a run: its frames, or so many cycles. `watch` sees every cycle.
 pub(super) fn record(
@@ -96,22 +96,21 @@ fn run<'a>(
     mut look: Look<'a>,
 ) -> Result<Look<'a>> {
     let (params, mut frames) = (&setup.params, Frames::default());
-    let limit = match setting.as_told {
+    let whole_frames = setting.as_told && setting.cycles.is_none();
+    let limit = match whole_frames {
         true => setup.longest_run(setting.frames),
         false => setting.cycles() as u64,
     };
-    let limit = setting.cycles.map_or(limit, |cycles| cycles as u64);
     device.power_up(&mut look, &mut Off);
     while device.cycle() < limit {
         device.step(params, &mut look, &mut Off);
         frames.edge(device.cycle() - 1, &device.top, params);
-        let told = setting.as_told && setting.cycles.is_none();
-        if told && frames.done() == setting.frames && device.top.frame_ctrl.frame_done {
+        if whole_frames && frames.done() == setting.frames && device.top.frame_ctrl.frame_done {
             device.step(params, &mut look, &mut Off);
             return Ok(look);
         }
     }
-    match setting.as_told && setting.cycles.is_none() {
+    match whole_frames {
         true => Err(Input::new(format!("scenario {}", setup.name), "the frame never ends").into()),
         false => Ok(look),
     }
@@ -237,7 +236,7 @@ impl<'a> Look<'a> {
 
     /// Ends the line of a cycle.
     fn line(&mut self, pins: &Pins) {
-        (self.watch)(pins, &self.current);
+        (self.watch)(&self.current);
         let rst = self.early_rst;
         let Pins { rst: rst_late, mode, laser_freq, laser_en, dsp_en, dsp_rst, .. } = *pins;
         let line = Stimulus { rst, rst_late, mode, laser_freq, laser_en, dsp_en, dsp_rst };

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::Result;
 use crate::golden::Spec;
-use crate::golden::bench::Bench;
+use crate::golden::bench::{Bench, range};
 use crate::golden::ports::Port;
 use crate::output::write_file;
 
@@ -24,12 +24,8 @@ impl BlockMap {
 
     /// Whether an adapter stands in for a port of ours.
     fn is_made(&self, name: &str) -> bool {
-        let made: &[&str] = match (&self.counts, &self.vector) {
-            (Some(_), _) => &["read_en", "read_addr", "count"],
-            (_, Some(_)) => &["count", "read_en", "read_addr"],
-            _ => &[],
-        };
-        made.contains(&name)
+        let adapted = self.counts.is_some() || self.vector.is_some();
+        adapted && ["read_en", "read_addr", "count"].contains(&name)
     }
 
     /// Width of our port in a design of that size.
@@ -45,10 +41,7 @@ impl BlockMap {
     }
 
     /// The ports that their module has to have.
-    ///
-    /// # Errors
-    /// None so far.
-    pub(super) fn wanted(&self, spec: &Spec, found: &Ports) -> Result<Vec<Port>> {
+    pub(super) fn wanted(&self, spec: &Spec, found: &Ports) -> Vec<Port> {
         let mut wanted = Vec::new();
         for port in spec.ports() {
             let theirs = self.theirs(&port.name);
@@ -66,7 +59,7 @@ impl BlockMap {
                 wanted.push(Port { name, width: whole, output, meaning: "all counts" });
             }
         }
-        Ok(wanted)
+        wanted
     }
 
     /// Lets the bench allow what the map says, and writes the adapter into `folder`.
@@ -191,10 +184,6 @@ impl BlockMap {
             range = range(whole),
         )
     }
-}
-
-fn range(width: u32) -> String {
-    if width == 1 { String::new() } else { format!("[{}:0] ", width - 1) }
 }
 
 /// A value of `from` bits as one of `to`.

@@ -8,6 +8,7 @@ use serde::Deserialize;
 
 use crate::error::{Input, Result, nearest, read_text};
 use crate::firmware::carry_chain::TAPS;
+use crate::firmware::histogram_builder::BINS;
 use crate::golden::{BLOCKS, Setting, Spec, blocks};
 use crate::scenario::check::{Checked, read};
 
@@ -35,7 +36,7 @@ pub struct Design {
 
 impl Default for Design {
     fn default() -> Self {
-        Design { taps: TAPS, bins: crate::firmware::histogram_builder::BINS }
+        Design { taps: TAPS, bins: BINS }
     }
 }
 
@@ -146,12 +147,20 @@ impl BlockMap {
                 return Err(fault(&format!("valid.{key}"), expected).into());
             }
         }
-        let only = |key: &str, block: &str, set: bool| match set && spec.name != block {
-            true => Err(fault(key, format!("only {block} has this adapter")).into()),
-            false => Ok(()),
+        let only = |key: &str, block: &str, set: bool| -> Result<()> {
+            match set && spec.name != block {
+                true => Err(fault(key, format!("only {block} has this adapter")).into()),
+                false => Ok(()),
+            }
         };
         only("counts", "histogram_builder", self.counts.is_some())?;
-        only("vector", "depth_estimator", self.vector.is_some())
+        only("vector", "depth_estimator", self.vector.is_some())?;
+        if self.vector.is_some() && self.design.bins != BINS {
+            let expected =
+                format!("expected design.bins = {BINS}: the network has that many inputs");
+            return Err(fault("vector", expected).into());
+        }
+        Ok(())
     }
 
     /// Their module.
@@ -190,5 +199,7 @@ mod tests {
         assert!(error.contains("unknown output"), "{error}");
         let error = fault("[block.forward1]\ncounts = \"H\"\n");
         assert!(error.contains("only histogram_builder has this adapter"), "{error}");
+        let error = fault("[design]\nbins = 128\n[block.depth_estimator]\nvector = \"H\"\n");
+        assert!(error.contains("expected design.bins = 256"), "{error}");
     }
 }

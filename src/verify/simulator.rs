@@ -142,7 +142,7 @@ impl Compiled {
 }
 
 /// The language: Verilog-2005 unless there is SystemVerilog.
-pub(super) fn generation(rtl: &Rtl) -> &'static str {
+fn generation(rtl: &Rtl) -> &'static str {
     if rtl.is_system_verilog() { "-g2012" } else { "-g2005" }
 }
 
@@ -150,6 +150,10 @@ pub(super) fn generation(rtl: &Rtl) -> &'static str {
 const LINES: usize = 12;
 
 fn refused(rtl: &Rtl, finished: &Finished) -> Input {
+    let unknown = |line: &str| Some(line.split_once("Unknown module type: ")?.1.to_owned());
+    if let Some(module) = finished.output.lines().find_map(unknown) {
+        return Input::new(&rtl.source, format!("it has no module `{module}`"));
+    }
     let message: Vec<_> = finished.output.lines().take(LINES).collect();
     let what = match finished.timed_out {
         true => "the simulator took too long to compile it",

@@ -15,8 +15,8 @@ impl Bench<'_> {
             "\n  reg {}stimulus [0:Cycles-1];\n  reg {1}expected [0:Cycles-1];\n  \
              reg {1}got;\n  reg {1}want;\n  integer cycle;\n  \
              integer mismatches = 0;\n  integer got_file = 0;\n  reg [8191:0] got_name;\n",
-            range(lines_in),
-            range(lines_out),
+            range(lines_in as u32),
+            range(lines_out as u32),
         );
         for sample in 0..spec.timing.samples() {
             let columns = expected.columns().iter().filter(|column| column.sample == sample);

@@ -2,7 +2,7 @@
 //! random, also in the middle of a frame, and abandon some.
 
 use crate::firmware::frame_ctrl::State;
-use crate::firmware::tof_top::{Pins, TofTop};
+use crate::firmware::tof_top::TofTop;
 use crate::golden::block::{Setting, Spec};
 use crate::golden::cover::Cover;
 use crate::golden::draw::Draw;
@@ -56,7 +56,7 @@ const SHOTS: u16 = 8;
 
 fn record(spec: &'static Spec, setting: &Setting) -> crate::error::Result<Vectors> {
     if setting.as_told {
-        return top::record(spec, &setting.setup, setting, &mut |_, _| ());
+        return top::record(spec, &setting.setup, setting, &mut |_| ());
     }
     let mut setup = setting.setup.clone();
     setup.params.frame_ctrl.shots_per_frame = SHOTS;
@@ -64,7 +64,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> crate::error::Result<Vector
     let setting = Setting { cycles: Some(cycles), ..setting.clone() };
     setup.scenario.control = control(&setup, &setting);
     let mut covered = Covered::new();
-    let vectors = top::record(spec, &setup, &setting, &mut |pins, top| covered.see(pins, top))?;
+    let vectors = top::record(spec, &setup, &setting, &mut |top| covered.see(top))?;
     Ok(Vectors { coverage: covered.goals, ..vectors })
 }
 
@@ -162,7 +162,7 @@ impl Covered {
         Covered { goals, before: None }
     }
 
-    fn see(&mut self, _: &Pins, top: &TofTop) {
+    fn see(&mut self, top: &TofTop) {
         let state = top.frame_ctrl.state();
         let rate = top.vcsel_driver.registers.place().map_or(0, |place| place.0);
         if let Some((last, last_rate)) = self.before {
