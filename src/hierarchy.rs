@@ -11,8 +11,11 @@ use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tof_top::{CodeSource, HistogramSource, Params, TofTop, Wires};
 use crate::firmware::{depth_estimator, tdc, vcsel_driver};
 
+mod part;
 mod ports;
 
+pub use part::Part;
+use part::ram_changes;
 use ports::{CLOCKS, SHOWN, place};
 
 /// Name of the top scope.
@@ -77,6 +80,23 @@ macro_rules! groups {
             ram_changes(top, before, sink);
         }
 
+        /// Reports every signal of a part's groups that differs from `kept`, and keeps it there.
+        #[inline]
+        pub fn follow(top: &TofTop, part: &Part, kept: &mut TofTop, sink: &mut impl Sink) {
+            let (_id, _group) = (0, 1);
+            $(
+                if part.groups & _group != 0 {
+                    let (now, then) = (&top.$root $(.$field)*, &mut kept.$root $(.$field)*);
+                    if then != now {
+                        now.changes(Some(&*then), _id, sink);
+                        *then = *now;
+                    }
+                }
+                let (_id, _group) = (_id + <$ty as Signals>::COUNT, _group << 1);
+            )*
+            part.follow_ram(top, kept, sink);
+        }
+
         /// Makes all that [`changes`] looks at in `to` what it is in `from`, without allocating.
         pub fn copy(from: &TofTop, to: &mut TofTop) {
             $(to.$root $(.$field)* = from.$root $(.$field)*;)*
@@ -109,18 +129,6 @@ groups! {
     "depth_estimator.forward1" => depth_estimator.forward1: crate::firmware::forward1::Forward1;
     "depth_estimator.tansig" => depth_estimator.tansig: crate::firmware::tansig::Tansig;
     "depth_estimator.forward2" => depth_estimator.forward2: crate::firmware::forward2::Forward2;
-}
-
-fn ram_changes(top: &TofTop, before: Option<&TofTop>, sink: &mut impl Sink) {
-    let now = &top.histogram_builder.ram;
-    let then = before.map(|b| &b.histogram_builder.ram);
-    if then != Some(now) {
-        for bin in 0..BINS {
-            if then.is_none_or(|then| then[bin] != now[bin]) {
-                sink.word(RAM + bin, now[bin].get());
-            }
-        }
-    }
 }
 
 /// Every name in every scope that those parameters have, without the RAM's words.

@@ -139,17 +139,19 @@ impl<'a> Bench<'a> {
              $readmemh(\"expected.mem\", expected);\n    \
              if ($value$plusargs(\"got=%s\", got_name)) got_file = $fopen(got_name, \"w\");\n",
         );
+        let columns: Vec<_> =
+            vectors.stimulus.columns().iter().map(|column| column.name.as_str()).collect();
+        let columns = columns.join(", ");
         if vectors.first_edge_ps > timing.period_ps() {
+            let _ = writeln!(text, "    {{{columns}}} = stimulus[0];");
             text += "    #(FirstEdge - Period);\n";
         }
         text += "    for (cycle = 0; cycle < Cycles; cycle = cycle + 1) begin\n      \
                  want = expected[cycle];\n      got = want;\n";
-        let columns: Vec<_> =
-            vectors.stimulus.columns().iter().map(|column| column.name.as_str()).collect();
         if columns.is_empty() {
             text += "      #1;\n";
         } else {
-            let _ = writeln!(text, "      #1 {{{}}} = stimulus[cycle];", columns.join(", "));
+            let _ = writeln!(text, "      #1 {{{columns}}} = stimulus[cycle];");
         }
         let mut sample = 0;
         for (k, step) in timing.steps.iter().enumerate() {

@@ -18,8 +18,23 @@ use super::timeline::Timeline;
 pub trait Trace {
     /// Whether it looks at all.
     const ON: bool;
+    /// Whether it looks just before each rising edge of `clk_125` and `clk_250` too.
+    const EDGES: bool = false;
     /// The signals as they are from `now` on.
     fn sample(&mut self, now: Time, top: &TofTop);
+    /// The signals as the edge at `now` takes them: an asynchronous change at that very instant is
+    /// not there yet. Without [`Trace::ON`], `clk_200` stands still.
+    #[inline(always)]
+    fn before_edge(&mut self, _edge: Edge, _now: Time, _top: &TofTop) {}
+}
+
+/// A rising edge of `clk_250`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Edge {
+    /// `clk_125` rises too.
+    Both,
+    /// `clk_125` falls.
+    Middle,
 }
 
 /// Hears of every avalanche.
@@ -133,6 +148,7 @@ impl Device {
     #[inline(always)]
     pub fn step<T: Trace, R: Record>(&mut self, p: &Params, trace: &mut T, record: &mut R) {
         let now = self.next_edge();
+        self.before_edge(Edge::Both, now, trace, record);
         self.settle(now, trace, record);
         self.top.rise(p, &mut self.line, now);
         self.react(now);
@@ -143,6 +159,7 @@ impl Device {
         let middle = self.rise_250_at(2 * self.cycle + 1);
         let quarter = self.pll.clk_250.fall(0) - self.pll.clk_250.rise(0);
         self.fall_250(now + quarter, trace, record);
+        self.before_edge(Edge::Middle, middle, trace, record);
         self.settle(middle, trace, record);
         self.top.rise_250();
         if T::ON {
@@ -164,6 +181,22 @@ impl Device {
         }
         self.top.clocks.clk_200 = self.oscillator % 2 == 1;
         self.clocks(false, false);
+    }
+
+    /// Shows what an edge takes: all that happens strictly before it has happened.
+    #[inline(always)]
+    fn before_edge<T: Trace, R: Record>(
+        &mut self,
+        edge: Edge,
+        now: Time,
+        trace: &mut T,
+        record: &mut R,
+    ) {
+        if T::EDGES {
+            self.settle(now.since(Time::from_fs(1)), trace, record);
+            self.clocks(edge == Edge::Middle, false);
+            trace.before_edge(edge, now, &self.top);
+        }
     }
 
     #[inline(always)]

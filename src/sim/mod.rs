@@ -12,3 +12,4 @@ pub mod window;
 
 pub use device::Device;
 pub use run::{Outcome, Run};
+pub(crate) use tracer::Windowed;

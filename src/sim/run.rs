@@ -4,6 +4,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::error::{Error, Input, Result};
 use crate::firmware::tof_top::Params;
+use crate::ila::Analyser;
+use crate::ila::sampler::{Always, AtEdges};
 use crate::kernel::Time;
 use crate::waves::{Marks, Waves};
 
@@ -91,14 +93,58 @@ impl<'a> Run<'a> {
             (Some(tracer), None) => self.go(count, tracer, &mut Off, &mut sinks)?,
             (Some(tracer), Some(recorder)) => self.go(count, tracer, recorder, &mut sinks)?,
         }
-        let end = self.device.next_edge();
-        let shots = self.frames.shots();
-        let marks = match tracer {
-            Some(tracer) => tracer.finish(end, shots)?,
-            None => Marks::default(),
-        };
-        let notes = self.device.unused();
-        Ok(Outcome { end, cycles: self.device.cycle(), shots, marks, notes })
+        let (end, shots) = (self.device.next_edge(), self.frames.shots());
+        let marks = tracer.map_or(Ok(Marks::default()), |tracer| tracer.finish(end, shots))?;
+        Ok(self.outcome(marks))
+    }
+
+    /// Simulates until `count` frames are done, or the analyser is full and would have the run end
+    /// there.
+    ///
+    /// # Errors
+    /// When the control signals keep a frame from ending, or the run is stopped.
+    pub fn capture(
+        mut self,
+        count: u64,
+        analyser: &mut Analyser,
+        stop: Option<&AtomicBool>,
+    ) -> Result<Outcome> {
+        let mut sinks = Sinks { shots: None, frames: None, stop };
+        self.limit = self.setup.longest_run(count);
+        if analyser.sees_edges_only() {
+            self.device.power_up(&mut Off, &mut Off);
+            self.go(count, &mut AtEdges(analyser), &mut Off, &mut sinks)?;
+        } else {
+            let mut always = Always(analyser);
+            if always.begins_before_the_edges(&mut self.device) {
+                self.device.power_up(&mut always, &mut Off);
+            } else {
+                self.device.power_up(&mut Off, &mut Off);
+            }
+            self.go(count, &mut always, &mut Off, &mut sinks)?;
+        }
+        Ok(self.outcome(Marks::default()))
+    }
+
+    /// Simulates until `count` frames are done or `trace`, which sees every signal from power-up
+    /// on, is done; returns when that is.
+    ///
+    /// # Errors
+    /// When the control signals keep a frame from ending.
+    pub(crate) fn traced<T: Windowed>(mut self, count: u64, trace: &mut T) -> Result<Time> {
+        let mut sinks = Sinks { shots: None, frames: None, stop: None };
+        self.limit = self.setup.longest_run(count);
+        self.device.resume_clocks(Time::ZERO);
+        trace.sample(Time::ZERO, &self.device.top);
+        self.device.power_up(trace, &mut Off);
+        self.go(count, trace, &mut Off, &mut sinks)?;
+        Ok(self.device.next_edge())
+    }
+
+    fn outcome(mut self, marks: Marks) -> Outcome {
+        let (end, cycles, shots) =
+            (self.device.next_edge(), self.device.cycle(), self.frames.shots());
+        Outcome { end, cycles, shots, marks, notes: self.device.unused() }
     }
 
     fn go<T: Windowed, R: Recorded>(
@@ -114,6 +160,9 @@ impl<'a> Run<'a> {
             let frame = self.frames.edge(self.device.cycle() - 1, &self.device.top, self.params);
             if let Some(frame) = frame {
                 sinks.frame(&frame)?;
+            }
+            if trace.is_done() {
+                return Ok(());
             }
             let done = self.frames.done();
             if done > ended && !self.device.top.depth_estimator.estimator_ctrl.algo_done {
@@ -134,7 +183,7 @@ impl<'a> Run<'a> {
 
     #[inline(always)]
     fn cycle<T: Windowed, R: Recorded>(&mut self, trace: &mut T, record: &mut R) -> Result<()> {
-        if T::ON && trace.is_wanted(&mut self.device, &self.frames, self.params)? {
+        if (T::ON || T::EDGES) && trace.is_wanted(&mut self.device, &self.frames, self.params)? {
             self.device.step(self.params, trace, record);
         } else {
             self.device.step(self.params, &mut Off, record);

@@ -10,9 +10,13 @@ use super::frames::Frames;
 use super::window::{Moment, Window};
 
 /// A trace that is on only within windows, or none.
-pub(super) trait Windowed: Trace {
+pub(crate) trait Windowed: Trace {
     /// Whether the coming cycle is to be traced.
     fn is_wanted(&mut self, device: &mut Device, frames: &Frames, p: &Params) -> Result<bool>;
+    /// Whether the run may end here.
+    fn is_done(&self) -> bool {
+        false
+    }
 }
 
 impl Windowed for Off {

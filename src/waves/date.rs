@@ -8,7 +8,7 @@ const VARIABLE: &str = "SOURCE_DATE_EPOCH";
 const LIMIT: u64 = 253_402_300_800;
 
 /// The date to write, if there is to be one.
-pub(super) fn fixed() -> Result<Option<String>> {
+pub(crate) fn fixed() -> Result<Option<String>> {
     let Some(value) = std::env::var_os(VARIABLE) else { return Ok(None) };
     match value.to_string_lossy().parse() {
         Ok(seconds) if seconds < LIMIT => Ok(Some(spell(seconds))),

@@ -31,7 +31,7 @@ pub(super) fn of_word(value: u64) -> [u8; 64] {
 
 /// Spells the taps of a delay line, physical tap 0 last.
 #[derive(Debug)]
-pub(super) struct TapDigits {
+pub(crate) struct TapDigits {
     /// Physical tap at each place in the order of arrival; empty if that is the same order.
     order: Vec<u16>,
     arrived: BitVec<u64>,
@@ -41,7 +41,7 @@ pub(super) struct TapDigits {
 
 impl TapDigits {
     /// For lines whose taps are reached in `order`.
-    pub(super) fn new(order: &[u16]) -> Self {
+    pub(crate) fn new(order: &[u16]) -> Self {
         let sorted = order.iter().enumerate().all(|(place, &tap)| place == tap as usize);
         TapDigits {
             order: if sorted { Vec::new() } else { order.to_vec() },
@@ -53,24 +53,34 @@ impl TapDigits {
 
     /// The `N` digits.
     pub(super) fn of<const N: usize>(&mut self, value: &Thermometer<N>) -> &[u8] {
-        if self.arrived.len() != N {
-            self.arrived.resize(N, false);
-            self.taps.resize(N, false);
-        }
-        value.expand(&mut self.arrived);
-        let taps = if self.order.is_empty() {
-            &self.arrived
-        } else {
-            for (arrived, &tap) in self.arrived.iter().by_vals().zip(&self.order) {
-                self.taps.set(tap as usize, arrived);
-            }
-            &self.taps
-        };
+        self.expand(value);
+        let taps = if self.order.is_empty() { &self.arrived } else { &self.taps };
         self.digits.clear();
         for &word in taps.as_raw_slice().iter().rev() {
             self.digits.extend_from_slice(&of_word(word));
         }
         &self.digits[self.digits.len() - N..]
+    }
+
+    /// The `N` bits in words, physical tap 0 the lowest.
+    pub(crate) fn words<const N: usize>(&mut self, value: &Thermometer<N>) -> &[u64] {
+        self.expand(value);
+        let taps = if self.order.is_empty() { &mut self.arrived } else { &mut self.taps };
+        taps.set_uninitialized(false);
+        taps.as_raw_slice()
+    }
+
+    fn expand<const N: usize>(&mut self, value: &Thermometer<N>) {
+        if self.arrived.len() != N {
+            self.arrived.resize(N, false);
+            self.taps.resize(N, false);
+        }
+        value.expand(&mut self.arrived);
+        if !self.order.is_empty() {
+            for (arrived, &tap) in self.arrived.iter().by_vals().zip(&self.order) {
+                self.taps.set(tap as usize, arrived);
+            }
+        }
     }
 }
 

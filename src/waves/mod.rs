@@ -6,7 +6,7 @@
 
 #[cfg(test)]
 mod bench;
-mod date;
+pub(crate) mod date;
 mod digits;
 #[cfg(test)]
 mod file_tests;
@@ -33,6 +33,7 @@ use crate::hierarchy::{Entry, changes, copy};
 use crate::kernel::Time;
 use crate::kernel::signals::Sink;
 
+pub(crate) use digits::TapDigits;
 use fst::Fst;
 use vcd::Vcd;
 

@@ -1,0 +1,256 @@
+//! The logic analyser's core: a ring buffer behind a trigger.
+//!
+//! [`Core`] stores rows of words. [`Core::numbers`] stores no payload but the numbers of the
+//! samples, which tells what a capture of some recorded waveform would hold.
+
+use super::capture::{Capture, Probe};
+use super::storing::{Shape, Storing};
+
+/// Stores samples of so many words.
+#[derive(Clone, Debug)]
+pub struct Core<P> {
+    storing: Storing,
+    payload: P,
+    /// Number of the next sample.
+    number: u64,
+    /// Number of the sample that triggered each window.
+    triggers: Vec<u64>,
+}
+
+/// What is kept of each stored sample.
+pub trait Payload {
+    /// A sample as it comes.
+    type Row: ?Sized;
+    /// Keeps a row at a place, which is the first free one or an older sample's.
+    fn store(&mut self, slot: usize, number: u64, row: &Self::Row);
+}
+
+/// Rows of words, one after the other.
+#[derive(Clone, Debug)]
+pub struct Rows {
+    stride: usize,
+    words: Vec<u64>,
+}
+
+impl Payload for Rows {
+    type Row = [u64];
+
+    #[inline]
+    fn store(&mut self, slot: usize, _: u64, row: &[u64]) {
+        let begin = slot * self.stride;
+        match self.words.get_mut(begin..begin + self.stride) {
+            Some(words) => words.copy_from_slice(row),
+            None => self.words.extend_from_slice(row),
+        }
+    }
+}
+
+/// Numbers of the samples, where not all between the first and the last are kept.
+#[derive(Clone, Debug)]
+pub struct Numbers {
+    qualified: bool,
+    kept: Vec<u64>,
+}
+
+impl Payload for Numbers {
+    type Row = ();
+
+    #[inline]
+    fn store(&mut self, slot: usize, number: u64, (): &()) {
+        match self.kept.get_mut(slot) {
+            _ if !self.qualified => {}
+            Some(kept) => *kept = number,
+            None => self.kept.push(number),
+        }
+    }
+}
+
+/// Samples of a window, by their numbers from 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Kept {
+    /// All from one to before another.
+    Range(std::ops::Range<u64>),
+    /// Those that qualified, and the one that triggered.
+    List(Vec<u64>),
+}
+
+impl<P: Payload> Core<P> {
+    fn with(shape: Shape, payload: P) -> Self {
+        Core { storing: Storing::new(shape), payload, number: 0, triggers: Vec::new() }
+    }
+
+    /// Takes a sample: its row, whether the trigger holds, and whether it may be stored.
+    #[inline]
+    pub fn sample(&mut self, row: &P::Row, triggers: bool, qualifies: bool) {
+        if let Some(stored) = self.storing.sample(triggers, qualifies) {
+            self.payload.store(stored.slot, self.number, row);
+            if stored.triggered {
+                self.triggers.push(self.number);
+            }
+        }
+        self.number += 1;
+    }
+
+    /// Whether all windows have their samples.
+    #[inline]
+    pub fn is_full(&self) -> bool {
+        self.storing.is_full()
+    }
+
+    /// Numbers of the samples that triggered, counted from 0.
+    pub fn triggers(&self) -> &[u64] {
+        &self.triggers
+    }
+
+    /// Samples taken so far, stored or not.
+    pub fn taken(&self) -> u64 {
+        self.number
+    }
+}
+
+impl Core<Rows> {
+    /// An empty buffer for rows of `stride` words.
+    pub fn new(shape: Shape, stride: usize) -> Self {
+        let words = Vec::with_capacity(shape.depth * shape.windows * stride);
+        Core::with(shape, Rows { stride, words })
+    }
+
+    /// What the buffer holds: the full windows and, stopped early, a last one that is not.
+    pub fn finish(self, probes: Vec<Probe>) -> Capture {
+        let Rows { stride, mut words } = self.payload;
+        let windows = self.storing.windows();
+        let (mut begins, mut triggers, mut samples) = (Vec::new(), Vec::new(), 0);
+        for window in &windows {
+            let ring = window.begin * stride..(window.begin + window.before) * stride;
+            words[ring].rotate_left(window.turn * stride);
+            begins.push(samples);
+            if window.after > 0 {
+                triggers.push(samples + window.before);
+            }
+            samples += window.before + window.after;
+        }
+        words.truncate(samples * stride);
+        Capture { stride, words, windows: begins, triggers, ..Capture::new(probes) }
+    }
+}
+
+impl Core<Numbers> {
+    /// A buffer that holds the numbers of samples only. Without qualification it keeps none but
+    /// those of the triggers.
+    pub fn numbers(shape: Shape, qualified: bool) -> Self {
+        Core::with(shape, Numbers { qualified, kept: Vec::new() })
+    }
+
+    /// Samples that each window holds, in order of time.
+    pub fn windows(&self) -> Vec<Kept> {
+        let windows = self.storing.windows();
+        let numbered = windows.into_iter().enumerate();
+        numbered
+            .map(|(k, window)| match self.triggers.get(k) {
+                _ if self.payload.qualified => {
+                    Kept::List(window.slots().map(|slot| self.payload.kept[slot]).collect())
+                }
+                Some(&trigger) => {
+                    let begin = trigger - window.before as u64;
+                    Kept::Range(begin..trigger + window.after as u64)
+                }
+                None => Kept::Range(self.number - window.before as u64..self.number),
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Both cores over samples that trigger where there is a `t`, and do not qualify where the
+    /// letter is `-` or `T`; the row is the sample's number.
+    fn capture(depth: usize, windows: usize, position: usize, samples: &str) -> Capture {
+        let shape = Shape { depth, windows, position };
+        let qualified = samples.contains(['-', 'T']);
+        let (mut core, mut numbers) = (Core::new(shape, 1), Core::numbers(shape, qualified));
+        for (number, sample) in samples.chars().enumerate() {
+            let (triggers, qualifies) = ("tT".contains(sample), !"-T".contains(sample));
+            core.sample(&[number as u64], triggers, qualifies);
+            numbers.sample(&(), triggers, qualifies);
+        }
+        let triggers = numbers.triggers().to_vec();
+        let capture = core.finish(Vec::new());
+        let kept: Vec<u64> = (numbers.windows().into_iter())
+            .flat_map(|kept| match kept {
+                Kept::Range(range) => range.collect(),
+                Kept::List(list) => list,
+            })
+            .collect();
+        assert_eq!(kept, capture.words, "both cores keep the same");
+        let triggered: Vec<_> = capture.triggers.iter().map(|&at| capture.words[at]).collect();
+        assert_eq!(triggered, triggers);
+        capture
+    }
+
+    #[test]
+    fn a_window_stands_around_its_trigger() {
+        let capture = capture(4, 1, 2, "......t......");
+        assert_eq!(capture.words, [4, 5, 6, 7]);
+        assert_eq!((capture.windows, capture.triggers), (vec![0], vec![2]));
+    }
+
+    #[test]
+    fn a_trigger_while_the_window_fills_is_ignored() {
+        assert_eq!(capture(4, 1, 2, "tt.t...").words, [1, 2, 3, 4]);
+        assert_eq!(capture(4, 1, 2, "..t....").words, [0, 1, 2, 3]);
+    }
+
+    #[test]
+    fn windows_without_samples_before_the_trigger_follow_at_once() {
+        let capture = capture(2, 3, 0, ".tttttttt");
+        assert_eq!(capture.words, [1, 2, 3, 4, 5, 6]);
+        assert_eq!((capture.windows, capture.triggers), (vec![0, 2, 4], vec![0, 2, 4]));
+        assert_eq!(super::tests::capture(1, 3, 0, "t.tt").words, [0, 2, 3]);
+    }
+
+    #[test]
+    fn each_window_fills_again_before_its_trigger() {
+        let capture = capture(3, 2, 2, "...ttttttt");
+        assert_eq!(capture.words, [1, 2, 3, 4, 5, 6]);
+        assert_eq!((capture.windows, capture.triggers), (vec![0, 3], vec![2, 5]));
+    }
+
+    #[test]
+    fn only_qualified_samples_are_stored_and_the_one_that_triggers() {
+        assert_eq!(capture(5, 1, 2, ".-.-.-T--.-.").words, [2, 4, 6, 9, 11]);
+        assert_eq!(capture(5, 1, 2, "---t.t-t---...").words, [3, 4, 5, 7, 11]);
+    }
+
+    #[test]
+    fn a_trigger_is_not_looked_for_before_enough_samples_qualify() {
+        assert_eq!(capture(3, 1, 2, ".-T-T.T.").words, [0, 5, 6]);
+    }
+
+    #[test]
+    fn stopped_early_the_last_window_is_not_full() {
+        let capture = capture(4, 2, 1, "..t....t.");
+        assert_eq!(capture.words, [1, 2, 3, 4, 6, 7, 8]);
+        assert_eq!((capture.windows, capture.triggers), (vec![0, 4], vec![1, 5]));
+    }
+
+    #[test]
+    fn stopped_before_its_trigger_a_window_has_what_stood_before_it() {
+        let capture = capture(4, 2, 2, "..t.....");
+        assert_eq!(capture.words, [0, 1, 2, 3, 6, 7]);
+        assert_eq!((capture.windows, capture.triggers), (vec![0, 4], vec![2]));
+        let filling = super::tests::capture(8, 1, 4, "...");
+        assert_eq!((filling.words, filling.triggers), (vec![0, 1, 2], vec![]));
+        let nothing = super::tests::capture(8, 1, 0, "...");
+        assert_eq!((nothing.samples(), nothing.windows), (0, vec![]));
+    }
+
+    #[test]
+    fn a_full_buffer_takes_no_more() {
+        let mut core = Core::new(Shape { depth: 2, windows: 1, position: 1 }, 1);
+        (0..9).for_each(|number| core.sample(&[number], true, true));
+        assert!(core.is_full());
+        assert_eq!(core.finish(Vec::new()).words, [0, 1]);
+    }
+}

@@ -1,0 +1,264 @@
+//! Digits of a cell, as bits.
+
+use super::super::capture::Radix;
+
+/// What is wrong with a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Fault {
+    /// There is nothing in it.
+    Empty,
+    /// A character that is no digit of the radix.
+    Digit,
+    /// More than the probe holds.
+    Wide,
+}
+
+impl Fault {
+    /// The fault in words.
+    pub(super) fn say(self, radix: Radix, width: u32) -> String {
+        let word = radix.word();
+        match self {
+            Fault::Empty => format!("expected {word} digits"),
+            Fault::Digit => format!("expected {word} digits only, unless the radix is wrong"),
+            Fault::Wide if radix == Radix::Signed => {
+                let top = width - 1;
+                format!("expected a {word} number of {width} bits, from -2^{top} to 2^{top} - 1")
+            }
+            Fault::Wide => format!(
+                "expected a {word} number of {width} bits at most, unless the radix is wrong"
+            ),
+        }
+    }
+}
+
+/// Reads a cell into the words of a probe, which have to be 0.
+pub(super) fn read(
+    cell: &[u8],
+    radix: Radix,
+    width: u32,
+    value: &mut [u64],
+    unknown: &mut [u64],
+) -> Result<(), Fault> {
+    if cell.is_empty() {
+        return Err(Fault::Empty);
+    }
+    match radix {
+        Radix::Hex => grouped::<4>(cell, width, value, unknown),
+        Radix::Octal => grouped::<3>(cell, width, value, unknown),
+        Radix::Binary => grouped::<1>(cell, width, value, unknown),
+        Radix::Signed | Radix::Unsigned if is_unknown(cell) => {
+            unknown.fill(u64::MAX);
+            trim(unknown, width);
+            Ok(())
+        }
+        Radix::Unsigned => decimal(cell, width, value),
+        Radix::Signed => signed(cell, width, value),
+    }
+}
+
+/// Whether a cell holds nothing but X.
+pub(super) fn is_unknown(cell: &[u8]) -> bool {
+    !cell.is_empty() && cell.iter().all(|byte| matches!(byte, b'x' | b'X'))
+}
+
+/// Value of each hexadecimal digit; 16 for X, 255 for anything else.
+const DIGITS: [u8; 256] = {
+    let mut table = [255; 256];
+    let mut digit = 0;
+    while digit < 16 {
+        table[b"0123456789abcdef"[digit] as usize] = digit as u8;
+        table[b"0123456789ABCDEF"[digit] as usize] = digit as u8;
+        digit += 1;
+    }
+    table[b'x' as usize] = X;
+    table[b'X' as usize] = X;
+    table
+};
+const X: u8 = 16;
+
+/// Digits of `BITS` bits each, the lowest last.
+#[inline]
+fn grouped<const BITS: usize>(
+    cell: &[u8],
+    width: u32,
+    value: &mut [u64],
+    unknown: &mut [u64],
+) -> Result<(), Fault> {
+    let width = width as usize;
+    for (place, &byte) in cell.iter().rev().enumerate() {
+        let low = place * BITS;
+        let digit = DIGITS[byte as usize];
+        if digit != X && digit >> BITS != 0 {
+            return Err(Fault::Digit);
+        }
+        let room = width.saturating_sub(low).min(BITS);
+        let all = (1 << room) - 1;
+        let (target, bits) = match digit {
+            // A probe's top digit may have fewer bits than the others; its X stands for those.
+            X if room > 0 => (&mut *unknown, all),
+            0 => continue,
+            digit if (digit as u64) <= all => (&mut *value, digit as u64),
+            _ => return wide_or_wrong::<BITS>(&cell[..cell.len() - place]),
+        };
+        let (word, shift) = (low / 64, low % 64);
+        target[word] |= bits << shift;
+        if shift + room > 64 {
+            target[word + 1] |= bits >> (64 - shift);
+        }
+    }
+    Ok(())
+}
+
+/// Too wide, unless there is a character before that is no digit.
+fn wide_or_wrong<const BITS: usize>(cell: &[u8]) -> Result<(), Fault> {
+    let digit = |byte: &u8| DIGITS[*byte as usize] == X || DIGITS[*byte as usize] >> BITS == 0;
+    Err(if cell.iter().all(digit) { Fault::Wide } else { Fault::Digit })
+}
+
+fn signed(cell: &[u8], width: u32, value: &mut [u64]) -> Result<(), Fault> {
+    let magnitude = cell.strip_prefix(b"-");
+    decimal(magnitude.unwrap_or(cell), width, value)?;
+    let sign = 1 << ((width - 1) % 64);
+    let (top, rest) = value.split_last_mut().ok_or(Fault::Wide)?;
+    let least = *top == sign && rest.iter().all(|&word| word == 0);
+    if *top & sign != 0 && !(magnitude.is_some() && least) {
+        // A single bit is 1 or -1: which of them Vivado writes nobody knows.
+        return if width == 1 { Ok(()) } else { Err(Fault::Wide) };
+    }
+    if magnitude.is_some() {
+        let mut carry = true;
+        for word in value.iter_mut() {
+            (*word, carry) = (!*word).overflowing_add(carry as u64);
+        }
+        trim(value, width);
+    }
+    Ok(())
+}
+
+/// Digits that are taken at a time, and ten to their number.
+const TAKEN: usize = 19;
+const TEN_TO_TAKEN: u64 = 10_000_000_000_000_000_000;
+
+fn decimal(cell: &[u8], width: u32, value: &mut [u64]) -> Result<(), Fault> {
+    if cell.is_empty() || !cell.iter().all(u8::is_ascii_digit) {
+        return Err(Fault::Digit);
+    }
+    let zeros = cell.iter().position(|&digit| digit != b'0').unwrap_or(cell.len());
+    let (first, rest) = cell[zeros..].split_at((cell.len() - zeros) % TAKEN);
+    let number =
+        |digits: &[u8]| digits.iter().fold(0, |sum, digit| sum * 10 + (digit - b'0') as u64);
+    value[0] = number(first);
+    for part in rest.chunks_exact(TAKEN) {
+        let mut carry = number(part);
+        for word in value.iter_mut() {
+            let product = *word as u128 * TEN_TO_TAKEN as u128 + carry as u128;
+            (*word, carry) = (product as u64, (product >> 64) as u64);
+        }
+        if carry != 0 {
+            return Err(Fault::Wide);
+        }
+    }
+    let top = value[value.len() - 1];
+    if !width.is_multiple_of(64) && top >> (width % 64) != 0 { Err(Fault::Wide) } else { Ok(()) }
+}
+
+/// Clears what is above the width.
+fn trim(words: &mut [u64], width: u32) {
+    if let Some(top) = words.last_mut()
+        && !width.is_multiple_of(64)
+    {
+        *top &= (1 << (width % 64)) - 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(cell: &str, radix: Radix, width: u32) -> Result<(Vec<u64>, Vec<u64>), Fault> {
+        let words = width.div_ceil(64) as usize;
+        let (mut value, mut unknown) = (vec![0; words], vec![0; words]);
+        read(cell.as_bytes(), radix, width, &mut value, &mut unknown)?;
+        Ok((value, unknown))
+    }
+
+    fn known(cell: &str, radix: Radix, width: u32) -> Vec<u64> {
+        let (value, unknown) = value(cell, radix, width).unwrap();
+        assert!(unknown.iter().all(|&word| word == 0));
+        value
+    }
+
+    #[test]
+    fn digits_of_every_radix_are_read() {
+        assert_eq!(known("0fF", Radix::Hex, 9), [0xff]);
+        assert_eq!(known("123456789abcdef01", Radix::Hex, 65), [0x2345_6789_abcd_ef01, 1]);
+        assert_eq!(known("777", Radix::Octal, 9), [0o777]);
+        assert_eq!(known(&format!("1{}", "0".repeat(22)), Radix::Octal, 67), [0, 4]);
+        assert_eq!(known(&format!("7{}", "0".repeat(21)), Radix::Octal, 66), [7 << 63, 3]);
+        assert_eq!(known("0101", Radix::Binary, 4), [5]);
+        assert_eq!(known("255", Radix::Unsigned, 8), [255]);
+        assert_eq!(known("-128", Radix::Signed, 8), [128]);
+        assert_eq!(known("-1", Radix::Signed, 8), [255]);
+        assert_eq!(known("127", Radix::Signed, 8), [127]);
+    }
+
+    #[test]
+    fn decimals_of_128_bits_and_more_are_exact() {
+        assert_eq!(known(&u128::MAX.to_string(), Radix::Unsigned, 128), [u64::MAX; 2]);
+        assert_eq!(known(&i128::MIN.to_string(), Radix::Signed, 128), [0, 1 << 63]);
+        assert_eq!(known("-1", Radix::Signed, 130), [u64::MAX, u64::MAX, 3]);
+        let above = "340282366920938463463374607431768211456";
+        assert_eq!(known(above, Radix::Unsigned, 129), [0, 0, 1]);
+        assert_eq!(value(above, Radix::Unsigned, 128), Err(Fault::Wide));
+    }
+
+    #[test]
+    fn what_a_probe_cannot_hold_is_refused() {
+        for (cell, radix, width) in [
+            ("200", Radix::Hex, 9),
+            ("1ff", Radix::Hex, 8),
+            ("1000", Radix::Octal, 9),
+            ("10", Radix::Binary, 1),
+            ("256", Radix::Unsigned, 8),
+            ("128", Radix::Signed, 8),
+            ("-129", Radix::Signed, 8),
+            ("-2", Radix::Signed, 1),
+            ("XX", Radix::Hex, 4),
+        ] {
+            assert_eq!(value(cell, radix, width), Err(Fault::Wide), "{cell} {radix:?} {width}");
+        }
+    }
+
+    #[test]
+    fn other_characters_are_refused() {
+        for (cell, radix) in [
+            ("0g", Radix::Hex),
+            ("-1", Radix::Hex),
+            ("8", Radix::Octal),
+            ("2", Radix::Binary),
+            ("-1", Radix::Unsigned),
+            ("1.5", Radix::Signed),
+            ("-", Radix::Signed),
+            ("--1", Radix::Signed),
+            ("1X", Radix::Unsigned),
+            ("zfff", Radix::Hex),
+        ] {
+            assert_eq!(value(cell, radix, 8), Err(Fault::Digit), "{cell} {radix:?}");
+        }
+        assert_eq!(value("", Radix::Hex, 8), Err(Fault::Empty));
+    }
+
+    #[test]
+    fn x_stands_for_the_bits_of_its_digit() {
+        assert_eq!(value("X1", Radix::Hex, 8), Ok((vec![1], vec![0xf0])));
+        assert_eq!(value("x", Radix::Hex, 1), Ok((vec![0], vec![1])));
+        assert_eq!(value("XXX", Radix::Hex, 9), Ok((vec![0], vec![0x1ff])));
+        assert_eq!(value("X", Radix::Signed, 70), Ok((vec![0; 2], vec![u64::MAX, 63])));
+    }
+
+    #[test]
+    fn a_single_signed_bit_is_one_or_minus_one() {
+        assert_eq!(known("1", Radix::Signed, 1), [1]);
+        assert_eq!(known("-1", Radix::Signed, 1), [1]);
+    }
+}

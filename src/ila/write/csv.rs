@@ -1,0 +1,141 @@
+//! The table: a row for each sample, with or without the row of radices.
+
+use std::io::{self, Write};
+
+use super::{Capture, Radix, shown, spill, take};
+
+/// Writes a capture as Vivado's CSV; `radix_row` leaves out or puts in the second row.
+pub fn csv(out: &mut dyn Write, capture: &Capture, radix_row: bool) -> io::Result<()> {
+    head(out, capture, radix_row)?;
+    let places = capture.places();
+    let mut cells: Vec<_> = capture.probes.iter().zip(places).map(Cell::of).collect();
+    let mut text = Vec::new();
+    let mut windows = capture.windows.iter().copied().peekable();
+    let mut triggers = capture.triggers.iter().copied().peekable();
+    let mut begin = 0;
+    for (sample, words) in capture.words.chunks_exact(capture.stride).enumerate() {
+        while let Some(window) = windows.next_if(|&window| window <= sample) {
+            begin = window;
+        }
+        let trigger = triggers.next_if_eq(&sample).is_some() as u8;
+        write!(text, "{sample},{},{trigger}", sample - begin)?;
+        for cell in &mut cells {
+            text.push(b',');
+            cell.push(words, &mut text)?;
+        }
+        text.push(b'\n');
+        spill(out, &mut text)?;
+    }
+    out.write_all(&text)
+}
+
+fn head(out: &mut dyn Write, capture: &Capture, radix_row: bool) -> io::Result<()> {
+    let mut table = ::csv::WriterBuilder::new().flexible(true).from_writer(out);
+    let fixed = ["Sample in Buffer", "Sample in Window", "TRIGGER"].map(str::to_owned);
+    table.write_record(fixed.into_iter().chain(capture.probes.iter().map(|probe| probe.head())))?;
+    if radix_row {
+        let fixed = ["Radix - UNSIGNED", "UNSIGNED", "UNSIGNED"];
+        let words = capture.probes.iter().map(|probe| shown(probe).word());
+        table.write_record(fixed.into_iter().chain(words))?;
+    }
+    table.flush()
+}
+
+/// A column: where its bits are and how they are spelled.
+struct Cell {
+    low: usize,
+    width: usize,
+    radix: Radix,
+    value: Vec<u64>,
+}
+
+impl Cell {
+    fn of((probe, low): (&super::Probe, usize)) -> Self {
+        let width = probe.width as usize;
+        Cell { low, width, radix: shown(probe), value: vec![0; width.div_ceil(64)] }
+    }
+
+    fn push(&mut self, sample: &[u64], text: &mut Vec<u8>) -> io::Result<()> {
+        take(sample, self.low, self.width, &mut self.value);
+        match self.radix {
+            Radix::Hex => self.digits(4, text),
+            Radix::Octal => self.digits(3, text),
+            Radix::Binary => self.digits(1, text),
+            Radix::Unsigned => write!(text, "{}", self.number())?,
+            Radix::Signed => {
+                let unused = 128 - self.width as u32;
+                write!(text, "{}", (self.number() << unused) as i128 >> unused)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// All digits, of `bits` bits each.
+    fn digits(&self, bits: usize, text: &mut Vec<u8>) {
+        for place in (0..self.width.div_ceil(bits)).rev() {
+            let (word, shift) = (place * bits / 64, place * bits % 64);
+            let mut digit = self.value[word] >> shift;
+            if shift + bits > 64 {
+                digit |= self.value.get(word + 1).unwrap_or(&0) << (64 - shift);
+            }
+            text.push(b"0123456789abcdef"[digit as usize & ((1 << bits) - 1)]);
+        }
+    }
+
+    fn number(&self) -> u128 {
+        self.value.iter().rev().fold(0, |number, &word| number << 64 | word as u128)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Probe;
+    use super::*;
+
+    fn probe(name: &str, width: u32, vector: bool, radix: Radix) -> Probe {
+        Probe { name: name.to_owned(), width, lsb: 0, vector, radix }
+    }
+
+    fn text(capture: &Capture, radix_row: bool) -> String {
+        let mut out = Vec::new();
+        csv(&mut out, capture, radix_row).unwrap();
+        String::from_utf8(out).unwrap()
+    }
+
+    #[test]
+    fn rows_are_laid_out_as_vivado_lays_them_out() {
+        let mut capture = Capture::new(vec![
+            probe("top/count", 9, true, Radix::Hex),
+            probe("level", 4, true, Radix::Signed),
+            probe("total", 4, true, Radix::Unsigned),
+            probe("state", 3, true, Radix::Binary),
+            probe("mode", 4, true, Radix::Octal),
+            probe("a,\"b", 1, false, Radix::Hex),
+        ]);
+        capture.words = vec![0x0a, 0x1_ff | 0x8 << 9 | 0xe << 13 | 2 << 17 | 9 << 20 | 1 << 24];
+        capture.windows = vec![0, 1];
+        capture.triggers = vec![1];
+        let heads = "top/count[8:0],level[3:0],total[3:0],state[2:0],mode[3:0],\"a,\"\"b\"";
+        let rows = "0,0,0,00a,0,0,000,00,0\n1,0,1,1ff,-8,14,010,11,1\n";
+        let fixed = "Sample in Buffer,Sample in Window,TRIGGER";
+        let radices = "Radix - UNSIGNED,UNSIGNED,UNSIGNED,HEX,SIGNED,UNSIGNED,BINARY,OCTAL,HEX";
+        assert_eq!(text(&capture, true), format!("{fixed},{heads}\n{radices}\n{rows}"));
+        assert_eq!(text(&capture, false), format!("{fixed},{heads}\n{rows}"));
+    }
+
+    #[test]
+    fn decimals_end_at_128_bits() {
+        let mut capture = Capture::new(vec![
+            probe("whole", 128, true, Radix::Unsigned),
+            probe("least", 128, true, Radix::Signed),
+            probe("wider", 129, true, Radix::Unsigned),
+        ]);
+        capture.words = vec![u64::MAX, u64::MAX, 0, 1 << 63, 5, 0, 1];
+        capture.windows = vec![0];
+        let text = text(&capture, true);
+        assert!(text.contains("UNSIGNED,UNSIGNED,SIGNED,HEX\n"), "{text}");
+        let wider = format!("1{}5", "0".repeat(31));
+        let row = format!("0,0,0,{},{},{wider}\n", u128::MAX, i128::MIN);
+        assert!(text.ends_with(&row), "{text}");
+    }
+}

@@ -1,0 +1,129 @@
+//! `tofsim ila capture` as users and scripts meet it.
+
+mod common;
+
+use tofsim::ila::{Overrides, Plan, SetUp};
+
+use common::{empty, files, json, refused, setup, stdout};
+
+#[test]
+fn the_command_writes_all_forms_and_says_when_it_triggered() {
+    let folder = empty();
+    let args = ["ila", "capture", "--probes", "fig_6_21", "-o", "out", "--json"];
+    let report = json(folder.path(), &args);
+    assert_eq!(report["schema"], "tofsim.ila_capture/1");
+    assert_eq!((report["samples"].as_u64(), report["seed"].as_u64()), (Some(1024), Some(1)));
+    assert_eq!(report["scenario"], "estimator_validation");
+    assert_eq!(report["trigger_times_us"].as_array().unwrap().len(), 1);
+    assert_eq!(
+        files(&folder.path().join("out")),
+        ["fig_6_21.csv", "fig_6_21.ila", "fig_6_21.map.toml", "fig_6_21.vcd"]
+    );
+    let table = stdout(folder.path(), &args[..6]);
+    assert!(table.contains("triggered") && table.contains("clk_125"), "{table}");
+}
+
+#[test]
+fn options_go_before_the_set_up() {
+    let folder = empty();
+    let capture = |args: &[&str]| {
+        let first = ["ila", "capture", "--probes", "fig_6_6", "-o", "out", "--json"];
+        json(folder.path(), &[&first[..], args].concat())
+    };
+    let args = ["--windows", "4", "--position", "2", "--format", "csv", "--clock", "clk_125"];
+    let report =
+        capture(&[&args[..], &["--trigger", "SPAD_RST_DO rising", "--arm-at-us", "0"]].concat());
+    assert_eq!(report["window_depth"], 256);
+    assert_eq!((&report["windows"], &report["position"]), (&4.into(), &2.into()));
+    assert_eq!(report["files"].as_array().unwrap().len(), 2);
+    let early = capture(&["--stop-when-full"]);
+    assert!(early["end_us"].as_f64() < capture(&[])["end_us"].as_f64());
+    let kc705 = capture(&["kc705", "--arm-at-us", "0", "--seed", "9"]);
+    assert_eq!((&kc705["scenario"], &kc705["seed"]), (&"kc705".into(), &9.into()));
+}
+
+#[test]
+fn a_window_that_is_not_full_is_written_and_noted() {
+    let folder = empty();
+    let args = ["ila", "capture", "kc705", "-s", "firmware.shots_per_frame=40", "-o", "out"];
+    let more = [
+        "--probes",
+        "fig_6_6",
+        "--trigger",
+        "frame_ctrl.shots == 30",
+        "--depth",
+        "2048",
+        "--arm-at-us",
+        "0",
+    ];
+    let done = common::output(folder.path(), &[&args[..], &more].concat());
+    assert!(done.status.success());
+    let note = String::from_utf8(done.stderr).unwrap();
+    assert!(note.contains("0 of 1 windows of 2048 samples"), "{note}");
+}
+
+#[test]
+fn without_a_trigger_nothing_is_written() {
+    let folder = empty();
+    let args = ["ila", "capture", "kc705", "-s", "firmware.shots_per_frame=40", "-o", "out"];
+    let more = ["--probes", "fig_6_6", "--trigger", "frame_ctrl.shots == 50"];
+    let error = refused(folder.path(), &[&args[..], &more].concat());
+    assert!(error.contains("--trigger: frame_ctrl.shots == 50: never held before"), "{error}");
+    assert_eq!(files(folder.path()), [""; 0]);
+}
+
+#[test]
+fn faults_of_options_name_them() {
+    let folder = empty();
+    let args = ["ila", "capture", "--probes", "fig_6_6", "-o", "out"];
+    let error = |more: &[&str]| refused(folder.path(), &[&args[..], more].concat());
+    assert!(error(&["--depth", "1000"]).contains("--depth: 1000: expected a power of two"));
+    assert!(error(&["--trigger", "VCSEL_ON = 1"]).contains("--trigger:1:10: =: expected `==`"));
+    assert!(error(&["--position", "9999"]).contains("--position: 9999"));
+    assert!(error(&["--stages", "7"]).contains("--stages: 7"));
+    assert!(error(&["--arm-at-us", "nan"]).contains("--arm-at-us: NaN"));
+    let unknown = ["ila", "capture", "--probes", "fig_6_7", "-o", "out"];
+    assert!(refused(folder.path(), &unknown).contains("(`fig_6_"));
+    assert_eq!(files(folder.path()), [""; 0]);
+}
+
+#[test]
+fn faults_of_a_set_up_have_their_place() {
+    let of = |scenario: &str, text: &str| {
+        let set_up = SetUp::parse("t", "t.toml", text, Overrides::default());
+        let setup = setup(scenario, &[]);
+        set_up.and_then(|set_up| Plan::new(&set_up, &setup)).unwrap_err().to_string()
+    };
+    let fault = |text: &str| of("kc705", &format!("{text}\n[[probe]]\nsignal = \"rst\""));
+    for (text, expected) in [
+        ("depth = 3000", "t.toml:1:9: depth = 3000: expected a power of two from 1024"),
+        ("depth = 512", "t.toml:1:9: depth = 512: expected a whole number from 1024 to 131072"),
+        ("position = 1024", "t.toml:1:12: position = 1024: expected 0 to 1023"),
+        ("windows = 2048", "t.toml:1:11: windows = 2048: expected 1 to 1024"),
+        ("windows = 1024\nposition = 1", "t.toml:2:12: position = 1: expected 0 to 0"),
+        ("input_stages = 7", "t.toml:1:16: input_stages = 7: expected a whole number from 0 to 6"),
+        ("clock = \"clk\"", "t.toml:1:9: clock = \"clk\": expected clk_125"),
+        ("name = \"a/b\"", "t.toml:1:8: name = \"a/b\": expected a name of letters"),
+        ("trigger = \"rst &\"", "t.toml:1:16: trigger = &: expected a name, a value"),
+        ("trigger = \"rst == 2\"", "t.toml:1:19: trigger = 2: expected 0 to 1"),
+        ("capture = \"!tdc.tdc_cod == 1\"", "t.toml:1:13: capture = tdc.tdc_cod: no such signal"),
+        ("[[probe]]\nsignal = \"rsst\"", "t.toml:2:10: probe.0.signal = \"rsst\": no such signal"),
+        ("[[probe]]\nsignal = \"rst\"", "t.toml:4:10: probe.1.signal = \"rst\": probe 0 has this"),
+        (
+            "[[probe]]\nsignal = \"mode[3]\"",
+            "t.toml:2:10: probe.0.signal = \"mode[3]\": `mode` has 1",
+        ),
+        ("[[probe]]\nname = \"x\"", "t.toml: probe.0.signal: missing"),
+    ] {
+        let error = fault(text);
+        assert!(error.starts_with(expected), "{text}: {error}");
+    }
+    assert!(of("kc705", "").contains("expected at least one [[probe]]"));
+    let ram = "[[probe]]\nsignal = \"histogram_builder.ram_3\"";
+    let error = of("estimator_validation", ram);
+    assert!(error.contains("leaves this module out"), "{error}");
+    let taps: String = (0..6)
+        .map(|k| format!("[[probe]]\nname = \"t{k}\"\nsignal = \"tdc.carry_chain.taps\"\n"))
+        .collect();
+    assert!(of("kc705", &taps).contains("expected at most 4096 bits in all, not 4800"));
+}
