@@ -8,12 +8,15 @@
 #![forbid(unsafe_code)]
 
 pub mod cli;
+pub mod compare;
+pub mod condition;
 pub mod csv_input;
 pub mod error;
 pub mod firmware;
 pub mod golden;
 pub mod hierarchy;
 pub mod histogram_file;
+pub mod ila;
 pub mod kernel;
 pub mod network;
 pub mod optics;
@@ -22,5 +25,6 @@ pub mod report;
 pub mod scenario;
 pub mod sensor;
 pub mod sim;
+pub mod source;
 pub mod verify;
 pub mod waves;

@@ -1,8 +1,10 @@
 //! The command line: one file per subcommand, each with its `Args` and `run`.
 
 pub mod budget;
+pub mod compare;
 pub mod completions;
 pub mod estimate;
+pub mod ila;
 pub mod interrupt;
 pub mod man;
 pub mod run;
@@ -40,6 +42,8 @@ enum Verb {
     Estimate(estimate::Args),
     Vectors(vectors::Args),
     Verify(verify::Args),
+    Ila(ila::Args),
+    Compare(Box<compare::Args>),
     Scenario(scenario::Args),
     Completions(completions::Args),
     Man(man::Args),
@@ -55,6 +59,8 @@ impl Cli {
             Verb::Estimate(args) => estimate::run(args),
             Verb::Vectors(args) => vectors::run(args, &talk),
             Verb::Verify(args) => return verify::run(args, &talk),
+            Verb::Ila(args) => ila::run(args, &talk),
+            Verb::Compare(args) => return compare::run(args, &talk),
             Verb::Scenario(args) => scenario::run(args),
             Verb::Completions(args) => completions::run(args),
             Verb::Man(args) => man::run(args),

@@ -42,6 +42,11 @@ impl Talk {
         }
     }
 
+    /// Whether more is to be said.
+    pub fn is_verbose(&self) -> bool {
+        self.verbose
+    }
+
     /// A progress bar over `count` frames, visible on a terminal only.
     pub fn progress(&self, count: u64) -> ProgressBar {
         let target = match self.quiet || count < 2 {

@@ -1,0 +1,68 @@
+//! What a capture says of its windows and triggers.
+
+use crate::error::Result;
+use crate::source::{Format, Source};
+
+/// A window of a capture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Window {
+    /// Number of its first sample.
+    pub(crate) first: u64,
+    /// Number of its samples, if that is known.
+    pub(crate) count: Option<u64>,
+    /// Number of the sample that triggered, in the buffer.
+    pub(crate) trigger: Option<u64>,
+}
+
+/// What a pass over a capture finds.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Survey {
+    /// Windows.
+    pub(crate) windows: Vec<Window>,
+    /// Number of samples, if that is known.
+    pub(crate) samples: Option<u64>,
+    /// Samples at which others are missing.
+    pub(crate) gaps: u64,
+    /// Last sample that something is said of.
+    pub(crate) last: Option<u64>,
+}
+
+/// Passes over a capture once.
+///
+/// # Errors
+/// When it cannot be read.
+pub(crate) fn survey(source: &Source) -> Result<Survey> {
+    let mut survey = Survey::default();
+    let ids: Vec<usize> = source.signals.iter().take(1).map(|signal| signal.id).collect();
+    let mut cursor = source.read(&ids)?;
+    while let Some(at) = cursor.peek()? {
+        let marks = cursor.take(|_| ());
+        survey.last = Some(at);
+        survey.gaps += u64::from(marks.gap);
+        if marks.window || survey.windows.is_empty() {
+            survey.windows.push(Window { first: at, count: None, trigger: None });
+        }
+        if marks.trigger
+            && let Some(window) = survey.windows.last_mut()
+        {
+            window.trigger = Some(at);
+        }
+    }
+    survey.samples = match source.format {
+        Format::IlaVcd => None,
+        _ => Some(survey.last.map_or(0, |last| last + 1)),
+    };
+    for k in 0..survey.windows.len() {
+        let first = survey.windows[k].first;
+        survey.windows[k].count = match survey.windows.get(k + 1) {
+            Some(next) => Some(next.first - first),
+            None => {
+                match (survey.samples, k.checked_sub(1).and_then(|k| survey.windows[k].count)) {
+                    (Some(samples), _) => Some(samples - first),
+                    (None, before) => before,
+                }
+            }
+        };
+    }
+    Ok(survey)
+}

@@ -1,0 +1,194 @@
+//! Compares two sequences of samples, one by one, as an alignment says.
+
+use std::collections::VecDeque;
+
+use crate::error::Result;
+
+use super::align::Alignment;
+use super::pair::Bits;
+use super::plan::Plan;
+use super::selection::{Place, Selected};
+use super::tallies::Tallies;
+use super::tally::Spot;
+
+/// What came of a pass over both sequences.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Passed {
+    /// Samples compared.
+    pub(super) compared: u64,
+    /// Windows in which one side has ended before the other: window, side, samples compared.
+    pub(super) short: Vec<(usize, usize, u64)>,
+}
+
+/// Compares all pieces.
+pub(super) fn compare(
+    plan: &Plan,
+    alignment: &Alignment,
+    until_fs: u128,
+    tallies: &mut Tallies,
+) -> Result<Passed> {
+    let pairs = &plan.matching.pairs;
+    let mut sides = [
+        Selected::new(plan.samples(0)?, &alignment.pieces[0]),
+        Selected::new(plan.samples(1)?, &alignment.pieces[1]),
+    ];
+    let steady: Vec<usize> = (0..pairs.len()).filter(|&pair| !pairs[pair].is_plain()).collect();
+    let mut delays: Vec<Delay> = steady.iter().map(|&pair| Delay::new(pair)).collect();
+    let mut wrong: Vec<bool> = vec![false; pairs.len()];
+    let mut differing: Vec<usize> = Vec::new();
+    let (mut passed, mut touched) = (Passed::default(), Vec::new());
+    tallies.touch_all();
+    'pieces: loop {
+        let mut count = 0;
+        delays.iter_mut().for_each(Delay::clear);
+        loop {
+            let places = [sides[0].next()?, sides[1].next()?];
+            let [Some(a), Some(b)] = places else {
+                note_end(&alignment.pieces, places, count, &mut passed);
+                break;
+            };
+            if is_over(plan, a, b) || is_late(plan, a, until_fs) {
+                break 'pieces;
+            }
+            if a.sample.marks.gap || b.sample.marks.gap {
+                continue;
+            }
+            for (side, selected) in sides.iter_mut().enumerate() {
+                selected.samples.changes(|signal| tallies.touch(side, signal));
+            }
+            let states = [sides[0].samples.state(), sides[1].samples.state()];
+            let at = [a.sample.at, b.sample.at];
+            let spot = Spot { order: passed.compared, piece: a.piece, at };
+            if let Some(both) = &mut tallies.both {
+                both.at(place_ps(plan, a))?;
+            }
+            tallies.take_touched(&mut touched);
+            for &pair in &touched {
+                let pair = pair as usize;
+                let same = tallies.is_same(pair, states);
+                if pairs[pair].is_plain() && wrong[pair] == same {
+                    wrong[pair] = !same;
+                    match same {
+                        true => differing.retain(|&other| other != pair),
+                        false => differing.push(pair),
+                    }
+                }
+                if tallies.both.is_some() {
+                    tallies.show(pair, states, !same)?;
+                }
+            }
+            for &pair in &differing {
+                tallies.count(pair, spot, states);
+            }
+            for delay in &mut delays {
+                delay.compare(plan, spot, states, tallies);
+            }
+            passed.compared += 1;
+            count += 1;
+        }
+        let more = [sides[0].next_piece(), sides[1].next_piece()];
+        if more != [true, true] {
+            break;
+        }
+    }
+    for (pair, tally) in tallies.tallies.iter_mut().enumerate() {
+        if pairs[pair].is_plain() {
+            tally.compared = passed.compared;
+        }
+    }
+    Ok(passed)
+}
+
+/// Whether nothing more is said: a capture that does not say how many samples it has goes on as
+/// long as another capture does, but not as long as a waveform.
+fn is_over(plan: &Plan, a: Place, b: Place) -> bool {
+    let held = [a.sample.held, b.sample.held];
+    held == [true, true] || (plan.capture().is_some() && held != [false, false])
+}
+
+fn is_late(plan: &Plan, place: Place, until_fs: u128) -> bool {
+    match plan.sources[0].axis {
+        crate::source::Axis::Time(tick) => tick.femtoseconds(place.sample.at) >= until_fs,
+        crate::source::Axis::Samples => false,
+    }
+}
+
+/// Time of a place in the waveform of both sides: the first side's, or its sample's number [ps].
+fn place_ps(plan: &Plan, place: Place) -> u128 {
+    match plan.sources[0].axis {
+        crate::source::Axis::Time(tick) => tick.femtoseconds(place.sample.at) / 1000,
+        crate::source::Axis::Samples => place.sample.at as u128,
+    }
+}
+
+/// Notes that one side has ended although its piece, or the other side, goes on.
+fn note_end(
+    pieces: &[Vec<super::selection::Piece>; 2],
+    places: [Option<Place>; 2],
+    count: u64,
+    passed: &mut Passed,
+) {
+    let Some(short) = places.iter().position(Option::is_none) else { return };
+    let window = match places[1 - short] {
+        Some(place) if !place.sample.held => place.piece,
+        _ => return,
+    };
+    let wanted = pieces[1 - short].get(window).and_then(|piece| piece.count());
+    if wanted.is_some_and(|wanted| wanted > count) {
+        passed.short.push((window, short, count));
+    }
+}
+
+/// A pair of which one side is late, or that is compared only at times.
+struct Delay {
+    pair: usize,
+    /// Values of the side that is early.
+    early: VecDeque<(Bits, Bits, Spot, bool)>,
+}
+
+impl Delay {
+    fn new(pair: usize) -> Self {
+        Delay { pair, early: VecDeque::new() }
+    }
+
+    fn clear(&mut self) {
+        self.early.clear();
+    }
+
+    fn compare(
+        &mut self,
+        plan: &Plan,
+        spot: Spot,
+        states: [&crate::source::State; 2],
+        tallies: &mut Tallies,
+    ) {
+        let pair = &plan.matching.pairs[self.pair];
+        let (mut a, mut b) = (Bits::default(), Bits::default());
+        pair.gather(0, states[0], &mut a);
+        pair.gather(1, states[1], &mut b);
+        let off = pair.is_off(states[0]);
+        self.early.push_back((a, b, spot, off));
+        let late = pair.latency.unsigned_abs() as usize;
+        if self.early.len() <= late {
+            return;
+        }
+        let Some((a_early, b_early, spot_early, off_early)) = self.early.pop_front() else {
+            return;
+        };
+        let now = self.early.back().cloned();
+        let (a_now, b_now, spot_now, off_now) =
+            now.unwrap_or((a_early.clone(), b_early.clone(), spot_early, off_early));
+        let (a, b, off, spot) = match pair.latency >= 0 {
+            true => (a_early, b_now, off_early, [spot_early, spot_now]),
+            false => (a_now, b_early, off_now, [spot_now, spot_early]),
+        };
+        if off {
+            return;
+        }
+        tallies.tallies[self.pair].compared += 1;
+        if !pair.equal(&a, &b, tallies.unknowns()) {
+            let at = [spot[0].at[0], spot[1].at[1]];
+            tallies.count_values(self.pair, Spot { at, ..spot_now }, &a, &b);
+        }
+    }
+}

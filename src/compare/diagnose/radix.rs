@@ -1,0 +1,72 @@
+//! A column that was read in another radix than it was written in.
+
+use crate::ila::Radix;
+
+use super::super::pair::extend;
+use super::super::plan::Plan;
+use super::Finding;
+use super::collect::{Collected, Column};
+
+/// All that a column may be written in.
+const ALL: [Radix; 5] = [Radix::Hex, Radix::Signed, Radix::Unsigned, Radix::Binary, Radix::Octal];
+
+/// Pairs that would be the same if one column were read in another radix.
+pub(super) fn findings(plan: &Plan, collected: &Collected) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    for columns in &collected.pairs {
+        for side in [1, 0] {
+            let (own, other) = (&columns[side], &columns[1 - side]);
+            let Some(radix) = radix(plan, side, own) else { continue };
+            if own.width == 1 || own.width > 64 {
+                continue;
+            }
+            let fits =
+                |&to: &Radix| to != radix && reread(own, radix, to) == Some(other.values.clone());
+            let likely = self::radix(plan, 1 - side, other);
+            if let Some(to) = likely.into_iter().chain(ALL).find(fits) {
+                let side = ["first", "second"][side];
+                let text = format!(
+                    "{} of the {side} side is the same if it is read as {} and not as {}: wrong radix",
+                    own.name,
+                    to.word(),
+                    radix.word()
+                );
+                findings.push(Finding::new("wrong radix", &[&columns[0].name], text));
+                break;
+            }
+        }
+    }
+    findings
+}
+
+/// The radix that a column says it has.
+fn radix(plan: &Plan, side: usize, column: &Column) -> Option<Radix> {
+    let part = plan.matching.pairs[column.pair?].sides[side].first()?;
+    let id = plan.matching.slots[side].ids[part.signal];
+    plan.sources[side].signals.iter().find(|signal| signal.id == id)?.radix
+}
+
+/// The values as they would be if their digits were of another radix.
+fn reread(column: &Column, from: Radix, to: Radix) -> Option<Vec<u64>> {
+    let mask = u64::MAX >> (64 - column.width);
+    let values = column.values.iter().map(|&value| {
+        let signed = extend(value as u128, column.width);
+        let digits = match from {
+            Radix::Hex => format!("{value:x}"),
+            Radix::Signed => signed.to_string(),
+            Radix::Unsigned => value.to_string(),
+            Radix::Binary => format!("{value:b}"),
+            Radix::Octal => format!("{value:o}"),
+        };
+        let number = match to {
+            Radix::Hex => i128::from_str_radix(&digits, 16),
+            Radix::Binary => i128::from_str_radix(&digits, 2),
+            Radix::Octal => i128::from_str_radix(&digits, 8),
+            Radix::Signed | Radix::Unsigned => digits.parse(),
+        };
+        let number = number.ok()?;
+        let fits = number >= -(1i128 << (column.width - 1)) && number <= mask as i128;
+        fits.then_some(number as u64 & mask)
+    });
+    values.collect()
+}

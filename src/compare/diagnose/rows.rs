@@ -1,0 +1,59 @@
+//! Samples that are missing, too many, or shifted.
+
+use super::super::result::Compared;
+use super::Finding;
+use super::collect::Collected;
+
+/// Samples that may be missing or too many.
+const STEP: usize = 64;
+/// Samples by which a window may be shifted.
+const SHIFT: usize = 4096;
+/// Samples that have to agree for a finding.
+const FEWEST: usize = 16;
+
+/// What explains that whole samples differ.
+pub(super) fn finding(collected: &Collected, rest: &[&Compared]) -> Option<Finding> {
+    let [a, b] = &collected.rows;
+    let names: Vec<&str> = rest.iter().map(|pair| pair.name.as_str()).collect();
+    let window = collected.window;
+    let first = a.iter().zip(b).position(|(a, b)| a != b)?;
+    let place = collected.first + first as u64;
+    for shift in 1..=SHIFT.min(a.len() / 2) {
+        let late = if agree(a, &b[shift..]) {
+            "later"
+        } else if agree(&a[shift..], b) {
+            "earlier"
+        } else {
+            continue;
+        };
+        let text = format!("window {window}: the second side is {shift} {} {late}", counted(shift));
+        return Some(Finding::new("shifted window", &names, text));
+    }
+    for step in 1..=STEP.min(a.len() / 2) {
+        // The values may stand still at first, so that more agree than do belong together.
+        if agree(&a[first + step.min(a.len() - first)..], &b[first..]) && first > 0 {
+            let text = format!(
+                "window {window}: {step} {} missing on the second side at or before sample {place}",
+                counted(step)
+            );
+            return Some(Finding::new("missing samples", &names, text));
+        }
+        if agree(&a[first..], &b[first + step.min(b.len() - first)..]) && first > 0 {
+            let text = format!(
+                "window {window}: {step} {} too many on the second side at or before sample {place}",
+                counted(step)
+            );
+            return Some(Finding::new("extra samples", &names, text));
+        }
+    }
+    None
+}
+
+fn counted(samples: usize) -> &'static str {
+    if samples == 1 { "sample" } else { "samples" }
+}
+
+/// Whether two sequences are the same as far as both go, and that is some way.
+fn agree(a: &[u64], b: &[u64]) -> bool {
+    a.len().min(b.len()) >= FEWEST && a.iter().zip(b).all(|(a, b)| a == b)
+}

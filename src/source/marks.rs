@@ -1,0 +1,85 @@
+//! What a logic analyser's VCD says of its samples.
+//!
+//! Vivado lets `_TRIGGER` and `_WINDOW` change at a trigger and at the begin of a window, from 0
+//! before the first sample. Chipscopy lets `_TRIGGER` be high for a sample, and `_WINDOW` begin at 0.
+
+use wellen::SignalRef;
+
+use super::Signal;
+use super::stream::Feed;
+
+/// Names of the marks.
+const NAMES: [&str; 3] = ["_trigger", "_window", "_gap"];
+
+/// Where a logic analyser's marks are, and how they are meant.
+#[derive(Clone, Debug)]
+pub(super) struct Style {
+    /// Ids of `_TRIGGER`, `_WINDOW` and `_GAP`.
+    ids: [Option<usize>; 3],
+    /// Whether `_TRIGGER` is high for the sample that triggered only.
+    pulses: bool,
+}
+
+impl Style {
+    /// The style of a VCD with those signals, if it is a logic analyser's.
+    pub(super) fn of(signals: &[Signal], version: &str) -> Option<Style> {
+        let flat = signals.iter().all(|signal| signal.name.text.starts_with("dut."));
+        let ids = NAMES.map(|name| {
+            let mark = signals.iter().find(|signal| signal.name.last() == name);
+            mark.filter(|mark| mark.width == 1 && mark.name.depth() == 2).map(|mark| mark.id)
+        });
+        let pulses = version.to_lowercase().contains("chipscop");
+        (flat && ids[0].is_some() && ids[1].is_some()).then_some(Style { ids, pulses })
+    }
+
+    /// Takes the marks, and the scope that every probe is in, out of the list of signals.
+    pub(super) fn hide(&self, signals: &mut Vec<Signal>) {
+        signals.retain(|signal| !self.ids.contains(&Some(signal.id)));
+        for signal in signals {
+            let probe = signal.name.text.strip_prefix("dut.").unwrap_or(&signal.name.text);
+            signal.name = super::Name::new(probe.strip_prefix('\\').unwrap_or(probe));
+        }
+    }
+}
+
+/// Follows the marks.
+pub(super) struct Marking {
+    references: [Option<SignalRef>; 3],
+    pulses: bool,
+    level: [bool; 3],
+}
+
+impl Marking {
+    /// With the library's signal of each id.
+    pub(super) fn new(style: &Style, references: &[SignalRef]) -> Self {
+        let references = style.ids.map(|id| id.map(|id| references[id]));
+        Marking { references, pulses: style.pulses, level: [false; 3] }
+    }
+
+    /// The library's signals.
+    pub(super) fn references(&self) -> impl Iterator<Item = SignalRef> {
+        self.references.into_iter().flatten()
+    }
+
+    /// A signal changes; if it is a mark, the sample gets it.
+    #[inline]
+    pub(super) fn change(&mut self, reference: SignalRef, at: u64, level: bool, feed: &mut Feed) {
+        let Some(mark) = self.references.iter().position(|&mark| mark == Some(reference)) else {
+            return;
+        };
+        let changed = self.level[mark] != level;
+        self.level[mark] = level;
+        if mark == 1 && at == 0 {
+            self.pulses |= !level;
+            feed.mark(|marks| marks.window = true);
+            return;
+        }
+        match mark {
+            0 if level || (changed && !self.pulses) => {
+                feed.mark(|marks| marks.trigger |= changed);
+            }
+            1 => feed.mark(|marks| marks.window |= changed),
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Names of signals as tools write them, made comparable.
+
+/// A signal's name: scopes and name, without range.
+///
+/// Simulators separate scopes by dots, Vivado by slashes; escaped names begin with a backslash;
+/// `gen[0]` may be a scope. Two names are the same if their parts are, whatever their case.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Name {
+    /// As the source writes it.
+    pub text: String,
+    parts: Vec<String>,
+}
+
+impl Name {
+    /// From the text of a name, without range.
+    pub fn new(text: impl Into<String>) -> Self {
+        let text = text.into();
+        let bare = text.replace(['\\', ' '], "");
+        let parts = bare.split(['.', '/']).filter(|part| !part.is_empty());
+        let parts = parts.map(str::to_lowercase).collect();
+        Name { text, parts }
+    }
+
+    /// The same parts, but spelled as another name.
+    pub fn spelled(self, other: &Name) -> Name {
+        Name { text: other.text.clone(), ..self }
+    }
+
+    /// Whether both have the same parts.
+    pub fn is(&self, other: &Name) -> bool {
+        self.parts == other.parts
+    }
+
+    /// Whether the last parts of the longer are the parts of the shorter; if so, how many.
+    pub fn common(&self, other: &Name) -> Option<usize> {
+        let (long, short) = match self.parts.len() >= other.parts.len() {
+            true => (&self.parts, &other.parts),
+            false => (&other.parts, &self.parts),
+        };
+        (!short.is_empty() && long.ends_with(short)).then_some(short.len())
+    }
+
+    /// How many parts both end with alike.
+    pub fn tail(&self, other: &Name) -> usize {
+        let (own, others) = (self.parts.iter().rev(), other.parts.iter().rev());
+        own.zip(others).take_while(|(own, other)| own == other).count()
+    }
+
+    /// Whether the last parts are spelled alike, case and all.
+    pub fn ends_exactly_as(&self, other: &Name) -> bool {
+        let last = |name: &Name| name.text.rsplit(['.', '/', '\\']).next().map(str::to_owned);
+        last(self) == last(other)
+    }
+
+    /// The name without its last `count` parts, if it has more.
+    pub fn scope(&self, count: usize) -> String {
+        self.parts[..self.parts.len().saturating_sub(count)].join(".")
+    }
+
+    /// The name below a scope, if it lies in it.
+    pub fn below(&self, scope: &str) -> Option<String> {
+        let whole = self.parts.join(".");
+        match scope {
+            "" => Some(whole),
+            _ => Some(whole.strip_prefix(scope)?.strip_prefix('.')?.to_owned()),
+        }
+    }
+
+    /// The last part, lower case.
+    pub fn last(&self) -> &str {
+        self.parts.last().map_or("", String::as_str)
+    }
+
+    /// Number of parts.
+    pub fn depth(&self) -> usize {
+        self.parts.len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn separators_case_and_escapes_make_no_difference() {
+        let ours = Name::new("tof_top.tdc.tdc_latch.hit");
+        assert!(ours.is(&Name::new("tof_top/tdc/TDC_latch/hit")));
+        assert!(Name::new("\\a/b[3]").is(&Name::new("a.b[3]")));
+        assert!(!ours.is(&Name::new("tdc.tdc_latch.hit")));
+    }
+
+    #[test]
+    fn a_suffix_ends_at_a_separator() {
+        let ours = Name::new("tof_top.tdc.tdc_latch.hit");
+        assert_eq!(ours.common(&Name::new("tdc_latch/hit")), Some(2));
+        assert_eq!(Name::new("hit").common(&ours), Some(1));
+        assert_eq!(ours.common(&Name::new("latch.hit")), None);
+        assert_eq!(ours.common(&Name::new("")), None);
+    }
+}
