@@ -55,6 +55,8 @@ fn a_window_that_is_not_full_is_written_and_noted() {
         "2048",
         "--arm-at-us",
         "0",
+        "--position",
+        "16",
     ];
     let done = common::output(folder.path(), &[&args[..], &more].concat());
     assert!(done.status.success());

@@ -1,21 +1,13 @@
-//! Any bytes are a capture or an error, never a panic and never much memory.
-//!
-//! `PROPTEST_CASES` sets the number of cases; with `TOFSIM_FUZZ_SECONDS` every test goes on for
-//! that long.
-
-#[path = "ila/fixtures.rs"]
-mod fixtures;
-#[path = "ila/mod.rs"]
-mod ila;
-
-use std::fmt::Debug;
-use std::time::{Duration, Instant};
+//! Captures of logic analysers.
 
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
-use proptest::test_runner::{Config, TestCaseError, TestRunner};
+use proptest::test_runner::TestCaseError;
 use tofsim::ila::read::WIDEST_SAMPLE;
+
+use crate::edit::{edited, edits};
+use crate::{fixtures, fuzz, ila};
 
 /// Text that means something in one of the formats.
 const PIECES: [&str; 34] = [
@@ -55,27 +47,6 @@ const PIECES: [&str; 34] = [
     "\u{feff}",
 ];
 
-/// A change of a file: where, how many bytes go, what comes.
-type Edit = (prop::sample::Index, usize, Vec<u8>);
-
-fn edits() -> impl Strategy<Value = Vec<Edit>> {
-    let piece = prop_oneof![
-        3 => select(&PIECES[..]).prop_map(|piece| piece.as_bytes().to_vec()),
-        1 => vec(any::<u8>(), 0..4),
-        1 => Just(Vec::new()),
-    ];
-    vec((any::<prop::sample::Index>(), 0usize..12, piece), 0..5)
-}
-
-fn edited(mut bytes: Vec<u8>, edits: &[Edit]) -> Vec<u8> {
-    for (place, gone, piece) in edits {
-        let start = place.index(bytes.len() + 1);
-        let end = bytes.len().min(start + gone);
-        bytes.splice(start..end, piece.iter().copied());
-    }
-    bytes
-}
-
 /// Reads a file to its end or its first error. `size` is what it unpacks to [bytes].
 fn drive(bytes: &[u8], size: usize) -> Result<(), TestCaseError> {
     match ila::read_bytes(bytes, None) {
@@ -88,22 +59,6 @@ fn drive(bytes: &[u8], size: usize) -> Result<(), TestCaseError> {
         Err(error) => prop_assert!(error.starts_with("capture"), "{}", error),
     }
     Ok(())
-}
-
-fn fuzz<T: Debug>(
-    strategy: impl Strategy<Value = T>,
-    test: impl Fn(T) -> Result<(), TestCaseError>,
-) {
-    let seconds = std::env::var("TOFSIM_FUZZ_SECONDS").ok();
-    let seconds = seconds.map_or(0, |seconds| seconds.parse().expect("whole seconds"));
-    let end = Instant::now() + Duration::from_secs(seconds);
-    let mut runner = TestRunner::new(Config { failure_persistence: None, ..Config::default() });
-    loop {
-        runner.run(&strategy, &test).unwrap_or_else(|failure| panic!("{failure}"));
-        if Instant::now() >= end {
-            break;
-        }
-    }
 }
 
 const TABLES: [&str; 7] = [
@@ -127,7 +82,7 @@ fn bytes_that_mean_nothing() {
 
 #[test]
 fn tables_that_are_nearly_right() {
-    fuzz((select(&TABLES[..]), edits()), |(name, edits)| {
+    fuzz((select(&TABLES[..]), edits(&PIECES)), |(name, edits)| {
         let bytes = edited(fixtures::bytes(name), &edits);
         drive(&bytes, bytes.len())
     });
@@ -137,7 +92,7 @@ fn tables_that_are_nearly_right() {
 fn archives_of_entries_that_are_nearly_right() {
     let entries = ["waveform.csv", "waveform.dmp", "probes.ltx"];
     let present = vec(prop::bool::weighted(0.7), 3);
-    fuzz((present, select(entries.to_vec()), edits()), |(present, target, edits)| {
+    fuzz((present, select(entries.to_vec()), edits(&PIECES)), |(present, target, edits)| {
         let content = |name: &str| {
             let bytes = fixtures::bytes(&format!("archive/{name}"));
             if name == target { edited(bytes, &edits) } else { bytes }
@@ -153,5 +108,5 @@ fn archives_of_entries_that_are_nearly_right() {
 #[test]
 fn archives_that_are_nearly_right() {
     let size = 8 * fixtures::archive_but(&[]).len();
-    fuzz(edits(), |edits| drive(&edited(fixtures::archive_but(&[]), &edits), size));
+    fuzz(edits(&PIECES), |edits| drive(&edited(fixtures::archive_but(&[]), &edits), size));
 }
