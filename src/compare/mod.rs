@@ -28,7 +28,7 @@ use std::path::PathBuf;
 use crate::condition::Condition;
 use crate::error::{Input, Result};
 use crate::kernel::Time;
-use crate::source::{Name, Source, shapes};
+use crate::source::{Format, Name, Source, shapes};
 
 pub use align::Align;
 pub(crate) use align::{Survey, survey};
@@ -283,10 +283,11 @@ fn compiled(plan: &Plan, tallies: &Tallies, options: &Options, result: &mut Comp
         result.notes.push("the map's names are found with the sides exchanged".to_owned());
     }
     for (side, source) in plan.sources.iter().enumerate() {
-        if source.is_capture()
-            && !source.radix_told
-            && source.format != crate::source::Format::IlaVcd
-        {
+        if source.format == Format::IlaVcd && !plan.sources[1 - side].is_capture() {
+            let note = "does not say how many samples it has; compared up to its last change";
+            result.notes.push(format!("the {} side {note}", ["first", "second"][side]));
+        }
+        if source.is_capture() && !source.radix_told && source.format != Format::IlaVcd {
             let side = ["first", "second"][side];
             result
                 .notes

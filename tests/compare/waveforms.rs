@@ -1,6 +1,7 @@
 //! Waveforms against each other, change by change.
 
 use std::fs;
+use std::path::Path;
 
 use crate::{common, different, differing, refused, same, vcd, write};
 
@@ -210,6 +211,20 @@ fn the_text_names_the_first_difference_and_where_they_all_lie() {
     assert!(text.contains("first     top.count at 35 ns: expected 0x07, got 0x27"), "{text}");
     assert!(text.contains(" 1 of 10 "), "{text}");
     assert!(text.contains(".......#............"), "{text}");
+}
+
+/// Both files are GHDL's, by `ghdl -a counter.vhdl && ghdl -e counter && ghdl -r counter
+/// --stop-time=200ns --wave=counter.ghw --vcd=counter.vcd`.
+#[test]
+fn ghdl_s_two_formats_are_the_same() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/compare/ghdl");
+    let json = same(&folder, &["counter.vcd", "counter.ghw"]);
+    let names: Vec<_> =
+        json["signals"].as_array().unwrap().iter().map(|signal| signal["name"].clone()).collect();
+    assert_eq!(names, ["counter.clk", "counter.count", "counter.bus_z"]);
+    assert_eq!(json["sides"][1]["format"], "GHW");
+    let last = different(&folder, &["counter.vcd", "counter.ghw", "--x", "none"]);
+    assert_eq!(differing(&last), ["counter.bus_z"], "two of its bits are Z and X at first");
 }
 
 #[test]

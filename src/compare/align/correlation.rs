@@ -19,6 +19,8 @@ const LONGEST: u64 = 1 << 17;
 const BITS: usize = 256;
 /// Candidates that are kept.
 const KEPT: usize = 8;
+/// Candidates that an error lists.
+const LISTED: usize = 4;
 
 /// An offset and how well it does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -248,8 +250,8 @@ pub(super) fn decide(candidates: &[Candidate], what: &str) -> Result<(Candidate,
     };
     let near: Vec<_> = candidates.iter().filter(|c| c.rate() <= 2.0 * best.rate()).collect();
     if near.len() > 1 {
-        let list: Vec<_> = near.iter().map(|candidate| tell(candidate)).collect();
-        let more = if near.len() == KEPT { " and perhaps more" } else { "" };
+        let list: Vec<_> = near.iter().take(LISTED).map(|candidate| tell(candidate)).collect();
+        let more = if near.len() > LISTED { " and more" } else { "" };
         let expected = format!(
             "ambiguous, {what} fits at several offsets: {}{more}; align by trigger, an edge or an \
             offset, or by other signals",

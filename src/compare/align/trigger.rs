@@ -66,7 +66,9 @@ fn captures(plan: &Plan) -> Result<Alignment> {
     }
     offsets.dedup();
     let offset = if let [offset] = offsets[..] { Some(offset) } else { None };
-    let found = format!("{} triggers", pieces[0].len());
+    let count = pieces[0].len();
+    let windows = if count == 1 { "window" } else { "windows" };
+    let found = format!("by the trigger of {count} {windows}");
     Ok(Alignment { pieces, found, offset, differences })
 }
 
