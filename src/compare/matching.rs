@@ -1,17 +1,23 @@
 //! Which signals belong together: by the map, by name, by the end of a name.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+mod names;
+mod rules;
+
+use std::collections::HashSet;
 
 use globset::{Glob, GlobSet, GlobSetBuilder};
 use regex::Regex;
 
 use crate::error::{Input, Result, nearest};
-use crate::source::{Kind, Name, Source, shapes};
+use crate::source::{Kind, Name, Signal, Source};
 
-use super::find::{self, Slots};
-use super::map::{Map, Rule, Side, parse_mask};
-use super::pair::{How, Pair, Part};
+use super::find::Slots;
+use super::map::{Map, Side};
+use super::pair::Pair;
 use super::show::Show;
+
+use names::by_name;
+use rules::{by_rule, is_swapped};
 
 /// A signal that has no partner.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -121,7 +127,8 @@ pub(super) fn matching(sides: [&Source; 2], map: &Map, choice: &Choice) -> Resul
 
 fn is_match(set: &GlobSet, name: &Name, text: &str) -> bool {
     let below = text.split_once('.').map_or(text, |(_, below)| below);
-    [text, below, name.text.as_str(), name.last()].iter().any(|name| set.is_match(name))
+    let last = text.rsplit(['.', '/']).next().unwrap_or(text);
+    [text, below, name.text.as_str(), last].iter().any(|name| set.is_match(name))
 }
 
 fn globs<'a>(texts: impl Iterator<Item = &'a String>, option: &str) -> Result<GlobSet> {
@@ -134,19 +141,6 @@ fn globs<'a>(texts: impl Iterator<Item = &'a String>, option: &str) -> Result<Gl
     }
     let fault = |error: globset::Error| Input::new(option, error.kind());
     Ok(set.build().map_err(fault)?)
-}
-
-/// Whether more of the map's names are found with the sides the other way round.
-fn is_swapped(sides: [&Source; 2], map: &Map) -> bool {
-    let found = |order: [usize; 2]| {
-        let has = |side: usize, names: &[String]| {
-            let part = |name: &String| find::part(sides[side], name, &mut Slots::default()).is_ok();
-            usize::from(names.iter().all(part))
-        };
-        let rules = map.signal.iter().filter(|rule| !rule.b.is_empty());
-        rules.map(|rule| has(order[0], &rule.a) + has(order[1], &rule.b)).sum::<usize>()
-    };
-    found([1, 0]) > found([0, 1])
 }
 
 impl Matching {
@@ -178,88 +172,30 @@ impl Matching {
     }
 }
 
-impl Pair {
-    /// Takes over what a rule says of how it is compared.
-    fn follow(&mut self, rule: &Rule, sides: [&Source; 2], matching: &mut Matching) -> Result<()> {
-        if let Some(name) = &rule.valid {
-            let (_, part) = find::part(sides[0], name, &mut matching.slots[0])?;
-            if part.width != 1 {
-                let expected = "expected a signal of one bit";
-                return Err(Input::new("map", expected).field("valid").value(name).into());
+fn renamed(sides: [&Source; 2], map: &Map, swapped: bool) -> Result<[Vec<Name>; 2]> {
+    let mut rules = Vec::new();
+    for rename in &map.rename {
+        let regex = Regex::new(&rename.pattern)
+            .map_err(|error| Input::new("rename", error).value(&rename.pattern))?;
+        rules.push((regex, rename));
+    }
+    let names = [0, 1].map(|side| {
+        let own = if (side == 0) != swapped { Side::A } else { Side::B };
+        let rules = rules.iter().filter(|(_, rename)| [own, Side::Both].contains(&rename.side));
+        let rename = |signal: &Signal| {
+            let mut text = signal.name.text.clone();
+            for (regex, rename) in rules.clone() {
+                text = regex.replace(&text, rename.by.as_str()).into_owned();
             }
-            self.valid = Some(part.signal);
-        }
-        match (rule.signed, rule.fraction) {
-            (Some(true), fraction) => self.show = Show::Signed(fraction.unwrap_or(0)),
-            (_, Some(fraction)) => self.show = Show::Fixed(fraction),
-            (Some(false), None) => self.show = Show::Unsigned,
-            (None, None) => {}
-        }
-        if let Some(mask) = rule.dont_care.as_deref().and_then(parse_mask) {
-            self.mask = mask.into_iter().map(|word| !word).collect();
-        }
-        self.invert |= rule.invert;
-        if rule.latency != 0 {
-            self.latency = if matching.swapped { -rule.latency } else { rule.latency };
-        }
-        self.tolerance = self.tolerance.max(rule.tolerance);
-        Ok(())
-    }
-}
-
-fn by_rule(
-    sides: [&Source; 2],
-    rule: &Rule,
-    matching: &mut Matching,
-    used: &mut [HashSet<usize>; 2],
-) -> Result<Pair> {
-    let mut names = [rule.a.as_slice(), rule.b.as_slice()];
-    if matching.swapped {
-        names.swap(0, 1);
-    }
-    let mut parts: [Vec<Part>; 2] = Default::default();
-    let mut first = [0, 0];
-    for side in 0..2 {
-        for (k, name) in names[side].iter().enumerate() {
-            let slots = &mut matching.slots[side];
-            let (signal, part) = find::part(sides[side], name, slots)?;
-            used[side].insert(sides[side].signals[signal].id);
-            parts[side].push(part);
-            if k == 0 {
-                first[side] = signal;
-            }
-        }
-    }
-    let [width, other] = [0, 1].map(|side| parts[side].iter().map(|part| part.width).sum::<u32>());
-    if width != other {
-        let expected = format!("expected signals of one width, not {width} and {other} bits");
-        return Err(Input::new("map", expected).field(names[0].join(" ")).into());
-    }
-    let [a, b] = [0, 1].map(|side| &sides[side].signals[first[side]]);
-    let mut pair = Pair {
-        name: names[0].join(" "),
-        other: names[1].join(" "),
-        aliases: 0,
-        how: How::Map,
-        width,
-        sides: parts,
-        show: shown(a, b, &shapes()),
-        mask: Vec::new(),
-        invert: false,
-        latency: 0,
-        tolerance: 0,
-        valid: None,
-    };
-    pair.follow(rule, sides, matching)?;
-    Ok(pair)
+            Name::new(text)
+        };
+        sides[side].signals.iter().map(rename).collect()
+    });
+    Ok(names)
 }
 
 /// How the values of two signals are shown.
-fn shown(
-    a: &crate::source::Signal,
-    b: &crate::source::Signal,
-    known: &[(Name, crate::kernel::signals::Format)],
-) -> Show {
+fn shown(a: &Signal, b: &Signal, known: &[(Name, crate::kernel::signals::Format)]) -> Show {
     if a.kind == Kind::Real {
         return Show::Real;
     }
@@ -274,183 +210,4 @@ fn shown(
     let radix = a.radix.or(b.radix).map(Show::radix);
     let shape = a.shape.or(b.shape).map(Show::shape);
     shape.or(radix).or_else(|| ours().map(Show::shape)).unwrap_or(Show::Bits)
-}
-
-fn renamed(sides: [&Source; 2], map: &Map, swapped: bool) -> Result<[Vec<Name>; 2]> {
-    let mut rules = Vec::new();
-    for rename in &map.rename {
-        let regex = Regex::new(&rename.pattern)
-            .map_err(|error| Input::new("rename", error).value(&rename.pattern))?;
-        rules.push((regex, rename));
-    }
-    let names = [0, 1].map(|side| {
-        let own = if (side == 0) != swapped { Side::A } else { Side::B };
-        let rules = rules.iter().filter(|(_, rename)| [own, Side::Both].contains(&rename.side));
-        let rename = |signal: &crate::source::Signal| {
-            let mut text = signal.name.text.clone();
-            for (regex, rename) in rules.clone() {
-                text = regex.replace(&text, rename.by.as_str()).into_owned();
-            }
-            Name::new(text)
-        };
-        sides[side].signals.iter().map(rename).collect()
-    });
-    Ok(names)
-}
-
-/// Signals of one name beyond which it says nothing about where they belong.
-const COMMON: usize = 64;
-
-/// The scopes of the two sides below which most names are the same: where a design hangs in a bench.
-fn scopes(names: &[Vec<Name>; 2], candidates: &[Vec<usize>; 2]) -> Option<[String; 2]> {
-    let mut by_last: HashMap<&str, [Vec<usize>; 2]> = HashMap::new();
-    for side in 0..2 {
-        for &k in &candidates[side] {
-            by_last.entry(names[side][k].last()).or_default()[side].push(k);
-        }
-    }
-    let mut votes: BTreeMap<[String; 2], usize> = BTreeMap::new();
-    for [of_a, of_b] in by_last.values().filter(|sides| sides.iter().all(|k| k.len() <= COMMON)) {
-        for &a in of_a {
-            for &b in of_b {
-                let (a, b) = (&names[0][a], &names[1][b]);
-                let tail = a.tail(b);
-                *votes.entry([a.scope(tail), b.scope(tail)]).or_default() += 1;
-            }
-        }
-    }
-    let (scopes, count) = votes.into_iter().max_by_key(|(_, count)| *count)?;
-    (count >= 2 && scopes.iter().all(|scope| !scope.is_empty())).then_some(scopes)
-}
-
-/// The names as they are below those scopes, so that what hangs there has the same name.
-fn below(names: &[Vec<Name>; 2], scopes: &[String; 2]) -> [Vec<Name>; 2] {
-    [0, 1].map(|side| {
-        let own = |name: &Name| match name.below(&scopes[side]) {
-            Some(below) => Name::new(format!("{SHARED}.{below}")).spelled(name),
-            None => name.clone(),
-        };
-        names[side].iter().map(own).collect()
-    })
-}
-
-/// Stands for the scopes below which names are the same.
-const SHARED: &str = "*";
-
-/// For each signal of each side those of the other whose names share the most parts with its own.
-type Best = [HashMap<usize, (usize, Vec<usize>)>; 2];
-
-fn best(names: &[Vec<Name>; 2], candidates: &[Vec<usize>; 2]) -> Best {
-    let mut by_last: HashMap<&str, Vec<usize>> = HashMap::new();
-    for &k in &candidates[1] {
-        by_last.entry(names[1][k].last()).or_default().push(k);
-    }
-    let mut best = Best::default();
-    for &a in &candidates[0] {
-        for &b in by_last.get(names[0][a].last()).into_iter().flatten() {
-            let Some(mut common) = names[0][a].common(&names[1][b]) else { continue };
-            if names[0][a].is(&names[1][b]) {
-                common = usize::MAX / 2;
-            }
-            // Verilog tells `drain` from `Drain`; other tools do not.
-            common = 2 * common + usize::from(names[0][a].ends_exactly_as(&names[1][b]));
-            for (side, own, other) in [(0, a, b), (1, b, a)] {
-                let (most, found) = best[side].entry(own).or_default();
-                if common > *most {
-                    (*most, *found) = (common, vec![other]);
-                } else if common == *most {
-                    found.push(other);
-                }
-            }
-        }
-    }
-    best
-}
-
-fn by_name(
-    sides: [&Source; 2],
-    names: &[Vec<Name>; 2],
-    candidates: &[Vec<usize>; 2],
-    matching: &mut Matching,
-) {
-    let hung = scopes(names, candidates).map(|scopes| below(names, &scopes));
-    let names = hung.as_ref().unwrap_or(names);
-    let best = best(names, candidates);
-    let known = shapes();
-    let mut pairs: HashMap<(usize, usize), usize> = HashMap::new();
-    let mut joined = [HashSet::new(), HashSet::new()];
-    let mut reasons: [HashMap<usize, Reason>; 2] = Default::default();
-    for &k in &candidates[0] {
-        let Some((_, found)) = best[0].get(&k) else { continue };
-        let a = &sides[0].signals[k];
-        let mutual: Vec<usize> = (found.iter().copied())
-            .filter(|b| best[1].get(b).is_some_and(|(_, back)| back.contains(&k)))
-            .collect();
-        let mut refuse = |side: usize, signal: usize, reason: Reason| {
-            reasons[side].entry(signal).or_insert(reason);
-        };
-        let Some(&first) = mutual.first() else { continue };
-        let b = &sides[1].signals[first];
-        if let Some(others) = several(sides[1], &mutual) {
-            refuse(0, k, Reason::Ambiguous(others));
-            continue;
-        }
-        if let Some((_, back)) = best[1].get(&first)
-            && let Some(others) = several(sides[0], back)
-        {
-            refuse(1, first, Reason::Ambiguous(others));
-            continue;
-        }
-        if a.width != b.width || a.kind != b.kind {
-            refuse(0, k, Reason::Width(a.width, b.width));
-            mutual.iter().for_each(|&b_k| refuse(1, b_k, Reason::Width(b.width, a.width)));
-            continue;
-        }
-        joined[0].insert(a.id);
-        joined[1].insert(b.id);
-        if let Some(&pair) = pairs.get(&(a.id, b.id)) {
-            matching.pairs[pair].aliases += 1;
-            continue;
-        }
-        pairs.insert((a.id, b.id), matching.pairs.len());
-        let whole = |slots: &mut Slots, signal: &crate::source::Signal| Part {
-            signal: slots.place(signal.id),
-            low: 0,
-            width: signal.width,
-            whole: true,
-        };
-        let [left, right] = &mut matching.slots;
-        matching.pairs.push(Pair {
-            name: a.name.text.clone(),
-            other: b.name.text.clone(),
-            aliases: 0,
-            how: if a.name.is(&b.name) { How::Name } else { How::Suffix },
-            width: a.width,
-            sides: [vec![whole(left, a)], vec![whole(right, b)]],
-            show: shown(a, b, &known),
-            mask: Vec::new(),
-            invert: false,
-            latency: 0,
-            tolerance: 0,
-            valid: None,
-        });
-    }
-    for side in 0..2 {
-        for &k in &candidates[side] {
-            let signal = &sides[side].signals[k];
-            if joined[side].contains(&signal.id) {
-                continue;
-            }
-            let reason = reasons[side].remove(&k).unwrap_or(Reason::Alone);
-            let name = signal.name.text.clone();
-            matching.unmatched.push(Unmatched { side, name, signal: k, reason });
-        }
-    }
-}
-
-/// The names, if they are not all of one signal.
-fn several(source: &Source, signals: &[usize]) -> Option<Vec<String>> {
-    let ids: HashSet<usize> = signals.iter().map(|&k| source.signals[k].id).collect();
-    let name = |&k: &usize| source.signals[k].name.text.clone();
-    (ids.len() > 1).then(|| signals.iter().take(4).map(name).collect())
 }

@@ -10,6 +10,7 @@ mod locate;
 mod marks;
 mod names;
 mod simulation;
+mod state;
 mod stream;
 mod tick;
 mod wave;
@@ -24,7 +25,8 @@ use crate::sim::setup::Setup;
 
 pub use names::Name;
 pub(crate) use simulation::shapes;
-pub use stream::{Cursor, Feed, Gone, Marks, State};
+pub use state::State;
+pub use stream::{Cursor, Feed, Gone, Marks};
 pub use tick::Tick;
 
 /// What kind of file or program a source is.

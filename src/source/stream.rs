@@ -6,6 +6,7 @@ use std::thread;
 use crate::error::Result;
 
 use super::guard::guarded;
+use super::state::State;
 
 /// Words of a block beyond which it is sent.
 const BLOCK: usize = 1 << 15;
@@ -46,57 +47,6 @@ impl Block {
         self.instants.clear();
         self.changes.clear();
         self.words.clear();
-    }
-}
-
-/// The values of all signals of a stream at one place; each begins at a word of its own.
-#[derive(Clone, Debug, PartialEq)]
-pub struct State {
-    first: Vec<u32>,
-    value: Vec<u64>,
-    unknown: Vec<u64>,
-}
-
-impl State {
-    /// All unknown.
-    pub fn new(widths: &[u32]) -> Self {
-        let mut first = vec![0];
-        let mut unknown = Vec::new();
-        for &width in widths {
-            let words = (width as usize).div_ceil(64);
-            unknown.resize(unknown.len() + words, u64::MAX);
-            if !width.is_multiple_of(64)
-                && let Some(last) = unknown.last_mut()
-            {
-                *last >>= 64 - width % 64;
-            }
-            first.push(unknown.len() as u32);
-        }
-        State { first, value: vec![0; unknown.len()], unknown }
-    }
-
-    fn range(&self, signal: usize) -> std::ops::Range<usize> {
-        self.first[signal] as usize..self.first[signal + 1] as usize
-    }
-
-    /// Value of a signal, lowest word first; its unknown bits are 0, or 1 for high impedance.
-    #[inline]
-    pub fn value(&self, signal: usize) -> &[u64] {
-        &self.value[self.range(signal)]
-    }
-
-    /// Unknown bits of a signal.
-    #[inline]
-    pub fn unknown(&self, signal: usize) -> &[u64] {
-        &self.unknown[self.range(signal)]
-    }
-
-    /// Takes the values of `signal` from another state of the same signals.
-    #[inline]
-    pub fn take(&mut self, from: &State, signal: usize) {
-        let range = self.range(signal);
-        self.value[range.clone()].copy_from_slice(&from.value[range.clone()]);
-        self.unknown[range.clone()].copy_from_slice(&from.unknown[range]);
     }
 }
 
@@ -245,12 +195,11 @@ impl Cursor {
         while self.change < end {
             let signal = self.block.changes[self.change] as usize;
             self.change += 1;
-            let range = self.state.range(signal);
-            let words = &self.block.words[self.word..self.word + 2 * range.len()];
+            let count = self.state.range(signal).len();
+            let words = &self.block.words[self.word..self.word + 2 * count];
             self.word += words.len();
-            let (value, unknown) = words.split_at(range.len());
-            self.state.value[range.clone()].copy_from_slice(value);
-            self.state.unknown[range].copy_from_slice(unknown);
+            let (value, unknown) = words.split_at(count);
+            self.state.set(signal, value, unknown);
             touched(signal);
         }
         marks

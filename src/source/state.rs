@@ -1,0 +1,61 @@
+//! The values of signals at one place.
+
+/// The values of all signals of a stream at one place; each begins at a word of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    first: Vec<u32>,
+    value: Vec<u64>,
+    unknown: Vec<u64>,
+}
+
+impl State {
+    /// All unknown.
+    pub fn new(widths: &[u32]) -> Self {
+        let mut first = vec![0];
+        let mut unknown = Vec::new();
+        for &width in widths {
+            let words = (width as usize).div_ceil(64);
+            unknown.resize(unknown.len() + words, u64::MAX);
+            if !width.is_multiple_of(64)
+                && let Some(last) = unknown.last_mut()
+            {
+                *last >>= 64 - width % 64;
+            }
+            first.push(unknown.len() as u32);
+        }
+        State { first, value: vec![0; unknown.len()], unknown }
+    }
+
+    /// Its words.
+    pub(super) fn range(&self, signal: usize) -> std::ops::Range<usize> {
+        self.first[signal] as usize..self.first[signal + 1] as usize
+    }
+
+    /// Value of a signal, lowest word first; its unknown bits are 0, or 1 for high impedance.
+    #[inline]
+    pub fn value(&self, signal: usize) -> &[u64] {
+        &self.value[self.range(signal)]
+    }
+
+    /// Unknown bits of a signal.
+    #[inline]
+    pub fn unknown(&self, signal: usize) -> &[u64] {
+        &self.unknown[self.range(signal)]
+    }
+
+    /// Sets a signal to words of its value and of its unknown bits.
+    #[inline]
+    pub(super) fn set(&mut self, signal: usize, value: &[u64], unknown: &[u64]) {
+        let range = self.range(signal);
+        self.value[range.clone()].copy_from_slice(value);
+        self.unknown[range].copy_from_slice(unknown);
+    }
+
+    /// Takes the values of `signal` from another state of the same signals.
+    #[inline]
+    pub fn take(&mut self, from: &State, signal: usize) {
+        let range = self.range(signal);
+        self.value[range.clone()].copy_from_slice(&from.value[range.clone()]);
+        self.unknown[range.clone()].copy_from_slice(&from.unknown[range]);
+    }
+}
