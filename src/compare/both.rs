@@ -29,6 +29,7 @@ pub(super) struct Both {
     /// Pairs that differ now, and whether the file says that some do.
     count: usize,
     shown: Option<bool>,
+    first: Option<u64>,
     last: Option<u64>,
 }
 
@@ -47,6 +48,7 @@ impl Both {
             wrong: vec![false; pairs.len()],
             count: 0,
             shown: None,
+            first: None,
             last: None,
         };
         both.header(pairs).map_err(|error| both.file.fault(error))?;
@@ -82,6 +84,7 @@ impl Both {
             return Ok(());
         }
         self.sum_up()?;
+        self.first.get_or_insert(ps);
         self.last = Some(ps);
         Writer::new(&mut self.file).timestamp(ps)
     }
@@ -127,7 +130,7 @@ impl Both {
         }
         let (save, commands) = (path.with_extension("gtkw"), path.with_extension("sucl"));
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let view = View::new(result, self.last.unwrap_or(0));
+        let view = View::new(result, (self.first.unwrap_or(0), self.last.unwrap_or(0)));
         write_file(&save, |file| file.write_all(view.gtkwave(&name).as_bytes()))?;
         write_file(&commands, |file| file.write_all(view.surfer().as_bytes()))?;
         Ok(vec![path, save, commands])

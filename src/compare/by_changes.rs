@@ -134,9 +134,7 @@ pub(super) fn compare(plan: &Plan, span: Span, tallies: &mut Tallies) -> Result<
             if !same {
                 tallies.count(pair, spot, states);
             }
-            if tallies.both.is_some() {
-                tallies.show(pair, states, !same)?;
-            }
+            tallies.show(pair, states, !same)?;
         }
         passed.compared += 1;
     }

@@ -1,11 +1,9 @@
 //! Compares two sequences of samples, one by one, as an alignment says.
 
-use std::collections::VecDeque;
-
 use crate::error::Result;
 
 use super::align::Alignment;
-use super::pair::Bits;
+use super::delay::Delay;
 use super::plan::Plan;
 use super::selection::{Place, Selected};
 use super::tallies::Tallies;
@@ -65,23 +63,24 @@ pub(super) fn compare(
             tallies.take_touched(&mut touched);
             for &pair in &touched {
                 let pair = pair as usize;
+                if !pairs[pair].is_plain() {
+                    continue;
+                }
                 let same = tallies.is_same(pair, states);
-                if pairs[pair].is_plain() && wrong[pair] == same {
+                if wrong[pair] == same {
                     wrong[pair] = !same;
                     match same {
                         true => differing.retain(|&other| other != pair),
                         false => differing.push(pair),
                     }
                 }
-                if tallies.both.is_some() {
-                    tallies.show(pair, states, !same)?;
-                }
+                tallies.show(pair, states, !same)?;
             }
             for &pair in &differing {
                 tallies.count(pair, spot, states);
             }
             for delay in &mut delays {
-                delay.compare(plan, spot, states, tallies);
+                delay.compare(plan, spot, states, tallies)?;
             }
             passed.compared += 1;
             count += 1;
@@ -136,59 +135,5 @@ fn note_end(
     let wanted = pieces[1 - short].get(window).and_then(|piece| piece.count());
     if wanted.is_some_and(|wanted| wanted > count) {
         passed.short.push((window, short, count));
-    }
-}
-
-/// A pair of which one side is late, or that is compared only at times.
-struct Delay {
-    pair: usize,
-    /// Values of the side that is early.
-    early: VecDeque<(Bits, Bits, Spot, bool)>,
-}
-
-impl Delay {
-    fn new(pair: usize) -> Self {
-        Delay { pair, early: VecDeque::new() }
-    }
-
-    fn clear(&mut self) {
-        self.early.clear();
-    }
-
-    fn compare(
-        &mut self,
-        plan: &Plan,
-        spot: Spot,
-        states: [&crate::source::State; 2],
-        tallies: &mut Tallies,
-    ) {
-        let pair = &plan.matching.pairs[self.pair];
-        let (mut a, mut b) = (Bits::default(), Bits::default());
-        pair.gather(0, states[0], &mut a);
-        pair.gather(1, states[1], &mut b);
-        let off = pair.is_off(states[0]);
-        self.early.push_back((a, b, spot, off));
-        let late = pair.latency.unsigned_abs() as usize;
-        if self.early.len() <= late {
-            return;
-        }
-        let Some((a_early, b_early, spot_early, off_early)) = self.early.pop_front() else {
-            return;
-        };
-        let now = self.early.back().cloned();
-        let (a_now, b_now, spot_now, off_now) =
-            now.unwrap_or((a_early.clone(), b_early.clone(), spot_early, off_early));
-        let (a, b, off, spot) = match pair.latency >= 0 {
-            true => (a_early, b_now, off_early, [spot_early, spot_now]),
-            false => (a_now, b_early, off_now, [spot_now, spot_early]),
-        };
-        if off {
-            return;
-        }
-        tallies.tallies[self.pair].compared += 1;
-        if !pair.equal(&a, &b, tallies.unknowns()) {
-            let at = [spot[0].at[0], spot[1].at[1]];
-            tallies.count_values(self.pair, Spot { at, ..spot_now }, &a, &b);
-        }
     }
 }

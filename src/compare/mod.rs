@@ -7,6 +7,7 @@ mod align;
 mod both;
 mod by_changes;
 mod by_samples;
+mod delay;
 mod diagnose;
 mod find;
 pub mod map;

@@ -8,6 +8,10 @@ use crate::source::Axis;
 
 /// Pairs that are shown at first.
 const SHOWN: usize = 32;
+/// Part of the waveform that is shown around the first difference.
+const PART: u64 = 16;
+/// Pixels in which GTKWave shows 2^n units of time at a zoom of -n, and those that waves have.
+const ZOOM: (f64, f64) = (200.0, 680.0);
 /// GTKWave's colours of the three scopes: green, yellow, red.
 const COLOURS: [u32; 3] = [4, 3, 1];
 
@@ -16,19 +20,20 @@ pub(super) struct View<'a> {
     pairs: Vec<&'a Compared>,
     /// First difference [ps].
     first: Option<u64>,
-    end: u64,
+    /// Where the waveform begins and ends [ps].
+    span: (u64, u64),
 }
 
 impl<'a> View<'a> {
-    /// Of a waveform that ends at `end` [ps].
-    pub(super) fn new(result: &'a Comparison, end: u64) -> Self {
+    /// Of a waveform with that begin and end [ps].
+    pub(super) fn new(result: &'a Comparison, span: (u64, u64)) -> Self {
         let time = |at: u64| match result.sides[0].axis {
             Axis::Time(tick) => (tick.femtoseconds(at) / 1000) as u64,
             Axis::Samples => at,
         };
         let firsts = result.pairs.iter().filter_map(|pair| pair.first.as_ref());
         let first = firsts.map(|first| time(first.at[0])).min();
-        View { pairs: result.pairs.iter().take(SHOWN).collect(), first, end }
+        View { pairs: result.pairs.iter().take(SHOWN).collect(), first, span }
     }
 
     fn names(pair: &Compared) -> [String; 3] {
@@ -43,12 +48,13 @@ impl<'a> View<'a> {
     /// GTKWave's save file for the waveform called `wave`.
     pub(super) fn gtkwave(&self, wave: &str) -> String {
         let first = self.first.map_or("-1".to_owned(), |first| first.to_string());
-        let span = self.end.max(1) as f64;
+        let (begin, end) = self.span;
+        let whole = end.saturating_sub(begin).max(1);
         let (from, shown) = match self.first {
-            Some(first) => (first.saturating_sub(self.end / 20), span / 10.0),
-            None => (0, span),
+            Some(first) => (first.saturating_sub(whole / PART / 2), (whole / PART).max(1)),
+            None => (begin, whole),
         };
-        let zoom = -(shown / 900.0).max(1e-3).log2();
+        let zoom = -(shown as f64 * ZOOM.0 / ZOOM.1).log2();
         let mut text = format!(
             "[dumpfile] \"{wave}\"\n[timestart] {from}\n[size] 1400 800\n*{zoom:.6} {first}\n\
              [sst_width] 160\n[signals_width] 420\n@28\n[color] 1\n{TOP}.any_differs\n"
