@@ -5,7 +5,7 @@ use crate::error::Result;
 use super::align::Alignment;
 use super::delay::Delay;
 use super::plan::Plan;
-use super::selection::{Place, Selected};
+use super::selection::{Piece, Place, Selected};
 use super::tallies::Tallies;
 use super::tally::Spot;
 
@@ -14,8 +14,19 @@ use super::tally::Spot;
 pub(super) struct Passed {
     /// Samples compared.
     pub(super) compared: u64,
-    /// Windows in which one side has ended before the other: window, side, samples compared.
-    pub(super) short: Vec<(usize, usize, u64)>,
+    /// Windows in which one side has ended before the other.
+    pub(super) short: Vec<Short>,
+}
+
+/// That a side has ended before the other.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Short {
+    pub(super) window: usize,
+    pub(super) side: usize,
+    /// Samples of the window that were compared.
+    pub(super) count: u64,
+    /// Whether the other side was to be compared so far.
+    pub(super) is_wanted: bool,
 }
 
 /// Compares all pieces.
@@ -42,10 +53,10 @@ pub(super) fn compare(
         loop {
             let places = [sides[0].next()?, sides[1].next()?];
             let [Some(a), Some(b)] = places else {
-                note_end(&alignment.pieces, places, count, &mut passed);
+                passed.short.extend(short(plan, &alignment.pieces, places, until_fs, count));
                 break;
             };
-            if is_over(plan, a, b) || is_late(plan, a, until_fs) {
+            if is_over(plan, a, b) || is_late(plan, 0, a, until_fs) {
                 break 'pieces;
             }
             if a.sample.marks.gap || b.sample.marks.gap {
@@ -105,8 +116,8 @@ fn is_over(plan: &Plan, a: Place, b: Place) -> bool {
     held == [true, true] || (plan.capture().is_some() && held != [false, false])
 }
 
-fn is_late(plan: &Plan, place: Place, until_fs: u128) -> bool {
-    match plan.sources[0].axis {
+fn is_late(plan: &Plan, side: usize, place: Place, until_fs: u128) -> bool {
+    match plan.sources[side].axis {
         crate::source::Axis::Time(tick) => tick.femtoseconds(place.sample.at) >= until_fs,
         crate::source::Axis::Samples => false,
     }
@@ -120,20 +131,22 @@ fn place_ps(plan: &Plan, place: Place) -> u128 {
     }
 }
 
-/// Notes that one side has ended although its piece, or the other side, goes on.
-fn note_end(
-    pieces: &[Vec<super::selection::Piece>; 2],
+/// That one side has ended although its piece, or the other side, goes on.
+fn short(
+    plan: &Plan,
+    pieces: &[Vec<Piece>; 2],
     places: [Option<Place>; 2],
+    until_fs: u128,
     count: u64,
-    passed: &mut Passed,
-) {
-    let Some(short) = places.iter().position(Option::is_none) else { return };
-    let window = match places[1 - short] {
-        Some(place) if !place.sample.held => place.piece,
-        _ => return,
-    };
-    let wanted = pieces[1 - short].get(window).and_then(|piece| piece.count());
-    if wanted.is_some_and(|wanted| wanted > count) {
-        passed.short.push((window, short, count));
+) -> Option<Short> {
+    let side = places.iter().position(Option::is_none)?;
+    let other = 1 - side;
+    let place = places[other]?;
+    if place.sample.held || is_late(plan, other, place, until_fs) {
+        return None;
     }
+    let wanted = pieces[other].get(place.piece).and_then(|piece| piece.count());
+    let is_wanted = wanted.is_some_and(|wanted| wanted > count);
+    let window = place.piece;
+    (is_wanted || wanted.is_none()).then_some(Short { window, side, count, is_wanted })
 }

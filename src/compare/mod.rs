@@ -45,6 +45,7 @@ pub(crate) use samples::time;
 use align::Alignment;
 use both::Both;
 use by_changes::Span;
+use by_samples::Short;
 use matching::matching;
 use plan::{Plan, Terms};
 use tallies::Tallies;
@@ -105,7 +106,7 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
     let until_fs = options.until.map_or(u128::MAX >> 32, |until| until.fs() as u128);
     let result = if sampled {
         let alignment = align::alignment(&plan, &align, time_from(options))?;
-        let mut result = by_sample(&plan, &alignment, until_fs, &mut tallies)?;
+        let mut result = by_sample(&plan, &align, &alignment, until_fs, &mut tallies)?;
         compiled(&plan, &tallies, options, &mut result);
         if !result.is_same() {
             result.findings = diagnose::samples(&plan, &alignment, &result)?;
@@ -116,6 +117,11 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
         compiled(&plan, &tallies, options, &mut result);
         result
     };
+    if result.compared == 0 && result.is_same() {
+        let expected = "nothing to compare: there is no place that both sides have";
+        let value = format!("{} and {}", a.name, b.name);
+        return Err(Input::new("compare", expected).value(value).into());
+    }
     if let Some(both) = tallies.both.take() {
         both.finish(&result)?;
     }
@@ -188,6 +194,7 @@ fn empty(plan: &Plan, unit: &'static str, alignment: String) -> Comparison {
 
 fn by_sample(
     plan: &Plan,
+    align: &Align,
     alignment: &Alignment,
     until_fs: u128,
     tallies: &mut Tallies,
@@ -197,15 +204,20 @@ fn by_sample(
     result.offset = alignment.offset;
     result.compared = passed.compared;
     result.differences = alignment.differences.clone();
-    for (window, side, count) in passed.short {
+    for Short { window, side, count, is_wanted } in passed.short {
         let name = &plan.sources[side].name;
         let other = &plan.sources[1 - side].name;
-        result.differences.push(format!(
-            "window {window}: {name} ends after {count} samples, before {other} does"
-        ));
-    }
-    if passed.compared == 0 && result.differences.is_empty() {
-        result.notes.push("there are no samples to compare".to_owned());
+        let text =
+            format!("window {window}: {name} ends after {count} samples, before {other} does");
+        match plan.capture() {
+            _ if is_wanted => result.differences.push(text),
+            Some(capture) if capture != side => result.differences.push(text),
+            Some(_) => {}
+            None if *align == Align::Start => {
+                result.differences.push(format!("{text} (--until ends earlier)"));
+            }
+            None => result.notes.push(text),
+        }
     }
     Ok(result)
 }

@@ -175,6 +175,16 @@ fn waveforms_are_sampled_by_a_clock_of_their_own_or_a_free_one() {
     waveform(folder);
     let json = same(folder, &[&["wave.vcd", "wave.vcd"], &CLOCK[..]].concat());
     assert_eq!(json["compared"], 200);
+    let late = ["--after", "996ns", "--until", "1.5us"];
+    let json = same(folder, &[&["wave.vcd", "wave.vcd"], &CLOCK[..], &late].concat());
+    assert_eq!(json["compared"], 50);
+    let text = std::fs::read_to_string(folder.join("wave.vcd")).unwrap();
+    write(folder, "short.vcd", text.split_once("#1005\n").unwrap().0);
+    let json = different(folder, &[&["wave.vcd", "short.vcd"], &CLOCK[..]].concat());
+    assert!(json["differences"].to_string().contains("ends after 100 samples"), "{json:#}");
+    same(folder, &[&["wave.vcd", "short.vcd"], &CLOCK[..], &["--until", "1us"]].concat());
+    let nothing = [&["wave.vcd", "short.vcd"], &CLOCK[..], &["--until", "1ns"]].concat();
+    assert!(refused(folder, &nothing).contains("nothing to compare"));
     let free = ["--clock", "100MHz + 5ns"];
     let json = same(folder, &[&["wave.vcd", "wave.vcd"], &free[..]].concat());
     assert_eq!(json["compared"], 200);

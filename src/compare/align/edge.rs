@@ -5,6 +5,7 @@ use crate::source::Axis;
 
 use super::super::pair::Bits;
 use super::super::plan::Plan;
+use super::super::samples::Sample;
 use super::super::selection::Piece;
 use super::Alignment;
 use super::survey::survey;
@@ -71,18 +72,22 @@ pub(super) fn start(plan: &Plan) -> Result<Alignment> {
             let coarse = a.max(b);
             let mut first = [None, None];
             for (side, tick) in [(0, a), (1, b)] {
-                let sample = plan.samples(side)?.next()?;
-                first[side] = sample.map(|sample| tick.convert(sample.at, coarse));
+                let sample = first_looked_at(plan, side)?;
+                first[side] = sample.map(|sample| (sample, tick.convert(sample.at, coarse)));
             }
-            let [Some(a), Some(b)] = first else {
+            let [Some((sample_a, a)), Some((sample_b, b))] = first else {
                 let side = usize::from(first[0].is_some());
-                let expected = "the clock never rises";
+                let expected = format!("the clock never rises after {}", plan.after);
                 return Err(Input::new(&plan.sources[side].name, expected).into());
             };
             let (side, at) = if a < b { (0, b) } else { (1, a) };
             let late = same_time(plan, side, [plan.sources[side].axis, Axis::Time(coarse)], at)?;
-            let offset = if side == 0 { -(late as i64) } else { late as i64 };
-            Ok(Alignment::shifted(offset, "samples of the same time".to_owned()))
+            let mut firsts = [sample_a.index, sample_b.index];
+            firsts[side] = late;
+            let pieces = firsts.map(|first| vec![Piece::Run(first, None)]);
+            let found = "samples of the same time".to_owned();
+            let offset = Some(firsts[1] as i64 - firsts[0] as i64);
+            Ok(Alignment { pieces, found, offset, differences: Vec::new() })
         }
         [Axis::Samples, Axis::Samples] => {
             let windows = [survey(plan.sources[0])?.windows, survey(plan.sources[1])?.windows];
@@ -108,6 +113,17 @@ pub(super) fn start(plan: &Plan) -> Result<Alignment> {
         }
         _ => Ok(Alignment::shifted(0, found)),
     }
+}
+
+/// The first sample that is looked at.
+fn first_looked_at(plan: &Plan, side: usize) -> Result<Option<Sample>> {
+    let mut samples = plan.samples(side)?;
+    while let Some(sample) = samples.next()? {
+        if plan.is_looked_at(side, sample) {
+            return Ok(Some(sample));
+        }
+    }
+    Ok(None)
 }
 
 /// Number of the sample of a side at a time.
