@@ -81,6 +81,20 @@ fn the_last_value_of_a_file_is_compared() {
 }
 
 #[test]
+fn the_last_instant_counts_unless_one_side_has_nothing_there() {
+    let folder = common::empty();
+    let folder = folder.path();
+    let variables = [(1, "clk"), (8, "x")];
+    let wave = |last: &str| vcd("1ps", "top", &variables, &format!("#0\n0a\nb1 b\n#20\n{last}"));
+    write(folder, "a.vcd", &wave("1a\nb11 b\n"));
+    write(folder, "b.vcd", &wave("1a\n"));
+    write(folder, "end.vcd", &wave(""));
+    assert_eq!(differing(&different(folder, &["a.vcd", "b.vcd"])), ["top.x"]);
+    same(folder, &["a.vcd", "end.vcd"]);
+    same(folder, &["end.vcd", "a.vcd"]);
+}
+
+#[test]
 fn a_shift_in_time_or_by_an_edge_is_taken_out() {
     let folder = common::empty();
     let folder = folder.path();
