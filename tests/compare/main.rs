@@ -6,6 +6,7 @@ mod common;
 mod align;
 mod captures;
 mod damage;
+mod formats;
 mod how;
 mod verilog;
 mod waveforms;

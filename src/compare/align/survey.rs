@@ -33,7 +33,9 @@ pub(crate) struct Survey {
 /// When it cannot be read.
 pub(crate) fn survey(source: &Source) -> Result<Survey> {
     let mut survey = Survey::default();
-    let ids: Vec<usize> = source.signals.iter().take(1).map(|signal| signal.id).collect();
+    // Of a VCD, only the changes of all signals tell how far it goes.
+    let count = if source.format == Format::IlaVcd { usize::MAX } else { 1 };
+    let ids: Vec<usize> = source.signals.iter().take(count).map(|signal| signal.id).collect();
     let mut cursor = source.read(&ids)?;
     while let Some(at) = cursor.peek()? {
         let marks = cursor.take(|_| ());
