@@ -92,8 +92,11 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
         return Err(Input::new("compare", expected).value(value).into());
     }
     matching.pairs.sort_by_key(|pair| pair.how != How::Map);
-    let terms = terms(options)?;
+    let mut terms = terms(options)?;
     let align = align(sources, options, &terms)?;
+    if align != Align::Trigger {
+        terms.trigger = None;
+    }
     let sampled = sources.iter().any(|source| source.is_capture()) || terms.sampling.is_some();
     let plan = match sampled {
         true => Plan::new(sources, matching, terms)?,

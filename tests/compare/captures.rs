@@ -90,6 +90,25 @@ fn several_windows_come_together_by_their_triggers() {
 }
 
 #[test]
+fn a_window_that_the_run_s_end_cut_short_is_compared_as_far_as_it_goes() {
+    let folder = common::empty();
+    let folder = folder.path();
+    let scenario = ["-s", "firmware.shots_per_frame=40"];
+    let capture = ["ila", "capture", "kc705", "--probes", "fig_6_6", "-o", ".", "--windows", "4"];
+    let trigger = ["--trigger", "SPAD_RST_DO == 0"];
+    let more = ["--position", "16", "--arm-at-us", "0", "--depth", "2048"];
+    common::stdout(folder, &[&capture[..], &scenario, &trigger, &more].concat());
+    let info = common::json(folder, &["ila", "info", "fig_6_6.csv", "--json"]);
+    assert_eq!((&info["windows"], &info["triggers"]), (&4.into(), &4.into()));
+    assert!(info["samples"].as_u64().unwrap() < 2048, "{info:#}");
+    for format in FORMATS {
+        let file = format!("fig_6_6.{format}");
+        let args = ["--scenario", "kc705", &file, "--map", "fig_6_6.map.toml"];
+        same(folder, &[&args[..], &scenario].concat());
+    }
+}
+
+#[test]
 fn input_stages_and_a_free_clock_come_with_the_map() {
     let folder = common::empty();
     let folder = folder.path();

@@ -88,7 +88,9 @@ fn one_capture(plan: &Plan, side: usize, time_from: Option<&str>) -> Result<Alig
     let shape = Shape { depth, windows: windows.len(), position: (at - first.first) as usize };
     let kept = stored(plan, 1 - side, shape)?;
     let capture = windows.iter().map(|(window, _)| Piece::Run(window.first, window.count));
-    let waveform: Vec<Piece> = kept.into_iter().map(piece).collect();
+    let waveform: Vec<Piece> = (kept.into_iter().zip(&windows))
+        .map(|(kept, (window, _))| piece(kept).part(0, window.count.unwrap_or(u64::MAX)))
+        .collect();
     let samples: Vec<String> = (waveform.iter().take(3))
         .filter_map(|piece| piece.sample(shape.position as u64))
         .map(|sample| sample.to_string())
