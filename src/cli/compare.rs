@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use crate::compare::map::Rule;
 use crate::compare::{Align, Choice, Map, Options, Sampling, Unknowns, compare, json, junit, text};
 use crate::condition::Condition;
-use crate::error::{Input, Result};
+use crate::error::{Error, Input, Result};
 use crate::ila::{Overrides, Radix, SetUp};
 use crate::kernel::Time;
 use crate::output::write_file;
@@ -22,7 +22,9 @@ use super::talk::Talk;
 ///
 /// A and B are VCD, FST, GHW, or a logic analyser's CSV, VCD or .ila archive; the contents decide,
 /// not the name. With --scenario, A is a simulation and only B is given. Signals come together by
-/// name or the end of a name (`tdc/hit` is `tof_top.tdc.hit`), or as a map says.
+/// name or the end of a name (`tdc/hit` is `tof_top.tdc.hit`), or as a map says; so may SIGNAL below.
+///
+/// A CONDITION is as `state == 5 && (start rising || code[7:4] != 0b1x0x)`; TIME is as 10us or 8.5ns.
 #[derive(Debug, clap::Args)]
 #[command(
     visible_alias = "diff",
@@ -137,7 +139,7 @@ struct How {
     #[arg(long, value_name = "SIGNAL=N", value_parser = setting::<u64>)]
     tolerance: Vec<(String, u64)>,
     /// Samples that B has a signal later (less than 0: earlier); may be repeated
-    #[arg(long, value_name = "SIGNAL=N", value_parser = setting::<i64>, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SIGNAL=N", value_parser = latency, allow_hyphen_values = true)]
     latency: Vec<(String, i64)>,
     /// Compare a signal only where another is 1 in A; may be repeated
     #[arg(long, value_name = "SIGNAL=VALID", value_parser = setting::<String>)]
@@ -172,6 +174,9 @@ impl RadixWord {
     }
 }
 
+/// Most samples that a signal may be late.
+const LONGEST_LATENCY: u64 = 65_536;
+
 fn time(text: &str) -> std::result::Result<Time, String> {
     crate::compare::time(text).ok_or_else(|| "expected a time, as 10us or 8.5ns".to_owned())
 }
@@ -182,8 +187,20 @@ fn setting<T: std::str::FromStr>(text: &str) -> std::result::Result<(String, T),
     Ok((name.to_owned(), value.parse().map_err(|_| fault())?))
 }
 
+fn latency(text: &str) -> std::result::Result<(String, i64), String> {
+    let (name, samples) = setting::<i64>(text)?;
+    match samples.unsigned_abs() <= LONGEST_LATENCY {
+        true => Ok((name, samples)),
+        false => Err(format!("expected {LONGEST_LATENCY} samples at most")),
+    }
+}
+
 fn kind<T>() -> &'static str {
-    if std::any::type_name::<T>().contains("String") { "signal" } else { "whole number" }
+    match std::any::type_name::<T>() {
+        "u64" => "whole number from 0",
+        "i64" => "whole number",
+        _ => "signal",
+    }
 }
 
 /// Runs the command.
@@ -202,6 +219,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             return Err(Input::new("compare", expected).into());
         }
     };
+    no_input_is_written(args)?;
     let options = options(args)?;
     let result = compare(&a, &b, &options)?;
     if let Some(path) = &args.junit {
@@ -217,6 +235,23 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         false => print(&text(&result, talk.is_verbose()))?,
     }
     Ok(ExitCode::from(u8::from(!result.is_same())))
+}
+
+/// That no file which is compared is written over.
+fn no_input_is_written(args: &Args) -> Result<()> {
+    let outputs = [("--waves", &args.waves), ("--junit", &args.junit)];
+    for (option, path) in outputs.into_iter().filter_map(|(o, path)| Some((o, path.as_ref()?))) {
+        let written = [path.clone(), path.with_extension("gtkw"), path.with_extension("sucl")];
+        let place = |path: &Path| std::fs::canonicalize(path).ok();
+        let same = |input: &PathBuf| {
+            written.iter().any(|path| place(path).is_some() && place(path) == place(input))
+        };
+        if args.files.iter().any(same) {
+            let expected = "expected another file than those that are compared";
+            return Err(Input::new(option, expected).value(path.display()).into());
+        }
+    }
+    Ok(())
 }
 
 fn simulation(name: &str, simulated: &Simulated) -> Result<Source> {
@@ -259,9 +294,20 @@ fn map(name: &str) -> Result<Map> {
     let is_set_up =
         |path: &Path| std::fs::read_to_string(path).is_ok_and(|text| text.contains("[[probe]]"));
     if built_in || is_set_up(Path::new(name)) {
-        return Ok(Map::of(&SetUp::load(name, Overrides::default())?));
+        let set_up = SetUp::load(name, Overrides::default());
+        return Ok(Map::of(&set_up.map_err(as_map)?));
     }
     Map::read(Path::new(name))
+}
+
+/// The fault of a set-up that is not there, by the option that asked for it here.
+fn as_map(error: Error) -> Error {
+    match error {
+        Error::Input(input) if input.source == "--probes" => {
+            Input { source: "--map".to_owned(), ..*input }.into()
+        }
+        error => error,
+    }
 }
 
 /// What the options say of single signals.

@@ -125,6 +125,9 @@ pub(super) fn compare(plan: &Plan, span: Span, tallies: &mut Tallies) -> Result<
         }
         for &pair in &touched {
             let pair = pair as usize;
+            if tallies.is_off(pair, states) {
+                continue;
+            }
             tallies.tallies[pair].compared += 1;
             let same = tallies.is_same(pair, states);
             if !same {

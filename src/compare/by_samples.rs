@@ -56,7 +56,8 @@ pub(super) fn compare(
                 passed.short.extend(short(plan, &alignment.pieces, places, until_fs, count));
                 break;
             };
-            if is_over(plan, a, b) || is_late(plan, 0, a, until_fs) {
+            let late = is_late(plan, 0, a, until_fs) || is_late(plan, 1, b, until_fs);
+            if late || is_over(plan, a, b) {
                 break 'pieces;
             }
             if a.sample.marks.gap || b.sample.marks.gap {

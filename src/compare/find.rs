@@ -30,7 +30,7 @@ impl Slots {
     }
 }
 
-/// The index of the one signal that has this name, or whose name ends so.
+/// The index of the one signal that has this name, or whose name ends so; nearest the top.
 ///
 /// # Errors
 /// When there is none, or several that are not the same signal.
@@ -44,6 +44,9 @@ pub(super) fn signal(source: &Source, text: &str) -> Result<usize> {
             signal.name.common(&wanted).filter(|&common| common == wanted.depth()).map(|_| k)
         });
         found = ends.collect();
+        let depth = |&k: &usize| source.signals[k].name.depth();
+        let top = found.iter().map(depth).min();
+        found.retain(|k| Some(depth(k)) == top);
     }
     let id = |&k: &usize| source.signals[k].id;
     match found.first() {

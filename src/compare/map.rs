@@ -178,14 +178,14 @@ impl Map {
             false => file.clock.clone(),
         };
         let probes = file.probe.iter().map(|probe| Rule {
-            a: vec![format!("{TOP}.{}", probe.signal)],
+            a: vec![format!("{TOP}.{}", below_top(probe))],
             b: vec![shown(probe)],
             ..Rule::default()
         });
         Map {
             clock: Some(clock),
             align: Some("trigger".to_owned()),
-            trigger: file.trigger.clone(),
+            trigger: Some(file.trigger.clone().unwrap_or_else(|| "always".to_owned())),
             after_us: file.arm_at_us,
             input_stages: file.input_stages,
             qualified_by: file.capture.clone(),
@@ -201,10 +201,21 @@ impl Map {
     }
 }
 
+/// Path of a probe's signal below the top.
+fn below_top(probe: &ProbeEntry) -> String {
+    let path = probe.signal.replace('/', ".");
+    let below = path.strip_prefix(TOP).and_then(|rest| rest.strip_prefix('.'));
+    below.unwrap_or(&path).to_owned()
+}
+
 /// Name of a probe in a capture.
 fn shown(probe: &ProbeEntry) -> String {
-    let below = probe.signal.strip_prefix(TOP).map_or(&*probe.signal, |rest| &rest[1..]);
-    probe.name.clone().unwrap_or_else(|| below.replace('.', "/"))
+    let below = below_top(probe).replace('.', "/");
+    let single = below.strip_suffix(']').and_then(|text| {
+        let (high, low) = text.rsplit_once('[')?.1.split_once(':')?;
+        (high == low).then(|| text.replace(&format!("[{high}:{low}"), &format!("[{low}]")))
+    });
+    probe.name.clone().unwrap_or(single.unwrap_or(below))
 }
 
 /// The bits of a mask, lowest word first.

@@ -94,17 +94,22 @@ pub(super) fn matching(sides: [&Source; 2], map: &Map, choice: &Choice) -> Resul
     let names = renamed(sides, map, matching.swapped)?;
     let ignored = globs(choice.ignore.iter().chain(&map.ignore), "--ignore")?;
     let only = globs(choice.only.iter(), "--signals")?;
+    let is_left_out = |is_in: &dyn Fn(&GlobSet) -> bool| {
+        is_in(&ignored) || (!choice.only.is_empty() && !is_in(&only))
+    };
+    matching.pairs.retain(|pair| {
+        !is_left_out(&|set| [&pair.name, &pair.other].iter().any(|name| is_match(set, name, name)))
+    });
     let mut candidates: [Vec<usize>; 2] = Default::default();
     for side in 0..2 {
         for (k, signal) in sides[side].signals.iter().enumerate() {
             if used[side].contains(&signal.id) {
                 continue;
             }
-            let is_in = |set: &GlobSet| is_match(set, &names[side][k], &signal.name.text);
+            let (renamed, own) = (&names[side][k].text, &signal.name.text);
+            let is_in = |set: &GlobSet| is_match(set, renamed, own);
             let reason = match signal.kind {
-                _ if is_in(&ignored) || (!choice.only.is_empty() && !is_in(&only)) => {
-                    Reason::Ignored
-                }
+                _ if is_left_out(&is_in) => Reason::Ignored,
                 Kind::Other => Reason::Text,
                 Kind::Bits | Kind::Real => {
                     candidates[side].push(k);
@@ -125,10 +130,10 @@ pub(super) fn matching(sides: [&Source; 2], map: &Map, choice: &Choice) -> Resul
     Ok(matching)
 }
 
-fn is_match(set: &GlobSet, name: &Name, text: &str) -> bool {
+fn is_match(set: &GlobSet, renamed: &str, text: &str) -> bool {
     let below = text.split_once('.').map_or(text, |(_, below)| below);
     let last = text.rsplit(['.', '/']).next().unwrap_or(text);
-    [text, below, name.text.as_str(), last].iter().any(|name| set.is_match(name))
+    [text, below, renamed, last].iter().any(|name| set.is_match(name))
 }
 
 fn globs<'a>(texts: impl Iterator<Item = &'a String>, option: &str) -> Result<GlobSet> {

@@ -12,6 +12,7 @@ mod diagnose;
 mod find;
 pub mod map;
 mod matching;
+mod operands;
 mod pair;
 mod plan;
 mod report;
@@ -92,6 +93,12 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
         return Err(Input::new("compare", expected).value(value).into());
     }
     matching.pairs.sort_by_key(|pair| pair.how != How::Map);
+    if sources.iter().all(|source| source.is_capture())
+        && (options.until.is_some() || options.after.is_some())
+    {
+        let expected = "expected a waveform: captures have no times";
+        return Err(Input::new("--after or --until", expected).into());
+    }
     let mut terms = terms(options)?;
     let align = align(sources, options, &terms)?;
     if align != Align::Trigger {
@@ -118,6 +125,7 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
     } else {
         let mut result = by_change(&plan, &align, until_fs, &mut tallies)?;
         compiled(&plan, &tallies, options, &mut result);
+        result.findings = diagnose::changes(&result);
         result
     };
     if result.compared == 0 && result.is_same() {
@@ -170,7 +178,7 @@ fn align(sources: [&Source; 2], options: &Options, terms: &Terms) -> Result<Alig
             }
             Ok(if triggered { Align::Trigger } else { Align::Start })
         }
-        [false, false] => Ok(Align::Start),
+        [false, false] if terms.trigger.is_none() || terms.sampling.is_none() => Ok(Align::Start),
         _ if terms.trigger.is_some() => Ok(Align::Trigger),
         _ => Ok(Align::Correlation(Vec::new())),
     }
@@ -284,6 +292,18 @@ fn compiled(plan: &Plan, tallies: &Tallies, options: &Options, result: &mut Comp
         let order = order(pair);
         (order, if order == u64::MAX { 0 } else { flow(&pair.name) })
     });
+    for (pair, tally) in plan.matching.pairs.iter().zip(&tallies.tallies) {
+        match tally.compared {
+            0 if pair.latency != 0 => {
+                let text = format!("{}: no sample has both sides with that latency", pair.name);
+                result.differences.push(text);
+            }
+            0 if pair.valid.is_some() => {
+                result.notes.push(format!("{} is compared nowhere: it is never valid", pair.name));
+            }
+            _ => {}
+        }
+    }
     result.unmatched = plan.matching.unmatched.clone();
     for unmatched in &result.unmatched {
         let needed = options.all || plan.sources[unmatched.side].is_capture();

@@ -53,6 +53,8 @@ pub(super) struct Pair {
     pub(super) width: u32,
     pub(super) sides: [Vec<Part>; 2],
     pub(super) show: Show,
+    /// Whether conditions take it as two's complement, if the map says.
+    pub(super) signed: Option<bool>,
     /// Bits that are compared, lowest word first; empty if all are.
     pub(super) mask: Vec<u64>,
     pub(super) invert: bool,

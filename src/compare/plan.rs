@@ -1,12 +1,12 @@
 //! What a comparison reads from each side, and how it makes samples of it.
 
-use crate::condition::{Bound, Condition, Level, Place};
+use crate::condition::Condition;
 use crate::error::Result;
 use crate::kernel::Time;
-use crate::source::{Axis, Source, State};
+use crate::source::{Axis, Source};
 
-use super::find;
 use super::matching::{Matching, Reason, Unmatched};
+use super::operands::Tied;
 use super::samples::{Sample, Samples, Sampling};
 
 /// Two sources with their signals matched, to be read as often as needed.
@@ -18,9 +18,9 @@ pub(super) struct Plan<'a> {
     sampling: Option<Sampling>,
     clock: [Option<usize>; 2],
     /// What a waveform triggers on.
-    pub(super) trigger: [Option<Bound>; 2],
+    pub(super) trigger: [Option<Tied>; 2],
     /// Under which condition a logic analyser stored a sample.
-    pub(super) qualifier: [Option<Bound>; 2],
+    pub(super) qualifier: [Option<Tied>; 2],
     /// Before this time a waveform is not looked at.
     pub(super) after: Time,
     /// Samples before that which a logic analyser's registers delay into it.
@@ -64,7 +64,8 @@ impl<'a> Plan<'a> {
                 continue;
             }
             let bind = |matching: &mut Matching, condition: &Option<Condition>| {
-                let bind = |condition: &Condition| bound(sources[side], side, matching, condition);
+                let bind =
+                    |condition: &Condition| Tied::new(sources[side], side, matching, condition);
                 condition.as_ref().map(bind).transpose()
             };
             trigger[side] = bind(&mut matching, &terms.trigger)?;
@@ -131,40 +132,4 @@ fn lonely(sources: [&Source; 2], side: usize, matching: &mut Matching) -> Vec<Lo
             Lonely { name, signal: slots[side].place(signal.id), width }
         })
         .collect()
-}
-
-/// Ties a condition to the signals of one side, which may be called as on either.
-fn bound(
-    source: &Source,
-    side: usize,
-    matching: &mut Matching,
-    condition: &Condition,
-) -> Result<Bound> {
-    condition.bind(&mut |text| {
-        let pair = matching
-            .pairs
-            .iter()
-            .find(|pair| [&pair.name, &pair.other].contains(&&text.to_owned()));
-        if let Some(pair) = pair
-            && let [part] = pair.sides[side][..]
-            && part.whole
-        {
-            let (width, signed) = (pair.width, pair.show.is_signed());
-            return Ok(Place { index: part.signal, width, signed });
-        }
-        let found = find::signal(source, text)?;
-        let signal = &source.signals[found];
-        let index = matching.slots[side].place(signal.id);
-        let signed = matches!(signal.shape, Some(crate::kernel::signals::Format::Signed { .. }));
-        Ok(Place { index, width: signal.width, signed })
-    })
-}
-
-/// A signal's level for a condition.
-pub(super) fn level(state: &State, signal: usize) -> Level {
-    let wide = |words: &[u64]| {
-        let high = words.get(1).copied().unwrap_or(0);
-        words.first().copied().unwrap_or(0) as u128 | (high as u128) << 64
-    };
-    Level { value: wide(state.value(signal)), unknown: wide(state.unknown(signal)) }
 }

@@ -47,8 +47,8 @@ fn compose(result: &Comparison, verbose: bool, text: &mut String) -> std::fmt::R
         "samples" => "samples",
         _ => "instants",
     };
-    let (pairs, count) = (result.pairs.len(), grouped(result.compared));
-    writeln!(text, "compared  {pairs} signals at {count} {places}")?;
+    let pairs = counted(result.pairs.len() as u64, "signals");
+    writeln!(text, "compared  {pairs} at {}", counted(result.compared, places))?;
     matched(result, verbose, text)?;
     for note in &result.notes {
         writeln!(text, "note      {note}")?;
@@ -67,6 +67,12 @@ fn compose(result: &Comparison, verbose: bool, text: &mut String) -> std::fmt::R
     let Some(first) = result.differing().next() else { return Ok(()) };
     writeln!(text, "\nfirst     {}", first_line(result, first))?;
     differing(result, text)
+}
+
+/// A number of things, of which one is called so without its last letter.
+fn counted(count: u64, things: &str) -> String {
+    let things = if count == 1 { things.trim_end_matches('s') } else { things };
+    format!("{} {things}", grouped(count))
 }
 
 fn first_line(result: &Comparison, pair: &Compared) -> String {

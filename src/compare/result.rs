@@ -53,8 +53,9 @@ impl Described {
         match self.axis {
             Axis::Samples => format!("sample {at}"),
             Axis::Time(tick) => {
-                let ps = tick.femtoseconds(at) as f64 / 1e3;
-                format!("{} ns", ps / 1e3)
+                let fs = tick.femtoseconds(at);
+                let text = format!("{}.{:06}", fs / 1_000_000, fs % 1_000_000);
+                format!("{} ns", text.trim_end_matches('0').trim_end_matches('.'))
             }
         }
     }

@@ -33,6 +33,11 @@ impl FromStr for Sampling {
             Ok(ila::clock::Sampling::Free { frequency_hz, phase }) => {
                 Sampling::Free { frequency_hz, phase }
             }
+            Err(expected)
+                if text.trim_start().starts_with(|first: char| first.is_ascii_digit()) =>
+            {
+                return Err(expected.to_owned());
+            }
             _ => Sampling::Signal(text.to_owned()),
         })
     }

@@ -80,11 +80,16 @@ impl<'a> Tallies<'a> {
         into.iter().for_each(|&pair| self.is_touched[pair as usize] = false);
     }
 
-    /// Whether the sides of a pair are the same, or need not be.
+    /// Whether a pair is not compared here.
+    #[inline]
+    pub(super) fn is_off(&self, pair: usize, states: [&State; 2]) -> bool {
+        self.pairs[pair].is_off(states[0])
+    }
+
+    /// Whether the sides of a pair are the same.
     #[inline]
     pub(super) fn is_same(&mut self, pair: usize, states: [&State; 2]) -> bool {
-        let pair = &self.pairs[pair];
-        pair.is_off(states[0]) || pair.same(states, self.unknowns, &mut self.scratch)
+        self.pairs[pair].same(states, self.unknowns, &mut self.scratch)
     }
 
     /// Shows a pair in the waveform.

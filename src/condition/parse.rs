@@ -9,6 +9,9 @@ use super::{Leaf, Node, Relation, Test};
 /// How deep parentheses may stand in each other.
 const DEEPEST: usize = 64;
 
+/// What holds at every sample, unless it stands in quotes.
+const ALWAYS: &str = "always";
+
 /// Words that are no names unless they stand in quotes.
 const KEYWORDS: &[&str] = &["and", "or", "rising", "falling", "changed"];
 
@@ -90,6 +93,9 @@ impl<'a> Parser<'a> {
             return Err(self.fault(token, "expected the name of a signal"));
         }
         self.tokens = &self.tokens[1..];
+        if token.kind == Kind::Word && token.text == ALWAYS {
+            return Ok(Node::All(Vec::new()));
+        }
         let name = token.text.to_owned() + self.slice(token);
         let test = self.what()?;
         self.leaves.push(Leaf { name, column: token.column, test });

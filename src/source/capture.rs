@@ -51,8 +51,7 @@ pub(super) fn read(origin: &Origin, ids: &[usize], widths: &[u32]) -> Result<Cur
     let mut places = Vec::new();
     for &id in ids {
         let column = &opened.columns[id];
-        let words = if column.text { 0 } else { column.width.div_ceil(64) as usize };
-        places.push(column.word..column.word + words);
+        places.push(column.word..column.word + column.words());
     }
     Ok(Cursor::spawn(widths, move |feed| {
         let (mut row, mut before) = (Row::default(), Row::default());

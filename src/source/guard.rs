@@ -22,10 +22,17 @@ pub(super) struct InOrder<R> {
     line: u64,
     begin_of_line: bool,
     /// Digits of the time stamp under way.
-    stamp: Option<u64>,
+    stamp: Option<Stamp>,
     last: u64,
     /// The fault found, which the library would pass on without its line.
     fault: Arc<OnceLock<Fault>>,
+}
+
+/// A time stamp as far as it has been read.
+#[derive(Clone, Copy, Debug, Default)]
+struct Stamp {
+    time: u64,
+    digits: u32,
 }
 
 impl<R> InOrder<R> {
@@ -62,8 +69,11 @@ impl<R> InOrder<R> {
                 *rest = &rest[1..];
                 self.stamp = match byte {
                     b'0'..=b'9' => Some(self.longer(stamp, byte)?),
+                    _ if stamp.digits == 0 || !byte.is_ascii_whitespace() => {
+                        return Err(self.fault("expected a time behind #".into()));
+                    }
                     _ => {
-                        self.passed(stamp)?;
+                        self.passed(stamp.time)?;
                         None
                     }
                 };
@@ -75,7 +85,7 @@ impl<R> InOrder<R> {
             if self.begin_of_line {
                 self.begin_of_line = false;
                 if byte == b'#' {
-                    self.stamp = Some(0);
+                    self.stamp = Some(Stamp::default());
                     *rest = &rest[1..];
                     continue;
                 }
@@ -96,8 +106,10 @@ impl<R> InOrder<R> {
         self.begin_of_line = true;
     }
 
-    fn longer(&self, stamp: u64, digit: u8) -> Result<u64, Fault> {
-        let longer = stamp.checked_mul(10).and_then(|n| n.checked_add(u64::from(digit - b'0')));
+    fn longer(&self, stamp: Stamp, digit: u8) -> Result<Stamp, Fault> {
+        let longer = stamp.time.checked_mul(10);
+        let longer = longer.and_then(|time| time.checked_add(u64::from(digit - b'0')));
+        let longer = longer.map(|time| Stamp { time, digits: stamp.digits + 1 });
         longer.ok_or_else(|| self.fault("expected a time below 2^64".into()))
     }
 
@@ -121,6 +133,15 @@ impl<R: Read> Read for InOrder<R> {
             return Err(io::Error::new(io::ErrorKind::InvalidData, fault.text.clone()));
         }
         let mut count = self.inner.read(bytes)?;
+        if count == 0
+            && let Some(stamp) = self.stamp.take()
+            && let Err(fault) = self.passed(stamp.time)
+        {
+            let text = fault.text.clone();
+            // There was none before.
+            let _ = self.fault.set(fault);
+            return Err(io::Error::new(io::ErrorKind::InvalidData, text));
+        }
         let known = self.seen.saturating_sub(self.offset).min(count as u64) as usize;
         count = known + self.look(&bytes[known..count]);
         self.offset += count as u64;
@@ -152,12 +173,7 @@ pub(super) fn guarded<T>(
     silence();
     match catch_unwind(AssertUnwindSafe(work)) {
         Ok(result) => result,
-        Err(panic) => {
-            let text = panic.downcast_ref::<String>().map(String::as_str);
-            let text = text.or(panic.downcast_ref::<&str>().copied()).unwrap_or("no reason given");
-            let line = text.lines().next().unwrap_or_default();
-            Err(Input::new(source, format!("cannot be read: {line}")).into())
-        }
+        Err(_) => Err(Input::new(source, "is damaged, or not as its format asks").into()),
     }
 }
 

@@ -37,7 +37,16 @@ impl Style {
         signals.retain(|signal| !self.ids.contains(&Some(signal.id)));
         for signal in signals {
             let probe = signal.name.text.strip_prefix("dut.").unwrap_or(&signal.name.text);
-            signal.name = super::Name::new(probe.strip_prefix('\\').unwrap_or(probe));
+            let Some(escaped) = probe.strip_prefix('\\') else {
+                signal.name = super::Name::new(probe);
+                continue;
+            };
+            // A name is escaped for its brackets; the library takes those of `P[1]` for a range.
+            let whole = match signal.width == 1 && !escaped.contains('[') {
+                true => format!("{escaped}[{}]", std::mem::take(&mut signal.lsb)),
+                false => escaped.to_owned(),
+            };
+            signal.name = super::Name::new(whole);
         }
     }
 }

@@ -15,6 +15,7 @@ mod stream;
 mod tick;
 mod wave;
 
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -139,7 +140,7 @@ impl Source {
     /// # Errors
     /// When it cannot be read or is none of the formats.
     pub fn file(path: &Path, radix: Option<Radix>) -> Result<Source> {
-        detect::open(path, radix)
+        Ok(detect::open(path, radix)?.distinguish())
     }
 
     /// A simulation of so many frames.
@@ -165,8 +166,24 @@ impl Source {
         self.axis == Axis::Samples
     }
 
+    /// Adds ranges to names that several signals would share without.
+    fn distinguish(mut self) -> Self {
+        let mut ids: HashMap<String, HashSet<usize>> = HashMap::new();
+        for signal in &self.signals {
+            ids.entry(signal.name.scope(0)).or_default().insert(signal.id);
+        }
+        for signal in &mut self.signals {
+            if ids[&signal.name.scope(0)].len() > 1 && signal.kind == Kind::Bits {
+                let top = signal.lsb + i64::from(signal.width) - 1;
+                let text = format!("{}[{top}:{}]", signal.name.text, signal.lsb);
+                signal.name = Name::new(text);
+            }
+        }
+        self
+    }
+
     fn width(&self, id: usize) -> u32 {
         let signal = self.signals.iter().find(|signal| signal.id == id);
-        signal.map_or(0, |signal| if signal.kind == Kind::Real { 64 } else { signal.width })
+        signal.map_or(0, |signal| if signal.kind == Kind::Other { 0 } else { signal.width })
     }
 }

@@ -288,9 +288,12 @@ pub(super) fn fault(path: &Path, error: WellenError) -> Error {
         WellenError::UnknownFileFormat => {
             Input::new(source, "expected a VCD, FST or GHW waveform, or an ILA capture").into()
         }
-        WellenError::FailedToLoad(_, text) => {
+        WellenError::FailedToLoad(FileFormat::Vcd, text) => {
             let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
             Input::new(source, format!("cannot be read: {text}")).into()
+        }
+        WellenError::FailedToLoad(..) => {
+            Input::new(source, "is damaged, or not as its format asks").into()
         }
     }
 }

@@ -64,7 +64,7 @@ fn by_correlation_with_how_well_the_next_best_does() {
     let json = same(folder, &args(&[]));
     assert_eq!(json["offset"], -50);
     let text = json["alignment"].as_str().unwrap();
-    assert!(text.contains("offset 50 (0 of 288 bits differ); next best "), "{text}");
+    assert!(text.contains("offset -50 (0 of 288 bits differ); next best "), "{text}");
     same(folder, &args(&["--align", "correlation n"]));
     capture(folder, "ila.csv", 11, 100..132);
     let error = refused(folder, &args(&["--align", "correlation go"]));

@@ -34,6 +34,11 @@ pub(super) struct Candidate {
 }
 
 impl Candidate {
+    /// Samples that the second side is later, if `side` is the shorter one.
+    fn later(&self, side: usize) -> i64 {
+        if side == 0 { self.offset } else { -self.offset }
+    }
+
     fn rate(&self) -> f64 {
         self.differing as f64 / self.compared.max(1) as f64
     }
@@ -240,12 +245,17 @@ impl Matcher {
 ///
 /// # Errors
 /// When there is none, or another does as well.
-pub(super) fn decide(candidates: &[Candidate], what: &str) -> Result<(Candidate, String)> {
+pub(super) fn decide(
+    candidates: &[Candidate],
+    side: usize,
+    what: &str,
+) -> Result<(Candidate, String)> {
     let Some(best) = candidates.first() else {
         return Err(Input::new("--align", format!("{what}: one side is too short")).into());
     };
     let tell = |candidate: &Candidate| {
-        let Candidate { offset, differing, compared } = candidate;
+        let Candidate { differing, compared, .. } = candidate;
+        let offset = candidate.later(side);
         format!("{offset} ({differing} of {compared} bits differ)")
     };
     let near: Vec<_> = candidates.iter().filter(|c| c.rate() <= 2.0 * best.rate()).collect();
@@ -286,7 +296,7 @@ pub(super) fn alignment(plan: &Plan, signals: &[String]) -> Result<Alignment> {
     };
     let overhangs = plan.capture().is_none();
     let found = search(plan, signals, &Search { side, piece, overhangs, from: 0 })?;
-    let (best, text) = decide(&found, "the capture")?;
-    let offset = if side == 0 { best.offset } else { -best.offset };
-    Ok(Alignment::shifted(offset, text))
+    let what = if plan.capture().is_some() { "the capture" } else { "the first side" };
+    let (best, text) = decide(&found, side, what)?;
+    Ok(Alignment::shifted(best.later(side), text))
 }

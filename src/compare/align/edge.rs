@@ -104,6 +104,13 @@ pub(super) fn start(plan: &Plan) -> Result<Alignment> {
                     let text = format!("window {k}: {a} samples in the first, {b} in the second");
                     differences.push(text);
                 }
+                let marks = [a, b].map(|window| window.trigger.map(|at| at - window.first));
+                if marks[0] != marks[1] {
+                    let [a, b] = marks.map(|at| at.map_or("none".to_owned(), |at| at.to_string()));
+                    differences.push(format!(
+                        "window {k}: trigger at sample {a} of the first, {b} of the second"
+                    ));
+                }
             }
             let pieces = windows.map(|windows| {
                 let windows = windows.iter().take(counts[0].min(counts[1]));

@@ -141,9 +141,7 @@ pub(super) fn alignment(plan: &Plan, align: &Align, time_from: Option<&str>) -> 
         Align::Edge(signal) => edge::alignment(plan, signal),
         Align::Correlation(signals) => correlation::alignment(plan, signals),
         Align::Windows(signals) => windows::alignment(plan, signals),
-        Align::Offset(samples) => {
-            Ok(Alignment::shifted(*samples, format!("the second side {samples} samples later")))
-        }
+        Align::Offset(samples) => Ok(Alignment::shifted(*samples, format!("offset {samples}"))),
         Align::Shift { .. } => {
             let expected = "expected samples, as `offset 3`, where samples are compared";
             Err(Input::new("--align", expected).into())

@@ -58,12 +58,7 @@ pub(crate) fn survey(source: &Source) -> Result<Survey> {
         let first = survey.windows[k].first;
         survey.windows[k].count = match survey.windows.get(k + 1) {
             Some(next) => Some(next.first - first),
-            None => {
-                match (survey.samples, k.checked_sub(1).and_then(|k| survey.windows[k].count)) {
-                    (Some(samples), _) => Some(samples - first),
-                    (None, before) => before,
-                }
-            }
+            None => survey.samples.map(|samples| samples - first),
         };
     }
     Ok(survey)

@@ -5,7 +5,8 @@ use crate::error::{Input, Result};
 use crate::ila::core::{Core, Kept};
 use crate::ila::storing::Shape;
 
-use super::super::plan::{Plan, level};
+use super::super::operands::Tied;
+use super::super::plan::Plan;
 use super::super::selection::Piece;
 use super::Alignment;
 use super::survey::{Window, survey};
@@ -86,31 +87,29 @@ fn one_capture(plan: &Plan, side: usize, time_from: Option<&str>) -> Result<Alig
     }
     let depth = first.count.map_or(usize::MAX / 2, |count| count as usize);
     let shape = Shape { depth, windows: windows.len(), position: (at - first.first) as usize };
-    let kept = stored(plan, 1 - side, shape)?;
-    let capture = windows.iter().map(|(window, _)| Piece::Run(window.first, window.count));
-    let waveform: Vec<Piece> = (kept.into_iter().zip(&windows))
-        .map(|(kept, (window, _))| piece(kept).part(0, window.count.unwrap_or(u64::MAX)))
-        .collect();
+    let Stored { pieces, leads } = stored(plan, 1 - side, shape)?;
+    let mut capture = Vec::new();
+    let mut waveform = Vec::new();
+    for ((window, _), (piece, lead)) in windows.iter().zip(pieces.into_iter().zip(leads)) {
+        let count = window.count.map(|count| count.saturating_sub(lead));
+        capture.push(Piece::Run(window.first + lead, count));
+        waveform.push(piece.part(0, count.unwrap_or(u64::MAX)));
+    }
     let samples: Vec<String> = (waveform.iter().take(3))
-        .filter_map(|piece| piece.sample(shape.position as u64))
+        .filter_map(|piece| piece.sample(0))
         .map(|sample| sample.to_string())
         .collect();
     let more = if waveform.len() > 3 { ", ..." } else { "" };
-    let found = format!("trigger at sample {}{more} of the waveform", samples.join(", "));
-    let offset = match (&waveform[..], side) {
-        ([Piece::Run(begin, _)], 0) => Some(*begin as i64 - first.first as i64),
-        ([Piece::Run(begin, _)], _) => Some(first.first as i64 - *begin as i64),
+    let found = format!("by the trigger; from sample {}{more} of the waveform", samples.join(", "));
+    let offset = match (&waveform[..], &capture[..]) {
+        ([Piece::Run(waveform, _)], [Piece::Run(capture, _)]) => {
+            let later = *waveform as i64 - *capture as i64;
+            Some(if side == 0 { later } else { -later })
+        }
         _ => None,
     };
-    let pieces = ordered(side, capture.collect(), waveform);
+    let pieces = ordered(side, capture, waveform);
     Ok(Alignment { pieces, found, offset, differences: Vec::new() })
-}
-
-fn piece(kept: Kept) -> Piece {
-    match kept {
-        Kept::Range(range) => Piece::Run(range.start, Some(range.end - range.start)),
-        Kept::List(samples) => Piece::Kept(samples),
-    }
 }
 
 fn no_condition(plan: &Plan, side: usize) -> Input {
@@ -127,36 +126,68 @@ fn never(plan: &Plan, side: usize, found: usize, windows: usize) -> Input {
 }
 
 /// What a logic analyser would store of a waveform.
-fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Vec<Kept>> {
+struct Stored {
+    /// The samples of each window that the waveform has.
+    pieces: Vec<Piece>,
+    /// Samples of each window that are from before the waveform's first.
+    leads: Vec<u64>,
+}
+
+/// What a logic analyser of that shape would store of a waveform.
+fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
     let mut trigger = plan.trigger[side].clone().ok_or_else(|| no_condition(plan, side))?;
     let mut qualifier = plan.qualifier[side].clone();
     let mut core = Core::numbers(shape, qualifier.is_some());
+    let first = begin(plan, side)?;
+    let (skipped, missing) = (first.saturating_sub(plan.stages), plan.stages.saturating_sub(first));
+    for _ in 0..missing {
+        let triggers = trigger.sample_nothing();
+        core.sample(&(), triggers, qualifier.as_mut().is_none_or(Tied::sample_nothing));
+    }
     let mut samples = plan.samples(side)?;
-    let skipped = begin(plan, side)?;
-    while let Some(sample) = samples.next()? {
+    while !core.is_full()
+        && let Some(sample) = samples.next()?
+    {
         if sample.index < skipped {
             continue;
         }
-        let value = |signal| level(samples.state(), signal);
-        let triggers = trigger.sample(value);
-        let qualifies = qualifier.as_mut().is_none_or(|qualifier| qualifier.sample(value));
+        let triggers = trigger.sample(samples.state());
+        let qualifies = qualifier.as_mut().is_none_or(|term| term.sample(samples.state()));
         core.sample(&(), triggers, qualifies);
-        if core.is_full() {
-            break;
-        }
     }
     let found = core.triggers().len();
     if found < shape.windows {
         return Err(never(plan, side, found, shape.windows).into());
     }
-    let moved = |kept| match kept {
-        Kept::Range(range) => Kept::Range(range.start + skipped..range.end + skipped),
-        Kept::List(list) => Kept::List(list.into_iter().map(|sample| sample + skipped).collect()),
-    };
-    Ok(core.windows().into_iter().map(moved).collect())
+    let windows = core.windows();
+    let leads = windows.iter().map(|kept| lead(kept, missing)).collect();
+    let pieces = windows.into_iter().map(|kept| piece(kept, missing, skipped)).collect();
+    Ok(Stored { pieces, leads })
 }
 
-/// The first sample that a logic analyser looks at.
+/// Samples of a window that are numbered below `missing`.
+fn lead(kept: &Kept, missing: u64) -> u64 {
+    match kept {
+        Kept::Range(range) => missing.min(range.end).saturating_sub(range.start),
+        Kept::List(list) => list.iter().filter(|&&sample| sample < missing).count() as u64,
+    }
+}
+
+/// The other samples of a window, by their numbers in the waveform.
+fn piece(kept: Kept, missing: u64, skipped: u64) -> Piece {
+    let number = |sample: u64| sample - missing + skipped;
+    match kept {
+        Kept::Range(range) => {
+            let (start, end) = (range.start.max(missing), range.end.max(missing));
+            Piece::Run(number(start), Some(end - start))
+        }
+        Kept::List(list) => {
+            Piece::Kept(list.into_iter().filter(|&sample| sample >= missing).map(number).collect())
+        }
+    }
+}
+
+/// The first sample that is looked at.
 fn begin(plan: &Plan, side: usize) -> Result<u64> {
     let mut samples = plan.samples(side)?;
     let mut first = 0;
@@ -166,17 +197,15 @@ fn begin(plan: &Plan, side: usize) -> Result<u64> {
         }
         first = sample.index + 1;
     }
-    Ok(first.saturating_sub(plan.stages))
+    Ok(first)
 }
 
 /// The first sample of a waveform that triggers.
 fn first(plan: &Plan, side: usize) -> Result<u64> {
     let shape = Shape { depth: 1, windows: 1, position: 0 };
-    match stored(plan, side, shape)?.first() {
-        Some(Kept::Range(range)) => Ok(range.start),
-        Some(Kept::List(list)) => Ok(list[0]),
-        None => Err(never(plan, side, 0, 1).into()),
-    }
+    let stored = stored(plan, side, shape)?;
+    let first = stored.pieces.first().and_then(|piece| piece.sample(0));
+    first.ok_or_else(|| never(plan, side, 0, 1).into())
 }
 
 /// The samples of a capture that has a column that counts the clock, the first of them `offset`

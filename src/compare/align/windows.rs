@@ -19,7 +19,7 @@ pub(super) fn alignment(plan: &Plan, signals: &[String]) -> Result<Alignment> {
     for (k, window) in survey(plan.sources[side])?.windows.iter().enumerate() {
         let piece = Piece::Run(window.first, window.count);
         let look = Search { side, piece: piece.clone(), overhangs: false, from };
-        let (best, text) = decide(&search(plan, signals, &look)?, &format!("window {k}"))?;
+        let (best, text) = decide(&search(plan, signals, &look)?, side, &format!("window {k}"))?;
         found.push(format!("window {k}: {text}"));
         let begin = best.offset.unsigned_abs();
         from = begin + window.count.unwrap_or(1);

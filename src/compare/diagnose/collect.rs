@@ -31,6 +31,8 @@ pub(super) struct Column {
 pub(super) struct Collected {
     /// Number of the window.
     pub(super) window: usize,
+    /// Whether a side has windows.
+    pub(super) in_windows: bool,
     /// Its first sample that is looked at.
     pub(super) first: u64,
     /// Both sides of the pairs that differ.
@@ -39,6 +41,13 @@ pub(super) struct Collected {
     pub(super) lonely: [Vec<Column>; 2],
     /// For each side and sample what stands for the values of all pairs.
     pub(super) rows: [Vec<u64>; 2],
+}
+
+impl Collected {
+    /// The window, for a sentence; nothing where there are none.
+    pub(super) fn place(&self) -> String {
+        if self.in_windows { format!("window {}: ", self.window) } else { String::new() }
+    }
 }
 
 /// What stands for a value: itself, if it has 64 bits at most, all known.
@@ -93,6 +102,7 @@ fn empty(plan: &Plan, result: &Comparison, window: usize) -> Collected {
     let column =
         |name: &String, pair, width| Column { name: name.clone(), pair, width, values: Vec::new() };
     Collected {
+        in_windows: plan.sources.iter().any(|source| source.is_capture()),
         window,
         first: 0,
         pairs: pairs

@@ -9,7 +9,7 @@ use crate::error::Result;
 
 use super::align::Alignment;
 use super::plan::Plan;
-use super::result::Comparison;
+use super::result::{Compared, Comparison};
 
 use collect::{Collected, Column, collect};
 
@@ -42,23 +42,33 @@ pub(super) fn samples(
     findings.extend(radix::findings(plan, &collected));
     let explained = |name: &str| findings.iter().any(|f| f.signals.iter().any(|s| s == name));
     let rest: Vec<_> = result.differing().filter(|pair| !explained(&pair.name)).collect();
-    if let [pair] = rest[..]
-        && pair.differing == 1
-        && let Some(first) = &pair.first
-    {
-        let place = |side: usize| result.sides[side].place(first.at[side]);
-        let bits: Vec<String> = first.bits.iter().map(u32::to_string).collect();
-        let what = match &bits[..] {
-            [bit] => format!("bit {bit}"),
-            _ => format!("bits {}", bits.join(", ")),
-        };
-        let kind = if bits.len() == 1 { "flipped bit" } else { "one sample" };
-        let text = format!("{what} of {} in one sample, {}", pair.name, place(1));
-        findings.push(Finding::new(kind, &[&pair.name], text));
-    } else if !rest.is_empty() {
-        findings.extend(rows::finding(&collected, &rest));
+    match single(result, &rest) {
+        Some(finding) => findings.push(finding),
+        None if rest.is_empty() => {}
+        None => findings.extend(rows::finding(&collected, &rest)),
     }
     Ok(findings)
+}
+
+/// What changes of waveforms alone can tell.
+pub(super) fn changes(result: &Comparison) -> Vec<Finding> {
+    let rest: Vec<_> = result.differing().collect();
+    single(result, &rest).into_iter().collect()
+}
+
+/// That a signal differs at one place and nothing else does.
+fn single(result: &Comparison, rest: &[&Compared]) -> Option<Finding> {
+    let [pair] = rest else { return None };
+    let first = pair.first.as_ref().filter(|_| pair.differing == 1)?;
+    let bits: Vec<String> = first.bits.iter().map(u32::to_string).collect();
+    let (kind, what) = match &bits[..] {
+        [] => ("one value", "the value".to_owned()),
+        [bit] => ("flipped bit", format!("bit {bit}")),
+        _ => ("one value", format!("bits {}", bits.join(", "))),
+    };
+    let place = result.sides[1].place(first.at[1]);
+    let text = format!("{what} of {} at one place, {place}", pair.name);
+    Some(Finding::new(kind, &[&pair.name], text))
 }
 
 /// Signals without a partner that have the same values as one of the other side.

@@ -15,7 +15,7 @@ const FEWEST: usize = 16;
 pub(super) fn finding(collected: &Collected, rest: &[&Compared]) -> Option<Finding> {
     let [a, b] = &collected.rows;
     let names: Vec<&str> = rest.iter().map(|pair| pair.name.as_str()).collect();
-    let window = collected.window;
+    let window = collected.place();
     let first = a.iter().zip(b).position(|(a, b)| a != b)?;
     let place = collected.first + first as u64;
     for shift in 1..=SHIFT.min(a.len() / 2) {
@@ -26,21 +26,21 @@ pub(super) fn finding(collected: &Collected, rest: &[&Compared]) -> Option<Findi
         } else {
             continue;
         };
-        let text = format!("window {window}: the second side is {shift} {} {late}", counted(shift));
+        let text = format!("{window}the second side is {shift} {} {late}", counted(shift));
         return Some(Finding::new("shifted window", &names, text));
     }
     for step in 1..=STEP.min(a.len() / 2) {
         // The values may stand still at first, so that more agree than do belong together.
         if agree(&a[first + step.min(a.len() - first)..], &b[first..]) && first > 0 {
             let text = format!(
-                "window {window}: {step} {} missing on the second side at or before sample {place}",
+                "{window}{step} {} missing on the second side at or before sample {place}",
                 counted(step)
             );
             return Some(Finding::new("missing samples", &names, text));
         }
         if agree(&a[first..], &b[first + step.min(b.len() - first)..]) && first > 0 {
             let text = format!(
-                "window {window}: {step} {} too many on the second side at or before sample {place}",
+                "{window}{step} {} too many on the second side at or before sample {place}",
                 counted(step)
             );
             return Some(Finding::new("extra samples", &names, text));

@@ -139,6 +139,7 @@ pub(super) fn by_name(
             width: a.width,
             sides: [vec![whole(left, a)], vec![whole(right, b)]],
             show: shown(a, b, &known),
+            signed: None,
             mask: Vec::new(),
             invert: false,
             latency: 0,

@@ -7,7 +7,7 @@ use crate::source::{Source, shapes};
 
 use super::super::find::{self, Slots};
 use super::super::map::{Map, Rule, parse_mask};
-use super::super::pair::{How, Pair, Part};
+use super::super::pair::{How, Pair, Part, top};
 use super::super::show::Show;
 use super::{Matching, shown};
 
@@ -65,6 +65,7 @@ pub(super) fn by_rule(
         width,
         sides: parts,
         show: shown(a, b, &shapes()),
+        signed: None,
         mask: Vec::new(),
         invert: false,
         latency: 0,
@@ -91,13 +92,20 @@ impl Pair {
             }
             self.valid = Some(part.signal);
         }
+        self.signed = rule.signed.or(self.signed);
         match (rule.signed, rule.fraction) {
             (Some(true), fraction) => self.show = Show::Signed(fraction.unwrap_or(0)),
             (_, Some(fraction)) => self.show = Show::Fixed(fraction),
             (Some(false), None) => self.show = Show::Unsigned,
             (None, None) => {}
         }
-        if let Some(mask) = rule.dont_care.as_deref().and_then(parse_mask) {
+        if let Some(text) = &rule.dont_care {
+            let mask = parse_mask(text).unwrap_or_default();
+            let beyond = |(k, word): (usize, &u64)| word & !top(self.width, k) != 0;
+            if mask.iter().enumerate().any(beyond) {
+                let expected = format!("expected {} bits at most", self.width);
+                return Err(Input::new("map", expected).field("dont_care").value(text).into());
+            }
             self.mask = mask.into_iter().map(|word| !word).collect();
         }
         self.invert |= rule.invert;
