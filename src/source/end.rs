@@ -38,9 +38,11 @@ fn vcd(file: &mut File) -> std::io::Result<Option<u64>> {
     file.seek(SeekFrom::Start(length.saturating_sub(TAIL)))?;
     let mut tail = Vec::new();
     file.take(TAIL).read_to_end(&mut tail)?;
-    let mut lines = tail.split(|&byte| byte == b'\n').rev();
-    let stamp = lines.find_map(|line| line.trim_ascii().strip_prefix(b"#"));
-    Ok(stamp.and_then(|digits| std::str::from_utf8(digits).ok()?.parse().ok()))
+    let lines = tail.split(|&byte| byte == b'\n');
+    let stamps = lines.filter_map(|line| line.trim_ascii().strip_prefix(b"#"));
+    let times = stamps.filter_map(|digits| std::str::from_utf8(digits).ok()?.parse().ok());
+    // The last one may be cut off; reading it will tell.
+    Ok(times.max())
 }
 
 #[cfg(test)]

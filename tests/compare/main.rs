@@ -8,6 +8,7 @@ mod captures;
 mod damage;
 mod formats;
 mod how;
+mod odd;
 mod verilog;
 mod waveforms;
 mod which;
