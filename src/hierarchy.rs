@@ -80,12 +80,13 @@ macro_rules! groups {
             ram_changes(top, before, sink);
         }
 
-        /// Reports every signal of a part's groups that differs from `kept`, and keeps it there.
+        /// Reports every signal that differs from `kept` in those groups, a bit for each, and keeps
+        /// it there.
         #[inline]
-        pub fn follow(top: &TofTop, part: &Part, kept: &mut TofTop, sink: &mut impl Sink) {
+        fn follow(top: &TofTop, groups: u32, kept: &mut TofTop, sink: &mut impl Sink) {
             let (_id, _group) = (0, 1);
             $(
-                if part.groups & _group != 0 {
+                if groups & _group != 0 {
                     let (now, then) = (&top.$root $(.$field)*, &mut kept.$root $(.$field)*);
                     if then != now {
                         now.changes(Some(&*then), _id, sink);
@@ -94,7 +95,6 @@ macro_rules! groups {
                 }
                 let (_id, _group) = (_id + <$ty as Signals>::COUNT, _group << 1);
             )*
-            part.follow_ram(top, kept, sink);
         }
 
         /// Makes all that [`changes`] looks at in `to` what it is in `from`, without allocating.

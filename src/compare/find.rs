@@ -78,6 +78,9 @@ pub(super) fn part(source: &Source, text: &str, slots: &mut Slots) -> Result<(us
         Ok(found) => return bits(source, found, None, slots, text),
         Err(error) => error,
     };
+    if let Some(found) = widest(source, text) {
+        return bits(source, found, None, slots, text);
+    }
     let Some((name, high, low)) = slice(text) else { return Err(whole) };
     let wanted = Name::new(name);
     let column = source.signals.iter().position(|signal| {
@@ -90,6 +93,23 @@ pub(super) fn part(source: &Source, text: &str, slots: &mut Slots) -> Result<(us
     }
     let Ok(found) = signal(source, name) else { return Err(whole) };
     bits(source, found, Some((high, low)), slots, text)
+}
+
+/// The whole signal, where slices of it have names of their own and so have all of them a range.
+fn widest(source: &Source, text: &str) -> Option<usize> {
+    let begin = Name::new(text).scope(0) + "[";
+    let is_part = |(_, signal): &(usize, &crate::source::Signal)| {
+        let name = signal.name.scope(0);
+        name.strip_prefix(&begin).is_some_and(|range| range.contains(':'))
+    };
+    let parts: Vec<_> = source.signals.iter().enumerate().filter(is_part).collect();
+    let (found, whole) = *parts.iter().max_by_key(|(_, signal)| signal.width)?;
+    let top = |signal: &crate::source::Signal| signal.lsb + i64::from(signal.width);
+    let holds_all = parts.iter().all(|(k, part)| {
+        *k == found
+            || (part.lsb >= whole.lsb && top(part) <= top(whole) && part.width < whole.width)
+    });
+    holds_all.then_some(found)
 }
 
 fn bits(

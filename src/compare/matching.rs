@@ -2,6 +2,7 @@
 
 mod names;
 mod rules;
+mod slices;
 
 use std::collections::HashSet;
 
@@ -18,6 +19,7 @@ use super::show::Show;
 
 use names::by_name;
 use rules::{by_rule, is_swapped};
+use slices::by_slice;
 
 /// A signal that has no partner.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -121,6 +123,7 @@ pub(super) fn matching(sides: [&Source; 2], map: &Map, choice: &Choice) -> Resul
         }
     }
     by_name(sides, &names, &candidates, &mut matching);
+    by_slice(sides, &mut matching);
     for rule in map.signal.iter().filter(|rule| rule.b.is_empty()) {
         let pair = matching.pair(&rule.a[0])?;
         let mut changed = matching.pairs[pair].clone();

@@ -193,7 +193,10 @@ impl Samples {
 
     fn next_instant(&mut self) -> Result<Option<Sample>> {
         let Clocking::Free { clock, tick } = &self.clocking else { return Ok(None) };
-        let (edge, tick) = (clock.rise(self.next), *tick);
+        let (mut edge, tick) = (clock.rise(self.next + 1), *tick);
+        if clock.rise(0) > Time::ZERO {
+            edge = clock.rise(self.next);
+        }
         while let Some(at) = self.cursor.peek()? {
             if tick.femtoseconds(at) >= edge.fs() as u128 {
                 return Ok(self.sample(tick.count(edge.fs() as u128), Marks::default(), false));

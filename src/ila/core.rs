@@ -97,6 +97,12 @@ impl<P: Payload> Core<P> {
         self.storing.is_full()
     }
 
+    /// Whether a trigger, now or later, can still matter.
+    #[inline]
+    pub fn looks_for_triggers(&self) -> bool {
+        self.storing.looks_for_triggers()
+    }
+
     /// Numbers of the samples that triggered, counted from 0.
     pub fn triggers(&self) -> &[u64] {
         &self.triggers
@@ -244,6 +250,16 @@ mod tests {
         assert_eq!((filling.words, filling.triggers), (vec![0, 1, 2], vec![]));
         let nothing = super::tests::capture(8, 1, 0, "...");
         assert_eq!((nothing.samples(), nothing.windows), (0, vec![]));
+    }
+
+    #[test]
+    fn behind_the_last_trigger_no_other_is_looked_for() {
+        let mut core = Core::new(Shape { depth: 3, windows: 2, position: 1 }, 1);
+        let looks = "..t..t.".chars().map(|sample| {
+            core.sample(&[0], sample == 't', true);
+            core.looks_for_triggers()
+        });
+        assert_eq!(looks.collect::<Vec<_>>(), [true, true, true, true, true, false, false]);
     }
 
     #[test]

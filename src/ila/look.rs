@@ -5,7 +5,7 @@ use bitvec::prelude::*;
 use crate::condition::WIDEST;
 use crate::firmware::carry_chain::TAPS;
 use crate::firmware::tof_top::TofTop;
-use crate::hierarchy::{self, IDS, Part};
+use crate::hierarchy::{IDS, Part};
 use crate::kernel::Thermometer;
 use crate::kernel::signals::Sink;
 
@@ -14,8 +14,6 @@ use super::probes::Bits;
 /// Where some bits of a signal go.
 #[derive(Clone, Copy, Debug)]
 struct Insert {
-    /// As many ones as there are bits, where they fit a word.
-    mask: u64,
     /// Lowest bit in the signal.
     low: u32,
     width: u32,
@@ -23,17 +21,32 @@ struct Insert {
     begin: usize,
 }
 
+/// Which bits of a word of the present are those of a signal.
+#[derive(Clone, Copy, Debug, Default)]
+struct Place {
+    /// Ones at those bits.
+    mask: u64,
+    /// How far the signal is turned left to lie there.
+    turn: u32,
+    word: u32,
+    /// The signal's next place among the further ones, 0 if there is none.
+    next: u32,
+}
+
 /// The present values of the probes and of what the conditions look at.
 #[derive(Clone, Debug)]
 pub(super) struct Look {
     part: Part,
-    kept: Option<TofTop>,
     present: Present,
 }
 
 #[derive(Clone, Debug)]
 struct Present {
-    /// Inserts of id `k`: from `first[k]` to before `first[k + 1]`.
+    /// The first place of each id, one of no bits if it has none.
+    places: Box<[Place; IDS]>,
+    /// All further places. The first of them is none.
+    further: Vec<Place>,
+    /// Inserts of id `k`: from `first[k]` to before `first[k + 1]`. Only taps need them.
     first: Vec<u32>,
     inserts: Vec<Insert>,
     /// Tap at each place in the order of arrival.
@@ -47,45 +60,50 @@ struct Present {
 }
 
 impl Look {
-    /// At probes that stand side by side in a row of `stride` words, and at operands.
-    pub(super) fn new(probes: &[Bits], operands: &[Bits], stride: usize, order: &[u16]) -> Self {
-        let mut places: Vec<(usize, Insert)> = Vec::new();
-        let mut place = |&Bits { id, low, width, .. }: &Bits, begin| {
-            let mask = u64::MAX >> 64u32.saturating_sub(width);
-            places.push((id, Insert { mask, low, width, begin }));
-        };
+    /// At probes that stand side by side in a row of `stride` words, and at operands. Who sees
+    /// the signals before every edge may set `edges_only`, as [`Part::of`] has it.
+    pub(super) fn new(
+        probes: &[Bits],
+        operands: &[Bits],
+        stride: usize,
+        order: &[u16],
+        edges_only: bool,
+    ) -> Self {
+        let mut inserts: Vec<(usize, Insert)> = Vec::new();
         let mut begin = 0;
-        for bits in probes {
-            place(bits, begin);
-            begin += bits.width as usize;
+        for &Bits { id, low, width, .. } in probes {
+            inserts.push((id, Insert { low, width, begin }));
+            begin += width as usize;
         }
-        for (operand, bits) in operands.iter().enumerate() {
-            let width = bits.width.min(WIDEST);
-            place(&Bits { width, ..*bits }, 64 * (stride + 2 * operand));
+        for (operand, &Bits { id, low, width, .. }) in operands.iter().enumerate() {
+            let begin = 64 * (stride + 2 * operand);
+            inserts.push((id, Insert { low, width: width.min(WIDEST), begin }));
         }
-        places.sort_by_key(|(id, _)| *id);
-        let first = (0..=IDS).map(|id| places.partition_point(|place| place.0 < id) as u32);
+        inserts.sort_by_key(|(id, _)| *id);
+        let first = (0..=IDS).map(|id| inserts.partition_point(|insert| insert.0 < id) as u32);
+        let (places, further) = places(&inserts);
         let present = Present {
+            places,
+            further,
             first: first.collect(),
-            inserts: places.iter().map(|place| place.1).collect(),
+            inserts: inserts.iter().map(|insert| insert.1).collect(),
             order: order.to_vec(),
             words: vec![0; stride + 2 * operands.len()],
             stride,
             operands_changed: true,
         };
-        Look { part: Part::of(places.iter().map(|place| place.0)), kept: None, present }
+        Look { part: Part::of(inserts.iter().map(|insert| insert.0), edges_only), present }
     }
 
     /// Brings the values up to date.
     #[inline]
     pub(super) fn follow(&mut self, top: &TofTop) {
-        match &mut self.kept {
-            Some(kept) => hierarchy::follow(top, &self.part, kept, &mut self.present),
-            None => {
-                hierarchy::changes(top, None, &mut self.present);
-                self.kept = Some(top.clone());
-            }
-        }
+        self.part.follow(top, &mut self.present);
+    }
+
+    /// See [`Part::control_changes`].
+    pub(super) fn control_changes(&mut self) {
+        self.part.control_changes();
     }
 
     /// The probes' values.
@@ -109,6 +127,27 @@ impl Look {
     }
 }
 
+/// The first place of each id and all further ones. Of a signal wider than a word, whose inserts
+/// count instead, they mean nothing.
+fn places(inserts: &[(usize, Insert)]) -> (Box<[Place; IDS]>, Vec<Place>) {
+    let (mut places, mut further) = (Box::new([Place::default(); IDS]), vec![Place::default()]);
+    for &(id, Insert { low, width, begin }) in inserts {
+        let end = begin + width as usize;
+        for word in begin / 64..end.div_ceil(64) {
+            let (from, to) = (begin.max(64 * word), end.min(64 * (word + 1)));
+            let mask = u64::MAX >> (64 - (to - from)) << (from % 64);
+            let turn = (begin as u32).wrapping_sub(low) % 64;
+            let mut place = Place { mask, turn, word: word as u32, next: 0 };
+            if places[id].mask != 0 {
+                place.next = further.len() as u32;
+                further.push(places[id]);
+            }
+            places[id] = place;
+        }
+    }
+    (places, further)
+}
+
 impl Present {
     #[inline]
     fn inserts(&self, id: usize) -> std::ops::Range<usize> {
@@ -119,16 +158,15 @@ impl Present {
 impl Sink for Present {
     #[inline]
     fn word(&mut self, id: usize, value: u64) {
-        for k in self.inserts(id) {
-            let Insert { mask, low, width, begin } = self.inserts[k];
-            let value = value >> low & mask;
-            let (word, shift) = (begin / 64, begin % 64);
-            self.words[word] = self.words[word] & !(mask << shift) | value << shift;
-            if shift + width as usize > 64 {
-                let (mask, value) = (mask >> (64 - shift), value >> (64 - shift));
-                self.words[word + 1] = self.words[word + 1] & !mask | value;
+        let mut place = &self.places[id];
+        loop {
+            let word = &mut self.words[place.word as usize];
+            *word = *word & !place.mask | value.rotate_left(place.turn) & place.mask;
+            self.operands_changed |= place.word as usize >= self.stride;
+            if place.next == 0 {
+                return;
             }
-            self.operands_changed |= word >= self.stride;
+            place = &self.further[place.next as usize];
         }
     }
 
@@ -155,7 +193,7 @@ impl Sink for Present {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hierarchy::{entries, ram_entries};
+    use crate::hierarchy::{self, entries, ram_entries};
     use crate::scenario;
     use crate::sim::device::Off;
     use crate::sim::setup::Setup;
@@ -190,7 +228,7 @@ mod tests {
         bits.extend(slices.collect::<Vec<_>>());
         let operands: Vec<Bits> = bits.iter().copied().filter(|bits| bits.width <= 128).collect();
         let stride = bits.iter().map(|bits| bits.width as usize).sum::<usize>().div_ceil(64);
-        let mut look = Look::new(&bits, &operands, stride, order);
+        let mut look = Look::new(&bits, &operands, stride, order, true);
         let mut device = setup.device();
         device.power_up(&mut Off, &mut Off);
         for cycle in 0..600 {

@@ -71,9 +71,10 @@ impl Analyser {
         let capture = Capture::new(plan.probes.clone());
         let order = setup.params.tdc.delays.order();
         let clock = plan.sampling.clock(setup.pll());
-        let armed = first_edge(&clock, plan.arm_at);
+        // At power-up itself there is nothing before the edge.
+        let armed = first_edge(&clock, plan.arm_at.max(Time::from_fs(1)));
         let mut analyser = Analyser {
-            look: Look::new(&plan.bits, &plan.operands, capture.stride, order),
+            look: Look::new(&plan.bits, &plan.operands, capture.stride, order, !plan.every_change),
             core: Core::new(plan.shape, capture.stride),
             probes: capture.probes,
             trigger: Asked::new(plan.trigger.clone()),
@@ -119,21 +120,29 @@ impl Analyser {
     }
 
     /// Takes the present values as a sample.
-    #[inline]
+    #[inline(always)]
     fn take(&mut self) {
         let changed = self.look.take_operands_changed();
         if changed || self.operands_changed {
-            self.trigger.ask(&self.look);
+            if self.core.looks_for_triggers() {
+                self.trigger.ask(&self.look);
+            }
             self.qualifier.ask(&self.look);
         }
         self.operands_changed = changed;
         self.core.sample(self.look.row(), self.trigger.holds, self.qualifier.holds);
     }
 
+    /// Whether it samples at this edge of `clk_250`.
+    #[inline]
+    fn looks_before(&self, edge: Edge) -> bool {
+        edge == Edge::Both || self.sampling != Sampling::Clk125
+    }
+
     /// An edge of `clk_250`.
     #[inline]
     fn edge(&mut self, edge: Edge, top: &TofTop) {
-        if self.sampling == Sampling::Clk125 && edge == Edge::Middle {
+        if !self.looks_before(edge) {
             return;
         }
         if self.edge >= self.first && !self.is_full() {
@@ -172,8 +181,17 @@ impl Trace for AtEdges<'_> {
     fn sample(&mut self, _: Time, _: &TofTop) {}
 
     #[inline(always)]
+    fn looks_before(&self, edge: Edge) -> bool {
+        self.0.looks_before(edge)
+    }
+
+    #[inline(always)]
     fn before_edge(&mut self, edge: Edge, _: Time, top: &TofTop) {
         self.0.edge(edge, top);
+    }
+
+    fn control_changes(&mut self) {
+        self.0.look.control_changes();
     }
 }
 

@@ -104,6 +104,12 @@ impl Storing {
         self.state == State::Full
     }
 
+    /// Whether a trigger, now or later, can still matter: not behind that of the last window.
+    #[inline]
+    pub fn looks_for_triggers(&self) -> bool {
+        self.triggered() < self.shape.windows
+    }
+
     /// Takes a sample; returns where it goes, if it is stored.
     #[inline]
     pub fn sample(&mut self, triggers: bool, qualifies: bool) -> Option<Stored> {

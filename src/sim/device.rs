@@ -7,57 +7,13 @@ use crate::firmware::carry_chain::StopLine;
 use crate::firmware::pll::Pll;
 use crate::firmware::tof_top::{Params, Pins, TofTop};
 use crate::kernel::Time;
-use crate::optics::hazard::Cause;
 use crate::sensor::light::Light;
 use crate::sensor::spad::{Event, Spad};
 
 use super::jitter::Jitter;
 use super::timeline::Timeline;
 
-/// Sees the signals after every instant at which one may have changed.
-pub trait Trace {
-    /// Whether it looks at all.
-    const ON: bool;
-    /// Whether it looks just before each rising edge of `clk_125` and `clk_250` too.
-    const EDGES: bool = false;
-    /// The signals as they are from `now` on.
-    fn sample(&mut self, now: Time, top: &TofTop);
-    /// The signals as the edge at `now` takes them: an asynchronous change at that very instant is
-    /// not there yet. Without [`Trace::ON`], `clk_200` stands still.
-    #[inline(always)]
-    fn before_edge(&mut self, _edge: Edge, _now: Time, _top: &TofTop) {}
-}
-
-/// A rising edge of `clk_250`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Edge {
-    /// `clk_125` rises too.
-    Both,
-    /// `clk_125` falls.
-    Middle,
-}
-
-/// Hears of every avalanche.
-pub trait Record {
-    /// Whether it listens at all.
-    const ON: bool;
-    /// An avalanche at `at`, `None` of a known cause.
-    fn avalanche(&mut self, at: Time, cause: Option<Cause>);
-}
-
-/// Neither looks nor listens.
-#[derive(Clone, Copy, Debug)]
-pub struct Off;
-
-impl Trace for Off {
-    const ON: bool = false;
-    fn sample(&mut self, _: Time, _: &TofTop) {}
-}
-
-impl Record for Off {
-    const ON: bool = false;
-    fn avalanche(&mut self, _: Time, _: Option<Cause>) {}
-}
+pub use super::trace::{Edge, Off, Record, Trace};
 
 /// Everything that has a state in a run.
 #[derive(Clone, Debug)]
@@ -192,7 +148,7 @@ impl Device {
         trace: &mut T,
         record: &mut R,
     ) {
-        if T::EDGES {
+        if T::EDGES && trace.looks_before(edge) {
             self.settle(now.since(Time::from_fs(1)), trace, record);
             self.clocks(edge == Edge::Middle, false);
             trace.before_edge(edge, now, &self.top);
@@ -235,6 +191,9 @@ impl Device {
             }
             if next > until {
                 break;
+            }
+            if T::EDGES && next == self.timeline.next_event() {
+                trace.control_changes();
             }
             self.happen::<T, R>(next, record);
             if T::ON && next < until {

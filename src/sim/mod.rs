@@ -7,6 +7,7 @@ pub mod recorder;
 pub mod run;
 pub mod setup;
 pub mod timeline;
+mod trace;
 mod tracer;
 pub mod window;
 

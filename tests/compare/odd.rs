@@ -144,7 +144,7 @@ fn a_vcd_cut_off_in_a_time_stamp_is_refused() {
     let whole = vcd("1ns", "top", &[(1, "x")], "#0\n0a\n#500\n1a\n#1000\n0a\n#20");
     write(folder, "a.vcd", &whole);
     let error = refused(folder, &["a.vcd", "a.vcd"]);
-    assert!(error.contains("a.vcd:11:1: time goes back from 1000 to 20"), "{error}");
+    assert!(error.contains("a.vcd:12:1: time goes back from 1000 to 20"), "{error}");
     write(folder, "b.vcd", &whole.replace("#20", "#x"));
     let error = refused(folder, &["b.vcd", "b.vcd"]);
     assert!(error.contains("expected a time behind #"), "{error}");

@@ -1,0 +1,58 @@
+//! Who watches a device: its signals, and its avalanches.
+
+use crate::firmware::tof_top::TofTop;
+use crate::kernel::Time;
+use crate::optics::hazard::Cause;
+
+/// Sees the signals after every instant at which one may have changed.
+pub trait Trace {
+    /// Whether it looks at all.
+    const ON: bool;
+    /// Whether it looks just before each rising edge of `clk_125` and `clk_250` too.
+    const EDGES: bool = false;
+    /// The signals as they are from `now` on.
+    fn sample(&mut self, now: Time, top: &TofTop);
+    /// Whether it looks before this edge.
+    #[inline(always)]
+    fn looks_before(&self, _edge: Edge) -> bool {
+        Self::EDGES
+    }
+    /// The signals as the edge at `now` takes them: an asynchronous change at that very instant is
+    /// not there yet. Without [`Trace::ON`], `clk_200` stands still.
+    #[inline(always)]
+    fn before_edge(&mut self, _edge: Edge, _now: Time, _top: &TofTop) {}
+    /// The acquisition computer changes one of its signals. Told only with [`Trace::EDGES`].
+    #[inline(always)]
+    fn control_changes(&mut self) {}
+}
+
+/// A rising edge of `clk_250`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Edge {
+    /// `clk_125` rises too.
+    Both,
+    /// `clk_125` falls.
+    Middle,
+}
+
+/// Hears of every avalanche.
+pub trait Record {
+    /// Whether it listens at all.
+    const ON: bool;
+    /// An avalanche at `at`, `None` of a known cause.
+    fn avalanche(&mut self, at: Time, cause: Option<Cause>);
+}
+
+/// Neither looks nor listens.
+#[derive(Clone, Copy, Debug)]
+pub struct Off;
+
+impl Trace for Off {
+    const ON: bool = false;
+    fn sample(&mut self, _: Time, _: &TofTop) {}
+}
+
+impl Record for Off {
+    const ON: bool = false;
+    fn avalanche(&mut self, _: Time, _: Option<Cause>) {}
+}
