@@ -133,7 +133,7 @@ impl Condition {
     ///
     /// # Errors
     /// Those of `find`, with the column if they have no place; a slice beyond the signal, a value
-    /// that does not fit, an edge of more than one bit, a signal wider than [`WIDEST`].
+    /// that does not fit, an edge of more than one bit, bits beyond [`WIDEST`].
     pub fn bind(&self, find: &mut dyn FnMut(&str) -> Result<Place>) -> Result<Bound> {
         let watched = self.leaves.iter().map(|leaf| self.watch(leaf, find));
         Ok(Bound::new(self.node.clone(), watched.collect::<Result<_>>()?))
@@ -150,6 +150,10 @@ impl Condition {
         };
         if width > WIDEST {
             let expected = format!("expected a signal of at most {WIDEST} bits, not {width}");
+            return Err(fault(leaf.column, &leaf.name, expected).into());
+        }
+        if low + width > WIDEST {
+            let expected = format!("expected bits of the lowest {WIDEST}");
             return Err(fault(leaf.column, &leaf.name, expected).into());
         }
         let signed = place.signed && width == place.width;

@@ -140,10 +140,22 @@ fn only_samples_that_qualify_are_stored() {
 }
 
 #[test]
+fn an_edge_qualifies_one_sample() {
+    let text = format!("clock = \"clk_250\"\nposition = 0\ncapture = \"start rising\"{SHOTS}");
+    let shots = &values(&capture(&short(), &text, 1).0, "frame_ctrl/shots")[1..];
+    assert!(shots.len() > 100, "{shots:?}");
+    assert!(shots.windows(2).all(|pair| pair[1] == pair[0] + 1), "{shots:?}");
+}
+
+#[test]
 fn the_trigger_may_be_a_signal_that_is_no_probe() {
     let text = format!("position = 0\ntrigger = \"frame_ctrl.acquire falling\"{SHOTS}");
     let (capture, _) = capture(&short(), &text, 1);
     assert_eq!(values(&capture, "frame_ctrl/shots")[0], 200);
+    for trigger in ["clk_200", "tdc.carry_chain.taps[100]"] {
+        let text = format!("position = 0\ntrigger = \"{trigger} rising\"{SHOTS}");
+        assert_eq!(self::capture(&short(), &text, 1).1.len(), 1, "{trigger}");
+    }
 }
 
 #[test]

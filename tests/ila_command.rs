@@ -129,3 +129,19 @@ fn faults_of_a_set_up_have_their_place() {
         .collect();
     assert!(of("kc705", &taps).contains("expected at most 4096 bits in all, not 4800"));
 }
+
+#[test]
+fn a_position_on_the_command_line_goes_before_the_set_up_s() {
+    let overrides = Overrides { position: Some(2), ..Overrides::default() };
+    let set_up = SetUp::parse("t", "t.toml", "position = 9", overrides).unwrap();
+    assert_eq!(set_up.file.position, Some(2));
+}
+
+#[test]
+fn a_tap_beyond_the_widest_condition_is_refused() {
+    let folder = empty();
+    let trigger = ["--trigger", "tdc.carry_chain.taps[128] rising"];
+    let args = ["ila", "capture", "--probes", "fig_6_6", "-o", "out"];
+    let error = refused(folder.path(), &[&args[..], &trigger].concat());
+    assert!(error.contains("taps[128]: expected bits of the lowest 128"), "{error}");
+}

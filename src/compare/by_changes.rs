@@ -85,8 +85,7 @@ pub(super) fn compare(plan: &Plan, span: Span, tallies: &mut Tallies) -> Result<
     };
     let mut sides = [open(0)?, open(1)?];
     let (mut passed, mut touched) = (Passed::default(), Vec::new());
-    let from = coarse.count(span.from_fs) as i128;
-    let until = coarse.count(span.until_fs) as i128;
+    let [from, until] = [span.from_fs, span.until_fs].map(|fs| coarse.count_up(fs) as i128);
     let mut begun = from == 0;
     loop {
         let next = [sides[0].peek()?, sides[1].peek()?];

@@ -1,6 +1,7 @@
 //! Compares two sequences of samples, one by one, as an alignment says.
 
 use crate::error::Result;
+use crate::source::Axis;
 
 use super::align::Alignment;
 use super::delay::Delay;
@@ -56,12 +57,8 @@ pub(super) fn compare(
                 passed.short.extend(short(plan, &alignment.pieces, places, until_fs, count));
                 break;
             };
-            let late = is_late(plan, 0, a, until_fs) || is_late(plan, 1, b, until_fs);
-            if late || is_over(plan, a, b) {
+            if is_over(plan, a, b) || is_late(plan, [a, b], until_fs) {
                 break 'pieces;
-            }
-            if a.sample.marks.gap || b.sample.marks.gap {
-                continue;
             }
             for (side, selected) in sides.iter_mut().enumerate() {
                 selected.samples.changes(|signal| tallies.touch(side, signal));
@@ -71,6 +68,13 @@ pub(super) fn compare(
             let spot = Spot { order: passed.compared, piece: a.piece, at };
             if let Some(both) = &mut tallies.both {
                 both.at(place_ps(plan, a))?;
+            }
+            let gaps = [a.sample.marks.gap, b.sample.marks.gap];
+            for delay in &mut delays {
+                delay.compare(plan, spot, (states, gaps), tallies)?;
+            }
+            if gaps != [false, false] {
+                continue;
             }
             tallies.take_touched(&mut touched);
             for &pair in &touched {
@@ -90,9 +94,6 @@ pub(super) fn compare(
             }
             for &pair in &differing {
                 tallies.count(pair, spot, states);
-            }
-            for delay in &mut delays {
-                delay.compare(plan, spot, states, tallies)?;
             }
             passed.compared += 1;
             count += 1;
@@ -117,18 +118,25 @@ fn is_over(plan: &Plan, a: Place, b: Place) -> bool {
     held == [true, true] || (plan.capture().is_some() && held != [false, false])
 }
 
-fn is_late(plan: &Plan, side: usize, place: Place, until_fs: u128) -> bool {
+/// Whether that time is reached on the first side that has times.
+fn is_late(plan: &Plan, places: [Place; 2], until_fs: u128) -> bool {
+    let late = (0..2).find_map(|side| is_reached(plan, side, places[side], until_fs));
+    late.unwrap_or(false)
+}
+
+/// Whether that time is reached, on a side that has times.
+fn is_reached(plan: &Plan, side: usize, place: Place, until_fs: u128) -> Option<bool> {
     match plan.sources[side].axis {
-        crate::source::Axis::Time(tick) => tick.femtoseconds(place.sample.at) >= until_fs,
-        crate::source::Axis::Samples => false,
+        Axis::Time(tick) => Some(tick.femtoseconds(place.sample.at) >= until_fs),
+        Axis::Samples => None,
     }
 }
 
 /// Time of a place in the waveform of both sides: the first side's, or its sample's number [ps].
 fn place_ps(plan: &Plan, place: Place) -> u128 {
     match plan.sources[0].axis {
-        crate::source::Axis::Time(tick) => tick.femtoseconds(place.sample.at) / 1000,
-        crate::source::Axis::Samples => place.sample.at as u128,
+        Axis::Time(tick) => tick.femtoseconds(place.sample.at) / 1000,
+        Axis::Samples => place.sample.at as u128,
     }
 }
 
@@ -143,7 +151,7 @@ fn short(
     let side = places.iter().position(Option::is_none)?;
     let other = 1 - side;
     let place = places[other]?;
-    if place.sample.held || is_late(plan, other, place, until_fs) {
+    if place.sample.held || is_reached(plan, other, place, until_fs) == Some(true) {
         return None;
     }
     let wanted = pieces[other].get(place.piece).and_then(|piece| piece.count());

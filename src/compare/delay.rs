@@ -13,8 +13,16 @@ use super::tally::Spot;
 /// A pair of which one side is late, or that is compared only at times.
 pub(super) struct Delay {
     pair: usize,
-    /// Values of the side that is early.
-    early: VecDeque<(Bits, Bits, Spot, bool)>,
+    early: VecDeque<Entry>,
+}
+
+/// A sample, kept until the side that is late has come.
+#[derive(Clone)]
+struct Entry {
+    values: [Bits; 2],
+    spot: Spot,
+    /// Sides of which it is not compared.
+    off: [bool; 2],
 }
 
 impl Delay {
@@ -28,15 +36,16 @@ impl Delay {
         self.early.clear();
     }
 
-    /// Takes a sample, and compares as soon as both sides have come.
+    /// Takes a sample with its values and whether they are missing, and compares as soon as both
+    /// sides have come.
     pub(super) fn compare(
         &mut self,
         plan: &Plan,
         spot: Spot,
-        states: [&State; 2],
+        (states, gaps): ([&State; 2], [bool; 2]),
         tallies: &mut Tallies,
     ) -> Result<()> {
-        let differs = self.step(plan, spot, states, tallies);
+        let differs = self.step(plan, spot, (states, gaps), tallies);
         tallies.show(self.pair, states, differs)
     }
 
@@ -45,37 +54,31 @@ impl Delay {
         &mut self,
         plan: &Plan,
         spot: Spot,
-        states: [&State; 2],
+        (states, gaps): ([&State; 2], [bool; 2]),
         tallies: &mut Tallies,
     ) -> bool {
         let pair = &plan.matching.pairs[self.pair];
-        let (mut a, mut b) = (Bits::default(), Bits::default());
-        pair.gather(0, states[0], &mut a);
-        pair.gather(1, states[1], &mut b);
-        let off = pair.is_off(states[0]);
-        self.early.push_back((a, b, spot, off));
-        let late = pair.latency.unsigned_abs() as usize;
-        if self.early.len() <= late {
+        let mut values = [Bits::default(), Bits::default()];
+        for (side, bits) in values.iter_mut().enumerate() {
+            pair.gather(side, states[side], bits);
+        }
+        let off = [gaps[0] || pair.is_off(states[0]), gaps[1]];
+        let now = Entry { values, spot, off };
+        self.early.push_back(now.clone());
+        if self.early.len() as u64 <= pair.latency.unsigned_abs() {
             return false;
         }
-        let Some((a_early, b_early, spot_early, off_early)) = self.early.pop_front() else {
-            return false;
-        };
-        let now = self.early.back().cloned();
-        let (a_now, b_now, spot_now, off_now) =
-            now.unwrap_or((a_early.clone(), b_early.clone(), spot_early, off_early));
-        let (a, b, off, spot) = match pair.latency >= 0 {
-            true => (a_early, b_now, off_early, [spot_early, spot_now]),
-            false => (a_now, b_early, off_now, [spot_now, spot_early]),
-        };
-        if off {
+        let Some(early) = self.early.pop_front() else { return false };
+        let [a, b] = if pair.latency >= 0 { [&early, &now] } else { [&now, &early] };
+        if a.off[0] || b.off[1] {
             return false;
         }
         tallies.tallies[self.pair].compared += 1;
-        let differs = !pair.equal(&a, &b, tallies.unknowns());
+        let (expected, got) = (&a.values[0], &b.values[1]);
+        let differs = !pair.equal(expected, got, tallies.unknowns());
         if differs {
-            let at = [spot[0].at[0], spot[1].at[1]];
-            tallies.count_values(self.pair, Spot { at, ..spot_now }, &a, &b);
+            let at = [a.spot.at[0], b.spot.at[1]];
+            tallies.count_values(self.pair, Spot { at, ..now.spot }, expected, got);
         }
         differs
     }

@@ -19,7 +19,7 @@ use crate::scenario::check::{Checked, read};
 #[serde(default, deny_unknown_fields)]
 pub struct Map {
     /// Clock of a waveform's samples: a signal, taken just before its rising edges, or a frequency
-    /// and the time of the first edge as `125MHz` or `125MHz@2ns`.
+    /// and the time of the first edge as `125MHz` or `125MHz + 2ns`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clock: Option<String>,
     /// How the sides are brought together: `start`, `trigger`, `edge SIGNAL`, `correlation`,

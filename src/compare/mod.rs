@@ -86,13 +86,12 @@ pub struct Options {
 /// When they cannot be read, nothing belongs together, or it is not clear which samples do.
 pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> {
     let sources = [a, b];
-    let mut matching = matching(sources, &options.map, &options.choice)?;
+    let matching = matching(sources, &options.map, &options.choice)?;
     if matching.pairs.is_empty() {
         let expected = "no signal of one has a partner in the other; give a map (--map)";
         let value = format!("{} and {}", a.name, b.name);
         return Err(Input::new("compare", expected).value(value).into());
     }
-    matching.pairs.sort_by_key(|pair| pair.how != How::Map);
     if sources.iter().all(|source| source.is_capture())
         && (options.until.is_some() || options.after.is_some())
     {

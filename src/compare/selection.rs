@@ -92,3 +92,16 @@ impl<'a> Selected<'a> {
         self.piece < self.pieces.len()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_of_a_piece_begins_where_asked() {
+        assert_eq!(Piece::Run(10, None).part(5, 3), Piece::Run(15, Some(3)));
+        assert_eq!(Piece::Run(10, Some(7)).part(5, 3), Piece::Run(15, Some(2)));
+        assert_eq!(Piece::Run(10, Some(4)).part(5, 3), Piece::Run(15, Some(0)));
+        assert_eq!(Piece::Kept(vec![1, 4, 9, 16]).part(1, 2), Piece::Kept(vec![4, 9]));
+    }
+}

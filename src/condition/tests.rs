@@ -66,6 +66,7 @@ fn a_signed_signal_is_compared_as_signed() {
     assert!(holds("depth >= -2 && depth <= -1", [0, 0, minus_one, 0, 0]));
     assert!(holds("depth < 0xfffffffff", [0, 0, minus_one - 1, 0, 0]));
     assert!(!holds("depth[7:0] < 1", [0, 0, minus_one, 0, 0]), "a slice has no sign");
+    assert!(holds("depth == -34359738368", [0, 0, 1 << 35, 0, 0]), "the lowest value");
 }
 
 #[test]
@@ -110,6 +111,8 @@ fn what_hangs_on_an_unknown_bit_does_not_hold_nor_does_its_opposite() {
     assert!(at("bus == 0x1x", 1), "an unknown bit that does not matter");
     assert!(at("bus != 0x00", 1), "a known bit decides");
     assert!(at("bus == 0x1x || bus == 0x11", 1));
+    assert!(!at("bus == 0x1x && bus == 0x10", 1));
+    assert!(at("bus[7:4] == 1", 1), "an unknown bit outside the slice");
 }
 
 #[test]
@@ -150,6 +153,8 @@ fn a_fault_has_its_column() {
         ("bit && \"bus", "--trigger:1:8: \"bus: expected a closing quote"),
         ("bit & bit", "--trigger:1:5: &: expected a name, a value or an operator"),
         ("wide changed", "--trigger:1:1: wide: expected a signal of at most 128 bits, not 200"),
+        ("wide[128]", "--trigger:1:1: wide[128]: expected bits of the lowest 128"),
+        ("wide[130:120] == 1", "--trigger:1:1: wide[130:120]: expected bits of the lowest 128"),
     ] {
         assert_eq!(fault(text), expected, "{text}");
     }

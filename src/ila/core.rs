@@ -246,6 +246,7 @@ mod tests {
         let capture = capture(4, 2, 2, "..t.....");
         assert_eq!(capture.words, [0, 1, 2, 3, 6, 7]);
         assert_eq!((capture.windows, capture.triggers), (vec![0, 4], vec![2]));
+        assert_eq!(super::tests::capture(4, 2, 2, "..t......").words, [0, 1, 2, 3, 7, 8]);
         let filling = super::tests::capture(8, 1, 4, "...");
         assert_eq!((filling.words, filling.triggers), (vec![0, 1, 2], vec![]));
         let nothing = super::tests::capture(8, 1, 0, "...");

@@ -117,3 +117,27 @@ fn below(path: &str) -> String {
     let below = path.strip_prefix(TOP).and_then(|rest| rest.strip_prefix(['.', '/']));
     below.unwrap_or(path).to_owned()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario;
+    use crate::sim::setup::Setup;
+
+    #[test]
+    fn a_slice_keeps_its_place_but_no_sign() {
+        let setup = Setup::new(scenario::load("kc705", &[]).unwrap()).unwrap();
+        let design = Design::new(&setup.params);
+        let is_signed = |signal: &Signal| matches!(signal.format, Format::Signed { .. });
+        let mut signed = design.signals.iter().filter(|(_, (_, signal))| is_signed(signal));
+        let (path, _) = signed.find(|(_, (_, signal))| signal.width > 5).unwrap();
+        let (probe, bits) = design.probe(path, None, None).unwrap();
+        assert_eq!((probe.radix, probe.lsb, bits.signed), (Radix::Signed, 0, true));
+        let (probe, bits) = design.probe(&format!("{path}[5:2]"), None, None).unwrap();
+        assert_eq!((probe.radix, probe.lsb, probe.width), (Radix::Hex, 2, 4));
+        assert_eq!((bits.low, bits.width, bits.signed), (2, 4, false));
+        let (probe, bits) = design.probe(&format!("{path}[3]"), None, None).unwrap();
+        assert_eq!((probe.lsb, probe.vector, bits.low), (0, false, 3));
+        assert!(probe.name.ends_with("[3]"));
+    }
+}

@@ -38,11 +38,29 @@ fn vcd(file: &mut File) -> std::io::Result<Option<u64>> {
     file.seek(SeekFrom::Start(length.saturating_sub(TAIL)))?;
     let mut tail = Vec::new();
     file.take(TAIL).read_to_end(&mut tail)?;
-    let lines = tail.split(|&byte| byte == b'\n');
-    let stamps = lines.filter_map(|line| line.trim_ascii().strip_prefix(b"#"));
-    let times = stamps.filter_map(|digits| std::str::from_utf8(digits).ok()?.parse().ok());
-    // The last one may be cut off; reading it will tell.
-    Ok(times.max())
+    Ok(last_stamp(&String::from_utf8_lossy(&tail), length <= TAIL))
+}
+
+/// The last time stamp among the words of a VCD; what is in a comment or names a signal is none.
+/// A first word that may be cut off is left out with the next, which it may belong to.
+fn last_stamp(text: &str, whole: bool) -> Option<u64> {
+    let (text, skipped) = match text.split_once("$enddefinitions") {
+        Some((_, changes)) => (changes, 0),
+        None => (text, if whole { 0 } else { 2 }),
+    };
+    let mut words = text.split_ascii_whitespace().skip(skipped);
+    let mut last = None;
+    while let Some(word) = words.next() {
+        if word == "$comment" {
+            words.find(|&word| word == "$end");
+        } else if word.starts_with(['b', 'B', 'r', 'R', 's', 'S']) {
+            words.next();
+        } else if let Some(digits) = word.strip_prefix('#') {
+            // The last one may be cut off; reading it will tell.
+            last = last.max(digits.parse().ok());
+        }
+    }
+    last
 }
 
 #[cfg(test)]
@@ -56,6 +74,8 @@ mod tests {
         let mut file = tempfile::NamedTempFile::new().unwrap();
         write!(file, "$end\n#0\n1!\n#700\n0!\nb01 #\n#720\n").unwrap();
         assert_eq!(end(file.path(), Format::Vcd).unwrap(), Some(720));
+        write!(file, "#730 1! #740 0!\nb0 #9\n$comment\n#5\n$end\n").unwrap();
+        assert_eq!(end(file.path(), Format::Vcd).unwrap(), Some(740));
         write!(file, "{}", "1!\n".repeat(40_000)).unwrap();
         assert_eq!(end(file.path(), Format::Vcd).unwrap(), None);
     }

@@ -34,6 +34,11 @@ impl Tick {
     pub fn count(self, femtoseconds: u128) -> u64 {
         (femtoseconds * Tick::FEMTOSECOND.0 / self.0) as u64
     }
+
+    /// A time in this unit, rounded up: the first that is not before it.
+    pub fn count_up(self, femtoseconds: u128) -> u64 {
+        (femtoseconds * Tick::FEMTOSECOND.0).div_ceil(self.0) as u64
+    }
 }
 
 impl fmt::Display for Tick {
@@ -57,6 +62,7 @@ mod tests {
         assert_eq!(fine.convert(1999, coarse), 1);
         assert_eq!(coarse.convert(7, coarse), 7);
         assert_eq!(Tick::new(100, -12).unwrap().convert(19, Tick::new(1, -9).unwrap()), 1);
+        assert_eq!((coarse.count(1999), coarse.count_up(1001), coarse.count_up(1000)), (1, 2, 1));
     }
 
     #[test]

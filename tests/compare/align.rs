@@ -1,41 +1,64 @@
 //! How samples of two sides are brought together.
 
+use std::fs;
+use std::ops::Range;
 use std::path::Path;
 
 use crate::{common, csv, different, refused, same, vcd, write};
 
 /// A waveform of a clock of 10 ns, rising at 5, 15, 25 ... ns, a word that never repeats within 200
 /// steps, and a pulse at step 60; both change with the clock.
-fn waveform(folder: &Path) {
-    let mut body = String::from("#0\n0a\nb0 b\n0c\n");
-    for step in 0..200u64 {
+pub fn waveform(folder: &Path) {
+    write(folder, "wave.vcd", &part(0..200));
+}
+
+/// Some steps of that waveform.
+pub fn part(steps: Range<u64>) -> String {
+    let before = steps.start.checked_sub(1).map_or(0, word);
+    let mut body = format!("#{}\n0a\nb{before:b} b\n0c\n", 10 * steps.start);
+    for step in steps {
         let (rise, fall) = (5 + 10 * step, 10 + 10 * step);
         body +=
             &format!("#{rise}\n1a\nb{:b} b\n{}c\n#{fall}\n0a\n", word(step), u8::from(step == 60));
     }
-    write(folder, "wave.vcd", &vcd("1ns", "top", &[(1, "clk"), (8, "n"), (1, "go")], &body));
+    vcd("1ns", "top", &[(1, "clk"), (8, "n"), (1, "go")], &body)
 }
 
 /// The word after step `step`.
-fn word(step: u64) -> u64 {
+pub fn word(step: u64) -> u64 {
     step * 167 % 251
 }
 
 /// What a logic analyser has of step `step`: the values before its edge.
-fn sample(step: u64) -> String {
+pub fn sample(step: u64) -> String {
     let before = step.checked_sub(1);
     let (n, go) = (before.map_or(0, word), u8::from(before == Some(60)));
     format!("{n:02x},{go}")
 }
 
-fn capture(folder: &Path, name: &str, trigger: usize, steps: impl Iterator<Item = u64>) {
+pub fn capture(folder: &Path, name: &str, trigger: usize, steps: impl Iterator<Item = u64>) {
     let rows: Vec<_> = steps.map(sample).collect();
     write(folder, name, &csv("n[7:0],go", "HEX,HEX", trigger, &rows));
 }
 
-const CLOCK: [&str; 2] = ["--clock", "top.clk"];
+/// A capture of several windows, each with its steps and the place of its trigger.
+pub fn windows(windows: &[(Range<u64>, usize)]) -> String {
+    let mut text = String::from(
+        "Sample in Buffer,Sample in Window,TRIGGER,n[7:0],go\nRadix - UNSIGNED,UNSIGNED,UNSIGNED,HEX,HEX\n",
+    );
+    let mut buffer = 0;
+    for (steps, trigger) in windows {
+        for (place, step) in steps.clone().enumerate() {
+            text += &format!("{buffer},{place},{},{}\n", u8::from(place == *trigger), sample(step));
+            buffer += 1;
+        }
+    }
+    text
+}
 
-fn args<'a>(more: &[&'a str]) -> Vec<&'a str> {
+pub const CLOCK: [&str; 2] = ["--clock", "top.clk"];
+
+pub fn args<'a>(more: &[&'a str]) -> Vec<&'a str> {
     [&["wave.vcd", "ila.csv"], &CLOCK[..], more].concat()
 }
 
@@ -102,6 +125,10 @@ fn by_the_first_edge_of_a_signal_or_a_given_offset() {
     capture(folder, "ila.csv", 11, 50..82);
     same(folder, &args(&["--align", "edge go"]));
     same(folder, &args(&["--align", "offset -50"]));
+    // A value that comes to be known is no edge.
+    let text = fs::read_to_string(folder.join("wave.vcd")).unwrap().replacen("0c", "xc", 1);
+    write(folder, "unknown.vcd", &text);
+    same(folder, &[&["unknown.vcd", "ila.csv"], &CLOCK[..], &["--align", "edge go"]].concat());
     let json = different(folder, &args(&["--align", "offset -49"]));
     assert_eq!(json["findings"][0]["kind"], "shifted window", "{json:#}");
     let error = refused(folder, &args(&["--align", "offset 8ns"]));
@@ -113,16 +140,7 @@ fn each_window_alone() {
     let folder = common::empty();
     let folder = folder.path();
     waveform(folder);
-    let windows = [20..52u64, 70..102, 140..172];
-    let mut text = String::from(
-        "Sample in Buffer,Sample in Window,TRIGGER,n[7:0],go\nRadix - UNSIGNED,UNSIGNED,UNSIGNED,HEX,HEX\n",
-    );
-    for (k, window) in windows.into_iter().enumerate() {
-        for (place, step) in window.enumerate() {
-            let buffer = 32 * k + place;
-            text += &format!("{buffer},{place},{},{}\n", u8::from(place == 3), sample(step));
-        }
-    }
+    let text = windows(&[(20..52, 3), (70..102, 3), (140..172, 3)]);
     write(folder, "ila.csv", &text);
     let json = same(folder, &args(&["--align", "windows"]));
     assert_eq!(json["compared"], 96);
@@ -146,6 +164,7 @@ fn samples_that_a_condition_qualified() {
     capture(folder, "ila.csv", 5, kept.iter().copied());
     let condition = ["--trigger", "go rising", "--qualified-by", "n[0] == 0"];
     same(folder, &args(&condition));
+    same(folder, &args(&[&condition[..], &["--after", "100ns"]].concat()));
     different(folder, &args(&condition[..2]));
     let error = refused(folder, &args(&["--qualified-by", "n[0] == 0"]));
     assert!(error.contains("--align: expected trigger"), "{error}");
@@ -158,7 +177,7 @@ fn samples_by_a_column_that_counts_the_clock() {
     waveform(folder);
     let steps: Vec<u64> = vec![50, 51, 55, 61, 62, 80, 99, 130, 131];
     let rows: Vec<_> =
-        steps.iter().map(|&step| format!("{},{}", sample(step), (step + 250) % 256)).collect();
+        steps.iter().map(|&step| format!("{},{}", sample(step), (step + 150) % 256)).collect();
     write(folder, "ila.csv", &csv("n[7:0],go,cycle[7:0]", "HEX,HEX,UNSIGNED", 3, &rows));
     let counted = ["--time-from", "cycle", "--ignore", "cycle"];
     same(folder, &args(&[&counted[..], &["--trigger", "go rising"]].concat()));
@@ -166,6 +185,17 @@ fn samples_by_a_column_that_counts_the_clock() {
     different(folder, &args(&[&counted[..], &["--align", "offset 51"]].concat()));
     let error = refused(folder, &args(&["--time-from", "go", "--trigger", "go rising"]));
     assert!(error.contains("stands still at sample 1"), "{error}");
+    // Samples before the waveform begins are left out.
+    for (begin, compared) in [(51, 8), (52, 7)] {
+        write(folder, "wave.vcd", &part(begin..200));
+        let offset = format!("offset {}", 50 - begin as i64);
+        let json = same(folder, &args(&[&counted[..], &["--align", &offset]].concat()));
+        assert_eq!(json["compared"], compared);
+    }
+    let rows = ["00,0,c8", "00,0,XX"].map(str::to_owned);
+    write(folder, "ila.csv", &csv("n[7:0],go,cycle[7:0]", "HEX,HEX,HEX", 0, &rows));
+    let error = refused(folder, &args(&[&counted[..], &["--align", "offset 0"]].concat()));
+    assert!(error.contains("cycle: is unknown"), "{error}");
 }
 
 #[test]
@@ -191,6 +221,7 @@ fn waveforms_are_sampled_by_a_clock_of_their_own_or_a_free_one() {
     capture(folder, "ila.csv", 11, 50..82);
     let by_trigger = ["--trigger", "go rising"];
     same(folder, &[&["wave.vcd", "ila.csv"], &free[..], &by_trigger].concat());
+    same(folder, &[&["wave.vcd", "ila.csv"], &free[..], &["--align", "offset -50"]].concat());
     let error = refused(folder, &["wave.vcd", "ila.csv", "--trigger", "go rising"]);
     assert!(error.contains("say which clock they are taken by with --clock"), "{error}");
     let error = refused(folder, &["wave.vcd", "ila.csv", "--clock", "n"]);

@@ -1,6 +1,8 @@
 //! How exactly values are compared.
 
-use crate::{common, csv, different, differing, refused, same, vcd, write};
+use std::fs;
+
+use crate::{common, compare, csv, different, differing, refused, same, vcd, write};
 
 fn rows(cells: &[&str]) -> Vec<String> {
     cells.iter().map(|&row| row.to_owned()).collect()
@@ -17,10 +19,31 @@ fn an_unknown_bit_is_itself_or_anything_or_nothing() {
     assert_eq!(json["first"]["first"]["expected"], "0b1x01");
     same(folder, &["a.vcd", "a.vcd"]);
     same(folder, &["a.vcd", "b.vcd", "--x", "any"]);
+    same(folder, &["b.vcd", "a.vcd", "--x", "any"]);
     different(folder, &["a.vcd", "b.vcd", "--x", "none"]);
     different(folder, &["a.vcd", "a.vcd", "--x", "none"]);
     write(folder, "z.vcd", &vcd("1ns", "top", &variables, "#0\nb1z01 a\n#9\nb1111 a\n"));
     different(folder, &["a.vcd", "z.vcd"]);
+    write(folder, "low.vcd", &vcd("1ns", "top", &variables, "#0\nb1001 a\n#9\nb1111 a\n"));
+    different(folder, &["a.vcd", "low.vcd"]);
+    different(folder, &["b.vcd", "low.vcd", "--x", "any"]);
+    write(folder, "weak.vcd", &vcd("1ns", "top", &variables, "#0\nbhl0h a\n#9\nb1111 a\n"));
+    same(folder, &["weak.vcd", "low.vcd"]);
+    write(folder, "a.csv", &csv("n[3:0]", "HEX", 0, &rows(&["0", "0", "0"])));
+    write(folder, "b.csv", &csv("n[3:0]", "HEX", 0, &rows(&["0", "X", "0"])));
+    assert_eq!(different(folder, &["a.csv", "b.csv"])["first"]["differing"], 1);
+}
+
+#[test]
+fn an_exchanged_level_that_is_unknown_stays_so() {
+    let folder = common::empty();
+    let folder = folder.path();
+    let write = |name, body| write(folder, name, &vcd("1ns", "top", &[(2, "n")], body));
+    write("a.vcd", "#0\nb0x a\n#9\nb0z a\n");
+    write("b.vcd", "#0\nb1x a\n#9\nb1z a\n");
+    fs::write(folder.join("map.toml"), "[[signal]]\na = [\"n\"]\ninvert = true\n").unwrap();
+    same(folder, &["a.vcd", "b.vcd", "--map", "map.toml"]);
+    different(folder, &["a.vcd", "a.vcd", "--map", "map.toml"]);
 }
 
 #[test]
@@ -38,6 +61,28 @@ fn numbers_may_differ_by_their_tolerance() {
     assert!(error.contains("q: no such signal"), "{error}");
     let error = refused(folder, &["a.csv", "b.csv", "--tolerance", "n=x"]);
     assert!(error.contains("expected SIGNAL=VALUE with a whole number"), "{error}");
+}
+
+#[test]
+fn a_floating_point_number_has_no_tolerance_in_bits() {
+    let folder = common::empty();
+    let folder = folder.path();
+    let text = |value: &str| {
+        vcd("1ns", "top", &[(64, "r")], &format!("#0\nr{value} a\n#5\nr0 a\n"))
+            .replace("wire 64", "real 64")
+    };
+    write(folder, "a.vcd", &text("1.0"));
+    write(folder, "b.vcd", &text("1.0000000000000002"));
+    same(folder, &["a.vcd", "a.vcd"]);
+    different(folder, &["a.vcd", "b.vcd", "--tolerance", "r=1"]);
+    write(folder, "bits.vcd", &vcd("1ns", "top", &[(64, "r"), (1, "x")], "#0\nb0 a\n0b\n"));
+    write(
+        folder,
+        "real.vcd",
+        &(text("0.0").replace("$upscope", "$var wire 1 b x $end\n$upscope") + "0b\n"),
+    );
+    let json = compare(folder, &["bits.vcd", "real.vcd"]).1;
+    assert!(json["unmatched"].to_string().contains("64 bits here, 64 on the other"), "{json:#}");
 }
 
 #[test]
@@ -75,6 +120,13 @@ fn a_signal_may_be_compared_only_where_another_is_high() {
     write(folder, "b.csv", &csv("ok,n[3:0]", "HEX,HEX", 0, &rows(&["0,9", "1,2", "0,f", "1,5"])));
     let json = different(folder, &["a.csv", "b.csv", "--valid", "n=ok"]);
     assert_eq!(json["first"]["differing"], 1);
+    // It counts from the instant on at which the other becomes high.
+    let variables = [(1, "ok"), (2, "n")];
+    write(folder, "a.vcd", &vcd("1ns", "top", &variables, "#0\nza\nb01 b\n#9\n1a\n#12\n1a\n"));
+    write(folder, "b.vcd", &vcd("1ns", "top", &variables, "#0\nza\nb10 b\n#9\n1a\n#12\n1a\n"));
+    let valid = ["a.vcd", "b.vcd", "--valid", "n=ok"];
+    assert_eq!(different(folder, &valid)["first"]["first"]["at"][0], 9000.0);
+    same(folder, &[&valid[..], &["--until", "9ns"]].concat());
     let error = refused(folder, &["a.csv", "b.csv", "--valid", "ok=n"]);
     assert!(error.contains("expected a signal of one bit"), "{error}");
 }
@@ -89,6 +141,15 @@ fn a_wide_signal_is_compared_bit_by_bit() {
     let json = different(folder, &["a.csv", "b.csv"]);
     assert_eq!(json["first"]["first"]["bits"].to_string(), "[236]");
     same(folder, &["a.csv", "a.csv"]);
+    // A mask says nothing of the bits beyond it.
+    write(folder, "map.toml", "[[signal]]\na = [\"n\"]\ndont_care = \"0xffffffffffffffff\"\n");
+    different(folder, &["a.csv", "b.csv", "--map", "map.toml"]);
+    for (slice, differs) in [("[239:230]", true), ("[235:120]", false), ("[299:237]", false)] {
+        let map = format!("[[signal]]\na = [\"n{slice}\"]\nb = [\"n{slice}\"]\n");
+        write(folder, "map.toml", &map);
+        let json = compare(folder, &["a.csv", "b.csv", "--map", "map.toml"]).1;
+        assert_eq!(differing(&json).len(), usize::from(differs), "{slice}");
+    }
 }
 
 #[test]

@@ -9,9 +9,12 @@ mod damage;
 mod formats;
 mod how;
 mod odd;
+mod offsets;
+mod times;
 mod verilog;
 mod waveforms;
 mod which;
+mod windows;
 
 use std::fs;
 use std::path::Path;

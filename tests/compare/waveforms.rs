@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::{common, different, differing, refused, same, vcd, write};
 
 /// A clock and a count, in steps of 5 ns; the count at step 7 is `seventh`.
-fn counting(timescale: &str, scale: u64, scope: &str, seventh: u64) -> String {
+pub fn counting(timescale: &str, scale: u64, scope: &str, seventh: u64) -> String {
     let mut body = String::new();
     for step in 0..20u64 {
         let count = if step == 7 { seventh } else { step };
@@ -212,6 +212,12 @@ fn a_report_for_continuous_integration_has_a_case_for_each_signal() {
     let failed: Vec<_> = failed.map(|case| case.attribute("name").unwrap()).collect();
     assert_eq!((cases.len(), failed), (3, vec!["top.count"]));
     assert!(text.contains("expected 0x07, got 0x27"), "{text}");
+    write(folder, "b.vcd", counting("1ns", 5, "top", 7).split_once("#60\n").unwrap().0);
+    different(folder, &["a.vcd", "b.vcd", "--junit", "report.xml"]);
+    let text = fs::read_to_string(folder.join("report.xml")).unwrap();
+    let xml = roxmltree::Document::parse(&text).unwrap();
+    let failure = xml.descendants().find(|node| node.has_tag_name("failure")).unwrap();
+    assert_eq!(failure.parent().unwrap().attribute("name"), Some("structure"));
 }
 
 #[test]

@@ -88,6 +88,68 @@ fn names_are_changed_by_regular_expressions() {
 }
 
 #[test]
+fn a_map_with_the_sides_exchanged_is_turned_round_as_a_whole() {
+    let folder = common::empty();
+    let folder = folder.path();
+    write(folder, "a.csv", &csv("x[3:0],y", "HEX,HEX", 0, &rows(&["1,0", "2,1", "3,0", "4,0"])));
+    let late = rows(&["f,0", "1,1", "2,0", "3,0"]);
+    write(folder, "b.csv", &csv("u_x[3:0],u_y", "HEX,HEX", 0, &late));
+    let map = "[[rename]]\nside = \"b\"\npattern = '^u_'\nby = ''\n\n\
+        [[signal]]\na = [\"x\"]\nb = [\"u_x\"]\nlatency = 1\n";
+    write(folder, "map.toml", map);
+    for files in [["a.csv", "b.csv"], ["b.csv", "a.csv"]] {
+        let json = same(folder, &[&files[..], &["--map", "map.toml"]].concat());
+        assert_eq!(json["signals"].as_array().unwrap().len(), 2);
+    }
+    let both = [(1, "u_y"), (1, "z")];
+    write(folder, "a.vcd", &vcd("1ns", "top", &both, "#0\n0a\n0b\n#5\n1a\n"));
+    let b = [(1, "y"), (1, "w")];
+    write(folder, "b.vcd", &vcd("1ns", "top", &b, "#0\n0a\n0b\n#5\n1a\n"));
+    let map = "[[rename]]\nside = \"b\"\npattern = 'u_'\nby = ''\n\n\
+        [[signal]]\na = [\"w\"]\nb = [\"z\"]\n";
+    write(folder, "map.toml", map);
+    let json = same(folder, &["a.vcd", "b.vcd", "--map", "map.toml"]);
+    assert_eq!(json["signals"].as_array().unwrap().len(), 2, "{json:#}");
+}
+
+#[test]
+fn the_nearest_name_is_taken_and_its_case_tells_two_apart() {
+    let folder = common::empty();
+    let folder = folder.path();
+    let names = |variables: &[(u32, &str)], body| vcd("1ns", "top", variables, body);
+    write(folder, "a.vcd", &names(&[(1, "drain"), (1, "Drain")], "#0\n0a\n1b\n#5\n1a\n"));
+    write(folder, "b.vcd", &names(&[(1, "Drain"), (1, "drain")], "#0\n1a\n0b\n#5\n1b\n"));
+    let json = same(folder, &["a.vcd", "b.vcd"]);
+    assert_eq!(json["signals"].as_array().unwrap().len(), 2, "{json:#}");
+    // What two share with one of the other side is nobody's.
+    write(folder, "a.csv", &csv("x,u/hit,v/hit", "HEX,HEX,HEX", 0, &rows(&["0,0,0", "1,1,1"])));
+    write(folder, "b.csv", &csv("x,hit", "HEX,HEX", 0, &rows(&["0,0", "1,1"])));
+    let json = different(folder, &["a.csv", "b.csv"]);
+    assert_eq!(json["signals"].as_array().unwrap().len(), 1, "{json:#}");
+    // A name that is the same goes before one that ends so.
+    write(folder, "b.csv", &csv("x,u/x", "HEX,HEX", 0, &rows(&["0,1", "1,0"])));
+    write(folder, "map.toml", "[[signal]]\na = [\"x\"]\nb = [\"x\"]\n");
+    let json = same(folder, &["b.csv", "b.csv", "--map", "map.toml"]);
+    assert_eq!(json["signals"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn slices_count_from_the_signal_s_own_lowest_bit() {
+    let folder = common::empty();
+    let folder = folder.path();
+    write(folder, "a.vcd", &vcd("1ns", "top", &[(4, "n [7:4]")], "#0\nb0110 a\n#5\nb0101 a\n"));
+    write(folder, "b.vcd", &vcd("1ns", "top", &[(2, "m [1:0]")], "#0\nb11 a\n#5\nb10 a\n"));
+    let map = |slice| format!("[[signal]]\na = [\"n[{slice}]\"]\nb = [\"m\"]\n");
+    write(folder, "map.toml", &map("6:5"));
+    same(folder, &["a.vcd", "b.vcd", "--map", "map.toml"]);
+    for slice in ["4:3", "8:7"] {
+        write(folder, "map.toml", &map(slice));
+        let error = refused(folder, &["a.vcd", "b.vcd", "--map", "map.toml"]);
+        assert!(error.contains("expected a slice within [7:4]"), "{error}");
+    }
+}
+
+#[test]
 fn bits_may_be_left_out_and_levels_exchanged() {
     let folder = common::empty();
     let folder = folder.path();
