@@ -170,10 +170,11 @@ impl Source {
     fn distinguish(mut self) -> Self {
         let mut ids: HashMap<String, HashSet<usize>> = HashMap::new();
         for signal in &self.signals {
-            ids.entry(signal.name.scope(0)).or_default().insert(signal.id);
+            ids.entry(signal.name.text.clone()).or_default().insert(signal.id);
         }
         for signal in &mut self.signals {
-            if ids[&signal.name.scope(0)].len() > 1 && signal.kind == Kind::Bits {
+            let shared = ids.get(&signal.name.text).is_some_and(|ids| ids.len() > 1);
+            if shared && signal.kind == Kind::Bits {
                 let top = signal.lsb + i64::from(signal.width) - 1;
                 let text = format!("{}[{top}:{}]", signal.name.text, signal.lsb);
                 signal.name = Name::new(text);
