@@ -145,3 +145,20 @@ fn a_tap_beyond_the_widest_condition_is_refused() {
     let error = refused(folder.path(), &[&args[..], &trigger].concat());
     assert!(error.contains("taps[128]: expected bits of the lowest 128"), "{error}");
 }
+
+#[test]
+fn set_ups_can_be_listed_and_shown_and_have_a_schema() {
+    let folder = empty();
+    let list = json(folder.path(), &["ila", "list", "--json"]);
+    assert_eq!((list.as_array().unwrap().len(), &list[0]["name"]), (4, &"fig_6_6".into()));
+    assert!(stdout(folder.path(), &["ila", "list"]).contains("fig_6_21"));
+    let text = stdout(folder.path(), &["ila", "show", "fig_6_12"]);
+    std::fs::write(folder.path().join("own.toml"), &text).unwrap();
+    assert_eq!(stdout(folder.path(), &["ila", "show", "own.toml"]), text);
+    json(folder.path(), &["ila", "capture", "--probes", "own.toml", "-o", "out", "--json"]);
+    assert!(refused(folder.path(), &["ila", "show", "fig_6_7"]).contains("no such file"));
+    let schema = json(folder.path(), &["ila", "schema"]);
+    assert_eq!(schema["properties"]["depth"]["unit"], "samples");
+    let schema = json(folder.path(), &["ila", "schema", "--map"]);
+    assert_eq!(schema["properties"]["after_us"]["unit"], "us");
+}

@@ -2,6 +2,7 @@
 
 pub mod capture;
 pub mod info;
+pub mod set_ups;
 
 use clap::Subcommand;
 
@@ -20,6 +21,23 @@ pub struct Args {
 enum Verb {
     Capture(Box<capture::Args>),
     Info(info::Args),
+    /// List the built-in set-ups of captures
+    List {
+        /// Print JSON
+        #[arg(long)]
+        json: bool,
+    },
+    /// Print a set-up, to begin one's own with
+    Show {
+        /// Built-in set-up, or the path of a set-up file
+        set_up: String,
+    },
+    /// Print the JSON Schema of set-up files: every key with its meaning and unit
+    Schema {
+        /// That of the map files of `compare`
+        #[arg(long)]
+        map: bool,
+    },
 }
 
 /// Runs the command.
@@ -27,5 +45,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     match &args.verb {
         Verb::Capture(args) => capture::run(args, talk),
         Verb::Info(args) => info::run(args),
+        Verb::List { json } => set_ups::list(*json),
+        Verb::Show { set_up } => set_ups::show(set_up),
+        Verb::Schema { map } => set_ups::schema(*map),
     }
 }

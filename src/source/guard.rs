@@ -10,6 +10,7 @@ use std::thread;
 
 use crate::error::{self, Input};
 
+use super::remark::Remark;
 use super::stream::READER;
 
 /// Passes a VCD on, and fails where a time stamp goes back.
@@ -21,6 +22,8 @@ pub(super) struct InOrder<R> {
     seen: u64,
     line: u64,
     begin_of_line: bool,
+    /// The command that the line belongs to, if it may be a remark.
+    remark: Option<Remark>,
     /// Digits of the time stamp under way.
     stamp: Option<Stamp>,
     last: u64,
@@ -44,6 +47,7 @@ impl<R> InOrder<R> {
             seen: 0,
             line: 1,
             begin_of_line: true,
+            remark: None,
             stamp: None,
             last: 0,
             fault,
@@ -84,7 +88,10 @@ impl<R> InOrder<R> {
             }
             if self.begin_of_line {
                 self.begin_of_line = false;
-                if byte == b'#' {
+                if byte == b'$' && self.remark.is_none() {
+                    self.remark = Some(Remark::default());
+                }
+                if byte == b'#' && self.remark.is_none() {
                     self.stamp = Some(Stamp::default());
                     *rest = &rest[1..];
                     continue;
@@ -92,18 +99,29 @@ impl<R> InOrder<R> {
             }
             match rest.iter().position(|&byte| byte == b'\n') {
                 Some(end) => {
+                    self.pass(&rest[..end]);
                     *rest = &rest[end + 1..];
                     self.next_line();
                 }
-                None => return Ok(()),
+                None => {
+                    self.pass(rest);
+                    return Ok(());
+                }
             }
         }
         Ok(())
     }
 
+    fn pass(&mut self, bytes: &[u8]) {
+        if let Some(remark) = &mut self.remark {
+            remark.take(bytes);
+        }
+    }
+
     fn next_line(&mut self) {
         self.line += 1;
         self.begin_of_line = true;
+        self.remark = self.remark.take().filter(Remark::goes_on);
     }
 
     fn longer(&self, stamp: Stamp, digit: u8) -> Result<Stamp, Fault> {
@@ -215,6 +233,7 @@ mod tests {
     fn time_may_stand_still_but_not_go_back() {
         for chunk in 1..20 {
             assert_eq!(read("$end\n#0\n0#\n#5\nb01 #\n1!\n#5\n#70\n", chunk), Ok(()));
+            assert_eq!(read("#9\n$comment\n#0\n$end\n#9\n$comment #0 $end\n#10\n", chunk), Ok(()));
             let back = read("$end\n#0\n0#\n#50\n1!\n#49\n1!\n", chunk);
             assert_eq!(back.unwrap_err(), "6: time goes back from 50 to 49");
         }

@@ -9,6 +9,7 @@ mod loaded;
 mod locate;
 mod marks;
 mod names;
+mod remark;
 mod simulation;
 mod state;
 mod stream;

@@ -199,3 +199,20 @@ fn what_is_wrong_against_the_simulation_is_named_too() {
     assert_eq!(json["first"]["first"]["at"][1], 700.0);
     assert_eq!(json["first"]["first"]["got"], "1");
 }
+
+#[test]
+fn what_only_looks_like_it_is_not_named() {
+    let twice = damaged(|table| {
+        let code = table.column("TDC_CODE");
+        for row in [500, 600] {
+            let value: u32 = table.rows[row][code].parse().unwrap();
+            table.rows[row][code] = (value ^ 4).to_string();
+        }
+    });
+    assert_eq!((differing(&twice).len(), findings(&twice)), (1, vec![]));
+    let copied = damaged(|table| {
+        let (laser, valid) = (table.column("VCSEL_ON"), table.column("TDC_VALID"));
+        table.rows.iter_mut().for_each(|row| row[laser] = row[valid].clone());
+    });
+    assert_eq!((differing(&copied).len(), findings(&copied)), (1, vec![]));
+}

@@ -156,6 +156,23 @@ fn what_differs_first_stands_first_in_the_order_of_data_flow() {
 }
 
 #[test]
+fn what_differs_at_once_stands_in_the_order_of_data_flow() {
+    let folder = common::empty();
+    let folder = folder.path();
+    let names = ["depth_estimator.forward2.depth", "tdc.tdc_decoder.n", "frame_ctrl.state", "x.y"];
+    let variables = names.map(|name| (4, name));
+    let wave = |value: u8| {
+        let values: String = ('a'..'e').map(|id| format!("b{value:b} {id}\n")).collect();
+        vcd("1ns", "tof_top", &variables, &format!("#0\nb0 a\nb0 b\nb0 c\nb0 d\n#5\n{values}"))
+    };
+    write(folder, "a.vcd", &wave(1));
+    write(folder, "b.vcd", &wave(2));
+    let differing = differing(&different(folder, &["a.vcd", "b.vcd"]));
+    let flow = ["frame_ctrl.state", "tdc.tdc_decoder.n", "depth_estimator.forward2.depth", "x.y"];
+    assert_eq!(differing, flow.map(|name| format!("tof_top.{name}")));
+}
+
+#[test]
 fn both_sides_and_what_differs_go_into_one_waveform() {
     let folder = common::empty();
     let folder = folder.path();
@@ -267,6 +284,9 @@ fn what_is_no_waveform_or_a_broken_one_is_refused() {
         let error = refused(&good.replacen(from, to, 1));
         assert!(error.contains("bad.vcd:26:1: "), "{from} {to}: {error}");
     }
+    let remark = good.replace("#60\n", "$comment\n#0\n$end\n#60\n");
+    write(folder, "remark.vcd", &remark);
+    same(folder, &["good.vcd", "remark.vcd"]);
     let error = crate::refused(folder, &["good.vcd", "missing.vcd"]);
     assert!(error.contains("missing.vcd: cannot read"), "{error}");
     let error = crate::refused(folder, &["good.vcd", "."]);
