@@ -9,11 +9,13 @@ use wellen::{Hierarchy, LoadOptions, SignalRef};
 use crate::error::{Error, Result};
 
 use super::Source;
+use super::counts::check;
 use super::stream::Feed;
 use super::wave::{Words, fault};
 
 fn open(path: &Path) -> Result<wellen::viewers::HeaderResult<BufReader<File>>> {
-    let file = File::open(path).map_err(Error::io(path, "read"))?;
+    let mut file = File::open(path).map_err(Error::io(path, "read"))?;
+    check(&path.display().to_string(), &mut file).map_err(Error::io(path, "read"))??;
     let options = LoadOptions { multi_thread: false, remove_scopes_with_empty_name: true };
     wellen::viewers::read_header(BufReader::new(file), &options).map_err(|error| fault(path, error))
 }

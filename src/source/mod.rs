@@ -2,6 +2,7 @@
 //! stream of changes in bounded memory.
 
 mod capture;
+mod counts;
 mod detect;
 mod end;
 mod guard;
