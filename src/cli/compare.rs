@@ -1,5 +1,7 @@
 //! `tofsim compare`: two waveforms, captures or simulations laid over each other.
 
+mod values;
+
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -8,7 +10,7 @@ use crate::compare::map::Rule;
 use crate::compare::{Align, Choice, Map, Options, Sampling, Unknowns, compare, json, junit, text};
 use crate::condition::Condition;
 use crate::error::{Error, Input, Result};
-use crate::ila::{Overrides, Radix, SetUp};
+use crate::ila::{Overrides, SetUp};
 use crate::kernel::Time;
 use crate::output::write_file;
 use crate::scenario;
@@ -17,6 +19,9 @@ use crate::source::Source;
 
 use super::stdout::print;
 use super::talk::Talk;
+
+pub use values::RadixWord;
+use values::{latency, setting, time};
 
 /// Compare two waveforms or captures: what A has is expected, what B has was got
 ///
@@ -144,63 +149,6 @@ struct How {
     /// Compare a signal only where another is 1 in A; may be repeated
     #[arg(long, value_name = "SIGNAL=VALID", value_parser = setting::<String>)]
     valid: Vec<(String, String)>,
-}
-
-/// How digits are to be read.
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
-pub enum RadixWord {
-    /// Hexadecimal
-    Hex,
-    /// Two's complement, decimal
-    Signed,
-    /// Decimal
-    Unsigned,
-    /// Bit by bit
-    Binary,
-    /// Three bits to a digit
-    Octal,
-}
-
-impl RadixWord {
-    /// The radix.
-    pub fn radix(self) -> Radix {
-        match self {
-            RadixWord::Hex => Radix::Hex,
-            RadixWord::Signed => Radix::Signed,
-            RadixWord::Unsigned => Radix::Unsigned,
-            RadixWord::Binary => Radix::Binary,
-            RadixWord::Octal => Radix::Octal,
-        }
-    }
-}
-
-/// Most samples that a signal may be late.
-const LONGEST_LATENCY: u64 = 65_536;
-
-fn time(text: &str) -> std::result::Result<Time, String> {
-    crate::compare::time(text).ok_or_else(|| "expected a time, as 10us or 8.5ns".to_owned())
-}
-
-fn setting<T: std::str::FromStr>(text: &str) -> std::result::Result<(String, T), String> {
-    let fault = || format!("expected SIGNAL=VALUE with a {}", kind::<T>());
-    let (name, value) = text.split_once('=').ok_or_else(fault)?;
-    Ok((name.to_owned(), value.parse().map_err(|_| fault())?))
-}
-
-fn latency(text: &str) -> std::result::Result<(String, i64), String> {
-    let (name, samples) = setting::<i64>(text)?;
-    match samples.unsigned_abs() <= LONGEST_LATENCY {
-        true => Ok((name, samples)),
-        false => Err(format!("expected {LONGEST_LATENCY} samples at most")),
-    }
-}
-
-fn kind<T>() -> &'static str {
-    match std::any::type_name::<T>() {
-        "u64" => "whole number from 0",
-        "i64" => "whole number",
-        _ => "signal",
-    }
 }
 
 /// Runs the command.
