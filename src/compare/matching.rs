@@ -43,6 +43,8 @@ pub enum Reason {
     Ambiguous(Vec<String>),
     /// The other side's has another width.
     Width(u32, u32),
+    /// The other side has slices of it, but not so many of its bits.
+    Part(u32),
     /// It is text or an event.
     Text,
     /// It was asked not to be compared.
@@ -56,6 +58,7 @@ impl Reason {
             Reason::Alone => "no signal of that name on the other side".to_owned(),
             Reason::Ambiguous(names) => format!("several on the other side: {}", names.join(", ")),
             Reason::Width(own, other) => format!("{own} bits here, {other} on the other side"),
+            Reason::Part(missing) => format!("{missing} of its bits are not on the other side"),
             Reason::Text => "text or events, which are not compared".to_owned(),
             Reason::Ignored => "left out".to_owned(),
         }

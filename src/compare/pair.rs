@@ -1,7 +1,8 @@
 //! Two signals that are compared, and how.
 
-use crate::source::State;
+use crate::source::{Signal, State};
 
+use super::find::Slots;
 use super::show::Show;
 
 /// Bits of a signal of a cursor.
@@ -15,6 +16,13 @@ pub(super) struct Part {
     pub(super) width: u32,
     /// Whether that is the whole signal.
     pub(super) whole: bool,
+}
+
+impl Part {
+    /// All of a signal, which is read from now on.
+    pub(super) fn whole(slots: &mut Slots, signal: &Signal) -> Self {
+        Part { signal: slots.place(signal.id), low: 0, width: signal.width, whole: true }
+    }
 }
 
 /// What an unknown bit is the same as.
@@ -86,6 +94,32 @@ impl Bits {
 }
 
 impl Pair {
+    /// Two signals of so many bits that are compared at every place, bit for bit.
+    pub(super) fn new(
+        names: [String; 2],
+        how: How,
+        width: u32,
+        sides: [Vec<Part>; 2],
+        show: Show,
+    ) -> Self {
+        let [name, other] = names;
+        Pair {
+            name,
+            other,
+            aliases: 0,
+            how,
+            width,
+            sides,
+            show,
+            signed: None,
+            mask: Vec::new(),
+            invert: false,
+            latency: 0,
+            tolerance: 0,
+            valid: None,
+        }
+    }
+
     /// Whether it is compared by the bits at one place alone.
     pub(super) fn is_plain(&self) -> bool {
         self.latency == 0 && self.valid.is_none()

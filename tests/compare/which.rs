@@ -134,6 +134,28 @@ fn the_nearest_name_is_taken_and_its_case_tells_two_apart() {
 }
 
 #[test]
+fn a_bus_has_its_partner_only_if_the_slices_are_all_of_it() {
+    let folder = common::empty();
+    let folder = folder.path();
+    let slices = |heads: &str, cells: &[&str]| csv(heads, "HEX,HEX,HEX", 0, &rows(cells));
+    write(folder, "b.csv", &csv("x,n[7:0]", "HEX,HEX", 0, &rows(&["0,a5", "1,5a"])));
+    write(folder, "a.csv", &slices("x,n[7:4],n[3:0]", &["0,a,5", "1,5,a"]));
+    for files in [["a.csv", "b.csv"], ["b.csv", "a.csv"]] {
+        assert_eq!(same(folder, &files)["signals"].as_array().unwrap().len(), 3);
+    }
+    write(folder, "a.csv", &slices("x,n[7:4],n[2:0]", &["0,a,5", "1,5,2"]));
+    for (side, files) in [("b", ["a.csv", "b.csv"]), ("a", ["b.csv", "a.csv"])] {
+        let json = different(folder, &files);
+        let [unmatched] = &json["unmatched"].as_array().unwrap()[..] else { panic!("{json:#}") };
+        assert_eq!((&unmatched["side"], &unmatched["name"]), (&side.into(), &"n".into()));
+        assert_eq!(unmatched["reason"], "1 of its bits are not on the other side");
+        assert_eq!(json["signals"].as_array().unwrap().len(), 3);
+        let json = same(folder, &[&files[..], &["--ignore", "n"]].concat());
+        assert_eq!(json["signals"].as_array().unwrap().len(), 1, "{json:#}");
+    }
+}
+
+#[test]
 fn slices_count_from_the_signal_s_own_lowest_bit() {
     let folder = common::empty();
     let folder = folder.path();

@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use crate::source::{Name, Source, shapes};
 
-use super::super::find::Slots;
 use super::super::pair::{How, Pair, Part};
 use super::{Matching, Reason, Unmatched, shown};
 
@@ -124,28 +123,14 @@ pub(super) fn by_name(
             continue;
         }
         pairs.insert((a.id, b.id), matching.pairs.len());
-        let whole = |slots: &mut Slots, signal: &crate::source::Signal| Part {
-            signal: slots.place(signal.id),
-            low: 0,
-            width: signal.width,
-            whole: true,
-        };
         let [left, right] = &mut matching.slots;
-        matching.pairs.push(Pair {
-            name: a.name.text.clone(),
-            other: b.name.text.clone(),
-            aliases: 0,
-            how: if a.name.is(&b.name) { How::Name } else { How::Suffix },
-            width: a.width,
-            sides: [vec![whole(left, a)], vec![whole(right, b)]],
-            show: shown(a, b, &known),
-            signed: None,
-            mask: Vec::new(),
-            invert: false,
-            latency: 0,
-            tolerance: 0,
-            valid: None,
-        });
+        matching.pairs.push(Pair::new(
+            [a.name.text.clone(), b.name.text.clone()],
+            if a.name.is(&b.name) { How::Name } else { How::Suffix },
+            a.width,
+            [vec![Part::whole(left, a)], vec![Part::whole(right, b)]],
+            shown(a, b, &known),
+        ));
     }
     for side in 0..2 {
         for &k in &candidates[side] {

@@ -57,21 +57,8 @@ pub(super) fn by_rule(
         return Err(Input::new("map", expected).field(names[0].join(" ")).into());
     }
     let [a, b] = [0, 1].map(|side| &sides[side].signals[first[side]]);
-    let mut pair = Pair {
-        name: names[0].join(" "),
-        other: names[1].join(" "),
-        aliases: 0,
-        how: How::Map,
-        width,
-        sides: parts,
-        show: shown(a, b, &shapes()),
-        signed: None,
-        mask: Vec::new(),
-        invert: false,
-        latency: 0,
-        tolerance: 0,
-        valid: None,
-    };
+    let names = names.map(|parts| parts.join(" "));
+    let mut pair = Pair::new(names, How::Map, width, parts, shown(a, b, &shapes()));
     pair.follow(rule, sides, matching)?;
     Ok(pair)
 }

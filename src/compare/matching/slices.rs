@@ -1,62 +1,68 @@
 //! Slices of a signal on one side that are one signal on the other.
 
+use std::collections::{HashMap, HashSet};
+
 use crate::source::{Source, shapes};
 
 use super::super::find;
 use super::super::pair::{How, Pair, Part};
-use super::{Matching, Reason, shown};
+use super::{Matching, Reason, Unmatched, shown};
 
 /// Matches what is left and has a range in its name with those bits of the other side's signal.
 ///
 /// A capture's columns may have the slices of one bus; the library that reads waveforms joins them.
+/// The bus has its partners then if the slices are all of it. Slices of what is left out are, too.
 pub(super) fn by_slice(sides: [&Source; 2], matching: &mut Matching) {
     let known = shapes();
-    let mut found = Vec::new();
-    for (place, left) in matching.unmatched.iter().enumerate() {
+    let left_out = |left: &&Unmatched| left.reason == Reason::Ignored;
+    let ignored: HashSet<_> = matching.unmatched.iter().filter(left_out).map(key).collect();
+    let mut parts: HashMap<(usize, usize), Vec<Part>> = HashMap::new();
+    let Matching { pairs, unmatched, slots, .. } = matching;
+    unmatched.retain_mut(|left| {
         if left.reason != Reason::Alone || !left.name.ends_with(']') || !left.name.contains(':') {
-            continue;
+            return true;
         }
         let (own, other) = (left.side, 1 - left.side);
         let signal = &sides[own].signals[left.signal];
-        let part = find::part(sides[other], &left.name, &mut matching.slots[other]);
-        if let Ok((whole, part)) = part
-            && part.width == signal.width
-            && !part.whole
-        {
-            found.push((place, whole, part));
+        let Ok((bus, part)) = find::part(sides[other], &left.name, &mut slots[other]) else {
+            return true;
+        };
+        if part.width != signal.width || part.whole {
+            return true;
         }
-    }
-    let mut gone: Vec<usize> = found.iter().map(|(place, ..)| *place).collect();
-    for &(place, whole, part) in &found {
-        let left = &matching.unmatched[place];
-        let (own, other) = (left.side, 1 - left.side);
-        let signal = &sides[own].signals[left.signal];
-        let slot = matching.slots[own].place(signal.id);
-        let mut parts = [Vec::new(), Vec::new()];
-        parts[own].push(Part { signal: slot, low: 0, width: signal.width, whole: true });
-        parts[other].push(part);
-        matching.pairs.push(Pair {
-            name: left.name.clone(),
-            other: left.name.clone(),
-            aliases: 0,
-            how: How::Suffix,
-            width: signal.width,
-            sides: parts,
-            show: shown(signal, signal, &known),
-            signed: None,
-            mask: Vec::new(),
-            invert: false,
-            latency: 0,
-            tolerance: 0,
-            valid: None,
-        });
-        let is_whole = |side: usize, signal: usize| side == other && signal == whole;
-        let places = matching.unmatched.iter().enumerate();
-        gone.extend(places.filter(|(_, u)| is_whole(u.side, u.signal)).map(|(place, _)| place));
-    }
-    let mut place = 0;
-    matching.unmatched.retain(|_| {
-        place += 1;
-        !gone.contains(&(place - 1))
+        if ignored.contains(&(other, bus)) {
+            left.reason = Reason::Ignored;
+            return true;
+        }
+        parts.entry((other, bus)).or_default().push(part);
+        let mut both = [vec![Part::whole(&mut slots[own], signal)], vec![part]];
+        if own == 1 {
+            both.swap(0, 1);
+        }
+        let (names, show) = ([0, 1].map(|_| left.name.clone()), shown(signal, signal, &known));
+        pairs.push(Pair::new(names, How::Suffix, signal.width, both, show));
+        false
     });
+    unmatched.retain_mut(|left| {
+        let Some(parts) = parts.get_mut(&key(left)) else { return true };
+        let width = sides[left.side].signals[left.signal].width;
+        left.reason = Reason::Part(width - covered(parts));
+        left.reason != Reason::Part(0)
+    });
+}
+
+fn key(left: &Unmatched) -> (usize, usize) {
+    (left.side, left.signal)
+}
+
+/// Bits of a signal that are in one of those parts.
+fn covered(parts: &mut [Part]) -> u32 {
+    parts.sort_unstable_by_key(|part| part.low);
+    let (mut count, mut top) = (0, 0);
+    for part in parts {
+        let end = part.low + part.width;
+        count += end.saturating_sub(top.max(part.low));
+        top = top.max(end);
+    }
+    count
 }
