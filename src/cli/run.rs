@@ -3,23 +3,25 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use crate::error::Result;
+use crate::error::{Error, Input, Result};
 use crate::hierarchy;
 use crate::output::create_directory;
+use crate::report::frame_log::FrameLog;
 use crate::report::products::Products;
 use crate::report::summary::Summary;
 use crate::report::table;
 use crate::scenario;
 use crate::sim::frames::Frame;
+use crate::sim::histogram::Histograms;
 use crate::sim::recorder::Shot;
 use crate::sim::run::Watch;
 use crate::sim::setup::Setup;
 use crate::sim::window::Window;
-use crate::sim::{Outcome, Run};
+use crate::sim::{Gait, Run};
 use crate::waves::{self, Format, Waves, write_views};
 
 use super::interrupt::stop_signal;
-use super::stdout::print;
+use super::stdout::{print, print_with};
 use super::talk::Talk;
 
 /// Simulate frames: photons to depth, with a waveform
@@ -27,6 +29,7 @@ use super::talk::Talk;
 #[command(after_help = "Examples:\n  \
     tofsim run                              one frame of the built-in kc705, waveform in waves/\n  \
     tofsim run far --frames 20 --waves none\n  \
+    tofsim run far --frames 1000 --fidelity shot\n  \
     tofsim run -s target.distance_m=0.3 --seed 7 -o out\n  \
     tofsim run --window 10us..12us --signals 'tdc.*' --waves fst")]
 pub struct Args {
@@ -42,12 +45,16 @@ pub struct Args {
     /// How many frames to simulate, one after the other
     #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..))]
     frames: u64,
-    /// How to simulate; this version has the cycle-accurate model only
+    /// How to simulate; cycle and shot give the same frames, histogram the same in distribution
     #[arg(long, value_enum, default_value_t = Fidelity::Cycle)]
     fidelity: Fidelity,
-    /// Format of the waveform
-    #[arg(long, value_enum, default_value_t = WavesFormat::Vcd)]
-    waves: WavesFormat,
+    /// Threads for the frames of a run without waveform and events; the results are the same for
+    /// any number [default: one a core]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Format of the waveform [default: vcd; none for fidelities without signals]
+    #[arg(long, value_enum)]
+    waves: Option<WavesFormat>,
     /// Part of the run that goes into the waveform: shot:0..8, 10us..12us or estimation; may be
     /// repeated [default: the scenario's, or shot:0..16 and estimation]
     #[arg(long, value_name = "W", value_parser = str::parse::<Window>)]
@@ -67,10 +74,24 @@ pub struct Args {
     json: bool,
 }
 
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Fidelity {
-    /// Every register at every edge
+    /// Every register at every edge that changes one
     Cycle,
+    /// A draw, a code and a count for each shot; no signals to look at
+    Shot,
+    /// A draw for each frame, of its whole histogram; for MODE 0, without control changes
+    Histogram,
+}
+
+impl Fidelity {
+    fn name(self) -> &'static str {
+        match self {
+            Fidelity::Cycle => "cycle",
+            Fidelity::Shot => "shot",
+            Fidelity::Histogram => "histogram",
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -85,35 +106,49 @@ enum WavesFormat {
 
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
-    let Fidelity::Cycle = args.fidelity;
+    let waves = args.waves_format()?;
     let mut loaded = scenario::load(&args.scenario, &args.set)?;
     if let Some(seed) = args.seed {
         loaded.scenario.seed = seed;
     }
     let setup = Setup::new(loaded)?;
-    let plan = WavePlan::new(args, &setup)?;
+    args.check_fidelity(&setup)?;
+    let histograms =
+        (args.fidelity == Fidelity::Histogram).then(|| Histograms::new(&setup)).transpose()?;
+    let plan = WavePlan::new(args, waves, &setup)?;
     let (folder, events) = (args.output.as_deref(), args.events.as_deref());
     let mut products = Products::new(folder, events, &provenance(args, &setup), &setup)?;
     let waves = plan.as_ref().map(|plan| plan.open(args, &setup)).transpose()?;
+    use_threads(args.threads)?;
 
     let stop = stop_signal();
     let progress = talk.progress(args.frames);
-    let mut frames: Vec<Frame> = Vec::new();
+    let mut log = FrameLog::new(args.json || folder.is_some());
     let mut take_frame = |frame: &Frame| {
-        frames.push(frame.clone());
         progress.inc(1);
-        Ok(())
+        log.push(&setup, frame)
     };
-    let wants_shots = products.want_shots();
+    let sees_shots = args.fidelity == Fidelity::Cycle && products.want_shots();
+    let wants_all_shots = products.want_all_shots();
     let mut take_shot = |shot: &Shot| products.shot(shot);
     let watch = Watch {
         waves,
-        shots: wants_shots.then_some(&mut take_shot),
+        shots: sees_shots.then_some(&mut take_shot),
         frames: Some(&mut take_frame),
         stop: stop.as_deref(),
     };
     let began = Instant::now();
-    let outcome = Run::new(&setup).frames(args.frames, watch)?;
+    let outcome = match histograms {
+        Some(histograms) => histograms.many(args.frames, watch)?,
+        None => {
+            let gait = if args.fidelity == Fidelity::Shot { Gait::Leap } else { Gait::Skip };
+            let run = Run::new(&setup).at(gait);
+            match watch.waves.is_some() || wants_all_shots {
+                true => run.frames(args.frames, watch)?,
+                false => run.many(args.frames, watch)?,
+            }
+        }
+    };
     let wall = began.elapsed();
     progress.finish_and_clear();
     outcome.notes.iter().chain(&setup.notes()).for_each(|note| talk.note(note));
@@ -125,29 +160,62 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         talk.note(format_args!("waveform: {}", plan.path.display()));
     }
     let waves = plan.map(|plan| plan.path.display().to_string());
-    let summary = Summary::new(&setup, waves, &frames, products.tdc());
-    for path in products.finish(&setup, &frames, &summary)? {
+    let fidelity = args.fidelity.name();
+    let summary = Summary::new(&setup, fidelity, waves, log.spread(), products.tdc());
+    for path in products.finish(&setup, &mut log, &summary)? {
         talk.detail(format_args!("wrote {}", path.display()));
     }
-    print(&text(args, &setup, &frames, &outcome, &summary, wall)?)
-}
-
-fn text(
-    args: &Args,
-    setup: &Setup,
-    frames: &[Frame],
-    outcome: &Outcome,
-    summary: &Summary,
-    wall: std::time::Duration,
-) -> Result<String> {
     if args.json {
-        return summary.json();
+        return print_with(|out| log.write_json(&summary, out));
     }
-    let mut text = table::run(setup, frames, outcome, wall);
+    let mut text = table::run(&setup, &log, outcome.cycles, wall);
     if let Some(results) = &summary.tdc {
         text += &table::tdc(results);
     }
-    Ok(text)
+    print(&text)
+}
+
+impl Args {
+    /// The format of the waveform, if there is one.
+    fn waves_format(&self) -> Result<WavesFormat> {
+        match (self.fidelity, self.waves) {
+            (Fidelity::Cycle, waves) => Ok(waves.unwrap_or(WavesFormat::Vcd)),
+            (_, None | Some(WavesFormat::None)) => Ok(WavesFormat::None),
+            (_, Some(_)) => Err(self.without_signals("--waves")),
+        }
+    }
+
+    /// That the fidelity can show what is asked for.
+    fn check_fidelity(&self, setup: &Setup) -> Result<()> {
+        if self.fidelity == Fidelity::Cycle {
+            return Ok(());
+        }
+        let asked = [
+            ("--window", !self.window.is_empty()),
+            ("--signals", !self.signals.is_empty()),
+            ("--events", self.events.is_some()),
+            ("report.tdc", setup.scenario.report.tdc),
+        ];
+        match asked.iter().find(|(_, asked)| *asked) {
+            Some((option, _)) => Err(self.without_signals(option)),
+            None => Ok(()),
+        }
+    }
+
+    fn without_signals(&self, option: &str) -> Error {
+        let fidelity = self.fidelity.name();
+        let expected = format!(
+            "--fidelity {fidelity} has neither signals nor single shots: expected --fidelity cycle"
+        );
+        Input::new(option, expected).into()
+    }
+}
+
+/// Makes the pool of so many threads, if a number is asked for.
+fn use_threads(threads: Option<u16>) -> Result<()> {
+    let Some(threads) = threads else { return Ok(()) };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+    pool.map_err(|error| Input::new("--threads", error).value(threads).into())
 }
 
 /// The waveform: what goes into it, and where.
@@ -159,8 +227,8 @@ struct WavePlan {
 }
 
 impl WavePlan {
-    fn new(args: &Args, setup: &Setup) -> Result<Option<Self>> {
-        let (format, ending) = match args.waves {
+    fn new(args: &Args, waves: WavesFormat, setup: &Setup) -> Result<Option<Self>> {
+        let (format, ending) = match waves {
             WavesFormat::None => return Ok(None),
             WavesFormat::Vcd => (Format::Vcd, "vcd"),
             WavesFormat::Fst => (Format::Fst, "fst"),

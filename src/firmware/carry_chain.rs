@@ -4,6 +4,7 @@
 //! of taps 0 .. i - 1; an arrival at or before the edge counts. The line is longer than a clock
 //! period, so several transitions may travel in it.
 
+use crate::kernel::thermometer::MAX_TRANSITIONS;
 use crate::kernel::{Thermometer, Time, U};
 use crate::signals;
 
@@ -129,8 +130,10 @@ impl Delays {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StopLine {
     level: bool,
-    /// Times of the last transitions, newest first.
-    recent: [Time; crate::kernel::thermometer::MAX_TRANSITIONS],
+    /// Times of the last transitions, a ring.
+    recent: [Time; MAX_TRANSITIONS],
+    /// Place of the newest.
+    newest: usize,
     travelling: usize,
 }
 
@@ -144,26 +147,48 @@ impl StopLine {
     /// width is none.
     pub fn toggle(&mut self, now: Time) {
         self.level = !self.level;
-        if self.travelling > 0 && self.recent[0] == now {
-            self.recent.rotate_left(1);
+        if self.travelling > 0 && self.at(0) == now {
+            self.newest = (self.newest + 1) % MAX_TRANSITIONS;
             self.travelling -= 1;
         } else {
-            self.recent.rotate_right(1);
-            self.recent[0] = now;
-            self.travelling = (self.travelling + 1).min(self.recent.len());
+            self.newest = (self.newest + MAX_TRANSITIONS - 1) % MAX_TRANSITIONS;
+            self.recent[self.newest] = now;
+            self.travelling = (self.travelling + 1).min(MAX_TRANSITIONS);
         }
+    }
+
+    /// When the `nth` transition was, 0 the newest.
+    #[inline(always)]
+    fn at(&self, nth: usize) -> Time {
+        self.recent[(self.newest + nth) % MAX_TRANSITIONS]
     }
 
     /// When the transition happened that reached physical tap 0 at or before `now`, raising it.
     pub fn rise_seen_at(&self, now: Time, delays: &Delays) -> Option<Time> {
         let mut level = self.level;
-        for &at in &self.recent[..self.travelling] {
+        for at in (0..self.travelling).map(|nth| self.at(nth)) {
             if level && at + delays.tap_0() <= now {
                 return Some(at);
             }
             level = !level;
         }
         None
+    }
+
+    /// Whether the level is low and has been for some time.
+    pub fn is_low_since(&self, since: Time) -> bool {
+        !self.level && (self.travelling == 0 || self.at(0) <= since)
+    }
+
+    /// The level is low, and has been for long.
+    pub fn settle_low(&mut self) {
+        (self.level, self.travelling) = (false, 0);
+    }
+
+    /// Whether the taps of the last edge are those of every edge to come, until the level changes.
+    #[inline(always)]
+    pub fn is_shown_by(&self, taps: &Taps) -> bool {
+        self.travelling == 0 && taps.is_settled_at(self.level)
     }
 
     /// The taps at a clock edge; forgets transitions that have left the chain.
@@ -175,11 +200,16 @@ impl StopLine {
         self.sample_travelling(now, delays)
     }
 
+    #[inline(always)]
     fn sample_travelling(&mut self, now: Time, delays: &Delays) -> Taps {
-        let ages = self.recent[..self.travelling].iter().map(|&at| now - at);
-        let taps = Taps::new(self.level, ages.map(|age| delays.rank(age)));
-        while self.travelling > 0 && self.recent[self.travelling - 1] + delays.longest() <= now {
-            self.travelling -= 1;
+        let mut taps = Taps::settled(self.level);
+        for nth in 0..self.travelling {
+            let rank = delays.rank(now - self.at(nth));
+            if rank == TAPS {
+                self.travelling = nth;
+                break;
+            }
+            taps.push(rank);
         }
         taps
     }

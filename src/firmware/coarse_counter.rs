@@ -3,7 +3,7 @@
 //! Mirrors `rtl_ref/coarse_counter.v`. `start` is high in cycle s of the laser edge; `coarse` is 0
 //! in cycle s + 1, in step with the taps sampled at that edge.
 
-use crate::kernel::{Clocked, U};
+use crate::kernel::{ASLEEP, AWAKE, Clocked, U};
 use crate::signals;
 
 signals! {
@@ -26,6 +26,14 @@ signals! {
     }
 }
 
+impl CoarseCounter {
+    /// So many cycles, one or more, after a laser edge.
+    pub fn after(cycles: u64) -> Self {
+        let last = U::<3>::MAX.get();
+        CoarseCounter { coarse: U::new((cycles - 1).min(last)), window: cycles - 1 <= last }
+    }
+}
+
 impl Clocked for CoarseCounter {
     type In = In;
     type Params = ();
@@ -41,6 +49,23 @@ impl Clocked for CoarseCounter {
             d.coarse = q.coarse + 1;
         }
         if i.rst { Self::default() } else { d }
+    }
+
+    /// Nobody looks at `coarse` but at a hit.
+    #[inline(always)]
+    fn quiet(&self, i: &In, (): &()) -> u64 {
+        match (i.start || i.rst, self.window) {
+            (true, _) => AWAKE,
+            (false, true) => U::<3>::MAX.get() - self.coarse.get(),
+            (false, false) => ASLEEP,
+        }
+    }
+
+    #[inline(always)]
+    fn skip(&mut self, _: &In, edges: u64) {
+        if self.window {
+            self.coarse = self.coarse + edges;
+        }
     }
 }
 

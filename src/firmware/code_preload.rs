@@ -3,7 +3,7 @@
 //! Mirrors `rtl_ref/code_preload.v`. The code is up two edges after the laser edge, the thesis's
 //! "10 ns after VCSEL-on" seen by `clk_125`. The ROM is read in order and again from its start.
 
-use crate::kernel::{Clocked, U};
+use crate::kernel::{Clocked, U, asleep_if};
 use crate::signals;
 
 signals! {
@@ -46,6 +46,11 @@ impl Clocked for CodePreload {
             d.rom_addr = if last { U::new(0) } else { q.rom_addr + 1 };
         }
         if i.rst { Self::default() } else { d }
+    }
+
+    #[inline(always)]
+    fn quiet(&self, i: &In, _: &[U<8>]) -> u64 {
+        asleep_if(!i.start && !self.pending && !self.tdc_valid && !i.rst)
     }
 }
 

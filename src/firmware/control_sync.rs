@@ -4,7 +4,7 @@
 //! `laser_freq` cross side by side; a mixed value that an unlucky edge might catch lasts one
 //! cycle and matters only if the laser's counter wraps in it.
 
-use crate::kernel::{Clocked, U};
+use crate::kernel::{Clocked, U, asleep_if};
 use crate::signals;
 
 signals! {
@@ -68,6 +68,11 @@ impl Clocked for ControlSync {
             dsp_en_meta: i.dsp_en,
             dsp_rst_meta: i.dsp_rst,
         }
+    }
+
+    #[inline(always)]
+    fn quiet(&self, i: &In, (): &()) -> u64 {
+        asleep_if(self.next(i, &()) == *self)
     }
 }
 

@@ -88,6 +88,18 @@ impl DepthEstimator {
         };
     }
 
+    /// In the cycle before the depth is ready, when those sums of the hidden layer have been made.
+    pub fn before_done(l1_in: [forward1::L1In; forward2::NEURONS], p: &Params) -> Self {
+        let l1_out = l1_in.map(|l1_in| p.tansig[tansig::address(l1_in)]);
+        let products = l1_out.iter().zip(&p.forward2.w2).map(|(out, w2)| out.get() * w2.get());
+        DepthEstimator {
+            estimator_ctrl: EstimatorCtrl::before_done(),
+            forward1: Forward1::done(l1_in, &p.forward1),
+            tansig: Tansig { l1_out },
+            forward2: Forward2 { depth: forward2::Depth::new(products.sum()) },
+        }
+    }
+
     /// Whether an edge would change nothing until `algo_start` or `rst` is high: nothing is under
     /// way, and the weights of the first row have been fetched.
     pub fn is_asleep(&self, p: &Params) -> bool {

@@ -66,6 +66,12 @@ signals! {
 }
 
 impl EstimatorCtrl {
+    /// In the cycle before the depth is ready.
+    pub fn before_done() -> Self {
+        let before = EstimatorCtrl { busy: true, step: U::new(DONE - 2), ..Self::default() };
+        before.next(&In { rst: false, algo_start: false }, &())
+    }
+
     /// Cycles since e0, up to the one of `algo_done`.
     pub fn phase(&self) -> Option<u64> {
         if self.algo_done { Some(DONE) } else { self.busy.then(|| self.step.get()) }

@@ -50,6 +50,13 @@ signals! {
     }
 }
 
+impl Forward1 {
+    /// With those sums, ready for the next histogram.
+    pub fn done(l1_in: [L1In; NEURONS], rom: &Rom) -> Self {
+        Forward1 { l1_in, weight: rom[0] }
+    }
+}
+
 impl Clocked for Forward1 {
     type In = In;
     type Params = Rom;

@@ -12,7 +12,7 @@
 //! last cycle of Drain) and keeps the histogram. With a preloaded histogram Acquire and Drain are
 //! skipped (thesis 6.7.4), and `dsp_en` low holds the last cycle of Clear.
 
-use crate::kernel::{Clocked, U};
+use crate::kernel::{AWAKE, Clocked, U, asleep_if};
 use crate::{signals, states};
 
 /// Words of the histogram, each cleared in one cycle.
@@ -92,6 +92,21 @@ impl FrameCtrl {
         self.shots.get()
     }
 
+    /// Counts shots that were leapt over, fewer than are left.
+    pub fn leap_shots(&mut self, shots: u64) {
+        self.shots = self.shots + shots;
+    }
+
+    /// In Clear, the word that is set to zero.
+    pub fn clearing(&self) -> Option<u64> {
+        (self.state == State::Clear).then_some(self.clear_addr.get())
+    }
+
+    /// Stands for so many cycles of Clear, not its last.
+    pub fn leap_clear(&mut self, cycles: u64) {
+        self.clear_addr = self.clear_addr + cycles;
+    }
+
     /// Whether the estimator works, is about to, or has just finished.
     pub fn is_estimating(&self, p: &Params) -> bool {
         const NEAR: u64 = 2;
@@ -141,6 +156,28 @@ impl Clocked for FrameCtrl {
             State::Estimate => {}
         }
         if i.rst || i.dsp_rst { Self::default() } else { d }
+    }
+
+    /// Nobody looks at how far Drain has come.
+    #[inline(always)]
+    fn quiet(&self, i: &In, _: &Params) -> u64 {
+        if i.rst || i.dsp_rst || self.algo_start || self.frame_done {
+            return AWAKE;
+        }
+        match self.state {
+            State::Clear => AWAKE,
+            State::Acquire => asleep_if(!i.start),
+            State::Drain if self.drain != LAST_DRAIN => LAST_DRAIN - self.drain.get(),
+            State::Drain => asleep_if(!i.dsp_en),
+            State::Estimate => asleep_if(!i.algo_done),
+        }
+    }
+
+    #[inline(always)]
+    fn skip(&mut self, _: &In, edges: u64) {
+        if self.state == State::Drain && self.drain != LAST_DRAIN {
+            self.drain = self.drain + edges;
+        }
     }
 }
 

@@ -3,7 +3,8 @@
 //! Mirrors `rtl_ref/reset_sync.v`. Two flip-flops that start high: the reset holds until the PLL
 //! has locked and `rst` is low, and is asserted and released synchronously, two edges later.
 
-use crate::{kernel::Clocked, signals};
+use crate::kernel::{Clocked, asleep_if};
+use crate::signals;
 
 signals! {
     /// Input ports.
@@ -32,6 +33,11 @@ impl Clocked for ResetSync {
     #[inline(always)]
     fn next(&self, i: &In, (): &()) -> Self {
         ResetSync { rst_sync: self.meta, meta: i.rst || !i.locked }
+    }
+
+    #[inline(always)]
+    fn quiet(&self, i: &In, (): &()) -> u64 {
+        asleep_if(self.next(i, &()) == *self)
     }
 }
 

@@ -3,7 +3,7 @@
 //! Mirrors `rtl_ref/spad_control.v`. In MODE 0 `spad_rst` is `pre_start` one cycle later: high for
 //! exactly the 8 ns that end with the laser edge (thesis 6.4, Table 6.2). In MODE 1 it stays low.
 
-use crate::kernel::{Clocked, U};
+use crate::kernel::{Clocked, U, asleep_if};
 use crate::signals;
 
 signals! {
@@ -36,6 +36,11 @@ impl Clocked for SpadControl {
     fn next(&self, i: &In, (): &()) -> Self {
         let d = SpadControl { spad_rst: i.pre_start && !i.mode, ..*self };
         if i.rst { Self::default() } else { d }
+    }
+
+    #[inline(always)]
+    fn quiet(&self, i: &In, (): &()) -> u64 {
+        asleep_if(!i.rst && self.spad_rst == (i.pre_start && !i.mode))
     }
 }
 

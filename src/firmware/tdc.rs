@@ -8,7 +8,7 @@
 //! edge             e            e+1        e+2, e+3
 //! ```
 
-use crate::kernel::{Clocked, Time};
+use crate::kernel::{AWAKE, Clocked, Time, asleep_if};
 use crate::{connect, signals};
 
 use super::carry_chain::{self, CarryChain, Delays, StopLine};
@@ -86,15 +86,53 @@ connect! {
 }
 
 impl Tdc {
-    /// The rising edge of `clk_125` at `now`.
+    /// The rising edge of `clk_125` at `now`. The last block goes first, so that each reads what the
+    /// one before it was, and one that no edge would change is left alone. Returns whether any but
+    /// the coarse counter was not.
     #[inline(always)]
-    pub fn rise(&mut self, i: &In, p: &Params, line: &mut StopLine, now: Time) {
-        *self = Tdc {
-            coarse_counter: self.coarse_counter.next(&Wires::coarse_counter(self, i), &()),
-            tdc_latch: self.tdc_latch.next(&Wires::tdc_latch(self, i), &p.tap_0),
-            tdc_decoder: self.tdc_decoder.next(&Wires::tdc_decoder(self, i), &p.cal),
-            carry_chain: CarryChain { taps: line.sample(now, &p.delays) },
-        };
+    pub fn rise(&mut self, i: &In, p: &Params, line: &mut StopLine, now: Time) -> bool {
+        let mut awake = false;
+        let decoder = Wires::tdc_decoder(self, i);
+        if self.tdc_decoder.quiet(&decoder, &p.cal) == AWAKE {
+            self.tdc_decoder = self.tdc_decoder.next(&decoder, &p.cal);
+            awake = true;
+        }
+        let latch = Wires::tdc_latch(self, i);
+        if self.tdc_latch.quiet(&latch, &p.tap_0) == AWAKE {
+            self.tdc_latch = self.tdc_latch.next(&latch, &p.tap_0);
+            awake = true;
+        }
+        self.coarse_counter = self.coarse_counter.next(&Wires::coarse_counter(self, i), &());
+        if !line.is_shown_by(&self.carry_chain.taps) {
+            self.carry_chain = CarryChain { taps: line.sample(now, &p.delays) };
+            awake = true;
+        }
+        awake
+    }
+
+    /// Whether no hit is on its way through latch and decoder.
+    pub fn is_idle(&self) -> bool {
+        !self.tdc_latch.hit && self.tdc_decoder.is_idle()
+    }
+
+    /// In the cycle of a laser edge, after shots of which nothing is left in the chain.
+    pub fn at_laser_edge(period: u64) -> Self {
+        Tdc { coarse_counter: CoarseCounter::after(period), ..Tdc::default() }
+    }
+
+    /// Coming edges at which, while the inputs hold, nothing would move but the coarse count.
+    #[inline(always)]
+    pub fn quiet(&self, i: &In, p: &Params, line: &StopLine) -> u64 {
+        asleep_if(line.is_shown_by(&self.carry_chain.taps))
+            .min(self.tdc_latch.quiet(&Wires::tdc_latch(self, i), &p.tap_0))
+            .min(self.tdc_decoder.quiet(&Wires::tdc_decoder(self, i), &p.cal))
+            .min(self.coarse_counter.quiet(&Wires::coarse_counter(self, i), &()))
+    }
+
+    /// Stands for that many edges, all of them quiet.
+    #[inline(always)]
+    pub fn skip(&mut self, i: &In, edges: u64) {
+        self.coarse_counter.skip(&Wires::coarse_counter(self, i), edges);
     }
 }
 

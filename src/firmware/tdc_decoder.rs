@@ -10,7 +10,7 @@
 //!
 //! A time outside 0 .. 4095 has no code, and `tdc_code` keeps its value.
 
-use crate::kernel::{Clocked, S, U};
+use crate::kernel::{Clocked, S, U, asleep_if};
 use crate::signals;
 
 use super::carry_chain::{TAPS, Taps};
@@ -56,6 +56,11 @@ signals! {
 }
 
 impl TdcDecoder {
+    /// Whether no hit is on its way through.
+    pub fn is_idle(&self) -> bool {
+        !(self.n_valid | self.tdc_valid)
+    }
+
     /// The hit in the second stage: ones count and coarse count.
     pub fn decoding(&self) -> Option<(u64, u64)> {
         self.n_valid.then_some((self.n.get(), self.n_coarse.get()))
@@ -88,6 +93,11 @@ impl Clocked for TdcDecoder {
             (d.tdc_valid, d.tdc_code) = (true, code);
         }
         if i.rst { Self::default() } else { d }
+    }
+
+    #[inline(always)]
+    fn quiet(&self, i: &In, _: &Calibration) -> u64 {
+        asleep_if(!(i.hit | self.n_valid | self.tdc_valid | i.rst))
     }
 }
 

@@ -5,7 +5,7 @@
 //! are here after e + 1. At the edge that takes `start`, a hit of the shot before may still be
 //! kept (it is too late to have a code), and the new shot is unused.
 
-use crate::kernel::{Clocked, U};
+use crate::kernel::{Clocked, U, asleep_if};
 use crate::signals;
 
 use super::carry_chain::Taps;
@@ -64,6 +64,12 @@ impl Clocked for TdcLatch {
         }
         d.used = (q.used || d.hit) && !i.start;
         if i.rst { Self::default() } else { d }
+    }
+
+    #[inline(always)]
+    fn quiet(&self, i: &In, tap_0: &usize) -> u64 {
+        let changes = self.hit | i.rst | (i.start & self.used);
+        asleep_if(!changes && i.taps.tap(*tap_0) == self.tap_0_last)
     }
 }
 

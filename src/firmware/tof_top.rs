@@ -18,6 +18,7 @@ use super::tdc::{self, Tdc};
 use super::vcsel_driver::{self, VcselDriver};
 use super::{histogram_preload, lvds_output, pll};
 
+mod gait;
 mod ports;
 
 pub use ports::{Clocks, CodeSource, HistogramSource, Nets, Params, Pins};
@@ -157,7 +158,7 @@ impl TofTop {
         let reset_sync_125 = self.reset_sync_125.next(&Wires::reset_sync_125(self), &());
         let control_sync = self.control_sync.next(&Wires::control_sync(self), &());
         let frame_ctrl = self.frame_ctrl.next(&Wires::frame_ctrl(self), &p.frame_ctrl);
-        let vcsel_driver = self.vcsel_driver.rise(&Wires::vcsel_driver(self));
+        let vcsel_driver = Wires::vcsel_driver(self);
         let spad_control = self.spad_control.next(&Wires::spad_control(self), &());
         let (tdc, code_preload) = (Wires::tdc(self), Wires::code_preload(self));
         let histogram_builder = Wires::histogram_builder(self);
@@ -165,13 +166,9 @@ impl TofTop {
 
         (self.reset_sync_125, self.reset_sync_250) = (reset_sync_125, reset_sync_250);
         (self.control_sync, self.frame_ctrl) = (control_sync, frame_ctrl);
-        (self.vcsel_driver, self.spad_control) = (vcsel_driver, spad_control);
-        match &p.code_source {
-            CodeSource::Tdc => self.tdc.rise(&tdc, &p.tdc, line, now),
-            CodeSource::Preload(rom) => {
-                self.code_preload = self.code_preload.next(&code_preload, rom);
-            }
-        }
+        self.vcsel_driver.rise(&vcsel_driver);
+        self.spad_control = spad_control;
+        self.convert(p, &tdc, &code_preload, line, now);
         self.histogram_builder.tick(&histogram_builder);
         self.estimate(&depth_estimator, &p.depth_estimator);
         self.settle(p);
@@ -181,7 +178,7 @@ impl TofTop {
     #[inline(always)]
     pub fn rise_250(&mut self) {
         let reset_sync_250 = self.reset_sync_250.next(&Wires::reset_sync_250(self), &());
-        self.vcsel_driver = self.vcsel_driver.rise_250(&Wires::vcsel_driver(self));
+        self.vcsel_driver.rise_250(&Wires::vcsel_driver(self));
         self.reset_sync_250 = reset_sync_250;
         self.drive_laser();
     }
@@ -189,8 +186,35 @@ impl TofTop {
     /// A falling edge of `clk_250`.
     #[inline(always)]
     pub fn fall_250(&mut self) {
-        self.vcsel_driver = self.vcsel_driver.fall_250();
+        self.vcsel_driver.fall_250();
         self.drive_laser();
+    }
+
+    /// The TDC or its stand-in; returns whether it may have changed.
+    #[inline(always)]
+    fn convert(
+        &mut self,
+        p: &Params,
+        tdc: &tdc::In,
+        code_preload: &code_preload::In,
+        line: &mut StopLine,
+        now: Time,
+    ) -> bool {
+        match &p.code_source {
+            CodeSource::Tdc => self.tdc.rise(tdc, &p.tdc, line, now),
+            CodeSource::Preload(rom) => {
+                self.code_preload = self.code_preload.next(code_preload, rom);
+                true
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn take_code(&mut self, p: &Params) {
+        (self.nets.tdc_valid, self.nets.tdc_code) = match &p.code_source {
+            CodeSource::Tdc => (self.tdc.tdc_decoder.tdc_valid, self.tdc.tdc_decoder.tdc_code),
+            CodeSource::Preload(_) => (self.code_preload.tdc_valid, self.code_preload.tdc_code),
+        };
     }
 
     #[inline(always)]
@@ -207,10 +231,7 @@ impl TofTop {
     #[inline(always)]
     pub fn settle(&mut self, p: &Params) {
         self.nets.rst_dsp = self.reset_sync_125.rst_sync || self.control_sync.dsp_rst_sync;
-        (self.nets.tdc_valid, self.nets.tdc_code) = match &p.code_source {
-            CodeSource::Tdc => (self.tdc.tdc_decoder.tdc_valid, self.tdc.tdc_decoder.tdc_code),
-            CodeSource::Preload(_) => (self.code_preload.tdc_valid, self.code_preload.tdc_code),
-        };
+        self.take_code(p);
         self.nets.count = match &p.histogram_source {
             HistogramSource::Builder => {
                 self.histogram_builder.count(&Wires::histogram_builder(self))

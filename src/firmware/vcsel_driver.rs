@@ -16,7 +16,7 @@
 //! A new `laser_freq` or `laser_en` takes effect when the counter wraps. Without `laser_en` there
 //! is no pulse, but shots go on.
 
-use crate::kernel::{Clocked, U};
+use crate::kernel::{AWAKE, Clocked, U, asleep_if};
 use crate::{connect, signals};
 
 use super::ddr_output::{self, DdrOutput};
@@ -91,6 +91,11 @@ impl Registers {
         acquire && self.count + 3 == self.last
     }
 
+    /// Whether a shot has just begun, and the next one comes at that rate, with the laser or not.
+    pub fn begins_shot(&self, rate: usize, lit: bool) -> bool {
+        self.start && self.last == PERIODS[rate] - 1 && self.enable == lit
+    }
+
     /// The rate in force, the place in its period, and whether that is the last; `None` before a
     /// rate has been taken.
     pub fn place(&self) -> Option<(u64, u64, bool)> {
@@ -117,6 +122,26 @@ impl Clocked for Registers {
         }
         if i.rst { Self::default() } else { d }
     }
+
+    /// Nobody looks at the count until `pre_start` comes of it.
+    #[inline(always)]
+    fn quiet(&self, i: &In, (): &()) -> u64 {
+        let q = self;
+        if i.rst | q.pre_start | q.fire | q.start {
+            AWAKE
+        } else if !i.acquire {
+            asleep_if(q.next(i, &()) == *q)
+        } else {
+            (q.last.get()).saturating_sub(q.count.get() + 2)
+        }
+    }
+
+    #[inline(always)]
+    fn skip(&mut self, i: &In, edges: u64) {
+        if i.acquire {
+            self.count = self.count + edges;
+        }
+    }
 }
 
 impl Clocked for Registers250 {
@@ -137,27 +162,48 @@ pub struct In250 {
 }
 
 impl VcselDriver {
-    /// After an edge at which both clocks rise.
+    /// An edge at which both clocks rise.
     #[inline(always)]
-    pub fn rise(&self, i: &In) -> Self {
-        VcselDriver { registers: self.registers.next(i, &()), ..self.rise_250(i) }
+    pub fn rise(&mut self, i: &In) {
+        self.rise_250(i);
+        self.registers = self.registers.next(i, &());
     }
 
-    /// After an edge at which only `clk_250` rises.
+    /// An edge at which only `clk_250` rises, or the part of `clk_250` where both do.
     #[inline(always)]
-    pub fn rise_250(&self, i: &In) -> Self {
-        let i = In250 { fire: self.registers.fire, rst_250: i.rst_250 };
-        VcselDriver {
-            registers: self.registers,
-            registers_250: self.registers_250.next(&i, &()),
-            ddr_output: self.ddr_output.rise(&Wires::ddr_output(self)),
-        }
+    pub fn rise_250(&mut self, i: &In) {
+        self.ddr_output = self.ddr_output.rise(&Wires::ddr_output(self));
+        self.registers_250 = self.registers_250.next(&self.inputs_250(i), &());
     }
 
-    /// After a falling edge of `clk_250`.
+    /// A falling edge of `clk_250`.
     #[inline(always)]
-    pub fn fall_250(&self) -> Self {
-        VcselDriver { ddr_output: self.ddr_output.fall(), ..*self }
+    pub fn fall_250(&mut self) {
+        self.ddr_output = self.ddr_output.fall();
+    }
+
+    #[inline(always)]
+    fn inputs_250(&self, i: &In) -> In250 {
+        In250 { fire: self.registers.fire, rst_250: i.rst_250 }
+    }
+
+    /// Coming edges of `clk_125` at which, while the inputs hold, nothing but the count would move,
+    /// here and at the edges of `clk_250` between them.
+    #[inline(always)]
+    pub fn quiet(&self, i: &In) -> u64 {
+        if self.is_pulse_near() { AWAKE } else { self.registers.quiet(i, &()) }
+    }
+
+    /// Whether the coming edges of `clk_250`, up to the next one of `clk_125`, make or end a pulse.
+    #[inline(always)]
+    pub fn is_pulse_near(&self) -> bool {
+        self.registers.fire | self.registers_250.laser_pulse | self.ddr_output.q
+    }
+
+    /// Stands for that many edges of `clk_125`, all of them quiet.
+    #[inline(always)]
+    pub fn skip(&mut self, i: &In, edges: u64) {
+        self.registers.skip(i, edges);
     }
 
     /// The single-ended laser pulse.
@@ -175,14 +221,14 @@ mod tests {
     fn run(driver: &mut VcselDriver, i: &In, cycles: usize) -> Vec<[bool; 6]> {
         let mut seen = Vec::new();
         for _ in 0..cycles {
-            *driver = driver.rise(i);
+            driver.rise(i);
             let (pulse_first, on_first) = (driver.registers_250.laser_pulse, driver.laser_on());
-            *driver = driver.fall_250();
+            driver.fall_250();
             let mut on_later = driver.laser_on();
-            *driver = driver.rise_250(i);
+            driver.rise_250(i);
             let pulse_second = driver.registers_250.laser_pulse;
             on_later |= driver.laser_on();
-            *driver = driver.fall_250();
+            driver.fall_250();
             on_later |= driver.laser_on();
             let registers = driver.registers;
             seen.push([

@@ -37,6 +37,11 @@ impl Clock {
         self.phase + self.half_periods(2 * n + 1)
     }
 
+    /// The period, if half of it is a whole number of femtoseconds.
+    pub fn whole_period(&self) -> Option<Time> {
+        self.whole_half.map(|half| Time::from_fs(2 * half))
+    }
+
     #[inline(always)]
     fn half_periods(&self, count: u64) -> Time {
         Time::from_fs(match self.whole_half {

@@ -13,4 +13,25 @@ pub trait Clocked: Copy + PartialEq + std::fmt::Debug {
 
     /// The registers after the next rising edge.
     fn next(&self, i: &Self::In, p: &Self::Params) -> Self;
+
+    /// Coming edges at which, while the inputs hold, nothing would move but counters whose values
+    /// no other module acts on.
+    fn quiet(&self, _i: &Self::In, _p: &Self::Params) -> u64 {
+        AWAKE
+    }
+
+    /// Stands for that many edges, all of them quiet.
+    fn skip(&mut self, _i: &Self::In, _edges: u64) {}
+}
+
+/// The coming edge may change an output.
+pub const AWAKE: u64 = 0;
+
+/// No edge changes anything until an input does.
+pub const ASLEEP: u64 = u64::MAX;
+
+/// [`ASLEEP`] if so, or else [`AWAKE`].
+#[inline(always)]
+pub const fn asleep_if(idle: bool) -> u64 {
+    if idle { ASLEEP } else { AWAKE }
 }

@@ -9,6 +9,6 @@ pub mod thermometer;
 pub mod time;
 
 pub use bits::{S, U};
-pub use clocked::Clocked;
+pub use clocked::{ASLEEP, AWAKE, Clocked, asleep_if};
 pub use thermometer::Thermometer;
 pub use time::Time;

@@ -15,14 +15,16 @@ pub const MAX_TRANSITIONS: usize = 8;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Thermometer<const N: usize> {
     ranks: [u16; MAX_TRANSITIONS],
-    len: u8,
-    level: bool,
+    /// Twice the number of transitions inside, and one more if the newest level is high: one word,
+    /// because processors stall on reading together what was written apart.
+    shape: u16,
 }
 
 impl<const N: usize> Thermometer<N> {
     /// All taps at one level.
+    #[inline(always)]
     pub const fn settled(level: bool) -> Self {
-        Thermometer { ranks: [0; MAX_TRANSITIONS], len: 0, level }
+        Thermometer { ranks: [0; MAX_TRANSITIONS], shape: level as u16 }
     }
 
     /// The taps when the line's input is now at `level` and its last transitions, newest first,
@@ -30,37 +32,52 @@ impl<const N: usize> Thermometer<N> {
     /// [`MAX_TRANSITIONS`] are not seen; the caller's limits keep them from being there.
     pub fn new(level: bool, ranks: impl IntoIterator<Item = usize>) -> Self {
         let mut taps = Self::settled(level);
-        for rank in ranks {
-            let len = taps.len as usize;
-            if rank == 0 {
-                taps.level = !taps.level;
-            } else if rank >= N || len == MAX_TRANSITIONS {
-                break;
-            } else if len > 0 && taps.ranks[len - 1] as usize == rank {
-                taps.len -= 1;
-                taps.ranks[len - 1] = 0;
-            } else {
-                taps.ranks[len] = rank as u16;
-                taps.len += 1;
-            }
+        for rank in ranks.into_iter().take_while(|&rank| rank < N) {
+            taps.push(rank);
         }
         taps
     }
 
+    /// Adds an older transition than those inside, which has reached `rank` taps, fewer than `N`.
+    #[inline(always)]
+    pub fn push(&mut self, rank: usize) {
+        let len = (self.shape / 2) as usize;
+        if rank == 0 {
+            self.shape ^= 1;
+        } else if len > 0 && self.ranks[len - 1] as usize == rank {
+            self.ranks[len - 1] = 0;
+            self.shape -= 2;
+        } else if len < MAX_TRANSITIONS {
+            self.ranks[len] = rank as u16;
+            self.shape += 2;
+        }
+    }
+
     /// Whether no transition is inside.
+    #[inline(always)]
     pub const fn is_settled(&self) -> bool {
-        self.len == 0
+        self.shape < 2
+    }
+
+    /// Whether all taps are at that level.
+    #[inline(always)]
+    pub const fn is_settled_at(&self, level: bool) -> bool {
+        self.shape == level as u16
     }
 
     /// The level of the tap that is `position`-th to be reached, from 0.
+    #[inline(always)]
     pub fn tap(&self, position: usize) -> bool {
+        if self.is_settled() {
+            return self.level();
+        }
         let passed = self.ranks().iter().take_while(|&&rank| rank as usize <= position).count();
-        self.level ^ (passed % 2 == 1)
+        self.level() ^ (passed % 2 == 1)
     }
 
     /// How many taps are high, from 0 to N.
     pub fn ones(&self) -> usize {
-        let (mut ones, mut start, mut level) = (0, 0, self.level);
+        let (mut ones, mut start, mut level) = (0, 0, self.level());
         for &rank in self.ranks() {
             if level {
                 ones += rank as usize - start;
@@ -72,7 +89,7 @@ impl<const N: usize> Thermometer<N> {
 
     /// Writes the taps as bits, in order of arrival, into the first `N` bits of `out`.
     pub fn expand(&self, out: &mut BitSlice<u64, Lsb0>) {
-        let (mut start, mut level) = (0, self.level);
+        let (mut start, mut level) = (0, self.level());
         for &rank in self.ranks() {
             out[start..rank as usize].fill(level);
             (start, level) = (rank as usize, !level);
@@ -80,8 +97,14 @@ impl<const N: usize> Thermometer<N> {
         out[start..N].fill(level);
     }
 
+    #[inline(always)]
+    fn level(&self) -> bool {
+        self.shape % 2 == 1
+    }
+
+    #[inline(always)]
     fn ranks(&self) -> &[u16] {
-        &self.ranks[..self.len as usize]
+        &self.ranks[..(self.shape / 2) as usize]
     }
 }
 

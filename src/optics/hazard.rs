@@ -159,6 +159,13 @@ impl Hazard {
         }
     }
 
+    /// Largest rate of avalanches [1/fs].
+    pub fn steepest_per_fs(&self) -> f64 {
+        let steepest = |piece: &[f64]| self.signal * (piece[1] - piece[0]) / self.step;
+        let signal = self.normal.windows(2).map(steepest).fold(0.0, f64::max);
+        self.background + signal
+    }
+
     /// The first time with H(t) >= h, rounded down to the femtosecond; [`Time::NEVER`] where there
     /// is none.
     #[inline]

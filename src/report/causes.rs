@@ -29,6 +29,11 @@ impl Causes {
         }
     }
 
+    /// Whether nothing has been counted.
+    pub fn is_empty(&self) -> bool {
+        CAUSES.iter().all(|&cause| self.total(cause) == 0)
+    }
+
     /// Adds a whole histogram whose hits have no known cause.
     pub fn add_unknown(&mut self, histogram: &[u16; BINS]) {
         let counts = &mut self.counts[CAUSES.len() - 1];
@@ -53,6 +58,6 @@ pub fn name(cause: Option<Cause>) -> &'static str {
         Some(Cause::Signal) => "signal",
         Some(Cause::Ambient) => "ambient",
         Some(Cause::Dark) => "dark",
-        None => "given",
+        None => "hits",
     }
 }

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Input, Result};
 use crate::output::{create_directory, write_file};
-use crate::sim::frames::Frame;
 use crate::sim::recorder::Shot;
 use crate::sim::setup::Setup;
 
 use super::causes::Causes;
 use super::events::Events;
+use super::frame_log::FrameLog;
 use super::histogram_csv;
 use super::histogram_svg::Plot;
 use super::summary::{Summary, depth_m};
@@ -57,9 +57,14 @@ impl<'a> Products<'a> {
         Ok(Products { folder, events, causes: Causes::default(), tdc: Vec::new(), wants_tdc })
     }
 
-    /// Whether [`Products::shot`] has to be told of every shot.
+    /// Whether [`Products::shot`] has to be told of shots.
     pub fn want_shots(&self) -> bool {
         self.folder.is_some() || self.events.is_some() || self.wants_tdc
+    }
+
+    /// Whether it needs more of them than the first frame's.
+    pub fn want_all_shots(&self) -> bool {
+        self.events.is_some() || self.wants_tdc
     }
 
     /// Rows for the scenario's TDC report.
@@ -82,32 +87,34 @@ impl<'a> Products<'a> {
     pub fn finish(
         &mut self,
         setup: &Setup,
-        frames: &[Frame],
+        log: &mut FrameLog,
         summary: &Summary,
     ) -> Result<Vec<PathBuf>> {
         let mut written = Vec::new();
         if let Some(events) = self.events.take() {
             written.push(events.finish()?);
         }
-        let (Some(folder), Some(frame)) = (self.folder, frames.first()) else {
+        let (Some(folder), Some(frame)) = (self.folder, log.rows.first().cloned()) else {
             return Ok(written);
         };
-        if setup.params.frame_ctrl.preloaded {
+        if self.causes.is_empty() {
             self.causes.add_unknown(&frame.histogram);
         }
         let plot = Plot {
             title: format!("{}, seed {}, {} shots", setup.name, setup.scenario.seed, frame.shots),
             causes: &self.causes,
             true_depth_m: setup.true_depth_m(),
-            depth_m: depth_m(frame),
+            depth_m: depth_m(&frame),
         };
+        let path = folder.join(NAMES[0]);
+        write_file(&path, |file| log.write_json(summary, file))?;
+        written.push(path);
         let mut write = |name: &str, text: &[u8]| {
             let path = folder.join(name);
             write_file(&path, |file| file.write_all(text))?;
             written.push(path);
             Ok::<_, Error>(())
         };
-        write(NAMES[0], summary.json()?.as_bytes())?;
         write(NAMES[1], &histogram_csv::text(&frame.histogram))?;
         let svg = plot.svg().map_err(|fault| Input::new("histogram.svg", fault))?;
         write(NAMES[2], svg.as_bytes())?;

@@ -1,37 +1,41 @@
-//! The JSON object of a run.
+//! The JSON object of a run, around its frames.
 
 use serde::Serialize;
 
-use crate::error::{Input, Result};
 use crate::firmware::histogram_builder::BINS;
 use crate::network::formats::Depth;
 use crate::sim::frames::Frame;
 use crate::sim::recorder::Shot;
 use crate::sim::setup::Setup;
 
-/// What `run --json` prints and `summary.json` holds.
-#[derive(Clone, Debug, Serialize)]
+/// What `run --json` prints and `summary.json` holds, but for the frames.
+#[derive(Clone, Debug)]
 pub struct Summary {
+    head: Head,
+    /// Results of the TDC, where the scenario asks for them.
+    pub tdc: Option<Vec<TdcSummary>>,
+}
+
+/// What stands before the frames.
+#[derive(Clone, Debug, Serialize)]
+struct Head {
     /// `tofsim.run/1`.
-    pub schema: &'static str,
+    schema: &'static str,
     /// Version of the program.
-    pub version: &'static str,
+    version: &'static str,
     /// Scenario's name.
-    pub scenario: String,
+    scenario: String,
     /// Seed of every random stream.
-    pub seed: u64,
+    seed: u64,
     /// How the run was simulated.
-    pub fidelity: &'static str,
+    fidelity: &'static str,
     /// The waveform.
-    pub waves: Option<String>,
+    waves: Option<String>,
     /// Mean and spread, where there is more than one frame.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub depth: Option<Spread>,
-    /// The frames.
-    pub frames: Vec<FrameSummary>,
-    /// Results of the TDC, where the scenario asks for them.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tdc: Option<Vec<TdcSummary>>,
+    depth: Option<Spread>,
+    /// The frames, which are written in between.
+    frames: [(); 0],
 }
 
 /// Depth over the frames of a run.
@@ -82,33 +86,60 @@ pub struct TdcSummary {
     pub valid: bool,
 }
 
+/// How the frames begin in the text of a [`Head`], and end it.
+const NO_FRAMES: &str = "[]}";
+
 impl Summary {
     /// Of a run of `setup`.
-    pub fn new(setup: &Setup, waves: Option<String>, frames: &[Frame], shots: &[Shot]) -> Self {
-        Summary {
+    pub fn new(
+        setup: &Setup,
+        fidelity: &'static str,
+        waves: Option<String>,
+        depth: Option<Spread>,
+        shots: &[Shot],
+    ) -> Self {
+        let head = Head {
             schema: "tofsim.run/1",
             version: env!("CARGO_PKG_VERSION"),
             scenario: setup.name.clone(),
             seed: setup.scenario.seed,
-            fidelity: "cycle",
+            fidelity,
             waves,
-            depth: spread(frames),
-            frames: frames.iter().map(|frame| FrameSummary::new(setup, frame)).collect(),
-            tdc: setup.scenario.report.tdc.then(|| shots.iter().map(TdcSummary::new).collect()),
-        }
+            depth,
+            frames: [],
+        };
+        let tdc = setup.scenario.report.tdc.then(|| shots.iter().map(TdcSummary::new).collect());
+        Summary { head, tdc }
+    }
+
+    /// One line of JSON in two parts, between which the frames go.
+    pub(super) fn around_frames(&self) -> serde_json::Result<(String, String)> {
+        let mut head = serde_json::to_string(&self.head)?;
+        head.truncate(head.len() - NO_FRAMES.len() + 1);
+        let tdc = self.tdc.as_ref().map(serde_json::to_string).transpose()?;
+        let tdc = tdc.map_or(String::new(), |tdc| format!(",\"tdc\":{tdc}"));
+        Ok((head, format!("]{tdc}}}\n")))
     }
 }
 
-impl Summary {
-    /// As one line of JSON.
-    pub fn json(&self) -> Result<String> {
-        let text = serde_json::to_string(self).map_err(|error| Input::new("--json", error))?;
-        Ok(text + "\n")
+impl Spread {
+    /// From the number of frames and the sums of their depth words and of the squares of those;
+    /// `None` for fewer than two frames. All exact but the last divisions.
+    pub fn of(count: u64, (sum, squares): (i128, i128)) -> Option<Self> {
+        if count < 2 {
+            return None;
+        }
+        let lsb_m = 1.0 / (1u64 << Depth::FRAC_NBITS) as f64;
+        let n = i128::from(count);
+        let variance = (n * squares - sum * sum) as f64 / (n as f64 * (n - 1) as f64);
+        let mean_m = sum as f64 / count as f64 * lsb_m;
+        Some(Spread { mean_m, two_sd_m: 2.0 * variance.sqrt() * lsb_m })
     }
 }
 
 impl FrameSummary {
-    fn new(setup: &Setup, frame: &Frame) -> Self {
+    /// Of a frame of `setup`.
+    pub fn new(setup: &Setup, frame: &Frame) -> Self {
         FrameSummary {
             index: frame.index,
             true_depth_m: setup.true_depth_m(),
@@ -138,17 +169,6 @@ impl TdcSummary {
 /// The depth word in metres.
 pub fn depth_m(frame: &Frame) -> f64 {
     Depth::from_bits(frame.depth.get()).to_num()
-}
-
-/// Mean and spread of the depths of two frames or more.
-pub fn spread(frames: &[Frame]) -> Option<Spread> {
-    if frames.len() < 2 {
-        return None;
-    }
-    let count = frames.len() as f64;
-    let mean_m = frames.iter().map(depth_m).sum::<f64>() / count;
-    let squares: f64 = frames.iter().map(|frame| (depth_m(frame) - mean_m).powi(2)).sum();
-    Some(Spread { mean_m, two_sd_m: 2.0 * (squares / (count - 1.0)).sqrt() })
 }
 
 fn serialize_histogram<S: serde::Serializer>(

@@ -5,14 +5,11 @@ use std::time::Duration;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 
-use crate::sim::Outcome;
 use crate::sim::frames::Frame;
 use crate::sim::setup::{CYCLE, Setup};
 
-use super::summary::{Spread, TdcSummary, depth_m, spread};
-
-/// Frames of which each has a row of its own.
-const ROWS: usize = 20;
+use super::frame_log::FrameLog;
+use super::summary::{Spread, TdcSummary, depth_m};
 
 /// An empty table without borders.
 pub fn plain() -> Table {
@@ -22,17 +19,16 @@ pub fn plain() -> Table {
 }
 
 /// What came of a run, in a dozen lines.
-pub fn run(setup: &Setup, frames: &[Frame], outcome: &Outcome, wall: Duration) -> String {
+pub fn run(setup: &Setup, log: &FrameLog, cycles: u64, wall: Duration) -> String {
     let mut text = format!("{}: {}\n\n", setup.name, setup.scenario.description);
-    if let [frame] = frames {
-        text += &one_frame(setup, frame).trim_fmt();
-    } else {
-        text += &many_frames(frames).trim_fmt();
+    match log.rows.as_slice() {
+        [frame] => text += &one_frame(setup, frame).trim_fmt(),
+        _ => text += &many_frames(log).trim_fmt(),
     }
-    let rate = outcome.cycles as f64 / wall.as_secs_f64();
+    let rate = cycles as f64 / wall.as_secs_f64();
     text += &format!(
         "\n\n{} cycles in {:.1} ms: {:.1} million cycles per second\n",
-        grouped(outcome.cycles),
+        grouped(cycles),
         wall.as_secs_f64() * 1e3,
         rate / 1e6,
     );
@@ -61,10 +57,10 @@ fn one_frame(setup: &Setup, frame: &Frame) -> Table {
     table
 }
 
-fn many_frames(frames: &[Frame]) -> Table {
+fn many_frames(log: &FrameLog) -> Table {
     let mut table = plain();
     table.set_header(["frame", "depth [m]", "word", "TDC hits", "codes", "estimator", "cycles"]);
-    for frame in frames.iter().take(ROWS) {
+    for frame in &log.rows {
         table.add_row([
             frame.index.to_string(),
             format!("{:.6}", depth_m(frame)),
@@ -75,10 +71,10 @@ fn many_frames(frames: &[Frame]) -> Table {
             grouped(frame.frame_cycles),
         ]);
     }
-    if frames.len() > ROWS {
-        table.add_row([format!("... {} more", frames.len() - ROWS)]);
+    if log.count > log.rows.len() as u64 {
+        table.add_row([format!("... {} more", log.count - log.rows.len() as u64)]);
     }
-    if let Some(Spread { mean_m, two_sd_m }) = spread(frames) {
+    if let Some(Spread { mean_m, two_sd_m }) = log.spread() {
         table.add_row(["mean".to_owned(), format!("{mean_m:.6}")]);
         table.add_row(["2 sd".to_owned(), format!("{two_sd_m:.6}")]);
     }

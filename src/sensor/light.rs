@@ -69,6 +69,9 @@ impl Light {
     }
 }
 
+/// Words drawn at a time.
+const BATCH: usize = 256;
+
 /// Light by the link budget.
 #[derive(Clone, Debug)]
 pub struct Optics {
@@ -122,6 +125,27 @@ impl Optics {
         self.shot += 1;
         self.word = Some(self.first.next_u64());
         (self.further_drawn, self.causes_drawn) = (0, 0);
+    }
+
+    /// The hazard of a shot with the laser, or of one without.
+    pub fn hazard(&self, lit: bool) -> &Hazard {
+        &self.hazards[lit as usize]
+    }
+
+    /// Passes over `shots` shots that have one avalanche at most each: shows the words that draw
+    /// them.
+    pub fn pass(&mut self, shots: u64, mut take: impl FnMut(u64)) {
+        let mut left = shots as usize;
+        let mut bytes = [0; 8 * BATCH];
+        while left > 0 {
+            let batch = &mut bytes[..8 * left.min(BATCH)];
+            self.first.fill_bytes(batch);
+            for word in batch.as_chunks().0 {
+                take(u64::from_le_bytes(*word));
+            }
+            left -= batch.len() / 8;
+        }
+        self.shot += shots;
     }
 
     #[inline(always)]

@@ -20,6 +20,8 @@ pub enum Source {
     Jitter = 4,
     /// Stimulus of the golden vectors; the frame's place is the block's.
     Stimulus = 5,
+    /// Histogram of a frame in one draw; as many words as it takes.
+    Histogram = 6,
 }
 
 /// Words of 32 bits that a shot may take from its stretch.

@@ -24,12 +24,12 @@ pub struct Device {
     pub line: StopLine,
     /// The light.
     pub light: Light,
-    spad: Spad,
-    timeline: Timeline,
-    pll: Pll,
-    jitter: Option<Jitter>,
+    pub(super) spad: Spad,
+    pub(super) timeline: Timeline,
+    pub(super) pll: Pll,
+    pub(super) jitter: Option<Jitter>,
     /// Edges of `clk_125` so far.
-    cycle: u64,
+    pub(super) cycle: u64,
     /// Next edge of `clk_200`, rising and falling counted; kept up only while tracing.
     oscillator: u64,
 }
@@ -207,12 +207,7 @@ impl Device {
             self.timeline.event(&mut self.top.pins);
         }
         if self.spad.next_event() == now {
-            match self.spad.event() {
-                Event::Avalanche if R::ON => record.avalanche(now, self.light.cause(now)),
-                Event::Avalanche => {}
-                Event::Recovery => self.spad.arm(self.light.next_avalanche(now)),
-            }
-            self.toggle_stop(now);
+            self.detect(record);
         }
         if T::ON && self.next_oscillator_edge() == now {
             self.oscillator += 1;
@@ -220,9 +215,21 @@ impl Device {
         }
     }
 
+    /// The detector does what is due.
+    #[inline(always)]
+    pub(super) fn detect<R: Record>(&mut self, record: &mut R) {
+        let now = self.spad.next_event();
+        match self.spad.event() {
+            Event::Avalanche if R::ON => record.avalanche(now, self.light.cause(now)),
+            Event::Avalanche => {}
+            Event::Recovery => self.spad.arm(self.light.next_avalanche(now)),
+        }
+        self.toggle_stop(now);
+    }
+
     /// What the detector and the light do about the signals that the edge at `now` changed.
     #[inline(always)]
-    fn react(&mut self, now: Time) {
+    pub(super) fn react(&mut self, now: Time) {
         let (start, laser) = (self.top.vcsel_driver.registers.start, self.top.nets.laser_on);
         let (hold, passive) = (self.top.spad_control.spad_rst, self.top.control_sync.mode_sync);
         if start || laser {

@@ -56,12 +56,38 @@ impl Frames {
     #[inline(always)]
     pub fn edge(&mut self, cycle: u64, top: &TofTop, p: &Params) -> Option<Frame> {
         let ctrl = &top.frame_ctrl;
-        self.shots += top.vcsel_driver.registers.start as u64;
-        self.tdc_hits += top.tdc.tdc_latch.hit as u64;
+        self.count_shot(top);
+        self.count_hit(top);
         if ctrl.clear || ctrl.algo_start || top.depth_estimator.estimator_ctrl.algo_done {
             return self.turn(cycle, top, p);
         }
         None
+    }
+
+    /// Counts the shot that begins in this cycle.
+    #[inline(always)]
+    pub fn count_shot(&mut self, top: &TofTop) {
+        self.shots += top.vcsel_driver.registers.start as u64;
+    }
+
+    /// Counts the hit that the TDC keeps in this cycle.
+    #[inline(always)]
+    pub fn count_hit(&mut self, top: &TofTop) {
+        self.tdc_hits += top.tdc.tdc_latch.hit as u64;
+    }
+
+    /// Counts shots that were leapt over, and the hits among them.
+    pub fn leap(&mut self, shots: u64, tdc_hits: u64) {
+        self.shots += shots;
+        self.tdc_hits += tdc_hits;
+    }
+
+    /// So many frames later: with those the time, and their shots.
+    pub fn pass(&mut self, frames: u64, cycles: u64, shots: u64) {
+        self.done += frames;
+        self.shots += shots;
+        (self.clear_at, self.start_at) = (self.clear_at + cycles, self.start_at + cycles);
+        self.tdc_hits = 0;
     }
 
     fn turn(&mut self, cycle: u64, top: &TofTop, p: &Params) -> Option<Frame> {

@@ -1,8 +1,12 @@
 //! A run: the device, the light on it and the acquisition computer, stepped in time.
 
+pub mod acquisition;
 pub mod device;
 pub mod frames;
+pub mod histogram;
 pub mod jitter;
+pub mod leap;
+pub mod many;
 pub mod recorder;
 pub mod run;
 pub mod setup;
@@ -11,6 +15,7 @@ mod trace;
 mod tracer;
 pub mod window;
 
+pub use acquisition::Gait;
 pub use device::Device;
 pub use run::{Outcome, Run};
 pub(crate) use tracer::Windowed;

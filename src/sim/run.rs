@@ -9,8 +9,10 @@ use crate::ila::sampler::{Always, AtEdges};
 use crate::kernel::Time;
 use crate::waves::{Marks, Waves};
 
+use super::acquisition::Gait;
 use super::device::{Device, Off, Record};
 use super::frames::{Frame, Frames};
+use super::leap::Tables;
 use super::recorder::{Recorder, Shot};
 use super::setup::Setup;
 use super::tracer::{Tracer, Windowed};
@@ -51,19 +53,39 @@ pub struct Outcome {
 }
 
 /// A run in progress.
+#[derive(Clone)]
 pub struct Run<'a> {
-    setup: &'a Setup,
-    device: Device,
+    pub(super) setup: &'a Setup,
+    pub(super) device: Device,
     params: &'a Params,
-    frames: Frames,
-    limit: u64,
+    pub(super) frames: Frames,
+    /// What no run reaches but one that never ends [cycles of clk_125].
+    pub(super) limit: u64,
+    gait: Gait,
+    /// When to look at the world outside next [cycles of clk_125].
+    pub(super) breath: u64,
+    tables: Tables,
 }
 
 impl<'a> Run<'a> {
-    /// A run of `setup` from power-up.
+    /// A run of `setup` from power-up, which skips idle cycles where nobody looks at them.
     pub fn new(setup: &'a Setup) -> Self {
-        let (device, params) = (setup.device(), &setup.params);
-        Run { setup, device, params, frames: Frames::default(), limit: 0 }
+        Run {
+            setup,
+            device: setup.device(),
+            params: &setup.params,
+            frames: Frames::default(),
+            limit: 0,
+            gait: Gait::Skip,
+            breath: BREATH,
+            tables: Tables::default(),
+        }
+    }
+
+    /// Goes through time at that gait while nobody looks at signals or shots; what comes of it is
+    /// the same.
+    pub fn at(self, gait: Gait) -> Self {
+        Run { gait, ..self }
     }
 
     /// Simulates until `count` frames are done.
@@ -141,21 +163,24 @@ impl<'a> Run<'a> {
         Ok(self.device.next_edge())
     }
 
-    fn outcome(mut self, marks: Marks) -> Outcome {
+    pub(super) fn outcome(mut self, marks: Marks) -> Outcome {
         let (end, cycles, shots) =
             (self.device.next_edge(), self.device.cycle(), self.frames.shots());
         Outcome { end, cycles, shots, marks, notes: self.device.unused() }
     }
 
-    fn go<T: Windowed, R: Recorded>(
+    pub(super) fn go<T: Windowed, R: Recorded>(
         &mut self,
         count: u64,
         trace: &mut T,
         record: &mut R,
         sinks: &mut Sinks,
     ) -> Result<()> {
-        let mut ended = 0;
+        let mut ended = self.frames.done();
         loop {
+            if !(T::ON || T::EDGES || R::ON) {
+                self.hurry();
+            }
             self.cycle(trace, record)?;
             let frame = self.frames.edge(self.device.cycle() - 1, &self.device.top, self.params);
             if let Some(frame) = frame {
@@ -174,9 +199,30 @@ impl<'a> Run<'a> {
                     return Ok(());
                 }
             }
-            if self.device.cycle().is_multiple_of(BREATH) {
+            if self.device.cycle() >= self.breath {
+                self.breath = self.device.cycle() + BREATH;
                 record.pass_on(sinks)?;
                 self.breathe(sinks)?;
+            }
+        }
+    }
+
+    /// Goes where the next cycle is one that has to be stepped.
+    #[inline(always)]
+    fn hurry(&mut self) {
+        let Run { device, frames, params, tables, breath, .. } = self;
+        match self.gait {
+            Gait::Step => device.acquire::<false>(params, frames, *breath, |_, _| {}),
+            Gait::Skip => {
+                device.acquire::<true>(params, frames, *breath, |_, _| {});
+                device.skip_idle(params, *breath);
+            }
+            Gait::Leap => {
+                device.acquire::<true>(params, frames, *breath, |device, frames| {
+                    device.leap_shots(params, tables, frames);
+                });
+                device.skip_idle(params, *breath);
+                device.leap_frame_end(params);
             }
         }
     }
@@ -229,20 +275,21 @@ impl Run<'_> {
     }
 }
 
-struct Sinks<'a> {
-    shots: Option<Taker<'a, Shot>>,
-    frames: Option<Taker<'a, Frame>>,
-    stop: Option<&'a AtomicBool>,
+/// Where a run's pieces go.
+pub(super) struct Sinks<'a> {
+    pub(super) shots: Option<Taker<'a, Shot>>,
+    pub(super) frames: Option<Taker<'a, Frame>>,
+    pub(super) stop: Option<&'a AtomicBool>,
 }
 
 impl Sinks<'_> {
-    fn frame(&mut self, frame: &Frame) -> Result<()> {
+    pub(super) fn frame(&mut self, frame: &Frame) -> Result<()> {
         self.frames.as_mut().map_or(Ok(()), |take| take(frame))
     }
 }
 
 /// A recorder, or none.
-trait Recorded: Record {
+pub(super) trait Recorded: Record {
     fn look(&mut self, device: &mut Device, p: &Params);
     fn begin_frame(&mut self, frame: u64);
     fn pass_on(&mut self, sinks: &mut Sinks) -> Result<()>;

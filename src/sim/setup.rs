@@ -47,7 +47,7 @@ pub struct Setup {
     /// The network in the estimator.
     pub network: Network,
     pll: Pll,
-    light: Light,
+    pub(super) light: Light,
     pins: Pins,
 }
 

@@ -63,18 +63,18 @@ impl Block for VcselDriver {
     }
 
     fn edge(&mut self, i: &In, top: &mut TofTop) {
-        top.vcsel_driver = top.vcsel_driver.rise(i);
+        top.vcsel_driver.rise(i);
     }
 
     fn cycle(&mut self, cycle: usize, i: &In, top: &mut TofTop, look: &mut dyn FnMut(&TofTop)) {
         look(top);
-        top.vcsel_driver = top.vcsel_driver.fall_250();
+        top.vcsel_driver.fall_250();
         look(top);
         if cycle > 0 {
-            top.vcsel_driver = top.vcsel_driver.rise_250(i);
+            top.vcsel_driver.rise_250(i);
         }
         look(top);
-        top.vcsel_driver = top.vcsel_driver.fall_250();
+        top.vcsel_driver.fall_250();
         look(top);
         self.edge(i, top);
     }

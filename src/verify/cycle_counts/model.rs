@@ -72,7 +72,11 @@ fn shots(mode: bool, code: u64, seen: &mut Seen) {
     let laser_freq = U::new(code);
     let mut i =
         vcsel_driver::In { rst: false, rst_250: false, acquire: false, laser_en: true, laser_freq };
-    let mut driver = VcselDriver::default().rise(&i).fall_250().rise_250(&i).fall_250();
+    let mut driver = VcselDriver::default();
+    driver.rise(&i);
+    driver.fall_250();
+    driver.rise_250(&i);
+    driver.fall_250();
     let mut spad = SpadControl::default();
     i.acquire = true;
     let (mut shots, mut start_at, mut pre_start_at, mut spad_rst_at) = (0, 0, 0, 0);
@@ -80,7 +84,7 @@ fn shots(mode: bool, code: u64, seen: &mut Seen) {
     for k in 1..PATIENCE {
         let pre_start = driver.registers.pre_start;
         spad = spad.next(&spad_control::In { rst: false, mode, pre_start }, &());
-        driver = driver.rise(&i);
+        driver.rise(&i);
         if driver.registers.pre_start {
             pre_start_at = k;
         }
@@ -100,11 +104,11 @@ fn shots(mode: bool, code: u64, seen: &mut Seen) {
             (shots, start_at, spad_rst_cycles) = (shots + 1, k, 0);
         }
         for half in 0..4 {
-            driver = match half {
-                0 => driver,
+            match half {
+                0 => {}
                 2 => driver.rise_250(&i),
                 _ => driver.fall_250(),
-            };
+            }
             let now = (4 * k + half) * HALF;
             match (was_on, driver.laser_on()) {
                 (false, true) => laser_on_at = now,

@@ -1,0 +1,81 @@
+//! The frames of a run as they come: what the reports need of them, in little memory.
+
+use std::io::{self, Seek, Write};
+use std::path::Path;
+
+use tempfile::SpooledTempFile;
+
+use crate::error::{Error, Input, Result};
+use crate::sim::frames::Frame;
+use crate::sim::setup::Setup;
+
+use super::summary::{FrameSummary, Spread, Summary};
+
+/// Frames of which a table has rows.
+pub const ROWS: usize = 20;
+
+/// JSON that is kept in memory; more of it goes to a temporary file [bytes].
+const KEPT: usize = 1 << 20;
+
+/// The frames of a run so far.
+pub struct FrameLog {
+    /// The first frames, [`ROWS`] at most.
+    pub rows: Vec<Frame>,
+    /// How many frames.
+    pub count: u64,
+    /// Sums of the depth words and of their squares, which no order of summing changes.
+    sums: (i128, i128),
+    /// The frames as elements of a JSON array, if they are wanted.
+    json: Option<SpooledTempFile>,
+}
+
+impl FrameLog {
+    /// Without frames; `json` if [`FrameLog::write_json`] will be called.
+    pub fn new(json: bool) -> Self {
+        let json = json.then(|| SpooledTempFile::new(KEPT));
+        FrameLog { rows: Vec::new(), count: 0, sums: (0, 0), json }
+    }
+
+    /// Takes the next frame.
+    ///
+    /// # Errors
+    /// When the temporary file cannot be written.
+    pub fn push(&mut self, setup: &Setup, frame: &Frame) -> Result<()> {
+        if self.rows.len() < ROWS {
+            self.rows.push(frame.clone());
+        }
+        let depth = i128::from(frame.depth.get());
+        self.sums = (self.sums.0 + depth, self.sums.1 + depth * depth);
+        if let Some(json) = &mut self.json {
+            let text = serde_json::to_string(&FrameSummary::new(setup, frame))
+                .map_err(|error| Input::new("--json", error))?;
+            let comma = if self.count > 0 { "," } else { "" };
+            write!(json, "{comma}{text}").map_err(temporary)?;
+        }
+        self.count += 1;
+        Ok(())
+    }
+
+    /// Mean and spread of the depths of two frames or more.
+    pub fn spread(&self) -> Option<Spread> {
+        Spread::of(self.count, self.sums)
+    }
+
+    /// Writes the run as one line of JSON: `summary` with the frames in it.
+    ///
+    /// # Errors
+    /// When reading the temporary file fails, or writing to `out`.
+    pub fn write_json(&mut self, summary: &Summary, out: &mut impl Write) -> io::Result<()> {
+        let (head, tail) = summary.around_frames()?;
+        out.write_all(head.as_bytes())?;
+        if let Some(json) = &mut self.json {
+            json.rewind()?;
+            io::copy(json, out)?;
+        }
+        out.write_all(tail.as_bytes())
+    }
+}
+
+fn temporary(source: io::Error) -> Error {
+    Error::io(Path::new("temporary file"), "write")(source)
+}

@@ -1,0 +1,116 @@
+//! The device while it only acquires: most of a run, and the same cycle again and again.
+//!
+//! What cannot happen is left out of the loop, and what can end it ends the loop: the last shot, a
+//! change of a control signal, or a limit of the caller's. With [`Gait::Skip`] cycles in which
+//! nothing would move but hidden counters are counted and not stepped: the clock sleeps as long as
+//! every module is quiet, and the first edge at or after an avalanche wakes it.
+
+use crate::firmware::tof_top::Params;
+use crate::kernel::{AWAKE, Time};
+
+use super::device::{Device, Off};
+use super::frames::Frames;
+
+/// How a device goes through time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Gait {
+    /// Every cycle.
+    Step,
+    /// Every cycle that changes something.
+    Skip,
+    /// Shots of an undisturbed acquisition as a whole.
+    Leap,
+}
+
+impl Device {
+    /// Goes on until `limit`, or until something else begins than an acquisition [cycles of
+    /// clk_125]. Does nothing if that is so from the start.
+    /// `at_shot` may move the device on in each cycle in which a shot has begun.
+    pub fn acquire<const SKIP: bool>(
+        &mut self,
+        p: &Params,
+        frames: &mut Frames,
+        limit: u64,
+        mut at_shot: impl FnMut(&mut Self, &mut Frames),
+    ) {
+        let Some(period) = self.steady_period() else { return };
+        let control_changes = self.timeline.next_event();
+        let (mut emitter_wakes, mut converter_wakes) = (self.cycle, self.cycle);
+        while self.top.frame_ctrl.acquire && self.cycle < limit {
+            let now = self.pll.clk_125.rise(self.cycle);
+            if now + period >= control_changes {
+                return;
+            }
+            while self.spad.next_event() <= now {
+                self.detect(&mut Off);
+                converter_wakes = self.cycle;
+            }
+            let quiet = emitter_wakes.min(converter_wakes).saturating_sub(self.cycle);
+            if quiet != AWAKE {
+                let cycles = if SKIP { quiet.min(limit - self.cycle) } else { 1 };
+                self.skip(cycles, now, period);
+                continue;
+            }
+            if converter_wakes > self.cycle {
+                self.top.skip_converter(1);
+            } else if self.top.convert_acquiring(p, &mut self.line, now) {
+                frames.count_hit(&self.top);
+            } else {
+                let quiet = self.top.converter_quiet(p, &self.line);
+                converter_wakes = (self.cycle + 1).saturating_add(quiet);
+            }
+            if emitter_wakes > self.cycle {
+                self.top.skip_emitter(1);
+            } else {
+                self.top.emit_acquiring(p);
+                self.react(now);
+                self.top.rest_acquiring();
+                frames.count_shot(&self.top);
+                let quiet = self.top.emitter_quiet();
+                emitter_wakes = (self.cycle + 1).saturating_add(quiet);
+                converter_wakes = self.cycle;
+            }
+            self.cycle += 1;
+            if self.top.vcsel_driver.registers.start {
+                at_shot(self, frames);
+                emitter_wakes = self.cycle;
+            }
+        }
+    }
+
+    /// Cycles that can be skipped before the next one, whatever the device does.
+    pub fn skip_idle(&mut self, p: &Params, limit: u64) {
+        if self.jitter.is_none()
+            && let Some(period) = self.pll.clk_125.whole_period()
+        {
+            let (quiet, now) = (self.top.quiet(p, &self.line), self.pll.clk_125.rise(self.cycle));
+            if quiet != AWAKE {
+                self.skip(quiet.min(limit.saturating_sub(self.cycle)), now, period);
+            }
+        }
+    }
+
+    /// So many cycles later, at the begin of `frame`, with a detector that has been quiet for long.
+    pub fn pass(&mut self, cycles: u64, frame: u64) {
+        self.cycle += cycles;
+        self.light.begin_frame(frame);
+        self.spad.arm(Time::NEVER);
+        self.line.settle_low();
+    }
+
+    /// The period of `clk_125`, if the device only acquires, at an even pace.
+    pub(super) fn steady_period(&self) -> Option<Time> {
+        let even = self.jitter.is_none() && self.top.only_acquires();
+        self.pll.clk_125.whole_period().filter(|_| even)
+    }
+
+    /// Skips that many quiet cycles, the first of them at `now`, or those before the next
+    /// asynchronous event, which comes after `now`.
+    #[inline(always)]
+    fn skip(&mut self, quiet: u64, now: Time, period: Time) {
+        let event = self.spad.next_event().min(self.timeline.next_event());
+        let cycles = quiet.min(event.since(now).fs().div_ceil(period.fs()));
+        self.top.skip(cycles);
+        self.cycle += cycles;
+    }
+}

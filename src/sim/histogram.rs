@@ -1,0 +1,134 @@
+//! A frame in one draw: its histogram as a multinomial number, and the estimate of that.
+//!
+//! Exact in distribution where a shot is its first avalanche alone, and shots are independent. The
+//! codes' probabilities are those of the closed form ([`crate::optics::closed_form`]); they are worked
+//! out once, and a frame is 257 binomial draws at most.
+
+use rand_distr::{Binomial, Distribution};
+
+use crate::error::{Input, Result};
+use crate::firmware::estimator_ctrl;
+use crate::firmware::tof_top::{CodeSource, HistogramSource};
+use crate::firmware::vcsel_driver::PERIODS;
+use crate::kernel::Time;
+use crate::network::estimate::estimate;
+use crate::optics::{BinProbabilities, Bins};
+use crate::sensor::light::Light;
+use crate::sensor::streams::{Source, stream};
+use crate::waves::Marks;
+
+use super::frames::Frame;
+use super::leap::Outcomes;
+use super::many::deliver;
+use super::run::{Outcome, Sinks, Watch};
+use super::setup::{CYCLE, Setup};
+
+/// Draws the frames of a scenario.
+#[derive(Clone, Debug)]
+pub struct Histograms<'a> {
+    setup: &'a Setup,
+    codes: BinProbabilities,
+    /// Chance that a shot without a code has a hit.
+    no_code: f64,
+    shots: u64,
+    frame_cycles: u64,
+}
+
+impl<'a> Histograms<'a> {
+    /// For the frames of `setup`.
+    ///
+    /// # Errors
+    /// When more than a shot's first avalanche decides what becomes of it, or a frame never ends.
+    pub fn new(setup: &'a Setup) -> Result<Self> {
+        let refusal = |field: &str, why: &str| {
+            let expected = format!("--fidelity histogram draws a frame as a whole: {why}");
+            Input::new(format!("scenario {}", setup.name), expected).field(field)
+        };
+        let firmware = &setup.scenario.firmware;
+        for (field, value, held) in [
+            ("firmware.rst", firmware.rst, true),
+            ("firmware.dsp_rst", firmware.dsp_rst, true),
+            ("firmware.dsp_en", firmware.dsp_en, false),
+        ] {
+            if value == held {
+                return Err(refusal(field, "no frame would end").value(value).into());
+            }
+        }
+        if firmware.mode != 0 {
+            let why = "expected 0: in MODE 1 a shot may have several avalanches";
+            return Err(refusal("firmware.mode", why).value(firmware.mode).into());
+        }
+        if !setup.scenario.control.is_empty() {
+            return Err(refusal("control", "nothing may change within it").into());
+        }
+        if setup.scenario.pll.jitter_rms_ps > 0.0 {
+            let why = "expected 0: with jitter shots differ";
+            let refused = refusal("pll.jitter_rms_ps", why);
+            return Err(refused.value(setup.scenario.pll.jitter_rms_ps).into());
+        }
+        let Light::Optics(optics) = &setup.light else {
+            return Err(refusal("stimulus", "it needs the light of the link budget").into());
+        };
+        let measured = matches!(
+            (&setup.params.code_source, &setup.params.histogram_source),
+            (CodeSource::Tdc, HistogramSource::Builder)
+        );
+        let rate = firmware.laser_freq as usize;
+        let outcomes = Outcomes::new(&setup.params.tdc, PERIODS[rate], CYCLE);
+        let Some(outcomes) = outcomes.filter(|_| measured) else {
+            let why = "the chain is so long that a shot reaches into the next one";
+            let refused = refusal("tdc.profile", why).value(&setup.scenario.tdc.profile);
+            return Err(refused.into());
+        };
+        let hazard = optics.hazard(firmware.laser_en);
+        let (delays, cal) = (&setup.params.tdc.delays, &setup.params.tdc.cal);
+        let codes = BinProbabilities::new(hazard, &Bins::of_chain(delays, cal, CYCLE));
+        let uncoded = 1.0 - codes.of_code().iter().sum::<f64>();
+        let missed = (-hazard.at(outcomes.last_hit())).exp();
+        Ok(Histograms {
+            setup,
+            codes,
+            no_code: if missed < uncoded { 1.0 - missed / uncoded } else { 0.0 },
+            shots: setup.shots(1),
+            frame_cycles: setup.frame_cycles(rate),
+        })
+    }
+
+    /// Draws a frame.
+    pub fn frame(&self, index: u64) -> Frame {
+        let mut random = stream(self.setup.scenario.seed, Source::Histogram, index);
+        let counts = self.codes.draw(self.shots, &mut random);
+        let coded: u64 = counts.iter().sum();
+        let without_code = Binomial::new(self.shots - coded, self.no_code);
+        let tdc_hits = coded + without_code.map_or(0, |draw| draw.sample(&mut random));
+        let histogram = counts.map(|count| count as u16);
+        Frame {
+            index,
+            depth: estimate(&self.setup.params.depth_estimator, &histogram).depth,
+            shots: self.shots,
+            tdc_hits,
+            histogram,
+            estimator_cycles: estimator_ctrl::DONE,
+            frame_cycles: self.frame_cycles,
+        }
+    }
+
+    /// Draws frames on all threads of the current pool; of `watch`, every frame is shown, in order.
+    ///
+    /// # Errors
+    /// When a sink fails or the run is stopped.
+    pub fn many(&self, count: u64, watch: Watch) -> Result<Outcome> {
+        let Watch { frames, stop, .. } = watch;
+        let mut sinks = Sinks { shots: None, frames, stop };
+        let take = &mut |frame: &Frame| sinks.frame(frame);
+        deliver(0..count, take, stop, |index| Ok(self.frame(index)))?;
+        let cycles = count.saturating_mul(self.frame_cycles + 1);
+        Ok(Outcome {
+            end: self.setup.end(count).unwrap_or(Time::NEVER),
+            cycles,
+            shots: self.setup.shots(count),
+            marks: Marks::default(),
+            notes: Vec::new(),
+        })
+    }
+}

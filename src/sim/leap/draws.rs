@@ -1,0 +1,107 @@
+//! From a random word straight to the outcome of a shot.
+//!
+//! An avalanche comes later, the smaller its word is, so that the staircase of outcomes over time is
+//! one over words too: a step that begins at T is reached by words below exp(-H(T)) 2^64. A table
+//! over a word's upper bits knows the outcome, or the one place where it changes. What lies within
+//! [`guard`] of such a place is worked out as the cycle-accurate model does it, and so is what lies
+//! where steps crowd: the outcome is the same to the last bit.
+
+use crate::kernel::Time;
+use crate::optics::Hazard;
+use crate::sensor::streams::exponential;
+
+use super::outcomes::{Outcome, Outcomes};
+
+/// Bits of a word that choose a cell.
+const CELL_BITS: u32 = 12;
+
+/// To be worked out.
+const EXACTLY: Outcome = Outcome::MAX;
+
+/// A part of all words.
+#[derive(Clone, Copy, Debug)]
+struct Cell {
+    /// First word of `above`.
+    split: u64,
+    /// Outcome of the cell's words before that.
+    below: Outcome,
+    /// Outcome of the others.
+    above: Outcome,
+}
+
+/// The outcomes of all words, in one kind of light.
+#[derive(Clone, Debug)]
+pub struct Draws {
+    cells: Vec<Cell>,
+    guard: u64,
+    outcomes: Outcomes,
+    hazard: Hazard,
+}
+
+impl Draws {
+    /// For shots with that hazard.
+    pub fn new(outcomes: Outcomes, hazard: Hazard) -> Self {
+        let guard = guard(&hazard);
+        let (mut cells, mut places) = (Vec::with_capacity(1 << CELL_BITS), Vec::new());
+        for step in outcomes.steps().windows(2).rev() {
+            // The later step has the smaller words.
+            places.push((word(-hazard.at(step[1].0)), step[1].1, step[0].1));
+        }
+        let mut next = 0;
+        for cell in 0..1u64 << CELL_BITS {
+            let first = cell << (u64::BITS - CELL_BITS);
+            let last = first | u64::MAX >> CELL_BITS;
+            while next < places.len() && places[next].0.saturating_add(guard) < first {
+                next += 1;
+            }
+            let near = places[next..].iter();
+            let near: Vec<_> =
+                near.take_while(|place| place.0.saturating_sub(guard) <= last).collect();
+            cells.push(match near[..] {
+                [] => {
+                    let before = next.checked_sub(1).map(|place| places[place].2);
+                    let outcome = before.or(places.first().map(|place| place.1));
+                    let outcome = outcome.unwrap_or(outcomes.of(Time::ZERO));
+                    Cell { split: first, below: outcome, above: outcome }
+                }
+                [&(split, below, above)] if (first..=last).contains(&split) => {
+                    Cell { split, below, above }
+                }
+                _ => Cell { split: first, below: EXACTLY, above: EXACTLY },
+            });
+        }
+        Draws { cells, guard, outcomes, hazard }
+    }
+
+    /// The outcome of a shot whose first avalanche is drawn by `word`.
+    #[inline(always)]
+    pub fn outcome(&self, word: u64) -> Outcome {
+        let cell = &self.cells[(word >> (u64::BITS - CELL_BITS)) as usize];
+        let outcome = if word < cell.split { cell.below } else { cell.above };
+        let near = word.abs_diff(cell.split) <= self.guard && cell.below != cell.above;
+        if near | (outcome == EXACTLY) { self.exactly(word) } else { outcome }
+    }
+
+    /// The outcome of an avalanche so long after the laser edge.
+    pub fn outcome_at(&self, arrival: Time) -> Outcome {
+        self.outcomes.of(arrival)
+    }
+
+    /// As the cycle-accurate model has it: the draw, its time, the outcome.
+    #[cold]
+    fn exactly(&self, word: u64) -> Outcome {
+        self.outcomes.of(self.hazard.inverse(exponential(word)))
+    }
+}
+
+/// exp(`exponent`) of all words.
+fn word(exponent: f64) -> u64 {
+    (libm::exp(exponent) * 2f64.powi(64)) as u64
+}
+
+/// Words either side of a change of outcome that are worked out: what a time is off by rounding,
+/// less than 1e-7 fs, as a part of all words, and ten times that. The other roundings are below
+/// 2^-40 of all words.
+fn guard(hazard: &Hazard) -> u64 {
+    ((2f64.powi(-40) + 1e-6 * hazard.steepest_per_fs()) * 2f64.powi(64)) as u64
+}

@@ -1,0 +1,87 @@
+//! What becomes of a shot's first avalanche, by its time from the laser edge.
+//!
+//! In MODE 0 a shot has one avalanche at most, so that its result is a function of that time alone,
+//! as long as nothing of the shot before is left in the chain: a staircase whose steps are the
+//! spans of [`Bins`] and what lies between and after them.
+
+use crate::firmware::tdc;
+use crate::kernel::Time;
+use crate::optics::Bins;
+use crate::optics::closed_form::CODES;
+
+/// Result of a shot: a code from 0 to 255, or one of the constants here.
+pub type Outcome = u16;
+
+/// The TDC keeps the hit, but it has no code.
+pub const NO_CODE: Outcome = CODES as Outcome;
+
+/// The TDC sees nothing.
+pub const NO_HIT: Outcome = NO_CODE + 1;
+
+/// Number of outcomes.
+pub const OUTCOMES: usize = CODES + 2;
+
+/// Length of the TDC's window [cycles of clk_125].
+const WINDOW: u64 = 8;
+
+/// The last edge after the laser's whose hits may have codes, so that the histogram has them when
+/// the next laser edge comes.
+const LAST_CODED: u64 = 2;
+
+/// The staircase: its steps in order of time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcomes {
+    /// Begin of each step, the first one 0, and its outcome; neighbours differ.
+    steps: Vec<(Time, Outcome)>,
+}
+
+impl Outcomes {
+    /// For shots that follow each other after `period` cycles.
+    ///
+    /// `None` where a shot is not independent of the one before: if that one's pulse, which ends a
+    /// cycle before the laser edge, may still be in the chain at the edge after it, or its code may
+    /// come too late.
+    pub fn new(p: &tdc::Params, period: u64, cycle: Time) -> Option<Self> {
+        let tap_0 = p.delays.tap_0();
+        // First time of an avalanche that an edge is too early for.
+        let end = |edge: u64| Time::from_fs(edge * cycle.fs() + 1).since(tap_0);
+        let bins = Bins::of_chain(&p.delays, &p.cal, cycle);
+        let coded = bins.spans().last().map_or(Time::ZERO, |span| span.until);
+        if tap_0 > cycle || p.delays.longest() > cycle + cycle || coded > end(LAST_CODED) {
+            return None;
+        }
+        let mut outcomes = Outcomes { steps: vec![(Time::ZERO, NO_CODE)] };
+        for span in bins.spans() {
+            outcomes.step(span.from, span.code.into());
+            outcomes.step(span.until, NO_CODE);
+        }
+        outcomes.step(end(WINDOW.min(period - 1)), NO_HIT);
+        Some(outcomes)
+    }
+
+    /// The outcome of an avalanche so long after the laser edge.
+    pub fn of(&self, arrival: Time) -> Outcome {
+        let next = self.steps.partition_point(|&(begin, _)| begin <= arrival);
+        self.steps[next - 1].1
+    }
+
+    /// The steps in order of time: begin and outcome.
+    pub fn steps(&self) -> &[(Time, Outcome)] {
+        &self.steps
+    }
+
+    /// Before it no hit is lost, from it on every one.
+    pub fn last_hit(&self) -> Time {
+        self.steps.last().map_or(Time::ZERO, |step| step.0)
+    }
+
+    /// From `begin` on, which is not before the last step's, it is `outcome`.
+    fn step(&mut self, begin: Time, outcome: Outcome) {
+        if self.steps.last().is_some_and(|last| last.0 == begin) {
+            self.steps.pop();
+        }
+        if self.steps.last().is_none_or(|last| last.1 != outcome) {
+            self.steps.push((begin, outcome));
+        }
+    }
+}

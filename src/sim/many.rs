@@ -1,0 +1,114 @@
+//! Many frames on many cores.
+//!
+//! Every frame has random streams of its own, and in MODE 0 nothing else of one frame reaches the
+//! next but the time: the SPAD is reset before the first shot. So one frame is simulated, and each of
+//! the others begins where that one ended, so many frames later. The results are those of one after
+//! the other, and come in that order, whatever the number of threads.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+
+use crate::error::{Error, Result};
+use crate::firmware::tof_top::CodeSource;
+use crate::sensor::light::Light;
+use crate::waves::Marks;
+
+use super::device::Off;
+use super::frames::Frame;
+use super::recorder::Recorder;
+use super::run::{Outcome, Run, Sinks, Taker, Watch};
+use super::setup::{CYCLE, Setup};
+
+/// Frames that each thread simulates between two deliveries.
+const BATCH: u64 = 64;
+
+impl Setup {
+    /// Whether a frame gives the same whatever came of the one before.
+    pub fn has_frames_apart(&self) -> bool {
+        let (firmware, delays) = (&self.scenario.firmware, &self.params.tdc.delays);
+        self.scenario.control.is_empty()
+            && firmware.mode == 0
+            && matches!(self.params.code_source, CodeSource::Tdc)
+            && !matches!(self.light, Light::List(_))
+            && delays.tap_0() <= CYCLE
+            && delays.longest() <= CYCLE + CYCLE
+    }
+}
+
+impl Run<'_> {
+    /// Simulates until `count` frames are done, on all threads of the current pool where frames are
+    /// [apart](Setup::has_frames_apart), or else on one. Of `watch`, the shots of the first frame are
+    /// shown, every frame in order, and no waveform.
+    ///
+    /// # Errors
+    /// When the control signals keep a frame from ending, a sink fails, or the run is stopped.
+    pub fn many(mut self, count: u64, watch: Watch) -> Result<Outcome> {
+        let Watch { shots, frames, stop, .. } = watch;
+        let mut sinks = Sinks { shots, frames, stop };
+        self.limit = self.setup.longest_run(count);
+        self.device.power_up(&mut Off, &mut Off);
+        match sinks.shots.is_some() {
+            true => self.go(1, &mut Off, &mut Recorder::default(), &mut sinks)?,
+            false => self.go(1, &mut Off, &mut Off, &mut sinks)?,
+        }
+        if count == 1 {
+            return Ok(self.outcome(Marks::default()));
+        }
+        if !self.setup.has_frames_apart() || rayon::current_num_threads() < 2 {
+            self.go(count, &mut Off, &mut Off, &mut sinks)?;
+            return Ok(self.outcome(Marks::default()));
+        }
+        let take = &mut |frame: &Frame| sinks.frame(frame);
+        deliver(1..count, take, stop, |frame| self.of_frame(frame).next_frame(stop))?;
+        Ok(self.of_frame(count).outcome(Marks::default()))
+    }
+
+    /// Where frame `frame` begins; `self` is where frame 1 does.
+    fn of_frame(&self, frame: u64) -> Self {
+        let mut run = self.clone();
+        let rate = self.setup.scenario.firmware.laser_freq as usize;
+        let frames = frame - 1;
+        let cycles = frames * (self.setup.frame_cycles(rate) + 1);
+        run.device.pass(cycles, frame);
+        run.frames.pass(frames, cycles, self.setup.shots(frames));
+        run
+    }
+
+    /// Simulates until one more frame is done.
+    fn next_frame(&mut self, stop: Option<&AtomicBool>) -> Result<Frame> {
+        let mut found = None;
+        let mut take = |frame: &Frame| {
+            found = Some(frame.clone());
+            Ok(())
+        };
+        let mut sinks = Sinks { shots: None, frames: Some(&mut take), stop };
+        let done = self.frames.done() + 1;
+        self.breath = self.device.cycle();
+        self.go(done, &mut Off, &mut Off, &mut sinks)?;
+        found.ok_or(Error::Interrupted)
+    }
+}
+
+/// Makes the frames of a range on all threads and hands them on in order, some at a time.
+pub(super) fn deliver(
+    frames: std::ops::Range<u64>,
+    take: Taker<'_, Frame>,
+    stop: Option<&AtomicBool>,
+    make: impl Fn(u64) -> Result<Frame> + Sync,
+) -> Result<()> {
+    let batch = BATCH * rayon::current_num_threads() as u64;
+    let mut next = frames.start;
+    while next < frames.end {
+        if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+            return Err(Error::Interrupted);
+        }
+        let end = frames.end.min(next + batch);
+        let made: Vec<_> = (next..end).into_par_iter().map(&make).collect();
+        for frame in made {
+            take(&frame?)?;
+        }
+        next = end;
+    }
+    Ok(())
+}

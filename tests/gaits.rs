@@ -1,0 +1,221 @@
+//! Short cuts through time change nothing: every way of running a scenario gives the same frames.
+
+mod common;
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+use proptest::prelude::*;
+use tofsim::scenario::{self, Control};
+use tofsim::sim::frames::Frame;
+use tofsim::sim::recorder::Shot;
+use tofsim::sim::run::Watch;
+use tofsim::sim::setup::Setup;
+use tofsim::sim::{Gait, Run};
+
+/// What a run comes to.
+#[derive(Debug, PartialEq)]
+struct Result {
+    frames: Vec<Frame>,
+    end_fs: u64,
+    cycles: u64,
+    shots: u64,
+    notes: Vec<String>,
+}
+
+fn run(setup: &Setup, count: u64, way: Option<Gait>) -> Result {
+    let mut frames = Vec::new();
+    let mut take = |frame: &Frame| {
+        frames.push(frame.clone());
+        Ok(())
+    };
+    let mut see = |_: &Shot| Ok(());
+    let watch = Watch { frames: Some(&mut take), ..Watch::default() };
+    let outcome = match way {
+        // Who follows every shot has every cycle stepped in full.
+        None => Run::new(setup).frames(count, Watch { shots: Some(&mut see), ..watch }),
+        Some(gait) => Run::new(setup).at(gait).frames(count, watch),
+    };
+    let outcome = outcome.unwrap();
+    let (end_fs, cycles, shots) = (outcome.end.fs(), outcome.cycles, outcome.shots);
+    Result { frames, end_fs, cycles, shots, notes: outcome.notes }
+}
+
+fn assert_all_alike(setup: &Setup, count: u64) -> std::result::Result<(), TestCaseError> {
+    let in_full = run(setup, count, None);
+    for gait in [Gait::Step, Gait::Skip, Gait::Leap] {
+        prop_assert_eq!(&run(setup, count, Some(gait)), &in_full, "{:?}", gait);
+    }
+    Ok(())
+}
+
+/// A random scenario: keys, control changes, photons and a chain of its own.
+#[derive(Clone, Debug)]
+struct Case {
+    keys: Vec<String>,
+    control: Vec<(u64, i64, u8)>,
+    /// Photons: shot and arrival [fs].
+    photons: Option<Vec<(u64, u64)>>,
+    /// Delays of a chain [fs].
+    chain: Option<(u32, Vec<i64>)>,
+    frames: u64,
+}
+
+fn keys() -> impl Strategy<Value = Vec<String>> {
+    let scene = (0.05..1.5f64, 0.01..1.0f64, prop_oneof![Just(0.0), 0.0..1.0f64]);
+    let light = (
+        prop_oneof![Just(137.0), 1.0..2000.0f64],
+        prop_oneof![Just(100.0), Just(0.0), 0.0..1e9f64],
+    );
+    let firmware = (0..4u8, 0..4u8, 1..70u16, 0..10u8);
+    let chain = prop_oneof![Just("uniform"), Just("table6_3"), Just("ideal")];
+    (scene, light, firmware, chain, 0..5u8, any::<u32>()).prop_map(
+        |(
+            (distance, reflectance, ambient),
+            (sigma, dark),
+            (freq, mode, shots, laser),
+            chain,
+            jitter,
+            seed,
+        )| {
+            vec![
+                format!("target.distance_m={distance:?}"),
+                format!("target.reflectance={reflectance:?}"),
+                format!("ambient.irradiance_w_m2_nm={ambient:?}"),
+                format!("laser.pulse_sigma_ps={sigma:?}"),
+                format!("spad.dark_rate_hz={dark:?}"),
+                format!("firmware.laser_freq={freq}"),
+                format!("firmware.mode={}", u8::from(mode == 3)),
+                format!("firmware.shots_per_frame={shots}"),
+                format!("firmware.laser_en={}", laser > 0),
+                format!("tdc.profile=\"{chain}\""),
+                format!("pll.jitter_rms_ps={}", if jitter == 0 { 7.7 } else { 0.0 }),
+                format!("seed={seed}"),
+            ]
+        },
+    )
+}
+
+/// Photons of the first shots, many of them exactly on edges or where an edge just sees them.
+fn photons() -> impl Strategy<Value = Vec<(u64, u64)>> {
+    let offset = prop_oneof![Just(0), Just(2_230_000), Just(2_236_000), Just(2_000_000)];
+    let near = prop_oneof![Just(-1i64), Just(0), Just(1)];
+    let on_edge = (0..26u64, offset, near).prop_map(|(edge, before, near)| {
+        (edge * 8_000_000).saturating_sub(before).saturating_add_signed(near)
+    });
+    let arrival = prop_oneof![on_edge, 0..210_000_000u64];
+    prop::collection::vec((0..120u64, arrival), 0..80).prop_map(|mut photons| {
+        photons.sort_unstable();
+        photons
+    })
+}
+
+/// 800 delays, some of them negative: taps that are not reached in order.
+fn chain() -> impl Strategy<Value = (u32, Vec<i64>)> {
+    let delays = prop::collection::vec(-8_000..28_000i64, 800);
+    (200_000..9_000_000u32, delays)
+}
+
+prop_compose! {
+    fn case()(
+        keys in keys(),
+        control in prop_oneof![
+            2 => Just(Vec::new()),
+            3 => prop::collection::vec((0..4000u64, prop_oneof![Just(0), -8_000_000..8_000_000i64], 0..12u8), 1..8),
+        ],
+        photons in prop::option::weighted(0.25, photons()),
+        chain in prop::option::weighted(0.25, chain()),
+        frames in 1..4u64,
+    ) -> Case {
+        Case { keys, control, photons, chain, frames }
+    }
+}
+
+/// A change of one signal near an edge of `clk_125`.
+fn change(&(edge, offset_fs, what): &(u64, i64, u8)) -> Control {
+    let at_fs = (1_008_000_000 + 8_000_000 * edge).saturating_add_signed(offset_fs);
+    let mut change = Control { at_us: at_fs as f64 / 1e9, ..Control::default() };
+    match what {
+        0..=3 => change.laser_freq = Some(what.into()),
+        4 | 5 => change.mode = Some(u64::from(what - 4)),
+        6 | 7 => change.laser_en = Some(what == 7),
+        8 => change.dsp_en = Some(false),
+        9 => change.dsp_rst = Some(true),
+        10 => change.rst = Some(true),
+        _ => change.dsp_en = Some(true),
+    }
+    change
+}
+
+/// The timeline, with everything that holds a frame up let go some time later.
+fn timeline(changes: &[(u64, i64, u8)]) -> Vec<Control> {
+    let mut timeline: Vec<_> = changes.iter().map(change).collect();
+    for &(edge, offset, what) in changes {
+        let mut after = change(&(edge + 1 + u64::from(what) * 9, offset, 8));
+        after.dsp_en = (what == 8).then_some(true);
+        after.dsp_rst = (what == 9).then_some(false);
+        after.rst = (what == 10).then_some(false);
+        timeline.push(after);
+    }
+    timeline.sort_by(|a, b| a.at_us.total_cmp(&b.at_us));
+    timeline
+}
+
+/// `None` where the scenario is refused: a chain may be too long.
+fn set_up(case: &Case, folder: &Path) -> Option<Setup> {
+    let mut keys = case.keys.clone();
+    if let Some(photons) = &case.photons {
+        let mut text = "shot,arrival_ps\n".to_owned();
+        for (shot, fs) in photons {
+            writeln!(text, "{shot},{}.{:03}", fs / 1000, fs % 1000).unwrap();
+        }
+        let path = folder.join("photons.csv");
+        fs::write(&path, text).unwrap();
+        keys.push(format!("stimulus.photons={:?}", path.display().to_string()));
+    }
+    if let Some((offset_fs, delays)) = &case.chain {
+        let delays: Vec<_> = delays.iter().map(|fs| *fs as f64 / 1e3).collect();
+        let text =
+            format!("offset_ps = {:?}\ntap_delays_ps = {delays:?}\n", f64::from(*offset_fs) / 1e3);
+        let path = folder.join("chain.toml");
+        fs::write(&path, text).unwrap();
+        keys.push(format!("tdc.profile={:?}", path.display().to_string()));
+    }
+    let mut loaded = scenario::load("kc705", &keys).unwrap();
+    loaded.scenario.control = timeline(&case.control);
+    Setup::new(loaded).ok()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_gait_gives_the_same_in_random_scenarios(case in case()) {
+        let folder = tempfile::tempdir().unwrap();
+        let Some(setup) = set_up(&case, folder.path()) else {
+            prop_assert!(case.chain.is_some(), "only a chain may be refused");
+            return Err(TestCaseError::reject("the chain is too long"));
+        };
+        assert_all_alike(&setup, case.frames)?;
+    }
+}
+
+#[test]
+fn every_gait_gives_the_same_for_whole_frames() {
+    for name in [
+        "kc705",
+        "bright",
+        "far",
+        "near",
+        "spad_validation",
+        "tdc_validation",
+        "histogram_validation",
+        "estimator_validation",
+    ] {
+        for freq in [0, 3] {
+            let setup = common::setup(name, &[&format!("firmware.laser_freq={freq}")]);
+            assert_all_alike(&setup, 1).unwrap();
+        }
+    }
+}
