@@ -4,6 +4,8 @@
 //! its laser edge; what an armed diode was waiting for is then drawn anew, which is exact, because
 //! photons before and after an instant are independent.
 
+use std::sync::Arc;
+
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 
@@ -69,14 +71,11 @@ impl Light {
     }
 }
 
-/// Words drawn at a time.
-const BATCH: usize = 256;
-
 /// Light by the link budget.
 #[derive(Clone, Debug)]
 pub struct Optics {
     /// Hazard of a shot with the laser, and of one without.
-    hazards: [Hazard; 2],
+    hazards: Arc<[Hazard; 2]>,
     seed: u64,
     first: ChaCha8Rng,
     further: ChaCha8Rng,
@@ -98,7 +97,7 @@ impl Optics {
     /// Light with those hazards of a lit and of a dark shot, before the first frame's first shot.
     pub fn new(lit: Hazard, dark: Hazard, seed: u64) -> Self {
         Optics {
-            hazards: [dark, lit],
+            hazards: Arc::new([dark, lit]),
             seed,
             first: stream(seed, Source::Avalanche, 0),
             further: stream(seed, Source::FurtherAvalanches, 0),
@@ -134,17 +133,9 @@ impl Optics {
 
     /// Passes over `shots` shots that have one avalanche at most each: shows the words that draw
     /// them.
+    #[inline]
     pub fn pass(&mut self, shots: u64, mut take: impl FnMut(u64)) {
-        let mut left = shots as usize;
-        let mut bytes = [0; 8 * BATCH];
-        while left > 0 {
-            let batch = &mut bytes[..8 * left.min(BATCH)];
-            self.first.fill_bytes(batch);
-            for word in batch.as_chunks().0 {
-                take(u64::from_le_bytes(*word));
-            }
-            left -= batch.len() / 8;
-        }
+        (0..shots).for_each(|_| take(self.first.next_u64()));
         self.shot += shots;
     }
 

@@ -34,13 +34,10 @@ impl Device {
         mut at_shot: impl FnMut(&mut Self, &mut Frames),
     ) {
         let Some(period) = self.steady_period() else { return };
-        let control_changes = self.timeline.next_event();
+        let limit = limit.min(self.cycle.saturating_add(self.cycles_of_steady_control(period)));
         let (mut emitter_wakes, mut converter_wakes) = (self.cycle, self.cycle);
         while self.top.frame_ctrl.acquire && self.cycle < limit {
             let now = self.pll.clk_125.rise(self.cycle);
-            if now + period >= control_changes {
-                return;
-            }
             while self.spad.next_event() <= now {
                 self.detect(&mut Off);
                 converter_wakes = self.cycle;
@@ -83,11 +80,20 @@ impl Device {
         if self.jitter.is_none()
             && let Some(period) = self.pll.clk_125.whole_period()
         {
-            let (quiet, now) = (self.top.quiet(p, &self.line), self.pll.clk_125.rise(self.cycle));
-            if quiet != AWAKE {
-                self.skip(quiet.min(limit.saturating_sub(self.cycle)), now, period);
+            let quiet = self.top.quiet(p, &self.line);
+            let cycles = quiet
+                .min(self.cycles_of_steady_control(period))
+                .min(limit.saturating_sub(self.cycle));
+            if cycles != AWAKE {
+                self.skip(cycles, self.pll.clk_125.rise(self.cycle), period);
             }
         }
+    }
+
+    /// Coming cycles that end before a control signal changes, or just then.
+    fn cycles_of_steady_control(&self, period: Time) -> u64 {
+        let next = self.pll.clk_125.rise(self.cycle);
+        self.timeline.next_event().since(next).fs() / period.fs()
     }
 
     /// So many cycles later, at the begin of `frame`, with a detector that has been quiet for long.
@@ -104,12 +110,12 @@ impl Device {
         self.pll.clk_125.whole_period().filter(|_| even)
     }
 
-    /// Skips that many quiet cycles, the first of them at `now`, or those before the next
-    /// asynchronous event, which comes after `now`.
+    /// Skips that many quiet cycles, the first of them at `now`, or those whose edge of `clk_125`
+    /// comes before the detector's next event.
     #[inline(always)]
     fn skip(&mut self, quiet: u64, now: Time, period: Time) {
-        let event = self.spad.next_event().min(self.timeline.next_event());
-        let cycles = quiet.min(event.since(now).fs().div_ceil(period.fs()));
+        let until_event = self.spad.next_event().since(now).fs().div_ceil(period.fs());
+        let cycles = quiet.min(until_event);
         self.top.skip(cycles);
         self.cycle += cycles;
     }

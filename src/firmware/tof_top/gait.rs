@@ -62,6 +62,7 @@ impl TofTop {
     /// The emitter's part of the same.
     #[inline(always)]
     pub fn emit_acquiring(&mut self, p: &Params) {
+        let laser = self.laser_inputs();
         if self.vcsel_driver.registers.start {
             let (rst, dsp_rst, algo_done) = (false, false, false);
             let i = frame_ctrl::In { rst, dsp_rst, algo_done, ..Wires::frame_ctrl(self) };
@@ -69,7 +70,7 @@ impl TofTop {
         }
         self.spad_control = self.spad_control.next(&self.spad_inputs(), &());
         let pulse = self.vcsel_driver.is_pulse_near();
-        self.vcsel_driver.rise(&self.laser_inputs());
+        self.vcsel_driver.rise(&laser);
         if pulse {
             self.drive_laser();
         }

@@ -1,0 +1,267 @@
+//! What a module or the device skips is what stepping would have given, from every state that random
+//! runs come through.
+
+mod common;
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tofsim::firmware::tof_top::{TofTop, Wires};
+use tofsim::firmware::{tdc, vcsel_driver};
+use tofsim::hierarchy;
+use tofsim::kernel::signals::Sink;
+use tofsim::kernel::{Clocked, Thermometer, Time};
+use tofsim::scenario::{self, Control};
+use tofsim::sim::Device;
+use tofsim::sim::device::Off;
+use tofsim::sim::frames::Frames;
+use tofsim::sim::leap::{Outcomes, Tables};
+use tofsim::sim::setup::{CYCLE, Setup};
+
+/// Edges that are tried at most from one state.
+const EDGES: u64 = 40;
+
+/// Counts the signals that differ.
+#[derive(Default)]
+struct Differences(Vec<usize>);
+
+impl Sink for Differences {
+    fn word(&mut self, id: usize, _: u64) {
+        self.0.push(id);
+    }
+    fn taps<const N: usize>(&mut self, id: usize, _: &Thermometer<N>) {
+        self.0.push(id);
+    }
+}
+
+/// Compares all signals just before the next edge: who steps has seen what happened by mid-cycle.
+fn assert_same(found: &Device, expected: &Device, what: &str) {
+    let [found, expected] = [found, expected].map(|device| {
+        let mut device = device.clone();
+        let before_edge = device.next_edge().since(Time::from_fs(1));
+        device.settle(before_edge, &mut Off, &mut Off);
+        device
+    });
+    let mut differences = Differences::default();
+    hierarchy::changes(&found.top, Some(&expected.top), &mut differences);
+    let name =
+        |id: &usize| hierarchy::every_entry().into_iter().find(|e| e.id == *id).unwrap().path();
+    let names = || differences.0.iter().map(name).collect::<Vec<_>>();
+    assert!(differences.0.is_empty(), "{what} at cycle {}: {:?}", expected.cycle(), names());
+    assert_eq!(found.cycle(), expected.cycle(), "{what}");
+}
+
+/// Checks, edge by edge, that `skip` does what `next` would have done.
+fn assert_skip_is_exact<M: Clocked>(module: &M, i: &M::In, p: &M::Params) -> u64 {
+    let (mut stepped, quiet) = (*module, module.quiet(i, p));
+    for edges in 1..=quiet.min(EDGES) {
+        stepped = stepped.next(i, p);
+        let mut skipped = *module;
+        skipped.skip(i, edges);
+        assert_eq!(skipped, stepped, "after {edges} of {quiet} quiet edges");
+    }
+    quiet
+}
+
+/// The driver has edges of its own between those of `clk_125`.
+fn assert_laser_skips_exactly(driver: &vcsel_driver::VcselDriver, i: &vcsel_driver::In) {
+    let (mut stepped, quiet) = (*driver, driver.quiet(i));
+    for edges in 1..=quiet.min(EDGES) {
+        stepped.rise(i);
+        stepped.fall_250();
+        stepped.rise_250(i);
+        stepped.fall_250();
+        let mut skipped = *driver;
+        skipped.skip(i, edges);
+        assert_eq!(skipped, stepped, "after {edges} of {quiet} quiet edges");
+    }
+}
+
+/// Every module in the state it is in; returns how many are quiet.
+fn check_modules(top: &TofTop, setup: &Setup) -> usize {
+    let (p, i) = (&setup.params, Wires::tdc(top));
+    let tdc_params = &p.tdc;
+    assert_laser_skips_exactly(&top.vcsel_driver, &Wires::vcsel_driver(top));
+    let quiet = [
+        assert_skip_is_exact(&top.reset_sync_125, &Wires::reset_sync_125(top), &()),
+        assert_skip_is_exact(&top.reset_sync_250, &Wires::reset_sync_250(top), &()),
+        assert_skip_is_exact(&top.control_sync, &Wires::control_sync(top), &()),
+        assert_skip_is_exact(&top.frame_ctrl, &Wires::frame_ctrl(top), &p.frame_ctrl),
+        assert_skip_is_exact(&top.vcsel_driver.registers, &Wires::vcsel_driver(top), &()),
+        assert_skip_is_exact(&top.spad_control, &Wires::spad_control(top), &()),
+        assert_skip_is_exact(
+            &top.tdc.coarse_counter,
+            &tdc::Wires::coarse_counter(&top.tdc, &i),
+            &(),
+        ),
+        assert_skip_is_exact(
+            &top.tdc.tdc_latch,
+            &tdc::Wires::tdc_latch(&top.tdc, &i),
+            &tdc_params.delays.tap_0_position(),
+        ),
+        assert_skip_is_exact(
+            &top.tdc.tdc_decoder,
+            &tdc::Wires::tdc_decoder(&top.tdc, &i),
+            &tdc_params.cal,
+        ),
+        assert_skip_is_exact(&top.code_preload, &Wires::code_preload(top), &[Default::default()]),
+    ];
+    quiet.iter().filter(|&&quiet| quiet > 0).count()
+}
+
+/// Changes of the control signals, now and then at an edge.
+fn control(random: &mut ChaCha8Rng, cycles: u64) -> Vec<Control> {
+    let mut changes = Vec::new();
+    let mut cycle = 300;
+    while cycle < cycles {
+        let offset_ns = [0.0, 3.7][random.random_range(0..2)];
+        let at_us = 1.008 + 0.008 * cycle as f64 + offset_ns / 1e3;
+        let mut pair =
+            [0.0, 0.5].map(|later| Control { at_us: at_us + later, ..Control::default() });
+        match random.random_range(0..7) {
+            0 => [pair[0].rst, pair[1].rst] = [Some(true), Some(false)],
+            1 => [pair[0].dsp_rst, pair[1].dsp_rst] = [Some(true), Some(false)],
+            2 => [pair[0].dsp_en, pair[1].dsp_en] = [Some(false), Some(true)],
+            3 => [pair[0].mode, pair[1].mode] = [Some(1), Some(0)],
+            4 => pair[1].laser_en = Some(random.random_bool(0.8)),
+            _ => pair[0].laser_freq = Some(random.random_range(0..4)),
+        }
+        changes.extend(pair);
+        cycle += random.random_range(80..900);
+    }
+    changes
+}
+
+fn random_setup(seed: u64, cycles: u64) -> Setup {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let chain = ["uniform", "table6_3", "ideal"][random.random_range(0..3)];
+    let keys = [
+        format!("firmware.laser_freq={}", seed % 4),
+        format!("firmware.mode={}", u64::from(seed % 5 == 4)),
+        format!("firmware.shots_per_frame={}", random.random_range(5..60)),
+        format!("ambient.irradiance_w_m2_nm={}", [0.0, 0.05, 0.4][random.random_range(0..3)]),
+        format!("tdc.profile={chain}"),
+        format!("seed={seed}"),
+    ];
+    let mut loaded = scenario::load("kc705", &keys).unwrap();
+    if seed % 3 > 0 {
+        loaded.scenario.control = control(&mut random, cycles);
+    }
+    Setup::new(loaded).unwrap()
+}
+
+#[test]
+fn every_module_skips_exactly_in_every_state_it_comes_through() {
+    let (cycles, mut quiet) = (4_000, 0);
+    for seed in 0..16 {
+        let setup = random_setup(seed, cycles);
+        let mut device = setup.device();
+        device.power_up(&mut Off, &mut Off);
+        for _ in 0..cycles {
+            device.step(&setup.params, &mut Off, &mut Off);
+            quiet += check_modules(&device.top, &setup);
+        }
+    }
+    assert!(quiet > 16 * 4_000 * 5, "{quiet}");
+}
+
+#[test]
+fn the_device_skips_exactly_in_every_state_it_comes_through() {
+    let (cycles, mut skipped) = (4_000, 0);
+    for seed in 0..16 {
+        let setup = random_setup(seed, cycles);
+        let mut device = setup.device();
+        device.power_up(&mut Off, &mut Off);
+        for _ in 0..cycles {
+            device.step(&setup.params, &mut Off, &mut Off);
+            let (mut short, mut long) = (device.clone(), device.clone());
+            short.skip_idle(&setup.params, device.cycle() + EDGES);
+            while long.cycle() < short.cycle() {
+                long.step(&setup.params, &mut Off, &mut Off);
+                skipped += 1;
+            }
+            assert_same(&short, &long, "skipped");
+            // From there on as well, lest something hidden differ.
+            for device in [&mut short, &mut long] {
+                (0..3).for_each(|_| device.step(&setup.params, &mut Off, &mut Off));
+            }
+            assert_same(&short, &long, "after a skip");
+        }
+    }
+    assert!(skipped > 30_000, "{skipped}");
+}
+
+#[test]
+fn an_acquisition_is_the_same_however_it_is_stepped() {
+    let cycles = 4_000;
+    let mut acquired = 0;
+    for seed in 0..24 {
+        let setup = random_setup(seed, cycles);
+        let p = &setup.params;
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut device = setup.device();
+        device.power_up(&mut Off, &mut Off);
+        while device.cycle() < cycles {
+            let limit = device.cycle() + random.random_range(1..60);
+            let (mut every, mut idle) = (device.clone(), device.clone());
+            let mut frames = [Frames::default(), Frames::default()];
+            every.acquire::<false>(p, &mut frames[0], limit, |_, _| {});
+            idle.acquire::<true>(p, &mut frames[1], limit, |_, _| {});
+            acquired += every.cycle() - device.cycle();
+            let shots = frames[0].shots();
+            assert_eq!(frames[1].shots(), shots);
+            while device.cycle() < every.cycle() {
+                device.step(p, &mut Off, &mut Off);
+            }
+            assert_same(&every, &device, "every cycle");
+            assert_same(&idle, &device, "idle cycles skipped");
+            device.step(p, &mut Off, &mut Off);
+        }
+    }
+    assert!(acquired > 25_000, "{acquired}");
+}
+
+#[test]
+fn a_leap_lands_where_the_histogram_and_the_counts_are_what_stepping_gives() {
+    for seed in 0..8 {
+        let keys = [
+            format!("firmware.laser_freq={}", seed % 4),
+            "firmware.shots_per_frame=400".to_owned(),
+            format!("target.distance_m={}", [0.02, 0.3, 0.9][seed % 3]),
+            format!("seed={seed}"),
+        ];
+        let setup = Setup::new(scenario::load("kc705", &keys).unwrap()).unwrap();
+        let p = &setup.params;
+        let mut stepped = setup.device();
+        stepped.power_up(&mut Off, &mut Off);
+        while !stepped.top.frame_ctrl.acquire {
+            stepped.step(p, &mut Off, &mut Off);
+        }
+        let (mut leapt, mut tables, mut leaps) = (stepped.clone(), Tables::default(), 0);
+        let mut frames = [Frames::default(), Frames::default()];
+        leapt.acquire::<true>(p, &mut frames[0], u64::MAX, |device, frames| {
+            let before = device.cycle();
+            device.leap_shots(p, &mut tables, frames);
+            leaps += u64::from(device.cycle() > before);
+        });
+        while stepped.cycle() < leapt.cycle() {
+            stepped.step(p, &mut Off, &mut Off);
+            frames[1].count_shot(&stepped.top);
+            frames[1].count_hit(&stepped.top);
+        }
+        assert_eq!(leaps, 1, "from the first shot to the last");
+        assert_eq!(leapt.top.histogram_builder, stepped.top.histogram_builder, "seed {seed}");
+        assert_eq!(leapt.top.frame_ctrl, stepped.top.frame_ctrl);
+        assert_eq!(leapt.top.vcsel_driver, stepped.top.vcsel_driver);
+        assert_eq!(leapt.top.tdc.coarse_counter, stepped.top.tdc.coarse_counter);
+        assert_eq!(frames[0].shots(), 400);
+        assert_eq!(format!("{:?}", frames[0]), format!("{:?}", frames[1]));
+    }
+}
+
+#[test]
+fn the_staircase_of_outcomes_needs_a_chain_that_is_clear_in_time() {
+    let setup = common::setup("kc705", &[]);
+    for period in vcsel_driver::PERIODS {
+        assert!(Outcomes::new(&setup.params.tdc, period, CYCLE).is_some());
+    }
+}
