@@ -5,17 +5,21 @@
 //! that the simulation uses.
 
 use crate::kernel::connect::Connection;
-use crate::kernel::signals::{Format, Signal, Signals, Sink};
+use crate::kernel::signals::{Format, Signal};
 
 use crate::firmware::histogram_builder::BINS;
-use crate::firmware::tof_top::{CodeSource, HistogramSource, Params, TofTop, Wires};
+use crate::firmware::tof_top::{CodeSource, HistogramSource, Params, Wires};
 use crate::firmware::{depth_estimator, tdc, vcsel_driver};
 
+mod groups;
+mod instants;
 mod part;
 mod ports;
 
+use groups::{RAM, follow, groups};
+pub use groups::{changes, copy};
+pub use instants::Instants;
 pub use part::Part;
-use part::ram_changes;
 use ports::{CLOCKS, SHOWN, place};
 
 /// Name of the top scope.
@@ -50,85 +54,6 @@ impl Entry {
     pub fn path(&self) -> String {
         format!("{}.{}", self.scope, self.signal.name)
     }
-}
-
-/// The groups of signals that hold values, in the order of their ids: scope below the top, path
-/// of the field in [`TofTop`], type.
-macro_rules! groups {
-    ($($scope:literal => $root:ident $(. $field:ident)*: $ty:ty;)*) => {
-        fn groups() -> Vec<(&'static str, &'static str, Vec<Signal>)> {
-            vec![$((
-                $scope,
-                concat!(stringify!($root) $(, ".", stringify!($field))*),
-                <$ty as Signals>::list(),
-            ),)*]
-        }
-
-        /// First id of the RAM's words, after those of all groups.
-        const RAM: usize = 0 $(+ <$ty as Signals>::COUNT)*;
-
-        /// Reports every signal that differs from `before`, or every one.
-        pub fn changes(top: &TofTop, before: Option<&TofTop>, sink: &mut impl Sink) {
-            let _id = 0;
-            $(
-                let (now, then) = (&top.$root $(.$field)*, before.map(|b| &b.$root $(.$field)*));
-                if then != Some(now) {
-                    now.changes(then, _id, sink);
-                }
-                let _id = _id + <$ty as Signals>::COUNT;
-            )*
-            ram_changes(top, before, sink);
-        }
-
-        /// Reports every signal that differs from `kept` in those groups, a bit for each, and keeps
-        /// it there.
-        #[inline]
-        fn follow(top: &TofTop, groups: u32, kept: &mut TofTop, sink: &mut impl Sink) {
-            let (_id, _group) = (0, 1);
-            $(
-                if groups & _group != 0 {
-                    let (now, then) = (&top.$root $(.$field)*, &mut kept.$root $(.$field)*);
-                    if then != now {
-                        now.changes(Some(&*then), _id, sink);
-                        *then = *now;
-                    }
-                }
-                let (_id, _group) = (_id + <$ty as Signals>::COUNT, _group << 1);
-            )*
-        }
-
-        /// Makes all that [`changes`] looks at in `to` what it is in `from`, without allocating.
-        pub fn copy(from: &TofTop, to: &mut TofTop) {
-            $(to.$root $(.$field)* = from.$root $(.$field)*;)*
-            to.histogram_builder.ram.copy_from_slice(&from.histogram_builder.ram[..]);
-        }
-    };
-}
-
-groups! {
-    "" => clocks: crate::firmware::tof_top::Clocks;
-    "" => pins: crate::firmware::tof_top::Pins;
-    "" => nets: crate::firmware::tof_top::Nets;
-    "pll" => pll: crate::firmware::pll::Out;
-    "reset_sync_125" => reset_sync_125: crate::firmware::reset_sync::ResetSync;
-    "reset_sync_250" => reset_sync_250: crate::firmware::reset_sync::ResetSync;
-    "control_sync" => control_sync: crate::firmware::control_sync::ControlSync;
-    "frame_ctrl" => frame_ctrl: crate::firmware::frame_ctrl::FrameCtrl;
-    "vcsel_driver" => vcsel_driver.registers: vcsel_driver::Registers;
-    "vcsel_driver" => vcsel_driver.registers_250: vcsel_driver::Registers250;
-    "vcsel_driver.ddr_output" => vcsel_driver.ddr_output: crate::firmware::ddr_output::DdrOutput;
-    "lvds_output" => lvds_output: crate::firmware::lvds_output::Out;
-    "spad_control" => spad_control: crate::firmware::spad_control::SpadControl;
-    "tdc.carry_chain" => tdc.carry_chain: crate::firmware::carry_chain::CarryChain;
-    "tdc.coarse_counter" => tdc.coarse_counter: crate::firmware::coarse_counter::CoarseCounter;
-    "tdc.tdc_latch" => tdc.tdc_latch: crate::firmware::tdc_latch::TdcLatch;
-    "tdc.tdc_decoder" => tdc.tdc_decoder: crate::firmware::tdc_decoder::TdcDecoder;
-    "code_preload" => code_preload: crate::firmware::code_preload::CodePreload;
-    "depth_estimator.estimator_ctrl" =>
-        depth_estimator.estimator_ctrl: crate::firmware::estimator_ctrl::EstimatorCtrl;
-    "depth_estimator.forward1" => depth_estimator.forward1: crate::firmware::forward1::Forward1;
-    "depth_estimator.tansig" => depth_estimator.tansig: crate::firmware::tansig::Tansig;
-    "depth_estimator.forward2" => depth_estimator.forward2: crate::firmware::forward2::Forward2;
 }
 
 /// Every name in every scope that those parameters have, without the RAM's words.

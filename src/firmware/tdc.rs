@@ -8,7 +8,7 @@
 //! edge             e            e+1        e+2, e+3
 //! ```
 
-use crate::kernel::{AWAKE, Clocked, Time, asleep_if};
+use crate::kernel::{Clocked, Time, asleep_if};
 use crate::{connect, signals};
 
 use super::carry_chain::{self, CarryChain, Delays, StopLine};
@@ -91,23 +91,21 @@ impl Tdc {
     /// the coarse counter was not.
     #[inline(always)]
     pub fn rise(&mut self, i: &In, p: &Params, line: &mut StopLine, now: Time) -> bool {
-        let mut awake = false;
-        let decoder = Wires::tdc_decoder(self, i);
-        if self.tdc_decoder.quiet(&decoder, &p.cal) == AWAKE {
-            self.tdc_decoder = self.tdc_decoder.next(&decoder, &p.cal);
-            awake = true;
+        let decodes = i.rst | self.tdc_latch.hit | !self.tdc_decoder.is_idle();
+        if decodes {
+            self.tdc_decoder = self.tdc_decoder.next(&Wires::tdc_decoder(self, i), &p.cal);
         }
-        let latch = Wires::tdc_latch(self, i);
-        if self.tdc_latch.quiet(&latch, &p.tap_0) == AWAKE {
-            self.tdc_latch = self.tdc_latch.next(&latch, &p.tap_0);
-            awake = true;
+        let taps = &self.carry_chain.taps;
+        let latches = i.rst | !self.tdc_latch.is_idle(taps, i.start, p.tap_0);
+        if latches {
+            self.tdc_latch = self.tdc_latch.next(&Wires::tdc_latch(self, i), &p.tap_0);
         }
         self.coarse_counter = self.coarse_counter.next(&Wires::coarse_counter(self, i), &());
-        if !line.is_shown_by(&self.carry_chain.taps) {
+        let samples = !line.is_shown_by(&self.carry_chain.taps);
+        if samples {
             self.carry_chain = CarryChain { taps: line.sample(now, &p.delays) };
-            awake = true;
         }
-        awake
+        decodes | latches | samples
     }
 
     /// Whether no hit is on its way through latch and decoder.

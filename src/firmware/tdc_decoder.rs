@@ -57,6 +57,7 @@ signals! {
 
 impl TdcDecoder {
     /// Whether no hit is on its way through.
+    #[inline(always)]
     pub fn is_idle(&self) -> bool {
         !(self.n_valid | self.tdc_valid)
     }
@@ -97,7 +98,7 @@ impl Clocked for TdcDecoder {
 
     #[inline(always)]
     fn quiet(&self, i: &In, _: &Calibration) -> u64 {
-        asleep_if(!(i.hit | self.n_valid | self.tdc_valid | i.rst))
+        asleep_if(!(i.rst | i.hit) && self.is_idle())
     }
 }
 

@@ -43,6 +43,12 @@ signals! {
 }
 
 impl TdcLatch {
+    /// Whether the coming edge changes nothing, unless it resets.
+    #[inline(always)]
+    pub fn is_idle(&self, taps: &Taps, start: bool, tap_0: usize) -> bool {
+        !(self.hit | (start & self.used)) && taps.tap(tap_0) == self.tap_0_last
+    }
+
     /// Whether the shot has had its hit, and tap 0 at the edge before.
     pub fn before(&self) -> (bool, bool) {
         (self.used, self.tap_0_last)
@@ -68,8 +74,7 @@ impl Clocked for TdcLatch {
 
     #[inline(always)]
     fn quiet(&self, i: &In, tap_0: &usize) -> u64 {
-        let changes = self.hit | i.rst | (i.start & self.used);
-        asleep_if(!changes && i.taps.tap(*tap_0) == self.tap_0_last)
+        asleep_if(!i.rst && self.is_idle(&i.taps, i.start, *tap_0))
     }
 }
 

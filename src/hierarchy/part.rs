@@ -9,7 +9,8 @@ use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tof_top::TofTop;
 use crate::kernel::signals::Sink;
 
-use super::{RAM, changes, follow, groups};
+use super::instants::Instant;
+use super::{RAM, changes, copy, follow, groups};
 
 /// How long a module is looked at after it has been woken or has changed: at two looks a cycle,
 /// more than the two edges that a change takes through a synchroniser [looks].
@@ -19,7 +20,7 @@ const AWAKE: u32 = 8;
 #[derive(Clone, Debug)]
 pub struct Part {
     /// A bit for each group.
-    groups: u32,
+    pub(super) groups: u32,
     /// Words of the RAM, each once.
     words: Vec<usize>,
     /// Whether modules may sleep.
@@ -28,7 +29,7 @@ pub struct Part {
     estimator: Sleeper,
     /// The coming edge may write a word of the RAM.
     writes: bool,
-    kept: Option<TofTop>,
+    pub(super) kept: Option<TofTop>,
 }
 
 /// Groups that need not be looked at most of the time.
@@ -96,14 +97,20 @@ impl Part {
         self.control.awake = AWAKE;
     }
 
+    /// Reports every signal, as if for the first time.
+    pub fn show(&mut self, top: &TofTop, sink: &mut impl Sink) {
+        changes(top, None, sink);
+        match &mut self.kept {
+            Some(kept) => copy(top, kept),
+            None => self.kept = Some(top.clone()),
+        }
+        (self.control.awake, self.estimator.awake, self.writes) = (AWAKE, AWAKE, true);
+    }
+
     /// Reports every signal that differs from what it was; at first, every one.
     #[inline]
     pub fn follow(&mut self, top: &TofTop, sink: &mut impl Sink) {
-        let Some(kept) = &mut self.kept else {
-            changes(top, None, sink);
-            self.kept = Some(top.clone());
-            return;
-        };
+        let Some(kept) = &mut self.kept else { return self.show(top, sink) };
         let (mut groups, mut works, mut written) = (self.groups, false, true);
         if self.sleeps {
             let asleep = self.estimator.asleep();
@@ -115,7 +122,7 @@ impl Part {
             written =
                 std::mem::replace(&mut self.writes, top.nets.tdc_valid || top.frame_ctrl.clear);
         }
-        follow(top, groups, kept, sink);
+        follow::<{ Instant::Rise125 as u8 }>(top, groups, kept, sink);
         if works {
             kept.depth_estimator = top.depth_estimator;
         }
@@ -145,7 +152,7 @@ pub(super) fn ram_changes(top: &TofTop, before: Option<&TofTop>, sink: &mut impl
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
@@ -158,7 +165,7 @@ mod tests {
 
     /// The value of each id; of taps their number.
     #[derive(Clone, PartialEq)]
-    struct Values(Vec<u64>);
+    pub(in crate::hierarchy) struct Values(pub Vec<u64>);
 
     impl Sink for Values {
         fn word(&mut self, id: usize, value: u64) {
@@ -207,7 +214,11 @@ mod tests {
 
     /// Changes of the control signals at any time, at an edge, and as pulses from an edge to before
     /// the next, which no look before an edge sees.
-    fn control(setup: &Setup, cycles: u64, random: &mut ChaCha8Rng) -> Vec<Control> {
+    pub(in crate::hierarchy) fn control(
+        setup: &Setup,
+        cycles: u64,
+        random: &mut ChaCha8Rng,
+    ) -> Vec<Control> {
         let clk_125 = &setup.pll().clk_125;
         let mut changes = Vec::new();
         let mut cycle = 10;

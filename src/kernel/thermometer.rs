@@ -5,18 +5,22 @@ use bitvec::prelude::*;
 /// Transitions that a [`Thermometer`] can hold.
 pub const MAX_TRANSITIONS: usize = 8;
 
+/// Bits of a rank.
+const BITS: usize = 16;
+
 /// `N` taps, in order of arrival, that show the level which has reached them.
 ///
 /// The input of the line alternates, so its taps are a few runs of ones and zeros. The newest
 /// level fills the taps before the first rank, the opposite one the taps up to the second, and so
-/// on: 18 bytes instead of `N` bits, and the ones count is an alternating sum. The form is
+/// on: two words instead of `N` bits, and the ones count is an alternating sum. The form is
 /// canonical (ranks strictly increasing, from 1 to N - 1, unused ones zero), so that equal taps
 /// compare equal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Thermometer<const N: usize> {
-    ranks: [u16; MAX_TRANSITIONS],
-    /// Twice the number of transitions inside, and one more if the newest level is high: one word,
-    /// because processors stall on reading together what was written apart.
+    /// 16 bits for each transition, the newest lowest. One word, like `shape`, because processors
+    /// stall on reading together what was written apart.
+    ranks: u128,
+    /// Twice the number of transitions inside, and one more if the newest level is high.
     shape: u16,
 }
 
@@ -24,7 +28,7 @@ impl<const N: usize> Thermometer<N> {
     /// All taps at one level.
     #[inline(always)]
     pub const fn settled(level: bool) -> Self {
-        Thermometer { ranks: [0; MAX_TRANSITIONS], shape: level as u16 }
+        Thermometer { ranks: 0, shape: level as u16 }
     }
 
     /// The taps when the line's input is now at `level` and its last transitions, newest first,
@@ -41,14 +45,14 @@ impl<const N: usize> Thermometer<N> {
     /// Adds an older transition than those inside, which has reached `rank` taps, fewer than `N`.
     #[inline(always)]
     pub fn push(&mut self, rank: usize) {
-        let len = (self.shape / 2) as usize;
+        let len = self.len();
         if rank == 0 {
             self.shape ^= 1;
-        } else if len > 0 && self.ranks[len - 1] as usize == rank {
-            self.ranks[len - 1] = 0;
+        } else if len > 0 && self.rank(len - 1) == rank {
+            self.ranks ^= (rank as u128) << (BITS * (len - 1));
             self.shape -= 2;
         } else if len < MAX_TRANSITIONS {
-            self.ranks[len] = rank as u16;
+            self.ranks |= (rank as u128) << (BITS * len);
             self.shape += 2;
         }
     }
@@ -71,18 +75,18 @@ impl<const N: usize> Thermometer<N> {
         if self.is_settled() {
             return self.level();
         }
-        let passed = self.ranks().iter().take_while(|&&rank| rank as usize <= position).count();
+        let passed = self.ranks().take_while(|&rank| rank <= position).count();
         self.level() ^ (passed % 2 == 1)
     }
 
     /// How many taps are high, from 0 to N.
     pub fn ones(&self) -> usize {
         let (mut ones, mut start, mut level) = (0, 0, self.level());
-        for &rank in self.ranks() {
+        for rank in self.ranks() {
             if level {
-                ones += rank as usize - start;
+                ones += rank - start;
             }
-            (start, level) = (rank as usize, !level);
+            (start, level) = (rank, !level);
         }
         if level { ones + N - start } else { ones }
     }
@@ -90,9 +94,9 @@ impl<const N: usize> Thermometer<N> {
     /// Writes the taps as bits, in order of arrival, into the first `N` bits of `out`.
     pub fn expand(&self, out: &mut BitSlice<u64, Lsb0>) {
         let (mut start, mut level) = (0, self.level());
-        for &rank in self.ranks() {
-            out[start..rank as usize].fill(level);
-            (start, level) = (rank as usize, !level);
+        for rank in self.ranks() {
+            out[start..rank].fill(level);
+            (start, level) = (rank, !level);
         }
         out[start..N].fill(level);
     }
@@ -102,9 +106,21 @@ impl<const N: usize> Thermometer<N> {
         self.shape % 2 == 1
     }
 
+    /// How many transitions are inside.
     #[inline(always)]
-    fn ranks(&self) -> &[u16] {
-        &self.ranks[..(self.shape / 2) as usize]
+    const fn len(&self) -> usize {
+        (self.shape / 2) as usize
+    }
+
+    /// The rank of the `nth` newest transition.
+    #[inline(always)]
+    const fn rank(&self, nth: usize) -> usize {
+        (self.ranks >> (BITS * nth)) as u16 as usize
+    }
+
+    #[inline(always)]
+    fn ranks(&self) -> impl Iterator<Item = usize> {
+        (0..self.len()).map(|nth| self.rank(nth))
     }
 }
 

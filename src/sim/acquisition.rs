@@ -36,8 +36,8 @@ impl Device {
         let Some(period) = self.steady_period() else { return };
         let limit = limit.min(self.cycle.saturating_add(self.cycles_of_steady_control(period)));
         let (mut emitter_wakes, mut converter_wakes) = (self.cycle, self.cycle);
+        let mut now = self.pll.clk_125.rise(self.cycle);
         while self.top.frame_ctrl.acquire && self.cycle < limit {
-            let now = self.pll.clk_125.rise(self.cycle);
             while self.spad.next_event() <= now {
                 self.detect(&mut Off);
                 converter_wakes = self.cycle;
@@ -45,7 +45,7 @@ impl Device {
             let quiet = emitter_wakes.min(converter_wakes).saturating_sub(self.cycle);
             if quiet != AWAKE {
                 let cycles = if SKIP { quiet.min(limit - self.cycle) } else { 1 };
-                self.skip(cycles, now, period);
+                now += Time::from_fs(self.skip(cycles, now, period) * period.fs());
                 continue;
             }
             if converter_wakes > self.cycle {
@@ -65,12 +65,16 @@ impl Device {
                 frames.count_shot(&self.top);
                 let quiet = self.top.emitter_quiet();
                 emitter_wakes = (self.cycle + 1).saturating_add(quiet);
-                converter_wakes = self.cycle;
+                if self.top.rouses_converter(&self.line) {
+                    converter_wakes = self.cycle;
+                }
             }
             self.cycle += 1;
+            now += period;
             if self.top.vcsel_driver.registers.start {
                 at_shot(self, frames);
                 emitter_wakes = self.cycle;
+                now = self.pll.clk_125.rise(self.cycle);
             }
         }
     }
@@ -111,12 +115,16 @@ impl Device {
     }
 
     /// Skips that many quiet cycles, the first of them at `now`, or those whose edge of `clk_125`
-    /// comes before the detector's next event.
+    /// comes before the detector's next event. Returns how many.
     #[inline(always)]
-    fn skip(&mut self, quiet: u64, now: Time, period: Time) {
-        let until_event = self.spad.next_event().since(now).fs().div_ceil(period.fs());
-        let cycles = quiet.min(until_event);
+    fn skip(&mut self, quiet: u64, now: Time, period: Time) -> u64 {
+        let event = self.spad.next_event();
+        let cycles = match event < now.saturating_add(Time::from_fs(quiet * period.fs())) {
+            true => event.since(now).fs().div_ceil(period.fs()),
+            false => quiet,
+        };
         self.top.skip(cycles);
         self.cycle += cycles;
+        cycles
     }
 }

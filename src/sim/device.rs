@@ -32,6 +32,8 @@ pub struct Device {
     pub(super) cycle: u64,
     /// Next edge of `clk_200`, rising and falling counted; kept up only while tracing.
     oscillator: u64,
+    /// When that is.
+    oscillator_at: Time,
 }
 
 impl Device {
@@ -54,6 +56,7 @@ impl Device {
             jitter,
             cycle: 0,
             oscillator: 0,
+            oscillator_at: Time::ZERO,
         }
     }
 
@@ -135,6 +138,7 @@ impl Device {
         while self.oscillator_edge(self.oscillator) <= now {
             self.oscillator += 1;
         }
+        self.oscillator_at = self.oscillator_edge(self.oscillator);
         self.top.clocks.clk_200 = self.oscillator % 2 == 1;
         self.clocks(false, false);
     }
@@ -157,13 +161,15 @@ impl Device {
 
     #[inline(always)]
     fn fall_250<T: Trace, R: Record>(&mut self, at: Time, trace: &mut T, record: &mut R) {
-        if T::ON {
-            self.settle(at, trace, record);
-        }
+        let only_clocks = T::ON && !self.settle(at, trace, record) && !self.top.nets.laser_on;
         self.top.fall_250();
         if T::ON {
             self.top.clocks.clk_250 = false;
-            trace.sample(at, &self.top);
+            if only_clocks {
+                trace.tick(at, &self.top);
+            } else {
+                trace.sample(at, &self.top);
+            }
         }
     }
 
@@ -181,38 +187,57 @@ impl Device {
         }
     }
 
-    /// Asynchronous events up to and at `until`, in order of time.
+    /// Asynchronous events up to and at `until`, in order of time; whether there was one at that
+    /// very instant, which is not sampled yet, beside edges of the oscillator.
     #[inline(always)]
-    pub fn settle<T: Trace, R: Record>(&mut self, until: Time, trace: &mut T, record: &mut R) {
+    pub fn settle<T: Trace, R: Record>(
+        &mut self,
+        until: Time,
+        trace: &mut T,
+        record: &mut R,
+    ) -> bool {
+        let mut unseen = false;
         loop {
-            let mut next = self.spad.next_event().min(self.timeline.next_event());
+            let next = self.spad.next_event().min(self.timeline.next_event());
             if T::ON {
-                next = next.min(self.next_oscillator_edge());
+                while self.oscillator_at < next.min(until) {
+                    let now = self.oscillator_at;
+                    self.oscillate();
+                    trace.tick(now, &self.top);
+                }
+                if self.oscillator_at == next.min(until) {
+                    self.oscillate();
+                }
             }
             if next > until {
-                break;
+                return unseen;
             }
             if T::EDGES && next == self.timeline.next_event() {
                 trace.control_changes();
             }
-            self.happen::<T, R>(next, record);
-            if T::ON && next < until {
+            self.happen::<R>(next, record);
+            unseen = next == until;
+            if T::ON && !unseen {
                 trace.sample(next, &self.top);
             }
         }
     }
 
-    fn happen<T: Trace, R: Record>(&mut self, now: Time, record: &mut R) {
+    fn happen<R: Record>(&mut self, now: Time, record: &mut R) {
         if self.timeline.next_event() == now {
             self.timeline.event(&mut self.top.pins);
         }
         if self.spad.next_event() == now {
             self.detect(record);
         }
-        if T::ON && self.next_oscillator_edge() == now {
-            self.oscillator += 1;
-            self.top.clocks.clk_200 = self.oscillator % 2 == 1;
-        }
+    }
+
+    /// An edge of the oscillator.
+    #[inline(always)]
+    fn oscillate(&mut self) {
+        self.oscillator += 1;
+        self.oscillator_at = self.oscillator_edge(self.oscillator);
+        self.top.clocks.clk_200 = self.oscillator % 2 == 1;
     }
 
     /// The detector does what is due.
@@ -251,10 +276,6 @@ impl Device {
     fn toggle_stop(&mut self, now: Time) {
         self.line.toggle(now);
         self.top.pins.tdc_stop = self.line.level();
-    }
-
-    fn next_oscillator_edge(&self) -> Time {
-        self.oscillator_edge(self.oscillator)
     }
 
     /// Edge `n` of `clk_200`, rising and falling counted.

@@ -12,6 +12,11 @@ pub trait Trace {
     const EDGES: bool = false;
     /// The signals as they are from `now` on.
     fn sample(&mut self, now: Time, top: &TofTop);
+    /// The same where only levels of clocks have changed since the last sample or tick.
+    #[inline(always)]
+    fn tick(&mut self, now: Time, top: &TofTop) {
+        self.sample(now, top);
+    }
     /// Whether it looks before this edge.
     #[inline(always)]
     fn looks_before(&self, _edge: Edge) -> bool {

@@ -137,6 +137,14 @@ impl Trace for Tracer {
         }
         self.mark(now, top);
     }
+
+    #[inline]
+    fn tick(&mut self, now: Time, top: &TofTop) {
+        if self.state == State::Writing {
+            let result = self.waves.tick(now, top);
+            self.keep(result);
+        }
+    }
 }
 
 impl Windowed for Tracer {

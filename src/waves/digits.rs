@@ -1,11 +1,11 @@
-//! Binary digits of words and taps, most significant first.
+//! Digits of numbers, most significant first, and the bits of taps.
 
 use bitvec::prelude::*;
 
 use crate::kernel::Thermometer;
 
-/// The eight digits of each byte.
-const EIGHT: [[u8; 8]; 256] = {
+/// The eight binary digits of each byte.
+pub(super) static EIGHT: [[u8; 8]; 256] = {
     let mut table = [[b'0'; 8]; 256];
     let mut byte = 0;
     while byte < 256 {
@@ -19,68 +19,75 @@ const EIGHT: [[u8; 8]; 256] = {
     table
 };
 
-/// The 64 digits of a word.
-#[inline]
-pub(super) fn of_word(value: u64) -> [u8; 64] {
-    let mut digits = [0; 64];
-    for (eight, byte) in digits.chunks_exact_mut(8).zip(value.to_be_bytes()) {
-        eight.copy_from_slice(&EIGHT[byte as usize]);
+/// The three decimal digits of each number below 1000, and the end of a line.
+pub(super) static THREE: [[u8; 4]; 1000] = {
+    let mut table = [[b'\n'; 4]; 1000];
+    let mut number = 0;
+    while number < 1000 {
+        let digits = [number / 100, number / 10 % 10, number % 10];
+        let mut place = 0;
+        while place < 3 {
+            table[number][place] = b'0' + digits[place] as u8;
+            place += 1;
+        }
+        number += 1;
     }
-    digits
-}
+    table
+};
 
-/// Spells the taps of a delay line, physical tap 0 last.
+/// The taps of a delay line in their physical places.
 #[derive(Debug)]
 pub(crate) struct TapDigits {
-    /// Physical tap at each place in the order of arrival; empty if that is the same order.
-    order: Vec<u16>,
+    /// For each place in the order of arrival, the physical taps from there on; none if that is the
+    /// same order.
+    later: Vec<Vec<u64>>,
+    /// In the order of arrival.
     arrived: BitVec<u64>,
-    taps: BitVec<u64>,
-    digits: Vec<u8>,
+    /// In their physical places, if those are others.
+    taps: Vec<u64>,
 }
 
 impl TapDigits {
     /// For lines whose taps are reached in `order`.
     pub(crate) fn new(order: &[u16]) -> Self {
         let sorted = order.iter().enumerate().all(|(place, &tap)| place == tap as usize);
-        TapDigits {
-            order: if sorted { Vec::new() } else { order.to_vec() },
-            arrived: BitVec::new(),
-            taps: BitVec::new(),
-            digits: Vec::new(),
+        let mut later = Vec::new();
+        let mut taps = vec![0; order.len().div_ceil(64)];
+        if !sorted {
+            for &tap in order.iter().rev() {
+                taps[tap as usize / 64] |= 1 << (tap % 64);
+                later.push(taps.clone());
+            }
+            later.reverse();
         }
-    }
-
-    /// The `N` digits.
-    pub(super) fn of<const N: usize>(&mut self, value: &Thermometer<N>) -> &[u8] {
-        self.expand(value);
-        let taps = if self.order.is_empty() { &self.arrived } else { &self.taps };
-        self.digits.clear();
-        for &word in taps.as_raw_slice().iter().rev() {
-            self.digits.extend_from_slice(&of_word(word));
-        }
-        &self.digits[self.digits.len() - N..]
+        TapDigits { later, arrived: BitVec::new(), taps }
     }
 
     /// The `N` bits in words, physical tap 0 the lowest.
     pub(crate) fn words<const N: usize>(&mut self, value: &Thermometer<N>) -> &[u64] {
-        self.expand(value);
-        let taps = if self.order.is_empty() { &mut self.arrived } else { &mut self.taps };
-        taps.set_uninitialized(false);
-        taps.as_raw_slice()
-    }
-
-    fn expand<const N: usize>(&mut self, value: &Thermometer<N>) {
         if self.arrived.len() != N {
             self.arrived.resize(N, false);
-            self.taps.resize(N, false);
+            self.arrived.set_uninitialized(false);
         }
         value.expand(&mut self.arrived);
-        if !self.order.is_empty() {
-            for (arrived, &tap) in self.arrived.iter().by_vals().zip(&self.order) {
-                self.taps.set(tap as usize, arrived);
+        let arrived = self.arrived.as_raw_slice();
+        if self.later.is_empty() {
+            return arrived;
+        }
+        self.taps.fill(0);
+        // Each place at which the level changes turns all taps from there on.
+        let mut before = 0;
+        for (word, &levels) in arrived.iter().enumerate() {
+            let mut changes = levels ^ (levels << 1 | before);
+            before = levels >> 63;
+            while changes != 0 {
+                let place = 64 * word + changes.trailing_zeros() as usize;
+                let later = self.later.get(place).into_iter().flatten();
+                self.taps.iter_mut().zip(later).for_each(|(taps, later)| *taps ^= later);
+                changes &= changes - 1;
             }
         }
+        &self.taps
     }
 }
 
@@ -88,28 +95,43 @@ impl TapDigits {
 mod tests {
     use super::*;
 
-    fn text(digits: &[u8]) -> String {
-        String::from_utf8(digits.to_vec()).unwrap()
-    }
-
-    #[test]
-    fn words_are_spelled_as_rust_spells_them() {
-        for value in [0, 1, 0xb2, 1 << 63, u64::MAX, 0x0123_4567_89ab_cdef] {
-            assert_eq!(text(&of_word(value)), format!("{value:064b}"));
-        }
+    /// Physical tap 0 last.
+    fn text<const N: usize>(digits: &mut TapDigits, taps: &Thermometer<N>) -> String {
+        let words = digits.words(taps);
+        (0..N)
+            .rev()
+            .map(|tap| if words[tap / 64] >> (tap % 64) & 1 == 1 { '1' } else { '0' })
+            .collect()
     }
 
     #[test]
     fn tap_0_is_the_last_digit() {
         let taps = Thermometer::<70>::new(true, [3]);
-        assert_eq!(text(TapDigits::new(&[]).of(&taps)), format!("{:070b}", 7));
+        assert_eq!(text(&mut TapDigits::new(&[]), &taps), format!("{:070b}", 7));
     }
 
     #[test]
     fn taps_reached_out_of_order_stand_in_their_physical_place() {
         let mut digits = TapDigits::new(&[2, 0, 3, 1]);
-        assert_eq!(text(digits.of(&Thermometer::<4>::new(true, [1]))), "0100");
-        assert_eq!(text(digits.of(&Thermometer::<4>::new(true, [3]))), "1101");
-        assert_eq!(text(digits.of(&Thermometer::<4>::new(false, [2]))), "1010");
+        assert_eq!(text(&mut digits, &Thermometer::<4>::new(true, [1])), "0100");
+        assert_eq!(text(&mut digits, &Thermometer::<4>::new(true, [3])), "1101");
+        assert_eq!(text(&mut digits, &Thermometer::<4>::new(false, [2])), "1010");
+        assert_eq!(text(&mut digits, &Thermometer::<4>::new(true, [1, 3])), "0110");
+        assert_eq!(text(&mut digits, &Thermometer::<4>::settled(true)), "1111");
+        assert_eq!(text(&mut digits, &Thermometer::<4>::settled(false)), "0000");
+    }
+
+    #[test]
+    fn many_taps_out_of_order_stand_where_one_by_one_would_put_them() {
+        let order: Vec<u16> = (0..130).map(|place| place * 37 % 130).collect();
+        let mut digits = TapDigits::new(&order);
+        for (level, ranks) in [(true, [1, 64, 65]), (false, [63, 100, 129]), (true, [7, 8, 9])] {
+            let taps = Thermometer::<130>::new(level, ranks);
+            let mut expected = ['0'; 130];
+            for (place, &tap) in order.iter().enumerate() {
+                expected[129 - tap as usize] = if taps.tap(place) { '1' } else { '0' };
+            }
+            assert_eq!(text(&mut digits, &taps), String::from_iter(expected));
+        }
     }
 }

@@ -1,14 +1,14 @@
-//! FST files, by the crate `fst-writer`.
+//! FST files: the header by the crate `fst-writer`, the body by hand, for speed.
 //!
 //! It has no place for comments, so the provenance is in the version string, as far as it fits;
 //! nor for state names, which a file beside the waveform gives (see [`super::write_views`]).
 
-use std::io;
+use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
 
 use fst_writer::{
-    FstBodyWriter, FstFileType, FstHeaderWriter, FstInfo, FstScopeType, FstSignalId, FstSignalType,
-    FstVarDirection, FstVarType, FstWriteError,
+    FstFileType, FstHeaderWriter, FstInfo, FstScopeType, FstSignalType, FstVarDirection,
+    FstVarType, FstWriteError,
 };
 
 use crate::error::{Error, Result};
@@ -16,42 +16,31 @@ use crate::hierarchy::{Entry, IDS, Kind};
 use crate::kernel::Thermometer;
 use crate::kernel::signals::Sink;
 
-use super::digits::{TapDigits, of_word};
+use super::digits::TapDigits;
 use super::scopes::{Element, elements};
 use super::spool::Spool;
 use super::{Body, Step, date};
 
-/// Changes gathered before they are compressed; the crate cannot address 4 GB [bytes].
-const BLOCK: usize = 4 << 20;
+mod body;
+
+use body::Changes;
+
 /// Longest version string that the format holds [bytes].
 const VERSION: usize = 127;
 
 /// An FST file being written.
 pub(super) struct Fst {
     path: PathBuf,
-    out: Changes,
-    /// By id; what is not selected is `None`.
-    signals: Vec<Option<Signal>>,
+    changes: Changes<Spool>,
+    /// Place in the file's order by id; what is not selected is `None`.
+    signals: Vec<Option<usize>>,
     taps: TapDigits,
-    /// As many `x` as the widest signal has bits.
-    unknown: Vec<u8>,
-}
-
-#[derive(Clone, Copy)]
-struct Signal {
-    id: FstSignalId,
-    width: usize,
-}
-
-/// The stream of changes.
-struct Changes {
-    body: FstBodyWriter<Spool>,
-    /// Time of the last change [ps].
-    last: u64,
+    /// The taps as the file has them.
+    bytes: Vec<u8>,
     /// Time of this step, as long as nothing has changed at it [ps].
     pending: Option<u64>,
     /// The first error of this step.
-    fault: Option<FstWriteError>,
+    fault: Option<io::Error>,
 }
 
 impl Fst {
@@ -69,13 +58,30 @@ impl Fst {
             date: date::fixed()?.unwrap_or_default(),
             file_type: FstFileType::Verilog,
         };
-        let mut signals = vec![None; IDS];
-        let body = header(Spool::create(path)?, &info, entries, &mut signals)
-            .map_err(|error| Error::io(path, "write")(plain(error)))?;
-        let out = Changes { body, last: 0, pending: None, fault: None };
-        let widest = signals.iter().flatten().map(|signal| signal.width).max();
-        let unknown = vec![b'x'; widest.unwrap_or(0)];
-        Ok(Fst { path: path.to_owned(), out, signals, taps: TapDigits::new(order), unknown })
+        let (mut signals, mut widths) = (vec![None; IDS], Vec::new());
+        let fault = Error::io(path, "write");
+        let header = header(&info, entries, &mut signals, &mut widths);
+        let mut file = Spool::create(path)?;
+        header.map_err(plain).and_then(|header| file.write_all(&header)).map_err(fault)?;
+        Ok(Fst {
+            path: path.to_owned(),
+            changes: Changes::new(file, &widths),
+            signals,
+            taps: TapDigits::new(order),
+            bytes: Vec::new(),
+            pending: None,
+            fault: None,
+        })
+    }
+
+    /// Something changes.
+    #[inline]
+    fn begin(&mut self) {
+        if let Some(at) = self.pending.take()
+            && let Err(error) = self.changes.begin(at)
+        {
+            self.fault.get_or_insert(error);
+        }
     }
 }
 
@@ -83,34 +89,42 @@ impl Sink for Fst {
     #[inline]
     fn word(&mut self, id: usize, value: u64) {
         let Some(signal) = self.signals[id] else { return };
-        self.out.change(signal.id, &of_word(value)[64 - signal.width..]);
+        self.begin();
+        self.changes.word(signal, value);
     }
 
     fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>) {
         let Some(signal) = self.signals[id] else { return };
-        self.out.change(signal.id, self.taps.of(value));
+        self.begin();
+        self.bytes.clear();
+        let (words, shift) = (self.taps.words(value), N.next_multiple_of(8) - N);
+        for (place, &word) in words.iter().enumerate().rev() {
+            let below = if place > 0 { words[place - 1] } else { 0 };
+            let both = u128::from(word) << 64 | u128::from(below);
+            self.bytes.extend_from_slice(&((both << shift >> 64) as u64).to_be_bytes());
+        }
+        let begin = self.bytes.len() - N.div_ceil(8);
+        self.changes.change(signal, &self.bytes[begin..]);
     }
 }
 
 impl Body for Fst {
     #[inline]
     fn step(&mut self, at: u64, _: Step, fill: impl FnOnce(&mut Self)) -> io::Result<()> {
-        self.out.pending = Some(at);
+        self.pending = Some(at);
         fill(self);
-        self.out.fault.take().map_or(Ok(()), |error| Err(plain(error)))
+        self.fault.take().map_or(Ok(()), Err)
     }
 
     fn unknown(&mut self) {
-        for signal in self.signals.iter().flatten() {
-            self.out.change(signal.id, &self.unknown[..signal.width]);
-        }
+        self.begin();
+        self.changes.unknown();
     }
 
-    fn finish(mut self, at: u64) -> Result<()> {
-        // Without a second time step the crate forgets the values of the first.
-        let end = at.max(1);
-        let done = self.out.begin(end).and_then(|()| self.out.body.finish());
-        done.map_err(|error| Error::io(&self.path, "write")(plain(error)))?.commit()
+    fn finish(self, at: u64) -> Result<()> {
+        // Readers take the values of the first time step only if there is a second one.
+        let done = self.changes.finish(at.max(1));
+        done.map_err(|error| Error::io(&self.path, "write")(error))?.commit()
     }
 
     fn fault(&self, source: io::Error) -> Error {
@@ -118,33 +132,16 @@ impl Body for Fst {
     }
 }
 
-impl Changes {
-    #[inline]
-    fn change(&mut self, signal: FstSignalId, digits: &[u8]) {
-        let begun = self.pending.take().map_or(Ok(()), |at| self.begin(at));
-        let changed = begun.and_then(|()| self.body.signal_change(signal, digits));
-        if let (Err(error), None) = (changed, &self.fault) {
-            self.fault = Some(error);
-        }
-    }
-
-    /// A time step begins: the only moment at which the crate can flush.
-    fn begin(&mut self, at: u64) -> fst_writer::Result<()> {
-        if at > self.last && self.body.size() > BLOCK {
-            self.body.flush()?;
-        }
-        self.last = at;
-        self.body.time_change(at)
-    }
-}
-
+/// All that comes before the first section of changes; the place of each signal that is selected,
+/// and the width of each place.
 fn header(
-    file: Spool,
     info: &FstInfo,
     entries: &[Entry],
-    signals: &mut [Option<Signal>],
-) -> fst_writer::Result<FstBodyWriter<Spool>> {
-    let mut fst = FstHeaderWriter::new(file, info)?;
+    signals: &mut [Option<usize>],
+    widths: &mut Vec<usize>,
+) -> fst_writer::Result<Vec<u8>> {
+    let mut fst = FstHeaderWriter::new(Cursor::new(Vec::new()), info)?;
+    let mut handles = vec![None; signals.len()];
     for element in elements(entries) {
         match element {
             Element::Enter(name) => fst.scope(name, "", FstScopeType::Module)?,
@@ -160,13 +157,30 @@ fn header(
                     width => format!("{} [{}:0]", signal.name, width - 1),
                 };
                 let shape = FstSignalType::bit_vec(signal.width);
-                let alias = signals[*id].map(|first| first.id);
-                let handle = fst.var(name, shape, variable, direction, alias)?;
-                signals[*id] = Some(Signal { id: handle, width: signal.width as usize });
+                handles[*id] = Some(fst.var(name, shape, variable, direction, handles[*id])?);
+                if signals[*id].is_none() {
+                    signals[*id] = Some(widths.len());
+                    widths.push(signal.width as usize);
+                }
             }
         }
     }
-    fst.finish()
+    let mut bytes = fst.finish()?.finish()?.into_inner();
+    bytes.truncate(sections_begin(&bytes));
+    Ok(bytes)
+}
+
+/// Where the first section of changes begins, of which the crate has made one without any: after
+/// the blocks, each a type and a length without that type, for header, hierarchy and geometry.
+fn sections_begin(bytes: &[u8]) -> usize {
+    let mut place = 0;
+    while let Some((&kind, rest)) = bytes[place..].split_first()
+        && kind != body::SECTION
+        && let Some(length) = rest.first_chunk()
+    {
+        place += 1 + u64::from_be_bytes(*length) as usize;
+    }
+    place
 }
 
 /// Program, version and provenance in one line of limited length.

@@ -29,7 +29,7 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 use crate::firmware::TofTop;
-use crate::hierarchy::{Entry, changes, copy};
+use crate::hierarchy::{Entry, Instants};
 use crate::kernel::Time;
 use crate::kernel::signals::Sink;
 
@@ -64,7 +64,7 @@ pub struct Waves {
     writer: Writer,
     state: State,
     /// What the file shows, since the first window.
-    before: Option<Box<TofTop>>,
+    shown: Box<Instants>,
     /// Time of the last call [ps].
     last: u64,
     /// The first error of writing, for calls after it.
@@ -126,7 +126,8 @@ impl Waves {
             Format::Vcd => Writer::Vcd(Box::new(Vcd::create(path, entries, order, provenance)?)),
             Format::Fst => Writer::Fst(Box::new(Fst::create(path, entries, order, provenance)?)),
         };
-        Ok(Waves { writer, state: State::Blank, before: None, last: 0, failed: None })
+        let shown = Box::new(Instants::of(entries.iter().map(|entry| entry.id)));
+        Ok(Waves { writer, state: State::Blank, shown, last: 0, failed: None })
     }
 
     /// A window begins: every signal is shown as it is now. Within a window, only what has changed.
@@ -144,35 +145,42 @@ impl Waves {
         }
         let step = if at > 0 { Step::Open } else { Step::Start };
         self.state = State::Open;
-        match &mut self.before {
-            Some(before) => copy(top, before),
-            None => self.before = Some(Box::new(top.clone())),
-        }
         let result = match &mut self.writer {
-            Writer::Vcd(file) => file.step(at, step, |file| changes(top, None, file)),
-            Writer::Fst(file) => file.step(at, step, |file| changes(top, None, file)),
+            Writer::Vcd(file) => file.step(at, step, |file| self.shown.show(top, file)),
+            Writer::Fst(file) => file.step(at, step, |file| self.shown.show(top, file)),
         };
         self.checked(result)
     }
 
-    /// Shows what has changed since the last call; outside windows nothing.
+    /// Shows what has changed since the last call; outside windows nothing. Within a window this
+    /// has to be called at every edge of `clk_250` and at every change between them.
     #[inline]
     pub fn sample(&mut self, now: Time, top: &TofTop) -> Result<()> {
         if self.state != State::Open {
             return Ok(());
         }
         let at = self.at(now);
-        let Some(before) = &mut self.before else { return Ok(()) };
+        let (shown, step) = (&mut self.shown, Step::Change);
         let result = match &mut self.writer {
-            Writer::Vcd(file) => {
-                file.step(at, Step::Change, |file| changes(top, Some(before), file))
-            }
-            Writer::Fst(file) => {
-                file.step(at, Step::Change, |file| changes(top, Some(before), file))
-            }
+            Writer::Vcd(file) => file.step(at, step, |file| shown.follow(top, file)),
+            Writer::Fst(file) => file.step(at, step, |file| shown.follow(top, file)),
         };
-        copy(top, before);
-        self.checked(result)
+        if result.is_ok() && self.failed.is_none() { Ok(()) } else { self.checked(result) }
+    }
+
+    /// The same where only levels of clocks have changed.
+    #[inline]
+    pub fn tick(&mut self, now: Time, top: &TofTop) -> Result<()> {
+        if self.state != State::Open {
+            return Ok(());
+        }
+        let at = self.at(now);
+        let (shown, step) = (&mut self.shown, Step::Change);
+        let result = match &mut self.writer {
+            Writer::Vcd(file) => file.step(at, step, |file| shown.tick(top, file)),
+            Writer::Fst(file) => file.step(at, step, |file| shown.tick(top, file)),
+        };
+        if result.is_ok() && self.failed.is_none() { Ok(()) } else { self.checked(result) }
     }
 
     /// A window ends: from now on every signal is unknown.
@@ -218,6 +226,7 @@ impl Waves {
     }
 
     /// Keeps the first error of writing and returns it, now and later.
+    #[cold]
     fn checked(&mut self, result: io::Result<()>) -> Result<()> {
         if let (Err(error), None) = (&result, &self.failed) {
             self.failed = Some((error.kind(), error.to_string()));

@@ -14,29 +14,32 @@ use crate::kernel::Thermometer;
 use crate::kernel::signals::{Format, Sink};
 use crate::output::OutputFile;
 
-use super::digits::{TapDigits, of_word};
+use super::digits::TapDigits;
 use super::scopes::{Element, elements};
 use super::{Body, Step, date};
 
-/// Bytes gathered before they go to the file.
-const BLOCK: usize = 1 << 16;
+mod text;
+
+use text::{Tail, Text};
 
 /// A VCD file being written.
 pub(super) struct Vcd {
     file: OutputFile,
     /// What is not in the file yet.
-    text: Vec<u8>,
-    /// By id; what is not selected is `None`.
-    signals: Vec<Option<Signal>>,
+    text: Text,
+    /// By id; what is not selected has width 0 and an empty tail.
+    signals: Vec<Signal>,
     taps: TapDigits,
     /// Last time written, if any [ps].
     stamped: Option<u64>,
 }
 
+#[derive(Clone, Copy, Default)]
 struct Signal {
-    /// What follows a value: a space if it is a vector, the identifier code, the end of the line.
-    tail: Box<[u8]>,
-    vector: bool,
+    /// A space if it is a vector, the identifier code, the end of the line.
+    tail: Tail,
+    /// [bits].
+    width: u32,
 }
 
 impl Vcd {
@@ -47,62 +50,34 @@ impl Vcd {
         order: &[u16],
         provenance: &[String],
     ) -> Result<Self> {
-        let mut signals: Vec<Option<Signal>> = (0..IDS).map(|_| None).collect();
+        let mut signals = vec![Signal::default(); IDS];
         let mut file = OutputFile::create(path)?;
         let date = date::fixed()?;
         header(&mut file, entries, &mut signals, provenance, date)
             .map_err(|error| file.fault(error))?;
-        let text = Vec::with_capacity(2 * BLOCK);
+        let longest = signals.iter().map(|signal| 1 + signal.width as usize + signal.tail.len());
+        let text = Text::new(longest.sum());
         Ok(Vcd { file, text, signals, taps: TapDigits::new(order), stamped: None })
-    }
-
-    fn stamp(&mut self, at: u64) {
-        let mut digits = [b'0'; 20];
-        let (mut rest, mut first) = (at, digits.len());
-        while rest > 0 || first == digits.len() {
-            first -= 1;
-            digits[first] += (rest % 10) as u8;
-            rest /= 10;
-        }
-        self.text.push(b'#');
-        self.text.extend_from_slice(&digits[first..]);
-        self.text.push(b'\n');
-    }
-
-    fn write(&mut self) -> io::Result<()> {
-        self.file.write_all(&self.text)?;
-        self.text.clear();
-        Ok(())
     }
 }
 
 impl Sink for Vcd {
     #[inline]
     fn word(&mut self, id: usize, value: u64) {
-        let Some(signal) = &self.signals[id] else { return };
-        if signal.vector {
-            self.text.push(b'b');
-            push_number(&mut self.text, &of_word(value));
+        let signal = &self.signals[id];
+        if signal.width > 1 {
+            self.text.number(value, signal.tail);
         } else {
-            self.text.push(b'0' + (value & 1) as u8);
+            self.text.bit(value, signal.tail);
         }
-        self.text.extend_from_slice(&signal.tail);
     }
 
     fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>) {
-        let Some(signal) = &self.signals[id] else { return };
-        self.text.push(b'b');
-        push_number(&mut self.text, self.taps.of(value));
-        self.text.extend_from_slice(&signal.tail);
+        let signal = &self.signals[id];
+        if signal.width > 0 {
+            self.text.vector(self.taps.words(value), signal.tail);
+        }
     }
-}
-
-/// Appends binary digits without leading zeros, but for one if they all are.
-#[inline]
-fn push_number(text: &mut Vec<u8>, digits: &[u8]) {
-    let last = digits.len() - 1;
-    let first = digits[..last].iter().position(|&digit| digit != b'0').unwrap_or(last);
-    text.extend_from_slice(&digits[first..]);
 }
 
 impl Body for Vcd {
@@ -110,40 +85,38 @@ impl Body for Vcd {
     fn step(&mut self, at: u64, step: Step, fill: impl FnOnce(&mut Self)) -> io::Result<()> {
         let begin = self.text.len();
         if self.stamped != Some(at) {
-            self.stamp(at);
+            self.text.stamp(at);
         }
         let empty = self.text.len();
         match step {
-            Step::Start => self.text.extend_from_slice(b"$dumpvars\n"),
-            Step::Open => self.text.extend_from_slice(b"$dumpon\n"),
-            Step::Close => self.text.extend_from_slice(b"$dumpoff\n"),
+            Step::Start => self.text.push(b"$dumpvars\n"),
+            Step::Open => self.text.push(b"$dumpon\n"),
+            Step::Close => self.text.push(b"$dumpoff\n"),
             Step::Change => {}
         }
         fill(self);
         if step != Step::Change {
-            self.text.extend_from_slice(b"$end\n");
+            self.text.push(b"$end\n");
         }
         if self.text.len() == empty {
             self.text.truncate(begin);
             return Ok(());
         }
         self.stamped = Some(at);
-        if self.text.len() < BLOCK { Ok(()) } else { self.write() }
+        if self.text.is_full() { self.text.write(&mut self.file) } else { Ok(()) }
     }
 
     fn unknown(&mut self) {
-        for signal in self.signals.iter().flatten() {
-            let value: &[u8] = if signal.vector { b"bx" } else { b"x" };
-            self.text.extend_from_slice(value);
-            self.text.extend_from_slice(&signal.tail);
+        for signal in self.signals.iter().filter(|signal| signal.width > 0) {
+            self.text.unknown(signal.width > 1, signal.tail);
         }
     }
 
     fn finish(mut self, at: u64) -> Result<()> {
         if self.stamped != Some(at) {
-            self.stamp(at);
+            self.text.stamp(at);
         }
-        self.write().map_err(|error| self.file.fault(error))?;
+        self.text.write(&mut self.file).map_err(|error| self.file.fault(error))?;
         self.file.commit()
     }
 
@@ -155,7 +128,7 @@ impl Body for Vcd {
 fn header(
     file: &mut OutputFile,
     entries: &[Entry],
-    signals: &mut [Option<Signal>],
+    signals: &mut [Signal],
     provenance: &[String],
     date: Option<String>,
 ) -> io::Result<()> {
@@ -204,11 +177,10 @@ fn header(
         });
         let kind = if entry.kind == Kind::Internal { VarType::Reg } else { VarType::Wire };
         let width = entry.signal.width;
-        let vector = width > 1;
-        let range = vector.then(|| ReferenceIndex::Range(width as i32 - 1, 0));
+        let range = (width > 1).then(|| ReferenceIndex::Range(width as i32 - 1, 0));
         vcd.var_def(kind, width, code, &entry.signal.name, range)?;
-        let tail = format!("{}{code}\n", if vector { " " } else { "" });
-        signals[entry.id] = Some(Signal { tail: tail.into_bytes().into(), vector });
+        let tail = Tail::new(&format!("{}{code}\n", if width > 1 { " " } else { "" }));
+        signals[entry.id] = Signal { tail, width };
     }
     vcd.enddefinitions()
 }

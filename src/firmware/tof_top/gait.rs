@@ -45,6 +45,12 @@ impl TofTop {
         }
     }
 
+    /// Whether the emitter has just given a sleeping converter something to do.
+    #[inline(always)]
+    pub fn rouses_converter(&self, line: &StopLine) -> bool {
+        self.vcsel_driver.registers.start || !line.is_shown_by(&self.tdc.carry_chain.taps)
+    }
+
     /// The converter's part of an edge at which both clocks rise, while the top only acquires.
     /// Returns whether more of it than a counter may have changed.
     #[inline(always)]

@@ -1,0 +1,51 @@
+//! Where built peers are kept, by a hash of what they are built from.
+
+use std::collections::hash_map::DefaultHasher;
+use std::fs;
+use std::hash::{Hash, Hasher};
+use std::path::{Path, PathBuf};
+
+use crate::{Result, versions};
+
+/// A folder of built peers.
+pub struct Cache {
+    folder: PathBuf,
+}
+
+impl Cache {
+    /// Opens or makes the cache in `target`.
+    pub fn new(target: &Path) -> Result<Self> {
+        let folder = target.join("peers");
+        fs::create_dir_all(&folder)?;
+        Ok(Cache { folder })
+    }
+
+    /// The folder of what `build` makes of `sources` with `flags`, built if it is not there yet.
+    /// `build` gets the folder to work in.
+    pub fn get(
+        &self,
+        name: &str,
+        sources: &[PathBuf],
+        flags: &[String],
+        build: impl FnOnce(&Path) -> Result<()>,
+    ) -> Result<PathBuf> {
+        let mut hasher = DefaultHasher::new();
+        (flags, versions::cpu(), versions::compilers()).hash(&mut hasher);
+        for source in sources {
+            fs::read(source)?.hash(&mut hasher);
+        }
+        let kept = self.folder.join(format!("{name}-{:016x}", hasher.finish()));
+        if kept.is_dir() {
+            return Ok(kept);
+        }
+        eprintln!("peers: building {name}");
+        let work = self.folder.join(format!("{name}.building"));
+        if work.exists() {
+            fs::remove_dir_all(&work)?;
+        }
+        fs::create_dir_all(&work)?;
+        build(&work).map_err(|fault| format!("cannot build {name}: {fault}"))?;
+        fs::rename(&work, &kept)?;
+        Ok(kept)
+    }
+}

@@ -1,0 +1,188 @@
+//! A simulator, as it stands in the table.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use tofsim::scenario;
+use tofsim::sim::setup::Setup;
+
+use crate::run::{self, Output};
+use crate::{Expected, Result};
+
+/// Shots of a frame, if nothing else is said.
+pub const SHOTS: u64 = 30_000;
+/// Shots of a short frame.
+pub const FEW_SHOTS: u64 = 300;
+
+/// What is timed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Work {
+    /// A frame, every cycle.
+    Cycle,
+    /// A frame, cycles without an event skipped.
+    CycleSkip,
+    /// A frame, shot by shot.
+    Shot,
+    /// A frame's histogram, and the depth from it.
+    Histogram,
+    /// A frame with a VCD of every signal, to the null device.
+    Vcd,
+    /// A frame with an FST of every signal, to a file.
+    Fst,
+}
+
+impl Work {
+    /// In the order of the report.
+    pub const ALL: [Work; 6] =
+        [Work::Cycle, Work::CycleSkip, Work::Shot, Work::Histogram, Work::Vcd, Work::Fst];
+
+    /// Its name in the report.
+    pub fn name(self) -> &'static str {
+        match self {
+            Work::Cycle => "cycle",
+            Work::CycleSkip => "cycle_skip",
+            Work::Shot => "shot",
+            Work::Histogram => "histogram",
+            Work::Vcd => "vcd",
+            Work::Fst => "fst",
+        }
+    }
+
+    /// The work of a peer that stands against it.
+    pub fn of_peer(self) -> Work {
+        match self {
+            Work::Vcd | Work::Fst => self,
+            _ => Work::Cycle,
+        }
+    }
+
+    /// Where its waveform goes, if it has one.
+    pub fn waveform(self, folder: &Path) -> Option<PathBuf> {
+        match self {
+            Work::Vcd => Some(PathBuf::from("/dev/null")),
+            Work::Fst => Some(folder.join("waveform.fst")),
+            _ => None,
+        }
+    }
+}
+
+/// How a peer is called.
+#[derive(Clone, Debug)]
+pub enum Call {
+    /// A driver with the arguments and output of `protocol.h`.
+    Driver(PathBuf),
+    /// `vvp` with that file.
+    Vvp(PathBuf),
+}
+
+/// A peer.
+#[derive(Clone, Debug)]
+pub struct Contender {
+    /// Its name.
+    pub simulator: &'static str,
+    /// Which sources and which driver.
+    pub variant: &'static str,
+    /// What it does.
+    pub work: Work,
+    /// How it is called.
+    pub call: Call,
+    /// Frames of a timing.
+    pub frames: u64,
+    /// Shots of a frame.
+    pub shots: u64,
+    /// Takes seconds, and gets fewer rounds.
+    pub is_slow: bool,
+    /// Has every edge of the design's clocks.
+    pub has_every_edge: bool,
+}
+
+impl fmt::Display for Contender {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ({})", self.simulator, self.variant)?;
+        if self.shots != SHOTS {
+            write!(f, ", frames of {} shots, scaled", self.shots)?;
+        }
+        Ok(())
+    }
+}
+
+impl Contender {
+    /// Runs that many frames.
+    pub fn run(&self, context: &Context, frames: u64) -> Result<Output> {
+        let waveform = self.work.waveform(&context.folder);
+        match &self.call {
+            Call::Driver(path) => {
+                let mut command = Command::new(path);
+                command.args([context.laser_freq.to_string(), frames.to_string()]);
+                command.arg(&context.photons).args(waveform);
+                run::driver(command.current_dir(&context.root))
+            }
+            Call::Vvp(path) => {
+                run::vvp(&mut context.vvp(path, frames, self.work, waveform.as_deref()))
+            }
+        }
+    }
+
+    /// A timing, checked [ms for a frame of 30,000 shots].
+    pub fn time(&self, context: &Context) -> Result<f64> {
+        let output = self.run(context, self.frames)?;
+        let expected = context.expected(self.shots);
+        expected.check(&output.frames).map_err(|fault| format!("{self}: {fault}"))?;
+        let scale = context.expected(SHOTS).period as f64 / expected.period as f64;
+        Ok(output.seconds * 1e3 * scale / self.frames as f64)
+    }
+}
+
+/// What the runs at one laser rate share.
+pub struct Context {
+    /// Where the ROMs' paths start.
+    pub root: PathBuf,
+    /// Where files go.
+    pub folder: PathBuf,
+    /// The laser's rate.
+    pub laser_freq: u8,
+    /// tofsim, set up.
+    pub setup: Setup,
+    photons: PathBuf,
+    /// By shots of a frame.
+    expected: BTreeMap<u64, Expected>,
+}
+
+impl Context {
+    /// Runs tofsim for the photons and for what the peers have to give.
+    pub fn new(root: &Path, folder: &Path, laser_freq: u8) -> Result<Self> {
+        let (root, folder) = (root.to_path_buf(), folder.to_path_buf());
+        let photons = folder.join(format!("photons_{laser_freq}.txt"));
+        let mut expected = BTreeMap::new();
+        for shots in [FEW_SHOTS, SHOTS] {
+            expected.insert(shots, Expected::of(&set_up(laser_freq, shots)?, &photons)?);
+        }
+        let setup = set_up(laser_freq, SHOTS)?;
+        Ok(Context { root, folder, laser_freq, setup, photons, expected })
+    }
+
+    /// What frames of so many shots have to give.
+    pub fn expected(&self, shots: u64) -> &Expected {
+        &self.expected[&shots]
+    }
+
+    fn vvp(&self, path: &Path, frames: u64, work: Work, waveform: Option<&Path>) -> Command {
+        let mut command = Command::new("vvp");
+        command.arg("-n").arg(path).current_dir(&self.root);
+        if work == Work::Fst {
+            command.arg("-fst");
+        }
+        command.arg(format!("+freq={}", self.laser_freq)).arg(format!("+frames={frames}"));
+        command.arg(format!("+photons={}", self.photons.display()));
+        command.args(waveform.map(|path| format!("+waveform={}", path.display())));
+        command
+    }
+}
+
+fn set_up(laser_freq: u8, shots: u64) -> Result<Setup> {
+    let overrides =
+        [format!("firmware.laser_freq={laser_freq}"), format!("firmware.shots_per_frame={shots}")];
+    Ok(Setup::new(scenario::load(scenario::DEFAULT, &overrides)?)?)
+}

@@ -1,0 +1,111 @@
+//! tofsim beside Verilator, Icarus and CXXRTL on the same frames: `benches/peers` (`--help`).
+//!
+//! Builds the peers, checks that all give tofsim's depth, shots and cycles, then times them in turn
+//! on one core. tofsim draws its photons on the fly; the peers have them in memory.
+
+mod builds;
+mod compilers;
+mod contender;
+mod cxxrtl;
+mod expected;
+mod icarus;
+mod ours;
+mod pinning;
+mod report;
+mod rounds;
+mod run;
+mod verilator;
+mod versions;
+
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use clap::Parser;
+
+use builds::Cache;
+use contender::{Contender, Context, Work};
+use expected::Expected;
+use report::Report;
+use rounds::Plan;
+
+/// What can go wrong.
+type Fault = Box<dyn std::error::Error + Send + Sync>;
+/// Shorthand.
+type Result<T> = std::result::Result<T, Fault>;
+
+/// Laser rates, fastest and slowest.
+const LASER_FREQS: [u8; 2] = [3, 0];
+
+/// Time tofsim and other simulators on the same frames
+#[derive(Debug, Parser)]
+#[command(name = "peers", bin_name = "benches/peers")]
+pub struct Args {
+    /// Print one JSON object instead of tables
+    #[arg(long)]
+    json: bool,
+    /// End within two minutes: fewer repetitions, and Icarus on frames of 300 shots
+    #[arg(long)]
+    quick: bool,
+    /// Core to run on [default: the last one]
+    #[arg(long, value_name = "N")]
+    core: Option<usize>,
+    /// As cargo calls us
+    #[arg(long, hide = true)]
+    bench: bool,
+}
+
+fn main() -> ExitCode {
+    match compare(&Args::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(fault) => {
+            eprintln!("peers: {fault}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn compare(args: &Args) -> Result<()> {
+    let begun = Instant::now();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let cache = Cache::new(Path::new(env!("CARGO_TARGET_TMPDIR")))?;
+    let (peers, notes) = compilers::peers(root, &cache, args.quick)?;
+    let mut report = Report::new(notes, pinning::pin(args.core)?);
+    let folder = scratch()?;
+    for (done, laser_freq) in LASER_FREQS.into_iter().enumerate() {
+        let context = Context::new(root, folder.path(), laser_freq)?;
+        check(&peers, &context)?;
+        let left = LASER_FREQS.len() - done;
+        let measured = rounds::run(&peers, &context, &plan(args, begun, left))?;
+        report.add(laser_freq, &measured);
+    }
+    report.print(args.json)
+}
+
+/// Where photons and waveforms go: memory, if there is a place in it.
+fn scratch() -> Result<tempfile::TempDir> {
+    let memory = Path::new("/dev/shm");
+    let folder = if memory.is_dir() { tempfile::tempdir_in(memory) } else { tempfile::tempdir() };
+    Ok(folder?)
+}
+
+/// That every peer gives tofsim's frames; the error names those which do not.
+fn check(peers: &[Contender], context: &Context) -> Result<()> {
+    let mut differing = Vec::new();
+    for peer in peers.iter().filter(|peer| peer.work == Work::Cycle && !peer.is_slow) {
+        eprintln!("peers: checking {peer} at laser_freq {}", context.laser_freq);
+        let frames = peer.run(context, 2)?.frames;
+        if let Err(difference) = context.expected(peer.shots).check(&frames) {
+            differing.push(format!("{peer} differs from tofsim: {difference}"));
+        }
+    }
+    if differing.is_empty() { Ok(()) } else { Err(differing.join("\n").into()) }
+}
+
+fn plan(args: &Args, begun: Instant, left: usize) -> Plan {
+    if !args.quick {
+        return Plan { rounds: 21, slow_rounds: 3, until: None };
+    }
+    let share = Duration::from_secs(75).saturating_sub(begun.elapsed()) / left as u32;
+    Plan { rounds: 7, slow_rounds: 1, until: Some(Instant::now() + share) }
+}

@@ -1,0 +1,89 @@
+//! tofsim's side: a function for each kind of work.
+
+use std::hint::black_box;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use tofsim::hierarchy;
+use tofsim::kernel::Time;
+use tofsim::sim::histogram::Histograms;
+use tofsim::sim::run::Watch;
+use tofsim::sim::setup::Setup;
+use tofsim::sim::window::Window;
+use tofsim::sim::{Gait, Run};
+use tofsim::waves::{Format, Waves};
+
+use crate::Result;
+use crate::contender::Work;
+
+/// A timing lasts at least about so long.
+const LONG_ENOUGH: Duration = Duration::from_millis(60);
+/// Frames of a timing at most.
+const MOST_FRAMES: u32 = 10_000;
+
+/// Frames that make a timing long enough.
+pub fn frames(work: Work, setup: &Setup, folder: &Path) -> Result<u64> {
+    let begun = Instant::now();
+    run(work, setup, 1, folder)?;
+    let took = begun.elapsed().as_nanos().max(1);
+    Ok(LONG_ENOUGH.as_nanos().div_ceil(took).clamp(1, MOST_FRAMES.into()) as u64)
+}
+
+/// A timing [ms a frame].
+pub fn time(work: Work, setup: &Setup, frames: u64, folder: &Path) -> Result<f64> {
+    let begun = Instant::now();
+    run(work, setup, frames, folder)?;
+    Ok(begun.elapsed().as_secs_f64() * 1e3 / frames as f64)
+}
+
+fn run(work: Work, setup: &Setup, frames: u64, folder: &Path) -> Result<()> {
+    match work {
+        Work::Cycle => cycle(setup, frames),
+        Work::CycleSkip => cycle_skip(setup, frames),
+        Work::Shot => shot(setup, frames),
+        Work::Histogram => histogram(setup, frames),
+        Work::Vcd => waveform(setup, frames, Format::Vcd, work.waveform(folder).as_deref()),
+        Work::Fst => waveform(setup, frames, Format::Fst, work.waveform(folder).as_deref()),
+    }
+}
+
+/// Every cycle.
+fn cycle(setup: &Setup, frames: u64) -> Result<()> {
+    at(Gait::Step, setup, frames)
+}
+
+/// Idle cycles skipped.
+fn cycle_skip(setup: &Setup, frames: u64) -> Result<()> {
+    at(Gait::Skip, setup, frames)
+}
+
+/// Shot by shot.
+fn shot(setup: &Setup, frames: u64) -> Result<()> {
+    at(Gait::Leap, setup, frames)
+}
+
+fn at(gait: Gait, setup: &Setup, frames: u64) -> Result<()> {
+    black_box(Run::new(setup).at(gait).frames(frames, Watch::default())?);
+    Ok(())
+}
+
+/// The frame's histogram at once; the probabilities are worked out once for all frames.
+fn histogram(setup: &Setup, frames: u64) -> Result<()> {
+    let histograms = Histograms::new(setup)?;
+    for index in 0..frames {
+        black_box(histograms.frame(index));
+    }
+    Ok(())
+}
+
+/// Every cycle, every signal of the whole run in a waveform.
+fn waveform(setup: &Setup, frames: u64, format: Format, path: Option<&Path>) -> Result<()> {
+    let path = path.ok_or("a waveform needs a path")?;
+    let (entries, order) = (hierarchy::entries(&setup.params), setup.params.tdc.delays.order());
+    let waves = Waves::create(path, format, &entries, order, &[])?;
+    let to = setup.end(frames).unwrap_or(Time::NEVER);
+    let windows = vec![Window::Span { from: Time::ZERO, to }];
+    let watch = Watch { waves: Some((waves, windows)), ..Watch::default() };
+    black_box(Run::new(setup).frames(frames, watch)?);
+    Ok(())
+}

@@ -1,0 +1,20 @@
+//! Keeps this process, and what it starts from then on, to one core.
+
+use std::num::NonZero;
+use std::process::{self, Command};
+use std::thread;
+
+use crate::Result;
+use crate::run;
+
+/// Pins to `core`, or the last one. Returns what to say about it.
+pub fn pin(core: Option<usize>) -> Result<String> {
+    let cores = thread::available_parallelism().map_or(1, NonZero::get);
+    let core = core.unwrap_or(cores - 1);
+    if Command::new("taskset").arg("--version").output().is_err() {
+        return Ok("not pinned to a core: taskset is missing (install util-linux)".into());
+    }
+    let process = process::id().to_string();
+    run::stdout(Command::new("taskset").args(["-cp", &core.to_string(), &process]))?;
+    Ok(format!("pinned to core {core} of {cores}"))
+}

@@ -1,0 +1,207 @@
+//! Medians, spreads and ratios, as tables or as JSON.
+
+use std::env;
+
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
+use serde_json::{Value, json};
+
+use crate::contender::Work;
+use crate::rounds::Measured;
+use crate::{Result, cxxrtl, icarus, verilator, versions};
+
+const PHOTONS_OF_PEERS: &str = "in memory";
+const PHOTONS_OF_TOFSIM: &str = "drawn on the fly";
+
+/// What is printed.
+pub struct Report {
+    notes: Vec<String>,
+    pinned: String,
+    measured: Vec<(u8, Vec<Measured>)>,
+}
+
+/// tofsim and Verilator at the same work.
+struct Row {
+    work: Work,
+    laser_freq: u8,
+    tofsim_ms: f64,
+    /// The best with every edge of the design's clocks, as a user's RTL has them.
+    verilator_ms: f64,
+    /// The best of all, with the edges left out that change nothing in MODE 0.
+    fewer_edges_ms: f64,
+}
+
+impl Row {
+    fn ratio(&self) -> f64 {
+        self.verilator_ms / self.tofsim_ms
+    }
+}
+
+impl Report {
+    /// Without timings yet.
+    pub fn new(notes: Vec<String>, pinned: String) -> Self {
+        Report { notes, pinned, measured: Vec::new() }
+    }
+
+    /// Adds the timings at a laser rate.
+    pub fn add(&mut self, laser_freq: u8, measured: &[Measured]) {
+        self.measured.push((laser_freq, measured.to_vec()));
+    }
+
+    /// Prints it: to stdout, but notes beside JSON to stderr.
+    pub fn print(&self, json: bool) -> Result<()> {
+        let notes = self.notes.iter().chain([&self.pinned]);
+        if json {
+            notes.for_each(|note| eprintln!("peers: {note}"));
+            println!("{}", serde_json::to_string_pretty(&self.json())?);
+            return Ok(());
+        }
+        for (laser_freq, measured) in &self.measured {
+            println!("\nlaser_freq {laser_freq}, ms a frame of 30,000 shots");
+            println!("{}", table(measured));
+        }
+        println!("\nVerilator's best, and that with clocks that leave edges out, over tofsim");
+        println!("{}", self.ratios());
+        println!(
+            "photons: peers {PHOTONS_OF_PEERS}, tofsim {PHOTONS_OF_TOFSIM}; {}",
+            versions::cpu()
+        );
+        notes.for_each(|note| println!("{note}"));
+        Ok(())
+    }
+
+    fn rows(&self) -> Vec<Row> {
+        let rows = self.measured.iter().flat_map(|(laser_freq, measured)| {
+            Work::ALL.into_iter().map(|work| Row {
+                work,
+                laser_freq: *laser_freq,
+                tofsim_ms: best(measured, work, None, false),
+                verilator_ms: best(measured, work.of_peer(), Some("verilator"), true),
+                fewer_edges_ms: best(measured, work.of_peer(), Some("verilator"), false),
+            })
+        });
+        rows.collect()
+    }
+
+    fn ratios(&self) -> Table {
+        let mut table =
+            plain(&["laser_freq", "work", "tofsim", "verilator", "ratio", "fewer edges", "ratio"]);
+        for row in self.rows() {
+            table.add_row([
+                row.laser_freq.to_string(),
+                row.work.name().to_string(),
+                digits(row.tofsim_ms),
+                digits(row.verilator_ms),
+                digits(row.ratio()),
+                digits(row.fewer_edges_ms),
+                digits(row.fewer_edges_ms / row.tofsim_ms),
+            ]);
+        }
+        right(table, 2)
+    }
+
+    fn json(&self) -> Value {
+        let rows = self.rows();
+        let rows = rows.iter().map(|row| {
+            json!({
+                "work": row.work.name(),
+                "laser_freq": row.laser_freq,
+                "tofsim_ms": row.tofsim_ms,
+                "verilator_ms": row.verilator_ms,
+                "ratio": row.ratio(),
+                "verilator_fewer_edges_ms": row.fewer_edges_ms,
+            })
+        });
+        let peers = self.measured.iter().flat_map(|(laser_freq, measured)| {
+            measured.iter().filter_map(|measured| peer(*laser_freq, measured))
+        });
+        json!({
+            "versions": versions::json(),
+            "flags": flags(),
+            "cpu": versions::cpu(),
+            "pinned": self.pinned,
+            "photons": { "peers": PHOTONS_OF_PEERS, "tofsim": PHOTONS_OF_TOFSIM },
+            "notes": self.notes,
+            "rows": rows.collect::<Vec<_>>(),
+            "peers": peers.collect::<Vec<_>>(),
+        })
+    }
+}
+
+fn peer(laser_freq: u8, measured: &Measured) -> Option<Value> {
+    let peer = measured.peer.as_ref()?;
+    Some(json!({
+        "simulator": peer.simulator,
+        "variant": peer.variant,
+        "work": peer.work.name(),
+        "laser_freq": laser_freq,
+        "ms": measured.median(),
+        "min_ms": measured.min(),
+        "max_ms": measured.max(),
+        "timings": measured.count(),
+        "shots": peer.shots,
+    }))
+}
+
+fn flags() -> Value {
+    json!({
+        "verilator": verilator::COMMON,
+        "verilator OPT_FAST": verilator::OPT_FAST,
+        "verilator OPT_FAST, self-clocked": verilator::WHOLE,
+        "iverilog": icarus::OPTIONS,
+        "write_cxxrtl": cxxrtl::OPTIONS,
+        "g++ (cxxrtl)": cxxrtl::OPT,
+        "RUSTFLAGS": env::var("RUSTFLAGS").unwrap_or_default(),
+    })
+}
+
+/// The shortest median of a simulator, tofsim if none is named [ms].
+fn best(measured: &[Measured], work: Work, simulator: Option<&str>, with_every_edge: bool) -> f64 {
+    let same = |measured: &&Measured| {
+        let peer = measured.peer.as_ref();
+        measured.work == work
+            && peer.map(|peer| peer.simulator) == simulator
+            && (!with_every_edge || peer.is_some_and(|peer| peer.has_every_edge))
+    };
+    measured.iter().filter(same).map(Measured::median).fold(f64::NAN, f64::min)
+}
+
+fn table(measured: &[Measured]) -> Table {
+    let mut table = plain(&["work", "simulator", "median", "min", "max", "times tofsim"]);
+    let mut measured: Vec<_> = measured.iter().collect();
+    measured.sort_by_key(|measured| measured.work);
+    for one in &measured {
+        let ours = measured.iter().find(|other| other.peer.is_none() && other.work == one.work);
+        let ours = ours.map_or(f64::NAN, |ours| ours.median());
+        table.add_row([
+            one.work.name().to_string(),
+            one.name(),
+            digits(one.median()),
+            digits(one.min()),
+            digits(one.max()),
+            digits(one.median() / ours),
+        ]);
+    }
+    right(table, 2)
+}
+
+fn plain(header: &[&str]) -> Table {
+    let mut table = Table::new();
+    table.load_style(NOTHING).set_header(header);
+    table
+}
+
+/// Aligns columns to the right, from the given one on.
+fn right(mut table: Table, from: usize) -> Table {
+    for column in table.column_iter_mut().skip(from) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+/// Three digits that count.
+fn digits(value: f64) -> String {
+    let decimals =
+        if value >= 100.0 { 0 } else { (2.0 - value.log10().floor()).clamp(0.0, 6.0) as usize };
+    format!("{value:.decimals$}")
+}

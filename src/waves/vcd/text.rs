@@ -1,0 +1,230 @@
+//! The text of a VCD file's body, written into a buffer that has room for a whole step.
+
+use std::io::{self, Write};
+
+use super::super::digits::{EIGHT, THREE};
+
+/// Bytes gathered before they go to the file.
+const BLOCK: usize = 1 << 16;
+/// What one step may need beside its values: the time, a keyword at each end, and what is copied
+/// beyond the end of a text [bytes].
+const SPARE: usize = 128;
+/// What a time's leading digits count: the last six are looked up [ps].
+const LEAD: u64 = 1_000_000;
+
+/// Text that is not in the file yet.
+pub(super) struct Text {
+    /// The text, and room for the longest step after [`BLOCK`] bytes.
+    bytes: Box<[u8]>,
+    len: usize,
+    /// The last time's first digits, after a `#`.
+    lead: [u8; 16],
+    lead_len: usize,
+    /// The time that those digits are with zeros after them; 0 before the first [ps].
+    lead_at: u64,
+}
+
+/// What stands after a value: at most seven bytes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Tail {
+    /// A place for a digit, and the tail.
+    line: u64,
+    /// Without the digit; with it, one more [bytes].
+    len: u8,
+}
+
+impl Tail {
+    /// Of a text; what is past the seventh byte is lost.
+    pub(super) fn new(text: &str) -> Self {
+        let mut line = [0; 8];
+        line[1..].iter_mut().zip(text.bytes()).for_each(|(byte, text)| *byte = text);
+        Tail { line: u64::from_le_bytes(line), len: text.len().min(7) as u8 }
+    }
+
+    /// How long it is [bytes].
+    pub(super) fn len(&self) -> usize {
+        self.len as usize
+    }
+}
+
+/// Writes there `N` bytes, of which those that are too many are written over later: copying a fixed
+/// number is faster.
+#[inline(always)]
+fn put<const N: usize>(bytes: &mut [u8], at: usize, text: &[u8; N]) {
+    bytes[at..][..N].copy_from_slice(text);
+}
+
+// The place in the text is a local variable in each of these, because a field that is stored and
+// loaded for every few bytes is what would limit the speed.
+impl Text {
+    /// With room for steps whose values take up to `longest` bytes.
+    pub(super) fn new(longest: usize) -> Self {
+        let bytes = vec![0; BLOCK + longest + SPARE].into_boxed_slice();
+        Text { bytes, len: 0, lead: [0; 16], lead_len: 0, lead_at: 0 }
+    }
+
+    /// How much there is [bytes].
+    #[inline]
+    pub(super) fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Takes back what came after the first `len` bytes.
+    #[inline]
+    pub(super) fn truncate(&mut self, len: usize) {
+        self.len = len;
+    }
+
+    /// Whether there is enough of it for a write.
+    #[inline]
+    pub(super) fn is_full(&self) -> bool {
+        self.len >= BLOCK
+    }
+
+    /// Hands it on; after an error it is lost.
+    pub(super) fn write(&mut self, file: &mut impl Write) -> io::Result<()> {
+        let text = &self.bytes[..std::mem::take(&mut self.len)];
+        file.write_all(text)
+    }
+
+    /// Appends a text.
+    pub(super) fn push(&mut self, text: &[u8]) {
+        self.bytes[self.len..][..text.len()].copy_from_slice(text);
+        self.len += text.len();
+    }
+
+    /// Appends a time [ps].
+    #[inline]
+    pub(super) fn stamp(&mut self, at: u64) {
+        let rest = at.wrapping_sub(self.lead_at);
+        if rest >= LEAD || self.lead_at == 0 {
+            return self.stamp_anew(at);
+        }
+        let (thousands, units) = (rest / 1000, rest % 1000);
+        let line = &mut self.bytes[self.len..][..32];
+        let place = self.lead_len % 16;
+        put(line, 0, &self.lead);
+        put(line, place, &THREE[thousands as usize]);
+        put(line, place + 3, &THREE[units as usize]);
+        self.len += place + 7;
+    }
+
+    /// Appends a time whose first digits are not those of the last one [ps].
+    #[cold]
+    #[inline(never)]
+    fn stamp_anew(&mut self, at: u64) {
+        self.push(format!("#{at}\n").as_bytes());
+        let lead = format!("#{}", at / LEAD);
+        self.lead[..lead.len()].copy_from_slice(lead.as_bytes());
+        (self.lead_at, self.lead_len) = (at - at % LEAD, lead.len());
+    }
+
+    /// Appends a bit; nothing if its tail is empty.
+    #[inline(always)]
+    pub(super) fn bit(&mut self, value: u64, tail: Tail) {
+        let line = tail.line | u64::from(b'0') | (value & 1);
+        put(&mut self.bytes, self.len, &line.to_le_bytes());
+        self.len += tail.len() + usize::from(tail.len > 0);
+    }
+
+    /// Appends a value that is not known.
+    pub(super) fn unknown(&mut self, is_vector: bool, tail: Tail) {
+        if is_vector {
+            self.push(b"b");
+        }
+        let line = tail.line | u64::from(b'x');
+        self.push(&line.to_le_bytes()[..1 + tail.len()]);
+    }
+
+    /// Appends a vector of the bits of a word without leading zeros, but for one if they all are.
+    #[inline(never)]
+    pub(super) fn number(&mut self, value: u64, tail: Tail) {
+        let (bytes, place) = (&mut self.bytes[..], self.len);
+        let place = put_number(bytes, place, value);
+        put(bytes, place, &(tail.line >> 8).to_le_bytes());
+        self.len = place + tail.len();
+    }
+
+    /// The same of the bits of `words`, lowest first.
+    pub(super) fn vector(&mut self, words: &[u64], tail: Tail) {
+        let (mut first, mut rest) = (0, words);
+        while let [below @ .., highest] = rest {
+            (first, rest) = (*highest, below);
+            if first != 0 {
+                break;
+            }
+        }
+        let bytes = &mut self.bytes[..];
+        let mut place = put_number(bytes, self.len, first);
+        for &word in rest.iter().rev() {
+            put_word(bytes, place, word);
+            place += 64;
+        }
+        put(bytes, place, &(tail.line >> 8).to_le_bytes());
+        self.len = place + tail.len();
+    }
+}
+
+/// Writes there a `b` and a word without leading zeros, and returns where it ends.
+#[inline(always)]
+fn put_number(bytes: &mut [u8], at: usize, value: u64) -> usize {
+    put(bytes, at, b"b");
+    let width = u64::BITS - (value | 1).leading_zeros();
+    let (mut digits, mut place) = (value << (u64::BITS - width), at + 1);
+    let end = place + width as usize;
+    while place < end {
+        put(bytes, place, &EIGHT[(digits >> 56) as usize]);
+        (digits, place) = (digits << 8, place + 8);
+    }
+    end
+}
+
+/// Writes there the 64 digits of a word; most words of a delay line are all zeros or ones.
+#[inline(always)]
+fn put_word(bytes: &mut [u8], at: usize, word: u64) {
+    if word == 0 || word == u64::MAX {
+        put(bytes, at, &[b'0' | (word & 1) as u8; 64]);
+    } else {
+        for (eight, byte) in word.to_be_bytes().into_iter().enumerate() {
+            put(bytes, at + 8 * eight, &EIGHT[byte as usize]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(fill: impl FnOnce(&mut Text)) -> String {
+        let (mut text, mut out) = (Text::new(4096), Vec::new());
+        fill(&mut text);
+        text.write(&mut out).unwrap();
+        String::from_utf8(out).unwrap()
+    }
+
+    #[test]
+    fn times_are_spelled_as_rust_spells_them() {
+        let times = [0, 5, 2_500, 999_999, 1_000_000, 1_000_007, 1_002_000, 2_345_678_901];
+        for time in times.into_iter().chain([u64::MAX, 77, u64::MAX - 1_000_000, 10_000_000]) {
+            assert_eq!(text(|text| text.stamp(time)), format!("#{time}\n"));
+        }
+        let both = text(|text| times.iter().for_each(|&time| text.stamp(time)));
+        assert_eq!(both, times.map(|time| format!("#{time}\n")).concat());
+    }
+
+    #[test]
+    fn values_are_spelled_without_leading_zeros() {
+        let tail = Tail::new(" !\n");
+        for value in [0, 1, 2, 0xb2, 0x1ff, 1 << 63, u64::MAX, 0x0123_4567_89ab_cdef] {
+            assert_eq!(text(|text| text.number(value, tail)), format!("b{value:b} !\n"));
+            let long = text(|text| text.vector(&[u64::MAX, 3, value, 0, 0], tail));
+            let expected = match value {
+                0 => format!("b11{:064b} !\n", u64::MAX),
+                _ => format!("b{value:b}{:064b}{:064b} !\n", 3, u64::MAX),
+            };
+            assert_eq!(long, expected);
+        }
+        assert_eq!(text(|text| text.vector(&[0; 13], tail)), "b0 !\n");
+        assert_eq!(text(|text| text.bit(1, Tail::new("a!\n"))), "1a!\n");
+    }
+}
