@@ -106,6 +106,28 @@ fn histograms_drawn_at_once_are_distributed_as_those_of_single_shots() {
     assert!(distance < 1.95 / f64::from(scenarios).sqrt(), "{distance}");
 }
 
+/// With few shots a frame the last one counts: no reset of the SPAD ends it.
+#[test]
+fn hits_without_a_code_are_distributed_as_those_of_single_shots() {
+    let setup = setup(
+        "kc705",
+        &[
+            "firmware.shots_per_frame=2",
+            "ambient.irradiance_w_m2_nm=0.02",
+            "target.reflectance=0.01",
+        ],
+    );
+    let frames = 60_000;
+    let of = |frames: &[Frame]| {
+        let mut hits = vec![0; 3];
+        frames.iter().for_each(|frame| hits[(frame.tdc_hits - frame.hits()) as usize] += 1);
+        hits
+    };
+    let [shot, drawn] = [of(&shot_frames(&setup, frames)), of(&drawn_frames(&setup, frames))];
+    let chance = two_sample(&shot, &drawn);
+    assert!(chance > LEVEL, "{shot:?} and {drawn:?}: {chance}");
+}
+
 #[test]
 fn every_bin_has_the_mean_and_the_spread_of_single_shots() {
     let setup = setup("kc705", &["firmware.shots_per_frame=4000"]);

@@ -14,7 +14,7 @@ use tofsim::scenario::{self, Control};
 use tofsim::sim::Device;
 use tofsim::sim::device::Off;
 use tofsim::sim::frames::Frames;
-use tofsim::sim::leap::{Outcomes, Tables};
+use tofsim::sim::leap::{NO_HIT, Outcomes, Tables};
 use tofsim::sim::setup::{CYCLE, Setup};
 
 /// Edges that are tried at most from one state.
@@ -258,10 +258,44 @@ fn a_leap_lands_where_the_histogram_and_the_counts_are_what_stepping_gives() {
     }
 }
 
+/// A photon for each shot, at every step of the staircase and a femtosecond either side of it; the
+/// last shot, after which no reset of the SPAD follows, has none.
 #[test]
-fn the_staircase_of_outcomes_needs_a_chain_that_is_clear_in_time() {
-    let setup = common::setup("kc705", &[]);
-    for period in vcsel_driver::PERIODS {
-        assert!(Outcomes::new(&setup.params.tdc, period, CYCLE).is_some());
+fn the_staircase_of_outcomes_is_the_firmware_s_to_the_femtosecond() {
+    let folder = tempfile::tempdir().unwrap();
+    for chain in ["uniform", "table6_3", "ideal"] {
+        for (rate, period) in vcsel_driver::PERIODS.into_iter().enumerate() {
+            let profile = format!("tdc.profile={chain}");
+            let plain = common::setup("kc705", &[&profile]);
+            let outcomes = Outcomes::new(&plain.params.tdc, period, CYCLE).unwrap();
+            let steps = outcomes
+                .steps()
+                .iter()
+                .flat_map(|(begin, _)| [begin.fs().saturating_sub(1), begin.fs(), begin.fs() + 1]);
+            let arrivals: Vec<_> = steps.collect();
+            let mut text = "shot,arrival_ps\n".to_owned();
+            for (shot, fs) in arrivals.iter().enumerate() {
+                text += &format!("{shot},{}.{:03}\n", fs / 1000, fs % 1000);
+            }
+            let path = folder.path().join("photons.csv");
+            std::fs::write(&path, text).unwrap();
+            let photons = format!("stimulus.photons={:?}", path.display().to_string());
+            let (freq, shots) = (
+                format!("firmware.laser_freq={rate}"),
+                format!("firmware.shots_per_frame={}", arrivals.len() + 1),
+            );
+            let setup = common::setup("kc705", &[&profile, &photons, &freq, &shots]);
+            let frame = &common::frames(&setup, 1)[0];
+            let (mut histogram, mut tdc_hits) = ([0u16; 256], 0);
+            for fs in &arrivals {
+                let outcome = outcomes.of(Time::from_fs(*fs));
+                if let Some(count) = histogram.get_mut(outcome as usize) {
+                    *count += 1;
+                }
+                tdc_hits += u64::from(outcome != NO_HIT);
+            }
+            assert_eq!(frame.histogram, histogram, "{chain} {rate}");
+            assert_eq!(frame.tdc_hits, tdc_hits, "{chain} {rate}");
+        }
     }
 }

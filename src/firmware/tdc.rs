@@ -108,11 +108,6 @@ impl Tdc {
         decodes | latches | samples
     }
 
-    /// Whether no hit is on its way through latch and decoder.
-    pub fn is_idle(&self) -> bool {
-        !self.tdc_latch.hit && self.tdc_decoder.is_idle()
-    }
-
     /// In the cycle of a laser edge, after shots of which nothing is left in the chain.
     pub fn at_laser_edge(period: u64) -> Self {
         Tdc { coarse_counter: CoarseCounter::after(period), ..Tdc::default() }

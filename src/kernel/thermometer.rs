@@ -48,7 +48,10 @@ impl<const N: usize> Thermometer<N> {
         let len = self.len();
         if rank == 0 {
             self.shape ^= 1;
-        } else if len > 0 && self.rank(len - 1) == rank {
+        } else if len == 0 {
+            self.ranks = rank as u128;
+            self.shape += 2;
+        } else if self.rank(len - 1) == rank {
             self.ranks ^= (rank as u128) << (BITS * (len - 1));
             self.shape -= 2;
         } else if len < MAX_TRANSITIONS {
@@ -72,7 +75,7 @@ impl<const N: usize> Thermometer<N> {
     /// The level of the tap that is `position`-th to be reached, from 0.
     #[inline(always)]
     pub fn tap(&self, position: usize) -> bool {
-        if self.is_settled() {
+        if self.is_settled() || self.rank(0) > position {
             return self.level();
         }
         let passed = self.ranks().take_while(|&rank| rank <= position).count();

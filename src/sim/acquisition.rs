@@ -62,7 +62,6 @@ impl Device {
                 self.top.emit_acquiring(p);
                 self.react(now);
                 self.top.rest_acquiring();
-                frames.count_shot(&self.top);
                 let quiet = self.top.emitter_quiet();
                 emitter_wakes = (self.cycle + 1).saturating_add(quiet);
                 if self.top.rouses_converter(&self.line) {
@@ -72,6 +71,7 @@ impl Device {
             self.cycle += 1;
             now += period;
             if self.top.vcsel_driver.registers.start {
+                frames.count_shot(&self.top);
                 at_shot(self, frames);
                 emitter_wakes = self.cycle;
                 now = self.pll.clk_125.rise(self.cycle);

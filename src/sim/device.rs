@@ -30,6 +30,8 @@ pub struct Device {
     pub(super) jitter: Option<Jitter>,
     /// Edges of `clk_125` so far.
     pub(super) cycle: u64,
+    /// Until then the top only acquires, as long as `acquire` is high.
+    acquires_until: Time,
     /// Next edge of `clk_200`, rising and falling counted; kept up only while tracing.
     oscillator: u64,
     /// When that is.
@@ -55,6 +57,7 @@ impl Device {
             pll,
             jitter,
             cycle: 0,
+            acquires_until: Time::ZERO,
             oscillator: 0,
             oscillator_at: Time::ZERO,
         }
@@ -109,7 +112,13 @@ impl Device {
         let now = self.next_edge();
         self.before_edge(Edge::Both, now, trace, record);
         self.settle(now, trace, record);
-        self.top.rise(p, &mut self.line, now);
+        let acquires = self.only_acquires(now);
+        if acquires {
+            self.top.convert_acquiring(p, &mut self.line, now);
+            self.top.emit_acquiring(p);
+        } else {
+            self.top.rise(p, &mut self.line, now);
+        }
         self.react(now);
         if T::ON {
             self.clocks(true, true);
@@ -120,13 +129,30 @@ impl Device {
         self.fall_250(now + quarter, trace, record);
         self.before_edge(Edge::Middle, middle, trace, record);
         self.settle(middle, trace, record);
-        self.top.rise_250();
+        if acquires && middle < self.acquires_until {
+            self.top.rise_250_acquiring();
+        } else {
+            self.top.rise_250();
+        }
         if T::ON {
             self.clocks(false, true);
             trace.sample(middle, &self.top);
         }
         self.fall_250(middle + quarter, trace, record);
         self.cycle += 1;
+    }
+
+    /// Whether the edge at `now` finds the top [only acquiring](TofTop::only_acquires). Pins change
+    /// when the timeline says so and not before.
+    #[inline(always)]
+    fn only_acquires(&mut self, now: Time) -> bool {
+        if !self.top.frame_ctrl.acquire {
+            return false;
+        }
+        if now >= self.acquires_until && self.top.only_acquires() {
+            self.acquires_until = self.timeline.next_event();
+        }
+        now < self.acquires_until
     }
 
     /// Brings the levels of the clocks up to date where tracing begins, before the next edge.

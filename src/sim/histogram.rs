@@ -4,6 +4,8 @@
 //! codes' probabilities are those of the closed form ([`crate::optics::closed_form`]); they are worked
 //! out once, and a frame is 257 binomial draws at most.
 
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
 use rand_distr::{Binomial, Distribution};
 
 use crate::error::{Input, Result};
@@ -28,8 +30,8 @@ use super::setup::{CYCLE, Setup};
 pub struct Histograms<'a> {
     setup: &'a Setup,
     codes: BinProbabilities,
-    /// Chance that a shot without a code has a hit.
-    no_code: f64,
+    /// Chance that a shot without a code has a hit, and that the last one of a frame does.
+    no_code: [f64; 2],
     shots: u64,
     frame_cycles: u64,
 }
@@ -84,11 +86,14 @@ impl<'a> Histograms<'a> {
         let (delays, cal) = (&setup.params.tdc.delays, &setup.params.tdc.cal);
         let codes = BinProbabilities::new(hazard, &Bins::of_chain(delays, cal, CYCLE));
         let uncoded = 1.0 - codes.of_code().iter().sum::<f64>();
-        let missed = (-hazard.at(outcomes.last_hit())).exp();
+        let no_code = outcomes.ends().map(|end| {
+            let missed = (-hazard.at(end)).exp();
+            if missed < uncoded { 1.0 - missed / uncoded } else { 0.0 }
+        });
         Ok(Histograms {
             setup,
             codes,
-            no_code: if missed < uncoded { 1.0 - missed / uncoded } else { 0.0 },
+            no_code,
             shots: setup.shots(1),
             frame_cycles: setup.frame_cycles(rate),
         })
@@ -99,8 +104,7 @@ impl<'a> Histograms<'a> {
         let mut random = stream(self.setup.scenario.seed, Source::Histogram, index);
         let counts = self.codes.draw(self.shots, &mut random);
         let coded: u64 = counts.iter().sum();
-        let without_code = Binomial::new(self.shots - coded, self.no_code);
-        let tdc_hits = coded + without_code.map_or(0, |draw| draw.sample(&mut random));
+        let tdc_hits = coded + self.hits_without_code(self.shots - coded, &mut random);
         let histogram = counts.map(|count| count as u16);
         Frame {
             index,
@@ -111,6 +115,14 @@ impl<'a> Histograms<'a> {
             estimator_cycles: estimator_ctrl::DONE,
             frame_cycles: self.frame_cycles,
         }
+    }
+
+    /// Hits among so many shots without a code, one of which may be the frame's last.
+    fn hits_without_code(&self, shots: u64, random: &mut ChaCha8Rng) -> u64 {
+        let last = u64::from(random.random_range(0..self.shots) < shots);
+        let draw = |shots, chance| Binomial::new(shots, chance).ok();
+        let drawn = [draw(shots - last, self.no_code[0]), draw(last, self.no_code[1])];
+        drawn.into_iter().flatten().map(|draw| draw.sample(random)).sum()
     }
 
     /// Draws frames on all threads of the current pool; of `watch`, every frame is shown, in order.

@@ -88,8 +88,7 @@ impl Device {
             && top.vcsel_driver.registers.begins_shot(rate, lit)
             && !self.spad.is_passive()
             && self.spad.is_armed()
-            && self.line.is_low_since(now - CYCLE)
-            && top.tdc.is_idle();
+            && self.line.is_low_since(now - CYCLE);
         independent.then_some((rate, lit))
     }
 

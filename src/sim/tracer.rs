@@ -149,8 +149,8 @@ impl Trace for Tracer {
 
 impl Windowed for Tracer {
     fn is_wanted(&mut self, device: &mut Device, frames: &Frames, p: &Params) -> Result<bool> {
-        if let Some(error) = self.error.take() {
-            return Err(error);
+        if self.error.is_some() {
+            return self.error.take().map_or(Ok(false), Err);
         }
         self.follow_shot(device, frames);
         let cycle = device.coming_cycle();

@@ -82,13 +82,21 @@ impl TofTop {
         }
     }
 
+    /// An edge at which only `clk_250` rises, while the top only acquires.
+    #[inline(always)]
+    pub fn rise_250_acquiring(&mut self) {
+        if self.vcsel_driver.is_pulse_near() {
+            self.vcsel_driver.rise_250(&self.laser_inputs());
+            self.drive_laser();
+        }
+    }
+
     /// The rest of the emitter's cycle: `clk_250` falls, rises and falls.
     #[inline(always)]
     pub fn rest_acquiring(&mut self) {
         if self.vcsel_driver.is_pulse_near() {
-            let i = self.laser_inputs();
             self.vcsel_driver.fall_250();
-            self.vcsel_driver.rise_250(&i);
+            self.vcsel_driver.rise_250(&self.laser_inputs());
             self.vcsel_driver.fall_250();
             self.drive_laser();
         }

@@ -105,3 +105,60 @@ fn word(exponent: f64) -> u64 {
 fn guard(hazard: &Hazard) -> u64 {
     ((2f64.powi(-40) + 1e-6 * hazard.steepest_per_fs()) * 2f64.powi(64)) as u64
 }
+
+#[cfg(test)]
+mod tests {
+    use rand::{Rng, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+    use crate::firmware::vcsel_driver::PERIODS;
+    use crate::scenario;
+    use crate::sensor::light::Light;
+    use crate::sim::setup::{CYCLE, Setup};
+
+    fn draws(keys: &[&str], rate: usize, lit: bool) -> Draws {
+        let keys: Vec<_> = keys.iter().map(|&key| key.to_owned()).collect();
+        let setup = Setup::new(scenario::load("kc705", &keys).unwrap()).unwrap();
+        let Light::Optics(optics) = &setup.light else { panic!("optics") };
+        let outcomes = Outcomes::new(&setup.params.tdc, PERIODS[rate], CYCLE).unwrap();
+        Draws::new(outcomes, optics.hazard(lit).clone())
+    }
+
+    #[test]
+    fn every_word_has_the_outcome_of_its_arrival() {
+        let faint = ["ambient.irradiance_w_m2_nm=0", "spad.dark_rate_hz=100"];
+        let none = ["ambient.irradiance_w_m2_nm=0", "spad.dark_rate_hz=0"];
+        let sharp = ["laser.pulse_sigma_ps=1", "target.distance_m=0.05"];
+        let scenes: [&[&str]; 5] = [&[], &faint, &none, &sharp, &["target.distance_m=0.02"]];
+        let mut random = ChaCha8Rng::seed_from_u64(4);
+        for (keys, lit) in scenes.into_iter().flat_map(|keys| [(keys, true), (keys, false)]) {
+            for rate in [0, 3] {
+                let draws = draws(keys, rate, lit);
+                let cells = draws.cells.iter().enumerate();
+                let near = cells.flat_map(|(cell, of)| {
+                    let first = (cell as u64) << (u64::BITS - CELL_BITS);
+                    let around = [0, 1, 4097, draws.guard, draws.guard + 1, draws.guard + 4097];
+                    around.into_iter().flat_map(move |by| {
+                        let [first, split] = [first, of.split];
+                        [first.wrapping_sub(by), first.wrapping_add(by)]
+                            .into_iter()
+                            .chain([split.wrapping_sub(by), split.wrapping_add(by)])
+                    })
+                });
+                let anywhere: Vec<_> = (0..20_000).map(|_| random.next_u64()).collect();
+                for word in near.chain(anywhere) {
+                    assert_eq!(draws.outcome(word), draws.exactly(word), "{keys:?} {word:x}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn few_words_have_to_be_worked_out() {
+        let draws = draws(&[], 3, true);
+        let crowded = draws.cells.iter().filter(|cell| cell.below == EXACTLY).count();
+        assert!(crowded < draws.cells.len() / 50, "{crowded} cells");
+        assert!(draws.guard < 1 << 40, "{:x}", draws.guard);
+    }
+}

@@ -33,10 +33,14 @@ const LAST_CODED: u64 = 2;
 pub struct Outcomes {
     /// Begin of each step, the first one 0, and its outcome; neighbours differ.
     steps: Vec<(Time, Outcome)>,
+    /// Where hits end, and where in the last shot of a frame.
+    ends: [Time; 2],
 }
 
 impl Outcomes {
     /// For shots that follow each other after `period` cycles.
+    ///
+    /// The last shot of a frame differs: no reset ends it, so that its window lasts to its end.
     ///
     /// `None` where a shot is not independent of the one before: if that one's pulse, which ends a
     /// cycle before the laser edge, may still be in the chain at the edge after it, or its code may
@@ -50,12 +54,13 @@ impl Outcomes {
         if tap_0 > cycle || p.delays.longest() > cycle + cycle || coded > end(LAST_CODED) {
             return None;
         }
-        let mut outcomes = Outcomes { steps: vec![(Time::ZERO, NO_CODE)] };
+        let ends = [end(WINDOW.min(period - 1)), end(WINDOW)];
+        let mut outcomes = Outcomes { steps: vec![(Time::ZERO, NO_CODE)], ends };
         for span in bins.spans() {
             outcomes.step(span.from, span.code.into());
             outcomes.step(span.until, NO_CODE);
         }
-        outcomes.step(end(WINDOW.min(period - 1)), NO_HIT);
+        outcomes.step(ends[0], NO_HIT);
         Some(outcomes)
     }
 
@@ -70,9 +75,9 @@ impl Outcomes {
         &self.steps
     }
 
-    /// Before it no hit is lost, from it on every one.
-    pub fn last_hit(&self) -> Time {
-        self.steps.last().map_or(Time::ZERO, |step| step.0)
+    /// Before it no hit is lost, from it on every one; the same for the last shot of a frame.
+    pub fn ends(&self) -> [Time; 2] {
+        self.ends
     }
 
     /// From `begin` on, which is not before the last step's, it is `outcome`.
