@@ -189,6 +189,28 @@ fn shot_prints_what_cycle_prints_whatever_the_threads() {
 }
 
 #[test]
+fn a_folder_of_results_is_the_same_whatever_the_threads_and_the_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    for frames in ["1", "2", "4"] {
+        let run = |threads: &str| {
+            let fixed = [
+                "run",
+                "--waves",
+                "none",
+                "--frames",
+                frames,
+                "-s",
+                "firmware.shots_per_frame=500",
+            ];
+            stdout(folder.path(), &[&fixed[..], &["-o", threads, "--threads", threads]].concat());
+            ["summary.json", "histogram.csv", "histogram.svg"]
+                .map(|name| std::fs::read(folder.path().join(threads).join(name)).unwrap())
+        };
+        assert!(run("1") == run("3"), "{frames} frames");
+    }
+}
+
+#[test]
 fn histogram_prints_the_same_whatever_the_threads() {
     let folder = tempfile::tempdir().unwrap();
     let run = |threads: &str| {

@@ -1,8 +1,8 @@
 //! Many frames on many cores.
 //!
 //! Every frame has random streams of its own, and in MODE 0 nothing else of one frame reaches the
-//! next but the time: the SPAD is reset before the first shot. So one frame is simulated, and each of
-//! the others begins where that one ended, so many frames later. The results are those of one after
+//! next but the time: the SPAD is reset before the first shot. So the second frame's begin is found,
+//! and each of those after it begins there, so many frames later. The results are those of one after
 //! the other, and come in that order, whatever the number of threads.
 
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,6 +14,7 @@ use crate::firmware::tof_top::CodeSource;
 use crate::sensor::light::Light;
 use crate::waves::Marks;
 
+use super::acquisition::Gait;
 use super::device::Off;
 use super::frames::Frame;
 use super::recorder::Recorder;
@@ -48,20 +49,33 @@ impl Run<'_> {
         let mut sinks = Sinks { shots, frames, stop };
         self.limit = self.setup.longest_run(count);
         self.device.power_up(&mut Off, &mut Off);
-        match sinks.shots.is_some() {
-            true => self.go(1, &mut Off, &mut Recorder::default(), &mut sinks)?,
-            false => self.go(1, &mut Off, &mut Off, &mut sinks)?,
+        if sinks.shots.is_some() {
+            self.go(1, &mut Off, &mut Recorder::default(), &mut sinks)?;
         }
-        if count == 1 {
+        if !self.setup.has_frames_apart() || rayon::current_num_threads() < 2 || count < 2 {
+            if self.frames.done() < count {
+                self.go(count, &mut Off, &mut Off, &mut sinks)?;
+            }
             return Ok(self.outcome(Marks::default()));
         }
-        if !self.setup.has_frames_apart() || rayon::current_num_threads() < 2 {
-            self.go(count, &mut Off, &mut Off, &mut sinks)?;
-            return Ok(self.outcome(Marks::default()));
-        }
+        let second = self.second_frame(stop)?;
         let take = &mut |frame: &Frame| sinks.frame(frame);
-        deliver(1..count, take, stop, |frame| self.of_frame(frame).next_frame(stop))?;
-        Ok(self.of_frame(count).outcome(Marks::default()))
+        deliver(self.frames.done()..count, take, stop, |frame| match frame {
+            0 => self.clone().next_frame(stop),
+            _ => second.of_frame(frame).next_frame(stop),
+        })?;
+        Ok(second.of_frame(count).outcome(Marks::default()))
+    }
+
+    /// Where frame 1 begins. What is left of frame 0 does not matter, so that a leap finds it.
+    fn second_frame(&self, stop: Option<&AtomicBool>) -> Result<Self> {
+        let mut second = self.clone();
+        if self.frames.done() == 0 {
+            second.gait = Gait::Leap;
+            second.next_frame(stop)?;
+            second.gait = self.gait;
+        }
+        Ok(second)
     }
 
     /// Where frame `frame` begins; `self` is where frame 1 does.

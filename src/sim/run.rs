@@ -61,7 +61,7 @@ pub struct Run<'a> {
     pub(super) frames: Frames,
     /// What no run reaches but one that never ends [cycles of clk_125].
     pub(super) limit: u64,
-    gait: Gait,
+    pub(super) gait: Gait,
     /// When to look at the world outside next [cycles of clk_125].
     pub(super) breath: u64,
     tables: Tables,
