@@ -42,7 +42,7 @@ pub struct Args {
     /// Seed of every random stream, instead of the scenario's
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     seed: Option<u64>,
-    /// How many frames to simulate, one after the other
+    /// How many frames to simulate
     #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..))]
     frames: u64,
     /// How to simulate; cycle and shot give the same frames, histogram the same in distribution
