@@ -14,6 +14,8 @@ use crate::{Result, cxxrtl, icarus, verilator, versions};
 pub enum Sources {
     /// `rtl_ref`.
     Reference,
+    /// The same with the fastest coding of the decoder's ones count.
+    FastDecoder,
     /// The same, blocks of `rtl` in the place of their namesakes.
     Tuned,
     /// The same, and `rtl/bench.sv`.
@@ -37,6 +39,7 @@ impl Sources {
             }
             let own = match self {
                 Sources::Reference => None,
+                Sources::FastDecoder if block != "tdc_decoder" => None,
                 Sources::TunedWithPll if block == "pll" => None,
                 Sources::Cxxrtl => Some(bench.join(format!("cxxrtl/{block}.v"))),
                 _ => Some(bench.join(format!("rtl/{block}.sv"))),

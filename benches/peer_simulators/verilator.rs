@@ -34,12 +34,25 @@ pub struct Variant {
 }
 
 /// The ways that are timed.
-pub const VARIANTS: [Variant; 5] = [
+pub const VARIANTS: [Variant; 6] = [
     Variant {
         name: "verilator_ref",
         variant: "rtl_ref",
         work: Work::Cycle,
         sources: Sources::Reference,
+        top: "tof_top",
+        options: &[],
+        defines: "",
+        opt_fast: OPT_FAST,
+        opt_global: "-O2",
+        link: "",
+        frames: 2,
+    },
+    Variant {
+        name: "verilator_decoder",
+        variant: "rtl_ref, $countones",
+        work: Work::Cycle,
+        sources: Sources::FastDecoder,
         top: "tof_top",
         options: &[],
         defines: "",
