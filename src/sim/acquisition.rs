@@ -79,6 +79,19 @@ impl Device {
         }
     }
 
+    /// Whether the edge at `now` finds the top [only acquiring](TofTop::only_acquires). Pins change
+    /// when the timeline says so and not before.
+    #[inline(always)]
+    pub(super) fn only_acquires(&mut self, now: Time) -> bool {
+        if !self.top.frame_ctrl.acquire {
+            return false;
+        }
+        if now >= self.acquires_until && self.top.only_acquires() {
+            self.acquires_until = self.timeline.next_event();
+        }
+        now < self.acquires_until
+    }
+
     /// Cycles that can be skipped before the next one, whatever the device does.
     pub fn skip_idle(&mut self, p: &Params, limit: u64) {
         if self.jitter.is_none()

@@ -31,7 +31,7 @@ pub struct Device {
     /// Edges of `clk_125` so far.
     pub(super) cycle: u64,
     /// Until then the top only acquires, as long as `acquire` is high.
-    acquires_until: Time,
+    pub(super) acquires_until: Time,
     /// Next edge of `clk_200`, rising and falling counted; kept up only while tracing.
     oscillator: u64,
     /// When that is.
@@ -140,19 +140,6 @@ impl Device {
         }
         self.fall_250(middle + quarter, trace, record);
         self.cycle += 1;
-    }
-
-    /// Whether the edge at `now` finds the top [only acquiring](TofTop::only_acquires). Pins change
-    /// when the timeline says so and not before.
-    #[inline(always)]
-    fn only_acquires(&mut self, now: Time) -> bool {
-        if !self.top.frame_ctrl.acquire {
-            return false;
-        }
-        if now >= self.acquires_until && self.top.only_acquires() {
-            self.acquires_until = self.timeline.next_event();
-        }
-        now < self.acquires_until
     }
 
     /// Brings the levels of the clocks up to date where tracing begins, before the next edge.

@@ -22,8 +22,9 @@ use crate::waves::Marks;
 use super::frames::Frame;
 use super::leap::Outcomes;
 use super::many::deliver;
-use super::run::{Outcome, Sinks, Watch};
+use super::run::{Outcome, Watch};
 use super::setup::{CYCLE, Setup};
+use super::sinks::Sinks;
 
 /// Draws the frames of a scenario.
 #[derive(Clone, Debug)]

@@ -18,8 +18,9 @@ use super::acquisition::Gait;
 use super::device::Off;
 use super::frames::Frame;
 use super::recorder::Recorder;
-use super::run::{Outcome, Run, Sinks, Taker, Watch};
+use super::run::{Outcome, Run, Taker, Watch};
 use super::setup::{CYCLE, Setup};
+use super::sinks::Sinks;
 
 /// Frames that each thread simulates between two deliveries.
 const BATCH: u64 = 64;

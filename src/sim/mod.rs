@@ -10,6 +10,7 @@ pub mod many;
 pub mod recorder;
 pub mod run;
 pub mod setup;
+mod sinks;
 pub mod timeline;
 mod trace;
 mod tracer;

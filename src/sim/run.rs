@@ -10,11 +10,12 @@ use crate::kernel::Time;
 use crate::waves::{Marks, Waves};
 
 use super::acquisition::Gait;
-use super::device::{Device, Off, Record};
+use super::device::{Device, Off};
 use super::frames::{Frame, Frames};
 use super::leap::Tables;
 use super::recorder::{Recorder, Shot};
 use super::setup::Setup;
+use super::sinks::{Recorded, Sinks};
 use super::tracer::{Tracer, Windowed};
 use super::window::Window;
 
@@ -272,47 +273,5 @@ impl Run<'_> {
         };
         let expected = format!("frame {} never ends: {pin} {held}", self.frames.done());
         Input::new(format!("scenario {}", self.setup.name), expected).field(field).into()
-    }
-}
-
-/// Where a run's pieces go.
-pub(super) struct Sinks<'a> {
-    pub(super) shots: Option<Taker<'a, Shot>>,
-    pub(super) frames: Option<Taker<'a, Frame>>,
-    pub(super) stop: Option<&'a AtomicBool>,
-}
-
-impl Sinks<'_> {
-    pub(super) fn frame(&mut self, frame: &Frame) -> Result<()> {
-        self.frames.as_mut().map_or(Ok(()), |take| take(frame))
-    }
-}
-
-/// A recorder, or none.
-pub(super) trait Recorded: Record {
-    fn look(&mut self, device: &mut Device, p: &Params);
-    fn begin_frame(&mut self, frame: u64);
-    fn pass_on(&mut self, sinks: &mut Sinks) -> Result<()>;
-}
-
-impl Recorded for Off {
-    fn look(&mut self, _: &mut Device, _: &Params) {}
-    fn begin_frame(&mut self, _: u64) {}
-    fn pass_on(&mut self, _: &mut Sinks) -> Result<()> {
-        Ok(())
-    }
-}
-
-impl Recorded for Recorder {
-    fn look(&mut self, device: &mut Device, p: &Params) {
-        let (cycle, now) = device.last_edge();
-        self.edge(cycle, now, &device.top, p);
-    }
-    fn begin_frame(&mut self, frame: u64) {
-        Recorder::begin_frame(self, frame);
-    }
-    fn pass_on(&mut self, sinks: &mut Sinks) -> Result<()> {
-        let take = sinks.shots.as_mut();
-        take.map_or(Ok(()), |take| self.take().try_for_each(|shot| take(&shot)))
     }
 }

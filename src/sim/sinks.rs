@@ -1,0 +1,53 @@
+//! Where the pieces of a run go.
+
+use std::sync::atomic::AtomicBool;
+
+use crate::error::Result;
+use crate::firmware::tof_top::Params;
+
+use super::device::{Device, Off, Record};
+use super::frames::Frame;
+use super::recorder::{Recorder, Shot};
+use super::run::Taker;
+
+/// Takers of shots and frames, and who may stop the run.
+pub(super) struct Sinks<'a> {
+    pub(super) shots: Option<Taker<'a, Shot>>,
+    pub(super) frames: Option<Taker<'a, Frame>>,
+    pub(super) stop: Option<&'a AtomicBool>,
+}
+
+impl Sinks<'_> {
+    pub(super) fn frame(&mut self, frame: &Frame) -> Result<()> {
+        self.frames.as_mut().map_or(Ok(()), |take| take(frame))
+    }
+}
+
+/// A recorder, or none.
+pub(super) trait Recorded: Record {
+    fn look(&mut self, device: &mut Device, p: &Params);
+    fn begin_frame(&mut self, frame: u64);
+    fn pass_on(&mut self, sinks: &mut Sinks) -> Result<()>;
+}
+
+impl Recorded for Off {
+    fn look(&mut self, _: &mut Device, _: &Params) {}
+    fn begin_frame(&mut self, _: u64) {}
+    fn pass_on(&mut self, _: &mut Sinks) -> Result<()> {
+        Ok(())
+    }
+}
+
+impl Recorded for Recorder {
+    fn look(&mut self, device: &mut Device, p: &Params) {
+        let (cycle, now) = device.last_edge();
+        self.edge(cycle, now, &device.top, p);
+    }
+    fn begin_frame(&mut self, frame: u64) {
+        Recorder::begin_frame(self, frame);
+    }
+    fn pass_on(&mut self, sinks: &mut Sinks) -> Result<()> {
+        let take = sinks.shots.as_mut();
+        take.map_or(Ok(()), |take| self.take().try_for_each(|shot| take(&shot)))
+    }
+}
