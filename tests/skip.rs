@@ -1,8 +1,6 @@
 //! What a module or the device skips is what stepping would have given, from every state that random
 //! runs come through.
 
-mod common;
-
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tofsim::firmware::tof_top::{TofTop, Wires};
@@ -14,8 +12,7 @@ use tofsim::scenario::{self, Control};
 use tofsim::sim::Device;
 use tofsim::sim::device::Off;
 use tofsim::sim::frames::Frames;
-use tofsim::sim::leap::{NO_HIT, Outcomes, Tables};
-use tofsim::sim::setup::{CYCLE, Setup};
+use tofsim::sim::setup::Setup;
 
 /// Edges that are tried at most from one state.
 const EDGES: u64 = 40;
@@ -218,84 +215,4 @@ fn an_acquisition_is_the_same_however_it_is_stepped() {
         }
     }
     assert!(acquired > 25_000, "{acquired}");
-}
-
-#[test]
-fn a_leap_lands_where_the_histogram_and_the_counts_are_what_stepping_gives() {
-    for seed in 0..8 {
-        let keys = [
-            format!("firmware.laser_freq={}", seed % 4),
-            "firmware.shots_per_frame=400".to_owned(),
-            format!("target.distance_m={}", [0.02, 0.3, 0.9][seed % 3]),
-            format!("seed={seed}"),
-        ];
-        let setup = Setup::new(scenario::load("kc705", &keys).unwrap()).unwrap();
-        let p = &setup.params;
-        let mut stepped = setup.device();
-        stepped.power_up(&mut Off, &mut Off);
-        while !stepped.top.frame_ctrl.acquire {
-            stepped.step(p, &mut Off, &mut Off);
-        }
-        let (mut leapt, mut tables, mut leaps) = (stepped.clone(), Tables::default(), 0);
-        let mut frames = [Frames::default(), Frames::default()];
-        leapt.acquire::<true>(p, &mut frames[0], u64::MAX, |device, frames| {
-            let before = device.cycle();
-            device.leap_shots(p, &mut tables, frames);
-            leaps += u64::from(device.cycle() > before);
-        });
-        while stepped.cycle() < leapt.cycle() {
-            stepped.step(p, &mut Off, &mut Off);
-            frames[1].count_shot(&stepped.top);
-            frames[1].count_hit(&stepped.top);
-        }
-        assert_eq!(leaps, 1, "from the first shot to the last");
-        assert_eq!(leapt.top.histogram_builder, stepped.top.histogram_builder, "seed {seed}");
-        assert_eq!(leapt.top.frame_ctrl, stepped.top.frame_ctrl);
-        assert_eq!(leapt.top.vcsel_driver, stepped.top.vcsel_driver);
-        assert_eq!(leapt.top.tdc.coarse_counter, stepped.top.tdc.coarse_counter);
-        assert_eq!(frames[0].shots(), 400);
-        assert_eq!(format!("{:?}", frames[0]), format!("{:?}", frames[1]));
-    }
-}
-
-/// A photon for each shot, at every step of the staircase and a femtosecond either side of it; the
-/// last shot, after which no reset of the SPAD follows, has none.
-#[test]
-fn the_staircase_of_outcomes_is_the_firmware_s_to_the_femtosecond() {
-    let folder = tempfile::tempdir().unwrap();
-    for chain in ["uniform", "table6_3", "ideal"] {
-        for (rate, period) in vcsel_driver::PERIODS.into_iter().enumerate() {
-            let profile = format!("tdc.profile={chain}");
-            let plain = common::setup("kc705", &[&profile]);
-            let outcomes = Outcomes::new(&plain.params.tdc, period, CYCLE).unwrap();
-            let steps = outcomes
-                .steps()
-                .iter()
-                .flat_map(|(begin, _)| [begin.fs().saturating_sub(1), begin.fs(), begin.fs() + 1]);
-            let arrivals: Vec<_> = steps.collect();
-            let mut text = "shot,arrival_ps\n".to_owned();
-            for (shot, fs) in arrivals.iter().enumerate() {
-                text += &format!("{shot},{}.{:03}\n", fs / 1000, fs % 1000);
-            }
-            let path = folder.path().join("photons.csv");
-            std::fs::write(&path, text).unwrap();
-            let photons = format!("stimulus.photons={:?}", path.display().to_string());
-            let (freq, shots) = (
-                format!("firmware.laser_freq={rate}"),
-                format!("firmware.shots_per_frame={}", arrivals.len() + 1),
-            );
-            let setup = common::setup("kc705", &[&profile, &photons, &freq, &shots]);
-            let frame = &common::frames(&setup, 1)[0];
-            let (mut histogram, mut tdc_hits) = ([0u16; 256], 0);
-            for fs in &arrivals {
-                let outcome = outcomes.of(Time::from_fs(*fs));
-                if let Some(count) = histogram.get_mut(outcome as usize) {
-                    *count += 1;
-                }
-                tdc_hits += u64::from(outcome != NO_HIT);
-            }
-            assert_eq!(frame.histogram, histogram, "{chain} {rate}");
-            assert_eq!(frame.tdc_hits, tdc_hits, "{chain} {rate}");
-        }
-    }
 }

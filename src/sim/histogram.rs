@@ -10,7 +10,6 @@ use rand_distr::{Binomial, Distribution};
 
 use crate::error::{Input, Result};
 use crate::firmware::estimator_ctrl;
-use crate::firmware::tof_top::{CodeSource, HistogramSource};
 use crate::firmware::vcsel_driver::PERIODS;
 use crate::kernel::Time;
 use crate::network::estimate::estimate;
@@ -72,13 +71,8 @@ impl<'a> Histograms<'a> {
         let Light::Optics(optics) = &setup.light else {
             return Err(refusal("stimulus", "it needs the light of the link budget").into());
         };
-        let measured = matches!(
-            (&setup.params.code_source, &setup.params.histogram_source),
-            (CodeSource::Tdc, HistogramSource::Builder)
-        );
         let rate = firmware.laser_freq as usize;
-        let outcomes = Outcomes::new(&setup.params.tdc, PERIODS[rate], CYCLE);
-        let Some(outcomes) = outcomes.filter(|_| measured) else {
+        let Some(outcomes) = Outcomes::new(&setup.params.tdc, PERIODS[rate], CYCLE) else {
             let why = "the chain is so long that a shot reaches into the next one";
             let refused = refusal("tdc.profile", why).value(&setup.scenario.tdc.profile);
             return Err(refused.into());

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use crate::firmware::estimator_ctrl;
 use crate::firmware::histogram_builder::BINS;
-use crate::firmware::tof_top::{CodeSource, HistogramSource, Params};
+use crate::firmware::tof_top::Params;
 use crate::firmware::vcsel_driver::PERIODS;
 use crate::sensor::light::Light;
 
@@ -29,7 +29,8 @@ pub struct Tables {
 }
 
 impl Tables {
-    /// The outcomes at a laser rate; `None` where shots are not independent.
+    /// The outcomes at a laser rate; `None` where shots are not independent, or where something else
+    /// than the light of optics, which the TDC measures, decides.
     fn find(&mut self, rate: usize, lit: bool, p: &Params, light: &Light) -> Option<Arc<Draws>> {
         let Light::Optics(optics) = light else { return None };
         let make = || {
@@ -47,7 +48,7 @@ impl Device {
     /// Leaps over as many shots as may be, but for the frame's last; the cycle of a laser edge has
     /// just been simulated. Does nothing where a shot is more than its first avalanche.
     pub fn leap_shots(&mut self, p: &Params, tables: &mut Tables, frames: &mut Frames) {
-        let Some((rate, lit)) = self.independent_shot(p) else { return };
+        let Some((rate, lit)) = self.independent_shot() else { return };
         let Some(draws) = tables.find(rate, lit, p, &self.light) else { return };
         let Light::Optics(optics) = &mut self.light else { return };
         let period = PERIODS[rate];
@@ -75,16 +76,11 @@ impl Device {
 
     /// The laser rate of the shot that has just begun and whether the laser fires in those after it,
     /// if the first avalanche of each is all that decides, as long as no control signal changes.
-    fn independent_shot(&self, p: &Params) -> Option<(usize, bool)> {
+    fn independent_shot(&self) -> Option<(usize, bool)> {
         let (top, now) = (&self.top, self.pll.clk_125.rise(self.cycle - 1));
-        let measured = matches!(
-            (&p.code_source, &p.histogram_source),
-            (CodeSource::Tdc, HistogramSource::Builder)
-        );
         let rate = top.control_sync.laser_freq_sync.index();
         let lit = top.control_sync.laser_en_sync;
-        let independent = measured
-            && self.steady_period() == Some(CYCLE)
+        let independent = self.steady_period() == Some(CYCLE)
             && top.vcsel_driver.registers.begins_shot(rate, lit)
             && !self.spad.is_passive()
             && self.spad.is_armed()
