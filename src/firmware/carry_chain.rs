@@ -39,6 +39,8 @@ pub struct Delays {
     arrivals: Vec<Time>,
     /// Physical tap at each place of that order.
     order: Vec<u16>,
+    /// Age at which a transition has reached every tap.
+    longest: Time,
     /// When the transition leaves the last tap.
     end: Time,
     /// For each [`CELL`] of age, how many taps are reached at its begin.
@@ -71,6 +73,7 @@ impl Delays {
         let begins = cells.map(|cell| Time::from_fs(cell << CELL));
         Some(Delays {
             guide: begins.map(|age| arrivals.partition_point(|&at| at < age) as u16).collect(),
+            longest: arrivals[TAPS - 1],
             arrivals,
             order: reached.iter().map(|&(_, tap)| tap).collect(),
             end: Time::from_fs(end as u64),
@@ -80,9 +83,17 @@ impl Delays {
     /// How many taps a transition of that age has reached.
     #[inline]
     pub fn rank(&self, age: Time) -> usize {
-        let Some(&before) = self.guide.get((age.fs() >> CELL) as usize) else { return TAPS };
-        let rest = self.arrivals[before as usize..].iter();
-        before as usize + rest.take_while(|&&arrival| arrival <= age).count()
+        if age >= self.longest { TAPS } else { self.rank_inside(age) }
+    }
+
+    /// The same for a transition that has not reached every tap.
+    #[inline(always)]
+    fn rank_inside(&self, age: Time) -> usize {
+        let mut rank = self.guide[(age.fs() >> CELL) as usize] as usize;
+        while self.arrivals[rank] <= age {
+            rank += 1;
+        }
+        rank
     }
 
     /// When each tap is reached, in order of arrival, from the transition of `tdc_stop`.
@@ -97,7 +108,7 @@ impl Delays {
 
     /// Age at which a transition has reached every tap.
     pub fn longest(&self) -> Time {
-        self.arrivals[TAPS - 1]
+        self.longest
     }
 
     /// Age at which a transition reaches physical tap 0, where hits are detected.
@@ -194,24 +205,19 @@ impl StopLine {
     /// The taps at a clock edge; forgets transitions that have left the chain.
     #[inline(always)]
     pub fn sample(&mut self, now: Time, delays: &Delays) -> Taps {
-        if self.travelling == 0 {
-            return Taps::settled(self.level);
+        while self.travelling > 0 && now - self.at(self.travelling - 1) >= delays.longest {
+            self.travelling -= 1;
         }
-        self.sample_travelling(now, delays)
+        match self.travelling {
+            0 => Taps::settled(self.level),
+            1 => Taps::single(self.level, delays.rank_inside(now - self.at(0))),
+            _ => self.sample_travelling(now, delays),
+        }
     }
 
-    #[inline(always)]
-    fn sample_travelling(&mut self, now: Time, delays: &Delays) -> Taps {
-        let mut taps = Taps::settled(self.level);
-        for nth in 0..self.travelling {
-            let rank = delays.rank(now - self.at(nth));
-            if rank == TAPS {
-                self.travelling = nth;
-                break;
-            }
-            taps.push(rank);
-        }
-        taps
+    fn sample_travelling(&self, now: Time, delays: &Delays) -> Taps {
+        let ages = (0..self.travelling).map(|nth| now - self.at(nth));
+        Taps::new(self.level, ages.map(|age| delays.rank_inside(age)))
     }
 }
 

@@ -3,7 +3,7 @@
 //! Mirrors `rtl_ref/coarse_counter.v`. `start` is high in cycle s of the laser edge; `coarse` is 0
 //! in cycle s + 1, in step with the taps sampled at that edge.
 
-use crate::kernel::{ASLEEP, AWAKE, Clocked, U};
+use crate::kernel::{Clocked, U, asleep_if};
 use crate::signals;
 
 signals! {
@@ -51,20 +51,18 @@ impl Clocked for CoarseCounter {
         if i.rst { Self::default() } else { d }
     }
 
-    /// Nobody looks at `coarse` but at a hit.
+    /// Nobody looks at the count and its end but at a hit.
     #[inline(always)]
     fn quiet(&self, i: &In, (): &()) -> u64 {
-        match (i.start || i.rst, self.window) {
-            (true, _) => AWAKE,
-            (false, true) => U::<3>::MAX.get() - self.coarse.get(),
-            (false, false) => ASLEEP,
-        }
+        asleep_if(!(i.start || i.rst))
     }
 
     #[inline(always)]
     fn skip(&mut self, _: &In, edges: u64) {
         if self.window {
-            self.coarse = self.coarse + edges;
+            let left = U::<3>::MAX.get() - self.coarse.get();
+            self.coarse = self.coarse + edges.min(left);
+            self.window = edges <= left;
         }
     }
 }

@@ -8,7 +8,7 @@
 //! edge             e            e+1        e+2, e+3
 //! ```
 
-use crate::kernel::{Clocked, Time, asleep_if};
+use crate::kernel::{AWAKE, Clocked, Time};
 use crate::{connect, signals};
 
 use super::carry_chain::{self, CarryChain, Delays, StopLine};
@@ -87,25 +87,20 @@ connect! {
 
 impl Tdc {
     /// The rising edge of `clk_125` at `now`. The last block goes first, so that each reads what the
-    /// one before it was, and one that no edge would change is left alone. Returns whether any but
-    /// the coarse counter was not.
+    /// one before it was, and one that no edge would change is left alone.
     #[inline(always)]
-    pub fn rise(&mut self, i: &In, p: &Params, line: &mut StopLine, now: Time) -> bool {
-        let decodes = i.rst | self.tdc_latch.hit | !self.tdc_decoder.is_idle();
-        if decodes {
+    pub fn rise(&mut self, i: &In, p: &Params, line: &mut StopLine, now: Time) {
+        if i.rst | self.tdc_latch.hit | !self.tdc_decoder.is_idle() {
             self.tdc_decoder = self.tdc_decoder.next(&Wires::tdc_decoder(self, i), &p.cal);
         }
         let taps = &self.carry_chain.taps;
-        let latches = i.rst | !self.tdc_latch.is_idle(taps, i.start, p.tap_0);
-        if latches {
+        if i.rst | !self.tdc_latch.is_idle(taps, i.start, p.tap_0) {
             self.tdc_latch = self.tdc_latch.next(&Wires::tdc_latch(self, i), &p.tap_0);
         }
         self.coarse_counter = self.coarse_counter.next(&Wires::coarse_counter(self, i), &());
-        let samples = !line.is_shown_by(&self.carry_chain.taps);
-        if samples {
+        if !line.is_shown_by(&self.carry_chain.taps) {
             self.carry_chain = CarryChain { taps: line.sample(now, &p.delays) };
         }
-        decodes | latches | samples
     }
 
     /// In the cycle of a laser edge, after shots of which nothing is left in the chain.
@@ -116,8 +111,10 @@ impl Tdc {
     /// Coming edges at which, while the inputs hold, nothing would move but the coarse count.
     #[inline(always)]
     pub fn quiet(&self, i: &In, p: &Params, line: &StopLine) -> u64 {
-        asleep_if(line.is_shown_by(&self.carry_chain.taps))
-            .min(self.tdc_latch.quiet(&Wires::tdc_latch(self, i), &p.tap_0))
+        if !line.is_shown_by(&self.carry_chain.taps) {
+            return AWAKE;
+        }
+        (self.tdc_latch.quiet(&Wires::tdc_latch(self, i), &p.tap_0))
             .min(self.tdc_decoder.quiet(&Wires::tdc_decoder(self, i), &p.cal))
             .min(self.coarse_counter.quiet(&Wires::coarse_counter(self, i), &()))
     }

@@ -190,7 +190,7 @@ impl TofTop {
         self.drive_laser();
     }
 
-    /// The TDC or its stand-in; returns whether it may have changed.
+    /// The TDC or its stand-in.
     #[inline(always)]
     fn convert(
         &mut self,
@@ -199,12 +199,11 @@ impl TofTop {
         code_preload: &code_preload::In,
         line: &mut StopLine,
         now: Time,
-    ) -> bool {
+    ) {
         match &p.code_source {
             CodeSource::Tdc => self.tdc.rise(tdc, &p.tdc, line, now),
             CodeSource::Preload(rom) => {
                 self.code_preload = self.code_preload.next(code_preload, rom);
-                true
             }
         }
     }

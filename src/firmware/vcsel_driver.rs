@@ -111,11 +111,12 @@ impl Clocked for Registers {
     #[inline(always)]
     fn next(&self, i: &In, (): &()) -> Self {
         let (q, mut d) = (self, *self);
-        d.pre_start = i.acquire && q.count + 2 == q.last;
-        d.fire = i.acquire && q.enable && q.count + 1 == q.last;
-        d.start = i.acquire && q.count == q.last;
+        let left = q.last - q.count.get();
+        d.pre_start = i.acquire && left == 2;
+        d.fire = i.acquire && q.enable && left == 1;
+        d.start = i.acquire && left == 0;
         d.count = q.count + 1;
-        if !i.acquire || q.count == q.last {
+        if !i.acquire || left == 0 {
             d.count = U::new(0);
             d.last = U::new(PERIODS[i.laser_freq.index()] - 1);
             d.enable = i.laser_en;
@@ -191,7 +192,10 @@ impl VcselDriver {
     /// here and at the edges of `clk_250` between them.
     #[inline(always)]
     pub fn quiet(&self, i: &In) -> u64 {
-        if self.is_pulse_near() { AWAKE } else { self.registers.quiet(i, &()) }
+        match self.registers.quiet(i, &()) {
+            edges if edges != AWAKE && !self.is_pulse_near() => edges,
+            _ => AWAKE,
+        }
     }
 
     /// Whether the coming edges of `clk_250`, up to the next one of `clk_125`, make or end a pulse.

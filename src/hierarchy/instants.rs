@@ -135,6 +135,15 @@ mod tests {
             }
             assert!(self.followed == every, "at {now}");
         }
+
+        fn tick(&mut self, now: Time, top: &TofTop) {
+            let mut every = Values(vec![0; IDS]);
+            changes(top, None, &mut every);
+            let others = Clocks::COUNT..;
+            let still = every.0[others.clone()] == self.followed.0[others];
+            assert!(still || !self.begun, "more than clocks at {now}");
+            self.sample(now, top);
+        }
     }
 
     #[test]

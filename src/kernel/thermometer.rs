@@ -42,6 +42,16 @@ impl<const N: usize> Thermometer<N> {
         taps
     }
 
+    /// The taps when the line's input is now at `level` and its last transition has reached `rank`
+    /// of them, fewer than `N`, and the ones before all.
+    #[inline(always)]
+    pub const fn single(level: bool, rank: usize) -> Self {
+        match rank {
+            0 => Self::settled(!level),
+            _ => Thermometer { ranks: rank as u128, shape: 2 + level as u16 },
+        }
+    }
+
     /// Adds an older transition than those inside, which has reached `rank` taps, fewer than `N`.
     #[inline(always)]
     pub fn push(&mut self, rank: usize) {

@@ -42,33 +42,32 @@ impl Device {
                 self.detect(&mut Off);
                 converter_wakes = self.cycle;
             }
-            let quiet = emitter_wakes.min(converter_wakes).saturating_sub(self.cycle);
-            if quiet != AWAKE {
-                let cycles = if SKIP { quiet.min(limit - self.cycle) } else { 1 };
-                now += Time::from_fs(self.skip(cycles, now, period) * period.fs());
-                continue;
-            }
-            if converter_wakes > self.cycle {
-                self.top.skip_converter(1);
-            } else if self.top.convert_acquiring(p, &mut self.line, now) {
+            let emits = emitter_wakes <= self.cycle;
+            if converter_wakes <= self.cycle {
+                self.top.convert_acquiring(p, &mut self.line, now);
                 frames.count_hit(&self.top);
-            } else {
                 let quiet = self.top.converter_quiet(p, &self.line);
                 converter_wakes = (self.cycle + 1).saturating_add(quiet);
-            }
-            if emitter_wakes > self.cycle {
-                self.top.skip_emitter(1);
+            } else if SKIP && !emits {
+                let quiet = limit.min(emitter_wakes).min(converter_wakes) - self.cycle;
+                now += Time::from_fs(self.skip(quiet, now, period) * period.fs());
+                continue;
             } else {
-                self.top.emit_acquiring(p);
-                self.react(now);
-                self.top.rest_acquiring();
-                let quiet = self.top.emitter_quiet();
-                emitter_wakes = (self.cycle + 1).saturating_add(quiet);
-                if self.top.rouses_converter(&self.line) {
-                    converter_wakes = self.cycle;
-                }
+                self.top.skip_converter(1);
             }
             self.cycle += 1;
+            if !emits {
+                self.top.skip_emitter(1);
+                now += period;
+                continue;
+            }
+            self.top.emit_acquiring(p);
+            self.react_acquiring(now);
+            self.top.rest_acquiring();
+            emitter_wakes = self.cycle.saturating_add(self.top.emitter_quiet());
+            if self.top.rouses_converter(&self.line) {
+                converter_wakes = self.cycle;
+            }
             now += period;
             if self.top.vcsel_driver.registers.start {
                 frames.count_shot(&self.top);

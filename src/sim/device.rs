@@ -128,15 +128,20 @@ impl Device {
         let quarter = self.pll.clk_250.fall(0) - self.pll.clk_250.rise(0);
         self.fall_250(now + quarter, trace, record);
         self.before_edge(Edge::Middle, middle, trace, record);
-        self.settle(middle, trace, record);
-        if acquires && middle < self.acquires_until {
-            self.top.rise_250_acquiring();
+        let unseen = self.settle(middle, trace, record);
+        let moved = if acquires && middle < self.acquires_until {
+            self.top.rise_250_acquiring()
         } else {
             self.top.rise_250();
-        }
+            true
+        };
         if T::ON {
             self.clocks(false, true);
-            trace.sample(middle, &self.top);
+            if moved || unseen {
+                trace.sample(middle, &self.top);
+            } else {
+                trace.tick(middle, &self.top);
+            }
         }
         self.fall_250(middle + quarter, trace, record);
         self.cycle += 1;
@@ -267,17 +272,24 @@ impl Device {
 
     /// What the detector and the light do about the signals that the edge at `now` changed.
     #[inline(always)]
-    pub(super) fn react(&mut self, now: Time) {
+    fn react(&mut self, now: Time) {
+        let passive = self.top.control_sync.mode_sync;
+        if passive != self.spad.is_passive() {
+            self.spad.set_passive(passive, now);
+        }
+        self.react_acquiring(now);
+    }
+
+    /// The same while the quench mode holds.
+    #[inline(always)]
+    pub(super) fn react_acquiring(&mut self, now: Time) {
         let (start, laser) = (self.top.vcsel_driver.registers.start, self.top.nets.laser_on);
-        let (hold, passive) = (self.top.spad_control.spad_rst, self.top.control_sync.mode_sync);
+        let hold = self.top.spad_control.spad_rst;
         if start || laser {
             self.light.begin_shot(now, laser);
             if self.spad.is_armed() {
                 self.spad.arm(self.light.next_avalanche(now));
             }
-        }
-        if passive != self.spad.is_passive() {
-            self.spad.set_passive(passive, now);
         }
         if hold && !self.spad.is_off() && self.spad.hold() {
             self.toggle_stop(now);

@@ -1,6 +1,6 @@
 //! Writes the waveform while a window is open.
 
-use crate::error::{Error, Input, Result};
+use crate::error::{Input, Result};
 use crate::firmware::tof_top::{Params, TofTop};
 use crate::kernel::Time;
 use crate::waves::{Marks, Waves};
@@ -38,21 +38,30 @@ pub(super) struct Tracer {
     waves: Waves,
     windows: Vec<Window>,
     state: State,
-    error: Option<Error>,
     marks: Marks,
     /// Shot under way, from three cycles before its laser edge.
     shot: Option<u64>,
     began: Option<Time>,
     /// Windows that the cycle under way belongs to; the viewer first shows what one of them has.
     wanting: usize,
+    /// Until then that number holds, whatever the device does.
+    wanting_until: Time,
 }
 
 impl Tracer {
     /// For a waveform and its windows.
     pub(super) fn new(waves: Waves, windows: Vec<Window>) -> Self {
         let (marks, shot, began) = (Marks::default(), None, None);
-        let (state, error) = (State::Waiting, None);
-        Tracer { waves, windows, state, error, marks, shot, began, wanting: 0 }
+        Tracer {
+            waves,
+            windows,
+            state: State::Waiting,
+            marks,
+            shot,
+            began,
+            wanting: 0,
+            wanting_until: Time::ZERO,
+        }
     }
 
     /// Whether a window begins before the first clock edge.
@@ -65,22 +74,15 @@ impl Tracer {
     /// Opens a window.
     pub(super) fn begin(&mut self, now: Time, top: &TofTop) {
         self.state = State::Writing;
-        let result = self.waves.begin(now, top);
-        self.keep(result);
+        self.waves.begin(now, top);
         self.began.get_or_insert(now);
     }
 
-    fn close(&mut self, now: Time) -> Result<()> {
+    fn close(&mut self, now: Time) {
         if self.marks.to == Time::ZERO {
             self.marks.to = now;
         }
-        self.waves.end(now)
-    }
-
-    fn keep(&mut self, result: Result<()>) {
-        if let Err(error) = result {
-            self.error.get_or_insert(error);
-        }
+        self.waves.end(now);
     }
 
     fn mark(&mut self, now: Time, top: &TofTop) {
@@ -107,15 +109,13 @@ impl Tracer {
 
     /// Puts the waveform in place; `end` and `shots` are the run's.
     pub(super) fn finish(mut self, end: Time, shots: u64) -> Result<Marks> {
-        if let Some(error) = self.error {
-            return Err(error);
-        }
+        self.waves.check()?;
         for window in &self.windows {
             let fault = |expected| Input::new("--window", expected).value(window);
             window.check(shots, end).map_err(fault)?;
         }
         if self.state == State::Writing {
-            self.close(end)?;
+            self.close(end);
         }
         self.marks.from = self.began.unwrap_or_default();
         self.waves.finish(end)?;
@@ -129,10 +129,7 @@ impl Trace for Tracer {
     fn sample(&mut self, now: Time, top: &TofTop) {
         match self.state {
             State::Opening if top.clocks.clk_125 => self.begin(now, top),
-            State::Writing => {
-                let result = self.waves.sample(now, top);
-                self.keep(result);
-            }
+            State::Writing => self.waves.sample(now, top),
             State::Opening | State::Waiting => return,
         }
         self.mark(now, top);
@@ -141,19 +138,19 @@ impl Trace for Tracer {
     #[inline]
     fn tick(&mut self, now: Time, top: &TofTop) {
         if self.state == State::Writing {
-            let result = self.waves.tick(now, top);
-            self.keep(result);
+            self.waves.tick(now, top);
         }
     }
 }
 
 impl Windowed for Tracer {
     fn is_wanted(&mut self, device: &mut Device, frames: &Frames, p: &Params) -> Result<bool> {
-        if self.error.is_some() {
-            return self.error.take().map_or(Ok(false), Err);
+        self.waves.check()?;
+        let cycle = device.coming_cycle();
+        if cycle.1 <= self.wanting_until {
+            return Ok(self.wanting > 0);
         }
         self.follow_shot(device, frames);
-        let cycle = device.coming_cycle();
         let estimating = device.top.frame_ctrl.is_estimating(&p.frame_ctrl);
         let moment = Moment { cycle, shot: self.shot, estimating };
         let wanting = self.windows.iter().filter(|window| window.wants(&moment)).count();
@@ -163,6 +160,8 @@ impl Windowed for Tracer {
             self.marks.to = cycle.0;
         }
         self.wanting = wanting;
+        let held = self.windows.iter().map(|window| window.holds_until(cycle.0));
+        self.wanting_until = held.min().unwrap_or(Time::ZERO);
         match (self.state, wanted) {
             (State::Waiting, true) => {
                 self.state = State::Opening;
@@ -170,7 +169,7 @@ impl Windowed for Tracer {
             }
             (State::Writing, false) => {
                 self.state = State::Waiting;
-                self.close(cycle.0)?;
+                self.close(cycle.0);
             }
             _ => {}
         }

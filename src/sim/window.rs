@@ -54,6 +54,17 @@ impl Window {
         }
     }
 
+    /// A time that no cycle ends after, of those from `now` on, before [`Window::wants`] can
+    /// answer another thing than for the cycle at `now`, whatever the device does.
+    pub fn holds_until(&self, now: Time) -> Time {
+        match *self {
+            Window::Span { from, to } => {
+                [from, to].into_iter().find(|&at| now < at).unwrap_or(Time::NEVER)
+            }
+            Window::Shots { .. } | Window::Estimation => Time::ZERO,
+        }
+    }
+
     /// That a run of so many shots and that end reaches the window's end; if not, why.
     pub fn check(&self, shots: u64, end: Time) -> Result<(), String> {
         match *self {
@@ -148,5 +159,20 @@ mod tests {
             window.wants(&Moment { cycle, shot: None, estimating: false })
         };
         assert!(!wants(0, 8) && wants(8, 16) && wants(16, 24) && !wants(24, 32));
+    }
+
+    #[test]
+    fn an_answer_holds_for_every_cycle_that_ends_before_the_next_bound_of_a_span() {
+        let window: Window = "13ns..40ns".parse().unwrap();
+        let cycle = |nth: u64| (Time::from_ns(8 * nth), Time::from_ns(8 * nth + 8));
+        let wants =
+            |nth| window.wants(&Moment { cycle: cycle(nth), shot: None, estimating: false });
+        let held_to = [Some(0), None, Some(4), Some(4), Some(4), Some(8), Some(8), Some(8)];
+        for (first, expected) in (0..).zip(held_to) {
+            let until = window.holds_until(cycle(first).0);
+            let held: Vec<_> = (first..9).take_while(|&nth| cycle(nth).1 <= until).collect();
+            assert!(held.iter().all(|&nth| wants(nth) == wants(first)), "from cycle {first}");
+            assert_eq!(held.last().copied(), expected, "from cycle {first}");
+        }
     }
 }

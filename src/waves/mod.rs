@@ -67,8 +67,8 @@ pub struct Waves {
     shown: Box<Instants>,
     /// Time of the last call [ps].
     last: u64,
-    /// The first error of writing, for calls after it.
-    failed: Option<(io::ErrorKind, String)>,
+    /// The first error of writing.
+    failed: Option<io::Error>,
 }
 
 enum Writer {
@@ -131,7 +131,9 @@ impl Waves {
     }
 
     /// A window begins: every signal is shown as it is now. Within a window, only what has changed.
-    pub fn begin(&mut self, now: Time, top: &TofTop) -> Result<()> {
+    ///
+    /// An error of writing, here and in the calls below, is kept for [`Waves::check`].
+    pub fn begin(&mut self, now: Time, top: &TofTop) {
         let at = self.at(now);
         match self.state {
             State::Open => return self.sample(now, top),
@@ -139,8 +141,8 @@ impl Waves {
                 self.state = State::Open;
                 return self.sample(now, top);
             }
-            State::Ended(end) => self.close(end)?,
-            State::Blank if at > 0 => self.unknown(0, Step::Start)?,
+            State::Ended(end) => self.unknown(end, Step::Close),
+            State::Blank if at > 0 => self.unknown(0, Step::Start),
             State::Blank => {}
         }
         let step = if at > 0 { Step::Open } else { Step::Start };
@@ -149,15 +151,15 @@ impl Waves {
             Writer::Vcd(file) => file.step(at, step, |file| self.shown.show(top, file)),
             Writer::Fst(file) => file.step(at, step, |file| self.shown.show(top, file)),
         };
-        self.checked(result)
+        self.keep(result);
     }
 
     /// Shows what has changed since the last call; outside windows nothing. Within a window this
     /// has to be called at every edge of `clk_250` and at every change between them.
     #[inline]
-    pub fn sample(&mut self, now: Time, top: &TofTop) -> Result<()> {
+    pub fn sample(&mut self, now: Time, top: &TofTop) {
         if self.state != State::Open {
-            return Ok(());
+            return;
         }
         let at = self.at(now);
         let (shown, step) = (&mut self.shown, Step::Change);
@@ -165,14 +167,14 @@ impl Waves {
             Writer::Vcd(file) => file.step(at, step, |file| shown.follow(top, file)),
             Writer::Fst(file) => file.step(at, step, |file| shown.follow(top, file)),
         };
-        if result.is_ok() && self.failed.is_none() { Ok(()) } else { self.checked(result) }
+        self.keep(result);
     }
 
     /// The same where only levels of clocks have changed.
     #[inline]
-    pub fn tick(&mut self, now: Time, top: &TofTop) -> Result<()> {
+    pub fn tick(&mut self, now: Time, top: &TofTop) {
         if self.state != State::Open {
-            return Ok(());
+            return;
         }
         let at = self.at(now);
         let (shown, step) = (&mut self.shown, Step::Change);
@@ -180,43 +182,47 @@ impl Waves {
             Writer::Vcd(file) => file.step(at, step, |file| shown.tick(top, file)),
             Writer::Fst(file) => file.step(at, step, |file| shown.tick(top, file)),
         };
-        if result.is_ok() && self.failed.is_none() { Ok(()) } else { self.checked(result) }
+        self.keep(result);
     }
 
     /// A window ends: from now on every signal is unknown.
-    pub fn end(&mut self, now: Time) -> Result<()> {
+    pub fn end(&mut self, now: Time) {
         let at = self.at(now);
         if self.state == State::Open {
             self.state = State::Ended(at);
         }
-        Ok(())
+    }
+
+    /// The first error of writing so far.
+    #[inline]
+    pub fn check(&self) -> Result<()> {
+        match &self.failed {
+            None => Ok(()),
+            Some(error) => Err(self.fault(error)),
+        }
     }
 
     /// The run has ended: puts the file in place.
     pub fn finish(mut self, end: Time) -> Result<()> {
         let at = self.at(end);
         match self.state {
-            State::Blank => self.unknown(0, Step::Start)?,
-            State::Ended(end) if end < at => self.close(end)?,
+            State::Blank => self.unknown(0, Step::Start),
+            State::Ended(end) if end < at => self.unknown(end, Step::Close),
             State::Ended(_) | State::Open => {}
         }
-        self.checked(Ok(()))?;
+        self.check()?;
         match self.writer {
             Writer::Vcd(file) => file.finish(at),
             Writer::Fst(file) => file.finish(at),
         }
     }
 
-    fn close(&mut self, at: u64) -> Result<()> {
-        self.unknown(at, Step::Close)
-    }
-
-    fn unknown(&mut self, at: u64, step: Step) -> Result<()> {
+    fn unknown(&mut self, at: u64, step: Step) {
         let result = match &mut self.writer {
             Writer::Vcd(file) => file.step(at, step, Body::unknown),
             Writer::Fst(file) => file.step(at, step, Body::unknown),
         };
-        self.checked(result)
+        self.keep(result);
     }
 
     /// Time as the file has it, which never goes back [ps].
@@ -225,20 +231,19 @@ impl Waves {
         self.last
     }
 
-    /// Keeps the first error of writing and returns it, now and later.
-    #[cold]
-    fn checked(&mut self, result: io::Result<()>) -> Result<()> {
-        if let (Err(error), None) = (&result, &self.failed) {
-            self.failed = Some((error.kind(), error.to_string()));
+    #[inline(always)]
+    fn keep(&mut self, result: io::Result<()>) {
+        if let Err(error) = result {
+            self.failed.get_or_insert(error);
         }
-        let source = match (result, &self.failed) {
-            (Ok(()), None) => return Ok(()),
-            (Err(error), _) => error,
-            (Ok(()), Some((kind, text))) => io::Error::new(*kind, text.clone()),
-        };
-        Err(match &self.writer {
+    }
+
+    #[cold]
+    fn fault(&self, error: &io::Error) -> Error {
+        let source = io::Error::new(error.kind(), error.to_string());
+        match &self.writer {
             Writer::Vcd(file) => file.fault(source),
             Writer::Fst(file) => file.fault(source),
-        })
+        }
     }
 }

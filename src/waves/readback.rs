@@ -35,8 +35,8 @@ pub(super) fn record(directory: &Path, windows: bool, params: Params) -> Vec<Pat
     for (part, cycles) in parts.into_iter().enumerate() {
         for waves in &mut waves {
             match part % 2 {
-                0 => waves.end(bench.now()).unwrap(),
-                _ => waves.begin(bench.now(), &bench.top).unwrap(),
+                0 => waves.end(bench.now()),
+                _ => waves.begin(bench.now(), &bench.top),
             }
         }
         bench.run(cycles, &mut waves);

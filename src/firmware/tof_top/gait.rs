@@ -25,11 +25,10 @@ impl TofTop {
     /// Coming cycles in which nothing of the emitter would move but the laser's count.
     #[inline(always)]
     pub fn emitter_quiet(&self) -> u64 {
-        let vcsel_driver = self.vcsel_driver.quiet(&self.laser_inputs());
-        if vcsel_driver == AWAKE {
-            return AWAKE;
+        match self.vcsel_driver.quiet(&self.laser_inputs()) {
+            AWAKE => AWAKE,
+            edges => edges.min(self.spad_control.quiet(&self.spad_inputs(), &())),
         }
-        vcsel_driver.min(self.spad_control.quiet(&self.spad_inputs(), &()))
     }
 
     /// Coming cycles in which nothing of the converter would move but the coarse count, while
@@ -52,17 +51,13 @@ impl TofTop {
     }
 
     /// The converter's part of an edge at which both clocks rise, while the top only acquires.
-    /// Returns whether more of it than a counter may have changed.
     #[inline(always)]
-    pub fn convert_acquiring(&mut self, p: &Params, line: &mut StopLine, now: Time) -> bool {
+    pub fn convert_acquiring(&mut self, p: &Params, line: &mut StopLine, now: Time) {
         let (clear, read_en) = (false, false);
         let histogram = Wires::histogram_builder(self);
         self.histogram_builder.tick(&histogram_builder::In { clear, read_en, ..histogram });
-        let awake = self.convert(p, &self.tdc_inputs(), &self.preload_inputs(), line, now);
-        if awake {
-            self.take_code(p);
-        }
-        awake
+        self.convert(p, &self.tdc_inputs(), &self.preload_inputs(), line, now);
+        self.take_code(p);
     }
 
     /// The emitter's part of the same.
@@ -75,20 +70,20 @@ impl TofTop {
             self.frame_ctrl = self.frame_ctrl.next(&i, &p.frame_ctrl);
         }
         self.spad_control = self.spad_control.next(&self.spad_inputs(), &());
-        let pulse = self.vcsel_driver.is_pulse_near();
-        self.vcsel_driver.rise(&laser);
-        if pulse {
-            self.drive_laser();
-        }
+        self.rise_250_acquiring();
+        self.vcsel_driver.registers = self.vcsel_driver.registers.next(&laser, &());
     }
 
-    /// An edge at which only `clk_250` rises, while the top only acquires.
+    /// An edge at which only `clk_250` rises, or the part of it where both do, while the top only
+    /// acquires. Returns whether it may have changed anything.
     #[inline(always)]
-    pub fn rise_250_acquiring(&mut self) {
-        if self.vcsel_driver.is_pulse_near() {
+    pub fn rise_250_acquiring(&mut self) -> bool {
+        let pulse = self.vcsel_driver.is_pulse_near();
+        if pulse {
             self.vcsel_driver.rise_250(&self.laser_inputs());
             self.drive_laser();
         }
+        pulse
     }
 
     /// The rest of the emitter's cycle: `clk_250` falls, rises and falls.
