@@ -47,7 +47,7 @@ macro_rules! groups {
             $(
                 if Instant::$instant as u8 <= INSTANT && groups & _group != 0 {
                     let (now, then) = (&top.$root $(.$field)*, &mut kept.$root $(.$field)*);
-                    if INSTANT == Instant::Tick as u8 || then != now {
+                    if then != now {
                         now.changes(Some(&*then), _id, sink);
                         *then = *now;
                     }
@@ -65,7 +65,7 @@ macro_rules! groups {
 }
 
 groups! {
-    Tick "" => clocks: crate::firmware::tof_top::Clocks;
+    Between "" => clocks: crate::firmware::tof_top::Clocks;
     Between "" => pins: crate::firmware::tof_top::Pins;
     Fall250 "" => nets: crate::firmware::tof_top::Nets;
     Between "pll" => pll: crate::firmware::pll::Out;

@@ -11,8 +11,6 @@ use super::{Part, follow};
 /// An instant, by what may change at it: with each, all that may change with those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Instant {
-    /// Levels of clocks change, and nothing with them.
-    Tick,
     /// No edge of the PLL's clocks: pins, the lock.
     Between,
     /// `clk_250` falls: the DDR output register, and what it drives.
@@ -82,12 +80,18 @@ impl Instants {
         }
     }
 
-    /// The same where only levels of clocks may have changed.
-    #[inline]
+    /// The same where only levels of clocks, the first of all ids, may have changed.
+    #[inline(always)]
     pub fn tick(&mut self, top: &TofTop, sink: &mut impl Sink) {
         self.clk_250 = top.clocks.clk_250;
         if let Some(kept) = &mut self.part.kept {
-            follow::<{ Instant::Tick as u8 }>(top, self.part.groups, kept, sink);
+            let (now, then) = (top.clocks.levels(), kept.clocks.levels());
+            for (id, (now, then)) in now.into_iter().zip(then).enumerate() {
+                if now != then {
+                    sink.word(id, u64::from(now));
+                }
+            }
+            kept.clocks = top.clocks;
         }
     }
 }

@@ -226,6 +226,7 @@ impl Waves {
     }
 
     /// Time as the file has it, which never goes back [ps].
+    #[inline(always)]
     fn at(&mut self, now: Time) -> u64 {
         self.last = now.ps().max(self.last);
         self.last
@@ -234,8 +235,14 @@ impl Waves {
     #[inline(always)]
     fn keep(&mut self, result: io::Result<()>) {
         if let Err(error) = result {
-            self.failed.get_or_insert(error);
+            self.fail(error);
         }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn fail(&mut self, error: io::Error) {
+        self.failed.get_or_insert(error);
     }
 
     #[cold]

@@ -28,10 +28,10 @@ pub(super) struct Vcd {
     /// What is not in the file yet.
     text: Text,
     /// By id; what is not selected has width 0 and an empty tail.
-    signals: Vec<Signal>,
+    signals: Box<[Signal; IDS]>,
     taps: TapDigits,
-    /// Last time written, if any [ps].
-    stamped: Option<u64>,
+    /// Last time written; at first one that never comes [ps].
+    stamped: u64,
 }
 
 #[derive(Clone, Copy, Default)]
@@ -50,19 +50,19 @@ impl Vcd {
         order: &[u16],
         provenance: &[String],
     ) -> Result<Self> {
-        let mut signals = vec![Signal::default(); IDS];
+        let mut signals = Box::new([Signal::default(); IDS]);
         let mut file = OutputFile::create(path)?;
         let date = date::fixed()?;
-        header(&mut file, entries, &mut signals, provenance, date)
+        header(&mut file, entries, &mut signals[..], provenance, date)
             .map_err(|error| file.fault(error))?;
         let longest = signals.iter().map(|signal| 1 + signal.width as usize + signal.tail.len());
         let text = Text::new(longest.sum());
-        Ok(Vcd { file, text, signals, taps: TapDigits::new(order), stamped: None })
+        Ok(Vcd { file, text, signals, taps: TapDigits::new(order), stamped: u64::MAX })
     }
 }
 
 impl Sink for Vcd {
-    #[inline]
+    #[inline(always)]
     fn word(&mut self, id: usize, value: u64) {
         let signal = &self.signals[id];
         if signal.width > 1 {
@@ -81,10 +81,10 @@ impl Sink for Vcd {
 }
 
 impl Body for Vcd {
-    #[inline]
+    #[inline(always)]
     fn step(&mut self, at: u64, step: Step, fill: impl FnOnce(&mut Self)) -> io::Result<()> {
         let begin = self.text.len();
-        if self.stamped != Some(at) {
+        if self.stamped != at {
             self.text.stamp(at);
         }
         let empty = self.text.len();
@@ -102,7 +102,7 @@ impl Body for Vcd {
             self.text.truncate(begin);
             return Ok(());
         }
-        self.stamped = Some(at);
+        self.stamped = at;
         if self.text.is_full() { self.text.write(&mut self.file) } else { Ok(()) }
     }
 
@@ -113,7 +113,7 @@ impl Body for Vcd {
     }
 
     fn finish(mut self, at: u64) -> Result<()> {
-        if self.stamped != Some(at) {
+        if self.stamped != at {
             self.text.stamp(at);
         }
         self.text.write(&mut self.file).map_err(|error| self.file.fault(error))?;
