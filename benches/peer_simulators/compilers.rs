@@ -6,7 +6,7 @@ use std::sync::Mutex;
 use std::thread;
 
 use crate::builds::Cache;
-use crate::contender::Contender;
+use crate::contender::{Contender, Rtl};
 use crate::{Result, cxxrtl, icarus, verilator, versions};
 
 /// Which Verilog.
@@ -51,6 +51,15 @@ impl Sources {
         }
         files.sort();
         Ok(files)
+    }
+
+    /// How far they are from `rtl_ref`.
+    pub fn rtl(self) -> Rtl {
+        match self {
+            Sources::Reference | Sources::FastDecoder => Rtl::Reference,
+            Sources::Tuned | Sources::TunedWithPll | Sources::Cxxrtl => Rtl::Tuned,
+            Sources::TunedWithBench => Rtl::FewerEdges,
+        }
     }
 }
 

@@ -58,6 +58,15 @@ impl Work {
         }
     }
 
+    /// What a peer's model is of in the three columns of the report. With a waveform only the tuned
+    /// one is timed, which is the faster.
+    pub fn compared(self) -> [Rtl; 3] {
+        match self.of_peer() {
+            Work::Cycle => [Rtl::Reference, Rtl::Tuned, Rtl::FewerEdges],
+            _ => [Rtl::Tuned; 3],
+        }
+    }
+
     /// Where its waveform goes, if it has one.
     pub fn waveform(self, folder: &Path) -> Option<PathBuf> {
         match self {
@@ -94,8 +103,19 @@ pub struct Contender {
     pub shots: u64,
     /// Takes seconds, and gets fewer rounds.
     pub is_slow: bool,
-    /// Has every edge of the design's clocks.
-    pub has_every_edge: bool,
+    /// How far its Verilog is from `rtl_ref`.
+    pub rtl: Rtl,
+}
+
+/// What a peer simulates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Rtl {
+    /// `rtl_ref`, but for the coding of the decoder's ones count.
+    Reference,
+    /// The same ports, registers and clocks in whatever coding is fastest.
+    Tuned,
+    /// The same without the edges that change nothing in MODE 0.
+    FewerEdges,
 }
 
 impl fmt::Display for Contender {

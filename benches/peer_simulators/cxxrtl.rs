@@ -41,7 +41,7 @@ pub fn contender(root: &Path, cache: &Cache) -> Result<Contender> {
         frames: 1,
         shots: SHOTS,
         is_slow: false,
-        has_every_edge: true,
+        rtl: Sources::Cxxrtl.rtl(),
     })
 }
 

@@ -52,6 +52,6 @@ fn compile(
         frames: if shots == SHOTS { 1 } else { 3 },
         shots,
         is_slow: shots == SHOTS,
-        has_every_edge: true,
+        rtl: sources.rtl(),
     })
 }

@@ -134,7 +134,7 @@ impl Variant {
             frames: self.frames,
             shots: SHOTS,
             is_slow: false,
-            has_every_edge: self.sources != Sources::TunedWithBench,
+            rtl: self.sources.rtl(),
         })
     }
 

@@ -90,6 +90,8 @@ impl Delays {
     #[inline(always)]
     fn rank_inside(&self, age: Time) -> usize {
         let mut rank = self.guide[(age.fs() >> CELL) as usize] as usize;
+        // Most cells hold one arrival or none.
+        rank += (self.arrivals[rank] <= age) as usize;
         while self.arrivals[rank] <= age {
             rank += 1;
         }

@@ -91,11 +91,11 @@ impl Tdc {
     #[inline(always)]
     pub fn rise(&mut self, i: &In, p: &Params, line: &mut StopLine, now: Time) {
         if i.rst | self.tdc_latch.hit | !self.tdc_decoder.is_idle() {
-            self.tdc_decoder = self.tdc_decoder.next(&Wires::tdc_decoder(self, i), &p.cal);
+            self.tdc_decoder.tick(&Wires::tdc_decoder(self, i), &p.cal);
         }
         let taps = &self.carry_chain.taps;
         if i.rst | !self.tdc_latch.is_idle(taps, i.start, p.tap_0) {
-            self.tdc_latch = self.tdc_latch.next(&Wires::tdc_latch(self, i), &p.tap_0);
+            self.tdc_latch.tick(&Wires::tdc_latch(self, i), &p.tap_0);
         }
         self.coarse_counter = self.coarse_counter.next(&Wires::coarse_counter(self, i), &());
         if !line.is_shown_by(&self.carry_chain.taps) {

@@ -81,19 +81,28 @@ impl Clocked for TdcDecoder {
 
     #[inline(always)]
     fn next(&self, i: &In, cal: &Calibration) -> Self {
-        let (q, mut d) = (self, *self);
-        d.n_valid = i.hit;
-        if i.hit {
-            d.n = U::new(i.hit_taps.ones() as u64);
-            d.n_coarse = i.hit_coarse;
+        let mut d = *self;
+        d.tick(i, cal);
+        d
+    }
+
+    /// The second stage goes first, and reads what the first one was.
+    #[inline(always)]
+    fn tick(&mut self, i: &In, cal: &Calibration) {
+        if i.rst {
+            *self = Self::default();
+            return;
         }
-        d.tdc_valid = false;
-        if q.n_valid
-            && let Some(code) = code(q.n_coarse.get(), q.n.index(), cal)
+        self.tdc_valid = false;
+        if self.n_valid
+            && let Some(code) = code(self.n_coarse.get(), self.n.index(), cal)
         {
-            (d.tdc_valid, d.tdc_code) = (true, code);
+            (self.tdc_valid, self.tdc_code) = (true, code);
         }
-        if i.rst { Self::default() } else { d }
+        self.n_valid = i.hit;
+        if i.hit {
+            (self.n, self.n_coarse) = (U::new(i.hit_taps.ones() as u64), i.hit_coarse);
+        }
     }
 
     #[inline(always)]

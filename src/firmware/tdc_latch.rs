@@ -62,14 +62,24 @@ impl Clocked for TdcLatch {
 
     #[inline(always)]
     fn next(&self, i: &In, tap_0: &usize) -> Self {
-        let (q, mut d) = (self, *self);
-        d.tap_0_last = i.taps.tap(*tap_0);
-        d.hit = d.tap_0_last && !q.tap_0_last && i.window && !q.used;
-        if d.hit {
-            (d.hit_coarse, d.hit_taps) = (i.coarse, i.taps);
+        let mut d = *self;
+        d.tick(i, tap_0);
+        d
+    }
+
+    #[inline(always)]
+    fn tick(&mut self, i: &In, tap_0: &usize) {
+        if i.rst {
+            *self = Self::default();
+            return;
         }
-        d.used = (q.used || d.hit) && !i.start;
-        if i.rst { Self::default() } else { d }
+        let tap_0 = i.taps.tap(*tap_0);
+        self.hit = tap_0 && !self.tap_0_last && i.window && !self.used;
+        if self.hit {
+            (self.hit_coarse, self.hit_taps) = (i.coarse, i.taps);
+        }
+        self.used = (self.used || self.hit) && !i.start;
+        self.tap_0_last = tap_0;
     }
 
     #[inline(always)]

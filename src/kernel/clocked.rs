@@ -14,6 +14,13 @@ pub trait Clocked: Copy + PartialEq + std::fmt::Debug {
     /// The registers after the next rising edge.
     fn next(&self, i: &Self::In, p: &Self::Params) -> Self;
 
+    /// The rising edge. A module with wide registers that seldom change has this in place, and
+    /// [`Clocked::next`] by it.
+    #[inline(always)]
+    fn tick(&mut self, i: &Self::In, p: &Self::Params) {
+        *self = self.next(i, p);
+    }
+
     /// Coming edges at which, while the inputs hold, nothing would move but counters whose values
     /// no other module acts on.
     fn quiet(&self, _i: &Self::In, _p: &Self::Params) -> u64 {
