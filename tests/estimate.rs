@@ -212,6 +212,35 @@ fn the_program_prints_the_naive_integers() {
 }
 
 #[test]
+fn an_explanation_has_every_value_and_a_budget_that_adds_up() {
+    let histogram = Path::new("stimuli/histograms/kc705.csv");
+    let json = run(&[histogram, Path::new("--explain")]);
+    let explained = &json["histograms"][0]["explanation"];
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let budget = &explained["budget"];
+    let parts = ["hidden_weights_mm", "address_mm", "table_mm", "output_weights_mm"];
+    let sum: f64 = parts.iter().map(|part| number(&budget[part])).sum();
+    assert!((sum - number(&budget["total_mm"])).abs() < 1e-9);
+    let depth = &explained["depth"];
+    assert_eq!(number(&depth["fixed"]), number(&json["depth_m"]));
+    let total_mm = 1e3 * (number(&depth["fixed"]) - number(&depth["float"]));
+    assert!((total_mm - number(&budget["total_mm"])).abs() < 1e-9);
+    for (neuron, sum) in explained["neurons"].as_array().unwrap().iter().zip(0..) {
+        assert_eq!(neuron["l1_in"]["word"], json["l1_in"][sum]);
+        let saturated = number(&neuron["l1_in"]["fixed"]).abs() > 4.0;
+        assert_eq!(neuron["saturated"], saturated);
+    }
+
+    let program = Command::new(env!("CARGO_BIN_EXE_tofsim"))
+        .args(["estimate", "stimuli/histograms/kc705.csv", "--explain"])
+        .output()
+        .unwrap();
+    let text = String::from_utf8(program.stdout).unwrap();
+    assert!(text.contains("0100dfc7e") && text.contains("saturated: 3 of 8 neurons"), "{text}");
+    assert_eq!(text.lines().filter(|line| line.trim_start().starts_with("l1_out")).count(), 8);
+}
+
+#[test]
 fn a_network_file_that_is_not_there_or_no_text_is_an_error() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("latin.toml");

@@ -8,7 +8,8 @@ use serde::Serialize;
 
 use crate::error::{Error, Result};
 use crate::histogram_file;
-use crate::network::{Estimate, Network, estimate};
+use crate::network::{Estimate, Explanation, Network, estimate, explain};
+use crate::report::explanation;
 use crate::report::table::plain;
 
 use super::stdout::print;
@@ -22,6 +23,10 @@ pub struct Args {
     /// Built-in network (uniform, ideal) or network file
     #[arg(long, value_name = "NAME|FILE", default_value = Network::DEFAULT)]
     network: String,
+    /// Show every value of the datapath beside its twin in double precision, where they part, and
+    /// what each rounding adds to the depth
+    #[arg(long)]
+    explain: bool,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
@@ -35,6 +40,8 @@ struct Row<'a> {
     file: &'a str,
     #[serde(flatten)]
     numbers: Numbers,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    explanation: Option<Explanation>,
 }
 
 #[derive(Clone, Serialize)]
@@ -64,9 +71,14 @@ pub fn run(args: &Args) -> Result<()> {
     let mut rows = Vec::new();
     for (path, file) in args.files.iter().zip(&names) {
         for histogram in histogram_file::open(path)? {
-            let numbers = Numbers::of(&estimate(&params, &histogram?));
-            rows.push(Row { index: rows.len(), file, numbers });
+            let histogram = histogram?;
+            let numbers = Numbers::of(&estimate(&params, &histogram));
+            let explanation = args.explain.then(|| explain(&network, &histogram));
+            rows.push(Row { index: rows.len(), file, numbers, explanation });
         }
+    }
+    if !args.json && args.explain {
+        return print(&rows.iter().map(explained).collect::<Vec<_>>().join("\n"));
     }
     if !args.json {
         return print(
@@ -90,6 +102,13 @@ impl Numbers {
     }
 }
 
+/// The values of one estimation, layer by layer.
+fn explained(row: &Row) -> String {
+    let text = row.explanation.as_ref().map(explanation::text).unwrap_or_default();
+    let Numbers { depth_raw, depth_m, .. } = &row.numbers;
+    format!("{} #{}: {depth_m:.6} m ({depth_raw})\n{text}", row.file, row.index)
+}
+
 /// Rows of a table; what has more goes into several.
 const TABLE: usize = 10_000;
 
@@ -98,7 +117,7 @@ fn table(rows: &[Row], several: bool) -> String {
     let mut header = vec!["index", "depth_raw", "depth_m", "l1_in (23 fraction bits)"];
     header.extend(several.then_some("file"));
     table.set_header(header);
-    for Row { index, file, numbers } in rows {
+    for Row { index, file, numbers, .. } in rows {
         let sums = numbers.l1_in.map(|sum| sum.to_string()).join(" ");
         let depth_m = format!("{:.6}", numbers.depth_m);
         let mut cells = vec![index.to_string(), numbers.depth_raw.clone(), depth_m, sums];

@@ -14,7 +14,7 @@ use crate::kernel::S;
 
 use super::estimate::estimate;
 use super::formats::{B2, L1_OUT, TANSIG_RANGE};
-use super::{Histogram, MAX_HITS, Network};
+use super::{Histogram, Network};
 
 /// Fraction bits of a hidden neuron's sum.
 const L1_IN_FRACTION: u32 = 23;
@@ -104,8 +104,6 @@ pub struct Explanation {
     pub first_parting: Option<(&'static str, Option<usize>)>,
     /// Neurons whose sum lies past the table of activations.
     pub saturated: usize,
-    /// The histogram holds more hits than the widths of the words bear.
-    pub too_many_hits: bool,
     /// Where the difference comes from.
     pub budget: Budget,
 }
@@ -135,13 +133,11 @@ pub fn explain(network: &Network, histogram: &Histogram) -> Explanation {
         }
     });
     let depth = Pair::new(fixed.depth.get(), DEPTH_FRACTION, float.forward(histogram), 1.0);
-    let hits = histogram.iter().map(|&count| u64::from(count)).sum();
     Explanation {
-        hits,
+        hits: histogram.iter().map(|&count| u64::from(count)).sum(),
         bias: Pair::new(params.forward2.b2.get(), B2.fraction, float.b2, 1.0),
         first_parting: first_parting(&neurons, &depth),
         saturated: neurons.iter().filter(|neuron| neuron.saturated).count(),
-        too_many_hits: hits > u64::from(MAX_HITS),
         budget: budget(network, &neurons, &depth),
         neurons,
         depth,
@@ -231,12 +227,5 @@ mod tests {
         let explained = explain(&network, &peak(100, 30_000));
         assert!(explained.neurons[2].saturated && explained.saturated >= 1);
         assert_eq!(explained.neurons[2].address, 2047);
-    }
-
-    #[test]
-    fn more_hits_than_the_widths_bear_are_told() {
-        let network = Network::builtin("uniform").unwrap().unwrap();
-        assert!(!explain(&network, &peak(100, 2000)).too_many_hits);
-        assert!(explain(&network, &[300; 256]).too_many_hits);
     }
 }

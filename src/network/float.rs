@@ -1,5 +1,7 @@
 //! The network in double precision: what the fixed-point datapath approximates.
 
+use crate::firmware::forward2::NEURONS;
+
 use super::formats::Fixed;
 use super::{Histogram, Network, Weights};
 
@@ -17,14 +19,20 @@ impl Float {
         }
     }
 
+    /// Sums of the hidden neurons.
+    pub fn hidden_sums(&self, histogram: &Histogram) -> [f64; NEURONS] {
+        std::array::from_fn(|neuron| {
+            let products = self.w1[neuron].iter().zip(histogram);
+            let products = products.map(|(weight, &count)| weight * count as f64);
+            products.sum::<f64>() + self.b1[neuron]
+        })
+    }
+
     /// Depth of a histogram [m].
     pub fn forward(&self, histogram: &Histogram) -> f64 {
-        let neuron = |(row, bias): (&[f64; 256], &f64)| {
-            let products = row.iter().zip(histogram).map(|(weight, &count)| weight * count as f64);
-            libm::tanh(products.sum::<f64>() + bias)
-        };
-        let hidden = self.w1.iter().zip(&self.b1).map(neuron);
-        hidden.zip(&self.w2).map(|(activation, weight)| activation * weight).sum::<f64>() + self.b2
+        let hidden = self.hidden_sums(histogram).map(libm::tanh);
+        let products = hidden.iter().zip(&self.w2).map(|(activation, weight)| activation * weight);
+        products.sum::<f64>() + self.b2
     }
 }
 

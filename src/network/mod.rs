@@ -1,6 +1,7 @@
 //! The depth network: its file, its fixed-point and floating-point passes, and its ROMs.
 
 pub mod estimate;
+pub mod explain;
 pub mod file;
 pub mod float;
 pub mod formats;
@@ -11,6 +12,7 @@ mod schema;
 mod write;
 
 pub use estimate::{Estimate, estimate};
+pub use explain::{Explanation, explain};
 pub use file::Network;
 
 use crate::firmware::forward2::NEURONS;

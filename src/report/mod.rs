@@ -2,6 +2,7 @@
 
 pub mod causes;
 pub mod events;
+pub mod explanation;
 pub mod frame_log;
 pub mod histogram_csv;
 pub mod histogram_svg;
