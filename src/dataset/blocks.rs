@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::network::Histogram;
 
-use super::{Rows, Scene, Source};
+use super::{Row, Rows, Scene, Source};
 
 /// Rows of a block: 1 MB of histograms.
 pub const BLOCK: u64 = 2048;
@@ -43,20 +43,33 @@ impl Source {
         Blocks { source: self, rows, seed, left: range.start.min(end)..end }
     }
 
-    /// Draws neighbouring rows; those of one scene share its probabilities.
+    /// Draws neighbouring rows; those of one distance or scene share what they have in common.
     fn run(&self, rows: &Rows, seed: u64, range: Range<u64>) -> Vec<Sample> {
-        let mut last = None;
+        let mut white = Last(None);
+        let mut codes = Last(None);
         let sample = |index| {
-            let row = rows.row(index);
-            let codes = match last.take() {
-                Some((scene, codes)) if scene == row.scene => codes,
-                _ => self.probabilities(&row.scene),
-            };
-            let histogram = self.draw_from(&codes, seed, row.number);
-            last = Some((row.scene, codes));
-            Sample { seed, row: row.number, scene: row.scene, histogram }
+            let Row { number: row, scene } = rows.row(index);
+            let white = white.or(scene.distance_m, |&distance_m| self.white(distance_m));
+            let codes = codes.or(scene, |scene| self.probabilities_of(white, scene));
+            let histogram = self.draw_from(codes, seed, row);
+            Sample { seed, row, scene, histogram }
         };
         range.map(sample).collect()
+    }
+}
+
+/// What was last asked for, and what it came to.
+struct Last<K, V>(Option<(K, V)>);
+
+impl<K: PartialEq, V> Last<K, V> {
+    /// What `key` comes to; it is made where the last key was another.
+    fn or(&mut self, key: K, make: impl FnOnce(&K) -> V) -> &V {
+        let known = self.0.take().filter(|(last, _)| *last == key);
+        let pair = known.unwrap_or_else(|| {
+            let value = make(&key);
+            (key, value)
+        });
+        &self.0.insert(pair).1
     }
 }
 

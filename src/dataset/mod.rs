@@ -2,16 +2,26 @@
 //!
 //! A [`Grid`] or a [`Subset`] of one says which scene each row has; a [`Source`] draws the row's
 //! histogram as `run --fidelity histogram` draws a frame, in one step. A row has random numbers of
-//! its own, found by seed and row number, so that any one can be made again without the others.
+//! its own, found by seed and row number, so that any one can be made again without the others. [`files`]
+//! writes them, as `tofsim dataset` does, and [`read`] reads them.
 
 pub mod blocks;
+pub mod description;
+pub mod files;
 pub mod grid;
+pub mod npy;
+mod npy_read;
+pub mod parquet_file;
+mod parquet_read;
+mod read;
 pub mod rows;
 pub mod source;
 pub mod subset;
 
 pub use blocks::{BLOCK, Blocks, Sample};
+pub use description::Description;
 pub use grid::{Grid, Steps};
+pub use read::read;
 pub use rows::{Row, Rows};
 pub use source::Source;
 pub use subset::Subset;

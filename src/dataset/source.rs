@@ -47,14 +47,25 @@ impl Source {
         &self.bins
     }
 
+    /// Budget of a white target at a distance, in an irradiance of 1 W/m^2/nm: what all scenes at that
+    /// distance have in common, and what takes longest to find.
+    pub fn white(&self, distance_m: f64) -> Budget {
+        let mut scenario = self.scenario.clone();
+        scenario.target.distance_m = distance_m;
+        scenario.target.reflectance = 1.0;
+        scenario.ambient.irradiance_w_m2_nm = 1.0;
+        Budget::new(&scenario)
+    }
+
     /// Probability of each code in one shot.
     pub fn probabilities(&self, scene: &Scene) -> BinProbabilities {
-        let mut scenario = self.scenario.clone();
-        scenario.target.distance_m = scene.distance_m;
-        scenario.target.reflectance = scene.reflectance;
-        scenario.ambient.irradiance_w_m2_nm = scene.irradiance_w_m2_nm;
-        let budget = Budget::new(&scenario);
-        let lit = scenario.firmware.laser_en;
+        self.probabilities_of(&self.white(scene.distance_m), scene)
+    }
+
+    /// The same where the [white target's budget](Source::white) at the scene's distance is known.
+    pub fn probabilities_of(&self, white: &Budget, scene: &Scene) -> BinProbabilities {
+        let budget = scaled(white, scene);
+        let lit = self.scenario.firmware.laser_en;
         let hazard = if lit { Hazard::new(&budget) } else { Hazard::dark(&budget) };
         BinProbabilities::new(&hazard, &self.bins)
     }
@@ -69,6 +80,16 @@ impl Source {
         let mut random = stream(seed, streams::Source::Dataset, row);
         // A count is at most the number of shots, which 16 bits hold.
         codes.draw(self.shots().into(), &mut random).map(|count| count as u16)
+    }
+}
+
+/// Budget of a scene: signal is proportional to reflectance (eq. 3.13), ambient light to reflectance
+/// and irradiance (eq. 3.19 and 3.20).
+fn scaled(white: &Budget, scene: &Scene) -> Budget {
+    Budget {
+        signal_per_shot: white.signal_per_shot * scene.reflectance,
+        ambient_rate_hz: white.ambient_rate_hz * scene.reflectance * scene.irradiance_w_m2_nm,
+        ..*white
     }
 }
 
@@ -146,6 +167,25 @@ mod tests {
         assert_eq!(other.probabilities(&SCENE), own.probabilities(&SCENE));
         let dark = source(&["firmware.laser_en=false"]).unwrap().probabilities(&SCENE);
         assert!(dark.of_code()[80] < 0.5 * own.probabilities(&SCENE).of_code()[80]);
+    }
+
+    #[test]
+    fn the_budget_is_that_of_the_scenario_in_either_ambient_model() {
+        for model in ["fitted", "physical"] {
+            let mut scenario = source(&[&format!("ambient.model={model}")]).unwrap().scenario;
+            scenario.target.distance_m = 0.6;
+            scenario.target.reflectance = 0.37;
+            scenario.ambient.irradiance_w_m2_nm = 0.35;
+            let expected = Budget::new(&scenario);
+            let scene = Scene { distance_m: 0.6, reflectance: 0.37, irradiance_w_m2_nm: 0.35 };
+            let source = source(&[&format!("ambient.model={model}")]).unwrap();
+            let found = scaled(&source.white(0.6), &scene);
+            let close = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-14;
+            assert!(close(found.signal_per_shot, expected.signal_per_shot), "{found:?}");
+            assert!(close(found.ambient_rate_hz, expected.ambient_rate_hz), "{found:?}");
+            let Budget { signal_per_shot, ambient_rate_hz, .. } = expected;
+            assert_eq!(Budget { signal_per_shot, ambient_rate_hz, ..found }, expected);
+        }
     }
 
     #[test]
