@@ -5,6 +5,7 @@ mod common;
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::{empty, files, json, npy, refused, setup, stdout};
 use parquet::data_type::{DataType, DoubleType, Int32Type, Int64Type};
@@ -271,6 +272,15 @@ fn a_table_that_does_not_fit_is_refused_by_column() {
 
 #[test]
 fn a_damaged_table_is_an_error_and_no_panic() {
+    let panics = Arc::new(AtomicUsize::new(0));
+    let (counted, here) = (Arc::clone(&panics), std::thread::current().id());
+    let before = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        if std::thread::current().id() == here {
+            counted.fetch_add(1, Ordering::Relaxed);
+        }
+        before(panic);
+    }));
     let folder = empty();
     let path = folder.path().join("t.parquet");
     table(&path, |_| ());
@@ -285,4 +295,5 @@ fn a_damaged_table_is_an_error_and_no_panic() {
         fs::write(&path, &good[..place]).unwrap();
         assert!(dataset::read(&path).is_err());
     }
+    assert_eq!(panics.load(Ordering::Relaxed), 0);
 }

@@ -23,7 +23,7 @@ const CHUNK: usize = 1 << 14;
 /// Reads a file.
 pub(super) fn read(path: &Path) -> Result<Vec<Sample>> {
     let file = File::open(path).map_err(Error::io(path, "read"))?;
-    // The library may panic on damaged files.
+    // Where the library panics over a damaged file after all, that is an error too.
     let read = catch_unwind(AssertUnwindSafe(|| {
         let file = SerializedFileReader::new(file).map_err(|error| damaged(path, error))?;
         let columns = columns(path, file.metadata().file_metadata().schema_descr())?;
@@ -166,8 +166,14 @@ impl Group<'_> {
     }
 
     fn open(&self, column: usize) -> Result<ColumnReader> {
-        let reader = self.reader.get_column_reader(self.columns[column].place);
-        reader.map_err(|error| damaged(self.path, error))
+        let place = self.columns[column].place;
+        let stored = self.reader.metadata().column(place);
+        let dictionary = stored.dictionary_page_offset().unwrap_or(0);
+        // The library panics over these.
+        if stored.data_page_offset().min(dictionary).min(stored.compressed_size()) < 0 {
+            return Err(damaged(self.path, "a column with a negative place or size"));
+        }
+        self.reader.get_column_reader(place).map_err(|error| damaged(self.path, error))
     }
 
     /// All values of a column, none of which may be missing.
