@@ -11,6 +11,7 @@ pub mod cli;
 pub mod compare;
 pub mod condition;
 pub mod csv_input;
+pub mod dataset;
 pub mod error;
 pub mod firmware;
 pub mod golden;

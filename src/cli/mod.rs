@@ -3,6 +3,7 @@
 pub mod budget;
 pub mod compare;
 pub mod completions;
+pub mod dataset;
 pub mod estimate;
 pub mod ila;
 pub mod interrupt;
@@ -44,6 +45,7 @@ enum Verb {
     Verify(verify::Args),
     Ila(ila::Args),
     Compare(Box<compare::Args>),
+    Dataset(dataset::Args),
     Scenario(scenario::Args),
     Completions(completions::Args),
     Man(man::Args),
@@ -61,6 +63,7 @@ impl Cli {
             Verb::Verify(args) => return verify::run(args, &talk),
             Verb::Ila(args) => ila::run(args, &talk),
             Verb::Compare(args) => return compare::run(args, &talk),
+            Verb::Dataset(args) => dataset::run(args, &talk),
             Verb::Scenario(args) => scenario::run(args),
             Verb::Completions(args) => completions::run(args),
             Verb::Man(args) => man::run(args),

@@ -22,6 +22,10 @@ pub enum Source {
     Stimulus = 5,
     /// Histogram of a frame in one draw; as many words as it takes.
     Histogram = 6,
+    /// Histogram of a dataset's row in one draw; the frame's place is the row number's.
+    Dataset = 7,
+    /// Which scenes a dataset has; the frame's place is that of a distance and a round.
+    Scene = 8,
 }
 
 /// Words of 32 bits that a shot may take from its stretch.

@@ -14,7 +14,7 @@ use crate::firmware::vcsel_driver::PERIODS;
 use crate::kernel::Time;
 use crate::network::estimate::estimate;
 use crate::optics::{BinProbabilities, Bins};
-use crate::sensor::light::Light;
+use crate::sensor::light::{Light, Optics};
 use crate::sensor::streams::{Source, stream};
 use crate::waves::Marks;
 
@@ -24,6 +24,51 @@ use super::many::deliver;
 use super::run::{Outcome, Watch};
 use super::setup::{CYCLE, Setup};
 use super::sinks::Sinks;
+
+/// The light of a setup and what becomes of its shots, where a frame is one draw. `who` wants to know,
+/// for the error.
+///
+/// # Errors
+/// When more than a shot's first avalanche decides what becomes of it (MODE 1, jitter, control
+/// changes, a stimulus in place of light, a chain too long for the laser rate), or a frame never ends.
+pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics, Outcomes)> {
+    let refusal = |field: &str, why: &str| {
+        let expected = format!("{who} draws a frame as a whole: {why}");
+        Input::new(format!("scenario {}", setup.name), expected).field(field)
+    };
+    let firmware = &setup.scenario.firmware;
+    for (field, value, held) in [
+        ("firmware.rst", firmware.rst, true),
+        ("firmware.dsp_rst", firmware.dsp_rst, true),
+        ("firmware.dsp_en", firmware.dsp_en, false),
+    ] {
+        if value == held {
+            return Err(refusal(field, "no frame would end").value(value).into());
+        }
+    }
+    if firmware.mode != 0 {
+        let why = "expected 0: in MODE 1 a shot may have several avalanches";
+        return Err(refusal("firmware.mode", why).value(firmware.mode).into());
+    }
+    if !setup.scenario.control.is_empty() {
+        return Err(refusal("control", "nothing may change within it").into());
+    }
+    if setup.scenario.pll.jitter_rms_ps > 0.0 {
+        let why = "expected 0: with jitter shots differ";
+        let refused = refusal("pll.jitter_rms_ps", why);
+        return Err(refused.value(setup.scenario.pll.jitter_rms_ps).into());
+    }
+    let Light::Optics(optics) = &setup.light else {
+        return Err(refusal("stimulus", "it needs the light of the link budget").into());
+    };
+    let period = PERIODS[firmware.laser_freq as usize];
+    let Some(outcomes) = Outcomes::new(&setup.params.tdc, period, CYCLE) else {
+        let why = "the chain is so long that a shot reaches into the next one";
+        let refused = refusal("tdc.profile", why).value(&setup.scenario.tdc.profile);
+        return Err(refused.into());
+    };
+    Ok((optics, outcomes))
+}
 
 /// Draws the frames of a scenario.
 #[derive(Clone, Debug)]
@@ -42,41 +87,8 @@ impl<'a> Histograms<'a> {
     /// # Errors
     /// When more than a shot's first avalanche decides what becomes of it, or a frame never ends.
     pub fn new(setup: &'a Setup) -> Result<Self> {
-        let refusal = |field: &str, why: &str| {
-            let expected = format!("--fidelity histogram draws a frame as a whole: {why}");
-            Input::new(format!("scenario {}", setup.name), expected).field(field)
-        };
+        let (optics, outcomes) = independent_shots(setup, "--fidelity histogram")?;
         let firmware = &setup.scenario.firmware;
-        for (field, value, held) in [
-            ("firmware.rst", firmware.rst, true),
-            ("firmware.dsp_rst", firmware.dsp_rst, true),
-            ("firmware.dsp_en", firmware.dsp_en, false),
-        ] {
-            if value == held {
-                return Err(refusal(field, "no frame would end").value(value).into());
-            }
-        }
-        if firmware.mode != 0 {
-            let why = "expected 0: in MODE 1 a shot may have several avalanches";
-            return Err(refusal("firmware.mode", why).value(firmware.mode).into());
-        }
-        if !setup.scenario.control.is_empty() {
-            return Err(refusal("control", "nothing may change within it").into());
-        }
-        if setup.scenario.pll.jitter_rms_ps > 0.0 {
-            let why = "expected 0: with jitter shots differ";
-            let refused = refusal("pll.jitter_rms_ps", why);
-            return Err(refused.value(setup.scenario.pll.jitter_rms_ps).into());
-        }
-        let Light::Optics(optics) = &setup.light else {
-            return Err(refusal("stimulus", "it needs the light of the link budget").into());
-        };
-        let rate = firmware.laser_freq as usize;
-        let Some(outcomes) = Outcomes::new(&setup.params.tdc, PERIODS[rate], CYCLE) else {
-            let why = "the chain is so long that a shot reaches into the next one";
-            let refused = refusal("tdc.profile", why).value(&setup.scenario.tdc.profile);
-            return Err(refused.into());
-        };
         let hazard = optics.hazard(firmware.laser_en);
         let (delays, cal) = (&setup.params.tdc.delays, &setup.params.tdc.cal);
         let codes = BinProbabilities::new(hazard, &Bins::of_chain(delays, cal, CYCLE));
@@ -90,7 +102,7 @@ impl<'a> Histograms<'a> {
             codes,
             no_code,
             shots: setup.shots(1),
-            frame_cycles: setup.frame_cycles(rate),
+            frame_cycles: setup.frame_cycles(firmware.laser_freq as usize),
         })
     }
 
