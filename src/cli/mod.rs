@@ -8,6 +8,7 @@ pub mod estimate;
 pub mod ila;
 pub mod interrupt;
 pub mod man;
+pub mod quantize;
 pub mod run;
 pub mod scenario;
 pub mod stdout;
@@ -41,6 +42,7 @@ enum Verb {
     Run(run::Args),
     Budget(budget::Args),
     Estimate(estimate::Args),
+    Quantize(quantize::Args),
     Vectors(vectors::Args),
     Verify(verify::Args),
     Ila(ila::Args),
@@ -59,6 +61,7 @@ impl Cli {
             Verb::Run(args) => run::run(args, &talk),
             Verb::Budget(args) => budget::run(args),
             Verb::Estimate(args) => estimate::run(args),
+            Verb::Quantize(args) => quantize::run(args, &talk),
             Verb::Vectors(args) => vectors::run(args, &talk),
             Verb::Verify(args) => return verify::run(args, &talk),
             Verb::Ila(args) => ila::run(args, &talk),

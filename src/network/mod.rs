@@ -5,9 +5,11 @@ pub mod explain;
 pub mod file;
 pub mod float;
 pub mod formats;
+pub mod import;
 pub mod mem;
 mod read;
 pub mod roms;
+pub mod round;
 mod schema;
 mod write;
 
