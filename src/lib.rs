@@ -12,6 +12,7 @@ pub mod compare;
 pub mod condition;
 pub mod csv_input;
 pub mod error;
+pub mod estimation;
 pub mod firmware;
 pub mod golden;
 pub mod hierarchy;
