@@ -13,6 +13,7 @@ pub mod condition;
 pub mod csv_input;
 pub mod dataset;
 pub mod error;
+pub mod estimation;
 pub mod firmware;
 pub mod golden;
 pub mod hierarchy;

@@ -1,0 +1,126 @@
+//! The estimators by the names that the command line has for them.
+
+use crate::error::Input;
+use crate::network::Network;
+use crate::optics::Bins;
+
+use super::likelihood::Likelihood;
+use super::matched_filter::MatchedFilter;
+use super::network::{FixedNetwork, FloatNetwork};
+use super::peak_detection::PeakDetection;
+use super::{Estimator, Failure};
+
+/// An estimator's name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, clap::ValueEnum)]
+pub enum Kind {
+    /// The network in fixed point, bit for bit as the firmware
+    Network,
+    /// The network in double precision
+    NetworkFloat,
+    /// The thesis's peak detection, on the bins of the chain
+    Peak,
+    /// Maximum likelihood with pile-up in the model
+    Likelihood,
+    /// Matched filter after Coates's correction of pile-up
+    Matched,
+}
+
+/// How the histograms come about, as far as estimators know it.
+#[derive(Clone, Copy, Debug)]
+pub struct Acquisition<'a> {
+    /// Which avalanche times give which code.
+    pub bins: &'a Bins,
+    /// Shots of a histogram [shots].
+    pub shots: u64,
+    /// Standard deviation of the pulse as the detector times it [ps].
+    pub pulse_sigma_ps: f64,
+}
+
+/// What there is to make an estimator of.
+#[derive(Clone, Copy, Debug)]
+pub struct Needs<'a> {
+    /// The histograms.
+    pub acquisition: Acquisition<'a>,
+    /// The network in the depth estimator.
+    pub network: &'a Network,
+}
+
+impl Acquisition<'_> {
+    /// Whether there is anything to estimate from.
+    ///
+    /// # Errors
+    /// For no bins, no shots or more than a bin of 16 bits holds, or a width that is no width.
+    pub fn check(&self) -> Result<(), Input> {
+        let fault = |field, expected| Input::new("acquisition", expected).field(field);
+        if self.bins.spans().is_empty() {
+            return Err(fault("bins", "expected a chain that gives a code at all"));
+        }
+        if !(1..=65_535).contains(&self.shots) {
+            return Err(fault("shots", "expected 1 to 65535").value(self.shots));
+        }
+        if !(1.0..=1e6).contains(&self.pulse_sigma_ps) {
+            let value = self.pulse_sigma_ps;
+            return Err(fault("pulse_sigma_ps", "expected 1 to 1e6 [ps]").value(value));
+        }
+        Ok(())
+    }
+}
+
+impl Kind {
+    /// The estimator of that name.
+    ///
+    /// # Errors
+    /// When [`Acquisition::check`] fails.
+    pub fn estimator(self, needs: &Needs) -> Result<Box<dyn Estimator + Send>, Input> {
+        needs.acquisition.check()?;
+        Ok(match self {
+            Kind::Network => Box::new(FixedNetwork::new(needs.network)),
+            Kind::NetworkFloat => Box::new(FloatNetwork::new(needs.network)),
+            Kind::Peak => {
+                Box::new(PeakDetection::of_bins(needs.acquisition.shots, needs.acquisition.bins))
+            }
+            Kind::Likelihood => Box::new(Likelihood::new(&needs.acquisition)?),
+            Kind::Matched => Box::new(MatchedFilter::new(&needs.acquisition)?),
+        })
+    }
+}
+
+impl<T: Estimator + Send + ?Sized> Estimator for Box<T> {
+    fn name(&self) -> &'static str {
+        (**self).name()
+    }
+
+    fn estimate(&self, histogram: &crate::network::Histogram) -> Result<f64, Failure> {
+        (**self).estimate(histogram)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::ValueEnum;
+
+    use super::*;
+    use crate::kernel::Time;
+    use crate::scenario::{builtin::Source, chain};
+
+    #[test]
+    fn every_estimator_answers_to_its_name() {
+        let delays = chain::load("ideal", &Source::working_directory()).unwrap();
+        let period = Time::from_ns(8);
+        let bins = &Bins::of_chain(&delays, &delays.calibration(period), period);
+        let network = &Network::builtin("ideal").unwrap().unwrap();
+        let acquisition = Acquisition { bins, shots: 30_000, pulse_sigma_ps: 137.0 };
+        let needs = Needs { acquisition, network };
+        for kind in Kind::value_variants() {
+            let estimator = kind.estimator(&needs).unwrap();
+            assert_eq!(kind.to_possible_value().unwrap().get_name(), estimator.name());
+        }
+        for (shots, pulse_sigma_ps, field) in
+            [(0, 137.0, "shots = 0"), (65_536, 137.0, "shots"), (1, f64::NAN, "sigma_ps = NaN")]
+        {
+            let needs = Needs { acquisition: Acquisition { bins, shots, pulse_sigma_ps }, network };
+            let fault = Kind::Peak.estimator(&needs).err().unwrap().to_string();
+            assert!(fault.contains(field), "{fault}");
+        }
+    }
+}

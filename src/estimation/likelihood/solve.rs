@@ -1,0 +1,89 @@
+//! Equations with a symmetric positive matrix of three rows.
+
+/// A symmetric matrix.
+pub type Matrix = [[f64; 3]; 3];
+
+/// A pivot below this part of its diagonal element makes a matrix singular [1].
+const SINGULAR: f64 = 1e-13;
+
+/// `x` with `matrix x = right`, after the diagonal has grown by the part `damping`. If `held`, the
+/// last row and column are left out and the last of `x` is 0. `None` for a singular matrix.
+pub fn solve(matrix: &Matrix, right: &[f64; 3], damping: f64, held: bool) -> Option<[f64; 3]> {
+    let size = if held { 2 } else { 3 };
+    let mut lower = [[0.0; 3]; 3];
+    for row in 0..size {
+        for column in 0..=row {
+            let done: f64 = (0..column).map(|k| lower[row][k] * lower[column][k]).sum();
+            let element = matrix[row][column];
+            lower[row][column] = if row == column {
+                let pivot = element * (1.0 + damping) - done;
+                // Not a number is no pivot either.
+                if pivot.is_nan() || pivot <= element * SINGULAR || !pivot.is_finite() {
+                    return None;
+                }
+                pivot.sqrt()
+            } else {
+                (element - done) / lower[column][column]
+            };
+        }
+    }
+    let mut x = [0.0; 3];
+    for row in 0..size {
+        let done: f64 = (0..row).map(|k| lower[row][k] * x[k]).sum();
+        x[row] = (right[row] - done) / lower[row][row];
+    }
+    for row in (0..size).rev() {
+        let done: f64 = (row + 1..size).map(|k| lower[k][row] * x[k]).sum();
+        x[row] = (x[row] - done) / lower[row][row];
+    }
+    Some(x)
+}
+
+/// The diagonal of the inverse; as in [`solve`] if `held`.
+pub fn inverse_diagonal(matrix: &Matrix, held: bool) -> Option<[f64; 3]> {
+    let mut diagonal = [0.0; 3];
+    for (k, element) in diagonal.iter_mut().enumerate() {
+        let mut unit = [0.0; 3];
+        unit[k] = 1.0;
+        *element = solve(matrix, &unit, 0.0, held)?[k];
+    }
+    Some(diagonal)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MATRIX: Matrix = [[4.0, 2.0, -2.0], [2.0, 5.0, 1.0], [-2.0, 1.0, 6.0]];
+
+    #[test]
+    fn a_solution_fulfils_its_equations() {
+        let x = solve(&MATRIX, &[2.0, -1.0, 3.0], 0.0, false).unwrap();
+        for (row, right) in MATRIX.iter().zip([2.0, -1.0, 3.0]) {
+            let left: f64 = row.iter().zip(x).map(|(a, x)| a * x).sum();
+            assert!((left - right).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_held_coordinate_does_not_move() {
+        let x = solve(&MATRIX, &[8.0, 5.0, 7.0], 0.0, true).unwrap();
+        assert!((x[0] - 30.0 / 16.0).abs() < 1e-14 && (x[1] - 4.0 / 16.0).abs() < 1e-14);
+        assert_eq!(x[2], 0.0);
+    }
+
+    #[test]
+    fn the_inverse_of_a_diagonal_matrix() {
+        let matrix = [[4.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 16.0]];
+        assert_eq!(inverse_diagonal(&matrix, false), Some([0.25, 1.0, 0.0625]));
+        assert_eq!(inverse_diagonal(&matrix, true), Some([0.25, 1.0, 0.0]));
+    }
+
+    #[test]
+    fn a_singular_matrix_has_no_solution_until_it_is_damped() {
+        let singular = [[1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        assert_eq!(solve(&singular, &[1.0; 3], 0.0, false), None);
+        assert!(solve(&singular, &[1.0; 3], 0.01, false).is_some());
+        assert_eq!(solve(&[[f64::NAN; 3]; 3], &[1.0; 3], 0.0, false), None);
+    }
+}
