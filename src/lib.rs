@@ -14,6 +14,7 @@ pub mod csv_input;
 pub mod dataset;
 pub mod error;
 pub mod estimation;
+pub mod evaluation;
 pub mod firmware;
 pub mod golden;
 pub mod hierarchy;

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use indicatif::ProgressStyle;
 use serde::Serialize;
 
 use crate::dataset::files::{Files, Format};
@@ -95,10 +94,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let pool = pool.build().map_err(|error| Input::new("--threads", error))?;
 
     let stop = stop_signal();
-    let progress = talk.progress(rows.len());
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} rows, {eta} to go") {
-        progress.set_style(style);
-    }
+    let progress = talk.progress(rows.len(), "rows");
     let blocks = source.blocks(&rows, seed, 0..rows.len());
     let written = pool.install(|| write(files, blocks, stop.as_deref(), |n| progress.inc(n)))?;
     progress.finish_and_clear();
@@ -148,7 +144,7 @@ impl Args {
 
 /// A chain by name as it is, and by path as seen from the folder that the program runs in: the
 /// scenario's own are seen from the scenario's.
-fn from_here(profile: &str) -> Result<String> {
+pub(super) fn from_here(profile: &str) -> Result<String> {
     if !profile.contains(['/', '.']) {
         return Ok(profile.to_owned());
     }

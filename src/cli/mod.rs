@@ -5,6 +5,7 @@ pub mod compare;
 pub mod completions;
 pub mod dataset;
 pub mod estimate;
+pub mod evaluate;
 pub mod ila;
 pub mod interrupt;
 pub mod man;
@@ -42,6 +43,7 @@ enum Verb {
     Run(run::Args),
     Budget(budget::Args),
     Estimate(estimate::Args),
+    Evaluate(Box<evaluate::Args>),
     Quantize(quantize::Args),
     Vectors(vectors::Args),
     Verify(verify::Args),
@@ -61,6 +63,7 @@ impl Cli {
             Verb::Run(args) => run::run(args, &talk),
             Verb::Budget(args) => budget::run(args),
             Verb::Estimate(args) => estimate::run(args),
+            Verb::Evaluate(args) => return evaluate::run(args, &talk),
             Verb::Quantize(args) => quantize::run(args, &talk),
             Verb::Vectors(args) => vectors::run(args, &talk),
             Verb::Verify(args) => return verify::run(args, &talk),

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use crate::error::{Error, Input, Result};
+use crate::estimation::{Kind, Panel};
 use crate::hierarchy;
 use crate::output::create_directory;
 use crate::report::frame_log::FrameLog;
@@ -63,6 +64,9 @@ pub struct Args {
     /// [default: all but the histogram's RAM]
     #[arg(long, value_name = "GLOB")]
     signals: Vec<String>,
+    /// Estimators that look at each frame's histogram beside the firmware's own, separated by commas
+    #[arg(long, value_enum, value_delimiter = ',')]
+    estimator: Vec<Kind>,
     /// Write a row for each shot, as .csv or .parquet
     #[arg(long, value_name = "FILE")]
     events: Option<PathBuf>,
@@ -122,8 +126,9 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     use_threads(args.threads)?;
 
     let stop = stop_signal();
-    let progress = talk.progress(args.frames);
-    let mut log = FrameLog::new(args.json || folder.is_some());
+    let progress = talk.progress(args.frames, "frames");
+    let mut log =
+        FrameLog::new(args.json || folder.is_some(), Panel::new(&args.estimator, &setup)?);
     let mut take_frame = |frame: &Frame| {
         progress.inc(1);
         log.push(&setup, frame)

@@ -47,15 +47,15 @@ impl Talk {
         self.verbose
     }
 
-    /// A progress bar over `count` frames, visible on a terminal only.
-    pub fn progress(&self, count: u64) -> ProgressBar {
+    /// A progress bar over `count` of `things`, visible on a terminal only.
+    pub fn progress(&self, count: u64, things: &str) -> ProgressBar {
         let target = match self.quiet || count < 2 {
             true => ProgressDrawTarget::hidden(),
             false => ProgressDrawTarget::stderr(),
         };
         let bar = ProgressBar::with_draw_target(Some(count), target);
-        let style = ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} to go");
-        if let Ok(style) = style {
+        let template = format!("{{bar:40}} {{pos}}/{{len}} {things}, {{eta}} to go");
+        if let Ok(style) = ProgressStyle::with_template(&template) {
             bar.set_style(style);
         }
         bar.enable_steady_tick(Duration::from_millis(200));

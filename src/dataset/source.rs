@@ -83,9 +83,9 @@ impl Source {
     }
 }
 
-/// Budget of a scene: signal is proportional to reflectance (eq. 3.13), ambient light to reflectance
+/// Budget of a scene from that of the white target at its distance: signal is proportional to reflectance (eq. 3.13), ambient light to reflectance
 /// and irradiance (eq. 3.19 and 3.20).
-fn scaled(white: &Budget, scene: &Scene) -> Budget {
+pub fn scaled(white: &Budget, scene: &Scene) -> Budget {
     Budget {
         signal_per_shot: white.signal_per_shot * scene.reflectance,
         ambient_rate_hz: white.ambient_rate_hz * scene.reflectance * scene.irradiance_w_m2_nm,

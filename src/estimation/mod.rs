@@ -28,6 +28,7 @@ pub mod findpeaks;
 pub mod likelihood;
 pub mod matched_filter;
 pub mod network;
+pub mod panel;
 pub mod peak_detection;
 pub mod spline;
 pub mod subtraction;
@@ -38,6 +39,7 @@ use crate::network::Histogram;
 use crate::optics::budget::LIGHT_M_S;
 
 pub use by_name::{Kind, Needs};
+pub use panel::{Panel, Reading};
 
 /// Width of a bin as the decoder's codes count it [ps].
 pub const BIN_PS: f64 = 25.0;

@@ -6,6 +6,7 @@ use std::path::Path;
 use tempfile::SpooledTempFile;
 
 use crate::error::{Error, Input, Result};
+use crate::estimation::{Panel, Reading};
 use crate::sim::frames::Frame;
 use crate::sim::setup::Setup;
 
@@ -21,8 +22,11 @@ const KEPT: usize = 1 << 20;
 pub struct FrameLog {
     /// The first frames, [`ROWS`] at most.
     pub rows: Vec<Frame>,
+    /// What other estimators say of those.
+    pub readings: Vec<Vec<Reading>>,
     /// How many frames.
     pub count: u64,
+    panel: Panel,
     /// Sums of the depth words and of their squares, which no order of summing changes.
     sums: (i128, i128),
     /// The frames as elements of a JSON array, if they are wanted.
@@ -30,10 +34,12 @@ pub struct FrameLog {
 }
 
 impl FrameLog {
-    /// Without frames; `json` if [`FrameLog::write_json`] will be called.
-    pub fn new(json: bool) -> Self {
+    /// Without frames; `json` if [`FrameLog::write_json`] will be called. The estimators of `panel`
+    /// look at every frame of which there will be a report.
+    pub fn new(json: bool, panel: Panel) -> Self {
         let json = json.then(|| SpooledTempFile::new(KEPT));
-        FrameLog { rows: Vec::new(), count: 0, sums: (0, 0), json }
+        let (rows, readings) = (Vec::new(), Vec::new());
+        FrameLog { rows, readings, count: 0, panel, sums: (0, 0), json }
     }
 
     /// Takes the next frame.
@@ -41,13 +47,17 @@ impl FrameLog {
     /// # Errors
     /// When the temporary file cannot be written.
     pub fn push(&mut self, setup: &Setup, frame: &Frame) -> Result<()> {
-        if self.rows.len() < ROWS {
+        let has_row = self.rows.len() < ROWS;
+        let is_reported = has_row || self.json.is_some();
+        let estimates = if is_reported { self.panel.read(&frame.histogram) } else { Vec::new() };
+        if has_row {
             self.rows.push(frame.clone());
+            self.readings.push(estimates.clone());
         }
         let depth = i128::from(frame.depth.get());
         self.sums = (self.sums.0 + depth, self.sums.1 + depth * depth);
         if let Some(json) = &mut self.json {
-            let text = serde_json::to_string(&FrameSummary::new(setup, frame))
+            let text = serde_json::to_string(&FrameSummary::new(setup, frame, estimates))
                 .map_err(|error| Input::new("--json", error))?;
             let comma = if self.count > 0 { "," } else { "" };
             write!(json, "{comma}{text}").map_err(temporary)?;

@@ -1,6 +1,9 @@
 //! What a run leaves behind for people and scripts.
 
+pub mod box_plot;
 pub mod causes;
+pub mod evaluation;
+pub mod evaluation_files;
 pub mod events;
 pub mod explanation;
 pub mod frame_log;

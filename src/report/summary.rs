@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::estimation::Reading;
 use crate::firmware::histogram_builder::BINS;
 use crate::network::formats::Depth;
 use crate::sim::frames::Frame;
@@ -71,6 +72,9 @@ pub struct FrameSummary {
     pub estimator_cycles: u64,
     /// From the edge that begins Clear to the one that raises `algo_done` [cycles].
     pub frame_cycles: u64,
+    /// What other estimators say of the histogram.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub estimates: Vec<Reading>,
 }
 
 /// One result of the TDC, in the words of thesis Table 6.3.
@@ -138,8 +142,8 @@ impl Spread {
 }
 
 impl FrameSummary {
-    /// Of a frame of `setup`.
-    pub fn new(setup: &Setup, frame: &Frame) -> Self {
+    /// Of a frame of `setup`, and of which other estimators say that.
+    pub fn new(setup: &Setup, frame: &Frame, estimates: Vec<Reading>) -> Self {
         FrameSummary {
             index: frame.index,
             true_depth_m: setup.true_depth_m(),
@@ -151,6 +155,7 @@ impl FrameSummary {
             histogram: frame.histogram,
             estimator_cycles: frame.estimator_cycles,
             frame_cycles: frame.frame_cycles,
+            estimates,
         }
     }
 }

@@ -5,6 +5,7 @@ use std::time::Duration;
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 
+use crate::estimation::Reading;
 use crate::sim::frames::Frame;
 use crate::sim::setup::{CYCLE, Setup};
 
@@ -22,7 +23,7 @@ pub fn plain() -> Table {
 pub fn run(setup: &Setup, log: &FrameLog, cycles: u64, wall: Duration) -> String {
     let mut text = format!("{}: {}\n\n", setup.name, setup.scenario.description);
     match log.rows.as_slice() {
-        [frame] => text += &one_frame(setup, frame).trim_fmt(),
+        [frame] => text += &one_frame(setup, frame, &log.readings[0]).trim_fmt(),
         _ => text += &many_frames(log).trim_fmt(),
     }
     let rate = cycles as f64 / wall.as_secs_f64();
@@ -35,7 +36,7 @@ pub fn run(setup: &Setup, log: &FrameLog, cycles: u64, wall: Duration) -> String
     text
 }
 
-fn one_frame(setup: &Setup, frame: &Frame) -> Table {
+fn one_frame(setup: &Setup, frame: &Frame, readings: &[Reading]) -> Table {
     let mut table = plain();
     let mut row = |name: &str, value: String| {
         table.add_row([name.to_owned(), value]);
@@ -48,6 +49,14 @@ fn one_frame(setup: &Setup, frame: &Frame) -> Table {
     } else {
         row("estimated", format!("{:.6} m  {:09x}", depth_m(frame), frame.depth.bits()));
     }
+    for reading in readings {
+        let error_mm = |depth_m| Some(1e3 * (depth_m - setup.true_depth_m()?));
+        let error =
+            |depth_m| error_mm(depth_m).map_or(String::new(), |mm| format!("  {mm:+.2} mm"));
+        let depth = |depth_m| format!("{depth_m:.6} m{}", error(depth_m));
+        let failure = || reading.failure.clone().unwrap_or_default();
+        row(reading.estimator, reading.depth_m.map_or_else(failure, depth));
+    }
     row("shots", grouped(frame.shots));
     row("TDC hits", grouped(frame.tdc_hits));
     row("codes counted", grouped(frame.hits()));
@@ -59,9 +68,11 @@ fn one_frame(setup: &Setup, frame: &Frame) -> Table {
 
 fn many_frames(log: &FrameLog) -> Table {
     let mut table = plain();
-    table.set_header(["frame", "depth [m]", "word", "TDC hits", "codes", "estimator", "cycles"]);
-    for frame in &log.rows {
-        table.add_row([
+    let mut header = vec!["frame", "depth [m]", "word", "TDC hits", "codes", "estimator", "cycles"];
+    header.extend(log.readings.iter().take(1).flatten().map(|reading| reading.estimator));
+    table.set_header(header);
+    for (frame, readings) in log.rows.iter().zip(&log.readings) {
+        let mut cells = vec![
             frame.index.to_string(),
             format!("{:.6}", depth_m(frame)),
             format!("{:09x}", frame.depth.bits()),
@@ -69,7 +80,12 @@ fn many_frames(log: &FrameLog) -> Table {
             grouped(frame.hits()),
             frame.estimator_cycles.to_string(),
             grouped(frame.frame_cycles),
-        ]);
+        ];
+        cells.extend(readings.iter().map(|reading| {
+            let failure = || reading.failure.clone().unwrap_or_default();
+            reading.depth_m.map_or_else(failure, |depth_m| format!("{depth_m:.6}"))
+        }));
+        table.add_row(cells);
     }
     if log.count > log.rows.len() as u64 {
         table.add_row([format!("... {} more", log.count - log.rows.len() as u64)]);

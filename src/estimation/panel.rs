@@ -1,0 +1,78 @@
+//! Several estimators over the same histograms.
+
+use serde::Serialize;
+
+use crate::error::Result;
+use crate::network::Histogram;
+use crate::optics::Bins;
+use crate::sim::setup::{CYCLE, Setup};
+
+use super::by_name::Acquisition;
+use super::{Estimator, Kind, Needs};
+
+/// Estimators that look at each histogram of a run, beside the one in the firmware.
+#[derive(Default)]
+pub struct Panel {
+    estimators: Vec<Box<dyn Estimator + Send>>,
+}
+
+/// What one of them says of a histogram.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Reading {
+    /// Its name on the command line.
+    pub estimator: &'static str,
+    /// Distance of the target [m]; null where it failed.
+    pub depth_m: Option<f64>,
+    /// Why it failed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failure: Option<String>,
+}
+
+impl Panel {
+    /// Estimators for the histograms of a scenario.
+    ///
+    /// # Errors
+    /// When they cannot be made for it.
+    pub fn new(kinds: &[Kind], setup: &Setup) -> Result<Self> {
+        let tdc = &setup.params.tdc;
+        let bins = &Bins::of_chain(&tdc.delays, &tdc.cal, CYCLE);
+        let acquisition = Acquisition {
+            bins,
+            shots: setup.scenario.firmware.shots_per_frame,
+            pulse_sigma_ps: setup.scenario.laser.pulse_sigma_ps,
+        };
+        let needs = Needs { acquisition, network: &setup.network };
+        let estimators = kinds.iter().map(|kind| Ok(kind.estimator(&needs)?));
+        Ok(Panel { estimators: estimators.collect::<Result<_>>()? })
+    }
+
+    /// What each says, in the order in which they were named.
+    pub fn read(&self, histogram: &Histogram) -> Vec<Reading> {
+        let reading = |estimator: &dyn Estimator| {
+            let estimate = estimator.estimate(histogram);
+            Reading {
+                estimator: estimator.name(),
+                failure: estimate.as_ref().err().map(ToString::to_string),
+                depth_m: estimate.ok(),
+            }
+        };
+        self.estimators.iter().map(|estimator| reading(estimator)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario;
+
+    #[test]
+    fn each_says_where_the_target_is_or_why_not() {
+        let setup = Setup::new(scenario::load("kc705", &[]).unwrap()).unwrap();
+        let kinds = [Kind::Matched, Kind::Network, Kind::Peak];
+        let panel = Panel::new(&kinds, &setup).unwrap();
+        let nothing = panel.read(&[0; 256]);
+        let failures: Vec<_> = nothing.iter().map(|reading| reading.failure.as_deref()).collect();
+        assert_eq!(failures, [Some("no hits"), None, Some("no hits")]);
+        assert!(Panel::default().read(&[0; 256]).is_empty());
+    }
+}

@@ -1,0 +1,109 @@
+//! What a set of errors is like.
+
+use serde::Serialize;
+
+/// Where errors lie; all but the counts are `None` without an estimate, spreads without two.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Spread {
+    /// Histograms with an estimate.
+    pub estimates: u64,
+    /// Histograms without.
+    pub failures: u64,
+    /// Mean error [mm].
+    pub mean_mm: Option<f64>,
+    /// Standard error of that [mm].
+    pub mean_error_mm: Option<f64>,
+    /// Twice the standard deviation of the errors [mm].
+    pub two_sd_mm: Option<f64>,
+    /// Standard error of that, by the fourth moment [mm].
+    pub two_sd_error_mm: Option<f64>,
+    /// Least error, the quartiles and the largest error [mm].
+    pub quartiles_mm: Option<[f64; 5]>,
+}
+
+impl Spread {
+    /// Of errors in metres, those of failures missing.
+    pub fn of(errors_m: impl IntoIterator<Item = Option<f64>>) -> Self {
+        let (mut errors_mm, mut failures) = (Vec::new(), 0);
+        for error in errors_m {
+            match error {
+                Some(error_m) => errors_mm.push(1e3 * error_m),
+                None => failures += 1,
+            }
+        }
+        let mut spread =
+            Spread { estimates: errors_mm.len() as u64, failures, ..Spread::default() };
+        if errors_mm.is_empty() {
+            return spread;
+        }
+        errors_mm.sort_by(f64::total_cmp);
+        let n = errors_mm.len() as f64;
+        let mean = errors_mm.iter().sum::<f64>() / n;
+        spread.mean_mm = Some(mean);
+        spread.quartiles_mm = Some([0.0, 0.25, 0.5, 0.75, 1.0].map(|q| quantile(&errors_mm, q)));
+        if errors_mm.len() > 1 {
+            let moment =
+                |power| errors_mm.iter().map(|error| (error - mean).powi(power)).sum::<f64>();
+            let variance = moment(2) / (n - 1.0);
+            let excess = (moment(4) / n - variance * variance).max(0.0);
+            spread.mean_error_mm = Some((variance / n).sqrt());
+            spread.two_sd_mm = Some(2.0 * variance.sqrt());
+            let of_variance = (excess / n).sqrt();
+            let has_width = variance > 0.0;
+            spread.two_sd_error_mm =
+                Some(if has_width { of_variance / variance.sqrt() } else { 0.0 });
+        }
+        spread
+    }
+}
+
+/// A quantile of sorted values, linear between them.
+fn quantile(sorted: &[f64], part: f64) -> f64 {
+    let place = part * (sorted.len() - 1) as f64;
+    let below = place as usize;
+    let above = (below + 1).min(sorted.len() - 1);
+    sorted[below] + (place - below as f64) * (sorted[above] - sorted[below])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn five_errors_by_hand() {
+        let spread = Spread::of([1.0, 2.0, 3.0, 4.0, 5.0].map(|mm| Some(1e-3 * mm)));
+        assert_eq!((spread.estimates, spread.failures), (5, 0));
+        let near = |found: Option<f64>, expected: f64| (found.unwrap() - expected).abs() < 1e-12;
+        assert!(near(spread.mean_mm, 3.0));
+        assert!(near(spread.two_sd_mm, 2.0 * 2.5f64.sqrt()));
+        assert!(near(spread.mean_error_mm, 0.5f64.sqrt()));
+        for (found, expected) in
+            spread.quartiles_mm.unwrap().into_iter().zip([1.0, 2.0, 3.0, 4.0, 5.0])
+        {
+            assert!((found - expected).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn failures_are_counted_and_left_out() {
+        let spread = Spread::of([None, Some(0.001), None]);
+        assert_eq!((spread.estimates, spread.failures, spread.mean_mm), (1, 2, Some(1.0)));
+        assert_eq!(spread.two_sd_mm, None);
+        let none = Spread::of([None]);
+        assert_eq!((none.mean_mm, none.quartiles_mm, none.failures), (None, None, 1));
+    }
+
+    #[test]
+    fn the_standard_error_of_a_normal_spread_is_known() {
+        // Quantiles of a normal distribution: its kurtosis is 3, so that the standard error of
+        // 2 sd is 2 sd / sqrt(2 n).
+        let n = 20_001;
+        let normal = |k: usize| {
+            use statrs::distribution::{ContinuousCDF, Normal};
+            Normal::standard().inverse_cdf((k as f64 + 0.5) / n as f64)
+        };
+        let spread = Spread::of((0..n).map(|k| Some(normal(k))));
+        let expected = 2000.0 / (2.0 * n as f64).sqrt();
+        assert!((spread.two_sd_error_mm.unwrap() / expected - 1.0).abs() < 0.01);
+    }
+}
