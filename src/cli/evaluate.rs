@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use serde::Serialize;
 
-use crate::dataset::{Grid, Rows, Scene, Source, Subset};
+use crate::dataset::{Grid, Rows, Scene, Source};
 use crate::error::{Error, Input, Result};
 use crate::estimation::by_name::Acquisition;
 use crate::estimation::{Estimator, Kind, Needs};
@@ -15,10 +15,10 @@ use crate::evaluation::thesis::{self, DISTANCES_M};
 use crate::evaluation::{Evaluation, Figures};
 use crate::network::Network;
 use crate::report::{evaluation as report, evaluation_files};
-use crate::scenario::{self, Loaded};
+use crate::scenario::Loaded;
 use crate::sim::setup::Setup;
 
-use super::dataset::from_here;
+use super::draws::Draws;
 use super::interrupt::stop_signal;
 use super::stdout::print;
 use super::talk::Talk;
@@ -42,28 +42,11 @@ pub struct Args {
     /// Built-in network (uniform, ideal) or network file
     #[arg(value_name = "NETWORK", default_value = Network::DEFAULT)]
     network: String,
-    /// Built-in scenario, or the path of a scenario file, for all but the scene
-    #[arg(long, default_value = scenario::DEFAULT)]
-    scenario: String,
-    /// Set a key of the scenario, such as firmware.shots_per_frame=15000; may be repeated
-    #[arg(short, long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
-    /// Carry chain: uniform, table6_3, ideal (bins of 25 ps), or the path of a chain file, from here
-    /// [default: the scenario's]
-    #[arg(long, value_name = "P")]
-    profile: Option<String>,
+    #[command(flatten)]
+    draws: Draws,
     /// Estimators, separated by commas
     #[arg(long, value_enum, value_delimiter = ',', default_value = "network,network-float")]
     estimator: Vec<Kind>,
-    /// Draw so many random scenes, equally many at each distance, instead of all
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..1 << 40))]
-    rows: Option<u64>,
-    /// Seed of every random stream, instead of the scenario's
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
-    seed: Option<u64>,
-    /// Threads; the figures are the same for any number [default: one a core]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
     /// Frames to simulate cycle by cycle at each of six distances, to be compared with the fast path
     #[arg(long, value_name = "N", default_value_t = 8, allow_hyphen_values = true)]
     check: u64,
@@ -103,7 +86,7 @@ struct Thesis {
 
 /// Runs the verb; the status says whether the cross-check found both paths the same.
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
-    let loaded = args.load()?;
+    let loaded = args.draws.load(&args.network)?;
     let network = Network::find(&args.network, None)?;
     let source = Source::new(&Setup::new(loaded.clone())?)?;
     let (seed, profile) = (loaded.scenario.seed, &loaded.scenario.tdc.profile);
@@ -123,10 +106,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     };
     let estimators = args.estimator.iter().map(|kind| kind.estimator(&needs));
     let estimators = estimators.collect::<std::result::Result<Vec<_>, Input>>()?;
-    let rows = match args.rows {
-        None => Rows::All(Grid::test()),
-        Some(rows) => Rows::Subset(Subset::new(Grid::test(), rows, seed)),
-    };
+    let rows = args.draws.rows(seed);
     let evaluation = args.evaluate(&source, &rows, seed, &estimators, talk)?;
     let cross_check = args.cross_check(&loaded, &source)?;
     let agrees = cross_check.iter().all(CrossCheck::agrees);
@@ -164,18 +144,6 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
 }
 
 impl Args {
-    fn load(&self) -> Result<Loaded> {
-        let mut loaded = scenario::load(&self.scenario, &self.set)?;
-        if let Some(seed) = self.seed {
-            loaded.scenario.seed = seed;
-        }
-        if let Some(profile) = &self.profile {
-            loaded.scenario.tdc.profile = from_here(profile)?;
-        }
-        loaded.scenario.estimator.network = from_here(&self.network)?;
-        Ok(loaded)
-    }
-
     fn evaluate(
         &self,
         source: &Source,
@@ -184,8 +152,7 @@ impl Args {
         estimators: &[Box<dyn Estimator + Send>],
         talk: &Talk,
     ) -> Result<Evaluation> {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0).into());
-        let pool = pool.build().map_err(|error| Input::new("--threads", error))?;
+        let pool = self.draws.pool()?;
         let (stop, progress) = (stop_signal(), talk.progress(rows.len(), "rows"));
         let done = |rows| progress.inc(rows);
         let evaluation =

@@ -5,17 +5,26 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use crate::dataset::Source;
 use crate::error::{Error, Result};
+use crate::evaluation::exploration::{Point, explore, sweep};
 use crate::network::file::Training;
 use crate::network::formats::Overflow;
 use crate::network::{Network, import, mem};
 use crate::output::{OutputFile, create_directory};
+use crate::report::exploration;
 use crate::report::table::plain;
+use crate::sim::setup::Setup;
 
+use super::draws::Draws;
+use super::interrupt::stop_signal;
 use super::stdout::print;
 use super::talk::Talk;
 
-/// Fold and round a network that was trained elsewhere
+/// Histograms of an exploration, if nothing else is said: 200 at each distance.
+const EXPLORED: u64 = 10_200;
+
+/// Fold and round a network that was trained elsewhere, or explore word lengths
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Arrays by name: IW (8 x 256), LW (8), b1 (8), b2, and the settings of mapminmax on both sides if\n\
@@ -31,9 +40,8 @@ use super::talk::Talk;
     tofsim run -s estimator.network=net.toml"
 )]
 pub struct Args {
-    /// MATLAB file, JSON file, or folder of NumPy arrays (IW.npy, ...)
-    #[arg(long, value_name = "FILE|DIR")]
-    from: PathBuf,
+    #[command(flatten)]
+    task: Task,
     /// Network file to write
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -49,9 +57,23 @@ pub struct Args {
     /// Take the nearest word for a weight that does not fit, instead of an error
     #[arg(long)]
     saturate: bool,
+    #[command(flatten)]
+    draws: Draws,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
+}
+
+#[derive(Debug, clap::Args)]
+#[group(required = true, multiple = false)]
+struct Task {
+    /// Fold and round a network: MATLAB file, JSON file, or folder of NumPy arrays (IW.npy, ...)
+    #[arg(long, value_name = "FILE|DIR")]
+    from: Option<PathBuf>,
+    /// Sweep word lengths and the table of activations: accuracy against block RAMs and DSP slices;
+    /// of 10,200 histograms unless --rows says how many
+    #[arg(long, value_name = "NETWORK", conflicts_with_all = ["output", "roms", "saturate"])]
+    explore: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -66,6 +88,17 @@ struct Report {
     files: Vec<String>,
 }
 
+/// What `--explore --json` prints.
+#[derive(Serialize)]
+struct Exploration<'a> {
+    schema: &'static str,
+    network: &'a str,
+    profile: &'a str,
+    seed: u64,
+    rows: u64,
+    points: Vec<Point>,
+}
+
 #[derive(Clone, Copy, Serialize)]
 struct Largest {
     weights: &'static str,
@@ -75,8 +108,15 @@ struct Largest {
 
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
-    let from = args.from.display().to_string();
-    let float = import::read(&args.from)?;
+    match (&args.task.from, &args.task.explore) {
+        (Some(from), _) => quantize(args, from, talk),
+        (None, explore) => args.explore(explore.as_deref().unwrap_or(Network::DEFAULT), talk),
+    }
+}
+
+fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
+    let from = path.display().to_string();
+    let float = import::read(path)?;
     let overflow = if args.saturate { Overflow::Saturate } else { Overflow::Refuse };
     let rounded = float.round(&from, overflow)?;
     if rounded.saturated > 0 {
@@ -95,7 +135,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         name: from.clone(),
         description: args.description.clone(),
         training: Training {
-            origin: format!("trained elsewhere, from {}", file_name(&args.from)),
+            origin: format!("trained elsewhere, from {}", file_name(path)),
             chain: args.chain.clone(),
             command: None,
         },
@@ -112,13 +152,35 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         files: files.iter().map(|path| path.display().to_string()).collect(),
     };
     if args.json {
-        let text = serde_json::to_string(&report).map_err(std::io::Error::from);
-        return print(&(text.map_err(Error::io(Path::new("stdout"), "write"))? + "\n"));
+        return print(&(json(&report)? + "\n"));
     }
     print(&report.text())
 }
 
 impl Args {
+    fn explore(&self, network: &str, talk: &Talk) -> Result<()> {
+        let loaded = self.draws.load(network)?;
+        let (seed, profile) = (loaded.scenario.seed, loaded.scenario.tdc.profile.clone());
+        let network = Network::find(network, None)?;
+        let source = Source::new(&Setup::new(loaded)?)?;
+        let rows = self.draws.rows_or(EXPLORED, seed);
+        let (stop, progress) = (stop_signal(), talk.progress(rows.len(), "rows"));
+        let points = self.draws.pool()?.install(|| {
+            let data = (&source, &rows, seed);
+            explore(&network, &sweep(), data, stop.as_deref(), |rows| progress.inc(rows))
+        })?;
+        progress.finish_and_clear();
+        let (name, rows) = (&network.name, rows.len());
+        if self.json {
+            let schema = "tofsim.exploration/1";
+            let report =
+                Exploration { schema, network: name, profile: &profile, seed, rows, points };
+            return print(&(json(&report)? + "\n"));
+        }
+        let head = format!("network {name}, chain {profile}, {rows} histograms, seed {seed}\n\n");
+        print(&(head + &exploration::text(&points)))
+    }
+
     fn write(&self, network: &Network) -> Result<Vec<PathBuf>> {
         let mut files = Vec::new();
         let mut put = |path: PathBuf, text: &str| {
@@ -156,6 +218,11 @@ impl Report {
         }
         text
     }
+}
+
+fn json(report: &impl Serialize) -> Result<String> {
+    let text = serde_json::to_string(report).map_err(std::io::Error::from);
+    text.map_err(Error::io(Path::new("stdout"), "write"))
 }
 
 /// Without the folders before it, which are nobody's business in the file.

@@ -50,6 +50,12 @@ impl Figures {
         }
     }
 
+    /// Errors at a distance of the grid [m].
+    pub fn at(&self, distance_m: f64) -> Option<&Spread> {
+        let mut groups = self.by_distance_m.iter();
+        groups.find(|group| group.value == distance_m).map(|group| &group.spread)
+    }
+
     /// The distances where the spread is above the line between the thesis's float figures.
     pub fn distances_above_the_line(&self) -> usize {
         self.by_distance_m.iter().filter(|group| ratio(group) > Some(1.0)).count()

@@ -6,6 +6,7 @@
 
 pub mod bound;
 pub mod cross_check;
+pub mod exploration;
 pub mod figures;
 pub mod groups;
 pub mod spread;
@@ -51,7 +52,7 @@ impl Evaluation {
         source: &Source,
         rows: &Rows,
         seed: u64,
-        estimators: &[Box<dyn Estimator + Send>],
+        estimators: &[Box<dyn Estimator + Send + '_>],
         stop: Option<&AtomicBool>,
         mut done: impl FnMut(u64),
     ) -> Result<Self> {

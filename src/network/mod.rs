@@ -1,5 +1,6 @@
 //! The depth network: its file, its fixed-point and floating-point passes, and its ROMs.
 
+pub mod datapath;
 pub mod estimate;
 pub mod explain;
 pub mod file;

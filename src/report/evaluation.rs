@@ -68,8 +68,7 @@ fn published_row(table: &mut Table, published: &Published, values: &[f64; 6], de
 fn row(table: &mut Table, figures: &Figures, cell: impl Fn(&Spread) -> String) {
     let mut cells = vec![figures.name.to_owned()];
     for distance_m in DISTANCES_M {
-        let group = figures.by_distance_m.iter().find(|group| group.value == distance_m);
-        cells.push(group.map_or("-".to_owned(), |group| cell(&group.spread)));
+        cells.push(figures.at(distance_m).map_or("-".to_owned(), &cell));
     }
     table.add_row(cells);
 }

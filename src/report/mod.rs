@@ -6,6 +6,7 @@ pub mod evaluation;
 pub mod evaluation_files;
 pub mod events;
 pub mod explanation;
+pub mod exploration;
 pub mod frame_log;
 pub mod histogram_csv;
 pub mod histogram_svg;
