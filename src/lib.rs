@@ -27,5 +27,6 @@ pub mod scenario;
 pub mod sensor;
 pub mod sim;
 pub mod source;
+pub mod training;
 pub mod verify;
 pub mod waves;
