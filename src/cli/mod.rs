@@ -11,6 +11,7 @@ pub mod run;
 pub mod scenario;
 pub mod stdout;
 pub mod talk;
+pub mod train;
 pub mod vectors;
 pub mod verify;
 
@@ -44,6 +45,7 @@ enum Verb {
     Verify(verify::Args),
     Ila(ila::Args),
     Compare(Box<compare::Args>),
+    Train(Box<train::Args>),
     Scenario(scenario::Args),
     Completions(completions::Args),
     Man(man::Args),
@@ -61,6 +63,7 @@ impl Cli {
             Verb::Verify(args) => return verify::run(args, &talk),
             Verb::Ila(args) => ila::run(args, &talk),
             Verb::Compare(args) => return compare::run(args, &talk),
+            Verb::Train(args) => train::run(args, &talk),
             Verb::Scenario(args) => scenario::run(args),
             Verb::Completions(args) => completions::run(args),
             Verb::Man(args) => man::run(args),

@@ -23,7 +23,10 @@ pub struct Row {
 }
 
 /// Errors by distance, in the samples' order; those of one distance have to be neighbours.
-pub fn by_distance(samples: &Samples, depth_m: impl Fn(&Histogram) -> f64 + Sync + Send) -> Vec<Row> {
+pub fn by_distance(
+    samples: &Samples,
+    depth_m: impl Fn(&Histogram) -> f64 + Sync + Send,
+) -> Vec<Row> {
     let depths: Vec<f64> = samples.counts.par_iter().map(depth_m).collect();
     let pairs: Vec<_> = samples.distances_m.iter().copied().zip(depths).collect();
     pairs.chunk_by(|a, b| a.0 == b.0).map(row).collect()

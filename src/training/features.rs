@@ -107,8 +107,9 @@ mod tests {
 
     #[test]
     fn inputs_have_mean_0_and_standard_deviation_1() {
-        let histogram =
-            |s: usize| -> Histogram { std::array::from_fn(|bin| ((s * 37 + bin * s) % 101) as u16) };
+        let histogram = |s: usize| -> Histogram {
+            std::array::from_fn(|bin| ((s * 37 + bin * s) % 101) as u16)
+        };
         let counts: Vec<_> = (0..300).map(histogram).collect();
         let scaling = Scaling::of(&counts);
         for k in 1..KNOTS {

@@ -129,8 +129,9 @@ mod tests {
 
     #[test]
     fn sums_are_those_of_a_loop_over_the_samples() {
-        let histogram =
-            |s: usize| -> [u16; 256] { std::array::from_fn(|bin| ((s * 37 + bin * s) % 101) as u16) };
+        let histogram = |s: usize| -> [u16; 256] {
+            std::array::from_fn(|bin| ((s * 37 + bin * s) % 101) as u16)
+        };
         let counts: Vec<_> = (0..BLOCK).map(histogram).collect();
         let scaling = Scaling::of(&counts);
         let features = Features::new(&counts, &scaling);

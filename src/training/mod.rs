@@ -6,7 +6,9 @@
 
 pub mod accuracy;
 pub mod basis;
+pub mod checkpoint;
 pub mod cholesky;
+pub mod curve;
 pub mod data;
 pub mod features;
 pub mod fold;

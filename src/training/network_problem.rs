@@ -376,7 +376,8 @@ mod tests {
                 let dot = |a: &[f64], b: &[f64]| -> f64 {
                     a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() / 300.0
                 };
-                let norm: Vec<f64> = jacobian.iter().map(|column| dot(column, column).sqrt()).collect();
+                let norm: Vec<f64> =
+                    jacobian.iter().map(|column| dot(column, column).sqrt()).collect();
                 for (i, column) in jacobian.iter().enumerate() {
                     let (found, expected) = (linear.gradient[i], dot(column, &r));
                     assert!((found - expected).abs() < 1e-6 * norm[i] * cost.sqrt(), "{i}");

@@ -128,11 +128,11 @@ impl Recipe {
     /// When the text is no TOML, a key is unknown, or a value makes no sense.
     pub fn parse(text: &str, base: &Recipe, overrides: &[String], source: &str) -> Result<Self> {
         let fault = |error: toml::de::Error| Input::new(source, error.to_string().trim_end());
-        let mut table = toml::Table::try_from(base)
-            .map_err(|error| Input::new("recipe", error.to_string()))?;
+        let mut table =
+            toml::Table::try_from(base).map_err(|error| Input::new("recipe", error.to_string()))?;
         merge(&mut table, text.parse::<toml::Table>().map_err(fault)?);
         for assignment in overrides {
-            let option = format!("--set {assignment}");
+            let option = format!("--with {assignment}");
             let fault = |error: toml::de::Error| Input::new(&option, error.message());
             if assignment.contains(char::is_control) || !assignment.contains('=') {
                 return Err(Input::new(option, "expected key=value, on one line").into());
@@ -213,8 +213,8 @@ impl Recipe {
 
     /// All settings by dotted key, in TOML.
     pub fn settings(&self) -> Result<Vec<(String, String)>> {
-        let table = toml::Table::try_from(self)
-            .map_err(|error| Input::new("recipe", error.to_string()))?;
+        let table =
+            toml::Table::try_from(self).map_err(|error| Input::new("recipe", error.to_string()))?;
         let mut settings = Vec::new();
         flatten("", &toml::Value::Table(table), &mut settings);
         Ok(settings)
@@ -272,7 +272,7 @@ mod tests {
     fn what_makes_no_sense_is_named() {
         let fault = |text: &str, set: &[&str]| parse(text, set).unwrap_err().to_string();
         assert!(fault("neuron = 3", &[]).contains("unknown field `neuron`"));
-        assert!(fault("", &["limits.b3=1"]).starts_with("--set limits.b3=1: unknown field"));
+        assert!(fault("", &["limits.b3=1"]).starts_with("--with limits.b3=1: unknown field"));
         assert!(fault("", &["neurons"]).contains("expected key=value"));
         assert!(fault("", &["neurons=0"]).contains("neurons = 0: expected 1 or more"));
         assert!(fault("", &["finish.samples=5"]).contains("finish.samples = 5: expected 201"));

@@ -130,12 +130,7 @@ impl<'a> Tournament<'a> {
     ///
     /// # Errors
     /// When no data can be drawn.
-    pub fn resume(
-        recipe: &'a Recipe,
-        source: &'a Source,
-        seed: u64,
-        state: State,
-    ) -> Result<Self> {
+    pub fn resume(recipe: &'a Recipe, source: &'a Source, seed: u64, state: State) -> Result<Self> {
         let samples = stage_samples(recipe, source, seed, state.stage)?;
         let data = StageData::new(&samples, &state.scaling);
         let choice = choice_samples(source, seed)?;
@@ -242,7 +237,9 @@ impl<'a> Tournament<'a> {
             Some(stage) => stage.candidates,
             None => self.recipe.finish.candidates,
         };
-        state.candidates.sort_by(|a, b| a.lm.cost.total_cmp(&b.lm.cost).then(a.start.cmp(&b.start)));
+        state
+            .candidates
+            .sort_by(|a, b| a.lm.cost.total_cmp(&b.lm.cost).then(a.start.cmp(&b.start)));
         state.candidates.truncate(keep);
         state.candidates.iter_mut().for_each(|one| one.lm.restart(&self.recipe.optimiser));
         let samples = stage_samples(self.recipe, self.source, self.seed, state.stage)?;
@@ -272,7 +269,8 @@ impl<'a> Tournament<'a> {
             let pairs: Vec<_> = samples.iter().copied().zip(errors).collect();
             let ratio = |pairs: &[(f64, f64)]| {
                 let squares: f64 = pairs.iter().map(|(_, error)| error * error).sum();
-                2000.0 * (squares / pairs.len() as f64).sqrt() / recipe.weighting.line_mm(pairs[0].0)
+                2000.0 * (squares / pairs.len() as f64).sqrt()
+                    / recipe.weighting.line_mm(pairs[0].0)
             };
             let ratios: Vec<f64> = pairs.chunk_by(|a, b| a.0 == b.0).map(ratio).collect();
             let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
