@@ -10,9 +10,10 @@ use tofsim::network::Network;
 use tofsim::training::features::{Features, Scaling};
 use tofsim::training::limits::Limits;
 use tofsim::training::lm::{Lm, Settings};
-use tofsim::training::network_problem::{NetworkProblem, parameters};
+use tofsim::training::network_problem::NetworkProblem;
 use tofsim::training::recipe::Recipe;
 use tofsim::training::start::start;
+use tofsim::training::sums::parameters;
 
 /// Arguments of a training of about a second.
 const SMALL: [&str; 8] = [
@@ -183,7 +184,7 @@ fn bins_that_never_count_do_no_harm() {
     let distances_m: Vec<f64> =
         counts.iter().map(|counts| 0.1 + f64::from(counts[60]) / 100.0).collect();
     let scaling = Scaling::of(&counts);
-    assert!(scaling.inverse_sd.iter().any(|scale| *scale == 0.0));
+    assert!(scaling.inverse_sd.contains(&0.0));
     let features = Features::new(&counts, &scaling);
     let (recipe, weights) = (Recipe::default(), vec![1000.0; 400]);
     let problem = NetworkProblem {

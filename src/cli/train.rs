@@ -1,24 +1,19 @@
 //! `tofsim train`: a depth network from simulated histograms.
 
-use std::fmt::Write as _;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-use comfy_table::CellAlignment;
-use serde::Serialize;
 
 use crate::dataset::Source;
 use crate::error::{Error, Input, Result, read_text};
 use crate::network::file::{Accuracy, Training};
 use crate::output::{create_directory, write_file};
-use crate::report::table::plain;
 use crate::scenario;
 use crate::sim::setup::Setup;
-use crate::training::accuracy::{Row, worst_ratio};
+use crate::training::accuracy::Row;
 use crate::training::recipe::Recipe;
 use crate::training::tournament::Tournament;
-use crate::training::{checkpoint, curve, data};
+use crate::training::{checkpoint, curve, data, report};
 
 use super::interrupt::stop_signal;
 use super::stdout::print;
@@ -209,7 +204,7 @@ impl Args {
         let float = tournament.result();
         let words = float.round()?;
         let rows = tournament.test(&words)?;
-        write("accuracy.csv", &csv(&rows))?;
+        write("accuracy.csv", &report::csv(&rows))?;
 
         let chain = setup.scenario.tdc.profile.clone();
         let (data, seed) = (&tournament.state.data, self.seed);
@@ -224,84 +219,18 @@ impl Args {
         let at_line: Vec<&Row> = rows.iter().filter(|row| line.contains(&row.distance_m)).collect();
         let accuracy = Accuracy {
             distances_m: at_line.iter().map(|row| row.distance_m).collect(),
-            two_sd_mm: at_line.iter().map(|row| hundredths(row.two_sd_mm)).collect(),
+            two_sd_mm: at_line.iter().map(|row| report::hundredths(row.two_sd_mm)).collect(),
         };
         let description =
             format!("256-{}-1 depth network for the bins of chain {chain}", recipe.neurons);
         let training = Training { origin, chain, command };
         let network = words.network(&float, training, accuracy, description);
-        let text = self.text(recipe, &rows)?;
-        print(&text)?;
         let path = self.output.join("network.toml");
+        print(&match self.json {
+            true => report::json(&rows, &recipe.weighting, &path)?,
+            false => report::table(&rows, &recipe.weighting),
+        })?;
         let text = network?.to_toml();
         write_file(&path, |file| file.write_all(text.as_bytes()))
     }
-
-    /// What goes to standard output.
-    fn text(&self, recipe: &Recipe, rows: &[Row]) -> Result<String> {
-        let line = &recipe.weighting;
-        if !self.json {
-            return Ok(table(recipe, rows));
-        }
-        let report = Report {
-            schema: "tofsim.train/1",
-            network: self.output.join("network.toml").display().to_string(),
-            worst_ratio: worst_ratio(rows, line),
-            distances_m: rows.iter().map(|row| row.distance_m).collect(),
-            mean_mm: rows.iter().map(|row| row.mean_mm).collect(),
-            two_sd_mm: rows.iter().map(|row| row.two_sd_mm).collect(),
-            line_mm: rows.iter().map(|row| line.line_mm(row.distance_m)).collect(),
-        };
-        let text = serde_json::to_string(&report).map_err(io::Error::from);
-        Ok(text.map_err(Error::io(Path::new("stdout"), "write"))? + "\n")
-    }
-}
-
-/// What `--json` prints.
-#[derive(Serialize)]
-struct Report {
-    schema: &'static str,
-    network: String,
-    /// Largest ratio of a spread to the line.
-    worst_ratio: f64,
-    distances_m: Vec<f64>,
-    /// Mean of depth minus distance.
-    mean_mm: Vec<f64>,
-    /// Twice the standard deviation of the depth, in fixed point.
-    two_sd_mm: Vec<f64>,
-    /// What to stay below; Table 5.5 of the thesis, unless the recipe says otherwise.
-    line_mm: Vec<f64>,
-}
-
-fn hundredths(value: f64) -> f64 {
-    (value * 100.0).round() / 100.0
-}
-
-fn csv(rows: &[Row]) -> String {
-    let mut text = String::from("distance_m,histograms,mean_mm,two_sd_mm,rms_mm\n");
-    for Row { distance_m, count, mean_mm, two_sd_mm, rms_mm } in rows {
-        // Writing to a string does not fail.
-        let _ = writeln!(text, "{distance_m},{count},{mean_mm:?},{two_sd_mm:?},{rms_mm:?}");
-    }
-    text
-}
-
-/// The line's distances, and the worst of all.
-fn table(recipe: &Recipe, rows: &[Row]) -> String {
-    let line = &recipe.weighting;
-    let mut table = plain();
-    table.set_header(["distance_m", "mean_mm", "two_sd_mm", "to stay below"]);
-    for row in rows.iter().filter(|row| line.distances_m.contains(&row.distance_m)) {
-        let below = format!("{:.2}", line.line_mm(row.distance_m));
-        let [mean, spread] = [row.mean_mm, row.two_sd_mm].map(|value| format!("{value:.2}"));
-        table.add_row([row.distance_m.to_string(), mean, spread, below]);
-    }
-    table.column_iter_mut().for_each(|column| column.set_cell_alignment(CellAlignment::Right));
-    let ratio = |row: &Row| row.two_sd_mm / line.line_mm(row.distance_m);
-    let worst = rows.iter().max_by(|a, b| ratio(a).total_cmp(&ratio(b)));
-    let worst = worst.map_or(String::new(), |row| {
-        let (ratio, distance) = (ratio(row), row.distance_m);
-        format!("fixed point; over all distances at most {ratio:.2} of that, at {distance} m\n")
-    });
-    format!("{}\n{worst}", table.trim_fmt())
 }

@@ -11,9 +11,9 @@ use crate::error::{Input, Result, read_text};
 use crate::output::write_file;
 
 use super::basis::KNOTS;
-use super::network_problem::parameters;
 use super::recipe::Recipe;
-use super::tournament::State;
+use super::state::State;
+use super::sums::parameters;
 
 /// Value of the key `schema`.
 const SCHEMA: &str = "tofsim.checkpoint/1";
@@ -105,7 +105,7 @@ mod tests {
     use super::*;
     use crate::training::features::Scaling;
     use crate::training::lm::Lm;
-    use crate::training::tournament::{Best, Candidate};
+    use crate::training::state::{Best, Candidate};
 
     fn state(recipe: &Recipe) -> State {
         // Numbers of all magnitudes, none of them round.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::tournament::Point;
+use super::state::Point;
 
 const SIZE: (u32, u32) = (1000, 520);
 

@@ -88,18 +88,18 @@ impl Limits {
             // B1 is what the centring leaves of the bias.
             let mut slopes = vec![(first + KNOTS, 1.0)];
             let mut bias = row[KNOTS];
-            for j in 0..KNOTS {
-                let of_raw = scaling.inverse_sd[j];
+            let of_raw = scaling.inverse_sd.iter().zip(&scaling.mean);
+            for ((place, weight), (of_raw, mean)) in (first..).zip(row).zip(of_raw) {
                 let relative = of_raw / (self.w1_share * W1_RANGE);
-                outside(row[j] * relative, 1.0, 1.0, &mut [(first + j, relative)]);
-                bias -= row[j] * of_raw * scaling.mean[j];
-                slopes.push((first + j, -of_raw * scaling.mean[j]));
+                outside(weight * relative, 1.0, 1.0, &mut [(place, relative)]);
+                bias -= weight * of_raw * mean;
+                slopes.push((place, -of_raw * mean));
             }
             outside(bias, self.b1, 1.0, &mut slopes);
         }
         let output = neurons * COLUMNS;
-        for place in output..output + neurons {
-            outside(x[place], self.w2_m, self.w2_slope, &mut [(place, 1.0)]);
+        for (place, weight) in (output..).zip(&x[output..output + neurons]) {
+            outside(*weight, self.w2_m, self.w2_slope, &mut [(place, 1.0)]);
         }
         let place = output + neurons;
         outside(x[place], self.b2_m, self.b2_slope, &mut [(place, 1.0)]);

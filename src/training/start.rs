@@ -7,8 +7,8 @@ use crate::sensor::streams::uniform;
 
 use super::basis::KNOTS;
 use super::features::COLUMNS;
-use super::network_problem::parameters;
 use super::recipe::Start;
+use super::sums::parameters;
 
 /// What a seed is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
