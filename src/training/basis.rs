@@ -88,7 +88,7 @@ mod tests {
     fn weights_of_knots_and_of_bins_give_the_same_sums() {
         let weights: [f64; KNOTS] = std::array::from_fn(|k| (k as f64 * 0.9).sin());
         let counts: Histogram = std::array::from_fn(|bin| (bin * bin % 997) as u16);
-        let bins = expand(&weights).iter().zip(counts).map(|(w, c)| w * f64::from(c));
+        let bins = expand(&weights).into_iter().zip(counts).map(|(w, c)| w * f64::from(c));
         let knots = gather(&counts).iter().zip(weights).map(|(c, w)| c * w).sum::<f64>();
         assert!((bins.sum::<f64>() - knots).abs() < 1e-9);
     }

@@ -78,6 +78,8 @@ pub enum Stop {
     Damping,
     /// The validation error grew too often.
     Validation,
+    /// Whoever asks for epochs finds that they gain too little.
+    Gain,
 }
 
 /// Where the method is.

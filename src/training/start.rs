@@ -31,7 +31,7 @@ pub fn derived(seed: u64, purpose: Purpose) -> u64 {
         Purpose::Test => 3,
         Purpose::Stage(stage) => 16 + stage as u64,
     };
-    let mut word = seed.wrapping_add(place * 0x9e37_79b9_7f4a_7c15);
+    let mut word = seed.wrapping_add(0x9e37_79b9_7f4a_7c15u64.wrapping_mul(place));
     word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     word ^ (word >> 31)

@@ -13,7 +13,7 @@ use super::accuracy::{Row, by_distance, worst_ratio};
 use super::data::{StageData, draw};
 use super::features::Scaling;
 use super::fold::Folded;
-use super::lm::{Lm, Problem};
+use super::lm::{Lm, Problem, Stop};
 use super::network_problem::NetworkProblem;
 use super::recipe::{Recipe, Stage};
 use super::samples::{Samples, digest};
@@ -123,12 +123,9 @@ impl<'a> Tournament<'a> {
         let epochs = self.recipe.checkpoint_epochs.min(self.target() - self.state.epochs);
         self.train(epochs)?;
         self.state.epochs += epochs;
-        for candidate in &self.state.candidates {
-            let Lm { epochs, cost, mu, .. } = candidate.lm;
-            let (stage, block, start) = (self.state.stage, self.state.block, candidate.start);
-            self.state.curve.push(Point { stage, block, start, epochs, cost, mu });
-        }
-        if self.state.epochs < self.target() {
+        self.record();
+        let resting = self.state.candidates.iter().all(|candidate| candidate.lm.stop.is_some());
+        if self.state.epochs < self.target() && !resting {
             return Ok(());
         }
         self.state.epochs = 0;
@@ -138,6 +135,23 @@ impl<'a> Tournament<'a> {
             return Ok(());
         }
         self.next_stage()
+    }
+
+    /// Adds to the learning curve, and lets those rest that gain too little.
+    fn record(&mut self) {
+        let (stage, block) = (self.state.stage, self.state.block);
+        for candidate in &mut self.state.candidates {
+            let (start, lm) = (candidate.start, &mut candidate.lm);
+            let Lm { epochs, cost, mu, .. } = *lm;
+            let same =
+                |point: &&Point| (point.stage, point.block, point.start) == (stage, block, start);
+            if let Some(before) = self.state.curve.iter().rev().find(same)
+                && before.cost - cost < self.recipe.least_gain * before.cost
+            {
+                lm.stop = lm.stop.or(Some(Stop::Gain));
+            }
+            self.state.curve.push(Point { stage, block, start, epochs, cost, mu });
+        }
     }
 
     fn train(&mut self, epochs: u64) -> Result<()> {

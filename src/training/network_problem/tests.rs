@@ -102,3 +102,14 @@ fn errors_are_depth_minus_distance() {
         }
     });
 }
+
+#[test]
+fn wider_vectors_change_no_bit() {
+    with_problem(3, |problem, x| {
+        let (narrow, wide) = (pulp::Arch::Scalar, pulp::Arch::new());
+        let sums = |arch: pulp::Arch| arch.dispatch(Linearise(problem, x, 0..2));
+        assert!(sums(narrow) == sums(wide));
+        let cost = |arch: pulp::Arch| arch.dispatch(Costs(problem, x, 0..2)).to_bits();
+        assert_eq!(cost(narrow), cost(wide));
+    });
+}
