@@ -22,12 +22,12 @@ const SMALL: [&str; 8] = [
     "--profile",
     "uniform",
     "--seed",
-    "3",
+    "2",
     "--with",
-    "stages=[{candidates=2,epochs=4,samples=402},{candidates=1,epochs=4,samples=603}]",
+    "stages=[{candidates=2,epochs=5,samples=402},{candidates=1,epochs=5,samples=603}]",
 ];
 const END: [&str; 2] =
-    ["--with", "finish={candidates=1,blocks=2,epochs=4,samples=603,least=0.7,most=1.5,power=0.7}"];
+    ["--with", "finish={candidates=1,blocks=2,epochs=5,samples=603,least=0.7,most=1.5,power=0.7}"];
 
 fn train(folder: &Path, to: &str, more: &[&str]) -> String {
     stdout(folder, &[&SMALL[..], &END, more, &["-o", to]].concat())
@@ -52,7 +52,7 @@ fn the_same_command_writes_the_same_files_on_any_number_of_threads() {
     assert_eq!(network.training.chain, "uniform");
     let command = network.training.command.unwrap();
     assert!(
-        command.starts_with("tofsim train --profile uniform --seed 3 --quick --with"),
+        command.starts_with("tofsim train --profile uniform --seed 2 --quick --with"),
         "{command}"
     );
     assert_eq!(network.accuracy.unwrap().distances_m, [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
