@@ -29,5 +29,6 @@ pub mod scenario;
 pub mod sensor;
 pub mod sim;
 pub mod source;
+pub mod training;
 pub mod verify;
 pub mod waves;

@@ -15,6 +15,7 @@ pub mod run;
 pub mod scenario;
 pub mod stdout;
 pub mod talk;
+pub mod train;
 pub mod vectors;
 pub mod verify;
 
@@ -51,6 +52,7 @@ enum Verb {
     Ila(ila::Args),
     Compare(Box<compare::Args>),
     Dataset(dataset::Args),
+    Train(Box<train::Args>),
     Scenario(scenario::Args),
     Completions(completions::Args),
     Man(man::Args),
@@ -71,6 +73,7 @@ impl Cli {
             Verb::Ila(args) => ila::run(args, &talk),
             Verb::Compare(args) => return compare::run(args, &talk),
             Verb::Dataset(args) => dataset::run(args, &talk),
+            Verb::Train(args) => train::run(args, &talk),
             Verb::Scenario(args) => scenario::run(args),
             Verb::Completions(args) => completions::run(args),
             Verb::Man(args) => man::run(args),

@@ -1,0 +1,56 @@
+//! Samples of a training, drawn for one purpose.
+
+use std::fmt::Write;
+
+use crate::dataset::{Grid, Rows, Source, Subset};
+use crate::error::Result;
+
+use super::features::{Features, Scaling};
+use super::samples::Samples;
+use super::start::{Purpose, derived};
+
+/// Draws `len` histograms, equally many at each distance.
+///
+/// # Errors
+/// When there are none.
+pub fn draw(source: &Source, grid: Grid, len: u64, seed: u64, purpose: Purpose) -> Result<Samples> {
+    let seed = derived(seed, purpose);
+    let rows = Rows::Subset(Subset::new(grid, len, seed));
+    let mut samples = Samples::default();
+    for sample in source.blocks(&rows, seed, 0..len).flatten() {
+        samples.counts.push(sample.histogram);
+        samples.distances_m.push(sample.scene.distance_m);
+    }
+    samples.check()?;
+    Ok(samples)
+}
+
+/// A number that changes with the chain's bins and anything in the scenario.
+pub fn fingerprint(source: &Source) -> String {
+    let mut text = String::new();
+    // Writing to a string does not fail.
+    let _ = write!(text, "{:?} {:?}", source.scenario(), source.bins());
+    format!("{:016x}", super::samples::digest(0, text.as_bytes()))
+}
+
+/// The data of a stage as the optimiser wants them.
+#[derive(Clone, Debug)]
+pub struct StageData {
+    /// Inputs.
+    pub features: Features,
+    /// True distances [m].
+    pub distances_m: Vec<f64>,
+    /// Digest of the histograms and distances.
+    pub digest: u64,
+}
+
+impl StageData {
+    /// Of samples; `scaling` is that of the first stage.
+    pub fn new(samples: &Samples, scaling: &Scaling) -> Self {
+        StageData {
+            features: Features::new(&samples.counts, scaling),
+            distances_m: samples.distances_m.clone(),
+            digest: samples.digest(),
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! The expensive part of an epoch: sums over samples of a weight times products of two inputs.
+//!
+//! Block (k, l) of J'J is the sum of g_k g_l x x' over the samples x, so J is never formed: for all
+//! pairs of neurons at once, every product of two inputs is made once and multiplied by the pairs'
+//! weights. Within a block of samples sums are in single precision, over blocks in double. Each
+//! sum has its own place in a register and takes its terms in order, without fused operations, so
+//! that every processor gives the same bits.
+
+use super::features::{BLOCK, Block, LANES, TILES, Tile, tile};
+
+/// Weights that are worked on together.
+pub const GROUP: usize = 12;
+/// Pairs of a column and a tile, each pair of columns at least once.
+const PLACES: usize = LANES * TILES * (TILES + 1) / 2;
+/// Column of the constant 1, in the last tile.
+const ONE: usize = LANES - 1;
+
+/// Weights of 256 samples, twelve pairs of neurons at a time: `weights[group][sample]`.
+pub type Weights = Vec<[[f32; GROUP]; BLOCK]>;
+
+/// Sums for a group of weights and a column times a tile.
+type Sums = [[f64; LANES]; GROUP];
+
+/// Number of groups that hold `count` weights.
+pub fn groups(count: usize) -> usize {
+    count.div_ceil(GROUP)
+}
+
+/// Sums of weight times input times input, for many weights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gram {
+    /// `[group][place]`.
+    sums: Vec<Sums>,
+}
+
+impl Gram {
+    /// Zeros for `count` weights.
+    pub fn zeros(count: usize) -> Self {
+        Gram { sums: vec![[[0.0; LANES]; GROUP]; groups(count) * PLACES] }
+    }
+
+    /// Adds a block.
+    #[inline(always)]
+    pub fn add_block(&mut self, block: &Block, weights: &Weights) {
+        for (weights, sums) in weights.iter().zip(self.sums.chunks_mut(PLACES)) {
+            let mut places = sums.iter_mut();
+            for t in 0..TILES {
+                for column in 0..(t + 1) * LANES {
+                    let Some(sums) = places.next() else { return };
+                    let (of, lane) = (tile(block, column / LANES), column % LANES);
+                    multiply(of, lane, tile(block, t), weights, sums);
+                }
+            }
+        }
+    }
+
+    /// Adds other sums.
+    pub fn add(&mut self, other: &Gram) {
+        let pairs = self.sums.as_flattened_mut().as_flattened_mut().iter_mut();
+        pairs.zip(other.sums.as_flattened().as_flattened()).for_each(|(sum, other)| *sum += other);
+    }
+
+    /// The sum for a weight and two columns.
+    pub fn at(&self, weight: usize, row: usize, column: usize) -> f64 {
+        let (row, column) = (row.max(column), row.min(column));
+        let t = row / LANES;
+        let place = LANES * t * (t + 1) / 2 + column;
+        self.sums[weight / GROUP * PLACES + place][weight % GROUP][row % LANES]
+    }
+}
+
+/// Sums of weight times input, for many weights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moments {
+    /// `[group][tile]`.
+    sums: Vec<Sums>,
+}
+
+impl Moments {
+    /// Zeros for `count` weights.
+    pub fn zeros(count: usize) -> Self {
+        Moments { sums: vec![[[0.0; LANES]; GROUP]; groups(count) * TILES] }
+    }
+
+    /// Adds a block.
+    #[inline(always)]
+    pub fn add_block(&mut self, block: &Block, weights: &Weights) {
+        for (weights, sums) in weights.iter().zip(self.sums.chunks_mut(TILES)) {
+            for (t, sums) in sums.iter_mut().enumerate() {
+                multiply(tile(block, TILES - 1), ONE, tile(block, t), weights, sums);
+            }
+        }
+    }
+
+    /// Adds other sums.
+    pub fn add(&mut self, other: &Moments) {
+        let pairs = self.sums.as_flattened_mut().as_flattened_mut().iter_mut();
+        pairs.zip(other.sums.as_flattened().as_flattened()).for_each(|(sum, other)| *sum += other);
+    }
+
+    /// The sum for a weight and a column.
+    pub fn at(&self, weight: usize, column: usize) -> f64 {
+        self.sums[weight / GROUP * TILES + column / LANES][weight % GROUP][column % LANES]
+    }
+}
+
+/// Adds the sums over a block of twelve weights times a column times eight columns.
+#[inline(always)]
+fn multiply(of: &[Tile], lane: usize, by: &[Tile], weights: &[[f32; GROUP]; BLOCK], to: &mut Sums) {
+    let mut sums = [[0.0f32; LANES]; GROUP];
+    for ((of, by), weights) in of.iter().zip(by).zip(weights) {
+        let factor = of[lane % LANES];
+        let product: Tile = std::array::from_fn(|k| by[k] * factor);
+        for group in 0..GROUP {
+            for k in 0..LANES {
+                sums[group][k] += weights[group] * product[k];
+            }
+        }
+    }
+    for (to, sums) in to.iter_mut().zip(&sums) {
+        to.iter_mut().zip(sums).for_each(|(to, &sum)| *to += f64::from(sum));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::training::features::{COLUMNS, Features, Scaling};
+
+    #[test]
+    fn sums_are_those_of_a_loop_over_the_samples() {
+        let histogram = |s: usize| -> [u16; 256] {
+            std::array::from_fn(|bin| ((s * 37 + bin * s) % 101) as u16)
+        };
+        let counts: Vec<_> = (0..BLOCK).map(histogram).collect();
+        let scaling = Scaling::of(&counts);
+        let features = Features::new(&counts, &scaling);
+        let weight = |s: usize, w: usize| ((s * 5 + w * 3) % 17) as f32 - 8.0;
+        let mut weights = vec![[[0.0; GROUP]; BLOCK]; groups(14)];
+        for (s, w) in (0..BLOCK).flat_map(|s| (0..14).map(move |w| (s, w))) {
+            weights[w / GROUP][s][w % GROUP] = weight(s, w);
+        }
+        let (mut gram, mut moments) = (Gram::zeros(14), Moments::zeros(14));
+        gram.add_block(&features.blocks()[0], &weights);
+        moments.add_block(&features.blocks()[0], &weights);
+        let once = gram.clone();
+        gram.add(&once);
+        let rows: Vec<_> = counts.iter().map(|counts| scaling.apply(counts)).collect();
+        for w in [0, 11, 12, 13] {
+            for (i, j) in [(0, 0), (3, 70), (70, 3), (64, 71), (71, 71), (9, 8)] {
+                let term = |(s, x): (usize, &[f32; COLUMNS])| f64::from(weight(s, w) * x[i] * x[j]);
+                let expected: f64 = rows.iter().enumerate().map(term).sum();
+                let found = gram.at(w, i, j) / 2.0;
+                assert!((found - expected).abs() < 1e-2, "{w} {i} {j}: {found} {expected}");
+                if j == 71 {
+                    assert!((moments.at(w, i) - expected).abs() < 1e-2);
+                }
+            }
+        }
+    }
+}

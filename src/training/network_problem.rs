@@ -1,0 +1,242 @@
+//! The network's error as a sum of squares, with its derivatives.
+//!
+//! A sample has the residual u (depth - distance), where u is its weight, and, for the noise that the
+//! activation table's steps are, a residual q u w2 (1 - a^2) for each neuron: an error of q in the
+//! sum of a neuron would move the depth by so much. The latter belong to one neuron alone, so they
+//! only change the weights of the sums in [`super::gram`].
+
+use rayon::prelude::*;
+
+use super::features::{BLOCK, Block, COLUMNS, Features, LANES, Scaling, TILES, tile};
+use super::gram::{GROUP, Weights, groups};
+use super::limits::Limits;
+use super::lm::{Linear, Problem};
+use super::sums::{Sums, parameters};
+
+/// Blocks that a thread sums up at a time. Fixed, as the order of sums is.
+const RUN: usize = 8;
+
+/// Samples, their weights, and what else is to be small.
+#[derive(Debug)]
+pub struct NetworkProblem<'a> {
+    /// Inputs.
+    pub features: &'a Features,
+    /// How the inputs were made.
+    pub scaling: &'a Scaling,
+    /// True distances [m].
+    pub distances_m: &'a [f64],
+    /// Weight u of each sample [1/m].
+    pub weights: &'a [f64],
+    /// Hidden neurons.
+    pub neurons: usize,
+    /// Noise q of a neuron's sum from the table's steps [1].
+    pub table_noise: f64,
+    /// Penalties.
+    pub limits: Limits,
+}
+
+/// What the samples of a block weigh in the sums.
+struct Scratch {
+    pairs: Weights,
+    cross: Weights,
+    activations: Vec<f64>,
+    slopes: Vec<f64>,
+    outputs: Vec<f64>,
+}
+
+impl Scratch {
+    fn new(neurons: usize) -> Self {
+        let weights = |count| vec![[[0.0; GROUP]; BLOCK]; groups(count)];
+        Scratch {
+            pairs: weights(neurons * (neurons + 1) / 2),
+            cross: weights(neurons * (neurons + 1)),
+            activations: vec![0.0; neurons],
+            slopes: vec![0.0; neurons],
+            outputs: vec![0.0; neurons + 1],
+        }
+    }
+}
+
+impl NetworkProblem<'_> {
+    /// Sums of a neuron's inputs, lane by lane and then over the lanes.
+    #[inline(always)]
+    fn sum(block: &Block, sample: usize, row: &[f64]) -> f64 {
+        let mut sums = [0.0; LANES];
+        for t in 0..TILES {
+            let (inputs, weights) = (&tile(block, t)[sample], &row[t * LANES..][..LANES]);
+            for lane in 0..LANES {
+                sums[lane] += weights[lane] * f64::from(inputs[lane]);
+            }
+        }
+        sums.iter().sum()
+    }
+
+    /// Depth of a sample; leaves the neurons' outputs in `activations` [m].
+    #[inline(always)]
+    fn depth(&self, x: &[f64], block: &Block, sample: usize, activations: &mut [f64]) -> f64 {
+        let output = &x[self.neurons * COLUMNS..];
+        let mut depth = output[self.neurons];
+        for (k, activation) in activations.iter_mut().enumerate() {
+            *activation = libm::tanh(Self::sum(block, sample, &x[k * COLUMNS..][..COLUMNS]));
+            depth += output[k] * *activation;
+        }
+        depth
+    }
+
+    /// Squares of a block's residuals.
+    #[inline(always)]
+    fn block_cost(&self, x: &[f64], index: usize, activations: &mut [f64]) -> f64 {
+        let (block, w2) = (&self.features.blocks()[index], &x[self.neurons * COLUMNS..]);
+        let samples = index * BLOCK..self.features.samples().min((index + 1) * BLOCK);
+        let mut cost = 0.0;
+        for (place, sample) in samples.enumerate() {
+            let error = self.depth(x, block, place, activations) - self.distances_m[sample];
+            let u = self.weights[sample];
+            cost += (u * error) * (u * error);
+            for (k, a) in activations.iter().enumerate() {
+                let noise = self.table_noise * u * w2[k] * (1.0 - a * a);
+                cost += noise * noise;
+            }
+        }
+        cost
+    }
+
+    /// Adds a block to the sums.
+    #[inline(always)]
+    fn add_block(&self, x: &[f64], index: usize, scratch: &mut Scratch, sums: &mut Sums) {
+        let n = self.neurons;
+        let (block, w2) = (&self.features.blocks()[index], &x[n * COLUMNS..]);
+        let samples = index * BLOCK..self.features.samples().min((index + 1) * BLOCK);
+        let used = samples.len();
+        for weights in scratch.pairs.iter_mut().chain(&mut scratch.cross) {
+            weights[used..].fill([0.0; GROUP]);
+        }
+        let q = self.table_noise;
+        for (place, sample) in samples.enumerate() {
+            let Scratch { pairs, cross, activations, slopes, outputs } = scratch;
+            let u = self.weights[sample];
+            let depth = self.depth(x, block, place, activations);
+            let residual = u * (depth - self.distances_m[sample]);
+            sums.cost += residual * residual;
+            for (output, a) in outputs.iter_mut().zip(activations.iter().chain([&1.0])) {
+                *output = u * a;
+            }
+            let (mut pair, mut mixed) = (0, 0);
+            for k in 0..n {
+                let a = activations[k];
+                let flank = u * (1.0 - a * a);
+                let slope = w2[k] * flank;
+                slopes[k] = slope;
+                // The table's residual and its derivatives, by the neuron's sum and by w2.
+                let (noise, by_sum, by_w2) = (q * slope, -2.0 * a * q * slope, q * flank);
+                sums.cost += noise * noise;
+                for (l, &other) in slopes[..=k].iter().enumerate() {
+                    let own = if l == k { by_sum * by_sum } else { 0.0 };
+                    pairs[pair / GROUP][place][pair % GROUP] = (slope * other + own) as f32;
+                    pair += 1;
+                }
+                for (l, output) in outputs.iter().enumerate() {
+                    let own = if l == k { by_sum * by_w2 } else { 0.0 };
+                    cross[mixed / GROUP][place][mixed % GROUP] = (slope * output + own) as f32;
+                    mixed += 1;
+                }
+                let along = slope * residual + by_sum * noise;
+                let gradient = &mut sums.gradient[k * COLUMNS..][..COLUMNS];
+                for t in 0..TILES {
+                    let inputs = &tile(block, t)[place];
+                    for lane in 0..LANES {
+                        gradient[t * LANES + lane] += along * f64::from(inputs[lane]);
+                    }
+                }
+                sums.gradient[n * COLUMNS + k] += by_w2 * noise;
+                sums.corner[k * (n + 1) + k] += by_w2 * by_w2;
+            }
+            for (k, output) in outputs.iter().enumerate() {
+                sums.gradient[n * COLUMNS + k] += output * residual;
+                for (l, other) in outputs.iter().enumerate() {
+                    sums.corner[k * (n + 1) + l] += output * other;
+                }
+            }
+        }
+        sums.gram.add_block(block, &scratch.pairs);
+        sums.cross.add_block(block, &scratch.cross);
+    }
+
+    /// Depth minus distance of each sample [m].
+    pub fn errors(&self, x: &[f64]) -> Vec<f64> {
+        let error = |sample: usize| {
+            let (block, mut activations) = (sample / BLOCK, vec![0.0; self.neurons]);
+            let block = &self.features.blocks()[block];
+            self.depth(x, block, sample % BLOCK, &mut activations) - self.distances_m[sample]
+        };
+        (0..self.features.samples()).into_par_iter().map(error).collect()
+    }
+
+    /// Runs of neighbouring blocks, for the threads.
+    fn runs(&self) -> Vec<std::ops::Range<usize>> {
+        let blocks = self.features.blocks().len();
+        (0..blocks).step_by(RUN).map(|first| first..blocks.min(first + RUN)).collect()
+    }
+}
+
+/// A run of blocks with the widest vectors that the processor has.
+struct Costs<'a>(&'a NetworkProblem<'a>, &'a [f64], std::ops::Range<usize>);
+
+impl pulp::WithSimd for Costs<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _simd: S) -> f64 {
+        let Costs(problem, x, run) = self;
+        let mut activations = vec![0.0; problem.neurons];
+        let mut cost = 0.0;
+        for index in run {
+            cost += problem.block_cost(x, index, &mut activations);
+        }
+        cost
+    }
+}
+
+/// The same for the sums.
+struct Linearise<'a>(&'a NetworkProblem<'a>, &'a [f64], std::ops::Range<usize>);
+
+impl pulp::WithSimd for Linearise<'_> {
+    type Output = Sums;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _simd: S) -> Sums {
+        let Linearise(problem, x, run) = self;
+        let (mut scratch, mut sums) = (Scratch::new(problem.neurons), Sums::zeros(problem.neurons));
+        for index in run {
+            problem.add_block(x, index, &mut scratch, &mut sums);
+        }
+        sums
+    }
+}
+
+impl Problem for NetworkProblem<'_> {
+    fn parameters(&self) -> usize {
+        parameters(self.neurons)
+    }
+
+    fn cost(&self, x: &[f64]) -> f64 {
+        let arch = pulp::Arch::new();
+        let costs = self.runs().into_par_iter().map(|run| arch.dispatch(Costs(self, x, run)));
+        let sum: f64 = costs.collect::<Vec<_>>().iter().sum();
+        let penalty = self.limits.cost(x, self.neurons, self.scaling);
+        sum / self.features.samples() as f64 + penalty
+    }
+
+    fn linearise(&self, x: &[f64]) -> Linear {
+        let arch = pulp::Arch::new();
+        let parts = self.runs().into_par_iter().map(|run| arch.dispatch(Linearise(self, x, run)));
+        let parts: Vec<Sums> = parts.collect();
+        let sums = parts.iter().fold(Sums::zeros(self.neurons), Sums::with);
+        let mut linear = sums.assemble(self.neurons, self.features.samples());
+        self.limits.add(x, self.neurons, self.scaling, &mut linear);
+        linear
+    }
+}
+
+#[cfg(test)]
+mod tests;

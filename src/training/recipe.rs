@@ -1,0 +1,294 @@
+//! The recipe of a training: every number that decides what comes out, but for the seed.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Input, Result};
+
+use super::limits::Limits;
+use super::lm::Settings;
+use super::weighting::Weighting;
+
+/// How a network is trained.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Recipe {
+    /// Hidden neurons.
+    pub neurons: usize,
+    /// Epochs between two checkpoints.
+    pub checkpoint_epochs: u64,
+    /// Part of its cost that a network has to lose from a checkpoint to the next, or it rests until
+    /// the next stage or block [1].
+    pub least_gain: f64,
+    /// Noise of a neuron's sum from the activation table's steps [1].
+    pub table_noise: f64,
+    /// Random starts.
+    pub start: Start,
+    /// The tournament: each stage goes on with the best of the one before.
+    pub stages: Vec<Stage>,
+    /// What is done with the winner.
+    pub finish: Finish,
+    /// Weights of the residuals.
+    pub weighting: Weighting,
+    /// Penalties for what the words cannot hold.
+    pub limits: Limits,
+    /// The optimiser.
+    pub optimiser: Settings,
+}
+
+/// Random weights to begin with.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Start {
+    /// Lengths of a neuron's weights for inputs in standard deviations; starts take them in turn.
+    pub lengths: Vec<f64>,
+    /// Biases are spread evenly from minus this to this.
+    pub bias: f64,
+    /// Output weights are uniform from minus this to this [m].
+    pub output_m: f64,
+}
+
+/// A stage of the tournament.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stage {
+    /// Networks that take part.
+    pub candidates: usize,
+    /// Epochs for each.
+    pub epochs: u64,
+    /// Histograms, drawn for this stage.
+    pub samples: u64,
+}
+
+/// The end: blocks of epochs, before each of which distances with larger errors gain weight. That
+/// does not converge, so the best block is what counts.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Finish {
+    /// Networks that take part.
+    pub candidates: usize,
+    /// Blocks.
+    pub blocks: usize,
+    /// Epochs of a block.
+    pub epochs: u64,
+    /// Histograms, drawn for the end.
+    pub samples: u64,
+    /// Least ratio of an error to the mean that counts.
+    pub least: f64,
+    /// Largest ratio that counts.
+    pub most: f64,
+    /// Power of the ratio that multiplies a weight.
+    pub power: f64,
+}
+
+impl Default for Recipe {
+    fn default() -> Self {
+        let stage = |candidates, epochs, samples| Stage { candidates, epochs, samples };
+        Recipe {
+            neurons: 8,
+            checkpoint_epochs: 20,
+            least_gain: 1e-4,
+            table_noise: 8e-4,
+            start: Start { lengths: vec![0.1, 0.3], bias: 1.0, output_m: 0.1 },
+            stages: vec![
+                stage(40, 40, 8_000),
+                stage(10, 60, 8_000),
+                stage(4, 120, 24_000),
+                stage(2, 400, 24_000),
+            ],
+            finish: Finish {
+                candidates: 1,
+                blocks: 5,
+                epochs: 50,
+                samples: 60_000,
+                least: 0.7,
+                most: 1.5,
+                power: 0.7,
+            },
+            weighting: Weighting::default(),
+            limits: Limits::default(),
+            optimiser: Settings { mu_min: 1e-12, ..Settings::default() },
+        }
+    }
+}
+
+impl Recipe {
+    /// A training of seconds that shows that all works; its network is poor.
+    pub fn quick() -> Self {
+        let recipe = Recipe::default();
+        Recipe {
+            checkpoint_epochs: 3,
+            stages: vec![
+                Stage { candidates: 4, epochs: 6, samples: 603 },
+                Stage { candidates: 2, epochs: 6, samples: 1005 },
+            ],
+            finish: Finish { blocks: 2, epochs: 5, samples: 2010, ..recipe.finish },
+            ..recipe
+        }
+    }
+
+    /// The recipe in the text of a file; messages name `source`.
+    ///
+    /// # Errors
+    /// When the text is no TOML, a key is unknown, or a value makes no sense.
+    pub fn parse(text: &str, base: &Recipe, overrides: &[String], source: &str) -> Result<Self> {
+        let fault = |error: toml::de::Error| Input::new(source, error.to_string().trim_end());
+        let mut table =
+            toml::Table::try_from(base).map_err(|error| Input::new("recipe", error.to_string()))?;
+        merge(&mut table, text.parse::<toml::Table>().map_err(fault)?);
+        for assignment in overrides {
+            let option = format!("--with {assignment}");
+            let fault = |error: toml::de::Error| Input::new(&option, error.message());
+            if assignment.contains(char::is_control) || !assignment.contains('=') {
+                return Err(Input::new(option, "expected key=value, on one line").into());
+            }
+            let set = assignment.parse::<toml::Table>().map_err(fault)?;
+            merge(&mut table, set.clone());
+            // A wrong key is the option's fault, not the file's.
+            table.clone().try_into::<Recipe>().map_err(fault)?;
+        }
+        let recipe: Recipe = table.try_into().map_err(fault)?;
+        recipe.check()?;
+        Ok(recipe)
+    }
+
+    /// That every number makes sense.
+    ///
+    /// # Errors
+    /// Naming the first that does not.
+    pub fn check(&self) -> Result<()> {
+        let positive = |field: &str, value: f64| match value > 0.0 && value.is_finite() {
+            true => Ok(()),
+            false => Err(fault(field, value, "expected a number above 0")),
+        };
+        let at_least = |field: &str, value: u64, least: u64| match value >= least {
+            true => Ok(()),
+            false => Err(fault(field, value, format!("expected {least} or more"))),
+        };
+        at_least("neurons", self.neurons as u64, 1)?;
+        if self.neurons > 64 {
+            return Err(fault("neurons", self.neurons, "expected 64 at most").into());
+        }
+        at_least("checkpoint_epochs", self.checkpoint_epochs, 1)?;
+        if self.stages.is_empty() {
+            return Err(fault("stages", 0, "expected one stage or more").into());
+        }
+        if self.start.lengths.is_empty() {
+            return Err(fault("start.lengths", "[]", "expected one length or more").into());
+        }
+        let mut before = usize::MAX;
+        let finish = &self.finish;
+        let end =
+            Stage { candidates: finish.candidates, epochs: finish.epochs, samples: finish.samples };
+        for (place, stage) in self.stages.iter().chain([&end]).enumerate() {
+            let name = match place == self.stages.len() {
+                true => "finish".to_owned(),
+                false => format!("stages[{place}]"),
+            };
+            at_least(&format!("{name}.candidates"), stage.candidates as u64, 1)?;
+            at_least(&format!("{name}.epochs"), stage.epochs, 1)?;
+            // Below that, distances would be left out.
+            at_least(&format!("{name}.samples"), stage.samples, 201)?;
+            if stage.candidates > before {
+                let expected = format!("expected {before} at most, as in the stage before");
+                return Err(fault(&format!("{name}.candidates"), stage.candidates, expected).into());
+            }
+            before = stage.candidates;
+        }
+        at_least("finish.blocks", finish.blocks as u64, 1)?;
+        for (field, value) in [
+            ("finish.least", finish.least),
+            ("finish.most", finish.most),
+            ("optimiser.mu", self.optimiser.mu),
+            ("optimiser.mu_max", self.optimiser.mu_max),
+            ("optimiser.mu_dec", self.optimiser.mu_dec),
+            ("limits.w1_share", self.limits.w1_share),
+        ] {
+            positive(field, value)?;
+        }
+        if self.optimiser.mu_inc <= 1.0 || !self.optimiser.mu_inc.is_finite() {
+            return Err(fault("optimiser.mu_inc", self.optimiser.mu_inc, "expected above 1").into());
+        }
+        if finish.least > finish.most {
+            let expected = format!("expected finish.most = {} at most", finish.most);
+            return Err(fault("finish.least", finish.least, expected).into());
+        }
+        self.weighting.check()
+    }
+
+    /// All settings by dotted key, in TOML.
+    pub fn settings(&self) -> Result<Vec<(String, String)>> {
+        let table =
+            toml::Table::try_from(self).map_err(|error| Input::new("recipe", error.to_string()))?;
+        let mut settings = Vec::new();
+        flatten("", &toml::Value::Table(table), &mut settings);
+        Ok(settings)
+    }
+}
+
+fn fault(field: &str, value: impl std::fmt::Display, expected: impl std::fmt::Display) -> Input {
+    Input::new("recipe", expected).field(field).value(value)
+}
+
+/// Lays a table over another, key by key.
+fn merge(under: &mut toml::Table, over: toml::Table) {
+    for (key, value) in over {
+        match (under.get_mut(&key), value) {
+            (Some(toml::Value::Table(under)), toml::Value::Table(over)) => merge(under, over),
+            (_, value) => {
+                under.insert(key, value);
+            }
+        }
+    }
+}
+
+fn flatten(path: &str, value: &toml::Value, into: &mut Vec<(String, String)>) {
+    match value {
+        toml::Value::Table(table) => {
+            for (key, value) in table {
+                let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+                flatten(&path, value, into);
+            }
+        }
+        value => into.push((path.to_owned(), value.to_string())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str, overrides: &[&str]) -> Result<Recipe> {
+        let overrides: Vec<_> = overrides.iter().map(|&text| text.to_owned()).collect();
+        Recipe::parse(text, &Recipe::default(), &overrides, "a.toml")
+    }
+
+    #[test]
+    fn what_is_not_said_stays_and_an_option_comes_last() {
+        let recipe = parse("table_noise = 0.0\n[finish]\nblocks = 3\n", &["finish.blocks=4"]);
+        let recipe = recipe.unwrap();
+        assert_eq!((recipe.table_noise, recipe.finish.blocks), (0.0, 4));
+        assert_eq!(recipe.finish.epochs, Recipe::default().finish.epochs);
+        assert_eq!(parse("", &[]).unwrap(), Recipe::default());
+        Recipe::quick().check().unwrap();
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_named() {
+        let fault = |text: &str, set: &[&str]| parse(text, set).unwrap_err().to_string();
+        assert!(fault("neuron = 3", &[]).contains("unknown field `neuron`"));
+        assert!(fault("", &["limits.b3=1"]).starts_with("--with limits.b3=1: unknown field"));
+        assert!(fault("", &["neurons"]).contains("expected key=value"));
+        assert!(fault("", &["neurons=0"]).contains("neurons = 0: expected 1 or more"));
+        assert!(fault("", &["finish.samples=5"]).contains("finish.samples = 5: expected 201"));
+        assert!(fault("", &["finish.candidates=9"]).contains("expected 2 at most"));
+        assert!(fault("", &["optimiser.mu=nan"]).contains("optimiser.mu = NaN"));
+        assert!(fault("stages = []", &[]).contains("stages = 0: expected one stage"));
+    }
+
+    #[test]
+    fn settings_have_dotted_keys() {
+        let settings = Recipe::default().settings().unwrap();
+        assert!(settings.contains(&("finish.blocks".to_owned(), "5".to_owned())));
+        assert!(settings.contains(&("optimiser.mu".to_owned(), "0.001".to_owned())));
+    }
+}

@@ -1,0 +1,72 @@
+//! All that decides how a training goes on.
+
+use serde::{Deserialize, Serialize};
+
+use super::features::Scaling;
+use super::lm::Lm;
+
+/// A network that takes part.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Candidate {
+    /// Which start it comes from.
+    pub start: usize,
+    /// Where its training is.
+    pub lm: Lm,
+    /// Factor on the weights at each distance, once the end has begun [1].
+    pub factors: Vec<f64>,
+}
+
+/// The best block so far.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Best {
+    /// Which start it comes from.
+    pub start: usize,
+    /// Blocks made by then.
+    pub block: usize,
+    /// Largest ratio of a spread to the line, in fixed point.
+    pub ratio: f64,
+    /// Parameters.
+    pub x: Vec<f64>,
+}
+
+/// A point of the learning curve.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Point {
+    /// Stage, counted from 0; the end is the last.
+    pub stage: usize,
+    /// Block of the end, counted from 0.
+    pub block: usize,
+    /// Start that the network comes from.
+    pub start: usize,
+    /// Epochs that it has been trained.
+    pub epochs: u64,
+    /// Its cost.
+    pub cost: f64,
+    /// Its damping.
+    pub mu: f64,
+}
+
+/// All that decides how a tournament goes on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct State {
+    /// Stage that is going on; the end is the last.
+    pub stage: usize,
+    /// Block of the end that is going on.
+    pub block: usize,
+    /// Epochs made of this stage or block.
+    pub epochs: u64,
+    /// Digest of all data used so far, in hexadecimal.
+    pub data: String,
+    /// How inputs are made.
+    pub scaling: Scaling,
+    /// Those still taking part.
+    pub candidates: Vec<Candidate>,
+    /// The best block.
+    pub best: Option<Best>,
+    /// How the costs fell.
+    pub curve: Vec<Point>,
+}

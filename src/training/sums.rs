@@ -1,0 +1,80 @@
+//! What an epoch sums up over all samples, and the normal equations that it gives.
+
+use super::cholesky::Symmetric;
+use super::features::COLUMNS;
+use super::gram::{Gram, Moments};
+use super::lm::Linear;
+
+/// Number of parameters of a network: for each neuron its knots and its bias, then the output
+/// layer's weights and its bias.
+pub fn parameters(neurons: usize) -> usize {
+    neurons * (COLUMNS + 1) + 1
+}
+
+/// Sums over samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sums {
+    /// Squares of the residuals.
+    pub cost: f64,
+    /// Products of derivatives with respect to two neurons, weights `k (k + 1) / 2 + l`.
+    pub gram: Gram,
+    /// The same of a neuron and an output, weights `k (neurons + 1) + l`.
+    pub cross: Moments,
+    /// Products of derivatives with respect to the output layer, full square.
+    pub corner: Vec<f64>,
+    /// J'r.
+    pub gradient: Vec<f64>,
+}
+
+impl Sums {
+    /// Zeros.
+    pub fn zeros(neurons: usize) -> Self {
+        Sums {
+            cost: 0.0,
+            gram: Gram::zeros(neurons * (neurons + 1) / 2),
+            cross: Moments::zeros(neurons * (neurons + 1)),
+            corner: vec![0.0; (neurons + 1) * (neurons + 1)],
+            gradient: vec![0.0; parameters(neurons)],
+        }
+    }
+
+    /// The sum of both.
+    pub fn with(mut self, other: &Sums) -> Self {
+        self.cost += other.cost;
+        self.gram.add(&other.gram);
+        self.cross.add(&other.cross);
+        self.corner.iter_mut().zip(&other.corner).for_each(|(sum, other)| *sum += other);
+        self.gradient.iter_mut().zip(&other.gradient).for_each(|(sum, other)| *sum += other);
+        self
+    }
+
+    /// J'J / n and J'r / n from the sums of so many samples.
+    pub fn assemble(&self, neurons: usize, samples: usize) -> Linear {
+        let (n, output) = (neurons, neurons * COLUMNS);
+        let mut matrix = Symmetric::zeros(parameters(n));
+        let mut pair = 0;
+        for k in 0..n {
+            for l in 0..=k {
+                for i in 0..COLUMNS {
+                    // Of a neuron with itself the lower half is all there is.
+                    for j in 0..if l == k { i + 1 } else { COLUMNS } {
+                        matrix.add(k * COLUMNS + i, l * COLUMNS + j, self.gram.at(pair, i, j));
+                    }
+                }
+                pair += 1;
+            }
+            for l in 0..=n {
+                for i in 0..COLUMNS {
+                    matrix.add(output + l, k * COLUMNS + i, self.cross.at(k * (n + 1) + l, i));
+                }
+            }
+        }
+        for k in 0..=n {
+            (0..=k).for_each(|l| matrix.add(output + k, output + l, self.corner[k * (n + 1) + l]));
+        }
+        let share = 1.0 / samples as f64;
+        matrix.scale(share);
+        let gradient = self.gradient.iter().map(|sum| sum * share).collect();
+        Linear { cost: self.cost * share, matrix, gradient }
+    }
+}

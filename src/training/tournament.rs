@@ -1,0 +1,290 @@
+//! The tournament: many starts, of which ever fewer are trained ever longer, and a last one that is
+//! trained with weights that follow its errors.
+//!
+//! All that decides how it goes on is [`State`], so that a training that was stopped and one that was
+//! not end alike.
+
+use rayon::prelude::*;
+
+use crate::dataset::{Grid, Source};
+use crate::error::Result;
+
+use super::accuracy::{Row, by_distance, worst_ratio};
+use super::data::{StageData, draw};
+use super::features::Scaling;
+use super::fold::Folded;
+use super::lm::{Lm, Problem, Stop};
+use super::network_problem::NetworkProblem;
+use super::recipe::{Recipe, Stage};
+use super::samples::{Samples, digest};
+use super::start::{Purpose, start};
+use super::state::{Best, Candidate, Point, State};
+
+/// A tournament and its data.
+#[derive(Debug)]
+pub struct Tournament<'a> {
+    recipe: &'a Recipe,
+    source: &'a Source,
+    seed: u64,
+    /// What decides how it goes on.
+    pub state: State,
+    data: StageData,
+    choice: Samples,
+}
+
+impl<'a> Tournament<'a> {
+    /// At the beginning.
+    ///
+    /// # Errors
+    /// When no data can be drawn.
+    pub fn new(recipe: &'a Recipe, source: &'a Source, seed: u64) -> Result<Self> {
+        let samples = stage_samples(recipe, source, seed, 0)?;
+        let candidates = (0..recipe.stages[0].candidates).map(|number| Candidate {
+            start: number,
+            lm: Lm::new(start(&recipe.start, recipe.neurons, seed, number), &recipe.optimiser),
+            factors: Vec::new(),
+        });
+        let scaling = Scaling::of(&samples.counts);
+        let data = StageData::new(&samples, &scaling);
+        let state = State {
+            stage: 0,
+            block: 0,
+            epochs: 0,
+            data: format!("{:016x}", data.digest),
+            scaling,
+            candidates: candidates.collect(),
+            best: None,
+            curve: Vec::new(),
+        };
+        let choice = choice_samples(source, seed)?;
+        Ok(Tournament { recipe, source, seed, state, data, choice })
+    }
+
+    /// Where another left off.
+    ///
+    /// # Errors
+    /// When no data can be drawn.
+    pub fn resume(recipe: &'a Recipe, source: &'a Source, seed: u64, state: State) -> Result<Self> {
+        let samples = stage_samples(recipe, source, seed, state.stage)?;
+        let data = StageData::new(&samples, &state.scaling);
+        let choice = choice_samples(source, seed)?;
+        Ok(Tournament { recipe, source, seed, state, data, choice })
+    }
+
+    /// Whether all is done.
+    pub fn is_over(&self) -> bool {
+        self.in_finish() && self.state.block >= self.recipe.finish.blocks
+    }
+
+    fn in_finish(&self) -> bool {
+        self.state.stage >= self.recipe.stages.len()
+    }
+
+    /// Epochs of the stage or block that is going on.
+    fn target(&self) -> u64 {
+        match self.recipe.stages.get(self.state.stage) {
+            Some(stage) => stage.epochs,
+            None => self.recipe.finish.epochs,
+        }
+    }
+
+    /// Epochs of all candidates that are still to be made, times their samples, of all there are.
+    pub fn progress(&self) -> (u64, u64) {
+        let (mut done, mut all) = (0, 0);
+        for (place, stage) in self.recipe.stages.iter().enumerate() {
+            let work = |epochs| stage.candidates as u64 * stage.samples * epochs;
+            all += work(stage.epochs);
+            done += match place.cmp(&self.state.stage) {
+                std::cmp::Ordering::Less => work(stage.epochs),
+                std::cmp::Ordering::Equal => work(self.state.epochs),
+                std::cmp::Ordering::Greater => 0,
+            };
+        }
+        let finish = &self.recipe.finish;
+        let work = |epochs| finish.candidates as u64 * finish.samples * epochs;
+        all += work(finish.blocks as u64 * finish.epochs);
+        if self.in_finish() {
+            done += work(self.state.block as u64 * finish.epochs + self.state.epochs);
+        }
+        (done, all)
+    }
+
+    /// Trains until the next checkpoint.
+    ///
+    /// # Errors
+    /// When a cost is no number, or data cannot be drawn.
+    pub fn advance(&mut self) -> Result<()> {
+        if self.is_over() {
+            return Ok(());
+        }
+        if self.in_finish() && self.state.epochs == 0 {
+            self.reweigh();
+        }
+        let epochs = self.recipe.checkpoint_epochs.min(self.target() - self.state.epochs);
+        self.train(epochs)?;
+        self.state.epochs += epochs;
+        self.record();
+        let resting = self.state.candidates.iter().all(|candidate| candidate.lm.stop.is_some());
+        if self.state.epochs < self.target() && !resting {
+            return Ok(());
+        }
+        self.state.epochs = 0;
+        if self.in_finish() {
+            self.judge();
+            self.state.block += 1;
+            return Ok(());
+        }
+        self.next_stage()
+    }
+
+    /// Adds to the learning curve, and lets those rest that gain too little.
+    fn record(&mut self) {
+        let (stage, block) = (self.state.stage, self.state.block);
+        for candidate in &mut self.state.candidates {
+            let (start, lm) = (candidate.start, &mut candidate.lm);
+            let Lm { epochs, cost, mu, .. } = *lm;
+            let same =
+                |point: &&Point| (point.stage, point.block, point.start) == (stage, block, start);
+            if let Some(before) = self.state.curve.iter().rev().find(same)
+                && before.cost - cost < self.recipe.least_gain * before.cost
+            {
+                lm.stop = lm.stop.or(Some(Stop::Gain));
+            }
+            self.state.curve.push(Point { stage, block, start, epochs, cost, mu });
+        }
+    }
+
+    fn train(&mut self, epochs: u64) -> Result<()> {
+        let (recipe, data, scaling) = (self.recipe, &self.data, &self.state.scaling);
+        self.state.candidates.par_iter_mut().try_for_each(|candidate| {
+            let weights = weights(recipe, &data.distances_m, &candidate.factors);
+            let problem = NetworkProblem {
+                features: &data.features,
+                scaling,
+                distances_m: &data.distances_m,
+                weights: &weights,
+                neurons: recipe.neurons,
+                table_noise: recipe.table_noise,
+                limits: recipe.limits,
+            };
+            for _ in 0..epochs {
+                candidate.lm.epoch(&problem, &recipe.optimiser)?;
+            }
+            if candidate.lm.stop.is_some() {
+                candidate.lm.cost = problem.cost(&candidate.lm.x);
+            }
+            Ok(())
+        })
+    }
+
+    /// Keeps the best for the next stage, and draws its data.
+    fn next_stage(&mut self) -> Result<()> {
+        let state = &mut self.state;
+        state.stage += 1;
+        let keep = match self.recipe.stages.get(state.stage) {
+            Some(stage) => stage.candidates,
+            None => self.recipe.finish.candidates,
+        };
+        state
+            .candidates
+            .sort_by(|a, b| a.lm.cost.total_cmp(&b.lm.cost).then(a.start.cmp(&b.start)));
+        state.candidates.truncate(keep);
+        state.candidates.iter_mut().for_each(|one| one.lm.restart(&self.recipe.optimiser));
+        let samples = stage_samples(self.recipe, self.source, self.seed, state.stage)?;
+        self.data = StageData::new(&samples, &state.scaling);
+        let both = digest(self.data.digest, state.data.as_bytes());
+        state.data = format!("{both:016x}");
+        Ok(())
+    }
+
+    /// Gives more weight to distances where the error is larger than the line has it.
+    fn reweigh(&mut self) {
+        let (recipe, finish) = (self.recipe, &self.recipe.finish);
+        let samples = &self.data.distances_m;
+        let (neurons, data, scaling) = (recipe.neurons, &self.data, &self.state.scaling);
+        for candidate in &mut self.state.candidates {
+            let weights = vec![1.0; samples.len()];
+            let problem = NetworkProblem {
+                features: &data.features,
+                scaling,
+                distances_m: samples,
+                weights: &weights,
+                neurons,
+                table_noise: 0.0,
+                limits: recipe.limits,
+            };
+            let errors = problem.errors(&candidate.lm.x);
+            let pairs: Vec<_> = samples.iter().copied().zip(errors).collect();
+            let ratio = |pairs: &[(f64, f64)]| {
+                let squares: f64 = pairs.iter().map(|(_, error)| error * error).sum();
+                2000.0 * (squares / pairs.len() as f64).sqrt()
+                    / recipe.weighting.line_mm(pairs[0].0)
+            };
+            let ratios: Vec<f64> = pairs.chunk_by(|a, b| a.0 == b.0).map(ratio).collect();
+            let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
+            candidate.factors.resize(ratios.len(), 1.0);
+            for (factor, ratio) in candidate.factors.iter_mut().zip(&ratios) {
+                *factor *= libm::pow((ratio / mean).clamp(finish.least, finish.most), finish.power);
+            }
+            candidate.lm.restart(&recipe.optimiser);
+        }
+    }
+
+    /// Keeps the block if none was better over all distances, in fixed point.
+    fn judge(&mut self) {
+        for candidate in &self.state.candidates {
+            let folded = Folded::new(&candidate.lm.x, self.recipe.neurons, &self.state.scaling);
+            // What does not fit the words cannot be the best.
+            let Ok(words) = folded.round() else { continue };
+            let rows = by_distance(&self.choice, |histogram| words.depth_m(histogram));
+            let ratio = worst_ratio(&rows, &self.recipe.weighting);
+            if self.state.best.as_ref().is_none_or(|best| ratio < best.ratio) {
+                let (start, block) = (candidate.start, self.state.block + 1);
+                self.state.best = Some(Best { start, block, ratio, x: candidate.lm.x.clone() });
+            }
+        }
+    }
+
+    /// The network to keep: the best block, or the best candidate if none fits the words.
+    pub fn result(&self) -> Folded<f64> {
+        let best = self.state.best.as_ref().map(|best| &best.x);
+        let x = best.unwrap_or(&self.state.candidates[0].lm.x);
+        Folded::new(x, self.recipe.neurons, &self.state.scaling)
+    }
+
+    /// Errors of words on histograms that neither training nor choice has seen, one a scene.
+    ///
+    /// # Errors
+    /// When no data can be drawn.
+    pub fn test(&self, words: &Folded<i64>) -> Result<Vec<Row>> {
+        let grid = Grid::test();
+        let len = grid.distances_m.count * grid.lights();
+        let samples = draw(self.source, grid, len, self.seed, Purpose::Test)?;
+        Ok(by_distance(&samples, |histogram| words.depth_m(histogram)))
+    }
+}
+
+/// Weights of all samples. They are ordered by distance, each distance with a factor.
+fn weights(recipe: &Recipe, distances_m: &[f64], factors: &[f64]) -> Vec<f64> {
+    let mut weights = Vec::with_capacity(distances_m.len());
+    for (place, same) in distances_m.chunk_by(|a, b| a == b).enumerate() {
+        let factor = factors.get(place).copied().unwrap_or(1.0);
+        let weight = factor * recipe.weighting.weight(same[0]);
+        weights.resize(weights.len() + same.len(), weight);
+    }
+    weights
+}
+
+fn stage_samples(recipe: &Recipe, source: &Source, seed: u64, stage: usize) -> Result<Samples> {
+    let samples = match recipe.stages.get(stage) {
+        Some(&Stage { samples, .. }) => samples,
+        None => recipe.finish.samples,
+    };
+    draw(source, Grid::training(), samples, seed, Purpose::Stage(stage))
+}
+
+/// Histograms that the best block is chosen by, one for each scene of the test grid.
+fn choice_samples(source: &Source, seed: u64) -> Result<Samples> {
+    let grid = Grid::test();
+    draw(source, grid, grid.distances_m.count * grid.lights(), seed, Purpose::Choice)
+}

@@ -1,0 +1,207 @@
+//! `tofsim train`: what it writes is decided by seed and recipe alone.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use common::{files, json, output, refused, stdout};
+use tofsim::network::Network;
+use tofsim::training::features::{Features, Scaling};
+use tofsim::training::limits::Limits;
+use tofsim::training::lm::{Lm, Settings};
+use tofsim::training::network_problem::NetworkProblem;
+use tofsim::training::recipe::Recipe;
+use tofsim::training::start::start;
+use tofsim::training::sums::parameters;
+
+/// Arguments of a training of about a second.
+const SMALL: [&str; 8] = [
+    "train",
+    "--quick",
+    "--profile",
+    "uniform",
+    "--seed",
+    "2",
+    "--with",
+    "stages=[{candidates=2,epochs=5,samples=402},{candidates=1,epochs=5,samples=603}]",
+];
+const END: [&str; 2] =
+    ["--with", "finish={candidates=1,blocks=2,epochs=5,samples=603,least=0.7,most=1.5,power=0.7}"];
+
+fn train(folder: &Path, to: &str, more: &[&str]) -> String {
+    stdout(folder, &[&SMALL[..], &END, more, &["-o", to]].concat())
+}
+
+fn read(folder: &Path, path: &str) -> String {
+    fs::read_to_string(folder.join(path)).unwrap()
+}
+
+#[test]
+fn the_same_command_writes_the_same_files_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    train(folder, "a", &["--threads", "1"]);
+    train(folder, "b", &["--threads", "3"]);
+    let names = ["accuracy.csv", "checkpoint", "curve.csv", "curve.svg", "network.toml"];
+    assert_eq!(files(&folder.join("a")), names);
+    for name in names {
+        assert!(read(folder, &format!("a/{name}")) == read(folder, &format!("b/{name}")), "{name}");
+    }
+    let network = Network::load(&folder.join("a/network.toml")).unwrap();
+    assert_eq!(network.training.chain, "uniform");
+    let command = network.training.command.unwrap();
+    assert!(
+        command.starts_with("tofsim train --profile uniform --seed 2 --quick --with"),
+        "{command}"
+    );
+    assert_eq!(network.accuracy.unwrap().distances_m, [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
+    assert_eq!(read(folder, "a/accuracy.csv").lines().count(), 52);
+}
+
+#[test]
+fn a_training_that_was_stopped_ends_as_one_that_was_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let whole = train(folder, "whole", &[]);
+    assert_eq!(train(folder, "parts", &["--checkpoints", "1"]), "");
+    assert_eq!(files(&folder.join("parts")), ["checkpoint"]);
+    // Within the first stage, at its end, and within the last block.
+    for count in ["1", "2", "2"] {
+        assert_eq!(train(folder, "parts", &["--resume", "--checkpoints", count]), "");
+    }
+    assert_eq!(train(folder, "parts", &["--resume"]), whole);
+    for name in files(&folder.join("whole")) {
+        let [a, b] = ["whole", "parts"].map(|of| read(folder, &format!("{of}/{name}")));
+        assert!(a == b, "{name}");
+    }
+    // What is over is only written again.
+    assert_eq!(train(folder, "parts", &["--resume"]), whole);
+}
+
+#[test]
+fn a_checkpoint_of_another_training_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let missing = refused(folder, &["train", "--resume", "-o", "none"]);
+    assert!(missing.contains("none/checkpoint"), "{missing}");
+    train(folder, "a", &["--checkpoints", "1"]);
+    let refusal = |more: &[&str]| {
+        refused(folder, &[&SMALL[..], &END, &["--resume", "-o", "a"], more].concat())
+    };
+    let error = refusal(&["--with", "table_noise=0.001"]);
+    assert!(error.contains("settings.table_noise = 0.0008: of another training"), "{error}");
+    assert!(refusal(&["-s", "spad.pdp=0.013"]).contains("settings.scenario"));
+    let path = folder.join("a/checkpoint");
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, text.replacen("tofsim.checkpoint/1", "tofsim.checkpoint/2", 1)).unwrap();
+    assert!(
+        refusal(&[]).contains("schema = tofsim.checkpoint/2: expected \"tofsim.checkpoint/1\"")
+    );
+    fs::write(&path, &text[..text.len() / 2]).unwrap();
+    assert!(refusal(&[]).contains("no checkpoint"));
+}
+
+#[test]
+fn options_reach_the_recipe_and_what_makes_no_sense_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::write(folder.join("mine.toml"), "table_noise = 0.002\n[limits]\nb1 = 3.5\n").unwrap();
+    let text = stdout(
+        folder,
+        &[
+            "train",
+            "--recipe",
+            "mine.toml",
+            "--with",
+            "limits.b1=3",
+            "--starts",
+            "3",
+            "--print-recipe",
+        ],
+    );
+    let recipe: Recipe = toml::from_str(&text).unwrap();
+    assert_eq!((recipe.table_noise, recipe.limits.b1), (0.002, 3.0));
+    let candidates: Vec<_> = recipe.stages.iter().map(|stage| stage.candidates).collect();
+    assert_eq!(candidates, [3, 3, 3, 2]);
+    let error = refused(folder, &["train", "--with", "limit.b1=3"]);
+    assert!(error.contains("--with limit.b1=3") && error.contains("unknown field"), "{error}");
+    fs::write(folder.join("bad.toml"), "neurons = \"many\"\n").unwrap();
+    assert!(refused(folder, &["train", "--recipe", "bad.toml"]).contains("bad.toml"));
+    assert!(refused(folder, &["train", "--neurons", "0"]).contains("neurons = 0"));
+    assert!(refused(folder, &["train", "--profile", "none"]).contains("none"));
+    assert!(refused(folder, &["train", "-s", "firmware.mode=1"]).contains("firmware.mode"));
+}
+
+#[test]
+fn other_numbers_of_neurons_are_trained_and_not_written_as_firmware() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let args = [&SMALL[..], &END, &["--neurons", "3", "-o", "three"]].concat();
+    let output = output(folder, &args);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("neurons = 3: expected 8"));
+    assert!(!folder.join("three/network.toml").exists());
+    assert_eq!(read(folder, "three/accuracy.csv").lines().count(), 52);
+}
+
+#[test]
+fn a_quick_training_finds_distances() {
+    let folder = tempfile::tempdir().unwrap();
+    let report = json(folder.path(), &["train", "--quick", "--json", "-o", "quick"]);
+    assert_eq!(report["schema"], "tofsim.train/1");
+    let spread = report["two_sd_mm"].as_array().unwrap();
+    assert_eq!(spread.len(), 51);
+    let mean = spread.iter().map(|x| x.as_f64().unwrap()).sum::<f64>() / 51.0;
+    assert!(mean < 25.0, "{mean}");
+    let depth = json(
+        folder.path(),
+        &[
+            "run",
+            "--json",
+            "--waves",
+            "none",
+            "--fidelity",
+            "histogram",
+            "-s",
+            "target.distance_m=0.3",
+            "-s",
+            "estimator.network=quick/network.toml",
+        ],
+    );
+    let depth = depth["frames"][0]["depth_m"].as_f64().unwrap();
+    assert!((depth - 0.3).abs() < 0.05, "{depth}");
+}
+
+#[test]
+fn bins_that_never_count_do_no_harm() {
+    let histogram = |s: usize| -> [u16; 256] {
+        std::array::from_fn(|bin| {
+            if (40..90).contains(&bin) { ((s * 7 + bin * s) % 31) as u16 } else { 0 }
+        })
+    };
+    let counts: Vec<_> = (0..400).map(histogram).collect();
+    let distances_m: Vec<f64> =
+        counts.iter().map(|counts| 0.1 + f64::from(counts[60]) / 100.0).collect();
+    let scaling = Scaling::of(&counts);
+    assert!(scaling.inverse_sd.contains(&0.0));
+    let features = Features::new(&counts, &scaling);
+    let (recipe, weights) = (Recipe::default(), vec![1000.0; 400]);
+    let problem = NetworkProblem {
+        features: &features,
+        scaling: &scaling,
+        distances_m: &distances_m,
+        weights: &weights,
+        neurons: 2,
+        table_noise: 0.0,
+        limits: Limits::default(),
+    };
+    let mut lm = Lm::new(start(&recipe.start, 2, 1, 0), &Settings::default());
+    lm.epoch(&problem, &Settings::default()).unwrap();
+    let first = lm.cost;
+    for _ in 0..10 {
+        lm.epoch(&problem, &Settings::default()).unwrap();
+    }
+    assert!(lm.x.len() == parameters(2) && lm.x.iter().all(|x| x.is_finite()));
+    assert!(lm.cost < 0.5 * first, "{} {first}", lm.cost);
+}
