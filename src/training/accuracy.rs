@@ -51,9 +51,8 @@ fn row(pairs: &[(f64, f64)]) -> Row {
 /// The largest ratio of a spread to the line; infinite if a spread is no number.
 pub fn worst_ratio(rows: &[Row], line: &Weighting) -> f64 {
     let ratio = |row: &Row| row.two_sd_mm / line.line_mm(row.distance_m);
-    let worse = |worst: f64, ratio: f64| if ratio <= worst { worst } else { ratio };
-    let worst = rows.iter().map(ratio).fold(0.0, worse);
-    if worst.is_nan() { f64::INFINITY } else { worst }
+    let number = |ratio: f64| if ratio.is_nan() { f64::INFINITY } else { ratio };
+    rows.iter().map(ratio).map(number).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
