@@ -11,7 +11,7 @@ use crate::evaluation::exploration::{Point, explore, sweep};
 use crate::network::file::Training;
 use crate::network::formats::Overflow;
 use crate::network::{Network, import, mem};
-use crate::output::{OutputFile, create_directory};
+use crate::output::{create_directory, write_file};
 use crate::report::exploration;
 use crate::report::table::plain;
 use crate::sim::setup::Setup;
@@ -184,9 +184,7 @@ impl Args {
     fn write(&self, network: &Network) -> Result<Vec<PathBuf>> {
         let mut files = Vec::new();
         let mut put = |path: PathBuf, text: &str| {
-            let mut file = OutputFile::create(&path)?;
-            file.write_all(text.as_bytes()).map_err(|error| file.fault(error))?;
-            file.commit()?;
+            write_file(&path, |file| file.write_all(text.as_bytes()))?;
             files.push(path);
             Ok::<(), Error>(())
         };

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::error::{Input, Result};
 use crate::evaluation::{Figures, Group, thesis};
-use crate::output::{OutputFile, create_directory};
+use crate::output::{create_directory, write_file};
 
 use super::box_plot::BoxPlot;
 
@@ -49,9 +49,7 @@ pub fn write(folder: &Path, json: &str, figures: &[Figures]) -> Result<()> {
 }
 
 fn put(path: &Path, bytes: &[u8]) -> Result<()> {
-    let mut file = OutputFile::create(path)?;
-    file.write_all(bytes).map_err(|error| file.fault(error))?;
-    file.commit()
+    write_file(path, |file| file.write_all(bytes))
 }
 
 /// A row for each estimator and group.
