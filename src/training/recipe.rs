@@ -17,7 +17,7 @@ pub struct Recipe {
     /// Epochs between two checkpoints.
     pub checkpoint_epochs: u64,
     /// Part of its cost that a network has to lose from a checkpoint to the next, or it rests until
-    /// the next stage or block [1].
+    /// the next stage or block; with 0 it rests only when no step helps [1].
     pub least_gain: f64,
     /// Noise of a neuron's sum from the activation table's steps [1].
     pub table_noise: f64,
@@ -86,7 +86,7 @@ impl Default for Recipe {
         Recipe {
             neurons: 8,
             checkpoint_epochs: 20,
-            least_gain: 1e-4,
+            least_gain: 0.0,
             table_noise: 8e-4,
             start: Start { lengths: vec![0.1, 0.3], bias: 1.0, output_m: 0.1 },
             stages: vec![
