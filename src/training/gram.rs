@@ -137,8 +137,12 @@ mod tests {
         let features = Features::new(&counts, &scaling);
         let weight = |s: usize, w: usize| ((s * 5 + w * 3) % 17) as f32 - 8.0;
         let mut weights = vec![[[0.0; GROUP]; BLOCK]; groups(14)];
-        for s in 0..BLOCK {
-            (0..14).for_each(|w| weights[w / GROUP][s][w % GROUP] = weight(s, w));
+        for (group, weights) in weights.iter_mut().enumerate() {
+            for (s, weights) in weights.iter_mut().enumerate() {
+                for (k, place) in weights.iter_mut().enumerate() {
+                    *place = weight(s, group * GROUP + k);
+                }
+            }
         }
         let (mut gram, mut moments) = (Gram::zeros(14), Moments::zeros(14));
         gram.add_block(&features.blocks()[0], &weights);

@@ -231,7 +231,7 @@ impl Problem for NetworkProblem<'_> {
         let arch = pulp::Arch::new();
         let parts = self.runs().into_par_iter().map(|run| arch.dispatch(Linearise(self, x, run)));
         let parts: Vec<Sums> = parts.collect();
-        let sums = parts.iter().fold(Sums::zeros(self.neurons), Sums::add);
+        let sums = parts.iter().fold(Sums::zeros(self.neurons), Sums::with);
         let mut linear = sums.assemble(self.neurons, self.features.samples());
         self.limits.add(x, self.neurons, self.scaling, &mut linear);
         linear

@@ -39,7 +39,7 @@ impl Sums {
     }
 
     /// The sum of both.
-    pub fn add(mut self, other: &Sums) -> Self {
+    pub fn with(mut self, other: &Sums) -> Self {
         self.cost += other.cost;
         self.gram.add(&other.gram);
         self.cross.add(&other.cross);
