@@ -137,12 +137,12 @@ fn options_reach_the_recipe_and_what_makes_no_sense_is_refused() {
 fn other_numbers_of_neurons_are_trained_and_not_written_as_firmware() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let args = [&SMALL[..], &END, &["--neurons", "3", "-o", "three"]].concat();
+    let args = [&SMALL[..], &END, &["--neurons", "4", "-o", "four"]].concat();
     let output = output(folder, &args);
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("neurons = 3: expected 8"));
-    assert!(!folder.join("three/network.toml").exists());
-    assert_eq!(read(folder, "three/accuracy.csv").lines().count(), 52);
+    assert!(String::from_utf8_lossy(&output.stderr).contains("neurons = 4: expected 8"));
+    assert!(!folder.join("four/network.toml").exists());
+    assert_eq!(read(folder, "four/accuracy.csv").lines().count(), 52);
 }
 
 #[test]
