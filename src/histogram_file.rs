@@ -12,6 +12,7 @@ use crate::csv_input::CsvInput;
 use crate::error::{Error, Input, Result, line_and_column};
 use crate::firmware::histogram_builder::BINS;
 use crate::network::{Histogram, MAX_HITS};
+use crate::npy_input;
 
 /// First bytes of an `.npy` file.
 const MAGIC: &[u8; 6] = b"\x93NUMPY";
@@ -19,11 +20,6 @@ const MAGIC: &[u8; 6] = b"\x93NUMPY";
 const HEADER: [&str; 2] = ["bin", "count"];
 /// Longest CSV file [bytes].
 const CSV: u64 = 1 << 20;
-/// Longest header of an `.npy` file; that of a plain array has 118 [bytes].
-const NPY_HEADER: usize = 1024;
-/// Most digits in that header, so that the product of the lengths fits in 64 bits.
-const NPY_DIGITS: usize = 18;
-
 /// What a count has to be.
 const COUNT: &str = "expected a whole number from 0 to 65535";
 
@@ -151,7 +147,8 @@ fn csv(reader: Reader, path: &str) -> Result<Histogram> {
 /// Reads the header of an `.npy` file.
 fn array(mut reader: Reader, path: &str) -> Result<Left> {
     let fault = |expected: String| Error::from(Input::new(path, expected));
-    let header = header(&mut reader).map_err(|error| fault(format!("unreadable .npy: {error}")))?;
+    let header = npy_input::header(&mut reader)
+        .map_err(|error| fault(format!("unreadable .npy: {error}")))?;
     let shape = header.shape().to_vec();
     let rows = match shape[..] {
         [bins] if bins == BINS as u64 => 1,
@@ -171,31 +168,6 @@ fn array(mut reader: Reader, path: &str) -> Result<Left> {
         Input::new(path, expected).field("dtype").value(dtype)
     })?;
     Ok(Left::Npy { elements, next: 0, rows })
-}
-
-/// The header, refused before it is parsed if it is not like a plain array's: nested brackets take
-/// the parser forever.
-fn header(reader: &mut Reader) -> io::Result<NpyHeader> {
-    let mut bytes = vec![0; 10];
-    reader.read_exact(&mut bytes)?;
-    let mut length = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
-    if bytes[6] > 1 {
-        let mut high = [0; 2];
-        reader.read_exact(&mut high)?;
-        bytes.extend(high);
-        length |= usize::from(u16::from_le_bytes(high)) << 16;
-    }
-    if length > NPY_HEADER {
-        return Err(io::Error::other(format!("a header of {length} bytes")));
-    }
-    let begin = bytes.len();
-    bytes.resize(begin + length, 0);
-    reader.read_exact(&mut bytes[begin..])?;
-    let count = |of: fn(&u8) -> bool| bytes[begin..].iter().filter(|&byte| of(byte)).count();
-    if count(|byte| b"([{".contains(byte)) > 2 || count(u8::is_ascii_digit) > NPY_DIGITS {
-        return Err(io::Error::other("its header is not that of a plain array"));
-    }
-    NpyHeader::from_reader(&bytes[..])
 }
 
 /// The elements after the header; in error, the type that is none of ours.

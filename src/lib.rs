@@ -22,6 +22,7 @@ pub mod histogram_file;
 pub mod ila;
 pub mod kernel;
 pub mod network;
+mod npy_input;
 pub mod optics;
 pub mod output;
 pub mod report;

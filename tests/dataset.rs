@@ -156,7 +156,7 @@ fn arrays_that_do_not_fit_are_refused_by_name() {
     );
     check(
         with("truth.npy", b"distance"),
-        ": expected the header of an .npy file with a plain array",
+        ": expected the header of an .npy file with a plain array: the file ends within it",
     );
     check(
         with("rows.npy", &npy("<u8", "(301, 2)", &[0; 301 * 16])),

@@ -1,17 +1,18 @@
 //! `tofsim dataset`: histograms in bulk, for training and tests.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::Serialize;
 
 use crate::dataset::files::{Files, Format};
-use crate::dataset::{Blocks, Description, Grid, Rows, Source, Subset};
+use crate::dataset::{Blocks, Description, Grid, Source};
 use crate::error::{Error, Input, Result};
 use crate::report::table::{grouped, plain};
 use crate::scenario;
 use crate::sim::setup::Setup;
 
+use super::draws::Draws;
 use super::interrupt::stop_signal;
 use super::stdout::print;
 use super::talk::Talk;
@@ -29,25 +30,11 @@ pub struct Args {
     /// Built-in scenario, or the path of a scenario file (see `scenario list`)
     #[arg(default_value = scenario::DEFAULT)]
     scenario: String,
-    /// Set a key of the scenario, such as firmware.shots_per_frame=15000; may be repeated
-    #[arg(short, long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
-    /// Carry chain: uniform, table6_3, ideal (bins of 25 ps), or the path of a chain file, from here
-    /// [default: the scenario's]
-    #[arg(long, value_name = "P")]
-    profile: Option<String>,
+    #[command(flatten)]
+    draws: Draws,
     /// Which scenes
     #[arg(long, value_enum, default_value_t = Scenes::Train)]
     grid: Scenes,
-    /// Draw so many random scenes of the grid, equally many at each distance, instead of all
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..1 << 40))]
-    rows: Option<u64>,
-    /// Seed of every random stream, instead of the scenario's
-    #[arg(long, value_name = "N", allow_hyphen_values = true)]
-    seed: Option<u64>,
-    /// Threads; the files are the same for any number [default: one a core]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
     /// What to write, separated by commas
     #[arg(long, value_enum, value_delimiter = ',', default_value = "parquet")]
     format: Vec<Format>,
@@ -78,21 +65,13 @@ struct Report<'a> {
 
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
-    let mut loaded = scenario::load(&args.scenario, &args.set)?;
-    if let Some(seed) = args.seed {
-        loaded.scenario.seed = seed;
-    }
-    if let Some(profile) = &args.profile {
-        loaded.scenario.tdc.profile = from_here(profile)?;
-    }
+    let loaded = args.draws.load(&args.scenario)?;
     let (name, seed) = (loaded.name.clone(), loaded.scenario.seed);
     let source = Source::new(&Setup::new(loaded)?)?;
-    let rows = args.rows(seed);
-    let description = Description::new(&name, &args.set, &source, &rows, seed);
+    let rows = args.draws.rows(args.grid.grid(), seed);
+    let description = Description::new(&name, &args.draws.set, &source, &rows, seed);
     let files = Files::create(&args.output, &args.format, &description)?;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(args.threads.unwrap_or(0).into());
-    let pool = pool.build().map_err(|error| Input::new("--threads", error))?;
-
+    let pool = args.draws.pool()?;
     let stop = stop_signal();
     let progress = talk.progress(rows.len(), "rows");
     let blocks = source.blocks(&rows, seed, 0..rows.len());
@@ -129,27 +108,13 @@ fn write(
     files.finish()
 }
 
-impl Args {
-    fn rows(&self, seed: u64) -> Rows {
-        let grid = match self.grid {
+impl Scenes {
+    fn grid(self) -> Grid {
+        match self {
             Scenes::Train => Grid::training(),
             Scenes::Test => Grid::test(),
-        };
-        match self.rows {
-            None => Rows::All(grid),
-            Some(rows) => Rows::Subset(Subset::new(grid, rows, seed)),
         }
     }
-}
-
-/// A chain by name as it is, and by path as seen from the folder that the program runs in: the
-/// scenario's own are seen from the scenario's.
-pub(super) fn from_here(profile: &str) -> Result<String> {
-    if !profile.contains(['/', '.']) {
-        return Ok(profile.to_owned());
-    }
-    let path = std::path::absolute(profile).map_err(Error::io(Path::new(profile), "read"))?;
-    Ok(path.display().to_string())
 }
 
 fn table(description: &Description, files: &[String]) -> String {

@@ -1,22 +1,19 @@
-//! Options of verbs that draw histograms of the thesis's test grid.
+//! Options of verbs that draw histograms.
+
+use std::path::Path;
 
 use rayon::ThreadPool;
 
 use crate::dataset::{Grid, Rows, Subset};
-use crate::error::{Input, Result};
-use crate::scenario::{self, Loaded};
-
-use super::dataset::from_here;
+use crate::error::{Error, Input, Result};
+use crate::scenario::{self, Loaded, builtin};
 
 /// Which histograms.
 #[derive(Debug, clap::Args)]
 pub struct Draws {
-    /// Built-in scenario, or the path of a scenario file, for all but the scene
-    #[arg(long, default_value = scenario::DEFAULT)]
-    scenario: String,
     /// Set a key of the scenario, such as firmware.shots_per_frame=15000; may be repeated
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    pub set: Vec<String>,
     /// Carry chain: uniform, table6_3, ideal (bins of 25 ps), or the path of a chain file, from here
     /// [default: the scenario's]
     #[arg(long, value_name = "P")]
@@ -27,36 +24,42 @@ pub struct Draws {
     /// Seed of every random stream, instead of the scenario's
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     seed: Option<u64>,
-    /// Threads; the figures are the same for any number [default: one a core]
+    /// Threads; the results are the same for any number [default: one a core]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
 }
 
 impl Draws {
-    /// The scenario with a network in it, by name or as a path from here.
-    pub fn load(&self, network: &str) -> Result<Loaded> {
-        let mut loaded = scenario::load(&self.scenario, &self.set)?;
+    /// A scenario by name or path, with what the options say.
+    pub fn load(&self, scenario: &str) -> Result<Loaded> {
+        let mut loaded = scenario::load(scenario, &self.set)?;
         if let Some(seed) = self.seed {
             loaded.scenario.seed = seed;
         }
         if let Some(profile) = &self.profile {
-            loaded.scenario.tdc.profile = from_here(profile)?;
+            loaded.scenario.tdc.profile = from_here(profile, &loaded)?;
         }
-        loaded.scenario.estimator.network = from_here(network)?;
         Ok(loaded)
     }
 
-    /// Rows of the test grid.
-    pub fn rows(&self, seed: u64) -> Rows {
+    /// The same with a network in it, by name or path.
+    pub fn load_with(&self, scenario: &str, network: &str) -> Result<Loaded> {
+        let mut loaded = self.load(scenario)?;
+        loaded.scenario.estimator.network = from_here(network, &loaded)?;
+        Ok(loaded)
+    }
+
+    /// Rows of a grid: as many random ones as the options say, or all.
+    pub fn rows(&self, grid: Grid, seed: u64) -> Rows {
         match self.rows {
-            None => Rows::All(Grid::test()),
-            Some(rows) => Rows::Subset(Subset::new(Grid::test(), rows, seed)),
+            None => Rows::All(grid),
+            Some(_) => self.some_rows(0, grid, seed),
         }
     }
 
-    /// Rows of the test grid: so many random ones, if nothing else was asked for.
-    pub fn rows_or(&self, rows: u64, seed: u64) -> Rows {
-        Rows::Subset(Subset::new(Grid::test(), self.rows.unwrap_or(rows), seed))
+    /// Random rows of a grid, so many if the options do not say.
+    pub fn some_rows(&self, default: u64, grid: Grid, seed: u64) -> Rows {
+        Rows::Subset(Subset::new(grid, self.rows.unwrap_or(default), seed))
     }
 
     /// Threads to draw on.
@@ -64,4 +67,13 @@ impl Draws {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0).into());
         pool.build().map_err(|error| Input::new("--threads", error).into())
     }
+}
+
+/// A name as it is, and a path as the scenario has to have it, which sees paths from its own folder.
+pub fn from_here(name: &str, loaded: &Loaded) -> Result<String> {
+    if !name.contains(['/', '.']) || loaded.files == builtin::Source::BuiltIn {
+        return Ok(name.to_owned());
+    }
+    let path = std::path::absolute(name).map_err(Error::io(Path::new(name), "read"))?;
+    Ok(path.display().to_string())
 }

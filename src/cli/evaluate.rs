@@ -1,7 +1,9 @@
 //! `tofsim evaluate`: how exactly estimators find the distance, beside the thesis.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::atomic::AtomicBool;
 
 use serde::Serialize;
 
@@ -15,7 +17,7 @@ use crate::evaluation::thesis::{self, DISTANCES_M};
 use crate::evaluation::{Evaluation, Figures};
 use crate::network::Network;
 use crate::report::{evaluation as report, evaluation_files};
-use crate::scenario::Loaded;
+use crate::scenario::{self, Loaded};
 use crate::sim::setup::Setup;
 
 use super::draws::Draws;
@@ -42,6 +44,9 @@ pub struct Args {
     /// Built-in network (uniform, ideal) or network file
     #[arg(value_name = "NETWORK", default_value = Network::DEFAULT)]
     network: String,
+    /// Built-in scenario, or the path of a scenario file, for all but the scene
+    #[arg(long, default_value = scenario::DEFAULT)]
+    scenario: String,
     #[command(flatten)]
     draws: Draws,
     /// Estimators, separated by commas
@@ -86,11 +91,11 @@ struct Thesis {
 
 /// Runs the verb; the status says whether the cross-check found both paths the same.
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
-    let loaded = args.draws.load(&args.network)?;
+    let loaded = args.draws.load_with(&args.scenario, &args.network)?;
     let network = Network::find(&args.network, None)?;
     let source = Source::new(&Setup::new(loaded.clone())?)?;
     let (seed, profile) = (loaded.scenario.seed, &loaded.scenario.tdc.profile);
-    if network.training.chain != *profile {
+    if file_name(&network.training.chain) != file_name(profile) {
         talk.note(format_args!(
             "note: {} was trained on the bins of chain {}, these are of {profile}",
             network.name, network.training.chain
@@ -106,9 +111,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     };
     let estimators = args.estimator.iter().map(|kind| kind.estimator(&needs));
     let estimators = estimators.collect::<std::result::Result<Vec<_>, Input>>()?;
-    let rows = args.draws.rows(seed);
-    let evaluation = args.evaluate(&source, &rows, seed, &estimators, talk)?;
-    let cross_check = args.cross_check(&loaded, &source)?;
+    let rows = args.draws.rows(Grid::test(), seed);
+    let stop = stop_signal();
+    let evaluation = args.evaluate((&source, &rows, seed), &estimators, stop.as_deref(), talk)?;
+    let cross_check = args.cross_check(&loaded, &source, stop.as_deref())?;
     let agrees = cross_check.iter().all(CrossCheck::agrees);
     let report = Report {
         schema: "tofsim.evaluate/1",
@@ -146,22 +152,26 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
 impl Args {
     fn evaluate(
         &self,
-        source: &Source,
-        rows: &Rows,
-        seed: u64,
+        (source, rows, seed): (&Source, &Rows, u64),
         estimators: &[Box<dyn Estimator + Send>],
+        stop: Option<&AtomicBool>,
         talk: &Talk,
     ) -> Result<Evaluation> {
         let pool = self.draws.pool()?;
-        let (stop, progress) = (stop_signal(), talk.progress(rows.len(), "rows"));
+        let progress = talk.progress(rows.len(), "rows");
         let done = |rows| progress.inc(rows);
         let evaluation =
-            pool.install(|| Evaluation::new(source, rows, seed, estimators, stop.as_deref(), done));
+            pool.install(|| Evaluation::new(source, rows, seed, estimators, stop, done));
         progress.finish_and_clear();
         evaluation
     }
 
-    fn cross_check(&self, loaded: &Loaded, source: &Source) -> Result<Vec<CrossCheck>> {
+    fn cross_check(
+        &self,
+        loaded: &Loaded,
+        source: &Source,
+        stop: Option<&AtomicBool>,
+    ) -> Result<Vec<CrossCheck>> {
         let distances: &[f64] = if self.check > 0 { &DISTANCES_M } else { &[] };
         let scene = |&distance_m| Scene {
             distance_m,
@@ -169,8 +179,13 @@ impl Args {
             irradiance_w_m2_nm: CHECK_IRRADIANCE,
         };
         let checks = distances.iter().map(scene);
-        checks.map(|scene| CrossCheck::new(loaded, source, &scene, self.check)).collect()
+        checks.map(|scene| CrossCheck::new(loaded, source, &scene, self.check, stop)).collect()
     }
+}
+
+/// A chain's name, wherever its file is.
+fn file_name(profile: &str) -> &OsStr {
+    Path::new(profile).file_name().unwrap_or(profile.as_ref())
 }
 
 impl Report<'_> {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use crate::dataset::Source;
+use crate::dataset::{Grid, Source};
 use crate::error::{Error, Result};
 use crate::evaluation::exploration::{Point, explore, sweep};
 use crate::network::file::Training;
@@ -14,6 +14,7 @@ use crate::network::{Network, import, mem};
 use crate::output::{create_directory, write_file};
 use crate::report::exploration;
 use crate::report::table::plain;
+use crate::scenario;
 use crate::sim::setup::Setup;
 
 use super::draws::Draws;
@@ -57,6 +58,9 @@ pub struct Args {
     /// Take the nearest word for a weight that does not fit, instead of an error
     #[arg(long)]
     saturate: bool,
+    /// Built-in scenario, or the path of a scenario file, to explore with
+    #[arg(long, default_value = scenario::DEFAULT)]
+    scenario: String,
     #[command(flatten)]
     draws: Draws,
     /// Print one JSON object
@@ -68,11 +72,11 @@ pub struct Args {
 #[group(required = true, multiple = false)]
 struct Task {
     /// Fold and round a network: MATLAB file, JSON file, or folder of NumPy arrays (IW.npy, ...)
-    #[arg(long, value_name = "FILE|DIR")]
+    #[arg(long, value_name = "FILE|DIR", conflicts_with_all = ["scenario", "Draws"])]
     from: Option<PathBuf>,
     /// Sweep word lengths and the table of activations: accuracy against block RAMs and DSP slices;
     /// of 10,200 histograms unless --rows says how many
-    #[arg(long, value_name = "NETWORK", conflicts_with_all = ["output", "roms", "saturate"])]
+    #[arg(long, value_name = "NETWORK", conflicts_with_all = ["output", "roms", "chain", "description", "saturate"])]
     explore: Option<String>,
 }
 
@@ -159,11 +163,11 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
 
 impl Args {
     fn explore(&self, network: &str, talk: &Talk) -> Result<()> {
-        let loaded = self.draws.load(network)?;
+        let loaded = self.draws.load_with(&self.scenario, network)?;
         let (seed, profile) = (loaded.scenario.seed, loaded.scenario.tdc.profile.clone());
         let network = Network::find(network, None)?;
         let source = Source::new(&Setup::new(loaded)?)?;
-        let rows = self.draws.rows_or(EXPLORED, seed);
+        let rows = self.draws.some_rows(EXPLORED, Grid::test(), seed);
         let (stop, progress) = (stop_signal(), talk.progress(rows.len(), "rows"));
         let points = self.draws.pool()?.install(|| {
             let data = (&source, &rows, seed);

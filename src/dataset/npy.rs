@@ -18,7 +18,7 @@ pub const NAMES: [&str; 3] = ["histograms.npy", "truth.npy", "rows.npy"];
 /// Types of their elements, in NumPy's words.
 pub(super) const TYPES: [&str; 3] = ["<u2", "<f8", "<u8"];
 /// Elements of a row.
-pub(super) const WIDTHS: [usize; 3] = [BINS, 3, 2];
+const WIDTHS: [usize; 3] = [BINS, 3, 2];
 
 /// The files under construction; nothing is left of them unless they are put in place.
 pub struct NpyFiles {

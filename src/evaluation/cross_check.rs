@@ -4,6 +4,8 @@
 //! go through the whole firmware: their histograms have to have those probabilities, and their
 //! depths have to be those of the sums, bit for bit.
 
+use std::sync::atomic::AtomicBool;
+
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -16,6 +18,8 @@ use crate::sim::frames::Frame;
 use crate::sim::run::Watch;
 use crate::sim::setup::Setup;
 
+/// Chance below which counts are taken for others than those drawn.
+const LEVEL: f64 = 1e-6;
 /// Hits that a cell of the test has to expect, or it is joined to the next.
 const CELL: f64 = 20.0;
 
@@ -35,14 +39,20 @@ pub struct CrossCheck {
 impl CrossCheck {
     /// Whether both paths are the same.
     pub fn agrees(&self) -> bool {
-        self.other_depths == 0 && self.p_value > 1e-6
+        self.other_depths == 0 && self.p_value > LEVEL
     }
 
     /// Simulates frames of a scene, all else being as in `loaded`, of which `source` is.
     ///
     /// # Errors
-    /// When the scenario does not run.
-    pub fn new(loaded: &Loaded, source: &Source, scene: &Scene, frames: u64) -> Result<Self> {
+    /// When the scenario does not run, or it is stopped.
+    pub fn new(
+        loaded: &Loaded,
+        source: &Source,
+        scene: &Scene,
+        frames: u64,
+        stop: Option<&AtomicBool>,
+    ) -> Result<Self> {
         let mut loaded = loaded.clone();
         loaded.scenario.target.distance_m = scene.distance_m;
         loaded.scenario.target.reflectance = scene.reflectance;
@@ -57,7 +67,8 @@ impl CrossCheck {
             }
             Ok(())
         };
-        Run::new(&setup).frames(frames, Watch { frames: Some(&mut take), ..Watch::default() })?;
+        Run::new(&setup)
+            .frames(frames, Watch { frames: Some(&mut take), stop, ..Watch::default() })?;
         let shots = (frames * u64::from(source.shots())) as f64;
         let p_value = p_value(&sums, source.probabilities(scene).of_code(), shots);
         Ok(CrossCheck { distance_m: scene.distance_m, frames, other_depths, p_value })

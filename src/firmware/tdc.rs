@@ -114,7 +114,8 @@ impl Tdc {
         if !line.is_shown_by(&self.carry_chain.taps) {
             return AWAKE;
         }
-        (self.tdc_latch.quiet(&Wires::tdc_latch(self, i), &p.tap_0))
+        let tdc_latch = self.tdc_latch.quiet(&Wires::tdc_latch(self, i), &p.tap_0);
+        tdc_latch
             .min(self.tdc_decoder.quiet(&Wires::tdc_decoder(self, i), &p.cal))
             .min(self.coarse_counter.quiet(&Wires::coarse_counter(self, i), &()))
     }

@@ -1,16 +1,13 @@
 //! Errors by a quantity of the scene, as boxes.
 
-use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use crate::evaluation::Group;
 
-const SIZE: (u32, u32) = (1000, 520);
+use super::svg::{Canvas, Fault, picture};
+
 /// Whiskers reach so many heights of the box at most, and not past the last error.
 const WHISKER: f64 = 1.5;
-
-type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Fault<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
 
 /// What is drawn.
 #[derive(Debug)]
@@ -41,15 +38,10 @@ impl Box5 {
 impl BoxPlot<'_> {
     /// The picture as SVG text; an error only if the plotting library fails.
     pub fn svg(&self) -> Result<String, String> {
-        let mut text = String::new();
-        let canvas = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-        self.draw(&canvas).map_err(|fault| fault.to_string())?;
-        drop(canvas);
-        Ok(text)
+        picture(|canvas| self.draw(canvas))
     }
 
     fn draw<'a>(&self, canvas: &Canvas<'a>) -> Result<(), Fault<'a>> {
-        canvas.fill(&WHITE)?;
         let boxes: Vec<_> = self.groups.iter().filter_map(Box5::of).collect();
         let values: Vec<_> = self.groups.iter().map(|group| group.value).collect();
         let (first, last) = (values.first().copied(), values.last().copied());
@@ -91,7 +83,7 @@ impl BoxPlot<'_> {
             )])?;
             chart.draw_series([line((value - half, median), (value + half, median))])?;
         }
-        canvas.present()
+        Ok(())
     }
 }
 

@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use crate::firmware::histogram_builder::BINS;
 use crate::optics::hazard::Cause;
 
 use super::causes::{self, CAUSES, Causes};
+use super::svg::{Canvas, Fault, picture};
 
 /// Width of a bin [ns].
 const BIN_NS: f64 = 0.025;
@@ -16,10 +16,6 @@ const BIN_NS: f64 = 0.025;
 const RANGE_NS: f64 = BIN_NS * BINS as f64;
 /// Depth for a time of flight, half the speed of light [m/ns].
 const M_PER_NS: f64 = 0.149_896_229;
-const SIZE: (u32, u32) = (1000, 520);
-
-type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Fault<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
 
 /// What is drawn.
 #[derive(Debug)]
@@ -37,15 +33,10 @@ pub struct Plot<'a> {
 impl Plot<'_> {
     /// The picture as SVG text; an error only if the plotting library fails.
     pub fn svg(&self) -> Result<String, String> {
-        let mut text = String::new();
-        let canvas = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-        self.draw(&canvas).map_err(|fault| fault.to_string())?;
-        drop(canvas);
-        Ok(text)
+        picture(|canvas| self.draw(canvas))
     }
 
     fn draw<'a>(&self, canvas: &Canvas<'a>) -> Result<(), Fault<'a>> {
-        canvas.fill(&WHITE)?;
         let top = self.stack(CAUSES.len());
         let peak = (0..BINS).max_by_key(|&bin| (top[bin], BINS - bin)).unwrap_or(0);
         let highest = (top[peak] as f64 * 1.12).max(1.0);
@@ -108,7 +99,7 @@ impl Plot<'_> {
             .border_style(BLACK.mix(0.2))
             .label_font(("sans-serif", 14))
             .draw()?;
-        canvas.present()
+        Ok(())
     }
 
     /// Height of the first `layers` causes together, in each bin.

@@ -12,4 +12,5 @@ pub mod histogram_csv;
 pub mod histogram_svg;
 pub mod products;
 pub mod summary;
+pub mod svg;
 pub mod table;

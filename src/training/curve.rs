@@ -2,15 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use plotters::coord::Shift;
 use plotters::prelude::*;
 
+use crate::report::svg::{Canvas, Fault, picture};
+
 use super::state::Point;
-
-const SIZE: (u32, u32) = (1000, 520);
-
-type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Fault<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
 
 /// The curve as CSV, a row for each network at each checkpoint.
 pub fn csv(points: &[Point]) -> String {
@@ -23,15 +19,10 @@ pub fn csv(points: &[Point]) -> String {
 
 /// The curve as SVG text, a line for each start; an error only if the plotting library fails.
 pub fn svg(points: &[Point]) -> Result<String, String> {
-    let mut text = String::new();
-    let canvas = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-    draw(points, &canvas).map_err(|fault| fault.to_string())?;
-    drop(canvas);
-    Ok(text)
+    picture(|canvas| draw(points, canvas))
 }
 
 fn draw<'a>(points: &[Point], canvas: &Canvas<'a>) -> Result<(), Fault<'a>> {
-    canvas.fill(&WHITE)?;
     let mut lines: BTreeMap<usize, Vec<(f64, f64)>> = BTreeMap::new();
     for point in points.iter().filter(|point| point.cost.is_finite() && point.cost > 0.0) {
         lines.entry(point.start).or_default().push((point.epochs as f64, point.cost));
@@ -62,7 +53,7 @@ fn draw<'a>(points: &[Point], canvas: &Canvas<'a>) -> Result<(), Fault<'a>> {
         };
         chart.draw_series(LineSeries::new(line, style))?;
     }
-    canvas.present()
+    Ok(())
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use std::path::Path;
 use npyz::{DType, NpyFile, Order, TypeChar};
 
 use crate::error::{Error, Input, Result};
+use crate::npy_input;
 
 use super::arrays::Arrays;
 
@@ -31,7 +32,10 @@ pub(super) fn read(folder: &Path) -> Result<Arrays> {
 fn array(path: &Path) -> Result<(Vec<usize>, Vec<f64>)> {
     let file = File::open(path).map_err(Error::io(path, "read"))?;
     let fault = |expected: String| Error::from(Input::new(path.display(), expected));
-    let npy = NpyFile::new(BufReader::new(file)).map_err(|error| fault(error.to_string()))?;
+    let mut reader = BufReader::new(file);
+    let header = npy_input::header(&mut reader);
+    let header = header.map_err(|error| fault(format!("unreadable .npy: {error}")))?;
+    let npy = NpyFile::with_header(header, reader);
     let shape = npy.shape().to_vec();
     let count = shape.iter().try_fold(1u64, |count, &len| count.checked_mul(len));
     if count.is_none_or(|count| count > LARGEST) {

@@ -1,0 +1,24 @@
+//! Pictures as SVG text.
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+/// Width and height of a picture [px].
+const SIZE: (u32, u32) = (1000, 520);
+
+/// Where a picture is drawn.
+pub type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+/// What goes wrong there.
+pub type Fault<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
+
+/// The text of what `draw` draws on white; an error only if the plotting library fails.
+pub fn picture(
+    draw: impl for<'a> FnOnce(&Canvas<'a>) -> Result<(), Fault<'a>>,
+) -> Result<String, String> {
+    let mut text = String::new();
+    let canvas = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+    let drawn = canvas.fill(&WHITE).and_then(|()| draw(&canvas)).and_then(|()| canvas.present());
+    drawn.map_err(|fault| fault.to_string())?;
+    drop(canvas);
+    Ok(text)
+}
