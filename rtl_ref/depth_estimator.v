@@ -3,8 +3,10 @@
 
 // The neural depth estimator: wires its four blocks.
 //
-// Its ports are a socket: any module with them, of any latency, can take its place.
+// Its ports are a socket: any module with them, of any latency, can take its place. Its own latency is
+// 259 + Neurons cycles.
 module depth_estimator #(
+    parameter [4:0] Neurons = 5'd8,              // hidden neurons, 1 to 16
     parameter W1File = "rtl_ref/w1.mem",         // see forward1
     parameter B1File = "rtl_ref/b1.mem",
     parameter W2File = "rtl_ref/w2.mem",         // see forward2
@@ -26,12 +28,15 @@ module depth_estimator #(
     wire forward1_en;
     wire tansig_en;
     wire forward2_en;
-    wire [3:0] neuron;
+    wire [$clog2(Neurons + 2)-1:0] neuron;
     wire signed [35:0] l1_in_0, l1_in_1, l1_in_2, l1_in_3, l1_in_4, l1_in_5, l1_in_6, l1_in_7;
-    wire signed [15:0] l1_out_0, l1_out_1, l1_out_2, l1_out_3;
-    wire signed [15:0] l1_out_4, l1_out_5, l1_out_6, l1_out_7;
+    wire signed [35:0] l1_in_8, l1_in_9, l1_in_10, l1_in_11, l1_in_12, l1_in_13, l1_in_14, l1_in_15;
+    wire signed [15:0] l1_out_0, l1_out_1, l1_out_2, l1_out_3, l1_out_4, l1_out_5, l1_out_6, l1_out_7;
+    wire signed [15:0] l1_out_8, l1_out_9, l1_out_10, l1_out_11, l1_out_12, l1_out_13, l1_out_14, l1_out_15;
 
-    estimator_ctrl estimator_ctrl (
+    estimator_ctrl #(
+        .Neurons(Neurons)
+    ) estimator_ctrl (
         .clk_125(clk_125),
         .rst(rst),
         .algo_start(algo_start),
@@ -46,6 +51,7 @@ module depth_estimator #(
     );
 
     forward1 #(
+        .Neurons(Neurons),
         .W1File(W1File),
         .B1File(B1File)
     ) forward1 (
@@ -63,10 +69,19 @@ module depth_estimator #(
         .l1_in_4(l1_in_4),
         .l1_in_5(l1_in_5),
         .l1_in_6(l1_in_6),
-        .l1_in_7(l1_in_7)
+        .l1_in_7(l1_in_7),
+        .l1_in_8(l1_in_8),
+        .l1_in_9(l1_in_9),
+        .l1_in_10(l1_in_10),
+        .l1_in_11(l1_in_11),
+        .l1_in_12(l1_in_12),
+        .l1_in_13(l1_in_13),
+        .l1_in_14(l1_in_14),
+        .l1_in_15(l1_in_15)
     );
 
     tansig #(
+        .Neurons(Neurons),
         .TansigFile(TansigFile)
     ) tansig (
         .clk_125(clk_125),
@@ -80,6 +95,14 @@ module depth_estimator #(
         .l1_in_5(l1_in_5),
         .l1_in_6(l1_in_6),
         .l1_in_7(l1_in_7),
+        .l1_in_8(l1_in_8),
+        .l1_in_9(l1_in_9),
+        .l1_in_10(l1_in_10),
+        .l1_in_11(l1_in_11),
+        .l1_in_12(l1_in_12),
+        .l1_in_13(l1_in_13),
+        .l1_in_14(l1_in_14),
+        .l1_in_15(l1_in_15),
         .l1_out_0(l1_out_0),
         .l1_out_1(l1_out_1),
         .l1_out_2(l1_out_2),
@@ -87,10 +110,19 @@ module depth_estimator #(
         .l1_out_4(l1_out_4),
         .l1_out_5(l1_out_5),
         .l1_out_6(l1_out_6),
-        .l1_out_7(l1_out_7)
+        .l1_out_7(l1_out_7),
+        .l1_out_8(l1_out_8),
+        .l1_out_9(l1_out_9),
+        .l1_out_10(l1_out_10),
+        .l1_out_11(l1_out_11),
+        .l1_out_12(l1_out_12),
+        .l1_out_13(l1_out_13),
+        .l1_out_14(l1_out_14),
+        .l1_out_15(l1_out_15)
     );
 
     forward2 #(
+        .Neurons(Neurons),
         .W2File(W2File),
         .B2File(B2File)
     ) forward2 (
@@ -106,6 +138,14 @@ module depth_estimator #(
         .l1_out_5(l1_out_5),
         .l1_out_6(l1_out_6),
         .l1_out_7(l1_out_7),
+        .l1_out_8(l1_out_8),
+        .l1_out_9(l1_out_9),
+        .l1_out_10(l1_out_10),
+        .l1_out_11(l1_out_11),
+        .l1_out_12(l1_out_12),
+        .l1_out_13(l1_out_13),
+        .l1_out_14(l1_out_14),
+        .l1_out_15(l1_out_15),
         .depth(depth)
     );
 endmodule

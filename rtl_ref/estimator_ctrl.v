@@ -1,7 +1,7 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// Steps the estimator through its 267 cycles.
+// Steps the estimator through its cycles: 267 with eight neurons, one more for each more.
 //
 //   cycle         e0 .. e255   e256     e257     e258 .. e265  e266     e267
 //   next edge     product      bias     tansig   product       bias     -
@@ -10,7 +10,9 @@
 //   tansig_en                           ^^^^^^
 //   forward2_en                                  ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
 //   algo_done                                                           ^^^^^^^^
-module estimator_ctrl (
+module estimator_ctrl #(
+    parameter [4:0] Neurons = 5'd8  // hidden neurons, 1 to 16
+) (
     input wire clk_125,
     input wire rst,
     input wire algo_start,       // starts an estimation; ignored while busy
@@ -23,9 +25,13 @@ module estimator_ctrl (
     output reg forward1_en,      // the hidden layer accumulates
     output reg tansig_en,        // the activations are looked up
     output reg forward2_en,      // the output layer accumulates, or holds its result
-    output reg [3:0] neuron      // neuron to add; 8 is the bias, 9 none
+    // Neuron to add; the one past the last is the bias, then none
+    output reg [$clog2(Neurons + 2)-1:0] neuron
 );
-    localparam [8:0] Bias1 = 9'd256, Tansig = 9'd257, Neuron0 = 9'd258, Bias2 = 9'd266;
+    localparam integer Width = $clog2(Neurons + 2);
+    localparam [8:0] Bias1 = 9'd256, Tansig = 9'd257, Neuron0 = 9'd258;
+    localparam [8:0] Bias2 = Neuron0 + {4'd0, Neurons};
+    localparam [8:0] None = {4'd0, Neurons} + 9'd1;
 
     reg busy;        // an estimation is under way
     reg [8:0] step;  // cycles since e0
@@ -34,13 +40,13 @@ module estimator_ctrl (
     reg busy_next;
     reg [7:0] read_addr_next;
     reg [8:0] rom_addr_next, step_next;
-    reg [3:0] neuron_next;
+    reg [Width-1:0] neuron_next;
 
     initial begin
         {algo_done, read_en, forward1_en, tansig_en, forward2_en, busy} = 6'd0;
         read_addr = 8'd0;
         {rom_addr, step} = 18'd0;
-        neuron = 4'd0;
+        neuron = {Width{1'b0}};
     end
 
     always @* begin
@@ -51,7 +57,7 @@ module estimator_ctrl (
         forward1_en_next = 1'b0;
         tansig_en_next = 1'b0;
         forward2_en_next = 1'b0;
-        neuron_next = 4'd0;
+        neuron_next = {Width{1'b0}};
         busy_next = busy;
         step_next = 9'd0;
         if (!busy) begin
@@ -60,7 +66,7 @@ module estimator_ctrl (
             busy_next = 1'b0;
             algo_done_next = 1'b1;
             forward2_en_next = 1'b1;
-            neuron_next = 4'd9;
+            neuron_next = None[Width-1:0];
         end else begin
             step_next = step + 9'd1;
         end
@@ -74,7 +80,7 @@ module estimator_ctrl (
             end
             if (step_next >= Neuron0) begin
                 forward2_en_next = 1'b1;
-                neuron_next = step_next[3:0] - Neuron0[3:0];
+                neuron_next = step_next[Width-1:0] - Neuron0[Width-1:0];
             end
         end
     end
@@ -88,7 +94,7 @@ module estimator_ctrl (
             forward1_en <= 1'b0;
             tansig_en <= 1'b0;
             forward2_en <= 1'b0;
-            neuron <= 4'd0;
+            neuron <= {Width{1'b0}};
             busy <= 1'b0;
             step <= 9'd0;
         end else begin

@@ -1,8 +1,9 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// The activation of the hidden layer, from a table: eight lookups in one cycle.
+// The activation of the hidden layer, from a table: all lookups in one cycle.
 module tansig #(
+    parameter [4:0] Neurons = 5'd8,               // hidden neurons, 1 to 16
     parameter integer AddressBits = 12,           // size of the table, which covers +-4
     parameter integer Shift = 14,                 // fraction bits of l1_in that the address drops
     parameter TansigFile = "rtl_ref/tansig.mem"   // by address as an unsigned number [2^-15]
@@ -10,7 +11,7 @@ module tansig #(
     input wire clk_125,
     input wire rst,
     input wire tansig_en,  // looks up the activations
-    // Sums of the neurons [2^-23]
+    // Sums of the neurons; not looked at past the last [2^-23]
     input wire signed [35:0] l1_in_0,
     input wire signed [35:0] l1_in_1,
     input wire signed [35:0] l1_in_2,
@@ -19,19 +20,32 @@ module tansig #(
     input wire signed [35:0] l1_in_5,
     input wire signed [35:0] l1_in_6,
     input wire signed [35:0] l1_in_7,
-    // Activations of the neurons [2^-15]
-    output reg signed [15:0] l1_out_0,
-    output reg signed [15:0] l1_out_1,
-    output reg signed [15:0] l1_out_2,
-    output reg signed [15:0] l1_out_3,
-    output reg signed [15:0] l1_out_4,
-    output reg signed [15:0] l1_out_5,
-    output reg signed [15:0] l1_out_6,
-    output reg signed [15:0] l1_out_7
+    input wire signed [35:0] l1_in_8,
+    input wire signed [35:0] l1_in_9,
+    input wire signed [35:0] l1_in_10,
+    input wire signed [35:0] l1_in_11,
+    input wire signed [35:0] l1_in_12,
+    input wire signed [35:0] l1_in_13,
+    input wire signed [35:0] l1_in_14,
+    input wire signed [35:0] l1_in_15,
+    // Activations of the neurons; zero past the last [2^-15]
+    output wire signed [15:0] l1_out_0,
+    output wire signed [15:0] l1_out_1,
+    output wire signed [15:0] l1_out_2,
+    output wire signed [15:0] l1_out_3,
+    output wire signed [15:0] l1_out_4,
+    output wire signed [15:0] l1_out_5,
+    output wire signed [15:0] l1_out_6,
+    output wire signed [15:0] l1_out_7,
+    output wire signed [15:0] l1_out_8,
+    output wire signed [15:0] l1_out_9,
+    output wire signed [15:0] l1_out_10,
+    output wire signed [15:0] l1_out_11,
+    output wire signed [15:0] l1_out_12,
+    output wire signed [15:0] l1_out_13,
+    output wire signed [15:0] l1_out_14,
+    output wire signed [15:0] l1_out_15
 );
-    reg signed [15:0] l1_out_0_next, l1_out_1_next, l1_out_2_next, l1_out_3_next;
-    reg signed [15:0] l1_out_4_next, l1_out_5_next, l1_out_6_next, l1_out_7_next;
-
     // Block RAM, or LUTs for gate-level simulation, since Yosys has no model of a block RAM.
 `ifdef ROM_IN_LUTS
     (* rom_style = "logic" *)
@@ -57,66 +71,42 @@ module tansig #(
         end
     endfunction
 
-    wire signed [15:0] entry_0 = rom[address(l1_in_0)];
-    wire signed [15:0] entry_1 = rom[address(l1_in_1)];
-    wire signed [15:0] entry_2 = rom[address(l1_in_2)];
-    wire signed [15:0] entry_3 = rom[address(l1_in_3)];
-    wire signed [15:0] entry_4 = rom[address(l1_in_4)];
-    wire signed [15:0] entry_5 = rom[address(l1_in_5)];
-    wire signed [15:0] entry_6 = rom[address(l1_in_6)];
-    wire signed [15:0] entry_7 = rom[address(l1_in_7)];
+    // The ports side by side.
+    /* verilator lint_off UNUSED */
+    wire [36*16-1:0] l1_in = {l1_in_15, l1_in_14, l1_in_13, l1_in_12, l1_in_11, l1_in_10, l1_in_9,
+                              l1_in_8, l1_in_7, l1_in_6, l1_in_5, l1_in_4, l1_in_3, l1_in_2, l1_in_1,
+                              l1_in_0};
+    /* verilator lint_on UNUSED */
+    wire [16*16-1:0] unit_l1_out;
+    assign {l1_out_15, l1_out_14, l1_out_13, l1_out_12, l1_out_11, l1_out_10, l1_out_9, l1_out_8,
+            l1_out_7, l1_out_6, l1_out_5, l1_out_4, l1_out_3, l1_out_2, l1_out_1, l1_out_0}
+           = unit_l1_out;
 
-    initial begin
-        l1_out_0 = 16'sd0;
-        l1_out_1 = 16'sd0;
-        l1_out_2 = 16'sd0;
-        l1_out_3 = 16'sd0;
-        l1_out_4 = 16'sd0;
-        l1_out_5 = 16'sd0;
-        l1_out_6 = 16'sd0;
-        l1_out_7 = 16'sd0;
-    end
+    genvar k;
+    generate
+        for (k = 0; k < 16; k = k + 1) begin : unit
+            if (k < Neurons) begin : used
+                wire signed [15:0] entry = rom[address(l1_in[36*k +: 36])];
 
-    always @* begin
-        l1_out_0_next = l1_out_0;
-        l1_out_1_next = l1_out_1;
-        l1_out_2_next = l1_out_2;
-        l1_out_3_next = l1_out_3;
-        l1_out_4_next = l1_out_4;
-        l1_out_5_next = l1_out_5;
-        l1_out_6_next = l1_out_6;
-        l1_out_7_next = l1_out_7;
-        if (tansig_en) begin
-            l1_out_0_next = entry_0;
-            l1_out_1_next = entry_1;
-            l1_out_2_next = entry_2;
-            l1_out_3_next = entry_3;
-            l1_out_4_next = entry_4;
-            l1_out_5_next = entry_5;
-            l1_out_6_next = entry_6;
-            l1_out_7_next = entry_7;
+                reg signed [15:0] l1_out;
+                reg signed [15:0] l1_out_next;
+
+                initial l1_out = 16'sd0;
+
+                always @* begin
+                    l1_out_next = l1_out;
+                    if (tansig_en) l1_out_next = entry;
+                end
+
+                always @(posedge clk_125) begin
+                    if (rst) l1_out <= 16'sd0;
+                    else l1_out <= l1_out_next;
+                end
+
+                assign unit_l1_out[16*k +: 16] = l1_out;
+            end else begin : unused
+                assign unit_l1_out[16*k +: 16] = 16'd0;
+            end
         end
-    end
-
-    always @(posedge clk_125) begin
-        if (rst) begin
-            l1_out_0 <= 16'sd0;
-            l1_out_1 <= 16'sd0;
-            l1_out_2 <= 16'sd0;
-            l1_out_3 <= 16'sd0;
-            l1_out_4 <= 16'sd0;
-            l1_out_5 <= 16'sd0;
-            l1_out_6 <= 16'sd0;
-            l1_out_7 <= 16'sd0;
-        end else begin
-            l1_out_0 <= l1_out_0_next;
-            l1_out_1 <= l1_out_1_next;
-            l1_out_2 <= l1_out_2_next;
-            l1_out_3 <= l1_out_3_next;
-            l1_out_4 <= l1_out_4_next;
-            l1_out_5 <= l1_out_5_next;
-            l1_out_6 <= l1_out_6_next;
-            l1_out_7 <= l1_out_7_next;
-        end
-    end
+    endgenerate
 endmodule

@@ -6,6 +6,7 @@ module tof_top #(
     parameter [15:0] ShotsPerFrame = 16'd30000,  // [shots]
     parameter [0:0] CodeSource = 1'b0,           // 0: tdc, 1: code_preload
     parameter [0:0] HistogramSource = 1'b0,      // 0: histogram_builder, 1: histogram_preload
+    parameter [4:0] Neurons = 5'd8,              // hidden neurons of the estimator, 1 to 16
     parameter [63:0] LockTime = 64'd1000000,        // of the PLL in simulation [ps]
     parameter integer Codes = 27756,             // words in CodeFile
     // Contents of ROMs, and the simulated chain's delays
@@ -195,6 +196,7 @@ module tof_top #(
     );
 
     depth_estimator #(
+        .Neurons(Neurons),
         .W1File(W1File),
         .B1File(B1File),
         .W2File(W2File),

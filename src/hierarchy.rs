@@ -59,12 +59,30 @@ impl Entry {
 /// Every name in every scope that those parameters have, without the RAM's words.
 pub fn entries(params: &Params) -> Vec<Entry> {
     let absent = absent(params);
-    let mut entries = every_entry();
+    let mut entries = every_entry_of(params.depth_estimator.neurons());
     entries.retain(|entry| !absent.iter().any(|scope| within(&entry.scope, scope)));
     entries
 }
 
-/// Every name in every scope, in the order of the hierarchy, without the RAM's words.
+/// Every name in every scope with so many neurons, without the RAM's words.
+pub fn every_entry_of(neurons: usize) -> Vec<Entry> {
+    let fit = |entry: Entry| Some(Entry { signal: fitted(entry.signal, neurons)?, ..entry });
+    every_entry().into_iter().filter_map(fit).collect()
+}
+
+/// A signal as an estimator with so many neurons has it: not at all past the last of them, and their
+/// count just as wide as it has to be.
+pub fn fitted(signal: Signal, neurons: usize) -> Option<Signal> {
+    let is_there = |place: &str| place.parse::<usize>().is_ok_and(|neuron| neuron < neurons);
+    match signal.name.rsplit_once('_') {
+        Some(("l1_in" | "l1_out" | "weight", place)) => is_there(place).then_some(signal),
+        _ if signal.name == "neuron" => Some(Signal { width: (neurons + 1).ilog2() + 1, ..signal }),
+        _ => Some(signal),
+    }
+}
+
+/// Every name in every scope that there can be, in the order of the hierarchy, without the RAM's
+/// words.
 pub fn every_entry() -> Vec<Entry> {
     let mut build = Build::default();
     build.held();

@@ -58,21 +58,22 @@ fn activation(address: i128) -> i128 {
 }
 
 impl Naive {
-    fn random(random: &mut Random, shift: u32) -> Naive {
+    fn random(random: &mut Random, neurons: usize, shift: u32) -> Naive {
+        let each = 0..neurons;
         Naive {
-            w1: (0..8).map(|_| (0..256).map(|_| random.weight(shift)).collect()).collect(),
-            b1: (0..8).map(|_| random.weight(shift)).collect(),
-            w2: (0..8).map(|_| random.weight(0)).collect(),
+            w1: each.clone().map(|_| (0..256).map(|_| random.weight(shift)).collect()).collect(),
+            b1: each.clone().map(|_| random.weight(shift)).collect(),
+            w2: each.map(|_| random.weight(0)).collect(),
             b2: random.weight(0),
         }
     }
 
     /// Every weight the same.
-    fn constant(weight: i128) -> Naive {
+    fn constant(neurons: usize, weight: i128) -> Naive {
         Naive {
-            w1: vec![vec![weight; 256]; 8],
-            b1: vec![weight; 8],
-            w2: vec![weight; 8],
+            w1: vec![vec![weight; 256]; neurons],
+            b1: vec![weight; neurons],
+            w2: vec![weight; neurons],
             b2: weight,
         }
     }
@@ -81,7 +82,7 @@ impl Naive {
     fn estimate(&self, histogram: &Histogram) -> (i128, Vec<i128>) {
         let mut sums = Vec::new();
         let mut depth = self.b2 * 4096;
-        for neuron in 0..8 {
+        for neuron in 0..self.w2.len() {
             let mut sum = self.b1[neuron] * 1024;
             for (bin, &count) in histogram.iter().enumerate() {
                 sum += self.w1[neuron][bin] * i128::from(count);
@@ -133,8 +134,10 @@ fn histograms(random: &mut Random) -> Vec<Histogram> {
 fn random_networks_and_histograms_give_the_naive_integers() {
     let directory = tempfile::tempdir().unwrap();
     let mut random = Random(1);
-    let mut networks: Vec<Naive> = [-32768, 32767].map(Naive::constant).into();
-    networks.extend((0..30).map(|k| Naive::random(&mut random, k % 10)));
+    let ends = [(8, -32768), (8, 32767), (16, -32768), (16, 32767)];
+    let mut networks = Vec::from(ends.map(|(neurons, weight)| Naive::constant(neurons, weight)));
+    networks.extend((0..30).map(|k| Naive::random(&mut random, 8, k % 10)));
+    networks.extend((0..32).map(|k| Naive::random(&mut random, 1 + k as usize % 16, k % 10)));
     let histograms = histograms(&mut random);
     let mut saturated = 0;
     let mut between = 0;
@@ -145,7 +148,9 @@ fn random_networks_and_histograms_give_the_naive_integers() {
         for (n, histogram) in histograms.iter().enumerate() {
             let (depth, sums) = naive.estimate(histogram);
             let found = estimate(&params, histogram);
-            assert_eq!(found.l1_in.map(|sum| i128::from(sum.get())), sums[..], "{k}, {n}");
+            let found_sums = found.l1_in.map(|sum| i128::from(sum.get()));
+            assert_eq!(found_sums[..sums.len()], sums[..], "{k}, {n}");
+            assert!(found_sums[sums.len()..].iter().all(|&sum| sum == 0), "{k}, {n}");
             assert_eq!(i128::from(found.depth.get()), depth, "network {k}, histogram {n}");
             saturated += sums.iter().filter(|sum| sum.abs() > 4 << 23).count();
             between += sums.iter().filter(|sum| sum.abs() < 4 << 23).count();
@@ -176,7 +181,7 @@ fn run(arguments: &[&Path]) -> serde_json::Value {
 fn the_program_prints_the_naive_integers() {
     let directory = tempfile::tempdir().unwrap();
     let mut random = Random(2);
-    let naive = Naive::random(&mut random, 4);
+    let naive = Naive::random(&mut random, 8, 4);
     let network = directory.path().join("network.toml");
     std::fs::write(&network, naive.toml()).unwrap();
     let histograms = histograms(&mut random);

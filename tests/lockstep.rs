@@ -47,6 +47,26 @@ fn every_block_passes_in_verilator() {
     every_block_passes_in("verilator");
 }
 
+/// Blocks of the estimator.
+const ESTIMATOR: [&str; 5] =
+    ["depth_estimator", "estimator_ctrl", "forward1", "forward2", "tansig"];
+
+#[test]
+fn an_estimator_of_sixteen_neurons_passes_in_both() {
+    let mut args = vec!["-s", "estimator.network=uniform-16"];
+    args.extend(ESTIMATOR.iter().flat_map(|block| ["--block", *block]));
+    for simulator in ["icarus", "verilator"] {
+        let blocks = verified(&[&args[..], &["--simulator", simulator]].concat());
+        assert_eq!(blocks.len(), ESTIMATOR.len());
+        for block in &blocks {
+            assert_eq!(block["goals"]["met"], block["goals"]["of"], "{block}");
+        }
+    }
+    let short =
+        ["--top", "-s", "firmware.shots_per_frame=300", "-s", "estimator.network=uniform-16"];
+    verified(&short);
+}
+
 #[test]
 fn other_seeds_pass_too() {
     for seed in ["2", "3", "4"] {

@@ -7,9 +7,10 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Duration;
 
+use tofsim::firmware::forward2::{MOST_NEURONS, NEURONS};
 use tofsim::golden::BLOCKS;
 use tofsim::golden::ports::Port;
-use tofsim::hierarchy::{Kind, every_entry};
+use tofsim::hierarchy::{Entry, Kind, every_entry, fitted};
 use tofsim::verify::interface::{Found, Ports};
 use tofsim::verify::process::Limits;
 use tofsim::verify::{Rtl, Simulator, rtl};
@@ -46,9 +47,17 @@ fn sources() -> Vec<(String, String)> {
 }
 
 /// Ports of each module as Rust has them; a module with several instances has one name for all.
+/// There are ports for the most neurons, as wide as the default number of them needs.
 fn rust_ports() -> BTreeMap<String, Ports> {
     let mut modules = BTreeMap::<String, Ports>::new();
-    for entry in every_entry().into_iter().filter(|entry| entry.kind != Kind::Internal) {
+    let narrow = |mut entry: Entry| {
+        if let Some(signal) = fitted(entry.signal.clone(), NEURONS) {
+            entry.signal = signal;
+        }
+        entry
+    };
+    let ports = every_entry().into_iter().filter(|entry| entry.kind != Kind::Internal);
+    for entry in ports.map(narrow) {
         let instance = entry.scope.rsplit('.').next().unwrap();
         let module = if instance.starts_with("reset_sync_") { "reset_sync" } else { instance };
         let port = Found { output: entry.kind == Kind::Output, width: entry.signal.width };
@@ -91,7 +100,8 @@ fn ports_widths_and_directions_are_the_same() {
     }
     for spec in BLOCKS {
         let port = |port: Port| (port.name, Found { output: port.output, width: port.width });
-        let vectors: Ports = spec.ports().into_iter().map(port).collect();
+        let of = |neurons| spec.ports(neurons).into_iter().map(port).collect::<Ports>();
+        let vectors = Ports::from_iter(of(MOST_NEURONS).into_iter().chain(of(NEURONS)));
         assert_eq!(rust[spec.name], vectors, "ports of the golden block {}", spec.name);
     }
 }

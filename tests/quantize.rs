@@ -49,7 +49,7 @@ fn a_folder_of_numpy_arrays_is_the_same_network() {
     assert_eq!(import::read(folder.path()).unwrap(), float);
     put("b1.npy", "(7,)", &float.b1[..7]);
     let error = import::read(folder.path()).unwrap_err().to_string();
-    assert!(error.contains("b1: 7, expected 8"), "{error}");
+    assert!(error.contains("IW: 8 x 256, expected 7 x 256"), "{error}");
 }
 
 #[test]
@@ -86,7 +86,8 @@ fn what_is_wrong_is_named_and_nothing_is_written() {
     };
     let tree = fs::read_to_string(JSON).unwrap();
     for (from, expected) in [
-        (write("a.json", b"{\"IW\": [1]}"), "IW: 1, expected 8 x 256"),
+        (write("a.json", b"{\"IW\": [1], \"b\": [[1, 2], 3]}"), "IW: 1, expected 2 x 256"),
+        (write("f.json", b"{\"IW\": [1]}"), "b1: missing"),
         (write("b.json", tree.replace("\"LW\"", "\"LV\"").as_bytes()), "LW: missing"),
         (write("c.mat", b"no such format"), "not a MATLAB file of level 5"),
         (write("d.txt", b""), "expected a .mat or .json file"),

@@ -134,15 +134,21 @@ fn options_reach_the_recipe_and_what_makes_no_sense_is_refused() {
 }
 
 #[test]
-fn other_numbers_of_neurons_are_trained_and_not_written_as_firmware() {
+fn other_numbers_of_neurons_are_trained_and_run() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let args = [&SMALL[..], &END, &["--neurons", "4", "-o", "four"]].concat();
-    let output = output(folder, &args);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("neurons = 4: expected 8"));
-    assert!(!folder.join("four/network.toml").exists());
-    assert_eq!(read(folder, "four/accuracy.csv").lines().count(), 52);
+    stdout(folder, &args);
+    let network = Network::load(&folder.join("four/network.toml")).unwrap();
+    assert_eq!((network.fixed.neurons(), network.training.seed), (4, Some(1)));
+    assert_eq!(network.training.data.as_ref().map(String::len), Some(16));
+    assert!(network.training.command.unwrap().ends_with("--neurons 4"));
+    assert_eq!(network.accuracy.unwrap().mean_mm.unwrap().len(), 6);
+    let set = ["-s", "estimator.network=four/network.toml", "-s", "firmware.shots_per_frame=50"];
+    let run = common::json(folder, &[&["run", "--waves", "none", "--json"], &set[..]].concat());
+    assert_eq!(run["frames"][0]["estimator_cycles"], 259 + 4);
+    let error = refused(folder, &["train", "--neurons", "17"]);
+    assert!(error.contains("neurons = 17: expected 16 at most"), "{error}");
 }
 
 #[test]

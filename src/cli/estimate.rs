@@ -50,7 +50,7 @@ struct Numbers {
     depth_raw: String,
     depth_m: f64,
     /// Sums of the hidden neurons as integers, 23 fraction bits.
-    l1_in: [i64; 8],
+    l1_in: Vec<i64>,
 }
 
 #[derive(Serialize)]
@@ -72,7 +72,7 @@ pub fn run(args: &Args) -> Result<()> {
     for (path, file) in args.files.iter().zip(&names) {
         for histogram in histogram_file::open(path)? {
             let histogram = histogram?;
-            let numbers = Numbers::of(&estimate(&params, &histogram));
+            let numbers = Numbers::of(&estimate(&params, &histogram), params.neurons());
             let explanation = args.explain.then(|| explain(&network, &histogram));
             rows.push(Row { index: rows.len(), file, numbers, explanation });
         }
@@ -93,11 +93,11 @@ pub fn run(args: &Args) -> Result<()> {
 }
 
 impl Numbers {
-    fn of(estimate: &Estimate) -> Self {
+    fn of(estimate: &Estimate, neurons: usize) -> Self {
         Numbers {
             depth_raw: format!("{:09x}", estimate.depth.bits()),
             depth_m: estimate.depth.to_f64(),
-            l1_in: estimate.l1_in.map(|sum| sum.get()),
+            l1_in: estimate.l1_in[..neurons].iter().map(|sum| sum.get()).collect(),
         }
     }
 }
@@ -118,7 +118,7 @@ fn table(rows: &[Row], several: bool) -> String {
     header.extend(several.then_some("file"));
     table.set_header(header);
     for Row { index, file, numbers, .. } in rows {
-        let sums = numbers.l1_in.map(|sum| sum.to_string()).join(" ");
+        let sums = numbers.l1_in.iter().map(i64::to_string).collect::<Vec<_>>().join(" ");
         let depth_m = format!("{:.6}", numbers.depth_m);
         let mut cells = vec![index.to_string(), numbers.depth_raw.clone(), depth_m, sums];
         cells.extend(several.then(|| file.to_string()));

@@ -28,7 +28,7 @@ const EXPLORED: u64 = 10_200;
 /// Fold and round a network that was trained elsewhere, or explore word lengths
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Arrays by name: IW (8 x 256), LW (8), b1 (8), b2, and the settings of mapminmax on both sides if\n\
+    after_help = "Arrays by name: IW (8 x 256), LW (8), b1 (8), b2 (8 or as many neurons, 16 at most, as b1 has), and the settings of mapminmax on both sides if\n\
     there are any: x_xoffset, x_gain (256 each), x_ymin, y_xoffset, y_gain, y_ymin; x_keep has the bins, from\n\
     1, that removeconstantrows kept. In MATLAB:\n\n  \
     s = net.inputs{1}.processSettings{2}; t = net.outputs{2}.processSettings{2};\n  \
@@ -53,7 +53,7 @@ pub struct Args {
     #[arg(long, value_name = "P", default_value = "unknown")]
     chain: String,
     /// What the network is, for the file
-    #[arg(long, value_name = "TEXT", default_value = "256-8-1 depth network, trained elsewhere")]
+    #[arg(long, value_name = "TEXT", default_value = "depth network, trained elsewhere")]
     description: String,
     /// Take the nearest word for a weight that does not fit, instead of an error
     #[arg(long)]
@@ -141,7 +141,7 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
         training: Training {
             origin: format!("trained elsewhere, from {}", file_name(path)),
             chain: args.chain.clone(),
-            command: None,
+            ..Training::default()
         },
         accuracy: None,
         fixed: rounded.fixed,

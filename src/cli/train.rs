@@ -6,7 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::dataset::Source;
 use crate::error::{Error, Input, Result, read_text};
+use crate::network::Network;
 use crate::network::file::{Accuracy, Training};
+use crate::network::formats::Overflow;
 use crate::output::{create_directory, write_file};
 use crate::scenario;
 use crate::sim::setup::Setup;
@@ -49,7 +51,7 @@ pub struct Args {
     /// Set a key of the recipe, such as finish.blocks=10 or table_noise=0; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     with: Vec<String>,
-    /// Hidden neurons; a network file takes as many as the firmware has
+    /// Hidden neurons, 1 to 16 [default: 8, as in the thesis]
     #[arg(long, value_name = "N")]
     neurons: Option<usize>,
     /// Starts that take part in the first stage
@@ -202,35 +204,39 @@ impl Args {
         let svg = curve::svg(points).map_err(io::Error::other);
         write("curve.svg", &svg.map_err(Error::io(&self.output.join("curve.svg"), "write"))?)?;
         let float = tournament.result();
-        let words = float.round()?;
-        let rows = tournament.test(&words)?;
+        let fixed = float.round("trained network", Overflow::Refuse)?.fixed;
+        let rows = tournament.test(&fixed)?;
         write("accuracy.csv", &report::csv(&rows))?;
 
         let chain = setup.scenario.tdc.profile.clone();
-        let (data, seed) = (&tournament.state.data, self.seed);
         let best = tournament.state.best.as_ref();
         let block = best.map_or(String::new(), |best| {
             format!(", start {} after block {}", best.start, best.block)
         });
-        let origin =
-            format!("Levenberg-Marquardt on simulated histograms, seed {seed}, data {data}{block}");
-        let command = Some(self.command());
         let line = &recipe.weighting.distances_m;
         let at_line: Vec<&Row> = rows.iter().filter(|row| line.contains(&row.distance_m)).collect();
         let accuracy = Accuracy {
             distances_m: at_line.iter().map(|row| row.distance_m).collect(),
             two_sd_mm: at_line.iter().map(|row| report::hundredths(row.two_sd_mm)).collect(),
+            mean_mm: Some(at_line.iter().map(|row| report::hundredths(row.mean_mm)).collect()),
         };
         let description =
             format!("256-{}-1 depth network for the bins of chain {chain}", recipe.neurons);
-        let training = Training { origin, chain, command };
-        let network = words.network(&float, training, accuracy, description);
+        let training = Training {
+            origin: format!("Levenberg-Marquardt on simulated histograms{block}"),
+            chain,
+            command: Some(self.command()),
+            seed: Some(self.seed),
+            data: Some(tournament.state.data.clone()),
+        };
+        let (name, accuracy, float) = (String::new(), Some(accuracy), Some(float));
+        let network = Network { name, description, training, accuracy, fixed, float };
         let path = self.output.join("network.toml");
         print(&match self.json {
             true => report::json(&rows, &recipe.weighting, &path)?,
             false => report::table(&rows, &recipe.weighting),
         })?;
-        let text = network?.to_toml();
+        let text = network.to_toml();
         write_file(&path, |file| file.write_all(text.as_bytes()))
     }
 }

@@ -117,7 +117,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
 }
 
 fn cycle_counts(args: &Args, rtl: &Rtl, limits: &Limits) -> Result<ExitCode> {
-    let counts = crate::verify::cycle_counts::cycle_counts(rtl, limits)?;
+    let neurons = args.from.setting()?.neurons();
+    let counts = crate::verify::cycle_counts::cycle_counts(rtl, neurons, limits)?;
     match args.json {
         true => print(&format!("{:#}\n", report::counts_json(&rtl.source, &counts)))?,
         false => print(&report::counts_text(&counts))?,

@@ -118,7 +118,7 @@ pub fn explore(
             saturated_weights: variant.0.saturated_weights,
             saturated_sums: variant.0.saturated_sums() as f64 / histograms,
             sum_bits: variant.0.sum_bits(),
-            cost: datapath.cost(),
+            cost: datapath.cost(network.fixed.neurons()),
         }
     });
     Ok(points.collect())

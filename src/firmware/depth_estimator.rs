@@ -1,7 +1,8 @@
 //! The neural depth estimator: wires its four blocks (thesis Fig. 6.18).
 //!
 //! Mirrors `rtl_ref/depth_estimator.v`. Its ports are a socket (`algo_start count`, `read_en
-//! read_addr depth algo_done`) into which any other estimator fits. 267 cycles, 2.136 us.
+//! read_addr depth algo_done`) into which any other estimator fits. How many hidden neurons it has is a
+//! parameter: 259 and one cycle each, so 267 for the thesis's eight, 2.136 us.
 
 use std::sync::Arc;
 
@@ -77,11 +78,23 @@ connect! {
     }
 }
 
+impl Params {
+    /// Hidden neurons.
+    pub fn neurons(&self) -> usize {
+        self.forward2.neurons
+    }
+
+    /// From the edge that takes a start to the depth [cycles of clk_125].
+    pub fn cycles(&self) -> u64 {
+        estimator_ctrl::done(self.neurons())
+    }
+}
+
 impl DepthEstimator {
     /// The rising edge of `clk_125`.
     pub fn rise(&mut self, i: &In, p: &Params) {
         *self = DepthEstimator {
-            estimator_ctrl: self.estimator_ctrl.next(&Wires::estimator_ctrl(self, i), &()),
+            estimator_ctrl: self.estimator_ctrl.next(&Wires::estimator_ctrl(self, i), &p.neurons()),
             forward1: self.forward1.next(&Wires::forward1(self, i), &p.forward1),
             tansig: self.tansig.next(&Wires::tansig(self, i), &p.tansig),
             forward2: self.forward2.next(&Wires::forward2(self, i), &p.forward2),
@@ -89,11 +102,11 @@ impl DepthEstimator {
     }
 
     /// In the cycle before the depth is ready, when those sums of the hidden layer have been made.
-    pub fn before_done(l1_in: [forward1::L1In; forward2::NEURONS], p: &Params) -> Self {
+    pub fn before_done(l1_in: [forward1::L1In; forward2::MOST_NEURONS], p: &Params) -> Self {
         let l1_out = l1_in.map(|l1_in| p.tansig[tansig::address(l1_in)]);
         let products = l1_out.iter().zip(&p.forward2.w2).map(|(out, w2)| out.get() * w2.get());
         DepthEstimator {
-            estimator_ctrl: EstimatorCtrl::before_done(),
+            estimator_ctrl: EstimatorCtrl::before_done(p.neurons()),
             forward1: Forward1::done(l1_in, &p.forward1),
             tansig: Tansig { l1_out },
             forward2: Forward2 { depth: forward2::Depth::new(products.sum()) },

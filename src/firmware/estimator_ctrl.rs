@@ -1,6 +1,7 @@
-//! Steps the estimator through its 267 cycles (U_CTRL of thesis Fig. 6.18).
+//! Steps the estimator through its cycles (U_CTRL of thesis Fig. 6.18).
 //!
-//! Mirrors `rtl_ref/estimator_ctrl.v`. Edge e0 takes `algo_start`:
+//! Mirrors `rtl_ref/estimator_ctrl.v`. Edge e0 takes `algo_start`; with the thesis's eight neurons it
+//! takes 267 cycles, and each neuron more is one more product of the output layer:
 //!
 //! ```text
 //! cycle         e0 .. e255   e256     e257     e258 .. e265  e266     e267
@@ -18,16 +19,18 @@ use crate::kernel::{Clocked, U};
 use crate::signals;
 
 use super::forward1::BIAS_ROW;
-use super::forward2::NEURONS;
-
 /// Cycle of the hidden layer's bias, counted from e0.
 const BIAS: u64 = BIAS_ROW as u64;
 /// Cycle before the edge that looks up the activations.
 const TANSIG: u64 = BIAS + 1;
 /// First cycle of the output layer.
 const FORWARD2: u64 = TANSIG + 1;
-/// Cycle in which the depth is ready: the estimator's latency [cycles of clk_125].
-pub const DONE: u64 = FORWARD2 + NEURONS as u64 + 1;
+
+/// Cycle in which the depth is ready with so many neurons: the estimator's latency [cycles of
+/// clk_125].
+pub const fn done(neurons: usize) -> u64 {
+    FORWARD2 + neurons as u64 + 1
+}
 
 signals! {
     /// Input ports.
@@ -54,8 +57,8 @@ signals! {
         pub tansig_en: bool,
         /// The output layer accumulates, or holds its result.
         pub forward2_en: bool,
-        /// Neuron to add; 8 is the bias, 9 none.
-        pub neuron: U<4>,
+        /// Neuron to add; the one past the last is the bias, then none.
+        pub neuron: U<5>,
         /// The depth is ready; one cycle.
         pub algo_done: bool,
         /// An estimation is under way.
@@ -66,29 +69,32 @@ signals! {
 }
 
 impl EstimatorCtrl {
-    /// In the cycle before the depth is ready.
-    pub fn before_done() -> Self {
-        let before = EstimatorCtrl { busy: true, step: U::new(DONE - 2), ..Self::default() };
-        before.next(&In { rst: false, algo_start: false }, &())
+    /// In the cycle before the depth of so many neurons is ready.
+    pub fn before_done(neurons: usize) -> Self {
+        let step = U::new(done(neurons) - 2);
+        let before = EstimatorCtrl { busy: true, step, ..Self::default() };
+        before.next(&In { rst: false, algo_start: false }, &neurons)
     }
 
     /// Cycles since e0, up to the one of `algo_done`.
     pub fn phase(&self) -> Option<u64> {
-        if self.algo_done { Some(DONE) } else { self.busy.then(|| self.step.get()) }
+        let done = self.algo_done.then(|| FORWARD2 + self.neuron.get());
+        done.or_else(|| self.busy.then(|| self.step.get()))
     }
 }
 
 impl Clocked for EstimatorCtrl {
     type In = In;
-    type Params = ();
+    /// Hidden neurons.
+    type Params = usize;
 
     #[inline]
-    fn next(&self, i: &In, (): &()) -> Self {
-        let (q, mut d) = (self, Self::default());
+    fn next(&self, i: &In, &neurons: &usize) -> Self {
+        let (q, mut d, done) = (self, Self::default(), done(neurons));
         if q.busy || i.algo_start {
             let step = if q.busy { q.step.get() + 1 } else { 0 };
             let row = step.min(BIAS);
-            d.busy = step < DONE;
+            d.busy = step < done;
             d.step = U::new(if d.busy { step } else { 0 });
             d.forward1_en = step <= BIAS;
             d.read_en = step < BIAS;
@@ -97,7 +103,7 @@ impl Clocked for EstimatorCtrl {
             d.tansig_en = step == TANSIG;
             d.forward2_en = step >= FORWARD2;
             d.neuron = U::new(step.saturating_sub(FORWARD2));
-            d.algo_done = step == DONE;
+            d.algo_done = step == done;
         }
         if i.rst { Self::default() } else { d }
     }
@@ -111,12 +117,12 @@ mod tests {
     const IDLE: In = In { rst: false, algo_start: false };
 
     /// The control in each cycle from e0 on, `again` high in one of them.
-    fn cycles(again: Option<usize>) -> Vec<EstimatorCtrl> {
-        let mut ctrl = EstimatorCtrl::default().next(&GO, &());
+    fn cycles(neurons: usize, again: Option<usize>) -> Vec<EstimatorCtrl> {
+        let mut ctrl = EstimatorCtrl::default().next(&GO, &neurons);
         (0..300)
             .map(|cycle| {
                 let now = ctrl;
-                ctrl = ctrl.next(if again == Some(cycle) { &GO } else { &IDLE }, &());
+                ctrl = ctrl.next(if again == Some(cycle) { &GO } else { &IDLE }, &neurons);
                 now
             })
             .collect()
@@ -127,26 +133,32 @@ mod tests {
     }
 
     #[test]
-    fn the_depth_is_ready_267_edges_after_the_start_is_taken() {
-        let cycles = cycles(None);
-        assert_eq!(cycles.iter().position(|ctrl| ctrl.algo_done), Some(267));
-        assert_eq!(count(&cycles, |ctrl| ctrl.algo_done), 1);
-        assert_eq!(cycles[299], EstimatorCtrl::default());
+    fn the_depth_is_ready_267_edges_after_the_start_is_taken_and_with_16_neurons_275() {
+        for (neurons, edges) in [(8, 267), (16, 275), (1, 260)] {
+            let cycles = cycles(neurons, None);
+            assert_eq!(cycles.iter().position(|ctrl| ctrl.algo_done), Some(edges));
+            assert_eq!(count(&cycles, |ctrl| ctrl.algo_done), 1);
+            assert_eq!(cycles[edges].phase(), Some(done(neurons)));
+            assert_eq!(EstimatorCtrl::before_done(neurons), cycles[edges - 1]);
+            assert_eq!(cycles[299], EstimatorCtrl::default());
+        }
     }
 
     #[test]
     fn the_enables_are_high_for_257_1_and_10_cycles() {
-        let cycles = cycles(None);
-        assert_eq!(count(&cycles, |ctrl| ctrl.forward1_en), 257);
-        assert_eq!(count(&cycles, |ctrl| ctrl.read_en), 256);
-        assert_eq!(count(&cycles, |ctrl| ctrl.tansig_en), 1);
-        assert_eq!(count(&cycles, |ctrl| ctrl.forward2_en), 10);
+        for (neurons, forward2) in [(8, 10), (16, 18)] {
+            let cycles = cycles(neurons, None);
+            assert_eq!(count(&cycles, |ctrl| ctrl.forward1_en), 257);
+            assert_eq!(count(&cycles, |ctrl| ctrl.read_en), 256);
+            assert_eq!(count(&cycles, |ctrl| ctrl.tansig_en), 1);
+            assert_eq!(count(&cycles, |ctrl| ctrl.forward2_en), forward2);
+        }
     }
 
     #[test]
     fn a_start_while_busy_is_ignored_and_one_with_algo_done_is_taken() {
-        assert_eq!(cycles(Some(266)), cycles(None));
-        let again = cycles(Some(267));
+        assert_eq!(cycles(8, Some(266)), cycles(8, None));
+        let again = cycles(8, Some(267));
         assert!(again[268].forward1_en && !again[268].forward2_en);
     }
 }

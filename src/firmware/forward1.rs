@@ -7,7 +7,7 @@
 use crate::kernel::{Clocked, S, U};
 use crate::signals;
 
-use super::forward2::NEURONS;
+use super::forward2::MOST_NEURONS;
 use super::histogram_builder::BINS;
 
 /// Row of the ROM after the last weight.
@@ -19,8 +19,9 @@ const BIAS_FACTOR: i64 = 1 << 10;
 pub type Weight = S<16>;
 /// Accumulator of a neuron.
 pub type L1In = S<36, 23>;
-/// MEM1: 256 rows of weights and one of biases; `rom[row][neuron]`.
-pub type Rom = [[Weight; NEURONS]; BINS + 1];
+/// MEM1: 256 rows of weights and one of biases; `rom[row][neuron]`, zero past the last neuron, so that
+/// the units there stay at zero.
+pub type Rom = [[Weight; MOST_NEURONS]; BINS + 1];
 
 signals! {
     /// Input ports.
@@ -44,15 +45,15 @@ signals! {
     /// Registers; the public ones are the output ports.
     pub struct Forward1 {
         /// Sums of the neurons.
-        pub l1_in: [L1In; NEURONS],
+        pub l1_in: [L1In; MOST_NEURONS],
         /// Weights of this cycle.
-        weight: [Weight; NEURONS],
+        weight: [Weight; MOST_NEURONS],
     }
 }
 
 impl Forward1 {
     /// With those sums, ready for the next histogram.
-    pub fn done(l1_in: [L1In; NEURONS], rom: &Rom) -> Self {
+    pub fn done(l1_in: [L1In; MOST_NEURONS], rom: &Rom) -> Self {
         Forward1 { l1_in, weight: rom[0] }
     }
 }
@@ -66,7 +67,7 @@ impl Clocked for Forward1 {
         let (q, mut d) = (self, *self);
         let operand = if i.read_en { i.count.get() as i64 } else { BIAS_FACTOR };
         let first = i.read_en && i.read_addr == 0;
-        for k in 0..NEURONS {
+        for k in 0..MOST_NEURONS {
             if i.forward1_en {
                 let sum = if first { L1In::new(0) } else { q.l1_in[k] };
                 d.l1_in[k] = sum + operand * q.weight[k].get();
@@ -83,7 +84,7 @@ mod tests {
 
     #[test]
     fn the_first_product_begins_the_sum_and_the_bias_ends_it() {
-        let mut rom = [[S::new(0); NEURONS]; BINS + 1];
+        let mut rom = [[S::new(0); MOST_NEURONS]; BINS + 1];
         rom[0][2] = S::new(-3);
         rom[BIAS_ROW][2] = S::new(5);
         let i = In {
@@ -94,7 +95,7 @@ mod tests {
             rom_addr: U::new(BIAS_ROW as u64),
             count: U::new(100),
         };
-        let stale = Forward1 { l1_in: [S::new(77); NEURONS], weight: rom[0] };
+        let stale = Forward1 { l1_in: [S::new(77); MOST_NEURONS], weight: rom[0] };
         let product = stale.next(&i, &rom);
         assert_eq!(product.l1_in[2].get(), -300);
         let sum = product.next(&In { read_en: false, ..i }, &rom);

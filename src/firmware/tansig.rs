@@ -7,7 +7,7 @@ use crate::kernel::Clocked;
 use crate::signals;
 
 use super::forward1::L1In;
-use super::forward2::{L1Out, NEURONS};
+use super::forward2::{L1Out, MOST_NEURONS};
 
 /// Address bits of the table.
 pub const ADDRESS_BITS: u32 = 12;
@@ -16,7 +16,8 @@ const SHIFT: u32 = 14;
 /// Entries of the table.
 pub const ENTRIES: usize = 1 << ADDRESS_BITS;
 
-/// MEM2, by address as an unsigned word: entry 0 is tanh(0), entry 2048 the most negative.
+/// MEM2, by address as an unsigned word: entry 0 is tanh(0) = 0, as unused units have it; entry 2048
+/// is the most negative.
 pub type Rom = [L1Out; ENTRIES];
 
 signals! {
@@ -27,7 +28,7 @@ signals! {
         /// Looks up the activations.
         pub tansig_en: bool,
         /// Sums of the neurons.
-        pub l1_in: [L1In; NEURONS],
+        pub l1_in: [L1In; MOST_NEURONS],
     }
 }
 
@@ -35,7 +36,7 @@ signals! {
     /// Registers, all output ports.
     pub struct Tansig {
         /// Activations of the neurons.
-        pub l1_out: [L1Out; NEURONS],
+        pub l1_out: [L1Out; MOST_NEURONS],
     }
 }
 

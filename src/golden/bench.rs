@@ -86,7 +86,7 @@ impl<'a> Bench<'a> {
         let (vectors, spec) = (self.vectors, self.vectors.spec);
         let driven = |name: &str| vectors.stimulus.columns().iter().any(|c| c.name == name);
         let mut text = String::from("\n");
-        for port in spec.ports() {
+        for port in spec.ports(self.vectors.neurons) {
             let (name, range) = (&port.name, range(port.width));
             text += &match port.output {
                 true => format!("  wire {range}{name};\n"),
@@ -96,7 +96,8 @@ impl<'a> Bench<'a> {
                 false => continue,
             };
         }
-        let ports: Vec<_> = spec.ports().into_iter().map(|port| port.name).collect();
+        let ports: Vec<_> =
+            spec.ports(self.vectors.neurons).into_iter().map(|port| port.name).collect();
         for column in vectors.stimulus.columns().iter().filter(|c| !ports.contains(&c.name)) {
             let Column { name, width, .. } = column;
             text += &format!("  reg {}{name} = {width}'d0;\n", range(*width as u32));
@@ -125,8 +126,11 @@ impl<'a> Bench<'a> {
             [] => String::new(),
             list => format!("#(\n{}\n  ) ", list.join(",\n")),
         };
-        let ports: Vec<_> =
-            spec.ports().iter().map(|port| format!("    .{0}({0})", port.name)).collect();
+        let ports: Vec<_> = spec
+            .ports(self.vectors.neurons)
+            .iter()
+            .map(|port| format!("    .{0}({0})", port.name))
+            .collect();
         format!("\n  {} {parameters}dut (\n{}\n  );\n", self.module, ports.join(",\n"))
     }
 

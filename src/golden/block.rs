@@ -2,6 +2,7 @@
 
 use crate::error::Result;
 use crate::firmware::carry_chain::TAPS;
+use crate::firmware::forward2::NEURONS;
 use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tof_top::TofTop;
 use crate::hierarchy;
@@ -41,6 +42,11 @@ impl Setting {
     /// Lines of each block unless told otherwise [clock cycles].
     const CYCLES: usize = 20_000;
 
+    /// Hidden neurons.
+    pub fn neurons(&self) -> usize {
+        self.setup.params.depth_estimator.neurons()
+    }
+
     /// Full-size chain and histogram, random control, the scenario's own seed.
     pub fn new(setup: Setup) -> Self {
         let seed = setup.scenario.seed;
@@ -63,14 +69,14 @@ impl Setting {
 
 /// How many clocks an effect takes at least, from the edge that takes the input to the one that
 /// changes the output: 0 for a plain register. A combinational path has none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Latency {
     /// Input port.
     pub from: &'static str,
     /// Output port.
     pub to: &'static str,
-    /// Clock cycles.
-    pub cycles: u64,
+    /// Clock cycles with so many neurons.
+    pub cycles: fn(usize) -> u64,
 }
 
 /// An input that answers an output within the cycle, and so is no part of a line.
@@ -120,6 +126,11 @@ pub enum Parameter {
     Number(u64),
     /// A file name.
     File(&'static str),
+}
+
+/// The parameter `Neurons`, where it is not the default: so many another design need not have.
+pub fn neurons(neurons: usize) -> Option<(&'static str, Parameter)> {
+    (neurons != NEURONS).then_some(("Neurons", Parameter::Number(neurons as u64)))
 }
 
 /// A block that can be stepped alone, inside an otherwise idle top.

@@ -22,8 +22,8 @@ pub struct Port {
 }
 
 impl Spec {
-    /// The block's ports, clocks and inputs before outputs.
-    pub fn ports(&self) -> Vec<Port> {
+    /// The block's ports with so many neurons, clocks and inputs before outputs.
+    pub fn ports(&self, neurons: usize) -> Vec<Port> {
         let path = self.path();
         let port = |entry: Entry| Port {
             width: entry.signal.width,
@@ -31,7 +31,7 @@ impl Spec {
             meaning: entry.signal.doc,
             name: entry.signal.name,
         };
-        let entries = hierarchy::every_entry().into_iter();
+        let entries = hierarchy::every_entry_of(neurons).into_iter();
         let own = entries.filter(|entry| entry.scope == path && entry.kind != Kind::Internal);
         let mut ports: Vec<_> = own.map(port).collect();
         let is_clock = |port: &Port| !port.output && port.name.starts_with("clk");
@@ -59,10 +59,10 @@ pub fn json(vectors: &Vectors) -> Value {
         },
         "reset": reset,
         "latency": spec.latency.iter().map(|latency| json!({
-            "from": latency.from, "to": latency.to, "cycles": latency.cycles,
+            "from": latency.from, "to": latency.to, "cycles": (latency.cycles)(vectors.neurons),
         })).collect::<Vec<_>>(),
         "parameters": parameters(&vectors.parameters),
-        "ports": spec.ports().iter().map(|port| json!({
+        "ports": spec.ports(vectors.neurons).iter().map(|port| json!({
             "name": port.name,
             "width": port.width,
             "direction": if port.output { "output" } else { "input" },

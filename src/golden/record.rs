@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::firmware::tof_top::{Pins, TofTop};
-use crate::hierarchy::{self, Entry, IDS, Kind};
+use crate::hierarchy::{self, Entry, IDS, Kind, fitted};
 use crate::kernel::signals::{Signal, Signals};
 
 use super::block::{Block, Setting, Spec};
@@ -71,10 +71,17 @@ pub(super) fn record<B: Block>(
     setting: &Setting,
     mut block: B,
 ) -> Result<Vectors> {
-    let Watched { columns, places } = Watched::new(spec, &hierarchy::every_entry(), |_| true);
+    let neurons = setting.neurons();
+    let entries = hierarchy::every_entry_of(neurons);
+    let Watched { columns, places } = Watched::new(spec, &entries, |_| true);
     let mut expected = Table::new(columns);
-    let mut stimulus = Table::new(inputs(&B::Stimulus::list()));
-    let own_places: Vec<_> = (0..B::Stimulus::COUNT).map(|column| vec![column]).collect();
+    let signals: Vec<_> =
+        B::Stimulus::list().into_iter().map(|signal| fitted(signal, neurons)).collect();
+    let mut next = 0..;
+    let place = |signal: &Option<Signal>| signal.iter().zip(&mut next).map(|(_, n)| n).collect();
+    let own_places: Vec<Vec<usize>> = signals.iter().map(place).collect();
+    let signals: Vec<_> = signals.into_iter().flatten().collect();
+    let mut stimulus = Table::new(inputs(&signals));
     let order = setting.setup.params.tdc.delays.order();
 
     let place = super::BLOCKS.iter().position(|other| other.name == spec.name);
@@ -98,6 +105,7 @@ pub(super) fn record<B: Block>(
         spec,
         seed: setting.seed,
         source: setting.setup.name.clone(),
+        neurons,
         parameters: block.parameters(),
         stimulus,
         expected,

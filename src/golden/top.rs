@@ -10,7 +10,7 @@ use crate::sim::device::{Off, Trace};
 use crate::sim::frames::Frames;
 use crate::sim::setup::Setup;
 
-use super::block::{Parameter, Setting, Spec};
+use super::block::{Parameter, Setting, Spec, neurons};
 use super::record::{Watched, inputs};
 use super::roms;
 use super::table::{Fill, Table};
@@ -47,15 +47,10 @@ const ANALYSER: &[&str] = &[
     "depth_estimator.estimator_ctrl.forward1_en",
     "depth_estimator.estimator_ctrl.tansig_en",
     "depth_estimator.estimator_ctrl.forward2_en",
-    "depth_estimator.forward1.l1_in_0",
-    "depth_estimator.forward1.l1_in_1",
-    "depth_estimator.forward1.l1_in_2",
-    "depth_estimator.forward1.l1_in_3",
-    "depth_estimator.forward1.l1_in_4",
-    "depth_estimator.forward1.l1_in_5",
-    "depth_estimator.forward1.l1_in_6",
-    "depth_estimator.forward1.l1_in_7",
 ];
+
+/// The same of each neuron.
+const ANALYSER_SUMS: &str = "depth_estimator.forward1.l1_in_";
 
 /// Sees the firmware just before the edge that takes a line.
 pub(super) type Watch<'a> = &'a mut dyn FnMut(&TofTop);
@@ -70,7 +65,8 @@ pub(super) fn record(
     check(setup)?;
     let params = &setup.params;
     let entries = hierarchy::entries(params);
-    let wanted = |name: &str| !setting.as_told || !name.contains('.') || ANALYSER.contains(&name);
+    let analysed = |name: &str| ANALYSER.contains(&name) || name.starts_with(ANALYSER_SUMS);
+    let wanted = |name: &str| !setting.as_told || !name.contains('.') || analysed(name);
     let mut device = setup.device();
     let (begin, first_edge) = (setup.pll().locked_at, device.next_edge());
     let look = Look::new(spec, begin, params, Watched::new(spec, &entries, wanted), watch);
@@ -79,6 +75,7 @@ pub(super) fn record(
         spec,
         seed: setting.seed,
         source: setup.name.clone(),
+        neurons: params.depth_estimator.neurons(),
         parameters: parameters(setup),
         stimulus: look.stimulus,
         expected: look.expected,
@@ -156,6 +153,7 @@ fn parameters(setup: &Setup) -> Vec<(&'static str, Parameter)> {
         CodeSource::Tdc => (0, 1),
         CodeSource::Preload(rom) => (1, rom.len() as u64),
     };
+    list.extend(neurons(params.depth_estimator.neurons()));
     let preloads_histogram = matches!(params.histogram_source, HistogramSource::Preload(_));
     list.extend([
         ("CodeSource", Number(preloads_codes)),

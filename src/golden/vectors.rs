@@ -23,6 +23,8 @@ pub struct Vectors {
     pub seed: u64,
     /// Name of the scenario.
     pub source: String,
+    /// Hidden neurons of the network.
+    pub neurons: usize,
     /// Verilog parameters.
     pub parameters: Vec<(&'static str, Parameter)>,
     /// What goes in: line k is taken by edge k.

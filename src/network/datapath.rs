@@ -4,7 +4,6 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::error::{Input, Result};
-use crate::firmware::forward2::NEURONS;
 use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tansig;
 
@@ -79,10 +78,10 @@ impl Datapath {
         i64::from(self.w1.fraction + 1 + self.range_log2) - i64::from(self.address_bits)
     }
 
-    /// Block RAMs and DSP slices as `rtl_ref` is built: MEM1 a row a bin, MEM2 a copy for each two
+    /// Block RAMs and DSP slices as `rtl_ref` is built for so many neurons: MEM1 a row a bin, MEM2 a copy for each two
     /// neurons, since a block RAM has two ports; a multiplier of 25 x 18 bits a neuron, and one.
-    pub fn cost(&self) -> Cost {
-        let neurons = NEURONS as u32;
+    pub fn cost(&self, neurons: usize) -> Cost {
+        let neurons = neurons as u32;
         let mem1 = (neurons * self.w1.width).div_ceil(72);
         let wide = match self.address_bits {
             0..=10 => 36,
@@ -106,8 +105,8 @@ impl Datapath {
 pub struct Circuit {
     datapath: Datapath,
     w1: Vec<[i64; BINS]>,
-    b1: [i64; NEURONS],
-    w2: [i64; NEURONS],
+    b1: Vec<i64>,
+    w2: Vec<i64>,
     b2: i64,
     table: Vec<i64>,
     /// Weights that no word holds, and were saturated.
@@ -130,8 +129,8 @@ impl Circuit {
             fits.or_else(|| format.round(value, Overflow::Saturate)).unwrap_or_default()
         };
         let w1 = float.w1.iter().map(|row| row.map(|weight| word(datapath.w1, weight))).collect();
-        let b1 = float.b1.map(|bias| word(datapath.b1, bias));
-        let w2 = float.w2.map(|weight| word(datapath.w2, weight));
+        let b1: Vec<i64> = float.b1.iter().map(|&bias| word(datapath.b1, bias)).collect();
+        let w2 = float.w2.iter().map(|&weight| word(datapath.w2, weight)).collect();
         let b2 = word(datapath.b2, float.b2);
         let (entries, half) = (1i64 << datapath.address_bits, 1i64 << (datapath.address_bits - 1));
         let step = f64::from(1u32 << datapath.range_log2) / half as f64;
@@ -142,7 +141,10 @@ impl Circuit {
         Ok(Circuit {
             datapath,
             w1,
-            b1: b1.map(|bias| bias << (datapath.w1.fraction - datapath.b1.fraction)),
+            b1: b1
+                .iter()
+                .map(|bias| bias << (datapath.w1.fraction - datapath.b1.fraction))
+                .collect(),
             w2,
             b2: b2 << (datapath.w2.fraction + datapath.l1_out.fraction - datapath.b2.fraction),
             table: (0..entries).map(entry).collect(),
@@ -155,7 +157,7 @@ impl Circuit {
     pub fn depth_m(&self, histogram: &Histogram) -> f64 {
         let (shift, half) = (self.datapath.shift(), self.table.len() as i64 / 2);
         let (mut depth, mut saturated) = (self.b2, 0);
-        for neuron in 0..NEURONS {
+        for neuron in 0..self.w2.len() {
             let products = self.w1[neuron].iter().zip(histogram);
             let products = products.map(|(weight, &count)| weight * i64::from(count));
             let sum = products.sum::<i64>() + self.b1[neuron];
@@ -212,11 +214,12 @@ mod tests {
 
     #[test]
     fn the_firmware_s_cost_is_that_of_its_synthesis() {
-        assert_eq!(Datapath::default().cost(), Cost { ramb36: 2 + 8, dsp48: 8 + 1 });
+        assert_eq!(Datapath::default().cost(8), Cost { ramb36: 2 + 8, dsp48: 8 + 1 });
+        assert_eq!(Datapath::default().cost(16), Cost { ramb36: 4 + 16, dsp48: 16 + 1 });
         let small = Datapath { address_bits: 10, ..Datapath::default() };
-        assert_eq!(small.cost().ramb36, 2 + 4);
+        assert_eq!(small.cost(8).ramb36, 2 + 4);
         let wide = Datapath { w1: Format { width: 30, fraction: 37 }, ..Datapath::default() };
-        assert_eq!(wide.cost(), Cost { ramb36: 4 + 8, dsp48: 16 + 1 });
+        assert_eq!(wide.cost(8), Cost { ramb36: 4 + 8, dsp48: 16 + 1 });
     }
 
     #[test]

@@ -4,7 +4,7 @@
 
 use crate::firmware::depth_estimator::Params;
 use crate::firmware::forward1::{self, BIAS_ROW};
-use crate::firmware::forward2::{self, NEURONS};
+use crate::firmware::forward2::{self, MOST_NEURONS, NEURONS};
 use crate::firmware::tansig::address;
 
 use super::Histogram;
@@ -15,26 +15,37 @@ use super::formats::{Activation, Depth, HiddenBias, HiddenWeight, L1In, OutputBi
 pub struct Estimate {
     /// Depth word [m].
     pub depth: forward2::Depth,
-    /// Sums of the hidden neurons.
-    pub l1_in: [forward1::L1In; NEURONS],
+    /// Sums of the hidden neurons; zero past the last.
+    pub l1_in: [forward1::L1In; MOST_NEURONS],
 }
 
 /// The estimate of a histogram.
 pub fn estimate(params: &Params, histogram: &Histogram) -> Estimate {
     let rom = &*params.forward1;
-    let mut sums = rom[BIAS_ROW].map(|bias| L1In::from(HiddenBias::from_bits(bias.get() as i16)));
-    for (row, &count) in rom.iter().zip(histogram) {
-        for (sum, weight) in sums.iter_mut().zip(row) {
-            *sum += L1In::from(HiddenWeight::from_bits(weight.get() as i32)) * i64::from(count);
-        }
+    let mut l1_in = [forward1::L1In::default(); MOST_NEURONS];
+    // So many sums that none waits for another, and no more than are wanted.
+    match params.neurons() <= NEURONS {
+        true => l1_in[..NEURONS].copy_from_slice(&hidden_sums::<NEURONS>(rom, histogram)),
+        false => l1_in = hidden_sums(rom, histogram),
     }
-    let l1_in = sums.map(|sum| forward1::L1In::new(sum.to_bits()));
     let mut depth = Depth::from(OutputBias::from_bits(params.forward2.b2.get() as i32));
     for (l1_in, weight) in l1_in.iter().zip(&params.forward2.w2) {
         let activation = Activation::from_bits(params.tansig[address(*l1_in)].get() as i16);
         depth += Depth::from(OutputWeight::from_bits(weight.get() as i16).wide_mul(activation));
     }
     Estimate { depth: forward2::Depth::new(depth.to_bits()), l1_in }
+}
+
+/// Sums of the first neurons.
+fn hidden_sums<const N: usize>(rom: &forward1::Rom, histogram: &Histogram) -> [forward1::L1In; N] {
+    let bias = |bias: i64| L1In::from(HiddenBias::from_bits(bias as i16));
+    let mut sums: [L1In; N] = std::array::from_fn(|neuron| bias(rom[BIAS_ROW][neuron].get()));
+    for (row, &count) in rom.iter().zip(histogram) {
+        for (sum, weight) in sums.iter_mut().zip(row) {
+            *sum += L1In::from(HiddenWeight::from_bits(weight.get() as i32)) * i64::from(count);
+        }
+    }
+    sums.map(|sum| forward1::L1In::new(sum.to_bits()))
 }
 
 #[cfg(test)]
@@ -62,22 +73,28 @@ mod tests {
         (Estimate { depth: block.forward2.depth, l1_in: block.forward1.l1_in }, edges)
     }
 
-    fn params() -> Params {
-        Network::builtin("uniform").unwrap().unwrap().params()
+    fn params(name: &str) -> Params {
+        Network::builtin(name).unwrap().unwrap().params()
+    }
+
+    /// The largest weights there are, for so many neurons.
+    fn worst(neurons: usize) -> Params {
+        let mut worst = params("uniform");
+        let rom = std::sync::Arc::make_mut(&mut worst.forward1);
+        rom.iter_mut().for_each(|row| row[..4].fill(S::new(-32768)));
+        rom.iter_mut().for_each(|row| row[4..neurons].fill(S::new(32767)));
+        worst.forward2.neurons = neurons;
+        worst.forward2.w2[..neurons].fill(S::new(-32768));
+        worst.forward2.b2 = S::new(-32768);
+        worst
     }
 
     #[test]
-    fn extreme_histograms_give_what_267_edges_of_the_firmware_give() {
-        let mut worst = params();
-        let rom = std::sync::Arc::make_mut(&mut worst.forward1);
-        rom.iter_mut().for_each(|row| row[..4].fill(S::new(-32768)));
-        rom.iter_mut().for_each(|row| row[4..].fill(S::new(32767)));
-        worst.forward2.w2.fill(S::new(-32768));
-        worst.forward2.b2 = S::new(-32768);
+    fn extreme_histograms_give_what_267_edges_of_the_firmware_give_or_275() {
         let one = |bin| std::array::from_fn(|k| if k == bin { u16::MAX } else { 0 });
-        for params in [params(), worst] {
+        for (params, edges) in [(params("uniform"), 267), (worst(8), 267), (worst(16), 275)] {
             for histogram in [[0; 256], [u16::MAX; 256], [255; 256], one(0), one(255)] {
-                let expected = (estimate(&params, &histogram), 267);
+                let expected = (estimate(&params, &histogram), edges);
                 assert_eq!(step(&params, &histogram), expected);
             }
         }
@@ -89,19 +106,25 @@ mod tests {
         #[test]
         fn any_histogram_and_any_weights_give_what_the_firmware_gives(
             histogram in prop::collection::vec(any::<u16>(), 256),
-            weights in prop::collection::vec(any::<i16>(), 257 * 8),
-            output in prop::collection::vec(any::<i16>(), 9),
+            weights in prop::collection::vec(any::<i16>(), 257 * 16),
+            output in prop::collection::vec(any::<i16>(), 17),
             shift in 0..16,
+            neurons in 1usize..=16,
         ) {
-            let mut params = params();
+            let mut params = params("uniform");
             let rom = std::sync::Arc::make_mut(&mut params.forward1);
-            for (place, weight) in rom.iter_mut().flatten().zip(&weights) {
-                *place = S::new(i64::from(weight >> shift));
+            for (row, weights) in rom.iter_mut().zip(weights.chunks(16)) {
+                for (neuron, (place, weight)) in row.iter_mut().zip(weights).enumerate() {
+                    *place = S::new(if neuron < neurons { i64::from(weight >> shift) } else { 0 });
+                }
             }
-            params.forward2.w2 = std::array::from_fn(|k| S::new(output[k].into()));
-            params.forward2.b2 = S::new(output[8].into());
+            let w2 = |k: usize| if k < neurons { output[k].into() } else { 0 };
+            params.forward2.w2 = std::array::from_fn(|k| S::new(w2(k)));
+            params.forward2.b2 = S::new(output[16].into());
+            params.forward2.neurons = neurons;
             let histogram: Histogram = std::array::from_fn(|bin| histogram[bin] >> shift);
-            prop_assert_eq!(step(&params, &histogram), (estimate(&params, &histogram), 267));
+            let expected = (estimate(&params, &histogram), 259 + neurons);
+            prop_assert_eq!(step(&params, &histogram), expected);
         }
     }
 }

@@ -8,7 +8,6 @@
 
 use serde::Serialize;
 
-use crate::firmware::forward2::NEURONS;
 use crate::firmware::tansig::{ADDRESS_BITS, address};
 use crate::kernel::S;
 
@@ -94,7 +93,7 @@ pub struct Explanation {
     /// Hits in the histogram.
     pub hits: u64,
     /// The hidden layer.
-    pub neurons: [Neuron; NEURONS],
+    pub neurons: Vec<Neuron>,
     /// Bias of the output layer [m].
     pub bias: Pair,
     /// The depth [m].
@@ -112,17 +111,16 @@ pub struct Explanation {
 pub fn explain(network: &Network, histogram: &Histogram) -> Explanation {
     let (params, float) = (network.params(), network.twin());
     let fixed = estimate(&params, histogram);
-    let sums = float.hidden_sums(histogram);
-    let neurons = std::array::from_fn(|k| {
+    let neuron = |(k, sum): (usize, f64)| {
         let (word, w2) = (fixed.l1_in[k], float.w2[k]);
-        let activation = libm::tanh(sums[k]);
+        let activation = libm::tanh(sum);
         let place = address(word);
         let entry = params.tansig[place].get();
         let slope = w2 * (1.0 - activation * activation);
         let last = 1i64 << (ADDRESS_BITS - 1);
         let rounded = (word.to_f64() / ADDRESS_STEP + 0.5).floor() as i64;
         Neuron {
-            l1_in: Pair::new(word.get(), L1_IN_FRACTION, sums[k], slope),
+            l1_in: Pair::new(word.get(), L1_IN_FRACTION, sum, slope),
             address: S::<{ ADDRESS_BITS }>::new(place as i64).get(),
             saturated: !(-last..last).contains(&rounded),
             l1_out: Pair::new(entry, L1_OUT.fraction, activation, w2),
@@ -131,7 +129,9 @@ pub fn explain(network: &Network, histogram: &Histogram) -> Explanation {
                 Pair::new(product, DEPTH_FRACTION, activation * w2, 1.0)
             },
         }
-    });
+    };
+    let neurons: Vec<_> =
+        float.hidden_sums(histogram).into_iter().enumerate().map(neuron).collect();
     let depth = Pair::new(fixed.depth.get(), DEPTH_FRACTION, float.forward(histogram), 1.0);
     Explanation {
         hits: histogram.iter().map(|&count| u64::from(count)).sum(),
@@ -144,10 +144,7 @@ pub fn explain(network: &Network, histogram: &Histogram) -> Explanation {
     }
 }
 
-fn first_parting(
-    neurons: &[Neuron; NEURONS],
-    depth: &Pair,
-) -> Option<(&'static str, Option<usize>)> {
+fn first_parting(neurons: &[Neuron], depth: &Pair) -> Option<(&'static str, Option<usize>)> {
     let layer = |name, parts: &dyn Fn(&Neuron) -> bool| {
         neurons.iter().position(parts).map(|neuron| (name, Some(neuron)))
     };
@@ -158,7 +155,7 @@ fn first_parting(
 }
 
 /// The depth after each step from float to fixed point.
-fn budget(network: &Network, neurons: &[Neuron; NEURONS], depth: &Pair) -> Budget {
+fn budget(network: &Network, neurons: &[Neuron], depth: &Pair) -> Budget {
     let float = network.twin();
     let output = |activation: &dyn Fn(&Neuron) -> f64| {
         let products = neurons.iter().zip(&float.w2).map(|(neuron, w2)| activation(neuron) * w2);

@@ -33,6 +33,10 @@ pub struct Training {
     pub chain: String,
     /// Command that trains it again, if there is one.
     pub command: Option<String>,
+    /// Seed of the data and the starts.
+    pub seed: Option<u64>,
+    /// Hash of all histograms that it was trained on.
+    pub data: Option<String>,
 }
 
 /// Spread of the fixed-point depth over a test set.
@@ -42,6 +46,8 @@ pub struct Accuracy {
     pub distances_m: Vec<f64>,
     /// Two standard deviations of the depth at each [mm].
     pub two_sd_mm: Vec<f64>,
+    /// Mean error of the depth at each [mm].
+    pub mean_mm: Option<Vec<f64>>,
 }
 
 /// Networks that come with the program: name and file.
@@ -115,7 +121,7 @@ mod tests {
                     assert_eq!(rounded, Some(weight.to_bits().into()));
                 }
             }
-            for k in 0..8 {
+            for k in 0..fixed.neurons() {
                 let b1 = B1.round(float.b1[k], Overflow::Refuse);
                 assert_eq!(b1, Some(fixed.b1[k].to_bits().into()));
                 let w2 = W2.round(float.w2[k], Overflow::Refuse);

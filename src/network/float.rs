@@ -1,6 +1,6 @@
 //! The network in double precision: what the fixed-point datapath approximates.
 
-use crate::firmware::forward2::NEURONS;
+use crate::firmware::histogram_builder::BINS;
 
 use super::formats::Fixed;
 use super::{Histogram, Network, Weights};
@@ -12,26 +12,27 @@ impl Float {
     /// Values of the rounded weights.
     pub fn from_fixed(fixed: &Fixed) -> Float {
         Float {
-            w1: Box::new(fixed.w1.map(|row| row.map(f64::from))),
-            b1: fixed.b1.map(f64::from),
-            w2: fixed.w2.map(f64::from),
+            w1: fixed.w1.iter().map(|row| row.map(f64::from)).collect(),
+            b1: fixed.b1.iter().copied().map(f64::from).collect(),
+            w2: fixed.w2.iter().copied().map(f64::from).collect(),
             b2: f64::from(fixed.b2),
         }
     }
 
     /// Sums of the hidden neurons.
-    pub fn hidden_sums(&self, histogram: &Histogram) -> [f64; NEURONS] {
-        std::array::from_fn(|neuron| {
-            let products = self.w1[neuron].iter().zip(histogram);
-            let products = products.map(|(weight, &count)| weight * count as f64);
-            products.sum::<f64>() + self.b1[neuron]
-        })
+    pub fn hidden_sums(&self, histogram: &Histogram) -> Vec<f64> {
+        let sum = |(row, bias): (&[f64; BINS], &f64)| {
+            let products = row.iter().zip(histogram);
+            let products = products.map(|(weight, &count)| weight * f64::from(count));
+            products.sum::<f64>() + bias
+        };
+        self.w1.iter().zip(&self.b1).map(sum).collect()
     }
 
     /// Depth of a histogram [m].
     pub fn forward(&self, histogram: &Histogram) -> f64 {
-        let hidden = self.hidden_sums(histogram).map(libm::tanh);
-        let products = hidden.iter().zip(&self.w2).map(|(activation, weight)| activation * weight);
+        let hidden = self.hidden_sums(histogram).into_iter().map(libm::tanh);
+        let products = hidden.zip(&self.w2).map(|(activation, weight)| activation * weight);
         products.sum::<f64>() + self.b2
     }
 }
@@ -49,9 +50,9 @@ mod tests {
 
     #[test]
     fn one_bin_and_one_neuron_by_hand() {
-        let mut w1 = Box::new([[0.0; 256]; 8]);
+        let mut w1 = vec![[0.0; 256]; 8];
         w1[3][7] = 0.001;
-        let (mut b1, mut w2) = ([0.0; 8], [0.0; 8]);
+        let (mut b1, mut w2) = (vec![0.0; 8], vec![0.0; 8]);
         (b1[3], w2[3]) = (-0.5, 0.25);
         let float = Float { w1, b1, w2, b2: 0.3 };
         let mut histogram = [0; 256];

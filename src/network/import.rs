@@ -2,7 +2,8 @@
 //!
 //! What MATLAB's `feedforwardnet(8, 'trainlm')` leaves is taken as it is: `IW{1,1}`, `LW{2,1}`,
 //! `b{1}`, `b{2}`, and the settings of `mapminmax` on both sides, `y = (x - xoffset) gain + ymin`.
-//! Whoever has other tools leaves the settings out and gives weights for raw counts and metres.
+//! Whoever has other tools leaves the settings out and gives weights for raw counts and metres. `b1`
+//! says how many neurons there are.
 
 mod arrays;
 mod json;
@@ -12,7 +13,7 @@ mod npy;
 use std::path::Path;
 
 use crate::error::{Input, Result};
-use crate::firmware::forward2::NEURONS;
+use crate::firmware::forward2::MOST_NEURONS;
 use crate::firmware::histogram_builder::BINS;
 
 use super::float::Float;
@@ -45,9 +46,15 @@ fn fold(mut arrays: Arrays) -> Result<Float> {
         Some(keep) => kept(&arrays, &keep)?,
     };
     let columns = bins.len();
-    let hidden = arrays.required("IW")?.shaped(&arrays, &[NEURONS, columns])?;
-    let b1 = arrays.required("b1")?.shaped(&arrays, &[NEURONS])?;
-    let output = arrays.required("LW")?.shaped(&arrays, &[NEURONS])?;
+    let b1 = arrays.required("b1")?;
+    let neurons = b1.values.len();
+    if !(1..=MOST_NEURONS).contains(&neurons) {
+        let expected = format!("{neurons} neurons, expected 1 to {MOST_NEURONS}");
+        return Err(arrays.fault("b1", &expected).into());
+    }
+    let b1 = b1.shaped(&arrays, &[neurons])?;
+    let hidden = arrays.required("IW")?.shaped(&arrays, &[neurons, columns])?;
+    let output = arrays.required("LW")?.shaped(&arrays, &[neurons])?;
     let b2 = arrays.required("b2")?.shaped(&arrays, &[1])?[0];
     let x = Map::take(&mut arrays, "x", columns)?;
     let y = Map::take(&mut arrays, "y", 1)?;
@@ -57,11 +64,10 @@ fn fold(mut arrays: Arrays) -> Result<Float> {
         return Err(Input::new(&arrays.name, expected).field("y_gain").value(0).into());
     }
 
-    let mut w1 = Box::new([[0.0; BINS]; NEURONS]);
-    let mut biases = [0.0; NEURONS];
-    for neuron in 0..NEURONS {
+    let mut w1 = vec![[0.0; BINS]; neurons];
+    let mut biases = b1;
+    for neuron in 0..neurons {
         let row = &hidden[neuron * columns..][..columns];
-        biases[neuron] = b1[neuron];
         for (place, (&weight, &bin)) in row.iter().zip(&bins).enumerate() {
             w1[neuron][bin] = weight * x.gain[place];
             biases[neuron] += weight * (x.ymin - x.xoffset[place] * x.gain[place]);
@@ -70,7 +76,7 @@ fn fold(mut arrays: Arrays) -> Result<Float> {
     Ok(Float {
         w1,
         b1: biases,
-        w2: std::array::from_fn(|neuron| output[neuron] / y.gain[0]),
+        w2: output.iter().map(|weight| weight / y.gain[0]).collect(),
         b2: (b2 - y.ymin) / y.gain[0] + y.xoffset[0],
     })
 }
@@ -120,6 +126,7 @@ fn kept(arrays: &Arrays, keep: &Array) -> Result<Vec<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::firmware::forward2::NEURONS;
     use crate::network::Histogram;
 
     /// A network as MATLAB evaluates it.
@@ -191,6 +198,8 @@ mod tests {
             fold(arrays).unwrap_err().to_string()
         };
         assert_eq!(fault(&|a| drop(a.optional("LW"))), "example: LW: missing");
+        let message = fault(&|a| a.put("b1", vec![17], vec![0.0; 17]));
+        assert!(message.contains("b1: 17 neurons, expected 1 to 16"), "{message}");
         let message = fault(&|a| a.put("IW", vec![9, BINS], vec![0.0; 9 * BINS]));
         assert!(message.contains("IW: 9 x 256, expected 8 x 256"), "{message}");
         let message = fault(&|a| drop(a.optional("y_gain")));

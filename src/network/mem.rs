@@ -3,8 +3,9 @@
 use std::fmt::Write;
 
 use crate::firmware::depth_estimator::Params;
-use crate::firmware::forward1::{self, BIAS_ROW, Weight};
-use crate::firmware::forward2::NEURONS;
+use crate::firmware::forward1::{BIAS_ROW, Rom, Weight};
+use crate::firmware::forward2;
+use crate::firmware::tansig;
 use crate::firmware::tdc_decoder::Calibration;
 
 /// A ROM's file.
@@ -16,31 +17,33 @@ pub struct Mem {
     pub text: String,
 }
 
-/// MEM1: the weights, a line of 128 bits a bin, then the biases, one such line. Neuron 7 is in the
-/// top 16 bits.
-pub fn forward1(rom: &forward1::Rom) -> [Mem; 2] {
+/// MEM1: the weights, a line a bin with 16 bits for each neuron, then the biases, one such line. The
+/// last neuron is in the top 16 bits.
+pub fn forward1(rom: &Rom, neurons: usize) -> [Mem; 2] {
+    let row = |row: &[Weight]| words(&row[..neurons]);
     [
-        Mem { name: "w1.mem", text: lines(rom[..BIAS_ROW].iter().map(word), 32) },
-        Mem { name: "b1.mem", text: lines([word(&rom[BIAS_ROW])], 32) },
+        Mem { name: "w1.mem", text: rom[..BIAS_ROW].iter().map(|weights| row(weights)).collect() },
+        Mem { name: "b1.mem", text: row(&rom[BIAS_ROW]) },
     ]
 }
 
 /// MEM2: line k is address k as an unsigned word.
-pub fn tansig(rom: &crate::firmware::tansig::Rom) -> Mem {
+pub fn tansig(rom: &tansig::Rom) -> Mem {
     Mem { name: "tansig.mem", text: lines(rom.iter().map(|entry| entry.bits().into()), 4) }
 }
 
-/// MEM3: the weights, a line of 128 bits with neuron 7 in the top 16, and the bias.
-pub fn forward2(rom: &crate::firmware::forward2::Rom) -> [Mem; 2] {
+/// MEM3: the weights, a line with the last neuron in the top 16 bits, and the bias.
+pub fn forward2(rom: &forward2::Rom) -> [Mem; 2] {
     [
-        Mem { name: "w2.mem", text: lines([word(&rom.w2)], 32) },
+        Mem { name: "w2.mem", text: words(&rom.w2[..rom.neurons]) },
         Mem { name: "b2.mem", text: lines([rom.b2.bits().into()], 4) },
     ]
 }
 
 /// All of the estimator's ROMs.
 pub fn depth_estimator(params: &Params) -> Vec<Mem> {
-    let (hidden, output) = (forward1(&params.forward1), forward2(&params.forward2));
+    let hidden = forward1(&params.forward1, params.neurons());
+    let output = forward2(&params.forward2);
     hidden.into_iter().chain(output).chain([tansig(&params.tansig)]).collect()
 }
 
@@ -50,9 +53,10 @@ pub fn tdc_decoder(calibration: &Calibration) -> Mem {
     Mem { name: "tdc_cal.mem", text: lines(words, 4) }
 }
 
-/// Eight words side by side, the first in the low bits.
-fn word(row: &[Weight; NEURONS]) -> u128 {
-    row.iter().rev().fold(0, |word, weight| word << 16 | u128::from(weight.bits()))
+/// Words side by side on a line, the first in the low bits.
+fn words(row: &[Weight]) -> String {
+    let digits: String = row.iter().rev().map(|weight| format!("{:04x}", weight.bits())).collect();
+    digits + "\n"
 }
 
 /// Words as lines of that many hexadecimal digits.
@@ -73,9 +77,9 @@ mod tests {
     use crate::network::Network;
 
     #[test]
-    fn neuron_7_is_in_the_top_16_bits() {
-        let row = std::array::from_fn(|neuron| S::new(neuron as i64 - 1));
-        assert_eq!(lines([word(&row)], 32), "0006000500040003000200010000ffff\n");
+    fn the_last_neuron_is_in_the_top_16_bits() {
+        let row: Vec<Weight> = (-1..7).map(S::new).collect();
+        assert_eq!(words(&row), "0006000500040003000200010000ffff\n");
     }
 
     #[test]

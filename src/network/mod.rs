@@ -18,7 +18,6 @@ pub use estimate::{Estimate, estimate};
 pub use explain::{Explanation, explain};
 pub use file::Network;
 
-use crate::firmware::forward2::NEURONS;
 use crate::firmware::histogram_builder::BINS;
 
 /// Hits per bin of 25 ps, bin 0 first [hits].
@@ -27,15 +26,23 @@ pub type Histogram = [u16; BINS];
 /// Most hits a histogram may hold; the widths of the estimator's words bear any such sum [hits].
 pub const MAX_HITS: u32 = 65_535;
 
-/// The weights of a network, `w1[neuron][bin]`, biases beside them.
+/// The weights of a network, `w1[neuron][bin]`, biases beside them; as many neurons in each list, and
+/// no more than the firmware has ports for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weights<W1, B1, W2, B2> {
     /// Hidden layer, applied to raw counts.
-    pub w1: Box<[[W1; BINS]; NEURONS]>,
+    pub w1: Vec<[W1; BINS]>,
     /// Biases of the hidden layer.
-    pub b1: [B1; NEURONS],
+    pub b1: Vec<B1>,
     /// Output layer [m].
-    pub w2: [W2; NEURONS],
+    pub w2: Vec<W2>,
     /// Bias of the output layer [m].
     pub b2: B2,
+}
+
+impl<W1, B1, W2, B2> Weights<W1, B1, W2, B2> {
+    /// Hidden neurons.
+    pub fn neurons(&self) -> usize {
+        self.w2.len()
+    }
 }

@@ -127,6 +127,11 @@ impl<'a> Value<'a> {
             .ok_or_else(|| self.fault(what))
     }
 
+    /// As a whole number from 0.
+    pub fn natural(&self) -> Result<u64> {
+        self.integer(0..=i64::MAX, "expected a whole number from 0").map(i64::unsigned_abs)
+    }
+
     /// As that very integer.
     pub fn exactly(&self, integer: i64) -> Result<()> {
         self.integer(integer..=integer, format!("expected {integer}, as in the firmware")).map(drop)
@@ -176,8 +181,26 @@ impl<'a> Value<'a> {
         what: &str,
         read: impl FnMut(&Value<'a>) -> Result<T>,
     ) -> Result<[T; N]> {
-        let items = self.list()?.iter().map(read).collect::<Result<Vec<T>>>()?;
+        let items = self.many(what, N..=N, read)?;
         let found = items.len();
         items.try_into().map_err(|_| self.fault(format!("{found} {what}, expected {N}")))
+    }
+
+    /// As a list of so many of `what`, each read by `read`.
+    pub fn many<T>(
+        &self,
+        what: &str,
+        range: RangeInclusive<usize>,
+        read: impl FnMut(&Value<'a>) -> Result<T>,
+    ) -> Result<Vec<T>> {
+        let items = self.list()?;
+        if !range.contains(&items.len()) {
+            let expected = match (range.start(), range.end()) {
+                (least, most) if least == most => least.to_string(),
+                (least, most) => format!("{least} to {most}"),
+            };
+            return Err(self.fault(format!("{} {what}, expected {expected}", items.len())));
+        }
+        items.iter().map(read).collect()
     }
 }

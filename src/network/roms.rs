@@ -4,7 +4,7 @@ use std::sync::{Arc, LazyLock};
 
 use crate::firmware::depth_estimator::Params;
 use crate::firmware::forward1::{self, BIAS_ROW};
-use crate::firmware::forward2::{self, NEURONS};
+use crate::firmware::forward2::{self, MOST_NEURONS};
 use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tansig;
 use crate::kernel::S;
@@ -12,35 +12,39 @@ use crate::kernel::S;
 use super::Network;
 use super::formats::{Fixed, L1_OUT, Overflow, TANSIG_RANGE};
 
-impl Network {
+impl Fixed {
     /// The estimator's ROMs.
     pub fn params(&self) -> Params {
-        Params {
-            forward1: Arc::new(hidden(&self.fixed)),
-            tansig: tansig_table(),
-            forward2: output(&self.fixed),
-        }
+        Params { forward1: Arc::new(hidden(self)), tansig: tansig_table(), forward2: output(self) }
     }
 }
 
-/// MEM1: a row of eight weights for each bin, and the biases.
+impl Network {
+    /// The estimator's ROMs.
+    pub fn params(&self) -> Params {
+        self.fixed.params()
+    }
+}
+
+/// MEM1: a row of weights for each bin, and the biases.
 fn hidden(fixed: &Fixed) -> forward1::Rom {
-    let mut rom = [[S::new(0); NEURONS]; BINS + 1];
-    for (neuron, row) in fixed.w1.iter().enumerate() {
+    let mut rom = [[S::new(0); MOST_NEURONS]; BINS + 1];
+    for (neuron, (row, bias)) in fixed.w1.iter().zip(&fixed.b1).enumerate() {
         for (bin, weight) in row.iter().enumerate() {
             rom[bin][neuron] = S::new(weight.to_bits().into());
         }
+        rom[BIAS_ROW][neuron] = S::new(bias.to_bits().into());
     }
-    rom[BIAS_ROW] = fixed.b1.map(|bias| S::new(bias.to_bits().into()));
     rom
 }
 
 /// MEM3.
 fn output(fixed: &Fixed) -> forward2::Rom {
-    forward2::Rom {
-        w2: fixed.w2.map(|weight| S::new(weight.to_bits().into())),
-        b2: S::new(fixed.b2.to_bits().into()),
+    let mut w2 = [S::new(0); MOST_NEURONS];
+    for (word, weight) in w2.iter_mut().zip(&fixed.w2) {
+        *word = S::new(weight.to_bits().into());
     }
+    forward2::Rom { neurons: fixed.neurons(), w2, b2: S::new(fixed.b2.to_bits().into()) }
 }
 
 /// MEM2: tanh at each address, a signed 12-bit word over +-4, rounded half away from zero. The

@@ -1,7 +1,6 @@
 //! From weights in double precision to the words of the ROMs (thesis Table 6.4).
 
 use crate::error::{Input, Result};
-use crate::firmware::forward2::NEURONS;
 use crate::firmware::histogram_builder::BINS;
 
 use super::Weights;
@@ -26,19 +25,17 @@ impl Float {
     /// When a weight does not fit and is not to be saturated, or is no number.
     pub fn round(&self, name: &str, overflow: Overflow) -> Result<Rounded> {
         let mut rounding = Rounding { name, overflow, saturated: 0 };
-        let mut w1 = Box::new([[HiddenWeight::ZERO; BINS]; NEURONS]);
-        let (mut b1, mut w2) = ([HiddenBias::ZERO; NEURONS], [OutputWeight::ZERO; NEURONS]);
-        for neuron in 0..NEURONS {
-            for bin in 0..BINS {
-                let field = || format!("w1[{neuron}][{bin}]");
-                let word = rounding.word(W1, self.w1[neuron][bin], field)?;
-                w1[neuron][bin] = HiddenWeight::from_bits(word.into());
+        let mut w1 = Vec::new();
+        for (neuron, row) in self.w1.iter().enumerate() {
+            let mut words = [HiddenWeight::ZERO; BINS];
+            for (bin, (word, &weight)) in words.iter_mut().zip(row).enumerate() {
+                let bits = rounding.word(W1, weight, || format!("w1[{neuron}][{bin}]"))?;
+                *word = HiddenWeight::from_bits(bits.into());
             }
-            let word = rounding.word(B1, self.b1[neuron], || format!("b1[{neuron}]"))?;
-            b1[neuron] = HiddenBias::from_bits(word);
-            let word = rounding.word(W2, self.w2[neuron], || format!("w2[{neuron}]"))?;
-            w2[neuron] = OutputWeight::from_bits(word);
+            w1.push(words);
         }
+        let b1 = rounding.list(B1, &self.b1, "b1")?.map(HiddenBias::from_bits).collect();
+        let w2 = rounding.list(W2, &self.w2, "w2")?.map(OutputWeight::from_bits).collect();
         let b2 = OutputBias::from_bits(rounding.word(B2, self.b2, || "b2".to_owned())?.into());
         Ok(Rounded { fixed: Weights { w1, b1, w2, b2 }, saturated: rounding.saturated })
     }
@@ -51,6 +48,20 @@ struct Rounding<'a> {
 }
 
 impl Rounding<'_> {
+    /// The words nearest to values.
+    fn list(
+        &mut self,
+        format: Format,
+        values: &[f64],
+        name: &str,
+    ) -> Result<impl Iterator<Item = i16> + use<>> {
+        let word = |(place, &value): (usize, &f64)| {
+            self.word(format, value, || format!("{name}[{place}]"))
+        };
+        let words: Result<Vec<i16>> = values.iter().enumerate().map(word).collect();
+        Ok(words?.into_iter())
+    }
+
     /// The word of 16 bits nearest to a value.
     fn word(&mut self, format: Format, value: f64, field: impl Fn() -> String) -> Result<i16> {
         if let Some(word) = format.round(value, Overflow::Refuse) {

@@ -1,6 +1,7 @@
 //! The fields of a network file and the rules they obey.
 
 use crate::error::Result;
+use crate::firmware::forward2::MOST_NEURONS;
 use crate::firmware::tansig::ADDRESS_BITS;
 
 use super::Network;
@@ -28,18 +29,15 @@ impl Network {
         let tree = source.parse()?;
         let mut root = Table::root(source, &tree);
         root.required("schema")?.keyword(SCHEMA)?;
-        let network = Network {
-            name: source.name.to_owned(),
-            description: root.required("description")?.text()?,
-            training: training(root.required("training")?.table()?)?,
-            accuracy: section(root.optional("accuracy"), accuracy)?,
-            fixed: {
-                scaling(root.required("scaling")?.table()?)?;
-                formats(root.required("formats")?.table()?)?;
-                integers(root.required("integers")?.table()?)?
-            },
-            float: section(root.optional("float"), float)?,
-        };
+        let description = root.required("description")?.text()?;
+        let training = training(root.required("training")?.table()?)?;
+        let accuracy = section(root.optional("accuracy"), accuracy)?;
+        scaling(root.required("scaling")?.table()?)?;
+        formats(root.required("formats")?.table()?)?;
+        let fixed = integers(root.required("integers")?.table()?)?;
+        let float = section(root.optional("float"), |table| float(table, fixed.neurons()))?;
+        let name = source.name.to_owned();
+        let network = Network { name, description, training, accuracy, fixed, float };
         root.finish()?;
         Ok(network)
     }
@@ -54,6 +52,8 @@ fn training(mut table: Table) -> Result<Training> {
         origin: table.required("origin")?.text()?,
         chain: table.required("chain")?.text()?,
         command: table.optional("command").map(|command| command.text()).transpose()?,
+        seed: table.optional("seed").map(|seed| seed.natural()).transpose()?,
+        data: table.optional("data").map(|data| data.text()).transpose()?,
     };
     table.finish()?;
     Ok(training)
@@ -62,14 +62,21 @@ fn training(mut table: Table) -> Result<Training> {
 fn accuracy(mut table: Table) -> Result<Accuracy> {
     let numbers = |value: &Value| value.list()?.iter().map(Value::number).collect::<Result<_>>();
     let distances_m: Vec<f64> = numbers(&table.required("distances_m")?)?;
-    let spread = table.required("two_sd_mm")?;
-    let two_sd_mm: Vec<f64> = numbers(&spread)?;
-    if two_sd_mm.len() != distances_m.len() {
-        let (found, expected) = (two_sd_mm.len(), distances_m.len());
-        return Err(spread.fault(format!("{found} values, expected one a distance: {expected}")));
-    }
+    let at_each = |value: Value| {
+        let values: Vec<f64> = numbers(&value)?;
+        match values.len() == distances_m.len() {
+            true => Ok(values),
+            false => {
+                let (found, expected) = (values.len(), distances_m.len());
+                let expected = format!("{found} values, expected one a distance: {expected}");
+                Err(value.fault(expected))
+            }
+        }
+    };
+    let two_sd_mm = at_each(table.required("two_sd_mm")?)?;
+    let mean_mm = table.optional("mean_mm").map(at_each).transpose()?;
     table.finish()?;
-    Ok(Accuracy { distances_m, two_sd_mm })
+    Ok(Accuracy { distances_m, two_sd_mm, mean_mm })
 }
 
 fn scaling(mut table: Table) -> Result<()> {
@@ -94,13 +101,17 @@ fn formats(mut table: Table) -> Result<()> {
 }
 
 fn integers(mut table: Table) -> Result<Fixed> {
-    let (b1, w2) = (|v: &Value| word(v, B1), |v: &Value| word(v, W2));
+    let b1 = |v: &Value| Ok(HiddenBias::from_bits(word(v, B1)?));
+    let w2 = |v: &Value| Ok(OutputWeight::from_bits(word(v, W2)?));
     let weight = |v: &Value| Ok(HiddenWeight::from_bits(word(v, W1)?.into()));
+    let w1 =
+        table.required("w1")?.many("rows", 1..=MOST_NEURONS, |row| row.array("weights", weight))?;
+    let each = w1.len()..=w1.len();
     let fixed = Fixed {
-        w1: Box::new(table.required("w1")?.array("rows", |row| row.array("weights", weight))?),
-        b1: table.required("b1")?.array("biases", b1)?.map(HiddenBias::from_bits),
-        w2: table.required("w2")?.array("weights", w2)?.map(OutputWeight::from_bits),
+        b1: table.required("b1")?.many("biases", each.clone(), b1)?,
+        w2: table.required("w2")?.many("weights", each, w2)?,
         b2: OutputBias::from_bits(word(&table.required("b2")?, B2)?.into()),
+        w1,
     };
     table.finish()?;
     Ok(fixed)
@@ -115,13 +126,14 @@ fn word(value: &Value, format: Format) -> Result<i16> {
     Ok(value.integer(min..=max, expected)? as i16)
 }
 
-fn float(mut table: Table) -> Result<Float> {
+/// The weights before rounding of a network with so many neurons.
+fn float(mut table: Table, neurons: usize) -> Result<Float> {
+    let each = neurons..=neurons;
+    let row = |row: &Value| row.array("weights", Value::number);
     let float = Float {
-        w1: Box::new(
-            table.required("w1")?.array("rows", |row| row.array("weights", Value::number))?,
-        ),
-        b1: table.required("b1")?.array("biases", Value::number)?,
-        w2: table.required("w2")?.array("weights", Value::number)?,
+        w1: table.required("w1")?.many("rows", each.clone(), row)?,
+        b1: table.required("b1")?.many("biases", each.clone(), Value::number)?,
+        w2: table.required("w2")?.many("weights", each, Value::number)?,
         b2: table.required("b2")?.number()?,
     };
     table.finish()?;
@@ -191,7 +203,7 @@ mod tests {
             ("b2 = 32116", "b2 = \"32116\"", "integers.b2 = \"32116\": expected an integer"),
             ("two_sd_mm = [", "two_sd_mm = [1.0, ", "7 values, expected one a distance: 6"),
             ("[float]\n", "[float]\nb3 = nan\n", "float.b3: unknown key"),
-            ("w2 = [\n    -0.16", "w2 = [\n    nan, -0.16", "float.w2[0] = nan: expected a finite"),
+            ("w2 = [\n    -0.16", "w2 = [\n    nan, -0.16", "float.w2: 9 weights, expected 8"),
         ] {
             let message = fault(from, to);
             assert!(message.contains(expected), "{message}");

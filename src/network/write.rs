@@ -30,11 +30,23 @@ impl Network {
         if let Some(command) = &self.training.command {
             writeln!(out, "command = {}", quoted(command))?;
         }
+        if let Some(seed) = self.training.seed {
+            writeln!(out, "seed = {seed}")?;
+        }
+        if let Some(data) = &self.training.data {
+            writeln!(out, "data = {}", quoted(data))?;
+        }
         if let Some(accuracy) = &self.accuracy {
-            writeln!(out, "\n# Fixed point: twice the standard deviation of the depth.")?;
+            writeln!(
+                out,
+                "\n# Fixed point: twice the standard deviation of the depth, and its mean error."
+            )?;
             writeln!(out, "[accuracy]")?;
             writeln!(out, "distances_m = {:?}", accuracy.distances_m)?;
             writeln!(out, "two_sd_mm = {:?}", accuracy.two_sd_mm)?;
+            if let Some(mean_mm) = &accuracy.mean_mm {
+                writeln!(out, "mean_mm = {mean_mm:?}")?;
+            }
         }
         writeln!(out, "\n# Raw counts in, metres out; the normalisation is part of w1 and b1.")?;
         writeln!(out, "[scaling]")?;
@@ -56,16 +68,19 @@ impl Network {
         writeln!(out, "\n# What the ROMs hold: w1[neuron][bin].\n[integers]")?;
         let rows = fixed.w1.iter().map(|row| row.map(|weight| weight.to_bits()));
         matrix(out, "w1", rows, INTEGERS_A_LINE)?;
-        list(out, "b1 = ", fixed.b1.map(|bias| bias.to_bits()), INTEGERS_A_LINE, "")?;
-        list(out, "w2 = ", fixed.w2.map(|weight| weight.to_bits()), INTEGERS_A_LINE, "")?;
+        let b1: Vec<_> = fixed.b1.iter().map(|bias| bias.to_bits()).collect();
+        list(out, "b1 = ", &b1, INTEGERS_A_LINE, "")?;
+        let w2: Vec<_> = fixed.w2.iter().map(|weight| weight.to_bits()).collect();
+        list(out, "w2 = ", &w2, INTEGERS_A_LINE, "")?;
         writeln!(out, "b2 = {}", fixed.b2.to_bits())?;
         if let Some(float) = &self.float {
             let exact = |number: f64| format!("{number:?}");
             writeln!(out, "\n# The weights before rounding.\n[float]")?;
             let rows = float.w1.iter().map(|row| row.map(exact));
             matrix(out, "w1", rows, FLOATS_A_LINE)?;
-            list(out, "b1 = ", float.b1.map(exact), FLOATS_A_LINE, "")?;
-            list(out, "w2 = ", float.w2.map(exact), FLOATS_A_LINE, "")?;
+            let all = |values: &[f64]| values.iter().copied().map(exact).collect::<Vec<_>>();
+            list(out, "b1 = ", &all(&float.b1), FLOATS_A_LINE, "")?;
+            list(out, "w2 = ", &all(&float.w2), FLOATS_A_LINE, "")?;
             writeln!(out, "b2 = {:?}", float.b2)?;
         }
         Ok(())
@@ -80,15 +95,15 @@ fn matrix<T: Display>(
 ) -> std::fmt::Result {
     writeln!(out, "{key} = [")?;
     for row in rows {
-        list(out, "  ", row, a_line, ",")?;
+        list(out, "  ", &row, a_line, ",")?;
     }
     writeln!(out, "]")
 }
 
-fn list<T: Display, const N: usize>(
+fn list<T: Display>(
     out: &mut String,
     before: &str,
-    items: [T; N],
+    items: &[T],
     a_line: usize,
     after: &str,
 ) -> std::fmt::Result {
@@ -115,6 +130,12 @@ mod tests {
         let mut network = Network::builtin("ideal").unwrap().unwrap();
         network.description = "quotes \" and \\ and\nlines".to_owned();
         network.training.command = Some("tofsim train".to_owned());
+        network.training.seed = Some(7);
+        network.training.data = Some("0123".to_owned());
+        if let Some(accuracy) = &mut network.accuracy {
+            accuracy.mean_mm = Some(vec![-0.5; accuracy.distances_m.len()]);
+        }
+        assert_eq!(Network::parse(&network.to_toml(), "ideal").unwrap(), network);
         network.accuracy = None;
         assert_eq!(Network::parse(&network.to_toml(), "ideal").unwrap(), network);
     }

@@ -9,7 +9,6 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Binomial, Distribution};
 
 use crate::error::{Input, Result};
-use crate::firmware::estimator_ctrl;
 use crate::firmware::vcsel_driver::PERIODS;
 use crate::kernel::Time;
 use crate::network::estimate::estimate;
@@ -119,7 +118,7 @@ impl<'a> Histograms<'a> {
             shots: self.shots,
             tdc_hits,
             histogram,
-            estimator_cycles: estimator_ctrl::DONE,
+            estimator_cycles: self.setup.params.depth_estimator.cycles(),
             frame_cycles: self.frame_cycles,
         }
     }

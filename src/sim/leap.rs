@@ -9,7 +9,6 @@ mod outcomes;
 
 use std::sync::Arc;
 
-use crate::firmware::estimator_ctrl;
 use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tof_top::Params;
 use crate::firmware::vcsel_driver::PERIODS;
@@ -96,7 +95,7 @@ impl Device {
         );
         let cycles = match (clearing, estimating) {
             (true, _) => BINS as u64 - 1 - CLEAR_BEGIN,
-            (_, true) => estimator_ctrl::DONE - 1,
+            (_, true) => p.depth_estimator.cycles() - 1,
             _ => return,
         };
         let end = self.pll.clk_125.rise(self.cycle + cycles);

@@ -22,10 +22,10 @@ use super::window::Window;
 
 /// Period of `clk_125`.
 pub const CYCLE: Time = Time::from_ns(8);
-/// Cycles of a frame beside its shots: Clear, Drain, two hand-overs and the estimator.
-const OVERHEAD: u64 = 256 + 1 + 16 + 1 + 267;
+/// Cycles of a frame beside its shots and the estimator: Clear, Drain and two hand-overs.
+const OVERHEAD: u64 = 256 + 1 + 16 + 1;
 /// The same with a preloaded histogram.
-const OVERHEAD_PRELOADED: u64 = 256 + 1 + 267;
+const OVERHEAD_PRELOADED: u64 = 256 + 1;
 
 /// Shots of the waveform when nothing else is asked for.
 const FIRST_SHOTS: u64 = 16;
@@ -107,11 +107,12 @@ impl Setup {
     /// Length of an undisturbed frame at a laser rate: from the edge that begins Clear to the one
     /// that raises `algo_done` [cycles of clk_125].
     pub fn frame_cycles(&self, laser_freq: usize) -> u64 {
-        let ctrl = &self.params.frame_ctrl;
+        let (ctrl, estimator) = (&self.params.frame_ctrl, self.params.depth_estimator.cycles());
         if ctrl.preloaded {
-            return OVERHEAD_PRELOADED;
+            return OVERHEAD_PRELOADED + estimator;
         }
-        ctrl.shots_per_frame as u64 * vcsel_driver::PERIODS[laser_freq] + OVERHEAD
+        let shots = ctrl.shots_per_frame as u64 * vcsel_driver::PERIODS[laser_freq];
+        shots + OVERHEAD + estimator
     }
 
     /// What a user may not expect of the scenario, a line each.

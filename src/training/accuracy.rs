@@ -55,6 +55,12 @@ pub fn worst_ratio(rows: &[Row], line: &Weighting) -> f64 {
     rows.iter().map(ratio).map(number).fold(0.0, f64::max)
 }
 
+/// The largest ratio of a spread to the line or of a mean error to its limit, whichever is worse.
+pub fn worst(rows: &[Row], line: &Weighting) -> f64 {
+    let means = rows.iter().map(|row| row.mean_mm.abs() / line.mean_mm);
+    means.fold(worst_ratio(rows, line), f64::max)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -72,6 +78,8 @@ mod tests {
         assert!((far.mean_mm + 100.0).abs() < 1e-9 && far.two_sd_mm == 0.0);
         let worst = worst_ratio(&rows, &Weighting::default());
         assert!((worst - 4.0 / 1.6).abs() < 1e-9);
+        let biased = [Row { mean_mm: -3.0, ..near }];
+        assert!((super::worst(&biased, &Weighting::default()) - 3.0).abs() < 1e-9);
         let nan = Row { two_sd_mm: f64::NAN, ..near };
         assert_eq!(worst_ratio(&[nan, near], &Weighting::default()), f64::INFINITY);
     }

@@ -3,10 +3,14 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Input, Result};
+use crate::firmware::forward2::{MOST_NEURONS, NEURONS};
 
 use super::limits::Limits;
 use super::lm::Settings;
 use super::weighting::Weighting;
+
+/// Histograms of a scene that the test grid has (thesis section 4.1).
+const MOST_CHOICE: u64 = 5;
 
 /// How a network is trained.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -72,6 +76,8 @@ pub struct Finish {
     pub epochs: u64,
     /// Histograms, drawn for the end.
     pub samples: u64,
+    /// Histograms of each scene of the test grid that the best block is chosen by, drawn for that.
+    pub choice: u64,
     /// Least ratio of an error to the mean that counts.
     pub least: f64,
     /// Largest ratio that counts.
@@ -84,25 +90,26 @@ impl Default for Recipe {
     fn default() -> Self {
         let stage = |candidates, epochs, samples| Stage { candidates, epochs, samples };
         Recipe {
-            neurons: 8,
+            neurons: NEURONS,
             checkpoint_epochs: 20,
             least_gain: 0.0,
             table_noise: 8e-4,
             start: Start { lengths: vec![0.1, 0.3], bias: 1.0, output_m: 0.1 },
             stages: vec![
-                stage(40, 40, 8_000),
-                stage(10, 60, 8_000),
-                stage(4, 120, 24_000),
+                stage(60, 40, 8_000),
+                stage(15, 60, 8_000),
+                stage(5, 120, 24_000),
                 stage(2, 400, 24_000),
             ],
             finish: Finish {
                 candidates: 1,
-                blocks: 5,
+                blocks: 8,
                 epochs: 50,
                 samples: 60_000,
+                choice: 5,
                 least: 0.7,
                 most: 1.5,
-                power: 0.7,
+                power: 0.5,
             },
             weighting: Weighting::default(),
             limits: Limits::default(),
@@ -121,7 +128,7 @@ impl Recipe {
                 Stage { candidates: 4, epochs: 6, samples: 603 },
                 Stage { candidates: 2, epochs: 6, samples: 1005 },
             ],
-            finish: Finish { blocks: 2, epochs: 5, samples: 2010, ..recipe.finish },
+            finish: Finish { blocks: 2, epochs: 5, samples: 2010, choice: 1, ..recipe.finish },
             ..recipe
         }
     }
@@ -165,8 +172,10 @@ impl Recipe {
             false => Err(fault(field, value, format!("expected {least} or more"))),
         };
         at_least("neurons", self.neurons as u64, 1)?;
-        if self.neurons > 64 {
-            return Err(fault("neurons", self.neurons, "expected 64 at most").into());
+        if self.neurons > MOST_NEURONS {
+            let expected =
+                format!("expected {MOST_NEURONS} at most, as the firmware has ports for");
+            return Err(fault("neurons", self.neurons, expected).into());
         }
         at_least("checkpoint_epochs", self.checkpoint_epochs, 1)?;
         if self.stages.is_empty() {
@@ -195,6 +204,10 @@ impl Recipe {
             before = stage.candidates;
         }
         at_least("finish.blocks", finish.blocks as u64, 1)?;
+        if !(1..=MOST_CHOICE).contains(&finish.choice) {
+            let expected = format!("expected 1 to {MOST_CHOICE}");
+            return Err(fault("finish.choice", finish.choice, expected).into());
+        }
         for (field, value) in [
             ("finish.least", finish.least),
             ("finish.most", finish.most),
@@ -279,6 +292,7 @@ mod tests {
         assert!(fault("", &["limits.b3=1"]).starts_with("--with limits.b3=1: unknown field"));
         assert!(fault("", &["neurons"]).contains("expected key=value"));
         assert!(fault("", &["neurons=0"]).contains("neurons = 0: expected 1 or more"));
+        assert!(fault("", &["finish.choice=6"]).contains("finish.choice = 6: expected 1 to 5"));
         assert!(fault("", &["finish.samples=5"]).contains("finish.samples = 5: expected 201"));
         assert!(fault("", &["finish.candidates=9"]).contains("expected 2 at most"));
         assert!(fault("", &["optimiser.mu=nan"]).contains("optimiser.mu = NaN"));
@@ -288,7 +302,7 @@ mod tests {
     #[test]
     fn settings_have_dotted_keys() {
         let settings = Recipe::default().settings().unwrap();
-        assert!(settings.contains(&("finish.blocks".to_owned(), "5".to_owned())));
+        assert!(settings.contains(&("finish.blocks".to_owned(), "8".to_owned())));
         assert!(settings.contains(&("optimiser.mu".to_owned(), "0.001".to_owned())));
     }
 }

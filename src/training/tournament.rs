@@ -8,11 +8,14 @@ use rayon::prelude::*;
 
 use crate::dataset::{Grid, Source};
 use crate::error::Result;
+use crate::network::estimate;
+use crate::network::float::Float;
+use crate::network::formats::{Fixed, Overflow};
 
-use super::accuracy::{Row, by_distance, worst_ratio};
+use super::accuracy::{Row, by_distance, worst};
 use super::data::{StageData, draw};
 use super::features::Scaling;
-use super::fold::Folded;
+use super::fold::fold;
 use super::lm::{Lm, Problem, Stop};
 use super::network_problem::NetworkProblem;
 use super::recipe::{Recipe, Stage};
@@ -56,7 +59,7 @@ impl<'a> Tournament<'a> {
             best: None,
             curve: Vec::new(),
         };
-        let choice = choice_samples(source, seed)?;
+        let choice = choice_samples(recipe, source, seed)?;
         Ok(Tournament { recipe, source, seed, state, data, choice })
     }
 
@@ -67,7 +70,7 @@ impl<'a> Tournament<'a> {
     pub fn resume(recipe: &'a Recipe, source: &'a Source, seed: u64, state: State) -> Result<Self> {
         let samples = stage_samples(recipe, source, seed, state.stage)?;
         let data = StageData::new(&samples, &state.scaling);
-        let choice = choice_samples(source, seed)?;
+        let choice = choice_samples(recipe, source, seed)?;
         Ok(Tournament { recipe, source, seed, state, data, choice })
     }
 
@@ -230,14 +233,14 @@ impl<'a> Tournament<'a> {
         }
     }
 
-    /// Keeps the block if none was better over all distances, in fixed point.
+    /// Keeps the block if none was better at its worst distance, in fixed point.
     fn judge(&mut self) {
         for candidate in &self.state.candidates {
-            let folded = Folded::new(&candidate.lm.x, self.recipe.neurons, &self.state.scaling);
+            let folded = fold(&candidate.lm.x, self.recipe.neurons, &self.state.scaling);
             // What does not fit the words cannot be the best.
-            let Ok(words) = folded.round() else { continue };
-            let rows = by_distance(&self.choice, |histogram| words.depth_m(histogram));
-            let ratio = worst_ratio(&rows, &self.recipe.weighting);
+            let Ok(rounded) = folded.round("", Overflow::Refuse) else { continue };
+            let rows = errors(&rounded.fixed, &self.choice);
+            let ratio = worst(&rows, &self.recipe.weighting);
             if self.state.best.as_ref().is_none_or(|best| ratio < best.ratio) {
                 let (start, block) = (candidate.start, self.state.block + 1);
                 self.state.best = Some(Best { start, block, ratio, x: candidate.lm.x.clone() });
@@ -246,22 +249,28 @@ impl<'a> Tournament<'a> {
     }
 
     /// The network to keep: the best block, or the best candidate if none fits the words.
-    pub fn result(&self) -> Folded<f64> {
+    pub fn result(&self) -> Float {
         let best = self.state.best.as_ref().map(|best| &best.x);
         let x = best.unwrap_or(&self.state.candidates[0].lm.x);
-        Folded::new(x, self.recipe.neurons, &self.state.scaling)
+        fold(x, self.recipe.neurons, &self.state.scaling)
     }
 
     /// Errors of words on histograms that neither training nor choice has seen, one a scene.
     ///
     /// # Errors
     /// When no data can be drawn.
-    pub fn test(&self, words: &Folded<i64>) -> Result<Vec<Row>> {
+    pub fn test(&self, words: &Fixed) -> Result<Vec<Row>> {
         let grid = Grid::test();
         let len = grid.distances_m.count * grid.lights();
         let samples = draw(self.source, grid, len, self.seed, Purpose::Test)?;
-        Ok(by_distance(&samples, |histogram| words.depth_m(histogram)))
+        Ok(errors(words, &samples))
     }
+}
+
+/// Errors by distance, bit for bit those of the firmware.
+fn errors(words: &Fixed, samples: &Samples) -> Vec<Row> {
+    let params = words.params();
+    by_distance(samples, |histogram| estimate(&params, histogram).depth.to_f64())
 }
 
 /// Weights of all samples. They are ordered by distance, each distance with a factor.
@@ -283,8 +292,9 @@ fn stage_samples(recipe: &Recipe, source: &Source, seed: u64, stage: usize) -> R
     draw(source, Grid::training(), samples, seed, Purpose::Stage(stage))
 }
 
-/// Histograms that the best block is chosen by, one for each scene of the test grid.
-fn choice_samples(source: &Source, seed: u64) -> Result<Samples> {
+/// Histograms that the best block is chosen by, so many for each scene of the test grid.
+fn choice_samples(recipe: &Recipe, source: &Source, seed: u64) -> Result<Samples> {
     let grid = Grid::test();
-    draw(source, grid, grid.distances_m.count * grid.lights(), seed, Purpose::Choice)
+    let scenes = grid.distances_m.count * grid.lights();
+    draw(source, grid, recipe.finish.choice * scenes, seed, Purpose::Choice)
 }

@@ -12,6 +12,8 @@ pub struct Weighting {
     pub distances_m: Vec<f64>,
     /// Twice the standard deviation of the depth to stay below at each [mm].
     pub two_sd_mm: Vec<f64>,
+    /// Mean error to stay below at any distance; decides between the blocks of the end [mm].
+    pub mean_mm: f64,
     /// Extra weight at the nearest distance [1].
     pub near: f64,
     /// Extra weight at the farthest distance [1].
@@ -26,6 +28,7 @@ impl Default for Weighting {
         Weighting {
             distances_m: vec![0.1, 0.2, 0.3, 0.4, 0.5, 0.6],
             two_sd_mm: vec![1.6, 2.8, 3.3, 2.9, 3.5, 4.9],
+            mean_mm: 1.0,
             near: 0.5,
             far: 2.5,
             reach_m: 0.006,
@@ -47,8 +50,9 @@ impl Weighting {
         }
         let extra = [self.near, self.far];
         let above_0 = |x: &f64| *x > 0.0 && x.is_finite();
-        if !self.two_sd_mm.iter().all(above_0) || !above_0(&self.reach_m) {
-            return fault("two_sd_mm", "expected numbers above 0, and so for reach_m");
+        if !self.two_sd_mm.iter().all(above_0) || ![self.reach_m, self.mean_mm].iter().all(above_0)
+        {
+            return fault("two_sd_mm", "expected numbers above 0, and so for reach_m and mean_mm");
         }
         match extra.iter().all(|extra| *extra >= 0.0 && extra.is_finite()) {
             true => Ok(()),

@@ -41,9 +41,9 @@ impl BlockMap {
     }
 
     /// The ports that their module has to have.
-    pub(super) fn wanted(&self, spec: &Spec, found: &Ports) -> Vec<Port> {
+    pub(super) fn wanted(&self, spec: &Spec, neurons: usize, found: &Ports) -> Vec<Port> {
         let mut wanted = Vec::new();
-        for port in spec.ports() {
+        for port in spec.ports(neurons) {
             let theirs = self.theirs(&port.name);
             let optional = self.ignore.contains(&port.name) && !found.contains_key(theirs);
             if !optional && !self.is_made(&port.name) {
@@ -76,7 +76,7 @@ impl BlockMap {
         bench.delays.clone_from(&self.latency);
         bench.ignored.extend(self.ignore.iter().cloned());
         bench.valid.clone_from(&self.valid);
-        for port in spec.ports() {
+        for port in spec.ports(bench.vectors().neurons) {
             let width = self.width(spec, &port);
             if width < port.width {
                 bench.bits.insert(port.name, width as usize);
@@ -100,14 +100,15 @@ impl BlockMap {
             let direction = if port.output { "output" } else { "input" };
             format!("    {direction} wire {}{}", range(port.width), port.name)
         };
-        let ports: Vec<_> = spec.ports().iter().map(declare).collect();
+        let neurons = bench.vectors().neurons;
+        let ports: Vec<_> = spec.ports(neurons).iter().map(declare).collect();
         let mut text = format!(
             "`timescale 1ps/1fs\n`default_nettype none\n\nmodule {} {parameters}(\n{}\n);\n",
             bench.module,
             ports.join(",\n"),
         );
         let mut connected = Vec::new();
-        for port in spec.ports() {
+        for port in spec.ports(neurons) {
             let theirs = self.theirs(&port.name);
             if self.is_made(&port.name) {
                 continue;

@@ -67,8 +67,8 @@ impl Check<'_> {
         let module = self.map.map_or(spec.name, |map| map.module(spec.name));
         let found = self.simulator.ports(work, module, self.rtl, &self.limits)?;
         let wanted = match self.map {
-            Some(map) => map.wanted(spec, &found),
-            None => spec.ports(),
+            Some(map) => map.wanted(spec, setting.neurons(), &found),
+            None => spec.ports(setting.neurons()),
         };
         interface::check(&self.rtl.source, module, &wanted, &found)?;
 

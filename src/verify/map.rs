@@ -118,7 +118,7 @@ fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> 
 impl BlockMap {
     /// Whether everything that is named exists in our block.
     fn check(&self, spec: &Spec, fault: &dyn Fn(&str, String) -> Input) -> Result<()> {
-        let ports = spec.ports();
+        let ports = spec.ports(crate::firmware::forward2::MOST_NEURONS);
         let known = |name: &str, outputs: bool| {
             ports.iter().any(|port| port.name == name && (port.output || !outputs))
         };

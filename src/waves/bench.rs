@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::Waves;
 use crate::firmware::carry_chain::{Delays, StopLine, TAPS};
+use crate::firmware::forward2::{MOST_NEURONS, NEURONS};
 use crate::firmware::tof_top::{CodeSource, HistogramSource, Params, Pins, TofTop};
 use crate::firmware::{depth_estimator, forward2, frame_ctrl, tdc};
 use crate::kernel::{S, Time, U};
@@ -20,7 +21,10 @@ pub(super) fn params() -> Params {
 pub(super) fn with_delays(taps: &[i64]) -> Params {
     let delays = Delays::new(Time::from_fs(2_230_000), taps).unwrap();
     let cal = delays.calibration(Time::from_ns(8));
-    let weight = |row: usize, neuron: usize| S::new((row * 37 + neuron * 911) as i64 % 4001 - 2000);
+    let weight = |row: usize, neuron: usize| match neuron < NEURONS {
+        true => S::new((row * 37 + neuron * 911) as i64 % 4001 - 2000),
+        false => S::new(0),
+    };
     let rom = std::array::from_fn(|row| std::array::from_fn(|neuron| weight(row, neuron)));
     let tansig = std::array::from_fn(|address| S::new((address as i64 - 2048) * 8));
     Params {
@@ -29,7 +33,11 @@ pub(super) fn with_delays(taps: &[i64]) -> Params {
         depth_estimator: depth_estimator::Params {
             forward1: Arc::new(rom),
             tansig: Arc::new(tansig),
-            forward2: forward2::Rom { w2: [S::new(9000); 8], b2: S::new(700) },
+            forward2: forward2::Rom {
+                neurons: NEURONS,
+                w2: [S::new(9000); MOST_NEURONS],
+                b2: S::new(700),
+            },
         },
         code_source: CodeSource::Tdc,
         histogram_source: HistogramSource::Builder,

@@ -10,6 +10,7 @@ use super::readback::{DerefIn, FORMATS, FRAME, assert_same, at, contents, create
 use super::*;
 use crate::firmware::carry_chain::TAPS;
 use crate::firmware::depth_estimator;
+use crate::firmware::forward2::MOST_NEURONS;
 use crate::firmware::tof_top::{CodeSource, HistogramSource, Pins};
 use crate::hierarchy::{entries, ram_entries};
 use crate::kernel::{Thermometer, U};
@@ -135,6 +136,7 @@ fn every_input_port_has_an_entry() {
     let mut params = params();
     let rom = Box::new([U::new(0); 256]);
     let mut paths: BTreeSet<_> = entries(&params).iter().map(Entry::path).collect();
+    params.depth_estimator.forward2.neurons = MOST_NEURONS;
     params.code_source = CodeSource::Preload(Box::new([U::new(0)]));
     params.histogram_source = HistogramSource::Preload(rom);
     paths.extend(entries(&params).iter().map(Entry::path));

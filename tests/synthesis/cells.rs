@@ -36,9 +36,14 @@ const NAMED: &[&str] = &["PLLE2", "ODDR", "OBUFDS", "IBUFDS"];
 impl Cells {
     /// Synthesises a module for the 7 series.
     pub fn of(sources: &Sources, top: &str) -> Self {
+        Self::with(sources, top, "")
+    }
+
+    /// The same after a command of Yosys.
+    pub fn with(sources: &Sources, top: &str, command: &str) -> Self {
         let sources = yosys::needed(sources, top);
         let script = format!(
-            "read_verilog {}\nsynth_xilinx -family xc7 -top {top} -flatten\n\
+            "read_verilog {}\n{command}\nsynth_xilinx -family xc7 -top {top} -flatten\n\
              tee -q -o stat.json stat -json\n\
              tee -q -o chain.txt select -count t:CARRY4 c:*carry_chain.slice* %i\n",
             yosys::paths(yosys::modules(&sources)),

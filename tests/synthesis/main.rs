@@ -13,6 +13,8 @@ mod yosys;
 use std::collections::BTreeMap;
 use std::fs;
 
+use tofsim::network::datapath::Datapath;
+use tofsim::network::{Network, mem};
 use tofsim::verify::Verdict;
 
 use cells::{Cells, table};
@@ -75,6 +77,20 @@ fn every_block_synthesises_to_the_primitives_it_should() {
         // Each version of Yosys comes to other numbers of LUTs; the primitives above hold for all.
         eprintln!("the table in docs/resources.md is another version's than {maker}'s");
     }
+}
+
+#[test]
+fn sixteen_neurons_take_seventeen_multipliers() {
+    let mut sources = yosys::rtl_ref();
+    let network = Network::builtin("uniform-16").unwrap().unwrap();
+    for rom in mem::depth_estimator(&network.params()) {
+        sources.insert(rom.name.to_owned(), rom.text);
+    }
+    let command = "chparam -set Neurons 16 depth_estimator";
+    let cells = Cells::with(&sources, "depth_estimator", command);
+    assert!(cells.odd().is_empty(), "{:?}", cells.odd());
+    assert_eq!(cells.count("DSP48E1"), 16 + 1);
+    assert_eq!(cells.count("RAMB36E1"), Datapath::default().cost(16).ramb36.into());
 }
 
 #[test]

@@ -20,7 +20,7 @@ pub(super) const SPEC: Spec = Spec {
     timing: CLK_125,
     reset: None,
     fast: &[],
-    latency: &[Latency { from: "tdc_stop", to: "taps", cycles: 0 }],
+    latency: &[Latency { from: "tdc_stop", to: "taps", cycles: |_| 0 }],
     glue: None,
     record: |spec, setting| record(spec, setting, CarryChain::new(setting)),
 };

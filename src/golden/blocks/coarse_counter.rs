@@ -15,7 +15,7 @@ pub(super) const SPEC: Spec = Spec {
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],
-    latency: &[Latency { from: "start", to: "window", cycles: 0 }],
+    latency: &[Latency { from: "start", to: "window", cycles: |_| 0 }],
     glue: None,
     record: |spec, setting| record(spec, setting, CoarseCounter::new()),
 };

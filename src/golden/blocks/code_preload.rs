@@ -23,7 +23,7 @@ pub(super) const SPEC: Spec = Spec {
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],
-    latency: &[Latency { from: "start", to: "tdc_valid", cycles: 1 }],
+    latency: &[Latency { from: "start", to: "tdc_valid", cycles: |_| 1 }],
     glue: None,
     record: |spec, setting| record(spec, setting, CodePreload::new(setting)),
 };

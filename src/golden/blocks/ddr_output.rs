@@ -14,7 +14,7 @@ pub(super) const SPEC: Spec = Spec {
     timing: CLK_250,
     reset: None,
     fast: &["q"],
-    latency: &[Latency { from: "d", to: "q", cycles: 0 }],
+    latency: &[Latency { from: "d", to: "q", cycles: |_| 0 }],
     glue: None,
     record: |spec, setting| record(spec, setting, DdrOutput::new()),
 };

@@ -1,9 +1,9 @@
 //! Whole estimations with starts while busy in every phase, and estimations cut short by a reset in
 //! every third phase and in all about a change of layer; the seed says which third.
 
-use crate::firmware::estimator_ctrl::{DONE, In};
+use crate::firmware::estimator_ctrl::{In, done};
 use crate::firmware::tof_top::TofTop;
-use crate::golden::block::{Block, Latency, Setting, Spec};
+use crate::golden::block::{Block, Latency, Parameter, Setting, Spec, neurons};
 use crate::golden::cover::Cover;
 use crate::golden::draw::Draw;
 use crate::golden::record::record;
@@ -20,14 +20,15 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     fast: &[],
     latency: &[
-        Latency { from: "algo_start", to: "read_en", cycles: 0 },
-        Latency { from: "algo_start", to: "algo_done", cycles: DONE },
+        Latency { from: "algo_start", to: "read_en", cycles: |_| 0 },
+        Latency { from: "algo_start", to: "algo_done", cycles: done },
     ],
     glue: None,
     record: |spec, setting| record(spec, setting, EstimatorCtrl::new(setting)),
 };
 
 struct EstimatorCtrl {
+    neurons: usize,
     /// Phases to reset in, the next one last.
     cuts: Vec<u64>,
     /// Where this estimation is cut, if it is.
@@ -43,11 +44,13 @@ impl EstimatorCtrl {
     fn new(setting: &Setting) -> Self {
         let third = setting.seed % 3;
         let is_cut = |phase: &u64| phase % 3 == third || *phase == 0 || *phase > LAYERS;
-        let cuts: Vec<_> = (0..=DONE).filter(is_cut).collect();
+        let neurons = setting.neurons();
+        let cuts: Vec<_> = (0..=done(neurons)).filter(is_cut).collect();
         EstimatorCtrl {
+            neurons,
             cut: None,
             runs: 0,
-            starts: Cover::new("start in cycle after e0", 0..=DONE),
+            starts: Cover::new("start in cycle after e0", 0..=done(neurons)),
             resets: Cover::new("reset in cycle after e0", cuts.iter().copied()),
             idle: Cover::new("rst x 2 + algo_start while idle", 0..4),
             cuts,
@@ -75,7 +78,7 @@ impl Block for EstimatorCtrl {
             }
             None => self.idle.see(u64::from(i.rst) * 2 + u64::from(i.algo_start)),
         }
-        if i.algo_start && !i.rst && phase.is_none_or(|phase| phase == DONE) {
+        if i.algo_start && !i.rst && phase.is_none_or(|phase| phase == done(self.neurons)) {
             self.runs += 1;
             self.cut = if self.runs > 4 && !draw.one_in(20) { self.cuts.pop() } else { None };
         }
@@ -84,7 +87,11 @@ impl Block for EstimatorCtrl {
 
     fn edge(&mut self, i: &In, top: &mut TofTop) {
         let ctrl = &mut top.depth_estimator.estimator_ctrl;
-        *ctrl = ctrl.next(i, &());
+        *ctrl = ctrl.next(i, &self.neurons);
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+        neurons(self.neurons).into_iter().collect()
     }
 
     fn coverage(self) -> Vec<Cover> {

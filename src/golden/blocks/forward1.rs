@@ -4,9 +4,8 @@
 use std::sync::Arc;
 
 use crate::firmware::forward1::{BIAS_ROW, In, Rom};
-use crate::firmware::forward2::NEURONS;
 use crate::firmware::tof_top::TofTop;
-use crate::golden::block::{Block, Latency, Parameter, Setting, Spec};
+use crate::golden::block::{Block, Latency, Parameter, Setting, Spec, neurons};
 use crate::golden::cover::Cover;
 use crate::golden::draw::Draw;
 use crate::golden::record::record;
@@ -28,8 +27,8 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     fast: &[],
     latency: &[
-        Latency { from: "count", to: "l1_in_0", cycles: 0 },
-        Latency { from: "rom_addr", to: "l1_in_0", cycles: 1 },
+        Latency { from: "count", to: "l1_in_0", cycles: |_| 0 },
+        Latency { from: "rom_addr", to: "l1_in_0", cycles: |_| 1 },
     ],
     glue: None,
     record: |spec, setting| record(spec, setting, Forward1::new(setting)),
@@ -37,6 +36,7 @@ pub(super) const SPEC: Spec = Spec {
 
 struct Forward1 {
     rom: Arc<Rom>,
+    neurons: usize,
     /// Row of the strongest weight for each goal of `wraps`.
     strongest: Vec<u64>,
     wraps: Cover,
@@ -54,7 +54,8 @@ impl Forward1 {
         };
         let rows = 0..BIAS_ROW as u64;
         let best = |goal| rows.clone().max_by_key(|&row| pull(goal, row)).unwrap_or_default();
-        let goals = 0..2 * NEURONS as u64;
+        let neurons = setting.neurons();
+        let goals = 0..2 * neurons as u64;
         let strongest: Vec<_> = goals.clone().map(best).collect();
         let feasible =
             |goal: &u64| pull(*goal, strongest[*goal as usize]) * PATIENCE * 65_535 > 2 * WRAP;
@@ -65,6 +66,7 @@ impl Forward1 {
             sequence: Cover::new("words of a whole histogram", 0..=BIAS_ROW as u64),
             strongest,
             rom,
+            neurons,
         }
     }
 }
@@ -131,11 +133,12 @@ impl Block for Forward1 {
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         let file = Parameter::File;
-        vec![("W1File", file("w1.mem")), ("B1File", file("b1.mem"))]
+        let files = [("W1File", file("w1.mem")), ("B1File", file("b1.mem"))];
+        files.into_iter().chain(neurons(self.neurons)).collect()
     }
 
     fn roms(&self) -> Vec<Mem> {
-        mem::forward1(&self.rom).into()
+        mem::forward1(&self.rom, self.neurons).into()
     }
 
     fn coverage(self) -> Vec<Cover> {

@@ -1,9 +1,9 @@
 //! Activations of the whole range in the estimator's order and in any, and one product over and over
 //! until the depth has wrapped both ways; with the scenario's network, but the bias negative.
 
-use crate::firmware::forward2::{In, NEURONS, Rom};
+use crate::firmware::forward2::{In, L1Out, MOST_NEURONS, Rom};
 use crate::firmware::tof_top::TofTop;
-use crate::golden::block::{Block, Latency, Parameter, Setting, Spec};
+use crate::golden::block::{Block, Latency, Parameter, Setting, Spec, neurons};
 use crate::golden::cover::Cover;
 use crate::golden::draw::Draw;
 use crate::golden::record::record;
@@ -22,7 +22,7 @@ pub(super) const SPEC: Spec = Spec {
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],
-    latency: &[Latency { from: "l1_out_0", to: "depth", cycles: 0 }],
+    latency: &[Latency { from: "l1_out_0", to: "depth", cycles: |_| 0 }],
     glue: None,
     record: |spec, setting| record(spec, setting, Forward2::new(setting)),
 };
@@ -31,6 +31,8 @@ struct Forward2 {
     rom: Rom,
     /// Neuron of the strongest weight but the first, which would begin the sum anew.
     strongest: usize,
+    /// Values that `neuron` can have.
+    values: u64,
     /// Neuron of the cycle before, if it was added.
     last: Option<u64>,
     neurons: Cover,
@@ -42,15 +44,26 @@ impl Forward2 {
     fn new(setting: &Setting) -> Self {
         let mut rom = setting.setup.params.depth_estimator.forward2;
         rom.b2 = S::new(-rom.b2.get().abs());
+        let values = (rom.neurons + 2).next_power_of_two() as u64;
         let strength = |neuron: &usize| rom.w2[*neuron].get().abs();
         Forward2 {
-            strongest: (1..NEURONS).max_by_key(strength).unwrap_or(1),
+            strongest: (1..rom.neurons).max_by_key(strength).unwrap_or_default(),
+            values,
             rom,
             last: None,
-            neurons: Cover::new("rst x 32 + forward2_en x 16 + neuron", 0..64),
-            order: Cover::new("neuron from x 16 + to, both enabled", 0..256),
+            neurons: Cover::new("(rst x 2 + forward2_en) x values + neuron", 0..4 * values),
+            order: Cover::new("neuron from x values + to, both enabled", 0..values * values),
             wraps: Cover::new("depth wraps upwards, downwards", 0..2),
         }
+    }
+}
+
+impl Forward2 {
+    /// Activations of all neurons, of every size.
+    fn activations(&self, draw: &mut Draw) -> [L1Out; MOST_NEURONS] {
+        let mut l1_out = [S::new(0); MOST_NEURONS];
+        l1_out[..self.rom.neurons].fill_with(|| draw.signed());
+        l1_out
     }
 }
 
@@ -61,14 +74,15 @@ impl Block for Forward2 {
         let any = In {
             rst: draw.one_in(8),
             forward2_en: !draw.one_in(4),
-            neuron: draw.word(),
-            l1_out: std::array::from_fn(|_| draw.signed()),
+            neuron: U::new(draw.bits() % self.values),
+            l1_out: self.activations(draw),
         };
         let goal = self.wraps.missing().next();
         let i = match (cycle / STRETCH % 4, goal) {
             (1, _) => {
-                let neuron = U::new(cycle as u64 % 12);
-                In { rst: false, forward2_en: neuron.get() < 10, neuron, ..any }
+                let bias = self.rom.neurons as u64;
+                let neuron = U::new((cycle as u64 % (bias + 4)) % self.values);
+                In { rst: false, forward2_en: neuron.get() < bias + 2, neuron, ..any }
             }
             (2 | 3, Some(goal)) => {
                 let up = (self.rom.w2[self.strongest].get() > 0) == (goal == 0);
@@ -79,11 +93,11 @@ impl Block for Forward2 {
             }
             _ => any,
         };
-        let bits = u64::from(i.rst) * 32 + u64::from(i.forward2_en) * 16;
-        self.neurons.see(bits + i.neuron.get());
+        let bits = u64::from(i.rst) * 2 + u64::from(i.forward2_en);
+        self.neurons.see(bits * self.values + i.neuron.get());
         let now = (i.forward2_en && !i.rst).then(|| i.neuron.get());
         if let (Some(last), Some(now)) = (self.last, now) {
-            self.order.see(last * 16 + now);
+            self.order.see(last * self.values + now);
         }
         self.last = now;
         i
@@ -101,7 +115,8 @@ impl Block for Forward2 {
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
         let file = Parameter::File;
-        vec![("W2File", file("w2.mem")), ("B2File", file("b2.mem"))]
+        let files = [("W2File", file("w2.mem")), ("B2File", file("b2.mem"))];
+        files.into_iter().chain(neurons(self.rom.neurons)).collect()
     }
 
     fn roms(&self) -> Vec<Mem> {

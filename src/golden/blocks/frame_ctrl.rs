@@ -23,9 +23,9 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     fast: &[],
     latency: &[
-        Latency { from: "start", to: "acquire", cycles: 0 },
-        Latency { from: "dsp_en", to: "algo_start", cycles: 0 },
-        Latency { from: "algo_done", to: "frame_done", cycles: 0 },
+        Latency { from: "start", to: "acquire", cycles: |_| 0 },
+        Latency { from: "dsp_en", to: "algo_start", cycles: |_| 0 },
+        Latency { from: "algo_done", to: "frame_done", cycles: |_| 0 },
     ],
     glue: None,
     record: |spec, setting| record(spec, setting, FrameCtrl::new(setting)),

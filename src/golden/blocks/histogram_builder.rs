@@ -24,8 +24,8 @@ pub(super) const SPEC: Spec = Spec {
     reset: None,
     fast: &[],
     latency: &[
-        Latency { from: "clear", to: "count", cycles: 0 },
-        Latency { from: "tdc_valid", to: "count", cycles: 0 },
+        Latency { from: "clear", to: "count", cycles: |_| 0 },
+        Latency { from: "tdc_valid", to: "count", cycles: |_| 0 },
     ],
     glue: None,
     record: |spec, setting| {

@@ -16,8 +16,8 @@ pub(super) const SPEC: Spec = Spec {
     reset: None,
     fast: &[],
     latency: &[
-        Latency { from: "rst", to: "rst_sync", cycles: 1 },
-        Latency { from: "locked", to: "rst_sync", cycles: 1 },
+        Latency { from: "rst", to: "rst_sync", cycles: |_| 1 },
+        Latency { from: "locked", to: "rst_sync", cycles: |_| 1 },
     ],
     glue: None,
     record: |spec, setting| record(spec, setting, ResetSync::new()),

@@ -16,7 +16,7 @@ pub(super) const SPEC: Spec = Spec {
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],
-    latency: &[Latency { from: "pre_start", to: "spad_rst", cycles: 0 }],
+    latency: &[Latency { from: "pre_start", to: "spad_rst", cycles: |_| 0 }],
     glue: None,
     record: |spec, setting| record(spec, setting, SpadControl::new()),
 };

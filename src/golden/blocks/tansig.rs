@@ -4,10 +4,10 @@
 use std::sync::Arc;
 
 use crate::firmware::forward1::L1In;
-use crate::firmware::forward2::NEURONS;
+use crate::firmware::forward2::MOST_NEURONS;
 use crate::firmware::tansig::{ENTRIES, In, Rom, address};
 use crate::firmware::tof_top::TofTop;
-use crate::golden::block::{Block, Latency, Parameter, Setting, Spec};
+use crate::golden::block::{Block, Latency, Parameter, Setting, Spec, neurons};
 use crate::golden::cover::Cover;
 use crate::golden::draw::Draw;
 use crate::golden::record::record;
@@ -29,13 +29,14 @@ pub(super) const SPEC: Spec = Spec {
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],
-    latency: &[Latency { from: "l1_in_0", to: "l1_out_0", cycles: 0 }],
+    latency: &[Latency { from: "l1_in_0", to: "l1_out_0", cycles: |_| 0 }],
     glue: None,
     record: |spec, setting| record(spec, setting, Tansig::new(setting)),
 };
 
 struct Tansig {
     rom: Arc<Rom>,
+    neurons: usize,
     /// Lines of the sweep.
     swept: usize,
     lowest: Cover,
@@ -46,15 +47,17 @@ struct Tansig {
 
 impl Tansig {
     fn new(setting: &Setting) -> Self {
-        let cases = NEURONS as u64 * ENTRIES as u64;
+        let neurons = setting.neurons();
+        let cases = neurons as u64 * ENTRIES as u64;
         Tansig {
             rom: setting.setup.params.depth_estimator.tansig.clone(),
+            neurons,
             swept: 0,
             lowest: Cover::new("lowest sum of neuron x 4096 + address", 0..cases),
             highest: Cover::new("highest sum of neuron x 4096 + address", 0..cases),
             beyond: Cover::new(
                 "neuron x 4 + just below, just above, lowest, highest of all",
-                0..NEURONS as u64 * 4,
+                0..neurons as u64 * 4,
             ),
             situations: Cover::new("rst x 2 + tansig_en", 0..4),
         }
@@ -88,14 +91,18 @@ impl Block for Tansig {
 
     fn stimulus(&mut self, _: usize, _: &TofTop, draw: &mut Draw) -> In {
         let (rst, tansig_en, special) = (draw.one_in(32), !draw.one_in(4), draw.one_in(8));
-        let l1_in = std::array::from_fn(|neuron| match (special, draw.below(3)) {
-            (true, 0) => draw.signed(),
-            (true, _) => S::new(BEYOND[draw.below(BEYOND.len() as u64) as usize]),
-            (false, _) => self.sweep(neuron, draw),
-        });
+        let mut l1_in = [S::new(0); MOST_NEURONS];
+        for (neuron, sum) in l1_in[..self.neurons].iter_mut().enumerate() {
+            *sum = match (special, draw.below(3)) {
+                (true, 0) => draw.signed(),
+                (true, _) => S::new(BEYOND[draw.below(BEYOND.len() as u64) as usize]),
+                (false, _) => self.sweep(neuron, draw),
+            };
+        }
         self.situations.see(u64::from(rst) * 2 + u64::from(tansig_en));
         if tansig_en && !rst {
-            l1_in.iter().enumerate().for_each(|(neuron, sum)| self.see(neuron, *sum));
+            let sums = l1_in[..self.neurons].iter().enumerate();
+            sums.for_each(|(neuron, sum)| self.see(neuron, *sum));
             self.swept += usize::from(!special);
         }
         In { rst, tansig_en, l1_in }
@@ -107,7 +114,8 @@ impl Block for Tansig {
     }
 
     fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        vec![("TansigFile", Parameter::File("tansig.mem"))]
+        let file = ("TansigFile", Parameter::File("tansig.mem"));
+        [file].into_iter().chain(neurons(self.neurons)).collect()
     }
 
     fn roms(&self) -> Vec<Mem> {

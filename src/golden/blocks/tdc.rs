@@ -28,8 +28,8 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     fast: &[],
     latency: &[
-        Latency { from: "tdc_stop", to: "tdc_valid", cycles: 3 },
-        Latency { from: "tdc_stop", to: "tdc_code", cycles: 3 },
+        Latency { from: "tdc_stop", to: "tdc_valid", cycles: |_| 3 },
+        Latency { from: "tdc_stop", to: "tdc_code", cycles: |_| 3 },
     ],
     glue: None,
     record: |spec, setting| record(spec, setting, Tdc::new(setting)),

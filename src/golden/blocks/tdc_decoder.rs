@@ -24,8 +24,8 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     fast: &[],
     latency: &[
-        Latency { from: "hit", to: "tdc_valid", cycles: 1 },
-        Latency { from: "hit_taps", to: "tdc_code", cycles: 1 },
+        Latency { from: "hit", to: "tdc_valid", cycles: |_| 1 },
+        Latency { from: "hit_taps", to: "tdc_code", cycles: |_| 1 },
     ],
     glue: None,
     record: |spec, setting| record(spec, setting, TdcDecoder::new(setting)),

@@ -18,9 +18,9 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     fast: &[],
     latency: &[
-        Latency { from: "taps", to: "hit", cycles: 0 },
-        Latency { from: "taps", to: "hit_taps", cycles: 0 },
-        Latency { from: "coarse", to: "hit_coarse", cycles: 0 },
+        Latency { from: "taps", to: "hit", cycles: |_| 0 },
+        Latency { from: "taps", to: "hit_taps", cycles: |_| 0 },
+        Latency { from: "coarse", to: "hit_coarse", cycles: |_| 0 },
     ],
     glue: None,
     record: |spec, setting| record(spec, setting, TdcLatch::new(setting)),

@@ -15,7 +15,7 @@ pub(super) const SPEC: Spec = Spec {
     timing: BOTH,
     reset: Some("rst"),
     fast: &["laser_on", "laser_pulse", "ddr_output.q"],
-    latency: &[Latency { from: "acquire", to: "start", cycles: 5 }],
+    latency: &[Latency { from: "acquire", to: "start", cycles: |_| 5 }],
     glue: None,
     record: |spec, setting| record(spec, setting, VcselDriver::new()),
 };

@@ -7,6 +7,11 @@ module bench_estimator;
     reg clk_125 = 1'b0, rst = 1'b1, algo_start = 1'b0;
     wire algo_done, ctrl_done, forward1_en, tansig_en, forward2_en;
 
+`ifdef NEURONS
+    defparam depth_estimator.Neurons = `NEURONS;
+    defparam estimator_ctrl.Neurons = `NEURONS;
+`endif
+
     depth_estimator depth_estimator (
         .clk_125(clk_125),
         .rst(rst),

@@ -6,11 +6,20 @@
 // Cycle ek is the k-th after the edge e0 that takes a start. The registers of estimator_ctrl are
 // joined to the wires of their names when Yosys flattens (hierconn); they make the induction go
 // through without unrolling an estimation.
+//
+// A design with the default number of neurons need not have a parameter for it.
+`ifdef NEURONS
+`define PARAMETERS #(.Neurons(`NEURONS))
+`else
+`define NEURONS 8
+`define PARAMETERS
+`endif
+
 module check_estimator #(
-    parameter Latency = 267,   // cycle of algo_done
-    parameter Forward1 = 257,  // cycles of forward1_en, from e0 on
-    parameter Tansig = 1,      // cycles of tansig_en, from e257 on
-    parameter Forward2 = 10    // cycles of forward2_en, the last of them with algo_done
+    parameter Latency = 259 + `NEURONS,  // cycle of algo_done
+    parameter Forward1 = 257,            // cycles of forward1_en, from e0 on
+    parameter Tansig = 1,                // cycles of tansig_en, from e257 on
+    parameter Forward2 = 2 + `NEURONS    // cycles of forward2_en, the last of them with algo_done
 ) (
     input wire clk_125,
     input wire rst,
@@ -24,7 +33,7 @@ module check_estimator #(
     (* hierconn *) wire \dut.estimator_ctrl.tansig_en ;
     (* hierconn *) wire \dut.estimator_ctrl.forward2_en ;
 
-    depth_estimator dut (
+    depth_estimator `PARAMETERS dut (
         .clk_125(clk_125),
         .rst(rst),
         .algo_start(algo_start),

@@ -14,7 +14,7 @@ fn fault(key: &str, edits: &[Edit], seen: u64) {
 #[test]
 fn a_fault_of_the_estimator_is_counted_and_not_proven() {
     let control = |from, to| [["estimator_ctrl.v", from, to]];
-    fault("latency", &control("Bias2 = 9'd266", "Bias2 = 9'd265"), 266);
+    fault("latency", &control("{4'd0, Neurons};", "{4'd0, Neurons} - 9'd1;"), 266);
     fault("forward1_cycles", &control("<= Bias1;", "< Bias1;"), 256);
     fault("tansig_cycles", &control("== Tansig;", ">= Tansig;"), 10);
     fault("forward2_cycles", &control(">= Neuron0)", "> Neuron0)"), 9);

@@ -56,19 +56,20 @@ impl Count {
     }
 }
 
-/// Counts and proves everything; `limits` are those of one run of a tool.
+/// Counts and proves everything for an estimator with so many neurons; `limits` are those of one run of
+/// a tool.
 ///
 /// # Errors
 /// When a tool is missing, Icarus Verilog cannot compile `rtl` with our bench (a module or a port
 /// is missing), the simulation does not end, or the user stops.
-pub fn cycle_counts(rtl: &Rtl, limits: &Limits) -> Result<Vec<Count>> {
-    count(&rows::rows(), rtl, limits)
+pub fn cycle_counts(rtl: &Rtl, neurons: usize, limits: &Limits) -> Result<Vec<Count>> {
+    count(&rows::rows(neurons), neurons, rtl, limits)
 }
 
-fn count(rows: &[Row], rtl: &Rtl, limits: &Limits) -> Result<Vec<Count>> {
+fn count(rows: &[Row], neurons: usize, rtl: &Rtl, limits: &Limits) -> Result<Vec<Count>> {
     let folder = tempfile::tempdir().map_err(Error::io(&std::env::temp_dir(), "create"))?;
-    let simulated = simulate::seen(rtl, folder.path(), limits)?;
-    let modelled = model::seen();
+    let simulated = simulate::seen(rtl, neurons, folder.path(), limits)?;
+    let modelled = model::seen(neurons);
     rows.iter()
         .map(|row| {
             let key = row.key();

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::firmware::depth_estimator::{self, DepthEstimator, Params};
 use crate::firmware::forward1::BIAS_ROW;
-use crate::firmware::forward2::{NEURONS, Rom};
+use crate::firmware::forward2::{MOST_NEURONS, Rom};
 use crate::firmware::spad_control::{self, SpadControl};
 use crate::firmware::vcsel_driver::{self, PERIODS, VcselDriver};
 use crate::kernel::{Clocked, S, U};
@@ -17,10 +17,10 @@ const HALF: u64 = 2000;
 /// Cycles after which an estimation or five shots must be over.
 const PATIENCE: u64 = 1000;
 
-/// Everything that the benches print.
-pub fn seen() -> Seen {
+/// Everything that the benches print, of an estimator with so many neurons.
+pub fn seen(neurons: usize) -> Seen {
     let mut seen = Seen::default();
-    estimator(&mut seen);
+    estimator(neurons, &mut seen);
     for mode in [false, true] {
         (0..PERIODS.len()).for_each(|code| shots(mode, code as u64, &mut seen));
     }
@@ -28,11 +28,11 @@ pub fn seen() -> Seen {
 }
 
 /// Counts with a start while it is idle, and with a held one that is taken again with `algo_done`.
-fn estimator(seen: &mut Seen) {
+fn estimator(neurons: usize, seen: &mut Seen) {
     let params = Params {
-        forward1: Arc::new([[S::new(0); NEURONS]; BIAS_ROW + 1]),
+        forward1: Arc::new([[S::new(0); MOST_NEURONS]; BIAS_ROW + 1]),
         tansig: tansig_table(),
-        forward2: Rom { w2: [S::new(0); NEURONS], b2: S::new(0) },
+        forward2: Rom { neurons, w2: [S::new(0); MOST_NEURONS], b2: S::new(0) },
     };
     let mut estimator = DepthEstimator::default();
     let mut edge = |algo_start| {

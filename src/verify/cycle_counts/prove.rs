@@ -67,9 +67,11 @@ fn script(row: &Row, number: u64) -> String {
     let Row { check, property, parameter, .. } = row;
     let module = check.module;
     let code = row.code.map_or(String::new(), |code| format!("-chparam Code {code}"));
+    let define =
+        row.define.as_ref().map_or(String::new(), |[name, value]| format!(" -D{name}={value}"));
     let mut lines: Vec<_> = check.open.iter().map(|open| format!("delete *{open}")).collect();
     lines.extend([
-        format!("read_verilog -sv -formal -DHOLDS={property} {module}.sv"),
+        format!("read_verilog -sv -formal -DHOLDS={property}{define} {module}.sv"),
         format!("hierarchy -top {module} -chparam {parameter} {number} {code}"),
         "proc; flatten".to_owned(),
     ]);

@@ -1,5 +1,7 @@
 //! What is promised, and which property in which Verilog says so.
 
+use crate::firmware::forward2::NEURONS;
+
 /// A Verilog module with properties of some modules of the design.
 #[derive(Debug)]
 pub struct Check {
@@ -56,6 +58,8 @@ pub struct Row {
     pub parameter: &'static str,
     /// The laser's code that it is about.
     pub code: Option<usize>,
+    /// Macro to set.
+    pub define: Option<[String; 2]>,
     /// Registers without which there is no proof, by their paths in the check's `dut`.
     pub registers: &'static [&'static str],
 }
@@ -75,6 +79,7 @@ impl Row {
             property,
             parameter: "Expected",
             code: None,
+            define: None,
             registers: &[],
         }
     }
@@ -88,11 +93,18 @@ impl Row {
     }
 }
 
-/// Everything that is promised.
-pub fn rows() -> Vec<Row> {
+/// The macro that sets the number of neurons, where it is not the default: another design need not
+/// have that parameter.
+pub fn define(neurons: usize) -> Option<[String; 2]> {
+    (neurons != NEURONS).then(|| ["NEURONS".to_owned(), neurons.to_string()])
+}
+
+/// Everything that is promised of a design whose estimator has so many neurons.
+pub fn rows(neurons: usize) -> Vec<Row> {
     let estimator = |property, expected, parameter, registers, what| Row {
         parameter,
         registers,
+        define: define(neurons),
         ..Row::new(&ESTIMATOR, property, expected, what)
     };
     let shot = |property, expected, what| Row::new(&SHOT, property, expected, what);
@@ -104,7 +116,7 @@ pub fn rows() -> Vec<Row> {
     let mut rows = vec![
         estimator(
             "latency",
-            267,
+            259 + neurons as u64,
             "Latency",
             &["estimator_ctrl.busy", "estimator_ctrl.step"],
             "estimator: algo_start taken to algo_done",
@@ -113,7 +125,7 @@ pub fn rows() -> Vec<Row> {
         estimator("tansig_cycles", 1, "Tansig", tansig, "estimator: tansig_en high"),
         estimator(
             "forward2_cycles",
-            10,
+            2 + neurons as u64,
             "Forward2",
             forward2,
             "estimator: forward2_en high, to algo_done",

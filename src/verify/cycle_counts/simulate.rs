@@ -8,6 +8,7 @@ use crate::output::write_file;
 use crate::verify::process::Limits;
 use crate::verify::{Rtl, Simulator};
 
+use super::rows::define;
 use super::seen::Seen;
 
 /// The benches: name of the module, which is the file's stem, and text.
@@ -16,16 +17,18 @@ const BENCHES: [(&str, &str); 2] = [
     ("bench_shot", include_str!("bench_shot.v")),
 ];
 
-/// Runs the benches on `rtl`.
+/// Runs the benches on `rtl`, whose estimator is to have so many neurons.
 ///
 /// # Errors
 /// When a tool is missing, the Verilog cannot be compiled with a bench, the simulation does not
 /// end, `folder` cannot be written, or the user stops.
-pub fn seen(rtl: &Rtl, folder: &Path, limits: &Limits) -> Result<Seen> {
+pub fn seen(rtl: &Rtl, neurons: usize, folder: &Path, limits: &Limits) -> Result<Seen> {
     let mut seen = Seen::default();
     for (name, text) in BENCHES {
         let bench = format!("{name}.v");
-        write_file(&folder.join(&bench), |file| file.write_all(text.as_bytes()))?;
+        let define = define(neurons)
+            .map_or(String::new(), |[name, value]| format!("`define {name} {value}\n"));
+        write_file(&folder.join(&bench), |file| write!(file, "{define}{text}"))?;
         let bench = [folder.join(bench)];
         let compiled = Simulator::Icarus.compile(folder, name, &bench, rtl, false, limits)?;
         let run = compiled.run(None, limits)?;

@@ -4,6 +4,7 @@ use std::fs;
 use std::time::Duration;
 
 use super::*;
+use crate::firmware::forward2::NEURONS;
 
 fn limits() -> Limits<'static> {
     Limits { time: Duration::from_secs(60), stop: None }
@@ -22,17 +23,30 @@ pub fn with_fault(key: &str, edits: &[Edit]) -> Count {
         assert!(text.contains(from), "{file} has no `{from}`");
         fs::write(&path, text.replace(from, to)).unwrap();
     }
-    let mut rows = rows::rows();
+    let mut rows = rows::rows(NEURONS);
     rows.retain(|row| row.key() == key);
-    count(&rows, &rtl, &limits()).unwrap().remove(0)
+    count(&rows, NEURONS, &rtl, &limits()).unwrap().remove(0)
 }
 
 #[test]
 fn everything_that_is_promised_is_counted_and_proven() {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
-    let counts = cycle_counts(&rtl, &limits()).unwrap();
+    let counts = cycle_counts(&rtl, NEURONS, &limits()).unwrap();
     assert_eq!(counts.len(), 18);
+    for count in counts {
+        assert!(count.holds(), "{count:?}");
+    }
+}
+
+#[test]
+fn sixteen_neurons_take_275_clocks() {
+    let folder = tempfile::tempdir().unwrap();
+    let rtl = Rtl::own(folder.path()).unwrap();
+    let mut rows = rows::rows(16);
+    rows.retain(|row| row.check.module == "check_estimator");
+    let counts = count(&rows, 16, &rtl, &limits()).unwrap();
+    assert_eq!(counts.iter().map(|count| count.expected).collect::<Vec<_>>(), [275, 257, 1, 18]);
     for count in counts {
         assert!(count.holds(), "{count:?}");
     }
@@ -70,7 +84,7 @@ fn a_missing_module_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let mut rtl = Rtl::own(folder.path()).unwrap();
     rtl.files.retain(|file| !file.ends_with("spad_control.v"));
-    let error = cycle_counts(&rtl, &limits()).unwrap_err();
+    let error = cycle_counts(&rtl, NEURONS, &limits()).unwrap_err();
     assert_eq!(error.to_string(), "rtl_ref: it has no module `spad_control`");
 }
 
@@ -81,7 +95,7 @@ fn what_the_compiler_refuses_comes_with_its_message() {
     let path = folder.path().join("spad_control.v");
     let text = fs::read_to_string(&path).unwrap().replace("spad_rst", "spad_reset");
     fs::write(&path, text).unwrap();
-    let error = cycle_counts(&rtl, &limits()).unwrap_err().to_string();
+    let error = cycle_counts(&rtl, NEURONS, &limits()).unwrap_err().to_string();
     assert!(error.contains("bench_shot.v") && error.contains("spad_rst"), "{error}");
 }
 
@@ -94,7 +108,7 @@ fn a_simulation_that_never_ends_is_stopped() {
     fs::write(&path, text.replace("initial begin", "initial begin while (1) spad_sel = 40'd1;"))
         .unwrap();
     let limits = Limits { time: Duration::from_secs(2), stop: None };
-    let error = cycle_counts(&rtl, &limits).unwrap_err().to_string();
+    let error = cycle_counts(&rtl, NEURONS, &limits).unwrap_err().to_string();
     assert_eq!(error, "rtl_ref: bench_shot has not ended after 2 s of simulation");
 }
 
@@ -103,6 +117,6 @@ fn a_proof_that_takes_too_long_is_none() {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
     let limits = Limits { time: Duration::ZERO, stop: None };
-    let proven = prove::prove(&rows::rows()[0], &rtl, folder.path(), &limits).unwrap();
+    let proven = prove::prove(&rows::rows(NEURONS)[0], &rtl, folder.path(), &limits).unwrap();
     assert_eq!(proven, Proof::NotProven("Yosys has no answer after 0 s".to_owned()));
 }
