@@ -91,7 +91,7 @@ fn ports_widths_and_directions_are_the_same() {
     let rust = rust_ports();
     assert!(rust.keys().eq(&modules()), "{:?}", rust.keys());
     for (module, ours) in &rust {
-        let verilog = Simulator::Icarus.ports(folder.path(), module, &rtl, &limits).unwrap();
+        let verilog = Simulator::Icarus.ports(folder.path(), module, &[], &rtl, &limits).unwrap();
         let names: BTreeSet<_> = ours.keys().chain(verilog.keys()).collect();
         for name in names {
             let (left, right) = (verilog.get(name), ours.get(name));

@@ -2,7 +2,6 @@
 
 use crate::error::Result;
 use crate::firmware::carry_chain::TAPS;
-use crate::firmware::forward2::NEURONS;
 use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tof_top::TofTop;
 use crate::hierarchy;
@@ -128,9 +127,13 @@ pub enum Parameter {
     File(&'static str),
 }
 
-/// The parameter `Neurons`, where it is not the default: so many another design need not have.
+/// Verilog parameter with the number of hidden neurons.
+pub const NEURONS: &str = "Neurons";
+
+/// That parameter, where it is not the default: so many another design need not have.
 pub fn neurons(neurons: usize) -> Option<(&'static str, Parameter)> {
-    (neurons != NEURONS).then_some(("Neurons", Parameter::Number(neurons as u64)))
+    let default = crate::firmware::forward2::NEURONS;
+    (neurons != default).then_some((NEURONS, Parameter::Number(neurons as u64)))
 }
 
 /// A block that can be stepped alone, inside an otherwise idle top.

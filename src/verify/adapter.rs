@@ -22,6 +22,11 @@ impl BlockMap {
         self.ports.get(ours).map_or(ours, String::as_str)
     }
 
+    /// Their name of our parameter; none if it has none.
+    pub(super) fn parameter<'a>(&'a self, ours: &'a str) -> &'a str {
+        self.parameters.get(ours).map_or(ours, String::as_str)
+    }
+
     /// Whether an adapter stands in for a port of ours.
     fn is_made(&self, name: &str) -> bool {
         let adapted = self.counts.is_some() || self.vector.is_some();
@@ -141,7 +146,7 @@ impl BlockMap {
             connected.push(format!("        .{vector}(vector)"));
         }
         let assigned = bench.parameters().filter_map(|ours| {
-            let theirs = self.parameters.get(ours).map_or(ours, String::as_str);
+            let theirs = self.parameter(ours);
             (!theirs.is_empty()).then(|| format!("        .{theirs}({ours})"))
         });
         let assigned: Vec<_> = assigned.collect();

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::Result;
 use crate::golden::bench::Bench;
+use crate::golden::block::{NEURONS, Parameter};
 use crate::golden::{Setting, Spec, Vectors};
 use crate::output::create_directory;
 
@@ -65,14 +66,15 @@ impl Check<'_> {
     ) -> Result<Report> {
         create_directory(work)?;
         let module = self.map.map_or(spec.name, |map| map.module(spec.name));
-        let found = self.simulator.ports(work, module, self.rtl, &self.limits)?;
+        let vectors = (spec.record)(spec, setting)?;
+        let shape: Vec<_> = shape(&vectors, self.map).collect();
+        let found = self.simulator.ports(work, module, &shape, self.rtl, &self.limits)?;
         let wanted = match self.map {
             Some(map) => map.wanted(spec, setting.neurons(), &found),
             None => spec.ports(setting.neurons()),
         };
         interface::check(&self.rtl.source, module, &wanted, &found)?;
 
-        let vectors = (spec.record)(spec, setting)?;
         let mut bench = Bench::new(&vectors);
         let mut sources = vec![work.join(vectors.bench_name())];
         if let Some(map) = self.map {
@@ -127,4 +129,16 @@ fn coverage(vectors: &Vectors) -> (usize, usize) {
     let met = vectors.coverage.iter().map(|cover| cover.met()).sum();
     let goals = vectors.coverage.iter().map(|cover| cover.cases()).sum();
     (met, goals)
+}
+
+/// The parameter that ports depend on, by their name of it, if they have one.
+fn shape<'a>(
+    vectors: &'a Vectors,
+    map: Option<&'a BlockMap>,
+) -> impl Iterator<Item = (&'a str, u64)> {
+    vectors.parameters.iter().filter_map(move |(ours, value)| {
+        let Parameter::Number(value) = value else { return None };
+        let theirs = map.map_or(*ours, |map| map.parameter(ours));
+        (*ours == NEURONS && !theirs.is_empty()).then_some((theirs, *value))
+    })
 }

@@ -79,17 +79,26 @@ impl Simulator {
         Ok(Compiled { simulator: self, folder: folder.to_owned(), program })
     }
 
-    /// The ports of a module.
+    /// The ports of a module with those parameters, which decide how wide they are.
     ///
     /// # Errors
-    /// When the simulator is missing, refuses the sources, or finds no such module.
-    pub fn ports(self, folder: &Path, module: &str, rtl: &Rtl, limits: &Limits) -> Result<Ports> {
+    /// When the simulator is missing, refuses the sources, or finds no such module or parameter.
+    pub fn ports(
+        self,
+        folder: &Path,
+        module: &str,
+        parameters: &[(&str, u64)],
+        rtl: &Rtl,
+        limits: &Limits,
+    ) -> Result<Ports> {
         let sources = rtl.files.iter().map(OsString::from);
         let (output, finished) = match self {
             Simulator::Icarus => {
                 let output = folder.join("ports.vvp");
                 let mut args = [generation(rtl), "-s", module, "-o"].map(OsString::from).to_vec();
                 args.push(output.clone().into());
+                let set = |(name, value): &_| format!("-P{module}.{name}={value}").into();
+                args.extend(parameters.iter().map(set));
                 (output, IVERILOG.run(folder, args.into_iter().chain(sources), limits)?)
             }
             Simulator::Verilator => {
@@ -98,6 +107,8 @@ impl Simulator {
                 let args = args.into_iter().chain(["--top-module", module, "--xml-output"]);
                 let mut args: Vec<_> = args.map(OsString::from).collect();
                 args.push(output.clone().into());
+                let set = |(name, value): &_| format!("-G{name}={value}").into();
+                args.extend(parameters.iter().map(set));
                 (output, VERILATOR.run(folder, args.into_iter().chain(sources), limits)?)
             }
         };
