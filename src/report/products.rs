@@ -13,7 +13,7 @@ use super::events::Events;
 use super::frame_log::FrameLog;
 use super::histogram_csv;
 use super::histogram_svg::Plot;
-use super::pairs;
+use super::pair_table;
 use super::summary::{Summary, depth_m};
 
 /// What is written into the folder; the last one only where frames come in pairs.
@@ -128,7 +128,7 @@ impl<'a> Products<'a> {
         let svg = plot.svg().map_err(|fault| Input::new("histogram.svg", fault))?;
         write(NAMES[2], svg.as_bytes())?;
         if let ([dark, lit, ..], Some(_)) = (log.rows.as_slice(), &log.pairs) {
-            write(NAMES[3], &pairs::csv(dark, lit))?;
+            write(NAMES[3], &pair_table::csv(dark, lit))?;
         }
         Ok(written)
     }

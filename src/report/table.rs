@@ -10,7 +10,7 @@ use crate::sim::frames::Frame;
 use crate::sim::setup::{CYCLE, Setup};
 
 use super::frame_log::FrameLog;
-use super::pairs;
+use super::pair_table;
 use super::summary::{Spread, TdcSummary, depth_m};
 
 /// An empty table without borders.
@@ -24,12 +24,12 @@ pub fn plain() -> Table {
 pub fn run(setup: &Setup, log: &FrameLog, cycles: u64, wall: Duration) -> String {
     let mut text = format!("{}: {}\n\n", setup.name, setup.scenario.description);
     match log.rows.as_slice() {
-        _ if log.pairs.is_some() => text += &pairs::table(setup, log).trim_fmt(),
+        _ if log.pairs.is_some() => text += &pair_table::table(setup, log).trim_fmt(),
         [frame] => text += &one_frame(setup, frame, &log.readings[0]).trim_fmt(),
         _ => text += &many_frames(log).trim_fmt(),
     }
     if let (Some(pairs), 3..) = (&log.pairs, log.count) {
-        text += &format!("\n\n{}", pairs::lines(&pairs.tally()).trim_end());
+        text += &format!("\n\n{}", pair_table::lines(&pairs.tally()).trim_end());
     }
     let rate = cycles as f64 / wall.as_secs_f64();
     text += &format!(
