@@ -90,3 +90,51 @@ pub fn pins_at_power_up(firmware: &Firmware) -> Pins {
         dsp_rst: firmware.dsp_rst,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn timeline(dark_frames: bool) -> (Timeline, Pins) {
+        let mut scenario = Scenario::default();
+        scenario.firmware.dark_frames = dark_frames;
+        scenario.control = vec![Control { at_us: 1.0, mode: Some(1), ..Control::default() }];
+        (Timeline::new(&scenario), pins_at_power_up(&scenario.firmware))
+    }
+
+    #[test]
+    fn every_depth_turns_the_laser_within_clear() {
+        let (mut timeline, mut pins) = timeline(true);
+        assert!(!pins.laser_en);
+        for (edge_ns, lit) in [(504, true), (992, false), (8000, true)] {
+            timeline.take_depth(Time::from_ns(edge_ns));
+            while timeline.next_event() < Time::from_ns(edge_ns) + RESPONSE {
+                timeline.event(&mut pins);
+            }
+            assert_eq!(timeline.next_event(), Time::from_ns(edge_ns + 101));
+            timeline.event(&mut pins);
+            assert_eq!(pins.laser_en, lit);
+        }
+        assert!(pins.mode, "the timeline's own changes come when they are due");
+        assert_eq!((timeline.next_event(), timeline.left()), (Time::NEVER, 0));
+    }
+
+    #[test]
+    fn an_answer_moves_with_the_frame() {
+        let (mut timeline, _) = timeline(true);
+        timeline.take_depth(Time::from_ns(8));
+        timeline.pass(Time::from_ns(800));
+        assert_eq!(timeline.next_event(), Time::from_ns(909));
+        timeline.event(&mut Pins::default());
+        timeline.pass(Time::from_ns(800));
+        assert_eq!(timeline.next_event(), Time::from_ns(1000), "no answer is due");
+    }
+
+    #[test]
+    fn without_dark_frames_a_depth_changes_nothing() {
+        let (mut timeline, pins) = timeline(false);
+        assert!(pins.laser_en);
+        timeline.take_depth(Time::from_ns(8));
+        assert_eq!(timeline.next_event(), Time::from_ns(1000));
+    }
+}

@@ -28,7 +28,8 @@ fn evaluate_draws_pairs_of_its_own_and_leaves_the_others_as_they_were() {
     let figures = of(&all, "subtraction");
     let count = |key: &str| figures["all"][key].as_u64().unwrap();
     assert_eq!(count("estimates") + count("failures"), 1020);
-    assert!(count("failures") > of(&all, "peak")["all"]["failures"].as_u64().unwrap());
+    let plain = of(&all, "peak")["all"]["failures"].as_u64().unwrap();
+    assert!((plain + 1..200).contains(&count("failures")), "{figures}");
     assert_ne!(figures["all"]["mean_mm"], of(&all, "peak")["all"]["mean_mm"]);
     let told = output(
         folder.path(),
