@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::dataset::{Grid, Rows, Scene, Source};
 use crate::error::{Error, Input, Result};
 use crate::estimation::by_name::Acquisition;
-use crate::estimation::{Estimator, Kind, Needs};
+use crate::estimation::{Estimator, Kind, Needs, subtraction};
 use crate::evaluation::bound;
 use crate::evaluation::cross_check::CrossCheck;
 use crate::evaluation::thesis::{self, DISTANCES_M};
@@ -34,11 +34,13 @@ const CHECK_IRRADIANCE: f64 = 0.2;
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Histograms are drawn afresh over the thesis's test grid: 51 distances from 0.1 \
-    to 0.6 m, 9 irradiances,\n53 reflectances, 5 of each scene. All estimators see the same ones.\n\n\
+    to 0.6 m, 9 irradiances,\n53 reflectances, 5 of each scene. All estimators see the same ones,\nbut for \
+    subtraction: a dark and a lit one of half the shots each.\n\n\
     Examples:\n  \
     tofsim evaluate                                 the default network on its chain's bins\n  \
     tofsim evaluate ideal --profile ideal -o out    with box plots and tables as CSV\n  \
-    tofsim evaluate --estimator network,peak,matched,likelihood --rows 12000"
+    tofsim evaluate --estimator network,peak,matched,likelihood --rows 12000\n  \
+    tofsim evaluate --estimator peak,subtraction    does a dark histogram help the detector?"
 )]
 pub struct Args {
     /// Built-in network (uniform, ideal) or network file
@@ -195,6 +197,10 @@ impl Report<'_> {
             self.network, self.profile, self.scenario, self.rows, self.shots_per_frame, self.seed
         );
         text += &report::tables(&self.estimators, &self.cramer_rao_two_sd_mm);
+        if self.estimators.iter().any(|one| one.name == subtraction::NAME) {
+            let shots = self.shots_per_frame / 2;
+            text += &format!("\n{}: {shots} dark and {shots} lit shots each\n", subtraction::NAME);
+        }
         text += "\n";
         for line in self.estimators.iter().filter_map(report::beside_the_line) {
             text += &(line + "\n");

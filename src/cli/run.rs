@@ -31,6 +31,7 @@ use super::talk::Talk;
     tofsim run                              one frame of the built-in kc705, waveform in waves/\n  \
     tofsim run far --frames 20 --waves none\n  \
     tofsim run far --frames 1000 --fidelity shot\n  \
+    tofsim run --estimator subtraction      a dark and a lit frame of 15,000 shots each\n  \
     tofsim run -s target.distance_m=0.3 --seed 7 -o out\n  \
     tofsim run --window 10us..12us --signals 'tdc.*' --waves fst")]
 pub struct Args {
@@ -43,7 +44,7 @@ pub struct Args {
     /// Seed of every random stream, instead of the scenario's
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     seed: Option<u64>,
-    /// How many frames to simulate
+    /// How many frames to simulate; of dark and lit frames, how many pairs
     #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..))]
     frames: u64,
     /// How to simulate; cycle and shot give the same frames, histogram the same in distribution
@@ -64,7 +65,8 @@ pub struct Args {
     /// [default: all but the histogram's RAM]
     #[arg(long, value_name = "GLOB")]
     signals: Vec<String>,
-    /// Estimators that look at each frame's histogram beside the firmware's own, separated by commas
+    /// Estimators that look at each frame's histogram beside the firmware's own, separated by commas;
+    /// subtraction makes pairs of a dark and a lit frame (firmware.dark_frames), and all look at those
     #[arg(long, value_enum, value_delimiter = ',')]
     estimator: Vec<Kind>,
     /// Write a row for each shot, as .csv or .parquet
@@ -111,24 +113,26 @@ enum WavesFormat {
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let waves = args.waves_format()?;
-    let mut loaded = scenario::load(&args.scenario, &args.set)?;
+    let mut loaded = scenario::load(&args.scenario, &args.overrides())?;
     if let Some(seed) = args.seed {
         loaded.scenario.seed = seed;
     }
     let setup = Setup::new(loaded)?;
     args.check_fidelity(&setup)?;
+    args.check_pairs(&setup)?;
+    let frames = args.frames * setup.frames_together();
     let histograms =
         (args.fidelity == Fidelity::Histogram).then(|| Histograms::new(&setup)).transpose()?;
-    let plan = WavePlan::new(args, waves, &setup)?;
+    let plan = WavePlan::new(args, waves, &setup, frames)?;
     let (folder, events) = (args.output.as_deref(), args.events.as_deref());
     let mut products = Products::new(folder, events, &provenance(args, &setup), &setup)?;
     let waves = plan.as_ref().map(|plan| plan.open(args, &setup)).transpose()?;
     use_threads(args.threads)?;
 
     let stop = stop_signal();
-    let progress = talk.progress(args.frames, "frames");
-    let mut log =
-        FrameLog::new(args.json || folder.is_some(), Panel::new(&args.estimator, &setup)?);
+    let progress = talk.progress(frames, "frames");
+    let panel = Panel::new(&args.estimator, &setup)?;
+    let mut log = FrameLog::new(&setup, args.json || folder.is_some(), panel);
     let mut take_frame = |frame: &Frame| {
         progress.inc(1);
         log.push(&setup, frame)
@@ -144,13 +148,13 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     };
     let began = Instant::now();
     let outcome = match histograms {
-        Some(histograms) => histograms.many(args.frames, watch)?,
+        Some(histograms) => histograms.many(frames, watch)?,
         None => {
             let gait = if args.fidelity == Fidelity::Shot { Gait::Leap } else { Gait::Skip };
             let run = Run::new(&setup).at(gait);
             match watch.waves.is_some() || wants_all_shots {
-                true => run.frames(args.frames, watch)?,
-                false => run.many(args.frames, watch)?,
+                true => run.frames(frames, watch)?,
+                false => run.many(frames, watch)?,
             }
         }
     };
@@ -166,7 +170,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     }
     let waves = plan.map(|plan| plan.path.display().to_string());
     let fidelity = args.fidelity.name();
-    let summary = Summary::new(&setup, fidelity, waves, log.spread(), products.tdc());
+    let summary = Summary::new(&setup, fidelity, waves, &log, products.tdc());
     for path in products.finish(&setup, &mut log, &summary)? {
         talk.detail(format_args!("wrote {}", path.display()));
     }
@@ -187,6 +191,32 @@ impl Args {
             (Fidelity::Cycle, waves) => Ok(waves.unwrap_or(WavesFormat::Vcd)),
             (_, None | Some(WavesFormat::None)) => Ok(WavesFormat::None),
             (_, Some(_)) => Err(self.without_signals("--waves")),
+        }
+    }
+
+    /// What the options say of the scenario; --set goes last.
+    fn overrides(&self) -> Vec<String> {
+        let pairs = self.wants_pairs().then(|| "firmware.dark_frames=true".to_owned());
+        pairs.into_iter().chain(self.set.iter().cloned()).collect()
+    }
+
+    fn wants_pairs(&self) -> bool {
+        self.estimator.contains(&Kind::Subtraction)
+    }
+
+    /// That there are pairs if an estimator needs them, and not too many.
+    fn check_pairs(&self, setup: &Setup) -> Result<()> {
+        let source = format!("scenario {}", setup.name);
+        if self.wants_pairs() && !setup.has_pairs() {
+            let expected = "expected true with --estimator subtraction";
+            return Err(Input::new(source, expected)
+                .field("firmware.dark_frames")
+                .value(false)
+                .into());
+        }
+        match self.frames.checked_mul(setup.frames_together()) {
+            Some(_) => Ok(()),
+            None => Err(Input::new("--frames", "expected fewer pairs").value(self.frames).into()),
         }
     }
 
@@ -232,7 +262,7 @@ struct WavePlan {
 }
 
 impl WavePlan {
-    fn new(args: &Args, waves: WavesFormat, setup: &Setup) -> Result<Option<Self>> {
+    fn new(args: &Args, waves: WavesFormat, setup: &Setup, frames: u64) -> Result<Option<Self>> {
         let (format, ending) = match waves {
             WavesFormat::None => return Ok(None),
             WavesFormat::Vcd => (Format::Vcd, "vcd"),
@@ -240,7 +270,7 @@ impl WavePlan {
         };
         let entries = hierarchy::entries(&setup.params);
         let entries = waves::select(entries, hierarchy::ram_entries(), &args.signals)?;
-        let windows = setup.windows(&args.window, args.frames)?;
+        let windows = setup.windows(&args.window, frames)?;
         let folder = args.output.as_deref().unwrap_or(Path::new("waves"));
         create_directory(folder)?;
         let path = folder.join(format!("{}.{ending}", setup.name));

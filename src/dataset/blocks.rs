@@ -11,7 +11,7 @@ use super::{Row, Rows, Scene, Source};
 /// Rows of a block: 1 MB of histograms.
 pub const BLOCK: u64 = 2048;
 /// Rows that a thread draws at a time.
-const RUN: u64 = 64;
+pub(super) const RUN: u64 = 64;
 
 /// A drawn row.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,11 +59,11 @@ impl Source {
 }
 
 /// What was last asked for, and what it came to.
-struct Last<K, V>(Option<(K, V)>);
+pub(super) struct Last<K, V>(pub(super) Option<(K, V)>);
 
 impl<K: PartialEq, V> Last<K, V> {
     /// What `key` comes to; it is made where the last key was another.
-    fn or(&mut self, key: K, make: impl FnOnce(&K) -> V) -> &V {
+    pub(super) fn or(&mut self, key: K, make: impl FnOnce(&K) -> V) -> &V {
         let known = self.0.take().filter(|(last, _)| *last == key);
         let pair = known.unwrap_or_else(|| {
             let value = make(&key);

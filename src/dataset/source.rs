@@ -3,7 +3,7 @@
 //! The thesis's bins, edges every 25 ps and no chain, are those of profile `ideal` to the
 //! femtosecond: two taps of 12.5 ps to a bin.
 
-use crate::error::Result;
+use crate::error::{Input, Result};
 use crate::network::Histogram;
 use crate::optics::{BinProbabilities, Bins, Budget, Hazard};
 use crate::scenario::Scenario;
@@ -27,6 +27,11 @@ impl Source {
     /// When its histograms have no closed form: see [`independent_shots`].
     pub fn new(setup: &Setup) -> Result<Self> {
         independent_shots(setup, "a dataset")?;
+        if setup.has_pairs() {
+            let expected = "expected false: a dataset's histograms are drawn one by one";
+            let fault = Input::new(format!("scenario {}", setup.name), expected);
+            return Err(fault.field("firmware.dark_frames").value(true).into());
+        }
         let tdc = &setup.params.tdc;
         let bins = Bins::of_chain(&tdc.delays, &tdc.cal, CYCLE);
         Ok(Source { scenario: setup.scenario.clone(), bins })
@@ -64,8 +69,12 @@ impl Source {
 
     /// The same where the [white target's budget](Source::white) at the scene's distance is known.
     pub fn probabilities_of(&self, white: &Budget, scene: &Scene) -> BinProbabilities {
+        self.probabilities_with(white, scene, self.scenario.firmware.laser_en)
+    }
+
+    /// The same with the laser on or off, whatever the scenario says.
+    pub fn probabilities_with(&self, white: &Budget, scene: &Scene, lit: bool) -> BinProbabilities {
         let budget = scaled(white, scene);
-        let lit = self.scenario.firmware.laser_en;
         let hazard = if lit { Hazard::new(&budget) } else { Hazard::dark(&budget) };
         BinProbabilities::new(&hazard, &self.bins)
     }

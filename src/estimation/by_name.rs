@@ -8,7 +8,8 @@ use super::likelihood::Likelihood;
 use super::matched_filter::MatchedFilter;
 use super::network::{FixedNetwork, FloatNetwork};
 use super::peak_detection::PeakDetection;
-use super::{Estimator, Failure};
+use super::subtraction::Subtraction;
+use super::{Estimator, Failure, Pair};
 
 /// An estimator's name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, clap::ValueEnum)]
@@ -19,6 +20,8 @@ pub enum Kind {
     NetworkFloat,
     /// The thesis's peak detection, on the bins of the chain
     Peak,
+    /// Peak detection on a lit histogram less a dark one, of half the shots each
+    Subtraction,
     /// Maximum likelihood with pile-up in the model
     Likelihood,
     /// Matched filter after Coates's correction of pile-up
@@ -30,7 +33,7 @@ pub enum Kind {
 pub struct Acquisition<'a> {
     /// Which avalanche times give which code.
     pub bins: &'a Bins,
-    /// Shots of a histogram [shots].
+    /// Shots of a histogram, or of a dark and a lit one together [shots].
     pub shots: u64,
     /// Standard deviation of the pulse as the detector times it [ps].
     pub pulse_sigma_ps: f64,
@@ -79,6 +82,9 @@ impl Kind {
             Kind::Peak => {
                 Box::new(PeakDetection::of_bins(needs.acquisition.shots, needs.acquisition.bins))
             }
+            Kind::Subtraction => {
+                Box::new(Subtraction::of_bins(needs.acquisition.shots, needs.acquisition.bins)?)
+            }
             Kind::Likelihood => Box::new(Likelihood::new(&needs.acquisition)?),
             Kind::Matched => Box::new(MatchedFilter::new(&needs.acquisition)?),
         })
@@ -92,6 +98,14 @@ impl<T: Estimator + Send + ?Sized> Estimator for Box<T> {
 
     fn estimate(&self, histogram: &crate::network::Histogram) -> Result<f64, Failure> {
         (**self).estimate(histogram)
+    }
+
+    fn needs_dark(&self) -> bool {
+        (**self).needs_dark()
+    }
+
+    fn estimate_pair(&self, pair: &Pair) -> Result<f64, Failure> {
+        (**self).estimate_pair(pair)
     }
 }
 

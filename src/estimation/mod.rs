@@ -5,6 +5,7 @@
 //! | `network` | the network in fixed point, bit for bit as the firmware | thesis ch. 6 |
 //! | `network-float` | the same network in double precision | thesis 5.3 |
 //! | `peak` | spline, one peak, straight line through the shift | Listings 5.1 to 5.3 |
+//! | `subtraction` | the same on a lit histogram less a dark one | Algorithm 2 |
 //! | `likelihood` | the most likely distance, with pile-up in the model | eq. 3.21 to 3.24 |
 //! | `matched` | pile-up taken out, background out, correlation with the pulse | Coates 1968 |
 //!
@@ -40,6 +41,7 @@ use crate::optics::budget::LIGHT_M_S;
 
 pub use by_name::{Kind, Needs};
 pub use panel::{Panel, Reading};
+pub use subtraction::Pair;
 
 /// Width of a bin as the decoder's codes count it [ps].
 pub const BIN_PS: f64 = 25.0;
@@ -56,6 +58,20 @@ pub trait Estimator: Sync {
     /// # Errors
     /// When the histogram does not show one.
     fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure>;
+
+    /// Whether it has to have a dark histogram too.
+    fn needs_dark(&self) -> bool {
+        false
+    }
+
+    /// Distance of the target, where the lit histogram has a dark one beside it: most have no use
+    /// for that [m].
+    ///
+    /// # Errors
+    /// When the histograms do not show one.
+    fn estimate_pair(&self, pair: &Pair) -> Result<f64, Failure> {
+        self.estimate(&pair.lit)
+    }
 }
 
 /// Why there is no distance.
@@ -74,6 +90,8 @@ pub enum Failure {
     NoPeak,
     /// So many peaks stand out, and nothing tells which is the echo.
     SeveralPeaks(usize),
+    /// There is no dark histogram to subtract.
+    NoDarkFrame,
     /// The iterations did not settle.
     NoConvergence,
 }
@@ -87,6 +105,7 @@ impl fmt::Display for Failure {
             }
             Failure::NoPeak => write!(f, "no peak"),
             Failure::SeveralPeaks(peaks) => write!(f, "{peaks} peaks"),
+            Failure::NoDarkFrame => write!(f, "no dark frame"),
             Failure::NoConvergence => write!(f, "no convergence"),
         }
     }

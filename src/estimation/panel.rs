@@ -8,7 +8,7 @@ use crate::optics::Bins;
 use crate::sim::setup::{CYCLE, Setup};
 
 use super::by_name::Acquisition;
-use super::{Estimator, Kind, Needs};
+use super::{Estimator, Failure, Kind, Needs, Pair};
 
 /// Estimators that look at each histogram of a run, beside the one in the firmware.
 #[derive(Default)]
@@ -36,20 +36,35 @@ impl Panel {
     pub fn new(kinds: &[Kind], setup: &Setup) -> Result<Self> {
         let tdc = &setup.params.tdc;
         let bins = &Bins::of_chain(&tdc.delays, &tdc.cal, CYCLE);
-        let acquisition = Acquisition {
-            bins,
-            shots: setup.scenario.firmware.shots_per_frame,
-            pulse_sigma_ps: setup.scenario.laser.pulse_sigma_ps,
+        let pulse_sigma_ps = setup.scenario.laser.pulse_sigma_ps;
+        let estimator = |kind: &Kind| {
+            let shots = match kind {
+                Kind::Subtraction => setup.scenario.firmware.shots_per_frame,
+                _ => setup.params.frame_ctrl.shots_per_frame.into(),
+            };
+            let acquisition = Acquisition { bins, shots, pulse_sigma_ps };
+            Ok(kind.estimator(&Needs { acquisition, network: &setup.network })?)
         };
-        let needs = Needs { acquisition, network: &setup.network };
-        let estimators = kinds.iter().map(|kind| Ok(kind.estimator(&needs)?));
+        let estimators = kinds.iter().map(estimator);
         Ok(Panel { estimators: estimators.collect::<Result<_>>()? })
     }
 
-    /// What each says, in the order in which they were named.
+    /// What each says of a frame, in the order in which they were named.
     pub fn read(&self, histogram: &Histogram) -> Vec<Reading> {
+        self.each(|estimator| estimator.estimate(histogram))
+    }
+
+    /// What each says of a dark and a lit frame; most look at the lit one only.
+    pub fn read_pair(&self, pair: &Pair) -> Vec<Reading> {
+        self.each(|estimator| estimator.estimate_pair(pair))
+    }
+
+    fn each(
+        &self,
+        estimate: impl Fn(&dyn Estimator) -> std::result::Result<f64, Failure>,
+    ) -> Vec<Reading> {
         let reading = |estimator: &dyn Estimator| {
-            let estimate = estimator.estimate(histogram);
+            let estimate = estimate(estimator);
             Reading {
                 estimator: estimator.name(),
                 failure: estimate.as_ref().err().map(ToString::to_string),

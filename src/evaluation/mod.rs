@@ -1,7 +1,8 @@
 //! How well estimators find the distance: errors over a grid of scenes, fresh histograms drawn for
 //! each.
 //!
-//! Every estimator sees the same histograms. Errors are kept row by row, so that any grouping of
+//! Every estimator sees the same histograms; one that needs dark histograms too sees pairs of its own.
+//! Errors are kept row by row, so that any grouping of
 //! them is exact: by distance, as the thesis has it, by reflectance, by irradiance.
 
 pub mod bound;
@@ -16,7 +17,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
-use crate::dataset::{Rows, Scene, Source};
+use crate::dataset::{Pairs, Rows, Scene, Source};
 use crate::error::{Error, Result};
 use crate::estimation::Estimator;
 
@@ -47,7 +48,7 @@ impl Evaluation {
     /// hears of rows as they are done. The same for any number of threads.
     ///
     /// # Errors
-    /// When it is stopped.
+    /// When an estimator needs dark histograms too and there can be none, or it is stopped.
     pub fn new(
         source: &Source,
         rows: &Rows,
@@ -61,14 +62,20 @@ impl Evaluation {
         let columns = estimators.iter();
         let columns = columns.map(|one| Column { name: one.name(), errors_m: empty() });
         let mut columns: Vec<Column> = columns.collect();
+        let needs_dark = estimators.iter().any(|one| one.needs_dark());
+        let pairs = needs_dark.then(|| Pairs::new(source)).transpose()?;
         for block in source.blocks(rows, seed, 0..rows.len()) {
             if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
                 return Err(Error::Interrupted);
             }
+            let drawn = pairs.map_or(Vec::new(), |pairs| pairs.draw(&block));
             for (estimator, column) in estimators.iter().zip(&mut columns) {
-                let errors = block.par_iter().map(|sample| {
-                    let distance_m = estimator.estimate(&sample.histogram).ok()?;
-                    Some(distance_m - sample.scene.distance_m)
+                let errors = block.par_iter().enumerate().map(|(k, sample)| {
+                    let found = match estimator.needs_dark() {
+                        true => estimator.estimate_pair(&drawn[k]),
+                        false => estimator.estimate(&sample.histogram),
+                    };
+                    Some(found.ok()? - sample.scene.distance_m)
                 });
                 column.errors_m.par_extend(errors);
             }

@@ -96,6 +96,11 @@ impl Registers {
         self.start && self.last == PERIODS[rate] - 1 && self.enable == lit
     }
 
+    /// Whether the coming shot has the laser.
+    pub fn is_enabled(&self) -> bool {
+        self.enable
+    }
+
     /// The rate in force, the place in its period, and whether that is the last; `None` before a
     /// rate has been taken.
     pub fn place(&self) -> Option<(u64, u64, bool)> {

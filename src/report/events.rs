@@ -1,14 +1,14 @@
 //! A row for each shot, as CSV or Parquet.
 //!
 //! Columns: `frame`, `shot` (both from 0), `arrival_ps` (from the laser edge), `cause`, `n` (ones
-//! count), `coarse`, `code`, `bin`. What a shot does not have is empty (CSV) or null (Parquet). A
-//! photon that is given has no cause.
+//! count), `coarse`, `code`, `bin`; where frames come in pairs also `laser_en` (1 in lit frames). What
+//! a shot does not have is empty (CSV) or null (Parquet). A photon that is given has no cause.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use parquet::basic::Compression;
-use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int32Type, Int64Type};
+use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int32Type, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
@@ -23,10 +23,12 @@ use super::causes;
 
 const COLUMNS: [&str; 8] = ["frame", "shot", "arrival_ps", "cause", "n", "coarse", "code", "bin"];
 
-const SCHEMA: &str = "message shots {
-    required int64 frame; required int64 shot; optional double arrival_ps;
+/// The column of runs whose frames come in pairs.
+const LASER: &str = "laser_en";
+
+const SCHEMA: &str = "required int64 frame; required int64 shot; optional double arrival_ps;
     optional binary cause (UTF8); optional int32 n; optional int32 coarse;
-    optional int32 code; optional int32 bin; }";
+    optional int32 code; optional int32 bin;";
 
 /// Rows gathered before they go into a row group.
 const GROUP: usize = 1 << 14;
@@ -34,20 +36,28 @@ const GROUP: usize = 1 << 14;
 /// The file under construction; nothing is left of it unless [`Events::finish`] is called.
 pub enum Events {
     /// Comma-separated values.
-    Csv(Box<csv::Writer<OutputFile>>),
+    Csv(Box<Csv>),
     /// Apache Parquet.
     Parquet(Box<Parquet>),
+}
+
+/// A CSV file under construction.
+pub struct Csv {
+    writer: csv::Writer<OutputFile>,
+    pairs: bool,
 }
 
 /// A Parquet file under construction.
 pub struct Parquet {
     writer: SerializedFileWriter<OutputFile>,
+    pairs: bool,
     rows: Vec<Shot>,
 }
 
 impl Events {
-    /// Begins the file; its ending decides the format. `provenance` goes into Parquet's metadata.
-    pub fn create(path: &Path, provenance: &[String]) -> Result<Self> {
+    /// Begins the file; its ending decides the format. With `pairs` it says of each shot whether the
+    /// laser was on. `provenance` goes into Parquet's metadata.
+    pub fn create(path: &Path, pairs: bool, provenance: &[String]) -> Result<Self> {
         let ending = path.extension().unwrap_or_default().to_string_lossy().into_owned();
         let device = std::fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
         if !device && ending != "csv" && ending != "parquet" {
@@ -56,11 +66,14 @@ impl Events {
         }
         let file = OutputFile::create(path)?;
         if ending != "parquet" {
-            let mut csv = csv::Writer::from_writer(file);
-            csv.write_record(COLUMNS).map_err(|error| fault(path, error))?;
-            return Ok(Events::Csv(Box::new(csv)));
+            let mut writer = csv::Writer::from_writer(file);
+            let columns = COLUMNS.into_iter().chain(pairs.then_some(LASER));
+            writer.write_record(columns).map_err(|error| fault(path, error))?;
+            return Ok(Events::Csv(Box::new(Csv { writer, pairs })));
         }
-        let schema = parse_message_type(SCHEMA).map_err(|error| fault(path, error))?;
+        let laser = if pairs { format!("required boolean {LASER};") } else { String::new() };
+        let schema = parse_message_type(&format!("message shots {{ {SCHEMA} {laser} }}"));
+        let schema = schema.map_err(|error| fault(path, error))?;
         let provenance = KeyValue::new("provenance".to_owned(), provenance.join("\n"));
         let properties = WriterProperties::builder()
             .set_compression(Compression::SNAPPY)
@@ -68,15 +81,16 @@ impl Events {
         let properties = Arc::new(properties.build());
         let writer = SerializedFileWriter::new(file, Arc::new(schema), properties);
         let writer = writer.map_err(|error| fault(path, error))?;
-        Ok(Events::Parquet(Box::new(Parquet { writer, rows: Vec::with_capacity(GROUP) })))
+        Ok(Events::Parquet(Box::new(Parquet { writer, pairs, rows: Vec::with_capacity(GROUP) })))
     }
 
     /// Adds a row.
     pub fn write(&mut self, shot: &Shot) -> Result<()> {
         match self {
             Events::Csv(csv) => {
-                let written = csv.write_record(fields(shot));
-                written.map_err(|error| fault(csv.get_ref().target(), error))
+                let laser = csv.pairs.then(|| u8::from(shot.laser_en).to_string());
+                let written = csv.writer.write_record(fields(shot).into_iter().chain(laser));
+                written.map_err(|error| fault(csv.writer.get_ref().target(), error))
             }
             Events::Parquet(parquet) => {
                 parquet.rows.push(*shot);
@@ -89,8 +103,9 @@ impl Events {
     pub fn finish(self) -> Result<PathBuf> {
         match self {
             Events::Csv(csv) => {
-                let target = csv.get_ref().target().to_owned();
-                let file = csv.into_inner().map_err(|error| fault(&target, error.error()))?;
+                let target = csv.writer.get_ref().target().to_owned();
+                let file =
+                    csv.writer.into_inner().map_err(|error| fault(&target, error.error()))?;
                 file.commit().map(|()| target)
             }
             Events::Parquet(mut parquet) => {
@@ -146,6 +161,9 @@ impl Parquet {
         column!(Int32Type, |row: &Shot| row.coarse.map(|coarse| coarse as i32));
         column!(Int32Type, |row: &Shot| row.code.map(|code| code as i32));
         column!(Int32Type, |row: &Shot| row.code.map(|bin| bin as i32));
+        if self.pairs {
+            column!(BoolType, |row| row.laser_en, required);
+        }
         group.close()?;
         Ok(())
     }

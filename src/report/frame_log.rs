@@ -10,6 +10,7 @@ use crate::estimation::{Panel, Reading};
 use crate::sim::frames::Frame;
 use crate::sim::setup::Setup;
 
+use super::pairs::Pairs;
 use super::summary::{FrameSummary, Spread, Summary};
 
 /// Frames of which a table has rows.
@@ -26,6 +27,8 @@ pub struct FrameLog {
     pub readings: Vec<Vec<Reading>>,
     /// How many frames.
     pub count: u64,
+    /// The pairs that the frames make, if they make pairs.
+    pub pairs: Option<Pairs>,
     panel: Panel,
     /// Sums of the depth words and of their squares, which no order of summing changes.
     sums: (i128, i128),
@@ -34,12 +37,13 @@ pub struct FrameLog {
 }
 
 impl FrameLog {
-    /// Without frames; `json` if [`FrameLog::write_json`] will be called. The estimators of `panel`
-    /// look at every frame of which there will be a report.
-    pub fn new(json: bool, panel: Panel) -> Self {
+    /// Without frames of `setup`; `json` if [`FrameLog::write_json`] will be called. The estimators of
+    /// `panel` look at every frame of which there will be a report, and at every pair.
+    pub fn new(setup: &Setup, json: bool, panel: Panel) -> Self {
         let json = json.then(|| SpooledTempFile::new(KEPT));
         let (rows, readings) = (Vec::new(), Vec::new());
-        FrameLog { rows, readings, count: 0, panel, sums: (0, 0), json }
+        let pairs = setup.has_pairs().then(|| Pairs::new(setup));
+        FrameLog { rows, readings, count: 0, pairs, panel, sums: (0, 0), json }
     }
 
     /// Takes the next frame.
@@ -49,7 +53,11 @@ impl FrameLog {
     pub fn push(&mut self, setup: &Setup, frame: &Frame) -> Result<()> {
         let has_row = self.rows.len() < ROWS;
         let is_reported = has_row || self.json.is_some();
-        let estimates = if is_reported { self.panel.read(&frame.histogram) } else { Vec::new() };
+        let (paired, estimates) = match &mut self.pairs {
+            Some(pairs) => pairs.take(frame, &self.panel),
+            None if is_reported => (None, self.panel.read(&frame.histogram)),
+            None => (None, Vec::new()),
+        };
         if has_row {
             self.rows.push(frame.clone());
             self.readings.push(estimates.clone());
@@ -57,7 +65,7 @@ impl FrameLog {
         let depth = i128::from(frame.depth.get());
         self.sums = (self.sums.0 + depth, self.sums.1 + depth * depth);
         if let Some(json) = &mut self.json {
-            let text = serde_json::to_string(&FrameSummary::new(setup, frame, estimates))
+            let text = serde_json::to_string(&FrameSummary::new(setup, frame, paired, estimates))
                 .map_err(|error| Input::new("--json", error))?;
             let comma = if self.count > 0 { "," } else { "" };
             write!(json, "{comma}{text}").map_err(temporary)?;
@@ -66,9 +74,10 @@ impl FrameLog {
         Ok(())
     }
 
-    /// Mean and spread of the depths of two frames or more.
+    /// Mean and spread of the depths of two frames or more; those of pairs are in
+    /// [`FrameLog::pairs`].
     pub fn spread(&self) -> Option<Spread> {
-        Spread::of(self.count, self.sums)
+        Spread::of(self.count, self.sums).filter(|_| self.pairs.is_none())
     }
 
     /// Writes the run as one line of JSON: `summary` with the frames in it.

@@ -26,8 +26,8 @@ pub struct Plot<'a> {
     pub causes: &'a Causes,
     /// Distance of the target [m].
     pub true_depth_m: Option<f64>,
-    /// Estimated depth [m].
-    pub depth_m: f64,
+    /// Estimated depth, if there is one [m].
+    pub depth_m: Option<f64>,
 }
 
 impl Plot<'_> {
@@ -77,10 +77,11 @@ impl Plot<'_> {
                 .legend(move |(x, y)| Rectangle::new([(x, y - 5), (x + 12, y + 5)], style));
         }
         let peak_ns = (peak as f64 + 0.5) * BIN_NS;
-        let mut lines = vec![
-            (peak_ns, BLACK.mix(0.45), format!("peak: bin {peak}, {peak_ns:.4} ns")),
-            (self.depth_m / M_PER_NS, RED.mix(0.9), format!("estimated: {:.4} m", self.depth_m)),
-        ];
+        let mut lines =
+            vec![(peak_ns, BLACK.mix(0.45), format!("peak: bin {peak}, {peak_ns:.4} ns"))];
+        if let Some(depth_m) = self.depth_m {
+            lines.push((depth_m / M_PER_NS, RED.mix(0.9), format!("estimated: {depth_m:.4} m")));
+        }
         if let Some(truth) = self.true_depth_m {
             lines.push((truth / M_PER_NS, BLACK.mix(0.9), format!("true: {truth:.4} m")));
         }

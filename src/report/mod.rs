@@ -10,6 +10,8 @@ pub mod exploration;
 pub mod frame_log;
 pub mod histogram_csv;
 pub mod histogram_svg;
+pub mod pair_table;
+pub mod pairs;
 pub mod products;
 pub mod summary;
 pub mod svg;

@@ -13,10 +13,11 @@ use super::events::Events;
 use super::frame_log::FrameLog;
 use super::histogram_csv;
 use super::histogram_svg::Plot;
+use super::pair_table;
 use super::summary::{Summary, depth_m};
 
-/// What is written into the folder.
-const NAMES: [&str; 3] = ["summary.json", "histogram.csv", "histogram.svg"];
+/// What is written into the folder; the last one only where frames come in pairs.
+const NAMES: [&str; 4] = ["summary.json", "histogram.csv", "histogram.svg", "difference.csv"];
 
 /// Whether two paths lead to one place in one folder.
 fn is_same(a: &Path, b: &Path) -> bool {
@@ -32,6 +33,8 @@ pub struct Products<'a> {
     folder: Option<&'a Path>,
     events: Option<Events>,
     causes: Causes,
+    /// The frame that is shown: the first, or the first lit one of pairs.
+    shown: u64,
     /// Rows for the scenario's TDC report.
     tdc: Vec<Shot>,
     wants_tdc: bool,
@@ -52,9 +55,11 @@ impl<'a> Products<'a> {
             let expected = "expected another name: the run writes a file of its own there";
             return Err(Input::new("--events", expected).value(events.display()).into());
         }
-        let events = events.map(|path| Events::create(path, provenance)).transpose()?;
-        let wants_tdc = setup.scenario.report.tdc;
-        Ok(Products { folder, events, causes: Causes::default(), tdc: Vec::new(), wants_tdc })
+        let create = |path| Events::create(path, setup.has_pairs(), provenance);
+        let events = events.map(create).transpose()?;
+        let (shown, wants_tdc) = (setup.frames_together() - 1, setup.scenario.report.tdc);
+        let causes = Causes::default();
+        Ok(Products { folder, events, causes, shown, tdc: Vec::new(), wants_tdc })
     }
 
     /// Whether [`Products::shot`] has to be told of shots.
@@ -62,7 +67,7 @@ impl<'a> Products<'a> {
         self.folder.is_some() || self.events.is_some() || self.wants_tdc
     }
 
-    /// Whether it needs more of them than the first frame's.
+    /// Whether it needs more of them than those up to the frame that is shown.
     pub fn want_all_shots(&self) -> bool {
         self.events.is_some() || self.wants_tdc
     }
@@ -74,7 +79,7 @@ impl<'a> Products<'a> {
 
     /// Takes a shot.
     pub fn shot(&mut self, shot: &Shot) -> Result<()> {
-        if shot.frame == 0 {
+        if shot.frame == self.shown {
             self.causes.add(shot);
         }
         if self.wants_tdc {
@@ -83,7 +88,7 @@ impl<'a> Products<'a> {
         self.events.as_mut().map_or(Ok(()), |events| events.write(shot))
     }
 
-    /// Puts the files in place; the first frame is the one shown. Returns their paths.
+    /// Puts the files in place. Returns their paths.
     pub fn finish(
         &mut self,
         setup: &Setup,
@@ -94,7 +99,8 @@ impl<'a> Products<'a> {
         if let Some(events) = self.events.take() {
             written.push(events.finish()?);
         }
-        let (Some(folder), Some(frame)) = (self.folder, log.rows.first().cloned()) else {
+        let (Some(folder), Some(frame)) = (self.folder, log.rows.get(self.shown as usize).cloned())
+        else {
             return Ok(written);
         };
         if self.causes.is_empty() {
@@ -104,7 +110,10 @@ impl<'a> Products<'a> {
             title: format!("{}, seed {}, {} shots", setup.name, setup.scenario.seed, frame.shots),
             causes: &self.causes,
             true_depth_m: setup.true_depth_m(),
-            depth_m: depth_m(&frame),
+            depth_m: match &log.pairs {
+                None => Some(depth_m(&frame)),
+                Some(_) => log.readings[self.shown as usize].iter().find_map(|one| one.depth_m),
+            },
         };
         let path = folder.join(NAMES[0]);
         write_file(&path, |file| log.write_json(summary, file))?;
@@ -118,6 +127,9 @@ impl<'a> Products<'a> {
         write(NAMES[1], &histogram_csv::text(&frame.histogram))?;
         let svg = plot.svg().map_err(|fault| Input::new("histogram.svg", fault))?;
         write(NAMES[2], svg.as_bytes())?;
+        if let ([dark, lit, ..], Some(_)) = (log.rows.as_slice(), &log.pairs) {
+            write(NAMES[3], &pair_table::csv(dark, lit))?;
+        }
         Ok(written)
     }
 }

@@ -9,6 +9,9 @@ use crate::sim::frames::Frame;
 use crate::sim::recorder::Shot;
 use crate::sim::setup::Setup;
 
+use super::frame_log::FrameLog;
+use super::pairs::{Paired, Pairs, Tally};
+
 /// What `run --json` prints and `summary.json` holds, but for the frames.
 #[derive(Clone, Debug)]
 pub struct Summary {
@@ -35,6 +38,9 @@ struct Head {
     /// Mean and spread, where there is more than one frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     depth: Option<Spread>,
+    /// How many pairs, and what subtraction made of them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pairs: Option<Tally>,
     /// The frames, which are written in between.
     frames: [(); 0],
 }
@@ -72,6 +78,9 @@ pub struct FrameSummary {
     pub estimator_cycles: u64,
     /// From the edge that begins Clear to the one that raises `algo_done` [cycles].
     pub frame_cycles: u64,
+    /// The frame's place in a pair, where frames come in pairs.
+    #[serde(flatten)]
+    pub paired: Option<Paired>,
     /// What other estimators say of the histogram.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub estimates: Vec<Reading>,
@@ -99,7 +108,7 @@ impl Summary {
         setup: &Setup,
         fidelity: &'static str,
         waves: Option<String>,
-        depth: Option<Spread>,
+        log: &FrameLog,
         shots: &[Shot],
     ) -> Self {
         let head = Head {
@@ -109,7 +118,8 @@ impl Summary {
             seed: setup.scenario.seed,
             fidelity,
             waves,
-            depth,
+            depth: log.spread(),
+            pairs: log.pairs.as_ref().map(Pairs::tally),
             frames: [],
         };
         let tdc = setup.scenario.report.tdc.then(|| shots.iter().map(TdcSummary::new).collect());
@@ -142,8 +152,13 @@ impl Spread {
 }
 
 impl FrameSummary {
-    /// Of a frame of `setup`, and of which other estimators say that.
-    pub fn new(setup: &Setup, frame: &Frame, estimates: Vec<Reading>) -> Self {
+    /// Of a frame of `setup`, its place in a pair, and of which other estimators say that.
+    pub fn new(
+        setup: &Setup,
+        frame: &Frame,
+        paired: Option<Paired>,
+        estimates: Vec<Reading>,
+    ) -> Self {
         FrameSummary {
             index: frame.index,
             true_depth_m: setup.true_depth_m(),
@@ -155,6 +170,7 @@ impl FrameSummary {
             histogram: frame.histogram,
             estimator_cycles: frame.estimator_cycles,
             frame_cycles: frame.frame_cycles,
+            paired,
             estimates,
         }
     }

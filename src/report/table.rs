@@ -10,6 +10,7 @@ use crate::sim::frames::Frame;
 use crate::sim::setup::{CYCLE, Setup};
 
 use super::frame_log::FrameLog;
+use super::pair_table;
 use super::summary::{Spread, TdcSummary, depth_m};
 
 /// An empty table without borders.
@@ -23,8 +24,12 @@ pub fn plain() -> Table {
 pub fn run(setup: &Setup, log: &FrameLog, cycles: u64, wall: Duration) -> String {
     let mut text = format!("{}: {}\n\n", setup.name, setup.scenario.description);
     match log.rows.as_slice() {
+        _ if log.pairs.is_some() => text += &pair_table::table(setup, log).trim_fmt(),
         [frame] => text += &one_frame(setup, frame, &log.readings[0]).trim_fmt(),
         _ => text += &many_frames(log).trim_fmt(),
+    }
+    if let (Some(pairs), 3..) = (&log.pairs, log.count) {
+        text += &format!("\n\n{}", pair_table::lines(&pairs.tally()).trim_end());
     }
     let rate = cycles as f64 / wall.as_secs_f64();
     text += &format!(
@@ -49,6 +54,18 @@ fn one_frame(setup: &Setup, frame: &Frame, readings: &[Reading]) -> Table {
     } else {
         row("estimated", format!("{:.6} m  {:09x}", depth_m(frame), frame.depth.bits()));
     }
+    self::readings(setup, readings, &mut row);
+    row("shots", grouped(frame.shots));
+    row("TDC hits", grouped(frame.tdc_hits));
+    row("codes counted", grouped(frame.hits()));
+    row("estimator", format!("{} cycles", frame.estimator_cycles));
+    let board_ms = frame.frame_cycles as f64 * CYCLE.seconds() * 1e3;
+    row("frame", format!("{} cycles, {board_ms:.6} ms on the board", grouped(frame.frame_cycles)));
+    table
+}
+
+/// A row for what each estimator says.
+pub(super) fn readings(setup: &Setup, readings: &[Reading], row: &mut impl FnMut(&str, String)) {
     for reading in readings {
         let error_mm = |depth_m| Some(1e3 * (depth_m - setup.true_depth_m()?));
         let error =
@@ -57,13 +74,12 @@ fn one_frame(setup: &Setup, frame: &Frame, readings: &[Reading]) -> Table {
         let failure = || reading.failure.clone().unwrap_or_default();
         row(reading.estimator, reading.depth_m.map_or_else(failure, depth));
     }
-    row("shots", grouped(frame.shots));
-    row("TDC hits", grouped(frame.tdc_hits));
-    row("codes counted", grouped(frame.hits()));
-    row("estimator", format!("{} cycles", frame.estimator_cycles));
-    let board_ms = frame.frame_cycles as f64 * CYCLE.seconds() * 1e3;
-    row("frame", format!("{} cycles, {board_ms:.6} ms on the board", grouped(frame.frame_cycles)));
-    table
+}
+
+/// What an estimator says, in a cell.
+pub(super) fn depth_or_failure(reading: &Reading) -> String {
+    let failure = || reading.failure.clone().unwrap_or_default();
+    reading.depth_m.map_or_else(failure, |depth_m| format!("{depth_m:.6}"))
 }
 
 fn many_frames(log: &FrameLog) -> Table {
@@ -81,10 +97,7 @@ fn many_frames(log: &FrameLog) -> Table {
             frame.estimator_cycles.to_string(),
             grouped(frame.frame_cycles),
         ];
-        cells.extend(readings.iter().map(|reading| {
-            let failure = || reading.failure.clone().unwrap_or_default();
-            reading.depth_m.map_or_else(failure, |depth_m| format!("{depth_m:.6}"))
-        }));
+        cells.extend(readings.iter().map(depth_or_failure));
         table.add_row(cells);
     }
     if log.count > log.rows.len() as u64 {

@@ -229,9 +229,14 @@ table! {
         /// Reset button of the board.
         #[schemars(extend("source" = "section 6.2"))]
         pub rst: bool = false,
-        /// Shots in a frame; a bin of 16 bits must hold them all.
+        /// Shots in a frame; a bin of 16 bits must hold them all. With `dark_frames`, those of a dark
+        /// and a lit frame together.
         #[schemars(range(min = 1, max = 65_535), extend("unit" = "shots", "source" = "eq. 3.3"))]
         pub shots_per_frame: u64 = 30_000,
+        /// Frames come in pairs of half the shots each, the first one dark: the acquisition computer
+        /// changes `laser_en` whenever it has taken a depth.
+        #[schemars(extend("source" = "section 5.2"))]
+        pub dark_frames: bool = false,
     }
 }
 

@@ -16,7 +16,8 @@ pub fn validate(scenario: &Scenario, checked: &Checked) -> Result<()> {
     clocks(scenario, checked)?;
     stimulus(scenario, checked)?;
     windows(scenario, checked)?;
-    control(scenario, checked)
+    control(scenario, checked)?;
+    dark_frames(scenario, checked)
 }
 
 fn clocks(scenario: &Scenario, checked: &Checked) -> Result<()> {
@@ -72,6 +73,50 @@ fn control(scenario: &Scenario, checked: &Checked) -> Result<()> {
         if pair[1].at_us < pair[0].at_us {
             let expected = format!("expected {} or later: changes in order", pair[0].at_us);
             return Err(checked.fault(&format!("control.{}.at_us", k + 1), expected).into());
+        }
+    }
+    Ok(())
+}
+
+/// What pairs of a dark and a lit frame cannot be made of.
+fn dark_frames(scenario: &Scenario, checked: &Checked) -> Result<()> {
+    let (firmware, stimulus) = (&scenario.firmware, &scenario.stimulus);
+    if !firmware.dark_frames {
+        return Ok(());
+    }
+    let fault = |key: &str, value: &dyn std::fmt::Display, expected: &str| {
+        let expected = format!("{expected} with firmware.dark_frames (--estimator subtraction)");
+        Err(checked.fault(key, expected).value(value).into())
+    };
+    if !firmware.shots_per_frame.is_multiple_of(2) {
+        let expected = "expected an even number, half of it for the dark frame,";
+        return fault("firmware.shots_per_frame", &firmware.shots_per_frame, expected);
+    }
+    if !firmware.laser_en {
+        let expected = "expected true, for the lit frames,";
+        return fault("firmware.laser_en", &firmware.laser_en, expected);
+    }
+    let replaced = [
+        (
+            "stimulus.codes",
+            &stimulus.codes,
+            "expected light or photons, codes come without a laser,",
+        ),
+        (
+            "stimulus.histogram",
+            &stimulus.histogram,
+            "expected light or photons, it has one frame only,",
+        ),
+    ];
+    for (key, file, expected) in replaced {
+        if let Some(file) = file {
+            return fault(key, file, expected);
+        }
+    }
+    for (k, change) in scenario.control.iter().enumerate() {
+        if let Some(laser_en) = change.laser_en {
+            let expected = "expected no change of the laser, which changes from frame to frame";
+            return fault(&format!("control.{k}.laser_en"), &laser_en, expected);
         }
     }
     Ok(())

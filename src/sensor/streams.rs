@@ -26,6 +26,9 @@ pub enum Source {
     Dataset = 7,
     /// Which scenes a dataset has; the frame's place is that of a distance and a round.
     Scene = 8,
+    /// A dark and a lit histogram for a dataset's row, in this order; the frame's place is the row
+    /// number's.
+    DatasetPair = 9,
 }
 
 /// Words of 32 bits that a shot may take from its stretch.

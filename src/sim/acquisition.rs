@@ -114,7 +114,9 @@ impl Device {
 
     /// So many cycles later, at the begin of `frame`, with a detector that has been quiet for long.
     pub fn pass(&mut self, cycles: u64, frame: u64) {
+        let begun = self.pll.clk_125.rise(self.cycle);
         self.cycle += cycles;
+        self.timeline.pass(self.pll.clk_125.rise(self.cycle) - begun);
         self.light.begin_frame(frame);
         self.spad.arm(Time::NEVER);
         self.line.settle_low();

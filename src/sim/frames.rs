@@ -9,6 +9,8 @@ use crate::firmware::tof_top::{HistogramSource, Params, TofTop};
 pub struct Frame {
     /// From 0.
     pub index: u64,
+    /// Whether the laser could fire, as the frame ended.
+    pub laser_en: bool,
     /// The estimator's word.
     pub depth: Depth,
     /// Shots counted.
@@ -108,6 +110,7 @@ impl Frames {
         self.done += 1;
         Some(Frame {
             index: self.done - 1,
+            laser_en: top.control_sync.laser_en_sync,
             depth: top.depth_estimator.forward2.depth,
             shots: ctrl.shots(),
             tdc_hits: self.tdc_hits,

@@ -73,11 +73,19 @@ pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics,
 #[derive(Clone, Debug)]
 pub struct Histograms<'a> {
     setup: &'a Setup,
+    /// The kinds of frame, in turn.
+    kinds: Vec<Kind>,
+    shots: u64,
+    frame_cycles: u64,
+}
+
+/// What decides a frame of a kind, lit or dark.
+#[derive(Clone, Debug)]
+struct Kind {
+    lit: bool,
     codes: BinProbabilities,
     /// Chance that a shot without a code has a hit, and that the last one of a frame does.
     no_code: [f64; 2],
-    shots: u64,
-    frame_cycles: u64,
 }
 
 impl<'a> Histograms<'a> {
@@ -88,18 +96,22 @@ impl<'a> Histograms<'a> {
     pub fn new(setup: &'a Setup) -> Result<Self> {
         let (optics, outcomes) = independent_shots(setup, "--fidelity histogram")?;
         let firmware = &setup.scenario.firmware;
-        let hazard = optics.hazard(firmware.laser_en);
         let (delays, cal) = (&setup.params.tdc.delays, &setup.params.tdc.cal);
-        let codes = BinProbabilities::new(hazard, &Bins::of_chain(delays, cal, CYCLE));
-        let uncoded = 1.0 - codes.of_code().iter().sum::<f64>();
-        let no_code = outcomes.ends().map(|end| {
-            let missed = (-hazard.at(end)).exp();
-            if missed < uncoded { 1.0 - missed / uncoded } else { 0.0 }
-        });
+        let bins = Bins::of_chain(delays, cal, CYCLE);
+        let kind = |lit| {
+            let hazard = optics.hazard(lit);
+            let codes = BinProbabilities::new(hazard, &bins);
+            let uncoded = 1.0 - codes.of_code().iter().sum::<f64>();
+            let no_code = outcomes.ends().map(|end| {
+                let missed = (-hazard.at(end)).exp();
+                if missed < uncoded { 1.0 - missed / uncoded } else { 0.0 }
+            });
+            Kind { lit, codes, no_code }
+        };
+        let dark = setup.has_pairs().then(|| kind(false));
         Ok(Histograms {
             setup,
-            codes,
-            no_code,
+            kinds: dark.into_iter().chain([kind(firmware.laser_en)]).collect(),
             shots: setup.shots(1),
             frame_cycles: setup.frame_cycles(firmware.laser_freq as usize),
         })
@@ -108,12 +120,14 @@ impl<'a> Histograms<'a> {
     /// Draws a frame.
     pub fn frame(&self, index: u64) -> Frame {
         let mut random = stream(self.setup.scenario.seed, Source::Histogram, index);
-        let counts = self.codes.draw(self.shots, &mut random);
+        let kind = &self.kinds[index as usize % self.kinds.len()];
+        let counts = kind.codes.draw(self.shots, &mut random);
         let coded: u64 = counts.iter().sum();
-        let tdc_hits = coded + self.hits_without_code(self.shots - coded, &mut random);
+        let tdc_hits = coded + self.hits_without_code(kind, self.shots - coded, &mut random);
         let histogram = counts.map(|count| count as u16);
         Frame {
             index,
+            laser_en: kind.lit,
             depth: estimate(&self.setup.params.depth_estimator, &histogram).depth,
             shots: self.shots,
             tdc_hits,
@@ -124,10 +138,10 @@ impl<'a> Histograms<'a> {
     }
 
     /// Hits among so many shots without a code, one of which may be the frame's last.
-    fn hits_without_code(&self, shots: u64, random: &mut ChaCha8Rng) -> u64 {
+    fn hits_without_code(&self, kind: &Kind, shots: u64, random: &mut ChaCha8Rng) -> u64 {
         let last = u64::from(random.random_range(0..self.shots) < shots);
         let draw = |shots, chance| Binomial::new(shots, chance).ok();
-        let drawn = [draw(shots - last, self.no_code[0]), draw(last, self.no_code[1])];
+        let drawn = [draw(shots - last, kind.no_code[0]), draw(last, kind.no_code[1])];
         drawn.into_iter().flatten().map(|draw| draw.sample(random)).sum()
     }
 

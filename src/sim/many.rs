@@ -1,9 +1,10 @@
 //! Many frames on many cores.
 //!
 //! Every frame has random streams of its own, and in MODE 0 nothing else of one frame reaches the
-//! next but the time: the SPAD is reset before the first shot. So the second frame's begin is found,
-//! and each of those after it begins there, so many frames later. The results are those of one after
-//! the other, and come in that order, whatever the number of threads.
+//! next but the time: the SPAD is reset before the first shot. So the second frame's begin is found
+//! (and the third's, if every other frame is dark), and each of those after it begins there, so many
+//! frames later. The results are those of one after the other, and come in that order, whatever the
+//! number of threads.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -51,7 +52,8 @@ impl Run<'_> {
         self.limit = self.setup.longest_run(count);
         self.device.power_up(&mut Off, &mut Off);
         if sinks.shots.is_some() {
-            self.go(1, &mut Off, &mut Recorder::default(), &mut sinks)?;
+            let shown = count.min(self.setup.frames_together());
+            self.go(shown, &mut Off, &mut Recorder::default(), &mut sinks)?;
         }
         if !self.setup.has_frames_apart() || rayon::current_num_threads() < 2 || count < 2 {
             if self.frames.done() < count {
@@ -59,31 +61,39 @@ impl Run<'_> {
             }
             return Ok(self.outcome(Marks::default()));
         }
-        let second = self.second_frame(stop)?;
+        let begins = self.begins(stop)?;
+        let begin = |frame: u64| {
+            let kind = (frame - begins[0].frames.done()) % begins.len() as u64;
+            begins[kind as usize].of_frame(frame)
+        };
         let take = &mut |frame: &Frame| sinks.frame(frame);
         deliver(self.frames.done()..count, take, stop, |frame| match frame {
             0 => self.clone().next_frame(stop),
-            _ => second.of_frame(frame).next_frame(stop),
+            _ => begin(frame).next_frame(stop),
         })?;
-        Ok(second.of_frame(count).outcome(Marks::default()))
+        Ok(begin(count).outcome(Marks::default()))
     }
 
-    /// Where frame 1 begins. What is left of frame 0 does not matter, so that a leap finds it.
-    fn second_frame(&self, stop: Option<&AtomicBool>) -> Result<Self> {
-        let mut second = self.clone();
-        if self.frames.done() == 0 {
-            second.gait = Gait::Leap;
-            second.next_frame(stop)?;
-            second.gait = self.gait;
+    /// Where a frame after the first begins, and the one after it if every other frame is dark. What
+    /// is left of the frames before does not matter, so that leaps find them.
+    fn begins(&self, stop: Option<&AtomicBool>) -> Result<Vec<Self>> {
+        let next = |run: &Self| -> Result<Self> {
+            let mut next = run.clone().at(Gait::Leap);
+            next.next_frame(stop)?;
+            Ok(next.at(run.gait))
+        };
+        let mut begins = vec![if self.frames.done() == 0 { next(self)? } else { self.clone() }];
+        while (begins.len() as u64) < self.setup.frames_together() {
+            begins.push(next(&begins[begins.len() - 1])?);
         }
-        Ok(second)
+        Ok(begins)
     }
 
-    /// Where frame `frame` begins; `self` is where frame 1 does.
+    /// Where frame `frame` begins; `self` is where an earlier one of its kind does.
     fn of_frame(&self, frame: u64) -> Self {
         let mut run = self.clone();
         let rate = self.setup.scenario.firmware.laser_freq as usize;
-        let frames = frame - 1;
+        let frames = frame - self.frames.done();
         let cycles = frames * (self.setup.frame_cycles(rate) + 1);
         run.device.pass(cycles, frame);
         run.frames.pass(frames, cycles, self.setup.shots(frames));

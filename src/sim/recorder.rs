@@ -26,6 +26,8 @@ pub struct Shot {
     pub coarse: Option<u64>,
     /// TDC code, which is also the histogram's bin.
     pub code: Option<u64>,
+    /// Whether the laser driver was told to fire.
+    pub laser_en: bool,
     begun: Time,
     cycle: u64,
     has_hit: bool,
@@ -41,6 +43,8 @@ pub struct Recorder {
     avalanches: VecDeque<(Time, Option<Cause>)>,
     shot: u64,
     frame: u64,
+    /// The driver's `enable`, as the coming shot takes it.
+    laser_en: bool,
     last_edge: Time,
     /// Whether a hit was in the decoder's second stage at the last edge.
     decoding: bool,
@@ -74,9 +78,13 @@ impl Recorder {
             CodeSource::Tdc => self.follow_tdc(cycle, top, p),
             CodeSource::Preload(_) => self.follow_preload(top),
         }
+        if top.vcsel_driver.registers.pre_start {
+            self.laser_en = top.vcsel_driver.registers.is_enabled();
+        }
         if top.vcsel_driver.registers.start {
-            let (frame, shot) = (self.frame, self.shot);
-            self.open.push_back(Shot { frame, shot, begun: now, cycle, ..Shot::default() });
+            let (frame, shot, laser_en) = (self.frame, self.shot, self.laser_en);
+            let begun = Shot { frame, shot, laser_en, begun: now, cycle, ..Shot::default() };
+            self.open.push_back(begun);
             self.shot += 1;
             if self.open.len() > OPEN {
                 self.complete.extend(self.open.pop_front());

@@ -11,7 +11,7 @@ use crate::kernel::{Time, U};
 use crate::network::Network;
 use crate::optics::{Budget, Hazard};
 use crate::scenario::builtin::Source;
-use crate::scenario::{Loaded, Scenario, chain};
+use crate::scenario::{Firmware, Loaded, Scenario, chain};
 use crate::sensor::light::{Light, Optics};
 use crate::sensor::photon_list::{Given, PhotonList};
 
@@ -70,7 +70,7 @@ impl Setup {
         });
         let params = Params {
             frame_ctrl: frame_ctrl::Params {
-                shots_per_frame: scenario.firmware.shots_per_frame as u16,
+                shots_per_frame: shots_per_frame(&scenario.firmware),
                 preloaded: matches!(histogram_source, HistogramSource::Preload(_)),
             },
             tdc: tdc::Params::new(delays, cal),
@@ -121,6 +121,16 @@ impl Setup {
         let differ = trained != chain && self.true_depth_m().is_some();
         let note = || format!("note: the network was trained on chain {trained}, not on {chain}");
         differ.then(note).into_iter().collect()
+    }
+
+    /// Whether frames come in pairs, the first of each a dark one.
+    pub fn has_pairs(&self) -> bool {
+        self.scenario.firmware.dark_frames
+    }
+
+    /// Frames that belong together: one, or a dark and a lit one.
+    pub fn frames_together(&self) -> u64 {
+        if self.has_pairs() { 2 } else { 1 }
     }
 
     /// Shots of a run.
@@ -185,6 +195,12 @@ impl Setup {
     pub fn true_depth_m(&self) -> Option<f64> {
         matches!(self.light, Light::Optics(_)).then_some(self.scenario.target.distance_m)
     }
+}
+
+/// Shots that the firmware counts in a frame.
+fn shots_per_frame(firmware: &Firmware) -> u16 {
+    let shots = firmware.shots_per_frame as u16;
+    if firmware.dark_frames { shots / 2 } else { shots }
 }
 
 fn network(scenario: &Scenario, files: &Source) -> Result<Network> {

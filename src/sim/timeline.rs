@@ -4,11 +4,19 @@ use crate::firmware::tof_top::Pins;
 use crate::kernel::{Time, U};
 use crate::scenario::{Control, Firmware, Scenario};
 
+/// What the acquisition computer takes from a depth to a change of `laser_en`: well within Clear, and
+/// at no edge of a clock.
+const RESPONSE: Time = Time::from_ns(101);
+
 /// Changes still to come, in order of time.
 #[derive(Clone, Debug)]
 pub struct Timeline {
     changes: std::vec::IntoIter<(Time, Control)>,
     next: Time,
+    /// Whether every depth makes the acquisition computer turn the laser on or off.
+    alternates: bool,
+    /// When it does so next.
+    turn: Time,
 }
 
 impl Timeline {
@@ -17,7 +25,8 @@ impl Timeline {
         let changes = scenario.control.iter();
         let changes: Vec<_> =
             changes.map(|change| (Time::from_ps_f64(change.at_us * 1e6), change.clone())).collect();
-        let mut timeline = Timeline { changes: changes.into_iter(), next: Time::ZERO };
+        let (changes, alternates) = (changes.into_iter(), scenario.firmware.dark_frames);
+        let mut timeline = Timeline { changes, next: Time::ZERO, alternates, turn: Time::NEVER };
         timeline.look_ahead();
         timeline
     }
@@ -28,9 +37,26 @@ impl Timeline {
         self.next
     }
 
+    /// A depth is ready from the edge at `now` on.
+    #[inline]
+    pub fn take_depth(&mut self, now: Time) {
+        if self.alternates {
+            self.turn = now + RESPONSE;
+            self.look_ahead();
+        }
+    }
+
+    /// The answer to a depth comes so much later.
+    pub fn pass(&mut self, time: Time) {
+        self.turn = self.turn.saturating_add(time);
+        self.look_ahead();
+    }
+
     /// Makes the next change.
     pub fn event(&mut self, pins: &mut Pins) {
-        if let Some((_, change)) = self.changes.next() {
+        if self.turn == self.next {
+            (pins.laser_en, self.turn) = (!pins.laser_en, Time::NEVER);
+        } else if let Some((_, change)) = self.changes.next() {
             pins.laser_freq = change.laser_freq.map_or(pins.laser_freq, U::new);
             pins.mode = change.mode.map_or(pins.mode, |mode| mode == 1);
             pins.laser_en = change.laser_en.unwrap_or(pins.laser_en);
@@ -47,7 +73,8 @@ impl Timeline {
     }
 
     fn look_ahead(&mut self) {
-        self.next = self.changes.as_slice().first().map_or(Time::NEVER, |(at, _)| *at);
+        let change = self.changes.as_slice().first().map_or(Time::NEVER, |(at, _)| *at);
+        self.next = change.min(self.turn);
     }
 }
 
@@ -58,8 +85,56 @@ pub fn pins_at_power_up(firmware: &Firmware) -> Pins {
         tdc_stop: false,
         mode: firmware.mode == 1,
         laser_freq: U::new(firmware.laser_freq),
-        laser_en: firmware.laser_en,
+        laser_en: firmware.laser_en && !firmware.dark_frames,
         dsp_en: firmware.dsp_en,
         dsp_rst: firmware.dsp_rst,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn timeline(dark_frames: bool) -> (Timeline, Pins) {
+        let mut scenario = Scenario::default();
+        scenario.firmware.dark_frames = dark_frames;
+        scenario.control = vec![Control { at_us: 1.0, mode: Some(1), ..Control::default() }];
+        (Timeline::new(&scenario), pins_at_power_up(&scenario.firmware))
+    }
+
+    #[test]
+    fn every_depth_turns_the_laser_within_clear() {
+        let (mut timeline, mut pins) = timeline(true);
+        assert!(!pins.laser_en);
+        for (edge_ns, lit) in [(504, true), (992, false), (8000, true)] {
+            timeline.take_depth(Time::from_ns(edge_ns));
+            while timeline.next_event() < Time::from_ns(edge_ns) + RESPONSE {
+                timeline.event(&mut pins);
+            }
+            assert_eq!(timeline.next_event(), Time::from_ns(edge_ns + 101));
+            timeline.event(&mut pins);
+            assert_eq!(pins.laser_en, lit);
+        }
+        assert!(pins.mode, "the timeline's own changes come when they are due");
+        assert_eq!((timeline.next_event(), timeline.left()), (Time::NEVER, 0));
+    }
+
+    #[test]
+    fn an_answer_moves_with_the_frame() {
+        let (mut timeline, _) = timeline(true);
+        timeline.take_depth(Time::from_ns(8));
+        timeline.pass(Time::from_ns(800));
+        assert_eq!(timeline.next_event(), Time::from_ns(909));
+        timeline.event(&mut Pins::default());
+        timeline.pass(Time::from_ns(800));
+        assert_eq!(timeline.next_event(), Time::from_ns(1000), "no answer is due");
+    }
+
+    #[test]
+    fn without_dark_frames_a_depth_changes_nothing() {
+        let (mut timeline, pins) = timeline(false);
+        assert!(pins.laser_en);
+        timeline.take_depth(Time::from_ns(8));
+        assert_eq!(timeline.next_event(), Time::from_ns(1000));
     }
 }
