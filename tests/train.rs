@@ -5,7 +5,7 @@ mod common;
 use std::fs;
 use std::path::Path;
 
-use common::{files, json, output, refused, stdout};
+use common::{files, json, refused, stdout};
 use tofsim::network::Network;
 use tofsim::training::features::{Features, Scaling};
 use tofsim::training::limits::Limits;
@@ -140,12 +140,12 @@ fn other_numbers_of_neurons_are_trained_and_run() {
     let args = [&SMALL[..], &END, &["--neurons", "4", "-o", "four"]].concat();
     stdout(folder, &args);
     let network = Network::load(&folder.join("four/network.toml")).unwrap();
-    assert_eq!((network.fixed.neurons(), network.training.seed), (4, Some(1)));
+    assert_eq!((network.fixed.neurons(), network.training.seed), (4, Some(2)));
     assert_eq!(network.training.data.as_ref().map(String::len), Some(16));
     assert!(network.training.command.unwrap().ends_with("--neurons 4"));
     assert_eq!(network.accuracy.unwrap().mean_mm.unwrap().len(), 6);
     let set = ["-s", "estimator.network=four/network.toml", "-s", "firmware.shots_per_frame=50"];
-    let run = common::json(folder, &[&["run", "--waves", "none", "--json"], &set[..]].concat());
+    let run = json(folder, &[&["run", "--waves", "none", "--json"], &set[..]].concat());
     assert_eq!(run["frames"][0]["estimator_cycles"], 259 + 4);
     let error = refused(folder, &["train", "--neurons", "17"]);
     assert!(error.contains("neurons = 17: expected 16 at most"), "{error}");

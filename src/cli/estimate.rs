@@ -20,7 +20,7 @@ pub struct Args {
     /// CSV with header bin,count and 256 rows, or .npy of 256 or n x 256 whole numbers
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Built-in network (uniform, ideal) or network file
+    /// Built-in network (uniform, uniform-16, ideal) or network file
     #[arg(long, value_name = "NAME|FILE", default_value = Network::DEFAULT)]
     network: String,
     /// Show every value of the datapath beside its twin in double precision, where they part, and

@@ -43,7 +43,7 @@ const CHECK_IRRADIANCE: f64 = 0.2;
     tofsim evaluate --estimator peak,subtraction    does a dark histogram help the detector?"
 )]
 pub struct Args {
-    /// Built-in network (uniform, ideal) or network file
+    /// Built-in network (uniform, uniform-16, ideal) or network file
     #[arg(value_name = "NETWORK", default_value = Network::DEFAULT)]
     network: String,
     /// Built-in scenario, or the path of a scenario file, for all but the scene

@@ -54,6 +54,7 @@ pub struct Accuracy {
 const BUILTIN: &[(&str, &str)] = &[
     ("uniform", include_str!("../../stimuli/networks/uniform.toml")),
     ("ideal", include_str!("../../stimuli/networks/ideal.toml")),
+    ("uniform-16", include_str!("../../stimuli/networks/uniform-16.toml")),
 ];
 
 impl Network {
@@ -135,6 +136,6 @@ mod tests {
     #[test]
     fn a_name_that_is_neither_built_in_nor_a_file_lists_the_built_in_ones() {
         let error = Network::find("unifrom", None).unwrap_err().to_string();
-        assert!(error.contains("unifrom") && error.contains("uniform, ideal"), "{error}");
+        assert!(error.contains("unifrom") && error.contains("uniform, ideal, uniform-16"), "{error}");
     }
 }

@@ -243,7 +243,7 @@ table! {
 table! {
     /// The depth estimator.
     pub struct Estimator {
-        /// Network: `uniform`, `ideal`, or the path of a network file.
+        /// Network: `uniform`, `uniform-16`, `ideal`, or the path of a network file.
         #[schemars(extend("source" = "docs/model.md"))]
         pub network: String = "uniform".into(),
     }

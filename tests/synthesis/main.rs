@@ -90,7 +90,7 @@ fn sixteen_neurons_take_seventeen_multipliers() {
     let cells = Cells::with(&sources, "depth_estimator", command);
     assert!(cells.odd().is_empty(), "{:?}", cells.odd());
     assert_eq!(cells.count("DSP48E1"), 16 + 1);
-    assert_eq!(cells.count("RAMB36E1"), Datapath::default().cost(16).ramb36.into());
+    assert_eq!(cells.count("RAMB36E1"), u64::from(Datapath::default().cost(16).ramb36));
 }
 
 #[test]
