@@ -2,7 +2,6 @@
 
 use std::io::{self, Write};
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::dataset::Source;
 use crate::error::{Error, Input, Result, read_text};
@@ -17,6 +16,7 @@ use crate::training::recipe::Recipe;
 use crate::training::tournament::Tournament;
 use crate::training::{checkpoint, curve, data, report};
 
+use super::draws::from_here;
 use super::interrupt::stop_signal;
 use super::stdout::print;
 use super::talk::Talk;
@@ -84,9 +84,11 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         let text = toml::to_string(&recipe).map_err(|error| Input::new("recipe", error))?;
         return print(&text);
     }
-    let mut overrides = args.set.clone();
-    overrides.extend(args.profile.iter().map(|profile| format!("tdc.profile={profile}")));
-    let setup = Setup::new(scenario::load(&args.scenario, &overrides)?)?;
+    let mut loaded = scenario::load(&args.scenario, &args.set)?;
+    if let Some(profile) = &args.profile {
+        loaded.scenario.tdc.profile = from_here(profile, &loaded)?;
+    }
+    let setup = Setup::new(loaded)?;
     let source = Source::new(&setup)?;
     let mut settings: checkpoint::Settings = recipe.settings()?.into_iter().collect();
     settings.insert("seed".to_owned(), args.seed.to_string());
@@ -104,21 +106,24 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         None => Tournament::new(&recipe, &source, args.seed)?,
     };
     let stop = stop_signal();
+    let (done, all) = tournament.progress();
+    let progress = talk.progress(all, "histograms times epochs");
+    progress.set_position(done);
+    progress.reset_eta();
     let mut saved = 0;
     while !tournament.is_over() {
-        if stop.as_deref().is_some_and(|stop: &AtomicBool| stop.load(Ordering::Relaxed)) {
-            return Err(Error::Interrupted);
-        }
         let before = tournament.state.stage;
-        tournament.advance()?;
+        tournament.advance(stop.as_deref())?;
         checkpoint::save(&path, &settings, &tournament.state)?;
-        say(talk, &tournament, before);
+        progress.set_position(tournament.progress().0);
+        progress.suspend(|| say(talk, &tournament, before));
         saved += 1;
         if args.checkpoints == Some(saved) && !tournament.is_over() {
             talk.note(format_args!("stopped; {} has the state", path.display()));
             return Ok(());
         }
     }
+    progress.finish_and_clear();
     args.finish(&setup, &recipe, &tournament, talk)
 }
 
@@ -208,7 +213,7 @@ impl Args {
         let rows = tournament.test(&fixed)?;
         write("accuracy.csv", &report::csv(&rows))?;
 
-        let chain = setup.scenario.tdc.profile.clone();
+        let chain = self.profile.clone().unwrap_or_else(|| setup.scenario.tdc.profile.clone());
         let best = tournament.state.best.as_ref();
         let block = best.map_or(String::new(), |best| {
             format!(", start {} after block {}", best.start, best.block)

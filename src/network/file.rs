@@ -136,6 +136,9 @@ mod tests {
     #[test]
     fn a_name_that_is_neither_built_in_nor_a_file_lists_the_built_in_ones() {
         let error = Network::find("unifrom", None).unwrap_err().to_string();
-        assert!(error.contains("unifrom") && error.contains("uniform, ideal, uniform-16"), "{error}");
+        assert!(
+            error.contains("unifrom") && error.contains("uniform, ideal, uniform-16"),
+            "{error}"
+        );
     }
 }

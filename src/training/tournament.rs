@@ -4,10 +4,12 @@
 //! All that decides how it goes on is [`State`], so that a training that was stopped and one that was
 //! not end alike.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use rayon::prelude::*;
 
 use crate::dataset::{Grid, Source};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::network::estimate;
 use crate::network::float::Float;
 use crate::network::formats::{Fixed, Overflow};
@@ -112,11 +114,12 @@ impl<'a> Tournament<'a> {
         (done, all)
     }
 
-    /// Trains until the next checkpoint.
+    /// Trains until the next checkpoint, or until `stop` is set; what was done since the last one is
+    /// then lost.
     ///
     /// # Errors
-    /// When a cost is no number, or data cannot be drawn.
-    pub fn advance(&mut self) -> Result<()> {
+    /// When a cost is no number, data cannot be drawn, or the user stops.
+    pub fn advance(&mut self, stop: Option<&AtomicBool>) -> Result<()> {
         if self.is_over() {
             return Ok(());
         }
@@ -124,7 +127,7 @@ impl<'a> Tournament<'a> {
             self.reweigh();
         }
         let epochs = self.recipe.checkpoint_epochs.min(self.target() - self.state.epochs);
-        self.train(epochs)?;
+        self.train(epochs, stop)?;
         self.state.epochs += epochs;
         self.record();
         let resting = self.state.candidates.iter().all(|candidate| candidate.lm.stop.is_some());
@@ -157,7 +160,7 @@ impl<'a> Tournament<'a> {
         }
     }
 
-    fn train(&mut self, epochs: u64) -> Result<()> {
+    fn train(&mut self, epochs: u64, stop: Option<&AtomicBool>) -> Result<()> {
         let (recipe, data, scaling) = (self.recipe, &self.data, &self.state.scaling);
         self.state.candidates.par_iter_mut().try_for_each(|candidate| {
             let weights = weights(recipe, &data.distances_m, &candidate.factors);
@@ -171,6 +174,9 @@ impl<'a> Tournament<'a> {
                 limits: recipe.limits,
             };
             for _ in 0..epochs {
+                if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+                    return Err(Error::Interrupted);
+                }
                 candidate.lm.epoch(&problem, &recipe.optimiser)?;
             }
             if candidate.lm.stop.is_some() {
