@@ -41,7 +41,8 @@ impl Panel {
             shots: setup.scenario.firmware.shots_per_frame,
             pulse_sigma_ps: setup.scenario.laser.pulse_sigma_ps,
         };
-        let needs = Needs { acquisition, network: &setup.network };
+        let centroid = &setup.params.centroid_estimator;
+        let needs = Needs { acquisition, network: &setup.network, centroid };
         let estimators = kinds.iter().map(|kind| Ok(kind.estimator(&needs)?));
         Ok(Panel { estimators: estimators.collect::<Result<_>>()? })
     }

@@ -3,6 +3,7 @@
 use super::block::Spec;
 
 mod carry_chain;
+pub(super) mod centroid_estimator;
 mod coarse_counter;
 mod code_preload;
 mod control_sync;
@@ -28,6 +29,7 @@ mod vcsel_driver;
 /// Every block, in the order of their names.
 pub static BLOCKS: &[Spec] = &[
     carry_chain::SPEC,
+    centroid_estimator::SPEC,
     coarse_counter::SPEC,
     code_preload::SPEC,
     control_sync::SPEC,

@@ -9,10 +9,8 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Binomial, Distribution};
 
 use crate::error::{Input, Result};
-use crate::firmware::estimator_ctrl;
 use crate::firmware::vcsel_driver::PERIODS;
 use crate::kernel::Time;
-use crate::network::estimate::estimate;
 use crate::optics::{BinProbabilities, Bins};
 use crate::sensor::light::{Light, Optics};
 use crate::sensor::streams::{Source, stream};
@@ -115,11 +113,11 @@ impl<'a> Histograms<'a> {
         let histogram = counts.map(|count| count as u16);
         Frame {
             index,
-            depth: estimate(&self.setup.params.depth_estimator, &histogram).depth,
+            depth: self.setup.depth(&histogram),
             shots: self.shots,
             tdc_hits,
             histogram,
-            estimator_cycles: estimator_ctrl::DONE,
+            estimator_cycles: self.setup.params.estimator.cycles(),
             frame_cycles: self.frame_cycles,
         }
     }

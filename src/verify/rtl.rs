@@ -16,6 +16,7 @@ macro_rules! modules {
 /// Our own modules: file name and text.
 pub const OWN: &[(&str, &str)] = modules![
     "carry_chain",
+    "centroid_estimator",
     "coarse_counter",
     "code_preload",
     "control_sync",
