@@ -250,7 +250,9 @@ pub(super) mod tests {
     fn a_module_that_sleeps_misses_no_change() {
         for seed in 0..6 {
             let (mut random, cycles) = (ChaCha8Rng::seed_from_u64(seed), 30_000);
-            let short = ["firmware.shots_per_frame=30".to_owned()];
+            let kind = if seed < 4 { "network" } else { "centroid" };
+            let short =
+                ["firmware.shots_per_frame=30".to_owned(), format!("estimator.kind={kind}")];
             let load = || scenario::load("bright", &short).unwrap();
             let mut loaded = load();
             let plain = Setup::new(load()).unwrap();

@@ -10,7 +10,7 @@ use super::readback::{DerefIn, FORMATS, FRAME, assert_same, at, contents, create
 use super::*;
 use crate::firmware::carry_chain::TAPS;
 use crate::firmware::depth_estimator;
-use crate::firmware::tof_top::{CodeSource, HistogramSource, Pins};
+use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Pins};
 use crate::hierarchy::{entries, ram_entries};
 use crate::kernel::{Thermometer, U};
 
@@ -137,6 +137,7 @@ fn every_input_port_has_an_entry() {
     let mut paths: BTreeSet<_> = entries(&params).iter().map(Entry::path).collect();
     params.code_source = CodeSource::Preload(Box::new([U::new(0)]));
     params.histogram_source = HistogramSource::Preload(rom);
+    params.estimator = Estimator::Centroid;
     paths.extend(entries(&params).iter().map(Entry::path));
     let modules = [
         ("tof_top", tof_top::Wires::inputs()),

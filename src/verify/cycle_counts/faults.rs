@@ -21,6 +21,14 @@ fn a_fault_of_the_estimator_is_counted_and_not_proven() {
 }
 
 #[test]
+fn a_fault_of_the_centroid_estimator_is_counted_and_not_proven() {
+    let control = |from, to| [["centroid_estimator.v", from, to]];
+    fault("centroid_latency", &control("Last = 9'd307", "Last = 9'd308"), 309);
+    fault("centroid_latency", &control("step == Last", "step == Place"), 307);
+    fault("centroid_latency", &control("step_next = step + 9'd1", "step_next = step + 9'd2"), 155);
+}
+
+#[test]
 fn a_fault_of_the_laser_is_counted_and_not_proven() {
     let laser = |from, to| [["vcsel_driver.v", from, to]];
     fault("laser_period_0", &laser("5'd24", "5'd23"), 24);
