@@ -6,7 +6,7 @@
 // A window of 2 HalfWidth + 1 words slides over the histogram; where its centre stands highest, its
 // centroid becomes the depth. 308 cycles.
 module centroid_estimator #(
-    parameter [4:0] HalfWidth = 5'd16,        // words to either side of the centre, 1 to 31 [bins]
+    parameter [4:0] HalfWidth = 5'd23,        // words to either side of the centre, 1 to 31 [bins]
     parameter [0:0] Background = 1'b1,        // 1: height is counted from the window's first word
     parameter [16:0] Slope = 17'd62871,       // distance of a bin [2^-24 m]
     parameter signed [29:0] Offset = 30'sd0   // distance that is added [2^-29 m]

@@ -8,7 +8,7 @@ module tof_top #(
     parameter [0:0] HistogramSource = 1'b0,      // 0: histogram_builder, 1: histogram_preload
     parameter [0:0] Estimator = 1'b0,            // 0: depth_estimator, 1: centroid_estimator
     // See centroid_estimator
-    parameter [4:0] HalfWidth = 5'd16,
+    parameter [4:0] HalfWidth = 5'd23,
     parameter [0:0] Background = 1'b1,
     parameter [16:0] Slope = 17'd62871,
     parameter signed [29:0] Offset = 30'sd0,

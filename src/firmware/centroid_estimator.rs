@@ -71,9 +71,9 @@ pub struct Params {
 }
 
 impl Default for Params {
-    /// As the Verilog: W = 16, above the background, c/2 for 25 ps a bin, no offset.
+    /// As the Verilog: W = 23, above the background, c/2 for 25 ps a bin, no offset.
     fn default() -> Self {
-        Params { half_width: 16, background: true, slope: U::new(62_871), offset: S::new(0) }
+        Params { half_width: 23, background: true, slope: U::new(62_871), offset: S::new(0) }
     }
 }
 

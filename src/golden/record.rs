@@ -6,6 +6,7 @@ use crate::hierarchy::{self, Entry, IDS, Kind};
 use crate::kernel::signals::{Signal, Signals};
 
 use super::block::{Block, Setting, Spec};
+use super::blocks::place;
 use super::draw::Draw;
 use super::table::{Column, Fill, Table};
 use super::vectors::Vectors;
@@ -77,8 +78,7 @@ pub(super) fn record<B: Block>(
     let own_places: Vec<_> = (0..B::Stimulus::COUNT).map(|column| vec![column]).collect();
     let order = setting.setup.params.tdc.delays.order();
 
-    let place = super::BLOCKS.iter().position(|other| other.name == spec.name);
-    let mut draw = Draw::new(setting.seed, place.unwrap_or_default() as u64);
+    let mut draw = Draw::new(setting.seed, place(spec.name));
     let mut top = TofTop::new(Pins::default());
     for cycle in 0..setting.cycles() {
         let i = block.stimulus(cycle, &top, &mut draw);

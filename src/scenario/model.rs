@@ -256,8 +256,8 @@ table! {
         #[schemars(extend("source" = "docs/model.md"))]
         pub network: String = "uniform".into(),
         /// Words of the centroid's window to either side of its centre.
-        #[schemars(range(min = 1, max = 31), extend("unit" = "bins", "source" = "choice: three sigma of the pulse"))]
-        pub centroid_half_width: u64 = 16,
+        #[schemars(range(min = 1, max = 31), extend("unit" = "bins", "source" = "choice: 23 bins are 50 taps of 11.5 ps; 4 sigma of the pulse"))]
+        pub centroid_half_width: u64 = 23,
         /// Whether the centroid's maximum is of the height above the window's first word, and not above zero.
         #[schemars(extend("source" = "choice: ambient light piles up in the first bins"))]
         pub centroid_background: bool = true,

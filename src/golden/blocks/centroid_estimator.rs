@@ -129,9 +129,8 @@ impl Block for CentroidEstimator {
     }
 
     fn edge(&mut self, i: &Stimulus, top: &mut TofTop) {
-        let registers = &top.centroid_estimator.registers;
-        let word = self.histograms[i.histogram.index()][registers.read_addr.index()];
-        let count = if registers.read_en { word } else { U::new(0) };
+        let word = top.centroid_estimator.registers.read_addr.index();
+        let count = self.histograms[i.histogram.index()][word];
         let i = In { rst: i.rst, algo_start: i.algo_start, count };
         top.centroid_estimator.rise(&i, &self.params);
     }
