@@ -46,8 +46,10 @@ pub(super) enum Case {
 impl Case {
     /// All that those parameters allow: bin 0 does not stand above itself.
     pub(super) fn reachable(p: &Params) -> impl Iterator<Item = Self> {
-        let all = [Self::Nothing, Self::Last, Self::CutLeft, Self::CutRight, Self::Equal];
-        all.into_iter().chain((!p.background).then_some(Self::First))
+        let first = (!p.background).then_some(Self::First);
+        let cut_left = (!p.background || p.half_width > 1).then_some(Self::CutLeft);
+        let others = [Self::Nothing, Self::Last, Self::CutRight, Self::Equal];
+        others.into_iter().chain(first).chain(cut_left)
     }
 
     /// Those that an estimation met.
