@@ -46,15 +46,6 @@ module tansig #(
     output wire signed [15:0] l1_out_14,
     output wire signed [15:0] l1_out_15
 );
-    // Block RAM, or LUTs for gate-level simulation, since Yosys has no model of a block RAM.
-`ifdef ROM_IN_LUTS
-    (* rom_style = "logic" *)
-`else
-    (* rom_style = "block" *)
-`endif
-    reg signed [15:0] rom [0:(1 << AddressBits) - 1];
-    initial $readmemh(TansigFile, rom);
-
     // The sum, rounded half up and saturated: the only rounding in the datapath.
     function [AddressBits-1:0] address;
         input signed [35:0] l1_in;
@@ -82,10 +73,20 @@ module tansig #(
             l1_out_7, l1_out_6, l1_out_5, l1_out_4, l1_out_3, l1_out_2, l1_out_1, l1_out_0}
            = unit_l1_out;
 
-    genvar k;
+    // A block RAM has two ports, so each two neurons have a copy of the table.
+    genvar pair, k;
     generate
-        for (k = 0; k < 16; k = k + 1) begin : unit
-            if (k < Neurons) begin : used
+        for (pair = 0; 2 * pair < Neurons; pair = pair + 1) begin : pairs
+            // Block RAM, or LUTs for gate-level simulation, since Yosys has no model of a block RAM.
+`ifdef ROM_IN_LUTS
+            (* rom_style = "logic" *)
+`else
+            (* rom_style = "block" *)
+`endif
+            reg signed [15:0] rom [0:(1 << AddressBits) - 1];
+            initial $readmemh(TansigFile, rom);
+
+            for (k = 2 * pair; k < 2 * pair + 2 && k < Neurons; k = k + 1) begin : unit
                 wire signed [15:0] entry = rom[address(l1_in[36*k +: 36])];
 
                 reg signed [15:0] l1_out;
@@ -104,7 +105,10 @@ module tansig #(
                 end
 
                 assign unit_l1_out[16*k +: 16] = l1_out;
-            end else begin : unused
+            end
+        end
+        for (k = 0; k < 16; k = k + 1) begin : past
+            if (k >= Neurons) begin : last
                 assign unit_l1_out[16*k +: 16] = 16'd0;
             end
         end

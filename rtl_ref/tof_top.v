@@ -6,7 +6,13 @@ module tof_top #(
     parameter [15:0] ShotsPerFrame = 16'd30000,  // [shots]
     parameter [0:0] CodeSource = 1'b0,           // 0: tdc, 1: code_preload
     parameter [0:0] HistogramSource = 1'b0,      // 0: histogram_builder, 1: histogram_preload
-    parameter [4:0] Neurons = 5'd8,              // hidden neurons of the estimator, 1 to 16
+    parameter [0:0] Estimator = 1'b0,            // 0: depth_estimator, 1: centroid_estimator
+    parameter [4:0] Neurons = 5'd8,              // hidden neurons of depth_estimator, 1 to 16
+    // See centroid_estimator
+    parameter [4:0] HalfWidth = 5'd23,
+    parameter [0:0] Background = 1'b1,
+    parameter [16:0] Slope = 17'd62871,
+    parameter signed [29:0] Offset = 30'sd0,
     parameter [63:0] LockTime = 64'd1000000,        // of the PLL in simulation [ps]
     parameter integer Codes = 27756,             // words in CodeFile
     // Contents of ROMs, and the simulated chain's delays
@@ -64,6 +70,15 @@ module tof_top #(
     assign tdc_code = CodeSource ? preloaded_code : measured_code;
     assign tdc_valid = CodeSource ? preloaded_valid : measured_valid;
     assign count = HistogramSource ? preloaded_count : built_count;
+
+    wire signed [35:0] network_depth, centroid_depth;
+    wire network_done, network_read_en, centroid_done, centroid_read_en;
+    wire [7:0] network_read_addr, centroid_read_addr;
+
+    assign read_en = Estimator ? centroid_read_en : network_read_en;
+    assign read_addr = Estimator ? centroid_read_addr : network_read_addr;
+    assign depth = Estimator ? centroid_depth : network_depth;
+    assign algo_done = Estimator ? centroid_done : network_done;
 
     // The acquisition computer's reset leaves the laser and the synchronisers alone.
     wire rst_dsp = rst_125 || dsp_rst_sync;
@@ -205,11 +220,27 @@ module tof_top #(
     ) depth_estimator (
         .clk_125(clk_125),
         .rst(rst_dsp),
-        .algo_start(algo_start),
-        .read_en(read_en),
-        .read_addr(read_addr),
+        .algo_start(algo_start && !Estimator),
+        .read_en(network_read_en),
+        .read_addr(network_read_addr),
         .count(count),
-        .depth(depth),
-        .algo_done(algo_done)
+        .depth(network_depth),
+        .algo_done(network_done)
+    );
+
+    centroid_estimator #(
+        .HalfWidth(HalfWidth),
+        .Background(Background),
+        .Slope(Slope),
+        .Offset(Offset)
+    ) centroid_estimator (
+        .clk_125(clk_125),
+        .rst(rst_dsp),
+        .algo_start(algo_start && Estimator),
+        .read_en(centroid_read_en),
+        .read_addr(centroid_read_addr),
+        .count(count),
+        .depth(centroid_depth),
+        .algo_done(centroid_done)
     );
 endmodule

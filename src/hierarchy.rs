@@ -8,7 +8,7 @@ use crate::kernel::connect::Connection;
 use crate::kernel::signals::{Format, Signal};
 
 use crate::firmware::histogram_builder::BINS;
-use crate::firmware::tof_top::{CodeSource, HistogramSource, Params, Wires};
+use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Wires};
 use crate::firmware::{depth_estimator, tdc, vcsel_driver};
 
 mod groups;
@@ -20,7 +20,7 @@ use groups::{RAM, follow, groups};
 pub use groups::{changes, copy};
 pub use instants::Instants;
 pub use part::Part;
-use ports::{CLOCKS, SHOWN, place};
+use ports::{CLOCKS, SHOWN, in_socket, place};
 
 /// Name of the top scope.
 pub const TOP: &str = "tof_top";
@@ -59,15 +59,20 @@ impl Entry {
 /// Every name in every scope that those parameters have, without the RAM's words.
 pub fn entries(params: &Params) -> Vec<Entry> {
     let absent = absent(params);
-    let mut entries = every_entry_of(params.depth_estimator.neurons());
+    let neurons = params.depth_estimator.neurons();
+    let mut entries = of_network(with_in_socket(params.estimator), neurons);
     entries.retain(|entry| !absent.iter().any(|scope| within(&entry.scope, scope)));
     entries
 }
 
 /// Every name in every scope with so many neurons, without the RAM's words.
 pub fn every_entry_of(neurons: usize) -> Vec<Entry> {
+    of_network(every_entry(), neurons)
+}
+
+fn of_network(entries: Vec<Entry>, neurons: usize) -> Vec<Entry> {
     let fit = |entry: Entry| Some(Entry { signal: fitted(entry.signal, neurons)?, ..entry });
-    every_entry().into_iter().filter_map(fit).collect()
+    entries.into_iter().filter_map(fit).collect()
 }
 
 /// A signal as an estimator with so many neurons has it: not at all past the last of them, and their
@@ -84,7 +89,12 @@ pub fn fitted(signal: Signal, neurons: usize) -> Option<Signal> {
 /// Every name in every scope that there can be, in the order of the hierarchy, without the RAM's
 /// words.
 pub fn every_entry() -> Vec<Entry> {
-    let mut build = Build::default();
+    with_in_socket(Estimator::default())
+}
+
+/// The same with that estimator in the socket.
+fn with_in_socket(estimator: Estimator) -> Vec<Entry> {
+    let mut build = Build { estimator, ..Build::default() };
     build.held();
     build.shown();
     build.inputs("", &Wires::inputs(), Wires::CONNECTIONS);
@@ -129,6 +139,10 @@ fn absent(params: &Params) -> Vec<&'static str> {
         HistogramSource::Builder => absent.push("tof_top.histogram_preload"),
         HistogramSource::Preload(_) => absent.push("tof_top.histogram_builder"),
     }
+    match params.estimator {
+        Estimator::Network => absent.push("tof_top.centroid_estimator"),
+        Estimator::Centroid => absent.push("tof_top.depth_estimator"),
+    }
     absent
 }
 
@@ -139,6 +153,8 @@ pub fn within(scope: &str, parent: &str) -> bool {
 
 #[derive(Default)]
 struct Build {
+    /// The one in the socket.
+    estimator: Estimator,
     entries: Vec<Entry>,
     /// Path of the field in the Rust structs, for each entry that holds a value.
     held: Vec<(String, usize)>,
@@ -208,6 +224,7 @@ impl Build {
         holder: &str,
         doc: Option<&'static str>,
     ) {
+        let holder = in_socket(self.estimator, holder);
         let element = format!("{holder}_");
         let found: Vec<_> = (self.held.iter())
             .filter_map(|(path, id)| match path.strip_prefix(&element) {

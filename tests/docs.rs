@@ -11,11 +11,14 @@ use tofsim::hierarchy::{Entry, Kind, entries};
 
 const MODEL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/model.md");
 
-/// Entries of every module, those of the validation stand-ins too.
+/// Entries of every module, those of the stand-ins too.
 fn all_entries() -> Vec<Entry> {
     let mut all = Vec::new();
-    for scenario in ["kc705", "histogram_validation", "estimator_validation"] {
-        for entry in entries(&common::setup(scenario, &[]).params) {
+    let scenarios =
+        ["kc705", "histogram_validation", "estimator_validation"].map(|name| (name, ""));
+    for (scenario, key) in scenarios.into_iter().chain([("kc705", "estimator.kind=centroid")]) {
+        let keys: &[&str] = if key.is_empty() { &[] } else { &[key] };
+        for entry in entries(&common::setup(scenario, keys).params) {
             if !all.iter().any(|known: &Entry| known.path() == entry.path()) {
                 all.push(entry);
             }

@@ -8,6 +8,7 @@ use tofsim::estimation::peak_detection::PeakDetection;
 use tofsim::estimation::spline::Spline;
 use tofsim::estimation::subtraction::Subtraction;
 use tofsim::estimation::{Estimator, Failure, Pair};
+use tofsim::firmware::centroid_estimator::Params;
 use tofsim::kernel::Time;
 use tofsim::network::{Histogram, Network};
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
@@ -315,7 +316,7 @@ proptest! {
     ) {
         let (bins, network) = (bins(profile), Network::builtin("ideal").unwrap().unwrap());
         let acquisition = Acquisition { shots, ..acquisition(&bins) };
-        let needs = Needs { acquisition, network: &network };
+        let needs = Needs { acquisition, network: &network, centroid: &Params::default() };
         for kind in [Kind::Network, Kind::NetworkFloat, Kind::Peak, Kind::Likelihood, Kind::Matched] {
             match kind.estimator(&needs).unwrap().estimate(&histogram) {
                 Ok(distance_m) => prop_assert!(distance_m.abs() < 50.0, "{kind:?} {distance_m}"),
@@ -331,7 +332,8 @@ proptest! {
 #[test]
 fn an_empty_histogram_has_no_distance() {
     let (bins, network) = (bins("uniform"), Network::builtin("uniform").unwrap().unwrap());
-    let needs = Needs { acquisition: acquisition(&bins), network: &network };
+    let (acquisition, centroid) = (acquisition(&bins), &Params::default());
+    let needs = Needs { acquisition, network: &network, centroid };
     for kind in [Kind::Peak, Kind::Likelihood, Kind::Matched] {
         assert_eq!(kind.estimator(&needs).unwrap().estimate(&[0; 256]), Err(Failure::NoHits));
     }

@@ -91,6 +91,7 @@ fn keys() -> impl Strategy<Value = Vec<String>> {
                 format!("firmware.laser_en={}", laser > 0),
                 format!("tdc.profile=\"{chain}\""),
                 format!("pll.jitter_rms_ps={}", if jitter == 0 { 7.7 } else { 0.0 }),
+                format!("estimator.kind={}", if seed % 3 == 0 { "centroid" } else { "network" }),
                 format!("seed={seed}"),
             ]
         },

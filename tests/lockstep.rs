@@ -91,6 +91,37 @@ fn the_validation_scenarios_pass_in_icarus() {
 }
 
 #[test]
+fn the_centroid_estimator_passes_with_other_windows_and_scales() {
+    for keys in [
+        ["half_width=31", "background=false", "offset_m=-0.99", "slope_m=0.0078"],
+        ["half_width=1", "background=true", "offset_m=0.99", "slope_m=0.0001"],
+        ["half_width=8", "background=false", "offset_m=0.0338", "slope_m=0.00356"],
+    ] {
+        let keys = keys.map(|key| format!("estimator.centroid_{key}"));
+        let set = keys.iter().flat_map(|key| ["-s", key]);
+        let args: Vec<_> = ["--block", "centroid_estimator"].into_iter().chain(set).collect();
+        let blocks = verified(&args);
+        assert_eq!(blocks[0]["goals"]["met"], blocks[0]["goals"]["of"], "{}", blocks[0]);
+    }
+}
+
+#[test]
+fn the_top_passes_with_the_centroid_estimator_in_its_socket() {
+    let kind = ["-s", "estimator.kind=centroid"];
+    let short = ["--top", "--frames", "2", "-s", "firmware.shots_per_frame=300"];
+    for simulator in ["icarus", "verilator"] {
+        let blocks = verified(&[&["--simulator", simulator], &kind[..], &short].concat());
+        let frames = 2 * (300 * 6 + 274 + 308 + 1);
+        let cycles = blocks[0]["cycles"].as_u64().unwrap();
+        assert!((frames..frames + 8).contains(&cycles), "{cycles} cycles");
+    }
+    verified(&[&["--top", "--scenario", "estimator_validation"], &kind[..]].concat());
+    // Under random control, and with another window.
+    let other = ["-s", "estimator.centroid_half_width=9", "-s", "estimator.centroid_offset_m=-0.1"];
+    verified(&[&["--block", "tof_top"], &kind[..], &other].concat());
+}
+
+#[test]
 fn uneven_chains_and_passive_quenching_pass_in_icarus() {
     for chain in ["table6_3", "ideal"] {
         let chain = format!("tdc.profile={chain}");

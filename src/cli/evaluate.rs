@@ -95,7 +95,8 @@ struct Thesis {
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let loaded = args.draws.load_with(&args.scenario, &args.network)?;
     let network = Network::find(&args.network, None)?;
-    let source = Source::new(&Setup::new(loaded.clone())?)?;
+    let setup = Setup::new(loaded.clone())?;
+    let source = Source::new(&setup)?;
     let (seed, profile) = (loaded.scenario.seed, &loaded.scenario.tdc.profile);
     if file_name(&network.training.chain) != file_name(profile) {
         talk.note(format_args!(
@@ -110,6 +111,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             pulse_sigma_ps: loaded.scenario.laser.pulse_sigma_ps,
         },
         network: &network,
+        centroid: &setup.params.centroid_estimator,
     };
     let estimators = args.estimator.iter().map(|kind| kind.estimator(&needs));
     let estimators = estimators.collect::<std::result::Result<Vec<_>, Input>>()?;

@@ -1,9 +1,11 @@
 //! The estimators by the names that the command line has for them.
 
 use crate::error::Input;
+use crate::firmware::centroid_estimator;
 use crate::network::Network;
 use crate::optics::Bins;
 
+use super::centroid::Centroid;
 use super::likelihood::Likelihood;
 use super::matched_filter::MatchedFilter;
 use super::network::{FixedNetwork, FloatNetwork};
@@ -18,6 +20,8 @@ pub enum Kind {
     Network,
     /// The network in double precision
     NetworkFloat,
+    /// Argmax with centroid correction, bit for bit as the firmware's other estimator
+    Centroid,
     /// The thesis's peak detection, on the bins of the chain
     Peak,
     /// Peak detection on a lit histogram less a dark one, of half the shots each
@@ -46,6 +50,8 @@ pub struct Needs<'a> {
     pub acquisition: Acquisition<'a>,
     /// The network in the depth estimator.
     pub network: &'a Network,
+    /// The centroid estimator.
+    pub centroid: &'a centroid_estimator::Params,
 }
 
 impl Acquisition<'_> {
@@ -79,6 +85,7 @@ impl Kind {
         Ok(match self {
             Kind::Network => Box::new(FixedNetwork::new(needs.network)),
             Kind::NetworkFloat => Box::new(FloatNetwork::new(needs.network)),
+            Kind::Centroid => Box::new(Centroid::new(needs.centroid)),
             Kind::Peak => {
                 Box::new(PeakDetection::of_bins(needs.acquisition.shots, needs.acquisition.bins))
             }
@@ -124,7 +131,8 @@ mod tests {
         let bins = &Bins::of_chain(&delays, &delays.calibration(period), period);
         let network = &Network::builtin("ideal").unwrap().unwrap();
         let acquisition = Acquisition { bins, shots: 30_000, pulse_sigma_ps: 137.0 };
-        let needs = Needs { acquisition, network };
+        let centroid = &centroid_estimator::Params::default();
+        let needs = Needs { acquisition, network, centroid };
         for kind in Kind::value_variants() {
             let estimator = kind.estimator(&needs).unwrap();
             assert_eq!(kind.to_possible_value().unwrap().get_name(), estimator.name());
@@ -132,7 +140,8 @@ mod tests {
         for (shots, pulse_sigma_ps, field) in
             [(0, 137.0, "shots = 0"), (65_536, 137.0, "shots"), (1, f64::NAN, "sigma_ps = NaN")]
         {
-            let needs = Needs { acquisition: Acquisition { bins, shots, pulse_sigma_ps }, network };
+            let acquisition = Acquisition { bins, shots, pulse_sigma_ps };
+            let needs = Needs { acquisition, network, centroid };
             let fault = Kind::Peak.estimator(&needs).err().unwrap().to_string();
             assert!(fault.contains(field), "{fault}");
         }

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `network` | the network in fixed point, bit for bit as the firmware | thesis ch. 6 |
 //! | `network-float` | the same network in double precision | thesis 5.3 |
+//! | `centroid` | highest bin, centroid around it, bit for bit as the firmware's other estimator | plain |
 //! | `peak` | spline, one peak, straight line through the shift | Listings 5.1 to 5.3 |
 //! | `subtraction` | the same on a lit histogram less a dark one | Algorithm 2 |
 //! | `likelihood` | the most likely distance, with pile-up in the model | eq. 3.21 to 3.24 |
@@ -24,6 +25,7 @@
 //! two, and [`likelihood::Model::cramer_rao_m`], the pulse's shape as well.
 
 pub mod by_name;
+pub mod centroid;
 pub mod coates;
 pub mod findpeaks;
 pub mod likelihood;

@@ -43,7 +43,8 @@ impl Panel {
                 _ => setup.params.frame_ctrl.shots_per_frame.into(),
             };
             let acquisition = Acquisition { bins, shots, pulse_sigma_ps };
-            Ok(kind.estimator(&Needs { acquisition, network: &setup.network })?)
+            let centroid = &setup.params.centroid_estimator;
+            Ok(kind.estimator(&Needs { acquisition, network: &setup.network, centroid })?)
         };
         let estimators = kinds.iter().map(estimator);
         Ok(Panel { estimators: estimators.collect::<Result<_>>()? })

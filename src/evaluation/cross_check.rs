@@ -11,7 +11,6 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::dataset::{Scene, Source};
 use crate::error::Result;
-use crate::network::estimate;
 use crate::scenario::Loaded;
 use crate::sim::Run;
 use crate::sim::frames::Frame;
@@ -60,7 +59,7 @@ impl CrossCheck {
         let setup = Setup::new(loaded)?;
         let (mut sums, mut other_depths) = ([0u64; 256], 0);
         let mut take = |frame: &Frame| {
-            let same = estimate(&setup.params.depth_estimator, &frame.histogram).depth;
+            let same = setup.depth(&frame.histogram);
             other_depths += u64::from(same != frame.depth);
             for (sum, &count) in sums.iter_mut().zip(&frame.histogram) {
                 *sum += u64::from(count);

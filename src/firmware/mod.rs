@@ -1,6 +1,7 @@
 //! The FPGA firmware: one file per module, the same stems as `rtl_ref/*.v`.
 
 pub mod carry_chain;
+pub mod centroid_estimator;
 pub mod coarse_counter;
 pub mod code_preload;
 pub mod control_sync;

@@ -7,6 +7,7 @@ use crate::connect;
 use crate::kernel::{Clocked, Time};
 
 use super::carry_chain::StopLine;
+use super::centroid_estimator::{self, CentroidEstimator, Registers};
 use super::code_preload::{self, CodePreload};
 use super::control_sync::{self, ControlSync};
 use super::depth_estimator::{self, DepthEstimator};
@@ -21,7 +22,7 @@ use super::{histogram_preload, lvds_output, pll};
 mod gait;
 mod ports;
 
-pub use ports::{Clocks, CodeSource, HistogramSource, Nets, Params, Pins};
+pub use ports::{Clocks, CodeSource, Estimator, HistogramSource, Nets, Params, Pins, Socket};
 
 /// The state of the firmware.
 #[derive(Clone, Debug)]
@@ -56,6 +57,10 @@ pub struct TofTop {
     pub histogram_builder: HistogramBuilder,
     /// Estimator.
     pub depth_estimator: DepthEstimator,
+    /// Its stand-in.
+    pub centroid_estimator: CentroidEstimator,
+    /// What the one in use gives.
+    pub socket: Socket,
     /// No edge would change the estimator until it is started or reset.
     estimator_asleep: bool,
 }
@@ -83,7 +88,7 @@ connect! {
         start <- this.vcsel_driver.registers.start;
         dsp_rst <- this.control_sync.dsp_rst_sync;
         dsp_en <- this.control_sync.dsp_en_sync;
-        algo_done <- this.depth_estimator.estimator_ctrl.algo_done;
+        algo_done <- this.socket.algo_done;
     }
     vcsel_driver: vcsel_driver::In {
         rst <- this.reset_sync_125.rst_sync;
@@ -114,13 +119,18 @@ connect! {
         clear_addr <- this.frame_ctrl.clear_addr;
         tdc_valid <- this.nets.tdc_valid;
         tdc_code <- this.nets.tdc_code;
-        read_en <- this.depth_estimator.estimator_ctrl.read_en;
-        read_addr <- this.depth_estimator.estimator_ctrl.read_addr;
+        read_en <- this.socket.read_en;
+        read_addr <- this.socket.read_addr;
     }
     histogram_preload: histogram_preload::In {
-        read_addr <- this.depth_estimator.estimator_ctrl.read_addr;
+        read_addr <- this.socket.read_addr;
     }
     depth_estimator: depth_estimator::In {
+        rst <- this.nets.rst_dsp;
+        algo_start <- this.frame_ctrl.algo_start;
+        count <- this.nets.count;
+    }
+    centroid_estimator: centroid_estimator::In {
         rst <- this.nets.rst_dsp;
         algo_start <- this.frame_ctrl.algo_start;
         count <- this.nets.count;
@@ -146,6 +156,8 @@ impl TofTop {
             code_preload: CodePreload::default(),
             histogram_builder: HistogramBuilder::default(),
             depth_estimator: DepthEstimator::default(),
+            centroid_estimator: CentroidEstimator::default(),
+            socket: Socket::default(),
             estimator_asleep: false,
         }
     }
@@ -162,7 +174,7 @@ impl TofTop {
         let spad_control = self.spad_control.next(&Wires::spad_control(self), &());
         let (tdc, code_preload) = (Wires::tdc(self), Wires::code_preload(self));
         let histogram_builder = Wires::histogram_builder(self);
-        let depth_estimator = Wires::depth_estimator(self);
+        let (network, centroid) = (Wires::depth_estimator(self), Wires::centroid_estimator(self));
 
         (self.reset_sync_125, self.reset_sync_250) = (reset_sync_125, reset_sync_250);
         (self.control_sync, self.frame_ctrl) = (control_sync, frame_ctrl);
@@ -170,7 +182,7 @@ impl TofTop {
         self.spad_control = spad_control;
         self.convert(p, &tdc, &code_preload, line, now);
         self.histogram_builder.tick(&histogram_builder);
-        self.estimate(&depth_estimator, &p.depth_estimator);
+        self.estimate(p, &network, &centroid);
         self.settle(p);
     }
 
@@ -216,13 +228,45 @@ impl TofTop {
         };
     }
 
+    /// The estimator in the socket.
     #[inline(always)]
-    fn estimate(&mut self, i: &depth_estimator::In, p: &depth_estimator::Params) {
-        if self.estimator_asleep && !i.algo_start && !i.rst {
+    fn estimate(
+        &mut self,
+        p: &Params,
+        network: &depth_estimator::In,
+        centroid: &centroid_estimator::In,
+    ) {
+        if self.estimator_asleep && !network.algo_start && !network.rst {
             return;
         }
-        self.depth_estimator.rise(i, p);
-        self.estimator_asleep = self.depth_estimator.is_asleep(p);
+        match p.estimator {
+            Estimator::Network => {
+                self.depth_estimator.rise(network, &p.depth_estimator);
+                self.estimator_asleep = self.depth_estimator.is_asleep(&p.depth_estimator);
+            }
+            Estimator::Centroid => {
+                self.centroid_estimator.rise(centroid, &p.centroid_estimator);
+                self.estimator_asleep = self.centroid_estimator.is_asleep();
+            }
+        }
+        self.take_depth(p);
+    }
+
+    #[inline(always)]
+    fn take_depth(&mut self, p: &Params) {
+        self.socket = match p.estimator {
+            Estimator::Network => {
+                let (ctrl, depth) =
+                    (&self.depth_estimator.estimator_ctrl, self.depth_estimator.forward2.depth);
+                let (read_en, read_addr) = (ctrl.read_en, ctrl.read_addr);
+                Socket { read_en, read_addr, depth, algo_done: ctrl.algo_done }
+            }
+            Estimator::Centroid => {
+                let Registers { read_en, read_addr, depth, algo_done, .. } =
+                    self.centroid_estimator.registers;
+                Socket { read_en, read_addr, depth, algo_done }
+            }
+        };
     }
 
     /// Combinational wires, which only registers drive. Every edge does this; at power-up it is for

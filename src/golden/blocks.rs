@@ -3,6 +3,7 @@
 use super::block::Spec;
 
 mod carry_chain;
+pub(super) mod centroid_estimator;
 mod coarse_counter;
 mod code_preload;
 mod control_sync;
@@ -28,6 +29,7 @@ mod vcsel_driver;
 /// Every block, in the order of their names.
 pub static BLOCKS: &[Spec] = &[
     carry_chain::SPEC,
+    centroid_estimator::SPEC,
     coarse_counter::SPEC,
     code_preload::SPEC,
     control_sync::SPEC,
@@ -50,6 +52,18 @@ pub static BLOCKS: &[Spec] = &[
     tof_top::SPEC,
     vcsel_driver::SPEC,
 ];
+
+/// Blocks whose draws come after all others', whatever their names: each that is added goes to the end,
+/// so that the stimuli of those before it stay as they are.
+const LATER: &[&str] = &["centroid_estimator"];
+
+/// The place of a block's draws.
+pub(super) fn place(name: &str) -> u64 {
+    let is_later = |spec: &&Spec| LATER.contains(&spec.name);
+    let first = BLOCKS.iter().filter(|spec| !is_later(spec)).map(|spec| spec.name);
+    let mut names = first.chain(LATER.iter().copied());
+    names.position(|other| other == name).unwrap_or_default() as u64
+}
 
 /// The block called `name`.
 pub fn find(name: &str) -> Option<&'static Spec> {
@@ -87,6 +101,17 @@ mod tests {
     #[test]
     fn blocks_are_in_the_order_of_their_names() {
         assert!(BLOCKS.is_sorted_by_key(|spec| spec.name));
+    }
+
+    #[test]
+    fn each_block_has_draws_of_its_own_and_a_later_one_moves_no_others() {
+        let mut places: Vec<_> = BLOCKS.iter().map(|spec| place(spec.name)).collect();
+        assert_eq!(
+            (place("carry_chain"), place("coarse_counter"), place("vcsel_driver")),
+            (0, 1, 21)
+        );
+        places.sort_unstable();
+        assert!(places.into_iter().eq(0..BLOCKS.len() as u64));
     }
 
     #[test]

@@ -6,6 +6,7 @@ use crate::hierarchy::{self, Entry, IDS, Kind, fitted};
 use crate::kernel::signals::{Signal, Signals};
 
 use super::block::{Block, Setting, Spec};
+use super::blocks::place;
 use super::draw::Draw;
 use super::table::{Column, Fill, Table};
 use super::vectors::Vectors;
@@ -78,14 +79,13 @@ pub(super) fn record<B: Block>(
     let signals: Vec<_> =
         B::Stimulus::list().into_iter().map(|signal| fitted(signal, neurons)).collect();
     let mut next = 0..;
-    let place = |signal: &Option<Signal>| signal.iter().zip(&mut next).map(|(_, n)| n).collect();
-    let own_places: Vec<Vec<usize>> = signals.iter().map(place).collect();
+    let column = |signal: &Option<Signal>| signal.iter().zip(&mut next).map(|(_, n)| n).collect();
+    let own_places: Vec<Vec<usize>> = signals.iter().map(column).collect();
     let signals: Vec<_> = signals.into_iter().flatten().collect();
     let mut stimulus = Table::new(inputs(&signals));
     let order = setting.setup.params.tdc.delays.order();
 
-    let place = super::BLOCKS.iter().position(|other| other.name == spec.name);
-    let mut draw = Draw::new(setting.seed, place.unwrap_or_default() as u64);
+    let mut draw = Draw::new(setting.seed, place(spec.name));
     let mut top = TofTop::new(Pins::default());
     for cycle in 0..setting.cycles() {
         let i = block.stimulus(cycle, &top, &mut draw);

@@ -1,7 +1,7 @@
 //! The whole firmware as a scenario runs it, sampled where the bench looks.
 
 use crate::error::{Input, Result};
-use crate::firmware::tof_top::{CodeSource, HistogramSource, Params, Pins, TofTop};
+use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Pins, TofTop};
 use crate::hierarchy;
 use crate::kernel::signals::Signals;
 use crate::kernel::{Time, U};
@@ -11,6 +11,7 @@ use crate::sim::frames::Frames;
 use crate::sim::setup::Setup;
 
 use super::block::{Parameter, Setting, Spec, neurons};
+use super::blocks::centroid_estimator;
 use super::record::{Watched, inputs};
 use super::roms;
 use super::table::{Fill, Table};
@@ -47,6 +48,11 @@ const ANALYSER: &[&str] = &[
     "depth_estimator.estimator_ctrl.forward1_en",
     "depth_estimator.estimator_ctrl.tansig_en",
     "depth_estimator.estimator_ctrl.forward2_en",
+    "centroid_estimator.sum",
+    "centroid_estimator.ages",
+    "centroid_estimator.best",
+    "centroid_estimator.peak",
+    "centroid_estimator.quotient",
 ];
 
 /// The same of each neuron.
@@ -162,6 +168,10 @@ fn parameters(setup: &Setup) -> Vec<(&'static str, Parameter)> {
         ("HistogramSource", Number(preloads_histogram.into())),
         ("HistogramFile", File("histogram.mem")),
     ]);
+    if params.estimator == Estimator::Centroid {
+        list.push(("Estimator", Number(1)));
+        list.extend(centroid_estimator::parameters(&params.centroid_estimator));
+    }
     list
 }
 

@@ -92,4 +92,6 @@ groups! {
     Rise125 "depth_estimator.tansig" => depth_estimator.tansig: crate::firmware::tansig::Tansig;
     Rise125 "depth_estimator.forward2" =>
         depth_estimator.forward2: crate::firmware::forward2::Forward2;
+    Rise125 "centroid_estimator" =>
+        centroid_estimator.registers: crate::firmware::centroid_estimator::Registers;
 }

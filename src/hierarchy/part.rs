@@ -77,7 +77,7 @@ impl Part {
             words: Vec::new(),
             sleeps,
             control: Sleeper::of(&["pll", "reset_sync_125", "reset_sync_250", "control_sync"]),
-            estimator: Sleeper::of(&["depth_estimator"]),
+            estimator: Sleeper::of(&["depth_estimator", "centroid_estimator"]),
             writes: true,
             kept: None,
         };
@@ -114,7 +114,10 @@ impl Part {
         let (mut groups, mut works, mut written) = (self.groups, false, true);
         if self.sleeps {
             let asleep = self.estimator.asleep();
-            works = asleep == 0 && kept.depth_estimator != top.depth_estimator;
+            let (network, centroid) = (&top.depth_estimator, &top.centroid_estimator.registers);
+            works = asleep == 0
+                && (kept.depth_estimator != *network
+                    || kept.centroid_estimator.registers != *centroid);
             if works || top.frame_ctrl.algo_start || top.nets.rst_dsp {
                 self.estimator.awake = AWAKE;
             }
@@ -125,6 +128,7 @@ impl Part {
         follow::<{ Instant::Rise125 as u8 }>(top, groups, kept, sink);
         if works {
             kept.depth_estimator = top.depth_estimator;
+            kept.centroid_estimator.registers = top.centroid_estimator.registers;
         }
         if written {
             let (now, then) = (&top.histogram_builder.ram, &mut kept.histogram_builder.ram);
@@ -204,7 +208,7 @@ pub(super) mod tests {
             assert!(self.followed == every, "at {now}");
             self.looks += 1;
             self.resets += usize::from(top.nets.rst_dsp);
-            self.estimations += usize::from(top.depth_estimator.estimator_ctrl.algo_done);
+            self.estimations += usize::from(top.socket.algo_done);
         }
 
         fn control_changes(&mut self) {
@@ -246,7 +250,9 @@ pub(super) mod tests {
     fn a_module_that_sleeps_misses_no_change() {
         for seed in 0..6 {
             let (mut random, cycles) = (ChaCha8Rng::seed_from_u64(seed), 30_000);
-            let short = ["firmware.shots_per_frame=30".to_owned()];
+            let kind = if seed < 4 { "network" } else { "centroid" };
+            let short =
+                ["firmware.shots_per_frame=30".to_owned(), format!("estimator.kind={kind}")];
             let load = || scenario::load("bright", &short).unwrap();
             let mut loaded = load();
             let plain = Setup::new(load()).unwrap();

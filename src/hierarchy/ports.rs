@@ -1,6 +1,8 @@
 //! What the connections do not tell: clocks, ports that show what is held elsewhere, and the order
 //! of the modules.
 
+use crate::firmware::tof_top::Estimator;
+
 use super::Kind;
 
 /// Clock inputs, by scope below the top; a module that serves any domain calls its clock `clk`.
@@ -23,6 +25,7 @@ pub(super) const CLOCKS: &[(&str, &[&str])] = &[
     ("depth_estimator.forward1", &["clk_125"]),
     ("depth_estimator.tansig", &["clk_125"]),
     ("depth_estimator.forward2", &["clk_125"]),
+    ("centroid_estimator", &["clk_125"]),
 ];
 
 /// Ports and wires that show a value held elsewhere: scope below the top, name, kind, holder.
@@ -40,16 +43,16 @@ pub(super) const SHOWN: &[(&str, &str, Kind, &str)] = &[
     ("", "algo_start", Kind::Internal, "frame_ctrl.algo_start"),
     ("", "pre_start", Kind::Internal, "vcsel_driver.registers.pre_start"),
     ("", "start", Kind::Internal, "vcsel_driver.registers.start"),
-    ("", "read_en", Kind::Internal, "depth_estimator.estimator_ctrl.read_en"),
-    ("", "read_addr", Kind::Internal, "depth_estimator.estimator_ctrl.read_addr"),
+    ("", "read_en", Kind::Internal, "socket.read_en"),
+    ("", "read_addr", Kind::Internal, "socket.read_addr"),
     ("", "laser_on_lvds_p", Kind::Output, "lvds_output.o"),
     ("", "laser_on_lvds_n", Kind::Output, "lvds_output.ob"),
     ("", "spad_rst", Kind::Output, "spad_control.spad_rst"),
     ("", "spad_sel", Kind::Output, "spad_control.spad_sel"),
-    ("", "depth", Kind::Output, "depth_estimator.forward2.depth"),
-    ("", "algo_done", Kind::Output, "depth_estimator.estimator_ctrl.algo_done"),
-    ("", "hist_valid", Kind::Output, "depth_estimator.estimator_ctrl.read_en"),
-    ("", "hist_bin", Kind::Output, "depth_estimator.estimator_ctrl.read_addr"),
+    ("", "depth", Kind::Output, "socket.depth"),
+    ("", "algo_done", Kind::Output, "socket.algo_done"),
+    ("", "hist_valid", Kind::Output, "socket.read_en"),
+    ("", "hist_bin", Kind::Output, "socket.read_addr"),
     ("", "hist_count", Kind::Output, "nets.count"),
     ("", "frame_done", Kind::Output, "frame_ctrl.frame_done"),
     ("", "locked", Kind::Output, "pll.locked"),
@@ -67,6 +70,21 @@ pub(super) const SHOWN: &[(&str, &str, Kind, &str)] = &[
     ("depth_estimator", "depth", Kind::Output, "depth_estimator.forward2.depth"),
     ("depth_estimator", "algo_done", Kind::Output, "depth_estimator.estimator_ctrl.algo_done"),
 ];
+
+/// The register that shows at an output of the socket; of another signal its own path.
+pub(super) fn in_socket(estimator: Estimator, holder: &str) -> &str {
+    match (holder, estimator) {
+        ("socket.read_en", Estimator::Network) => "depth_estimator.estimator_ctrl.read_en",
+        ("socket.read_addr", Estimator::Network) => "depth_estimator.estimator_ctrl.read_addr",
+        ("socket.depth", Estimator::Network) => "depth_estimator.forward2.depth",
+        ("socket.algo_done", Estimator::Network) => "depth_estimator.estimator_ctrl.algo_done",
+        ("socket.read_en", Estimator::Centroid) => "centroid_estimator.registers.read_en",
+        ("socket.read_addr", Estimator::Centroid) => "centroid_estimator.registers.read_addr",
+        ("socket.depth", Estimator::Centroid) => "centroid_estimator.registers.depth",
+        ("socket.algo_done", Estimator::Centroid) => "centroid_estimator.registers.algo_done",
+        _ => holder,
+    }
+}
 
 /// Modules in the order of data flow, each parent before its children.
 pub(super) fn place(scope: &str) -> Vec<usize> {
@@ -94,6 +112,7 @@ pub(super) fn place(scope: &str) -> Vec<usize> {
         "forward1",
         "tansig",
         "forward2",
+        "centroid_estimator",
     ];
     let at = |module| FLOW.iter().position(|&name| name == module).unwrap_or(FLOW.len());
     scope.split('.').map(at).collect()

@@ -240,12 +240,38 @@ table! {
     }
 }
 
+/// What is in the estimator's socket.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum EstimatorKind {
+    /// The neural network (`depth_estimator`).
+    #[default]
+    Network,
+    /// Argmax with centroid correction (`centroid_estimator`).
+    Centroid,
+}
+
 table! {
     /// The depth estimator.
     pub struct Estimator {
+        /// What is in the estimator's socket: `network` or `centroid`.
+        #[schemars(extend("source" = "thesis ch. 6; docs/model.md"))]
+        pub kind: EstimatorKind = EstimatorKind::Network,
         /// Network: `uniform`, `uniform-16`, `ideal`, or the path of a network file.
         #[schemars(extend("source" = "docs/model.md"))]
         pub network: String = "uniform".into(),
+        /// Words of the centroid's window to either side of its centre.
+        #[schemars(range(min = 1, max = 31), extend("unit" = "bins", "source" = "choice: 23 bins are 50 taps of 11.5 ps; 4 sigma of the pulse"))]
+        pub centroid_half_width: u64 = 23,
+        /// Whether the centroid's maximum is of the height above the window's first word, and not above zero.
+        #[schemars(extend("source" = "choice: ambient light piles up in the first bins"))]
+        pub centroid_background: bool = true,
+        /// Distance of a bin for the centroid; c/2 for 25 ps.
+        #[schemars(range(min = 0.0001, max = 0.0078), extend("unit" = "m", "source" = "eq. 3.23"))]
+        pub centroid_slope_m: f64 = 0.003_747_405_725,
+        /// Distance that is added to the centroid's.
+        #[schemars(range(min = -0.99, max = 0.99), extend("unit" = "m", "source" = "choice: none, so that pile-up shows"))]
+        pub centroid_offset_m: f64 = 0.0,
     }
 }
 

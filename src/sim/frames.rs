@@ -60,7 +60,7 @@ impl Frames {
         let ctrl = &top.frame_ctrl;
         self.count_shot(top);
         self.count_hit(top);
-        if ctrl.clear || ctrl.algo_start || top.depth_estimator.estimator_ctrl.algo_done {
+        if ctrl.clear || ctrl.algo_start || top.socket.algo_done {
             return self.turn(cycle, top, p);
         }
         None
@@ -100,7 +100,7 @@ impl Frames {
         if ctrl.algo_start {
             self.start_at = cycle + 1;
         }
-        if !top.depth_estimator.estimator_ctrl.algo_done {
+        if !top.socket.algo_done {
             return None;
         }
         let histogram = match &p.histogram_source {
@@ -111,7 +111,7 @@ impl Frames {
         Some(Frame {
             index: self.done - 1,
             laser_en: top.control_sync.laser_en_sync,
-            depth: top.depth_estimator.forward2.depth,
+            depth: top.socket.depth,
             shots: ctrl.shots(),
             tdc_hits: self.tdc_hits,
             histogram: std::array::from_fn(|bin| histogram[bin].get() as u16),

@@ -11,7 +11,6 @@ use rand_distr::{Binomial, Distribution};
 use crate::error::{Input, Result};
 use crate::firmware::vcsel_driver::PERIODS;
 use crate::kernel::Time;
-use crate::network::estimate::estimate;
 use crate::optics::{BinProbabilities, Bins};
 use crate::sensor::light::{Light, Optics};
 use crate::sensor::streams::{Source, stream};
@@ -128,11 +127,11 @@ impl<'a> Histograms<'a> {
         Frame {
             index,
             laser_en: kind.lit,
-            depth: estimate(&self.setup.params.depth_estimator, &histogram).depth,
+            depth: self.setup.depth(&histogram),
             shots: self.shots,
             tdc_hits,
             histogram,
-            estimator_cycles: self.setup.params.depth_estimator.cycles(),
+            estimator_cycles: self.setup.params.estimator_cycles(),
             frame_cycles: self.frame_cycles,
         }
     }

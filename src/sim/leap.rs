@@ -91,11 +91,11 @@ impl Device {
     pub fn leap_frame_end(&mut self, p: &Params) {
         let (clearing, estimating) = (
             self.top.frame_ctrl.clearing() == Some(CLEAR_BEGIN),
-            self.top.depth_estimator.estimator_ctrl.phase() == Some(0),
+            self.top.estimation_phase(p) == Some(0),
         );
         let cycles = match (clearing, estimating) {
             (true, _) => BINS as u64 - 1 - CLEAR_BEGIN,
-            (_, true) => p.depth_estimator.cycles() - 1,
+            (_, true) => p.estimator_cycles() - 1,
             _ => return,
         };
         let end = self.pll.clk_125.rise(self.cycle + cycles);

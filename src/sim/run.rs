@@ -191,7 +191,7 @@ impl<'a> Run<'a> {
                 return Ok(());
             }
             let done = self.frames.done();
-            if done > ended && !self.device.top.depth_estimator.estimator_ctrl.algo_done {
+            if done > ended && !self.device.top.socket.algo_done {
                 ended = done;
                 self.device.light.begin_frame(done);
                 record.pass_on(sinks)?;

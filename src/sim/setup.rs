@@ -2,16 +2,19 @@
 
 use crate::csv_input::CsvInput;
 use crate::error::{Input, Result};
+use crate::estimation::centroid::locate;
+use crate::firmware::forward2::Depth;
 use crate::firmware::histogram_preload;
 use crate::firmware::pll::{self, Pll};
-use crate::firmware::tof_top::{CodeSource, HistogramSource, Params, Pins};
-use crate::firmware::{frame_ctrl, tdc, vcsel_driver};
+use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Pins};
+use crate::firmware::{centroid_estimator, frame_ctrl, tdc, vcsel_driver};
 use crate::histogram_file;
-use crate::kernel::{Time, U};
-use crate::network::Network;
+use crate::kernel::{S, Time, U};
+use crate::network::estimate::estimate;
+use crate::network::{Histogram, Network};
 use crate::optics::{Budget, Hazard};
 use crate::scenario::builtin::Source;
-use crate::scenario::{Firmware, Loaded, Scenario, chain};
+use crate::scenario::{self, EstimatorKind, Firmware, Loaded, Scenario, chain};
 use crate::sensor::light::{Light, Optics};
 use crate::sensor::photon_list::{Given, PhotonList};
 
@@ -75,6 +78,11 @@ impl Setup {
             },
             tdc: tdc::Params::new(delays, cal),
             depth_estimator: network.params(),
+            centroid_estimator: centroid(&scenario.estimator),
+            estimator: match scenario.estimator.kind {
+                EstimatorKind::Network => Estimator::Network,
+                EstimatorKind::Centroid => Estimator::Centroid,
+            },
             code_source,
             histogram_source,
         };
@@ -107,7 +115,7 @@ impl Setup {
     /// Length of an undisturbed frame at a laser rate: from the edge that begins Clear to the one
     /// that raises `algo_done` [cycles of clk_125].
     pub fn frame_cycles(&self, laser_freq: usize) -> u64 {
-        let (ctrl, estimator) = (&self.params.frame_ctrl, self.params.depth_estimator.cycles());
+        let (ctrl, estimator) = (&self.params.frame_ctrl, self.params.estimator_cycles());
         if ctrl.preloaded {
             return OVERHEAD_PRELOADED + estimator;
         }
@@ -115,10 +123,20 @@ impl Setup {
         shots + OVERHEAD + estimator
     }
 
+    /// The depth that the estimator in the socket finds in a histogram, without its clock.
+    pub fn depth(&self, histogram: &Histogram) -> Depth {
+        let p = &self.params;
+        match p.estimator {
+            Estimator::Network => estimate(&p.depth_estimator, histogram).depth,
+            Estimator::Centroid => locate(&p.centroid_estimator, histogram).depth,
+        }
+    }
+
     /// What a user may not expect of the scenario, a line each.
     pub fn notes(&self) -> Vec<String> {
         let (trained, chain) = (&self.network.training.chain, &self.scenario.tdc.profile);
-        let differ = trained != chain && self.true_depth_m().is_some();
+        let is_used = self.params.estimator == Estimator::Network;
+        let differ = is_used && trained != chain && self.true_depth_m().is_some();
         let note = || format!("note: the network was trained on chain {trained}, not on {chain}");
         differ.then(note).into_iter().collect()
     }
@@ -209,6 +227,17 @@ fn network(scenario: &Scenario, files: &Source) -> Result<Network> {
         Source::Folder(folder) => Some(folder.as_path()),
     };
     Network::find(&scenario.estimator.network, folder)
+}
+
+/// The scale's words round half away from zero.
+fn centroid(keys: &scenario::Estimator) -> centroid_estimator::Params {
+    let word = |value: f64, fraction: u32| (value * (1u64 << fraction) as f64).round() as i64;
+    centroid_estimator::Params {
+        half_width: keys.centroid_half_width,
+        background: keys.centroid_background,
+        slope: U::new(word(keys.centroid_slope_m, centroid_estimator::SLOPE_FRACTION) as u64),
+        offset: S::new(word(keys.centroid_offset_m, 29)),
+    }
 }
 
 fn pll_params(scenario: &Scenario) -> pll::Params {

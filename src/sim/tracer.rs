@@ -93,7 +93,7 @@ impl Tracer {
         if marks.spad_edge.is_none() && marks.laser_edge.is_some() && top.pins.tdc_stop {
             marks.spad_edge = Some(now);
         }
-        if marks.algo_done.is_none() && top.depth_estimator.estimator_ctrl.algo_done {
+        if marks.algo_done.is_none() && top.socket.algo_done {
             marks.algo_done = Some(now);
         }
     }

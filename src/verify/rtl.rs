@@ -16,6 +16,7 @@ macro_rules! modules {
 /// Our own modules: file name and text.
 pub const OWN: &[(&str, &str)] = modules![
     "carry_chain",
+    "centroid_estimator",
     "coarse_counter",
     "code_preload",
     "control_sync",
@@ -74,6 +75,24 @@ impl Rtl {
     /// Whether a file says by its name that it is SystemVerilog.
     pub fn is_system_verilog(&self) -> bool {
         self.files.iter().any(|file| file.extension().is_some_and(|end| end == "sv"))
+    }
+
+    /// Whether one of the files declares that module.
+    ///
+    /// # Errors
+    /// When a file cannot be read.
+    pub fn has(&self, module: &str) -> Result<bool> {
+        for file in &self.files {
+            let bytes = fs::read(file).map_err(Error::io(file, "read"))?;
+            let text = String::from_utf8_lossy(&bytes);
+            let mut words = text.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == '$'));
+            while words.by_ref().any(|word| word == "module") {
+                if words.find(|word| !word.is_empty()) == Some(module) {
+                    return Ok(true);
+                }
+            }
+        }
+        Ok(false)
     }
 
     /// Our own, written into `folder`.

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::Waves;
 use crate::firmware::carry_chain::{Delays, StopLine, TAPS};
 use crate::firmware::forward2::{MOST_NEURONS, NEURONS};
-use crate::firmware::tof_top::{CodeSource, HistogramSource, Params, Pins, TofTop};
-use crate::firmware::{depth_estimator, forward2, frame_ctrl, tdc};
+use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Pins, TofTop};
+use crate::firmware::{centroid_estimator, depth_estimator, forward2, frame_ctrl, tdc};
 use crate::kernel::{S, Time, U};
 
 /// Shots in a frame.
@@ -39,6 +39,8 @@ pub(super) fn with_delays(taps: &[i64]) -> Params {
                 b2: S::new(700),
             },
         },
+        centroid_estimator: centroid_estimator::Params::default(),
+        estimator: Estimator::Network,
         code_source: CodeSource::Tdc,
         histogram_source: HistogramSource::Builder,
     }

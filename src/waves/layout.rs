@@ -52,6 +52,10 @@ const FLOW: &[(&str, &[&str])] = &[
             "depth_estimator.estimator_ctrl.forward1_en",
             "depth_estimator.estimator_ctrl.tansig_en",
             "depth_estimator.estimator_ctrl.forward2_en",
+            "centroid_estimator.sum",
+            "centroid_estimator.best",
+            "centroid_estimator.peak",
+            "centroid_estimator.quotient",
         ],
     ),
     ("Outputs", &["depth", "algo_done", "frame_done"]),
@@ -65,7 +69,8 @@ const FLOW: &[(&str, &[&str])] = &[
 /// Heading of what is left.
 const OTHER: &str = "Other signals";
 /// Signals whose shape over time says something.
-const CURVES: [&str; 3] = ["hist_count", "depth", "depth_estimator.forward1.l1_in_*"];
+const CURVES: [&str; 4] =
+    ["hist_count", "depth", "depth_estimator.forward1.l1_in_*", "centroid_estimator.sum"];
 /// Signals under a heading beyond which it is shown closed, where space is short.
 const FEW: usize = 7;
 /// Signals that a screen has room for.
@@ -115,7 +120,7 @@ fn matches(name: &str, pattern: &str) -> bool {
 mod tests {
     use super::super::bench::params;
     use super::*;
-    use crate::hierarchy::{entries, ram_entries};
+    use crate::hierarchy::{entries, every_entry, ram_entries};
 
     #[test]
     fn every_value_is_shown_once() {
@@ -130,7 +135,7 @@ mod tests {
 
     #[test]
     fn every_name_in_the_flow_is_a_signal() {
-        let all = [entries(&params()), ram_entries()].concat();
+        let all = [every_entry(), ram_entries()].concat();
         for pattern in FLOW.iter().flat_map(|(_, patterns)| *patterns).chain(&CURVES) {
             assert!(all.iter().any(|entry| matches(&below_top(entry), pattern)), "{pattern}");
         }

@@ -11,7 +11,7 @@ use super::*;
 use crate::firmware::carry_chain::TAPS;
 use crate::firmware::depth_estimator;
 use crate::firmware::forward2::MOST_NEURONS;
-use crate::firmware::tof_top::{CodeSource, HistogramSource, Pins};
+use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Pins};
 use crate::hierarchy::{entries, ram_entries};
 use crate::kernel::{Thermometer, U};
 
@@ -139,6 +139,8 @@ fn every_input_port_has_an_entry() {
     params.depth_estimator.forward2.neurons = MOST_NEURONS;
     params.code_source = CodeSource::Preload(Box::new([U::new(0)]));
     params.histogram_source = HistogramSource::Preload(rom);
+    paths.extend(entries(&params).iter().map(Entry::path));
+    params.estimator = Estimator::Centroid;
     paths.extend(entries(&params).iter().map(Entry::path));
     let modules = [
         ("tof_top", tof_top::Wires::inputs()),

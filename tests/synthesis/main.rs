@@ -27,6 +27,7 @@ const END: &str = "<!-- end -->";
 const EXPECTED: &[(&str, &str, u64)] = &[
     ("carry_chain", "CARRY4", 200),
     ("carry_chain", "FD", 800),
+    ("centroid_estimator", "DSP48E1", 2),
     ("ddr_output", "ODDR", 1),
     ("depth_estimator", "DSP48E1", 9),
     ("forward1", "DSP48E1", 8),

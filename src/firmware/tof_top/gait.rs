@@ -13,7 +13,7 @@ use crate::firmware::{code_preload, frame_ctrl, reset_sync, spad_control, tdc, v
 use crate::kernel::{ASLEEP, AWAKE, Clocked, Time, U, asleep_if};
 use crate::network::estimate::estimate;
 
-use super::{CodeSource, HistogramSource, Params, TofTop, Wires, histogram_builder};
+use super::{CodeSource, Estimator, HistogramSource, Params, TofTop, Wires, histogram_builder};
 
 impl TofTop {
     /// Whether, as long as `acquire` is high and no pin but `tdc_stop` changes, edges change nothing
@@ -163,15 +163,29 @@ impl TofTop {
         self.frame_ctrl.leap_clear(cycles);
     }
 
-    /// Lands in the cycle before the depth is ready.
+    /// Cycles since the edge that took `algo_start`, while the estimator in use works.
+    pub fn estimation_phase(&self, p: &Params) -> Option<u64> {
+        match p.estimator {
+            Estimator::Network => self.depth_estimator.estimator_ctrl.phase(),
+            Estimator::Centroid => self.centroid_estimator.registers.phase(),
+        }
+    }
+
+    /// Lands in the cycle before the depth is ready, from the first cycle of an estimation.
     pub fn land_in_estimation(&mut self, p: &Params) {
         let words = match &p.histogram_source {
             HistogramSource::Builder => &*self.histogram_builder.ram,
             HistogramSource::Preload(rom) => rom,
         };
-        let histogram = std::array::from_fn(|bin| words[bin].get() as u16);
-        let l1_in = estimate(&p.depth_estimator, &histogram).l1_in;
-        self.depth_estimator = DepthEstimator::before_done(l1_in, &p.depth_estimator);
+        match p.estimator {
+            Estimator::Network => {
+                let histogram = std::array::from_fn(|bin| words[bin].get() as u16);
+                let l1_in = estimate(&p.depth_estimator, &histogram).l1_in;
+                self.depth_estimator = DepthEstimator::before_done(l1_in, &p.depth_estimator);
+            }
+            Estimator::Centroid => self.centroid_estimator.run(words, &p.centroid_estimator),
+        }
+        self.take_depth(p);
         self.settle(p);
     }
 

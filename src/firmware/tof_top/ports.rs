@@ -1,6 +1,7 @@
 //! Pins, wires and parameters of the top.
 
-use crate::firmware::{depth_estimator, frame_ctrl, histogram_preload, tdc};
+use crate::firmware::forward2::Depth;
+use crate::firmware::{centroid_estimator, depth_estimator, frame_ctrl, histogram_preload, tdc};
 use crate::kernel::U;
 use crate::signals;
 
@@ -78,6 +79,30 @@ pub enum HistogramSource {
     Preload(Box<histogram_preload::Rom>),
 }
 
+/// What is in the estimator's socket.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Estimator {
+    /// [`depth_estimator`].
+    #[default]
+    Network,
+    /// [`centroid_estimator`].
+    Centroid,
+}
+
+
+/// Outputs of the estimator in use; waveforms show that estimator's own.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Socket {
+    /// The histogram's word at `read_addr` is being read.
+    pub read_en: bool,
+    /// Word of the histogram.
+    pub read_addr: U<8>,
+    /// The depth, when `algo_done` is high.
+    pub depth: Depth,
+    /// The depth is ready; one cycle.
+    pub algo_done: bool,
+}
+
 /// What elaboration fixes.
 #[derive(Clone, Debug)]
 pub struct Params {
@@ -87,8 +112,23 @@ pub struct Params {
     pub tdc: tdc::Params,
     /// ROMs of the network.
     pub depth_estimator: depth_estimator::Params,
+    /// Window and scale of the centroid.
+    pub centroid_estimator: centroid_estimator::Params,
+    /// What finds the depth.
+    pub estimator: Estimator,
     /// Where codes come from.
     pub code_source: CodeSource,
     /// Where the estimator's histogram comes from.
     pub histogram_source: HistogramSource,
+}
+
+impl Params {
+    /// From the edge that takes `algo_start` to the one that raises `algo_done`, for the estimator in
+    /// use [cycles of clk_125].
+    pub fn estimator_cycles(&self) -> u64 {
+        match self.estimator {
+            Estimator::Network => self.depth_estimator.cycles(),
+            Estimator::Centroid => centroid_estimator::DONE,
+        }
+    }
 }

@@ -21,6 +21,9 @@ use super::Rtl;
 use super::process::Limits;
 use rows::Row;
 
+/// The module of [`rows::centroid`].
+const CENTROID: &str = "centroid_estimator";
+
 /// One promise: a row of `tofsim verify --cycle-counts`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Count {
@@ -63,7 +66,11 @@ impl Count {
 /// When a tool is missing, Icarus Verilog cannot compile `rtl` with our bench (a module or a port
 /// is missing), the simulation does not end, or the user stops.
 pub fn cycle_counts(rtl: &Rtl, neurons: usize, limits: &Limits) -> Result<Vec<Count>> {
-    count(&rows::rows(neurons), neurons, rtl, limits)
+    let mut rows = rows::rows(neurons);
+    if rtl.has(CENTROID)? {
+        rows.push(rows::centroid());
+    }
+    count(&rows, neurons, rtl, limits)
 }
 
 fn count(rows: &[Row], neurons: usize, rtl: &Rtl, limits: &Limits) -> Result<Vec<Count>> {

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::firmware::centroid_estimator::{self, CentroidEstimator};
 use crate::firmware::depth_estimator::{self, DepthEstimator, Params};
 use crate::firmware::forward1::BIAS_ROW;
 use crate::firmware::forward2::{MOST_NEURONS, Rom};
@@ -21,6 +22,7 @@ const PATIENCE: u64 = 1000;
 pub fn seen(neurons: usize) -> Seen {
     let mut seen = Seen::default();
     estimator(neurons, &mut seen);
+    centroid(&mut seen);
     for mode in [false, true] {
         (0..PERIODS.len()).for_each(|code| shots(mode, code as u64, &mut seen));
     }
@@ -60,6 +62,28 @@ fn estimator(neurons: usize, seen: &mut Seen) {
         }
         for (layer, cycles) in ["forward1", "tansig", "forward2"].into_iter().zip(cycles) {
             seen.add(format!("{layer}_cycles"), cycles);
+        }
+        if !hold {
+            edge(false);
+        }
+    }
+}
+
+/// The same of the centroid estimator.
+fn centroid(seen: &mut Seen) {
+    let mut estimator = CentroidEstimator::default();
+    let mut edge = |algo_start| {
+        let i = centroid_estimator::In { rst: false, algo_start, count: U::new(0) };
+        estimator.rise(&i, &centroid_estimator::Params::default());
+        estimator.registers.algo_done
+    };
+    for hold in [false, true, true] {
+        let (mut done, mut k) = (edge(true), 0);
+        while !done && k < PATIENCE {
+            (done, k) = (edge(hold), k + 1);
+        }
+        if done {
+            seen.add("centroid_latency", k);
         }
         if !hold {
             edge(false);

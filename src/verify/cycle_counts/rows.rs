@@ -25,6 +25,14 @@ static ESTIMATOR: Check = Check {
     steps: 4,
 };
 
+static CENTROID: Check = Check {
+    module: "check_centroid",
+    text: include_str!("check_centroid.sv"),
+    open: &[],
+    step: "async2sync",
+    steps: 4,
+};
+
 static SHOT: Check = Check {
     module: "check_shot",
     text: include_str!("check_shot.sv"),
@@ -99,7 +107,21 @@ pub fn define(neurons: usize) -> Option<[String; 2]> {
     (neurons != NEURONS).then(|| ["NEURONS".to_owned(), neurons.to_string()])
 }
 
-/// Everything that is promised of a design whose estimator has so many neurons.
+/// What is promised of the estimator that a design may leave out.
+pub fn centroid() -> Row {
+    Row {
+        parameter: "Latency",
+        registers: &["busy", "step"],
+        ..Row::new(
+            &CENTROID,
+            "centroid_latency",
+            308,
+            "centroid estimator: algo_start taken to algo_done",
+        )
+    }
+}
+
+/// Everything else that is promised of a design whose estimator has so many neurons.
 pub fn rows(neurons: usize) -> Vec<Row> {
     let estimator = |property, expected, parameter, registers, what| Row {
         parameter,

@@ -12,9 +12,10 @@ use super::rows::define;
 use super::seen::Seen;
 
 /// The benches: name of the module, which is the file's stem, and text.
-const BENCHES: [(&str, &str); 2] = [
+const BENCHES: [(&str, &str); 3] = [
     ("bench_estimator", include_str!("bench_estimator.v")),
     ("bench_shot", include_str!("bench_shot.v")),
+    ("bench_centroid", include_str!("bench_centroid.v")),
 ];
 
 /// Runs the benches on `rtl`, whose estimator is to have so many neurons.
@@ -24,7 +25,8 @@ const BENCHES: [(&str, &str); 2] = [
 /// end, `folder` cannot be written, or the user stops.
 pub fn seen(rtl: &Rtl, neurons: usize, folder: &Path, limits: &Limits) -> Result<Seen> {
     let mut seen = Seen::default();
-    for (name, text) in BENCHES {
+    let left_out = if rtl.has(super::CENTROID)? { None } else { Some("bench_centroid") };
+    for (name, text) in BENCHES.into_iter().filter(|(name, _)| Some(*name) != left_out) {
         let bench = format!("{name}.v");
         let define = define(neurons)
             .map_or(String::new(), |[name, value]| format!("`define {name} {value}\n"));

@@ -24,6 +24,7 @@ pub fn with_fault(key: &str, edits: &[Edit]) -> Count {
         fs::write(&path, text.replace(from, to)).unwrap();
     }
     let mut rows = rows::rows(NEURONS);
+    rows.push(rows::centroid());
     rows.retain(|row| row.key() == key);
     count(&rows, NEURONS, &rtl, &limits()).unwrap().remove(0)
 }
@@ -33,7 +34,7 @@ fn everything_that_is_promised_is_counted_and_proven() {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
     let counts = cycle_counts(&rtl, NEURONS, &limits()).unwrap();
-    assert_eq!(counts.len(), 18);
+    assert_eq!(counts.len(), 19);
     for count in counts {
         assert!(count.holds(), "{count:?}");
     }
@@ -77,6 +78,17 @@ fn without_our_registers_the_estimator_is_counted_but_not_proven() {
     assert_eq!(count.rtl, Some(267));
     let why = "the proof needs the registers estimator_ctrl.busy and estimator_ctrl.step";
     assert_eq!(count.proven, Proof::NotProven(why.to_owned()));
+}
+
+#[test]
+fn a_design_may_leave_the_centroid_estimator_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut rtl = Rtl::own(folder.path()).unwrap();
+    rtl.files.retain(|file| !file.ends_with("centroid_estimator.v"));
+    assert!(!rtl.has(CENTROID).unwrap());
+    let seen = simulate::seen(&rtl, NEURONS, folder.path(), &limits()).unwrap();
+    assert_eq!(seen.count("latency", 267), Some(267));
+    assert_eq!(seen.count("centroid_latency", 308), None);
 }
 
 #[test]

@@ -1,0 +1,50 @@
+`timescale 1ps / 1fs
+`default_nettype none
+
+// Prints the centroid estimator's latency: for a start while it is idle, and for a start that is
+// held, which is taken again with algo_done.
+module bench_centroid;
+    reg clk_125 = 1'b0, rst = 1'b1, algo_start = 1'b0;
+    wire algo_done;
+
+    centroid_estimator centroid_estimator (
+        .clk_125(clk_125),
+        .rst(rst),
+        .algo_start(algo_start),
+        .count(16'd0),
+        .algo_done(algo_done)
+    );
+
+    integer k;
+
+    task edge_with(input start);
+        begin
+            algo_start = start;
+            #4000 clk_125 = 1'b1;
+            #4000 clk_125 = 1'b0;
+        end
+    endtask
+
+    // From the edge that takes a start to algo_done, or for 1000 cycles.
+    task estimation(input hold);
+        begin
+            k = -1;
+            while (k < 1000 && (k < 0 || algo_done !== 1'b1)) begin
+                edge_with(k < 0 || hold);
+                k = k + 1;
+            end
+            if (algo_done === 1'b1) $display("count centroid_latency %0d", k);
+        end
+    endtask
+
+    initial begin
+        repeat (3) edge_with(1'b0);
+        rst = 1'b0;
+        repeat (3) edge_with(1'b0);
+        estimation(1'b0);
+        repeat (3) edge_with(1'b0);
+        estimation(1'b1);
+        estimation(1'b1);
+        $finish;
+    end
+endmodule
