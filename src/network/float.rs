@@ -64,8 +64,8 @@ mod tests {
     fn without_float_weights_the_twin_has_the_integers_values() {
         let mut network = Network::builtin("ideal").unwrap().unwrap();
         network.float = None;
-        let twin = network.twin();
-        assert_eq!(twin.b2, 32116.0 / 131072.0);
-        assert_eq!(twin.w1[0][0], -141.0 / 8388608.0);
+        let (twin, fixed) = (network.twin(), &network.fixed);
+        assert_eq!(twin.b2, f64::from(fixed.b2.to_bits()) / 131_072.0);
+        assert_eq!(twin.w1[0][0], f64::from(fixed.w1[0][0].to_bits()) / 8_388_608.0);
     }
 }

@@ -83,9 +83,11 @@ mod tests {
     fn a_row_of_the_hidden_rom_is_a_bin_and_the_last_one_the_biases() {
         let network = Network::builtin("uniform").unwrap().unwrap();
         let params = network.params();
-        assert_eq!(params.forward1[5][0].get(), -103);
-        assert_eq!(params.forward1[256].map(|bias| bias.get())[..3], [1782, 10347, -10739]);
-        assert_eq!(params.forward2.w2[7].get(), -2928);
-        assert_eq!(params.forward2.b2.get(), 32116);
+        let fixed = &network.fixed;
+        assert_eq!(params.forward1[5][2].get(), i64::from(fixed.w1[2][5].to_bits()));
+        assert_eq!(params.forward1[256][3].get(), i64::from(fixed.b1[3].to_bits()));
+        assert_eq!(params.forward2.w2[7].get(), i64::from(fixed.w2[7].to_bits()));
+        assert_eq!(params.forward2.b2.get(), i64::from(fixed.b2.to_bits()));
+        assert_eq!(params.forward1[5][8..], [S::new(0); 8]);
     }
 }

@@ -151,9 +151,19 @@ mod tests {
         Network::parse(&text.replacen(from, to, 1), "a.toml").unwrap_err().to_string()
     }
 
+    /// What the file's first row of integers begins with, and the same with `word` in place of the
+    /// first one.
+    fn first(word: &str) -> (String, String) {
+        let network = Network::builtin("uniform").unwrap().unwrap();
+        let begin = |word: &str| format!("w1 = [\n  [\n    {word}");
+        let old = format!("{}, ", network.fixed.w1[0][0].to_bits());
+        (begin(&old), begin(word))
+    }
+
     #[test]
     fn a_weight_outside_its_word_is_named_with_its_range() {
-        let message = fault("[\n    -89,", "[\n    40000,");
+        let (from, to) = first("40000, ");
+        let message = fault(&from, &to);
         let expected = "integers.w1[0][0] = 40000: expected an integer from -32768 to 32767 \
                         (16 bits, 23 fraction)";
         assert!(message.starts_with("a.toml:") && message.ends_with(expected), "{message}");
@@ -161,13 +171,15 @@ mod tests {
 
     #[test]
     fn a_weight_that_is_no_integer_is_named() {
-        let message = fault("[\n    -89,", "[\n    -89.5,");
+        let (from, to) = first("-89.5, ");
+        let message = fault(&from, &to);
         assert!(message.contains("integers.w1[0][0] = -89.5: expected an integer"), "{message}");
     }
 
     #[test]
     fn a_row_of_the_wrong_length_is_named() {
-        let message = fault("[\n    -89,", "[\n    ");
+        let (from, to) = first("");
+        let message = fault(&from, &to);
         assert!(message.contains("integers.w1[0]: 255 weights, expected 256"), "{message}");
     }
 
@@ -200,10 +212,11 @@ mod tests {
         for (from, to, expected) in [
             ("\"counts\"", "3", "expected \"counts\""),
             ("\"tofsim.network/1\"", "\"tofsim.network/9\"", "expected \"tofsim.network/1\""),
-            ("b2 = 32116", "b2 = \"32116\"", "integers.b2 = \"32116\": expected an integer"),
+            ("b2 = 3", "b2 = \"3\" #", "integers.b2 = \"3\": expected an integer"),
             ("two_sd_mm = [", "two_sd_mm = [1.0, ", "7 values, expected one a distance: 6"),
             ("[float]\n", "[float]\nb3 = nan\n", "float.b3: unknown key"),
-            ("w2 = [\n    -0.16", "w2 = [\n    nan, -0.16", "float.w2: 9 weights, expected 8"),
+            ("w2 = [\n    ", "w2 = [\n    1, ", "integers.w2: 9 weights, expected 8"),
+            ("w1 = [\n  [", "w1 = [\n  [1],\n  [", "integers.w1[0]: 1 weights, expected 256"),
         ] {
             let message = fault(from, to);
             assert!(message.contains(expected), "{message}");
