@@ -89,7 +89,6 @@ pub enum Estimator {
     Centroid,
 }
 
-
 /// Outputs of the estimator in use; waveforms show that estimator's own.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Socket {
