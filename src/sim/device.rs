@@ -118,7 +118,7 @@ impl Device {
             self.top.emit_acquiring(p);
         } else {
             self.top.rise(p, &mut self.line, now);
-            if self.top.depth_estimator.estimator_ctrl.algo_done {
+            if self.top.socket.algo_done {
                 self.timeline.take_depth(self.pll.clk_125.rise(self.cycle));
             }
         }

@@ -55,6 +55,22 @@ fn a_depth_comes_from_a_dark_and_a_lit_frame_at_every_fidelity() {
 }
 
 #[test]
+fn the_laser_answers_to_the_depth_of_whatever_is_in_the_socket() {
+    let folder = empty();
+    for fidelity in ["cycle", "shot", "histogram"] {
+        let centroid = ["--fidelity", fidelity, "--frames", "2", "-s", "estimator.kind=centroid"];
+        let run = pairs(folder.path(), &centroid);
+        for (index, frame) in run["frames"].as_array().unwrap().iter().enumerate() {
+            assert_eq!(frame["laser_en"], index % 2 == 1, "{fidelity}, frame {index}");
+            assert_eq!(frame["estimator_cycles"], 308);
+        }
+        assert_eq!(run["pairs"]["count"], 2, "{fidelity}");
+        let depth_m = run["pairs"]["mean_m"].as_f64().unwrap();
+        assert!((depth_m - 0.5).abs() < 0.02, "{fidelity}: {depth_m}");
+    }
+}
+
+#[test]
 fn cycle_and_shot_print_the_same_whatever_the_threads() {
     let folder = empty();
     for keys in [
