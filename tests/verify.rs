@@ -148,6 +148,34 @@ fn a_missing_module_or_port_and_a_wrong_width_are_named() {
 }
 
 #[test]
+fn a_design_with_the_estimator_of_the_thesis_only_is_checked_without_the_other() {
+    let folder = common::empty();
+    let ours = fs::read_dir(OWN).unwrap().map(|entry| entry.unwrap().path());
+    for path in ours.filter(|path| path.extension().is_some_and(|end| end == "v")) {
+        fs::copy(&path, folder.path().join(path.file_name().unwrap())).unwrap();
+    }
+    fs::remove_file(folder.path().join("centroid_estimator.v")).unwrap();
+    let top = folder.path().join("tof_top.v");
+    let text = fs::read_to_string(&top).unwrap();
+    let (before, instance) = text.split_once("    centroid_estimator #(").unwrap();
+    assert_eq!(instance.matches(");\n").count(), 1);
+    fs::write(&top, format!("{before}endmodule\n")).unwrap();
+
+    let output = common::output(folder.path(), &["verify", "--rtl", ".", "--json"]);
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{error}");
+    assert!(error.contains("no module centroid_estimator, which is not checked"), "{error}");
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let names = report["blocks"].as_array().unwrap().iter().map(|block| block["block"].as_str());
+    let names: Vec<_> = names.map(Option::unwrap).collect();
+    assert!(names.contains(&"tof_top") && !names.contains(&"centroid_estimator"), "{names:?}");
+
+    let asked = ["verify", "--rtl", ".", "--block", "centroid_estimator"];
+    let error = common::refused(folder.path(), &asked);
+    assert!(error.contains("centroid_estimator: no such module"), "{error}");
+}
+
+#[test]
 fn a_map_that_names_an_unknown_port_is_refused_with_its_place() {
     let folder = counter("", "");
     fs::write(folder.path().join("map.toml"), "[block.coarse_counter.ports]\nstrat = \"go\"\n")

@@ -12,7 +12,7 @@ use crate::golden::{BLOCKS, Setting, Spec};
 use crate::output::write_file;
 use crate::verify::cycle_counts::Count;
 use crate::verify::process::Limits;
-use crate::verify::{Check, Map, Report, Rtl, Simulator, report};
+use crate::verify::{CENTROID, Check, Map, Report, Rtl, Simulator, report};
 
 use super::interrupt::stop_signal;
 use super::stdout::print;
@@ -31,7 +31,7 @@ pub struct Args {
     /// Folder with the Verilog to check: all its .v and .sv files
     #[arg(long, value_name = "DIR")]
     rtl: Option<PathBuf>,
-    /// Block to check; may be repeated [default: all]
+    /// Block to check; may be repeated [default: all; centroid_estimator only if the design has it]
     #[arg(long, value_name = "BLOCK")]
     block: Vec<String>,
     /// Check the whole firmware with a full frame of the scenario too (alone, unless --block is given)
@@ -86,7 +86,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     if args.cycle_counts {
         return cycle_counts(args, &rtl, &limits);
     }
-    let tasks = tasks(args, map.as_ref())?;
+    let tasks = tasks(args, map.as_ref(), &rtl, talk)?;
     let check = |task: &Task| {
         let check = Check {
             rtl: &rtl,
@@ -128,12 +128,12 @@ fn cycle_counts(args: &Args, rtl: &Rtl, limits: &Limits) -> Result<ExitCode> {
 }
 
 /// The blocks that are asked for, then the whole.
-fn tasks(args: &Args, map: Option<&Map>) -> Result<Vec<Task>> {
+fn tasks(args: &Args, map: Option<&Map>, rtl: &Rtl, talk: &Talk) -> Result<Vec<Task>> {
     let setting = args.from.setting()?;
     let setting = map.map_or(setting.clone(), |map| map.fit(&setting));
     let specs: Vec<_> = match (args.block.as_slice(), args.top) {
         ([], true) => Vec::new(),
-        ([], false) => BLOCKS.iter().collect(),
+        ([], false) => every(map, rtl, talk)?,
         (names, _) => names.iter().map(|name| find(name, "--block")).collect::<Result<_>>()?,
     };
     let task =
@@ -145,6 +145,17 @@ fn tasks(args: &Args, map: Option<&Map>) -> Result<Vec<Task>> {
         tasks.push(Task { name, spec: find("tof_top", "--top")?, setting });
     }
     Ok(tasks)
+}
+
+/// All blocks, but for an estimator that the thesis does not have and the design need not.
+fn every(map: Option<&Map>, rtl: &Rtl, talk: &Talk) -> Result<Vec<&'static Spec>> {
+    let named = map.and_then(|map| map.block.get(CENTROID));
+    let module = named.map_or(CENTROID, |block| block.module(CENTROID));
+    if named.is_some() || rtl.has(module)? {
+        return Ok(BLOCKS.iter().collect());
+    }
+    talk.note(format_args!("{}: no module {module}, which is not checked", rtl.source));
+    Ok(BLOCKS.iter().filter(|spec| spec.name != CENTROID).collect())
 }
 
 /// Does all tasks on as many threads as the machine has, in any order; the reports, and the first

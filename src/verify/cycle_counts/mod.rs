@@ -17,12 +17,9 @@ mod tests;
 
 use crate::error::{Error, Result};
 
-use super::Rtl;
+use super::{CENTROID, Rtl};
 use super::process::Limits;
 use rows::Row;
-
-/// The module of [`rows::centroid`].
-const CENTROID: &str = "centroid_estimator";
 
 /// One promise: a row of `tofsim verify --cycle-counts`.
 #[derive(Clone, Debug, PartialEq)]
