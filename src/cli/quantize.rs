@@ -28,8 +28,8 @@ const EXPLORED: u64 = 10_200;
 /// Fold and round a network that was trained elsewhere, or explore word lengths
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Arrays by name: IW (8 x 256), LW (8), b1 (8), b2 (8 or as many neurons, 16 at most, as b1 has), and the settings of mapminmax on both sides if\n\
-    there are any: x_xoffset, x_gain (256 each), x_ymin, y_xoffset, y_gain, y_ymin; x_keep has the bins, from\n\
+    after_help = "Arrays by name: IW (N x 256), LW (N), b1 (N), b2 (1), for N hidden neurons, 1 to 16, and the settings of\n\
+    mapminmax on both sides if there are any: x_xoffset, x_gain (256 each), x_ymin, y_xoffset, y_gain, y_ymin; x_keep has the bins, from\n\
     1, that removeconstantrows kept. In MATLAB:\n\n  \
     s = net.inputs{1}.processSettings{2}; t = net.outputs{2}.processSettings{2};\n  \
     IW = net.IW{1,1}; LW = net.LW{2,1}; b1 = net.b{1}; b2 = net.b{2};\n  \
