@@ -11,7 +11,7 @@
 //! | `matched` | pile-up taken out, background out, correlation with the pulse | Coates 1968 |
 //!
 //! 2 sd of the distance [mm] at 0.1 .. 0.6 m, chain `ideal`, over the grid of thesis section 4.4
-//! (`tests/estimators.rs` repeats these in small):
+//! (`tests/estimators` repeats these in small):
 //!
 //! | | 0.1 | 0.2 | 0.3 | 0.4 | 0.5 | 0.6 | histograms |
 //! |---|---|---|---|---|---|---|---|

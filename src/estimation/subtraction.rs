@@ -7,7 +7,7 @@
 //!
 //! It does not help the detector: H0 has the noise of both histograms, and an echo of half the shots.
 //! The prominence is a part of all shots, dark ones too: as a part of the lit ones it would let noise
-//! pass for peaks (`tests/estimators.rs` has both).
+//! pass for peaks (`tests/estimators` has both).
 
 use crate::error::Input;
 use crate::network::Histogram;

@@ -4,11 +4,14 @@
 //! of taps 0 .. i - 1; an arrival at or before the edge counts. The line is longer than a clock
 //! period, so several transitions may travel in it.
 
-use crate::kernel::thermometer::MAX_TRANSITIONS;
 use crate::kernel::{Thermometer, Time, U};
 use crate::signals;
 
 use super::tdc_decoder::Calibration;
+
+mod stop_line;
+
+pub use stop_line::StopLine;
 
 /// Length of the chain: 200 CARRY4 [taps].
 pub const TAPS: usize = 800;
@@ -139,90 +142,6 @@ impl Delays {
     }
 }
 
-/// The wire from the SPAD: its level and the transitions still travelling in the chain.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct StopLine {
-    level: bool,
-    /// Times of the last transitions, a ring.
-    recent: [Time; MAX_TRANSITIONS],
-    /// Place of the newest.
-    newest: usize,
-    travelling: usize,
-}
-
-impl StopLine {
-    /// The level now.
-    pub fn level(&self) -> bool {
-        self.level
-    }
-
-    /// The level changes. A change at the same instant as the last one undoes it: a pulse of no
-    /// width is none.
-    pub fn toggle(&mut self, now: Time) {
-        self.level = !self.level;
-        if self.travelling > 0 && self.at(0) == now {
-            self.newest = (self.newest + 1) % MAX_TRANSITIONS;
-            self.travelling -= 1;
-        } else {
-            self.newest = (self.newest + MAX_TRANSITIONS - 1) % MAX_TRANSITIONS;
-            self.recent[self.newest] = now;
-            self.travelling = (self.travelling + 1).min(MAX_TRANSITIONS);
-        }
-    }
-
-    /// When the `nth` transition was, 0 the newest.
-    #[inline(always)]
-    fn at(&self, nth: usize) -> Time {
-        self.recent[(self.newest + nth) % MAX_TRANSITIONS]
-    }
-
-    /// When the transition happened that reached physical tap 0 at or before `now`, raising it.
-    pub fn rise_seen_at(&self, now: Time, delays: &Delays) -> Option<Time> {
-        let mut level = self.level;
-        for at in (0..self.travelling).map(|nth| self.at(nth)) {
-            if level && at + delays.tap_0() <= now {
-                return Some(at);
-            }
-            level = !level;
-        }
-        None
-    }
-
-    /// Whether the level is low and has been for some time.
-    pub fn is_low_since(&self, since: Time) -> bool {
-        !self.level && (self.travelling == 0 || self.at(0) <= since)
-    }
-
-    /// The level is low, and has been for long.
-    pub fn settle_low(&mut self) {
-        (self.level, self.travelling) = (false, 0);
-    }
-
-    /// Whether the taps of the last edge are those of every edge to come, until the level changes.
-    #[inline(always)]
-    pub fn is_shown_by(&self, taps: &Taps) -> bool {
-        self.travelling == 0 && taps.is_settled_at(self.level)
-    }
-
-    /// The taps at a clock edge; forgets transitions that have left the chain.
-    #[inline(always)]
-    pub fn sample(&mut self, now: Time, delays: &Delays) -> Taps {
-        while self.travelling > 0 && now - self.at(self.travelling - 1) >= delays.longest {
-            self.travelling -= 1;
-        }
-        match self.travelling {
-            0 => Taps::settled(self.level),
-            1 => Taps::single(self.level, delays.rank_inside(now - self.at(0))),
-            _ => self.sample_travelling(now, delays),
-        }
-    }
-
-    fn sample_travelling(&self, now: Time, delays: &Delays) -> Taps {
-        let ages = (0..self.travelling).map(|nth| now - self.at(nth));
-        Taps::new(self.level, ages.map(|age| delays.rank_inside(age)))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -261,29 +180,6 @@ mod tests {
         assert_eq!(cal[482], 5132);
         assert_eq!(cal[0], 1280);
         assert_eq!(cal[800], 1280 + 8 * 800 - 4);
-    }
-
-    #[test]
-    fn an_old_pulse_travels_beside_a_new_one() {
-        let delays = uniform(11_500, 2_230);
-        let mut line = StopLine::default();
-        line.toggle(Time::from_ns(100));
-        line.toggle(Time::from_ns(103));
-        line.toggle(Time::from_ns(106));
-        let taps = line.sample(Time::from_ns(110), &delays);
-        let rank = |age_ns| delays.rank(Time::from_ns(age_ns));
-        assert_eq!(taps, Taps::new(true, [rank(4), rank(7), rank(10)]));
-        assert_eq!(taps.ones(), rank(4) + rank(10) - rank(7));
-        assert_eq!(line.sample(Time::from_ns(150), &delays), Taps::settled(true));
-        assert_eq!(line.travelling, 0);
-    }
-
-    #[test]
-    fn a_pulse_without_width_is_none() {
-        let mut line = StopLine::default();
-        line.toggle(Time::from_ns(3));
-        line.toggle(Time::from_ns(3));
-        assert_eq!((line.level(), line.travelling), (false, 0));
     }
 
     #[test]

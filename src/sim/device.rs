@@ -11,6 +11,7 @@ use crate::sensor::light::Light;
 use crate::sensor::spad::{Event, Spad};
 
 use super::jitter::Jitter;
+use super::oscillator::Oscillator;
 use super::timeline::Timeline;
 
 pub use super::trace::{Edge, Off, Record, Trace};
@@ -32,10 +33,8 @@ pub struct Device {
     pub(super) cycle: u64,
     /// Until then the top only acquires, as long as `acquire` is high.
     pub(super) acquires_until: Time,
-    /// Next edge of `clk_200`, rising and falling counted; kept up only while tracing.
-    oscillator: u64,
-    /// When that is.
-    oscillator_at: Time,
+    /// Kept up only while tracing.
+    oscillator: Oscillator,
 }
 
 impl Device {
@@ -54,12 +53,11 @@ impl Device {
             spad: Spad::new(dead_time, light.next_avalanche(Time::ZERO)),
             light,
             timeline,
+            oscillator: Oscillator::new(pll.clk_200.clone()),
             pll,
             jitter,
             cycle: 0,
             acquires_until: Time::ZERO,
-            oscillator: 0,
-            oscillator_at: Time::ZERO,
         }
     }
 
@@ -152,15 +150,7 @@ impl Device {
 
     /// Brings the levels of the clocks up to date where tracing begins, before the next edge.
     pub fn resume_clocks(&mut self, now: Time) {
-        self.oscillator = now.fs() / self.pll.clk_200.rise(0).fs();
-        while self.oscillator > 0 && self.oscillator_edge(self.oscillator - 1) > now {
-            self.oscillator -= 1;
-        }
-        while self.oscillator_edge(self.oscillator) <= now {
-            self.oscillator += 1;
-        }
-        self.oscillator_at = self.oscillator_edge(self.oscillator);
-        self.top.clocks.clk_200 = self.oscillator % 2 == 1;
+        self.top.clocks.clk_200 = self.oscillator.seek(now);
         self.clocks(false, false);
     }
 
@@ -221,13 +211,13 @@ impl Device {
         loop {
             let next = self.spad.next_event().min(self.timeline.next_event());
             if T::ON {
-                while self.oscillator_at < next.min(until) {
-                    let now = self.oscillator_at;
-                    self.oscillate();
+                while self.oscillator.next_edge() < next.min(until) {
+                    let now = self.oscillator.next_edge();
+                    self.top.clocks.clk_200 = self.oscillator.edge();
                     trace.tick(now, &self.top);
                 }
-                if self.oscillator_at == next.min(until) {
-                    self.oscillate();
+                if self.oscillator.next_edge() == next.min(until) {
+                    self.top.clocks.clk_200 = self.oscillator.edge();
                 }
             }
             if next > until {
@@ -251,14 +241,6 @@ impl Device {
         if self.spad.next_event() == now {
             self.detect(record);
         }
-    }
-
-    /// An edge of the oscillator.
-    #[inline(always)]
-    fn oscillate(&mut self) {
-        self.oscillator += 1;
-        self.oscillator_at = self.oscillator_edge(self.oscillator);
-        self.top.clocks.clk_200 = self.oscillator % 2 == 1;
     }
 
     /// The detector does what is due.
@@ -304,11 +286,5 @@ impl Device {
     fn toggle_stop(&mut self, now: Time) {
         self.line.toggle(now);
         self.top.pins.tdc_stop = self.line.level();
-    }
-
-    /// Edge `n` of `clk_200`, rising and falling counted.
-    fn oscillator_edge(&self, n: u64) -> Time {
-        let clk_200 = &self.pll.clk_200;
-        if n.is_multiple_of(2) { clk_200.rise(n / 2) } else { clk_200.fall(n / 2) }
     }
 }

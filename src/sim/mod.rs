@@ -7,6 +7,7 @@ pub mod histogram;
 pub mod jitter;
 pub mod leap;
 pub mod many;
+pub mod oscillator;
 pub mod recorder;
 pub mod run;
 pub mod setup;

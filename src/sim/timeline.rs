@@ -4,17 +4,13 @@ use crate::firmware::tof_top::Pins;
 use crate::kernel::{Time, U};
 use crate::scenario::{Control, Firmware, Scenario};
 
-/// What the acquisition computer takes from a depth to a change of `laser_en`: well within Clear, and
-/// at no edge of a clock.
-const RESPONSE: Time = Time::from_ns(101);
-
 /// Changes still to come, in order of time.
 #[derive(Clone, Debug)]
 pub struct Timeline {
     changes: std::vec::IntoIter<(Time, Control)>,
     next: Time,
-    /// Whether every depth makes the acquisition computer turn the laser on or off.
-    alternates: bool,
+    /// How long after a depth the acquisition computer turns the laser on or off, if it does.
+    response: Option<Time>,
     /// When it does so next.
     turn: Time,
 }
@@ -25,8 +21,10 @@ impl Timeline {
         let changes = scenario.control.iter();
         let changes: Vec<_> =
             changes.map(|change| (Time::from_ps_f64(change.at_us * 1e6), change.clone())).collect();
-        let (changes, alternates) = (changes.into_iter(), scenario.firmware.dark_frames);
-        let mut timeline = Timeline { changes, next: Time::ZERO, alternates, turn: Time::NEVER };
+        let Firmware { dark_frames, response_ns, .. } = scenario.firmware;
+        let response = dark_frames.then(|| Time::from_ps_f64(response_ns * 1e3));
+        let changes = changes.into_iter();
+        let mut timeline = Timeline { changes, next: Time::ZERO, response, turn: Time::NEVER };
         timeline.look_ahead();
         timeline
     }
@@ -40,8 +38,8 @@ impl Timeline {
     /// A depth is ready from the edge at `now` on.
     #[inline]
     pub fn take_depth(&mut self, now: Time) {
-        if self.alternates {
-            self.turn = now + RESPONSE;
+        if let Some(response) = self.response {
+            self.turn = now + response;
             self.look_ahead();
         }
     }
@@ -98,6 +96,7 @@ mod tests {
     fn timeline(dark_frames: bool) -> (Timeline, Pins) {
         let mut scenario = Scenario::default();
         scenario.firmware.dark_frames = dark_frames;
+        scenario.firmware.response_ns = 200.5;
         scenario.control = vec![Control { at_us: 1.0, mode: Some(1), ..Control::default() }];
         (Timeline::new(&scenario), pins_at_power_up(&scenario.firmware))
     }
@@ -108,10 +107,10 @@ mod tests {
         assert!(!pins.laser_en);
         for (edge_ns, lit) in [(504, true), (992, false), (8000, true)] {
             timeline.take_depth(Time::from_ns(edge_ns));
-            while timeline.next_event() < Time::from_ns(edge_ns) + RESPONSE {
+            while timeline.next_event() < Time::from_ns(edge_ns + 200) {
                 timeline.event(&mut pins);
             }
-            assert_eq!(timeline.next_event(), Time::from_ns(edge_ns + 101));
+            assert_eq!(timeline.next_event(), Time::from_fs(edge_ns * 1_000_000 + 200_500_000));
             timeline.event(&mut pins);
             assert_eq!(pins.laser_en, lit);
         }
@@ -123,8 +122,8 @@ mod tests {
     fn an_answer_moves_with_the_frame() {
         let (mut timeline, _) = timeline(true);
         timeline.take_depth(Time::from_ns(8));
-        timeline.pass(Time::from_ns(800));
-        assert_eq!(timeline.next_event(), Time::from_ns(909));
+        timeline.pass(Time::from_ns(700));
+        assert_eq!(timeline.next_event(), Time::from_fs(908_500_000));
         timeline.event(&mut Pins::default());
         timeline.pass(Time::from_ns(800));
         assert_eq!(timeline.next_event(), Time::from_ns(1000), "no answer is due");

@@ -6,6 +6,7 @@ use crate::dataset::{Grid, Rows, Source, Subset};
 use crate::error::Result;
 
 use super::features::{Features, Scaling};
+use super::recipe::{Recipe, Stage};
 use super::samples::Samples;
 use super::start::{Purpose, derived};
 
@@ -23,6 +24,28 @@ pub fn draw(source: &Source, grid: Grid, len: u64, seed: u64, purpose: Purpose) 
     }
     samples.check()?;
     Ok(samples)
+}
+
+/// Histograms that a stage trains on, or after all stages the end.
+///
+/// # Errors
+/// When there are none.
+pub fn stage_samples(recipe: &Recipe, source: &Source, seed: u64, stage: usize) -> Result<Samples> {
+    let samples = match recipe.stages.get(stage) {
+        Some(&Stage { samples, .. }) => samples,
+        None => recipe.finish.samples,
+    };
+    draw(source, Grid::training(), samples, seed, Purpose::Stage(stage))
+}
+
+/// Histograms that the best block is chosen by, so many for each scene of the test grid.
+///
+/// # Errors
+/// When there are none.
+pub fn choice_samples(recipe: &Recipe, source: &Source, seed: u64) -> Result<Samples> {
+    let grid = Grid::test();
+    let scenes = grid.distances_m.count * grid.lights();
+    draw(source, grid, recipe.finish.choice * scenes, seed, Purpose::Choice)
 }
 
 /// A number that changes with the chain's bins and anything in the scenario.
@@ -52,5 +75,17 @@ impl StageData {
             distances_m: samples.distances_m.clone(),
             digest: samples.digest(),
         }
+    }
+
+    /// Weights of all samples. They are ordered by distance, each distance with a factor, 1 where there is
+    /// none.
+    pub fn weights(&self, recipe: &Recipe, factors: &[f64]) -> Vec<f64> {
+        let mut weights = Vec::with_capacity(self.distances_m.len());
+        for (place, same) in self.distances_m.chunk_by(|a, b| a == b).enumerate() {
+            let factor = factors.get(place).copied().unwrap_or(1.0);
+            let weight = factor * recipe.weighting.weight(same[0]);
+            weights.resize(weights.len() + same.len(), weight);
+        }
+        weights
     }
 }

@@ -15,12 +15,12 @@ use crate::network::float::Float;
 use crate::network::formats::{Fixed, Overflow};
 
 use super::accuracy::{Row, by_distance, worst};
-use super::data::{StageData, draw};
+use super::data::{StageData, choice_samples, draw, stage_samples};
 use super::features::Scaling;
 use super::fold::fold;
 use super::lm::{Lm, Problem, Stop};
 use super::network_problem::NetworkProblem;
-use super::recipe::{Recipe, Stage};
+use super::recipe::Recipe;
 use super::samples::{Samples, digest};
 use super::start::{Purpose, start};
 use super::state::{Best, Candidate, Point, State};
@@ -163,7 +163,7 @@ impl<'a> Tournament<'a> {
     fn train(&mut self, epochs: u64, stop: Option<&AtomicBool>) -> Result<()> {
         let (recipe, data, scaling) = (self.recipe, &self.data, &self.state.scaling);
         self.state.candidates.par_iter_mut().try_for_each(|candidate| {
-            let weights = weights(recipe, &data.distances_m, &candidate.factors);
+            let weights = data.weights(recipe, &candidate.factors);
             let problem = NetworkProblem {
                 features: &data.features,
                 scaling,
@@ -277,30 +277,4 @@ impl<'a> Tournament<'a> {
 fn errors(words: &Fixed, samples: &Samples) -> Vec<Row> {
     let params = words.params();
     by_distance(samples, |histogram| estimate(&params, histogram).depth.to_f64())
-}
-
-/// Weights of all samples. They are ordered by distance, each distance with a factor.
-fn weights(recipe: &Recipe, distances_m: &[f64], factors: &[f64]) -> Vec<f64> {
-    let mut weights = Vec::with_capacity(distances_m.len());
-    for (place, same) in distances_m.chunk_by(|a, b| a == b).enumerate() {
-        let factor = factors.get(place).copied().unwrap_or(1.0);
-        let weight = factor * recipe.weighting.weight(same[0]);
-        weights.resize(weights.len() + same.len(), weight);
-    }
-    weights
-}
-
-fn stage_samples(recipe: &Recipe, source: &Source, seed: u64, stage: usize) -> Result<Samples> {
-    let samples = match recipe.stages.get(stage) {
-        Some(&Stage { samples, .. }) => samples,
-        None => recipe.finish.samples,
-    };
-    draw(source, Grid::training(), samples, seed, Purpose::Stage(stage))
-}
-
-/// Histograms that the best block is chosen by, so many for each scene of the test grid.
-fn choice_samples(recipe: &Recipe, source: &Source, seed: u64) -> Result<Samples> {
-    let grid = Grid::test();
-    let scenes = grid.distances_m.count * grid.lights();
-    draw(source, grid, recipe.finish.choice * scenes, seed, Purpose::Choice)
 }

@@ -9,7 +9,7 @@ use tofsim::network::Histogram;
 use tofsim::optics::Bins;
 use tofsim::sim::setup::CYCLE;
 
-use crate::common::{self, empty, json, setup, stdout};
+use crate::common::{self, empty, json, refused, setup, stdout};
 use crate::{PAIRS, counts, pairs};
 
 fn histogram(frame: &Value) -> Histogram {
@@ -52,6 +52,22 @@ fn a_depth_comes_from_a_dark_and_a_lit_frame_at_every_fidelity() {
         }
         assert_eq!((&run["pairs"]["count"], &run["pairs"]["failures"]), (&3.into(), &0.into()));
     }
+}
+
+#[test]
+fn a_slower_answer_within_clear_changes_no_frame() {
+    let folder = empty();
+    for fidelity in ["cycle", "shot", "histogram"] {
+        let with = |response_ns: &str| {
+            let set = format!("firmware.response_ns={response_ns}");
+            pairs(folder.path(), &["--fidelity", fidelity, "--frames", "2", "-s", &set])
+        };
+        let (quick, slow) = (with("1"), with("2000"));
+        assert_eq!(quick["frames"], slow["frames"], "{fidelity}");
+    }
+    let error =
+        refused(folder.path(), &[&PAIRS[..], &["-s", "firmware.response_ns=2001"]].concat());
+    assert!(error.contains("firmware.response_ns = 2001"), "{error}");
 }
 
 #[test]

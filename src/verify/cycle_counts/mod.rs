@@ -17,8 +17,8 @@ mod tests;
 
 use crate::error::{Error, Result};
 
-use super::{CENTROID, Rtl};
 use super::process::Limits;
+use super::{CENTROID, Rtl};
 use rows::Row;
 
 /// One promise: a row of `tofsim verify --cycle-counts`.

@@ -1,0 +1,131 @@
+//! What is on the board, and the acquisition computer's signals.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+table! {
+    /// The clock generator. The outputs have to be 125 and 250 MHz.
+    pub struct Pll {
+        /// Oscillator of the board.
+        #[schemars(range(min = 19_000_000, max = 800_000_000), extend("unit" = "Hz", "source" = "KC705: SiT9102"))]
+        pub input_hz: u64 = 200_000_000,
+        /// Feedback divider M.
+        #[schemars(range(min = 2, max = 64), extend("unit" = "1", "source" = "PLLE2: VCO 1000 MHz"))]
+        pub multiply: u64 = 5,
+        /// Input divider D.
+        #[schemars(range(min = 1, max = 56), extend("unit" = "1", "source" = "PLLE2"))]
+        pub divide: u64 = 1,
+        /// Output divider O of `clk_125`; `clk_250` has half of it.
+        #[schemars(range(min = 2, max = 128), extend("unit" = "1", "source" = "PLLE2"))]
+        pub output_divide: u64 = 8,
+        /// From power-up to lock; the part's limit is 100 us.
+        #[schemars(range(min = 0.0, max = 1e6), extend("unit" = "us", "source" = "choice: short, to keep runs short"))]
+        pub lock_time_us: f64 = 1.0,
+        /// Jitter of each edge of the outputs, Gaussian; 0 switches it off (7.7 is the wizard's 107 ps peak to peak).
+        #[schemars(range(min = 0.0, max = 100.0), extend("unit" = "ps rms", "source" = "choice: off"))]
+        pub jitter_rms_ps: f64 = 0.0,
+    }
+}
+
+table! {
+    /// The time-to-digital converter.
+    pub struct Tdc {
+        /// Carry chain: `uniform`, `table6_3`, `ideal`, or the path of a chain file.
+        #[schemars(extend("source" = "docs/model.md"))]
+        pub profile: String = "uniform".into(),
+    }
+}
+
+table! {
+    /// Control signals at power-up, and the frame.
+    pub struct Firmware {
+        /// Laser repetition rate: 0 .. 3 for 5, 9.615, 15.625, 20.833 MHz.
+        #[schemars(range(min = 0, max = 3), extend("unit" = "code", "source" = "Table 6.1"))]
+        pub laser_freq: u64 = 3,
+        /// SPAD quench mode: 0 resets before each shot, 1 recovers after the dead time.
+        #[schemars(range(min = 0, max = 1), extend("unit" = "code", "source" = "Table 6.2"))]
+        pub mode: u64 = 0,
+        /// Lets the laser fire.
+        #[schemars(extend("source" = "section 2.4, Laser_control"))]
+        pub laser_en: bool = true,
+        /// Lets the estimator start.
+        #[schemars(extend("source" = "section 2.4"))]
+        pub dsp_en: bool = true,
+        /// Abandons the frame.
+        #[schemars(extend("source" = "section 2.4"))]
+        pub dsp_rst: bool = false,
+        /// Reset button of the board.
+        #[schemars(extend("source" = "section 6.2"))]
+        pub rst: bool = false,
+        /// Shots in a frame; a bin of 16 bits must hold them all. With `dark_frames`, those of a dark
+        /// and a lit frame together.
+        #[schemars(range(min = 1, max = 65_535), extend("unit" = "shots", "source" = "eq. 3.3"))]
+        pub shots_per_frame: u64 = 30_000,
+        /// Frames come in pairs of half the shots each, the first one dark: the acquisition computer
+        /// changes `laser_en` whenever it has taken a depth.
+        #[schemars(extend("source" = "section 5.2"))]
+        pub dark_frames: bool = false,
+        /// With `dark_frames`: what the acquisition computer takes from a depth to the change of
+        /// `laser_en`, within the next frame's Clear.
+        #[schemars(range(min = 1.0, max = 2000.0), extend("unit" = "ns", "source" = "choice: at no edge of a clock"))]
+        pub response_ns: f64 = 101.0,
+    }
+}
+
+/// What is in the estimator's socket.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum EstimatorKind {
+    /// The neural network (`depth_estimator`).
+    #[default]
+    Network,
+    /// Argmax with centroid correction (`centroid_estimator`).
+    Centroid,
+}
+
+table! {
+    /// The depth estimator.
+    pub struct Estimator {
+        /// What is in the estimator's socket: `network` or `centroid`.
+        #[schemars(extend("source" = "thesis ch. 6; docs/model.md"))]
+        pub kind: EstimatorKind = EstimatorKind::Network,
+        /// Network: `uniform`, `uniform-16`, `ideal`, or the path of a network file.
+        #[schemars(extend("source" = "docs/model.md"))]
+        pub network: String = "uniform".into(),
+        /// Words of the centroid's window to either side of its centre.
+        #[schemars(range(min = 1, max = 31), extend("unit" = "bins", "source" = "choice: 23 bins are 50 taps of 11.5 ps; 4 sigma of the pulse"))]
+        pub centroid_half_width: u64 = 23,
+        /// Whether the centroid's maximum is of the height above the window's first word, and not above zero.
+        #[schemars(extend("source" = "choice: ambient light piles up in the first bins"))]
+        pub centroid_background: bool = true,
+        /// Distance of a bin for the centroid; c/2 for 25 ps.
+        #[schemars(range(min = 0.0001, max = 0.0078), extend("unit" = "m", "source" = "eq. 3.23"))]
+        pub centroid_slope_m: f64 = 0.003_747_405_725,
+        /// Distance that is added to the centroid's.
+        #[schemars(range(min = -0.99, max = 0.99), extend("unit" = "m", "source" = "choice: none, so that pile-up shows"))]
+        pub centroid_offset_m: f64 = 0.0,
+    }
+}
+
+/// A change of the acquisition computer's signals, asynchronous to the clocks.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Control {
+    /// When, from power-up.
+    #[schemars(range(min = 0.0, max = 1e9), extend("unit" = "us", "source" = "choice"))]
+    pub at_us: f64,
+    /// Laser repetition rate, 0 .. 3.
+    #[schemars(range(min = 0, max = 3), extend("unit" = "code", "source" = "Table 6.1"))]
+    pub laser_freq: Option<u64>,
+    /// SPAD quench mode, 0 or 1.
+    #[schemars(range(min = 0, max = 1), extend("unit" = "code", "source" = "Table 6.2"))]
+    pub mode: Option<u64>,
+    /// Lets the laser fire.
+    pub laser_en: Option<bool>,
+    /// Lets the estimator start.
+    pub dsp_en: Option<bool>,
+    /// Abandons the frame.
+    pub dsp_rst: Option<bool>,
+    /// Reset button of the board.
+    pub rst: Option<bool>,
+}

@@ -1,0 +1,133 @@
+//! Target, light and sensor.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+table! {
+    /// What is measured: a rectangle, perpendicular to the axis, centred on it.
+    pub struct Target {
+        /// Distance from the sensor. An echo must arrive within the shortest laser period.
+        #[schemars(range(min = 0.001, max = 6.9), extend("unit" = "m", "source" = "Table 3.2: 0.1 .. 0.6"))]
+        pub distance_m: f64 = 0.5,
+        /// Fraction of light that is diffused back.
+        #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "Table 3.2: 0.08 .. 0.60"))]
+        pub reflectance: f64 = 0.34,
+        /// Length of the target.
+        #[schemars(range(min = 0.0001, max = 1000.0), extend("unit" = "m", "source" = "Table 3.2"))]
+        pub length_m: f64 = 0.26,
+        /// Width of the target.
+        #[schemars(range(min = 0.0001, max = 1000.0), extend("unit" = "m", "source" = "Table 3.2"))]
+        pub width_m: f64 = 0.20,
+        /// Sub-elements of the lit part of a quadrant, along each side (eq. 3.6).
+        #[schemars(range(min = 8, max = 4096), extend("unit" = "1", "source" = "choice: below 0.05 % of error"))]
+        pub cells: u32 = 128,
+    }
+}
+
+/// How ambient irradiance becomes a rate of avalanches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum AmbientModel {
+    /// Proportional to irradiance and reflectance, fitted to Table 4.3.
+    #[default]
+    Fitted,
+    /// From the optics (eq. 3.19 and 3.20 with their missing factors); pi times more.
+    Physical,
+}
+
+table! {
+    /// Light that is not ours, reflected by the target.
+    pub struct Ambient {
+        /// How irradiance becomes a rate of avalanches: `fitted` or `physical`.
+        pub model: AmbientModel = AmbientModel::Fitted,
+        /// Spectral irradiance of the target at the laser's wavelength; 0 switches it off.
+        #[schemars(range(min = 0.0, max = 100.0), extend("unit" = "W/m^2/nm", "source" = "section 4.2: 0 .. 0.4"))]
+        pub irradiance_w_m2_nm: f64 = 0.2,
+        /// Rate of the fitted model at reflectance 1 and a detection efficiency of 0.003.
+        #[schemars(range(min = 0.0, max = 1e12), extend("unit" = "1/s per W/m^2/nm", "source" = "fitted to Table 4.3"))]
+        pub fitted_rate_hz_per_w_m2_nm: f64 = 3.968e9,
+    }
+}
+
+table! {
+    /// The VCSEL.
+    pub struct Laser {
+        /// Average power at `repetition_rate_hz`; their ratio, the pulse energy, is what is held.
+        #[schemars(range(min = 0.0, max = 10.0), extend("unit" = "W", "source" = "Table 3.2"))]
+        pub average_power_w: f64 = 7.36e-3,
+        /// Rate at which the average power is stated. The firmware's rate is `firmware.laser_freq`.
+        #[schemars(range(min = 1.0, max = 1e9), extend("unit" = "Hz", "source" = "Table 3.2"))]
+        pub repetition_rate_hz: f64 = 40e6,
+        /// Wavelength.
+        #[schemars(range(min = 700.0, max = 1050.0), extend("unit" = "nm", "source" = "Table 3.2"))]
+        pub wavelength_nm: f64 = 940.0,
+        /// Standard deviation of the pulse as the detector times it.
+        #[schemars(range(min = 1.0, max = 2000.0), extend("unit" = "ps", "source" = "fitted to Table 5.2"))]
+        pub pulse_sigma_ps: f64 = 137.0,
+        /// Full angle of the illuminated cone (FOI).
+        #[schemars(range(min = 0.1, max = 170.0), extend("unit" = "deg", "source" = "Table 3.2"))]
+        pub field_of_illumination_deg: f64 = 21.0,
+    }
+}
+
+table! {
+    /// The receiving lens.
+    pub struct Lens {
+        /// Area.
+        #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "m^2", "source" = "Table 3.2"))]
+        pub area_m2: f64 = 9.5e-5,
+        /// Transmission.
+        #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "Table 3.2"))]
+        pub efficiency: f64 = 0.8,
+    }
+}
+
+table! {
+    /// The bandpass filter before the sensor.
+    pub struct Filter {
+        /// Transmission at the laser's wavelength.
+        #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "Table 3.2"))]
+        pub efficiency: f64 = 0.67,
+        /// Standard deviation of the Gaussian passband.
+        #[schemars(range(min = 0.01, max = 200.0), extend("unit" = "nm", "source" = "eq. 3.17"))]
+        pub sigma_nm: f64 = 10.0,
+    }
+}
+
+table! {
+    /// The detector.
+    pub struct Spad {
+        /// Photon detection probability.
+        #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "section 4.2, after Table 3.2"))]
+        pub pdp: f64 = 0.012,
+        /// Fill factor.
+        #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "Table 3.2"))]
+        pub fill_factor: f64 = 0.25,
+        /// SPADs that share the light; one of them is connected.
+        #[schemars(range(min = 1, max = 1_000_000), extend("unit" = "1", "source" = "Table 3.2"))]
+        pub count: u32 = 40,
+        /// Full angle of the field of view (FOV).
+        #[schemars(range(min = 0.1, max = 170.0), extend("unit" = "deg", "source" = "Table 3.2"))]
+        pub field_of_view_deg: f64 = 24.0,
+        /// Time from an avalanche to the next possible one in MODE 1.
+        #[schemars(range(min = 5.0, max = 1e6), extend("unit" = "ns", "source" = "Table 3.2"))]
+        pub dead_time_ns: f64 = 20.0,
+        /// Rate of avalanches in the dark; 0 switches them off.
+        #[schemars(range(min = 0.0, max = 1e9), extend("unit" = "1/s", "source" = "choice: a quiet CMOS SPAD"))]
+        pub dark_rate_hz: f64 = 100.0,
+    }
+}
+
+impl Spad {
+    /// Photon detection efficiency, PDE = PDP FF (section 3.2.1).
+    pub fn detection_efficiency(&self) -> f64 {
+        self.pdp * self.fill_factor
+    }
+}
+
+impl Laser {
+    /// Energy of a pulse [J].
+    pub fn pulse_energy_j(&self) -> f64 {
+        self.average_power_w / self.repetition_rate_hz
+    }
+}

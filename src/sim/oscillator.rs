@@ -1,0 +1,57 @@
+//! The oscillator of the board, which only waveforms show.
+
+use crate::kernel::Time;
+use crate::kernel::clock::Clock;
+
+/// `clk_200` over time.
+#[derive(Clone, Debug)]
+pub struct Oscillator {
+    clock: Clock,
+    /// Next edge, rising and falling counted.
+    next: u64,
+    at: Time,
+}
+
+impl Oscillator {
+    /// At power-up.
+    pub fn new(clock: Clock) -> Self {
+        Oscillator { at: clock.rise(0), clock, next: 0 }
+    }
+
+    /// When the next edge is.
+    #[inline(always)]
+    pub fn next_edge(&self) -> Time {
+        self.at
+    }
+
+    /// Goes on by an edge, to the level that is returned.
+    #[inline(always)]
+    pub fn edge(&mut self) -> bool {
+        self.go_to(self.next + 1)
+    }
+
+    /// Goes to `now`, after an edge that is there; returns the level.
+    pub fn seek(&mut self, now: Time) -> bool {
+        // The first edge is half a period after power-up.
+        let mut next = now.fs() / self.clock.rise(0).fs();
+        while next > 0 && self.instant(next - 1) > now {
+            next -= 1;
+        }
+        while self.instant(next) <= now {
+            next += 1;
+        }
+        self.go_to(next)
+    }
+
+    #[inline(always)]
+    fn go_to(&mut self, next: u64) -> bool {
+        (self.next, self.at) = (next, self.instant(next));
+        next % 2 == 1
+    }
+
+    /// Instant of an edge, rising and falling counted.
+    #[inline(always)]
+    fn instant(&self, n: u64) -> Time {
+        if n.is_multiple_of(2) { self.clock.rise(n / 2) } else { self.clock.fall(n / 2) }
+    }
+}
