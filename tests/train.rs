@@ -7,6 +7,7 @@ use std::path::Path;
 
 use common::{files, json, refused, stdout};
 use tofsim::network::Network;
+use tofsim::network::datapath::Datapath;
 use tofsim::training::features::{Features, Scaling};
 use tofsim::training::limits::Limits;
 use tofsim::training::lm::{Lm, Settings};
@@ -80,6 +81,51 @@ fn a_training_that_was_stopped_ends_as_one_that_was_not() {
 }
 
 #[test]
+fn formats_that_are_not_the_firmware_s_are_trained_for_and_written_as_arrays() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let largest = |of: &[f64]| of.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+    // So short a training minds the penalties only if they are steep.
+    let train = |to: &str, more: &[&str]| {
+        train(folder, to, &[&["--with", "limits.penalty=50"], more].concat())
+    };
+    train("a", &["--lut-bits", "12", "--format", "w2=16.14"]);
+    let w2 = Network::load(&folder.join("a/network.toml")).unwrap().twin().w2;
+    assert!(largest(&w2) > 0.125, "{w2:?}");
+
+    // A word of W2 that ends at 1/8 keeps the weights there, or they would not fit.
+    train("b", &["--lut-bits", "9", "--format", "w2=12.14", "--format", "w1=12.19"]);
+    let names = ["accuracy.csv", "checkpoint", "curve.csv", "curve.svg", "network.json"];
+    assert_eq!(files(&folder.join("b")), names);
+    stdout(folder, &["quantize", "--from", "b/network.json", "-o", "b.toml"]);
+    let network = Network::load(&folder.join("b.toml")).unwrap();
+    let w2 = network.twin().w2;
+    assert!(largest(&w2) < 0.125, "{w2:?}");
+
+    // The errors that are written are those with a table of 16 steps, and not with the firmware's.
+    train("c", &["--lut-bits", "4", "--with", "table_noise=0.0"]);
+    stdout(folder, &["quantize", "--from", "c/network.json", "-o", "c.toml"]);
+    let fine = json(folder, &["evaluate", "c.toml", "--rows", "5100", "--check", "0", "--json"]);
+    let fine_mm = fine["estimators"][0]["all"]["two_sd_mm"].as_f64().unwrap();
+    let table = read(folder, "c/accuracy.csv");
+    let column = |row: &str| row.split(',').nth(3).unwrap().parse::<f64>().unwrap();
+    let coarse_mm = table.lines().skip(1).map(column).sum::<f64>() / 51.0;
+    assert!(coarse_mm > 2.0 * fine_mm, "{coarse_mm} {fine_mm}");
+
+    for (option, expected) in [
+        ("--lut-bits=17", "address_bits = 17: expected 4 to 16"),
+        ("--format=b1=16.24", "b1 = 24: expected no more fraction bits than w1"),
+        ("--format=w3=16.24", "WORD one of w1, b1, w2, b2, l1_out"),
+    ] {
+        let error = refused(folder, &["train", "--quick", option]);
+        assert!(error.contains(expected), "{error}");
+    }
+    let other = ["--with", "limits.penalty=50", "--resume", "--lut-bits", "10", "-o", "b"];
+    let error = refused(folder, &[&SMALL[..], &END, &other].concat());
+    assert!(error.contains("settings.formats."), "{error}");
+}
+
+#[test]
 fn a_checkpoint_of_another_training_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
@@ -90,7 +136,7 @@ fn a_checkpoint_of_another_training_is_refused() {
         refused(folder, &[&SMALL[..], &END, &["--resume", "-o", "a"], more].concat())
     };
     let error = refusal(&["--with", "table_noise=0.001"]);
-    assert!(error.contains("settings.table_noise = 0.0008: of another training"), "{error}");
+    assert!(error.contains("settings.table_noise = 0.4096: of another training"), "{error}");
     assert!(refusal(&["-s", "spad.pdp=0.013"]).contains("settings.scenario"));
     let path = folder.join("a/checkpoint");
     let text = fs::read_to_string(&path).unwrap();
@@ -106,7 +152,7 @@ fn a_checkpoint_of_another_training_is_refused() {
 fn options_reach_the_recipe_and_what_makes_no_sense_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    fs::write(folder.join("mine.toml"), "table_noise = 0.002\n[limits]\nb1 = 3.5\n").unwrap();
+    fs::write(folder.join("mine.toml"), "table_noise = 0.5\n[limits]\nb1_share = 0.9\n").unwrap();
     let text = stdout(
         folder,
         &[
@@ -114,14 +160,14 @@ fn options_reach_the_recipe_and_what_makes_no_sense_is_refused() {
             "--recipe",
             "mine.toml",
             "--with",
-            "limits.b1=3",
+            "limits.b1_share=0.75",
             "--starts",
             "3",
             "--print-recipe",
         ],
     );
     let recipe: Recipe = toml::from_str(&text).unwrap();
-    assert_eq!((recipe.table_noise, recipe.limits.b1), (0.002, 3.0));
+    assert_eq!((recipe.table_noise, recipe.limits.b1_share), (0.5, 0.75));
     let candidates: Vec<_> = recipe.stages.iter().map(|stage| stage.candidates).collect();
     assert_eq!(candidates, [3, 3, 3, 2]);
     let error = refused(folder, &["train", "--with", "limit.b1=3"]);
@@ -200,7 +246,7 @@ fn bins_that_never_count_do_no_harm() {
         weights: &weights,
         neurons: 2,
         table_noise: 0.0,
-        limits: Limits::default(),
+        hinges: Limits::default().hinges(&Datapath::default()),
     };
     let mut lm = Lm::new(start(&recipe.start, 2, 1, 0), &Settings::default());
     lm.epoch(&problem, &Settings::default()).unwrap();

@@ -1,33 +1,34 @@
 //! `tofsim train`: a depth network from simulated histograms.
 
-use std::io::{self, Write};
 use std::path::PathBuf;
 
 use crate::dataset::Source;
-use crate::error::{Error, Input, Result, read_text};
-use crate::network::Network;
-use crate::network::file::{Accuracy, Training};
-use crate::network::formats::Overflow;
-use crate::output::{create_directory, write_file};
+use crate::error::{Input, Result, read_text};
+use crate::output::create_directory;
 use crate::scenario;
 use crate::sim::setup::Setup;
-use crate::training::accuracy::Row;
 use crate::training::recipe::Recipe;
 use crate::training::tournament::Tournament;
-use crate::training::{checkpoint, curve, data, report};
+use crate::training::{checkpoint, data};
 
 use super::draws::from_here;
 use super::interrupt::stop_signal;
 use super::stdout::print;
 use super::talk::Talk;
 
-/// Train a depth network on simulated histograms, within the firmware's number formats
+mod word_format;
+mod written;
+
+use word_format::WordFormat;
+
+/// Train a depth network on simulated histograms, within the firmware's number formats or others
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim train --profile uniform --seed 1 -o mine\n  \
     tofsim train --profile chain.toml -o mine       on one's own chain\n  \
     tofsim train --resume -o mine                   go on where it was stopped\n  \
     tofsim train --with finish.blocks=10 -o mine    with a number of the recipe changed\n  \
+    tofsim train --lut-bits 10 --format w1=12.19    for a datapath that is not the firmware's\n  \
     tofsim run -s estimator.network=mine/network.toml")]
 pub struct Args {
     /// Built-in scenario or scenario file: optics, detector and shots; its scene does not matter
@@ -54,6 +55,13 @@ pub struct Args {
     /// Hidden neurons, 1 to 16 [default: 8, as in the thesis]
     #[arg(long, value_name = "N")]
     neurons: Option<usize>,
+    /// Address bits of the table of activations [default: 12, as in the thesis]
+    #[arg(long, value_name = "N")]
+    lut_bits: Option<u32>,
+    /// Width and fraction bits of w1, b1, w2, b2 or l1_out (activations), such as w1=16.23; may be
+    /// repeated [default: those of the thesis's Table 6.4]
+    #[arg(long = "format", value_name = "WORD=WIDTH.FRACTION")]
+    formats: Vec<WordFormat>,
     /// Starts that take part in the first stage
     #[arg(long, value_name = "N")]
     starts: Option<usize>,
@@ -69,7 +77,8 @@ pub struct Args {
     /// Threads; the network is the same for any number [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
-    /// Write network.toml, accuracy.csv, curve.csv, curve.svg and checkpoint there
+    /// Write network.toml, accuracy.csv, curve.csv, curve.svg and checkpoint there; for formats that are
+    /// not the firmware's, network.json for quantize --from instead of network.toml
     #[arg(short, long, value_name = "DIR", default_value = "training")]
     output: PathBuf,
     /// Print one JSON object instead of a table
@@ -151,6 +160,8 @@ impl Args {
         };
         let mut recipe = Recipe::parse(&text, &base, &self.with, &name)?;
         recipe.neurons = self.neurons.unwrap_or(recipe.neurons);
+        recipe.formats.address_bits = self.lut_bits.unwrap_or(recipe.formats.address_bits);
+        self.formats.iter().for_each(|format| format.set(&mut recipe.formats));
         if let (Some(starts), Some(first)) = (self.starts, recipe.stages.first_mut()) {
             first.candidates = starts;
             for stage in &mut recipe.stages {
@@ -186,62 +197,9 @@ impl Args {
         self.recipe.iter().for_each(|path| add("--recipe ", &path.display()));
         self.with.iter().for_each(|with| add("--with ", with));
         self.neurons.iter().for_each(|neurons| add("--neurons ", neurons));
+        self.lut_bits.iter().for_each(|bits| add("--lut-bits ", bits));
+        self.formats.iter().for_each(|format| add("--format ", format));
         self.starts.iter().for_each(|starts| add("--starts ", starts));
         command
-    }
-
-    /// Rounds, tests and writes the network.
-    fn finish(
-        &self,
-        setup: &Setup,
-        recipe: &Recipe,
-        tournament: &Tournament,
-        talk: &Talk,
-    ) -> Result<()> {
-        let write = |name: &str, text: &str| -> Result<()> {
-            let path = self.output.join(name);
-            write_file(&path, |file| file.write_all(text.as_bytes()))?;
-            talk.detail(format_args!("wrote {}", path.display()));
-            Ok(())
-        };
-        let points = &tournament.state.curve;
-        write("curve.csv", &curve::csv(points))?;
-        let svg = curve::svg(points).map_err(io::Error::other);
-        write("curve.svg", &svg.map_err(Error::io(&self.output.join("curve.svg"), "write"))?)?;
-        let float = tournament.result();
-        let fixed = float.round("trained network", Overflow::Refuse)?.fixed;
-        let rows = tournament.test(&fixed)?;
-        write("accuracy.csv", &report::csv(&rows))?;
-
-        let chain = self.profile.clone().unwrap_or_else(|| setup.scenario.tdc.profile.clone());
-        let best = tournament.state.best.as_ref();
-        let block = best.map_or(String::new(), |best| {
-            format!(", start {} after block {}", best.start, best.block)
-        });
-        let line = &recipe.weighting.distances_m;
-        let at_line: Vec<&Row> = rows.iter().filter(|row| line.contains(&row.distance_m)).collect();
-        let accuracy = Accuracy {
-            distances_m: at_line.iter().map(|row| row.distance_m).collect(),
-            two_sd_mm: at_line.iter().map(|row| report::hundredths(row.two_sd_mm)).collect(),
-            mean_mm: Some(at_line.iter().map(|row| report::hundredths(row.mean_mm)).collect()),
-        };
-        let description =
-            format!("256-{}-1 depth network for the bins of chain {chain}", recipe.neurons);
-        let training = Training {
-            origin: format!("Levenberg-Marquardt on simulated histograms{block}"),
-            chain,
-            command: Some(self.command()),
-            seed: Some(self.seed),
-            data: Some(tournament.state.data.clone()),
-        };
-        let (name, accuracy, float) = (String::new(), Some(accuracy), Some(float));
-        let network = Network { name, description, training, accuracy, fixed, float };
-        let path = self.output.join("network.toml");
-        print(&match self.json {
-            true => report::json(&rows, &recipe.weighting, &path)?,
-            false => report::table(&rows, &recipe.weighting),
-        })?;
-        let text = network.to_toml();
-        write_file(&path, |file| file.write_all(text.as_bytes()))
     }
 }

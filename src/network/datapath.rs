@@ -1,7 +1,10 @@
 //! The estimator's arithmetic with word lengths and a table of one's own choice: what the firmware
 //! would compute if it were built so.
 
+use std::fmt::Display;
 use std::sync::atomic::{AtomicU64, Ordering};
+
+use serde::{Deserialize, Serialize};
 
 use crate::error::{Input, Result};
 use crate::firmware::histogram_builder::BINS;
@@ -12,7 +15,8 @@ use super::formats::{B1, B2, Format, L1_OUT, Overflow, TANSIG_RANGE, W1, W2};
 use super::{Histogram, MAX_HITS};
 
 /// Word lengths, and the size of the table of activations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Datapath {
     /// Weights of the hidden layer.
     pub w1: Format,
@@ -46,7 +50,7 @@ impl Default for Datapath {
 }
 
 /// What a datapath takes of the device.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Cost {
     /// Block RAMs of 36 Kb.
     pub ramb36: u32,
@@ -55,20 +59,60 @@ pub struct Cost {
 }
 
 impl Datapath {
-    /// Whether its words can be aligned and its table has a step of 2^-k.
+    /// Names of its words.
+    pub const WORDS: [&str; 5] = ["w1", "b1", "w2", "b2", "l1_out"];
+
+    /// The format of a word.
+    pub fn word(&mut self, name: &str) -> Option<&mut Format> {
+        let words = [&mut self.w1, &mut self.b1, &mut self.w2, &mut self.b2, &mut self.l1_out];
+        Self::WORDS.into_iter().zip(words).find(|(word, _)| *word == name).map(|(_, format)| format)
+    }
+
+    /// Step of the table, in a neuron's sum [1].
+    pub fn step(&self) -> f64 {
+        (f64::from(self.range_log2) + 1.0 - f64::from(self.address_bits)).exp2()
+    }
+
+    /// Whether its words are of a size that is built, can be aligned, and its table has a step of 2^-k.
     ///
     /// # Errors
     /// When not.
     pub fn check(&self) -> Result<()> {
-        let fault = |field, expected| Err(Input::new("datapath", expected).field(field).into());
+        let fault = |field, value: &dyn Display, expected| {
+            Err(Input::new("datapath", expected).field(field).value(value).into())
+        };
+        let words = [self.w1, self.b1, self.w2, self.b2, self.l1_out];
+        for (field, word) in Self::WORDS.into_iter().zip(words) {
+            let Format { width, fraction } = word;
+            if !(2..=24).contains(&width) {
+                return fault(field, &width, "expected a width of 2 to 24 bits");
+            }
+            if fraction > 32 {
+                return fault(field, &fraction, "expected 32 fraction bits or less");
+            }
+        }
+        if !(4..=16).contains(&self.address_bits) {
+            return fault("address_bits", &self.address_bits, "expected 4 to 16");
+        }
+        if self.range_log2 > 6 {
+            return fault("range_log2", &self.range_log2, "expected 6 or less");
+        }
         if self.b1.fraction > self.w1.fraction {
-            return fault("b1", "expected no more fraction bits than w1");
+            return fault("b1", &self.b1.fraction, "expected no more fraction bits than w1");
         }
         if self.b2.fraction > self.w2.fraction + self.l1_out.fraction {
-            return fault("b2", "expected no more fraction bits than w2 and the activation");
+            return fault(
+                "b2",
+                &self.b2.fraction,
+                "expected no more fraction bits than w2 and the activation",
+            );
         }
         if self.shift() < 1 {
-            return fault("tansig", "expected steps coarser than the sum's last bit");
+            return fault(
+                "address_bits",
+                &self.address_bits,
+                "expected steps coarser than the sum's last bit",
+            );
         }
         Ok(())
     }
@@ -242,9 +286,16 @@ mod tests {
         let float = Network::builtin("uniform").unwrap().unwrap().twin();
         let fault = |datapath| Circuit::new(&float, datapath).unwrap_err().to_string();
         let b1 = Format { width: 16, fraction: 24 };
-        assert!(fault(Datapath { b1, ..Datapath::default() }).contains("b1: expected"));
+        assert!(fault(Datapath { b1, ..Datapath::default() }).contains("b1 = 24: expected"));
         let fine = Datapath { address_bits: 30, ..Datapath::default() };
-        assert!(fault(fine).contains("tansig: expected"));
+        assert!(fault(fine).contains("address_bits = 30: expected 4 to 16"));
+        let w1 = Format { width: 12, fraction: 8 };
+        let coarse = Datapath { w1, b1: w1, ..Datapath::default() };
+        assert!(fault(coarse).contains("address_bits = 12: expected steps"));
+        let b2 = Format { width: 40, fraction: 14 };
+        assert!(
+            fault(Datapath { b2, ..Datapath::default() }).contains("b2 = 40: expected a width")
+        );
         let mut wild = float.clone();
         wild.w1[0][0] = 1.0;
         let circuit = Circuit::new(&wild, Datapath::default()).unwrap();

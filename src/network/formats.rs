@@ -3,6 +3,8 @@
 use fixed::types::extra::{U13, U14, U15, U17, U23, U29};
 use fixed::{FixedI16, FixedI32, FixedI64};
 
+use serde::{Deserialize, Serialize};
+
 use super::Weights;
 
 /// W1: 16 bits, 23 of them fraction, so below 2^-8. Carried in 32 bits, because a `fixed` type
@@ -25,7 +27,8 @@ pub type Depth = FixedI64<U29>;
 pub type Fixed = Weights<HiddenWeight, HiddenBias, OutputWeight, OutputBias>;
 
 /// A two's complement word: how wide, and where its point is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Format {
     /// Width [bits].
     pub width: u32,
@@ -65,6 +68,11 @@ impl Format {
     /// Largest integer of the word.
     pub const fn max(self) -> i64 {
         (1 << (self.width - 1)) - 1
+    }
+
+    /// Magnitude that its values stay below.
+    pub fn range(self) -> f64 {
+        (f64::from(self.width) - 1.0 - f64::from(self.fraction)).exp2()
     }
 
     /// Whether the word can hold that integer.

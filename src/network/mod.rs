@@ -3,6 +3,7 @@
 pub mod datapath;
 pub mod estimate;
 pub mod explain;
+pub mod export;
 pub mod file;
 pub mod float;
 pub mod formats;

@@ -1,6 +1,8 @@
-//! Penalties that keep the weights within the words of Table 6.4: one-sided squared hinges.
+//! Penalties that keep the weights within their words, by default those of Table 6.4: one-sided squared hinges.
 
 use serde::{Deserialize, Serialize};
+
+use crate::network::datapath::Datapath;
 
 use super::basis::KNOTS;
 use super::features::{COLUMNS, Scaling};
@@ -14,14 +16,14 @@ pub struct Limits {
     pub penalty: f64,
     /// Magnitude of W1, of its word's range [1].
     pub w1_share: f64,
-    /// Magnitude of B1.
-    pub b1: f64,
-    /// Magnitude of W2 [m].
-    pub w2_m: f64,
+    /// Magnitude of B1, of its word's range [1].
+    pub b1_share: f64,
+    /// Magnitude of W2, of its word's range [1].
+    pub w2_share: f64,
     /// Steepness for W2 [1/m].
     pub w2_slope: f64,
-    /// Magnitude of B2 [m].
-    pub b2_m: f64,
+    /// Magnitude of B2, of its word's range [1].
+    pub b2_share: f64,
     /// Steepness for B2 [1/m].
     pub b2_slope: f64,
 }
@@ -31,22 +33,46 @@ impl Default for Limits {
         Limits {
             penalty: 0.5,
             w1_share: 0.96,
-            b1: 3.9,
-            w2_m: 1.95,
+            b1_share: 0.975,
+            w2_share: 0.975,
             w2_slope: 4.0,
-            b2_m: 0.245,
+            b2_share: 0.98,
             b2_slope: 100.0,
         }
     }
 }
 
-/// Magnitude that W1's word ends at.
-const W1_RANGE: f64 = 1.0 / 256.0;
+impl Limits {
+    /// The hinges for words.
+    pub fn hinges(&self, words: &Datapath) -> Hinges {
+        Hinges {
+            penalty: self.penalty,
+            w1: self.w1_share * words.w1.range(),
+            b1: self.b1_share * words.b1.range(),
+            w2_m: self.w2_share * words.w2.range(),
+            w2_slope: self.w2_slope,
+            b2_m: self.b2_share * words.b2.range(),
+            b2_slope: self.b2_slope,
+        }
+    }
+}
+
+/// The penalties of a network for certain words.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hinges {
+    penalty: f64,
+    w1: f64,
+    b1: f64,
+    w2_m: f64,
+    w2_slope: f64,
+    b2_m: f64,
+    b2_slope: f64,
+}
 
 /// A parameter and the derivative of a hinge with respect to it.
 type Slope = (usize, f64);
 
-impl Limits {
+impl Hinges {
     /// Sum of the penalties of a network.
     pub fn cost(&self, x: &[f64], neurons: usize, scaling: &Scaling) -> f64 {
         let mut sum = 0.0;
@@ -90,7 +116,7 @@ impl Limits {
             let mut bias = row[KNOTS];
             let of_raw = scaling.inverse_sd.iter().zip(&scaling.mean);
             for ((place, weight), (of_raw, mean)) in (first..).zip(row).zip(of_raw) {
-                let relative = of_raw / (self.w1_share * W1_RANGE);
+                let relative = of_raw / self.w1;
                 outside(weight * relative, 1.0, 1.0, &mut [(place, relative)]);
                 bias -= weight * of_raw * mean;
                 slopes.push((place, -of_raw * mean));
@@ -109,6 +135,7 @@ impl Limits {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::network::formats::Format;
     use crate::training::cholesky::Symmetric;
 
     #[test]
@@ -120,7 +147,7 @@ mod tests {
         x[KNOTS] = 9.0;
         x[COLUMNS + KNOTS] = -9.0;
         x.extend([2.1, -2.2, -0.3]);
-        let (limits, size) = (Limits::default(), x.len());
+        let (limits, size) = (Limits::default().hinges(&Datapath::default()), x.len());
         let zeros = Symmetric::zeros(size);
         let mut linear = Linear { cost: 0.0, matrix: zeros, gradient: vec![0.0; size] };
         limits.add(&x, 2, &scaling, &mut linear);
@@ -141,6 +168,10 @@ mod tests {
     fn a_network_well_inside_costs_nothing() {
         let scaling = Scaling { mean: vec![10.0; KNOTS], inverse_sd: vec![0.1; KNOTS] };
         let x = vec![0.001; 8 * COLUMNS + 9];
-        assert_eq!(Limits::default().cost(&x, 8, &scaling), 0.0);
+        let hinges = |words: Datapath| Limits::default().hinges(&words);
+        assert_eq!(hinges(Datapath::default()).cost(&x, 8, &scaling), 0.0);
+        // A word that ends at 6e-5, and a weight of 1e-4 for raw counts.
+        let short = Datapath { w1: Format { width: 2, fraction: 15 }, ..Datapath::default() };
+        assert!(hinges(short).cost(&x, 8, &scaling) > 0.0);
     }
 }

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::features::{BLOCK, Block, COLUMNS, Features, LANES, Scaling, TILES, tile};
 use super::gram::{GROUP, Weights, groups};
-use super::limits::Limits;
+use super::limits::Hinges;
 use super::lm::{Linear, Problem};
 use super::sums::{Sums, parameters};
 
@@ -32,7 +32,7 @@ pub struct NetworkProblem<'a> {
     /// Noise q of a neuron's sum from the table's steps [1].
     pub table_noise: f64,
     /// Penalties.
-    pub limits: Limits,
+    pub hinges: Hinges,
 }
 
 /// What the samples of a block weigh in the sums.
@@ -223,7 +223,7 @@ impl Problem for NetworkProblem<'_> {
         let arch = pulp::Arch::new();
         let costs = self.runs().into_par_iter().map(|run| arch.dispatch(Costs(self, x, run)));
         let sum: f64 = costs.collect::<Vec<_>>().iter().sum();
-        let penalty = self.limits.cost(x, self.neurons, self.scaling);
+        let penalty = self.hinges.cost(x, self.neurons, self.scaling);
         sum / self.features.samples() as f64 + penalty
     }
 
@@ -233,7 +233,7 @@ impl Problem for NetworkProblem<'_> {
         let parts: Vec<Sums> = parts.collect();
         let sums = parts.iter().fold(Sums::zeros(self.neurons), Sums::with);
         let mut linear = sums.assemble(self.neurons, self.features.samples());
-        self.limits.add(x, self.neurons, self.scaling, &mut linear);
+        self.hinges.add(x, self.neurons, self.scaling, &mut linear);
         linear
     }
 }

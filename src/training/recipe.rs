@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{Input, Result};
 use crate::firmware::forward2::NEURONS;
+use crate::network::datapath::Datapath;
 
 use super::limits::Limits;
 use super::lm::Settings;
@@ -22,7 +23,7 @@ pub struct Recipe {
     /// Part of its cost that a network has to lose from a checkpoint to the next, or it rests until
     /// the next stage or block; with 0 it rests only when no step helps [1].
     pub least_gain: f64,
-    /// Noise of a neuron's sum from the activation table's steps [1].
+    /// Noise of a neuron's sum from the activation table's steps [steps].
     pub table_noise: f64,
     /// Random starts.
     pub start: Start,
@@ -32,6 +33,8 @@ pub struct Recipe {
     pub finish: Finish,
     /// Weights of the residuals.
     pub weighting: Weighting,
+    /// Words that it is to fit, and the table of activations.
+    pub formats: Datapath,
     /// Penalties for what the words cannot hold.
     pub limits: Limits,
     /// The optimiser.
@@ -92,7 +95,7 @@ impl Default for Recipe {
             neurons: NEURONS,
             checkpoint_epochs: 20,
             least_gain: 0.0,
-            table_noise: 8e-4,
+            table_noise: 0.4096,
             start: Start { lengths: vec![0.1, 0.3], bias: 1.0, output_m: 0.1 },
             stages: vec![
                 stage(60, 40, 8_000),
@@ -111,6 +114,7 @@ impl Default for Recipe {
                 power: 0.5,
             },
             weighting: Weighting::default(),
+            formats: Datapath::default(),
             limits: Limits::default(),
             optimiser: Settings { mu_min: 1e-12, ..Settings::default() },
         }

@@ -10,9 +10,8 @@ use rayon::prelude::*;
 
 use crate::dataset::{Grid, Source};
 use crate::error::{Error, Result};
-use crate::network::estimate;
+use crate::network::datapath::Circuit;
 use crate::network::float::Float;
-use crate::network::formats::{Fixed, Overflow};
 
 use super::accuracy::{Row, by_distance, worst};
 use super::data::{StageData, choice_samples, draw, stage_samples};
@@ -136,7 +135,7 @@ impl<'a> Tournament<'a> {
         }
         self.state.epochs = 0;
         if self.in_finish() {
-            self.judge();
+            self.judge()?;
             self.state.block += 1;
             return Ok(());
         }
@@ -170,8 +169,8 @@ impl<'a> Tournament<'a> {
                 distances_m: &data.distances_m,
                 weights: &weights,
                 neurons: recipe.neurons,
-                table_noise: recipe.table_noise,
-                limits: recipe.limits,
+                table_noise: recipe.table_noise * recipe.formats.step(),
+                hinges: recipe.limits.hinges(&recipe.formats),
             };
             for _ in 0..epochs {
                 if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
@@ -220,7 +219,7 @@ impl<'a> Tournament<'a> {
                 weights: &weights,
                 neurons,
                 table_noise: 0.0,
-                limits: recipe.limits,
+                hinges: recipe.limits.hinges(&recipe.formats),
             };
             let errors = problem.errors(&candidate.lm.x);
             let pairs: Vec<_> = samples.iter().copied().zip(errors).collect();
@@ -240,18 +239,22 @@ impl<'a> Tournament<'a> {
     }
 
     /// Keeps the block if none was better at its worst distance, in fixed point.
-    fn judge(&mut self) {
+    fn judge(&mut self) -> Result<()> {
         for candidate in &self.state.candidates {
             let folded = fold(&candidate.lm.x, self.recipe.neurons, &self.state.scaling);
+            let circuit = Circuit::new(&folded, self.recipe.formats)?;
             // What does not fit the words cannot be the best.
-            let Ok(rounded) = folded.round("", Overflow::Refuse) else { continue };
-            let rows = errors(&rounded.fixed, &self.choice);
+            if circuit.saturated_weights > 0 {
+                continue;
+            }
+            let rows = errors(&circuit, &self.choice);
             let ratio = worst(&rows, &self.recipe.weighting);
             if self.state.best.as_ref().is_none_or(|best| ratio < best.ratio) {
                 let (start, block) = (candidate.start, self.state.block + 1);
                 self.state.best = Some(Best { start, block, ratio, x: candidate.lm.x.clone() });
             }
         }
+        Ok(())
     }
 
     /// The network to keep: the best block, or the best candidate if none fits the words.
@@ -261,20 +264,19 @@ impl<'a> Tournament<'a> {
         fold(x, self.recipe.neurons, &self.state.scaling)
     }
 
-    /// Errors of words on histograms that neither training nor choice has seen, one a scene.
+    /// Errors of a network on histograms that neither training nor choice has seen, one a scene.
     ///
     /// # Errors
     /// When no data can be drawn.
-    pub fn test(&self, words: &Fixed) -> Result<Vec<Row>> {
+    pub fn test(&self, circuit: &Circuit) -> Result<Vec<Row>> {
         let grid = Grid::test();
         let len = grid.distances_m.count * grid.lights();
         let samples = draw(self.source, grid, len, self.seed, Purpose::Test)?;
-        Ok(errors(words, &samples))
+        Ok(errors(circuit, &samples))
     }
 }
 
-/// Errors by distance, bit for bit those of the firmware.
-fn errors(words: &Fixed, samples: &Samples) -> Vec<Row> {
-    let params = words.params();
-    by_distance(samples, |histogram| estimate(&params, histogram).depth.to_f64())
+/// Errors by distance, with the firmware's formats bit for bit those of the firmware.
+fn errors(circuit: &Circuit, samples: &Samples) -> Vec<Row> {
+    by_distance(samples, |histogram| circuit.depth_m(histogram))
 }

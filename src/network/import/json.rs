@@ -35,6 +35,8 @@ fn parse(text: &str, name: &str) -> Result<Arrays> {
                     put(&mut arrays, &format!("{key}_{setting}"), value)?;
                 }
             }
+            // Where `train` says what it did.
+            ("training", Value::Object(_)) => {}
             _ => put(&mut arrays, key, value)?,
         }
     }

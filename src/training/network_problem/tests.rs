@@ -1,5 +1,7 @@
 use super::*;
 use crate::network::Histogram;
+use crate::network::datapath::Datapath;
+use crate::training::limits::Limits;
 
 /// 300 histograms, so that the last block is not full, and a smooth network.
 fn counts() -> Vec<Histogram> {
@@ -23,7 +25,7 @@ fn with_problem<T>(neurons: usize, check: impl FnOnce(&NetworkProblem, &[f64]) -
         neurons,
         // Much, so that a fault in its derivatives shows.
         table_noise: 0.5,
-        limits: Limits::default(),
+        hinges: Limits::default().hinges(&Datapath::default()),
     };
     let x: Vec<f64> = (0..parameters(neurons)).map(|k| (k as f64).sin() * 0.1).collect();
     check(&problem, &x)

@@ -66,6 +66,9 @@ impl Recipe {
             ("optimiser.mu_max", self.optimiser.mu_max),
             ("optimiser.mu_dec", self.optimiser.mu_dec),
             ("limits.w1_share", self.limits.w1_share),
+            ("limits.b1_share", self.limits.b1_share),
+            ("limits.w2_share", self.limits.w2_share),
+            ("limits.b2_share", self.limits.b2_share),
         ] {
             positive(field, value)?;
         }
@@ -76,6 +79,7 @@ impl Recipe {
             let expected = format!("expected finish.most = {} at most", finish.most);
             return Err(fault("finish.least", finish.least, expected).into());
         }
+        self.formats.check()?;
         self.weighting.check()
     }
 }
