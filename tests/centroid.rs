@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{empty, json, refused, setup, short_run, stdout};
+use common::{empty, json, output, refused, setup, short_run, stdout};
 use serde_json::Value;
 use tofsim::hierarchy::entries;
 
@@ -81,6 +81,41 @@ fn the_window_of_the_estimation_has_all_of_it() {
     // Two cycles before algo_start, the start, 308 of the estimator, two after: after the x at #0.
     let span = times.last().unwrap() - times[1];
     assert!((8000 * 308..8000 * 318).contains(&span), "{span}");
+}
+
+#[test]
+fn a_logic_analyser_captures_it_and_compare_knows_its_parameters() {
+    let folder = empty();
+    let folder = folder.path();
+    let probes = [
+        ("START", "frame_ctrl.algo_start", "hex"),
+        ("ADDRESS", "centroid_estimator.read_addr", "unsigned"),
+        ("DONE", "centroid_estimator.algo_done", "hex"),
+        ("DEPTH", "centroid_estimator.depth", "signed"),
+    ];
+    let mut text = String::from(
+        "scenario = \"estimator_validation\"\nframes = 3\nclock = \"clk_125\"\ndepth = 1024\n\
+         position = 16\ntrigger = \"START rising\"\n",
+    );
+    for (name, signal, radix) in probes {
+        text +=
+            &format!("[[probe]]\nname = \"{name}\"\nsignal = \"{signal}\"\nradix = \"{radix}\"\n");
+    }
+    std::fs::write(folder.join("c.toml"), text).unwrap();
+    stdout(folder, &["ila", "capture", "--probes", "c.toml", "-s", KIND, "-o", "board"]);
+    let beside = ["compare", "--scenario", "estimator_validation", "--frames", "3", "-s", KIND];
+    for file in ["board/c.csv", "board/c.vcd", "board/c.ila"] {
+        let map = ["--map", "board/c.map.toml", file];
+        let text = stdout(folder, &[&beside[..], &map].concat());
+        assert!(text.contains("compared  4 signals") && text.ends_with("same\n"), "{text}");
+        let other = [&beside[..], &["-s", "estimator.centroid_offset_m=0.01"], &map].concat();
+        let output = output(folder, &other);
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{text}");
+        assert!(text.contains("first     tof_top.centroid_estimator.depth"), "{text}");
+    }
+    let error = refused(folder, &["ila", "capture", "--probes", "fig_6_21", "-s", KIND, "-o", "b"]);
+    assert!(error.contains("the scenario's design leaves this module out"), "{error}");
 }
 
 #[test]
