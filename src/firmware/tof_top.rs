@@ -7,7 +7,7 @@ use crate::connect;
 use crate::kernel::{Clocked, Time};
 
 use super::carry_chain::StopLine;
-use super::centroid_estimator::{self, CentroidEstimator, Registers};
+use super::centroid_estimator::{self, CentroidEstimator};
 use super::code_preload::{self, CodePreload};
 use super::control_sync::{self, ControlSync};
 use super::depth_estimator::{self, DepthEstimator};
@@ -21,6 +21,7 @@ use super::{histogram_preload, lvds_output, pll};
 
 mod gait;
 mod ports;
+mod socket;
 
 pub use ports::{Clocks, CodeSource, Estimator, HistogramSource, Nets, Params, Pins, Socket};
 
@@ -225,47 +226,6 @@ impl TofTop {
         (self.nets.tdc_valid, self.nets.tdc_code) = match &p.code_source {
             CodeSource::Tdc => (self.tdc.tdc_decoder.tdc_valid, self.tdc.tdc_decoder.tdc_code),
             CodeSource::Preload(_) => (self.code_preload.tdc_valid, self.code_preload.tdc_code),
-        };
-    }
-
-    /// The estimator in the socket.
-    #[inline(always)]
-    fn estimate(
-        &mut self,
-        p: &Params,
-        network: &depth_estimator::In,
-        centroid: &centroid_estimator::In,
-    ) {
-        if self.estimator_asleep && !network.algo_start && !network.rst {
-            return;
-        }
-        match p.estimator {
-            Estimator::Network => {
-                self.depth_estimator.rise(network, &p.depth_estimator);
-                self.estimator_asleep = self.depth_estimator.is_asleep(&p.depth_estimator);
-            }
-            Estimator::Centroid => {
-                self.centroid_estimator.rise(centroid, &p.centroid_estimator);
-                self.estimator_asleep = self.centroid_estimator.is_asleep();
-            }
-        }
-        self.take_depth(p);
-    }
-
-    #[inline(always)]
-    fn take_depth(&mut self, p: &Params) {
-        self.socket = match p.estimator {
-            Estimator::Network => {
-                let (ctrl, depth) =
-                    (&self.depth_estimator.estimator_ctrl, self.depth_estimator.forward2.depth);
-                let (read_en, read_addr) = (ctrl.read_en, ctrl.read_addr);
-                Socket { read_en, read_addr, depth, algo_done: ctrl.algo_done }
-            }
-            Estimator::Centroid => {
-                let Registers { read_en, read_addr, depth, algo_done, .. } =
-                    self.centroid_estimator.registers;
-                Socket { read_en, read_addr, depth, algo_done }
-            }
         };
     }
 

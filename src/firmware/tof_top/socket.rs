@@ -1,0 +1,49 @@
+//! The estimator's socket: one of two has the clock, and its outputs are the socket's.
+
+use crate::firmware::centroid_estimator::Registers;
+use crate::firmware::{centroid_estimator, depth_estimator};
+
+use super::{Estimator, Params, Socket, TofTop};
+
+impl TofTop {
+    /// The estimator in the socket.
+    #[inline(always)]
+    pub(super) fn estimate(
+        &mut self,
+        p: &Params,
+        network: &depth_estimator::In,
+        centroid: &centroid_estimator::In,
+    ) {
+        if self.estimator_asleep && !network.algo_start && !network.rst {
+            return;
+        }
+        match p.estimator {
+            Estimator::Network => {
+                self.depth_estimator.rise(network, &p.depth_estimator);
+                self.estimator_asleep = self.depth_estimator.is_asleep(&p.depth_estimator);
+            }
+            Estimator::Centroid => {
+                self.centroid_estimator.rise(centroid, &p.centroid_estimator);
+                self.estimator_asleep = self.centroid_estimator.is_asleep();
+            }
+        }
+        self.take_depth(p);
+    }
+
+    #[inline(always)]
+    pub(super) fn take_depth(&mut self, p: &Params) {
+        self.socket = match p.estimator {
+            Estimator::Network => {
+                let (ctrl, depth) =
+                    (&self.depth_estimator.estimator_ctrl, self.depth_estimator.forward2.depth);
+                let (read_en, read_addr) = (ctrl.read_en, ctrl.read_addr);
+                Socket { read_en, read_addr, depth, algo_done: ctrl.algo_done }
+            }
+            Estimator::Centroid => {
+                let Registers { read_en, read_addr, depth, algo_done, .. } =
+                    self.centroid_estimator.registers;
+                Socket { read_en, read_addr, depth, algo_done }
+            }
+        };
+    }
+}
