@@ -22,9 +22,13 @@ pub enum Sources {
     TunedWithBench,
     /// The same, but the PLL with delays of `rtl_ref`.
     TunedWithPll,
-    /// `rtl_ref`, blocks of `cxxrtl` in the place of their namesakes.
+    /// `rtl_ref`, blocks of `cxxrtl` and the estimator's of `rtl` in the place of their namesakes.
     Cxxrtl,
 }
+
+/// The blocks of the estimator.
+const ESTIMATOR: [&str; 5] =
+    ["depth_estimator", "estimator_ctrl", "forward1", "forward2", "tansig"];
 
 impl Sources {
     /// The files.
@@ -43,6 +47,10 @@ impl Sources {
                 Sources::Reference => None,
                 Sources::FastDecoder if block != "tdc_decoder" => None,
                 Sources::TunedWithPll if block == "pll" => None,
+                // It steps every neuron that could be there.
+                Sources::Cxxrtl if ESTIMATOR.contains(&block) => {
+                    Some(bench.join(format!("rtl/{block}.sv")))
+                }
                 Sources::Cxxrtl => Some(bench.join(format!("cxxrtl/{block}.v"))),
                 _ => Some(bench.join(format!("rtl/{block}.sv"))),
             };

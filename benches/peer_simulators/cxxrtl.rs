@@ -35,7 +35,7 @@ pub fn contender(root: &Path, cache: &Cache) -> Result<Contender> {
     let folder = cache.get("cxxrtl", &all, &flags, build)?;
     Ok(Contender {
         simulator: "cxxrtl",
-        variant: "rtl_ref, chain and count in C++",
+        variant: "tuned estimator, chain and count in C++",
         work: Work::Cycle,
         call: Call::Driver(folder.join("driver")),
         frames: 1,
