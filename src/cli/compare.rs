@@ -10,7 +10,7 @@ use crate::compare::map::Rule;
 use crate::compare::{Align, Choice, Map, Options, Sampling, Unknowns, compare, json, junit, text};
 use crate::condition::Condition;
 use crate::error::{Error, Input, Result};
-use crate::ila::{Overrides, SetUp};
+use crate::ila::{Overrides, Radix, SetUp};
 use crate::kernel::Time;
 use crate::output::write_file;
 use crate::scenario;
@@ -20,7 +20,6 @@ use crate::source::Source;
 use super::stdout::print;
 use super::talk::Talk;
 
-pub use values::RadixWord;
 use values::{latency, setting, time};
 
 /// Compare two waveforms or captures: what A has is expected, what B has was got
@@ -100,7 +99,7 @@ struct Which {
     all: bool,
     /// Radix of the values in a CSV that does not say
     #[arg(long, value_enum)]
-    radix: Option<RadixWord>,
+    radix: Option<Radix>,
 }
 
 /// When.
@@ -153,7 +152,7 @@ struct How {
 
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
-    let radix = args.which.radix.map(RadixWord::radix);
+    let radix = args.which.radix;
     let open = |path: &PathBuf| Source::file(path, radix);
     let (a, b) = match (&args.simulated.scenario, &args.files[..]) {
         (Some(scenario), [b]) => (simulation(scenario, &args.simulated)?, open(b)?),

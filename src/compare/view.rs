@@ -5,13 +5,14 @@ use std::fmt::Write;
 use super::both::{SCOPES, TOP, flat};
 use super::result::{Compared, Comparison};
 use crate::source::Axis;
+use crate::waves::zoom;
 
 /// Pairs that are shown at first.
 const SHOWN: usize = 32;
 /// Part of the waveform that is shown around the first difference.
 const PART: u64 = 16;
-/// Pixels in which GTKWave shows 2^n units of time at a zoom of -n, and those that waves have.
-const ZOOM: (f64, f64) = (200.0, 680.0);
+/// Width that waves have in GTKWave's window [pixels].
+const PIXELS: u32 = 680;
 /// GTKWave's colours of the three scopes: green, yellow, red.
 const COLOURS: [u32; 3] = [4, 3, 1];
 
@@ -54,7 +55,7 @@ impl<'a> View<'a> {
             Some(first) => (first.saturating_sub(whole / PART / 2), (whole / PART).max(1)),
             None => (begin, whole),
         };
-        let zoom = -(shown as f64 * ZOOM.0 / ZOOM.1).log2();
+        let zoom = zoom(shown, PIXELS);
         let mut text = format!(
             "[dumpfile] \"{wave}\"\n[timestart] {from}\n[size] 1400 800\n*{zoom:.6} {first}\n\
              [sst_width] 160\n[signals_width] 420\n@28\n[color] 1\n{TOP}.any_differs\n"

@@ -1,19 +1,20 @@
 //! A capture in memory: what a logic analyser's buffer holds.
 
 use bitvec::prelude::*;
+use clap::ValueEnum;
 
 /// How the digits of a value are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, ValueEnum)]
 pub enum Radix {
-    /// Lower case, all digits.
+    /// Hexadecimal, lower case, all digits
     Hex,
-    /// Two's complement, decimal.
+    /// Two's complement, decimal
     Signed,
-    /// Decimal.
+    /// Decimal
     Unsigned,
-    /// All digits.
+    /// Bit by bit, all digits
     Binary,
-    /// All digits.
+    /// Three bits to a digit, all digits
     Octal,
 }
 

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Input, Result};
+use crate::evaluation::thesis;
 
 /// The line, and more weight at both ends of the range, where there are no neighbours to learn from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,8 +27,8 @@ impl Default for Weighting {
     /// Table 5.5 of the thesis is the line.
     fn default() -> Self {
         Weighting {
-            distances_m: vec![0.1, 0.2, 0.3, 0.4, 0.5, 0.6],
-            two_sd_mm: vec![1.6, 2.8, 3.3, 2.9, 3.5, 4.9],
+            distances_m: thesis::DISTANCES_M.to_vec(),
+            two_sd_mm: thesis::FLOAT.two_sd_mm.to_vec(),
             mean_mm: 1.0,
             near: 0.5,
             far: 2.5,

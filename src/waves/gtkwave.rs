@@ -91,7 +91,8 @@ impl Lines<'_> {
         let mut places: Vec<String> = named.iter().map(|(_, at)| at.ps().to_string()).collect();
         places.resize(MARKERS, "-1".into());
         let primary = marks.laser_edge.map_or("-1".into(), |at| at.ps().to_string());
-        let zoom = zoom(marks.to.since(marks.from).ps());
+        let pixels = SIZE.0 - COLUMNS.0 - COLUMNS.1 - FRAMES;
+        let zoom = zoom(marks.to.since(marks.from).ps(), pixels);
         self.line(format_args!("*{zoom:.6} {primary} {}", places.join(" ")));
         for ((name, _), letter) in named.iter().zip('A'..) {
             self.line(format_args!("[markername] {letter}{name}"));
@@ -158,8 +159,7 @@ fn full_name(entry: &Entry) -> String {
     }
 }
 
-/// The zoom that shows `span` in the window [ps].
-fn zoom(span: u64) -> f64 {
-    let pixels = f64::from(SIZE.0 - COLUMNS.0 - COLUMNS.1 - FRAMES);
-    -(span.max(1) as f64 * ZOOM_PIXELS / pixels).log2()
+/// GTKWave's number for the zoom that shows `span` units of time in so many pixels.
+pub fn zoom(span: u64, pixels: u32) -> f64 {
+    -(span.max(1) as f64 * ZOOM_PIXELS / f64::from(pixels)).log2()
 }

@@ -35,6 +35,7 @@ use crate::kernel::signals::Sink;
 
 pub(crate) use digits::TapDigits;
 use fst::Fst;
+pub(crate) use gtkwave::zoom;
 use vcd::Vcd;
 
 pub use select::select;

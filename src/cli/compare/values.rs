@@ -1,35 +1,6 @@
 //! Values of options, as they are written.
 
-use crate::ila::Radix;
 use crate::kernel::Time;
-
-/// How digits are to be read.
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
-pub enum RadixWord {
-    /// Hexadecimal
-    Hex,
-    /// Two's complement, decimal
-    Signed,
-    /// Decimal
-    Unsigned,
-    /// Bit by bit
-    Binary,
-    /// Three bits to a digit
-    Octal,
-}
-
-impl RadixWord {
-    /// The radix.
-    pub fn radix(self) -> Radix {
-        match self {
-            RadixWord::Hex => Radix::Hex,
-            RadixWord::Signed => Radix::Signed,
-            RadixWord::Unsigned => Radix::Unsigned,
-            RadixWord::Binary => Radix::Binary,
-            RadixWord::Octal => Radix::Octal,
-        }
-    }
-}
 
 /// Most samples that a signal may be late.
 const LONGEST_LATENCY: u64 = 65_536;

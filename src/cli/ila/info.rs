@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use serde_json::json;
 
-use crate::cli::compare::RadixWord;
 use crate::cli::stdout::print;
 use crate::compare::{Survey, survey};
 use crate::error::{Input, Result};
+use crate::ila::Radix;
 use crate::report::table::{grouped, plain};
 use crate::source::{Format, Kind, Source};
 
@@ -21,7 +21,7 @@ pub struct Args {
     file: PathBuf,
     /// Radix of the values in a CSV that does not say
     #[arg(long, value_enum)]
-    radix: Option<RadixWord>,
+    radix: Option<Radix>,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
@@ -29,7 +29,7 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args) -> Result<()> {
-    let source = Source::file(&args.file, args.radix.map(RadixWord::radix))?;
+    let source = Source::file(&args.file, args.radix)?;
     if !source.is_capture() {
         let expected = format!(
             "is a waveform ({}), not a logic analyser's capture; `tofsim compare` reads it",
