@@ -126,6 +126,37 @@ fn formats_that_are_not_the_firmware_s_are_trained_for_and_written_as_arrays() {
 }
 
 #[test]
+fn a_validation_error_that_grows_ends_a_stage_where_it_was_least() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    // Fewer histograms than a network of eight neurons has parameters.
+    let stages =
+        "stages=[{candidates=2,epochs=60,samples=402},{candidates=1,epochs=5,samples=603}]";
+    let with = ["--with", stages, "--with", "validation=1005", "--with", "optimiser.max_fail=4"];
+    train(folder, "whole", &with);
+    let curve = read(folder, "whole/curve.csv");
+    let rows: Vec<Vec<f64>> = curve
+        .lines()
+        .skip(1)
+        .map(|row| row.split(',').map(|field| field.parse().unwrap()).collect())
+        .collect();
+    for start in [0.0, 1.0] {
+        let first: Vec<_> = rows.iter().filter(|row| row[0] == 0.0 && row[2] == start).collect();
+        let (last, validation) = (first[first.len() - 1], |row: &&Vec<f64>| row[6]);
+        assert!(last[3] < 60.0, "{last:?}: it goes on for all epochs");
+        let least = first.iter().map(validation).fold(f64::INFINITY, f64::min);
+        assert!(last[6] <= least && last[6] > last[4], "{last:?} {least}");
+    }
+    // Stopped and resumed in its midst it ends alike.
+    train(folder, "parts", &[&with[..], &["--checkpoints", "2"]].concat());
+    train(folder, "parts", &[&with[..], &["--resume"]].concat());
+    assert!(read(folder, "parts/curve.csv") == curve);
+    assert!(read(folder, "parts/network.toml") == read(folder, "whole/network.toml"));
+    let few = refused(folder, &["train", "--with", "validation=100"]);
+    assert!(few.contains("validation = 100: expected 201 or more"), "{few}");
+}
+
+#[test]
 fn a_checkpoint_of_another_training_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
@@ -247,6 +278,7 @@ fn bins_that_never_count_do_no_harm() {
         neurons: 2,
         table_noise: 0.0,
         hinges: Limits::default().hinges(&Datapath::default()),
+        held_out: None,
     };
     let mut lm = Lm::new(start(&recipe.start, 2, 1, 0), &Settings::default());
     lm.epoch(&problem, &Settings::default()).unwrap();

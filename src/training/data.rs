@@ -6,6 +6,7 @@ use crate::dataset::{Grid, Rows, Source, Subset};
 use crate::error::Result;
 
 use super::features::{Features, Scaling};
+use super::network_problem::NetworkProblem;
 use super::recipe::{Recipe, Stage};
 use super::samples::Samples;
 use super::start::{Purpose, derived};
@@ -36,6 +37,16 @@ pub fn stage_samples(recipe: &Recipe, source: &Source, seed: u64, stage: usize) 
         None => recipe.finish.samples,
     };
     draw(source, Grid::training(), samples, seed, Purpose::Stage(stage))
+}
+
+/// Histograms of the validation stop, if it is wanted.
+///
+/// # Errors
+/// When there are none.
+pub fn held_out(recipe: &Recipe, source: &Source, seed: u64) -> Result<Option<Samples>> {
+    let wanted = (recipe.validation > 0).then_some(recipe.validation);
+    let draw = |len| draw(source, Grid::training(), len, seed, Purpose::Validation);
+    wanted.map(draw).transpose()
 }
 
 /// Histograms that the best block is chosen by, so many for each scene of the test grid.
@@ -74,6 +85,26 @@ impl StageData {
             features: Features::new(&samples.counts, scaling),
             distances_m: samples.distances_m.clone(),
             digest: samples.digest(),
+        }
+    }
+
+    /// What a network is trained on: these samples with their weights, and others that are held out.
+    pub fn problem<'a>(
+        &'a self,
+        recipe: &Recipe,
+        scaling: &'a Scaling,
+        weights: &'a [f64],
+        held_out: Option<&'a NetworkProblem<'a>>,
+    ) -> NetworkProblem<'a> {
+        NetworkProblem {
+            features: &self.features,
+            scaling,
+            distances_m: &self.distances_m,
+            weights,
+            neurons: recipe.neurons,
+            table_noise: recipe.table_noise * recipe.formats.step(),
+            hinges: recipe.limits.hinges(&recipe.formats),
+            held_out,
         }
     }
 

@@ -76,7 +76,7 @@ pub enum Stop {
     Gradient,
     /// No step helps, however short.
     Damping,
-    /// The validation error grew too often.
+    /// The validation error grew too often; the parameters are those where it was least.
     Validation,
     /// Whoever asks for epochs finds that they gain too little.
     Gain,
@@ -93,8 +93,10 @@ pub struct Lm {
     pub mu: f64,
     /// Epochs made.
     pub epochs: u64,
-    /// Least validation error so far.
-    pub validation: f64,
+    /// Validation error after the last epoch, if there is one.
+    pub validation: Option<f64>,
+    /// Least validation error so far, and the parameters that have it.
+    pub least: Option<(f64, Vec<f64>)>,
     /// Epochs since then.
     pub failures: u32,
     /// Why it goes no further.
@@ -109,7 +111,8 @@ impl Lm {
             cost: f64::INFINITY,
             mu: settings.mu,
             epochs: 0,
-            validation: f64::INFINITY,
+            validation: None,
+            least: None,
             failures: 0,
             stop: None,
         }
@@ -167,14 +170,17 @@ impl Lm {
     }
 
     fn validate(&mut self, problem: &impl Problem, settings: &Settings) {
-        let Some(error) = problem.validation(&self.x) else { return };
-        if error < self.validation {
-            (self.validation, self.failures) = (error, 0);
-        } else {
-            self.failures += 1;
-            if self.failures >= settings.max_fail {
-                self.stop = Some(Stop::Validation);
+        self.validation = problem.validation(&self.x);
+        let Some(error) = self.validation else { return };
+        match &mut self.least {
+            Some((least, best)) if error >= *least => {
+                self.failures += 1;
+                if self.failures >= settings.max_fail {
+                    (self.x, self.validation) = (std::mem::take(best), Some(*least));
+                    (self.least, self.stop) = (None, Some(Stop::Validation));
+                }
             }
+            _ => (self.least, self.failures) = (Some((error, self.x.clone())), 0),
         }
     }
 }

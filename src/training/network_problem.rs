@@ -33,6 +33,8 @@ pub struct NetworkProblem<'a> {
     pub table_noise: f64,
     /// Penalties.
     pub hinges: Hinges,
+    /// The same over data that no step is made from.
+    pub held_out: Option<&'a NetworkProblem<'a>>,
 }
 
 /// What the samples of a block weigh in the sums.
@@ -162,6 +164,14 @@ impl NetworkProblem<'_> {
         sums.cross.add_block(block, &scratch.cross);
     }
 
+    /// Mean square of the residuals, without penalties.
+    fn mean_square(&self, x: &[f64]) -> f64 {
+        let arch = pulp::Arch::new();
+        let costs = self.runs().into_par_iter().map(|run| arch.dispatch(Costs(self, x, run)));
+        let sum: f64 = costs.collect::<Vec<_>>().iter().sum();
+        sum / self.features.samples() as f64
+    }
+
     /// Depth minus distance of each sample [m].
     pub fn errors(&self, x: &[f64]) -> Vec<f64> {
         let error = |sample: usize| {
@@ -220,11 +230,11 @@ impl Problem for NetworkProblem<'_> {
     }
 
     fn cost(&self, x: &[f64]) -> f64 {
-        let arch = pulp::Arch::new();
-        let costs = self.runs().into_par_iter().map(|run| arch.dispatch(Costs(self, x, run)));
-        let sum: f64 = costs.collect::<Vec<_>>().iter().sum();
-        let penalty = self.hinges.cost(x, self.neurons, self.scaling);
-        sum / self.features.samples() as f64 + penalty
+        self.mean_square(x) + self.hinges.cost(x, self.neurons, self.scaling)
+    }
+
+    fn validation(&self, x: &[f64]) -> Option<f64> {
+        self.held_out.map(|held_out| held_out.mean_square(x))
     }
 
     fn linearise(&self, x: &[f64]) -> Linear {

@@ -23,6 +23,10 @@ pub struct Recipe {
     /// Part of its cost that a network has to lose from a checkpoint to the next, or it rests until
     /// the next stage or block; with 0 it rests only when no step helps [1].
     pub least_gain: f64,
+    /// Histograms for a validation stop, drawn for that: a network rests until the next stage or block
+    /// when its error on them has not fallen for `optimiser.max_fail` epochs, and goes back to where it
+    /// was least; with 0 there is none.
+    pub validation: u64,
     /// Noise of a neuron's sum from the activation table's steps [steps].
     pub table_noise: f64,
     /// Random starts.
@@ -95,6 +99,7 @@ impl Default for Recipe {
             neurons: NEURONS,
             checkpoint_epochs: 20,
             least_gain: 0.0,
+            validation: 0,
             table_noise: 0.4096,
             start: Start { lengths: vec![0.1, 0.3], bias: 1.0, output_m: 0.1 },
             stages: vec![

@@ -19,6 +19,8 @@ pub enum Purpose {
     Choice,
     /// Histograms for the accuracy in the file.
     Test,
+    /// Histograms for the validation stop.
+    Validation,
     /// Histograms of a stage; the end is the last one.
     Stage(usize),
 }
@@ -29,6 +31,7 @@ pub fn derived(seed: u64, purpose: Purpose) -> u64 {
         Purpose::Starts => 1,
         Purpose::Choice => 2,
         Purpose::Test => 3,
+        Purpose::Validation => 4,
         Purpose::Stage(stage) => 16 + stage as u64,
     };
     let mut word = seed.wrapping_add(0x9e37_79b9_7f4a_7c15u64.wrapping_mul(place));

@@ -47,6 +47,8 @@ pub struct Point {
     pub cost: f64,
     /// Its damping.
     pub mu: f64,
+    /// Its mean square on the data of the validation stop, if there are any.
+    pub validation: Option<f64>,
 }
 
 /// All that decides how a tournament goes on.

@@ -14,11 +14,10 @@ use crate::network::datapath::Circuit;
 use crate::network::float::Float;
 
 use super::accuracy::{Row, by_distance, worst};
-use super::data::{StageData, choice_samples, draw, stage_samples};
+use super::data::{self, StageData};
 use super::features::Scaling;
 use super::fold::fold;
 use super::lm::{Lm, Problem, Stop};
-use super::network_problem::NetworkProblem;
 use super::recipe::Recipe;
 use super::samples::{Samples, digest};
 use super::start::{Purpose, start};
@@ -33,6 +32,7 @@ pub struct Tournament<'a> {
     /// What decides how it goes on.
     pub state: State,
     data: StageData,
+    held_out: Option<StageData>,
     choice: Samples,
 }
 
@@ -42,26 +42,32 @@ impl<'a> Tournament<'a> {
     /// # Errors
     /// When no data can be drawn.
     pub fn new(recipe: &'a Recipe, source: &'a Source, seed: u64) -> Result<Self> {
-        let samples = stage_samples(recipe, source, seed, 0)?;
+        let samples = data::stage_samples(recipe, source, seed, 0)?;
         let candidates = (0..recipe.stages[0].candidates).map(|number| Candidate {
             start: number,
             lm: Lm::new(start(&recipe.start, recipe.neurons, seed, number), &recipe.optimiser),
             factors: Vec::new(),
         });
         let scaling = Scaling::of(&samples.counts);
+        let held_out = data::held_out(recipe, source, seed)?;
+        let held_out = held_out.map(|samples| StageData::new(&samples, &scaling));
         let data = StageData::new(&samples, &scaling);
+        let mut used = format!("{:016x}", data.digest);
+        if let Some(held_out) = &held_out {
+            used = format!("{:016x}", digest(held_out.digest, used.as_bytes()));
+        }
         let state = State {
             stage: 0,
             block: 0,
             epochs: 0,
-            data: format!("{:016x}", data.digest),
+            data: used,
             scaling,
             candidates: candidates.collect(),
             best: None,
             curve: Vec::new(),
         };
-        let choice = choice_samples(recipe, source, seed)?;
-        Ok(Tournament { recipe, source, seed, state, data, choice })
+        let choice = data::choice_samples(recipe, source, seed)?;
+        Ok(Tournament { recipe, source, seed, state, data, held_out, choice })
     }
 
     /// Where another left off.
@@ -69,10 +75,12 @@ impl<'a> Tournament<'a> {
     /// # Errors
     /// When no data can be drawn.
     pub fn resume(recipe: &'a Recipe, source: &'a Source, seed: u64, state: State) -> Result<Self> {
-        let samples = stage_samples(recipe, source, seed, state.stage)?;
+        let samples = data::stage_samples(recipe, source, seed, state.stage)?;
         let data = StageData::new(&samples, &state.scaling);
-        let choice = choice_samples(recipe, source, seed)?;
-        Ok(Tournament { recipe, source, seed, state, data, choice })
+        let held_out = data::held_out(recipe, source, seed)?;
+        let held_out = held_out.map(|samples| StageData::new(&samples, &state.scaling));
+        let choice = data::choice_samples(recipe, source, seed)?;
+        Ok(Tournament { recipe, source, seed, state, data, held_out, choice })
     }
 
     /// Whether all is done.
@@ -147,7 +155,7 @@ impl<'a> Tournament<'a> {
         let (stage, block) = (self.state.stage, self.state.block);
         for candidate in &mut self.state.candidates {
             let (start, lm) = (candidate.start, &mut candidate.lm);
-            let Lm { epochs, cost, mu, .. } = *lm;
+            let Lm { epochs, cost, mu, validation, .. } = *lm;
             let same =
                 |point: &&Point| (point.stage, point.block, point.start) == (stage, block, start);
             if let Some(before) = self.state.curve.iter().rev().find(same)
@@ -155,23 +163,18 @@ impl<'a> Tournament<'a> {
             {
                 lm.stop = lm.stop.or(Some(Stop::Gain));
             }
-            self.state.curve.push(Point { stage, block, start, epochs, cost, mu });
+            self.state.curve.push(Point { stage, block, start, epochs, cost, mu, validation });
         }
     }
 
     fn train(&mut self, epochs: u64, stop: Option<&AtomicBool>) -> Result<()> {
         let (recipe, data, scaling) = (self.recipe, &self.data, &self.state.scaling);
+        let held_out = self.held_out.as_ref();
         self.state.candidates.par_iter_mut().try_for_each(|candidate| {
-            let weights = data.weights(recipe, &candidate.factors);
-            let problem = NetworkProblem {
-                features: &data.features,
-                scaling,
-                distances_m: &data.distances_m,
-                weights: &weights,
-                neurons: recipe.neurons,
-                table_noise: recipe.table_noise * recipe.formats.step(),
-                hinges: recipe.limits.hinges(&recipe.formats),
-            };
+            let weights = |data: &StageData| data.weights(recipe, &candidate.factors);
+            let (weights, others) = (weights(data), held_out.map(weights).unwrap_or_default());
+            let held_out = held_out.map(|data| data.problem(recipe, scaling, &others, None));
+            let problem = data.problem(recipe, scaling, &weights, held_out.as_ref());
             for _ in 0..epochs {
                 if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
                     return Err(Error::Interrupted);
@@ -198,7 +201,7 @@ impl<'a> Tournament<'a> {
             .sort_by(|a, b| a.lm.cost.total_cmp(&b.lm.cost).then(a.start.cmp(&b.start)));
         state.candidates.truncate(keep);
         state.candidates.iter_mut().for_each(|one| one.lm.restart(&self.recipe.optimiser));
-        let samples = stage_samples(self.recipe, self.source, self.seed, state.stage)?;
+        let samples = data::stage_samples(self.recipe, self.source, self.seed, state.stage)?;
         self.data = StageData::new(&samples, &state.scaling);
         let both = digest(self.data.digest, state.data.as_bytes());
         state.data = format!("{both:016x}");
@@ -208,21 +211,10 @@ impl<'a> Tournament<'a> {
     /// Gives more weight to distances where the error is larger than the line has it.
     fn reweigh(&mut self) {
         let (recipe, finish) = (self.recipe, &self.recipe.finish);
-        let samples = &self.data.distances_m;
-        let (neurons, data, scaling) = (recipe.neurons, &self.data, &self.state.scaling);
         for candidate in &mut self.state.candidates {
-            let weights = vec![1.0; samples.len()];
-            let problem = NetworkProblem {
-                features: &data.features,
-                scaling,
-                distances_m: samples,
-                weights: &weights,
-                neurons,
-                table_noise: 0.0,
-                hinges: recipe.limits.hinges(&recipe.formats),
-            };
+            let problem = self.data.problem(recipe, &self.state.scaling, &[], None);
             let errors = problem.errors(&candidate.lm.x);
-            let pairs: Vec<_> = samples.iter().copied().zip(errors).collect();
+            let pairs: Vec<_> = self.data.distances_m.iter().copied().zip(errors).collect();
             let ratio = |pairs: &[(f64, f64)]| {
                 let squares: f64 = pairs.iter().map(|(_, error)| error * error).sum();
                 2000.0 * (squares / pairs.len() as f64).sqrt()
@@ -271,7 +263,7 @@ impl<'a> Tournament<'a> {
     pub fn test(&self, circuit: &Circuit) -> Result<Vec<Row>> {
         let grid = Grid::test();
         let len = grid.distances_m.count * grid.lights();
-        let samples = draw(self.source, grid, len, self.seed, Purpose::Test)?;
+        let samples = data::draw(self.source, grid, len, self.seed, Purpose::Test)?;
         Ok(errors(circuit, &samples))
     }
 }

@@ -120,8 +120,11 @@ fn a_growing_validation_error_stops_it() {
     let settings = Settings { max_fail: 2, ..Settings::default() };
     let problem = dense(7, small_network, &[1.0, 1.5, 0.5, 0.6, 0.7, 0.1]);
     let mut lm = Lm::new(vec![0.5, -0.8, 0.1, -0.2, 0.3, 0.4, 0.05], &settings);
+    let mut passed = Vec::new();
     for _ in 0..8 {
         lm.epoch(&problem, &settings).unwrap();
+        passed.push(lm.x.clone());
     }
     assert_eq!((lm.epochs, lm.stop), (5, Some(Stop::Validation)));
+    assert_eq!((lm.validation, &lm.x), (Some(0.5), &passed[2]), "back where it was least");
 }

@@ -26,6 +26,7 @@ fn with_problem<T>(neurons: usize, check: impl FnOnce(&NetworkProblem, &[f64]) -
         // Much, so that a fault in its derivatives shows.
         table_noise: 0.5,
         hinges: Limits::default().hinges(&Datapath::default()),
+        held_out: None,
     };
     let x: Vec<f64> = (0..parameters(neurons)).map(|k| (k as f64).sin() * 0.1).collect();
     check(&problem, &x)

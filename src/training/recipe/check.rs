@@ -7,6 +7,8 @@ use super::{Recipe, Stage};
 
 /// Histograms of a scene that the test grid has (thesis section 4.1).
 const MOST_CHOICE: u64 = 5;
+/// Distances of the training grid; below that, some would be left out.
+const LEAST_SAMPLES: u64 = 201;
 
 impl Recipe {
     /// That every number makes sense.
@@ -29,6 +31,10 @@ impl Recipe {
             return Err(fault("neurons", self.neurons, expected).into());
         }
         at_least("checkpoint_epochs", self.checkpoint_epochs, 1)?;
+        if self.validation > 0 {
+            at_least("validation", self.validation, LEAST_SAMPLES)?;
+            at_least("optimiser.max_fail", self.optimiser.max_fail.into(), 1)?;
+        }
         if self.stages.is_empty() {
             return Err(fault("stages", 0, "expected one stage or more").into());
         }
@@ -46,8 +52,7 @@ impl Recipe {
             };
             at_least(&format!("{name}.candidates"), stage.candidates as u64, 1)?;
             at_least(&format!("{name}.epochs"), stage.epochs, 1)?;
-            // Below that, distances would be left out.
-            at_least(&format!("{name}.samples"), stage.samples, 201)?;
+            at_least(&format!("{name}.samples"), stage.samples, LEAST_SAMPLES)?;
             if stage.candidates > before {
                 let expected = format!("expected {before} at most, as in the stage before");
                 return Err(fault(&format!("{name}.candidates"), stage.candidates, expected).into());
