@@ -200,7 +200,7 @@ fn options_reach_the_recipe_and_what_makes_no_sense_is_refused() {
     let recipe: Recipe = toml::from_str(&text).unwrap();
     assert_eq!((recipe.table_noise, recipe.limits.b1_share), (0.5, 0.75));
     let candidates: Vec<_> = recipe.stages.iter().map(|stage| stage.candidates).collect();
-    assert_eq!(candidates, [3, 3, 3, 2]);
+    assert_eq!(candidates, [3, 3, 3, 3]);
     let error = refused(folder, &["train", "--with", "limit.b1=3"]);
     assert!(error.contains("--with limit.b1=3") && error.contains("unknown field"), "{error}");
     fs::write(folder.join("bad.toml"), "neurons = \"many\"\n").unwrap();

@@ -10,10 +10,11 @@ use super::state::Point;
 
 /// The curve as CSV, a row for each network at each checkpoint.
 pub fn csv(points: &[Point]) -> String {
-    let mut text = String::from("stage,block,start,epochs,cost,mu,validation\n");
-    for Point { stage, block, start, epochs, cost, mu, validation } in points {
-        let validation = validation.map_or(String::new(), |cost| format!("{cost:?}"));
-        text += &format!("{stage},{block},{start},{epochs},{cost:?},{mu:?},{validation}\n");
+    let mut text = String::from("stage,block,start,epochs,cost,mu,validation,ratio\n");
+    for Point { stage, block, start, epochs, cost, mu, validation, ratio } in points {
+        let [validation, ratio] =
+            [validation, ratio].map(|of| of.map_or(String::new(), |of| format!("{of:?}")));
+        text += &format!("{stage},{block},{start},{epochs},{cost:?},{mu:?},{validation},{ratio}\n");
     }
     text
 }
@@ -65,7 +66,7 @@ mod tests {
     fn a_line_for_each_start_and_a_row_for_each_point() {
         let point = |start, epochs, cost| {
             let validation = (start == 1).then_some(2.5);
-            Point { stage: 0, block: 0, start, epochs, cost, mu: 0.1, validation }
+            Point { stage: 0, block: 0, start, epochs, cost, mu: 0.1, validation, ratio: None }
         };
         let points = [
             point(0, 3, 5.0),
@@ -76,11 +77,13 @@ mod tests {
         ];
         let csv = csv(&points);
         assert!(
-            csv.starts_with("stage,block,start,epochs,cost,mu,validation\n0,0,0,3,5.0,0.1,\n"),
+            csv.starts_with(
+                "stage,block,start,epochs,cost,mu,validation,ratio\n0,0,0,3,5.0,0.1,,\n"
+            ),
             "{csv}"
         );
         assert_eq!(csv.lines().count(), 6);
-        assert!(csv.ends_with("0,0,1,6,2.0,0.1,2.5\n0,0,0,9,1.25,0.1,\n"), "{csv}");
+        assert!(csv.ends_with("0,0,1,6,2.0,0.1,2.5,\n0,0,0,9,1.25,0.1,,\n"), "{csv}");
         let svg = svg(&points).unwrap();
         assert!(svg.contains("<polyline") && svg.contains("#2B6CB0"));
         super::svg(&[]).unwrap();

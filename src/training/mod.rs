@@ -10,6 +10,7 @@ pub mod checkpoint;
 pub mod cholesky;
 pub mod curve;
 pub mod data;
+pub mod equalise;
 pub mod features;
 pub mod fold;
 pub mod gram;

@@ -69,8 +69,8 @@ pub struct Stage {
     pub samples: u64,
 }
 
-/// The end: blocks of epochs, before each of which distances with larger errors gain weight. That
-/// does not converge, so the best block is what counts.
+/// The end: blocks of epochs, before each of which distances with larger errors gain weight
+/// ([`super::equalise`]). The best block is what counts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Finish {
@@ -90,6 +90,11 @@ pub struct Finish {
     pub most: f64,
     /// Power of the ratio that multiplies a weight.
     pub power: f64,
+    /// Power of a weight's own factor that is kept from the block before: with 1 weights gather all
+    /// ratios, with less they settle at the ratio to the power of `power` / (1 - `keep`).
+    pub keep: f64,
+    /// Distances to either side whose errors count in a ratio, ever less with their number.
+    pub neighbours: usize,
 }
 
 impl Default for Recipe {
@@ -103,20 +108,22 @@ impl Default for Recipe {
             table_noise: 0.4096,
             start: Start { lengths: vec![0.1, 0.3], bias: 1.0, output_m: 0.1 },
             stages: vec![
-                stage(60, 40, 8_000),
-                stage(15, 60, 8_000),
-                stage(5, 120, 24_000),
-                stage(2, 400, 24_000),
+                stage(120, 40, 8_000),
+                stage(30, 60, 8_000),
+                stage(8, 120, 24_000),
+                stage(3, 400, 24_000),
             ],
             finish: Finish {
-                candidates: 1,
-                blocks: 8,
-                epochs: 50,
+                candidates: 2,
+                blocks: 14,
+                epochs: 20,
                 samples: 60_000,
                 choice: 5,
                 least: 0.7,
                 most: 1.5,
-                power: 0.5,
+                power: 0.75,
+                keep: 0.85,
+                neighbours: 1,
             },
             weighting: Weighting::default(),
             formats: Datapath::default(),
@@ -222,7 +229,7 @@ mod tests {
     #[test]
     fn settings_have_dotted_keys() {
         let settings = Recipe::default().settings().unwrap();
-        assert!(settings.contains(&("finish.blocks".to_owned(), "8".to_owned())));
+        assert!(settings.contains(&("finish.blocks".to_owned(), "14".to_owned())));
         assert!(settings.contains(&("optimiser.mu".to_owned(), "0.001".to_owned())));
     }
 }

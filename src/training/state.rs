@@ -49,6 +49,9 @@ pub struct Point {
     pub mu: f64,
     /// Its mean square on the data of the validation stop, if there are any.
     pub validation: Option<f64>,
+    /// At the end of a block, its largest ratio of a spread to the line or of a mean error to its
+    /// limit, in fixed point; infinite if it does not fit the words.
+    pub ratio: Option<f64>,
 }
 
 /// All that decides how a tournament goes on.

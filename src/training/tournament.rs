@@ -15,6 +15,7 @@ use crate::network::float::Float;
 
 use super::accuracy::{Row, by_distance, worst};
 use super::data::{self, StageData};
+use super::equalise::{follow, ratios};
 use super::features::Scaling;
 use super::fold::fold;
 use super::lm::{Lm, Problem, Stop};
@@ -163,7 +164,16 @@ impl<'a> Tournament<'a> {
             {
                 lm.stop = lm.stop.or(Some(Stop::Gain));
             }
-            self.state.curve.push(Point { stage, block, start, epochs, cost, mu, validation });
+            self.state.curve.push(Point {
+                stage,
+                block,
+                start,
+                epochs,
+                cost,
+                mu,
+                validation,
+                ratio: None,
+            });
         }
     }
 
@@ -210,22 +220,12 @@ impl<'a> Tournament<'a> {
 
     /// Gives more weight to distances where the error is larger than the line has it.
     fn reweigh(&mut self) {
-        let (recipe, finish) = (self.recipe, &self.recipe.finish);
+        let recipe = self.recipe;
         for candidate in &mut self.state.candidates {
             let problem = self.data.problem(recipe, &self.state.scaling, &[], None);
-            let errors = problem.errors(&candidate.lm.x);
-            let pairs: Vec<_> = self.data.distances_m.iter().copied().zip(errors).collect();
-            let ratio = |pairs: &[(f64, f64)]| {
-                let squares: f64 = pairs.iter().map(|(_, error)| error * error).sum();
-                2000.0 * (squares / pairs.len() as f64).sqrt()
-                    / recipe.weighting.line_mm(pairs[0].0)
-            };
-            let ratios: Vec<f64> = pairs.chunk_by(|a, b| a.0 == b.0).map(ratio).collect();
-            let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
-            candidate.factors.resize(ratios.len(), 1.0);
-            for (factor, ratio) in candidate.factors.iter_mut().zip(&ratios) {
-                *factor *= libm::pow((ratio / mean).clamp(finish.least, finish.most), finish.power);
-            }
+            let errors_m = problem.errors(&candidate.lm.x);
+            let ratios = ratios(&self.data.distances_m, &errors_m, &recipe.weighting);
+            follow(&mut candidate.factors, &ratios, &recipe.finish);
             candidate.lm.restart(&recipe.optimiser);
         }
     }
@@ -233,16 +233,16 @@ impl<'a> Tournament<'a> {
     /// Keeps the block if none was better at its worst distance, in fixed point.
     fn judge(&mut self) -> Result<()> {
         for candidate in &self.state.candidates {
+            let (start, block) = (candidate.start, self.state.block + 1);
             let folded = fold(&candidate.lm.x, self.recipe.neurons, &self.state.scaling);
             let circuit = Circuit::new(&folded, self.recipe.formats)?;
             // What does not fit the words cannot be the best.
-            if circuit.saturated_weights > 0 {
-                continue;
-            }
-            let rows = errors(&circuit, &self.choice);
-            let ratio = worst(&rows, &self.recipe.weighting);
-            if self.state.best.as_ref().is_none_or(|best| ratio < best.ratio) {
-                let (start, block) = (candidate.start, self.state.block + 1);
+            let fits = circuit.saturated_weights == 0;
+            let rows = fits.then(|| errors(&circuit, &self.choice));
+            let ratio = rows.map_or(f64::INFINITY, |rows| worst(&rows, &self.recipe.weighting));
+            let point = self.state.curve.iter_mut().rev().find(|point| point.start == start);
+            point.into_iter().for_each(|point| point.ratio = Some(ratio));
+            if fits && self.state.best.as_ref().is_none_or(|best| ratio < best.ratio) {
                 self.state.best = Some(Best { start, block, ratio, x: candidate.lm.x.clone() });
             }
         }

@@ -80,6 +80,11 @@ impl Recipe {
         if self.optimiser.mu_inc <= 1.0 || !self.optimiser.mu_inc.is_finite() {
             return Err(fault("optimiser.mu_inc", self.optimiser.mu_inc, "expected above 1").into());
         }
+        for (field, value) in [("finish.power", finish.power), ("finish.keep", finish.keep)] {
+            if !(0.0..=1.0).contains(&value) {
+                return Err(fault(field, value, "expected 0 to 1").into());
+            }
+        }
         if finish.least > finish.most {
             let expected = format!("expected finish.most = {} at most", finish.most);
             return Err(fault("finish.least", finish.least, expected).into());
@@ -106,7 +111,8 @@ mod tests {
         assert!(fault("", &["neurons=0"]).contains("neurons = 0: expected 1 or more"));
         assert!(fault("", &["finish.choice=6"]).contains("finish.choice = 6: expected 1 to 5"));
         assert!(fault("", &["finish.samples=5"]).contains("finish.samples = 5: expected 201"));
-        assert!(fault("", &["finish.candidates=9"]).contains("expected 2 at most"));
+        assert!(fault("", &["finish.candidates=9"]).contains("expected 3 at most"));
+        assert!(fault("", &["finish.keep=1.5"]).contains("finish.keep = 1.5: expected 0 to 1"));
         assert!(fault("", &["optimiser.mu=nan"]).contains("optimiser.mu = NaN"));
         assert!(fault("stages = []", &[]).contains("stages = 0: expected one stage"));
     }
