@@ -241,7 +241,7 @@ fn an_explanation_has_every_value_and_a_budget_that_adds_up() {
         .output()
         .unwrap();
     let text = String::from_utf8(program.stdout).unwrap();
-    assert!(text.contains("00ffb8656") && text.contains("saturated: 2 of 8 neurons"), "{text}");
+    assert!(text.contains("010021340") && text.contains("saturated: 2 of 8 neurons"), "{text}");
     assert_eq!(text.lines().filter(|line| line.trim_start().starts_with("l1_out")).count(), 8);
 }
 

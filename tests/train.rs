@@ -138,7 +138,7 @@ fn a_validation_error_that_grows_ends_a_stage_where_it_was_least() {
     let rows: Vec<Vec<f64>> = curve
         .lines()
         .skip(1)
-        .map(|row| row.split(',').map(|field| field.parse().unwrap()).collect())
+        .map(|row| row.split(',').map(|field| field.parse().unwrap_or(f64::NAN)).collect())
         .collect();
     for start in [0.0, 1.0] {
         let first: Vec<_> = rows.iter().filter(|row| row[0] == 0.0 && row[2] == start).collect();
