@@ -84,6 +84,7 @@ fn check(state: &State, recipe: &Recipe) -> std::result::Result<(), &'static str
     let blocks = if state.stage == stages.len() { finish.blocks } else { 0 };
     let size = parameters(recipe.neurons);
     let fits = |x: &[f64]| x.len() == size && x.iter().all(|x| x.is_finite());
+    let mut least = state.candidates.iter().filter_map(|candidate| candidate.lm.least.as_ref());
     let scaling = [&state.scaling.mean, &state.scaling.inverse_sd];
     let checks = [
         ("stage", state.stage <= stages.len()),
@@ -92,6 +93,7 @@ fn check(state: &State, recipe: &Recipe) -> std::result::Result<(), &'static str
         ("scaling", scaling.iter().all(|s| s.len() == KNOTS && s.iter().all(|x| x.is_finite()))),
         ("candidates", state.candidates.len() == candidates),
         ("candidates.lm.x", state.candidates.iter().all(|candidate| fits(&candidate.lm.x))),
+        ("candidates.lm.least", least.all(|(_, x)| fits(x))),
         ("best.x", state.best.iter().all(|best| fits(&best.x))),
     ];
     match checks.into_iter().find(|(_, good)| !good) {
@@ -166,6 +168,10 @@ mod tests {
         assert!(fault("1").contains("state.epochs: does not fit the recipe"));
         std::fs::write(&path, text.replacen("start = 0", "start = x", 1)).unwrap();
         assert!(fault("1").contains("no checkpoint"));
+        let mut short = state(&recipe);
+        short.candidates[1].lm.least = Some((0.5, vec![0.1]));
+        save(&path, &settings("1"), &short).unwrap();
+        assert!(fault("1").contains("state.candidates.lm.least: does not fit the recipe"));
         std::fs::write(&path, "").unwrap();
         assert!(fault("1").contains("schema"));
     }

@@ -6,7 +6,7 @@ use crate::error::{Error, Input, Result};
 use crate::network::datapath::{Circuit, Datapath};
 use crate::network::file::{Accuracy, Training};
 use crate::network::float::Float;
-use crate::network::formats::Overflow;
+use crate::network::formats::{Fixed, Overflow};
 use crate::network::{Network, export};
 use crate::output::write_file;
 use crate::sim::setup::Setup;
@@ -39,7 +39,15 @@ impl Args {
         let svg = curve::svg(points).map_err(io::Error::other);
         write("curve.svg", &svg.map_err(Error::io(&self.output.join("curve.svg"), "write"))?)?;
         let float = tournament.result();
+        let is_firmware_s = recipe.formats == Datapath::default();
+        let fixed = is_firmware_s.then(|| float.round("trained network", Overflow::Refuse));
+        let fixed = fixed.transpose()?.map(|rounded| rounded.fixed);
         let circuit = Circuit::new(&float, recipe.formats)?;
+        if circuit.saturated_weights > 0 {
+            let expected = "weights that their words do not hold, expected none; train longer";
+            let fault = Input::new("trained network", expected);
+            return Err(fault.value(circuit.saturated_weights).into());
+        }
         let rows = tournament.test(&circuit)?;
         write("accuracy.csv", &report::csv(&rows))?;
 
@@ -54,15 +62,9 @@ impl Args {
             seed: Some(self.seed),
             data: Some(tournament.state.data.clone()),
         };
-        let (name, text) = match recipe.formats == Datapath::default() {
-            true => ("network.toml", network(recipe, float, training, &rows)?.to_toml()),
-            false if circuit.saturated_weights > 0 => {
-                let expected = "weights that their words do not hold, expected none; train longer";
-                return Err(Input::new("trained network", expected)
-                    .value(circuit.saturated_weights)
-                    .into());
-            }
-            false => ("network.json", export::json(&float, &training)),
+        let (name, text) = match fixed {
+            Some(fixed) => ("network.toml", network(fixed, float, training, &rows, recipe)),
+            None => ("network.json", export::json(&float, &training)),
         };
         let path = self.output.join(name);
         print(&match self.json {
@@ -73,8 +75,14 @@ impl Args {
     }
 }
 
-/// The network in the firmware's words, with what is known of it.
-fn network(recipe: &Recipe, float: Float, training: Training, rows: &[Row]) -> Result<Network> {
+/// The file of the network in the firmware's words, with what is known of it.
+fn network(
+    fixed: Fixed,
+    float: Float,
+    training: Training,
+    rows: &[Row],
+    recipe: &Recipe,
+) -> String {
     let line = &recipe.weighting.distances_m;
     let rows: Vec<&Row> = rows.iter().filter(|row| line.contains(&row.distance_m)).collect();
     let accuracy = Accuracy {
@@ -83,12 +91,13 @@ fn network(recipe: &Recipe, float: Float, training: Training, rows: &[Row]) -> R
         mean_mm: Some(rows.iter().map(|row| report::hundredths(row.mean_mm)).collect()),
     };
     let (neurons, chain) = (recipe.neurons, &training.chain);
-    Ok(Network {
+    let network = Network {
         name: String::new(),
         description: format!("256-{neurons}-1 depth network for the bins of chain {chain}"),
-        fixed: float.round("trained network", Overflow::Refuse)?.fixed,
+        fixed,
         training,
         accuracy: Some(accuracy),
         float: Some(float),
-    })
+    };
+    network.to_toml()
 }
