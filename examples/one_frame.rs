@@ -1,6 +1,5 @@
 //! One frame from Rust: a scenario with overrides, its depth and the fullest bin.
 
-use tofsim::report::summary::depth_m;
 use tofsim::scenario;
 use tofsim::sim::Run;
 use tofsim::sim::frames::Frame;
@@ -12,7 +11,7 @@ fn main() -> tofsim::error::Result<()> {
     let setup = Setup::new(scenario::load("kc705", &overrides)?)?;
     let mut show = |frame: &Frame| {
         let fullest = frame.histogram.iter().enumerate().max_by_key(|(_, count)| **count);
-        println!("{:.4} m, {} hits, fullest bin {fullest:?}", depth_m(frame), frame.hits());
+        println!("{:.4} m, {} hits, fullest bin {fullest:?}", frame.depth_m(), frame.hits());
         Ok(())
     };
     let watch = Watch { frames: Some(&mut show), ..Watch::default() };

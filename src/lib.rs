@@ -7,29 +7,14 @@
 
 #![forbid(unsafe_code)]
 
-pub mod cli;
-pub mod compare;
-pub mod condition;
-pub mod csv_input;
-pub mod dataset;
 pub mod error;
-pub mod estimation;
-pub mod evaluation;
+pub mod files;
 pub mod firmware;
-pub mod golden;
 pub mod hierarchy;
-pub mod histogram_file;
-pub mod ila;
 pub mod kernel;
 pub mod network;
-mod npy_input;
 pub mod optics;
-pub mod output;
-pub mod report;
 pub mod scenario;
 pub mod sensor;
 pub mod sim;
-pub mod source;
-pub mod training;
-pub mod verify;
 pub mod waves;

@@ -2,12 +2,12 @@
 
 use proptest::prelude::*;
 
-use tofsim::csv_input::CsvInput;
-use tofsim::histogram_file;
+use tofsim::files::csv::CsvInput;
+use tofsim::files::histogram;
 use tofsim::network::Network;
 use tofsim::scenario;
+use tofsim::scenario::window::Window;
 use tofsim::sensor::photon_list::PhotonList;
-use tofsim::sim::window::Window;
 
 /// Text that is nearly right: pieces of the formats, shuffled.
 fn nearly(pieces: &'static [&'static str]) -> impl Strategy<Value = String> {
@@ -31,7 +31,7 @@ proptest! {
 
     #[test]
     fn histograms(text in nearly(&["bin,count", "\n", "0,", "1,5\n", "65535", "#x\n", "\"", " "])) {
-        let _ = histogram_file::parse_csv("h", &text);
+        let _ = histogram::parse_csv("h", &text);
         let _ = CsvInput::new("h", &text, &["bin", "count"]);
     }
 

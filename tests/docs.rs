@@ -2,8 +2,7 @@
 //!
 //! `UPDATE_DOCS=1 cargo test --test docs` writes the tables anew.
 
-mod common;
-
+use crate::common;
 use std::fmt::Write;
 use std::fs;
 

@@ -1,7 +1,6 @@
 //! Short cuts through time change nothing: every way of running a scenario gives the same frames.
 
-mod common;
-
+use crate::common;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;

@@ -1,10 +1,9 @@
 //! `tofsim ila capture` as users and scripts meet it.
 
-mod common;
 
-use tofsim::ila::{Overrides, Plan, SetUp};
+use tofsim_captures::ila::{Overrides, Plan, SetUp};
 
-use common::{empty, files, json, refused, setup, stdout};
+use crate::common::{self, empty, files, json, refused, setup, stdout};
 
 #[test]
 fn the_command_writes_all_forms_and_says_when_it_triggered() {

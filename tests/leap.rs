@@ -1,7 +1,6 @@
 //! Shots leapt over come to what stepping them gives, and single outcomes to the firmware's.
 
-mod common;
-
+use crate::common;
 use tofsim::firmware::vcsel_driver;
 use tofsim::kernel::Time;
 use tofsim::scenario;

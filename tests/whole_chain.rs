@@ -1,14 +1,12 @@
 //! The whole chain, photons through firmware to metres, against the closed form and the network in
 //! floating point.
 
-mod common;
-
+use crate::common;
 use std::thread;
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use tofsim::network::Histogram;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
-use tofsim::report::summary::depth_m;
 use tofsim::sensor::streams::{Source, stream};
 use tofsim::sim::setup::{CYCLE, Setup};
 
@@ -56,7 +54,7 @@ fn scene(distance_m: f64, reflectance: f64, more: &[&str]) -> Setup {
 fn chain(distance_m: f64, reflectance: f64) -> Depths {
     let depths = (0..50).map(|seed| {
         let setup = scene(distance_m, reflectance, &[&format!("seed={seed}")]);
-        depth_m(&common::frames(&setup, 1)[0])
+        common::frames(&setup, 1)[0].depth_m()
     });
     Depths::of(&depths.collect::<Vec<_>>())
 }

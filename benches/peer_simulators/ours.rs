@@ -6,10 +6,10 @@ use std::time::{Duration, Instant};
 
 use tofsim::hierarchy;
 use tofsim::kernel::Time;
+use tofsim::scenario::window::Window;
 use tofsim::sim::histogram::Histograms;
 use tofsim::sim::run::Watch;
 use tofsim::sim::setup::Setup;
-use tofsim::sim::window::Window;
 use tofsim::sim::{Gait, Run};
 use tofsim::waves::{Format, Waves};
 

@@ -1,13 +1,9 @@
 //! The depth network: its file, its fixed-point and floating-point passes, and its ROMs.
 
-pub mod datapath;
 pub mod estimate;
-pub mod explain;
-pub mod export;
 pub mod file;
 pub mod float;
 pub mod formats;
-pub mod import;
 pub mod mem;
 mod read;
 pub mod roms;
@@ -16,7 +12,6 @@ mod schema;
 mod write;
 
 pub use estimate::{Estimate, estimate};
-pub use explain::{Explanation, explain};
 pub use file::Network;
 
 use crate::firmware::histogram_builder::BINS;

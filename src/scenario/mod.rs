@@ -7,6 +7,7 @@ mod load;
 mod model;
 pub mod show;
 mod validate;
+pub mod window;
 
 pub use load::{DEFAULT, Loaded, load};
 pub use model::*;

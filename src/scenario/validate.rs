@@ -1,7 +1,7 @@
 //! What the scenario's keys must be to one another.
 
 use crate::error::Result;
-use crate::sim::window::Window;
+use crate::scenario::window::Window;
 
 use super::Scenario;
 use super::check::Checked;

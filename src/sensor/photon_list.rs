@@ -4,8 +4,8 @@
 //! up to three decimals). Rows go up in `shot`, and within a shot in `arrival_ps`. Lines that begin
 //! with `#` are comments; the seed and the origin of the list belong there.
 
-use crate::csv_input::CsvInput;
 use crate::error::Result;
+use crate::files::csv::CsvInput;
 use crate::kernel::Time;
 
 /// The photons of one run.

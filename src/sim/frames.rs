@@ -26,6 +26,11 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// Estimated distance [m].
+    pub fn depth_m(&self) -> f64 {
+        self.depth.to_f64()
+    }
+
     /// Hits in the histogram.
     pub fn hits(&self) -> u64 {
         self.histogram.iter().map(|&count| count as u64).sum()

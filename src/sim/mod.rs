@@ -1,6 +1,7 @@
 //! A run: the device, the light on it and the acquisition computer, stepped in time.
 
 pub mod acquisition;
+pub mod centroid;
 pub mod device;
 pub mod frames;
 pub mod histogram;
@@ -15,9 +16,8 @@ mod sinks;
 pub mod timeline;
 mod trace;
 mod tracer;
-pub mod window;
 
 pub use acquisition::Gait;
 pub use device::Device;
 pub use run::{Outcome, Run};
-pub(crate) use tracer::Windowed;
+pub use tracer::Windowed;

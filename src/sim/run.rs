@@ -4,8 +4,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::error::{Error, Input, Result};
 use crate::firmware::tof_top::Params;
-use crate::ila::Analyser;
-use crate::ila::sampler::{Always, AtEdges};
 use crate::kernel::Time;
 use crate::waves::{Marks, Waves};
 
@@ -17,7 +15,7 @@ use super::recorder::{Recorder, Shot};
 use super::setup::Setup;
 use super::sinks::{Recorded, Sinks};
 use super::tracer::{Tracer, Windowed};
-use super::window::Window;
+use crate::scenario::window::Window;
 
 /// Cycles between two looks at the world outside.
 const BREATH: u64 = 1 << 14;
@@ -101,14 +99,9 @@ impl<'a> Run<'a> {
         let mut tracer = waves.map(|(waves, windows)| Tracer::new(waves, windows));
         self.limit = self.setup.longest_run(count);
 
-        let first_edge = self.device.next_edge();
         match &mut tracer {
-            Some(tracer) if tracer.begins_before(first_edge) => {
-                self.device.resume_clocks(Time::ZERO);
-                tracer.begin(Time::ZERO, &self.device.top);
-                self.device.power_up(tracer, &mut Off);
-            }
-            _ => self.device.power_up(&mut Off, &mut Off),
+            Some(tracer) => self.power_up(tracer),
+            None => self.power_up(&mut Off),
         }
         match (&mut tracer, &mut recorder) {
             (None, None) => self.go(count, &mut Off, &mut Off, &mut sinks)?,
@@ -121,47 +114,30 @@ impl<'a> Run<'a> {
         Ok(self.outcome(marks))
     }
 
-    /// Simulates until `count` frames are done, or the analyser is full and would have the run end
-    /// there.
+    /// Simulates until `count` frames are done, or until `trace` is; it sees the signals whenever it
+    /// wants to.
     ///
     /// # Errors
-    /// When the control signals keep a frame from ending, or the run is stopped.
-    pub fn capture(
+    /// When the control signals keep a frame from ending, `trace` fails, or the run is stopped.
+    pub fn traced<T: Windowed>(
         mut self,
         count: u64,
-        analyser: &mut Analyser,
+        trace: &mut T,
         stop: Option<&AtomicBool>,
     ) -> Result<Outcome> {
         let mut sinks = Sinks { shots: None, frames: None, stop };
         self.limit = self.setup.longest_run(count);
-        if analyser.sees_edges_only() {
-            self.device.power_up(&mut Off, &mut Off);
-            self.go(count, &mut AtEdges(analyser), &mut Off, &mut sinks)?;
-        } else {
-            let mut always = Always(analyser);
-            if always.begins_before_the_edges(&mut self.device) {
-                self.device.power_up(&mut always, &mut Off);
-            } else {
-                self.device.power_up(&mut Off, &mut Off);
-            }
-            self.go(count, &mut always, &mut Off, &mut sinks)?;
-        }
+        self.power_up(trace);
+        self.go(count, trace, &mut Off, &mut sinks)?;
         Ok(self.outcome(Marks::default()))
     }
 
-    /// Simulates until `count` frames are done or `trace`, which sees every signal from power-up
-    /// on, is done; returns when that is.
-    ///
-    /// # Errors
-    /// When the control signals keep a frame from ending.
-    pub(crate) fn traced<T: Windowed>(mut self, count: u64, trace: &mut T) -> Result<Time> {
-        let mut sinks = Sinks { shots: None, frames: None, stop: None };
-        self.limit = self.setup.longest_run(count);
-        self.device.resume_clocks(Time::ZERO);
-        trace.sample(Time::ZERO, &self.device.top);
-        self.device.power_up(trace, &mut Off);
-        self.go(count, trace, &mut Off, &mut sinks)?;
-        Ok(self.device.next_edge())
+    fn power_up<T: Windowed>(&mut self, trace: &mut T) {
+        if trace.begins_at_power_up(&mut self.device) {
+            self.device.power_up(trace, &mut Off);
+        } else {
+            self.device.power_up(&mut Off, &mut Off);
+        }
     }
 
     pub(super) fn outcome(mut self, marks: Marks) -> Outcome {

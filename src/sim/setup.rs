@@ -1,14 +1,14 @@
 //! From a scenario to a device: what elaboration, optics and stimuli come to.
 
-use crate::csv_input::CsvInput;
+use super::centroid::locate;
 use crate::error::{Input, Result};
-use crate::estimation::centroid::locate;
+use crate::files::csv::CsvInput;
+use crate::files::histogram;
 use crate::firmware::forward2::Depth;
 use crate::firmware::histogram_preload;
 use crate::firmware::pll::{self, Pll};
 use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Pins};
 use crate::firmware::{centroid_estimator, frame_ctrl, tdc, vcsel_driver};
-use crate::histogram_file;
 use crate::kernel::{S, Time, U};
 use crate::network::estimate::estimate;
 use crate::network::{Histogram, Network};
@@ -21,7 +21,7 @@ use crate::sensor::photon_list::{Given, PhotonList};
 use super::device::Device;
 use super::jitter::Jitter;
 use super::timeline::{Timeline, pins_at_power_up};
-use super::window::Window;
+use crate::scenario::window::Window;
 
 /// Period of `clk_125`.
 pub const CYCLE: Time = Time::from_ns(8);
@@ -269,7 +269,7 @@ fn stimulus(
     }
     if let Some(name) = &stimulus.histogram {
         let (source, text) = files.read(name)?;
-        let counts = histogram_file::parse_csv(&source, &text)?;
+        let counts = histogram::parse_csv(&source, &text)?;
         let rom: histogram_preload::Rom = counts.map(|count| U::new(count as u64));
         let rom = HistogramSource::Preload(Box::new(rom));
         return Ok((CodeSource::Tdc, rom, Some(Light::None)));

@@ -7,11 +7,19 @@ use crate::waves::{Marks, Waves};
 
 use super::device::{Device, Off, Trace};
 use super::frames::Frames;
-use super::window::{Moment, Window};
+use crate::scenario::window::{Moment, Window};
 
 /// A trace that is on only within windows, or none.
-pub(crate) trait Windowed: Trace {
+pub trait Windowed: Trace {
+    /// Begins at power-up, if it is to see what happens before the first edge of `clk_125`; whether
+    /// it does.
+    fn begins_at_power_up(&mut self, _device: &mut Device) -> bool {
+        false
+    }
     /// Whether the coming cycle is to be traced.
+    ///
+    /// # Errors
+    /// When what it has seen could not be kept.
     fn is_wanted(&mut self, device: &mut Device, frames: &Frames, p: &Params) -> Result<bool>;
     /// Whether the run may end here.
     fn is_done(&self) -> bool {
@@ -64,15 +72,8 @@ impl Tracer {
         }
     }
 
-    /// Whether a window begins before the first clock edge.
-    pub(super) fn begins_before(&self, first_edge: Time) -> bool {
-        let cycle = (Time::ZERO, first_edge);
-        let moment = Moment { cycle, shot: None, estimating: false };
-        self.windows.iter().any(|window| window.wants(&moment))
-    }
-
     /// Opens a window.
-    pub(super) fn begin(&mut self, now: Time, top: &TofTop) {
+    fn begin(&mut self, now: Time, top: &TofTop) {
         self.state = State::Writing;
         self.waves.begin(now, top);
         self.began.get_or_insert(now);
@@ -144,6 +145,17 @@ impl Trace for Tracer {
 }
 
 impl Windowed for Tracer {
+    fn begins_at_power_up(&mut self, device: &mut Device) -> bool {
+        let cycle = (Time::ZERO, device.next_edge());
+        let moment = Moment { cycle, shot: None, estimating: false };
+        let begins = self.windows.iter().any(|window| window.wants(&moment));
+        if begins {
+            device.resume_clocks(Time::ZERO);
+            self.begin(Time::ZERO, &device.top);
+        }
+        begins
+    }
+
     fn is_wanted(&mut self, device: &mut Device, frames: &Frames, p: &Params) -> Result<bool> {
         self.waves.check()?;
         let cycle = device.coming_cycle();

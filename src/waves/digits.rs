@@ -37,7 +37,7 @@ pub(super) static THREE: [[u8; 4]; 1000] = {
 
 /// The taps of a delay line in their physical places.
 #[derive(Debug)]
-pub(crate) struct TapDigits {
+pub struct TapDigits {
     /// For each place in the order of arrival, the physical taps from there on; none if that is the
     /// same order.
     later: Vec<Vec<u64>>,
@@ -49,7 +49,7 @@ pub(crate) struct TapDigits {
 
 impl TapDigits {
     /// For lines whose taps are reached in `order`.
-    pub(crate) fn new(order: &[u16]) -> Self {
+    pub fn new(order: &[u16]) -> Self {
         let sorted = order.iter().enumerate().all(|(place, &tap)| place == tap as usize);
         let mut later = Vec::new();
         let mut taps = vec![0; order.len().div_ceil(64)];
@@ -64,7 +64,7 @@ impl TapDigits {
     }
 
     /// The `N` bits in words, physical tap 0 the lowest.
-    pub(crate) fn words<const N: usize>(&mut self, value: &Thermometer<N>) -> &[u64] {
+    pub fn words<const N: usize>(&mut self, value: &Thermometer<N>) -> &[u64] {
         if self.arrived.len() != N {
             self.arrived.resize(N, false);
             self.arrived.set_uninitialized(false);

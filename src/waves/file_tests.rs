@@ -7,10 +7,10 @@ use wellen::simple::read;
 use super::bench::{Bench, params};
 use super::readback::{FORMATS, FRAME, at, contents, create, record};
 use super::*;
+#[cfg(unix)]
+use crate::files::output::device;
 use crate::firmware::tof_top::Pins;
 use crate::hierarchy::{entries, ram_entries};
-#[cfg(unix)]
-use crate::output::device;
 
 #[test]
 fn outside_the_windows_everything_is_unknown() {

@@ -12,6 +12,7 @@ use fst_writer::{
 };
 
 use crate::error::{Error, Result};
+use crate::files::date;
 use crate::hierarchy::{Entry, IDS, Kind};
 use crate::kernel::Thermometer;
 use crate::kernel::signals::Sink;
@@ -19,7 +20,7 @@ use crate::kernel::signals::Sink;
 use super::digits::TapDigits;
 use super::scopes::{Element, elements};
 use super::spool::Spool;
-use super::{Body, Step, date};
+use super::{Body, Step};
 
 mod body;
 

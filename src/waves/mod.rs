@@ -6,7 +6,6 @@
 
 #[cfg(test)]
 mod bench;
-pub(crate) mod date;
 mod digits;
 #[cfg(test)]
 mod file_tests;
@@ -33,9 +32,9 @@ use crate::hierarchy::{Entry, Instants};
 use crate::kernel::Time;
 use crate::kernel::signals::Sink;
 
-pub(crate) use digits::TapDigits;
+pub use digits::TapDigits;
 use fst::Fst;
-pub(crate) use gtkwave::zoom;
+pub use gtkwave::zoom;
 use vcd::Vcd;
 
 pub use select::select;

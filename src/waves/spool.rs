@@ -5,7 +5,7 @@ use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use crate::error::{Error, Result};
-use crate::output::OutputFile;
+use crate::files::output::OutputFile;
 
 /// An [`OutputFile`] that can seek. Where the target is a pipe or a device, the bytes are kept in
 /// a temporary file without a name until they are all there.

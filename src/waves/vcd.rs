@@ -9,14 +9,15 @@ use std::path::Path;
 use vcd::{IdCode, ReferenceIndex, TimescaleUnit, VarType};
 
 use crate::error::{Error, Result};
+use crate::files::date;
+use crate::files::output::OutputFile;
 use crate::hierarchy::{Entry, IDS, Kind};
 use crate::kernel::Thermometer;
 use crate::kernel::signals::{Format, Sink};
-use crate::output::OutputFile;
 
 use super::digits::TapDigits;
 use super::scopes::{Element, elements};
-use super::{Body, Step, date};
+use super::{Body, Step};
 
 mod text;
 

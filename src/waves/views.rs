@@ -9,10 +9,10 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::error::Result;
+use crate::files::output::{create_directory, write_file};
 use crate::hierarchy::Entry;
 use crate::kernel::Time;
 use crate::kernel::signals::Format as Shape;
-use crate::output::{create_directory, write_file};
 
 use super::layout::groups;
 use super::{Format, gtkwave, surfer};
@@ -183,7 +183,7 @@ mod tests {
     fn a_device_has_no_views() {
         let marks = Marks::default();
         let folder = tempfile::tempdir().unwrap();
-        let null = crate::output::device(folder.path(), "null");
+        let null = crate::files::output::device(folder.path(), "null");
         let paths = write_views(&null, Format::Vcd, &[], &marks).unwrap();
         assert!(paths.is_empty());
     }

@@ -1,0 +1,302 @@
+//! Alignment by best agreement: all offsets at once, by Fourier transforms.
+
+use std::sync::Arc;
+
+use rustfft::num_complex::Complex;
+use rustfft::{Fft, FftPlanner};
+
+use tofsim::error::{Input, Result};
+
+use super::super::pair::Bits;
+use super::super::plan::Plan;
+use super::super::selection::{Piece, Selected};
+use super::Alignment;
+use super::survey::survey;
+
+/// Longest sequence that is looked for [samples].
+const LONGEST: u64 = 1 << 17;
+/// Bits of a sample that are looked at; the rest is left to the comparison.
+const BITS: usize = 256;
+/// Candidates that are kept.
+const KEPT: usize = 8;
+/// Candidates that an error lists.
+const LISTED: usize = 4;
+
+/// An offset and how well it does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Candidate {
+    /// Sample of the longer side at the shorter one's first.
+    pub(super) offset: i64,
+    /// Bits that differ.
+    pub(super) differing: u64,
+    /// Bits that could.
+    pub(super) compared: u64,
+}
+
+impl Candidate {
+    /// Samples that the second side is later, if `side` is the shorter one.
+    fn later(&self, side: usize) -> i64 {
+        if side == 0 { self.offset } else { -self.offset }
+    }
+
+    fn rate(&self) -> f64 {
+        self.differing as f64 / self.compared.max(1) as f64
+    }
+}
+
+/// Columns of bits over time: 1, -1, or 0 where unknown.
+pub(super) struct Columns {
+    bits: Vec<Vec<i8>>,
+    length: usize,
+}
+
+impl Columns {
+    fn new(count: usize) -> Self {
+        Columns { bits: vec![Vec::new(); count], length: 0 }
+    }
+
+    fn push(&mut self, values: impl Iterator<Item = i8>) {
+        self.bits.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+        self.length += 1;
+    }
+
+    fn drop_first(&mut self, count: usize) {
+        for column in &mut self.bits {
+            column.drain(..count.min(column.len()));
+        }
+        self.length -= count.min(self.length);
+    }
+
+    fn pad(&mut self, count: usize) {
+        self.bits.iter_mut().for_each(|column| column.resize(column.len() + count, 0));
+        self.length += count;
+    }
+}
+
+/// The bits of some pairs, side by side.
+struct Probe<'a> {
+    plan: &'a Plan<'a>,
+    pairs: Vec<usize>,
+    width: usize,
+    scratch: Bits,
+}
+
+impl<'a> Probe<'a> {
+    fn new(plan: &'a Plan, signals: &[String]) -> Result<Self> {
+        let pairs = match signals {
+            [] => (0..plan.matching.pairs.len()).collect(),
+            _ => signals
+                .iter()
+                .map(|signal| plan.matching.pair(signal))
+                .collect::<Result<Vec<_>>>()?,
+        };
+        let width = pairs.iter().map(|&pair| plan.matching.pairs[pair].width as usize).sum();
+        Ok(Probe { plan, pairs, width: std::cmp::min(width, BITS), scratch: Bits::default() })
+    }
+
+    fn push(&mut self, side: usize, state: &crate::source::State, columns: &mut Columns) {
+        let mut values = Vec::with_capacity(self.width);
+        for &pair in &self.pairs {
+            let pair = &self.plan.matching.pairs[pair];
+            pair.gather(side, state, &mut self.scratch);
+            for bit in 0..pair.width as usize {
+                let at = |words: &[u64]| words[bit / 64] >> (bit % 64) & 1 == 1;
+                values.push(match (at(&self.scratch.unknown), at(&self.scratch.value)) {
+                    (true, _) => 0,
+                    (false, true) => 1,
+                    (false, false) => -1,
+                });
+            }
+            if values.len() >= self.width {
+                break;
+            }
+        }
+        columns.push(values.into_iter());
+    }
+}
+
+/// What is looked for, and where.
+pub(super) struct Search {
+    /// Side with the shorter sequence.
+    pub(super) side: usize,
+    /// The sequence.
+    pub(super) piece: Piece,
+    /// Whether it may hang over the other's begin and end by up to half.
+    pub(super) overhangs: bool,
+    /// First sample of the other side that is looked at.
+    pub(super) from: u64,
+}
+
+/// The best offsets, the best first.
+pub(super) fn search(plan: &Plan, signals: &[String], search: &Search) -> Result<Vec<Candidate>> {
+    let mut probe = Probe::new(plan, signals)?;
+    let pieces = [search.piece.clone()];
+    let mut needle = Columns::new(probe.width);
+    let mut selected = Selected::new(plan.samples(search.side)?, &pieces);
+    while let Some(place) = selected.next()? {
+        if place.sample.held || needle.length as u64 == LONGEST {
+            break;
+        }
+        probe.push(search.side, selected.samples.state(), &mut needle);
+    }
+    if needle.length < 2 {
+        let source = &plan.sources[search.side].name;
+        return Err(Input::new(source, "expected at least two samples to align by").into());
+    }
+    let length = needle.length;
+    let hang = if search.overhangs { length / 2 } else { 0 };
+    let mut matcher = Matcher::new(needle);
+    let mut hay = Columns::new(probe.width);
+    hay.pad(hang);
+    let other = 1 - search.side;
+    let mut samples = plan.samples(other)?;
+    let mut base = -(hang as i64);
+    let mut best = Vec::new();
+    let mut taken = 0u64;
+    let mut first = None;
+    loop {
+        let sample = match samples.next()? {
+            Some(sample) if !sample.held => sample,
+            _ => break,
+        };
+        if sample.index < search.from || !plan.is_looked_at(other, sample) {
+            continue;
+        }
+        first.get_or_insert(sample.index);
+        taken += 1;
+        probe.push(other, samples.state(), &mut hay);
+        if hay.length == matcher.size {
+            matcher.scan(&hay, base, &mut best);
+            let step = matcher.size - length + 1;
+            hay.drop_first(step);
+            base += step as i64;
+        }
+    }
+    hay.pad(hang);
+    while hay.length >= length {
+        matcher.scan(&hay, base, &mut best);
+        let step = (matcher.size - length + 1).min(hay.length);
+        hay.drop_first(step);
+        base += step as i64;
+    }
+    let first = first.unwrap_or(0) as i64;
+    for candidate in &mut best {
+        let begin = candidate.offset.max(0);
+        let end = (candidate.offset + length as i64).min(taken as i64);
+        candidate.compared = (end - begin).max(0) as u64 * probe.width as u64;
+        let outside = length as u64 * probe.width as u64 - candidate.compared;
+        candidate.differing = candidate.differing.saturating_sub(outside / 2);
+        candidate.offset += first;
+    }
+    best.sort_by(|a, b| a.rate().total_cmp(&b.rate()).then(b.compared.cmp(&a.compared)));
+    Ok(best)
+}
+
+/// Finds a sequence in chunks of another.
+struct Matcher {
+    needle: Columns,
+    size: usize,
+    forward: Arc<dyn Fft<f64>>,
+    inverse: Arc<dyn Fft<f64>>,
+}
+
+impl Matcher {
+    fn new(needle: Columns) -> Self {
+        let size = (4 * needle.length).next_power_of_two();
+        let mut planner = FftPlanner::new();
+        let (forward, inverse) = (planner.plan_fft_forward(size), planner.plan_fft_inverse(size));
+        Matcher { needle, size, forward, inverse }
+    }
+
+    /// Ranks the offsets at which the sequence lies within a chunk that begins at `base`.
+    fn scan(&mut self, hay: &Columns, base: i64, best: &mut Vec<Candidate>) {
+        let zero = Complex::new(0.0, 0.0);
+        let mut product = vec![zero; self.size];
+        let mut both = vec![zero; self.size];
+        for (needle, hay) in self.needle.bits.iter().zip(&hay.bits) {
+            both.fill(zero);
+            both.iter_mut().zip(needle).for_each(|(z, &bit)| z.re = f64::from(bit));
+            both.iter_mut().zip(hay).for_each(|(z, &bit)| z.im = f64::from(bit));
+            self.forward.process(&mut both);
+            for k in 0..self.size {
+                let (z, mirror) = (both[k], both[(self.size - k) % self.size].conj());
+                let (a, b) = ((z + mirror) * 0.5, (z - mirror) * Complex::new(0.0, -0.5));
+                product[k] += a.conj() * b;
+            }
+        }
+        self.inverse.process(&mut product);
+        let all = (self.needle.length * self.needle.bits.len()) as f64;
+        let offsets = (hay.length.min(self.size) + 1).saturating_sub(self.needle.length);
+        for (k, score) in product.iter().enumerate().take(offsets) {
+            let differing = ((all - score.re / self.size as f64) / 2.0).round().max(0.0) as u64;
+            let worst = best.last().map_or(u64::MAX, |worst| worst.differing);
+            if best.len() < KEPT || differing < worst {
+                let candidate = Candidate { offset: base + k as i64, differing, compared: 0 };
+                let place = best.partition_point(|other| other.differing <= differing);
+                best.insert(place, candidate);
+                best.truncate(KEPT);
+            }
+        }
+    }
+}
+
+/// The best candidate, if no other does nearly as well: the next has to differ in more than twice
+/// as many bits.
+///
+/// # Errors
+/// When there is none, or another does as well.
+pub(super) fn decide(
+    candidates: &[Candidate],
+    side: usize,
+    what: &str,
+) -> Result<(Candidate, String)> {
+    let Some(best) = candidates.first() else {
+        return Err(Input::new("--align", format!("{what}: one side is too short")).into());
+    };
+    let tell = |candidate: &Candidate| {
+        let Candidate { differing, compared, .. } = candidate;
+        let offset = candidate.later(side);
+        format!("{offset} ({differing} of {compared} bits differ)")
+    };
+    let near: Vec<_> = candidates.iter().filter(|c| c.rate() <= 2.0 * best.rate()).collect();
+    if near.len() > 1 {
+        let list: Vec<_> = near.iter().take(LISTED).map(|candidate| tell(candidate)).collect();
+        let more = if near.len() > LISTED { " and more" } else { "" };
+        let expected = format!(
+            "ambiguous, {what} fits at several offsets: {}{more}; align by trigger, an edge or an \
+            offset, or by other signals",
+            list.join(", ")
+        );
+        return Err(Input::new("--align", expected).into());
+    }
+    if best.rate() > 0.25 {
+        let expected = format!("{what} fits nowhere; the best offset is {}", tell(best));
+        return Err(Input::new("--align", expected).into());
+    }
+    let next = candidates.get(1).map_or("no other".to_owned(), tell);
+    Ok((*best, format!("correlation: offset {}; next best {next}", tell(best))))
+}
+
+/// One offset for all.
+pub(super) fn alignment(plan: &Plan, signals: &[String]) -> Result<Alignment> {
+    let side = plan.capture().unwrap_or(0);
+    let piece = match plan.capture() {
+        Some(side) => {
+            let windows = survey(plan.sources[side])?.windows;
+            if windows.len() > 1 {
+                let expected = format!(
+                    "the time between the {} windows is not known; align each alone (windows)",
+                    windows.len()
+                );
+                return Err(Input::new("--align", expected).into());
+            }
+            Piece::Run(0, None)
+        }
+        None => Piece::Run(0, Some(LONGEST)),
+    };
+    let overhangs = plan.capture().is_none();
+    let found = search(plan, signals, &Search { side, piece, overhangs, from: 0 })?;
+    let what = if plan.capture().is_some() { "the capture" } else { "the first side" };
+    let (best, text) = decide(&found, side, what)?;
+    Ok(Alignment::shifted(best.later(side), text))
+}

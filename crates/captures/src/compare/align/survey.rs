@@ -1,0 +1,65 @@
+//! What a capture says of its windows and triggers.
+
+use crate::source::{Format, Source};
+use tofsim::error::Result;
+
+/// A window of a capture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// Number of its first sample.
+    pub first: u64,
+    /// Number of its samples, if that is known.
+    pub count: Option<u64>,
+    /// Number of the sample that triggered, in the buffer.
+    pub trigger: Option<u64>,
+}
+
+/// What a pass over a capture finds.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Survey {
+    /// Windows.
+    pub windows: Vec<Window>,
+    /// Number of samples, if that is known.
+    pub samples: Option<u64>,
+    /// Samples at which others are missing.
+    pub gaps: u64,
+    /// Last sample that something is said of.
+    pub last: Option<u64>,
+}
+
+/// Passes over a capture once.
+///
+/// # Errors
+/// When it cannot be read.
+pub fn survey(source: &Source) -> Result<Survey> {
+    let mut survey = Survey::default();
+    // Of a VCD, only the changes of all signals tell how far it goes.
+    let count = if source.format == Format::IlaVcd { usize::MAX } else { 1 };
+    let ids: Vec<usize> = source.signals.iter().take(count).map(|signal| signal.id).collect();
+    let mut cursor = source.read(&ids)?;
+    while let Some(at) = cursor.peek()? {
+        let marks = cursor.take(|_| ());
+        survey.last = Some(at);
+        survey.gaps += u64::from(marks.gap);
+        if marks.window || survey.windows.is_empty() {
+            survey.windows.push(Window { first: at, count: None, trigger: None });
+        }
+        if marks.trigger
+            && let Some(window) = survey.windows.last_mut()
+        {
+            window.trigger = Some(at);
+        }
+    }
+    survey.samples = match source.format {
+        Format::IlaVcd => None,
+        _ => Some(survey.last.map_or(0, |last| last + 1)),
+    };
+    for k in 0..survey.windows.len() {
+        let first = survey.windows[k].first;
+        survey.windows[k].count = match survey.windows.get(k + 1) {
+            Some(next) => Some(next.first - first),
+            None => survey.samples.map(|samples| samples - first),
+        };
+    }
+    Ok(survey)
+}

@@ -1,0 +1,258 @@
+//! Alignment by trigger: a capture's marks against another's, or against what a logic analyser of
+//! the same set-up would store of the waveform.
+
+use crate::ila::core::{Core, Kept};
+use crate::ila::storing::Shape;
+use tofsim::error::{Input, Result};
+
+use super::super::operands::Tied;
+use super::super::plan::Plan;
+use super::super::selection::Piece;
+use super::Alignment;
+use super::survey::{Window, survey};
+
+/// Brings the samples that triggered together.
+pub(super) fn alignment(plan: &Plan, time_from: Option<&str>) -> Result<Alignment> {
+    match (plan.capture(), plan.sources[0].is_capture()) {
+        (Some(side), _) => one_capture(plan, side, time_from),
+        (None, true) => captures(plan),
+        (None, false) => {
+            let first = [first(plan, 0)?, first(plan, 1)?];
+            let offset = first[1] as i64 - first[0] as i64;
+            let found = format!("triggers at samples {} and {}", first[0], first[1]);
+            Ok(Alignment::shifted(offset, found))
+        }
+    }
+}
+
+fn triggered(plan: &Plan, side: usize) -> Result<Vec<(Window, u64)>> {
+    let source = plan.sources[side];
+    let windows = survey(source)?.windows;
+    let triggered: Vec<_> =
+        windows.iter().filter_map(|window| Some((*window, window.trigger?))).collect();
+    if triggered.is_empty() {
+        let expected = "no sample is marked as trigger; align by correlation or an offset";
+        return Err(Input::new(&source.name, expected).into());
+    }
+    Ok(triggered)
+}
+
+fn captures(plan: &Plan) -> Result<Alignment> {
+    let (a, b) = (triggered(plan, 0)?, triggered(plan, 1)?);
+    let mut differences = Vec::new();
+    if a.len() != b.len() {
+        differences.push(format!("the first has {} windows, the second {}", a.len(), b.len()));
+    }
+    let mut pieces = [Vec::new(), Vec::new()];
+    let mut offsets = Vec::new();
+    for (k, (&(window_a, at_a), &(window_b, at_b))) in a.iter().zip(&b).enumerate() {
+        let before = [at_a - window_a.first, at_b - window_b.first];
+        let common = before[0].min(before[1]);
+        if before[0] != before[1] {
+            differences.push(format!(
+                "window {k}: trigger at sample {} of the first, {} of the second",
+                before[0], before[1]
+            ));
+        }
+        if let (Some(a), Some(b)) = (window_a.count, window_b.count)
+            && a != b
+        {
+            differences.push(format!("window {k}: {a} samples in the first, {b} in the second"));
+        }
+        for (side, window, at) in [(0, window_a, at_a), (1, window_b, at_b)] {
+            let left = window.count.map(|count| count - (at - common - window.first));
+            pieces[side].push(Piece::Run(at - common, left));
+        }
+        offsets.push(at_b as i64 - at_a as i64);
+    }
+    offsets.dedup();
+    let offset = if let [offset] = offsets[..] { Some(offset) } else { None };
+    let count = pieces[0].len();
+    let windows = if count == 1 { "window" } else { "windows" };
+    let found = format!("by the trigger of {count} {windows}");
+    Ok(Alignment { pieces, found, offset, differences })
+}
+
+/// The pieces of a capture's side and the waveform's, in the order of the sides.
+fn ordered(side: usize, capture: Vec<Piece>, waveform: Vec<Piece>) -> [Vec<Piece>; 2] {
+    if side == 0 { [capture, waveform] } else { [waveform, capture] }
+}
+
+fn one_capture(plan: &Plan, side: usize, time_from: Option<&str>) -> Result<Alignment> {
+    let windows = triggered(plan, side)?;
+    let (first, at) = windows[0];
+    if let Some(counter) = time_from {
+        let at_waveform = self::first(plan, 1 - side)?;
+        return by_counter(plan, counter, at, at_waveform as i64);
+    }
+    let depth = first.count.map_or(usize::MAX / 2, |count| count as usize);
+    let shape = Shape { depth, windows: windows.len(), position: (at - first.first) as usize };
+    let Stored { pieces, leads } = stored(plan, 1 - side, shape)?;
+    let mut capture = Vec::new();
+    let mut waveform = Vec::new();
+    for ((window, _), (piece, lead)) in windows.iter().zip(pieces.into_iter().zip(leads)) {
+        let count = window.count.map(|count| count.saturating_sub(lead));
+        capture.push(Piece::Run(window.first + lead, count));
+        waveform.push(piece.part(0, count.unwrap_or(u64::MAX)));
+    }
+    let samples: Vec<String> = (waveform.iter().take(3))
+        .filter_map(|piece| piece.sample(0))
+        .map(|sample| sample.to_string())
+        .collect();
+    let more = if waveform.len() > 3 { ", ..." } else { "" };
+    let found = format!("by the trigger; from sample {}{more} of the waveform", samples.join(", "));
+    let offset = match (&waveform[..], &capture[..]) {
+        ([Piece::Run(waveform, _)], [Piece::Run(capture, _)]) => {
+            let later = *waveform as i64 - *capture as i64;
+            Some(if side == 0 { later } else { -later })
+        }
+        _ => None,
+    };
+    let pieces = ordered(side, capture, waveform);
+    Ok(Alignment { pieces, found, offset, differences: Vec::new() })
+}
+
+fn no_condition(plan: &Plan, side: usize) -> Input {
+    let expected = "expected a condition (--trigger, or in the map) that the waveform triggers on";
+    Input::new(&plan.sources[side].name, expected)
+}
+
+fn never(plan: &Plan, side: usize, found: usize, windows: usize) -> Input {
+    let expected = match found {
+        0 => format!("the trigger never comes after {}", plan.after),
+        _ => format!("the trigger comes {found} times after {}, not {windows} times", plan.after),
+    };
+    Input::new(&plan.sources[side].name, expected)
+}
+
+/// What a logic analyser would store of a waveform.
+struct Stored {
+    /// The samples of each window that the waveform has.
+    pieces: Vec<Piece>,
+    /// Samples of each window that are from before the waveform's first.
+    leads: Vec<u64>,
+}
+
+/// What a logic analyser of that shape would store of a waveform.
+fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
+    let mut trigger = plan.trigger[side].clone().ok_or_else(|| no_condition(plan, side))?;
+    let mut qualifier = plan.qualifier[side].clone();
+    let mut core = Core::numbers(shape, qualifier.is_some());
+    let first = begin(plan, side)?;
+    let (skipped, missing) = (first.saturating_sub(plan.stages), plan.stages.saturating_sub(first));
+    for _ in 0..missing {
+        let triggers = trigger.sample_nothing();
+        core.sample(&(), triggers, qualifier.as_mut().is_none_or(Tied::sample_nothing));
+    }
+    let mut samples = plan.samples(side)?;
+    while !core.is_full()
+        && let Some(sample) = samples.next()?
+    {
+        if sample.index < skipped {
+            continue;
+        }
+        let triggers = trigger.sample(samples.state());
+        let qualifies = qualifier.as_mut().is_none_or(|term| term.sample(samples.state()));
+        core.sample(&(), triggers, qualifies);
+    }
+    let found = core.triggers().len();
+    if found < shape.windows {
+        return Err(never(plan, side, found, shape.windows).into());
+    }
+    let windows = core.windows();
+    let leads = windows.iter().map(|kept| lead(kept, missing)).collect();
+    let pieces = windows.into_iter().map(|kept| piece(kept, missing, skipped)).collect();
+    Ok(Stored { pieces, leads })
+}
+
+/// Samples of a window that are numbered below `missing`.
+fn lead(kept: &Kept, missing: u64) -> u64 {
+    match kept {
+        Kept::Range(range) => missing.min(range.end).saturating_sub(range.start),
+        Kept::List(list) => list.iter().filter(|&&sample| sample < missing).count() as u64,
+    }
+}
+
+/// The other samples of a window, by their numbers in the waveform.
+fn piece(kept: Kept, missing: u64, skipped: u64) -> Piece {
+    let number = |sample: u64| sample - missing + skipped;
+    match kept {
+        Kept::Range(range) => {
+            let (start, end) = (range.start.max(missing), range.end.max(missing));
+            Piece::Run(number(start), Some(end - start))
+        }
+        Kept::List(list) => {
+            Piece::Kept(list.into_iter().filter(|&sample| sample >= missing).map(number).collect())
+        }
+    }
+}
+
+/// The first sample that is looked at.
+fn begin(plan: &Plan, side: usize) -> Result<u64> {
+    let mut samples = plan.samples(side)?;
+    let mut first = 0;
+    while let Some(sample) = samples.next()? {
+        if plan.is_looked_at(side, sample) {
+            break;
+        }
+        first = sample.index + 1;
+    }
+    Ok(first)
+}
+
+/// The first sample of a waveform that triggers.
+fn first(plan: &Plan, side: usize) -> Result<u64> {
+    let shape = Shape { depth: 1, windows: 1, position: 0 };
+    let stored = stored(plan, side, shape)?;
+    let first = stored.pieces.first().and_then(|piece| piece.sample(0));
+    first.ok_or_else(|| never(plan, side, 0, 1).into())
+}
+
+/// The samples of a capture that has a column that counts the clock, the first of them `offset`
+/// samples after the waveform's.
+pub(super) fn counted(plan: &Plan, counter: &str, offset: i64) -> Result<Alignment> {
+    by_counter(plan, counter, 0, offset)
+}
+
+/// As the counter says, where sample `at` of the capture is sample `at_waveform` of the waveform.
+fn by_counter(plan: &Plan, counter: &str, at: u64, at_waveform: i64) -> Result<Alignment> {
+    let Some(side) = plan.capture() else {
+        return Err(Input::new("--time-from", "expected one capture").into());
+    };
+    let source = plan.sources[side];
+    let signal = super::super::find::signal(source, counter)?;
+    let signal = &source.signals[signal];
+    let fault = |expected: &str| Input::new(&source.name, expected).field(counter);
+    if signal.width > 64 {
+        return Err(fault("expected a counter of 64 bits at most").into());
+    }
+    let mut cursor = source.read(&[signal.id])?;
+    let mask = u64::MAX >> (64 - signal.width);
+    let (mut counts, mut last, mut total) = (Vec::new(), None, 0u64);
+    while let Some(row) = cursor.peek()? {
+        cursor.take(|_| ());
+        if cursor.state.unknown(0)[0] != 0 {
+            return Err(fault("is unknown").at(row as usize + 1, 1).into());
+        }
+        let now = cursor.state.value(0)[0];
+        if let Some(last) = last {
+            let step = now.wrapping_sub(last) & mask;
+            if step == 0 {
+                let expected =
+                    format!("stands still at sample {row}, so it does not count a clock");
+                return Err(fault(&expected).into());
+            }
+            total = total.saturating_add(step);
+        }
+        last = Some(now);
+        counts.push(total);
+    }
+    let Some(&base) = counts.get(at as usize) else { return Err(fault("has no sample").into()) };
+    let place = |count: u64| at_waveform + (count as i64 - base as i64);
+    let before = counts.iter().take_while(|&&count| place(count) < 0).count();
+    let samples = counts[before..].iter().map(|&count| place(count) as u64).collect();
+    let own = Piece::Run(before as u64, Some((counts.len() - before) as u64));
+    let pieces = ordered(side, vec![own], vec![Piece::Kept(samples)]);
+    let found = format!("sample {at} of the capture at {at_waveform}, the others by {counter}");
+    Ok(Alignment { pieces, found, offset: None, differences: Vec::new() })
+}

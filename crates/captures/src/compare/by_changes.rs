@@ -1,0 +1,164 @@
+//! Compares two waveforms at every instant at which one of them changes.
+
+use crate::source::{Axis, Cursor, Tick};
+use tofsim::error::Result;
+
+use super::plan::Plan;
+use super::tallies::Tallies;
+use super::tally::Spot;
+
+/// Where two waveforms are compared.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Span {
+    /// Time by which the second is late [fs]; less than 0: early.
+    pub(super) late_fs: i128,
+    /// Before this time of the first nothing is compared [fs].
+    pub(super) from_fs: u128,
+    /// From this time of the first on nothing is [fs].
+    pub(super) until_fs: u128,
+}
+
+/// What came of a pass over both waveforms.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Passed {
+    /// Instants compared.
+    pub(super) compared: u64,
+    /// Where each side ends, in its ticks, if one goes on after the other.
+    pub(super) ends: Option<[u64; 2]>,
+}
+
+/// One side, in the common unit of time.
+struct Side {
+    cursor: Cursor,
+    tick: Tick,
+    coarse: Tick,
+    /// What is taken off its times, in the common unit.
+    late: i128,
+    /// Its end as it says, in ticks.
+    end: Option<u64>,
+    last: u64,
+}
+
+impl Side {
+    fn common(&self, at: u64) -> i128 {
+        self.tick.convert(at, self.coarse) as i128 - self.late
+    }
+
+    fn peek(&mut self) -> Result<Option<i128>> {
+        Ok(self.cursor.peek()?.map(|at| self.common(at)))
+    }
+
+    /// Takes all instants of that time.
+    #[inline]
+    fn take(&mut self, now: i128, mut touched: impl FnMut(usize)) -> Result<()> {
+        while let Some(at) = self.cursor.peek()?
+            && self.common(at) == now
+        {
+            self.last = at;
+            self.cursor.take(&mut touched);
+        }
+        Ok(())
+    }
+
+    /// Its end, as far as that is known now.
+    fn end(&mut self) -> Result<Option<i128>> {
+        let last = if self.cursor.peek()?.is_none() { Some(self.last) } else { None };
+        Ok(self.end.map(|end| end.max(self.last)).or(last).map(|end| self.common(end)))
+    }
+}
+
+/// Compares until one side ends.
+///
+/// The last instant of one counts only if both have changes there: a simulator may stop before it
+/// has written those of its last time step, and we write the end of a run without any.
+pub(super) fn compare(plan: &Plan, span: Span, tallies: &mut Tallies) -> Result<Passed> {
+    let ticks = plan.sources.map(|source| match source.axis {
+        Axis::Time(tick) => tick,
+        Axis::Samples => Tick::FEMTOSECOND,
+    });
+    let coarse = ticks[0].max(ticks[1]);
+    let late = |side: usize| if side == 0 { 0 } else { signed(coarse, span.late_fs) };
+    let open = |side: usize| -> Result<Side> {
+        let cursor = plan.sources[side].read(&plan.matching.slots[side].ids)?;
+        let (tick, end) = (ticks[side], plan.sources[side].end);
+        Ok(Side { cursor, tick, coarse, late: late(side), end, last: 0 })
+    };
+    let mut sides = [open(0)?, open(1)?];
+    let (mut passed, mut touched) = (Passed::default(), Vec::new());
+    let [from, until] = [span.from_fs, span.until_fs].map(|fs| coarse.count_up(fs) as i128);
+    let mut begun = from == 0;
+    loop {
+        let next = [sides[0].peek()?, sides[1].peek()?];
+        let Some(now) = next.into_iter().flatten().min().filter(|&now| now < until) else { break };
+        let ends = [sides[0].end()?, sides[1].end()?];
+        let end = ends.into_iter().flatten().min().unwrap_or(i128::MAX);
+        if now > end {
+            break;
+        }
+        let mut changes = [false, false];
+        for (side, cursor) in sides.iter_mut().enumerate() {
+            cursor.take(now, |signal| {
+                changes[side] = true;
+                tallies.touch(side, signal);
+            })?;
+        }
+        if now < from || (now == end && changes != [true, true]) {
+            continue;
+        }
+        if !begun {
+            begun = true;
+            tallies.touch_all();
+        }
+        tallies.take_touched(&mut touched);
+        if touched.is_empty() {
+            continue;
+        }
+        let states = [&sides[0].cursor.state, &sides[1].cursor.state];
+        let at = |side: usize| {
+            let common = (now + late(side)).max(0) as u64;
+            coarse.convert(common, ticks[side])
+        };
+        let spot = Spot { order: passed.compared, piece: 0, at: [at(0), at(1)] };
+        if let Some(both) = &mut tallies.both {
+            both.at(coarse.femtoseconds(now.max(0) as u64) / 1000)?;
+        }
+        for &pair in &touched {
+            let pair = pair as usize;
+            if tallies.is_off(pair, states) {
+                continue;
+            }
+            tallies.tallies[pair].compared += 1;
+            let same = tallies.is_same(pair, states);
+            if !same {
+                tallies.count(pair, spot, states);
+            }
+            tallies.show(pair, states, !same)?;
+        }
+        passed.compared += 1;
+    }
+    passed.ends = ends(&mut sides, until)?;
+    Ok(passed)
+}
+
+/// Where the sides end, if that is not the same and within what was to be compared.
+fn ends(sides: &mut [Side; 2], until: i128) -> Result<Option<[u64; 2]>> {
+    let mut ends = [0; 2];
+    let mut common = [0; 2];
+    for (side, (end, common)) in sides.iter_mut().zip(ends.iter_mut().zip(&mut common)) {
+        if side.end.is_none() {
+            while let Some(at) = side.cursor.peek()? {
+                side.last = at;
+                side.cursor.take(|_| ());
+            }
+        }
+        *end = side.end.unwrap_or(0).max(side.last);
+        *common = side.common(*end).min(until);
+    }
+    Ok((common[0] != common[1]).then_some(ends))
+}
+
+/// A time in units of `coarse`, rounded towards the past.
+fn signed(coarse: Tick, femtoseconds: i128) -> i128 {
+    let size = coarse.count(femtoseconds.unsigned_abs()) as i128;
+    if femtoseconds < 0 { -size } else { size }
+}

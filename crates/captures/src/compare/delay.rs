@@ -1,0 +1,85 @@
+//! Pairs that cannot be compared by the values at one place alone.
+
+use std::collections::VecDeque;
+
+use crate::source::State;
+use tofsim::error::Result;
+
+use super::pair::Bits;
+use super::plan::Plan;
+use super::tallies::Tallies;
+use super::tally::Spot;
+
+/// A pair of which one side is late, or that is compared only at times.
+pub(super) struct Delay {
+    pair: usize,
+    early: VecDeque<Entry>,
+}
+
+/// A sample, kept until the side that is late has come.
+#[derive(Clone)]
+struct Entry {
+    values: [Bits; 2],
+    spot: Spot,
+    /// Sides of which it is not compared.
+    off: [bool; 2],
+}
+
+impl Delay {
+    /// Of that pair.
+    pub(super) fn new(pair: usize) -> Self {
+        Delay { pair, early: VecDeque::new() }
+    }
+
+    /// A window begins: nothing is kept from the one before.
+    pub(super) fn clear(&mut self) {
+        self.early.clear();
+    }
+
+    /// Takes a sample with its values and whether they are missing, and compares as soon as both
+    /// sides have come.
+    pub(super) fn compare(
+        &mut self,
+        plan: &Plan,
+        spot: Spot,
+        (states, gaps): ([&State; 2], [bool; 2]),
+        tallies: &mut Tallies,
+    ) -> Result<()> {
+        let differs = self.step(plan, spot, (states, gaps), tallies);
+        tallies.show(self.pair, states, differs)
+    }
+
+    /// Whether the pair differs at the sample that has both sides now.
+    fn step(
+        &mut self,
+        plan: &Plan,
+        spot: Spot,
+        (states, gaps): ([&State; 2], [bool; 2]),
+        tallies: &mut Tallies,
+    ) -> bool {
+        let pair = &plan.matching.pairs[self.pair];
+        let mut values = [Bits::default(), Bits::default()];
+        for (side, bits) in values.iter_mut().enumerate() {
+            pair.gather(side, states[side], bits);
+        }
+        let off = [gaps[0] || pair.is_off(states[0]), gaps[1]];
+        let now = Entry { values, spot, off };
+        self.early.push_back(now.clone());
+        if self.early.len() as u64 <= pair.latency.unsigned_abs() {
+            return false;
+        }
+        let Some(early) = self.early.pop_front() else { return false };
+        let [a, b] = if pair.latency >= 0 { [&early, &now] } else { [&now, &early] };
+        if a.off[0] || b.off[1] {
+            return false;
+        }
+        tallies.tallies[self.pair].compared += 1;
+        let (expected, got) = (&a.values[0], &b.values[1]);
+        let differs = !pair.equal(expected, got, tallies.unknowns());
+        if differs {
+            let at = [a.spot.at[0], b.spot.at[1]];
+            tallies.count_values(self.pair, Spot { at, ..now.spot }, expected, got);
+        }
+        differs
+    }
+}

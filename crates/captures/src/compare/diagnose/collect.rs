@@ -1,0 +1,140 @@
+//! The values of a window, in memory.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use crate::source::State;
+use tofsim::error::Result;
+
+use super::super::align::Alignment;
+use super::super::pair::Bits;
+use super::super::plan::Plan;
+use super::super::result::Comparison;
+use super::super::selection::Selected;
+
+/// Longest part of a window that is looked at [samples].
+const LONGEST: u64 = 1 << 17;
+/// Signals that are looked at one by one.
+const COLUMNS: usize = 32;
+
+/// The values of a signal.
+pub(super) struct Column {
+    /// Its name on its side.
+    pub(super) name: String,
+    /// Which pair it is of.
+    pub(super) pair: Option<usize>,
+    pub(super) width: u32,
+    /// Values, or what stands for them where they are unknown or wide.
+    pub(super) values: Vec<u64>,
+}
+
+/// The values of a window.
+pub(super) struct Collected {
+    /// Number of the window.
+    pub(super) window: usize,
+    /// Whether a side has windows.
+    pub(super) in_windows: bool,
+    /// Its first sample that is looked at.
+    pub(super) first: u64,
+    /// Both sides of the pairs that differ.
+    pub(super) pairs: Vec<[Column; 2]>,
+    /// Signals of each side that have no partner.
+    pub(super) lonely: [Vec<Column>; 2],
+    /// For each side and sample what stands for the values of all pairs.
+    pub(super) rows: [Vec<u64>; 2],
+}
+
+impl Collected {
+    /// The window, for a sentence; nothing where there are none.
+    pub(super) fn place(&self) -> String {
+        if self.in_windows { format!("window {}: ", self.window) } else { String::new() }
+    }
+}
+
+/// What stands for a value: itself, if it has 64 bits at most, all known.
+fn key(bits: &Bits) -> u64 {
+    match (&bits.value[..], bits.is_known()) {
+        ([value], true) => *value,
+        _ => hash(bits),
+    }
+}
+
+fn hash(value: &impl Hash) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    value.hash(&mut hasher);
+    hasher.finish()
+}
+
+/// Reads the window of the first difference, or the first one.
+pub(super) fn collect(
+    plan: &Plan,
+    alignment: &Alignment,
+    result: &Comparison,
+) -> Result<Collected> {
+    let first = result.differing().filter_map(|pair| pair.first.as_ref()).min_by_key(|f| f.order);
+    let window = first.map_or(0, |first| first.window);
+    let pieces = [0, 1].map(|side| alignment.pieces[side].get(window).cloned());
+    let mut collected = empty(plan, result, window);
+    let [Some(a), Some(b)] = pieces else { return Ok(collected) };
+    let before: u64 = (alignment.pieces[0][..window].iter())
+        .zip(&alignment.pieces[1])
+        .map(|(a, b)| a.count().unwrap_or(0).min(b.count().unwrap_or(0)))
+        .sum();
+    let position = first.map_or(0, |first| first.order.saturating_sub(before));
+    let skip = position.saturating_sub(LONGEST / 2);
+    collected.first = skip;
+    let (a, b) = ([a.part(skip, LONGEST)], [b.part(skip, LONGEST)]);
+    let mut sides = [Selected::new(plan.samples(0)?, &a), Selected::new(plan.samples(1)?, &b)];
+    while let [Some(a), Some(b)] = [sides[0].next()?, sides[1].next()?] {
+        if a.sample.held && b.sample.held {
+            break;
+        }
+        for (side, selected) in sides.iter().enumerate() {
+            push(plan, side, selected.samples.state(), &mut collected);
+        }
+    }
+    Ok(collected)
+}
+
+fn empty(plan: &Plan, result: &Comparison, window: usize) -> Collected {
+    let differing: Vec<&str> = result.differing().map(|pair| pair.name.as_str()).collect();
+    let pairs = plan.matching.pairs.iter().enumerate();
+    let pairs = pairs.filter(|(_, pair)| differing.contains(&pair.name.as_str())).take(COLUMNS);
+    let column =
+        |name: &String, pair, width| Column { name: name.clone(), pair, width, values: Vec::new() };
+    Collected {
+        in_windows: plan.sources.iter().any(|source| source.is_capture()),
+        window,
+        first: 0,
+        pairs: pairs
+            .map(|(k, pair)| {
+                [&pair.name, &pair.other].map(|name| column(name, Some(k), pair.width))
+            })
+            .collect(),
+        lonely: [0, 1].map(|side| {
+            let lonely = plan.lonely[side].iter();
+            lonely.map(|lonely| column(&lonely.name, None, lonely.width)).collect()
+        }),
+        rows: Default::default(),
+    }
+}
+
+fn push(plan: &Plan, side: usize, state: &State, collected: &mut Collected) {
+    let mut bits = Bits::default();
+    for column in &mut collected.pairs {
+        if let Some(pair) = column[side].pair {
+            plan.matching.pairs[pair].gather(side, state, &mut bits);
+            column[side].values.push(key(&bits));
+        }
+    }
+    for (column, lonely) in collected.lonely[side].iter_mut().zip(&plan.lonely[side]) {
+        bits.value = state.value(lonely.signal).to_vec();
+        bits.unknown = state.unknown(lonely.signal).to_vec();
+        column.values.push(key(&bits));
+    }
+    let mut row = DefaultHasher::new();
+    for pair in &plan.matching.pairs {
+        pair.gather(side, state, &mut bits);
+        bits.hash(&mut row);
+    }
+    collected.rows[side].push(row.finish());
+}

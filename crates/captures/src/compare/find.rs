@@ -1,0 +1,142 @@
+//! Finds a signal of a source by what a user calls it.
+
+use std::collections::HashMap;
+
+use crate::source::{Kind, Name, Source};
+use tofsim::error::{Input, Result, nearest};
+
+use super::pair::Part;
+
+/// Names that an error offers.
+const OFFERED: usize = 4;
+
+/// The signals of a source that a comparison reads, each once.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Slots {
+    /// Id of each.
+    pub(super) ids: Vec<usize>,
+    by_id: HashMap<usize, usize>,
+}
+
+impl Slots {
+    /// The place of a signal, which is read from now on.
+    pub(super) fn place(&mut self, id: usize) -> usize {
+        let next = self.ids.len();
+        let place = *self.by_id.entry(id).or_insert(next);
+        if place == next {
+            self.ids.push(id);
+        }
+        place
+    }
+}
+
+/// The index of the one signal that has this name, or whose name ends so; nearest the top.
+///
+/// # Errors
+/// When there is none, or several that are not the same signal.
+pub(super) fn signal(source: &Source, text: &str) -> Result<usize> {
+    let wanted = Name::new(text);
+    let named = |(_, signal): &(usize, &crate::source::Signal)| signal.name.is(&wanted);
+    let mut found: Vec<usize> =
+        source.signals.iter().enumerate().filter(named).map(|(k, _)| k).collect();
+    if found.is_empty() {
+        let ends = source.signals.iter().enumerate().filter_map(|(k, signal)| {
+            signal.name.common(&wanted).filter(|&common| common == wanted.depth()).map(|_| k)
+        });
+        found = ends.collect();
+        let depth = |&k: &usize| source.signals[k].name.depth();
+        let top = found.iter().map(depth).min();
+        found.retain(|k| Some(depth(k)) == top);
+    }
+    let id = |&k: &usize| source.signals[k].id;
+    match found.first() {
+        Some(&first) if found.iter().all(|k| id(k) == id(&first)) => Ok(first),
+        Some(_) => {
+            let names: Vec<_> = (found.iter().take(OFFERED))
+                .map(|&k| source.signals[k].name.text.as_str())
+                .collect();
+            let expected = format!("several signals are called so: {}", names.join(", "));
+            Err(Input::new(&source.name, expected).field(text).into())
+        }
+        None => {
+            let names = source.signals.iter().map(|signal| signal.name.text.as_str());
+            let near = match nearest(text, names) {
+                Some(name) => format!("; near it: {name}"),
+                None => String::new(),
+            };
+            Err(Input::new(&source.name, format!("no such signal{near}")).field(text).into())
+        }
+    }
+}
+
+/// The bits that `text` names: a signal, or a slice of one as `x[7:4]` or `x[3]`.
+///
+/// # Errors
+/// When there is no such signal, it is not of bits, or the slice is beyond it.
+pub(super) fn part(source: &Source, text: &str, slots: &mut Slots) -> Result<(usize, Part)> {
+    let whole = match signal(source, text) {
+        Ok(found) => return bits(source, found, None, slots, text),
+        Err(error) => error,
+    };
+    if let Some(found) = widest(source, text) {
+        return bits(source, found, None, slots, text);
+    }
+    let Some((name, high, low)) = slice(text) else { return Err(whole) };
+    let wanted = Name::new(name);
+    let column = source.signals.iter().position(|signal| {
+        signal.lsb == i64::from(low)
+            && i64::from(high) == signal.lsb + i64::from(signal.width) - 1
+            && signal.name.common(&wanted) == Some(wanted.depth())
+    });
+    if let Some(found) = column {
+        return bits(source, found, None, slots, text);
+    }
+    let Ok(found) = signal(source, name) else { return Err(whole) };
+    bits(source, found, Some((high, low)), slots, text)
+}
+
+/// The whole signal, where slices of it have names of their own and so have all of them a range.
+fn widest(source: &Source, text: &str) -> Option<usize> {
+    let begin = Name::new(text).scope(0) + "[";
+    let is_part = |(_, signal): &(usize, &crate::source::Signal)| {
+        let name = signal.name.scope(0);
+        name.strip_prefix(&begin).is_some_and(|range| range.contains(':'))
+    };
+    let parts: Vec<_> = source.signals.iter().enumerate().filter(is_part).collect();
+    let (found, whole) = *parts.iter().max_by_key(|(_, signal)| signal.width)?;
+    let top = |signal: &crate::source::Signal| signal.lsb + i64::from(signal.width);
+    let holds_all = parts.iter().all(|(k, part)| {
+        *k == found
+            || (part.lsb >= whole.lsb && top(part) <= top(whole) && part.width < whole.width)
+    });
+    holds_all.then_some(found)
+}
+
+fn bits(
+    source: &Source,
+    found: usize,
+    slice: Option<(u32, u32)>,
+    slots: &mut Slots,
+    text: &str,
+) -> Result<(usize, Part)> {
+    let signal = &source.signals[found];
+    let fault = |expected: String| Err(Input::new(&source.name, expected).field(text).into());
+    if signal.kind == Kind::Other {
+        return fault("is text, which is not compared".into());
+    }
+    let top = signal.lsb + i64::from(signal.width) - 1;
+    let (high, low) = slice.map_or((top, signal.lsb), |(high, low)| (high.into(), low.into()));
+    if high < low || high > top || low < signal.lsb {
+        return fault(format!("expected a slice within [{top}:{}]", signal.lsb));
+    }
+    let (width, low) = ((high - low + 1) as u32, (low - signal.lsb) as u32);
+    let place = slots.place(signal.id);
+    Ok((found, Part { signal: place, low, width, whole: width == signal.width }))
+}
+
+/// A name with a range, taken apart.
+fn slice(text: &str) -> Option<(&str, u32, u32)> {
+    let (name, range) = text.strip_suffix(']')?.rsplit_once('[')?;
+    let (high, low) = range.split_once(':').unwrap_or((range, range));
+    Some((name, high.parse().ok()?, low.parse().ok()?))
+}

@@ -1,0 +1,266 @@
+//! How the names and values of two sides belong together: a TOML file, or what a logic analyser's
+//! set-up says.
+
+use std::path::Path;
+
+use regex::Regex;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::ila::SetUp;
+use crate::ila::setup::ProbeEntry;
+use tofsim::error::{Result, read_text};
+use tofsim::hierarchy::TOP;
+use tofsim::scenario::check::{Checked, read};
+
+/// A map file. Where it names sides, `a` and `b` are those of `tofsim compare A B`, or the other way
+/// round if its names are found so.
+#[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Map {
+    /// Clock of a waveform's samples: a signal, taken just before its rising edges, or a frequency
+    /// and the time of the first edge as `125MHz` or `125MHz + 2ns`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clock: Option<String>,
+    /// How the sides are brought together: `start`, `trigger`, `edge SIGNAL`, `correlation`,
+    /// `windows`, `offset N` in samples or a time as `offset 8ns`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub align: Option<String>,
+    /// Condition that a waveform triggers on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trigger: Option<String>,
+    /// Time before which a waveform is not looked at.
+    #[serde(skip_serializing_if = "is_zero")]
+    #[schemars(range(min = 0.0, max = 1e9), extend("unit" = "us"))]
+    pub after_us: f64,
+    /// Registers before the probes of the logic analyser.
+    #[serde(skip_serializing_if = "is_exact")]
+    #[schemars(range(min = 0, max = 6), extend("unit" = "edges"))]
+    pub input_stages: u64,
+    /// Condition under which a logic analyser has stored a sample.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub qualified_by: Option<String>,
+    /// Signal of a capture that counts the clock.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time_from: Option<String>,
+    /// Signals that are not compared, with * and ?.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ignore: Vec<String>,
+    /// Changes of names, tried in this order before names are compared.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rename: Vec<Rename>,
+    /// Signals that belong together by intention.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub signal: Vec<Rule>,
+}
+
+fn is_zero(number: &f64) -> bool {
+    *number == 0.0
+}
+
+/// A change of names.
+#[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Rename {
+    /// Regular expression that the names of one side or both are searched for.
+    pub pattern: String,
+    /// What the match is replaced by; `$1` is the first group.
+    pub by: String,
+    /// Whose names.
+    pub side: Side,
+}
+
+/// Of which side.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Serialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum Side {
+    /// Both.
+    #[default]
+    Both,
+    /// The first, which is what is expected.
+    A,
+    /// The second.
+    B,
+}
+
+/// Signals that belong together, or how a signal is compared.
+#[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Rule {
+    /// Name on the first side. Slices as `x[7:4]` are joined where there are several, the highest
+    /// first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub a: Vec<String>,
+    /// Name on the second side. Without it, the rule is about a signal that comes together by name.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub b: Vec<String>,
+    /// Whether it is a number in two's complement.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub signed: Option<bool>,
+    /// Bits after the binary point.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0, max = 1024), extend("unit" = "bits"))]
+    pub fraction: Option<u32>,
+    /// Bits that are not compared, as `0xf0`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dont_care: Option<String>,
+    /// Whether the second side has it the other way round.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub invert: bool,
+    /// Samples that the second side has it later (less than 0: earlier).
+    #[serde(skip_serializing_if = "is_none_later")]
+    #[schemars(range(min = -65_536, max = 65_536), extend("unit" = "samples"))]
+    pub latency: i64,
+    /// Largest difference that is none, for numbers.
+    #[serde(skip_serializing_if = "is_exact")]
+    #[schemars(range(min = 0), extend("unit" = "LSB"))]
+    pub tolerance: u64,
+    /// Signal of one bit on the first side; compared only where it is 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub valid: Option<String>,
+}
+
+fn is_none_later(samples: &i64) -> bool {
+    *samples == 0
+}
+
+fn is_exact(tolerance: &u64) -> bool {
+    *tolerance == 0
+}
+
+impl Map {
+    /// Reads and checks a map file.
+    ///
+    /// # Errors
+    /// When it cannot be read or something in it is not what it should be; with the place.
+    pub fn read(path: &Path) -> Result<Map> {
+        Map::parse(&path.display().to_string(), &read_text(path)?)
+    }
+
+    /// A map from the text of `source`.
+    ///
+    /// # Errors
+    /// As [`Map::read`].
+    pub fn parse(source: &str, text: &str) -> Result<Map> {
+        let checked = Checked::parse::<Map>(source, text)?;
+        let map: Map = read(source, checked.table())?;
+        for (k, rename) in map.rename.iter().enumerate() {
+            if let Err(error) = Regex::new(&rename.pattern) {
+                let reason = error.to_string();
+                let reason = reason.lines().last().unwrap_or_default().trim().to_owned();
+                return Err(checked.fault(&format!("rename.{k}.pattern"), reason).into());
+            }
+        }
+        for (k, rule) in map.signal.iter().enumerate() {
+            if rule.a.is_empty() || (rule.b.is_empty() && rule.a.len() > 1) {
+                let fault = checked.fault(
+                    &format!("signal.{k}"),
+                    "expected `a`, a signal's name, and `b` if it is joined",
+                );
+                return Err(fault.into());
+            }
+            if let Some(mask) = &rule.dont_care
+                && parse_mask(mask).is_none()
+            {
+                let expected = "expected bits as `0xf0`";
+                return Err(checked.fault(&format!("signal.{k}.dont_care"), expected).into());
+            }
+        }
+        Ok(map)
+    }
+
+    /// The map that belongs to a logic analyser's set-up: the simulation's signals on the first
+    /// side, the probes on the second.
+    pub fn of(set_up: &SetUp) -> Map {
+        let file = &set_up.file;
+        let clock = match file.clock.starts_with("clk_") {
+            true => format!("{TOP}.{}", file.clock),
+            false => file.clock.clone(),
+        };
+        let probes = file.probe.iter().map(|probe| Rule {
+            a: vec![format!("{TOP}.{}", below_top(probe))],
+            b: vec![shown(probe)],
+            ..Rule::default()
+        });
+        Map {
+            clock: Some(clock),
+            align: Some("trigger".to_owned()),
+            trigger: Some(file.trigger.clone().unwrap_or_else(|| "always".to_owned())),
+            after_us: file.arm_at_us,
+            input_stages: file.input_stages,
+            qualified_by: file.capture.clone(),
+            signal: probes.collect(),
+            ..Map::default()
+        }
+    }
+
+    /// The map as a file.
+    pub fn to_toml(&self) -> String {
+        // Every value here has a form in TOML.
+        toml::to_string(self).unwrap_or_default()
+    }
+}
+
+/// Path of a probe's signal below the top.
+fn below_top(probe: &ProbeEntry) -> String {
+    let path = probe.signal.replace('/', ".");
+    let below = path.strip_prefix(TOP).and_then(|rest| rest.strip_prefix('.'));
+    below.unwrap_or(&path).to_owned()
+}
+
+/// Name of a probe in a capture.
+fn shown(probe: &ProbeEntry) -> String {
+    let below = below_top(probe).replace('.', "/");
+    let single = below.strip_suffix(']').and_then(|text| {
+        let (high, low) = text.rsplit_once('[')?.1.split_once(':')?;
+        (high == low).then(|| text.replace(&format!("[{high}:{low}"), &format!("[{low}]")))
+    });
+    probe.name.clone().unwrap_or(single.unwrap_or(below))
+}
+
+/// The bits of a mask, lowest word first.
+pub(super) fn parse_mask(text: &str) -> Option<Vec<u64>> {
+    let digits = text.strip_prefix("0x")?.replace('_', "");
+    if digits.is_empty() || !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {
+        return None;
+    }
+    let words = digits.as_bytes().rchunks(16).map(|word| {
+        let word = std::str::from_utf8(word).ok()?;
+        u64::from_str_radix(word, 16).ok()
+    });
+    words.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_map_is_read_as_it_is_written() {
+        let text = "clock = \"clk_250\"\nalign = \"trigger\"\n\n[[signal]]\n\
+            a = [\"vcsel_driver.laser_pulse\"]\nb = [\"VCSEL_ON\"]\n";
+        let map = Map::parse("map.toml", text).unwrap();
+        assert_eq!(map.to_toml(), text);
+    }
+
+    #[test]
+    fn a_fault_has_its_place() {
+        let fault = |text: &str| Map::parse("map.toml", text).unwrap_err().to_string();
+        let error = fault("[[rename]]\npattern = \"(\"\nby = \"\"\n");
+        assert!(error.starts_with("map.toml:2:11: rename.0.pattern"), "{error}");
+        let error = fault("[[signal]]\na = [\"x\"]\ndont_care = \"f0\"\n");
+        assert!(error.contains("map.toml:3:"), "{error}");
+        assert!(error.contains("expected bits as `0xf0`"), "{error}");
+        let error = fault("[[signal]]\nb = [\"x\"]\n");
+        assert!(error.contains("expected `a`"), "{error}");
+        let error = fault("[[signal]]\na = [\"x\"]\nlatancy = 2\n");
+        assert!(error.contains("did you mean `latency`?"), "{error}");
+    }
+
+    #[test]
+    fn masks_may_be_of_any_width() {
+        assert_eq!(parse_mask("0x1_00000000_0000000f"), Some(vec![0xf, 1]));
+        assert_eq!(parse_mask("0x"), None);
+        assert_eq!(parse_mask("f0"), None);
+    }
+}

@@ -1,0 +1,105 @@
+//! Signals that belong together because a map says so.
+
+use std::collections::HashSet;
+
+use crate::source::{Source, shapes};
+use tofsim::error::{Input, Result};
+
+use super::super::find::{self, Slots};
+use super::super::map::{Map, Rule, parse_mask};
+use super::super::pair::{How, Pair, Part, top};
+use super::super::show::Show;
+use super::{Matching, shown};
+
+/// Whether more of the map's names are found with the sides the other way round.
+pub(super) fn is_swapped(sides: [&Source; 2], map: &Map) -> bool {
+    let found = |order: [usize; 2]| {
+        let has = |side: usize, names: &[String]| {
+            let part = |name: &String| find::part(sides[side], name, &mut Slots::default()).is_ok();
+            usize::from(names.iter().all(part))
+        };
+        let rules = map.signal.iter().filter(|rule| !rule.b.is_empty());
+        rules.map(|rule| has(order[0], &rule.a) + has(order[1], &rule.b)).sum::<usize>()
+    };
+    found([1, 0]) > found([0, 1])
+}
+
+/// The pair that a rule names.
+///
+/// # Errors
+/// When one side does not have it, or the widths differ.
+pub(super) fn by_rule(
+    sides: [&Source; 2],
+    rule: &Rule,
+    matching: &mut Matching,
+    used: &mut [HashSet<usize>; 2],
+) -> Result<Pair> {
+    let mut names = [rule.a.as_slice(), rule.b.as_slice()];
+    if matching.swapped {
+        names.swap(0, 1);
+    }
+    let mut parts: [Vec<Part>; 2] = Default::default();
+    let mut first = [0, 0];
+    for side in 0..2 {
+        for (k, name) in names[side].iter().enumerate() {
+            let slots = &mut matching.slots[side];
+            let (signal, part) = find::part(sides[side], name, slots)?;
+            used[side].insert(sides[side].signals[signal].id);
+            parts[side].push(part);
+            if k == 0 {
+                first[side] = signal;
+            }
+        }
+    }
+    let [width, other] = [0, 1].map(|side| parts[side].iter().map(|part| part.width).sum::<u32>());
+    if width != other {
+        let expected = format!("expected signals of one width, not {width} and {other} bits");
+        return Err(Input::new("map", expected).field(names[0].join(" ")).into());
+    }
+    let [a, b] = [0, 1].map(|side| &sides[side].signals[first[side]]);
+    let names = names.map(|parts| parts.join(" "));
+    let mut pair = Pair::new(names, How::Map, width, parts, shown(a, b, &shapes()));
+    pair.follow(rule, sides, matching)?;
+    Ok(pair)
+}
+
+impl Pair {
+    /// Takes over what a rule says of how it is compared.
+    pub(super) fn follow(
+        &mut self,
+        rule: &Rule,
+        sides: [&Source; 2],
+        matching: &mut Matching,
+    ) -> Result<()> {
+        if let Some(name) = &rule.valid {
+            let (_, part) = find::part(sides[0], name, &mut matching.slots[0])?;
+            if part.width != 1 {
+                let expected = "expected a signal of one bit";
+                return Err(Input::new("map", expected).field("valid").value(name).into());
+            }
+            self.valid = Some(part.signal);
+        }
+        self.signed = rule.signed.or(self.signed);
+        match (rule.signed, rule.fraction) {
+            (Some(true), fraction) => self.show = Show::Signed(fraction.unwrap_or(0)),
+            (_, Some(fraction)) => self.show = Show::Fixed(fraction),
+            (Some(false), None) => self.show = Show::Unsigned,
+            (None, None) => {}
+        }
+        if let Some(text) = &rule.dont_care {
+            let mask = parse_mask(text).unwrap_or_default();
+            let beyond = |(k, word): (usize, &u64)| word & !top(self.width, k) != 0;
+            if mask.iter().enumerate().any(beyond) {
+                let expected = format!("expected {} bits at most", self.width);
+                return Err(Input::new("map", expected).field("dont_care").value(text).into());
+            }
+            self.mask = mask.into_iter().map(|word| !word).collect();
+        }
+        self.invert |= rule.invert;
+        if rule.latency != 0 {
+            self.latency = if matching.swapped { -rule.latency } else { rule.latency };
+        }
+        self.tolerance = self.tolerance.max(rule.tolerance);
+        Ok(())
+    }
+}

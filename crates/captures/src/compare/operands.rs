@@ -1,0 +1,106 @@
+//! Conditions over the signals of a waveform.
+
+use crate::condition::{Bound, Condition, Level, Place};
+use crate::source::{Name, Source, State, shapes};
+use tofsim::error::Result;
+use tofsim::kernel::signals::Format as Shape;
+
+use super::find;
+use super::matching::Matching;
+use super::pair::Part;
+
+/// A condition tied to one side.
+#[derive(Clone)]
+pub(super) struct Tied {
+    bound: Bound,
+    /// The parts of each operand, the highest first.
+    operands: Vec<Vec<Part>>,
+}
+
+impl Tied {
+    /// Ties a condition to the signals of a side, which may be called as on either.
+    ///
+    /// Whether one is a number in two's complement is what the map says, or else what the firmware's
+    /// signal of that name is: the same as in a capture, however its column is shown.
+    ///
+    /// # Errors
+    /// When a signal is not found, or a value does not fit.
+    pub(super) fn new(
+        source: &Source,
+        side: usize,
+        matching: &mut Matching,
+        condition: &Condition,
+    ) -> Result<Tied> {
+        let mut operands = Vec::new();
+        let known = shapes();
+        let bound = condition.bind(&mut |text| {
+            let index = operands.len();
+            let pair = matching.pairs.iter().find(|pair| pair.name == text || pair.other == text);
+            if let Some(pair) = pair {
+                let whole = pair.sides[side].iter().all(|part| part.whole);
+                let signed = pair.signed.unwrap_or_else(|| {
+                    whole && [&pair.name, &pair.other].iter().any(|name| is_signed(name, &known))
+                });
+                operands.push(pair.sides[side].clone());
+                return Ok(Place { index, width: pair.width, signed });
+            }
+            let found = find::signal(source, text)?;
+            let signal = &source.signals[found];
+            let place = matching.slots[side].place(signal.id);
+            let part = Part { signal: place, low: 0, width: signal.width, whole: true };
+            operands.push(vec![part]);
+            Ok(Place { index, width: signal.width, signed: is_signed(&signal.name.text, &known) })
+        })?;
+        Ok(Tied { bound, operands })
+    }
+
+    /// Whether it holds at a sample.
+    pub(super) fn sample(&mut self, state: &State) -> bool {
+        let operands = &self.operands;
+        self.bound.sample(|operand| level(state, &operands[operand]))
+    }
+
+    /// Whether it holds at a sample before power-up, where everything is 0.
+    pub(super) fn sample_nothing(&mut self) -> bool {
+        self.bound.sample(|_| Level::known(0))
+    }
+}
+
+fn is_signed(name: &str, known: &[(Name, Shape)]) -> bool {
+    let name = Name::new(name);
+    let found = known.iter().find(|(known, _)| known.common(&name).is_some_and(|parts| parts >= 2));
+    matches!(found, Some((_, Shape::Signed { .. })))
+}
+
+fn level(state: &State, parts: &[Part]) -> Level {
+    let mut level = Level::default();
+    for part in parts {
+        let mask = u128::MAX >> (128 - part.width.clamp(1, 128));
+        let bits = |words: &[u64]| wide(words, part.low as usize) & mask;
+        let shift = |bits: u128| bits.checked_shl(part.width).unwrap_or(0);
+        level.value = shift(level.value) | bits(state.value(part.signal));
+        level.unknown = shift(level.unknown) | bits(state.unknown(part.signal));
+    }
+    level
+}
+
+/// 128 bits from bit `low` on.
+fn wide(words: &[u64], low: usize) -> u128 {
+    let word = |k: usize| words.get(k).copied().unwrap_or(0) as u128;
+    let (first, shift) = (low / 64, low % 64);
+    let lower = (word(first) | word(first + 1) << 64) >> shift;
+    if shift == 0 { lower } else { lower | word(first + 2) << (128 - shift) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bits_are_taken_across_words() {
+        let words = [0x8000_0000_0000_0000, 0x3, 0x1];
+        assert_eq!(wide(&words, 0), 3 << 64 | 1 << 63);
+        assert_eq!(wide(&words, 63) & 0xf, 0b111);
+        assert_eq!(wide(&words, 65), 1 << 63 | 1);
+    }
+}

@@ -1,0 +1,135 @@
+//! What a comparison reads from each side, and how it makes samples of it.
+
+use crate::condition::Condition;
+use crate::source::{Axis, Source};
+use tofsim::error::Result;
+use tofsim::kernel::Time;
+
+use super::matching::{Matching, Reason, Unmatched};
+use super::operands::Tied;
+use super::samples::{Sample, Samples, Sampling};
+
+/// Two sources with their signals matched, to be read as often as needed.
+pub(super) struct Plan<'a> {
+    pub(super) sources: [&'a Source; 2],
+    pub(super) matching: Matching,
+    /// Signals of each side that have no partner.
+    pub(super) lonely: [Vec<Lonely>; 2],
+    sampling: Option<Sampling>,
+    clock: [Option<usize>; 2],
+    /// What a waveform triggers on.
+    pub(super) trigger: [Option<Tied>; 2],
+    /// Under which condition a logic analyser stored a sample.
+    pub(super) qualifier: [Option<Tied>; 2],
+    /// Before this time a waveform is not looked at.
+    pub(super) after: Time,
+    /// Samples before that which a logic analyser's registers delay into it.
+    pub(super) stages: u64,
+}
+
+/// A signal without a partner, which is read to find one.
+pub(super) struct Lonely {
+    pub(super) name: String,
+    pub(super) signal: usize,
+    pub(super) width: u32,
+}
+
+/// Signals without a partner that are looked at.
+const LONELY: usize = 64;
+
+/// Conditions and clock as they were given.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Terms {
+    pub(super) sampling: Option<Sampling>,
+    pub(super) trigger: Option<Condition>,
+    pub(super) qualifier: Option<Condition>,
+    pub(super) after: Time,
+    pub(super) stages: u64,
+}
+
+impl<'a> Plan<'a> {
+    /// A plan to compare samples.
+    pub(super) fn new(
+        sources: [&'a Source; 2],
+        mut matching: Matching,
+        terms: Terms,
+    ) -> Result<Plan<'a>> {
+        let mut clock = [None, None];
+        let (mut trigger, mut qualifier) = ([None, None], [None, None]);
+        for side in 0..2 {
+            let slots = &mut matching.slots[side];
+            let sampling = terms.sampling.as_ref();
+            clock[side] = Samples::clock_signal(sources[side], sampling, slots)?;
+            if sources[side].is_capture() {
+                continue;
+            }
+            let bind = |matching: &mut Matching, condition: &Option<Condition>| {
+                let bind =
+                    |condition: &Condition| Tied::new(sources[side], side, matching, condition);
+                condition.as_ref().map(bind).transpose()
+            };
+            trigger[side] = bind(&mut matching, &terms.trigger)?;
+            qualifier[side] = bind(&mut matching, &terms.qualifier)?;
+        }
+        let lonely = [0, 1].map(|side| lonely(sources, side, &mut matching));
+        let Terms { sampling, after, stages, .. } = terms;
+        Ok(Plan { sources, matching, lonely, sampling, clock, trigger, qualifier, after, stages })
+    }
+
+    /// A plan to compare changes.
+    pub(super) fn changes(sources: [&'a Source; 2], matching: Matching, after: Time) -> Plan<'a> {
+        let (clock, trigger, qualifier) = ([None, None], [None, None], [None, None]);
+        let lonely = [Vec::new(), Vec::new()];
+        Plan {
+            sources,
+            matching,
+            lonely,
+            sampling: None,
+            clock,
+            trigger,
+            qualifier,
+            after,
+            stages: 0,
+        }
+    }
+
+    /// The samples of a side from the first on.
+    pub(super) fn samples(&self, side: usize) -> Result<Samples> {
+        let slots = &self.matching.slots[side];
+        Samples::new(self.sources[side], slots, self.sampling.as_ref(), self.clock[side])
+    }
+
+    /// Whether a sample is late enough to be looked at.
+    pub(super) fn is_looked_at(&self, side: usize, sample: Sample) -> bool {
+        match self.sources[side].axis {
+            Axis::Time(tick) => tick.femtoseconds(sample.at) >= self.after.fs() as u128,
+            Axis::Samples => true,
+        }
+    }
+
+    /// The side that is a capture, where the other is none.
+    pub(super) fn capture(&self) -> Option<usize> {
+        match self.sources.map(Source::is_capture) {
+            [true, false] => Some(0),
+            [false, true] => Some(1),
+            _ => None,
+        }
+    }
+}
+
+/// Signals of a side without a partner, if the other side's could be one.
+fn lonely(sources: [&Source; 2], side: usize, matching: &mut Matching) -> Vec<Lonely> {
+    if !sources.iter().any(|source| source.is_capture()) {
+        return Vec::new();
+    }
+    let Matching { unmatched, slots, .. } = matching;
+    let own = |reason: &Unmatched| reason.side == side && reason.reason == Reason::Alone;
+    let lonely = unmatched.iter().filter(|unmatched| own(unmatched)).take(LONELY);
+    lonely
+        .map(|unmatched| {
+            let signal = &sources[side].signals[unmatched.signal];
+            let (name, width) = (unmatched.name.clone(), signal.width);
+            Lonely { name, signal: slots[side].place(signal.id), width }
+        })
+        .collect()
+}

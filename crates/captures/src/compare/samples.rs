@@ -1,0 +1,225 @@
+//! A source as a sequence of samples: rows of a logic analyser, or a waveform at the edges of a clock.
+
+use std::str::FromStr;
+
+use crate::ila;
+use crate::source::{Axis, Cursor, Format, Marks, Source, State, Tick};
+use tofsim::error::{Input, Result};
+use tofsim::kernel::Time;
+use tofsim::kernel::clock::Clock;
+
+use super::find::{self, Slots};
+
+/// What a waveform is sampled by.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Sampling {
+    /// Just before the rising edges of a signal.
+    Signal(String),
+    /// Just before instants of a clock that is no signal.
+    Free {
+        /// Edges in a second.
+        frequency_hz: u64,
+        /// First edge.
+        phase: Time,
+    },
+}
+
+impl FromStr for Sampling {
+    type Err = String;
+
+    /// A signal, or as `125MHz` or `125MHz + 2ns` a frequency and the time of the first edge.
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        Ok(match text.parse() {
+            Ok(ila::clock::Sampling::Free { frequency_hz, phase }) => {
+                Sampling::Free { frequency_hz, phase }
+            }
+            Err(expected)
+                if text.trim_start().starts_with(|first: char| first.is_ascii_digit()) =>
+            {
+                return Err(expected.to_owned());
+            }
+            _ => Sampling::Signal(text.to_owned()),
+        })
+    }
+}
+
+/// A time with its unit, to be counted from power-up.
+pub fn time(text: &str) -> Option<Time> {
+    const UNITS: [(&str, f64); 6] =
+        [("fs", 1e-3), ("ps", 1.0), ("ns", 1e3), ("us", 1e6), ("ms", 1e9), ("s", 1e12)];
+    let (number, ps) = UNITS.iter().find_map(|(unit, ps)| Some((text.strip_suffix(unit)?, ps)))?;
+    let ps = number.trim().parse::<f64>().ok()? * ps;
+    (0.0..=1e16).contains(&ps).then(|| Time::from_ps_f64(ps))
+}
+
+/// One sample of a sequence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Sample {
+    /// Its number, from 0.
+    pub(super) index: u64,
+    /// Its place in the source: a tick, or the number of the row.
+    pub(super) at: u64,
+    pub(super) marks: Marks,
+    /// Nothing is said of it but that nothing has changed.
+    pub(super) held: bool,
+}
+
+enum Clocking {
+    /// The rising edges of a signal of the cursor, and its level.
+    Rising(usize, Option<bool>),
+    Free {
+        clock: Clock,
+        tick: Tick,
+    },
+    /// Rows; those after the last may be like it.
+    Rows {
+        endless: bool,
+    },
+}
+
+/// A source as a sequence of samples.
+pub(super) struct Samples {
+    cursor: Cursor,
+    clocking: Clocking,
+    /// Values at the sample.
+    state: State,
+    /// Signals of which the cursor has newer values than the sample.
+    newer: Vec<u32>,
+    /// Signals that have changed since they were last asked for.
+    changed: Vec<u32>,
+    next: u64,
+}
+
+impl Samples {
+    /// Signal of the cursor that is the clock of this source, which is read too.
+    pub(super) fn clock_signal(
+        source: &Source,
+        sampling: Option<&Sampling>,
+        slots: &mut Slots,
+    ) -> Result<Option<usize>> {
+        match (source.axis, sampling) {
+            (Axis::Time(_), Some(Sampling::Signal(name))) => {
+                let (_, part) = find::part(source, name, slots)?;
+                if part.width != 1 {
+                    let expected = format!("expected a clock of one bit, not {}", part.width);
+                    return Err(Input::new(&source.name, expected).field(name).into());
+                }
+                Ok(Some(part.signal))
+            }
+            (Axis::Time(_), None) => {
+                let expected = "a waveform has no samples; say which clock they are taken by \
+                    with --clock";
+                Err(Input::new(&source.name, expected).into())
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// Begins to read the signals of `slots`; `clock` is what [`Samples::clock_signal`] found.
+    pub(super) fn new(
+        source: &Source,
+        slots: &Slots,
+        sampling: Option<&Sampling>,
+        clock: Option<usize>,
+    ) -> Result<Samples> {
+        let clocking = match (source.axis, clock, sampling) {
+            (Axis::Time(_), Some(signal), _) => Clocking::Rising(signal, None),
+            (Axis::Time(tick), None, Some(&Sampling::Free { frequency_hz, phase })) => {
+                Clocking::Free { clock: Clock::new(frequency_hz, 1, 1, phase), tick }
+            }
+            _ => Clocking::Rows { endless: source.format == Format::IlaVcd },
+        };
+        let cursor = source.read(&slots.ids)?;
+        let state = cursor.state.clone();
+        let newer = Vec::new();
+        Ok(Samples { cursor, clocking, state, newer, changed: Vec::new(), next: 0 })
+    }
+
+    /// Values at the sample.
+    pub(super) fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Tells the signals that have changed since this was last asked; one may come twice.
+    pub(super) fn changes(&mut self, mut changed: impl FnMut(usize)) {
+        self.changed.drain(..).for_each(|signal| changed(signal as usize));
+    }
+
+    fn catch_up(&mut self) {
+        for &signal in &self.newer {
+            self.state.take(&self.cursor.state, signal as usize);
+        }
+        self.changed.append(&mut self.newer);
+    }
+
+    /// The next sample, `None` at the end.
+    pub(super) fn next(&mut self) -> Result<Option<Sample>> {
+        self.catch_up();
+        match self.clocking {
+            Clocking::Rising(signal, level) => self.next_edge(signal, level),
+            Clocking::Free { .. } => self.next_instant(),
+            Clocking::Rows { endless } => self.next_row(endless),
+        }
+    }
+
+    fn sample(&mut self, at: u64, marks: Marks, held: bool) -> Option<Sample> {
+        let index = self.next;
+        self.next += 1;
+        Some(Sample { index, at, marks, held })
+    }
+
+    fn next_edge(&mut self, clock: usize, mut level: Option<bool>) -> Result<Option<Sample>> {
+        while let Some(at) = self.cursor.peek()? {
+            let newer = &mut self.newer;
+            let mut ticks = false;
+            self.cursor.take(|signal| {
+                newer.push(signal as u32);
+                ticks |= signal == clock;
+            });
+            if ticks {
+                let state = &self.cursor.state;
+                let now = (state.unknown(clock)[0] == 0).then(|| state.value(clock)[0] == 1);
+                let rises = level == Some(false) && now == Some(true);
+                level = now;
+                self.clocking = Clocking::Rising(clock, level);
+                if rises {
+                    return Ok(self.sample(at, Marks::default(), false));
+                }
+            }
+            self.catch_up();
+        }
+        Ok(None)
+    }
+
+    fn next_instant(&mut self) -> Result<Option<Sample>> {
+        let Clocking::Free { clock, tick } = &self.clocking else { return Ok(None) };
+        let (mut edge, tick) = (clock.rise(self.next + 1), *tick);
+        if clock.rise(0) > Time::ZERO {
+            edge = clock.rise(self.next);
+        }
+        while let Some(at) = self.cursor.peek()? {
+            if tick.femtoseconds(at) >= edge.fs() as u128 {
+                return Ok(self.sample(tick.count(edge.fs() as u128), Marks::default(), false));
+            }
+            let newer = &mut self.newer;
+            self.cursor.take(|signal| newer.push(signal as u32));
+            self.catch_up();
+        }
+        Ok(None)
+    }
+
+    fn next_row(&mut self, endless: bool) -> Result<Option<Sample>> {
+        let row = self.next;
+        match self.cursor.peek()? {
+            Some(at) if at == row => {
+                let newer = &mut self.newer;
+                let marks = self.cursor.take(|signal| newer.push(signal as u32));
+                self.catch_up();
+                Ok(self.sample(row, marks, false))
+            }
+            Some(_) => Ok(self.sample(row, Marks::default(), false)),
+            None if endless => Ok(self.sample(row, Marks::default(), true)),
+            None => Ok(None),
+        }
+    }
+}

@@ -1,0 +1,155 @@
+//! How a value is written for people: in its signal's own radix, and as the number it stands for.
+
+use crate::ila::Radix;
+use tofsim::kernel::signals::Format as Shape;
+
+use super::pair::{Bits, extend};
+
+/// How a signal's values are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Show {
+    /// Bits: one digit, or hexadecimal.
+    Bits,
+    /// All binary digits.
+    Binary,
+    /// A count.
+    Unsigned,
+    /// Two's complement with so many bits after the point.
+    Signed(u32),
+    /// A count with so many bits after the point.
+    Fixed(u32),
+    /// A state of that machine.
+    State(&'static [&'static str]),
+    /// The taps of a delay line.
+    Taps,
+    /// Floating point.
+    Real,
+}
+
+impl Show {
+    /// As the firmware's signal of that shape.
+    pub(super) fn shape(shape: Shape) -> Show {
+        match shape {
+            Shape::Bits => Show::Bits,
+            Shape::Unsigned => Show::Unsigned,
+            Shape::Signed { fraction } => Show::Signed(fraction),
+            Shape::State(states) => Show::State(states),
+            Shape::Taps => Show::Taps,
+        }
+    }
+
+    /// As a column of that radix.
+    pub(super) fn radix(radix: Radix) -> Show {
+        match radix {
+            Radix::Hex | Radix::Octal => Show::Bits,
+            Radix::Signed => Show::Signed(0),
+            Radix::Unsigned => Show::Unsigned,
+            Radix::Binary => Show::Binary,
+        }
+    }
+
+    /// Whether values are two's complement.
+    pub(super) fn is_signed(self) -> bool {
+        matches!(self, Show::Signed(_))
+    }
+
+    /// The value as text.
+    pub(super) fn text(self, bits: &Bits, width: u32) -> String {
+        let digits = digits(bits, width);
+        let Some(number) = bits.number() else {
+            return match self {
+                Show::Taps if bits.is_known() => {
+                    let ones: u32 = bits.value.iter().map(|word| word.count_ones()).sum();
+                    format!("{ones} of {width} taps high")
+                }
+                _ => shorten(digits),
+            };
+        };
+        match self {
+            Show::Bits => digits,
+            Show::Binary => format!("0b{number:0width$b}", width = width as usize),
+            Show::Unsigned if width == 1 => digits,
+            Show::Unsigned => number.to_string(),
+            Show::Signed(0) => extend(number, width).to_string(),
+            Show::Signed(fraction) => {
+                format!("{} ({digits})", scaled(extend(number, width) as f64, fraction))
+            }
+            Show::Fixed(fraction) => format!("{} ({digits})", scaled(number as f64, fraction)),
+            Show::State(states) => match states.get(number as usize) {
+                Some(state) => format!("{state} ({number})"),
+                None => format!("no state ({number})"),
+            },
+            Show::Taps => format!("{} of {width} taps high", number.count_ones()),
+            Show::Real => f64::from_bits(number as u64).to_string(),
+        }
+    }
+}
+
+/// A number with bits after the point, to nine places.
+fn scaled(value: f64, fraction: u32) -> String {
+    let text = format!("{:.9}", value / 2f64.powi(fraction as i32));
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// All digits: one of a single bit, binary where a bit is unknown, or else hexadecimal.
+fn digits(bits: &Bits, width: u32) -> String {
+    let at = |words: &[u64], bit: u32| words[bit as usize / 64] >> (bit % 64) & 1;
+    if width == 1 || !bits.is_known() {
+        let digit = |bit| match (at(&bits.unknown, bit), at(&bits.value, bit)) {
+            (0, 0) => '0',
+            (0, _) => '1',
+            (_, 0) => 'x',
+            _ => 'z',
+        };
+        let text: String = (0..width).rev().map(digit).collect();
+        let first = text.chars().next().unwrap_or('x');
+        let all = text.chars().all(|digit| digit == first);
+        return match width {
+            1 => text,
+            _ if all => first.to_string(),
+            _ => format!("0b{text}"),
+        };
+    }
+    let text: String = bits.value.iter().rev().map(|word| format!("{word:016x}")).collect();
+    let count = width.div_ceil(4) as usize;
+    format!("0x{}", &text[text.len().saturating_sub(count)..])
+}
+
+/// A text too long to read, shortened in its middle.
+fn shorten(text: String) -> String {
+    const LONGEST: usize = 44;
+    match text.len() > LONGEST {
+        true => format!("{}..{}", &text[..20], &text[text.len() - 20..]),
+        false => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn known(value: u64) -> Bits {
+        Bits { value: vec![value], unknown: vec![0] }
+    }
+
+    #[test]
+    fn values_are_shown_as_what_they_are() {
+        assert_eq!(Show::Bits.text(&known(0xa5), 12), "0x0a5");
+        assert_eq!(Show::Bits.text(&known(1), 1), "1");
+        assert_eq!(Show::Binary.text(&known(5), 4), "0b0101");
+        assert_eq!(Show::Signed(0).text(&known(0xff), 8), "-1");
+        assert_eq!(Show::Signed(4).text(&known(0xf8), 8), "-0.5 (0xf8)");
+        assert_eq!(Show::State(&["Clear", "Acquire"]).text(&known(1), 2), "Acquire (1)");
+        assert_eq!(Show::State(&["Clear"]).text(&known(3), 2), "no state (3)");
+        assert_eq!(Show::Real.text(&known(1.5f64.to_bits()), 64), "1.5");
+    }
+
+    #[test]
+    fn unknown_bits_are_shown_as_such() {
+        let bits = Bits { value: vec![0b100], unknown: vec![0b110] };
+        assert_eq!(Show::Unsigned.text(&bits, 4), "0b0zx0");
+        assert_eq!(Show::Unsigned.text(&Bits { value: vec![0], unknown: vec![0xf] }, 4), "x");
+        let taps = Bits { value: vec![u64::MAX, 1, 0], unknown: vec![0; 3] };
+        assert_eq!(Show::Taps.text(&taps, 190), "65 of 190 taps high");
+    }
+}

@@ -1,0 +1,233 @@
+//! Conditions over signals, as a trigger or a qualifier has them:
+//! `state == 5 && (other rising || bus[7:4] != 0b1x0x)`.
+//!
+//! Names may hold dots, slashes, digits and brackets, or anything in double quotes. A bare name is
+//! a one-bit signal that has to be 1. `!` takes the comparison behind it, `&&` (`and`) binds
+//! tighter than `||` (`or`).
+
+mod bound;
+mod literal;
+mod parse;
+mod token;
+
+pub use bound::Bound;
+
+use literal::Literal;
+use tofsim::error::{Error, Input, Result};
+
+/// Widest signal of a condition [bits].
+pub const WIDEST: u32 = 128;
+
+/// A condition as it was written.
+#[derive(Clone, Debug)]
+pub struct Condition {
+    source: String,
+    text: String,
+    node: Node,
+    leaves: Vec<Leaf>,
+}
+
+/// Where the signal of a name is found among the levels of a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// Number that [`Bound::sample`] asks for.
+    pub index: usize,
+    /// Width [bits].
+    pub width: u32,
+    /// Whether its value is two's complement.
+    pub signed: bool,
+}
+
+/// What a signal is at a sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Level {
+    /// The bits; an unknown one may be either.
+    pub value: u128,
+    /// The bits that are not known.
+    pub unknown: u128,
+}
+
+impl Level {
+    /// A level without unknown bits.
+    pub const fn known(value: u128) -> Self {
+        Level { value, unknown: 0 }
+    }
+}
+
+/// How tests are joined.
+#[derive(Clone, Debug)]
+enum Node {
+    /// A test, by its number.
+    Leaf(usize),
+    Not(Box<Node>),
+    All(Vec<Node>),
+    Any(Vec<Node>),
+}
+
+/// A test of one signal.
+#[derive(Clone, Debug)]
+struct Leaf {
+    /// Name, perhaps with a slice.
+    name: String,
+    /// Column of the name.
+    column: usize,
+    test: Test,
+}
+
+/// What a signal is tested for.
+#[derive(Clone, Debug)]
+enum Test {
+    /// Compared with a value, which stands at a column.
+    Compare(Relation, Literal, usize),
+    /// Is 1.
+    High,
+    Rising,
+    Falling,
+    Changed,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Relation {
+    Equal,
+    Unequal,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+}
+
+impl Condition {
+    /// Reads a condition from `text`; `source` is the option or the key it was given with.
+    ///
+    /// # Errors
+    /// When it is no condition; the error has the column in the text.
+    pub fn parse(source: &str, text: &str) -> Result<Self> {
+        let (node, leaves) = parse::parse(source, text)?;
+        Ok(Condition { source: source.to_owned(), text: text.to_owned(), node, leaves })
+    }
+
+    /// The text it was read from.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Names used, each once, without a slice `[7:4]`. An index `[3]` stays: only
+    /// [`Condition::bind`] can tell a bit of a signal from a signal of that name.
+    pub fn signals(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        let mut seen = std::collections::HashSet::new();
+        for leaf in &self.leaves {
+            let name = match slice(&leaf.name) {
+                Some((name, high, low)) if high != low || leaf.name.contains(':') => name,
+                _ => &leaf.name,
+            };
+            if seen.insert(name) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
+    /// Ties the names to places. `find` is asked for each name as it is written, then, where that
+    /// fails, without its slice.
+    ///
+    /// # Errors
+    /// Those of `find`, with the column if they have no place; a slice beyond the signal, a value
+    /// that does not fit, an edge of more than one bit, bits beyond [`WIDEST`].
+    pub fn bind(&self, find: &mut dyn FnMut(&str) -> Result<Place>) -> Result<Bound> {
+        let watched = self.leaves.iter().map(|leaf| self.watch(leaf, find));
+        Ok(Bound::new(self.node.clone(), watched.collect::<Result<_>>()?))
+    }
+
+    fn watch(
+        &self,
+        leaf: &Leaf,
+        find: &mut dyn FnMut(&str) -> Result<Place>,
+    ) -> Result<bound::Watched> {
+        let (place, low, width) = self.find(leaf, find)?;
+        let fault = |column, value: &str, expected: String| {
+            Input::new(&self.source, expected).at(1, column).value(value)
+        };
+        if width > WIDEST {
+            let expected = format!("expected a signal of at most {WIDEST} bits, not {width}");
+            return Err(fault(leaf.column, &leaf.name, expected).into());
+        }
+        if low + width > WIDEST {
+            let expected = format!("expected bits of the lowest {WIDEST}");
+            return Err(fault(leaf.column, &leaf.name, expected).into());
+        }
+        let signed = place.signed && width == place.width;
+        match &leaf.test {
+            Test::Compare(_, literal, column) => {
+                if let Err(expected) = literal.fits(width, signed) {
+                    return Err(fault(*column, &literal.text, expected).into());
+                }
+            }
+            Test::Changed => {}
+            Test::High | Test::Rising | Test::Falling if width != 1 => {
+                let expected = format!("expected a signal of one bit, not {width}");
+                return Err(fault(leaf.column, &leaf.name, expected).into());
+            }
+            _ => {}
+        }
+        Ok(bound::Watched::new(place.index, low, width, signed, &leaf.test))
+    }
+
+    /// Where a test's bits are: the signal, the lowest bit, and how many.
+    fn find(
+        &self,
+        leaf: &Leaf,
+        find: &mut dyn FnMut(&str) -> Result<Place>,
+    ) -> Result<(Place, u32, u32)> {
+        let whole = match find(&leaf.name) {
+            Ok(place) => return Ok((place, 0, place.width)),
+            Err(error) => error,
+        };
+        let Some((name, high, low)) = slice(&leaf.name) else {
+            return Err(self.placed(whole, leaf));
+        };
+        let place = match find(name) {
+            Ok(place) => place,
+            Err(part) => {
+                let better = if leaf.name.contains(':') { part } else { whole };
+                return Err(self.placed(better, leaf));
+            }
+        };
+        if high < low || high >= place.width {
+            let expected = match place.width {
+                1 => format!("`{name}` has one bit, [0]"),
+                width => format!("`{name}` has the bits [{}:0], the higher first", width - 1),
+            };
+            return Err(Input::new(&self.source, expected)
+                .at(1, leaf.column)
+                .value(&leaf.name)
+                .into());
+        }
+        Ok((place, low, high - low + 1))
+    }
+
+    /// An error of `find`, at the name's column.
+    fn placed(&self, error: Error, leaf: &Leaf) -> Error {
+        match error {
+            Error::Input(input) if input.place.is_none() => {
+                let source = self.source.clone();
+                Input { source, place: Some((1, leaf.column)), ..*input }.into()
+            }
+            other => other,
+        }
+    }
+}
+
+/// Name, highest and lowest bit of `name[7:4]` or `name[3]`.
+pub(crate) fn slice(text: &str) -> Option<(&str, u32, u32)> {
+    let (name, range) = text.strip_suffix(']')?.rsplit_once('[')?;
+    let (high, low) = range.split_once(':').unwrap_or((range, range));
+    let bit = |digits: &str| match digits.bytes().all(|byte| byte.is_ascii_digit()) {
+        true => digits.parse().ok(),
+        false => None,
+    };
+    Some((name, bit(high)?, bit(low)?))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,171 @@
+//! Reads the tokens of a condition by recursive descent.
+
+use tofsim::error::{Input, Result};
+
+use super::literal::Literal;
+use super::token::{Kind, Token, tokens};
+use super::{Leaf, Node, Relation, Test};
+
+/// How deep parentheses may stand in each other.
+const DEEPEST: usize = 64;
+
+/// What holds at every sample, unless it stands in quotes.
+const ALWAYS: &str = "always";
+
+/// Words that are no names unless they stand in quotes.
+const KEYWORDS: &[&str] = &["and", "or", "rising", "falling", "changed"];
+
+const RELATIONS: &[(&str, Relation)] = &[
+    ("==", Relation::Equal),
+    ("!=", Relation::Unequal),
+    ("<", Relation::Less),
+    ("<=", Relation::LessOrEqual),
+    (">", Relation::Greater),
+    (">=", Relation::GreaterOrEqual),
+];
+
+/// The tests of a condition and how they are joined.
+pub(super) fn parse(source: &str, text: &str) -> Result<(Node, Vec<Leaf>)> {
+    let tokens = tokens(source, text)?;
+    let mut parser = Parser { source, tokens: &tokens, leaves: Vec::new(), depth: 0 };
+    let node = parser.any()?;
+    match parser.first() {
+        Token { kind: Kind::End, .. } => Ok((node, parser.leaves)),
+        token => Err(parser.fault(token, "expected `&&`, `||` or the end of the condition")),
+    }
+}
+
+struct Parser<'a> {
+    source: &'a str,
+    tokens: &'a [Token<'a>],
+    leaves: Vec<Leaf>,
+    depth: usize,
+}
+
+impl<'a> Parser<'a> {
+    fn any(&mut self) -> Result<Node> {
+        let mut nodes = vec![self.all()?];
+        while self.take(&["||", "or"]) {
+            nodes.push(self.all()?);
+        }
+        Ok(joined(nodes, Node::Any))
+    }
+
+    fn all(&mut self) -> Result<Node> {
+        let mut nodes = vec![self.test()?];
+        while self.take(&["&&", "and"]) {
+            nodes.push(self.test()?);
+        }
+        Ok(joined(nodes, Node::All))
+    }
+
+    fn test(&mut self) -> Result<Node> {
+        let mut inverted = false;
+        while self.take(&["!"]) {
+            inverted = !inverted;
+        }
+        let node = if self.take(&["("]) { self.inside()? } else { self.leaf()? };
+        Ok(if inverted { Node::Not(Box::new(node)) } else { node })
+    }
+
+    /// From an opening parenthesis to its closing one.
+    fn inside(&mut self) -> Result<Node> {
+        self.depth += 1;
+        if self.depth > DEEPEST {
+            return Err(self.fault(self.first(), "expected at most 64 parentheses in each other"));
+        }
+        let node = self.any()?;
+        if !self.take(&[")"]) {
+            return Err(self.fault(self.first(), "expected `)`"));
+        }
+        self.depth -= 1;
+        Ok(node)
+    }
+
+    fn leaf(&mut self) -> Result<Node> {
+        let token = self.first();
+        let is_name = match token.kind {
+            Kind::Word => !KEYWORDS.contains(&token.text),
+            Kind::Quoted => !token.text.is_empty(),
+            Kind::Sign | Kind::End => false,
+        };
+        if !is_name {
+            return Err(self.fault(token, "expected the name of a signal"));
+        }
+        self.tokens = &self.tokens[1..];
+        if token.kind == Kind::Word && token.text == ALWAYS {
+            return Ok(Node::All(Vec::new()));
+        }
+        let name = token.text.to_owned() + self.slice(token);
+        let test = self.what()?;
+        self.leaves.push(Leaf { name, column: token.column, test });
+        Ok(Node::Leaf(self.leaves.len() - 1))
+    }
+
+    /// The slice that stands right behind a name in quotes.
+    fn slice(&mut self, name: Token) -> &'a str {
+        let next = self.first();
+        let behind = name.column + name.text.chars().count() + 2 == next.column;
+        match name.kind == Kind::Quoted && behind && next.text.starts_with('[') {
+            true => {
+                self.tokens = &self.tokens[1..];
+                next.text
+            }
+            false => "",
+        }
+    }
+
+    /// What stands behind a name.
+    fn what(&mut self) -> Result<Test> {
+        let words = [("rising", Test::Rising), ("falling", Test::Falling)];
+        for (word, test) in words.into_iter().chain([("changed", Test::Changed)]) {
+            if self.take(&[word]) {
+                return Ok(test);
+            }
+        }
+        let Some(&(_, relation)) = RELATIONS.iter().find(|(sign, _)| self.take(&[sign])) else {
+            return Ok(Test::High);
+        };
+        let token = self.first();
+        let fault = |expected| Err(self.fault(token, expected));
+        match Literal::parse(token.text) {
+            _ if token.kind != Kind::Word => fault("expected a value"),
+            Err(expected) => fault(expected),
+            Ok(literal) => {
+                let exact = matches!(relation, Relation::Equal | Relation::Unequal);
+                if literal.has_any() && !exact {
+                    return fault("expected all digits: x is for == and != only");
+                }
+                self.tokens = &self.tokens[1..];
+                Ok(Test::Compare(relation, literal, token.column))
+            }
+        }
+    }
+
+    /// The coming token; the last one is never taken.
+    fn first(&self) -> Token<'a> {
+        self.tokens[0]
+    }
+
+    /// Takes the coming token if it is one of these.
+    fn take(&mut self, words: &[&str]) -> bool {
+        let token = self.first();
+        let taken = matches!(token.kind, Kind::Sign | Kind::Word) && words.contains(&token.text);
+        if taken {
+            self.tokens = &self.tokens[1..];
+        }
+        taken
+    }
+
+    fn fault(&self, token: Token, expected: &str) -> tofsim::error::Error {
+        let value = if token.kind == Kind::End { "the end" } else { token.text };
+        Input::new(self.source, expected).at(1, token.column).value(value).into()
+    }
+}
+
+fn joined(mut nodes: Vec<Node>, join: fn(Vec<Node>) -> Node) -> Node {
+    match nodes.len() {
+        1 => nodes.remove(0),
+        _ => join(nodes),
+    }
+}

@@ -1,0 +1,66 @@
+//! Cuts a condition into its words and signs.
+
+use tofsim::error::{Input, Result};
+
+/// A word or a sign, and its column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Token<'a> {
+    pub(super) kind: Kind,
+    /// As it is written; of a name in quotes what is between them.
+    pub(super) text: &'a str,
+    pub(super) column: usize,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Sign,
+    Word,
+    /// A name in quotes.
+    Quoted,
+    End,
+}
+
+const SIGNS: &[&str] = &["&&", "||", "==", "!=", "<=", ">=", "(", ")", "!", "<", ">"];
+
+fn belongs_to_word(character: char) -> bool {
+    character.is_alphanumeric() || "_./[]:$-".contains(character)
+}
+
+/// The tokens of `text`, ending with an empty one.
+pub(super) fn tokens<'a>(source: &str, text: &'a str) -> Result<Vec<Token<'a>>> {
+    let (mut tokens, mut rest, mut column) = (Vec::new(), text, 1);
+    loop {
+        let trimmed = rest.trim_start();
+        column += rest[..rest.len() - trimmed.len()].chars().count();
+        rest = trimmed;
+        if rest.is_empty() {
+            tokens.push(Token { kind: Kind::End, text: "", column });
+            return Ok(tokens);
+        }
+        let (kind, token, taken) = token(rest)
+            .map_err(|(value, expected)| Input::new(source, expected).at(1, column).value(value))?;
+        tokens.push(Token { kind, text: token, column });
+        column += rest[..taken].chars().count();
+        rest = &rest[taken..];
+    }
+}
+
+/// The first token of `rest` and how many bytes it takes, or what is wrong with it.
+fn token(rest: &str) -> std::result::Result<(Kind, &str, usize), (&str, &str)> {
+    if let Some(inside) = rest.strip_prefix('"') {
+        let end = inside.find('"').ok_or((rest, "expected a closing quote"))?;
+        return Ok((Kind::Quoted, &inside[..end], end + 2));
+    }
+    if let Some(sign) = SIGNS.iter().find(|sign| rest.starts_with(**sign)) {
+        return Ok((Kind::Sign, &rest[..sign.len()], sign.len()));
+    }
+    let end = rest.find(|character| !belongs_to_word(character)).unwrap_or(rest.len());
+    match end {
+        0 if rest.starts_with('=') => Err(("=", "expected `==`")),
+        0 => {
+            let length = rest.chars().next().map_or(0, char::len_utf8);
+            Err((&rest[..length], "expected a name, a value or an operator"))
+        }
+        end => Ok((Kind::Word, &rest[..end], end)),
+    }
+}

@@ -1,0 +1,134 @@
+//! The clock that a logic analyser samples with.
+
+use std::fmt;
+use std::str::FromStr;
+
+use tofsim::firmware::pll::Pll;
+use tofsim::kernel::Time;
+use tofsim::kernel::clock::Clock;
+
+/// A clock of the design, or one of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Sampling {
+    /// `clk_125`.
+    Clk125,
+    /// `clk_250`.
+    Clk250,
+    /// `clk_200`.
+    Clk200,
+    /// One that has nothing to do with the design.
+    Free {
+        /// Frequency [Hz].
+        frequency_hz: u64,
+        /// First rising edge after power-up.
+        phase: Time,
+    },
+}
+
+/// Slowest and fastest free clock [Hz].
+const RANGE: std::ops::RangeInclusive<f64> = 1e3..=1e9;
+
+impl Sampling {
+    /// Its rising edges, without jitter.
+    pub fn clock(&self, pll: &Pll) -> Clock {
+        match self {
+            Sampling::Clk125 => pll.clk_125.clone(),
+            Sampling::Clk250 => pll.clk_250.clone(),
+            Sampling::Clk200 => pll.clk_200.clone(),
+            Sampling::Free { frequency_hz, phase } => Clock::new(*frequency_hz, 1, 1, *phase),
+        }
+    }
+}
+
+impl FromStr for Sampling {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        const EXPECTED: &str = "expected clk_125, clk_250, clk_200, or a frequency from 1 kHz to \
+            1 GHz with the time of the first edge, such as 100MHz or 62.5 MHz + 250 ps";
+        match text.trim() {
+            "clk_125" => return Ok(Sampling::Clk125),
+            "clk_250" => return Ok(Sampling::Clk250),
+            "clk_200" => return Ok(Sampling::Clk200),
+            _ => {}
+        }
+        let (frequency, phase) = text.split_once('+').unwrap_or((text, "0ps"));
+        let units = [("kHz", 1e3), ("MHz", 1e6), ("GHz", 1e9), ("Hz", 1.0)];
+        let frequency_hz = quantity(frequency, &units).ok_or(EXPECTED)?;
+        let phase_ps = quantity(phase, &[("ps", 1.0), ("ns", 1e3), ("us", 1e6)]);
+        let phase_ps = phase_ps.filter(|ps| (0.0..=1e12).contains(ps)).ok_or(EXPECTED)?;
+        if !RANGE.contains(&frequency_hz) || frequency_hz.fract() != 0.0 {
+            return Err(EXPECTED);
+        }
+        let phase = Time::from_ps_f64(phase_ps);
+        Ok(Sampling::Free { frequency_hz: frequency_hz as u64, phase })
+    }
+}
+
+fn quantity(text: &str, units: &[(&str, f64)]) -> Option<f64> {
+    let text = text.trim();
+    let (number, unit) = units.iter().find_map(|(unit, factor)| {
+        text.strip_suffix(unit).map(|number| (number.trim_end(), factor))
+    })?;
+    let number: f64 = number.parse().ok()?;
+    Some(number * unit)
+}
+
+impl fmt::Display for Sampling {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Sampling::Clk125 => f.write_str("clk_125"),
+            Sampling::Clk250 => f.write_str("clk_250"),
+            Sampling::Clk200 => f.write_str("clk_200"),
+            Sampling::Free { frequency_hz, phase } => {
+                write!(f, "{frequency_hz} Hz + {} ps", phase.fs() as f64 / 1e3)
+            }
+        }
+    }
+}
+
+/// The first edge at `time` or after.
+pub fn first_edge(clock: &Clock, time: Time) -> u64 {
+    let mut high = 1;
+    while clock.rise(high) < time {
+        high *= 2;
+    }
+    let mut low = 0;
+    while low < high {
+        let middle = (low + high) / 2;
+        if clock.rise(middle) < time { low = middle + 1 } else { high = middle }
+    }
+    low
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_clock_is_one_of_the_design_s_or_a_frequency_with_a_phase() {
+        let free = |frequency_hz, fs| Sampling::Free { frequency_hz, phase: Time::from_fs(fs) };
+        for (text, sampling) in [
+            ("clk_125", Sampling::Clk125),
+            ("100MHz", free(100_000_000, 0)),
+            ("62.5 MHz + 250 ps", free(62_500_000, 250_000)),
+            ("1 GHz+1.5ns", free(1_000_000_000, 1_500_000)),
+        ] {
+            assert_eq!(text.parse(), Ok(sampling.clone()), "{text}");
+            assert_eq!(sampling.to_string().parse(), Ok(sampling), "{text}");
+        }
+        for text in ["", "clk_100", "100", "MHz", "nan Hz", "1.5 Hz", "2 GHz", "1MHz + -1 ps"] {
+            assert!(text.parse::<Sampling>().is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn the_first_edge_is_the_one_at_that_time_or_the_next() {
+        let clock = Clock::new(125_000_000, 1, 1, Time::from_ns(8));
+        for (ns, edge) in [(0, 0), (8, 0), (9, 1), (16, 1), (8_000_001, 1_000_000)] {
+            assert_eq!(first_edge(&clock, Time::from_ns(ns)), edge, "{ns}");
+        }
+        let slow = Clock::new(1000, 1, 1, Time::ZERO);
+        assert_eq!(first_edge(&slow, Time::from_ns(1_000_000_000_000)), 1_000_000);
+    }
+}

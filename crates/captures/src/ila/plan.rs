@@ -1,0 +1,170 @@
+//! A set-up tied to a scenario's design: every name found, every number checked.
+
+use std::collections::HashMap;
+
+use crate::condition::{Bound, Condition, Place};
+use tofsim::error::{Input, Result};
+use tofsim::kernel::Time;
+use tofsim::sim::setup::Setup;
+
+use super::capture::Probe;
+use super::clock::Sampling;
+use super::probes::{Bits, Design};
+use super::setup::SetUp;
+use super::storing::Shape;
+
+/// Most bits of a sample.
+pub const WIDEST: usize = 4096;
+
+/// Samples that a buffer may have.
+const DEPTHS: std::ops::RangeInclusive<u64> = 1 << 10..=1 << 17;
+
+/// What a logic analyser is to do.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The probes.
+    pub probes: Vec<Probe>,
+    /// The signal's bits of each.
+    pub bits: Vec<Bits>,
+    /// Windows and trigger position.
+    pub shape: Shape,
+    /// What it samples with.
+    pub sampling: Sampling,
+    /// The trigger, over `operands`; without one every sample triggers.
+    pub trigger: Option<Bound>,
+    /// Which samples may be stored, over `operands`; without one all.
+    pub qualifier: Option<Bound>,
+    /// The bits that the conditions look at.
+    pub operands: Vec<Bits>,
+    /// When it begins to look.
+    pub arm_at: Time,
+    /// Registers before the probes [edges].
+    pub input_stages: u64,
+    /// Whether it has to see every change, not just the edges of `clk_125` and `clk_250`.
+    pub every_change: bool,
+    /// Whether the run ends as soon as it is full.
+    pub stop_when_full: bool,
+}
+
+impl Plan {
+    /// Ties a set-up to the design of `setup`.
+    ///
+    /// # Errors
+    /// When it names signals that the design does not have, or its numbers do not go together; the
+    /// error has the place.
+    pub fn new(set_up: &SetUp, setup: &Setup) -> Result<Self> {
+        let design = Design::new(&setup.params);
+        let (probes, bits) = probes(set_up, &design)?;
+        let file = &set_up.file;
+        let fault = |key, value: String, expected| set_up.fault(key, value, expected);
+        let sampling = file.clock.parse();
+        let sampling = sampling.map_err(|expected| fault("clock", file.clock.clone(), expected))?;
+        let mut operands = Vec::new();
+        let mut bind = |key, text: &Option<String>| {
+            let text = text.as_deref();
+            text.map(|text| condition(set_up, key, text, &design, (&probes, &bits), &mut operands))
+                .transpose()
+        };
+        let trigger = bind("trigger", &file.trigger)?;
+        let qualifier = bind("capture", &file.capture)?;
+        if !(0.0..=1e9).contains(&file.arm_at_us) {
+            let value = file.arm_at_us.to_string();
+            return Err(fault("arm_at_us", value, "expected a number from 0 to 1e9 [us]"));
+        }
+        if file.input_stages > 6 {
+            let value = file.input_stages.to_string();
+            return Err(fault("input_stages", value, "expected 0 to 6 [edges]"));
+        }
+        let oscillator = design.signal("clk_200").map(|bits| bits.id);
+        let at_edges = matches!(sampling, Sampling::Clk125 | Sampling::Clk250)
+            && bits.iter().chain(&operands).all(|bits| Ok(bits.id) != oscillator);
+        Ok(Plan {
+            every_change: !at_edges,
+            shape: shape(set_up)?,
+            probes,
+            bits,
+            sampling,
+            trigger,
+            qualifier,
+            operands,
+            arm_at: Time::from_ps_f64(file.arm_at_us * 1e6),
+            input_stages: file.input_stages,
+            stop_when_full: false,
+        })
+    }
+}
+
+fn probes(set_up: &SetUp, design: &Design) -> Result<(Vec<Probe>, Vec<Bits>)> {
+    let (mut probes, mut all_bits) = (Vec::<Probe>::new(), Vec::new());
+    let (mut heads, mut width) = (HashMap::new(), 0);
+    for (index, entry) in set_up.file.probe.iter().enumerate() {
+        let key = |field| format!("probe.{index}.{field}");
+        let found = design.probe(&entry.signal, entry.name.as_deref(), entry.radix.radix());
+        let (probe, bits) =
+            found.map_err(|expected| set_up.fault(&key("signal"), &entry.signal, expected))?;
+        let field = if entry.name.is_some() { "name" } else { "signal" };
+        if probe.name.is_empty() || probe.name.contains(char::is_control) {
+            return Err(set_up.fault(&key(field), &probe.name, "expected a name, on one line"));
+        }
+        if let Some(earlier) = heads.insert(probe.head(), index) {
+            let expected = format!("probe {earlier} has this name already: `{}`", probe.head());
+            return Err(set_up.fault(&key(field), &probe.name, expected));
+        }
+        width += probe.width as usize;
+        if width > WIDEST {
+            let expected = format!("expected at most {WIDEST} bits in all, not {width}");
+            return Err(set_up.fault(&key("signal"), &entry.signal, expected));
+        }
+        probes.push(probe);
+        all_bits.push(bits);
+    }
+    match probes.is_empty() {
+        true => Err(set_up.fault("probe", "nothing", "expected at least one [[probe]]")),
+        false => Ok((probes, all_bits)),
+    }
+}
+
+fn shape(set_up: &SetUp) -> Result<Shape> {
+    let file = &set_up.file;
+    if !file.depth.is_power_of_two() || !DEPTHS.contains(&file.depth) {
+        let expected = "expected a power of two from 1024 to 131072 [samples]";
+        return Err(set_up.fault("depth", file.depth, expected));
+    }
+    if file.windows == 0 || file.windows > file.depth {
+        let expected = format!("expected 1 to {}, the samples of the buffer", file.depth);
+        return Err(set_up.fault("windows", file.windows, expected));
+    }
+    let depth = 1 << (file.depth / file.windows).ilog2();
+    let position = file.position.unwrap_or(depth / 2);
+    if position >= depth {
+        let expected = format!("expected 0 to {}, before the end of a window", depth - 1);
+        return Err(set_up.fault("position", position, expected));
+    }
+    let (depth, position) = (depth as usize, position as usize);
+    Ok(Shape { depth, windows: file.windows as usize, position })
+}
+
+/// Binds a condition, probes by name before signals by path, and adds what it looks at.
+fn condition(
+    set_up: &SetUp,
+    key: &str,
+    text: &str,
+    design: &Design,
+    (probes, bits): (&[Probe], &[Bits]),
+    operands: &mut Vec<Bits>,
+) -> Result<Bound> {
+    let mut find = |name: &str| {
+        let probe = probes.iter().position(|probe| probe.name == name || probe.head() == name);
+        let found = match probe {
+            Some(probe) => bits[probe],
+            None => design.signal(name).map_err(|expected| Input::new("", expected).value(name))?,
+        };
+        operands.push(found);
+        let index = operands.len() - 1;
+        Ok(Place { index, width: found.width, signed: found.signed })
+    };
+    let condition = Condition::parse(set_up.origin(key), text);
+    condition
+        .and_then(|condition| condition.bind(&mut find))
+        .map_err(|error| set_up.fault_within(key, error))
+}

@@ -1,0 +1,143 @@
+//! Finds signals of the design by the names that set-ups and conditions have for them.
+
+use std::collections::BTreeMap;
+
+use crate::condition::slice;
+use tofsim::error::nearest;
+use tofsim::firmware::tof_top::Params;
+use tofsim::hierarchy::{self, TOP};
+use tofsim::kernel::signals::{Format, Signal};
+
+use super::capture::{Probe, Radix};
+
+/// Some bits of a signal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bits {
+    /// Id of the signal in the hierarchy.
+    pub id: usize,
+    /// Lowest bit.
+    pub low: u32,
+    /// How many.
+    pub width: u32,
+    /// Whether they are a two's complement number.
+    pub signed: bool,
+}
+
+/// The signals of a design, by path below the top.
+#[derive(Clone, Debug)]
+pub struct Design {
+    signals: BTreeMap<String, (usize, Signal)>,
+    /// Signals that other settings of the scenario would have.
+    left_out: BTreeMap<String, ()>,
+}
+
+impl Design {
+    /// The signals that those parameters have.
+    pub fn new(params: &Params) -> Self {
+        let entries = hierarchy::entries(params);
+        let has_ram = entries.iter().any(|entry| entry.scope.ends_with(".histogram_builder"));
+        let ram = hierarchy::ram_entries();
+        let here = entries.into_iter().chain(ram.iter().filter(|_| has_ram).cloned());
+        let signals: BTreeMap<_, _> =
+            here.map(|entry| (below(&entry.path()), (entry.id, entry.signal))).collect();
+        let every = hierarchy::every_entry().into_iter().chain(ram);
+        let mut left_out: BTreeMap<_, _> = every.map(|entry| (below(&entry.path()), ())).collect();
+        left_out.retain(|path, ()| !signals.contains_key(path));
+        Design { signals, left_out }
+    }
+
+    /// A whole signal, by its path with dots or slashes, with the top or without.
+    ///
+    /// # Errors
+    /// What was expected instead.
+    pub fn signal(&self, path: &str) -> Result<Bits, String> {
+        let (id, signal) = self.look_up(path)?;
+        let signed = matches!(signal.format, Format::Signed { .. });
+        Ok(Bits { id, low: 0, width: signal.width, signed })
+    }
+
+    /// A probe on a signal or a slice of it, and its bits. Without a name it has the path, with
+    /// slashes; without a radix the one that suits the signal.
+    ///
+    /// # Errors
+    /// What was expected instead.
+    pub fn probe(
+        &self,
+        text: &str,
+        name: Option<&str>,
+        radix: Option<Radix>,
+    ) -> Result<(Probe, Bits), String> {
+        let (path, range) = match (self.look_up(text), slice(text)) {
+            (Err(_), Some((path, high, low))) => (path, Some((high, low))),
+            _ => (text, None),
+        };
+        let (_, signal) = self.look_up(path)?;
+        let mut bits = self.signal(path)?;
+        let (high, low) = range.unwrap_or((signal.width - 1, 0));
+        if high < low || high >= signal.width {
+            let width = signal.width;
+            return Err(format!("`{path}` has {width} bits; expected [high:low] within"));
+        }
+        let whole = high - low + 1 == bits.width;
+        bits = Bits { id: bits.id, low, width: high - low + 1, signed: bits.signed && whole };
+        let single = range.is_some() && bits.width == 1;
+        let own = |path: &str| match single {
+            true => format!("{path}[{low}]"),
+            false => path.to_owned(),
+        };
+        let probe = Probe {
+            name: name.map_or_else(|| own(&below(path).replace('.', "/")), str::to_owned),
+            width: bits.width,
+            lsb: if single { 0 } else { low },
+            vector: bits.width > 1,
+            radix: radix.unwrap_or(match signal.format {
+                Format::Signed { .. } if bits.signed => Radix::Signed,
+                Format::Unsigned if bits.width > 1 => Radix::Unsigned,
+                _ => Radix::Hex,
+            }),
+        };
+        Ok((probe, bits))
+    }
+
+    fn look_up(&self, path: &str) -> Result<(usize, &Signal), String> {
+        let path = below(&path.replace('/', "."));
+        if let Some((id, signal)) = self.signals.get(&path) {
+            return Ok((*id, signal));
+        }
+        if self.left_out.contains_key(&path) {
+            return Err("the scenario's design leaves this module out".to_owned());
+        }
+        let hint = nearest(&path, self.signals.keys().map(String::as_str));
+        let hint = hint.map_or(String::new(), |name| format!(" (`{name}`?)"));
+        Err(format!("no such signal{hint}; expected a path below {TOP}"))
+    }
+}
+
+fn below(path: &str) -> String {
+    let below = path.strip_prefix(TOP).and_then(|rest| rest.strip_prefix(['.', '/']));
+    below.unwrap_or(path).to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tofsim::scenario;
+    use tofsim::sim::setup::Setup;
+
+    #[test]
+    fn a_slice_keeps_its_place_but_no_sign() {
+        let setup = Setup::new(scenario::load("kc705", &[]).unwrap()).unwrap();
+        let design = Design::new(&setup.params);
+        let is_signed = |signal: &Signal| matches!(signal.format, Format::Signed { .. });
+        let mut signed = design.signals.iter().filter(|(_, (_, signal))| is_signed(signal));
+        let (path, _) = signed.find(|(_, (_, signal))| signal.width > 5).unwrap();
+        let (probe, bits) = design.probe(path, None, None).unwrap();
+        assert_eq!((probe.radix, probe.lsb, bits.signed), (Radix::Signed, 0, true));
+        let (probe, bits) = design.probe(&format!("{path}[5:2]"), None, None).unwrap();
+        assert_eq!((probe.radix, probe.lsb, probe.width), (Radix::Hex, 2, 4));
+        assert_eq!((bits.low, bits.width, bits.signed), (2, 4, false));
+        let (probe, bits) = design.probe(&format!("{path}[3]"), None, None).unwrap();
+        assert_eq!((probe.lsb, probe.vector, bits.low), (0, false, 3));
+        assert!(probe.name.ends_with("[3]"));
+    }
+}

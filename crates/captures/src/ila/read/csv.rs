@@ -1,0 +1,87 @@
+//! CSV files, streamed.
+
+use std::fs::File;
+use std::io::Seek;
+
+use super::super::capture::Radix;
+use super::heads::{FIXED, Heads};
+use super::infer::infer;
+use super::lines::first_lines;
+use super::order::Order;
+use super::table::Table;
+use super::{Form, Opened, Row, Rows, digits};
+use tofsim::error::{Error, Result};
+
+/// Opens a CSV. Without a row of radices it is read twice.
+pub(super) fn open(source: String, mut file: File, hint: Option<Radix>) -> Result<Opened> {
+    let fault = |error| Error::io(source.as_ref(), "read")(error);
+    let lines = first_lines(&mut file).map_err(fault)?;
+    file.rewind().map_err(fault)?;
+    let mut heads = Heads::read(&source, &lines)?;
+    let mut samples = None;
+    if !heads.radix_row {
+        let mut table = Table::new(&source, file);
+        samples = Some(infer(&mut table, &mut heads, hint)?);
+        file = table.into_inner();
+        file.rewind().map_err(fault)?;
+    }
+    let mut table = Table::new(&source, file);
+    for _ in 0..heads.rows() {
+        table.advance()?;
+    }
+    let form = if heads.radix_row { Form::Csv } else { Form::LegacyCsv };
+    let columns = heads.columns.clone();
+    let words = columns.iter().map(|column| column.words()).sum();
+    let radix_told = heads.radix_row;
+    let rows = Box::new(CsvRows { table, heads, words, order: Order::default() });
+    Ok(Opened { form, columns, words, samples, radix_told, rows })
+}
+
+/// The rows below the heads.
+struct CsvRows {
+    table: Table<File>,
+    heads: Heads,
+    words: usize,
+    order: Order,
+}
+
+impl Rows for CsvRows {
+    fn next(&mut self, row: &mut Row) -> Result<bool> {
+        let CsvRows { table, heads, words, order } = self;
+        let first = FIXED.len() + heads.gap as usize;
+        if !table.advance_to(first + heads.columns.len())? {
+            return Ok(false);
+        }
+        let number = |index, most, expected: &str| match table.number(index) {
+            Some(number) if number <= most => Ok(number),
+            _ => Err(table
+                .fault(index, expected, |_| false)
+                .field(FIXED.get(index).unwrap_or(&"GAP"))),
+        };
+        row.sample = number(0, u64::MAX, "expected a whole number")?;
+        row.in_window = number(1, u64::MAX, "expected a whole number")?;
+        row.trigger = number(2, 1, "expected 0 or 1")? == 1;
+        row.gap = heads.gap && number(3, 1, "expected 0 or 1")? == 1;
+        row.window_start =
+            order.check(row.sample, row.in_window, row.trigger).map_err(|(index, expected)| {
+                table.fault(index, expected, |_| false).field(FIXED[index])
+            })?;
+        row.clear(*words);
+        for (index, column) in heads.columns.iter().enumerate() {
+            let index = first + index;
+            let quoted = |field| heads.is_text(field);
+            let Some(radix) = column.radix.filter(|_| !column.text) else {
+                table.text(index, quoted)?;
+                continue;
+            };
+            let place = column.word..column.word + column.words();
+            let (value, unknown) = (&mut row.value[place.clone()], &mut row.unknown[place]);
+            let read = digits::read(table.field(index), radix, column.width, value, unknown);
+            read.map_err(|fault| {
+                let expected = fault.say(radix, column.width);
+                table.fault(index, expected, quoted).field(column.head())
+            })?;
+        }
+        Ok(true)
+    }
+}

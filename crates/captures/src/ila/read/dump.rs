@@ -1,0 +1,272 @@
+//! `waveform.dmp`: a line of samples for each bit, held in memory as bits.
+
+mod reader;
+
+use std::io::BufRead;
+
+use super::{Column, LARGEST, Row, Rows, WIDEST_SAMPLE};
+use tofsim::error::{Input, Result};
+
+use reader::Reader;
+
+/// What a dump holds.
+#[derive(Debug, Default)]
+pub(super) struct Dump {
+    /// Name of the core.
+    pub(super) core: String,
+    /// Bits of a sample.
+    pub(super) width: u32,
+    /// Number of samples.
+    pub(super) samples: u64,
+    windows: Vec<u64>,
+    triggers: Vec<u64>,
+    gaps: Vec<u64>,
+    /// Words of a bit's samples.
+    stride: usize,
+    /// Bit after bit, 64 samples to a word.
+    bits: Vec<u64>,
+}
+
+impl Dump {
+    /// Reads a dump to its end.
+    pub(super) fn read(source: &str, file: impl BufRead) -> Result<Self> {
+        let mut reader = Reader::new(source, file);
+        let (mut dump, mut bit) = (Dump::default(), 0);
+        let (mut width, mut samples) = (None, None);
+        while let Some(key) = reader.key()? {
+            let column = key.len() + 2;
+            match key.as_str() {
+                "core_id" => dump.core = reader.text(column)?,
+                "data_width" => width = Some(reader.number(&key, column)?),
+                "sample_count" => samples = Some(reader.number(&key, column)?),
+                "window_marks" => dump.windows = reader.list(&key, column)?,
+                "trigger_marks" => dump.triggers = reader.list(&key, column)?,
+                "gaps" => dump.gaps = reader.list(&key, column)?,
+                _ if key.starts_with("ch[") => {
+                    if bit == 0 {
+                        dump.size(&reader, width, samples)?;
+                    }
+                    if key != format!("ch[{bit}]") || bit == dump.width {
+                        let expected = match bit == dump.width {
+                            true => format!("expected no more than {bit} channels (data_width)"),
+                            false => format!("expected ch[{bit}] next"),
+                        };
+                        return Err(reader.fault(1, expected).field(key).into());
+                    }
+                    reader.channel(&key, dump.samples, &mut dump.bits)?;
+                    bit += 1;
+                }
+                _ => reader.skip()?,
+            }
+        }
+        if bit == 0 {
+            dump.size(&reader, width, samples)?;
+        }
+        if bit != dump.width && dump.samples > 0 {
+            let text = format!("ends after {bit} channels, expected {} (data_width)", dump.width);
+            return Err(Input::new(source, text).into());
+        }
+        dump.check_marks(source)?;
+        Ok(dump)
+    }
+
+    fn size<R>(
+        &mut self,
+        reader: &Reader<R>,
+        width: Option<u64>,
+        samples: Option<u64>,
+    ) -> Result<()> {
+        let fault = |text: String| Input::new(reader.source, text);
+        let (Some(width), Some(samples)) = (width, samples) else {
+            return Err(
+                fault("expected data_width and sample_count before the channels".into()).into()
+            );
+        };
+        if !(1..=WIDEST_SAMPLE as u64).contains(&width) {
+            let text = format!("expected 1 to {WIDEST_SAMPLE} bits");
+            return Err(fault(text).field("data_width").value(width).into());
+        }
+        if width.saturating_mul(samples) > LARGEST {
+            let text = format!(
+                "{width} bits in each sample make more than {LARGEST} bits, more than any FPGA's \
+                 block RAM holds"
+            );
+            return Err(fault(text).field("sample_count").value(samples).into());
+        }
+        (self.width, self.samples) = (width as u32, samples);
+        self.stride = samples.div_ceil(64) as usize;
+        Ok(())
+    }
+
+    fn check_marks(&mut self, source: &str) -> Result<()> {
+        // A last window without samples is marked at the end.
+        self.windows.pop_if(|&mut window| window == self.samples && window > 0);
+        for (key, marks) in [
+            ("window_marks", &self.windows),
+            ("trigger_marks", &self.triggers),
+            ("gaps", &self.gaps),
+        ] {
+            let fault = |text: String, mark| Input::new(source, text).field(key).value(mark);
+            if let Some(pair) = marks.windows(2).find(|pair| pair[0] >= pair[1]) {
+                let text = format!("expected a sample after {}", pair[0]);
+                return Err(fault(text, pair[1]).into());
+            }
+            if let Some(&last) = marks.last()
+                && last >= self.samples.max(1)
+            {
+                let text = format!("expected a sample below {} (sample_count)", self.samples);
+                return Err(fault(text, last).into());
+            }
+        }
+        if let Some(&first) = self.windows.first()
+            && first != 0
+        {
+            let fault = Input::new(source, "expected the first window at 0");
+            return Err(fault.field("window_marks").value(first).into());
+        }
+        let window = |trigger: u64| self.windows.partition_point(|&start| start <= trigger);
+        if let Some(pair) = self.triggers.windows(2).find(|pair| window(pair[0]) == window(pair[1]))
+        {
+            let text = format!("a second trigger in the window that has one at {}", pair[0]);
+            return Err(Input::new(source, text).field("trigger_marks").value(pair[1]).into());
+        }
+        Ok(())
+    }
+
+    /// The samples, laid out as `columns`; `places` are the lowest bits of those in the dump.
+    pub(super) fn rows(self, columns: Vec<Column>, places: Vec<usize>) -> impl Rows + use<> {
+        let words = columns.iter().map(Column::words).sum();
+        let block = vec![0; if self.samples > 0 { self.width as usize } else { 0 }];
+        DumpRows { block, dump: self, columns, places, words, next: 0 }
+    }
+}
+
+/// The samples of a dump.
+struct DumpRows {
+    dump: Dump,
+    columns: Vec<Column>,
+    places: Vec<usize>,
+    words: usize,
+    next: u64,
+    /// 64 samples of each bit.
+    block: Vec<u64>,
+}
+
+impl Rows for DumpRows {
+    fn next(&mut self, row: &mut Row) -> Result<bool> {
+        let (sample, dump) = (self.next, &self.dump);
+        if sample == dump.samples {
+            return Ok(false);
+        }
+        self.next += 1;
+        if sample.is_multiple_of(64) {
+            let words = dump.bits.iter().skip((sample / 64) as usize).step_by(dump.stride);
+            self.block.iter_mut().zip(words).for_each(|(place, &word)| *place = word);
+        }
+        let windows = dump.windows.partition_point(|&window| window <= sample);
+        let begin = windows.checked_sub(1).map_or(0, |window| dump.windows[window]);
+        row.sample = sample;
+        row.in_window = sample - begin;
+        row.window_start = sample == begin;
+        row.trigger = dump.triggers.binary_search(&sample).is_ok();
+        row.gap = dump.gaps.binary_search(&sample).is_ok();
+        row.clear(self.words);
+        let numbers = self.columns.iter().filter(|column| !column.text);
+        for (column, &low) in numbers.zip(&self.places) {
+            let target = if row.gap { &mut row.unknown } else { &mut row.value };
+            for bit in 0..column.width as usize {
+                let digit = row.gap as u64 | self.block[low + bit] >> (sample % 64) & 1;
+                target[column.word + bit / 64] |= digit << (bit % 64);
+            }
+        }
+        Ok(true)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEAD: &str = "core_id:7\ndata_width:2\nsample_count:3\nhas_timestamps:false\n";
+
+    fn fault(rest: &str) -> String {
+        let text = format!("{HEAD}{rest}");
+        Dump::read("a.dmp", text.as_bytes()).err().map_or("fine".into(), |error| error.to_string())
+    }
+
+    #[test]
+    fn bits_marks_and_gaps_are_read() {
+        let text = "window_marks:0 2 3\r\ntrigger_marks:1 2\r\ngaps:1\r\ntimestamps:\r\nch[0]: 101\r\n\
+                    ch[1]: 001";
+        let dump = Dump::read("a.dmp", format!("{HEAD}{text}").as_bytes()).unwrap();
+        assert_eq!((dump.core.as_str(), dump.width, dump.samples), ("7", 2, 3));
+        let column = super::super::heads::parse("a[1:0]").unwrap();
+        let mut rows = dump.rows(vec![column], vec![0]);
+        let (mut row, mut found) = (Row::default(), Vec::new());
+        while rows.next(&mut row).unwrap() {
+            found.push((
+                row.in_window,
+                row.window_start,
+                row.trigger,
+                row.value[0],
+                row.unknown[0],
+            ));
+        }
+        let expected = [(0, true, false, 1, 0), (1, false, true, 0, 3), (0, true, true, 3, 0)];
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn counts_that_do_not_hold_are_told_with_their_line() {
+        assert_eq!(fault("ch[0]: 101\nch[1]:111\n"), "fine");
+        assert_eq!(fault("ch[0]: 101\n"), "a.dmp: ends after 1 channels, expected 2 (data_width)");
+        let few = "a.dmp:5:9: ch[0]: 2 samples, expected 3 (sample_count)";
+        assert_eq!(fault("ch[0]: 10"), few);
+        assert!(
+            fault("ch[0]: 1011\n").starts_with("a.dmp:5:11: ch[0] = 1: expected no more than 3")
+        );
+        assert!(fault("ch[0]: 1x1\n").starts_with("a.dmp:5:9: ch[0] = x: expected 0 or 1"));
+        assert!(fault("ch[1]: 101\n").starts_with("a.dmp:5:1: ch[1]: expected ch[0] next"));
+        let more = "ch[0]:101\nch[1]:101\nch[2]:101\n";
+        assert!(fault(more).starts_with("a.dmp:7:1: ch[2]: expected no more than 2 channels"));
+        assert!(fault("nonsense\n").starts_with("a.dmp:5:1: nonsense: expected a key"));
+    }
+
+    #[test]
+    fn marks_that_cannot_be_are_told() {
+        let body = "\nch[0]: 101\nch[1]: 111\n";
+        let fault = |marks| fault(&format!("{marks}{body}"));
+        assert!(
+            fault("window_marks:1").ends_with("window_marks = 1: expected the first window at 0")
+        );
+        assert!(
+            fault("window_marks:0 4").ends_with("= 4: expected a sample below 3 (sample_count)")
+        );
+        assert!(fault("trigger_marks:1 1").ends_with("= 1: expected a sample after 1"));
+        assert!(
+            fault("trigger_marks:3").ends_with("= 3: expected a sample below 3 (sample_count)")
+        );
+        let twice = "trigger_marks = 2: a second trigger in the window that has one at 1";
+        assert!(fault("window_marks:0\ntrigger_marks:1 2").ends_with(twice));
+        assert!(fault("gaps:a").ends_with("a.dmp:5:6: gaps = a: expected numbers of samples"));
+        assert_eq!(fault("window_marks:0 2\ntrigger_marks:1 2"), "fine");
+    }
+
+    #[test]
+    fn more_than_a_block_ram_holds_is_refused_before_it_is_read() {
+        let fault = |text: &str| Dump::read("a.dmp", text.as_bytes()).unwrap_err().to_string();
+        let text = fault("data_width:1024\nsample_count:524289\nch[0]: 1");
+        assert!(
+            text.contains(
+                "sample_count = 524289: 1024 bits in each sample make more than 536870912"
+            )
+        );
+        assert!(
+            fault("data_width:9999999\nsample_count:1\n").contains("expected 1 to 1048576 bits")
+        );
+        assert!(
+            fault("data_width:-1\n").starts_with("a.dmp:1:12: data_width = -1: expected a whole")
+        );
+        assert!(fault("ch[0]: 1").contains("expected data_width and sample_count before"));
+    }
+}

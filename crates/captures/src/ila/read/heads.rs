@@ -1,0 +1,234 @@
+//! The first rows of a CSV: names, ranges and radices.
+
+use std::collections::HashSet;
+
+use super::super::capture::Radix;
+use super::table::Table;
+use super::{Column, WIDEST_PROBE, WIDEST_SAMPLE};
+use tofsim::error::Result;
+
+/// The columns that every CSV begins with.
+pub(super) const FIXED: [&str; 3] = ["Sample in Buffer", "Sample in Window", "TRIGGER"];
+/// Most probes of a capture.
+const MOST_PROBES: usize = 1 << 14;
+/// What the row of radices begins with, glued to the first radix.
+const MARK: &[u8] = b"Radix - ";
+
+/// What the first rows tell.
+pub(super) struct Heads {
+    pub(super) columns: Vec<Column>,
+    /// Whether there is a row of radices.
+    pub(super) radix_row: bool,
+    /// Whether the fourth column tells gaps.
+    pub(super) gap: bool,
+}
+
+impl Heads {
+    /// Reads the first lines of a file.
+    pub(super) fn read(source: &str, [head, second, third]: &[Vec<u8>; 3]) -> Result<Self> {
+        let mut heads = Table::new(source, &head[..]);
+        heads.advance()?;
+        let quoted_head = |index| needs_quotes(heads.field(index));
+        for (index, name) in FIXED.into_iter().enumerate() {
+            if heads.field(index) != name.as_bytes() {
+                let expected = format!("expected a head that begins with `{}`", FIXED.join(","));
+                return Err(heads.fault(index, expected, quoted_head).into());
+            }
+        }
+        let radix_row = second.starts_with(MARK);
+        let mut radices = Table::new(source, &second[..]).starting_at(2);
+        radices.advance()?;
+        // chipscopy leaves GAP out of the radices; Vivado gives a net of that name one like HEX.
+        let short = radices.len() + 1 == heads.len();
+        let gap =
+            radix_row && heads.field(3) == b"GAP" && (short || radices.field(3) == b"UNSIGNED");
+        let first = FIXED.len() + gap as usize;
+        if radix_row {
+            let expected = heads.len() - (gap && short) as usize;
+            if radices.len() != expected {
+                let text = format!("{} radices, expected {expected}", radices.len());
+                return Err(radices.row_fault(text).into());
+            }
+            for (index, word) in ["Radix - UNSIGNED", "UNSIGNED", "UNSIGNED"].iter().enumerate() {
+                if radices.field(index) != word.as_bytes() {
+                    let text = format!("expected `{word}`");
+                    return Err(radices.fault(index, text, |_| false).into());
+                }
+            }
+        }
+        if !(first + 1..=first + MOST_PROBES).contains(&heads.len()) {
+            let (most, found) = (MOST_PROBES, heads.len() - first);
+            let text = format!("{found} probes, expected 1 to {most}");
+            return Err(heads.row_fault(text).into());
+        }
+        let quoted = quoted(if radix_row { third } else { second });
+        let mut columns = Vec::new();
+        let (mut names, mut width, mut word) = (HashSet::new(), 0, 0);
+        for index in first..heads.len() {
+            let fault = |text: String| heads.fault(index, text, quoted_head);
+            let head = heads.text(index, quoted_head)?;
+            let mut column = parse(head).map_err(fault)?;
+            if !names.insert(head) {
+                return Err(fault("a second column of this name".into()).into());
+            }
+            width += column.width;
+            if width > WIDEST_SAMPLE {
+                return Err(fault(format!("more than {WIDEST_SAMPLE} bits in a sample")).into());
+            }
+            column.text = quoted.get(index).copied().unwrap_or(false);
+            if radix_row {
+                let index = index - (gap && short) as usize;
+                match radix(radices.field(index)) {
+                    Some(radix) => column.radix = radix,
+                    None => {
+                        let expected = "expected HEX, SIGNED, UNSIGNED, BINARY, OCTAL or ASCII";
+                        let fault = radices.fault(index, expected, |_| false);
+                        return Err(fault.field(column.head()).into());
+                    }
+                }
+                column.text |= column.radix.is_none();
+            }
+            column.word = word;
+            word += column.words();
+            columns.push(column);
+        }
+        Ok(Heads { columns, radix_row, gap })
+    }
+
+    /// Rows before the samples.
+    pub(super) fn rows(&self) -> usize {
+        1 + self.radix_row as usize
+    }
+
+    /// Whether a field of a row is text.
+    pub(super) fn is_text(&self, field: usize) -> bool {
+        let first = FIXED.len() + self.gap as usize;
+        let column = field.checked_sub(first).and_then(|column| self.columns.get(column));
+        column.is_some_and(|column| column.text)
+    }
+}
+
+/// A radix word; words of text have no radix.
+fn radix(word: &[u8]) -> Option<Option<Radix>> {
+    let radices = [Radix::Hex, Radix::Signed, Radix::Unsigned, Radix::Binary, Radix::Octal];
+    match radices.into_iter().find(|radix| radix.word().as_bytes() == word) {
+        None if word == b"ASCII" => Some(None),
+        None => None,
+        found => Some(found),
+    }
+}
+
+/// Name and range of a head; else what was expected.
+pub(super) fn parse(head: &str) -> std::result::Result<Column, String> {
+    let (name, lsb, width, vector) = match range(head) {
+        None => (head, 0, 1, false),
+        Some((name, msb, lsb)) => {
+            let width = match (msb.parse::<u32>(), lsb.parse::<u32>()) {
+                (Ok(msb), Ok(lsb)) if msb >= lsb && msb - lsb < WIDEST_PROBE => msb - lsb + 1,
+                _ => {
+                    let most = WIDEST_PROBE;
+                    return Err(format!("expected a range [msb:lsb] of 1 to {most} bits"));
+                }
+            };
+            (name, lsb.parse().unwrap_or_default(), width, true)
+        }
+    };
+    if name.is_empty() {
+        return Err("expected the name of a probe".into());
+    }
+    let name = name.to_owned();
+    Ok(Column { name, width, lsb, vector, radix: None, text: false, word: 0 })
+}
+
+/// Splits `name[msb:lsb]`. Anything else in brackets belongs to the name.
+fn range(head: &str) -> Option<(&str, &str, &str)> {
+    let (name, range) = head.strip_suffix(']')?.rsplit_once('[')?;
+    let (msb, lsb) = range.split_once(':')?;
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    (digits(msb) && digits(lsb)).then_some((name, msb, lsb))
+}
+
+fn needs_quotes(field: &[u8]) -> bool {
+    field.iter().any(|byte| matches!(byte, b',' | b'"'))
+}
+
+/// Which fields of a line stand in quotes.
+fn quoted(line: &[u8]) -> Vec<bool> {
+    let (mut fields, mut inside, mut start) = (Vec::new(), false, true);
+    for &byte in line {
+        if start {
+            fields.push(byte == b'"');
+        }
+        start = byte == b',' && !inside;
+        inside ^= byte == b'"';
+    }
+    fields
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn heads(lines: [&str; 3]) -> std::result::Result<Heads, String> {
+        Heads::read("a.csv", &lines.map(|line| line.as_bytes().to_vec()))
+            .map_err(|error| error.to_string())
+    }
+
+    fn fault(probes: &str) -> String {
+        let head = format!("Sample in Buffer,Sample in Window,TRIGGER,{probes}");
+        heads([&head, "", ""]).err().unwrap()
+    }
+
+    #[test]
+    fn ranges_are_told_from_names() {
+        let split = |head| {
+            let column = parse(head).unwrap();
+            (column.name, column.width, column.lsb, column.vector)
+        };
+        assert_eq!(split("a/b[15:4]"), ("a/b".into(), 12, 4, true));
+        assert_eq!(split("one[0:0]"), ("one".into(), 1, 0, true));
+        assert_eq!(split("r[3][7:0]"), ("r[3]".into(), 8, 0, true));
+        for name in ["r[4]", "<const0>_17", "\\x ", "Interface_(i1:s0)_(axi)", "a[i:j]", "b]"] {
+            assert_eq!(split(name), (name.into(), 1, 0, false));
+        }
+        assert_eq!(split("top[4294967295:4294967290]").1, 6);
+        for head in ["a[0:15]", "a[99999999999:0]", "a[4096:0]", "[3:0]", ""] {
+            assert!(parse(head).is_err(), "{head}");
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_in_the_head_is_told_with_its_column() {
+        assert!(fault("a,b[0:15]").starts_with("a.csv:1:45: b[0:15]: expected a range"));
+        assert!(fault("\"a,\"\"b\",,c").starts_with("a.csv:1:51: : expected the name of a probe"));
+        assert!(fault("a,a").starts_with("a.csv:1:45: a: a second column of this name"));
+        let wide: Vec<_> = (0..257).map(|place| format!("a{place}[4095:0]")).collect();
+        assert!(fault(&wide.join(",")).ends_with("more than 1048576 bits in a sample"));
+        let head = ["Sample in Buffer,Sample in Window,TRIGGER", "", ""];
+        assert!(heads(head).err().unwrap().ends_with("0 probes, expected 1 to 16384"));
+        let head = ["Sample in Buffer,Window,TRIGGER,a", "", ""];
+        let expected = "a.csv:1:18: Window: expected a head that begins with `Sample in Buffer,";
+        assert!(heads(head).err().unwrap().starts_with(expected));
+        assert!(heads(["", "", ""]).err().unwrap().contains("expected a head that begins with"));
+    }
+
+    #[test]
+    fn fields_in_quotes_are_found() {
+        let found = quoted(b"0,0,1,\"a,\"\"b\"\"\",ff,\"\",\"x\"");
+        assert_eq!(found, [false, false, false, true, false, true, true]);
+    }
+
+    #[test]
+    fn a_fourth_column_named_gap_is_a_probe_if_its_radix_is_one() {
+        let head = "Sample in Buffer,Sample in Window,TRIGGER,GAP,a";
+        let told = |radices: &str| {
+            let radices = format!("Radix - UNSIGNED,UNSIGNED,UNSIGNED,{radices}");
+            let heads = heads([head, &radices, ""]).unwrap();
+            (heads.gap, heads.columns.len())
+        };
+        assert_eq!(told("HEX"), (true, 1));
+        assert_eq!(told("UNSIGNED,HEX"), (true, 1));
+        assert_eq!(told("HEX,HEX"), (false, 2));
+        assert!(!heads([head, "", ""]).unwrap().gap);
+    }
+}

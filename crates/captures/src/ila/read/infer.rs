@@ -1,0 +1,201 @@
+//! Finds out in which radix a column is written, when the file does not tell.
+//!
+//! Hexadecimal digits are always as many as the width needs and decimals never begin with 0, so
+//! most columns leave one radix. Octal is considered only on demand: no such file is known.
+
+use std::io::Read;
+
+use super::super::capture::Radix;
+use super::digits;
+use super::heads::Heads;
+use super::table::Table;
+use tofsim::error::{Input, Result};
+
+/// What is tried, first what is taken if all give the same values.
+const TRIED: [Radix; 5] = [Radix::Hex, Radix::Unsigned, Radix::Signed, Radix::Binary, Radix::Octal];
+
+/// Looks through all rows of `table`, sets the radices and returns the number of rows. `hint`
+/// decides where several radices are left.
+pub(super) fn infer(
+    table: &mut Table<impl Read>,
+    heads: &mut Heads,
+    hint: Option<Radix>,
+) -> Result<u64> {
+    let fields = super::heads::FIXED.len() + heads.columns.len();
+    let words = heads.columns.iter().map(|column| column.width.div_ceil(64)).max().unwrap_or(0);
+    let mut scratch = [vec![0; words as usize], vec![0; words as usize]];
+    let mut guesses = vec![Guess::new(hint); heads.columns.len()];
+    for _ in 0..heads.rows() {
+        table.advance()?;
+    }
+    let mut rows = 0;
+    while table.advance_to(fields)? {
+        rows += 1;
+        let columns = heads.columns.iter().zip(&mut guesses).enumerate();
+        for (index, (column, guess)) in columns.filter(|(_, (column, _))| !column.text) {
+            let index = super::heads::FIXED.len() + index;
+            let before = guess.left;
+            let quoted = |field| heads.is_text(field);
+            if guess.look(table.field(index), column.width, &mut scratch) {
+                guess.telling = Some(table.fault(index, "", quoted).field(column.head()));
+            }
+            if guess.left == 0 {
+                let expected = match guess.seen {
+                    true => {
+                        guess.left = before;
+                        format!("expected {} of {} bits, as above", guess.names(), column.width)
+                    }
+                    false => format!("expected a number of {} bits", column.width),
+                };
+                return Err(table.fault(index, expected, quoted).field(column.head()).into());
+            }
+            guess.seen = true;
+        }
+    }
+    for (column, guess) in heads.columns.iter_mut().zip(&guesses) {
+        if !column.text {
+            column.radix = Some(guess.decide(hint)?);
+        }
+    }
+    Ok(rows)
+}
+
+/// What a column may be.
+#[derive(Clone)]
+struct Guess {
+    /// A bit for each of [`TRIED`].
+    left: u8,
+    /// Whether binary numbers may still be of all digits, and of as few as they need.
+    padded: bool,
+    bare: bool,
+    seen: bool,
+    /// A cell that has another value in each radix.
+    telling: Option<Input>,
+}
+
+impl Guess {
+    fn new(hint: Option<Radix>) -> Self {
+        let left = if hint == Some(Radix::Octal) { 0b11111 } else { 0b01111 };
+        Guess { left, padded: true, bare: true, seen: false, telling: None }
+    }
+
+    fn radices(&self) -> impl Iterator<Item = Radix> {
+        let left = self.left;
+        TRIED.into_iter().enumerate().filter(move |(bit, _)| left >> bit & 1 == 1).map(|(_, r)| r)
+    }
+
+    fn names(&self) -> String {
+        let names: Vec<_> = self.radices().map(Radix::word).collect();
+        names.join(" or ")
+    }
+
+    /// Drops the radices that a cell does not allow; true if it is the first one that has another
+    /// value in each.
+    fn look(&mut self, cell: &[u8], width: u32, scratch: &mut [Vec<u64>; 2]) -> bool {
+        if digits::is_unknown(cell) {
+            return false;
+        }
+        let zeros = cell.iter().take_while(|&&digit| digit == b'0').count();
+        let bare = zeros == 0 || cell == b"0";
+        self.padded &= cell.len() == width as usize;
+        self.bare &= bare;
+        let words = width.div_ceil(64) as usize;
+        for (bit, radix) in TRIED.into_iter().enumerate() {
+            if self.left >> bit & 1 == 0 {
+                continue;
+            }
+            let spelled = match radix {
+                Radix::Hex => cell.len() == width.div_ceil(4) as usize,
+                Radix::Unsigned => bare,
+                Radix::Signed => bare && !cell.starts_with(b"-0"),
+                Radix::Octal => cell.len() == width.div_ceil(3) as usize,
+                Radix::Binary => self.padded || self.bare,
+            };
+            let [value, unknown] = scratch.each_mut().map(|place| &mut place[..words]);
+            value.fill(0);
+            if !spelled || digits::read(cell, radix, width, value, unknown).is_err() {
+                self.left &= !(1 << bit);
+            }
+        }
+        self.telling.is_none() && cell.len() - zeros > 1
+    }
+
+    /// The radix of the column.
+    fn decide(&self, hint: Option<Radix>) -> Result<Radix> {
+        if let Some(hint) = hint.filter(|&hint| self.radices().any(|radix| radix == hint)) {
+            return Ok(hint);
+        }
+        // Signed and unsigned are the same bits wherever both are possible.
+        let decimal = |radix| matches!(radix, Radix::Unsigned | Radix::Signed);
+        let mut different: Vec<_> = self.radices().collect();
+        different.dedup_by(|radix, before| decimal(*radix) && decimal(*before));
+        match &self.telling {
+            Some(cell) if different.len() > 1 => {
+                let names = self.names();
+                let expected = format!("may be {names}; tell with --radix which of them it is");
+                Err(Input { expected, ..cell.clone() }.into())
+            }
+            _ => Ok(different.first().copied().unwrap_or(Radix::Hex)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn guess(width: u32, cells: &[&str]) -> String {
+        let mut guess = Guess::new(None);
+        let mut scratch = [vec![0; 4], vec![0; 4]];
+        for cell in cells {
+            if guess.look(cell.as_bytes(), width, &mut scratch) {
+                guess.telling = Some(Input::new("a.csv", "").value(cell));
+            }
+        }
+        match guess.left {
+            0 => "none".to_owned(),
+            _ => match guess.decide(None) {
+                Ok(radix) => radix.word().to_owned(),
+                Err(error) => error.to_string(),
+            },
+        }
+    }
+
+    #[test]
+    fn cells_that_allow_one_radix_decide_it() {
+        assert_eq!(guess(16, &["00ff", "1000"]), "HEX");
+        assert_eq!(guess(16, &["0010", "1234"]), "HEX");
+        assert_eq!(guess(16, &["-12", "7"]), "SIGNED");
+        assert_eq!(guess(16, &["65535", "7"]), "UNSIGNED");
+        assert_eq!(guess(8, &["00001010", "11110000"]), "BINARY");
+        assert_eq!(guess(8, &["FF", "0A"]), "HEX");
+        assert_eq!(guess(4, &["10", "15"]), "UNSIGNED");
+        assert_eq!(guess(128, &["-170141183460469231731687303715884105728"]), "SIGNED");
+    }
+
+    #[test]
+    fn cells_of_the_same_value_in_every_radix_need_no_decision() {
+        assert_eq!(guess(1, &["0", "1"]), "HEX");
+        assert_eq!(guess(4, &["7", "3"]), "HEX");
+        assert_eq!(guess(16, &["5", "9"]), "UNSIGNED");
+        assert_eq!(guess(16, &[]), "HEX");
+        assert_eq!(guess(4, &["X", "7"]), "HEX");
+    }
+
+    #[test]
+    fn cells_with_several_values_are_an_error_that_shows_one() {
+        let error = guess(16, &["1010"]);
+        let radices = "may be HEX or UNSIGNED or SIGNED or BINARY";
+        assert_eq!(error, format!("a.csv: 1010: {radices}; tell with --radix which of them it is"));
+        assert!(guess(8, &["10", "99"]).contains("may be HEX or UNSIGNED or SIGNED;"));
+        assert!(guess(4, &["1010", "0001"]) == "BINARY");
+        assert!(guess(4, &["10", "11"]).contains("may be UNSIGNED or BINARY;"));
+    }
+
+    #[test]
+    fn cells_that_allow_nothing_are_told() {
+        assert_eq!(guess(8, &["0x1"]), "none");
+        assert_eq!(guess(8, &["256"]), "none");
+        assert_eq!(guess(8, &["0a", "-1"]), "none");
+    }
+}

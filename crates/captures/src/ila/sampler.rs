@@ -1,0 +1,287 @@
+//! Samples a running simulation: the value just before each edge of the sampling clock.
+//!
+//! At the edges of `clk_125` and `clk_250` the run itself shows what the edge takes. Any other
+//! clock, and `clk_200` as a signal, needs every change of every signal in order of time.
+
+use std::sync::atomic::AtomicBool;
+
+use crate::condition::{Bound, Level};
+use tofsim::error::Result;
+use tofsim::firmware::tof_top::{Params, TofTop};
+use tofsim::kernel::Time;
+use tofsim::kernel::clock::Clock;
+use tofsim::sim::device::{Edge, Trace};
+use tofsim::sim::frames::Frames;
+use tofsim::sim::setup::{CYCLE, Setup};
+use tofsim::sim::{Device, Outcome, Run, Windowed};
+
+use super::capture::{Capture, Probe};
+use super::clock::{Sampling, first_edge};
+use super::core::{Core, Rows};
+use super::look::Look;
+use super::plan::Plan;
+
+/// A logic analyser in a run.
+///
+/// With input stages, what it takes at an edge is what the signals were so many edges before, and
+/// zero where there was no such edge.
+#[derive(Clone, Debug)]
+pub struct Analyser {
+    look: Look,
+    core: Core<Rows>,
+    probes: Vec<Probe>,
+    trigger: Asked,
+    qualifier: Asked,
+    /// An operand changed at the sample before, so that an edge of it may end here.
+    operands_changed: bool,
+    sampling: Sampling,
+    clock: Clock,
+    every_change: bool,
+    begun: bool,
+    /// Next edge of the sampling clock.
+    edge: u64,
+    /// The first that it looks at, the stages left out.
+    first: u64,
+    /// The edge that its first sample stands for.
+    armed: u64,
+    stop_when_full: bool,
+}
+
+/// A condition, if there is one, and whether it holds at the present sample.
+#[derive(Clone, Debug)]
+struct Asked {
+    condition: Option<Bound>,
+    holds: bool,
+}
+
+impl Asked {
+    fn new(condition: Option<Bound>) -> Self {
+        Asked { condition, holds: true }
+    }
+
+    fn ask(&mut self, look: &Look) {
+        if let Some(condition) = &mut self.condition {
+            self.holds = condition.sample(|operand| Level::known(look.operand(operand)));
+        }
+    }
+}
+
+impl Analyser {
+    /// Set up as planned for runs of `setup`.
+    pub fn new(plan: &Plan, setup: &Setup) -> Self {
+        let capture = Capture::new(plan.probes.clone());
+        let order = setup.params.tdc.delays.order();
+        let clock = plan.sampling.clock(setup.pll());
+        // At power-up itself there is nothing before the edge.
+        let armed = first_edge(&clock, plan.arm_at.max(Time::from_fs(1)));
+        let mut analyser = Analyser {
+            look: Look::new(&plan.bits, &plan.operands, capture.stride, order, !plan.every_change),
+            core: Core::new(plan.shape, capture.stride),
+            probes: capture.probes,
+            trigger: Asked::new(plan.trigger.clone()),
+            qualifier: Asked::new(plan.qualifier.clone()),
+            operands_changed: false,
+            every_change: plan.every_change,
+            sampling: plan.sampling.clone(),
+            clock,
+            begun: false,
+            edge: 0,
+            first: armed.saturating_sub(plan.input_stages),
+            armed,
+            stop_when_full: plan.stop_when_full,
+        };
+        (armed..plan.input_stages).for_each(|_| analyser.take());
+        analyser
+    }
+
+    /// Whether all windows have their samples.
+    pub fn is_full(&self) -> bool {
+        self.core.is_full()
+    }
+
+    /// When each window triggered, by an ideal clock.
+    pub fn triggers(&self) -> Vec<Time> {
+        let edges = self.core.triggers().iter();
+        edges.map(|number| self.clock.rise(self.armed + number)).collect()
+    }
+
+    /// Samples taken so far, stored or not.
+    pub fn taken(&self) -> u64 {
+        self.core.taken()
+    }
+
+    /// What it has stored.
+    pub fn finish(self) -> Capture {
+        self.core.finish(self.probes)
+    }
+
+    /// Takes the present values as a sample.
+    #[inline(always)]
+    fn take(&mut self) {
+        let changed = self.look.take_operands_changed();
+        if changed || self.operands_changed {
+            if self.core.looks_for_triggers() {
+                self.trigger.ask(&self.look);
+            }
+            self.qualifier.ask(&self.look);
+        }
+        self.operands_changed = changed;
+        self.core.sample(self.look.row(), self.trigger.holds, self.qualifier.holds);
+    }
+
+    /// Whether it samples at this edge of `clk_250`.
+    #[inline]
+    fn looks_before(&self, edge: Edge) -> bool {
+        edge == Edge::Both || self.sampling != Sampling::Clk125
+    }
+
+    /// An edge of `clk_250`.
+    #[inline]
+    fn edge(&mut self, edge: Edge, top: &TofTop) {
+        if !self.looks_before(edge) {
+            return;
+        }
+        if self.edge >= self.first && !self.is_full() {
+            self.look.follow(top);
+            self.take();
+        }
+        self.edge += 1;
+    }
+
+    /// Samples with the values as they are for all edges up to `now`.
+    fn catch_up(&mut self, now: Time) {
+        while self.clock.rise(self.edge) <= now && !self.is_full() {
+            self.take();
+            self.edge += 1;
+        }
+    }
+
+    /// Number of the sampling clock's first edge in a cycle of `clk_125`.
+    fn first_of(&self, cycle: u64) -> u64 {
+        if self.sampling == Sampling::Clk125 { cycle } else { 2 * cycle }
+    }
+
+    /// Whether the clock is one whose edges the run shows.
+    fn is_shown(&self) -> bool {
+        matches!(self.sampling, Sampling::Clk125 | Sampling::Clk250)
+    }
+}
+
+/// Simulates until `count` frames are done, or the analyser is full and would have the run end there.
+///
+/// # Errors
+/// When the control signals keep a frame from ending, or the run is stopped.
+pub fn capture(
+    run: Run,
+    count: u64,
+    analyser: &mut Analyser,
+    stop: Option<&AtomicBool>,
+) -> Result<Outcome> {
+    match analyser.every_change {
+        true => run.traced(count, &mut Always(analyser), stop),
+        false => run.traced(count, &mut AtEdges(analyser), stop),
+    }
+}
+
+/// Looks at the edges of `clk_125` and `clk_250`.
+struct AtEdges<'a>(&'a mut Analyser);
+
+impl Trace for AtEdges<'_> {
+    const ON: bool = false;
+    const EDGES: bool = true;
+
+    fn sample(&mut self, _: Time, _: &TofTop) {}
+
+    #[inline(always)]
+    fn looks_before(&self, edge: Edge) -> bool {
+        self.0.looks_before(edge)
+    }
+
+    #[inline(always)]
+    fn before_edge(&mut self, edge: Edge, _: Time, top: &TofTop) {
+        self.0.edge(edge, top);
+    }
+
+    fn control_changes(&mut self) {
+        self.0.look.control_changes();
+    }
+}
+
+impl Windowed for AtEdges<'_> {
+    #[inline(always)]
+    fn is_wanted(&mut self, device: &mut Device, _: &Frames, _: &Params) -> Result<bool> {
+        let analyser = &mut *self.0;
+        if !analyser.begun {
+            let cycle = device.cycle();
+            analyser.begun = analyser.first_of(cycle + 1) > analyser.first;
+            analyser.edge = analyser.first_of(cycle);
+        }
+        Ok(analyser.begun && !analyser.is_full())
+    }
+
+    fn is_done(&self) -> bool {
+        self.0.stop_when_full && self.0.is_full()
+    }
+}
+
+/// Looks at every change.
+struct Always<'a>(&'a mut Analyser);
+
+impl Always<'_> {
+    /// Whether the first sample comes within the next two cycles; by then all clocks have turned.
+    fn is_due(&self, device: &mut Device) -> bool {
+        self.0.clock.rise(self.0.first) <= device.coming_cycle().1 + CYCLE
+    }
+
+    fn begin(&mut self, device: &mut Device, now: Time) {
+        let analyser = &mut *self.0;
+        device.resume_clocks(now);
+        analyser.look.follow(&device.top);
+        analyser.begun = true;
+        analyser.edge = match analyser.is_shown() {
+            true => analyser.first_of(device.cycle()),
+            false => analyser.first,
+        };
+    }
+}
+
+impl Trace for Always<'_> {
+    const ON: bool = true;
+    const EDGES: bool = true;
+
+    fn sample(&mut self, now: Time, top: &TofTop) {
+        if !self.0.is_shown() {
+            self.0.catch_up(now);
+        }
+        self.0.look.follow(top);
+    }
+
+    fn before_edge(&mut self, edge: Edge, now: Time, top: &TofTop) {
+        match self.0.is_shown() {
+            true => self.0.edge(edge, top),
+            false => self.sample(now.since(Time::from_fs(1)), top),
+        }
+    }
+}
+
+impl Windowed for Always<'_> {
+    fn begins_at_power_up(&mut self, device: &mut Device) -> bool {
+        let due = self.is_due(device);
+        if due {
+            self.begin(device, Time::ZERO);
+        }
+        due
+    }
+
+    fn is_wanted(&mut self, device: &mut Device, _: &Frames, _: &Params) -> Result<bool> {
+        if !self.0.begun && self.is_due(device) {
+            let now = device.coming_cycle().0;
+            self.begin(device, now);
+        }
+        Ok(self.0.begun && !self.0.is_full())
+    }
+
+    fn is_done(&self) -> bool {
+        self.0.stop_when_full && self.0.is_full()
+    }
+}

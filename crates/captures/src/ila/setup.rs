@@ -1,0 +1,262 @@
+//! The set-up of a capture: a TOML file, and what the command line says instead.
+
+use std::fmt::Display;
+use std::path::Path;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use tofsim::error::{Error, Input, Result, nearest, read_text};
+use tofsim::scenario::check::{Checked, read};
+
+use super::builtin;
+use super::capture::Radix;
+
+/// A set-up file.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct File {
+    /// Name of the capture and of its files [default: the file's own].
+    pub name: Option<String>,
+    /// What it shows.
+    pub description: String,
+    /// Scenario that it is for, if none is named.
+    pub scenario: String,
+    /// Keys of that scenario to set, as `target.distance_m=0.3`.
+    pub set: Vec<String>,
+    /// Frames to simulate at most, if the command line does not say.
+    #[schemars(range(min = 1, max = 1_000_000), extend("unit" = "frames"))]
+    pub frames: u64,
+    /// Sampling clock: `clk_125`, `clk_250`, `clk_200`, or one of its own as `100MHz + 250ps`,
+    /// frequency and time of the first rising edge.
+    pub clock: String,
+    /// Samples that the buffer holds, a power of two.
+    #[schemars(range(min = 1024, max = 131_072), extend("unit" = "samples"))]
+    pub depth: u64,
+    /// Parts of the buffer with a trigger each. A window has the largest power of two of samples
+    /// that lets so many fit.
+    #[schemars(range(min = 1, max = 131_072), extend("unit" = "windows"))]
+    pub windows: u64,
+    /// Samples of a window before its trigger [default: half of them].
+    #[schemars(range(min = 0, max = 131_071), extend("unit" = "samples"))]
+    pub position: Option<u64>,
+    /// Condition that triggers, over names of probes and paths of signals [default: any sample].
+    pub trigger: Option<String>,
+    /// Condition that a sample has to fulfil to be stored [default: all are].
+    pub capture: Option<String>,
+    /// When it is armed, from power-up. It does not look at samples before.
+    #[schemars(range(min = 0.0, max = 1e9), extend("unit" = "us"))]
+    pub arm_at_us: f64,
+    /// Registers before the probes: what is sampled is so many edges old.
+    #[schemars(range(min = 0, max = 6), extend("unit" = "edges"))]
+    pub input_stages: u64,
+    /// The probes, the first in the lowest bits of a sample.
+    pub probe: Vec<ProbeEntry>,
+}
+
+impl Default for File {
+    fn default() -> Self {
+        File {
+            name: None,
+            description: String::new(),
+            scenario: tofsim::scenario::DEFAULT.to_owned(),
+            set: Vec::new(),
+            frames: 1,
+            clock: "clk_125".to_owned(),
+            depth: 1024,
+            windows: 1,
+            position: None,
+            trigger: None,
+            capture: None,
+            arm_at_us: 0.0,
+            input_stages: 0,
+            probe: Vec::new(),
+        }
+    }
+}
+
+/// A probe.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ProbeEntry {
+    /// Name in the capture [default: the signal's path with slashes].
+    #[serde(default)]
+    pub name: Option<String>,
+    /// Path of a signal below `tof_top`, or a slice of it: `tdc.tdc_decoder.n[7:4]`.
+    pub signal: String,
+    /// How its values are shown.
+    #[serde(default)]
+    pub radix: RadixWord,
+}
+
+/// How values are shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RadixWord {
+    /// As suits the signal.
+    #[default]
+    Auto,
+    /// Hexadecimal.
+    Hex,
+    /// Two's complement, decimal.
+    Signed,
+    /// Decimal.
+    Unsigned,
+    /// Three bits to a digit.
+    Octal,
+    /// Bit by bit.
+    Binary,
+}
+
+impl RadixWord {
+    /// The radix, if one is asked for.
+    pub fn radix(self) -> Option<Radix> {
+        match self {
+            RadixWord::Auto => None,
+            RadixWord::Hex => Some(Radix::Hex),
+            RadixWord::Signed => Some(Radix::Signed),
+            RadixWord::Unsigned => Some(Radix::Unsigned),
+            RadixWord::Octal => Some(Radix::Octal),
+            RadixWord::Binary => Some(Radix::Binary),
+        }
+    }
+}
+
+/// What goes before the keys of a set-up file.
+#[derive(Clone, Debug, Default)]
+pub struct Overrides {
+    /// Instead of `clock`.
+    pub clock: Option<String>,
+    /// Instead of `depth` [samples].
+    pub depth: Option<u64>,
+    /// Instead of `windows`.
+    pub windows: Option<u64>,
+    /// Instead of `position` [samples].
+    pub position: Option<u64>,
+    /// Instead of `trigger`.
+    pub trigger: Option<String>,
+    /// Instead of `capture`.
+    pub capture: Option<String>,
+    /// Instead of `arm_at_us` [us].
+    pub arm_at_us: Option<f64>,
+    /// Instead of `input_stages` [edges].
+    pub input_stages: Option<u64>,
+}
+
+/// A set-up, with the places of its keys for what may yet be found wrong.
+pub struct SetUp {
+    /// Name of the capture and of its files.
+    pub name: String,
+    /// The values.
+    pub file: File,
+    checked: Checked,
+    overridden: Vec<(&'static str, &'static str)>,
+}
+
+impl SetUp {
+    /// Loads a built-in set-up by name or a file by path, and lays `overrides` over it.
+    ///
+    /// # Errors
+    /// When there is none, or it has keys or values that it may not have; with the place.
+    pub fn load(name: &str, overrides: Overrides) -> Result<Self> {
+        if let Some(text) = builtin::set_up(name) {
+            return Self::parse(name, &format!("set-up {name}"), text, overrides);
+        }
+        let path = Path::new(name);
+        if !path.exists() && !name.contains(['/', '.']) {
+            let known = || builtin::SET_UPS.iter().map(|(name, _)| *name);
+            let hint = nearest(name, known()).map_or(String::new(), |name| format!(" (`{name}`?)"));
+            let names = known().collect::<Vec<_>>().join(", ");
+            let expected =
+                format!("no such file or built-in set-up{hint}; expected a path or one of {names}");
+            return Err(Input::new("--probes", expected).value(name).into());
+        }
+        let text = read_text(path)?;
+        let stem = path.file_stem().map_or(name.into(), |stem| stem.to_string_lossy());
+        Self::parse(&stem, name, &text, overrides)
+    }
+
+    /// Reads a set-up from text; `source` is its file and `stem` its name, if it gives none.
+    ///
+    /// # Errors
+    /// As [`SetUp::load`].
+    pub fn parse(stem: &str, source: &str, text: &str, overrides: Overrides) -> Result<Self> {
+        let checked = Checked::parse::<File>(source, text)?;
+        let mut file: File = read(source, checked.table())?;
+        let overridden = lay_over(&mut file, overrides);
+        let name = file.name.clone().unwrap_or_else(|| stem.to_owned());
+        let set_up = SetUp { name, file, checked, overridden };
+        let known = |c: char| c.is_alphanumeric() || "_-.".contains(c);
+        if set_up.name.is_empty() || set_up.name.starts_with('.') || !set_up.name.chars().all(known)
+        {
+            let expected = "expected a name of letters, digits, `_`, `-` and `.`, for its files";
+            return Err(set_up.fault("name", &set_up.name, expected));
+        }
+        Ok(set_up)
+    }
+
+    /// A fault of a key, at its place in the file or in the option that was given instead.
+    pub fn fault(&self, key: &str, value: impl Display, expected: impl Display) -> Error {
+        match self.option(key) {
+            Some(option) => Input::new(option, expected).value(value).into(),
+            None => {
+                let fault = self.checked.fault(key, expected);
+                let value = fault.value.clone().unwrap_or_else(|| value.to_string());
+                fault.value(value).into()
+            }
+        }
+    }
+
+    /// A fault within the text of a key.
+    pub fn fault_within(&self, key: &str, error: Error) -> Error {
+        match (self.option(key), error) {
+            (None, Error::Input(inner)) => {
+                let mut fault = self.checked.fault(key, &inner.expected);
+                // The text begins behind a quote.
+                let column = inner.place.map_or(0, |(_, column)| column);
+                fault.place = fault.place.map(|(line, begin)| (line, begin + column));
+                Input { value: inner.value, ..fault }.into()
+            }
+            (_, error) => error,
+        }
+    }
+
+    /// Where a key's value comes from: the option, or the key itself.
+    pub fn origin<'a>(&self, key: &'a str) -> &'a str
+    where
+        'static: 'a,
+    {
+        self.option(key).unwrap_or(key)
+    }
+
+    fn option(&self, key: &str) -> Option<&'static str> {
+        self.overridden.iter().find(|(known, _)| *known == key).map(|(_, option)| *option)
+    }
+}
+
+/// Takes the overrides that are there; returns their keys and options.
+fn lay_over(file: &mut File, overrides: Overrides) -> Vec<(&'static str, &'static str)> {
+    let mut taken = Vec::new();
+    let mut lay = |key, option, is_there: bool| {
+        if is_there {
+            taken.push((key, option));
+        }
+    };
+    lay("clock", "--clock", overrides.clock.is_some());
+    lay("depth", "--depth", overrides.depth.is_some());
+    lay("windows", "--windows", overrides.windows.is_some());
+    lay("position", "--position", overrides.position.is_some());
+    lay("trigger", "--trigger", overrides.trigger.is_some());
+    lay("capture", "--capture", overrides.capture.is_some());
+    lay("arm_at_us", "--arm-at-us", overrides.arm_at_us.is_some());
+    lay("input_stages", "--stages", overrides.input_stages.is_some());
+    file.clock = overrides.clock.unwrap_or(std::mem::take(&mut file.clock));
+    file.depth = overrides.depth.unwrap_or(file.depth);
+    file.windows = overrides.windows.unwrap_or(file.windows);
+    file.position = overrides.position.or(file.position);
+    file.trigger = overrides.trigger.or(file.trigger.take());
+    file.capture = overrides.capture.or(file.capture.take());
+    file.arm_at_us = overrides.arm_at_us.unwrap_or(file.arm_at_us);
+    file.input_stages = overrides.input_stages.unwrap_or(file.input_stages);
+    taken
+}

@@ -1,0 +1,58 @@
+//! What a file is, by its contents.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use crate::ila::Radix;
+use tofsim::error::{Error, Input, Result};
+
+use super::{Source, capture, wave};
+
+/// First bytes of a zip archive, which an ILA's is.
+const ARCHIVE: &[u8] = b"PK";
+/// First bytes of GHDL's waveform.
+const GHW: &[u8] = b"GHDLwave";
+/// First words of an ILA's CSV.
+const CSV: &[u8] = b"Sample in Buffer";
+/// Bytes of a file that are looked at.
+const HEAD: u64 = 4096;
+
+/// The source at `path`.
+pub(super) fn open(path: &Path, radix: Option<Radix>) -> Result<Source> {
+    let found = std::fs::metadata(path).map_err(Error::io(path, "read"))?;
+    if !found.is_file() {
+        let expected = "expected a file, because it is read more than once";
+        return Err(Input::new(path.display(), expected).into());
+    }
+    let mut head = Vec::new();
+    let file = File::open(path).map_err(Error::io(path, "read"))?;
+    file.take(HEAD).read_to_end(&mut head).map_err(Error::io(path, "read"))?;
+    let text = head.trim_ascii_start();
+    if text.is_empty() {
+        return Err(Input::new(path.display(), "is empty").into());
+    }
+    if head.starts_with(ARCHIVE) || starts_as_csv(text) {
+        return capture::source(path, radix);
+    }
+    let known = text.starts_with(b"$") || head.starts_with(GHW) || is_binary(&head);
+    match known {
+        true => wave::source(path),
+        false => {
+            let expected =
+                "expected VCD, FST, GHW, or an ILA's CSV (`Sample in Buffer,...`) or archive";
+            let line: String = String::from_utf8_lossy(text).lines().next().unwrap_or("").into();
+            Err(Input::new(path.display(), expected).at(1, 1).value(line).into())
+        }
+    }
+}
+
+fn starts_as_csv(text: &[u8]) -> bool {
+    let text = text.strip_prefix(b"\"").unwrap_or(text);
+    text.get(..CSV.len()).is_some_and(|head| head.eq_ignore_ascii_case(CSV))
+}
+
+/// Whether there are bytes that no text has; an FST file begins with some.
+fn is_binary(head: &[u8]) -> bool {
+    head.iter().any(|&byte| byte < b'\t')
+}

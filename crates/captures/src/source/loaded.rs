@@ -1,0 +1,58 @@
+//! GHW files, which the library can only load whole.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use wellen::{Hierarchy, LoadOptions, SignalRef};
+
+use tofsim::error::{Error, Result};
+
+use super::Source;
+use super::counts::check;
+use super::stream::Feed;
+use super::wave::{Words, fault};
+
+fn open(path: &Path) -> Result<wellen::viewers::HeaderResult<BufReader<File>>> {
+    let mut file = File::open(path).map_err(Error::io(path, "read"))?;
+    check(&path.display().to_string(), &mut file).map_err(Error::io(path, "read"))??;
+    let options = LoadOptions { multi_thread: false, remove_scopes_with_empty_name: true };
+    wellen::viewers::read_header(BufReader::new(file), &options).map_err(|error| fault(path, error))
+}
+
+/// What `describe` makes of the file's signals.
+pub(super) fn hierarchy(
+    path: &Path,
+    describe: impl FnOnce(&Hierarchy) -> Result<Source>,
+) -> Result<Source> {
+    describe(&open(path)?.hierarchy)
+}
+
+/// Feeds the changes of `references`, in the order of time.
+pub(super) fn feed(path: &Path, references: &[SignalRef], feed: &mut Feed) -> Result<()> {
+    let header = open(path)?;
+    let body = wellen::viewers::read_body(header.body, &header.hierarchy, None);
+    let mut body = body.map_err(|error| fault(path, error))?;
+    let mut wanted = references.to_vec();
+    wanted.sort();
+    wanted.dedup();
+    let loaded = body.source.load_signals(&wanted, &header.hierarchy, false);
+    let mut signals: Vec<_> = Vec::new();
+    for (place, reference) in references.iter().enumerate() {
+        let found = loaded.iter().find(|signal| signal.signal_ref() == *reference);
+        signals.extend(found.map(|signal| (place, signal.iter_changes().peekable())));
+    }
+    let mut words = Words::default();
+    for (index, &at) in body.time_table.iter().enumerate() {
+        for (place, changes) in &mut signals {
+            while let Some((_, value)) = changes.next_if(|(time, _)| *time as usize == index) {
+                if feed.at(at).is_err() {
+                    return Ok(());
+                }
+                words.set(value, feed.words(*place));
+                feed.change(*place, &words.value, &words.unknown);
+            }
+        }
+    }
+    Ok(())
+}

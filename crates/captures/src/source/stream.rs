@@ -1,0 +1,264 @@
+//! Changes on their way from a reading thread to the comparison, in blocks that are used again.
+
+use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
+use std::thread;
+
+use tofsim::error::Result;
+
+use super::guard::guarded;
+use super::state::State;
+
+/// Words of a block beyond which it is sent.
+const BLOCK: usize = 1 << 15;
+/// Blocks under way.
+const DEPTH: usize = 4;
+
+/// What a logic analyser says of a sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Marks {
+    /// A window begins.
+    pub window: bool,
+    /// It triggered.
+    pub trigger: bool,
+    /// Samples are missing here.
+    pub gap: bool,
+}
+
+/// Some signals change.
+#[derive(Clone, Copy, Debug)]
+struct Instant {
+    at: u64,
+    marks: Marks,
+    /// Place after its last change.
+    end: usize,
+}
+
+#[derive(Debug, Default)]
+struct Block {
+    instants: Vec<Instant>,
+    /// Signals that change.
+    changes: Vec<u32>,
+    /// For each change the words of its value, then those of its unknown bits.
+    words: Vec<u64>,
+}
+
+impl Block {
+    fn clear(&mut self) {
+        self.instants.clear();
+        self.changes.clear();
+        self.words.clear();
+    }
+}
+
+/// The end that a reading thread puts changes into.
+pub struct Feed {
+    full: SyncSender<Result<Block>>,
+    used: Receiver<Block>,
+    block: Block,
+    words: Vec<usize>,
+    at: Option<(u64, Marks)>,
+}
+
+/// The other end is not there any more; to stop is right.
+#[derive(Clone, Copy, Debug)]
+pub struct Gone;
+
+impl Feed {
+    /// The changes that follow are at that place, which never goes back.
+    #[inline]
+    pub fn at(&mut self, at: u64) -> std::result::Result<(), Gone> {
+        if self.at.is_some_and(|(now, _)| now == at) {
+            return Ok(());
+        }
+        self.end()?;
+        self.at = Some((at, Marks::default()));
+        Ok(())
+    }
+
+    /// What is said of this place.
+    pub fn mark(&mut self, change: impl FnOnce(&mut Marks)) {
+        if let Some((_, marks)) = &mut self.at {
+            change(marks);
+        }
+    }
+
+    /// A signal changes to `value`, with `unknown` bits; both as long as its width asks for.
+    #[inline]
+    pub fn change(&mut self, signal: usize, value: &[u64], unknown: &[u64]) {
+        debug_assert!(value.len() == self.words[signal] && unknown.len() == value.len());
+        self.block.changes.push(signal as u32);
+        self.block.words.extend_from_slice(value);
+        self.block.words.extend_from_slice(unknown);
+    }
+
+    /// Words that the value of a signal has.
+    pub fn words(&self, signal: usize) -> usize {
+        self.words[signal]
+    }
+
+    fn end(&mut self) -> std::result::Result<(), Gone> {
+        let Some((at, marks)) = self.at.take() else { return Ok(()) };
+        let end = self.block.changes.len();
+        self.block.instants.push(Instant { at, marks, end });
+        if self.block.words.len() + self.block.instants.len() < BLOCK {
+            return Ok(());
+        }
+        let mut next = self.used.try_recv().unwrap_or_default();
+        next.clear();
+        let full = std::mem::replace(&mut self.block, next);
+        self.full.send(Ok(full)).map_err(|_| Gone)
+    }
+
+    fn finish(mut self, result: Result<()>) {
+        // That nobody listens any more is no fault of the reader.
+        if self.end().is_ok() {
+            let block = std::mem::take(&mut self.block);
+            let _ = self.full.send(Ok(block));
+        }
+        if let Err(error) = result {
+            let _ = self.full.send(Err(error));
+        }
+    }
+}
+
+/// Follows the changes of a source from its begin to its end.
+pub struct Cursor {
+    full: Receiver<Result<Block>>,
+    used: Sender<Block>,
+    block: Block,
+    instant: usize,
+    change: usize,
+    word: usize,
+    /// Values after the last instant taken.
+    pub state: State,
+}
+
+impl Cursor {
+    /// Runs `read` in a thread of its own, which is named for what it does.
+    pub(super) fn spawn(
+        widths: &[u32],
+        read: impl FnOnce(&mut Feed) -> Result<()> + Send + 'static,
+    ) -> Cursor {
+        let (full, receive_full) = sync_channel(DEPTH);
+        let (used, receive_used) = channel();
+        let words = widths.iter().map(|&width| (width as usize).div_ceil(64)).collect();
+        let mut feed = Feed { full, used: receive_used, block: Block::default(), words, at: None };
+        let failed = feed.full.clone();
+        let spawned = thread::Builder::new().name(READER.to_owned()).spawn(move || {
+            // A reader that panics must not look like one that has come to the end.
+            let result = guarded("reader", || read(&mut feed));
+            feed.finish(result);
+        });
+        if let Err(source) = spawned {
+            let error = tofsim::error::Error::io(std::path::Path::new("thread"), "create")(source);
+            let _ = failed.try_send(Err(error));
+        }
+        drop(failed);
+        Cursor {
+            full: receive_full,
+            used,
+            block: Block::default(),
+            instant: 0,
+            change: 0,
+            word: 0,
+            state: State::new(widths),
+        }
+    }
+
+    /// Place of the next instant, `None` at the end.
+    ///
+    /// # Errors
+    /// When the source cannot be read on.
+    #[inline]
+    pub fn peek(&mut self) -> Result<Option<u64>> {
+        while self.instant == self.block.instants.len() {
+            match self.full.recv() {
+                Ok(block) => {
+                    let used = std::mem::replace(&mut self.block, block?);
+                    // A reader that has ended needs no blocks.
+                    let _ = self.used.send(used);
+                    (self.instant, self.change, self.word) = (0, 0, 0);
+                }
+                Err(_) => return Ok(None),
+            }
+        }
+        Ok(Some(self.block.instants[self.instant].at))
+    }
+
+    /// Takes the next instant into the state; each signal that it touches is told.
+    #[inline]
+    pub fn take(&mut self, mut touched: impl FnMut(usize)) -> Marks {
+        let Some(&Instant { marks, end, .. }) = self.block.instants.get(self.instant) else {
+            return Marks::default();
+        };
+        self.instant += 1;
+        while self.change < end {
+            let signal = self.block.changes[self.change] as usize;
+            self.change += 1;
+            let count = self.state.range(signal).len();
+            let words = &self.block.words[self.word..self.word + 2 * count];
+            self.word += words.len();
+            let (value, unknown) = words.split_at(count);
+            self.state.set(signal, value, unknown);
+            touched(signal);
+        }
+        marks
+    }
+}
+
+/// Name of the threads that read, by which a panic of theirs is known.
+pub(super) const READER: &str = "tofsim reader";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_put_in_comes_out_in_order() {
+        let mut cursor = Cursor::spawn(&[1, 70], |feed| {
+            for at in 0..100_000u64 {
+                let _ = feed.at(at * 2);
+                feed.change(0, &[at % 2], &[0]);
+                if at % 3 == 0 {
+                    feed.change(1, &[at, 1], &[0, 2]);
+                    feed.mark(|marks| marks.trigger = true);
+                }
+            }
+            Ok(())
+        });
+        assert_eq!(cursor.state.unknown(1), [u64::MAX, 0x3f]);
+        for at in 0..100_000u64 {
+            assert_eq!(cursor.peek().unwrap(), Some(at * 2));
+            let mut touched = Vec::new();
+            let marks = cursor.take(|signal| touched.push(signal));
+            assert_eq!(touched.len(), 1 + usize::from(at % 3 == 0));
+            assert_eq!(marks.trigger, at % 3 == 0);
+            assert_eq!(cursor.state.value(0), [at % 2]);
+            assert_eq!(cursor.state.value(1), [at / 3 * 3, 1]);
+        }
+        assert_eq!(cursor.peek().unwrap(), None);
+    }
+
+    #[test]
+    fn an_error_comes_after_what_was_read_before_it() {
+        let mut cursor = Cursor::spawn(&[1], |feed| {
+            let _ = feed.at(5);
+            Err(tofsim::error::Input::new("a.vcd", "broken").into())
+        });
+        assert_eq!(cursor.peek().unwrap(), Some(5));
+        cursor.take(|_| ());
+        assert_eq!(cursor.peek().unwrap_err().to_string(), "a.vcd: broken");
+    }
+
+    #[test]
+    fn a_reader_that_nobody_listens_to_stops() {
+        let cursor = Cursor::spawn(&[1], |feed| {
+            let mut at = 0;
+            while feed.at(at).is_ok() {
+                at += 1;
+            }
+            Ok(())
+        });
+        drop(cursor);
+    }
+}

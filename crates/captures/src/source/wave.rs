@@ -1,0 +1,299 @@
+//! VCD, FST and GHW, read by the crate `wellen`.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+use std::thread;
+
+use wellen::stream::{Filter, StreamError, StreamingWaveform};
+use wellen::{
+    BitVecRef, FileFormat, Hierarchy, LoadOptions, SignalEncoding, SignalRef, SignalValueRef,
+    States, Var, WellenError,
+};
+
+use tofsim::error::{Error, Input, Result};
+
+use super::end::end;
+use super::guard::{Fault, InOrder, guarded};
+use super::locate::located;
+use super::marks::{Marking, Style};
+use super::names::Name;
+use super::stream::{Cursor, Feed, Gone, READER};
+use super::{Axis, Format, Kind, Signal, Source, Tick, loaded};
+
+/// Widest signal that is read [bits].
+const WIDEST: u32 = 1 << 20;
+/// Bytes read at once.
+const CHUNK: usize = 1 << 17;
+
+/// Where a waveform is.
+#[derive(Clone, Debug)]
+pub(super) struct Origin {
+    path: PathBuf,
+    format: Format,
+    /// Signal of the library for each id.
+    references: Vec<SignalRef>,
+    /// The marks of a logic analyser.
+    marks: Option<Style>,
+}
+
+/// A waveform whose head has been read, and the fault found in it later.
+struct Opened {
+    wave: StreamingWaveform<BufReader<InOrder<File>>>,
+    fault: Arc<OnceLock<Fault>>,
+}
+
+fn open(path: &Path) -> Result<Opened> {
+    let file = File::open(path).map_err(Error::io(path, "read"))?;
+    let options = LoadOptions { multi_thread: false, remove_scopes_with_empty_name: true };
+    let found = Arc::new(OnceLock::new());
+    let input = BufReader::with_capacity(CHUNK, InOrder::new(file, Arc::clone(&found)));
+    let wave = wellen::stream::read(input, &options);
+    let wave =
+        wave.map_err(|error| found.get().map_or_else(|| fault(path, error), |f| at(path, f)))?;
+    Ok(Opened { wave, fault: found })
+}
+
+fn at(path: &Path, fault: &Fault) -> Error {
+    Input::new(path.display(), &fault.text).at(fault.line, 1).into()
+}
+
+/// Does something in a thread whose panics are not shown.
+fn apart<T: Send>(path: &Path, work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
+    let source = path.display().to_string();
+    thread::scope(|scope| {
+        let work = || guarded(&source, work);
+        let thread = thread::Builder::new().name(READER.to_owned()).spawn_scoped(scope, work);
+        let thread = thread.map_err(Error::io(path, "read"))?;
+        thread.join().unwrap_or_else(|_| Err(Input::new(&source, "cannot be read").into()))
+    })
+}
+
+/// The source at `path`, of that format as far as the library tells.
+pub(super) fn source(path: &Path) -> Result<Source> {
+    apart(path, || {
+        if is_ghw(path)? {
+            return loaded::hierarchy(path, |hierarchy| described(path, hierarchy));
+        }
+        let opened = open(path)?;
+        described(path, opened.wave.hierarchy())
+    })
+}
+
+fn is_ghw(path: &Path) -> Result<bool> {
+    let file = File::open(path).map_err(Error::io(path, "read"))?;
+    let format = wellen::viewers::detect_file_format(&mut BufReader::new(file));
+    Ok(format == FileFormat::Ghw)
+}
+
+fn described(path: &Path, hierarchy: &Hierarchy) -> Result<Source> {
+    let source = path.display().to_string();
+    let mut signals = Vec::new();
+    let mut references: Vec<SignalRef> = Vec::new();
+    let mut ids = std::collections::HashMap::new();
+    for var in hierarchy.all_vars().map(|var| &hierarchy[var]) {
+        let reference = var.signal_ref();
+        let id = *ids.entry(reference).or_insert_with(|| {
+            references.push(reference);
+            references.len() - 1
+        });
+        signals.push(signal(var, hierarchy, id));
+    }
+    if let Some(wide) = signals.iter().find(|signal| signal.width > WIDEST) {
+        let expected = format!("expected {WIDEST} bits at most");
+        return Err(Input::new(source, expected).field(&wide.name.text).value(wide.width).into());
+    }
+    let format = match hierarchy.file_format() {
+        FileFormat::Fst => Format::Fst,
+        FileFormat::Ghw => Format::Ghw,
+        FileFormat::Vcd | FileFormat::Unknown => Format::Vcd,
+    };
+    let marks = (format == Format::Vcd).then(|| Style::of(&signals, hierarchy.version())).flatten();
+    let axis = match &marks {
+        Some(_) => Axis::Samples,
+        None => Axis::Time(tick(&source, hierarchy)?),
+    };
+    if let Some(style) = &marks {
+        style.hide(&mut signals);
+    }
+    Ok(Source {
+        name: source,
+        format: if marks.is_some() { Format::IlaVcd } else { format },
+        axis,
+        signals,
+        samples: None,
+        end: if marks.is_some() { None } else { end(path, format)? },
+        radix_told: marks.is_none(),
+        origin: super::Origin::Wave(Origin { path: path.to_owned(), format, references, marks }),
+    })
+}
+
+fn signal(var: &Var, hierarchy: &Hierarchy, id: usize) -> Signal {
+    let (kind, width) = match var.signal_encoding(hierarchy) {
+        SignalEncoding::BitVector(0) | SignalEncoding::String => (Kind::Other, 0),
+        SignalEncoding::BitVector(width) => (Kind::Bits, width),
+        SignalEncoding::Real => (Kind::Real, 64),
+    };
+    // The library makes scopes of the indices of arrays.
+    let name = Name::new(var.full_name(hierarchy).replace(".[", "["));
+    let lsb = var.index().map_or(0, |index| index.lsb());
+    Signal { name, width, lsb, kind, radix: None, shape: None, id }
+}
+
+fn tick(source: &str, hierarchy: &Hierarchy) -> Result<Tick> {
+    let Some(scale) = hierarchy.timescale() else {
+        return Err(Input::new(source, "expected a $timescale").into());
+    };
+    let tick = scale.unit.to_exponent().and_then(|exponent| Tick::new(scale.factor, exponent));
+    let fault = || {
+        let expected = "expected a number and one of zs, as, fs, ps, ns, us, ms, s";
+        let value = format!("{} {:?}", scale.factor, scale.unit);
+        Input::new(source, expected).field("$timescale").value(value).into()
+    };
+    tick.ok_or_else(fault)
+}
+
+/// Begins to read.
+pub(super) fn read(origin: &Origin, ids: &[usize], widths: &[u32]) -> Result<Cursor> {
+    let references: Vec<SignalRef> = ids.iter().map(|&id| origin.references[id]).collect();
+    let origin = origin.clone();
+    Ok(Cursor::spawn(widths, move |feed| {
+        let source = origin.path.display().to_string();
+        let result = guarded(&source, || match origin.format {
+            Format::Ghw => loaded::feed(&origin.path, &references, feed),
+            _ => stream(&origin, &references, feed),
+        });
+        match origin.format {
+            Format::Vcd => result.map_err(|error| located(&origin.path, error)),
+            _ => result,
+        }
+    }))
+}
+
+fn stream(origin: &Origin, references: &[SignalRef], feed: &mut Feed) -> Result<()> {
+    let Opened { mut wave, fault: found } = open(&origin.path)?;
+    let mut marking = origin.marks.as_ref().map(|style| Marking::new(style, &origin.references));
+    let mut wanted = references.to_vec();
+    wanted.extend(marking.iter().flat_map(Marking::references));
+    wanted.sort();
+    wanted.dedup();
+    let mut places = Places::new(references);
+    let mut words = Words::default();
+    let result = wave.stream_changes(Filter::include_signals(&wanted), |at, reference, value| {
+        feed.at(at)?;
+        if let Some(marking) = &mut marking
+            && let SignalValueRef::BitVec(bits) = value
+        {
+            marking.change(reference, at, u8::from(bits.get_bit(0)) == 1, feed);
+        }
+        for &signal in places.of(reference) {
+            words.set(value, feed.words(signal as usize));
+            feed.change(signal as usize, &words.value, &words.unknown);
+        }
+        Ok::<(), Gone>(())
+    });
+    match result {
+        Ok(()) | Err(StreamError::Callback(Gone)) => Ok(()),
+        Err(StreamError::Wellen(error)) => {
+            Err(found.get().map_or_else(|| fault(&origin.path, error), |f| at(&origin.path, f)))
+        }
+    }
+}
+
+/// Signals of the cursor by reference.
+struct Places {
+    first: Vec<u32>,
+    signals: Vec<u32>,
+}
+
+impl Places {
+    fn new(references: &[SignalRef]) -> Self {
+        let count = references.iter().map(|reference| reference.index() + 1).max().unwrap_or(0);
+        let mut first = vec![0; count + 1];
+        for reference in references {
+            first[reference.index() + 1] += 1;
+        }
+        for index in 0..count {
+            first[index + 1] += first[index];
+        }
+        let mut order: Vec<u32> = (0..references.len() as u32).collect();
+        order.sort_by_key(|&signal| references[signal as usize].index());
+        Places { first, signals: order }
+    }
+
+    #[inline]
+    fn of(&mut self, reference: SignalRef) -> &[u32] {
+        let index = reference.index();
+        match self.first.get(index..index + 2) {
+            Some(bounds) => &self.signals[bounds[0] as usize..bounds[1] as usize],
+            None => &[],
+        }
+    }
+}
+
+/// A value in words.
+#[derive(Default)]
+pub(super) struct Words {
+    /// Lowest word first.
+    pub(super) value: Vec<u64>,
+    /// Unknown bits.
+    pub(super) unknown: Vec<u64>,
+}
+
+impl Words {
+    /// Takes a value, in as many words as its signal has.
+    #[inline]
+    pub(super) fn set(&mut self, value: SignalValueRef<'_>, words: usize) {
+        self.value.clear();
+        self.unknown.clear();
+        self.value.resize(words, 0);
+        self.unknown.resize(words, 0);
+        match value {
+            SignalValueRef::BitVec(bits) => self.bits(bits),
+            SignalValueRef::Real(real) => self.value[0] = real.to_bits(),
+            SignalValueRef::Event | SignalValueRef::String(_) => {}
+        }
+    }
+
+    #[inline]
+    fn bits(&mut self, bits: BitVecRef<'_>) {
+        if bits.states() == States::Two
+            && let Some(bytes) = bits.be_bytes()
+        {
+            for (place, &byte) in bytes.iter().rev().enumerate() {
+                self.value[place / 8] |= u64::from(byte) << (8 * (place % 8));
+            }
+            return;
+        }
+        for bit in 0..bits.width() {
+            let (word, place) = (bit as usize / 64, bit % 64);
+            let (value, unknown) = match u8::from(bits.get_bit(bit)) {
+                0 | 7 => (0, 0),
+                1 | 4 => (1, 0),
+                3 => (1, 1),
+                _ => (0, 1),
+            };
+            self.value[word] |= value << place;
+            self.unknown[word] |= unknown << place;
+        }
+    }
+}
+
+/// An error of the library, with the line where that is known.
+pub(super) fn fault(path: &Path, error: WellenError) -> Error {
+    let source = path.display();
+    match error {
+        WellenError::Io(error) => Error::io(path, "read")(error),
+        WellenError::UnknownFileFormat => {
+            Input::new(source, "expected a VCD, FST or GHW waveform, or an ILA capture").into()
+        }
+        WellenError::FailedToLoad(FileFormat::Vcd, text) => {
+            let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+            Input::new(source, format!("cannot be read: {text}")).into()
+        }
+        WellenError::FailedToLoad(..) => {
+            Input::new(source, "is damaged, or not as its format asks").into()
+        }
+    }
+}

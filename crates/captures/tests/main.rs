@@ -1,0 +1,10 @@
+//! Captures, as files and from a running simulation.
+
+#[path = "../../../tests/common.rs"]
+mod common;
+mod fuzz;
+mod ila;
+mod ila_archives;
+mod ila_capture;
+mod ila_files;
+mod ila_round_trip;

@@ -1,0 +1,125 @@
+//! Errors by a quantity of the scene, as boxes.
+
+use plotters::prelude::*;
+
+use tofsim_learn::evaluation::Group;
+
+use crate::text::svg::{Canvas, Fault, picture};
+
+/// Whiskers reach so many heights of the box at most, and not past the last error.
+const WHISKER: f64 = 1.5;
+
+/// What is drawn.
+#[derive(Debug)]
+pub struct BoxPlot<'a> {
+    /// Words above the picture.
+    pub title: String,
+    /// The quantity, with its unit.
+    pub quantity: &'a str,
+    /// A box for each.
+    pub groups: &'a [Group],
+    /// Half of the spread to compare with at each group's value, as a line on both sides [mm].
+    pub beside_mm: Option<fn(f64) -> f64>,
+}
+
+/// A box: whiskers, quartiles and median [mm].
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Box5([f64; 5]);
+
+impl Box5 {
+    fn of(group: &Group) -> Option<(f64, Self)> {
+        let [least, lower, median, upper, largest] = group.spread.quartiles_mm?;
+        let reach = WHISKER * (upper - lower);
+        let whiskers = [least.max(lower - reach), largest.min(upper + reach)];
+        Some((group.value, Box5([whiskers[0], lower, median, upper, whiskers[1]])))
+    }
+}
+
+impl BoxPlot<'_> {
+    /// The picture as SVG text; an error only if the plotting library fails.
+    pub fn svg(&self) -> Result<String, String> {
+        picture(|canvas| self.draw(canvas))
+    }
+
+    fn draw<'a>(&self, canvas: &Canvas<'a>) -> Result<(), Fault<'a>> {
+        let boxes: Vec<_> = self.groups.iter().filter_map(Box5::of).collect();
+        let values: Vec<_> = self.groups.iter().map(|group| group.value).collect();
+        let (first, last) = (values.first().copied(), values.last().copied());
+        let (first, last) = (first.unwrap_or(0.0), last.unwrap_or(1.0));
+        let apart = if values.len() > 1 { (last - first) / (values.len() - 1) as f64 } else { 1.0 };
+        let whiskers = boxes.iter().flat_map(|(_, Box5(five))| [five[0].abs(), five[4].abs()]);
+        let beside = |&value: &f64| self.beside_mm.map(|beside| beside(value));
+        let beside = values.iter().filter_map(beside);
+        let highest = 1.1 * whiskers.chain(beside).fold(0.1, f64::max);
+        let mut chart = ChartBuilder::on(canvas)
+            .margin(12)
+            .caption(&self.title, ("sans-serif", 18))
+            .x_label_area_size(42)
+            .y_label_area_size(64)
+            .build_cartesian_2d(first - apart..last + apart, -highest..highest)?;
+        chart
+            .configure_mesh()
+            .x_desc(self.quantity)
+            .y_desc("error of the depth [mm]")
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(BLACK.mix(0.08))
+            .draw()?;
+        for sign in [-1.0, 1.0] {
+            let Some(beside) = self.beside_mm else { break };
+            let line = values.iter().map(|&value| (value, sign * beside(value)));
+            chart.draw_series(LineSeries::new(line, RED.mix(0.6).stroke_width(2)))?;
+        }
+        let half = 0.3 * apart;
+        let ink = BLUE.mix(0.8);
+        for (value, Box5([low, lower, median, upper, high])) in boxes {
+            let line = |from, to| PathElement::new(vec![from, to], ink);
+            chart.draw_series([
+                line((value, low), (value, lower)),
+                line((value, upper), (value, high)),
+            ])?;
+            chart.draw_series([Rectangle::new(
+                [(value - half, lower), (value + half, upper)],
+                BLUE.mix(0.25).filled(),
+            )])?;
+            chart.draw_series([line((value - half, median), (value + half, median))])?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tofsim_learn::evaluation::Spread;
+
+    #[test]
+    fn whiskers_stop_at_one_and_a_half_boxes() {
+        let errors = [-100.0, -1.0, 0.0, 1.0, 2.0];
+        let spread = Spread::of(errors.map(|mm| Some(1e-3 * mm)));
+        let (value, Box5(five)) = Box5::of(&Group { value: 0.3, spread }).unwrap();
+        assert_eq!(value, 0.3);
+        for (found, expected) in five.into_iter().zip([-4.0, -1.0, 0.0, 1.0, 2.0]) {
+            assert!((found - expected).abs() < 1e-9, "{five:?}");
+        }
+    }
+
+    #[test]
+    fn a_picture_has_a_box_for_each_group_that_has_errors() {
+        let group = |value, errors: &[f64]| Group {
+            value,
+            spread: Spread::of(errors.iter().map(|&error| Some(error))),
+        };
+        let groups = [group(0.1, &[0.001, 0.002]), group(0.2, &[]), group(0.3, &[-0.001, 0.0])];
+        let plot = BoxPlot {
+            title: "network".to_owned(),
+            quantity: "distance [m]",
+            groups: &groups,
+            beside_mm: Some(|_| 1.0),
+        };
+        let svg = plot.svg().unwrap();
+        let filled = svg.matches("<rect").count();
+        assert_eq!(filled, 1 + 2, "background and boxes");
+        assert_eq!(plot.svg().unwrap(), svg);
+        assert!(BoxPlot { groups: &[], ..plot }.svg().is_ok());
+    }
+}

@@ -1,0 +1,229 @@
+//! A comparison as text, as JSON and as JUnit XML.
+
+use std::fmt::Write;
+
+use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
+use serde_json::{Value, json};
+
+use crate::text::table::{counted, grouped, plain};
+
+use tofsim_captures::compare::{Compared, Comparison, Described, How, Reason};
+use tofsim_captures::source::Axis;
+
+/// Signals that are listed one by one.
+const LISTED: usize = 24;
+/// Signals without a partner of each side that are listed.
+const UNMATCHED: usize = 8;
+
+/// The verdict, what differs first, a line for each pair that differs, and what came together.
+pub fn text(result: &Comparison, verbose: bool) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = compose(result, verbose, &mut text);
+    text
+}
+
+fn compose(result: &Comparison, verbose: bool, text: &mut String) -> std::fmt::Result {
+    let names = ["expected", "got"];
+    for (side, name) in result.sides.iter().zip(names) {
+        writeln!(text, "{name:<9} {} ({})", side.name, side.format)?;
+    }
+    for (k, line) in result.alignment.lines().enumerate() {
+        writeln!(text, "{:<9} {line}", if k == 0 { "aligned" } else { "" })?;
+    }
+    let places = match result.unit {
+        "samples" => "samples",
+        _ => "instants",
+    };
+    let pairs = counted(result.pairs.len() as u64, "signals");
+    writeln!(text, "compared  {pairs} at {}", counted(result.compared, places))?;
+    matched(result, verbose, text)?;
+    for note in &result.notes {
+        writeln!(text, "note      {note}")?;
+    }
+    writeln!(text)?;
+    if result.is_same() {
+        return writeln!(text, "same");
+    }
+    writeln!(text, "different")?;
+    for difference in &result.differences {
+        writeln!(text, "  {difference}")?;
+    }
+    for finding in &result.findings {
+        writeln!(text, "  {}: {}", finding.kind, finding.text)?;
+    }
+    let Some(first) = result.differing().next() else { return Ok(()) };
+    writeln!(text, "\nfirst     {}", first_line(result, first))?;
+    differing(result, text)
+}
+
+fn first_line(result: &Comparison, pair: &Compared) -> String {
+    let Some(first) = &pair.first else { return String::new() };
+    let [a, b] = [0, 1].map(|side| result.sides[side].place(first.at[side]));
+    let place = if a == b { a } else { format!("{a} / {b}") };
+    format!("{} at {place}: expected {}, got {}", pair.name, first.expected, first.got)
+}
+
+fn differing(result: &Comparison, text: &mut String) -> std::fmt::Result {
+    let mut table = plain();
+    table.set_header(["signal", "differs", "first", "expected", "got", "where"]);
+    for pair in result.differing().take(LISTED) {
+        let Some(first) = &pair.first else { continue };
+        table.add_row([
+            pair.name.clone(),
+            format!("{} of {}", grouped(pair.differing), grouped(pair.compared)),
+            result.sides[0].place(first.at[0]),
+            first.expected.clone(),
+            first.got.clone(),
+            pair.strip.clone(),
+        ]);
+    }
+    writeln!(text, "\n{}", table.trim_fmt())?;
+    let count = result.differing().count();
+    if count > LISTED {
+        writeln!(text, "... and {} more signals", count - LISTED)?;
+    }
+    Ok(())
+}
+
+/// What came together and what did not.
+fn matched(result: &Comparison, verbose: bool, text: &mut String) -> std::fmt::Result {
+    let count = |how: How| result.pairs.iter().filter(|pair| pair.how == how).count();
+    let aliases: usize = result.pairs.iter().map(|pair| pair.aliases).sum();
+    let mut parts = Vec::new();
+    for (how, words) in
+        [(How::Name, "by name"), (How::Suffix, "by the end of the name"), (How::Map, "by the map")]
+    {
+        if count(how) > 0 {
+            parts.push(format!("{} {words}", count(how)));
+        }
+    }
+    if aliases > 0 {
+        parts.push(format!("{aliases} more names of the same"));
+    }
+    writeln!(text, "matched   {}", parts.join(", "))?;
+    if verbose {
+        for pair in &result.pairs {
+            let other = if pair.other == pair.name { "" } else { &pair.other };
+            writeln!(text, "            {:<6} {} {other}", pair.how.word(), pair.name)?;
+        }
+    }
+    for (side, which) in ["first", "second"].iter().enumerate() {
+        let own = |reason: bool| {
+            let unmatched = result.unmatched.iter().filter(move |u| u.side == side);
+            unmatched.filter(move |u| (u.reason == Reason::Ignored) == reason)
+        };
+        let (alone, ignored) = (own(false).count(), own(true).count());
+        if alone > 0 {
+            writeln!(text, "unmatched {alone} of the {which} side")?;
+        }
+        let shown = match result.lists_unmatched(side) {
+            _ if verbose => usize::MAX,
+            true => UNMATCHED,
+            false => 0,
+        };
+        for unmatched in own(false).take(shown) {
+            writeln!(text, "            {}: {}", unmatched.name, unmatched.reason.text())?;
+        }
+        if alone > shown {
+            let more = if shown > 0 { "... and more" } else { "their names" };
+            writeln!(text, "            {more} with -v")?;
+        }
+        if ignored > 0 {
+            writeln!(text, "left out  {ignored} of the {which} side")?;
+        }
+    }
+    Ok(())
+}
+
+/// One object, `tofsim.compare/1`.
+pub fn json(result: &Comparison) -> Value {
+    let pair = |pair: &Compared| {
+        let first = pair.first.as_ref().map(|first| {
+            let at: Vec<_> = (0..2).map(|side| result.sides[side].number(first.at[side])).collect();
+            json!({
+                "window": first.window,
+                "at": at,
+                "expected": first.expected,
+                "got": first.got,
+                "bits": first.bits,
+            })
+        });
+        json!({
+            "name": pair.name,
+            "other": pair.other,
+            "matched_by": pair.how.word(),
+            "aliases": pair.aliases,
+            "width": pair.width,
+            "compared": pair.compared,
+            "differing": pair.differing,
+            "first": first,
+            "where": pair.strip,
+        })
+    };
+    let unit = |side: &Described| match side.axis {
+        Axis::Samples => "sample",
+        Axis::Time(_) => "ps",
+    };
+    json!({
+        "schema": "tofsim.compare/1",
+        "same": result.is_same(),
+        "sides": result.sides.iter().map(|side| json!({
+            "name": side.name,
+            "format": side.format,
+            "unit": unit(side),
+        })).collect::<Vec<_>>(),
+        "by": result.unit,
+        "alignment": result.alignment,
+        "offset": result.offset,
+        "compared": result.compared,
+        "differences": result.differences,
+        "findings": result.findings.iter().map(|finding| json!({
+            "kind": finding.kind,
+            "text": finding.text,
+            "signals": finding.signals,
+        })).collect::<Vec<_>>(),
+        "first": result.differing().next().map(pair),
+        "signals": result.pairs.iter().map(pair).collect::<Vec<_>>(),
+        "unmatched": result.unmatched.iter().map(|unmatched| json!({
+            "side": if unmatched.side == 0 { "a" } else { "b" },
+            "name": unmatched.name,
+            "reason": unmatched.reason.text(),
+        })).collect::<Vec<_>>(),
+        "notes": result.notes,
+    })
+}
+
+/// A test suite with a case for each pair, and one for what is not of a signal's values.
+///
+/// # Errors
+/// When it cannot be put into XML.
+pub fn junit(result: &Comparison) -> Result<String, quick_junit::SerializeError> {
+    let [a, b] = [&result.sides[0].name, &result.sides[1].name];
+    let mut suite = TestSuite::new(format!("tofsim compare {a} {b}"));
+    let mut case = |name: &str, fault: Option<(String, String)>| {
+        let mut status = match fault {
+            None => TestCaseStatus::success(),
+            Some(_) => TestCaseStatus::non_success(NonSuccessKind::Failure),
+        };
+        if let Some((message, description)) = fault {
+            status.set_message(message);
+            status.set_description(description);
+        }
+        suite.add_test_case(TestCase::new(name, status));
+    };
+    for pair in &result.pairs {
+        let fault = (pair.differing > 0).then(|| {
+            let count = format!("{} of {} differ: {}", pair.differing, pair.compared, pair.strip);
+            (first_line(result, pair), count)
+        });
+        case(&pair.name, fault);
+    }
+    let findings: Vec<_> = result.findings.iter().map(|f| f.text.as_str()).collect();
+    let fault = (!result.differences.is_empty())
+        .then(|| (result.differences.join("; "), findings.join("\n")));
+    case("structure", fault);
+    let mut all = quick_junit::Report::new("tofsim compare");
+    all.add_test_suite(suite);
+    all.to_string()
+}

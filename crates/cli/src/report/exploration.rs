@@ -1,0 +1,45 @@
+//! Accuracy against cost as a table.
+
+use comfy_table::CellAlignment;
+
+use tofsim_learn::evaluation::exploration::Point;
+use tofsim_learn::evaluation::thesis::DISTANCES_M;
+
+use crate::text::table::plain;
+
+/// A row for each datapath.
+pub fn text(points: &[Point]) -> String {
+    let mut table = plain();
+    let mut header = vec!["datapath".to_owned()];
+    header.extend(DISTANCES_M.map(|distance_m| format!("2 sd {distance_m} m")));
+    header.extend(
+        ["rms to float", "largest", "weights cut", "sums past table", "bits", "RAMB36", "DSP48"]
+            .map(str::to_owned),
+    );
+    table.set_header(header);
+    for point in points {
+        let mut cells = vec![point.variant.clone()];
+        cells.extend(
+            point.two_sd_mm.iter().map(|mm| mm.map_or("-".to_owned(), |mm| format!("{mm:.2}"))),
+        );
+        let [hidden, depth] = point.sum_bits;
+        cells.extend([
+            format!("{:.3}", point.rms_to_float_mm),
+            format!("{:.2}", point.largest_to_float_mm),
+            point.saturated_weights.to_string(),
+            format!("{:.2}", point.saturated_sums),
+            format!("{hidden} {depth}"),
+            point.cost.ramb36.to_string(),
+            point.cost.dsp48.to_string(),
+        ]);
+        table.add_row(cells);
+    }
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    format!(
+        "{}\n\n2 sd and differences in mm; weights that no word holds are cut to the nearest; sums past \
+         the table of each histogram's 8;\nbits of the sums of the hidden layer and of the depth\n",
+        table.trim_fmt()
+    )
+}

@@ -1,0 +1,100 @@
+//! The frames of a run as they come: what the reports need of them, in little memory.
+
+use std::io::{self, Seek, Write};
+use std::path::Path;
+
+use tempfile::SpooledTempFile;
+
+use tofsim::error::{Error, Input, Result};
+use tofsim::sim::frames::Frame;
+use tofsim::sim::setup::Setup;
+use tofsim_learn::estimation::{Panel, Reading};
+
+use super::pairs::Pairs;
+use super::summary::{FrameSummary, Spread, Summary};
+
+/// Frames of which a table has rows.
+pub const ROWS: usize = 20;
+
+/// JSON that is kept in memory; more of it goes to a temporary file [bytes].
+const KEPT: usize = 1 << 20;
+
+/// The frames of a run so far.
+pub struct FrameLog {
+    /// The first frames, [`ROWS`] at most.
+    pub rows: Vec<Frame>,
+    /// What other estimators say of those.
+    pub readings: Vec<Vec<Reading>>,
+    /// How many frames.
+    pub count: u64,
+    /// The pairs that the frames make, if they make pairs.
+    pub pairs: Option<Pairs>,
+    panel: Panel,
+    /// Sums of the depth words and of their squares, which no order of summing changes.
+    sums: (i128, i128),
+    /// The frames as elements of a JSON array, if they are wanted.
+    json: Option<SpooledTempFile>,
+}
+
+impl FrameLog {
+    /// Without frames of `setup`; `json` if [`FrameLog::write_json`] will be called. The estimators of
+    /// `panel` look at every frame of which there will be a report, and at every pair.
+    pub fn new(setup: &Setup, json: bool, panel: Panel) -> Self {
+        let json = json.then(|| SpooledTempFile::new(KEPT));
+        let (rows, readings) = (Vec::new(), Vec::new());
+        let pairs = setup.has_pairs().then(|| Pairs::new(setup));
+        FrameLog { rows, readings, count: 0, pairs, panel, sums: (0, 0), json }
+    }
+
+    /// Takes the next frame.
+    ///
+    /// # Errors
+    /// When the temporary file cannot be written.
+    pub fn push(&mut self, setup: &Setup, frame: &Frame) -> Result<()> {
+        let has_row = self.rows.len() < ROWS;
+        let is_reported = has_row || self.json.is_some();
+        let (paired, estimates) = match &mut self.pairs {
+            Some(pairs) => pairs.take(frame, &self.panel),
+            None if is_reported => (None, self.panel.read(&frame.histogram)),
+            None => (None, Vec::new()),
+        };
+        if has_row {
+            self.rows.push(frame.clone());
+            self.readings.push(estimates.clone());
+        }
+        let depth = i128::from(frame.depth.get());
+        self.sums = (self.sums.0 + depth, self.sums.1 + depth * depth);
+        if let Some(json) = &mut self.json {
+            let text = serde_json::to_string(&FrameSummary::new(setup, frame, paired, estimates))
+                .map_err(|error| Input::new("--json", error))?;
+            let comma = if self.count > 0 { "," } else { "" };
+            write!(json, "{comma}{text}").map_err(temporary)?;
+        }
+        self.count += 1;
+        Ok(())
+    }
+
+    /// Mean and spread of the depths of two frames or more; those of pairs are in
+    /// [`FrameLog::pairs`].
+    pub fn spread(&self) -> Option<Spread> {
+        Spread::of(self.count, self.sums).filter(|_| self.pairs.is_none())
+    }
+
+    /// Writes the run as one line of JSON: `summary` with the frames in it.
+    ///
+    /// # Errors
+    /// When reading the temporary file fails, or writing to `out`.
+    pub fn write_json(&mut self, summary: &Summary, out: &mut impl Write) -> io::Result<()> {
+        let (head, tail) = summary.around_frames()?;
+        out.write_all(head.as_bytes())?;
+        if let Some(json) = &mut self.json {
+            json.rewind()?;
+            io::copy(json, out)?;
+        }
+        out.write_all(tail.as_bytes())
+    }
+}
+
+fn temporary(source: io::Error) -> Error {
+    Error::io(Path::new("temporary file"), "write")(source)
+}

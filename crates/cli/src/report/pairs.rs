@@ -1,0 +1,202 @@
+//! Pairs of a dark and a lit frame, as they come, and what JSON tells of them.
+
+use serde::{Serialize, Serializer};
+
+use tofsim::firmware::histogram_builder::BINS;
+use tofsim::network::Histogram;
+use tofsim::sim::frames::Frame;
+use tofsim::sim::setup::Setup;
+use tofsim_learn::estimation::subtraction::NAME;
+use tofsim_learn::estimation::{BIN_PS, Pair, Panel, Reading};
+
+/// How far behind its mean the echo is over [sigma].
+const REACH: f64 = 4.0;
+
+/// A frame's place in a pair.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Paired {
+    /// The pair, from 0.
+    pub pair: u64,
+    /// Whether the laser was on.
+    pub laser_en: bool,
+    /// With the laser on: what the pair comes to.
+    #[serde(flatten)]
+    pub difference: Option<Difference>,
+}
+
+/// A lit histogram less a dark one.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Difference {
+    /// Counts, which may be negative [hits].
+    #[serde(serialize_with = "as_sequence")]
+    pub difference: [i32; BINS],
+    /// Their mean over the bins right of the echo; none where no light was simulated, or no bin is
+    /// left [hits].
+    pub right_of_echo: Option<f64>,
+}
+
+/// What subtraction made of the pairs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Tally {
+    /// Pairs.
+    pub count: u64,
+    /// Those in which subtraction found no distance; none if it was not asked.
+    pub failures: Option<u64>,
+    /// Mean of the distances that it found [m].
+    pub mean_m: Option<f64>,
+    /// Two standard deviations of them, with n - 1 [m].
+    pub two_sd_m: Option<f64>,
+    /// Mean of `right_of_echo` over the pairs [hits].
+    pub right_of_echo: Option<f64>,
+}
+
+/// Makes pairs of frames as they come.
+#[derive(Debug)]
+pub struct Pairs {
+    /// First bin that lies right of the echo.
+    right: Option<usize>,
+    dark: Option<Histogram>,
+    count: u64,
+    readings: u64,
+    depths: Moments,
+    rights: Moments,
+}
+
+/// Mean and squares of deviations of numbers as they come (Welford).
+#[derive(Clone, Copy, Debug, Default)]
+struct Moments {
+    count: u64,
+    mean: f64,
+    squares: f64,
+}
+
+impl Moments {
+    fn add(&mut self, value: f64) {
+        self.count += 1;
+        let off = value - self.mean;
+        self.mean += off / self.count as f64;
+        self.squares += off * (value - self.mean);
+    }
+
+    fn mean(&self) -> Option<f64> {
+        (self.count > 0).then_some(self.mean)
+    }
+
+    fn two_sd(&self) -> Option<f64> {
+        (self.count > 1).then(|| 2.0 * (self.squares / (self.count - 1) as f64).sqrt())
+    }
+}
+
+impl Pairs {
+    /// No pair of `setup` yet.
+    pub fn new(setup: &Setup) -> Self {
+        let (depths, rights) = (Moments::default(), Moments::default());
+        Pairs { right: right_of_echo(setup), dark: None, count: 0, readings: 0, depths, rights }
+    }
+
+    /// Takes the next frame; returns its place and, if it ends a pair, what the estimators say of
+    /// that.
+    pub fn take(&mut self, frame: &Frame, panel: &Panel) -> (Option<Paired>, Vec<Reading>) {
+        let mut paired = Paired { pair: self.count, laser_en: frame.laser_en, difference: None };
+        if !frame.laser_en {
+            self.dark = Some(frame.histogram);
+            return (Some(paired), Vec::new());
+        }
+        let Some(dark) = self.dark.take() else { return (Some(paired), Vec::new()) };
+        let pair = Pair { dark, lit: frame.histogram };
+        let difference = pair.difference();
+        let right_of_echo = self.right.map(|bin| mean(&difference[bin..]));
+        paired.difference = Some(Difference { difference, right_of_echo });
+        let readings = panel.read_pair(&pair);
+        self.count += 1;
+        right_of_echo.into_iter().for_each(|hits| self.rights.add(hits));
+        if let Some(reading) = readings.iter().find(|reading| reading.estimator == NAME) {
+            self.readings += 1;
+            reading.depth_m.into_iter().for_each(|depth_m| self.depths.add(depth_m));
+        }
+        (Some(paired), readings)
+    }
+
+    /// What the pairs have come to so far.
+    pub fn tally(&self) -> Tally {
+        Tally {
+            count: self.count,
+            failures: (self.readings > 0).then(|| self.readings - self.depths.count),
+            mean_m: self.depths.mean(),
+            two_sd_m: self.depths.two_sd(),
+            right_of_echo: self.rights.mean(),
+        }
+    }
+}
+
+/// The first bin that the echo has no part in any more.
+pub(super) fn right_of_echo(setup: &Setup) -> Option<usize> {
+    setup.true_depth_m()?;
+    let budget = &setup.budget;
+    let echo_ps = budget.mean_arrival.fs() as f64 * 1e-3 + REACH * budget.pulse_sigma_ps;
+    let bin = (echo_ps / BIN_PS).ceil() as usize;
+    (bin < BINS).then_some(bin)
+}
+
+/// Mean of counts, signed [hits].
+pub(super) fn mean(counts: &[i32]) -> f64 {
+    counts.iter().map(|&count| i64::from(count)).sum::<i64>() as f64 / counts.len() as f64
+}
+
+fn as_sequence<S: Serializer>(
+    counts: &[i32; BINS],
+    serializer: S,
+) -> std::result::Result<S::Ok, S::Error> {
+    serializer.collect_seq(counts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tofsim::scenario;
+    use tofsim::sim::histogram::Histograms;
+    use tofsim_learn::estimation::Kind;
+
+    fn setup(keys: &[&str]) -> Setup {
+        let keys: Vec<_> = keys.iter().map(|&key| key.to_owned()).collect();
+        Setup::new(scenario::load("kc705", &keys).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn a_lit_frame_goes_with_the_dark_one_before_it() {
+        let setup = setup(&["firmware.dark_frames=true", "firmware.shots_per_frame=2000"]);
+        let panel = Panel::new(&[Kind::Subtraction, Kind::Peak], &setup).unwrap();
+        let histograms = Histograms::new(&setup).unwrap();
+        let mut pairs = Pairs::new(&setup);
+        for index in 0..6 {
+            let frame = histograms.frame(index);
+            let (paired, readings) = pairs.take(&frame, &panel);
+            let paired = paired.unwrap();
+            let lit = index % 2 == 1;
+            assert_eq!((paired.pair, paired.laser_en), (index / 2, lit));
+            assert_eq!((paired.difference.is_some(), readings.len()), (lit, 2 * lit as usize));
+            if let Some(Difference { difference, .. }) = paired.difference {
+                let dark = histograms.frame(index - 1).histogram;
+                let summed = (0..BINS).map(|bin| difference[bin] + i32::from(dark[bin]));
+                assert!(summed.eq(frame.histogram.map(i32::from)));
+            }
+        }
+        assert_eq!(pairs.tally().count, 3);
+    }
+
+    #[test]
+    fn the_bins_right_of_the_echo_begin_four_sigma_behind_it() {
+        // 2 d / c is 3335.64 ps, 4 sigma are 548 ps, and 3883.64 / 25 is 155.3.
+        assert_eq!(right_of_echo(&setup(&[])), Some(156));
+        assert_eq!(right_of_echo(&setup(&["target.distance_m=0.9"])), None);
+    }
+
+    #[test]
+    fn moments_are_those_of_the_numbers() {
+        let mut moments = Moments::default();
+        assert_eq!((moments.mean(), moments.two_sd()), (None, None));
+        [1.0, 2.0, 3.0, 4.0, 5.0].into_iter().for_each(|value| moments.add(value));
+        assert_eq!(moments.mean(), Some(3.0));
+        assert!((moments.two_sd().unwrap() - 2.0 * 2.5f64.sqrt()).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,146 @@
+//! The reports as a table, as JSON and as JUnit XML.
+
+use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
+use serde_json::{Value, json};
+
+use crate::text::table::{grouped, plain};
+
+use tofsim_rtl::verify::cycle_counts::{Count, Proof};
+use tofsim_rtl::verify::{Report, Verdict};
+
+/// A line for each block, and the cycles around each first mismatch.
+pub fn text(reports: &[Report]) -> String {
+    let mut table = plain();
+    table.set_header(["block", "cycles", "mismatches", "stimulus goals", "verdict"]);
+    for report in reports {
+        let (met, goals) = report.coverage;
+        table.add_row([
+            report.name.clone(),
+            grouped(report.cycles as u64),
+            grouped(report.mismatches() as u64),
+            if goals == 0 { "-".to_owned() } else { format!("{met} of {goals}") },
+            report.word().to_owned(),
+        ]);
+    }
+    let mut text = table.trim_fmt() + "\n";
+    for report in reports.iter().filter(|report| !report.passed()) {
+        text += &format!("\n{}: {}\n", report.name, report.fault());
+        if !report.around.is_empty() {
+            text += &format!("{}\n", around(report));
+        }
+        if let Some(wave) = &report.wave {
+            text += &format!("both sides: {}\n", wave.display());
+        }
+    }
+    text
+}
+
+/// The cycles around the first mismatch.
+fn around(report: &Report) -> String {
+    let [head, rows @ ..] = report.around.as_slice() else { return String::new() };
+    let mut table = plain();
+    table.set_header(head);
+    table.add_rows(rows);
+    table.trim_fmt()
+}
+
+/// One object, `tofsim.verify/1`.
+pub fn json(rtl: &str, simulator: &str, reports: &[Report]) -> Value {
+    let block = |report: &Report| {
+        let first = match &report.verdict {
+            Verdict::Differs { first, .. } => json!({
+                "cycle": first.cycle,
+                "time_ps": first.time_ps,
+                "signal": first.signal,
+                "expected": first.expected,
+                "got": first.got,
+            }),
+            _ => Value::Null,
+        };
+        json!({
+            "block": report.name,
+            "verdict": report.word(),
+            "cycles": report.cycles,
+            "mismatches": report.mismatches(),
+            "first": first,
+            "fault": (!report.passed()).then(|| report.fault()),
+            "waves": report.wave.as_ref().map(|path| path.display().to_string()),
+            "goals": {"met": report.coverage.0, "of": report.coverage.1},
+        })
+    };
+    json!({
+        "schema": "tofsim.verify/1",
+        "rtl": rtl,
+        "simulator": simulator,
+        "passed": reports.iter().all(Report::passed),
+        "blocks": reports.iter().map(block).collect::<Vec<_>>(),
+    })
+}
+
+/// A test suite with a case for each block.
+///
+/// # Errors
+/// When it cannot be put into XML.
+pub fn junit(simulator: &str, reports: &[Report]) -> Result<String, quick_junit::SerializeError> {
+    let mut suite = TestSuite::new(format!("tofsim verify {simulator}"));
+    for report in reports {
+        let mut status = match report.passed() {
+            true => TestCaseStatus::success(),
+            false => TestCaseStatus::non_success(NonSuccessKind::Failure),
+        };
+        if !report.passed() {
+            status.set_message(report.fault());
+            status.set_description(around(report));
+        }
+        suite.add_test_case(TestCase::new(report.name.clone(), status));
+    }
+    let mut all = quick_junit::Report::new("tofsim verify");
+    all.add_test_suite(suite);
+    all.to_string()
+}
+
+/// What, expected, counted twice, proven.
+pub fn counts_text(counts: &[Count]) -> String {
+    let mut table = plain();
+    table.set_header(["what", "expected", "unit", "Rust model", "RTL simulation", "proven"]);
+    let number = |count: Option<u64>| count.map_or("never".to_owned(), |n| n.to_string());
+    for count in counts {
+        table.add_row([
+            count.what.clone(),
+            count.expected.to_string(),
+            count.unit.to_owned(),
+            number(count.model),
+            number(count.rtl),
+            match &count.proven {
+                Proof::Proven => "yes".to_owned(),
+                Proof::NotProven(reason) => format!("no: {reason}"),
+            },
+        ]);
+    }
+    table.trim_fmt() + "\n"
+}
+
+/// One object, `tofsim.cycle_counts/1`.
+pub fn counts_json(rtl: &str, counts: &[Count]) -> Value {
+    let row = |count: &Count| {
+        let reason = match &count.proven {
+            Proof::Proven => Value::Null,
+            Proof::NotProven(reason) => json!(reason),
+        };
+        json!({
+            "what": count.what,
+            "expected": count.expected,
+            "unit": count.unit,
+            "model": count.model,
+            "rtl": count.rtl,
+            "proven": count.proven == Proof::Proven,
+            "reason": reason,
+        })
+    };
+    json!({
+        "schema": "tofsim.cycle_counts/1",
+        "rtl": rtl,
+        "passed": counts.iter().all(Count::holds),
+        "counts": counts.iter().map(row).collect::<Vec<_>>(),
+    })
+}

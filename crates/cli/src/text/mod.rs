@@ -1,0 +1,4 @@
+//! What people and other programs read: tables and pictures.
+
+pub mod svg;
+pub mod table;

@@ -1,0 +1,269 @@
+//! `tofsim compare`: two waveforms, captures or simulations laid over each other.
+
+mod values;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use crate::choice;
+use crate::report::comparison;
+use tofsim::error::{Error, Input, Result};
+use tofsim::files::output::write_file;
+use tofsim::kernel::Time;
+use tofsim::scenario;
+use tofsim::sim::setup::Setup;
+use tofsim_captures::compare::map::Rule;
+use tofsim_captures::compare::{Align, Choice, Map, Options, Sampling, Unknowns, compare};
+use tofsim_captures::condition::Condition;
+use tofsim_captures::ila::{Overrides, Radix, SetUp};
+use tofsim_captures::source::Source;
+
+use super::stdout::print;
+use super::talk::Talk;
+
+use values::{latency, setting, time};
+
+/// Compare two waveforms or captures: what A has is expected, what B has was got
+///
+/// A and B are VCD, FST, GHW, or a logic analyser's CSV, VCD or .ila archive; the contents decide,
+/// not the name. With --scenario, A is a simulation and only B is given. Signals come together by
+/// name or the end of a name (`tdc/hit` is `tof_top.tdc.hit`), or as a map says; so may SIGNAL below.
+///
+/// A CONDITION is as `state == 5 && (start rising || code[7:4] != 0b1x0x)`; TIME is as 10us or 8.5ns.
+#[derive(Debug, clap::Args)]
+#[command(
+    visible_alias = "diff",
+    after_help = "Examples:\n  \
+    tofsim compare waves/kc705.vcd verilog.vcd\n  \
+    tofsim compare waves/run.vcd board.ila --map fig_6_6\n  \
+    tofsim compare --scenario near board.csv --clock clk_125 --align correlation\n  \
+    tofsim compare a.fst b.fst --clock clk_125 --latency depth=2 --waves both.vcd\n\n\
+    Exit status: 0 same, 1 different, 2 cannot be compared."
+)]
+pub struct Args {
+    /// What is expected, and what was got; one file with --scenario
+    #[arg(required = true, num_args = 1..=2, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    #[command(flatten)]
+    simulated: Simulated,
+    #[command(flatten)]
+    which: Which,
+    #[command(flatten)]
+    when: When,
+    #[command(flatten)]
+    how: How,
+    /// Write both sides and what differs as one waveform, with save files for GTKWave and Surfer
+    #[arg(long, value_name = "FILE.vcd")]
+    waves: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+    /// Write JUnit XML too
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+}
+
+/// The side that is simulated.
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Simulated side")]
+struct Simulated {
+    /// Simulate a scenario as the first side
+    #[arg(long, value_name = "NAME|FILE")]
+    scenario: Option<String>,
+    /// Set a key of the scenario; may be repeated
+    #[arg(short, long = "set", value_name = "KEY=VALUE", requires = "scenario")]
+    set: Vec<String>,
+    /// Seed of every random stream, instead of the scenario's
+    #[arg(long, value_name = "N", requires = "scenario")]
+    seed: Option<u64>,
+    /// How many frames to simulate at most
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "scenario",
+        value_parser = clap::value_parser!(u64).range(1..))]
+    frames: u64,
+}
+
+/// Which signals.
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Which signals")]
+struct Which {
+    /// What belongs together: a map file, or a set-up of `ila capture` by name or path
+    #[arg(long, value_name = "FILE|NAME")]
+    map: Option<String>,
+    /// Compare only these, with * and ?; may be repeated
+    #[arg(long, value_name = "GLOB")]
+    signals: Vec<String>,
+    /// Leave these out, with * and ?; may be repeated
+    #[arg(long, value_name = "GLOB")]
+    ignore: Vec<String>,
+    /// Signals without a partner are a difference in waveforms too, as they are in captures
+    #[arg(long)]
+    all: bool,
+    /// Radix of the values in a CSV that does not say
+    #[arg(long, value_parser = choice::radix())]
+    radix: Option<Radix>,
+}
+
+/// When.
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "When")]
+struct When {
+    /// Take samples of waveforms just before the rising edges of a signal or, as 100MHz + 250ps, of
+    /// a clock of one's own [default: at each change]
+    #[arg(long, value_name = "CLOCK")]
+    clock: Option<Sampling>,
+    /// start, trigger, edge SIGNAL, correlation [SIGNAL,...], windows [SIGNAL,...], offset N
+    /// (samples) or offset 8ns [default: trigger of captures; correlation of a capture with a
+    /// waveform; time of waveforms]
+    #[arg(long, value_name = "HOW", allow_hyphen_values = true)]
+    align: Option<Align>,
+    /// What a waveform triggers on, as `start rising && mode == 0`
+    #[arg(long, value_name = "CONDITION")]
+    trigger: Option<String>,
+    /// Do not look at waveforms before this time, as 10us
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    after: Option<Time>,
+    /// Do not compare from this time on
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    until: Option<Time>,
+    /// Condition under which the analyser stored a sample
+    #[arg(long, value_name = "CONDITION")]
+    qualified_by: Option<String>,
+    /// Signal of the capture that counts the clock, so that its samples need not be of every edge
+    #[arg(long, value_name = "SIGNAL")]
+    time_from: Option<String>,
+}
+
+/// How exactly.
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "How exactly")]
+struct How {
+    /// What an unknown bit is the same as
+    #[arg(long, value_parser = choice::unknowns(), default_value = "exact")]
+    x: Unknowns,
+    /// Largest difference of a number that is none, in its last place; may be repeated
+    #[arg(long, value_name = "SIGNAL=N", value_parser = setting::<u64>)]
+    tolerance: Vec<(String, u64)>,
+    /// Samples that B has a signal later (less than 0: earlier); may be repeated
+    #[arg(long, value_name = "SIGNAL=N", value_parser = latency, allow_hyphen_values = true)]
+    latency: Vec<(String, i64)>,
+    /// Compare a signal only where another is 1 in A; may be repeated
+    #[arg(long, value_name = "SIGNAL=VALID", value_parser = setting::<String>)]
+    valid: Vec<(String, String)>,
+}
+
+/// Runs the command.
+pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+    let radix = args.which.radix;
+    let open = |path: &PathBuf| Source::file(path, radix);
+    let (a, b) = match (&args.simulated.scenario, &args.files[..]) {
+        (Some(scenario), [b]) => (simulation(scenario, &args.simulated)?, open(b)?),
+        (None, [a, b]) => (open(a)?, open(b)?),
+        (Some(_), _) => {
+            let expected = "expected one file: the other side is the scenario's";
+            return Err(Input::new("compare", expected).into());
+        }
+        (None, _) => {
+            let expected = "expected two files, or one and --scenario";
+            return Err(Input::new("compare", expected).into());
+        }
+    };
+    no_input_is_written(args)?;
+    let options = options(args)?;
+    let result = compare(&a, &b, &options)?;
+    if let Some(path) = &args.junit {
+        let fault = |error| Input::new(path.display(), format!("no XML: {error}"));
+        let text = comparison::junit(&result).map_err(fault)?;
+        write_file(path, |file| file.write_all(text.as_bytes()))?;
+    }
+    if let Some(path) = &options.waves {
+        talk.note(format_args!("waveform: {}", path.display()));
+    }
+    match args.json {
+        true => print(&format!("{:#}\n", comparison::json(&result)))?,
+        false => print(&comparison::text(&result, talk.is_verbose()))?,
+    }
+    Ok(ExitCode::from(u8::from(!result.is_same())))
+}
+
+/// That no file which is compared is written over.
+fn no_input_is_written(args: &Args) -> Result<()> {
+    let outputs = [("--waves", &args.waves), ("--junit", &args.junit)];
+    for (option, path) in outputs.into_iter().filter_map(|(o, path)| Some((o, path.as_ref()?))) {
+        let written = [path.clone(), path.with_extension("gtkw"), path.with_extension("sucl")];
+        let place = |path: &Path| std::fs::canonicalize(path).ok();
+        let same = |input: &PathBuf| {
+            written.iter().any(|path| place(path).is_some() && place(path) == place(input))
+        };
+        if args.files.iter().any(same) {
+            let expected = "expected another file than those that are compared";
+            return Err(Input::new(option, expected).value(path.display()).into());
+        }
+    }
+    Ok(())
+}
+
+fn simulation(name: &str, simulated: &Simulated) -> Result<Source> {
+    let mut loaded = scenario::load(name, &simulated.set)?;
+    if let Some(seed) = simulated.seed {
+        loaded.scenario.seed = seed;
+    }
+    Ok(Source::simulation(Setup::new(loaded)?, simulated.frames))
+}
+
+fn options(args: &Args) -> Result<Options> {
+    let condition = |option: &str, text: &Option<String>| {
+        text.as_ref().map(|text| Condition::parse(option, text)).transpose()
+    };
+    let mut map = match &args.which.map {
+        Some(name) => map(name)?,
+        None => Map::default(),
+    };
+    map.signal.extend(rules(&args.how));
+    let (when, which) = (&args.when, &args.which);
+    Ok(Options {
+        map,
+        choice: Choice { only: which.signals.clone(), ignore: which.ignore.clone() },
+        clock: when.clock.clone(),
+        align: when.align.clone(),
+        trigger: condition("--trigger", &when.trigger)?,
+        qualified_by: condition("--qualified-by", &when.qualified_by)?,
+        time_from: when.time_from.clone(),
+        after: when.after,
+        until: when.until,
+        unknowns: args.how.x,
+        all: which.all,
+        waves: args.waves.clone(),
+    })
+}
+
+/// A map file, or the map of a set-up.
+fn map(name: &str) -> Result<Map> {
+    let built_in = !name.contains(['/', '.']);
+    let is_set_up =
+        |path: &Path| std::fs::read_to_string(path).is_ok_and(|text| text.contains("[[probe]]"));
+    if built_in || is_set_up(Path::new(name)) {
+        let set_up = SetUp::load(name, Overrides::default());
+        return Ok(Map::of(&set_up.map_err(as_map)?));
+    }
+    Map::read(Path::new(name))
+}
+
+/// The fault of a set-up that is not there, by the option that asked for it here.
+fn as_map(error: Error) -> Error {
+    match error {
+        Error::Input(input) if input.source == "--probes" => {
+            Input { source: "--map".to_owned(), ..*input }.into()
+        }
+        error => error,
+    }
+}
+
+/// What the options say of single signals.
+fn rules(how: &How) -> Vec<Rule> {
+    let of = |name: &String| Rule { a: vec![name.clone()], ..Rule::default() };
+    let tolerance = how.tolerance.iter().map(|(name, n)| Rule { tolerance: *n, ..of(name) });
+    let latency = how.latency.iter().map(|(name, n)| Rule { latency: *n, ..of(name) });
+    let valid = how.valid.iter().map(|(name, v)| Rule { valid: Some(v.clone()), ..of(name) });
+    tolerance.chain(latency).chain(valid).collect()
+}

@@ -1,0 +1,135 @@
+//! `tofsim dataset`: histograms in bulk, for training and tests.
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use serde::Serialize;
+
+use crate::choice;
+use crate::text::table::{grouped, plain};
+use tofsim::error::{Error, Input, Result};
+use tofsim::scenario;
+use tofsim::sim::setup::Setup;
+use tofsim_learn::dataset::files::{Files, Format};
+use tofsim_learn::dataset::{Blocks, Description, Grid, Source};
+
+use super::draws::Draws;
+use super::interrupt::stop_signal;
+use super::stdout::print;
+use super::talk::Talk;
+
+/// Draw histograms of many scenes, for training and tests
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Scenes are those of the thesis: irradiance 0 to 0.4 W/m^2/nm in 9 steps, \
+    reflectance 0.08 to 0.60\nin 53, distance 0.1 to 0.6 m in 201 (train) or 51 (test), each 5 \
+    times. All else is the scenario's.\n\nExamples:\n  \
+    tofsim dataset -o train                          479,385 histograms as Parquet\n  \
+    tofsim dataset --grid test --seed 2 -o test      121,635 of them\n  \
+    tofsim dataset --rows 24000 --format npy -o few  random scenes, equally many a distance\n  \
+    tofsim dataset --profile my-chain.toml -o own    for a chain that was measured")]
+pub struct Args {
+    /// Built-in scenario, or the path of a scenario file (see `scenario list`)
+    #[arg(default_value = scenario::DEFAULT)]
+    scenario: String,
+    #[command(flatten)]
+    draws: Draws,
+    /// Which scenes
+    #[arg(long, value_enum, default_value_t = Scenes::Train)]
+    grid: Scenes,
+    /// What to write, separated by commas
+    #[arg(long, value_parser = choice::dataset_format(), value_delimiter = ',', default_value = "parquet")]
+    format: Vec<Format>,
+    /// Write the files and dataset.json, their description, there
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Print one JSON object instead of a table
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Scenes {
+    /// 201 distances, every 2.5 mm
+    Train,
+    /// 51 distances, every 10 mm
+    Test,
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Report<'a> {
+    #[serde(flatten)]
+    description: &'a Description,
+    /// What was written.
+    files: Vec<String>,
+}
+
+/// Runs the command.
+pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+    let loaded = args.draws.load(&args.scenario)?;
+    let (name, seed) = (loaded.name.clone(), loaded.scenario.seed);
+    let source = Source::new(&Setup::new(loaded)?)?;
+    let rows = args.draws.rows(args.grid.grid(), seed);
+    let description = Description::new(&name, &args.draws.set, &source, &rows, seed);
+    let files = Files::create(&args.output, &args.format, &description)?;
+    let pool = args.draws.pool()?;
+    let stop = stop_signal();
+    let progress = talk.progress(rows.len(), "rows");
+    let blocks = source.blocks(&rows, seed, 0..rows.len());
+    let written = pool.install(|| write(files, blocks, stop.as_deref(), |n| progress.inc(n)))?;
+    progress.finish_and_clear();
+    written.iter().for_each(|path| talk.detail(format_args!("wrote {}", path.display())));
+
+    let files = written.iter().map(|path| path.display().to_string()).collect();
+    if args.json {
+        let text = serde_json::to_string(&Report { description: &description, files });
+        let text = text.map_err(|error| Input::new("--json", error))?;
+        return print(&(text + "\n"));
+    }
+    print(&table(&description, &files))
+}
+
+/// Writes a block while the next one is drawn.
+fn write(
+    mut files: Files,
+    mut blocks: Blocks<'_>,
+    stop: Option<&AtomicBool>,
+    done: impl Fn(u64),
+) -> Result<Vec<PathBuf>> {
+    let mut next = blocks.next();
+    while let Some(block) = next {
+        if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+            return Err(Error::Interrupted);
+        }
+        let (written, drawn) = rayon::join(|| files.write(&block), || blocks.next());
+        written?;
+        done(block.len() as u64);
+        next = drawn;
+    }
+    files.finish()
+}
+
+impl Scenes {
+    fn grid(self) -> Grid {
+        match self {
+            Scenes::Train => Grid::training(),
+            Scenes::Test => Grid::test(),
+        }
+    }
+}
+
+fn table(description: &Description, files: &[String]) -> String {
+    let mut table = plain();
+    let mut row = |name: &str, value: String| {
+        table.add_row([name.to_owned(), value]);
+    };
+    row("scenario", description.scenario.clone());
+    row("chain", description.profile.clone());
+    let choice = if description.subset { "random scenes of " } else { "" };
+    row("grid", format!("{choice}{}", description.grid));
+    row("histograms", grouped(description.rows));
+    row("shots", format!("{} each", grouped(description.shots_per_frame.into())));
+    row("seed", description.seed.to_string());
+    files.iter().for_each(|file| row("file", file.clone()));
+    format!("{}\n", table.trim_fmt())
+}

@@ -1,0 +1,79 @@
+//! Options of verbs that draw histograms.
+
+use std::path::Path;
+
+use rayon::ThreadPool;
+
+use tofsim::error::{Error, Input, Result};
+use tofsim::scenario::{self, Loaded, builtin};
+use tofsim_learn::dataset::{Grid, Rows, Subset};
+
+/// Which histograms.
+#[derive(Debug, clap::Args)]
+pub struct Draws {
+    /// Set a key of the scenario, such as firmware.shots_per_frame=15000; may be repeated
+    #[arg(short, long = "set", value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Carry chain: uniform, table6_3, ideal (bins of 25 ps), or the path of a chain file, from here
+    /// [default: the scenario's]
+    #[arg(long, value_name = "P")]
+    profile: Option<String>,
+    /// Draw so many random scenes, equally many at each distance, instead of all
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..1 << 40))]
+    rows: Option<u64>,
+    /// Seed of every random stream, instead of the scenario's
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    seed: Option<u64>,
+    /// Threads; the results are the same for any number [default: one a core]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+}
+
+impl Draws {
+    /// A scenario by name or path, with what the options say.
+    pub fn load(&self, scenario: &str) -> Result<Loaded> {
+        let mut loaded = scenario::load(scenario, &self.set)?;
+        if let Some(seed) = self.seed {
+            loaded.scenario.seed = seed;
+        }
+        if let Some(profile) = &self.profile {
+            loaded.scenario.tdc.profile = from_here(profile, &loaded)?;
+        }
+        Ok(loaded)
+    }
+
+    /// The same with a network in it, by name or path.
+    pub fn load_with(&self, scenario: &str, network: &str) -> Result<Loaded> {
+        let mut loaded = self.load(scenario)?;
+        loaded.scenario.estimator.network = from_here(network, &loaded)?;
+        Ok(loaded)
+    }
+
+    /// Rows of a grid: as many random ones as the options say, or all.
+    pub fn rows(&self, grid: Grid, seed: u64) -> Rows {
+        match self.rows {
+            None => Rows::All(grid),
+            Some(_) => self.some_rows(0, grid, seed),
+        }
+    }
+
+    /// Random rows of a grid, so many if the options do not say.
+    pub fn some_rows(&self, default: u64, grid: Grid, seed: u64) -> Rows {
+        Rows::Subset(Subset::new(grid, self.rows.unwrap_or(default), seed))
+    }
+
+    /// Threads to draw on.
+    pub fn pool(&self) -> Result<ThreadPool> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0).into());
+        pool.build().map_err(|error| Input::new("--threads", error).into())
+    }
+}
+
+/// A name as it is, and a path as the scenario has to have it, which sees paths from its own folder.
+pub fn from_here(name: &str, loaded: &Loaded) -> Result<String> {
+    if !name.contains(['/', '.']) || loaded.files == builtin::Source::BuiltIn {
+        return Ok(name.to_owned());
+    }
+    let path = std::path::absolute(name).map_err(Error::io(Path::new(name), "read"))?;
+    Ok(path.display().to_string())
+}

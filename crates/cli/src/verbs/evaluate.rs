@@ -1,0 +1,223 @@
+//! `tofsim evaluate`: how exactly estimators find the distance, beside the thesis.
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::atomic::AtomicBool;
+
+use serde::Serialize;
+
+use crate::choice;
+use crate::report::{evaluation as report, evaluation_files};
+use tofsim::error::{Error, Input, Result};
+use tofsim::network::Network;
+use tofsim::scenario::{self, Loaded};
+use tofsim::sim::setup::Setup;
+use tofsim_learn::dataset::{Grid, Rows, Scene, Source};
+use tofsim_learn::estimation::by_name::Acquisition;
+use tofsim_learn::estimation::{Estimator, Kind, Needs, subtraction};
+use tofsim_learn::evaluation::bound;
+use tofsim_learn::evaluation::cross_check::CrossCheck;
+use tofsim_learn::evaluation::thesis::{self, DISTANCES_M};
+use tofsim_learn::evaluation::{Evaluation, Figures};
+
+use super::draws::Draws;
+use super::interrupt::stop_signal;
+use super::stdout::print;
+use super::talk::Talk;
+
+/// Light of the scenes that the cross-check takes: in the middle of the grid.
+const CHECK_REFLECTANCE: f64 = 0.34;
+/// See [`CHECK_REFLECTANCE`] [W/m^2/nm].
+const CHECK_IRRADIANCE: f64 = 0.2;
+
+/// Measure how exactly the network and other estimators find the distance
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Histograms are drawn afresh over the thesis's test grid: 51 distances from 0.1 \
+    to 0.6 m, 9 irradiances,\n53 reflectances, 5 of each scene. All estimators see the same ones,\nbut for \
+    subtraction: a dark and a lit one of half the shots each.\n\n\
+    Examples:\n  \
+    tofsim evaluate                                 the default network on its chain's bins\n  \
+    tofsim evaluate ideal --profile ideal -o out    with box plots and tables as CSV\n  \
+    tofsim evaluate --estimator network,peak,matched,likelihood --rows 12000\n  \
+    tofsim evaluate --estimator peak,subtraction    does a dark histogram help the detector?"
+)]
+pub struct Args {
+    /// Built-in network (uniform, uniform-16, ideal) or network file
+    #[arg(value_name = "NETWORK", default_value = Network::DEFAULT)]
+    network: String,
+    /// Built-in scenario, or the path of a scenario file, for all but the scene
+    #[arg(long, default_value = scenario::DEFAULT)]
+    scenario: String,
+    #[command(flatten)]
+    draws: Draws,
+    /// Estimators, separated by commas
+    #[arg(long, value_parser = choice::estimator(), value_delimiter = ',', default_value = "network,network-float")]
+    estimator: Vec<Kind>,
+    /// Frames to simulate cycle by cycle at each of six distances, to be compared with the fast path
+    #[arg(long, value_name = "N", default_value_t = 8, allow_hyphen_values = true)]
+    check: u64,
+    /// Write evaluation.json, evaluation.csv and box plots of the errors there
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Print one JSON object instead of tables
+    #[arg(long)]
+    json: bool,
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Report<'a> {
+    schema: &'static str,
+    version: &'static str,
+    network: &'a str,
+    scenario: &'a str,
+    profile: &'a str,
+    seed: u64,
+    rows: u64,
+    shots_per_frame: u16,
+    estimators: Vec<Figures>,
+    /// The Cramer-Rao bound at the thesis's distances, light unknown.
+    cramer_rao_two_sd_mm: Vec<Option<f64>>,
+    cross_check: Vec<CrossCheck>,
+    /// The thesis's float network, and its network in the hardware [mm].
+    thesis: Thesis,
+}
+
+#[derive(Serialize)]
+struct Thesis {
+    distances_m: [f64; 6],
+    float_two_sd_mm: [f64; 6],
+    fixed_two_sd_mm: [f64; 6],
+}
+
+/// Runs the verb; the status says whether the cross-check found both paths the same.
+pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+    let loaded = args.draws.load_with(&args.scenario, &args.network)?;
+    let network = Network::find(&args.network, None)?;
+    let setup = Setup::new(loaded.clone())?;
+    let source = Source::new(&setup)?;
+    let (seed, profile) = (loaded.scenario.seed, &loaded.scenario.tdc.profile);
+    if file_name(&network.training.chain) != file_name(profile) {
+        talk.note(format_args!(
+            "note: {} was trained on the bins of chain {}, these are of {profile}",
+            network.name, network.training.chain
+        ));
+    }
+    let needs = Needs {
+        acquisition: Acquisition {
+            bins: source.bins(),
+            shots: source.shots().into(),
+            pulse_sigma_ps: loaded.scenario.laser.pulse_sigma_ps,
+        },
+        network: &network,
+        centroid: &setup.params.centroid_estimator,
+    };
+    let estimators = args.estimator.iter().map(|kind| kind.estimator(&needs));
+    let estimators = estimators.collect::<std::result::Result<Vec<_>, Input>>()?;
+    let rows = args.draws.rows(Grid::test(), seed);
+    let stop = stop_signal();
+    let evaluation = args.evaluate((&source, &rows, seed), &estimators, stop.as_deref(), talk)?;
+    let cross_check = args.cross_check(&loaded, &source, stop.as_deref())?;
+    let agrees = cross_check.iter().all(CrossCheck::agrees);
+    let report = Report {
+        schema: "tofsim.evaluate/1",
+        version: env!("CARGO_PKG_VERSION"),
+        network: &network.name,
+        scenario: &loaded.name,
+        profile,
+        seed,
+        rows: rows.len(),
+        shots_per_frame: source.shots(),
+        estimators: evaluation.columns.iter().map(|c| Figures::new(&evaluation, c)).collect(),
+        cramer_rao_two_sd_mm: bound::two_sd_mm(
+            &source,
+            &needs.acquisition,
+            &Grid::test(),
+            &DISTANCES_M,
+        )?,
+        cross_check,
+        thesis: Thesis {
+            distances_m: DISTANCES_M,
+            float_two_sd_mm: thesis::FLOAT.two_sd_mm,
+            fixed_two_sd_mm: thesis::FIXED.two_sd_mm,
+        },
+    };
+    let json = serde_json::to_string(&report).map_err(std::io::Error::from);
+    let json = json.map_err(Error::io(Path::new("stdout"), "write"))? + "\n";
+    if let Some(folder) = &args.output {
+        evaluation_files::write(folder, &json, &report.estimators)?;
+        talk.detail(format_args!("wrote {}", folder.display()));
+    }
+    print(&if args.json { json } else { report.text() })?;
+    Ok(if agrees { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+impl Args {
+    fn evaluate(
+        &self,
+        (source, rows, seed): (&Source, &Rows, u64),
+        estimators: &[Box<dyn Estimator + Send>],
+        stop: Option<&AtomicBool>,
+        talk: &Talk,
+    ) -> Result<Evaluation> {
+        let pool = self.draws.pool()?;
+        let progress = talk.progress(rows.len(), "rows");
+        let done = |rows| progress.inc(rows);
+        let evaluation =
+            pool.install(|| Evaluation::new(source, rows, seed, estimators, stop, done));
+        progress.finish_and_clear();
+        evaluation
+    }
+
+    fn cross_check(
+        &self,
+        loaded: &Loaded,
+        source: &Source,
+        stop: Option<&AtomicBool>,
+    ) -> Result<Vec<CrossCheck>> {
+        let distances: &[f64] = if self.check > 0 { &DISTANCES_M } else { &[] };
+        let scene = |&distance_m| Scene {
+            distance_m,
+            reflectance: CHECK_REFLECTANCE,
+            irradiance_w_m2_nm: CHECK_IRRADIANCE,
+        };
+        let checks = distances.iter().map(scene);
+        checks.map(|scene| CrossCheck::new(loaded, source, &scene, self.check, stop)).collect()
+    }
+}
+
+/// A chain's name, wherever its file is.
+fn file_name(profile: &str) -> &OsStr {
+    Path::new(profile).file_name().unwrap_or(profile.as_ref())
+}
+
+impl Report<'_> {
+    fn text(&self) -> String {
+        let mut text = format!(
+            "network {}, chain {}, scenario {}, {} histograms of {} shots, seed {}\n\n",
+            self.network, self.profile, self.scenario, self.rows, self.shots_per_frame, self.seed
+        );
+        text += &report::tables(&self.estimators, &self.cramer_rao_two_sd_mm);
+        if self.estimators.iter().any(|one| one.name == subtraction::NAME) {
+            let shots = self.shots_per_frame / 2;
+            text += &format!("\n{}: {shots} dark and {shots} lit shots each\n", subtraction::NAME);
+        }
+        text += "\n";
+        for line in self.estimators.iter().filter_map(report::beside_the_line) {
+            text += &(line + "\n");
+        }
+        for check in &self.cross_check {
+            text += &format!(
+                "{} frames cycle by cycle at {} m: counts as drawn, p = {:.3}; other depths: {}{}\n",
+                check.frames,
+                check.distance_m,
+                check.p_value,
+                check.other_depths,
+                if check.agrees() { "" } else { "  DIFFERENT" },
+            );
+        }
+        text
+    }
+}

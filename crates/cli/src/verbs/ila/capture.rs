@@ -1,0 +1,287 @@
+//! `tofsim ila capture`: a simulation through a logic analyser, into Vivado's files.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use comfy_table::CellAlignment;
+use serde::Serialize;
+
+use crate::choice;
+use crate::text::table::plain;
+use crate::verbs::interrupt::stop_signal;
+use crate::verbs::stdout::print;
+use crate::verbs::talk::Talk;
+use tofsim::error::{Error, Input, Result};
+use tofsim::files::output::write_file;
+use tofsim::kernel::Time;
+use tofsim::scenario;
+use tofsim::sim::setup::Setup;
+use tofsim::sim::{Outcome, Run};
+use tofsim_captures::compare::Map;
+use tofsim_captures::ila::export::{Format, export};
+use tofsim_captures::ila::{Analyser, Capture, Overrides, Plan, SetUp, capture};
+
+/// Sample a simulation as a logic analyser on the board would, and write Vivado's files
+///
+/// A set-up names the probes, the clock, the buffer and the trigger; options go before its keys.
+/// Conditions are as `state == 5 && (start rising || code[7:4] != 0b1x0x)`, over names of probes
+/// and paths of signals. What is taken at an edge is the value just before it.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+    tofsim ila capture --probes fig_6_21 -o out\n  \
+    tofsim ila capture near --probes my_ila.toml -o out --trigger 'hit rising' --windows 8\n\n\
+    Built-in set-ups: fig_6_6, fig_6_12, fig_6_13, fig_6_21 (the thesis's screen captures)")]
+pub struct Args {
+    /// Built-in scenario or the path of a scenario file [default: the set-up's]
+    scenario: Option<String>,
+    /// Built-in set-up, or the path of a set-up file
+    #[arg(long, value_name = "NAME|FILE")]
+    probes: String,
+    /// Directory to write to
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Set a key of the scenario, such as target.distance_m=0.3; may be repeated
+    #[arg(short, long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Seed of every random stream, instead of the scenario's
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// How many frames to simulate at most [default: as the set-up says]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    frames: Option<u64>,
+    #[command(flatten)]
+    instead: Instead,
+    /// Format to write; may be repeated [default: all]
+    #[arg(long, value_parser = choice::capture_format())]
+    format: Vec<Format>,
+    /// Leave out the CSV's row of radices, as Vivado before 2019.1
+    #[arg(long)]
+    legacy_csv: bool,
+    /// End the simulation as soon as the buffer is full
+    #[arg(long)]
+    stop_when_full: bool,
+    /// Print one JSON object instead of a table
+    #[arg(long)]
+    json: bool,
+}
+
+/// What goes before the set-up's keys.
+#[derive(Clone, Debug, clap::Args)]
+struct Instead {
+    /// Sampling clock: clk_125, clk_250, clk_200, or frequency and first edge as 100MHz+250ps
+    #[arg(long, value_name = "CLOCK")]
+    clock: Option<String>,
+    /// Samples of the buffer, a power of two from 1024 to 131072
+    #[arg(long, value_name = "N")]
+    depth: Option<u64>,
+    /// Parts of the buffer with a trigger each
+    #[arg(long, value_name = "N")]
+    windows: Option<u64>,
+    /// Samples of a window before its trigger
+    #[arg(long, value_name = "N")]
+    position: Option<u64>,
+    /// Condition that triggers
+    #[arg(long, value_name = "CONDITION")]
+    trigger: Option<String>,
+    /// Condition that a sample has to fulfil to be stored
+    #[arg(long, value_name = "CONDITION")]
+    capture: Option<String>,
+    /// When to arm it, from power-up [us]
+    #[arg(long, value_name = "T")]
+    arm_at_us: Option<f64>,
+    /// Registers before the probes, 0 to 6
+    #[arg(long, value_name = "N")]
+    stages: Option<u64>,
+}
+
+impl Instead {
+    fn overrides(&self) -> Overrides {
+        let Instead { clock, trigger, capture, .. } = self.clone();
+        let &Instead { depth, windows, position, arm_at_us, stages, .. } = self;
+        let input_stages = stages;
+        Overrides { clock, depth, windows, position, trigger, capture, arm_at_us, input_stages }
+    }
+}
+
+/// The capture, as `--json` prints it.
+#[derive(Serialize)]
+struct Report {
+    schema: &'static str,
+    name: String,
+    scenario: String,
+    seed: u64,
+    clock: String,
+    probes: Vec<ProbeReport>,
+    samples: usize,
+    /// Samples of a full window.
+    window_depth: usize,
+    /// Windows that have triggered.
+    windows: usize,
+    windows_wanted: usize,
+    position: usize,
+    /// When each window triggered, from power-up.
+    trigger_times_us: Vec<f64>,
+    /// Whether every window has all its samples.
+    full: bool,
+    /// When the simulation ended.
+    end_us: f64,
+    files: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct ProbeReport {
+    name: String,
+    signal: String,
+    width: u32,
+}
+
+/// Runs the command.
+pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+    let set_up = SetUp::load(&args.probes, args.instead.overrides())?;
+    let setup = simulated(args, &set_up)?;
+    let mut plan = Plan::new(&set_up, &setup)?;
+    plan.stop_when_full = args.stop_when_full;
+    let mut analyser = Analyser::new(&plan, &setup);
+    let frames = args.frames.unwrap_or(set_up.file.frames);
+    let outcome = capture(Run::new(&setup), frames, &mut analyser, stop_signal().as_deref())?;
+    let (triggers, full) = (analyser.triggers(), analyser.is_full());
+    if triggers.is_empty() {
+        return Err(never(&set_up, &analyser, outcome.end));
+    }
+    let capture = analyser.finish();
+    if !full {
+        talk.note(format_args!("note: the run ended with {}", missing(&plan, &capture)));
+    }
+    if !args.stop_when_full {
+        outcome.notes.iter().for_each(|note| talk.note(note));
+    }
+    let formats = if args.format.is_empty() { &Format::ALL[..] } else { &args.format };
+    let mut files = export(&capture, &args.output, &set_up.name, formats, !args.legacy_csv)?;
+    files.push(write_map(args, &set_up)?);
+    for file in &files {
+        talk.detail(format_args!("wrote {}", file.display()));
+    }
+    let report = report(&set_up, &setup, &plan, &capture, (&triggers, full), &outcome, &files);
+    print(&if args.json { json(&report)? } else { text(&set_up, &report) })
+}
+
+fn simulated(args: &Args, set_up: &SetUp) -> Result<Setup> {
+    let name = args.scenario.as_deref().unwrap_or(&set_up.file.scenario);
+    // What the set-up sets is meant for its own scenario.
+    let own = if args.scenario.is_none() { &set_up.file.set[..] } else { &[] };
+    let mut loaded = scenario::load(name, &[own, &args.set].concat())?;
+    if let Some(seed) = args.seed {
+        loaded.scenario.seed = seed;
+    }
+    Setup::new(loaded)
+}
+
+/// The map by which `tofsim compare` lays the capture over a waveform.
+fn write_map(args: &Args, set_up: &SetUp) -> Result<PathBuf> {
+    let path = args.output.join(format!("{}.map.toml", set_up.name));
+    let text = Map::of(set_up).to_toml();
+    write_file(&path, |file| file.write_all(text.as_bytes()))?;
+    Ok(path)
+}
+
+/// That nothing triggered, and what would have had to.
+fn never(set_up: &SetUp, analyser: &Analyser, end: Time) -> Error {
+    let taken = analyser.taken();
+    let expected =
+        format!("never held before the run ended at {end}, after {taken} samples; nothing written");
+    match &set_up.file.trigger {
+        Some(trigger) => set_up.fault("trigger", trigger, expected),
+        None => {
+            let expected = format!(
+                "expected enough samples before a trigger; the run ended at {end} with {taken}"
+            );
+            Input::new(format!("set-up {}", set_up.name), expected).into()
+        }
+    }
+}
+
+fn missing(plan: &Plan, capture: &Capture) -> String {
+    let (windows, depth) = (plan.shape.windows, plan.shape.depth);
+    let last = capture.samples() - capture.windows.last().copied().unwrap_or(0);
+    let full = capture.samples() / depth;
+    let partial = if last.is_multiple_of(depth) { 0 } else { last };
+    format!("{full} of {windows} windows of {depth} samples, and a last one of {partial}")
+}
+
+fn report(
+    set_up: &SetUp,
+    setup: &Setup,
+    plan: &Plan,
+    capture: &Capture,
+    (triggers, full): (&[Time], bool),
+    outcome: &Outcome,
+    files: &[PathBuf],
+) -> Report {
+    let probes = capture.probes.iter().zip(&set_up.file.probe);
+    let probes = probes.map(|(probe, entry)| ProbeReport {
+        name: probe.head(),
+        signal: entry.signal.clone(),
+        width: probe.width,
+    });
+    Report {
+        schema: "tofsim.ila_capture/1",
+        name: set_up.name.clone(),
+        scenario: setup.name.clone(),
+        seed: setup.scenario.seed,
+        clock: plan.sampling.to_string(),
+        probes: probes.collect(),
+        samples: capture.samples(),
+        window_depth: plan.shape.depth,
+        windows: triggers.len(),
+        windows_wanted: plan.shape.windows,
+        position: plan.shape.position,
+        trigger_times_us: triggers.iter().map(|&time| microseconds(time)).collect(),
+        full,
+        end_us: microseconds(outcome.end),
+        files: files.iter().map(|file| file.display().to_string()).collect(),
+    }
+}
+
+fn microseconds(time: Time) -> f64 {
+    time.fs() as f64 / 1e9
+}
+
+fn json(report: &Report) -> Result<String> {
+    let text = serde_json::to_string(report).map_err(io::Error::from);
+    Ok(text.map_err(Error::io(Path::new("stdout"), "write"))? + "\n")
+}
+
+/// Trigger times that are shown.
+const SHOWN: usize = 8;
+
+fn text(set_up: &SetUp, report: &Report) -> String {
+    let mut table = plain();
+    let mut row = |name: &str, value: String| {
+        table.add_row([name.to_owned(), value]);
+    };
+    let bits: u32 = report.probes.iter().map(|probe| probe.width).sum();
+    row("scenario", format!("{}, seed {}", report.scenario, report.seed));
+    row("clock", report.clock.clone());
+    row("probes", format!("{}, {bits} bits", report.probes.len()));
+    row("samples", report.samples.to_string());
+    let Report { windows, windows_wanted, window_depth, position, .. } = report;
+    row(
+        "windows",
+        format!(
+            "{windows} of {windows_wanted}, {window_depth} samples, {position} before the trigger"
+        ),
+    );
+    let times = report.trigger_times_us.iter().take(SHOWN).map(|time| format!("{time} us"));
+    let mut times = times.collect::<Vec<_>>().join(", ");
+    if report.trigger_times_us.len() > SHOWN {
+        times += ", ...";
+    }
+    row("triggered", times);
+    for (k, file) in report.files.iter().enumerate() {
+        row(if k == 0 { "files" } else { "" }, file.clone());
+    }
+    if let Some(names) = table.column_mut(0) {
+        names.set_cell_alignment(CellAlignment::Left);
+    }
+    format!("{}: {}\n\n{}\n", report.name, set_up.file.description, table.trim_fmt())
+}

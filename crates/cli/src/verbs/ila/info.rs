@@ -1,0 +1,138 @@
+//! `tofsim ila info`: what a capture holds, and what its format cannot say.
+
+use std::path::PathBuf;
+
+use serde_json::json;
+
+use crate::choice;
+use crate::text::table::{grouped, plain};
+use crate::verbs::stdout::print;
+use tofsim::error::{Input, Result};
+use tofsim_captures::compare::{Survey, survey};
+use tofsim_captures::ila::Radix;
+use tofsim_captures::source::{Format, Kind, Source};
+
+/// Say what a logic analyser's file holds
+///
+/// Reads CSV (with or without a row of radices), VCD and .ila archives of Vivado's ILA, and what
+/// chipscopy writes; the contents decide which, not the name.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The file
+    file: PathBuf,
+    /// Radix of the values in a CSV that does not say
+    #[arg(long, value_parser = choice::radix())]
+    radix: Option<Radix>,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<()> {
+    let source = Source::file(&args.file, args.radix)?;
+    if !source.is_capture() {
+        let expected = format!(
+            "is a waveform ({}), not a logic analyser's capture; `tofsim compare` reads it",
+            source.format.name()
+        );
+        return Err(Input::new(args.file.display(), expected).into());
+    }
+    let survey = survey(&source)?;
+    match args.json {
+        true => print(&format!("{:#}\n", as_json(&source, &survey))),
+        false => print(&as_text(&source, &survey)),
+    }
+}
+
+/// What the format does not say.
+fn unsaid(source: &Source, survey: &Survey) -> Vec<&'static str> {
+    let mut unsaid = vec!["the frequency of the clock", "whether all samples were stored"];
+    if survey.windows.len() > 1 {
+        unsaid.push("the time between windows");
+    }
+    match source.format {
+        Format::IlaVcd => unsaid.extend(["the number of samples", "the radix of the probes"]),
+        Format::LegacyIlaCsv => unsaid.push("the radix of the probes, which is inferred"),
+        _ if !source.radix_told => unsaid.push("the radix of the probes"),
+        _ => {}
+    }
+    unsaid
+}
+
+fn as_json(source: &Source, survey: &Survey) -> serde_json::Value {
+    let probe = |signal: &tofsim_captures::source::Signal| {
+        json!({
+            "name": signal.name.text,
+            "width": signal.width,
+            "lsb": signal.lsb,
+            "radix": signal.radix.map(|radix| radix.word()),
+            "text": signal.kind == Kind::Other,
+        })
+    };
+    let triggers: Vec<_> = survey.windows.iter().filter_map(|window| window.trigger).collect();
+    json!({
+        "schema": "tofsim.ila_info/1",
+        "file": source.name,
+        "format": source.format.name(),
+        "samples": survey.samples,
+        "windows": survey.windows.len(),
+        "triggers": triggers.len(),
+        "window_starts": survey.windows.iter().map(|window| window.first).collect::<Vec<_>>(),
+        "trigger_samples": triggers,
+        "gaps": survey.gaps,
+        "last_change": survey.last,
+        "probes": source.signals.iter().map(probe).collect::<Vec<_>>(),
+        "unknown": unsaid(source, survey),
+    })
+}
+
+/// Windows that are listed.
+const LISTED: usize = 12;
+
+fn as_text(source: &Source, survey: &Survey) -> String {
+    let mut text = format!("{}: {}\n\n", source.name, source.format.name());
+    let mut table = plain();
+    let mut row = |name: &str, value: String| {
+        table.add_row([name.to_owned(), value]);
+    };
+    row(
+        "samples",
+        match (survey.samples, survey.last) {
+            (Some(samples), _) => grouped(samples),
+            (None, Some(last)) => format!("at least {}", grouped(last + 1)),
+            (None, None) => "not known".to_owned(),
+        },
+    );
+    row("windows", survey.windows.len().to_string());
+    for (k, window) in survey.windows.iter().take(LISTED).enumerate() {
+        let count = window.count.map_or("?".to_owned(), grouped);
+        let trigger = match window.trigger {
+            Some(trigger) => format!("trigger at {} ({} in it)", trigger, trigger - window.first),
+            None => "no trigger".to_owned(),
+        };
+        row(&format!("window {k}"), format!("from {}, {count} samples, {trigger}", window.first));
+    }
+    if survey.windows.len() > LISTED {
+        row("", format!("... {} more", survey.windows.len() - LISTED));
+    }
+    if survey.gaps > 0 {
+        row("gaps", format!("{} samples", grouped(survey.gaps)));
+    }
+    text += &format!("{}\n\n", table.trim_fmt());
+    let mut table = plain();
+    table.set_header(["probe", "width", "radix"]);
+    for signal in &source.signals {
+        let radix = match (signal.kind, signal.radix) {
+            (Kind::Other, _) => "text",
+            (_, Some(radix)) => radix.word(),
+            (_, None) => "-",
+        };
+        table.add_row([signal.name.text.clone(), signal.width.to_string(), radix.to_owned()]);
+    }
+    text += &format!("{}\n\nNot in this file:\n", table.trim_fmt());
+    for unsaid in unsaid(source, survey) {
+        text += &format!("  {unsaid}\n");
+    }
+    text
+}

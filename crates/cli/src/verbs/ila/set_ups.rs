@@ -1,0 +1,44 @@
+//! `tofsim ila list`, `show` and `schema`: the set-ups there are, and what one may hold.
+
+use schemars::schema_for;
+use serde_json::json;
+
+use crate::text::table::plain;
+use crate::verbs::stdout::print;
+use tofsim::error::Result;
+use tofsim_captures::compare::Map;
+use tofsim_captures::ila::setup::File;
+use tofsim_captures::ila::{Overrides, SetUp, builtin};
+
+/// Prints the built-in set-ups and what they show.
+pub fn list(as_json: bool) -> Result<()> {
+    let mut rows = Vec::new();
+    for (name, _) in builtin::SET_UPS {
+        rows.push((*name, SetUp::load(name, Overrides::default())?.file));
+    }
+    if as_json {
+        let object = |(name, file): &(&str, File)| json!({ "name": name, "scenario": file.scenario, "description": file.description });
+        return print(&format!("{}\n", json!(rows.iter().map(object).collect::<Vec<_>>())));
+    }
+    let mut table = plain();
+    for (name, file) in rows {
+        table.add_row([name.to_owned(), file.scenario, file.description]);
+    }
+    print(&format!("{}\n", table.trim_fmt()))
+}
+
+/// Prints a set-up as a file to begin one's own with.
+pub fn show(name: &str) -> Result<()> {
+    match builtin::set_up(name) {
+        Some(text) => print(text),
+        None => SetUp::load(name, Overrides::default())
+            .and_then(|_| tofsim::error::read_text(std::path::Path::new(name)))
+            .and_then(|text| print(&text)),
+    }
+}
+
+/// Prints the JSON Schema of set-ups, or of maps.
+pub fn schema(of_maps: bool) -> Result<()> {
+    let schema = if of_maps { schema_for!(Map) } else { schema_for!(File) };
+    print(&format!("{:#}\n", schema.as_value()))
+}

@@ -1,0 +1,44 @@
+//! `tofsim man`: manual pages.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::{Command, CommandFactory};
+use clap_mangen::Man;
+
+use tofsim::error::{Error, Result};
+use tofsim::files::output::{create_directory, write_file};
+
+use super::stdout::print;
+
+/// Print the manual page, or write one for each subcommand
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Write tofsim.1, tofsim-run.1 and so on there instead
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+/// Runs the command.
+pub fn run(args: &Args) -> Result<()> {
+    let mut command = super::Cli::command();
+    command.build();
+    let Some(folder) = &args.output else {
+        return print(&String::from_utf8_lossy(&page(command)?));
+    };
+    create_directory(folder)?;
+    pages(&command, "tofsim".to_owned(), folder)
+}
+
+fn pages(command: &Command, name: String, folder: &Path) -> Result<()> {
+    let text = page(command.clone())?;
+    write_file(&folder.join(format!("{name}.1")), |file| file.write_all(&text))?;
+    let below = command.get_subcommands();
+    below.into_iter().try_for_each(|sub| pages(sub, format!("{name}-{}", sub.get_name()), folder))
+}
+
+fn page(command: Command) -> Result<Vec<u8>> {
+    let mut text = Vec::new();
+    Man::new(command).render(&mut text).map_err(Error::io(Path::new("manual page"), "write"))?;
+    Ok(text)
+}

@@ -1,0 +1,234 @@
+//! `tofsim quantize`: a network that was trained elsewhere, in the words of the firmware.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::report::exploration;
+use crate::text::table::plain;
+use tofsim::error::{Error, Result};
+use tofsim::files::output::{create_directory, write_file};
+use tofsim::network::file::Training;
+use tofsim::network::formats::Overflow;
+use tofsim::network::{Network, mem};
+use tofsim::scenario;
+use tofsim::sim::setup::Setup;
+use tofsim_learn::dataset::{Grid, Source};
+use tofsim_learn::evaluation::exploration::{Point, explore, sweep};
+use tofsim_learn::quantize::import;
+
+use super::draws::Draws;
+use super::interrupt::stop_signal;
+use super::stdout::print;
+use super::talk::Talk;
+
+/// Histograms of an exploration, if nothing else is said: 200 at each distance.
+const EXPLORED: u64 = 10_200;
+
+/// Fold and round a network that was trained elsewhere, or explore word lengths
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Arrays by name: IW (N x 256), LW (N), b1 (N), b2 (1), for N hidden neurons, 1 to 16, and the settings of\n\
+    mapminmax on both sides if there are any: x_xoffset, x_gain (256 each), x_ymin, y_xoffset, y_gain, y_ymin; x_keep has the bins, from\n\
+    1, that removeconstantrows kept. In MATLAB:\n\n  \
+    s = net.inputs{1}.processSettings{2}; t = net.outputs{2}.processSettings{2};\n  \
+    IW = net.IW{1,1}; LW = net.LW{2,1}; b1 = net.b{1}; b2 = net.b{2};\n  \
+    x_xoffset = s.xoffset; x_gain = s.gain; x_ymin = s.ymin; y_xoffset = t.xoffset; y_gain = t.gain; y_ymin = t.ymin;\n  \
+    save('net.mat', 'IW', 'LW', 'b1', 'b2', 'x_*', 'y_*', '-v7')\n\n\
+    JSON: {\"IW\": [[...], ...], \"LW\": [...], \"b\": [[...], [...]], \"x\": {\"xoffset\": [...], \"gain\": [...], \"ymin\": -1}, \"y\": {...}}\n\n\
+    Examples:\n  \
+    tofsim quantize --from net.mat -o net.toml --roms roms\n  \
+    tofsim run -s estimator.network=net.toml"
+)]
+pub struct Args {
+    #[command(flatten)]
+    task: Task,
+    /// Network file to write
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Write the ROMs for $readmemh there: w1.mem, b1.mem, w2.mem, b2.mem, tansig.mem
+    #[arg(long, value_name = "DIR")]
+    roms: Option<PathBuf>,
+    /// Chain whose bins it was trained on, for the file
+    #[arg(long, value_name = "P", default_value = "unknown")]
+    chain: String,
+    /// What the network is, for the file
+    #[arg(long, value_name = "TEXT", default_value = "depth network, trained elsewhere")]
+    description: String,
+    /// Take the nearest word for a weight that does not fit, instead of an error
+    #[arg(long)]
+    saturate: bool,
+    /// Built-in scenario, or the path of a scenario file, to explore with
+    #[arg(long, default_value = scenario::DEFAULT)]
+    scenario: String,
+    #[command(flatten)]
+    draws: Draws,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, clap::Args)]
+#[group(required = true, multiple = false)]
+struct Task {
+    /// Fold and round a network: MATLAB file, JSON file, or folder of NumPy arrays (IW.npy, ...)
+    #[arg(long, value_name = "FILE|DIR", conflicts_with_all = ["scenario", "Draws"])]
+    from: Option<PathBuf>,
+    /// Sweep word lengths and the table of activations: accuracy against block RAMs and DSP slices;
+    /// of 10,200 histograms unless --rows says how many
+    #[arg(long, value_name = "NETWORK", conflicts_with_all = ["output", "roms", "chain", "description", "saturate"])]
+    explore: Option<String>,
+}
+
+#[derive(Serialize)]
+struct Report {
+    schema: &'static str,
+    from: String,
+    /// Weights that no word holds.
+    saturated: usize,
+    /// Largest magnitude of each kind of weight, and what its word holds.
+    largest: [Largest; 4],
+    /// What was written.
+    files: Vec<String>,
+}
+
+/// What `--explore --json` prints.
+#[derive(Serialize)]
+struct Exploration<'a> {
+    schema: &'static str,
+    network: &'a str,
+    profile: &'a str,
+    seed: u64,
+    rows: u64,
+    points: Vec<Point>,
+}
+
+#[derive(Clone, Copy, Serialize)]
+struct Largest {
+    weights: &'static str,
+    magnitude: f64,
+    limit: f64,
+}
+
+/// Runs the verb.
+pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+    match (&args.task.from, &args.task.explore) {
+        (Some(from), _) => quantize(args, from, talk),
+        (None, explore) => args.explore(explore.as_deref().unwrap_or(Network::DEFAULT), talk),
+    }
+}
+
+fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
+    let from = path.display().to_string();
+    let float = import::read(path)?;
+    let overflow = if args.saturate { Overflow::Saturate } else { Overflow::Refuse };
+    let rounded = float.round(&from, overflow)?;
+    if rounded.saturated > 0 {
+        talk.note(format_args!("note: {} weights were saturated", rounded.saturated));
+    }
+    let magnitude =
+        |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |a, b| f64::max(a, b.abs()));
+    let largest = |weights, magnitude, limit| Largest { weights, magnitude, limit };
+    let report_largest = [
+        largest("w1", magnitude(&mut float.w1.iter().flatten().copied()), (-8f64).exp2()),
+        largest("b1", magnitude(&mut float.b1.iter().copied()), 4.0),
+        largest("w2", magnitude(&mut float.w2.iter().copied()), 2.0),
+        largest("b2", float.b2.abs(), 0.25),
+    ];
+    let network = Network {
+        name: from.clone(),
+        description: args.description.clone(),
+        training: Training {
+            origin: format!("trained elsewhere, from {}", file_name(path)),
+            chain: args.chain.clone(),
+            ..Training::default()
+        },
+        accuracy: None,
+        fixed: rounded.fixed,
+        float: Some(float),
+    };
+    let files = args.write(&network)?;
+    let report = Report {
+        schema: "tofsim.quantize/1",
+        from,
+        saturated: rounded.saturated,
+        largest: report_largest,
+        files: files.iter().map(|path| path.display().to_string()).collect(),
+    };
+    if args.json {
+        return print(&(json(&report)? + "\n"));
+    }
+    print(&report.text())
+}
+
+impl Args {
+    fn explore(&self, network: &str, talk: &Talk) -> Result<()> {
+        let loaded = self.draws.load_with(&self.scenario, network)?;
+        let (seed, profile) = (loaded.scenario.seed, loaded.scenario.tdc.profile.clone());
+        let network = Network::find(network, None)?;
+        let source = Source::new(&Setup::new(loaded)?)?;
+        let rows = self.draws.some_rows(EXPLORED, Grid::test(), seed);
+        let (stop, progress) = (stop_signal(), talk.progress(rows.len(), "rows"));
+        let points = self.draws.pool()?.install(|| {
+            let data = (&source, &rows, seed);
+            explore(&network, &sweep(), data, stop.as_deref(), |rows| progress.inc(rows))
+        })?;
+        progress.finish_and_clear();
+        let (name, rows) = (&network.name, rows.len());
+        if self.json {
+            let schema = "tofsim.exploration/1";
+            let report =
+                Exploration { schema, network: name, profile: &profile, seed, rows, points };
+            return print(&(json(&report)? + "\n"));
+        }
+        let head = format!("network {name}, chain {profile}, {rows} histograms, seed {seed}\n\n");
+        print(&(head + &exploration::text(&points)))
+    }
+
+    fn write(&self, network: &Network) -> Result<Vec<PathBuf>> {
+        let mut files = Vec::new();
+        let mut put = |path: PathBuf, text: &str| {
+            write_file(&path, |file| file.write_all(text.as_bytes()))?;
+            files.push(path);
+            Ok::<(), Error>(())
+        };
+        if let Some(path) = &self.output {
+            put(path.clone(), &network.to_toml())?;
+        }
+        if let Some(folder) = &self.roms {
+            create_directory(folder)?;
+            for rom in mem::depth_estimator(&network.params()) {
+                put(folder.join(rom.name), &rom.text)?;
+            }
+        }
+        Ok(files)
+    }
+}
+
+impl Report {
+    fn text(&self) -> String {
+        let mut table = plain();
+        table.set_header(["weights", "largest", "word holds"]);
+        for one in self.largest {
+            let limit = format!("below {}", one.limit);
+            table.add_row([one.weights.to_owned(), format!("{:.6}", one.magnitude), limit]);
+        }
+        let mut text = format!("{}\n", table.trim_fmt());
+        text += &format!("saturated: {}\n", self.saturated);
+        for file in &self.files {
+            text += &format!("wrote {file}\n");
+        }
+        text
+    }
+}
+
+fn json(report: &impl Serialize) -> Result<String> {
+    let text = serde_json::to_string(report).map_err(std::io::Error::from);
+    text.map_err(Error::io(Path::new("stdout"), "write"))
+}
+
+/// Without the folders before it, which are nobody's business in the file.
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}

@@ -1,0 +1,297 @@
+//! `tofsim run`: photons to depth.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use crate::choice;
+use crate::report::frame_log::FrameLog;
+use crate::report::products::Products;
+use crate::report::summary::Summary;
+use crate::report::table;
+use tofsim::error::{Error, Input, Result};
+use tofsim::files::output::create_directory;
+use tofsim::hierarchy;
+use tofsim::scenario;
+use tofsim::scenario::window::Window;
+use tofsim::sim::frames::Frame;
+use tofsim::sim::histogram::Histograms;
+use tofsim::sim::recorder::Shot;
+use tofsim::sim::run::Watch;
+use tofsim::sim::setup::Setup;
+use tofsim::sim::{Gait, Run};
+use tofsim::waves::{self, Format, Waves, write_views};
+use tofsim_learn::estimation::{Kind, Panel};
+
+use super::interrupt::stop_signal;
+use super::stdout::{print, print_with};
+use super::talk::Talk;
+
+/// Simulate frames: photons to depth, with a waveform
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+    tofsim run                              one frame of the built-in kc705, waveform in waves/\n  \
+    tofsim run far --frames 20 --waves none\n  \
+    tofsim run far --frames 1000 --fidelity shot\n  \
+    tofsim run --estimator subtraction      a dark and a lit frame of 15,000 shots each\n  \
+    tofsim run -s target.distance_m=0.3 --seed 7 -o out\n  \
+    tofsim run --window 10us..12us --signals 'tdc.*' --waves fst")]
+pub struct Args {
+    /// Built-in scenario, or the path of a scenario file (see `scenario list`)
+    #[arg(default_value = scenario::DEFAULT)]
+    scenario: String,
+    /// Set a key of the scenario, such as target.distance_m=0.3; may be repeated
+    #[arg(short, long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Seed of every random stream, instead of the scenario's
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    seed: Option<u64>,
+    /// How many frames to simulate; of dark and lit frames, how many pairs
+    #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..))]
+    frames: u64,
+    /// How to simulate; cycle and shot give the same frames, histogram the same in distribution
+    #[arg(long, value_enum, default_value_t = Fidelity::Cycle)]
+    fidelity: Fidelity,
+    /// Threads for the frames of a run without waveform and events; the results are the same for
+    /// any number [default: one a core]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Format of the waveform [default: vcd; none for fidelities without signals]
+    #[arg(long, value_enum)]
+    waves: Option<WavesFormat>,
+    /// Part of the run that goes into the waveform: shot:0..8, 10us..12us or estimation; may be
+    /// repeated [default: the scenario's, or shot:0..16 and estimation]
+    #[arg(long, value_name = "W", value_parser = str::parse::<Window>)]
+    window: Vec<Window>,
+    /// Signals that go into the waveform, by name or path with * and ?; may be repeated
+    /// [default: all but the histogram's RAM]
+    #[arg(long, value_name = "GLOB")]
+    signals: Vec<String>,
+    /// Estimators that look at each frame's histogram beside the firmware's own, separated by commas;
+    /// subtraction makes pairs of a dark and a lit frame (firmware.dark_frames), and all look at those
+    #[arg(long, value_parser = choice::estimator(), value_delimiter = ',')]
+    estimator: Vec<Kind>,
+    /// Write a row for each shot, as .csv or .parquet
+    #[arg(long, value_name = "FILE")]
+    events: Option<PathBuf>,
+    /// Write summary.json, histogram.csv, histogram.svg and the waveform there
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Print one JSON object instead of a table
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Fidelity {
+    /// Every register at every edge that changes one
+    Cycle,
+    /// A draw, a code and a count for each shot; no signals to look at
+    Shot,
+    /// A draw for each frame, of its whole histogram; for MODE 0, without control changes
+    Histogram,
+}
+
+impl Fidelity {
+    fn name(self) -> &'static str {
+        match self {
+            Fidelity::Cycle => "cycle",
+            Fidelity::Shot => "shot",
+            Fidelity::Histogram => "histogram",
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum WavesFormat {
+    /// Value change dump
+    Vcd,
+    /// GTKWave's compressed format
+    Fst,
+    /// No waveform
+    None,
+}
+
+/// Runs the command.
+pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+    let waves = args.waves_format()?;
+    let mut loaded = scenario::load(&args.scenario, &args.overrides())?;
+    if let Some(seed) = args.seed {
+        loaded.scenario.seed = seed;
+    }
+    let setup = Setup::new(loaded)?;
+    args.check_fidelity(&setup)?;
+    args.check_pairs(&setup)?;
+    let frames = args.frames * setup.frames_together();
+    let histograms =
+        (args.fidelity == Fidelity::Histogram).then(|| Histograms::new(&setup)).transpose()?;
+    let plan = WavePlan::new(args, waves, &setup, frames)?;
+    let (folder, events) = (args.output.as_deref(), args.events.as_deref());
+    let mut products = Products::new(folder, events, &provenance(args, &setup), &setup)?;
+    let waves = plan.as_ref().map(|plan| plan.open(args, &setup)).transpose()?;
+    use_threads(args.threads)?;
+
+    let stop = stop_signal();
+    let progress = talk.progress(frames, "frames");
+    let panel = Panel::new(&args.estimator, &setup)?;
+    let mut log = FrameLog::new(&setup, args.json || folder.is_some(), panel);
+    let mut take_frame = |frame: &Frame| {
+        progress.inc(1);
+        log.push(&setup, frame)
+    };
+    let sees_shots = args.fidelity == Fidelity::Cycle && products.want_shots();
+    let wants_all_shots = products.want_all_shots();
+    let mut take_shot = |shot: &Shot| products.shot(shot);
+    let watch = Watch {
+        waves,
+        shots: sees_shots.then_some(&mut take_shot),
+        frames: Some(&mut take_frame),
+        stop: stop.as_deref(),
+    };
+    let began = Instant::now();
+    let outcome = match histograms {
+        Some(histograms) => histograms.many(frames, watch)?,
+        None => {
+            let gait = if args.fidelity == Fidelity::Shot { Gait::Leap } else { Gait::Skip };
+            let run = Run::new(&setup).at(gait);
+            match watch.waves.is_some() || wants_all_shots {
+                true => run.frames(frames, watch)?,
+                false => run.many(frames, watch)?,
+            }
+        }
+    };
+    let wall = began.elapsed();
+    progress.finish_and_clear();
+    outcome.notes.iter().chain(&setup.notes()).for_each(|note| talk.note(note));
+
+    if let Some(plan) = &plan {
+        for view in write_views(&plan.path, plan.format, &plan.entries, &outcome.marks)? {
+            talk.detail(format_args!("wrote {}", view.display()));
+        }
+        talk.note(format_args!("waveform: {}", plan.path.display()));
+    }
+    let waves = plan.map(|plan| plan.path.display().to_string());
+    let fidelity = args.fidelity.name();
+    let summary = Summary::new(&setup, fidelity, waves, &log, products.tdc());
+    for path in products.finish(&setup, &mut log, &summary)? {
+        talk.detail(format_args!("wrote {}", path.display()));
+    }
+    if args.json {
+        return print_with(|out| log.write_json(&summary, out));
+    }
+    let mut text = table::run(&setup, &log, outcome.cycles, wall);
+    if let Some(results) = &summary.tdc {
+        text += &table::tdc(results);
+    }
+    print(&text)
+}
+
+impl Args {
+    /// The format of the waveform, if there is one.
+    fn waves_format(&self) -> Result<WavesFormat> {
+        match (self.fidelity, self.waves) {
+            (Fidelity::Cycle, waves) => Ok(waves.unwrap_or(WavesFormat::Vcd)),
+            (_, None | Some(WavesFormat::None)) => Ok(WavesFormat::None),
+            (_, Some(_)) => Err(self.without_signals("--waves")),
+        }
+    }
+
+    /// What the options say of the scenario; --set goes last.
+    fn overrides(&self) -> Vec<String> {
+        let pairs = self.wants_pairs().then(|| "firmware.dark_frames=true".to_owned());
+        pairs.into_iter().chain(self.set.iter().cloned()).collect()
+    }
+
+    fn wants_pairs(&self) -> bool {
+        self.estimator.contains(&Kind::Subtraction)
+    }
+
+    /// That there are pairs if an estimator needs them, and not too many.
+    fn check_pairs(&self, setup: &Setup) -> Result<()> {
+        let source = format!("scenario {}", setup.name);
+        if self.wants_pairs() && !setup.has_pairs() {
+            let expected = "expected true with --estimator subtraction";
+            return Err(Input::new(source, expected)
+                .field("firmware.dark_frames")
+                .value(false)
+                .into());
+        }
+        match self.frames.checked_mul(setup.frames_together()) {
+            Some(_) => Ok(()),
+            None => Err(Input::new("--frames", "expected fewer pairs").value(self.frames).into()),
+        }
+    }
+
+    /// That the fidelity can show what is asked for.
+    fn check_fidelity(&self, setup: &Setup) -> Result<()> {
+        if self.fidelity == Fidelity::Cycle {
+            return Ok(());
+        }
+        let asked = [
+            ("--window", !self.window.is_empty()),
+            ("--signals", !self.signals.is_empty()),
+            ("--events", self.events.is_some()),
+            ("report.tdc", setup.scenario.report.tdc),
+        ];
+        match asked.iter().find(|(_, asked)| *asked) {
+            Some((option, _)) => Err(self.without_signals(option)),
+            None => Ok(()),
+        }
+    }
+
+    fn without_signals(&self, option: &str) -> Error {
+        let fidelity = self.fidelity.name();
+        let expected = format!(
+            "--fidelity {fidelity} has neither signals nor single shots: expected --fidelity cycle"
+        );
+        Input::new(option, expected).into()
+    }
+}
+
+/// Makes the pool of so many threads, if a number is asked for.
+fn use_threads(threads: Option<u16>) -> Result<()> {
+    let Some(threads) = threads else { return Ok(()) };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+    pool.map_err(|error| Input::new("--threads", error).value(threads).into())
+}
+
+/// The waveform: what goes into it, and where.
+struct WavePlan {
+    path: PathBuf,
+    format: Format,
+    entries: Vec<hierarchy::Entry>,
+    windows: Vec<Window>,
+}
+
+impl WavePlan {
+    fn new(args: &Args, waves: WavesFormat, setup: &Setup, frames: u64) -> Result<Option<Self>> {
+        let (format, ending) = match waves {
+            WavesFormat::None => return Ok(None),
+            WavesFormat::Vcd => (Format::Vcd, "vcd"),
+            WavesFormat::Fst => (Format::Fst, "fst"),
+        };
+        let entries = hierarchy::entries(&setup.params);
+        let entries = waves::select(entries, hierarchy::ram_entries(), &args.signals)?;
+        let windows = setup.windows(&args.window, frames)?;
+        let folder = args.output.as_deref().unwrap_or(Path::new("waves"));
+        create_directory(folder)?;
+        let path = folder.join(format!("{}.{ending}", setup.name));
+        Ok(Some(WavePlan { path, format, entries, windows }))
+    }
+
+    fn open(&self, args: &Args, setup: &Setup) -> Result<(Waves, Vec<Window>)> {
+        let (order, provenance) = (setup.params.tdc.delays.order(), provenance(args, setup));
+        let waves = Waves::create(&self.path, self.format, &self.entries, order, &provenance)?;
+        Ok((waves, self.windows.clone()))
+    }
+}
+
+/// Who made a file, from what.
+fn provenance(args: &Args, setup: &Setup) -> Vec<String> {
+    let mut lines = vec![
+        format!("tofsim {}", env!("CARGO_PKG_VERSION")),
+        format!("scenario {}", setup.name),
+        format!("seed {}", setup.scenario.seed),
+    ];
+    lines.extend(args.set.iter().map(|set| format!("set {set}")));
+    lines
+}

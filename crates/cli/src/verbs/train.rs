@@ -1,0 +1,205 @@
+//! `tofsim train`: a depth network from simulated histograms.
+
+use std::path::PathBuf;
+
+use tofsim::error::{Input, Result, read_text};
+use tofsim::files::output::create_directory;
+use tofsim::scenario;
+use tofsim::sim::setup::Setup;
+use tofsim_learn::dataset::Source;
+use tofsim_learn::training::recipe::Recipe;
+use tofsim_learn::training::tournament::Tournament;
+use tofsim_learn::training::{checkpoint, data};
+
+use super::draws::from_here;
+use super::interrupt::stop_signal;
+use super::stdout::print;
+use super::talk::Talk;
+
+mod word_format;
+mod written;
+
+use word_format::WordFormat;
+
+/// Train a depth network on simulated histograms, within the firmware's number formats or others
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+    tofsim train --profile uniform --seed 1 -o mine\n  \
+    tofsim train --profile chain.toml -o mine       on one's own chain\n  \
+    tofsim train --resume -o mine                   go on where it was stopped\n  \
+    tofsim train --with finish.blocks=10 -o mine    with a number of the recipe changed\n  \
+    tofsim train --lut-bits 10 --format w1=12.19    for a datapath that is not the firmware's\n  \
+    tofsim run -s estimator.network=mine/network.toml")]
+pub struct Args {
+    /// Built-in scenario or scenario file: optics, detector and shots; its scene does not matter
+    #[arg(default_value = scenario::DEFAULT)]
+    scenario: String,
+    /// Set a key of the scenario, such as spad.pdp=0.015; may be repeated
+    #[arg(short, long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Chain whose bins to train on, built-in or a file: tdc.profile of the scenario
+    #[arg(long, value_name = "NAME|FILE")]
+    profile: Option<String>,
+    /// Seed of data and starts
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// A training of seconds, whose network is poor
+    #[arg(long)]
+    quick: bool,
+    /// TOML file with numbers of the recipe, over the built-in one's
+    #[arg(long, value_name = "FILE")]
+    recipe: Option<PathBuf>,
+    /// Set a key of the recipe, such as finish.blocks=10 or table_noise=0; may be repeated
+    #[arg(long, value_name = "KEY=VALUE")]
+    with: Vec<String>,
+    /// Hidden neurons, 1 to 16 [default: 8, as in the thesis]
+    #[arg(long, value_name = "N")]
+    neurons: Option<usize>,
+    /// Address bits of the table of activations [default: 12, as in the thesis]
+    #[arg(long, value_name = "N")]
+    lut_bits: Option<u32>,
+    /// Width and fraction bits of w1, b1, w2, b2 or l1_out (activations), such as w1=16.23; may be
+    /// repeated [default: those of the thesis's Table 6.4]
+    #[arg(long = "format", value_name = "WORD=WIDTH.FRACTION")]
+    formats: Vec<WordFormat>,
+    /// Starts that take part in the first stage
+    #[arg(long, value_name = "N")]
+    starts: Option<usize>,
+    /// Print the recipe as TOML, and train nothing
+    #[arg(long)]
+    print_recipe: bool,
+    /// Go on from the checkpoint in the folder
+    #[arg(long)]
+    resume: bool,
+    /// Stop after so many checkpoints, to go on later with --resume
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    checkpoints: Option<u64>,
+    /// Threads; the network is the same for any number [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Write network.toml, accuracy.csv, curve.csv, curve.svg and checkpoint there; for formats that are
+    /// not the firmware's, network.json for quantize --from instead of network.toml
+    #[arg(short, long, value_name = "DIR", default_value = "training")]
+    output: PathBuf,
+    /// Print one JSON object instead of a table
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the verb.
+pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+    let recipe = args.recipe()?;
+    if args.print_recipe {
+        let text = toml::to_string(&recipe).map_err(|error| Input::new("recipe", error))?;
+        return print(&text);
+    }
+    let mut loaded = scenario::load(&args.scenario, &args.set)?;
+    if let Some(profile) = &args.profile {
+        loaded.scenario.tdc.profile = from_here(profile, &loaded)?;
+    }
+    let setup = Setup::new(loaded)?;
+    let source = Source::new(&setup)?;
+    let mut settings: checkpoint::Settings = recipe.settings()?.into_iter().collect();
+    settings.insert("seed".to_owned(), args.seed.to_string());
+    settings.insert("scenario".to_owned(), data::fingerprint(&source));
+
+    let path = args.output.join("checkpoint");
+    let state = args.resume.then(|| checkpoint::load(&path, &settings, &recipe)).transpose()?;
+    create_directory(&args.output)?;
+    if let Some(threads) = args.threads {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+        pool.map_err(|error| Input::new("--threads", error).value(threads))?;
+    }
+    let mut tournament = match state {
+        Some(state) => Tournament::resume(&recipe, &source, args.seed, state)?,
+        None => Tournament::new(&recipe, &source, args.seed)?,
+    };
+    let stop = stop_signal();
+    let (done, all) = tournament.progress();
+    let progress = talk.progress(all, "histograms times epochs");
+    progress.set_position(done);
+    progress.reset_eta();
+    let mut saved = 0;
+    while !tournament.is_over() {
+        let before = tournament.state.stage;
+        tournament.advance(stop.as_deref())?;
+        checkpoint::save(&path, &settings, &tournament.state)?;
+        progress.set_position(tournament.progress().0);
+        progress.suspend(|| say(talk, &tournament, before));
+        saved += 1;
+        if args.checkpoints == Some(saved) && !tournament.is_over() {
+            talk.note(format_args!("stopped; {} has the state", path.display()));
+            return Ok(());
+        }
+    }
+    progress.finish_and_clear();
+    args.finish(&setup, &recipe, &tournament, talk)
+}
+
+/// Says how far it is.
+fn say(talk: &Talk, tournament: &Tournament, before: usize) {
+    let state = &tournament.state;
+    let (done, all) = tournament.progress();
+    let percent = 100.0 * done as f64 / all as f64;
+    let last = state.curve.iter().rev().take_while(|point| point.stage == before);
+    let least = last.map(|point| point.cost).fold(f64::INFINITY, f64::min);
+    let text = format!("{percent:5.1} %  stage {before}  least cost {least:.3}");
+    match before != state.stage || state.epochs == 0 {
+        true => talk.note(text),
+        false => talk.detail(text),
+    }
+}
+
+impl Args {
+    /// The recipe with all that the options say.
+    fn recipe(&self) -> Result<Recipe> {
+        let base = if self.quick { Recipe::quick() } else { Recipe::default() };
+        let (text, name) = match &self.recipe {
+            Some(path) => (read_text(path)?, path.display().to_string()),
+            None => (String::new(), "recipe".to_owned()),
+        };
+        let mut recipe = Recipe::parse(&text, &base, &self.with, &name)?;
+        recipe.neurons = self.neurons.unwrap_or(recipe.neurons);
+        recipe.formats.address_bits = self.lut_bits.unwrap_or(recipe.formats.address_bits);
+        self.formats.iter().for_each(|format| format.set(&mut recipe.formats));
+        if let (Some(starts), Some(first)) = (self.starts, recipe.stages.first_mut()) {
+            first.candidates = starts;
+            for stage in &mut recipe.stages {
+                stage.candidates = stage.candidates.min(starts);
+            }
+            recipe.finish.candidates = recipe.finish.candidates.min(starts);
+        }
+        recipe.check()?;
+        Ok(recipe)
+    }
+
+    /// The command that trains the same network again.
+    fn command(&self) -> String {
+        let mut command = String::from("tofsim train");
+        let mut add = |option: &str, value: &dyn std::fmt::Display| {
+            let value = value.to_string();
+            let plain = |c: char| c.is_ascii_alphanumeric() || "._-/=+,:".contains(c);
+            let quoted = match value.chars().all(plain) {
+                true => value,
+                false => format!("'{}'", value.replace('\'', r"'\''")),
+            };
+            command += &format!(" {option}{quoted}");
+        };
+        if self.scenario != scenario::DEFAULT {
+            add("", &self.scenario);
+        }
+        self.set.iter().for_each(|set| add("-s ", set));
+        self.profile.iter().for_each(|profile| add("--profile ", profile));
+        add("--seed ", &self.seed);
+        if self.quick {
+            add("--quick", &"");
+        }
+        self.recipe.iter().for_each(|path| add("--recipe ", &path.display()));
+        self.with.iter().for_each(|with| add("--with ", with));
+        self.neurons.iter().for_each(|neurons| add("--neurons ", neurons));
+        self.lut_bits.iter().for_each(|bits| add("--lut-bits ", bits));
+        self.formats.iter().for_each(|format| add("--format ", format));
+        self.starts.iter().for_each(|starts| add("--starts ", starts));
+        command
+    }
+}

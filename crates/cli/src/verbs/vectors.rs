@@ -1,0 +1,97 @@
+//! `tofsim vectors`: what each block does, clock by clock, with a bench that checks it.
+
+use std::path::PathBuf;
+
+use tofsim::error::{Input, Result, nearest};
+use tofsim::scenario;
+use tofsim::sim::setup::Setup;
+use tofsim_rtl::golden::{BLOCKS, Setting, Spec, blocks};
+
+use super::talk::Talk;
+
+/// Write golden vectors of a block with a self-checking Verilog bench
+///
+/// DIR/BLOCK gets stimulus.mem and expected.mem (one line per clock), ports.json (order and widths of
+/// their columns, clock, reset, latency), tb_BLOCK.v, and the memories that the block loads. The bench
+/// runs in any Verilog simulator:
+///
+///   cd DIR/BLOCK && iverilog -g2005 -o tb tb_BLOCK.v YOUR_FILES.v && vvp tb
+///
+/// Benches are Verilog only, not VHDL.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Module of the firmware, or all
+    block: String,
+    /// Directory to write to
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    #[command(flatten)]
+    from: From,
+}
+
+/// What the vectors are made from.
+#[derive(Clone, Debug, clap::Args)]
+pub struct From {
+    /// Clock cycles of each block [default: 20000, more where a goal of the stimulus needs them;
+    /// whole frames of a scenario]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
+    cycles: Option<u64>,
+    /// Seed of the stimulus [default: the scenario's]
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Built-in scenario or file: network, chain and, for tof_top, what it runs
+    #[arg(long, value_name = "NAME|FILE")]
+    scenario: Option<String>,
+    /// Override a key of the scenario, e.g. firmware.shots_per_frame=300
+    #[arg(short = 's', long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Frames of the scenario that tof_top runs
+    #[arg(long, value_name = "N", default_value_t = 1,
+        value_parser = clap::value_parser!(u64).range(1..=1000))]
+    frames: u64,
+}
+
+impl From {
+    /// The setting.
+    ///
+    /// # Errors
+    /// When the scenario cannot be loaded.
+    pub fn setting(&self) -> Result<Setting> {
+        let name = self.scenario.as_deref().unwrap_or(scenario::DEFAULT);
+        let setup = Setup::new(scenario::load(name, &self.set)?)?;
+        let seed = self.seed.unwrap_or(setup.scenario.seed);
+        let cycles = self.cycles.map(|cycles| cycles as usize);
+        let as_told = self.scenario.is_some() || !self.set.is_empty() || self.frames > 1;
+        Ok(Setting { as_told, seed, cycles, frames: self.frames, ..Setting::new(setup) })
+    }
+}
+
+/// Runs the verb.
+pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+    let blocks: Vec<_> = match args.block.as_str() {
+        "all" => BLOCKS.iter().collect(),
+        name => vec![find(name, "BLOCK")?],
+    };
+    let setting = args.from.setting()?;
+    for spec in blocks {
+        let vectors = (spec.record)(spec, &setting)?;
+        let folder = args.output.join(spec.name);
+        vectors.write(&folder)?;
+        talk.detail(format_args!("{}: {} cycles", folder.display(), vectors.stimulus.rows()));
+    }
+    Ok(())
+}
+
+/// The block called `name`.
+///
+/// # Errors
+/// When there is none; the error names `source`.
+pub fn find(name: &str, source: &str) -> Result<&'static Spec> {
+    blocks::find(name).ok_or_else(|| {
+        let names: Vec<_> = BLOCKS.iter().map(|spec| spec.name).collect();
+        let hint = nearest(name, names.iter().copied());
+        let hint = hint.map_or(String::new(), |name| format!(" (did you mean {name}?)"));
+        let expected = format!("no such block{hint}; expected all or one of {}", names.join(", "));
+        Input::new(source, expected).value(name).into()
+    })
+}

@@ -1,0 +1,191 @@
+//! `tofsim verify`: holds Verilog to the golden vectors.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
+
+use crate::choice;
+use crate::report::verification as report;
+use tofsim::error::{Error, Input, Result};
+use tofsim::files::output::write_file;
+use tofsim_rtl::golden::{BLOCKS, Setting, Spec};
+use tofsim_rtl::verify::cycle_counts::Count;
+use tofsim_rtl::verify::process::Limits;
+use tofsim_rtl::verify::{CENTROID, Check, Map, Report, Rtl, Simulator};
+
+use super::interrupt::stop_signal;
+use super::stdout::print;
+use super::talk::Talk;
+use super::vectors::{From, find};
+
+/// Run Verilog against the golden vectors
+///
+/// Makes the vectors of each block, compiles its bench with your Verilog, runs it, and says where it
+/// first differs, with a table of the cycles around and a waveform of both sides. Without --rtl it
+/// checks tofsim's own Verilog, which is in the program. Simulators are looked for on PATH. Benches are
+/// Verilog only, not VHDL.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Exit status: 0 all pass, 1 something differs, 2 it could not be checked.")]
+pub struct Args {
+    /// Folder with the Verilog to check: all its .v and .sv files
+    #[arg(long, value_name = "DIR")]
+    rtl: Option<PathBuf>,
+    /// Block to check; may be repeated [default: all; centroid_estimator only if the design has it]
+    #[arg(long, value_name = "BLOCK")]
+    block: Vec<String>,
+    /// Check the whole firmware with a full frame of the scenario too (alone, unless --block is given)
+    #[arg(long)]
+    top: bool,
+    /// Count cycles in the model and in the RTL, and prove them (Icarus and Yosys), instead of vectors
+    #[arg(long, conflicts_with_all = ["block", "top", "map", "registers", "junit", "simulator"])]
+    cycle_counts: bool,
+    /// Simulator to run
+    #[arg(long, value_parser = choice::simulator(), default_value = "icarus")]
+    simulator: Simulator,
+    /// How your design differs by intention: names, polarities, latencies, adapters (TOML)
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
+    /// Compare registers inside the blocks too, which have to have our names [default for our own]
+    #[arg(long, conflicts_with = "map")]
+    registers: bool,
+    /// Most that a compilation or a simulation may take
+    #[arg(long, value_name = "SECONDS", default_value_t = 300,
+        value_parser = clap::value_parser!(u64).range(1..))]
+    time_limit: u64,
+    /// Where waveforms of mismatches go
+    #[arg(short, long, value_name = "DIR", default_value = "waves/verify")]
+    output: PathBuf,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+    /// Write JUnit XML too
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+    #[command(flatten)]
+    from: From,
+}
+
+/// One thing to check.
+struct Task {
+    name: String,
+    spec: &'static Spec,
+    setting: Setting,
+}
+
+/// Runs the verb.
+pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+    let map = args.map.as_deref().map(Map::read).transpose()?;
+    let work = tempfile::tempdir().map_err(Error::io(&std::env::temp_dir(), "write"))?;
+    let rtl = match &args.rtl {
+        Some(folder) => Rtl::folder(folder)?,
+        None => Rtl::own(work.path())?,
+    };
+    let stop = stop_signal();
+    let limits = Limits { time: Duration::from_secs(args.time_limit), stop: stop.as_deref() };
+    if args.cycle_counts {
+        return cycle_counts(args, &rtl, &limits);
+    }
+    let tasks = tasks(args, map.as_ref(), &rtl, talk)?;
+    let check = |task: &Task| {
+        let check = Check {
+            rtl: &rtl,
+            map: map.as_ref().and_then(|map| map.block.get(task.spec.name)),
+            simulator: args.simulator,
+            registers: args.registers || args.rtl.is_none(),
+            limits,
+            output: &args.output,
+        };
+        let report = check.run(&task.name, task.spec, &task.setting, &work.path().join(&task.name));
+        talk.detail(format_args!("{}: done", task.name));
+        report
+    };
+    let reports = in_parallel(&tasks, check)?;
+
+    let simulator = args.simulator.name();
+    if let Some(path) = &args.junit {
+        let fault = |error| Input::new(path.display(), format!("no XML: {error}"));
+        let text = report::junit(simulator, &reports).map_err(fault)?;
+        write_file(path, |file| file.write_all(text.as_bytes()))?;
+    }
+    match args.json {
+        true => print(&format!("{:#}\n", report::json(&rtl.source, simulator, &reports)))?,
+        false => print(&report::text(&reports))?,
+    }
+    let passed = reports.iter().all(Report::passed);
+    Ok(ExitCode::from(u8::from(!passed)))
+}
+
+fn cycle_counts(args: &Args, rtl: &Rtl, limits: &Limits) -> Result<ExitCode> {
+    let neurons = args.from.setting()?.neurons();
+    let counts = tofsim_rtl::verify::cycle_counts::cycle_counts(rtl, neurons, limits)?;
+    match args.json {
+        true => print(&format!("{:#}\n", report::counts_json(&rtl.source, &counts)))?,
+        false => print(&report::counts_text(&counts))?,
+    }
+    let holds = counts.iter().all(Count::holds);
+    Ok(ExitCode::from(u8::from(!holds)))
+}
+
+/// The blocks that are asked for, then the whole.
+fn tasks(args: &Args, map: Option<&Map>, rtl: &Rtl, talk: &Talk) -> Result<Vec<Task>> {
+    let setting = args.from.setting()?;
+    let setting = map.map_or(setting.clone(), |map| map.fit(&setting));
+    let specs: Vec<_> = match (args.block.as_slice(), args.top) {
+        ([], true) => Vec::new(),
+        ([], false) => every(map, rtl, talk)?,
+        (names, _) => names.iter().map(|name| find(name, "--block")).collect::<Result<_>>()?,
+    };
+    let task =
+        |spec: &'static Spec| Task { name: spec.name.to_owned(), spec, setting: setting.clone() };
+    let mut tasks: Vec<_> = specs.into_iter().map(task).collect();
+    if args.top {
+        let setting = Setting { as_told: true, ..setting.clone() };
+        let name = format!("tof_top.{}", setting.setup.name);
+        tasks.push(Task { name, spec: find("tof_top", "--top")?, setting });
+    }
+    Ok(tasks)
+}
+
+/// All blocks, but for an estimator that the thesis does not have and the design need not.
+fn every(map: Option<&Map>, rtl: &Rtl, talk: &Talk) -> Result<Vec<&'static Spec>> {
+    let named = map.and_then(|map| map.block.get(CENTROID));
+    let module = named.map_or(CENTROID, |block| block.module(CENTROID));
+    if named.is_some() || rtl.has(module)? {
+        return Ok(BLOCKS.iter().collect());
+    }
+    talk.note(format_args!("{}: no module {module}, which is not checked", rtl.source));
+    Ok(BLOCKS.iter().filter(|spec| spec.name != CENTROID).collect())
+}
+
+/// Does all tasks on as many threads as the machine has, in any order; the reports, and the first
+/// error, are in the order of the tasks.
+fn in_parallel(
+    tasks: &[Task],
+    check: impl Fn(&Task) -> Result<Report> + Sync,
+) -> Result<Vec<Report>> {
+    let threads = std::thread::available_parallelism().map_or(1, |n| n.get()).min(tasks.len());
+    let (next, slots) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                while let Some(task) = tasks.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let place = tasks.iter().position(|other| std::ptr::eq(other, task));
+                    let report = check(task);
+                    let failed = report.is_err();
+                    if let Ok(mut slots) = slots.lock() {
+                        slots.push((place, report));
+                    }
+                    if failed {
+                        next.store(tasks.len(), Ordering::Relaxed);
+                    }
+                }
+            });
+        }
+    });
+    let mut reports = slots.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+    reports.sort_by_key(|(place, _)| *place);
+    reports.into_iter().map(|(_, report)| report).collect()
+}

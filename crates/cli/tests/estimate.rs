@@ -1,0 +1,255 @@
+//! Histograms through `estimate`, against a separate and deliberately naive integer implementation.
+
+use std::fmt::Write as _;
+use std::path::Path;
+use std::process::Command;
+
+use crate::common::{csv, npy};
+use tofsim::network::{Histogram, Network, estimate};
+
+/// A small generator of random words (SplitMix64).
+struct Random(u64);
+
+impl Random {
+    fn word(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, limit: u64) -> u64 {
+        self.word() % limit
+    }
+
+    /// A 16-bit word, now and then one of its ends, made smaller by a shift.
+    fn weight(&mut self, shift: u32) -> i128 {
+        let word = match self.below(16) {
+            0 => -32768,
+            1 => 32767,
+            _ => i128::from(self.word() as i16),
+        };
+        word >> shift
+    }
+}
+
+/// A network as plain integers.
+struct Naive {
+    w1: Vec<Vec<i128>>,
+    b1: Vec<i128>,
+    w2: Vec<i128>,
+    b2: i128,
+}
+
+/// The signed integer that the low 36 bits of a number make.
+fn wrap_36(number: i128) -> i128 {
+    let low = number.rem_euclid(1 << 36);
+    if low >= 1 << 35 { low - (1 << 36) } else { low }
+}
+
+/// tanh(address / 512) x 2^15 to the nearest integer, at most 32767.
+fn activation(address: i128) -> i128 {
+    let exact = (address.abs() as f64 / 512.0).tanh() * 32768.0;
+    let nearest = ((exact + 0.5).floor() as i128).min(32767);
+    if address < 0 { -nearest } else { nearest }
+}
+
+impl Naive {
+    fn random(random: &mut Random, neurons: usize, shift: u32) -> Naive {
+        let each = 0..neurons;
+        Naive {
+            w1: each.clone().map(|_| (0..256).map(|_| random.weight(shift)).collect()).collect(),
+            b1: each.clone().map(|_| random.weight(shift)).collect(),
+            w2: each.map(|_| random.weight(0)).collect(),
+            b2: random.weight(0),
+        }
+    }
+
+    /// Every weight the same.
+    fn constant(neurons: usize, weight: i128) -> Naive {
+        Naive {
+            w1: vec![vec![weight; 256]; neurons],
+            b1: vec![weight; neurons],
+            w2: vec![weight; neurons],
+            b2: weight,
+        }
+    }
+
+    /// Depth and sums as integers.
+    fn estimate(&self, histogram: &Histogram) -> (i128, Vec<i128>) {
+        let mut sums = Vec::new();
+        let mut depth = self.b2 * 4096;
+        for neuron in 0..self.w2.len() {
+            let mut sum = self.b1[neuron] * 1024;
+            for (bin, &count) in histogram.iter().enumerate() {
+                sum += self.w1[neuron][bin] * i128::from(count);
+            }
+            let sum = wrap_36(sum);
+            // The nearest multiple of 2^14, halves up.
+            let address = (sum + 8192).div_euclid(16384).clamp(-2048, 2047);
+            depth += self.w2[neuron] * activation(address);
+            sums.push(sum);
+        }
+        (wrap_36(depth), sums)
+    }
+
+    fn toml(&self) -> String {
+        let mut text = String::from(
+            "schema = 'tofsim.network/1'\ndescription = 'random'\n\
+             training = { origin = 'none', chain = 'none' }\n\
+             scaling = { input = 'counts', output = 'metres', normalisation = 'folded' }\n\
+             [formats]\nw1 = { width = 16, fraction = 23 }\nb1 = { width = 16, fraction = 13 }\n\
+             w2 = { width = 16, fraction = 14 }\nb2 = { width = 16, fraction = 17 }\n\
+             l1_out = { width = 16, fraction = 15 }\n\
+             tansig = { address_bits = 12, range = 4 }\n[integers]\n",
+        );
+        let (w1, b1, w2, b2) = (&self.w1, &self.b1, &self.w2, self.b2);
+        writeln!(text, "w1 = {w1:?}\nb1 = {b1:?}\nw2 = {w2:?}\nb2 = {b2}").unwrap();
+        text
+    }
+}
+
+/// Hand-made extremes, then random histograms of at most 65,535 hits.
+fn histograms(random: &mut Random) -> Vec<Histogram> {
+    let one = |bin: usize, count| std::array::from_fn(|k| if k == bin { count } else { 0 });
+    let alternating = |odd| std::array::from_fn(|k| if k % 2 == odd { 500 } else { 0 });
+    let mut list = vec![[0; 256], one(0, 30_000), one(255, 30_000), one(100, 65_535)];
+    list.extend([alternating(0), alternating(1), [255; 256], one(128, 1)]);
+    for _ in 0..24 {
+        let hits = random.below(65_536);
+        let (first, span) = (random.below(200), 1 + random.below(56));
+        let mut histogram = [0; 256];
+        for _ in 0..hits {
+            histogram[(first + random.below(span)) as usize] += 1;
+        }
+        list.push(histogram);
+    }
+    list
+}
+
+#[test]
+fn random_networks_and_histograms_give_the_naive_integers() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut random = Random(1);
+    let ends = [(8, -32768), (8, 32767), (16, -32768), (16, 32767)];
+    let mut networks = Vec::from(ends.map(|(neurons, weight)| Naive::constant(neurons, weight)));
+    networks.extend((0..30).map(|k| Naive::random(&mut random, 8, k % 10)));
+    networks.extend((0..32).map(|k| Naive::random(&mut random, 1 + k as usize % 16, k % 10)));
+    let histograms = histograms(&mut random);
+    let mut saturated = 0;
+    let mut between = 0;
+    for (k, naive) in networks.iter().enumerate() {
+        let path = directory.path().join(format!("{k}.toml"));
+        std::fs::write(&path, naive.toml()).unwrap();
+        let params = Network::load(&path).unwrap().params();
+        for (n, histogram) in histograms.iter().enumerate() {
+            let (depth, sums) = naive.estimate(histogram);
+            let found = estimate(&params, histogram);
+            let found_sums = found.l1_in.map(|sum| i128::from(sum.get()));
+            assert_eq!(found_sums[..sums.len()], sums[..], "{k}, {n}");
+            assert!(found_sums[sums.len()..].iter().all(|&sum| sum == 0), "{k}, {n}");
+            assert_eq!(i128::from(found.depth.get()), depth, "network {k}, histogram {n}");
+            saturated += sums.iter().filter(|sum| sum.abs() > 4 << 23).count();
+            between += sums.iter().filter(|sum| sum.abs() < 4 << 23).count();
+        }
+    }
+    assert!(saturated > 500 && between > 500, "one-sided: {saturated} and {between}");
+}
+
+#[test]
+fn every_address_of_the_activation_table_is_the_naive_one() {
+    let table = tofsim::network::roms::tansig_table();
+    for address in -2048..2048i128 {
+        let place = address.rem_euclid(4096) as usize;
+        assert_eq!(i128::from(table[place].get()), activation(address), "address {address}");
+    }
+}
+
+/// What the program prints as JSON.
+fn run(arguments: &[&Path]) -> serde_json::Value {
+    let program = env!("CARGO_BIN_EXE_tofsim");
+    let output = Command::new(program).args(["estimate", "--json"]).args(arguments).output();
+    let output = output.unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn the_program_prints_the_naive_integers() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut random = Random(2);
+    let naive = Naive::random(&mut random, 8, 4);
+    let network = directory.path().join("network.toml");
+    std::fs::write(&network, naive.toml()).unwrap();
+    let histograms = histograms(&mut random);
+    let expect = |json: &serde_json::Value, histogram: &Histogram| {
+        let (depth, sums) = naive.estimate(histogram);
+        assert_eq!(json["depth_raw"], format!("{:09x}", depth.rem_euclid(1 << 36)));
+        let depth_m = depth as f64 / (1u64 << 29) as f64;
+        // The parser of this test may miss the last bit.
+        assert!((json["depth_m"].as_f64().unwrap() - depth_m).abs() < 1e-12);
+        let found = json["l1_in"].as_array().unwrap().iter().map(|sum| sum.as_i64().unwrap());
+        assert_eq!(found.map(i128::from).collect::<Vec<_>>(), sums);
+    };
+
+    let single = directory.path().join("one.csv");
+    std::fs::write(&single, csv(&histograms[9])).unwrap();
+    let json = run(&[&single, Path::new("--network"), &network]);
+    assert_eq!(json["schema"], "tofsim.estimate/1");
+    expect(&json, &histograms[9]);
+    expect(&json["histograms"][0], &histograms[9]);
+
+    let many = directory.path().join("many.npy");
+    let data: Vec<u8> = histograms.iter().flatten().flat_map(|count| count.to_le_bytes()).collect();
+    std::fs::write(&many, npy("<u2", &format!("({}, 256)", histograms.len()), &data)).unwrap();
+    let json = run(&[&single, &many, Path::new("--network"), &network]);
+    assert!(json.get("depth_raw").is_none());
+    let rows = json["histograms"].as_array().unwrap();
+    assert_eq!(rows.len(), 1 + histograms.len());
+    expect(&rows[0], &histograms[9]);
+    for (index, histogram) in histograms.iter().enumerate() {
+        assert_eq!(rows[1 + index]["index"], 1 + index);
+        expect(&rows[1 + index], histogram);
+    }
+}
+
+#[test]
+fn an_explanation_has_every_value_and_a_budget_that_adds_up() {
+    let histogram = Path::new("stimuli/histograms/kc705.csv");
+    let json = run(&[histogram, Path::new("--explain")]);
+    let explained = &json["histograms"][0]["explanation"];
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let budget = &explained["budget"];
+    let parts = ["hidden_weights_mm", "address_mm", "table_mm", "output_weights_mm"];
+    let sum: f64 = parts.iter().map(|part| number(&budget[part])).sum();
+    assert!((sum - number(&budget["total_mm"])).abs() < 1e-9);
+    let depth = &explained["depth"];
+    assert_eq!(number(&depth["fixed"]), number(&json["depth_m"]));
+    let total_mm = 1e3 * (number(&depth["fixed"]) - number(&depth["float"]));
+    assert!((total_mm - number(&budget["total_mm"])).abs() < 1e-9);
+    for (neuron, sum) in explained["neurons"].as_array().unwrap().iter().zip(0..) {
+        assert_eq!(neuron["l1_in"]["word"], json["l1_in"][sum]);
+        let saturated = number(&neuron["l1_in"]["fixed"]).abs() > 4.0;
+        assert_eq!(neuron["saturated"], saturated);
+    }
+
+    let program = Command::new(env!("CARGO_BIN_EXE_tofsim"))
+        .args(["estimate", "stimuli/histograms/kc705.csv", "--explain"])
+        .output()
+        .unwrap();
+    let text = String::from_utf8(program.stdout).unwrap();
+    assert!(text.contains("010021340") && text.contains("saturated: 2 of 8 neurons"), "{text}");
+    assert_eq!(text.lines().filter(|line| line.trim_start().starts_with("l1_out")).count(), 8);
+}
+
+#[test]
+fn a_network_file_that_is_not_there_or_no_text_is_an_error() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("latin.toml");
+    std::fs::write(&path, b"schema = 'a'\n# \xe9\n").unwrap();
+    let fault = |path: &Path| Network::load(path).unwrap_err().to_string();
+    assert!(fault(&path).ends_with("latin.toml:2:3: expected UTF-8 text"));
+    assert!(fault(directory.path()).contains("cannot read: Is a directory"));
+    assert!(fault(&directory.path().join("none.toml")).contains("cannot read: No such file"));
+}

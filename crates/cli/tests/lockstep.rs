@@ -1,0 +1,152 @@
+//! Rust and Verilog do the same, clock by clock: each block alone, the whole with short frames and
+//! under random control, and full frames at every laser rate.
+
+use crate::common;
+use serde_json::Value;
+
+use tofsim_rtl::golden::BLOCKS;
+
+/// Lines of a block's own bench, at least.
+const CYCLES: u64 = 20_000;
+
+/// The reports of a `verify` that has to pass.
+fn verified(args: &[&str]) -> Vec<Value> {
+    let folder = common::empty();
+    let output = common::output(folder.path(), &[&["verify", "--json"], args].concat());
+    let text = String::from_utf8(output.stdout).unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+    let reports: Value = serde_json::from_str(&text).unwrap_or_else(|_| panic!("{errors}"));
+    assert_eq!(output.status.code(), Some(0), "{text}{errors}");
+    assert_eq!(reports["passed"], true);
+    let blocks = reports["blocks"].as_array().unwrap().clone();
+    for block in &blocks {
+        assert_eq!((&block["verdict"], &block["mismatches"]), (&"pass".into(), &0.into()));
+    }
+    blocks
+}
+
+fn every_block_passes_in(simulator: &str) {
+    let blocks = verified(&["--simulator", simulator]);
+    let names: Vec<_> = blocks.iter().map(|block| block["block"].as_str().unwrap()).collect();
+    let expected: Vec<_> = BLOCKS.iter().map(|spec| spec.name).collect();
+    assert_eq!(names, expected);
+    for block in &blocks {
+        assert!(block["cycles"].as_u64() >= Some(CYCLES), "{block}");
+        assert_eq!(block["goals"]["met"], block["goals"]["of"], "{block}");
+    }
+}
+
+#[test]
+fn every_block_passes_in_icarus() {
+    every_block_passes_in("icarus");
+}
+
+#[test]
+fn every_block_passes_in_verilator() {
+    every_block_passes_in("verilator");
+}
+
+/// Blocks of the estimator.
+const ESTIMATOR: [&str; 5] =
+    ["depth_estimator", "estimator_ctrl", "forward1", "forward2", "tansig"];
+
+#[test]
+fn an_estimator_of_sixteen_neurons_passes_in_both() {
+    let mut args = vec!["-s", "estimator.network=uniform-16"];
+    args.extend(ESTIMATOR.iter().flat_map(|block| ["--block", *block]));
+    for simulator in ["icarus", "verilator"] {
+        let blocks = verified(&[&args[..], &["--simulator", simulator]].concat());
+        assert_eq!(blocks.len(), ESTIMATOR.len());
+        for block in &blocks {
+            assert_eq!(block["goals"]["met"], block["goals"]["of"], "{block}");
+        }
+    }
+    let short =
+        ["--top", "-s", "firmware.shots_per_frame=300", "-s", "estimator.network=uniform-16"];
+    verified(&short);
+}
+
+#[test]
+fn other_seeds_pass_too() {
+    for seed in ["2", "3", "4"] {
+        verified(&["--seed", seed, "--cycles", "8000"]);
+    }
+}
+
+#[test]
+fn two_frames_of_300_shots_pass_in_icarus() {
+    for rate in 0..4 {
+        let rate = format!("firmware.laser_freq={rate}");
+        let short = ["--top", "--frames", "2", "-s", "firmware.shots_per_frame=300", "-s", &rate];
+        verified(&short);
+    }
+}
+
+#[test]
+fn the_validation_scenarios_pass_in_icarus() {
+    for scenario in ["spad_validation", "histogram_validation", "estimator_validation"] {
+        verified(&["--top", "--scenario", scenario, "--cycles", "20000"]);
+    }
+}
+
+#[test]
+fn the_centroid_estimator_passes_with_other_windows_and_scales() {
+    for keys in [
+        ["half_width=31", "background=false", "offset_m=-0.99", "slope_m=0.0078"],
+        ["half_width=1", "background=true", "offset_m=0.99", "slope_m=0.0001"],
+        ["half_width=8", "background=false", "offset_m=0.0338", "slope_m=0.00356"],
+    ] {
+        let keys = keys.map(|key| format!("estimator.centroid_{key}"));
+        let set = keys.iter().flat_map(|key| ["-s", key]);
+        let args: Vec<_> = ["--block", "centroid_estimator"].into_iter().chain(set).collect();
+        let blocks = verified(&args);
+        assert_eq!(blocks[0]["goals"]["met"], blocks[0]["goals"]["of"], "{}", blocks[0]);
+    }
+}
+
+#[test]
+fn the_top_passes_with_the_centroid_estimator_in_its_socket() {
+    let kind = ["-s", "estimator.kind=centroid"];
+    let short = ["--top", "--frames", "2", "-s", "firmware.shots_per_frame=300"];
+    for simulator in ["icarus", "verilator"] {
+        let blocks = verified(&[&["--simulator", simulator], &kind[..], &short].concat());
+        let frames = 2 * (300 * 6 + 274 + 308 + 1);
+        let cycles = blocks[0]["cycles"].as_u64().unwrap();
+        assert!((frames..frames + 8).contains(&cycles), "{cycles} cycles");
+    }
+    verified(&[&["--top", "--scenario", "estimator_validation"], &kind[..]].concat());
+    // Under random control, and with another window.
+    let other = ["-s", "estimator.centroid_half_width=9", "-s", "estimator.centroid_offset_m=-0.1"];
+    verified(&[&["--block", "tof_top"], &kind[..], &other].concat());
+}
+
+#[test]
+fn uneven_chains_and_passive_quenching_pass_in_icarus() {
+    for chain in ["table6_3", "ideal"] {
+        let chain = format!("tdc.profile={chain}");
+        let short = ["--top", "-s", "firmware.shots_per_frame=300", "-s", "firmware.mode=1"];
+        verified(&[&short[..], &["-s", &chain]].concat());
+    }
+}
+
+#[test]
+fn a_chain_whose_taps_are_reached_out_of_order_passes_in_icarus() {
+    let folder = common::empty();
+    let delays: Vec<_> = (0..800).map(|tap| [30.0, -5.0, 25.0, -4.0][tap % 4]).collect();
+    let chain = folder.path().join("uneven.toml");
+    std::fs::write(&chain, format!("offset_ps = 2230.0\ntap_delays_ps = {delays:?}\n")).unwrap();
+    let chain = format!("tdc.profile={}", chain.display());
+    verified(&["--block", "carry_chain", "--block", "tdc", "-s", &chain]);
+    verified(&["--top", "-s", "firmware.shots_per_frame=300", "-s", &chain]);
+}
+
+#[test]
+fn full_frames_at_every_rate_pass_in_verilator() {
+    for (rate, period) in [(0, 25), (1, 13), (2, 8), (3, 6)] {
+        let rate = format!("firmware.laser_freq={rate}");
+        let blocks = verified(&["--top", "--simulator", "verilator", "-s", &rate]);
+        let frame = 30_000 * period + 541;
+        let cycles = blocks[0]["cycles"].as_u64().unwrap();
+        assert!((frame..frame + 8).contains(&cycles), "{cycles} cycles");
+    }
+}

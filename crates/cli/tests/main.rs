@@ -1,0 +1,23 @@
+//! The command, as its users see it.
+
+mod bad_input;
+mod centroid;
+mod cli;
+mod commands;
+mod common;
+mod compare;
+mod control;
+mod dataset;
+mod estimate;
+mod evaluate;
+mod fidelities;
+mod golden;
+mod lockstep;
+mod quantize;
+mod subtraction;
+mod synthesis;
+mod three_ways;
+mod train;
+mod vectors;
+mod verify;
+mod waveform;

@@ -1,0 +1,125 @@
+//! `tofsim quantize --from`: networks trained elsewhere, against what MATLAB's arithmetic gives.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::{self, json, refused};
+use tofsim::network::{Histogram, Network};
+use tofsim_learn::quantize::import;
+
+const MAT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/network_arrays.mat");
+const JSON: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/network_arrays.json");
+
+/// Histograms and their depths, by `tests/reference/network_arrays.py` [m].
+fn reference() -> Vec<(Histogram, f64)> {
+    let text = fs::read_to_string("tests/reference/network_arrays_depths.json").unwrap();
+    let tree: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let rows = tree["histograms"].as_array().unwrap().iter();
+    rows.zip(tree["depths_m"].as_array().unwrap())
+        .map(|(row, depth)| {
+            let count = |bin: usize| row[bin].as_u64().unwrap() as u16;
+            (std::array::from_fn(count), depth.as_f64().unwrap())
+        })
+        .collect()
+}
+
+#[test]
+fn a_matlab_file_and_json_fold_to_what_matlab_computes() {
+    let (mat, json) = (import::read(Path::new(MAT)), import::read(Path::new(JSON)));
+    let (mat, json) = (mat.unwrap(), json.unwrap());
+    for (histogram, depth_m) in reference() {
+        assert!((mat.forward(&histogram) - depth_m).abs() < 1e-12);
+        assert!((json.forward(&histogram) - depth_m).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_folder_of_numpy_arrays_is_the_same_network() {
+    let folder = tempfile::tempdir().unwrap();
+    let float = import::read(Path::new(JSON)).unwrap();
+    let put = |name: &str, shape: &str, values: &[f64]| {
+        let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+        fs::write(folder.path().join(name), common::npy("<f8", shape, &bytes)).unwrap();
+    };
+    put("IW.npy", "(8, 256)", float.w1.as_flattened());
+    put("LW.npy", "(1, 8)", &float.w2);
+    put("b1.npy", "(8,)", &float.b1);
+    put("b2.npy", "(1,)", &[float.b2]);
+    assert_eq!(import::read(folder.path()).unwrap(), float);
+    put("b1.npy", "(7,)", &float.b1[..7]);
+    let error = import::read(folder.path()).unwrap_err().to_string();
+    assert!(error.contains("IW: 8 x 256, expected 7 x 256"), "{error}");
+}
+
+#[test]
+fn the_program_writes_a_network_that_runs_and_its_roms() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, roms) = (folder.path().join("net.toml"), folder.path().join("roms"));
+    let arguments = ["quantize", "--from", MAT, "--chain", "ideal", "--saturate", "--json", "-o"];
+    let (file, roms) = (file.to_str().unwrap(), roms.to_str().unwrap());
+    let report = json(folder.path(), &[&arguments[..], &[file, "--roms", roms]].concat());
+    assert_eq!(report["schema"], "tofsim.quantize/1");
+    assert_eq!(report["files"].as_array().unwrap().len(), 6);
+    let network = Network::load(Path::new(file)).unwrap();
+    assert_eq!(network.training.chain, "ideal");
+    assert_eq!(network.float, Some(import::read(Path::new(MAT)).unwrap()));
+    let rom = fs::read_to_string(Path::new(roms).join("w1.mem")).unwrap();
+    let word = format!("{:04x}", network.fixed.w1[0][9].to_bits() as u16);
+    assert!(rom.lines().nth(9).unwrap().ends_with(&word));
+    let set = format!("estimator.network={file}");
+    json(
+        folder.path(),
+        &["run", "--waves", "none", "--fidelity", "histogram", "--json", "-s", &set],
+    );
+}
+
+#[test]
+fn what_is_wrong_is_named_and_nothing_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("net.toml");
+    let out = out.to_str().unwrap();
+    let write = |name: &str, text: &[u8]| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let tree = fs::read_to_string(JSON).unwrap();
+    for (from, expected) in [
+        (write("a.json", b"{\"IW\": [1], \"b\": [[1, 2], 3]}"), "IW: 1, expected 2 x 256"),
+        (write("f.json", b"{\"IW\": [1]}"), "b1: missing"),
+        (write("b.json", tree.replace("\"LW\"", "\"LV\"").as_bytes()), "LW: missing"),
+        (write("c.mat", b"no such format"), "not a MATLAB file of level 5"),
+        (write("d.txt", b""), "expected a .mat or .json file"),
+        (write("e.json", tree.replacen("\"gain\": 4.0", "\"gain\": 0.001", 1).as_bytes()), "w2[0]"),
+        ("nowhere.json".to_owned(), "cannot read"),
+    ] {
+        let error = refused(folder.path(), &["quantize", "--from", &from, "-o", out]);
+        assert!(error.contains(expected), "{error}");
+        assert!(!Path::new(out).exists(), "{from}");
+    }
+}
+
+#[test]
+fn an_exploration_has_the_firmware_s_datapath_and_its_neighbours() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = ["quantize", "--explore", "uniform", "--rows", "510"];
+    let report = json(folder.path(), &[&arguments[..], &["--json"]].concat());
+    assert_eq!(report["schema"], "tofsim.exploration/1");
+    let points = report["points"].as_array().unwrap();
+    let point = |variant: &str| points.iter().find(|point| point["variant"] == variant).unwrap();
+    let firmware = point("the firmware's");
+    assert_eq!((&firmware["ramb36"], &firmware["dsp48"]), (&10.into(), &9.into()));
+    assert_eq!(firmware["saturated_weights"], 0);
+    let rms = |point: &serde_json::Value| point["rms_to_float_mm"].as_f64().unwrap();
+    let coarse = point("table of 9 address bits over +-4");
+    assert!(rms(coarse) > 4.0 * rms(firmware) && rms(firmware) < 0.5);
+    assert!(coarse["ramb36"].as_u64() < firmware["ramb36"].as_u64());
+    let text = common::stdout(folder.path(), &arguments);
+    assert!(text.contains("table of 14 address bits over +-8"), "{text}");
+
+    let error = refused(folder.path(), &["quantize"]);
+    assert!(error.contains("--from") && error.contains("--explore"), "{error}");
+    refused(folder.path(), &["quantize", "--from", JSON, "--explore", "uniform"]);
+    let error = refused(folder.path(), &["quantize", "--explore", "nosuch"]);
+    assert!(error.contains("nosuch"), "{error}");
+}

@@ -1,0 +1,104 @@
+//! The core as primitives, in a simulator.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use tofsim::files::output::write_file;
+use tofsim_rtl::golden::{Setting, Vectors, blocks};
+use tofsim_rtl::verify::{Rtl, Simulator, Verdict};
+
+use super::yosys::{self, LIMITS, Sources};
+use crate::common;
+
+/// Shots of a frame; synthesis fixes it, as it does the contents of the ROMs.
+const SHOTS: u64 = 300;
+/// Frames: the second one needs the clearing of the first one's histogram.
+const FRAMES: u64 = 2;
+
+/// Modules that are primitives without a useful model: CARRY4 has no delay for each tap, and there
+/// is none for PLLE2. They stay as they are in simulation.
+const KEPT: [&str; 4] = ["carry_chain", "ddr_output", "lvds_output", "pll"];
+
+/// Synthesises the core: the folder with `netlist.v` and, in `cells.txt`, where Yosys has its models.
+fn netlist(sources: &Sources) -> PathBuf {
+    let mut sources = yosys::needed(sources, "tof_top");
+    sources.remove("kc705_top.v");
+    let rest = yosys::modules(&sources).filter(|name| !KEPT.contains(name));
+    // Vectors are split, because Icarus takes minutes for one with a driver for each of 800 bits.
+    let script = format!(
+        "tee -q -o cells.txt read_verilog -lib +/xilinx/cells_sim.v\n\
+         read_verilog -lib {}\nread_verilog -DROM_IN_LUTS {}\n\
+         chparam -set ShotsPerFrame {SHOTS} tof_top\n\
+         synth_xilinx -family xc7 -top tof_top -flatten -noiopad -noclkbuf\n\
+         tee -q -o stat.json stat -json\n\
+         splitnets\nopt_clean -purge\nrename tof_top tof_top_netlist\n\
+         write_verilog -noattr netlist.v\n",
+        yosys::paths(KEPT),
+        yosys::paths(rest),
+    );
+    yosys::results(&sources, &script)
+}
+
+/// Yosys's models of the primitives.
+fn models(netlist: &Path) -> PathBuf {
+    let log = fs::read_to_string(netlist.join("cells.txt")).unwrap();
+    let path = log.split(['`', '\'']).find(|word| word.ends_with("cells_sim.v")).unwrap();
+    PathBuf::from(path)
+}
+
+/// A `tof_top` with the parameters that the bench sets, around the netlist, which has none.
+fn wrapper(vectors: &Vectors) -> String {
+    let parameters: Vec<_> =
+        vectors.parameters.iter().map(|(name, _)| format!("    parameter {name} = 0")).collect();
+    let ports = vectors.spec.ports(vectors.neurons);
+    let declared: Vec<_> = ports
+        .iter()
+        .map(|port| {
+            let direction = if port.output { "output" } else { "input" };
+            format!("    {direction} wire [{}:0] {}", port.width - 1, port.name)
+        })
+        .collect();
+    let connected: Vec<_> =
+        ports.iter().map(|port| format!("        .{0}({0})", port.name)).collect();
+    format!(
+        "`timescale 1ps / 1fs\n`default_nettype none\n\nmodule tof_top #(\n{}\n) (\n{}\n);\n    \
+         tof_top_netlist core (\n{}\n    );\n    \
+         defparam core.pll.LockTime = LockTime;\n    \
+         defparam core.\\tdc.carry_chain .DelaysFile = DelaysFile;\nendmodule\n",
+        parameters.join(",\n"),
+        declared.join(",\n"),
+        connected.join(",\n"),
+    )
+}
+
+/// Runs the golden bench of the whole firmware on the synthesised core.
+pub fn compare(sources: &Sources) -> Verdict {
+    let netlist = netlist(sources);
+    let shots = format!("firmware.shots_per_frame={SHOTS}");
+    let setting = Setting::new(common::setup("kc705", &[&shots]));
+    let setting = Setting { as_told: true, frames: FRAMES, ..setting };
+    let spec = blocks::find("tof_top").unwrap();
+    let vectors = (spec.record)(spec, &setting).unwrap();
+
+    let folder = common::empty();
+    let work = folder.path();
+    vectors.write(work).unwrap();
+    let write = |name: &str, text: &str| {
+        write_file(&work.join(name), |file| file.write_all(text.as_bytes())).unwrap();
+        work.join(name)
+    };
+    let mut files = vec![netlist.join("netlist.v"), models(&netlist)];
+    for name in KEPT {
+        let name = format!("{name}.v");
+        files.push(write(&name, &sources[&name]));
+    }
+    let rtl = Rtl { files, source: "the netlist of tof_top".to_owned() };
+    let bench = [work.join(vectors.bench_name()), write("tof_top.v", &wrapper(&vectors))];
+    let compiled = Simulator::Icarus
+        .compile(work, "tb_tof_top", &bench, &rtl, false, &LIMITS)
+        .unwrap_or_else(|error| panic!("{error}"));
+    let finished = compiled.run(None, &LIMITS).unwrap_or_else(|error| panic!("{error}"));
+    let limit = finished.timed_out.then_some(LIMITS.time.as_secs());
+    Verdict::read(&finished.output, limit)
+}

@@ -1,0 +1,184 @@
+//! Ten thousand histograms, random and extreme, through the clocked Rust block, the Verilog and
+//! `tofsim estimate`: the same depth word from all three, with eight neurons and with sixteen.
+
+use crate::common;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+use std::time::Duration;
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, Normal};
+
+use tofsim::firmware::depth_estimator::{DepthEstimator, In, Params};
+use tofsim::kernel::U;
+use tofsim::network::mem::{self, lines};
+use tofsim::network::{Histogram, Network};
+use tofsim_rtl::verify::process::Limits;
+use tofsim_rtl::verify::{Rtl, Simulator};
+
+const HISTOGRAMS: usize = 10_000;
+/// Most hits of a histogram.
+const HITS: u16 = u16::MAX;
+
+const BENCH: &str = r#"`timescale 1ps / 1fs
+module bench;
+    reg clk_125 = 1'b0, rst = 1'b1, algo_start = 1'b0;
+    wire read_en, algo_done;
+    wire [7:0] read_addr;
+    wire signed [35:0] depth;
+    integer n = 0, edges = 0;
+    reg [15:0] words [0:HISTOGRAMS * 256 - 1];
+    wire [15:0] count = read_en ? words[256 * n + read_addr] : 16'd0;
+
+    depth_estimator #(
+        .Neurons(NEURONS),
+        .W1File("w1.mem"), .B1File("b1.mem"), .W2File("w2.mem"), .B2File("b2.mem"),
+        .TansigFile("tansig.mem")
+    ) dut (
+        .clk_125(clk_125), .rst(rst), .algo_start(algo_start), .count(count),
+        .read_en(read_en), .read_addr(read_addr), .depth(depth), .algo_done(algo_done)
+    );
+
+    always #4000 clk_125 = !clk_125;
+
+    initial begin
+        $readmemh("histograms.mem", words);
+        repeat (2) @(negedge clk_125);
+        rst = 1'b0;
+        while (n < HISTOGRAMS) begin
+            algo_start = 1'b1;
+            @(negedge clk_125) algo_start = 1'b0;
+            edges = 0;
+            while (!algo_done) @(negedge clk_125) edges = edges + 1;
+            $display("depth %h %0d", depth, edges);
+            n = n + 1;
+        end
+        $finish;
+    end
+endmodule
+"#;
+
+/// One bin, few bins, level, alternating and empty ones, and of the rest half as measured and half of
+/// words of any size.
+fn histograms() -> Vec<Histogram> {
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let one = |bin: usize, count| std::array::from_fn(|k| if k == bin { count } else { 0 });
+    let mut list =
+        vec![[0; 256], [255; 256], std::array::from_fn(|k| if k % 2 == 0 { 511 } else { 0 })];
+    list.extend((0..256).flat_map(|bin| [one(bin, HITS), one(bin, 1)]));
+    while list.len() < HISTOGRAMS {
+        let mut histogram = [0; 256];
+        let mut left = random.random_range(0..=HITS);
+        if list.len() % 2 == 0 {
+            let (centre, sigma) =
+                (random.random_range(20.0..200.0), random.random_range(1.0..20.0));
+            let normal = Normal::new(centre, sigma).unwrap();
+            for _ in 0..left {
+                let ambient = random.random_bool(0.4);
+                let bin = if ambient {
+                    random.random_range(0.0..256.0)
+                } else {
+                    normal.sample(&mut random)
+                };
+                histogram[(bin as usize).min(255)] += 1;
+            }
+        } else {
+            while left > 0 {
+                let most = left >> random.random_range(0..12);
+                let count = random.random_range(0..=most.max(1)).min(left);
+                histogram[random.random_range(0..256)] += count;
+                left -= count.max(1);
+            }
+        }
+        list.push(histogram);
+    }
+    list
+}
+
+/// Depth words and edges of the clocked block.
+fn stepped(params: &Params, histograms: &[Histogram]) -> Vec<(String, u64)> {
+    let mut block = DepthEstimator::default();
+    let mut edge = |algo_start, histogram: &Histogram| {
+        let control = &block.estimator_ctrl;
+        let word = if control.read_en { histogram[control.read_addr.index()] } else { 0 };
+        block.rise(&In { rst: false, algo_start, count: U::new(word.into()) }, params);
+        let done = block.estimator_ctrl.algo_done;
+        done.then(|| format!("{:09x}", block.forward2.depth.bits()))
+    };
+    edge(false, &histograms[0]);
+    let depth = |histogram| {
+        let mut found = edge(true, histogram);
+        let mut edges = 0;
+        while found.is_none() {
+            found = edge(false, histogram);
+            edges += 1;
+        }
+        (found.unwrap(), edges)
+    };
+    histograms.iter().map(depth).collect()
+}
+
+/// The same of the Verilog.
+fn simulated(folder: &Path, params: &Params, histograms: &[Histogram]) -> Vec<(String, u64)> {
+    let words = histograms.iter().flatten().map(|&count| count.into());
+    fs::write(folder.join("histograms.mem"), lines(words, 4)).unwrap();
+    for rom in mem::depth_estimator(params) {
+        fs::write(folder.join(rom.name), rom.text).unwrap();
+    }
+    let neurons = format!("5'd{}", params.neurons());
+    let bench = BENCH.replace("HISTOGRAMS", &histograms.len().to_string());
+    let path = folder.join("bench.v");
+    fs::write(&path, bench.replace("NEURONS", &neurons)).unwrap();
+    let rtl = Rtl::folder(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rtl_ref")).unwrap();
+    let limits = Limits { time: Duration::from_secs(600), stop: None };
+    let simulator = Simulator::Verilator;
+    let compiled = simulator.compile(folder, "bench", &[path], &rtl, false, &limits).unwrap();
+    let finished = compiled.run(None, &limits).unwrap();
+    let depths = finished.output.lines().filter_map(|line| line.strip_prefix("depth "));
+    let split = |line: &str| {
+        let (depth, edges) = line.split_once(' ').unwrap();
+        (depth.to_owned(), edges.parse().unwrap())
+    };
+    depths.map(split).collect()
+}
+
+/// Depth words of the program.
+fn estimated(folder: &Path, network: &str, histograms: &[Histogram]) -> Vec<String> {
+    let bytes: Vec<u8> =
+        histograms.iter().flatten().flat_map(|count| count.to_le_bytes()).collect();
+    let mut shape = String::new();
+    write!(shape, "({}, 256)", histograms.len()).unwrap();
+    fs::write(folder.join("histograms.npy"), common::npy("<u2", &shape, &bytes)).unwrap();
+    let report =
+        common::json(folder, &["estimate", "histograms.npy", "--network", network, "--json"]);
+    let rows = report["histograms"].as_array().unwrap();
+    rows.iter().map(|row| row["depth_raw"].as_str().unwrap().to_owned()).collect()
+}
+
+fn agree(network: &str, edges: u64) {
+    let histograms = histograms();
+    assert_eq!(histograms.len(), HISTOGRAMS);
+    let folder = common::empty();
+    let params = Network::builtin(network).unwrap().unwrap().params();
+    let stepped = stepped(&params, &histograms);
+    assert!(stepped.iter().all(|(_, taken)| *taken == edges));
+    assert!(stepped == simulated(folder.path(), &params, &histograms), "the Verilog differs");
+    let words: Vec<_> = stepped.into_iter().map(|(depth, _)| depth).collect();
+    assert!(words == estimated(folder.path(), network, &histograms), "estimate differs");
+    let mut different = words.clone();
+    different.sort_unstable();
+    different.dedup();
+    assert!(different.len() > HISTOGRAMS / 2, "only {} different depths", different.len());
+}
+
+#[test]
+fn eight_neurons_agree_on_10_000_histograms() {
+    agree("uniform", 267);
+}
+
+#[test]
+fn sixteen_neurons_agree_on_10_000_histograms() {
+    agree("uniform-16", 275);
+}

@@ -1,0 +1,289 @@
+//! `tofsim train`: what it writes is decided by seed and recipe alone.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::{files, json, refused, stdout};
+use tofsim::network::Network;
+use tofsim_learn::quantize::datapath::Datapath;
+use tofsim_learn::training::features::{Features, Scaling};
+use tofsim_learn::training::limits::Limits;
+use tofsim_learn::training::lm::{Lm, Settings};
+use tofsim_learn::training::network_problem::NetworkProblem;
+use tofsim_learn::training::recipe::Recipe;
+use tofsim_learn::training::start::start;
+use tofsim_learn::training::sums::parameters;
+
+/// Arguments of a training of about a second.
+const SMALL: [&str; 8] = [
+    "train",
+    "--quick",
+    "--profile",
+    "uniform",
+    "--seed",
+    "2",
+    "--with",
+    "stages=[{candidates=2,epochs=5,samples=402},{candidates=1,epochs=5,samples=603}]",
+];
+const END: [&str; 2] =
+    ["--with", "finish={candidates=1,blocks=2,epochs=5,samples=603,least=0.7,most=1.5,power=0.7}"];
+
+fn train(folder: &Path, to: &str, more: &[&str]) -> String {
+    stdout(folder, &[&SMALL[..], &END, more, &["-o", to]].concat())
+}
+
+fn read(folder: &Path, path: &str) -> String {
+    fs::read_to_string(folder.join(path)).unwrap()
+}
+
+#[test]
+fn the_same_command_writes_the_same_files_on_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    train(folder, "a", &["--threads", "1"]);
+    train(folder, "b", &["--threads", "3"]);
+    let names = ["accuracy.csv", "checkpoint", "curve.csv", "curve.svg", "network.toml"];
+    assert_eq!(files(&folder.join("a")), names);
+    for name in names {
+        assert!(read(folder, &format!("a/{name}")) == read(folder, &format!("b/{name}")), "{name}");
+    }
+    let network = Network::load(&folder.join("a/network.toml")).unwrap();
+    assert_eq!(network.training.chain, "uniform");
+    let command = network.training.command.unwrap();
+    assert!(
+        command.starts_with("tofsim train --profile uniform --seed 2 --quick --with"),
+        "{command}"
+    );
+    assert_eq!(network.accuracy.unwrap().distances_m, [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
+    assert_eq!(read(folder, "a/accuracy.csv").lines().count(), 52);
+}
+
+#[test]
+fn a_training_that_was_stopped_ends_as_one_that_was_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let whole = train(folder, "whole", &[]);
+    assert_eq!(train(folder, "parts", &["--checkpoints", "1"]), "");
+    assert_eq!(files(&folder.join("parts")), ["checkpoint"]);
+    // Within the first stage, at its end, and within the last block.
+    for count in ["1", "2", "2"] {
+        assert_eq!(train(folder, "parts", &["--resume", "--checkpoints", count]), "");
+    }
+    assert_eq!(train(folder, "parts", &["--resume"]), whole);
+    for name in files(&folder.join("whole")) {
+        let [a, b] = ["whole", "parts"].map(|of| read(folder, &format!("{of}/{name}")));
+        assert!(a == b, "{name}");
+    }
+    // What is over is only written again.
+    assert_eq!(train(folder, "parts", &["--resume"]), whole);
+}
+
+#[test]
+fn formats_that_are_not_the_firmware_s_are_trained_for_and_written_as_arrays() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let largest = |of: &[f64]| of.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+    // So short a training minds the penalties only if they are steep.
+    let train = |to: &str, more: &[&str]| {
+        train(folder, to, &[&["--with", "limits.penalty=50"], more].concat())
+    };
+    train("a", &["--lut-bits", "12", "--format", "w2=16.14"]);
+    let w2 = Network::load(&folder.join("a/network.toml")).unwrap().twin().w2;
+    assert!(largest(&w2) > 0.125, "{w2:?}");
+
+    // A word of W2 that ends at 1/8 keeps the weights there, or they would not fit.
+    train("b", &["--lut-bits", "9", "--format", "w2=12.14", "--format", "w1=12.19"]);
+    let names = ["accuracy.csv", "checkpoint", "curve.csv", "curve.svg", "network.json"];
+    assert_eq!(files(&folder.join("b")), names);
+    stdout(folder, &["quantize", "--from", "b/network.json", "-o", "b.toml"]);
+    let network = Network::load(&folder.join("b.toml")).unwrap();
+    let w2 = network.twin().w2;
+    assert!(largest(&w2) < 0.125, "{w2:?}");
+
+    // The errors that are written are those with a table of 16 steps, and not with the firmware's.
+    train("c", &["--lut-bits", "4", "--with", "table_noise=0.0"]);
+    stdout(folder, &["quantize", "--from", "c/network.json", "-o", "c.toml"]);
+    let fine = json(folder, &["evaluate", "c.toml", "--rows", "5100", "--check", "0", "--json"]);
+    let fine_mm = fine["estimators"][0]["all"]["two_sd_mm"].as_f64().unwrap();
+    let table = read(folder, "c/accuracy.csv");
+    let column = |row: &str| row.split(',').nth(3).unwrap().parse::<f64>().unwrap();
+    let coarse_mm = table.lines().skip(1).map(column).sum::<f64>() / 51.0;
+    assert!(coarse_mm > 2.0 * fine_mm, "{coarse_mm} {fine_mm}");
+
+    for (option, expected) in [
+        ("--lut-bits=17", "address_bits = 17: expected 4 to 16"),
+        ("--format=b1=16.24", "b1 = 24: expected no more fraction bits than w1"),
+        ("--format=w3=16.24", "WORD one of w1, b1, w2, b2, l1_out"),
+    ] {
+        let error = refused(folder, &["train", "--quick", option]);
+        assert!(error.contains(expected), "{error}");
+    }
+    let other = ["--with", "limits.penalty=50", "--resume", "--lut-bits", "10", "-o", "b"];
+    let error = refused(folder, &[&SMALL[..], &END, &other].concat());
+    assert!(error.contains("settings.formats."), "{error}");
+}
+
+#[test]
+fn a_validation_error_that_grows_ends_a_stage_where_it_was_least() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    // Fewer histograms than a network of eight neurons has parameters.
+    let stages =
+        "stages=[{candidates=2,epochs=60,samples=402},{candidates=1,epochs=5,samples=603}]";
+    let with = ["--with", stages, "--with", "validation=1005", "--with", "optimiser.max_fail=4"];
+    train(folder, "whole", &with);
+    let curve = read(folder, "whole/curve.csv");
+    let rows: Vec<Vec<f64>> = curve
+        .lines()
+        .skip(1)
+        .map(|row| row.split(',').map(|field| field.parse().unwrap_or(f64::NAN)).collect())
+        .collect();
+    for start in [0.0, 1.0] {
+        let first: Vec<_> = rows.iter().filter(|row| row[0] == 0.0 && row[2] == start).collect();
+        let (last, validation) = (first[first.len() - 1], |row: &&Vec<f64>| row[6]);
+        assert!(last[3] < 60.0, "{last:?}: it goes on for all epochs");
+        let least = first.iter().map(validation).fold(f64::INFINITY, f64::min);
+        assert!(last[6] <= least && last[6] > last[4], "{last:?} {least}");
+    }
+    // Stopped and resumed in its midst it ends alike.
+    train(folder, "parts", &[&with[..], &["--checkpoints", "2"]].concat());
+    train(folder, "parts", &[&with[..], &["--resume"]].concat());
+    assert!(read(folder, "parts/curve.csv") == curve);
+    assert!(read(folder, "parts/network.toml") == read(folder, "whole/network.toml"));
+    let few = refused(folder, &["train", "--with", "validation=100"]);
+    assert!(few.contains("validation = 100: expected 201 or more"), "{few}");
+}
+
+#[test]
+fn a_checkpoint_of_another_training_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let missing = refused(folder, &["train", "--resume", "-o", "none"]);
+    assert!(missing.contains("none/checkpoint"), "{missing}");
+    train(folder, "a", &["--checkpoints", "1"]);
+    let refusal = |more: &[&str]| {
+        refused(folder, &[&SMALL[..], &END, &["--resume", "-o", "a"], more].concat())
+    };
+    let error = refusal(&["--with", "table_noise=0.001"]);
+    assert!(error.contains("settings.table_noise = 0.4096: of another training"), "{error}");
+    assert!(refusal(&["-s", "spad.pdp=0.013"]).contains("settings.scenario"));
+    let path = folder.join("a/checkpoint");
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, text.replacen("tofsim.checkpoint/1", "tofsim.checkpoint/2", 1)).unwrap();
+    assert!(
+        refusal(&[]).contains("schema = tofsim.checkpoint/2: expected \"tofsim.checkpoint/1\"")
+    );
+    fs::write(&path, &text[..text.len() / 2]).unwrap();
+    assert!(refusal(&[]).contains("no checkpoint"));
+}
+
+#[test]
+fn options_reach_the_recipe_and_what_makes_no_sense_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::write(folder.join("mine.toml"), "table_noise = 0.5\n[limits]\nb1_share = 0.9\n").unwrap();
+    let text = stdout(
+        folder,
+        &[
+            "train",
+            "--recipe",
+            "mine.toml",
+            "--with",
+            "limits.b1_share=0.75",
+            "--starts",
+            "3",
+            "--print-recipe",
+        ],
+    );
+    let recipe: Recipe = toml::from_str(&text).unwrap();
+    assert_eq!((recipe.table_noise, recipe.limits.b1_share), (0.5, 0.75));
+    let candidates: Vec<_> = recipe.stages.iter().map(|stage| stage.candidates).collect();
+    assert_eq!(candidates, [3, 3, 3, 3]);
+    let error = refused(folder, &["train", "--with", "limit.b1=3"]);
+    assert!(error.contains("--with limit.b1=3") && error.contains("unknown field"), "{error}");
+    fs::write(folder.join("bad.toml"), "neurons = \"many\"\n").unwrap();
+    assert!(refused(folder, &["train", "--recipe", "bad.toml"]).contains("bad.toml"));
+    assert!(refused(folder, &["train", "--neurons", "0"]).contains("neurons = 0"));
+    assert!(refused(folder, &["train", "--profile", "none"]).contains("none"));
+    assert!(refused(folder, &["train", "-s", "firmware.mode=1"]).contains("firmware.mode"));
+}
+
+#[test]
+fn other_numbers_of_neurons_are_trained_and_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let args = [&SMALL[..], &END, &["--neurons", "4", "-o", "four"]].concat();
+    stdout(folder, &args);
+    let network = Network::load(&folder.join("four/network.toml")).unwrap();
+    assert_eq!((network.fixed.neurons(), network.training.seed), (4, Some(2)));
+    assert_eq!(network.training.data.as_ref().map(String::len), Some(16));
+    assert!(network.training.command.unwrap().ends_with("--neurons 4"));
+    assert_eq!(network.accuracy.unwrap().mean_mm.unwrap().len(), 6);
+    let set = ["-s", "estimator.network=four/network.toml", "-s", "firmware.shots_per_frame=50"];
+    let run = json(folder, &[&["run", "--waves", "none", "--json"], &set[..]].concat());
+    assert_eq!(run["frames"][0]["estimator_cycles"], 259 + 4);
+    let error = refused(folder, &["train", "--neurons", "17"]);
+    assert!(error.contains("neurons = 17: expected 16 at most"), "{error}");
+}
+
+#[test]
+fn a_quick_training_finds_distances() {
+    let folder = tempfile::tempdir().unwrap();
+    let report = json(folder.path(), &["train", "--quick", "--json", "-o", "quick"]);
+    assert_eq!(report["schema"], "tofsim.train/1");
+    let spread = report["two_sd_mm"].as_array().unwrap();
+    assert_eq!(spread.len(), 51);
+    let mean = spread.iter().map(|x| x.as_f64().unwrap()).sum::<f64>() / 51.0;
+    assert!(mean < 25.0, "{mean}");
+    let depth = json(
+        folder.path(),
+        &[
+            "run",
+            "--json",
+            "--waves",
+            "none",
+            "--fidelity",
+            "histogram",
+            "-s",
+            "target.distance_m=0.3",
+            "-s",
+            "estimator.network=quick/network.toml",
+        ],
+    );
+    let depth = depth["frames"][0]["depth_m"].as_f64().unwrap();
+    assert!((depth - 0.3).abs() < 0.05, "{depth}");
+}
+
+#[test]
+fn bins_that_never_count_do_no_harm() {
+    let histogram = |s: usize| -> [u16; 256] {
+        std::array::from_fn(|bin| {
+            if (40..90).contains(&bin) { ((s * 7 + bin * s) % 31) as u16 } else { 0 }
+        })
+    };
+    let counts: Vec<_> = (0..400).map(histogram).collect();
+    let distances_m: Vec<f64> =
+        counts.iter().map(|counts| 0.1 + f64::from(counts[60]) / 100.0).collect();
+    let scaling = Scaling::of(&counts);
+    assert!(scaling.inverse_sd.contains(&0.0));
+    let features = Features::new(&counts, &scaling);
+    let (recipe, weights) = (Recipe::default(), vec![1000.0; 400]);
+    let problem = NetworkProblem {
+        features: &features,
+        scaling: &scaling,
+        distances_m: &distances_m,
+        weights: &weights,
+        neurons: 2,
+        table_noise: 0.0,
+        hinges: Limits::default().hinges(&Datapath::default()),
+        held_out: None,
+    };
+    let mut lm = Lm::new(start(&recipe.start, 2, 1, 0), &Settings::default());
+    lm.epoch(&problem, &Settings::default()).unwrap();
+    let first = lm.cost;
+    for _ in 0..10 {
+        lm.epoch(&problem, &Settings::default()).unwrap();
+    }
+    assert!(lm.x.len() == parameters(2) && lm.x.iter().all(|x| x.is_finite()));
+    assert!(lm.cost < 0.5 * first, "{} {first}", lm.cost);
+}

@@ -1,0 +1,251 @@
+//! `tofsim verify` on other people's Verilog: what differs is found and shown, what cannot be checked
+//! is refused with the reason.
+
+use crate::common;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use serde_json::Value;
+
+const OWN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rtl_ref");
+const THEIRS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/verilog");
+
+/// A folder with our coarse counter alone, a text in it replaced.
+fn counter(old: &str, new: &str) -> tempfile::TempDir {
+    let folder = common::empty();
+    let text = fs::read_to_string(Path::new(OWN).join("coarse_counter.v")).unwrap();
+    assert!(text.contains(old), "{old} is not in coarse_counter.v");
+    fs::write(folder.path().join("coarse_counter.v"), text.replace(old, new)).unwrap();
+    folder
+}
+
+fn verify(folder: &Path, args: &[&str]) -> std::process::Output {
+    let all = ["verify", "--rtl", ".", "--block", "coarse_counter"];
+    common::output(folder, &[&all[..], args].concat())
+}
+
+fn refused(folder: &Path, args: &[&str]) -> String {
+    let output = verify(folder, args);
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{error}");
+    assert!(!error.contains("panicked"), "{error}");
+    error
+}
+
+fn map(name: &str, block: &str, simulator: &str) {
+    let folder = common::empty();
+    let theirs = PathBuf::from(THEIRS).join(name);
+    let theirs = theirs.to_str().unwrap();
+    let map = format!("{theirs}/map.toml");
+    let args = ["verify", "--rtl", theirs, "--map", &map, "--block", block];
+    let report =
+        common::json(folder.path(), &[&args[..], &["--json", "--simulator", simulator]].concat());
+    assert_eq!(report["passed"], true, "{report}");
+    assert!(report["blocks"][0]["cycles"].as_u64() >= Some(20_000));
+}
+
+#[test]
+fn the_first_mismatch_is_the_same_in_both_simulators_and_in_table_json_and_xml() {
+    let folder = counter("coarse + 3'd1", "coarse + 3'd2");
+    let first = |simulator: &str| -> Value {
+        let output =
+            verify(folder.path(), &["--json", "--junit", "a.xml", "--simulator", simulator]);
+        assert_eq!(output.status.code(), Some(1));
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(report["passed"], false);
+        report["blocks"][0].clone()
+    };
+    let icarus = first("icarus");
+    assert_eq!(icarus, first("verilator"));
+    assert_eq!(icarus["first"]["signal"], "coarse");
+    let cycle = icarus["first"]["cycle"].as_u64().unwrap();
+
+    let text = String::from_utf8(verify(folder.path(), &[]).stdout).unwrap();
+    assert!(text.contains(&format!("cycle {cycle}, ")), "{text}");
+    assert!(text.contains(&format!("{cycle} *")), "{text}");
+    assert!(text.contains("coarse  expected") && text.contains("coarse  got"), "{text}");
+    let xml = fs::read_to_string(folder.path().join("a.xml")).unwrap();
+    assert!(xml.contains("failures=\"1\"") && xml.contains("coarse expected"), "{xml}");
+}
+
+#[test]
+fn the_waveform_of_a_mismatch_has_both_sides() {
+    let folder = counter("coarse + 3'd1", "coarse + 3'd2");
+    verify(folder.path(), &["-o", "out"]);
+    assert_eq!(
+        common::files(&folder.path().join("out")),
+        ["coarse_counter.gtkw", "coarse_counter.vcd"]
+    );
+    let mut wave = wellen::simple::read(folder.path().join("out/coarse_counter.vcd")).unwrap();
+    let mut values = |side: &str| {
+        let path = ["tb_coarse_counter", side];
+        let signal = wave.hierarchy().lookup_var(&path, "coarse").unwrap();
+        let signal = wave.hierarchy()[signal].signal_ref();
+        wave.load_signals(&[signal]);
+        let signal = wave.get_signal(signal).unwrap();
+        signal.iter_changes().take(4).map(|(_, value)| value.to_string()).collect::<Vec<_>>()
+    };
+    assert_eq!(values("expected"), ["000", "001", "010", "011"]);
+    assert_eq!(values("got"), ["000", "010", "100", "110"]);
+}
+
+#[test]
+fn a_design_with_other_names_polarities_and_latency_passes_through_a_map() {
+    map("renamed", "coarse_counter", "icarus");
+    map("renamed", "coarse_counter", "verilator");
+}
+
+#[test]
+fn a_histogram_of_parallel_counts_passes_through_its_adapter() {
+    map("parallel_counts", "histogram_builder", "icarus");
+}
+
+#[test]
+fn an_estimator_fed_a_vector_passes_through_its_adapter() {
+    map("vector", "depth_estimator", "icarus");
+}
+
+#[test]
+fn a_shorter_chain_passes_on_what_it_can_show() {
+    map("short_chain", "tdc_latch", "icarus");
+}
+
+#[test]
+fn a_wrong_latency_in_the_map_is_found() {
+    let folder = common::empty();
+    let text = fs::read_to_string(format!("{THEIRS}/renamed/map.toml")).unwrap();
+    fs::write(folder.path().join("map.toml"), text.replace("coarse = 1", "coarse = 2")).unwrap();
+    let theirs = format!("{THEIRS}/renamed");
+    let args = ["verify", "--rtl", &theirs, "--map", "map.toml", "--block", "coarse_counter"];
+    assert_eq!(common::output(folder.path(), &args).status.code(), Some(1));
+}
+
+#[test]
+fn a_syntax_error_is_shown_as_the_simulator_says_it() {
+    let folder = counter("always @*", "always @*(");
+    let error = refused(folder.path(), &[]);
+    assert!(error.contains("coarse_counter.v:20: syntax error"), "{error}");
+    assert!(refused(folder.path(), &["--simulator", "verilator"]).contains("syntax error"));
+}
+
+#[test]
+fn a_missing_module_or_port_and_a_wrong_width_are_named() {
+    for simulator in ["icarus", "verilator"] {
+        let in_it = ["--simulator", simulator];
+        let folder = counter("module coarse_counter", "module coarse_count");
+        let error = refused(folder.path(), &in_it);
+        assert!(error.contains("coarse_counter: no such module"), "{error}");
+        let folder = counter("window", "windo");
+        let error = refused(folder.path(), &in_it);
+        let ports = "no such port (`windo`?); it has clk_125, coarse, rst, start, windo";
+        assert!(error.contains(ports), "{error}");
+        let folder = counter("output reg [2:0] coarse", "output reg [3:0] coarse");
+        let error = refused(folder.path(), &in_it);
+        assert!(error.contains("port coarse: has 4 bits, expected 3"), "{error}");
+    }
+}
+
+#[test]
+fn a_design_with_the_estimator_of_the_thesis_only_is_checked_without_the_other() {
+    let folder = common::empty();
+    let ours = fs::read_dir(OWN).unwrap().map(|entry| entry.unwrap().path());
+    for path in ours.filter(|path| path.extension().is_some_and(|end| end == "v")) {
+        fs::copy(&path, folder.path().join(path.file_name().unwrap())).unwrap();
+    }
+    fs::remove_file(folder.path().join("centroid_estimator.v")).unwrap();
+    let top = folder.path().join("tof_top.v");
+    let text = fs::read_to_string(&top).unwrap();
+    let (before, instance) = text.split_once("    centroid_estimator #(").unwrap();
+    assert_eq!(instance.matches(");\n").count(), 1);
+    fs::write(&top, format!("{before}endmodule\n")).unwrap();
+
+    let output = common::output(folder.path(), &["verify", "--rtl", ".", "--json"]);
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{error}");
+    assert!(error.contains("no module centroid_estimator, which is not checked"), "{error}");
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let names = report["blocks"].as_array().unwrap().iter().map(|block| block["block"].as_str());
+    let names: Vec<_> = names.map(Option::unwrap).collect();
+    assert!(names.contains(&"tof_top") && !names.contains(&"centroid_estimator"), "{names:?}");
+
+    let asked = ["verify", "--rtl", ".", "--block", "centroid_estimator"];
+    let error = common::refused(folder.path(), &asked);
+    assert!(error.contains("centroid_estimator: no such module"), "{error}");
+}
+
+#[test]
+fn a_map_that_names_an_unknown_port_is_refused_with_its_place() {
+    let folder = counter("", "");
+    fs::write(folder.path().join("map.toml"), "[block.coarse_counter.ports]\nstrat = \"go\"\n")
+        .unwrap();
+    let error = refused(folder.path(), &["--map", "map.toml"]);
+    assert!(error.contains("map.toml:2:"), "{error}");
+    assert!(error.contains("unknown port (`start`?)"), "{error}");
+    fs::write(folder.path().join("map.toml"), "[block.coarse_counter.ports]\nstart = \"go\"\n")
+        .unwrap();
+    let error = refused(folder.path(), &["--map", "map.toml"]);
+    assert!(error.contains("port go: no such port"), "{error}");
+}
+
+#[test]
+fn a_bench_that_never_ends_is_killed_at_its_time_limit() {
+    let endless = "initial begin : hang\nreg level;\nforever level = 1'b1;\nend\nendmodule";
+    let folder = counter("endmodule", endless);
+    let begin = Instant::now();
+    let output = verify(folder.path(), &["--time-limit", "1"]);
+    assert!(begin.elapsed().as_secs() < 60);
+    assert_eq!(output.status.code(), Some(1));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("has not ended in 1 s and was killed"), "{text}");
+}
+
+#[test]
+fn a_missing_simulator_is_named_with_its_package() {
+    let folder = counter("", "");
+    for (simulator, package) in [("icarus", "iverilog"), ("verilator", "verilator")] {
+        let args = ["verify", "--block", "coarse_counter", "--simulator", simulator];
+        let output = common::tofsim(folder.path(), &args).env("PATH", "/nowhere").output().unwrap();
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        assert!(error.contains(&format!("apt-get install {package}")), "{error}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn file_names_need_not_be_utf_8() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = counter("", "");
+    let odd = folder.path().join(std::ffi::OsStr::from_bytes(b"rtl \xff"));
+    fs::create_dir(&odd).unwrap();
+    fs::rename(folder.path().join("coarse_counter.v"), odd.join("coarse_counter.v")).unwrap();
+    let mut command = common::tofsim(folder.path(), &["verify", "--block", "coarse_counter"]);
+    let output = command.arg("--rtl").arg(&odd).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn what_cannot_be_asked_for_is_refused() {
+    let folder = common::empty();
+    let error = common::refused(folder.path(), &["verify", "--block", "coarse_countr"]);
+    assert!(error.contains("did you mean coarse_counter?"), "{error}");
+    let error = common::refused(folder.path(), &["verify", "--rtl", "."]);
+    assert!(error.contains("no .v or .sv file"), "{error}");
+    common::refused(folder.path(), &["verify", "--rtl", "none"]);
+    common::refused(folder.path(), &["verify", "--time-limit", "0"]);
+    let jitter = ["verify", "--top", "-s", "pll.jitter_rms_ps=7.7"];
+    let error = common::refused(folder.path(), &jitter);
+    assert!(error.contains("pll.jitter_rms_ps = 7.7"), "{error}");
+}
+
+#[test]
+fn cycle_counts_agree_with_the_model_and_are_proven() {
+    let folder = common::empty();
+    let report = common::json(folder.path(), &["verify", "--cycle-counts", "--json"]);
+    let counts = report["counts"].as_array().unwrap();
+    let latency = counts.iter().find(|count| count["expected"] == 267).unwrap();
+    assert_eq!((&latency["model"], &latency["rtl"]), (&267.into(), &267.into()));
+    assert!(counts.len() >= 18);
+    assert!(counts.iter().all(|count| count["proven"] == true), "{report}");
+}

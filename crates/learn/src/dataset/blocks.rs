@@ -1,0 +1,136 @@
+//! The rows of a dataset, drawn some at a time on all threads.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use tofsim::network::Histogram;
+
+use super::{Row, Rows, Scene, Source};
+
+/// Rows of a block: 1 MB of histograms.
+pub const BLOCK: u64 = 2048;
+/// Rows that a thread draws at a time.
+pub(super) const RUN: u64 = 64;
+
+/// A drawn row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Seed of the row's random numbers.
+    pub seed: u64,
+    /// Row number.
+    pub row: u64,
+    /// What the sensor looks at.
+    pub scene: Scene,
+    /// What it counts, bin 0 first [hits].
+    pub histogram: Histogram,
+}
+
+/// Rows in order, [`BLOCK`] at a time and fewer at the end, drawn on all threads of the current pool.
+#[derive(Clone, Debug)]
+pub struct Blocks<'a> {
+    source: &'a Source,
+    rows: &'a Rows,
+    seed: u64,
+    left: Range<u64>,
+}
+
+impl Source {
+    /// Draws the rows whose indices are in `range`, without those beyond the last. The same for any
+    /// number of threads; memory is that of a block.
+    pub fn blocks<'a>(&'a self, rows: &'a Rows, seed: u64, range: Range<u64>) -> Blocks<'a> {
+        let end = range.end.min(rows.len());
+        Blocks { source: self, rows, seed, left: range.start.min(end)..end }
+    }
+
+    /// Draws neighbouring rows; those of one distance or scene share what they have in common.
+    fn run(&self, rows: &Rows, seed: u64, range: Range<u64>) -> Vec<Sample> {
+        let mut white = Last(None);
+        let mut codes = Last(None);
+        let sample = |index| {
+            let Row { number: row, scene } = rows.row(index);
+            let white = white.or(scene.distance_m, |&distance_m| self.white(distance_m));
+            let codes = codes.or(scene, |scene| self.probabilities_of(white, scene));
+            let histogram = self.draw_from(codes, seed, row);
+            Sample { seed, row, scene, histogram }
+        };
+        range.map(sample).collect()
+    }
+}
+
+/// What was last asked for, and what it came to.
+pub(super) struct Last<K, V>(pub(super) Option<(K, V)>);
+
+impl<K: PartialEq, V> Last<K, V> {
+    /// What `key` comes to; it is made where the last key was another.
+    pub(super) fn or(&mut self, key: K, make: impl FnOnce(&K) -> V) -> &V {
+        let known = self.0.take().filter(|(last, _)| *last == key);
+        let pair = known.unwrap_or_else(|| {
+            let value = make(&key);
+            (key, value)
+        });
+        &self.0.insert(pair).1
+    }
+}
+
+impl Iterator for Blocks<'_> {
+    type Item = Vec<Sample>;
+
+    fn next(&mut self) -> Option<Vec<Sample>> {
+        let (begin, end) = (self.left.start, self.left.end.min(self.left.start + BLOCK));
+        if begin == end {
+            return None;
+        }
+        self.left.start = end;
+        let runs: Vec<_> = (begin..end).step_by(RUN as usize).collect();
+        let draw = |&from: &u64| self.source.run(self.rows, self.seed, from..end.min(from + RUN));
+        Some(runs.par_iter().flat_map(draw).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dataset::{Grid, Subset};
+    use tofsim::scenario;
+    use tofsim::sim::setup::Setup;
+
+    fn source() -> Source {
+        let few = ["firmware.shots_per_frame=300".to_owned()];
+        Source::new(&Setup::new(scenario::load("kc705", &few).unwrap()).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn blocks_are_the_rows_one_by_one() {
+        let source = source();
+        let rows = Rows::All(Grid::test());
+        let range = 7..BLOCK + 100;
+        let blocks: Vec<_> = source.blocks(&rows, 3, range.clone()).collect();
+        assert_eq!(blocks.iter().map(Vec::len).collect::<Vec<_>>(), [BLOCK as usize, 93]);
+        for (index, sample) in range.zip(blocks.concat()) {
+            let row = rows.row(index);
+            let histogram = source.draw(&row.scene, 3, row.number);
+            assert_eq!(sample, Sample { seed: 3, row: row.number, scene: row.scene, histogram });
+        }
+    }
+
+    #[test]
+    fn the_number_of_threads_changes_nothing() {
+        let source = source();
+        let rows = Rows::Subset(Subset::new(Grid::training(), 700, 1));
+        let drawn = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| source.blocks(&rows, 1, 0..u64::MAX).flatten().collect::<Vec<_>>())
+        };
+        assert_eq!(drawn(1), drawn(3));
+        assert_eq!(drawn(1).len(), 700);
+    }
+
+    #[test]
+    fn a_range_beyond_the_last_row_is_empty() {
+        let source = source();
+        let rows = Rows::All(Grid::test());
+        assert!(source.blocks(&rows, 1, rows.len()..rows.len() + 5).next().is_none());
+        assert!(source.blocks(&rows, 1, 9..9).next().is_none());
+    }
+}

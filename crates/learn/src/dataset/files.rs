@@ -1,0 +1,68 @@
+//! The files of a dataset, together: all of them are put in place, or none is begun.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use tofsim::error::Result;
+use tofsim::files::output::{OutputFile, create_directory};
+
+use super::npy::NpyFiles;
+use super::parquet_file::{self, ParquetFile};
+use super::{Description, Sample};
+
+/// The file with the description alone.
+pub const DESCRIPTION: &str = "dataset.json";
+
+/// What a dataset is written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// One table, dataset.parquet
+    Parquet,
+    /// Arrays: histograms.npy, truth.npy and rows.npy
+    Npy,
+}
+
+/// The files under construction.
+pub struct Files {
+    json: OutputFile,
+    parquet: Option<ParquetFile>,
+    npy: Option<NpyFiles>,
+}
+
+impl Files {
+    /// Begins the files of a dataset in a folder, which is made.
+    pub fn create(folder: &Path, formats: &[Format], description: &Description) -> Result<Self> {
+        create_directory(folder)?;
+        let mut json = OutputFile::create(&folder.join(DESCRIPTION))?;
+        let text = serde_json::to_string(description).map_err(std::io::Error::from);
+        let text = text.map_err(|error| json.fault(error))?;
+        writeln!(json, "{text}").map_err(|error| json.fault(error))?;
+        let wants = |format| formats.contains(&format);
+        let parquet = || ParquetFile::create(&folder.join(parquet_file::NAME), &text);
+        let npy = || NpyFiles::create(folder, description.rows);
+        Ok(Files {
+            json,
+            parquet: wants(Format::Parquet).then(parquet).transpose()?,
+            npy: wants(Format::Npy).then(npy).transpose()?,
+        })
+    }
+
+    /// Adds rows.
+    pub fn write(&mut self, samples: &[Sample]) -> Result<()> {
+        self.parquet.as_mut().map_or(Ok(()), |parquet| parquet.write(samples))?;
+        self.npy.as_mut().map_or(Ok(()), |npy| npy.write(samples))
+    }
+
+    /// Puts the files in place and returns their paths.
+    pub fn finish(self) -> Result<Vec<PathBuf>> {
+        let mut files: Vec<_> = self.npy.map(NpyFiles::finish).into_iter().flatten().collect();
+        files.extend(self.parquet.map(ParquetFile::finish).transpose()?);
+        files.push(self.json);
+        let paths = files.iter().map(|file| file.target().to_owned()).collect();
+        for file in &mut files {
+            file.flush().map_err(|error| file.fault(error))?;
+        }
+        files.into_iter().try_for_each(OutputFile::commit)?;
+        Ok(paths)
+    }
+}

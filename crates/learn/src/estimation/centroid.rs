@@ -1,0 +1,46 @@
+//! The firmware's other estimator: argmax with centroid correction, bit for bit.
+
+use tofsim::firmware::centroid_estimator::Params;
+use tofsim::network::Histogram;
+use tofsim::sim::centroid::{Found, locate};
+
+use super::{Estimator, Failure};
+
+/// The estimator; a histogram in which nothing stands out has no distance.
+#[derive(Clone, Copy, Debug)]
+pub struct Centroid {
+    params: Params,
+}
+
+impl Centroid {
+    /// With that window and scale.
+    pub fn new(params: &Params) -> Self {
+        Centroid { params: *params }
+    }
+}
+
+impl Estimator for Centroid {
+    fn name(&self) -> &'static str {
+        "centroid"
+    }
+
+    fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure> {
+        super::hits(histogram, u32::MAX)?;
+        match locate(&self.params, histogram) {
+            Found { best: 0, .. } => Err(Failure::NoPeak),
+            found => Ok(found.depth.to_f64()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_has_no_peak_has_no_distance() {
+        let centroid = Centroid::new(&Params::default());
+        assert_eq!(centroid.estimate(&[0; 256]), Err(Failure::NoHits));
+        assert_eq!(centroid.estimate(&[100; 256]), Err(Failure::NoPeak));
+    }
+}

@@ -1,0 +1,161 @@
+//! Maximum likelihood: the arrival, signal and background that make the histogram most probable.
+//!
+//! Pile-up is in the model ([`model`]), so that nothing has to be corrected. All three are free, and
+//! Fisher scoring (Newton's method with the expected curvature) climbs from the matched filter's
+//! place; a step that gains nothing is damped as Levenberg and Marquardt do.
+
+pub mod model;
+mod solve;
+
+use tofsim::error::Input;
+use tofsim::network::Histogram;
+
+use super::by_name::Acquisition;
+use super::matched_filter::MatchedFilter;
+use super::{ARRIVAL_PS_PER_M, Estimator, Failure};
+
+pub use model::{Model, Scene, normal_cdf};
+use solve::{inverse_diagonal, solve};
+
+/// Largest step of any coordinate in one iteration [sigma, e-folds].
+const LONGEST: f64 = 1.0;
+/// The background falls to a tenth in one iteration at most [1].
+const FALL: f64 = 0.1;
+/// Where the signal is taken to have run away, either way [e-folds].
+const RUNAWAY: f64 = 20.0;
+/// A promised gain that rounding may swallow [1].
+const NOTHING: f64 = 1e-4;
+/// A damping that leaves no step worth trying [1].
+const STUCK: f64 = 1e6;
+
+/// The maximum-likelihood estimator of one pulse and one chain.
+#[derive(Clone, Debug)]
+pub struct Likelihood {
+    model: Model,
+    start: MatchedFilter,
+    /// Most steps, taken or not.
+    pub most_iterations: usize,
+    /// The climb is over when a step promises less than this gain of the log likelihood [1].
+    pub tolerance: f64,
+    /// Signal that counts as one, in its own standard deviations [1].
+    pub significance: f64,
+}
+
+/// The most likely scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fit {
+    /// Arrival, signal and background.
+    pub scene: Scene,
+    /// Standard deviation of the arrival by the model's own curvature [ps].
+    pub arrival_deviation_ps: f64,
+    /// Steps it took.
+    pub iterations: usize,
+}
+
+impl Likelihood {
+    /// For histograms that come about so: 200 steps at most, to a gain of 1e-5, and an echo counts
+    /// from 4 standard deviations on.
+    ///
+    /// # Errors
+    /// When [`Acquisition::check`] fails.
+    pub fn new(acquisition: &Acquisition) -> Result<Self, Input> {
+        let (model, start) = (Model::new(acquisition)?, MatchedFilter::new(acquisition)?);
+        let (most_iterations, tolerance, significance) = (200, 1e-5, 4.0);
+        Ok(Likelihood { model, start, most_iterations, tolerance, significance })
+    }
+
+    /// The model that is fitted.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The most likely scene of a histogram.
+    ///
+    /// # Errors
+    /// When there is no echo, or the climb does not end.
+    pub fn fit(&self, histogram: &Histogram) -> Result<Fit, Failure> {
+        super::hits(histogram, self.model.shots() as u32)?;
+        let start = self.start.best(histogram).ok_or(Failure::NoPeak)?;
+        let start = Scene {
+            arrival_ps: start.arrival_ps,
+            signal: start.signal,
+            background_per_ps: start.background_per_ps,
+        };
+        self.climb(histogram, start)
+    }
+
+    /// The top that is reached from `start`.
+    fn climb(&self, histogram: &Histogram, start: Scene) -> Result<Fit, Failure> {
+        let mut at = self.model.coordinates(&start);
+        let mut value = self.model.log_likelihood(&at, histogram);
+        let mut damping = 0.0f64;
+        let mut slope = self.model.slope(&at, histogram);
+        for iterations in 1..=self.most_iterations {
+            let (gradient, information) = &slope;
+            // At its lowest the background stays, unless it is to rise.
+            let held = at[2] <= self.model.least_background() && gradient[2] <= 0.0;
+            let step = solve(information, gradient, damping, held);
+            let gain = step.map(|step| (0..3).map(|k| step[k] * gradient[k]).sum::<f64>());
+            if damping == 0.0 && gain.is_some_and(|gain| gain < self.tolerance) {
+                return self.accept(&at, information, held, iterations);
+            }
+            let tried = step.map(|step| self.go(&at, &step));
+            let reached = tried.map(|to| (to, self.model.log_likelihood(&to, histogram)));
+            match reached.filter(|(_, reached)| *reached >= value) {
+                Some((to, reached)) => {
+                    (at, value) = (to, reached);
+                    damping = if damping > 1e-4 { damping * 0.1 } else { 0.0 };
+                    slope = self.model.slope(&at, histogram);
+                }
+                None if damping == 0.0 && gain.is_some_and(|gain| gain < NOTHING) => {
+                    return self.accept(&at, information, held, iterations);
+                }
+                None => damping = (damping * 10.0).max(1e-3),
+            }
+            if damping > STUCK || at[1].abs() > RUNAWAY {
+                break;
+            }
+        }
+        Err(Failure::NoConvergence)
+    }
+
+    /// The end of a step, which is shortened so that no coordinate goes too far.
+    fn go(&self, at: &[f64; 3], step: &[f64; 3]) -> [f64; 3] {
+        let longest = step[0].abs().max(step[1].abs()).max(LONGEST);
+        let [place, signal, background] = [0, 1, 2].map(|k| at[k] + step[k] * LONGEST / longest);
+        let least = (at[2] * FALL).max(self.model.least_background());
+        [place, signal, background.max(least)]
+    }
+
+    /// The top as a scene, if its signal is one.
+    fn accept(
+        &self,
+        at: &[f64; 3],
+        information: &[[f64; 3]; 3],
+        held: bool,
+        iterations: usize,
+    ) -> Result<Fit, Failure> {
+        let variances = inverse_diagonal(information, held).ok_or(Failure::NoConvergence)?;
+        let scene = self.model.scene(at);
+        let within = -self.model.sigma_ps()..=self.model.end_ps() + self.model.sigma_ps();
+        // The deviation of ln S is that of S by S.
+        if variances[1].sqrt() * self.significance > 1.0 || !within.contains(&scene.arrival_ps) {
+            return Err(Failure::NoPeak);
+        }
+        let arrival_deviation_ps = variances[0].sqrt() * self.model.sigma_ps();
+        Ok(Fit { scene, arrival_deviation_ps, iterations })
+    }
+}
+
+impl Estimator for Likelihood {
+    fn name(&self) -> &'static str {
+        "likelihood"
+    }
+
+    fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure> {
+        Ok(self.fit(histogram)?.scene.arrival_ps / ARRIVAL_PS_PER_M)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,241 @@
+//! The matched filter: the place where the pulse explains most of the histogram.
+//!
+//! Coates's correction takes the pile-up out ([`super::coates`]), so that the hazard of a bin is
+//! N times its width plus S times the part of the pulse in it. For each arrival on a grid of 25 ps S
+//! and N are fitted by least squares; a bin weighs as many shots as are still waiting after it, so
+//! that what is past a strong echo counts for little. The best place is where S times the square
+//! root of its weight is largest, and a parabola through three points of that finds it between the
+//! grid's.
+
+use tofsim::error::Input;
+use tofsim::kernel::Time;
+use tofsim::network::Histogram;
+use tofsim::optics::Bins;
+
+use super::by_name::Acquisition;
+use super::coates::{Corrected, correct};
+use super::likelihood::normal_cdf;
+use super::{ARRIVAL_PS_PER_M, BIN_PS, Estimator, Failure};
+
+/// How far from its mean the pulse is taken into account [sigma].
+const REACH: f64 = 5.0;
+/// A pulse of which less than this part is weighed, by its square, is not tried [1].
+const FAINTEST: f64 = 1e-9;
+
+/// The matched filter of one pulse and one chain.
+#[derive(Clone, Debug)]
+pub struct MatchedFilter {
+    /// Shots of the histogram [shots].
+    shots: u64,
+    /// Codes in order of time.
+    codes: Vec<u8>,
+    /// Width of each of their bins, as a part of all [1].
+    widths: Vec<f64>,
+    /// All bins together [ps].
+    range_ps: f64,
+    /// For each arrival on the grid, every 25 ps from 0.
+    pulses: Vec<Pulse>,
+    /// Signal that counts as one, in its own standard deviations [1].
+    pub significance: f64,
+}
+
+/// A bin, which a chain may give in several pieces.
+struct Pieces {
+    code: u8,
+    /// From and until [ps].
+    spans: Vec<[f64; 2]>,
+}
+
+/// Bins by their first time.
+fn pieces(bins: &Bins) -> Vec<Pieces> {
+    let mut pieces: Vec<Pieces> = Vec::new();
+    for span in bins.spans() {
+        let times = [ps(span.from), ps(span.until)];
+        match pieces.iter_mut().find(|bin| bin.code == span.code) {
+            Some(bin) => bin.spans.push(times),
+            None => pieces.push(Pieces { code: span.code, spans: vec![times] }),
+        }
+    }
+    pieces
+}
+
+impl Pieces {
+    fn width_ps(&self) -> f64 {
+        self.spans.iter().map(|[from, until]| until - from).sum()
+    }
+}
+
+/// A time for physics [ps].
+fn ps(time: Time) -> f64 {
+    time.fs() as f64 * 1e-3
+}
+
+/// The pulse at one arrival.
+#[derive(Clone, Debug)]
+struct Pulse {
+    /// The first bin that sees it.
+    first: usize,
+    /// The parts of it there and in the following bins [1].
+    parts: Vec<f64>,
+}
+
+impl Pulse {
+    fn new(bins: &[Pieces], arrival_ps: f64, sigma_ps: f64) -> Self {
+        // What would come before the laser edge comes with it.
+        let before = |t_ps: f64| match t_ps > 0.0 {
+            true => normal_cdf((t_ps - arrival_ps) / sigma_ps),
+            false => 0.0,
+        };
+        let (from_ps, until_ps) = (arrival_ps - REACH * sigma_ps, arrival_ps + REACH * sigma_ps);
+        let sees = |bin: &Pieces| bin.spans.iter().any(|[a, b]| *b > from_ps && *a < until_ps);
+        let part = |bin: &Pieces| bin.spans.iter().map(|[a, b]| before(*b) - before(*a)).sum();
+        let first = bins.iter().position(sees).unwrap_or(0);
+        let past = bins.iter().rposition(sees).map_or(first, |last| last + 1);
+        Pulse { first, parts: bins[first..past].iter().map(part).collect() }
+    }
+}
+
+/// What the filter found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Match {
+    /// Mean arrival [ps].
+    pub arrival_ps: f64,
+    /// Detected laser photons per shot, S_p [1].
+    pub signal: f64,
+    /// Rate of other avalanches; below zero by chance [1/ps].
+    pub background_per_ps: f64,
+    /// Signal in its own standard deviations [1].
+    pub significance: f64,
+}
+
+impl MatchedFilter {
+    /// For histograms that come about so; an echo counts from 4 standard deviations on.
+    ///
+    /// # Errors
+    /// When [`Acquisition::check`] fails.
+    pub fn new(acquisition: &Acquisition) -> Result<Self, Input> {
+        acquisition.check()?;
+        let pieces = pieces(acquisition.bins);
+        let range_ps: f64 = pieces.iter().map(Pieces::width_ps).sum();
+        let end_ps = acquisition.bins.spans().iter().map(|span| ps(span.until)).fold(0.0, f64::max);
+        let pulse = |place| Pulse::new(&pieces, place as f64 * BIN_PS, acquisition.pulse_sigma_ps);
+        Ok(MatchedFilter {
+            shots: acquisition.shots,
+            codes: pieces.iter().map(|bin| bin.code).collect(),
+            widths: pieces.iter().map(|bin| bin.width_ps() / range_ps).collect(),
+            range_ps,
+            pulses: (0..=(end_ps / BIN_PS) as usize).map(pulse).collect(),
+            significance: 4.0,
+        })
+    }
+
+    /// The most likely echo, however faint; `None` where no signal above zero fits.
+    pub fn best(&self, histogram: &Histogram) -> Option<Match> {
+        let counts = self.codes.iter().map(|&code| histogram[code as usize]);
+        let bins = correct(counts, self.shots);
+        let flat = self.flat(&bins);
+        let fits: Vec<_> =
+            self.pulses.iter().map(|pulse| Fit::new(pulse, self, &bins, flat)).collect();
+        let score = |place: usize| fits[place].score;
+        let best = (0..fits.len()).max_by(|&a, &b| score(a).total_cmp(&score(b)))?;
+        let fit = &fits[best];
+        if fit.score <= 0.0 {
+            return None;
+        }
+        let mut place = best as f64;
+        if 0 < best && best + 1 < fits.len() {
+            let [before, at, after] = [best - 1, best, best + 1].map(score);
+            let bend = before - 2.0 * at + after;
+            if bend < 0.0 && before > 0.0 && after > 0.0 {
+                place += 0.5 * (before - after) / bend;
+            }
+        }
+        Some(Match {
+            arrival_ps: place * BIN_PS,
+            signal: fit.signal,
+            background_per_ps: fit.background / self.range_ps,
+            significance: fit.signal / self.signal_deviation(&self.pulses[best], &bins, flat),
+        })
+    }
+
+    /// Weighted squares of the widths, and widths times hazards.
+    fn flat(&self, bins: &[Corrected]) -> [f64; 2] {
+        let terms = self.widths.iter().zip(bins);
+        terms.fold([0.0; 2], |[squares, product], (width, bin)| {
+            let weighted = bin.waiting * width;
+            [squares + weighted * width, product + weighted * bin.hazard]
+        })
+    }
+
+    /// Standard deviation of the fitted signal.
+    fn signal_deviation(&self, pulse: &Pulse, bins: &[Corrected], flat: [f64; 2]) -> f64 {
+        let fit = Fit::new(pulse, self, bins, flat);
+        let terms = self.widths.iter().zip(bins).enumerate().map(|(k, (width, bin))| {
+            let part =
+                k.checked_sub(pulse.first).and_then(|k| pulse.parts.get(k)).copied().unwrap_or(0.0);
+            let lever = bin.waiting * (part - width * fit.flat_part);
+            lever * lever * bin.variance
+        });
+        terms.sum::<f64>().sqrt() / fit.weight
+    }
+}
+
+/// Signal and background at one arrival, by least squares.
+struct Fit {
+    /// Weighted square of the pulse without its flat part.
+    weight: f64,
+    /// How much of the flat shape the pulse has.
+    flat_part: f64,
+    /// Signal times the square root of the weight; what it explains, but for a constant.
+    score: f64,
+    signal: f64,
+    /// Mean number of other avalanches in all bins.
+    background: f64,
+}
+
+impl Fit {
+    fn new(
+        pulse: &Pulse,
+        filter: &MatchedFilter,
+        bins: &[Corrected],
+        [flat_squares, flat_product]: [f64; 2],
+    ) -> Self {
+        let (mut squares, mut with_flat, mut product) = (0.0, 0.0, 0.0);
+        let there = bins[pulse.first..].iter().zip(&filter.widths[pulse.first..]);
+        for (part, (bin, width)) in pulse.parts.iter().zip(there) {
+            let weighted = bin.waiting * part;
+            squares += weighted * part;
+            with_flat += weighted * width;
+            product += weighted * bin.hazard;
+        }
+        let flat_part = if flat_squares > 0.0 { with_flat / flat_squares } else { 0.0 };
+        let weight = squares - flat_part * with_flat;
+        let alone = product - flat_part * flat_product;
+        let tried = weight > FAINTEST * filter.shots as f64;
+        let signal = if tried { alone / weight } else { 0.0 };
+        let background = match flat_squares > 0.0 {
+            true => flat_product / flat_squares - signal * flat_part,
+            false => 0.0,
+        };
+        Fit { weight, flat_part, score: signal * weight.max(0.0).sqrt(), signal, background }
+    }
+}
+
+impl Estimator for MatchedFilter {
+    fn name(&self) -> &'static str {
+        "matched"
+    }
+
+    fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure> {
+        super::hits(histogram, self.shots as u32)?;
+        match self.best(histogram) {
+            Some(found) if found.significance >= self.significance => {
+                Ok(found.arrival_ps / ARRIVAL_PS_PER_M)
+            }
+            _ => Err(Failure::NoPeak),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,94 @@
+//! Several estimators over the same histograms.
+
+use serde::Serialize;
+
+use tofsim::error::Result;
+use tofsim::network::Histogram;
+use tofsim::optics::Bins;
+use tofsim::sim::setup::{CYCLE, Setup};
+
+use super::by_name::Acquisition;
+use super::{Estimator, Failure, Kind, Needs, Pair};
+
+/// Estimators that look at each histogram of a run, beside the one in the firmware.
+#[derive(Default)]
+pub struct Panel {
+    estimators: Vec<Box<dyn Estimator + Send>>,
+}
+
+/// What one of them says of a histogram.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Reading {
+    /// Its name on the command line.
+    pub estimator: &'static str,
+    /// Distance of the target [m]; null where it failed.
+    pub depth_m: Option<f64>,
+    /// Why it failed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failure: Option<String>,
+}
+
+impl Panel {
+    /// Estimators for the histograms of a scenario.
+    ///
+    /// # Errors
+    /// When they cannot be made for it.
+    pub fn new(kinds: &[Kind], setup: &Setup) -> Result<Self> {
+        let tdc = &setup.params.tdc;
+        let bins = &Bins::of_chain(&tdc.delays, &tdc.cal, CYCLE);
+        let pulse_sigma_ps = setup.scenario.laser.pulse_sigma_ps;
+        let estimator = |kind: &Kind| {
+            let shots = match kind {
+                Kind::Subtraction => setup.scenario.firmware.shots_per_frame,
+                _ => setup.params.frame_ctrl.shots_per_frame.into(),
+            };
+            let acquisition = Acquisition { bins, shots, pulse_sigma_ps };
+            let centroid = &setup.params.centroid_estimator;
+            Ok(kind.estimator(&Needs { acquisition, network: &setup.network, centroid })?)
+        };
+        let estimators = kinds.iter().map(estimator);
+        Ok(Panel { estimators: estimators.collect::<Result<_>>()? })
+    }
+
+    /// What each says of a frame, in the order in which they were named.
+    pub fn read(&self, histogram: &Histogram) -> Vec<Reading> {
+        self.each(|estimator| estimator.estimate(histogram))
+    }
+
+    /// What each says of a dark and a lit frame; most look at the lit one only.
+    pub fn read_pair(&self, pair: &Pair) -> Vec<Reading> {
+        self.each(|estimator| estimator.estimate_pair(pair))
+    }
+
+    fn each(
+        &self,
+        estimate: impl Fn(&dyn Estimator) -> std::result::Result<f64, Failure>,
+    ) -> Vec<Reading> {
+        let reading = |estimator: &dyn Estimator| {
+            let estimate = estimate(estimator);
+            Reading {
+                estimator: estimator.name(),
+                failure: estimate.as_ref().err().map(ToString::to_string),
+                depth_m: estimate.ok(),
+            }
+        };
+        self.estimators.iter().map(|estimator| reading(estimator)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tofsim::scenario;
+
+    #[test]
+    fn each_says_where_the_target_is_or_why_not() {
+        let setup = Setup::new(scenario::load("kc705", &[]).unwrap()).unwrap();
+        let kinds = [Kind::Matched, Kind::Network, Kind::Peak];
+        let panel = Panel::new(&kinds, &setup).unwrap();
+        let nothing = panel.read(&[0; 256]);
+        let failures: Vec<_> = nothing.iter().map(|reading| reading.failure.as_deref()).collect();
+        assert_eq!(failures, [Some("no hits"), None, Some("no hits")]);
+        assert!(Panel::default().read(&[0; 256]).is_empty());
+    }
+}

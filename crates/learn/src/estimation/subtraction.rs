@@ -1,0 +1,121 @@
+//! The thesis's background subtraction (Algorithm 2): H0 = H2 - H1.
+//!
+//! H1 is a histogram with the laser off, H2 the next one with it on, of half the shots each. H0 is
+//! signed, and peak detection looks at it. Right of the echo it is negative on average: a shot that
+//! the echo ended can have no ambient hit any more, so that H2 lacks the part 1 - exp(-S_p) of what
+//! H1 has there.
+//!
+//! It does not help the detector: H0 has the noise of both histograms, and an echo of half the shots.
+//! The prominence is a part of all shots, dark ones too: as a part of the lit ones it would let noise
+//! pass for peaks (`tests/estimators` has both).
+
+use tofsim::error::Input;
+use tofsim::network::Histogram;
+use tofsim::optics::Bins;
+
+use super::peak_detection::PeakDetection;
+use super::{Estimator, Failure};
+
+/// Its name on the command line.
+pub const NAME: &str = "subtraction";
+
+/// Two histograms of equally many shots.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pair {
+    /// H1, with the laser off [hits].
+    pub dark: Histogram,
+    /// H2, with the laser on [hits].
+    pub lit: Histogram,
+}
+
+impl Pair {
+    /// H0 = H2 - H1, bin by bin [hits].
+    pub fn difference(&self) -> [i32; 256] {
+        std::array::from_fn(|bin| i32::from(self.lit[bin]) - i32::from(self.dark[bin]))
+    }
+}
+
+/// Shots of each histogram of a pair that has so many.
+///
+/// # Errors
+/// When two histograms cannot have equally many, or none.
+pub fn half(shots: u64) -> Result<u64, Input> {
+    if shots == 0 || !shots.is_multiple_of(2) {
+        let expected = "expected an even number from 2: half of the shots are dark ones";
+        return Err(Input::new("subtraction", expected).field("shots").value(shots));
+    }
+    Ok(shots / 2)
+}
+
+/// Peak detection on the difference.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Subtraction {
+    /// What looks at it.
+    pub detection: PeakDetection,
+}
+
+impl Subtraction {
+    /// For pairs of so many shots in all, on the bins of a chain.
+    ///
+    /// # Errors
+    /// As [`half`].
+    pub fn of_bins(shots: u64, bins: &Bins) -> Result<Self, Input> {
+        half(shots)?;
+        Ok(Subtraction { detection: PeakDetection::of_bins(shots, bins) })
+    }
+}
+
+impl Estimator for Subtraction {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn needs_dark(&self) -> bool {
+        true
+    }
+
+    fn estimate(&self, _: &Histogram) -> Result<f64, Failure> {
+        Err(Failure::NoDarkFrame)
+    }
+
+    fn estimate_pair(&self, pair: &Pair) -> Result<f64, Failure> {
+        super::hits(&pair.lit, u32::MAX)?;
+        self.detection.detect(&pair.difference().map(f64::from))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_are_signed() {
+        let (mut lit, mut dark) = ([10; 256], [10; 256]);
+        (lit[3], dark[3], lit[4], dark[5]) = (0, u16::MAX, u16::MAX, 11);
+        assert_eq!(Pair { dark, lit }.difference()[2..6], [0, -65_535, 65_525, -1]);
+    }
+
+    #[test]
+    fn a_slope_with_an_echo_becomes_the_echo_alone() {
+        let dark: Histogram = std::array::from_fn(|bin| 1000 - 3 * bin as u16);
+        let mut lit = dark;
+        (150..170).for_each(|bin| lit[bin] += 40 * (10 - bin.abs_diff(160) as u16));
+        let subtraction = Subtraction { detection: PeakDetection::new(30_000) };
+        let found = subtraction.estimate_pair(&Pair { dark, lit }).unwrap();
+        assert!((found - subtraction.detection.distance_m(160.5 * 25.0)).abs() < 0.005);
+        let failure = |dark, lit| subtraction.estimate_pair(&Pair { dark, lit }).unwrap_err();
+        assert_eq!(failure(lit, dark), Failure::NoPeak, "dark and lit are not the same");
+        assert_eq!(failure(dark, dark), Failure::NoPeak);
+        assert_eq!(failure(dark, [0; 256]), Failure::NoHits);
+        assert_eq!(subtraction.estimate(&lit), Err(Failure::NoDarkFrame));
+    }
+
+    #[test]
+    fn shots_that_have_no_half_are_refused() {
+        assert_eq!(half(30_000), Ok(15_000));
+        for shots in [0, 1, 30_001] {
+            let fault = half(shots).unwrap_err().to_string();
+            assert!(fault.starts_with(&format!("subtraction: shots = {shots}: expected an even")));
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! The fast path beside the simulation of every cycle, at a sample of points.
+//!
+//! An evaluation draws histograms from probabilities and estimates with integer sums. Here frames
+//! go through the whole firmware: their histograms have to have those probabilities, and their
+//! depths have to be those of the sums, bit for bit.
+
+use std::sync::atomic::AtomicBool;
+
+use serde::Serialize;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use crate::dataset::{Scene, Source};
+use tofsim::error::Result;
+use tofsim::scenario::Loaded;
+use tofsim::sim::Run;
+use tofsim::sim::frames::Frame;
+use tofsim::sim::run::Watch;
+use tofsim::sim::setup::Setup;
+
+/// Chance below which counts are taken for others than those drawn.
+const LEVEL: f64 = 1e-6;
+/// Hits that a cell of the test has to expect, or it is joined to the next.
+const CELL: f64 = 20.0;
+
+/// What came of the frames of one scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CrossCheck {
+    /// Distance of the target [m].
+    pub distance_m: f64,
+    /// Frames simulated, cycle by cycle.
+    pub frames: u64,
+    /// Frames whose depth word is not that of the integer sums.
+    pub other_depths: u64,
+    /// Chance of a chi-square as large as that of the counts, if they have the probabilities.
+    pub p_value: f64,
+}
+
+impl CrossCheck {
+    /// Whether both paths are the same.
+    pub fn agrees(&self) -> bool {
+        self.other_depths == 0 && self.p_value > LEVEL
+    }
+
+    /// Simulates frames of a scene, all else being as in `loaded`, of which `source` is.
+    ///
+    /// # Errors
+    /// When the scenario does not run, or it is stopped.
+    pub fn new(
+        loaded: &Loaded,
+        source: &Source,
+        scene: &Scene,
+        frames: u64,
+        stop: Option<&AtomicBool>,
+    ) -> Result<Self> {
+        let mut loaded = loaded.clone();
+        loaded.scenario.target.distance_m = scene.distance_m;
+        loaded.scenario.target.reflectance = scene.reflectance;
+        loaded.scenario.ambient.irradiance_w_m2_nm = scene.irradiance_w_m2_nm;
+        let setup = Setup::new(loaded)?;
+        let (mut sums, mut other_depths) = ([0u64; 256], 0);
+        let mut take = |frame: &Frame| {
+            let same = setup.depth(&frame.histogram);
+            other_depths += u64::from(same != frame.depth);
+            for (sum, &count) in sums.iter_mut().zip(&frame.histogram) {
+                *sum += u64::from(count);
+            }
+            Ok(())
+        };
+        Run::new(&setup)
+            .frames(frames, Watch { frames: Some(&mut take), stop, ..Watch::default() })?;
+        let shots = (frames * u64::from(source.shots())) as f64;
+        let p_value = p_value(&sums, source.probabilities(scene).of_code(), shots);
+        Ok(CrossCheck { distance_m: scene.distance_m, frames, other_depths, p_value })
+    }
+}
+
+/// Of so many shots; those without a code are a cell too.
+fn p_value(sums: &[u64; 256], codes: &[f64; 256], shots: f64) -> f64 {
+    let missed = shots - sums.iter().sum::<u64>() as f64;
+    let expected_missed = shots * (1.0 - codes.iter().sum::<f64>());
+    let cells = sums.iter().zip(codes).map(|(&sum, p)| (sum as f64, shots * p));
+    let (mut chi_square, mut count, mut joined) = (0.0, 0.0, (0.0, 0.0));
+    for (found, expected) in cells.chain([(missed, expected_missed)]) {
+        joined = (joined.0 + found, joined.1 + expected);
+        if joined.1 >= CELL {
+            chi_square += (joined.0 - joined.1).powi(2) / joined.1;
+            (count, joined) = (count + 1.0, (0.0, 0.0));
+        }
+    }
+    let distribution = ChiSquared::new(count - 1.0);
+    distribution.map_or(1.0, |distribution| distribution.sf(chi_square))
+}

@@ -1,0 +1,154 @@
+//! Accuracy against cost: one network in many datapaths, on the same histograms (thesis Fig. 6.16
+//! and Table 6.4).
+
+use std::sync::atomic::AtomicBool;
+
+use serde::Serialize;
+
+use crate::dataset::{Rows, Source};
+use crate::estimation::network::FloatNetwork;
+use crate::estimation::{Estimator, Failure};
+use crate::quantize::datapath::{Circuit, Cost, Datapath};
+use tofsim::error::Result;
+use tofsim::network::formats::Format;
+use tofsim::network::{Histogram, Network};
+
+use super::thesis::DISTANCES_M;
+use super::{Evaluation, Figures};
+
+/// A datapath and what it does to the depth.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Point {
+    /// What differs from the firmware's datapath.
+    pub variant: String,
+    /// Twice the standard deviation of the depth at the thesis's distances [mm].
+    pub two_sd_mm: Vec<Option<f64>>,
+    /// Root mean square of fixed point less float, over all histograms [mm].
+    pub rms_to_float_mm: f64,
+    /// Largest magnitude of that [mm].
+    pub largest_to_float_mm: f64,
+    /// Weights that no word holds, and were saturated.
+    pub saturated_weights: usize,
+    /// Sums past the table, for each histogram [1].
+    pub saturated_sums: f64,
+    /// Bits that the sums of the hidden layer and of the depth can take, with sign.
+    pub sum_bits: [u32; 2],
+    /// What it takes of the device.
+    #[serde(flatten)]
+    pub cost: Cost,
+}
+
+/// The datapaths that are swept: one thing at a time.
+pub fn sweep() -> Vec<(String, Datapath)> {
+    let firmware = Datapath::default();
+    let mut points = vec![("the firmware's".to_owned(), firmware)];
+    for range_log2 in [2, 3] {
+        for address_bits in 8..=14 {
+            let range = 1 << range_log2;
+            let name = format!("table of {address_bits} address bits over +-{range}");
+            points.push((name, Datapath { address_bits, range_log2, ..firmware }));
+        }
+    }
+    // A word that keeps its range has a fraction bit less for each bit less.
+    let shorter = |format: Format, width: u32| Format {
+        width,
+        fraction: format.fraction + width - format.width,
+    };
+    for width in [10, 12, 14, 18] {
+        let w1 = shorter(firmware.w1, width);
+        let b1 = shorter(firmware.b1, width.min(16));
+        points.push((format!("w1 and b1 of {width} bits"), Datapath { w1, b1, ..firmware }));
+        let w2 = shorter(firmware.w2, width);
+        let b2 = shorter(firmware.b2, width.min(16));
+        points.push((format!("w2 and b2 of {width} bits"), Datapath { w2, b2, ..firmware }));
+        let l1_out = shorter(firmware.l1_out, width);
+        points.push((format!("activations of {width} bits"), Datapath { l1_out, ..firmware }));
+    }
+    points
+}
+
+struct Variant(Circuit);
+
+impl Estimator for &Variant {
+    fn name(&self) -> &'static str {
+        "variant"
+    }
+
+    fn estimate(&self, histogram: &Histogram) -> std::result::Result<f64, Failure> {
+        Ok(self.0.depth_m(histogram))
+    }
+}
+
+/// Lets a network in each datapath see the rows, on all threads of the current pool; the same for
+/// any number of threads.
+///
+/// # Errors
+/// When a datapath makes no sense, or it is stopped.
+pub fn explore(
+    network: &Network,
+    datapaths: &[(String, Datapath)],
+    (source, rows, seed): (&Source, &Rows, u64),
+    stop: Option<&AtomicBool>,
+    done: impl FnMut(u64),
+) -> Result<Vec<Point>> {
+    let float = network.twin();
+    let variants =
+        datapaths.iter().map(|(_, datapath)| Circuit::new(&float, *datapath).map(Variant));
+    let variants = variants.collect::<Result<Vec<_>>>()?;
+    let mut estimators: Vec<Box<dyn Estimator + Send + '_>> =
+        vec![Box::new(FloatNetwork::new(network))];
+    estimators.extend(variants.iter().map(|variant| Box::new(variant) as _));
+    let evaluation = Evaluation::new(source, rows, seed, &estimators, stop, done)?;
+    drop(estimators);
+    let exact = &evaluation.columns[0];
+    let variants = variants.iter().zip(&evaluation.columns[1..]);
+    let points = datapaths.iter().zip(variants).map(|((name, datapath), (variant, column))| {
+        let figures = Figures::new(&evaluation, column);
+        let two_sd = |distance_m: &f64| figures.at(*distance_m)?.two_sd_mm;
+        let pairs = exact.errors_m.iter().zip(&column.errors_m);
+        let apart = pairs.filter_map(|(exact, fixed)| Some(1e3 * ((*fixed)? - (*exact)?)));
+        let (sum, largest) =
+            apart.fold((0.0, 0.0f64), |(sum, largest), mm| (sum + mm * mm, largest.max(mm.abs())));
+        let histograms = column.errors_m.len().max(1) as f64;
+        Point {
+            variant: name.clone(),
+            two_sd_mm: DISTANCES_M.iter().map(two_sd).collect(),
+            rms_to_float_mm: f64::sqrt(sum / histograms),
+            largest_to_float_mm: largest,
+            saturated_weights: variant.0.saturated_weights,
+            saturated_sums: variant.0.saturated_sums() as f64 / histograms,
+            sum_bits: variant.0.sum_bits(),
+            cost: datapath.cost(network.fixed.neurons()),
+        }
+    });
+    Ok(points.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dataset::{Grid, Subset};
+    use tofsim::scenario;
+    use tofsim::sim::setup::Setup;
+
+    #[test]
+    fn an_address_bit_more_halves_the_error_until_the_weights_rounding_is_left() {
+        let source = Source::new(&Setup::new(scenario::load("kc705", &[]).unwrap()).unwrap());
+        let network = Network::builtin("uniform").unwrap().unwrap();
+        let rows = Rows::Subset(Subset::new(Grid::test(), 510, 1));
+        let data = (&source.unwrap(), &rows, 2);
+        let points = explore(&network, &sweep(), data, None, |_| {}).unwrap();
+        let rms = |variant: &str| {
+            points.iter().find(|point| point.variant == variant).unwrap().rms_to_float_mm
+        };
+        for bits in 8..11 {
+            let table = |bits| rms(&format!("table of {bits} address bits over +-4"));
+            let ratio = table(bits) / table(bits + 1);
+            assert!((1.6..2.4).contains(&ratio), "{bits}: {ratio}");
+        }
+        assert_eq!(points[0].cost, Cost { ramb36: 10, dsp48: 9 });
+        assert_eq!(rms("the firmware's"), rms("table of 12 address bits over +-4"));
+        assert!(points[0].saturated_sums > 0.5 && points[0].sum_bits[0] <= 36);
+        assert!(rms("w1 and b1 of 10 bits") > 3.0 * rms("w1 and b1 of 14 bits"));
+    }
+}

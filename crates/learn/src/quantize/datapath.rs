@@ -1,0 +1,182 @@
+//! The estimator's arithmetic with word lengths and a table of one's own choice: what the firmware
+//! would compute if it were built so.
+
+use std::fmt::Display;
+
+use serde::{Deserialize, Serialize};
+
+use tofsim::error::{Input, Result};
+use tofsim::firmware::tansig;
+
+use tofsim::network::formats::{B1, B2, Format, L1_OUT, TANSIG_RANGE, W1, W2};
+
+mod circuit;
+
+pub use circuit::Circuit;
+
+/// Word lengths, and the size of the table of activations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Datapath {
+    /// Weights of the hidden layer.
+    pub w1: Format,
+    /// Biases of the hidden layer.
+    pub b1: Format,
+    /// Weights of the output layer [m].
+    pub w2: Format,
+    /// Bias of the output layer [m].
+    pub b2: Format,
+    /// Activations.
+    pub l1_out: Format,
+    /// Address bits of the table.
+    pub address_bits: u32,
+    /// The table goes from minus to plus two to this power.
+    pub range_log2: u32,
+}
+
+/// The firmware's (thesis Table 6.4).
+impl Default for Datapath {
+    fn default() -> Self {
+        Datapath {
+            w1: W1,
+            b1: B1,
+            w2: W2,
+            b2: B2,
+            l1_out: L1_OUT,
+            address_bits: tansig::ADDRESS_BITS,
+            range_log2: TANSIG_RANGE.ilog2(),
+        }
+    }
+}
+
+/// What a datapath takes of the device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Cost {
+    /// Block RAMs of 36 Kb.
+    pub ramb36: u32,
+    /// DSP slices.
+    pub dsp48: u32,
+}
+
+impl Datapath {
+    /// Names of its words.
+    pub const WORDS: [&str; 5] = ["w1", "b1", "w2", "b2", "l1_out"];
+
+    /// The format of a word.
+    pub fn word(&mut self, name: &str) -> Option<&mut Format> {
+        let words = [&mut self.w1, &mut self.b1, &mut self.w2, &mut self.b2, &mut self.l1_out];
+        Self::WORDS.into_iter().zip(words).find(|(word, _)| *word == name).map(|(_, format)| format)
+    }
+
+    /// Step of the table, in a neuron's sum [1].
+    pub fn step(&self) -> f64 {
+        (f64::from(self.range_log2) + 1.0 - f64::from(self.address_bits)).exp2()
+    }
+
+    /// Whether its words are of a size that is built, can be aligned, and its table has a step of 2^-k.
+    ///
+    /// # Errors
+    /// When not.
+    pub fn check(&self) -> Result<()> {
+        let fault = |field, value: &dyn Display, expected| {
+            Err(Input::new("datapath", expected).field(field).value(value).into())
+        };
+        let words = [self.w1, self.b1, self.w2, self.b2, self.l1_out];
+        for (field, word) in Self::WORDS.into_iter().zip(words) {
+            let Format { width, fraction } = word;
+            if !(2..=24).contains(&width) {
+                return fault(field, &width, "expected a width of 2 to 24 bits");
+            }
+            if fraction > 32 {
+                return fault(field, &fraction, "expected 32 fraction bits or less");
+            }
+        }
+        if !(4..=16).contains(&self.address_bits) {
+            return fault("address_bits", &self.address_bits, "expected 4 to 16");
+        }
+        if self.range_log2 > 6 {
+            return fault("range_log2", &self.range_log2, "expected 6 or less");
+        }
+        if self.b1.fraction > self.w1.fraction {
+            return fault("b1", &self.b1.fraction, "expected no more fraction bits than w1");
+        }
+        if self.b2.fraction > self.w2.fraction + self.l1_out.fraction {
+            return fault(
+                "b2",
+                &self.b2.fraction,
+                "expected no more fraction bits than w2 and the activation",
+            );
+        }
+        if self.shift() < 1 {
+            return fault(
+                "address_bits",
+                &self.address_bits,
+                "expected steps coarser than the sum's last bit",
+            );
+        }
+        Ok(())
+    }
+
+    /// Fraction bits of the sum that the address drops.
+    fn shift(&self) -> i64 {
+        i64::from(self.w1.fraction + 1 + self.range_log2) - i64::from(self.address_bits)
+    }
+
+    /// Block RAMs and DSP slices as `rtl_ref` is built for so many neurons: MEM1 a row a bin, MEM2 a copy for each two
+    /// neurons, since a block RAM has two ports; a multiplier of 25 x 18 bits a neuron, and one.
+    pub fn cost(&self, neurons: usize) -> Cost {
+        let neurons = neurons as u32;
+        let mem1 = (neurons * self.w1.width).div_ceil(72);
+        let wide = match self.address_bits {
+            0..=10 => 36,
+            11 => 18,
+            12 => 9,
+            13 => 4,
+            14 => 2,
+            _ => 1,
+        };
+        let deep = 1 << self.address_bits.saturating_sub(15);
+        let mem2 = neurons.div_ceil(2) * self.l1_out.width.div_ceil(wide) * deep;
+        // A count of 16 bits is 17 with its sign; activation and W2 take either side.
+        let slices = |a: u32, b: u32| if a.min(b) <= 18 && a.max(b) <= 25 { 1 } else { 2 };
+        let hidden = neurons * slices(17, self.w1.width.max(self.b1.width));
+        Cost { ramb36: mem1 + mem2, dsp48: hidden + slices(self.l1_out.width, self.w2.width) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tofsim::network::Network;
+
+    #[test]
+    fn the_firmware_s_cost_is_that_of_its_synthesis() {
+        assert_eq!(Datapath::default().cost(8), Cost { ramb36: 2 + 8, dsp48: 8 + 1 });
+        assert_eq!(Datapath::default().cost(16), Cost { ramb36: 4 + 16, dsp48: 16 + 1 });
+        let small = Datapath { address_bits: 10, ..Datapath::default() };
+        assert_eq!(small.cost(8).ramb36, 2 + 4);
+        let wide = Datapath { w1: Format { width: 30, fraction: 37 }, ..Datapath::default() };
+        assert_eq!(wide.cost(8), Cost { ramb36: 4 + 8, dsp48: 16 + 1 });
+    }
+
+    #[test]
+    fn what_cannot_be_aligned_is_refused() {
+        let float = Network::builtin("uniform").unwrap().unwrap().twin();
+        let fault = |datapath| Circuit::new(&float, datapath).unwrap_err().to_string();
+        let b1 = Format { width: 16, fraction: 24 };
+        assert!(fault(Datapath { b1, ..Datapath::default() }).contains("b1 = 24: expected"));
+        let fine = Datapath { address_bits: 30, ..Datapath::default() };
+        assert!(fault(fine).contains("address_bits = 30: expected 4 to 16"));
+        let w1 = Format { width: 12, fraction: 8 };
+        let coarse = Datapath { w1, b1: w1, ..Datapath::default() };
+        assert!(fault(coarse).contains("address_bits = 12: expected steps"));
+        let b2 = Format { width: 40, fraction: 14 };
+        assert!(
+            fault(Datapath { b2, ..Datapath::default() }).contains("b2 = 40: expected a width")
+        );
+        let mut wild = float.clone();
+        wild.w1[0][0] = 1.0;
+        let circuit = Circuit::new(&wild, Datapath::default()).unwrap();
+        assert_eq!(circuit.saturated_weights, 1);
+    }
+}

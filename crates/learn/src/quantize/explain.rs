@@ -1,0 +1,228 @@
+//! Where a depth comes from, and what fixed point costs it: every value of the datapath beside its
+//! twin in double precision.
+//!
+//! The float pass is that of the weights before rounding. Fixed point departs from it in four
+//! steps, and the depth after each of them makes a [`Budget`] whose parts add up to the whole
+//! difference: the weights and biases of the hidden layer are rounded, the address of the
+//! activation is, the entry of the table is, the weights and the bias of the output layer are.
+
+use serde::Serialize;
+
+use tofsim::firmware::tansig::{ADDRESS_BITS, address};
+use tofsim::kernel::S;
+
+use tofsim::network::estimate::estimate;
+use tofsim::network::formats::{B2, L1_OUT, TANSIG_RANGE};
+use tofsim::network::{Histogram, Network};
+
+/// Fraction bits of a hidden neuron's sum.
+const L1_IN_FRACTION: u32 = 23;
+/// Fraction bits of a product of the output layer, and of the depth.
+const DEPTH_FRACTION: u32 = 29;
+/// A step of the activation's address [1].
+const ADDRESS_STEP: f64 = 2.0 * TANSIG_RANGE as f64 / (1 << ADDRESS_BITS) as f64;
+
+/// A value of the datapath and its twin.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Pair {
+    /// The word as an integer.
+    pub word: i64,
+    /// What the word stands for.
+    pub fixed: f64,
+    /// The same in double precision.
+    pub float: f64,
+    /// Fixed less float, in units of the word's last bit.
+    pub difference_lsb: f64,
+    /// What the difference alone, to first order, does to the depth [mm].
+    pub difference_mm: f64,
+}
+
+impl Pair {
+    fn new(word: i64, fraction: u32, float: f64, metres_per_unit: f64) -> Self {
+        let lsb = (-f64::from(fraction)).exp2();
+        let fixed = word as f64 * lsb;
+        let difference = fixed - float;
+        Pair {
+            word,
+            fixed,
+            float,
+            difference_lsb: difference / lsb,
+            difference_mm: 1e3 * difference * metres_per_unit,
+        }
+    }
+
+    /// Whether the word is not the one nearest to its twin.
+    pub fn parts(&self) -> bool {
+        self.difference_lsb.abs() > 0.5
+    }
+}
+
+/// A hidden neuron.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Neuron {
+    /// Sum of the products and the bias.
+    pub l1_in: Pair,
+    /// Address in the table of activations.
+    pub address: i64,
+    /// The sum lies past the table, and has its last entry.
+    pub saturated: bool,
+    /// Activation.
+    pub l1_out: Pair,
+    /// Product with the weight of the output layer [m].
+    pub product: Pair,
+}
+
+/// What each rounding adds to the depth; the parts add up to the whole difference [mm].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Budget {
+    /// W1 and B1 are rounded to their words.
+    pub hidden_weights_mm: f64,
+    /// The sum is rounded to an address of the table, or saturated.
+    pub address_mm: f64,
+    /// The entries of the table are rounded.
+    pub table_mm: f64,
+    /// W2 and B2 are rounded.
+    pub output_weights_mm: f64,
+    /// Fixed point less float.
+    pub total_mm: f64,
+}
+
+/// Everything about one estimation.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Explanation {
+    /// Hits in the histogram.
+    pub hits: u64,
+    /// The hidden layer.
+    pub neurons: Vec<Neuron>,
+    /// Bias of the output layer [m].
+    pub bias: Pair,
+    /// The depth [m].
+    pub depth: Pair,
+    /// Where the words are first not the nearest to their twins: `l1_in`, `l1_out`, `product` or
+    /// `depth`, if anywhere, and of which neuron.
+    pub first_parting: Option<(&'static str, Option<usize>)>,
+    /// Neurons whose sum lies past the table of activations.
+    pub saturated: usize,
+    /// Where the difference comes from.
+    pub budget: Budget,
+}
+
+/// Explains the estimation of a histogram.
+pub fn explain(network: &Network, histogram: &Histogram) -> Explanation {
+    let (params, float) = (network.params(), network.twin());
+    let fixed = estimate(&params, histogram);
+    let neuron = |(k, sum): (usize, f64)| {
+        let (word, w2) = (fixed.l1_in[k], float.w2[k]);
+        let activation = libm::tanh(sum);
+        let place = address(word);
+        let entry = params.tansig[place].get();
+        let slope = w2 * (1.0 - activation * activation);
+        let last = 1i64 << (ADDRESS_BITS - 1);
+        let rounded = (word.to_f64() / ADDRESS_STEP + 0.5).floor() as i64;
+        Neuron {
+            l1_in: Pair::new(word.get(), L1_IN_FRACTION, sum, slope),
+            address: S::<{ ADDRESS_BITS }>::new(place as i64).get(),
+            saturated: !(-last..last).contains(&rounded),
+            l1_out: Pair::new(entry, L1_OUT.fraction, activation, w2),
+            product: {
+                let product = entry * params.forward2.w2[k].get();
+                Pair::new(product, DEPTH_FRACTION, activation * w2, 1.0)
+            },
+        }
+    };
+    let neurons: Vec<_> =
+        float.hidden_sums(histogram).into_iter().enumerate().map(neuron).collect();
+    let depth = Pair::new(fixed.depth.get(), DEPTH_FRACTION, float.forward(histogram), 1.0);
+    Explanation {
+        hits: histogram.iter().map(|&count| u64::from(count)).sum(),
+        bias: Pair::new(params.forward2.b2.get(), B2.fraction, float.b2, 1.0),
+        first_parting: first_parting(&neurons, &depth),
+        saturated: neurons.iter().filter(|neuron| neuron.saturated).count(),
+        budget: budget(network, &neurons, &depth),
+        neurons,
+        depth,
+    }
+}
+
+fn first_parting(neurons: &[Neuron], depth: &Pair) -> Option<(&'static str, Option<usize>)> {
+    let layer = |name, parts: &dyn Fn(&Neuron) -> bool| {
+        neurons.iter().position(parts).map(|neuron| (name, Some(neuron)))
+    };
+    layer("l1_in", &|neuron| neuron.l1_in.parts())
+        .or_else(|| layer("l1_out", &|neuron| neuron.l1_out.parts()))
+        .or_else(|| layer("product", &|neuron| neuron.product.parts()))
+        .or_else(|| depth.parts().then_some(("depth", None)))
+}
+
+/// The depth after each step from float to fixed point.
+fn budget(network: &Network, neurons: &[Neuron], depth: &Pair) -> Budget {
+    let float = network.twin();
+    let output = |activation: &dyn Fn(&Neuron) -> f64| {
+        let products = neurons.iter().zip(&float.w2).map(|(neuron, w2)| activation(neuron) * w2);
+        products.sum::<f64>() + float.b2
+    };
+    let steps = [
+        depth.float,
+        output(&|neuron| libm::tanh(neuron.l1_in.fixed)),
+        output(&|neuron| libm::tanh(neuron.address as f64 * ADDRESS_STEP)),
+        output(&|neuron| neuron.l1_out.fixed),
+        depth.fixed,
+    ];
+    let [hidden_weights_mm, address_mm, table_mm, output_weights_mm] =
+        std::array::from_fn(|step| 1e3 * (steps[step + 1] - steps[step]));
+    let total_mm = 1e3 * (depth.fixed - depth.float);
+    Budget { hidden_weights_mm, address_mm, table_mm, output_weights_mm, total_mm }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tofsim::network::formats::{B1, W1};
+
+    fn peak(bin: usize, height: u16) -> Histogram {
+        std::array::from_fn(|k| height / (1 + 2 * k.abs_diff(bin) as u16))
+    }
+
+    #[test]
+    fn the_parts_of_the_budget_add_up_to_the_difference() {
+        let network = Network::builtin("uniform").unwrap().unwrap();
+        for bin in [30, 80, 130, 180, 230] {
+            let explained = explain(&network, &peak(bin, 3000));
+            let budget = explained.budget;
+            let parts = [
+                budget.hidden_weights_mm,
+                budget.address_mm,
+                budget.table_mm,
+                budget.output_weights_mm,
+            ];
+            assert!((parts.iter().sum::<f64>() - budget.total_mm).abs() < 1e-9);
+            assert_eq!(budget.total_mm, explained.depth.difference_mm);
+            let products: i64 = explained.neurons.iter().map(|n| n.product.word).sum();
+            assert_eq!(products + (explained.bias.word << 12), explained.depth.word);
+        }
+    }
+
+    #[test]
+    fn weights_that_are_words_part_at_the_activation_only() {
+        let mut network = Network::builtin("uniform").unwrap().unwrap();
+        network.float = None;
+        let explained = explain(&network, &peak(100, 2000));
+        assert!(explained.neurons.iter().all(|neuron| neuron.l1_in.difference_lsb == 0.0));
+        assert_eq!(explained.first_parting.map(|(layer, _)| layer), Some("l1_out"));
+        assert_eq!(explained.budget.hidden_weights_mm, 0.0);
+        assert!(explained.budget.output_weights_mm.abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_sum_past_the_table_is_counted_and_costs_what_the_address_loses() {
+        let mut network = Network::builtin("uniform").unwrap().unwrap();
+        network.float = None;
+        for weight in network.fixed.w1[2].iter_mut() {
+            *weight = tofsim::network::formats::HiddenWeight::from_bits(W1.max() as i32);
+        }
+        network.fixed.b1[2] = tofsim::network::formats::HiddenBias::from_bits(B1.max() as i16);
+        let explained = explain(&network, &peak(100, 30_000));
+        assert!(explained.neurons[2].saturated && explained.saturated >= 1);
+        assert_eq!(explained.neurons[2].address, 2047);
+    }
+}

@@ -1,0 +1,63 @@
+//! Arrays from a MATLAB file of level 5 (`save -v7` or `-v6`): numeric arrays, by name.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use matfile::{MatFile, NumericData};
+
+use tofsim::error::{Error, Input, Result};
+
+use super::arrays::Arrays;
+
+/// Reads a file; what is no numeric array in it, such as the network object itself, is passed over.
+pub(super) fn read(path: &Path) -> Result<Arrays> {
+    let file = File::open(path).map_err(Error::io(path, "read"))?;
+    let mat = MatFile::parse(BufReader::new(file)).map_err(|error| {
+        let expected = format!("not a MATLAB file of level 5 ({error:?}); save with -v7");
+        Input::new(path.display(), expected)
+    })?;
+    let mut arrays = Arrays::new(path.display());
+    for array in mat.arrays() {
+        let Some(columns_first) = numbers(array.data()) else { continue };
+        let (shape, values) = rows_first(array.size(), &columns_first);
+        arrays.put(array.name(), shape, values);
+    }
+    Ok(arrays)
+}
+
+/// The values of a real array.
+fn numbers(data: &NumericData) -> Option<Vec<f64>> {
+    match data {
+        NumericData::Double { real, imag: None } => Some(real.clone()),
+        NumericData::Single { real, imag: None } => Some(real.iter().map(|&v| v.into()).collect()),
+        NumericData::UInt8 { real, imag: None } => Some(real.iter().map(|&v| v.into()).collect()),
+        NumericData::Int16 { real, imag: None } => Some(real.iter().map(|&v| v.into()).collect()),
+        NumericData::UInt16 { real, imag: None } => Some(real.iter().map(|&v| v.into()).collect()),
+        NumericData::Int32 { real, imag: None } => Some(real.iter().map(|&v| v.into()).collect()),
+        _ => None,
+    }
+}
+
+/// MATLAB has the first index fastest.
+fn rows_first(size: &[usize], values: &[f64]) -> (Vec<usize>, Vec<f64>) {
+    let shape = size.to_vec();
+    match *size {
+        [rows, columns] if values.len() == rows * columns => {
+            let at = |place: usize| values[place % columns * rows + place / columns];
+            (shape, (0..values.len()).map(at).collect())
+        }
+        _ => (shape, values.to_vec()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_become_rows() {
+        let (shape, values) = rows_first(&[2, 3], &[1.0, 4.0, 2.0, 5.0, 3.0, 6.0]);
+        assert_eq!((shape, values), (vec![2, 3], vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
+    }
+}

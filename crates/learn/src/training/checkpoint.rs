@@ -1,0 +1,178 @@
+//! Checkpoints: a training's state in a file, every number to the bit, and the settings it belongs
+//! to.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use tofsim::error::{Input, Result, read_text};
+use tofsim::files::output::write_file;
+
+use super::basis::KNOTS;
+use super::recipe::Recipe;
+use super::state::State;
+use super::sums::parameters;
+
+/// Value of the key `schema`.
+const SCHEMA: &str = "tofsim.checkpoint/1";
+
+/// Settings by name; a checkpoint is for these alone.
+pub type Settings = BTreeMap<String, String>;
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Checkpoint {
+    schema: String,
+    settings: Settings,
+    state: State,
+}
+
+/// Writes a state; the file is whole or the one before.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn save(path: &Path, settings: &Settings, state: &State) -> Result<()> {
+    let (schema, settings, state) = (SCHEMA.to_owned(), settings.clone(), state.clone());
+    let text = toml::to_string(&Checkpoint { schema, settings, state });
+    let text = text.map_err(|error| Input::new(path.display(), error))?;
+    write_file(path, |file| file.write_all(text.as_bytes()))
+}
+
+/// Reads a state.
+///
+/// # Errors
+/// When the file cannot be read or is no checkpoint, is one of another version or of other
+/// settings, or does not fit the recipe.
+pub fn load(path: &Path, settings: &Settings, recipe: &Recipe) -> Result<State> {
+    let text = read_text(path)?;
+    let name = path.display();
+    let no_checkpoint =
+        |error: toml::de::Error| Input::new(&name, format!("no checkpoint: {}", error.message()));
+    let table: toml::Table = text.parse().map_err(no_checkpoint)?;
+    let schema = table.get("schema").and_then(toml::Value::as_str).unwrap_or_default();
+    if schema != SCHEMA {
+        let expected = format!("expected \"{SCHEMA}\"");
+        return Err(Input::new(&name, expected).field("schema").value(schema).into());
+    }
+    let checkpoint: Checkpoint = table.try_into().map_err(no_checkpoint)?;
+    for key in settings.keys().chain(checkpoint.settings.keys()) {
+        let (found, expected) = (checkpoint.settings.get(key), settings.get(key));
+        if found != expected {
+            let none = "none".to_owned();
+            let expected =
+                format!("of another training: this one has {}", expected.unwrap_or(&none));
+            let field = format!("settings.{key}");
+            let found = found.unwrap_or(&none);
+            return Err(Input::new(&name, expected).field(field).value(found).into());
+        }
+    }
+    check(&checkpoint.state, recipe).map_err(|field| {
+        Input::new(&name, "does not fit the recipe").field(format!("state.{field}"))
+    })?;
+    Ok(checkpoint.state)
+}
+
+/// That a state is one of the recipe's; or else which field is not.
+fn check(state: &State, recipe: &Recipe) -> std::result::Result<(), &'static str> {
+    let (stages, finish) = (&recipe.stages, &recipe.finish);
+    let (candidates, epochs) = match stages.get(state.stage) {
+        Some(stage) => (stage.candidates, stage.epochs),
+        None => (finish.candidates, finish.epochs),
+    };
+    let blocks = if state.stage == stages.len() { finish.blocks } else { 0 };
+    let size = parameters(recipe.neurons);
+    let fits = |x: &[f64]| x.len() == size && x.iter().all(|x| x.is_finite());
+    let mut least = state.candidates.iter().filter_map(|candidate| candidate.lm.least.as_ref());
+    let scaling = [&state.scaling.mean, &state.scaling.inverse_sd];
+    let checks = [
+        ("stage", state.stage <= stages.len()),
+        ("block", state.block <= blocks),
+        ("epochs", state.epochs < epochs),
+        ("scaling", scaling.iter().all(|s| s.len() == KNOTS && s.iter().all(|x| x.is_finite()))),
+        ("candidates", state.candidates.len() == candidates),
+        ("candidates.lm.x", state.candidates.iter().all(|candidate| fits(&candidate.lm.x))),
+        ("candidates.lm.least", least.all(|(_, x)| fits(x))),
+        ("best.x", state.best.iter().all(|best| fits(&best.x))),
+    ];
+    match checks.into_iter().find(|(_, good)| !good) {
+        Some((field, _)) => Err(field),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::training::features::Scaling;
+    use crate::training::lm::Lm;
+    use crate::training::state::{Best, Candidate};
+
+    fn state(recipe: &Recipe) -> State {
+        // Numbers of all magnitudes, none of them round.
+        let number = |k: usize| (k as f64 + 0.1).sqrt() * 10f64.powi(k as i32 % 600 - 300);
+        let x: Vec<f64> = (0..parameters(recipe.neurons)).map(number).collect();
+        let candidate = |start| Candidate {
+            start,
+            lm: Lm::new(x.iter().map(|x| x * (start as f64 - 1.5)).collect(), &recipe.optimiser),
+            factors: vec![-0.0, f64::MIN_POSITIVE / 3.0],
+        };
+        State {
+            stage: 0,
+            block: 0,
+            epochs: 3,
+            data: "0123456789abcdef".to_owned(),
+            scaling: Scaling { mean: vec![0.1; KNOTS], inverse_sd: vec![1.0 / 3.0; KNOTS] },
+            candidates: (0..recipe.stages[0].candidates).map(candidate).collect(),
+            best: Some(Best { start: 1, block: 2, ratio: f64::INFINITY, x: x.clone() }),
+            curve: Vec::new(),
+        }
+    }
+
+    fn settings(seed: &str) -> Settings {
+        [("seed", seed), ("finish.blocks", "2")]
+            .map(|(key, value)| (key.to_owned(), value.to_owned()))
+            .into()
+    }
+
+    #[test]
+    fn every_bit_comes_back() {
+        let (recipe, folder) = (Recipe::quick(), tempfile::tempdir().unwrap());
+        let (path, state) = (folder.path().join("checkpoint"), state(&recipe));
+        save(&path, &settings("1"), &state).unwrap();
+        let loaded = load(&path, &settings("1"), &recipe).unwrap();
+        assert_eq!(loaded, state);
+        let bits = |state: &State| -> Vec<u64> {
+            let numbers = state.candidates.iter().flat_map(|c| c.lm.x.iter().chain(&c.factors));
+            numbers.map(|x| x.to_bits()).collect()
+        };
+        assert_eq!(bits(&loaded), bits(&state));
+    }
+
+    #[test]
+    fn what_is_no_checkpoint_of_this_training_is_refused_by_name() {
+        let (recipe, folder) = (Recipe::quick(), tempfile::tempdir().unwrap());
+        let path = folder.path().join("checkpoint");
+        let fault = |seed: &str| load(&path, &settings(seed), &recipe).unwrap_err().to_string();
+        save(&path, &settings("1"), &state(&recipe)).unwrap();
+        let error = fault("2");
+        assert!(
+            error.contains("settings.seed = 1: of another training: this one has 2"),
+            "{error}"
+        );
+        let text = std::fs::read_to_string(&path).unwrap();
+        std::fs::write(&path, text.replacen("checkpoint/1", "checkpoint/0", 1)).unwrap();
+        assert!(fault("1").contains("schema = tofsim.checkpoint/0: expected"));
+        std::fs::write(&path, text.replacen("epochs = 3", "epochs = 6", 1)).unwrap();
+        assert!(fault("1").contains("state.epochs: does not fit the recipe"));
+        std::fs::write(&path, text.replacen("start = 0", "start = x", 1)).unwrap();
+        assert!(fault("1").contains("no checkpoint"));
+        let mut short = state(&recipe);
+        short.candidates[1].lm.least = Some((0.5, vec![0.1]));
+        save(&path, &settings("1"), &short).unwrap();
+        assert!(fault("1").contains("state.candidates.lm.least: does not fit the recipe"));
+        std::fs::write(&path, "").unwrap();
+        assert!(fault("1").contains("schema"));
+    }
+}

@@ -1,0 +1,141 @@
+//! Inputs of the optimiser: counts at the knots, centred and in standard deviations.
+
+use serde::{Deserialize, Serialize};
+
+use tofsim::network::Histogram;
+
+use super::basis::{KNOTS, gather};
+
+/// Columns that are worked on together.
+pub const LANES: usize = 8;
+/// A constant 1 for the bias comes after the knots.
+pub const COLUMNS: usize = KNOTS + 1;
+/// Groups of columns.
+pub const TILES: usize = COLUMNS / LANES;
+/// Samples that are worked on together.
+pub const BLOCK: usize = 256;
+
+/// Some columns of a sample.
+pub type Tile = [f32; LANES];
+
+/// How counts at knots become inputs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scaling {
+    /// Mean at each knot [hits].
+    pub mean: Vec<f64>,
+    /// One over the standard deviation at each knot; 0 where nothing varies, so that the input is
+    /// 0 as well [1/hits].
+    pub inverse_sd: Vec<f64>,
+}
+
+impl Scaling {
+    /// Of the histograms given.
+    pub fn of(counts: &[Histogram]) -> Self {
+        let n = counts.len().max(1) as f64;
+        let mut mean = vec![0.0; KNOTS];
+        let add = |sums: &mut [f64], term: &dyn Fn(usize, f64) -> f64| {
+            for histogram in counts {
+                let knots = gather(histogram);
+                sums.iter_mut().enumerate().for_each(|(k, sum)| *sum += term(k, knots[k]) / n);
+            }
+        };
+        add(&mut mean, &|_, x| x);
+        let mut variance = vec![0.0; KNOTS];
+        add(&mut variance, &|k, x| (x - mean[k]) * (x - mean[k]));
+        // Rounding leaves a constant a little to vary.
+        let inverse = |(variance, mean): (&f64, &f64)| {
+            if *variance > 1e-20 * (1.0 + mean * mean) { 1.0 / variance.sqrt() } else { 0.0 }
+        };
+        let inverse_sd = variance.iter().zip(&mean).map(inverse).collect();
+        Scaling { mean, inverse_sd }
+    }
+
+    /// Inputs of a histogram, and a 1.
+    pub fn apply(&self, counts: &Histogram) -> [f32; COLUMNS] {
+        let knots = gather(counts);
+        let input = |k: usize| ((knots[k] - self.mean[k]) * self.inverse_sd[k]) as f32;
+        std::array::from_fn(|k| if k < KNOTS { input(k) } else { 1.0 })
+    }
+}
+
+/// Inputs of all samples, in blocks: `block[tile][sample]`. The last block ends in zeros.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Features {
+    blocks: Vec<Block>,
+    samples: usize,
+}
+
+/// Inputs of 256 samples, a tile after the other.
+pub type Block = Vec<Tile>;
+
+impl Features {
+    /// Of histograms.
+    pub fn new(counts: &[Histogram], scaling: &Scaling) -> Self {
+        let block = |counts: &[Histogram]| {
+            let mut block = vec![[0.0; LANES]; TILES * BLOCK];
+            for (sample, histogram) in counts.iter().enumerate() {
+                for (tile, columns) in scaling.apply(histogram).chunks(LANES).enumerate() {
+                    block[tile * BLOCK + sample].copy_from_slice(columns);
+                }
+            }
+            block
+        };
+        Features { blocks: counts.chunks(BLOCK).map(block).collect(), samples: counts.len() }
+    }
+
+    /// Number of samples.
+    pub fn samples(&self) -> usize {
+        self.samples
+    }
+
+    /// The blocks, each of 256 samples but the last.
+    pub fn blocks(&self) -> &[Block] {
+        &self.blocks
+    }
+}
+
+/// The samples of a tile in a block.
+#[inline(always)]
+pub fn tile(block: &Block, tile: usize) -> &[Tile] {
+    &block[tile * BLOCK..(tile + 1) * BLOCK]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inputs_have_mean_0_and_standard_deviation_1() {
+        let histogram = |s: usize| -> Histogram {
+            std::array::from_fn(|bin| ((s * 37 + bin * s) % 101) as u16)
+        };
+        let counts: Vec<_> = (0..300).map(histogram).collect();
+        let scaling = Scaling::of(&counts);
+        for k in 1..KNOTS {
+            let inputs = counts.iter().map(|counts| f64::from(scaling.apply(counts)[k]));
+            let (sum, squares) = inputs.fold((0.0, 0.0), |(sum, sq), x| (sum + x, sq + x * x));
+            assert!((sum / 300.0).abs() < 1e-5, "{k}");
+            assert!((squares / 300.0 - 1.0).abs() < 1e-5, "{k}");
+        }
+    }
+
+    #[test]
+    fn a_constant_bin_gives_0() {
+        let counts = vec![[1234; 256]; 3];
+        let scaling = Scaling::of(&counts);
+        assert_eq!(scaling.inverse_sd, vec![0.0; KNOTS]);
+        assert_eq!(scaling.apply(&counts[0])[..KNOTS], [0.0; KNOTS]);
+        assert_eq!(scaling.apply(&[7; 256])[KNOTS], 1.0);
+    }
+
+    #[test]
+    fn the_last_block_ends_in_zeros() {
+        let counts = vec![[1; 256]; BLOCK + 2];
+        let features = Features::new(&counts, &Scaling::of(&counts));
+        assert_eq!((features.samples(), features.blocks().len()), (BLOCK + 2, 2));
+        let last = tile(&features.blocks()[1], TILES - 1);
+        assert_eq!(last[1][LANES - 1], 1.0);
+        assert!(last[2..].iter().all(|columns| *columns == [0.0; LANES]));
+    }
+}

@@ -1,0 +1,61 @@
+//! From the optimiser's parameters to the network's weights: raw counts in, metres out.
+
+use tofsim::network::float::Float;
+
+use super::basis::{KNOTS, expand};
+use super::features::{COLUMNS, Scaling};
+
+/// The weights of parameters `x`, with the scaling of the inputs taken into them.
+pub fn fold(x: &[f64], neurons: usize, scaling: &Scaling) -> Float {
+    let rows = || x.chunks_exact(COLUMNS).take(neurons);
+    let raw = |row: &[f64]| -> Vec<f64> {
+        row.iter().zip(&scaling.inverse_sd).map(|(weight, scale)| weight * scale).collect()
+    };
+    let bias = |row: &[f64]| {
+        let centre = raw(row).iter().zip(&scaling.mean).map(|(w, mean)| w * mean).sum::<f64>();
+        row[KNOTS] - centre
+    };
+    let output = &x[neurons * COLUMNS..];
+    Float {
+        w1: rows().map(|row| expand(&raw(row))).collect(),
+        b1: rows().map(bias).collect(),
+        w2: output[..neurons].to_vec(),
+        b2: output[neurons],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tofsim::network::Histogram;
+
+    /// Parameters of a plausible network, and the scaling of its inputs.
+    fn parameters() -> (Vec<f64>, Scaling) {
+        let mut x: Vec<f64> = (0..8 * COLUMNS).map(|k| (k as f64 * 0.37).sin() * 0.05).collect();
+        x.extend((0..8).map(|k| 0.1 * (k as f64 - 3.5)));
+        x.push(0.2);
+        let mean = (0..KNOTS).map(|k| 50.0 + k as f64).collect();
+        (x, Scaling { mean, inverse_sd: vec![0.02; KNOTS] })
+    }
+
+    fn histogram(seed: usize) -> Histogram {
+        std::array::from_fn(|bin| ((bin * 31 + seed * 77) % 150) as u16)
+    }
+
+    #[test]
+    fn folding_changes_no_depth() {
+        let (x, scaling) = parameters();
+        let folded = fold(&x, 8, &scaling);
+        for seed in 0..20 {
+            let inputs = scaling.apply(&histogram(seed));
+            let hidden = |row: &[f64]| {
+                let products = row.iter().zip(inputs).map(|(w, x)| w * f64::from(x));
+                libm::tanh(products.sum())
+            };
+            let hidden = x.chunks_exact(COLUMNS).take(8).map(hidden);
+            let output = &x[8 * COLUMNS..];
+            let depth = hidden.zip(output).map(|(a, w)| a * w).sum::<f64>() + output[8];
+            assert!((folded.forward(&histogram(seed)) - depth).abs() < 1e-6);
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! Penalties that keep the weights within their words, by default those of Table 6.4: one-sided squared hinges.
+
+use serde::{Deserialize, Serialize};
+
+use crate::quantize::datapath::Datapath;
+
+use super::basis::KNOTS;
+use super::features::{COLUMNS, Scaling};
+use super::lm::Linear;
+
+/// Where the penalties begin, a little inside the words' ranges, and how steep they are.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Limits {
+    /// Factor on all squares; the data's mean square is near 1.
+    pub penalty: f64,
+    /// Magnitude of W1, of its word's range [1].
+    pub w1_share: f64,
+    /// Magnitude of B1, of its word's range [1].
+    pub b1_share: f64,
+    /// Magnitude of W2, of its word's range [1].
+    pub w2_share: f64,
+    /// Steepness for W2 [1/m].
+    pub w2_slope: f64,
+    /// Magnitude of B2, of its word's range [1].
+    pub b2_share: f64,
+    /// Steepness for B2 [1/m].
+    pub b2_slope: f64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Limits {
+            penalty: 0.5,
+            w1_share: 0.96,
+            b1_share: 0.975,
+            w2_share: 0.975,
+            w2_slope: 4.0,
+            b2_share: 0.98,
+            b2_slope: 100.0,
+        }
+    }
+}
+
+impl Limits {
+    /// The hinges for words.
+    pub fn hinges(&self, words: &Datapath) -> Hinges {
+        Hinges {
+            penalty: self.penalty,
+            w1: self.w1_share * words.w1.range(),
+            b1: self.b1_share * words.b1.range(),
+            w2_m: self.w2_share * words.w2.range(),
+            w2_slope: self.w2_slope,
+            b2_m: self.b2_share * words.b2.range(),
+            b2_slope: self.b2_slope,
+        }
+    }
+}
+
+/// The penalties of a network for certain words.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hinges {
+    penalty: f64,
+    w1: f64,
+    b1: f64,
+    w2_m: f64,
+    w2_slope: f64,
+    b2_m: f64,
+    b2_slope: f64,
+}
+
+/// A parameter and the derivative of a hinge with respect to it.
+type Slope = (usize, f64);
+
+impl Hinges {
+    /// Sum of the penalties of a network.
+    pub fn cost(&self, x: &[f64], neurons: usize, scaling: &Scaling) -> f64 {
+        let mut sum = 0.0;
+        self.visit(x, neurons, scaling, |hinge, _| sum += hinge * hinge);
+        self.penalty * sum
+    }
+
+    /// Adds the penalties to normal equations.
+    pub fn add(&self, x: &[f64], neurons: usize, scaling: &Scaling, linear: &mut Linear) {
+        self.visit(x, neurons, scaling, |hinge, slopes| {
+            linear.cost += self.penalty * hinge * hinge;
+            for (place, &(row, slope)) in slopes.iter().enumerate() {
+                linear.gradient[row] += self.penalty * hinge * slope;
+                for &(column, other) in &slopes[..=place] {
+                    linear.matrix.add(row, column, self.penalty * slope * other);
+                }
+            }
+        });
+    }
+
+    /// Shows all hinges above zero.
+    fn visit(
+        &self,
+        x: &[f64],
+        neurons: usize,
+        scaling: &Scaling,
+        mut hinge: impl FnMut(f64, &[Slope]),
+    ) {
+        let mut outside = |value: f64, limit: f64, slope: f64, slopes: &mut [Slope]| {
+            let excess = slope * (value.abs() - limit);
+            if excess > 0.0 {
+                let sign = slope * value.signum();
+                slopes.iter_mut().for_each(|(_, slope)| *slope *= sign);
+                hinge(excess, slopes);
+            }
+        };
+        for (k, row) in x.chunks_exact(COLUMNS).take(neurons).enumerate() {
+            let first = k * COLUMNS;
+            // B1 is what the centring leaves of the bias.
+            let mut slopes = vec![(first + KNOTS, 1.0)];
+            let mut bias = row[KNOTS];
+            let of_raw = scaling.inverse_sd.iter().zip(&scaling.mean);
+            for ((place, weight), (of_raw, mean)) in (first..).zip(row).zip(of_raw) {
+                let relative = of_raw / self.w1;
+                outside(weight * relative, 1.0, 1.0, &mut [(place, relative)]);
+                bias -= weight * of_raw * mean;
+                slopes.push((place, -of_raw * mean));
+            }
+            outside(bias, self.b1, 1.0, &mut slopes);
+        }
+        let output = neurons * COLUMNS;
+        for (place, weight) in (output..).zip(&x[output..output + neurons]) {
+            outside(*weight, self.w2_m, self.w2_slope, &mut [(place, 1.0)]);
+        }
+        let place = output + neurons;
+        outside(x[place], self.b2_m, self.b2_slope, &mut [(place, 1.0)]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::training::cholesky::Symmetric;
+    use tofsim::network::formats::Format;
+
+    #[test]
+    fn the_penalties_derivatives_are_their_differences() {
+        let mean = (0..KNOTS).map(|k| k as f64).collect();
+        let scaling = Scaling { mean, inverse_sd: vec![0.004; KNOTS] };
+        // Two neurons; every kind of hinge is above zero.
+        let mut x: Vec<f64> = (0..2 * COLUMNS).map(|k| (k as f64 * 0.37).sin() * 1.5).collect();
+        x[KNOTS] = 9.0;
+        x[COLUMNS + KNOTS] = -9.0;
+        x.extend([2.1, -2.2, -0.3]);
+        let (limits, size) = (Limits::default().hinges(&Datapath::default()), x.len());
+        let zeros = Symmetric::zeros(size);
+        let mut linear = Linear { cost: 0.0, matrix: zeros, gradient: vec![0.0; size] };
+        limits.add(&x, 2, &scaling, &mut linear);
+        assert!((linear.cost - limits.cost(&x, 2, &scaling)).abs() < 1e-12 * linear.cost);
+        for place in 0..size {
+            let mut moved = [x.clone(), x.clone()];
+            moved[0][place] += 1e-6;
+            moved[1][place] -= 1e-6;
+            let [above, below] = moved.map(|x| limits.cost(&x, 2, &scaling));
+            let (found, expected) = (2.0 * linear.gradient[place], (above - below) / 2e-6);
+            assert!((found - expected).abs() < 1e-5 * (1.0 + expected.abs()), "{place}");
+        }
+        // One square of slope 100 alone: its curvature is penalty 100^2.
+        assert!((linear.matrix.at(size - 1, size - 1) - 5000.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_network_well_inside_costs_nothing() {
+        let scaling = Scaling { mean: vec![10.0; KNOTS], inverse_sd: vec![0.1; KNOTS] };
+        let x = vec![0.001; 8 * COLUMNS + 9];
+        let hinges = |words: Datapath| Limits::default().hinges(&words);
+        assert_eq!(hinges(Datapath::default()).cost(&x, 8, &scaling), 0.0);
+        // A word that ends at 6e-5, and a weight of 1e-4 for raw counts.
+        let short = Datapath { w1: Format { width: 2, fraction: 15 }, ..Datapath::default() };
+        assert!(hinges(short).cost(&x, 8, &scaling) > 0.0);
+    }
+}

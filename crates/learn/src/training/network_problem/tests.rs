@@ -1,0 +1,118 @@
+use super::*;
+use crate::quantize::datapath::Datapath;
+use crate::training::limits::Limits;
+use tofsim::network::Histogram;
+
+/// 300 histograms, so that the last block is not full, and a smooth network.
+fn counts() -> Vec<Histogram> {
+    let one = |s: usize| -> Histogram {
+        std::array::from_fn(|bin| ((s * 37 + bin * s * 3 + bin * bin) % 401) as u16)
+    };
+    (0..300).map(one).collect()
+}
+
+fn with_problem<T>(neurons: usize, check: impl FnOnce(&NetworkProblem, &[f64]) -> T) -> T {
+    let counts = counts();
+    let scaling = Scaling::of(&counts);
+    let features = Features::new(&counts, &scaling);
+    let distances_m: Vec<f64> = (0..300).map(|s| 0.1 + s as f64 / 600.0).collect();
+    let weights: Vec<f64> = (0..300).map(|s| 500.0 + s as f64).collect();
+    let problem = NetworkProblem {
+        features: &features,
+        scaling: &scaling,
+        distances_m: &distances_m,
+        weights: &weights,
+        neurons,
+        // Much, so that a fault in its derivatives shows.
+        table_noise: 0.5,
+        hinges: Limits::default().hinges(&Datapath::default()),
+        held_out: None,
+    };
+    let x: Vec<f64> = (0..parameters(neurons)).map(|k| (k as f64).sin() * 0.1).collect();
+    check(&problem, &x)
+}
+
+/// Residuals of all samples, each with those of its neurons.
+fn residuals(problem: &NetworkProblem, x: &[f64]) -> Vec<f64> {
+    let mut activations = vec![0.0; problem.neurons];
+    let w2 = &x[problem.neurons * COLUMNS..];
+    let mut residuals = Vec::new();
+    for sample in 0..300 {
+        let block = &problem.features.blocks()[sample / BLOCK];
+        let depth = problem.depth(x, block, sample % BLOCK, &mut activations);
+        let u = problem.weights[sample];
+        residuals.push(u * (depth - problem.distances_m[sample]));
+        for (a, w2) in activations.iter().zip(w2) {
+            residuals.push(problem.table_noise * u * w2 * (1.0 - a * a));
+        }
+    }
+    residuals
+}
+
+#[test]
+fn the_normal_equations_are_those_of_finite_differences() {
+    for neurons in [1, 3] {
+        with_problem(neurons, |problem, x| {
+            let linear = problem.linearise(x);
+            let cost = problem.cost(x);
+            assert!((linear.cost - cost).abs() < 1e-12 * cost);
+            let r = residuals(problem, x);
+            let sum: f64 = r.iter().map(|r| r * r).sum();
+            assert!((sum / 300.0 - cost).abs() < 1e-9 * cost);
+            let column = |k: usize| -> Vec<f64> {
+                let mut moved = [x.to_vec(), x.to_vec()];
+                moved[0][k] += 1e-6;
+                moved[1][k] -= 1e-6;
+                let [above, below] = moved.map(|x| residuals(problem, &x));
+                above.iter().zip(&below).map(|(a, b)| (a - b) / 2e-6).collect()
+            };
+            let jacobian: Vec<Vec<f64>> = (0..x.len()).map(column).collect();
+            let dot = |a: &[f64], b: &[f64]| -> f64 {
+                a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() / 300.0
+            };
+            let norm: Vec<f64> = jacobian.iter().map(|column| dot(column, column).sqrt()).collect();
+            for (i, column) in jacobian.iter().enumerate() {
+                let (found, expected) = (linear.gradient[i], dot(column, &r));
+                assert!((found - expected).abs() < 1e-6 * norm[i] * cost.sqrt(), "{i}");
+                for j in 0..=i {
+                    let (found, expected) = (linear.matrix.at(i, j), dot(column, &jacobian[j]));
+                    assert!((found - expected).abs() < 1e-5 * norm[i] * norm[j], "{i} {j}");
+                }
+            }
+        });
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    with_problem(3, |problem, x| {
+        let result = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| (problem.cost(x), problem.linearise(x)))
+        };
+        assert!(result(1) == result(3));
+    });
+}
+
+#[test]
+fn errors_are_depth_minus_distance() {
+    with_problem(2, |problem, x| {
+        let errors = problem.errors(x);
+        let residuals = residuals(problem, x);
+        for sample in [0, 255, 256, 299] {
+            let expected = residuals[sample * 3] / problem.weights[sample];
+            assert!((errors[sample] - expected).abs() < 1e-12);
+        }
+    });
+}
+
+#[test]
+fn wider_vectors_change_no_bit() {
+    with_problem(3, |problem, x| {
+        let (narrow, wide) = (pulp::Arch::Scalar, pulp::Arch::new());
+        let sums = |arch: pulp::Arch| arch.dispatch(Linearise(problem, x, 0..2));
+        assert!(sums(narrow) == sums(wide));
+        let cost = |arch: pulp::Arch| arch.dispatch(Costs(problem, x, 0..2)).to_bits();
+        assert_eq!(cost(narrow), cost(wide));
+    });
+}

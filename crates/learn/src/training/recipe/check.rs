@@ -1,0 +1,119 @@
+//! Whether the numbers of a recipe make sense.
+
+use tofsim::error::{Input, Result};
+use tofsim::firmware::forward2::MOST_NEURONS;
+
+use super::{Recipe, Stage};
+
+/// Histograms of a scene that the test grid has (thesis section 4.1).
+const MOST_CHOICE: u64 = 5;
+/// Distances of the training grid; below that, some would be left out.
+const LEAST_SAMPLES: u64 = 201;
+
+impl Recipe {
+    /// That every number makes sense.
+    ///
+    /// # Errors
+    /// Naming the first that does not.
+    pub fn check(&self) -> Result<()> {
+        let positive = |field: &str, value: f64| match value > 0.0 && value.is_finite() {
+            true => Ok(()),
+            false => Err(fault(field, value, "expected a number above 0")),
+        };
+        let at_least = |field: &str, value: u64, least: u64| match value >= least {
+            true => Ok(()),
+            false => Err(fault(field, value, format!("expected {least} or more"))),
+        };
+        at_least("neurons", self.neurons as u64, 1)?;
+        if self.neurons > MOST_NEURONS {
+            let expected =
+                format!("expected {MOST_NEURONS} at most, as the firmware has ports for");
+            return Err(fault("neurons", self.neurons, expected).into());
+        }
+        at_least("checkpoint_epochs", self.checkpoint_epochs, 1)?;
+        if self.validation > 0 {
+            at_least("validation", self.validation, LEAST_SAMPLES)?;
+            at_least("optimiser.max_fail", self.optimiser.max_fail.into(), 1)?;
+        }
+        if self.stages.is_empty() {
+            return Err(fault("stages", 0, "expected one stage or more").into());
+        }
+        if self.start.lengths.is_empty() {
+            return Err(fault("start.lengths", "[]", "expected one length or more").into());
+        }
+        let mut before = usize::MAX;
+        let finish = &self.finish;
+        let end =
+            Stage { candidates: finish.candidates, epochs: finish.epochs, samples: finish.samples };
+        for (place, stage) in self.stages.iter().chain([&end]).enumerate() {
+            let name = match place == self.stages.len() {
+                true => "finish".to_owned(),
+                false => format!("stages[{place}]"),
+            };
+            at_least(&format!("{name}.candidates"), stage.candidates as u64, 1)?;
+            at_least(&format!("{name}.epochs"), stage.epochs, 1)?;
+            at_least(&format!("{name}.samples"), stage.samples, LEAST_SAMPLES)?;
+            if stage.candidates > before {
+                let expected = format!("expected {before} at most, as in the stage before");
+                return Err(fault(&format!("{name}.candidates"), stage.candidates, expected).into());
+            }
+            before = stage.candidates;
+        }
+        at_least("finish.blocks", finish.blocks as u64, 1)?;
+        if !(1..=MOST_CHOICE).contains(&finish.choice) {
+            let expected = format!("expected 1 to {MOST_CHOICE}");
+            return Err(fault("finish.choice", finish.choice, expected).into());
+        }
+        for (field, value) in [
+            ("finish.least", finish.least),
+            ("finish.most", finish.most),
+            ("optimiser.mu", self.optimiser.mu),
+            ("optimiser.mu_max", self.optimiser.mu_max),
+            ("optimiser.mu_dec", self.optimiser.mu_dec),
+            ("limits.w1_share", self.limits.w1_share),
+            ("limits.b1_share", self.limits.b1_share),
+            ("limits.w2_share", self.limits.w2_share),
+            ("limits.b2_share", self.limits.b2_share),
+        ] {
+            positive(field, value)?;
+        }
+        if self.optimiser.mu_inc <= 1.0 || !self.optimiser.mu_inc.is_finite() {
+            return Err(fault("optimiser.mu_inc", self.optimiser.mu_inc, "expected above 1").into());
+        }
+        for (field, value) in [("finish.power", finish.power), ("finish.keep", finish.keep)] {
+            if !(0.0..=1.0).contains(&value) {
+                return Err(fault(field, value, "expected 0 to 1").into());
+            }
+        }
+        if finish.least > finish.most {
+            let expected = format!("expected finish.most = {} at most", finish.most);
+            return Err(fault("finish.least", finish.least, expected).into());
+        }
+        self.formats.check()?;
+        self.weighting.check()
+    }
+}
+
+fn fault(field: &str, value: impl std::fmt::Display, expected: impl std::fmt::Display) -> Input {
+    Input::new("recipe", expected).field(field).value(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::parse;
+
+    #[test]
+    fn what_makes_no_sense_is_named() {
+        let fault = |text: &str, set: &[&str]| parse(text, set).unwrap_err().to_string();
+        assert!(fault("neuron = 3", &[]).contains("unknown field `neuron`"));
+        assert!(fault("", &["limits.b3=1"]).starts_with("--with limits.b3=1: unknown field"));
+        assert!(fault("", &["neurons"]).contains("expected key=value"));
+        assert!(fault("", &["neurons=0"]).contains("neurons = 0: expected 1 or more"));
+        assert!(fault("", &["finish.choice=6"]).contains("finish.choice = 6: expected 1 to 5"));
+        assert!(fault("", &["finish.samples=5"]).contains("finish.samples = 5: expected 201"));
+        assert!(fault("", &["finish.candidates=9"]).contains("expected 3 at most"));
+        assert!(fault("", &["finish.keep=1.5"]).contains("finish.keep = 1.5: expected 0 to 1"));
+        assert!(fault("", &["optimiser.mu=nan"]).contains("optimiser.mu = NaN"));
+        assert!(fault("stages = []", &[]).contains("stages = 0: expected one stage"));
+    }
+}

@@ -1,0 +1,274 @@
+//! The tournament: many starts, of which ever fewer are trained ever longer, and a last one that is
+//! trained with weights that follow its errors.
+//!
+//! All that decides how it goes on is [`State`], so that a training that was stopped and one that was
+//! not end alike.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+
+use crate::dataset::{Grid, Source};
+use crate::quantize::datapath::Circuit;
+use tofsim::error::{Error, Result};
+use tofsim::network::float::Float;
+
+use super::accuracy::{Row, by_distance, worst};
+use super::data::{self, StageData};
+use super::equalise::{follow, ratios};
+use super::features::Scaling;
+use super::fold::fold;
+use super::lm::{Lm, Problem, Stop};
+use super::recipe::Recipe;
+use super::samples::{Samples, digest};
+use super::start::{Purpose, start};
+use super::state::{Best, Candidate, Point, State};
+
+/// A tournament and its data.
+#[derive(Debug)]
+pub struct Tournament<'a> {
+    recipe: &'a Recipe,
+    source: &'a Source,
+    seed: u64,
+    /// What decides how it goes on.
+    pub state: State,
+    data: StageData,
+    held_out: Option<StageData>,
+    choice: Samples,
+}
+
+impl<'a> Tournament<'a> {
+    /// At the beginning.
+    ///
+    /// # Errors
+    /// When no data can be drawn.
+    pub fn new(recipe: &'a Recipe, source: &'a Source, seed: u64) -> Result<Self> {
+        let samples = data::stage_samples(recipe, source, seed, 0)?;
+        let candidates = (0..recipe.stages[0].candidates).map(|number| Candidate {
+            start: number,
+            lm: Lm::new(start(&recipe.start, recipe.neurons, seed, number), &recipe.optimiser),
+            factors: Vec::new(),
+        });
+        let scaling = Scaling::of(&samples.counts);
+        let held_out = data::held_out(recipe, source, seed)?;
+        let held_out = held_out.map(|samples| StageData::new(&samples, &scaling));
+        let data = StageData::new(&samples, &scaling);
+        let mut used = format!("{:016x}", data.digest);
+        if let Some(held_out) = &held_out {
+            used = format!("{:016x}", digest(held_out.digest, used.as_bytes()));
+        }
+        let state = State {
+            stage: 0,
+            block: 0,
+            epochs: 0,
+            data: used,
+            scaling,
+            candidates: candidates.collect(),
+            best: None,
+            curve: Vec::new(),
+        };
+        let choice = data::choice_samples(recipe, source, seed)?;
+        Ok(Tournament { recipe, source, seed, state, data, held_out, choice })
+    }
+
+    /// Where another left off.
+    ///
+    /// # Errors
+    /// When no data can be drawn.
+    pub fn resume(recipe: &'a Recipe, source: &'a Source, seed: u64, state: State) -> Result<Self> {
+        let samples = data::stage_samples(recipe, source, seed, state.stage)?;
+        let data = StageData::new(&samples, &state.scaling);
+        let held_out = data::held_out(recipe, source, seed)?;
+        let held_out = held_out.map(|samples| StageData::new(&samples, &state.scaling));
+        let choice = data::choice_samples(recipe, source, seed)?;
+        Ok(Tournament { recipe, source, seed, state, data, held_out, choice })
+    }
+
+    /// Whether all is done.
+    pub fn is_over(&self) -> bool {
+        self.in_finish() && self.state.block >= self.recipe.finish.blocks
+    }
+
+    fn in_finish(&self) -> bool {
+        self.state.stage >= self.recipe.stages.len()
+    }
+
+    /// Epochs of the stage or block that is going on.
+    fn target(&self) -> u64 {
+        match self.recipe.stages.get(self.state.stage) {
+            Some(stage) => stage.epochs,
+            None => self.recipe.finish.epochs,
+        }
+    }
+
+    /// Epochs of all candidates that are still to be made, times their samples, of all there are.
+    pub fn progress(&self) -> (u64, u64) {
+        let (mut done, mut all) = (0, 0);
+        for (place, stage) in self.recipe.stages.iter().enumerate() {
+            let work = |epochs| stage.candidates as u64 * stage.samples * epochs;
+            all += work(stage.epochs);
+            done += match place.cmp(&self.state.stage) {
+                std::cmp::Ordering::Less => work(stage.epochs),
+                std::cmp::Ordering::Equal => work(self.state.epochs),
+                std::cmp::Ordering::Greater => 0,
+            };
+        }
+        let finish = &self.recipe.finish;
+        let work = |epochs| finish.candidates as u64 * finish.samples * epochs;
+        all += work(finish.blocks as u64 * finish.epochs);
+        if self.in_finish() {
+            done += work(self.state.block as u64 * finish.epochs + self.state.epochs);
+        }
+        (done, all)
+    }
+
+    /// Trains until the next checkpoint, or until `stop` is set; what was done since the last one is
+    /// then lost.
+    ///
+    /// # Errors
+    /// When a cost is no number, data cannot be drawn, or the user stops.
+    pub fn advance(&mut self, stop: Option<&AtomicBool>) -> Result<()> {
+        if self.is_over() {
+            return Ok(());
+        }
+        if self.in_finish() && self.state.epochs == 0 {
+            self.reweigh();
+        }
+        let epochs = self.recipe.checkpoint_epochs.min(self.target() - self.state.epochs);
+        self.train(epochs, stop)?;
+        self.state.epochs += epochs;
+        self.record();
+        let resting = self.state.candidates.iter().all(|candidate| candidate.lm.stop.is_some());
+        if self.state.epochs < self.target() && !resting {
+            return Ok(());
+        }
+        self.state.epochs = 0;
+        if self.in_finish() {
+            self.judge()?;
+            self.state.block += 1;
+            return Ok(());
+        }
+        self.next_stage()
+    }
+
+    /// Adds to the learning curve, and lets those rest that gain too little.
+    fn record(&mut self) {
+        let (stage, block) = (self.state.stage, self.state.block);
+        for candidate in &mut self.state.candidates {
+            let (start, lm) = (candidate.start, &mut candidate.lm);
+            let Lm { epochs, cost, mu, validation, .. } = *lm;
+            let same =
+                |point: &&Point| (point.stage, point.block, point.start) == (stage, block, start);
+            if let Some(before) = self.state.curve.iter().rev().find(same)
+                && before.cost - cost < self.recipe.least_gain * before.cost
+            {
+                lm.stop = lm.stop.or(Some(Stop::Gain));
+            }
+            self.state.curve.push(Point {
+                stage,
+                block,
+                start,
+                epochs,
+                cost,
+                mu,
+                validation,
+                ratio: None,
+            });
+        }
+    }
+
+    fn train(&mut self, epochs: u64, stop: Option<&AtomicBool>) -> Result<()> {
+        let (recipe, data, scaling) = (self.recipe, &self.data, &self.state.scaling);
+        let held_out = self.held_out.as_ref();
+        self.state.candidates.par_iter_mut().try_for_each(|candidate| {
+            let weights = |data: &StageData| data.weights(recipe, &candidate.factors);
+            let (weights, others) = (weights(data), held_out.map(weights).unwrap_or_default());
+            let held_out = held_out.map(|data| data.problem(recipe, scaling, &others, None));
+            let problem = data.problem(recipe, scaling, &weights, held_out.as_ref());
+            for _ in 0..epochs {
+                if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+                    return Err(Error::Interrupted);
+                }
+                candidate.lm.epoch(&problem, &recipe.optimiser)?;
+            }
+            if candidate.lm.stop.is_some() {
+                candidate.lm.cost = problem.cost(&candidate.lm.x);
+            }
+            Ok(())
+        })
+    }
+
+    /// Keeps the best for the next stage, and draws its data.
+    fn next_stage(&mut self) -> Result<()> {
+        let state = &mut self.state;
+        state.stage += 1;
+        let keep = match self.recipe.stages.get(state.stage) {
+            Some(stage) => stage.candidates,
+            None => self.recipe.finish.candidates,
+        };
+        state
+            .candidates
+            .sort_by(|a, b| a.lm.cost.total_cmp(&b.lm.cost).then(a.start.cmp(&b.start)));
+        state.candidates.truncate(keep);
+        state.candidates.iter_mut().for_each(|one| one.lm.restart(&self.recipe.optimiser));
+        let samples = data::stage_samples(self.recipe, self.source, self.seed, state.stage)?;
+        self.data = StageData::new(&samples, &state.scaling);
+        let both = digest(self.data.digest, state.data.as_bytes());
+        state.data = format!("{both:016x}");
+        Ok(())
+    }
+
+    /// Gives more weight to distances where the error is larger than the line has it.
+    fn reweigh(&mut self) {
+        let recipe = self.recipe;
+        for candidate in &mut self.state.candidates {
+            let problem = self.data.problem(recipe, &self.state.scaling, &[], None);
+            let errors_m = problem.errors(&candidate.lm.x);
+            let ratios = ratios(&self.data.distances_m, &errors_m, &recipe.weighting);
+            follow(&mut candidate.factors, &ratios, &recipe.finish);
+            candidate.lm.restart(&recipe.optimiser);
+        }
+    }
+
+    /// Keeps the block if none was better at its worst distance, in fixed point.
+    fn judge(&mut self) -> Result<()> {
+        for candidate in &self.state.candidates {
+            let (start, block) = (candidate.start, self.state.block + 1);
+            let folded = fold(&candidate.lm.x, self.recipe.neurons, &self.state.scaling);
+            let circuit = Circuit::new(&folded, self.recipe.formats)?;
+            // What does not fit the words cannot be the best.
+            let fits = circuit.saturated_weights == 0;
+            let rows = fits.then(|| errors(&circuit, &self.choice));
+            let ratio = rows.map_or(f64::INFINITY, |rows| worst(&rows, &self.recipe.weighting));
+            let point = self.state.curve.iter_mut().rev().find(|point| point.start == start);
+            point.into_iter().for_each(|point| point.ratio = Some(ratio));
+            if fits && self.state.best.as_ref().is_none_or(|best| ratio < best.ratio) {
+                self.state.best = Some(Best { start, block, ratio, x: candidate.lm.x.clone() });
+            }
+        }
+        Ok(())
+    }
+
+    /// The network to keep: the best block, or the best candidate if none fits the words.
+    pub fn result(&self) -> Float {
+        let best = self.state.best.as_ref().map(|best| &best.x);
+        let x = best.unwrap_or(&self.state.candidates[0].lm.x);
+        fold(x, self.recipe.neurons, &self.state.scaling)
+    }
+
+    /// Errors of a network on histograms that neither training nor choice has seen, one a scene.
+    ///
+    /// # Errors
+    /// When no data can be drawn.
+    pub fn test(&self, circuit: &Circuit) -> Result<Vec<Row>> {
+        let grid = Grid::test();
+        let len = grid.distances_m.count * grid.lights();
+        let samples = data::draw(self.source, grid, len, self.seed, Purpose::Test)?;
+        Ok(errors(circuit, &samples))
+    }
+}
+
+/// Errors by distance, with the firmware's formats bit for bit those of the firmware.
+fn errors(circuit: &Circuit, samples: &Samples) -> Vec<Row> {
+    by_distance(samples, |histogram| circuit.depth_m(histogram))
+}

@@ -1,0 +1,113 @@
+//! How much an error counts at a distance: in parts of the line that the network is to stay below.
+
+use serde::{Deserialize, Serialize};
+
+use crate::evaluation::thesis;
+use tofsim::error::{Input, Result};
+
+/// The line, and more weight at both ends of the range, where there are no neighbours to learn from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Weighting {
+    /// Distances of the line's corners, ascending [m].
+    pub distances_m: Vec<f64>,
+    /// Twice the standard deviation of the depth to stay below at each [mm].
+    pub two_sd_mm: Vec<f64>,
+    /// Mean error to stay below at any distance; decides between the blocks of the end [mm].
+    pub mean_mm: f64,
+    /// Extra weight at the nearest distance [1].
+    pub near: f64,
+    /// Extra weight at the farthest distance [1].
+    pub far: f64,
+    /// Length over which the extra weight falls by e [m].
+    pub reach_m: f64,
+}
+
+impl Default for Weighting {
+    /// Table 5.5 of the thesis is the line.
+    fn default() -> Self {
+        Weighting {
+            distances_m: thesis::DISTANCES_M.to_vec(),
+            two_sd_mm: thesis::FLOAT.two_sd_mm.to_vec(),
+            mean_mm: 1.0,
+            near: 0.5,
+            far: 2.5,
+            reach_m: 0.006,
+        }
+    }
+}
+
+impl Weighting {
+    /// That there is a line, above zero.
+    pub(super) fn check(&self) -> Result<()> {
+        let fault = |field: &str, expected: &str| {
+            Err(Input::new("recipe", expected).field(format!("weighting.{field}")).into())
+        };
+        if self.distances_m.is_empty() || !self.distances_m.is_sorted_by(|a, b| a < b) {
+            return fault("distances_m", "expected ascending distances, one at least");
+        }
+        if self.two_sd_mm.len() != self.distances_m.len() {
+            return fault("two_sd_mm", "expected one a distance");
+        }
+        let extra = [self.near, self.far];
+        let above_0 = |x: &f64| *x > 0.0 && x.is_finite();
+        if !self.two_sd_mm.iter().all(above_0) || ![self.reach_m, self.mean_mm].iter().all(above_0)
+        {
+            return fault("two_sd_mm", "expected numbers above 0, and so for reach_m and mean_mm");
+        }
+        match extra.iter().all(|extra| *extra >= 0.0 && extra.is_finite()) {
+            true => Ok(()),
+            false => fault("near", "expected 0 or more, and so for far"),
+        }
+    }
+
+    /// The line at a distance, straight between corners [mm].
+    pub fn line_mm(&self, distance_m: f64) -> f64 {
+        let (distances, line) = (&self.distances_m, &self.two_sd_mm);
+        let next = distances.partition_point(|&corner| corner < distance_m);
+        if next == 0 {
+            return line[0];
+        }
+        if next == distances.len() {
+            return line[next - 1];
+        }
+        let share = (distance_m - distances[next - 1]) / (distances[next] - distances[next - 1]);
+        line[next - 1] + share * (line[next] - line[next - 1])
+    }
+
+    /// Weight u of an error at a distance [1/m].
+    pub fn weight(&self, distance_m: f64) -> f64 {
+        let (first, last) = (self.distances_m[0], self.distances_m[self.distances_m.len() - 1]);
+        let near = self.near * libm::exp(-(distance_m - first).abs() / self.reach_m);
+        let far = self.far * libm::exp(-(last - distance_m).abs() / self.reach_m);
+        2000.0 / self.line_mm(distance_m) * (1.0 + near + far)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_weight_is_one_over_the_line_s_standard_deviation_and_more_at_the_ends() {
+        let weighting = Weighting::default();
+        assert!((weighting.line_mm(0.35) - 3.1).abs() < 1e-12);
+        assert!((weighting.weight(0.35) - 1.0 / 1.55e-3).abs() < 1e-9);
+        assert!((weighting.weight(0.1) - 1.5 / 0.8e-3).abs() < 1e-9);
+        assert!((weighting.weight(0.6) - 3.5 / 2.45e-3).abs() < 1e-9);
+        assert_eq!((weighting.line_mm(0.0), weighting.line_mm(1.0)), (1.6, 4.9));
+    }
+
+    #[test]
+    fn a_line_without_sense_is_refused() {
+        let fault = |change: fn(&mut Weighting)| {
+            let mut weighting = Weighting::default();
+            change(&mut weighting);
+            weighting.check().unwrap_err().to_string()
+        };
+        assert!(fault(|w| w.distances_m.swap(0, 1)).contains("weighting.distances_m"));
+        assert!(fault(|w| w.two_sd_mm.truncate(2)).contains("one a distance"));
+        assert!(fault(|w| w.two_sd_mm[3] = 0.0).contains("above 0"));
+        assert!(fault(|w| w.far = f64::NAN).contains("0 or more"));
+    }
+}

@@ -1,0 +1,60 @@
+//! Histograms that no light makes.
+
+use proptest::prelude::*;
+use tofsim::firmware::centroid_estimator::Params;
+use tofsim::network::{Histogram, Network};
+use tofsim_learn::estimation::by_name::{Acquisition, Kind, Needs};
+use tofsim_learn::estimation::peak_detection::PeakDetection;
+use tofsim_learn::estimation::subtraction::Subtraction;
+use tofsim_learn::estimation::{Estimator, Failure, Pair};
+
+use super::{acquisition, bins};
+
+fn any_histogram() -> impl Strategy<Value = Histogram> {
+    let counts = prop_oneof![
+        prop::collection::vec(any::<u16>(), 256),
+        prop::collection::vec(0u16..200, 256),
+        prop::collection::vec(prop_oneof![9 => Just(0u16), 1 => 0u16..3000], 256),
+        any::<u16>().prop_map(|count| vec![count; 256]),
+        (0..256usize, any::<u16>(), 0u16..80).prop_map(|(bin, count, floor)| {
+            let mut counts = vec![floor; 256];
+            counts[bin] = count;
+            counts
+        }),
+    ];
+    counts.prop_map(|counts| std::array::from_fn(|bin| counts[bin]))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn no_histogram_makes_an_estimator_panic_or_answer_with_nonsense(
+        histogram in any_histogram(),
+        profile in prop::sample::select(vec!["ideal", "uniform", "table6_3"]),
+        shots in prop::sample::select(vec![1u64, 500, 30_000, 65_535]),
+    ) {
+        let (bins, network) = (bins(profile), Network::builtin("ideal").unwrap().unwrap());
+        let acquisition = Acquisition { shots, ..acquisition(&bins) };
+        let needs = Needs { acquisition, network: &network, centroid: &Params::default() };
+        for kind in [Kind::Network, Kind::NetworkFloat, Kind::Peak, Kind::Likelihood, Kind::Matched] {
+            match kind.estimator(&needs).unwrap().estimate(&histogram) {
+                Ok(distance_m) => prop_assert!(distance_m.abs() < 50.0, "{kind:?} {distance_m}"),
+                Err(failure) => prop_assert!(!failure.to_string().is_empty()),
+            }
+        }
+        let subtraction = Subtraction { detection: PeakDetection::new(shots) };
+        let found = subtraction.estimate_pair(&Pair { dark: [200; 256], lit: histogram });
+        prop_assert!(found.is_err() || found.is_ok_and(f64::is_finite));
+    }
+}
+
+#[test]
+fn an_empty_histogram_has_no_distance() {
+    let (bins, network) = (bins("uniform"), Network::builtin("uniform").unwrap().unwrap());
+    let (acquisition, centroid) = (acquisition(&bins), &Params::default());
+    let needs = Needs { acquisition, network: &network, centroid };
+    for kind in [Kind::Peak, Kind::Likelihood, Kind::Matched] {
+        assert_eq!(kind.estimator(&needs).unwrap().estimate(&[0; 256]), Err(Failure::NoHits));
+    }
+}

@@ -1,0 +1,3 @@
+//! Estimators, held to what others compute.
+
+mod estimators;

@@ -1,0 +1,140 @@
+//! Clear, hits and readout as in a frame, each overlapped by the others; all three at once at equal
+//! and different addresses; and then hits of one word until it wraps.
+
+use crate::golden::block::{Block, Latency, Setting, Spec};
+use crate::golden::cover::Cover;
+use crate::golden::draw::Draw;
+use crate::golden::record::record;
+use crate::golden::timing::CLK_125;
+use tofsim::firmware::histogram_builder::In;
+use tofsim::firmware::tof_top::TofTop;
+use tofsim::kernel::U;
+
+/// Lines before one word is hit until it wraps.
+const MIXED: usize = 20_000;
+/// Lines in all, if not told otherwise.
+const LINES: usize = MIXED + 67_500;
+/// Hits of that word before it is cleared.
+const MANY: u64 = 2600;
+
+pub(super) const SPEC: Spec = Spec {
+    name: "histogram_builder",
+    scope: "histogram_builder",
+    timing: CLK_125,
+    reset: None,
+    fast: &[],
+    latency: &[
+        Latency { from: "clear", to: "count", cycles: |_| 0 },
+        Latency { from: "tdc_valid", to: "count", cycles: |_| 0 },
+    ],
+    glue: None,
+    record: |spec, setting| {
+        let cycles = setting.cycles.or(Some(LINES));
+        record(spec, &Setting { cycles, ..setting.clone() }, HistogramBuilder::new(setting))
+    },
+};
+
+struct HistogramBuilder {
+    bins: u64,
+    /// The word that counts on.
+    hot: u64,
+    /// It has been seen close to its highest count.
+    full: bool,
+    cleared: Cover,
+    hit: Cover,
+    shown: Cover,
+    overlaps: Cover,
+    sizes: Cover,
+}
+
+impl HistogramBuilder {
+    fn new(setting: &Setting) -> Self {
+        let words = 0..setting.bins;
+        HistogramBuilder {
+            bins: setting.bins,
+            hot: setting.seed % setting.bins,
+            full: false,
+            cleared: Cover::new("words cleared that were not 0", words.clone()),
+            hit: Cover::new("words hit", words.clone()),
+            shown: Cover::new("words shown that are not 0", words),
+            overlaps: Cover::new("clear, tdc_valid, read_en as bits x 5 + equal addresses", 0..40),
+            sizes: Cover::new("bits of a count shown, or wrapped (17)", 1..=17),
+        }
+    }
+}
+
+/// Which of the three addresses are equal: none, two of them, all.
+fn equal(i: &In) -> u64 {
+    let [clear, hit, read] = [i.clear_addr, i.tdc_code, i.read_addr];
+    match (clear == hit, hit == read, read == clear) {
+        (true, true, _) => 4,
+        (true, false, _) => 1,
+        (false, true, _) => 2,
+        (false, false, true) => 3,
+        (false, false, false) => 0,
+    }
+}
+
+impl Block for HistogramBuilder {
+    type Stimulus = In;
+
+    fn stimulus(&mut self, cycle: usize, top: &TofTop, draw: &mut Draw) -> In {
+        let histogram = &top.histogram_builder;
+        let (round, word) = (cycle as u64 / self.bins, cycle as u64 % self.bins);
+        let near = draw.below(self.bins);
+        let any =
+            |draw: &mut Draw| U::new(if draw.one_in(2) { near } else { draw.below(self.bins) });
+        let mut i = In {
+            clear_addr: any(draw),
+            tdc_code: any(draw),
+            read_addr: any(draw),
+            clear: draw.one_in(2),
+            tdc_valid: draw.one_in(2),
+            read_en: draw.one_in(2),
+        };
+        let hammers = cycle >= MIXED && !draw.one_in(64);
+        match round % 5 {
+            _ if hammers => (i.clear, i.tdc_valid, i.tdc_code) = (false, true, U::new(self.hot)),
+            0 => (i.clear, i.clear_addr) = (true, U::new(word)),
+            1 | 2 => {
+                let code = if round % 5 == 1 { word } else { self.hot };
+                (i.clear, i.tdc_valid, i.tdc_code) = (false, !draw.one_in(8), U::new(code));
+            }
+            3 => {
+                (i.clear, i.tdc_valid) = (false, word != self.hot && draw.one_in(4));
+                (i.read_en, i.read_addr) = (true, U::new(word));
+            }
+            _ => {}
+        }
+        // The word that counts on is not cleared before it has many hits.
+        let count = |address: U<8>| histogram.ram[address.index()].get();
+        let may_clear = cycle < MIXED && count(U::new(self.hot)) >= MANY;
+        i.clear &= i.clear_addr != self.hot || may_clear;
+
+        let [clear, hit] = [i.clear, i.tdc_valid && !i.clear];
+        let shown = histogram.count(&i).get();
+        self.cleared.see_if(clear && count(i.clear_addr) > 0, i.clear_addr.get());
+        self.hit.see_if(hit, i.tdc_code.get());
+        self.shown.see_if(shown > 0 && !clear && !hit, i.read_addr.get());
+        self.sizes.see(64 - u64::from(shown.leading_zeros()));
+        let is_hot = hit && i.tdc_code == self.hot && i.read_en;
+        self.sizes.see_if(self.full && is_hot && shown < 64, 17);
+        self.full |= shown >= 65_472;
+        let bits = [i.clear, i.tdc_valid, i.read_en];
+        let bits = bits.iter().fold(0, |sum, &bit| sum * 2 + u64::from(bit));
+        self.overlaps.see(bits * 5 + equal(&i));
+        i
+    }
+
+    fn settle(&mut self, i: &In, top: &mut TofTop) {
+        top.nets.count = top.histogram_builder.count(i);
+    }
+
+    fn edge(&mut self, i: &In, top: &mut TofTop) {
+        top.histogram_builder.tick(i);
+    }
+
+    fn coverage(self) -> Vec<Cover> {
+        vec![self.cleared, self.hit, self.shown, self.overlaps, self.sizes]
+    }
+}

@@ -1,0 +1,178 @@
+//! The whole firmware: a scenario as it is, or short frames under control signals that change at
+//! random, also in the middle of a frame, and abandon some.
+
+use crate::golden::block::{Setting, Spec};
+use crate::golden::cover::Cover;
+use crate::golden::draw::Draw;
+use crate::golden::timing::OWN_WITH_RESET;
+use crate::golden::{Vectors, top};
+use tofsim::firmware::frame_ctrl::State;
+use tofsim::firmware::tof_top::TofTop;
+use tofsim::scenario::Control;
+use tofsim::sim::setup::Setup;
+
+pub(super) const SPEC: Spec = Spec {
+    name: "tof_top",
+    scope: "",
+    timing: OWN_WITH_RESET,
+    reset: None,
+    fast: &[
+        "laser_on_lvds_p",
+        "laser_on_lvds_n",
+        "laser_on",
+        "rst_250",
+        "reset_sync_250.rst_sync",
+        "reset_sync_250.meta",
+        "vcsel_driver.laser_pulse",
+        "vcsel_driver.laser_on",
+        "vcsel_driver.ddr_output.q",
+        "lvds_output.o",
+        "lvds_output.ob",
+    ],
+    latency: &[],
+    glue: None,
+    record,
+};
+
+/// A little more than Clear takes after a reset [ns].
+const ACQUIRE_NS: u64 = 2_120;
+/// From the end of `dsp_rst` to the first shot, and to the start of the estimator [ns].
+const SHOTS_NS: u64 = 2_040;
+const ESTIMATE_NS: u64 = 8 * 320;
+/// A whole frame [ns].
+const FRAME_NS: u64 = 5_000;
+/// Nothing.
+const NO_CHANGE: Control = Control {
+    at_us: 0.0,
+    laser_freq: None,
+    mode: None,
+    laser_en: None,
+    dsp_en: None,
+    dsp_rst: None,
+    rst: None,
+};
+/// Shots of a frame under random control.
+const SHOTS: u16 = 8;
+
+fn record(spec: &'static Spec, setting: &Setting) -> tofsim::error::Result<Vectors> {
+    if setting.as_told {
+        return top::record(spec, &setting.setup, setting, &mut |_| ());
+    }
+    let mut setup = setting.setup.clone();
+    setup.params.frame_ctrl.shots_per_frame = SHOTS;
+    let cycles = setting.cycles.unwrap_or(RANDOM + PLANTED);
+    let setting = Setting { cycles: Some(cycles), ..setting.clone() };
+    setup.scenario.control = control(&setup, &setting);
+    let mut covered = Covered::new();
+    let vectors = top::record(spec, &setup, &setting, &mut |top| covered.see(top))?;
+    Ok(Vectors { coverage: covered.goals, ..vectors })
+}
+
+/// Cycles under random control, and then under pulses planted in the first shots of a frame.
+const RANDOM: usize = 20_000;
+const PLANTED: usize = 28_000;
+
+/// Control signals that change at random times; some frames are abandoned twice, the second time in
+/// Acquire.
+fn control(setup: &Setup, setting: &Setting) -> Vec<Control> {
+    let mut draw = Draw::new(setting.seed, u64::MAX);
+    let mut changes = Vec::new();
+    let first_us = setup.pll().locked_at.fs() as f64 * 1e-9;
+    let (mut at_ns, end_ns) = (0, 8 * setting.cycles().min(RANDOM) as u64);
+    let mut again = false;
+    while at_ns < end_ns {
+        let mut change = Control {
+            at_us: first_us + at_ns as f64 * 1e-3,
+            laser_freq: draw.one_in(2).then(|| draw.below(4)),
+            mode: draw.one_in(8).then(|| draw.below(2)),
+            laser_en: draw.one_in(8).then(|| !draw.one_in(4)),
+            dsp_en: draw.one_in(4).then(|| !draw.one_in(4)),
+            dsp_rst: (again || draw.one_in(20)).then_some(true),
+            rst: draw.one_in(60).then_some(true),
+        };
+        changes.push(change.clone());
+        let pause = if draw.one_in(3) { 3000 } else { 200 };
+        at_ns += 1 + draw.below(pause);
+        if change.dsp_rst.is_some() || change.rst.is_some() {
+            change.at_us = first_us + at_ns as f64 * 1e-3;
+            (change.dsp_rst, change.rst) = (Some(false), Some(false));
+            changes.push(change);
+            again = draw.one_in(3);
+            at_ns += if again { ACQUIRE_NS + draw.below(600) } else { 1 + draw.below(12_000) };
+        } else {
+            again = false;
+        }
+    }
+    while at_ns < 8 * setting.cycles() as u64 {
+        for (span_ns, change) in planted(&mut draw) {
+            changes.push(Control { at_us: first_us + at_ns as f64 * 1e-3, ..change });
+            at_ns += span_ns;
+        }
+    }
+    changes
+}
+
+/// A frame begun anew, and in it a short reset, another mode or a hold, in some cycle of the shots or
+/// about the one that starts the estimator; each change and how long it lasts [ns].
+fn planted(draw: &mut Draw) -> [(u64, Control); 4] {
+    let begin = Control {
+        laser_freq: Some(3),
+        mode: Some(0),
+        laser_en: Some(true),
+        dsp_en: Some(true),
+        dsp_rst: Some(true),
+        ..NO_CHANGE
+    };
+    let go = Control { dsp_rst: Some(false), ..NO_CHANGE };
+    let shots_ns = SHOTS_NS + draw.below(8 * 6 * u64::from(SHOTS));
+    let kind = draw.below(9);
+    let (wait_ns, span_ns, change) = match kind {
+        0..4 => (shots_ns, 3 + draw.below(14), Control { rst: Some(true), ..NO_CHANGE }),
+        4..6 => (shots_ns, 8, Control { dsp_rst: Some(true), ..NO_CHANGE }),
+        6 => (shots_ns, 8 + draw.below(90), Control { mode: Some(1), ..NO_CHANGE }),
+        _ => (ESTIMATE_NS + 8 * draw.below(3), 80, Control { dsp_en: Some(false), ..NO_CHANGE }),
+    };
+    let end = Control {
+        rst: Some(false),
+        dsp_rst: Some(false),
+        mode: Some(0),
+        dsp_en: Some(true),
+        ..NO_CHANGE
+    };
+    // After another dsp_rst the frame is seen to its end.
+    let rest_ns = if (4..6).contains(&kind) { FRAME_NS } else { 400 + draw.below(300) };
+    [(24, begin), (wait_ns, go), (span_ns, change), (rest_ns, end)]
+}
+
+struct Covered {
+    goals: Vec<Cover>,
+    before: Option<(State, u64)>,
+}
+
+impl Covered {
+    fn new() -> Self {
+        let transitions = [(0, 1), (1, 2), (2, 3), (3, 0), (1, 0)];
+        let goals = vec![
+            Cover::new("states, from x 4 + to", transitions.map(|(from, to)| from * 4 + to)),
+            Cover::new("laser_freq in force, from x 4 + to", 0..16),
+            Cover::new("coarse", 0..8),
+            Cover::new("dsp_rst in state", [0, 1, 3]),
+            Cover::new("mode of a hit", 0..2),
+        ];
+        Covered { goals, before: None }
+    }
+
+    fn see(&mut self, top: &TofTop) {
+        let state = top.frame_ctrl.state();
+        let rate = top.vcsel_driver.registers.place().map_or(0, |place| place.0);
+        if let Some((last, last_rate)) = self.before {
+            self.goals[0].see_if(last != state, last as u64 * 4 + state as u64);
+            self.goals[1].see(last_rate * 4 + rate);
+        }
+        let counter = &top.tdc.coarse_counter;
+        self.goals[2].see_if(counter.window, counter.coarse.get());
+        self.goals[3].see_if(top.control_sync.dsp_rst_sync, state as u64);
+        self.goals[4].see_if(top.tdc.tdc_latch.hit, top.control_sync.mode_sync as u64);
+        self.before = Some((state, rate));
+    }
+}

@@ -1,0 +1,98 @@
+//! `ports.json`: what the lines of a block's vectors hold, for other people's benches.
+
+use serde_json::{Value, json};
+
+use tofsim::hierarchy::{self, Entry, Kind};
+
+use super::block::{Parameter, Spec};
+use super::table::{Column, Table};
+use super::vectors::Vectors;
+
+/// A port of a block.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Port {
+    /// Its name.
+    pub name: String,
+    /// Its width [bits].
+    pub width: u32,
+    /// Whether the block drives it.
+    pub output: bool,
+    /// What it means.
+    pub meaning: &'static str,
+}
+
+impl Spec {
+    /// The block's ports with so many neurons, clocks and inputs before outputs.
+    pub fn ports(&self, neurons: usize) -> Vec<Port> {
+        let path = self.path();
+        let port = |entry: Entry| Port {
+            width: entry.signal.width,
+            output: entry.kind == Kind::Output,
+            meaning: entry.signal.doc,
+            name: entry.signal.name,
+        };
+        let entries = hierarchy::every_entry_of(neurons).into_iter();
+        let own = entries.filter(|entry| entry.scope == path && entry.kind != Kind::Internal);
+        let mut ports: Vec<_> = own.map(port).collect();
+        let is_clock = |port: &Port| !port.output && port.name.starts_with("clk");
+        ports.sort_by_key(|port| (port.output, !is_clock(port)));
+        ports
+    }
+}
+
+/// The description of the vectors.
+pub fn json(vectors: &Vectors) -> Value {
+    let spec = vectors.spec;
+    let timing = &spec.timing;
+    let reset = spec.reset.map(|name| json!({"name": name, "active": "high", "synchronous": true}));
+    json!({
+        "schema": "tofsim.ports/1",
+        "tofsim": env!("CARGO_PKG_VERSION"),
+        "block": spec.name,
+        "scenario": vectors.source,
+        "seed": vectors.seed,
+        "cycles": vectors.stimulus.rows(),
+        "clock": {
+            "name": timing.clock,
+            "period_ps": timing.period_ps(),
+            "first_edge_ps": vectors.first_edge_ps,
+        },
+        "reset": reset,
+        "latency": spec.latency.iter().map(|latency| json!({
+            "from": latency.from, "to": latency.to, "cycles": (latency.cycles)(vectors.neurons),
+        })).collect::<Vec<_>>(),
+        "parameters": parameters(&vectors.parameters),
+        "ports": spec.ports(vectors.neurons).iter().map(|port| json!({
+            "name": port.name,
+            "width": port.width,
+            "direction": if port.output { "output" } else { "input" },
+            "meaning": port.meaning,
+        })).collect::<Vec<_>>(),
+        "stimulus": columns(&vectors.stimulus, |_| Value::Null),
+        "expected": columns(&vectors.expected, |column| json!({
+            "before_edge_ps": timing.before_edge_ps(column.sample) + 1,
+            "register": column.internal,
+        })),
+        "roms": vectors.roms.iter().map(|rom| rom.name).collect::<Vec<_>>(),
+    })
+}
+
+fn parameters(parameters: &[(&'static str, Parameter)]) -> Value {
+    let value = |parameter: &Parameter| match parameter {
+        Parameter::Number(number) => json!(number),
+        Parameter::File(name) => json!(name),
+    };
+    parameters.iter().map(|(name, parameter)| ((*name).to_owned(), value(parameter))).collect()
+}
+
+/// The columns, first to last, top bits first.
+fn columns(table: &Table, more: impl Fn(&Column) -> Value) -> Vec<Value> {
+    let describe = |column: &Column| {
+        let mut value = json!({"name": column.name, "width": column.width, "low_bit": column.low});
+        if let (Some(value), Value::Object(more)) = (value.as_object_mut(), more(column)) {
+            value.extend(more);
+        }
+        value
+    };
+    table.columns().iter().map(describe).collect()
+}

@@ -1,0 +1,64 @@
+//! The changes of `tdc_stop` in a stimulus, in step with the clock of a bench.
+
+use tofsim::firmware::carry_chain::{Delays, StopLine};
+use tofsim::kernel::Time;
+
+use super::draw::Draw;
+
+/// Instant of the edge that ends cycle `cycle` of a bench with a clock of 125 MHz.
+pub fn edge(cycle: usize) -> Time {
+    Time::from_ns(8 * (cycle as u64 + 1))
+}
+
+/// What has been planned, and how much of it has come to pass.
+#[derive(Clone, Debug, Default)]
+pub struct Stops {
+    /// The wire.
+    pub line: StopLine,
+    times: Vec<Time>,
+    applied: usize,
+}
+
+impl Stops {
+    /// All changes, in order.
+    pub fn times(&self) -> &[Time] {
+        &self.times
+    }
+
+    /// Plans a change, after the last one.
+    pub fn toggle(&mut self, at: Time) {
+        if self.times.last().is_none_or(|last| *last < at) {
+            self.times.push(at);
+        }
+    }
+
+    /// When the last change planned happens.
+    pub fn last(&self) -> Time {
+        self.times.last().copied().unwrap_or_default()
+    }
+
+    /// Whether the level is high after all that is planned.
+    pub fn ends_high(&self) -> bool {
+        self.times.len() % 2 == 1
+    }
+
+    /// Lets what is planned up to and at `now` come to pass.
+    pub fn advance(&mut self, now: Time) {
+        while self.times.get(self.applied).is_some_and(|at| *at <= now) {
+            self.line.toggle(self.times[self.applied]);
+            self.applied += 1;
+        }
+    }
+}
+
+/// An instant before the edge at `edge`: such that a tap is reached exactly then, or 1 fs beside
+/// that, or the edge itself, or any within the last 16 ns.
+pub fn before(edge: Time, delays: &Delays, draw: &mut Draw) -> Time {
+    let arrivals = delays.arrivals();
+    let age = match draw.below(4) {
+        0 => 0,
+        1 => draw.below(16_000_000),
+        _ => arrivals[draw.below(arrivals.len() as u64) as usize].fs() + draw.below(3) - 1,
+    };
+    edge.since(Time::from_fs(age))
+}

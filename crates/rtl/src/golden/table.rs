@@ -1,0 +1,185 @@
+//! Lines of bits: what goes into a block, or comes out of it, clock by clock.
+
+use std::io::{self, Write};
+
+use bitvec::prelude::*;
+
+use tofsim::firmware::carry_chain::TAPS;
+use tofsim::kernel::Thermometer;
+use tofsim::kernel::signals::Sink;
+
+/// A place in every line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Port, or path of a register inside the block.
+    pub name: String,
+    /// Its width [bits].
+    pub width: usize,
+    /// Lowest bit of its place.
+    pub low: usize,
+    /// Which sample of the clock cycle, from 0.
+    pub sample: usize,
+    /// A register inside, which another implementation need not have.
+    pub internal: bool,
+}
+
+/// Lines of equal columns; the first column is in the top bits.
+#[derive(Clone, Debug)]
+pub struct Table {
+    columns: Vec<Column>,
+    width: usize,
+    rows: usize,
+    bits: BitVec<u64, Lsb0>,
+    line: BitVec<u64, Lsb0>,
+}
+
+impl Table {
+    /// No lines yet; the places of the columns are worked out here.
+    pub fn new(mut columns: Vec<Column>) -> Self {
+        let mut width = 0;
+        for column in columns.iter_mut().rev() {
+            column.low = width;
+            width += column.width;
+        }
+        let line = bitvec![u64, Lsb0; 0; width];
+        Table { columns, width, rows: 0, bits: BitVec::new(), line }
+    }
+
+    /// The columns, in order.
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Bits of a line.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Lines so far.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Writes a word into the line under construction.
+    pub fn set(&mut self, column: usize, value: u64) {
+        let Column { low, width, .. } = self.columns[column];
+        self.line[low..low + width].store_le(value);
+    }
+
+    /// Writes the taps of a delay line into the line under construction, in the order of the taps;
+    /// `order` is the tap at each place in the order of arrival.
+    pub fn set_taps<const N: usize>(
+        &mut self,
+        column: usize,
+        taps: &Thermometer<N>,
+        order: &[u16],
+    ) {
+        let low = self.columns[column].low;
+        let mut arrived = [0u64; TAPS.div_ceil(64)];
+        taps.expand(arrived.view_bits_mut());
+        for (place, &tap) in order.iter().enumerate() {
+            let level = arrived.view_bits::<Lsb0>()[place];
+            self.line.set(low + tap as usize, level);
+        }
+    }
+
+    /// Ends the line; the next one begins with its values.
+    pub fn push(&mut self) {
+        self.bits.extend_from_bitslice(&self.line);
+        self.rows += 1;
+    }
+
+    /// A line.
+    pub fn row(&self, row: usize) -> &BitSlice<u64, Lsb0> {
+        &self.bits[row * self.width..(row + 1) * self.width]
+    }
+
+    /// A value in hexadecimal, all digits.
+    pub fn hex(&self, row: usize, column: usize) -> String {
+        let Column { low, width, .. } = self.columns[column];
+        hex(&self.row(row)[low..low + width])
+    }
+
+    /// The lines for `$readmemh`; an empty line is the digit 0.
+    pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        for row in 0..self.rows {
+            writeln!(out, "{}", hex(self.row(row)))?;
+        }
+        Ok(())
+    }
+}
+
+/// Bits in hexadecimal, all digits, at least one.
+pub fn hex(bits: &BitSlice<u64, Lsb0>) -> String {
+    const DIGITS: &[u8; 16] = b"0123456789abcdef";
+    let digit = |nibble: &BitSlice<u64, Lsb0>| DIGITS[nibble.load_le::<usize>()] as char;
+    let digits: String = bits.chunks(4).rev().map(digit).collect();
+    if digits.is_empty() { "0".to_owned() } else { digits }
+}
+
+/// Puts reported signals into a table.
+pub struct Fill<'a> {
+    /// Where the values go.
+    pub table: &'a mut Table,
+    /// Columns of each id.
+    pub places: &'a [Vec<usize>],
+    /// Tap at each place in the order of arrival.
+    pub order: &'a [u16],
+}
+
+impl Sink for Fill<'_> {
+    fn word(&mut self, id: usize, value: u64) {
+        for &column in &self.places[id] {
+            self.table.set(column, value);
+        }
+    }
+
+    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>) {
+        for &column in &self.places[id] {
+            self.table.set_taps(column, value, self.order);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn column(name: &str, width: usize) -> Column {
+        Column { name: name.to_owned(), width, low: 0, sample: 0, internal: false }
+    }
+
+    #[test]
+    fn the_first_column_is_on_top_and_a_line_begins_with_the_last_one_s_values() {
+        let mut table = Table::new(vec![column("a", 1), column("b", 8), column("c", 36)]);
+        table.set(0, 1);
+        table.set(1, 0xa5);
+        table.set(2, 0xf_0000_0001);
+        table.push();
+        table.set(0, 0);
+        table.push();
+        let mut text = Vec::new();
+        table.write(&mut text).unwrap();
+        assert_eq!(String::from_utf8(text).unwrap(), "1a5f00000001\n0a5f00000001\n");
+        assert_eq!(table.hex(1, 2), "f00000001");
+    }
+
+    #[test]
+    fn taps_stand_in_their_own_order() {
+        let mut table = Table::new(vec![column("taps", TAPS)]);
+        let mut order: Vec<u16> = (0..TAPS as u16).collect();
+        order.swap(1, 2);
+        table.set_taps(0, &Thermometer::<TAPS>::new(true, [2]), &order);
+        table.push();
+        assert!(table.hex(0, 0).ends_with("05"));
+    }
+
+    #[test]
+    fn a_line_without_columns_is_a_zero() {
+        let mut table = Table::new(Vec::new());
+        table.push();
+        let mut text = Vec::new();
+        table.write(&mut text).unwrap();
+        assert_eq!(text, b"0\n");
+    }
+}

@@ -1,0 +1,202 @@
+//! The Verilog between our bench and a user's module, from what the map says.
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use crate::golden::Spec;
+use crate::golden::bench::{Bench, range};
+use crate::golden::ports::Port;
+use tofsim::error::Result;
+use tofsim::files::output::write_file;
+
+use super::interface::Ports;
+use super::map::BlockMap;
+
+/// Bits of a count.
+const COUNT: u32 = 16;
+
+impl BlockMap {
+    /// Their name of our port.
+    fn theirs<'a>(&'a self, ours: &'a str) -> &'a str {
+        self.ports.get(ours).map_or(ours, String::as_str)
+    }
+
+    /// Their name of our parameter; none if it has none.
+    pub(super) fn parameter<'a>(&'a self, ours: &'a str) -> &'a str {
+        self.parameters.get(ours).map_or(ours, String::as_str)
+    }
+
+    /// Whether an adapter stands in for a port of ours.
+    fn is_made(&self, name: &str) -> bool {
+        let adapted = self.counts.is_some() || self.vector.is_some();
+        adapted && ["read_en", "read_addr", "count"].contains(&name)
+    }
+
+    /// Width of our port in a design of that size.
+    fn width(&self, spec: &Spec, port: &Port) -> u32 {
+        let bins = ["histogram_builder", "histogram_preload", "code_preload"];
+        match port.name.as_str() {
+            "taps" | "hit_taps" => self.design.taps as u32,
+            "clear_addr" | "read_addr" | "tdc_code" if bins.contains(&spec.name) => {
+                usize::BITS - (self.design.bins - 1).leading_zeros()
+            }
+            _ => port.width,
+        }
+    }
+
+    /// The ports that their module has to have.
+    pub(super) fn wanted(&self, spec: &Spec, neurons: usize, found: &Ports) -> Vec<Port> {
+        let mut wanted = Vec::new();
+        for port in spec.ports(neurons) {
+            let theirs = self.theirs(&port.name);
+            let optional = self.ignore.contains(&port.name) && !found.contains_key(theirs);
+            if !optional && !self.is_made(&port.name) {
+                let width = self.width(spec, &port);
+                wanted.push(Port { name: theirs.to_owned(), width, ..port });
+            }
+        }
+        let whole = COUNT * self.design.bins as u32;
+        let extra = [(&self.counts, true), (&self.vector, false)];
+        for (name, output) in extra {
+            if let Some(name) = name {
+                let name = name.clone();
+                wanted.push(Port { name, width: whole, output, meaning: "all counts" });
+            }
+        }
+        wanted
+    }
+
+    /// Lets the bench allow what the map says, and writes the adapter into `folder`.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub(super) fn apply(
+        &self,
+        bench: &mut Bench,
+        spec: &Spec,
+        found: &Ports,
+        folder: &Path,
+    ) -> Result<Vec<PathBuf>> {
+        bench.delays.clone_from(&self.latency);
+        bench.ignored.extend(self.ignore.iter().cloned());
+        bench.valid.clone_from(&self.valid);
+        for port in spec.ports(bench.vectors().neurons) {
+            let width = self.width(spec, &port);
+            if width < port.width {
+                bench.bits.insert(port.name, width as usize);
+            }
+        }
+        bench.module = format!("{}_adapter", spec.name);
+        let path = folder.join(format!("{}.v", bench.module));
+        let text = self.text(bench, spec, found);
+        write_file(&path, |file| file.write_all(text.as_bytes()))?;
+        Ok(vec![path])
+    }
+
+    fn text(&self, bench: &Bench, spec: &Spec, found: &Ports) -> String {
+        let parameters: Vec<_> =
+            bench.parameters().map(|name| format!("    parameter {name} = 0")).collect();
+        let parameters = match parameters.as_slice() {
+            [] => String::new(),
+            list => format!("#(\n{}\n) ", list.join(",\n")),
+        };
+        let declare = |port: &Port| {
+            let direction = if port.output { "output" } else { "input" };
+            format!("    {direction} wire {}{}", range(port.width), port.name)
+        };
+        let neurons = bench.vectors().neurons;
+        let ports: Vec<_> = spec.ports(neurons).iter().map(declare).collect();
+        let mut text = format!(
+            "`timescale 1ps/1fs\n`default_nettype none\n\nmodule {} {parameters}(\n{}\n);\n",
+            bench.module,
+            ports.join(",\n"),
+        );
+        let mut connected = Vec::new();
+        for port in spec.ports(neurons) {
+            let theirs = self.theirs(&port.name);
+            if self.is_made(&port.name) {
+                continue;
+            }
+            if port.output && !found.contains_key(theirs) {
+                let _ = writeln!(text, "    assign {} = {}'d0;", port.name, port.width);
+                continue;
+            }
+            let inverted = if self.invert.contains(&port.name) { "~" } else { "" };
+            let width = self.width(spec, &port);
+            let name = &port.name;
+            if port.output {
+                let _ = writeln!(text, "    wire {}their_{name};", range(width));
+                let value = fit(&format!("their_{name}"), width, port.width);
+                let _ = writeln!(text, "    assign {name} = {inverted}{value};");
+                connected.push(format!("        .{theirs}(their_{name})"));
+            } else {
+                let source =
+                    if name == "algo_start" && self.vector.is_some() { "go" } else { name };
+                let value = fit(source, port.width, width);
+                connected.push(format!("        .{theirs}({inverted}{value})"));
+            }
+        }
+        if let Some(counts) = &self.counts {
+            text += &self.counts_text();
+            connected.push(format!("        .{counts}(counts)"));
+        }
+        if let Some(vector) = &self.vector {
+            text += &self.vector_text();
+            connected.push(format!("        .{vector}(vector)"));
+        }
+        let assigned = bench.parameters().filter_map(|ours| {
+            let theirs = self.parameter(ours);
+            (!theirs.is_empty()).then(|| format!("        .{theirs}({ours})"))
+        });
+        let assigned: Vec<_> = assigned.collect();
+        let assigned = match assigned.as_slice() {
+            [] => String::new(),
+            list => format!("#(\n{}\n    ) ", list.join(",\n")),
+        };
+        let _ = write!(
+            text,
+            "\n    {} {assigned}dut (\n{}\n    );\nendmodule\n\n`default_nettype wire\n",
+            self.module(spec.name),
+            connected.join(",\n"),
+        );
+        text
+    }
+
+    /// All counts side by side, read as if they were a RAM with one address.
+    fn counts_text(&self) -> String {
+        let bins = self.design.bins as u32;
+        format!(
+            "    wire {}counts;\n    \
+             wire [7:0] address = clear ? clear_addr : tdc_valid ? tdc_code : read_addr;\n    \
+             assign count = read_en ? counts[{COUNT} * address +: {COUNT}] : {COUNT}'d0;\n",
+            range(COUNT * bins),
+        )
+    }
+
+    /// Collects the histogram word by word, then starts the estimator.
+    fn vector_text(&self) -> String {
+        let whole = COUNT * self.design.bins as u32;
+        format!(
+            "    reg {range}vector = {whole}'d0;\n    reg [7:0] word = 8'd0;\n    \
+             reg collecting = 1'b0;\n    reg go = 1'b0;\n    \
+             assign read_en = collecting;\n    assign read_addr = word;\n    \
+             always @(posedge clk_125) begin\n        go <= collecting && word == 8'd255;\n        \
+             if (collecting) begin\n            vector[{COUNT} * word +: {COUNT}] <= count;\n            \
+             word <= word + 8'd1;\n            collecting <= word != 8'd255;\n        \
+             end else if (algo_start) collecting <= 1'b1;\n        if (rst) begin\n            \
+             word <= 8'd0;\n            collecting <= 1'b0;\n            go <= 1'b0;\n        \
+             end\n    end\n",
+            range = range(whole),
+        )
+    }
+}
+
+/// A value of `from` bits as one of `to`.
+fn fit(name: &str, from: u32, to: u32) -> String {
+    match from.cmp(&to) {
+        std::cmp::Ordering::Less => format!("{{{}'d0, {name}}}", to - from),
+        std::cmp::Ordering::Equal => name.to_owned(),
+        std::cmp::Ordering::Greater => format!("{name}[{}:0]", to - 1),
+    }
+}

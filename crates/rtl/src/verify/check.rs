@@ -1,0 +1,197 @@
+//! Checks one block: vectors, ports, compilation, run, and a second look where it differs.
+
+use std::path::{Path, PathBuf};
+
+use crate::golden::bench::Bench;
+use crate::golden::block::{NEURONS, Parameter};
+use crate::golden::{Setting, Spec, Vectors};
+use tofsim::error::Result;
+use tofsim::files::output::create_directory;
+
+use super::interface;
+use super::map::BlockMap;
+use super::process::Limits;
+use super::rtl::Rtl;
+use super::seen::Seen;
+use super::simulator::{Compiled, Simulator};
+use super::verdict::{Mismatch, Verdict};
+use super::wave;
+
+/// What is checked, and how.
+#[derive(Clone, Debug)]
+pub struct Check<'a> {
+    /// The Verilog.
+    pub rtl: &'a Rtl,
+    /// How it differs from ours by intention.
+    pub map: Option<&'a BlockMap>,
+    /// The simulator.
+    pub simulator: Simulator,
+    /// Whether registers are compared, too.
+    pub registers: bool,
+    /// When to give up.
+    pub limits: Limits<'a>,
+    /// Where the waveform of a mismatch goes.
+    pub output: &'a Path,
+}
+
+/// How a block came out.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// The block, and what of it if that is not its own bench.
+    pub name: String,
+    /// Lines compared.
+    pub cycles: usize,
+    /// How it came out.
+    pub verdict: Verdict,
+    /// The cycles around the first mismatch, as rows of a table; none without one.
+    pub around: Vec<Vec<String>>,
+    /// The waveform of both sides.
+    pub wave: Option<PathBuf>,
+    /// Goals of the stimulus met, and goals.
+    pub coverage: (usize, usize),
+}
+
+impl Report {
+    /// Whether the block does what it should.
+    pub fn passed(&self) -> bool {
+        self.verdict == Verdict::Pass
+    }
+
+    /// What went wrong, in a line; empty if nothing did.
+    pub fn fault(&self) -> String {
+        match &self.verdict {
+            Verdict::Pass => String::new(),
+            Verdict::Differs { first, .. } => format!(
+                "cycle {}, {} ps: {} expected {}, got {}",
+                first.cycle,
+                first.time_ps,
+                first.signal,
+                short(&first.expected),
+                short(&first.got),
+            ),
+            Verdict::TimedOut { seconds } => {
+                format!("the bench has not ended in {seconds} s and was killed")
+            }
+            Verdict::Broke { message } => format!("the bench broke off: {}", message.trim()),
+        }
+    }
+
+    /// Cycles that differ.
+    pub fn mismatches(&self) -> usize {
+        match &self.verdict {
+            Verdict::Differs { mismatches, .. } => *mismatches,
+            _ => 0,
+        }
+    }
+
+    /// How it came out, in a word or two.
+    pub fn word(&self) -> &'static str {
+        match self.verdict {
+            Verdict::Pass => "pass",
+            Verdict::Differs { .. } => "differs",
+            Verdict::TimedOut { .. } => "timed out",
+            Verdict::Broke { .. } => "broke off",
+        }
+    }
+}
+
+/// A value too long to read, shortened in its middle.
+fn short(digits: &str) -> String {
+    const LONGEST: usize = 40;
+    match (digits.get(..16), digits.len().checked_sub(16).and_then(|end| digits.get(end..))) {
+        (Some(head), Some(tail)) if digits.len() > LONGEST => format!("{head}..{tail}"),
+        _ => digits.to_owned(),
+    }
+}
+
+impl Check<'_> {
+    /// Checks a block in `work`, a folder of its own.
+    ///
+    /// # Errors
+    /// When something keeps the check from being made: a missing simulator, module or port,
+    /// Verilog that does not compile, files that cannot be written.
+    pub fn run(
+        &self,
+        name: &str,
+        spec: &'static Spec,
+        setting: &Setting,
+        work: &Path,
+    ) -> Result<Report> {
+        create_directory(work)?;
+        let module = self.map.map_or(spec.name, |map| map.module(spec.name));
+        let vectors = (spec.record)(spec, setting)?;
+        let shape: Vec<_> = shape(&vectors, self.map).collect();
+        let found = self.simulator.ports(work, module, &shape, self.rtl, &self.limits)?;
+        let wanted = match self.map {
+            Some(map) => map.wanted(spec, setting.neurons(), &found),
+            None => spec.ports(setting.neurons()),
+        };
+        interface::check(&self.rtl.source, module, &wanted, &found)?;
+
+        let mut bench = Bench::new(&vectors);
+        let mut sources = vec![work.join(vectors.bench_name())];
+        if let Some(map) = self.map {
+            sources.extend(map.apply(&mut bench, spec, &found, work)?);
+        }
+        vectors.write_with(work, &bench)?;
+        let top = format!("tb_{}", spec.name);
+        let compiled =
+            self.simulator.compile(work, &top, &sources, self.rtl, self.registers, &self.limits)?;
+        let verdict = self.verdict(&compiled, None)?;
+        let mut report = Report {
+            name: name.to_owned(),
+            cycles: vectors.stimulus.rows(),
+            verdict,
+            around: Vec::new(),
+            wave: None,
+            coverage: coverage(&vectors),
+        };
+        if let Verdict::Differs { first, .. } = report.verdict.clone() {
+            self.look_again(&mut report, &compiled, &bench, &first, work)?;
+        }
+        Ok(report)
+    }
+
+    fn verdict(&self, compiled: &Compiled, got: Option<&str>) -> Result<Verdict> {
+        let finished = compiled.run(got, &self.limits)?;
+        let limit = finished.timed_out.then_some(self.limits.time.as_secs());
+        Ok(Verdict::read(&finished.output, limit))
+    }
+
+    /// Runs once more to see everything, for the table and the waveform.
+    fn look_again(
+        &self,
+        report: &mut Report,
+        compiled: &Compiled,
+        bench: &Bench,
+        first: &Mismatch,
+        work: &Path,
+    ) -> Result<()> {
+        const GOT: &str = "got.mem";
+        self.verdict(compiled, Some(GOT))?;
+        let seen = Seen::read(&work.join(GOT), bench)?;
+        report.around = seen.around(first);
+        create_directory(self.output)?;
+        wave::write(self.output, &report.name, bench.vectors(), &seen, first)?;
+        report.wave = Some(self.output.join(format!("{}.vcd", report.name)));
+        Ok(())
+    }
+}
+
+fn coverage(vectors: &Vectors) -> (usize, usize) {
+    let met = vectors.coverage.iter().map(|cover| cover.met()).sum();
+    let goals = vectors.coverage.iter().map(|cover| cover.cases()).sum();
+    (met, goals)
+}
+
+/// The parameter that ports depend on, by their name of it, if they have one.
+fn shape<'a>(
+    vectors: &'a Vectors,
+    map: Option<&'a BlockMap>,
+) -> impl Iterator<Item = (&'a str, u64)> {
+    vectors.parameters.iter().filter_map(move |(ours, value)| {
+        let Parameter::Number(value) = value else { return None };
+        let theirs = map.map_or(*ours, |map| map.parameter(ours));
+        (*ours == NEURONS && !theirs.is_empty()).then_some((theirs, *value))
+    })
+}

@@ -1,0 +1,151 @@
+//! Counts in the Rust model: steps it as the benches step the Verilog.
+
+use std::sync::Arc;
+
+use tofsim::firmware::centroid_estimator::{self, CentroidEstimator};
+use tofsim::firmware::depth_estimator::{self, DepthEstimator, Params};
+use tofsim::firmware::forward1::BIAS_ROW;
+use tofsim::firmware::forward2::{MOST_NEURONS, Rom};
+use tofsim::firmware::spad_control::{self, SpadControl};
+use tofsim::firmware::vcsel_driver::{self, PERIODS, VcselDriver};
+use tofsim::kernel::{Clocked, S, U};
+use tofsim::network::roms::tansig_table;
+
+use super::seen::Seen;
+
+/// Half a cycle of `clk_250` [ps].
+const HALF: u64 = 2000;
+/// Cycles after which an estimation or five shots must be over.
+const PATIENCE: u64 = 1000;
+
+/// Everything that the benches print, of an estimator with so many neurons.
+pub fn seen(neurons: usize) -> Seen {
+    let mut seen = Seen::default();
+    estimator(neurons, &mut seen);
+    centroid(&mut seen);
+    for mode in [false, true] {
+        (0..PERIODS.len()).for_each(|code| shots(mode, code as u64, &mut seen));
+    }
+    seen
+}
+
+/// Counts with a start while it is idle, and with a held one that is taken again with `algo_done`.
+fn estimator(neurons: usize, seen: &mut Seen) {
+    let params = Params {
+        forward1: Arc::new([[S::new(0); MOST_NEURONS]; BIAS_ROW + 1]),
+        tansig: tansig_table(),
+        forward2: Rom { neurons, w2: [S::new(0); MOST_NEURONS], b2: S::new(0) },
+    };
+    let mut estimator = DepthEstimator::default();
+    let mut edge = |algo_start| {
+        estimator.rise(&depth_estimator::In { rst: false, algo_start, count: U::new(0) }, &params);
+        estimator.estimator_ctrl
+    };
+    for hold in [false, true, true] {
+        let mut ctrl = edge(true);
+        let mut cycles = [0; 3];
+        let mut k = 0;
+        loop {
+            for (cycles, enable) in
+                cycles.iter_mut().zip([ctrl.forward1_en, ctrl.tansig_en, ctrl.forward2_en])
+            {
+                *cycles += u64::from(enable);
+            }
+            if ctrl.algo_done || k == PATIENCE {
+                break;
+            }
+            ctrl = edge(hold);
+            k += 1;
+        }
+        if ctrl.algo_done {
+            seen.add("latency", k);
+        }
+        for (layer, cycles) in ["forward1", "tansig", "forward2"].into_iter().zip(cycles) {
+            seen.add(format!("{layer}_cycles"), cycles);
+        }
+        if !hold {
+            edge(false);
+        }
+    }
+}
+
+/// The same of the centroid estimator.
+fn centroid(seen: &mut Seen) {
+    let mut estimator = CentroidEstimator::default();
+    let mut edge = |algo_start| {
+        let i = centroid_estimator::In { rst: false, algo_start, count: U::new(0) };
+        estimator.rise(&i, &centroid_estimator::Params::default());
+        estimator.registers.algo_done
+    };
+    for hold in [false, true, true] {
+        let (mut done, mut k) = (edge(true), 0);
+        while !done && k < PATIENCE {
+            (done, k) = (edge(hold), k + 1);
+        }
+        if done {
+            seen.add("centroid_latency", k);
+        }
+        if !hold {
+            edge(false);
+        }
+    }
+}
+
+/// Counts five shots from the rise of `acquire` on.
+fn shots(mode: bool, code: u64, seen: &mut Seen) {
+    let laser_freq = U::new(code);
+    let mut i =
+        vcsel_driver::In { rst: false, rst_250: false, acquire: false, laser_en: true, laser_freq };
+    let mut driver = VcselDriver::default();
+    driver.rise(&i);
+    driver.fall_250();
+    driver.rise_250(&i);
+    driver.fall_250();
+    let mut spad = SpadControl::default();
+    i.acquire = true;
+    let (mut shots, mut start_at, mut pre_start_at, mut spad_rst_at) = (0, 0, 0, 0);
+    let (mut spad_rst_cycles, mut was_on, mut laser_on_at) = (0, false, 0);
+    for k in 1..PATIENCE {
+        let pre_start = driver.registers.pre_start;
+        spad = spad.next(&spad_control::In { rst: false, mode, pre_start }, &());
+        driver.rise(&i);
+        if driver.registers.pre_start {
+            pre_start_at = k;
+        }
+        if spad.spad_rst {
+            (spad_rst_at, spad_rst_cycles) = (k, spad_rst_cycles + 1);
+        }
+        if driver.registers.start {
+            let from = if shots == 0 { "first_shot" } else { "laser_period" };
+            seen.add(format!("{from}_{code}"), k - start_at);
+            seen.add("pre_start_lead", k - pre_start_at);
+            if mode {
+                seen.add("spad_rst_mode_1", spad_rst_cycles);
+            } else {
+                seen.add("spad_rst_lead", k - spad_rst_at);
+                seen.add("spad_rst_width", spad_rst_cycles);
+            }
+            (shots, start_at, spad_rst_cycles) = (shots + 1, k, 0);
+        }
+        for half in 0..4 {
+            match half {
+                0 => {}
+                2 => driver.rise_250(&i),
+                _ => driver.fall_250(),
+            }
+            let now = (4 * k + half) * HALF;
+            match (was_on, driver.laser_on()) {
+                (false, true) => laser_on_at = now,
+                (true, false) => {
+                    seen.add("laser_on_width", now - laser_on_at);
+                    seen.add("laser_on_lag", laser_on_at.abs_diff(4 * start_at * HALF));
+                }
+                _ => {}
+            }
+            was_on = driver.laser_on();
+        }
+        if shots == 5 {
+            break;
+        }
+    }
+}

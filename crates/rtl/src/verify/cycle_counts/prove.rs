@@ -1,0 +1,106 @@
+//! Proves a promise of the Verilog with Yosys, and tries to prove what is next to it.
+
+use std::ffi::{OsStr, OsString};
+use std::io::Write;
+use std::path::Path;
+
+use crate::verify::Rtl;
+use crate::verify::process::{Finished, Limits, YOSYS};
+use tofsim::error::Result;
+use tofsim::files::output::write_file;
+
+use super::Proof;
+use super::rows::Row;
+
+/// What one run of Yosys says.
+enum Answer {
+    /// It is proven.
+    Holds,
+    /// It is not.
+    Fails(String),
+    /// There is no answer.
+    Stuck(String),
+}
+
+/// Proves `row` of `rtl`, and that the numbers next to it cannot be proven.
+///
+/// # Errors
+/// When Yosys is missing, `folder` cannot be written, or the user stops.
+pub fn prove(row: &Row, rtl: &Rtl, folder: &Path, limits: &Limits) -> Result<Proof> {
+    let file = folder.join(row.check.module).with_extension("sv");
+    write_file(&file, |file| file.write_all(row.check.text.as_bytes()))?;
+    match ask(row, row.expected, rtl, folder, limits)? {
+        Answer::Holds => {}
+        Answer::Fails(why) | Answer::Stuck(why) => return Ok(Proof::NotProven(why)),
+    }
+    for mutant in mutants(row.expected) {
+        match ask(row, mutant, rtl, folder, limits)? {
+            Answer::Fails(_) => {}
+            Answer::Holds => {
+                let why = format!("vacuous: {mutant} is proven as well as {}", row.expected);
+                return Ok(Proof::NotProven(why));
+            }
+            Answer::Stuck(why) => {
+                let why = format!("perhaps vacuous: for {mutant} in its place, {why}");
+                return Ok(Proof::NotProven(why));
+            }
+        }
+    }
+    Ok(Proof::Proven)
+}
+
+/// The numbers next to a number.
+pub fn mutants(expected: u64) -> impl Iterator<Item = u64> {
+    expected.checked_sub(1).into_iter().chain([expected + 1])
+}
+
+fn ask(row: &Row, number: u64, rtl: &Rtl, folder: &Path, limits: &Limits) -> Result<Answer> {
+    let frontend = if rtl.is_system_verilog() { "verilog -defer -sv" } else { "verilog -defer" };
+    let mut args: Vec<OsString> = ["-f", frontend, "-p"].map(OsString::from).into();
+    args.push(script(row, number).into());
+    args.extend(rtl.files.iter().map(|file| OsStr::new(file).to_owned()));
+    Ok(answer(row, &YOSYS.run(folder, args, limits)?, limits))
+}
+
+/// What Yosys is to do. A module that is left open is one that it does not know.
+fn script(row: &Row, number: u64) -> String {
+    let Row { check, property, parameter, .. } = row;
+    let module = check.module;
+    let code = row.code.map_or(String::new(), |code| format!("-chparam Code {code}"));
+    let define =
+        row.define.as_ref().map_or(String::new(), |[name, value]| format!(" -D{name}={value}"));
+    let mut lines: Vec<_> = check.open.iter().map(|open| format!("delete *{open}")).collect();
+    lines.extend([
+        format!("read_verilog -sv -formal -DHOLDS={property}{define} {module}.sv"),
+        format!("hierarchy -top {module} -chparam {parameter} {number} {code}"),
+        "proc; flatten".to_owned(),
+    ]);
+    // Something has to drive each register.
+    let driven = |register| format!("select -assert-min 1 w:dut.{register} %ci* c:* %i");
+    lines.extend(row.registers.iter().map(driven));
+    let options = "-tempinduct -prove-asserts -set-assumes -ignore_unknown_cells -seq 1";
+    lines.extend([
+        format!("{}; opt_clean", check.step),
+        format!("sat {options} -maxsteps {} {module}", check.steps),
+    ]);
+    lines.join("\n")
+}
+
+fn answer(row: &Row, finished: &Finished, limits: &Limits) -> Answer {
+    let says = |text| finished.output.contains(text);
+    if finished.timed_out {
+        Answer::Stuck(format!("Yosys has no answer after {} s", limits.time.as_secs_f64()))
+    } else if says("Induction step proven: SUCCESS!") {
+        Answer::Holds
+    } else if says("proof finished - model found for base case: FAIL!") {
+        let steps = finished.output.matches("[base case ").count();
+        Answer::Fails(format!("Yosys has a counterexample of {steps} steps"))
+    } else if says("Reached maximum number of time steps") {
+        Answer::Fails(format!("an induction of {} steps does not prove it", row.check.steps))
+    } else if says("ERROR: Assertion failed: selection") {
+        Answer::Stuck(format!("the proof needs the registers {}", row.registers.join(" and ")))
+    } else {
+        let error = finished.output.lines().find(|line| line.contains("ERROR: "));
+        Answer::Stuck(format!("Yosys: {}", error.unwrap_or("ended without an answer")))
+    }
+}

@@ -1,0 +1,51 @@
+//! Counts in a simulation of the Verilog.
+
+use std::io::Write;
+use std::path::Path;
+
+use crate::verify::process::Limits;
+use crate::verify::{Rtl, Simulator};
+use tofsim::error::{Input, Result};
+use tofsim::files::output::write_file;
+
+use super::rows::define;
+use super::seen::Seen;
+
+/// The benches: name of the module, which is the file's stem, and text.
+const BENCHES: [(&str, &str); 3] = [
+    ("bench_estimator", include_str!("bench_estimator.v")),
+    ("bench_shot", include_str!("bench_shot.v")),
+    ("bench_centroid", include_str!("bench_centroid.v")),
+];
+
+/// Runs the benches on `rtl`, whose estimator is to have so many neurons.
+///
+/// # Errors
+/// When a tool is missing, the Verilog cannot be compiled with a bench, the simulation does not
+/// end, `folder` cannot be written, or the user stops.
+pub fn seen(rtl: &Rtl, neurons: usize, folder: &Path, limits: &Limits) -> Result<Seen> {
+    let mut seen = Seen::default();
+    let left_out = if rtl.has(super::CENTROID)? { None } else { Some("bench_centroid") };
+    for (name, text) in BENCHES.into_iter().filter(|(name, _)| Some(*name) != left_out) {
+        let bench = format!("{name}.v");
+        let define = define(neurons)
+            .map_or(String::new(), |[name, value]| format!("`define {name} {value}\n"));
+        write_file(&folder.join(&bench), |file| write!(file, "{define}{text}"))?;
+        let bench = [folder.join(bench)];
+        let compiled = Simulator::Icarus.compile(folder, name, &bench, rtl, false, limits)?;
+        let run = compiled.run(None, limits)?;
+        if run.timed_out {
+            let seconds = limits.time.as_secs_f64();
+            let expected = format!("{name} has not ended after {seconds} s of simulation");
+            return Err(Input::new(&rtl.source, expected).into());
+        }
+        run.output.lines().filter_map(count).for_each(|(key, count)| seen.add(key, count));
+    }
+    Ok(seen)
+}
+
+/// A line `count KEY NUMBER`.
+fn count(line: &str) -> Option<(&str, u64)> {
+    let (key, number) = line.strip_prefix("count ")?.split_once(' ')?;
+    Some((key, number.parse().ok()?))
+}

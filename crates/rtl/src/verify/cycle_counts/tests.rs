@@ -1,0 +1,134 @@
+//! What is promised holds of our own Verilog; what cannot be counted or proven is said so.
+
+use std::fs;
+use std::time::Duration;
+
+use super::*;
+use tofsim::firmware::forward2::NEURONS;
+
+fn limits() -> Limits<'static> {
+    Limits { time: Duration::from_secs(60), stop: None }
+}
+
+/// A place in a file of ours, and what to put there.
+pub type Edit = [&'static str; 3];
+
+/// The count of `key` in our Verilog after some edits.
+pub fn with_fault(key: &str, edits: &[Edit]) -> Count {
+    let folder = tempfile::tempdir().unwrap();
+    let rtl = Rtl::own(folder.path()).unwrap();
+    for [file, from, to] in edits {
+        let path = folder.path().join(file);
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(text.contains(from), "{file} has no `{from}`");
+        fs::write(&path, text.replace(from, to)).unwrap();
+    }
+    let mut rows = rows::rows(NEURONS);
+    rows.push(rows::centroid());
+    rows.retain(|row| row.key() == key);
+    count(&rows, NEURONS, &rtl, &limits()).unwrap().remove(0)
+}
+
+#[test]
+fn everything_that_is_promised_is_counted_and_proven() {
+    let folder = tempfile::tempdir().unwrap();
+    let rtl = Rtl::own(folder.path()).unwrap();
+    let counts = cycle_counts(&rtl, NEURONS, &limits()).unwrap();
+    assert_eq!(counts.len(), 19);
+    for count in counts {
+        assert!(count.holds(), "{count:?}");
+    }
+}
+
+#[test]
+fn sixteen_neurons_take_275_clocks() {
+    let folder = tempfile::tempdir().unwrap();
+    let rtl = Rtl::own(folder.path()).unwrap();
+    let mut rows = rows::rows(16);
+    rows.retain(|row| row.check.module == "check_estimator");
+    let counts = count(&rows, 16, &rtl, &limits()).unwrap();
+    assert_eq!(counts.iter().map(|count| count.expected).collect::<Vec<_>>(), [275, 257, 1, 18]);
+    for count in counts {
+        assert!(count.holds(), "{count:?}");
+    }
+}
+
+#[test]
+fn a_property_that_holds_of_two_numbers_is_vacuous() {
+    let never = ["vcsel_driver.v", "start_next = acquire && count == last", "start_next = 1'b0"];
+    let count = with_fault(
+        "pre_start_lead",
+        &[
+            never,
+            [
+                "vcsel_driver.v",
+                "pre_start_next = acquire && count + 5'd2 == last",
+                "pre_start_next = 1'b0",
+            ],
+        ],
+    );
+    assert_eq!(count.rtl, None);
+    let why = "vacuous: 1 is proven as well as 2";
+    assert_eq!(count.proven, Proof::NotProven(why.to_owned()));
+}
+
+#[test]
+fn without_our_registers_the_estimator_is_counted_but_not_proven() {
+    let count = with_fault("latency", &[["estimator_ctrl.v", "busy", "at_work"]]);
+    assert_eq!(count.rtl, Some(267));
+    let why = "the proof needs the registers estimator_ctrl.busy and estimator_ctrl.step";
+    assert_eq!(count.proven, Proof::NotProven(why.to_owned()));
+}
+
+#[test]
+fn a_design_may_leave_the_centroid_estimator_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut rtl = Rtl::own(folder.path()).unwrap();
+    rtl.files.retain(|file| !file.ends_with("centroid_estimator.v"));
+    assert!(!rtl.has(CENTROID).unwrap());
+    let seen = simulate::seen(&rtl, NEURONS, folder.path(), &limits()).unwrap();
+    assert_eq!(seen.count("latency", 267), Some(267));
+    assert_eq!(seen.count("centroid_latency", 308), None);
+}
+
+#[test]
+fn a_missing_module_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut rtl = Rtl::own(folder.path()).unwrap();
+    rtl.files.retain(|file| !file.ends_with("spad_control.v"));
+    let error = cycle_counts(&rtl, NEURONS, &limits()).unwrap_err();
+    assert_eq!(error.to_string(), "rtl_ref: it has no module `spad_control`");
+}
+
+#[test]
+fn what_the_compiler_refuses_comes_with_its_message() {
+    let folder = tempfile::tempdir().unwrap();
+    let rtl = Rtl::own(folder.path()).unwrap();
+    let path = folder.path().join("spad_control.v");
+    let text = fs::read_to_string(&path).unwrap().replace("spad_rst", "spad_reset");
+    fs::write(&path, text).unwrap();
+    let error = cycle_counts(&rtl, NEURONS, &limits()).unwrap_err().to_string();
+    assert!(error.contains("bench_shot.v") && error.contains("spad_rst"), "{error}");
+}
+
+#[test]
+fn a_simulation_that_never_ends_is_stopped() {
+    let folder = tempfile::tempdir().unwrap();
+    let rtl = Rtl::own(folder.path()).unwrap();
+    let path = folder.path().join("spad_control.v");
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, text.replace("initial begin", "initial begin while (1) spad_sel = 40'd1;"))
+        .unwrap();
+    let limits = Limits { time: Duration::from_secs(2), stop: None };
+    let error = cycle_counts(&rtl, NEURONS, &limits).unwrap_err().to_string();
+    assert_eq!(error, "rtl_ref: bench_shot has not ended after 2 s of simulation");
+}
+
+#[test]
+fn a_proof_that_takes_too_long_is_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let rtl = Rtl::own(folder.path()).unwrap();
+    let limits = Limits { time: Duration::ZERO, stop: None };
+    let proven = prove::prove(&rows::rows(NEURONS)[0], &rtl, folder.path(), &limits).unwrap();
+    assert_eq!(proven, Proof::NotProven("Yosys has no answer after 0 s".to_owned()));
+}

@@ -1,0 +1,205 @@
+//! How a user's design differs from ours by intention: a TOML file.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::golden::{BLOCKS, Setting, Spec, blocks};
+use tofsim::error::{Input, Result, nearest, read_text};
+use tofsim::firmware::carry_chain::TAPS;
+use tofsim::firmware::histogram_builder::BINS;
+use tofsim::scenario::check::{Checked, read};
+
+/// A map file.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Map {
+    /// Sizes of the design.
+    pub design: Design,
+    /// What is different in each block, by our name of the block.
+    pub block: BTreeMap<String, BlockMap>,
+}
+
+/// Sizes that differ from ours.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Design {
+    /// Taps of the delay line. With fewer than ours, the stimulus leaves out what they cannot show.
+    #[schemars(range(min = 4, max = 4096), extend("unit" = "taps"))]
+    pub taps: usize,
+    /// Words of the histogram. With fewer than ours, the stimulus keeps to those.
+    #[schemars(range(min = 2, max = 65_536), extend("unit" = "words"))]
+    pub bins: usize,
+}
+
+impl Default for Design {
+    fn default() -> Self {
+        Design { taps: TAPS, bins: BINS }
+    }
+}
+
+/// What is different in a block.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct BlockMap {
+    /// Name of their module, if not ours.
+    pub module: Option<String>,
+    /// Their name of each of our ports that has another.
+    pub ports: BTreeMap<String, String>,
+    /// Their name of each of our parameters that has another; an empty one is left out.
+    pub parameters: BTreeMap<String, String>,
+    /// Our ports whose level is the other way round, as an active-low reset.
+    pub invert: Vec<String>,
+    /// Our outputs that are not compared; they need not exist.
+    pub ignore: Vec<String>,
+    /// Clock cycles that our outputs come later there (less than 0: earlier).
+    pub latency: BTreeMap<String, i64>,
+    /// Our outputs that are compared only where another of our outputs is high.
+    pub valid: BTreeMap<String, String>,
+    /// For histogram_builder: their output with all counts side by side, bin 0 in the low bits
+    /// (thesis, Listing 6.1).
+    pub counts: Option<String>,
+    /// For depth_estimator: their input with the whole histogram, bin 0 in the low bits (thesis,
+    /// Fig. 6.18). It is collected word by word, then `algo_start` is passed on.
+    pub vector: Option<String>,
+    /// Sizes, from the file's `design`.
+    #[serde(skip)]
+    #[schemars(skip)]
+    pub(super) design: Design,
+}
+
+impl Map {
+    /// Reads and checks a map file.
+    ///
+    /// # Errors
+    /// When it cannot be read or names what there is not; the error has the place.
+    pub fn read(path: &Path) -> Result<Self> {
+        Self::parse(&path.display().to_string(), &read_text(path)?)
+    }
+
+    fn parse(source: &str, text: &str) -> Result<Self> {
+        let checked = Checked::parse::<Map>(source, text)?;
+        let mut map: Map = read(source, checked.table())?;
+        for (name, block) in &mut map.block {
+            block.design = map.design.clone();
+            let Some(spec) = blocks::find(name) else {
+                let names = BLOCKS.iter().map(|spec| spec.name);
+                let fault = unknown("block", name, names);
+                return Err(checked.fault(&format!("block.{name}"), fault).into());
+            };
+            block.check(spec, &|key, expected| {
+                checked.fault(&format!("block.{name}.{key}"), expected)
+            })?;
+        }
+        Ok(map)
+    }
+
+    /// The setting that the design can be held to.
+    pub fn fit(&self, setting: &Setting) -> Setting {
+        let latency = self.block.values().flat_map(|block| block.latency.values());
+        Setting {
+            taps: self.design.taps.min(TAPS),
+            bins: setting.bins.min(self.design.bins as u64),
+            slack: latency.copied().max().unwrap_or(0).max(0) as u64,
+            ..setting.clone()
+        }
+    }
+}
+
+fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> String {
+    let known: Vec<_> = known.collect();
+    let hint = nearest(name, known.iter().copied());
+    let hint = hint.map_or(String::new(), |name| format!(" (`{name}`?)"));
+    format!("unknown {what}{hint}; expected one of {}", known.join(", "))
+}
+
+impl BlockMap {
+    /// Whether everything that is named exists in our block.
+    fn check(&self, spec: &Spec, fault: &dyn Fn(&str, String) -> Input) -> Result<()> {
+        let ports = spec.ports(tofsim::firmware::forward2::MOST_NEURONS);
+        let known = |name: &str, outputs: bool| {
+            ports.iter().any(|port| port.name == name && (port.output || !outputs))
+        };
+        let listed = |outputs: bool| {
+            let ports = ports.iter().filter(move |port| port.output || !outputs);
+            ports.map(|port| port.name.as_str())
+        };
+        let named = (self.ports.keys().map(|name| ("ports", name, false)))
+            .chain(self.invert.iter().map(|name| ("invert", name, false)))
+            .chain(self.ignore.iter().map(|name| ("ignore", name, true)))
+            .chain(self.latency.keys().map(|name| ("latency", name, true)))
+            .chain(self.valid.keys().map(|name| ("valid", name, true)));
+        for (table, name, outputs) in named {
+            if !known(name, outputs) {
+                let what = if outputs { "output" } else { "port" };
+                let key = match table {
+                    "invert" | "ignore" => table.to_owned(),
+                    _ => format!("{table}.{name}"),
+                };
+                return Err(fault(&key, unknown(what, name, listed(outputs))).into());
+            }
+        }
+        for (key, name) in &self.valid {
+            if !known(name, true) {
+                let expected = unknown("output", name, listed(true));
+                return Err(fault(&format!("valid.{key}"), expected).into());
+            }
+        }
+        let only = |key: &str, block: &str, set: bool| -> Result<()> {
+            match set && spec.name != block {
+                true => Err(fault(key, format!("only {block} has this adapter")).into()),
+                false => Ok(()),
+            }
+        };
+        only("counts", "histogram_builder", self.counts.is_some())?;
+        only("vector", "depth_estimator", self.vector.is_some())?;
+        if self.vector.is_some() && self.design.bins != BINS {
+            let expected =
+                format!("expected design.bins = {BINS}: the network has that many inputs");
+            return Err(fault("vector", expected).into());
+        }
+        Ok(())
+    }
+
+    /// Their module.
+    pub fn module<'a>(&'a self, ours: &'a str) -> &'a str {
+        self.module.as_deref().unwrap_or(ours)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fault(text: &str) -> String {
+        Map::parse("map.toml", text).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_map_names_what_there_is() {
+        let text = "[design]\ntaps = 700\n[block.forward1]\nmodule = \"hidden\"\n\
+            invert = [\"rst\"]\nports = { clk_125 = \"clk\" }\nlatency = { l1_in_0 = 2 }\n";
+        let map = Map::parse("map.toml", text).unwrap();
+        assert_eq!(map.block["forward1"].module("forward1"), "hidden");
+        assert_eq!(map.block["forward1"].design.taps, 700);
+    }
+
+    #[test]
+    fn what_there_is_not_is_refused_with_its_place() {
+        let error = fault("[block.forward1.ports]\nclk_124 = \"clk\"\n");
+        assert!(error.starts_with("map.toml:2:"), "{error}");
+        assert!(error.contains("unknown port (`clk_125`?)"), "{error}");
+        let error = fault("[block.forwrd1]\nmodule = \"a\"\n");
+        assert!(error.contains("unknown block (`forward1`?)"), "{error}");
+        let error = fault("[block.forward1]\nmodul = \"a\"\n");
+        assert!(error.contains("did you mean `module`?"), "{error}");
+        let error = fault("[block.forward1]\nignore = [\"count\"]\n");
+        assert!(error.contains("unknown output"), "{error}");
+        let error = fault("[block.forward1]\ncounts = \"H\"\n");
+        assert!(error.contains("only histogram_builder has this adapter"), "{error}");
+        let error = fault("[design]\nbins = 128\n[block.depth_estimator]\nvector = \"H\"\n");
+        assert!(error.contains("expected design.bins = 256"), "{error}");
+    }
+}

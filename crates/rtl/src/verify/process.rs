@@ -1,0 +1,191 @@
+//! Runs other people's programs: with a time limit, and never leaving a child behind.
+
+use std::ffi::OsStr;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use process_wrap::std::{ChildWrapper, CommandWrap, ProcessGroup};
+
+use tofsim::error::{Error, Input, Result};
+
+/// A program and the Debian package that has it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tool {
+    /// Its name on the PATH.
+    pub program: &'static str,
+    /// Debian's package.
+    pub package: &'static str,
+}
+
+/// Icarus Verilog's compiler.
+pub const IVERILOG: Tool = Tool { program: "iverilog", package: "iverilog" };
+/// Icarus Verilog's simulator.
+pub const VVP: Tool = Tool { program: "vvp", package: "iverilog" };
+/// Verilator.
+pub const VERILATOR: Tool = Tool { program: "verilator", package: "verilator" };
+/// Yosys.
+pub const YOSYS: Tool = Tool { program: "yosys", package: "yosys" };
+
+/// How a program ended.
+#[derive(Clone, Debug)]
+pub struct Finished {
+    /// Whether it says that all went well.
+    pub success: bool,
+    /// Whether it was killed because its time was up.
+    pub timed_out: bool,
+    /// What it wrote on standard output and standard error, in that order.
+    pub output: String,
+}
+
+/// When to give up.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits<'a> {
+    /// How long a program may take.
+    pub time: Duration,
+    /// Set from outside to stop.
+    pub stop: Option<&'a AtomicBool>,
+}
+
+/// Output beyond this is taken as a program gone wild [bytes].
+const LONGEST: u64 = 64 << 20;
+/// First and longest time between two looks at a program.
+const NAP: (Duration, Duration) = (Duration::from_millis(1), Duration::from_millis(20));
+
+impl Tool {
+    /// Runs it in `folder` until it ends or its time is up; then it is killed with its children.
+    ///
+    /// # Errors
+    /// When it is not on the PATH, cannot be started, or the user stops everything.
+    pub fn run<A: AsRef<OsStr>>(
+        &self,
+        folder: &Path,
+        args: impl IntoIterator<Item = A>,
+        limits: &Limits,
+    ) -> Result<Finished> {
+        let mut command = Command::new(self.program);
+        command.args(args);
+        run(command, folder, limits).map_err(|error| match error {
+            Error::Io { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
+                let expected =
+                    format!("not found on PATH; install it: apt-get install {}", self.package);
+                Input::new(self.program, expected).into()
+            }
+            error => error,
+        })
+    }
+}
+
+/// Runs a command as [`Tool::run`] does.
+///
+/// # Errors
+/// When it cannot be started, or the user stops everything.
+pub fn run(mut command: Command, folder: &Path, limits: &Limits) -> Result<Finished> {
+    let program = command.get_program().to_owned();
+    let fault = |source| Error::Io { path: program.clone().into(), action: "run", source };
+    let out = tempfile::tempfile().map_err(fault)?;
+    let both = |file: &File| Ok(Stdio::from(file.try_clone()?));
+    command.current_dir(folder).stdin(Stdio::null());
+    command.stdout(both(&out).map_err(fault)?).stderr(both(&out).map_err(fault)?);
+    let mut child =
+        CommandWrap::from(command).wrap(ProcessGroup::leader()).spawn().map_err(fault)?;
+    let begin = Instant::now();
+    let mut nap = NAP.0;
+    let status = loop {
+        if let Some(status) = child.try_wait().map_err(fault)? {
+            break Some(status);
+        }
+        if limits.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+            kill(child.as_mut());
+            return Err(Error::Interrupted);
+        }
+        let wild = out.metadata().is_ok_and(|file| file.len() > LONGEST);
+        if begin.elapsed() > limits.time || wild {
+            kill(child.as_mut());
+            break None;
+        }
+        sleep(nap);
+        nap = (nap * 2).min(NAP.1);
+    };
+    Ok(Finished {
+        success: status.is_some_and(|status| status.success()),
+        timed_out: status.is_none(),
+        output: text(out).map_err(fault)?,
+    })
+}
+
+/// Ends a program and its children; one that has just ended by itself is as good.
+fn kill(child: &mut dyn ChildWrapper) {
+    let _ = child.start_kill();
+    let _ = child.wait();
+}
+
+fn text(mut file: File) -> std::io::Result<String> {
+    use std::io::{Seek, SeekFrom};
+    file.seek(SeekFrom::Start(0))?;
+    let mut bytes = Vec::new();
+    file.take(LONGEST).read_to_end(&mut bytes)?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SHELL: Tool = Tool { program: "sh", package: "dash" };
+
+    fn limits(seconds: f64) -> Limits<'static> {
+        Limits { time: Duration::from_secs_f64(seconds), stop: None }
+    }
+
+    #[test]
+    fn output_and_status_come_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let script = ["-c", "echo out; echo err >&2; exit 3"];
+        let finished = SHELL.run(folder.path(), script, &limits(60.0)).unwrap();
+        assert_eq!(finished.output, "out\nerr\n");
+        assert!(!finished.success && !finished.timed_out);
+    }
+
+    #[test]
+    fn a_program_that_never_ends_is_killed_with_its_children() {
+        let folder = tempfile::tempdir().unwrap();
+        let child = "sh -c 'echo $$ > pid; exec sleep 60' & echo begun; sleep 60; true";
+        let finished = SHELL.run(folder.path(), ["-c", child], &limits(1.0)).unwrap();
+        assert!(finished.timed_out);
+        assert_eq!(finished.output, "begun\n");
+        let pid = std::fs::read_to_string(folder.path().join("pid")).unwrap();
+        let lives = || {
+            let stat = std::fs::read_to_string(format!("/proc/{}/stat", pid.trim()));
+            stat.is_ok_and(|stat| !stat.contains(") Z"))
+        };
+        // The signal has been sent; a busy machine takes its time to act on it.
+        let sent = Instant::now();
+        while lives() && sent.elapsed() < Duration::from_secs(20) {
+            sleep(NAP.1);
+        }
+        assert!(!lives(), "a child is left");
+    }
+
+    #[test]
+    fn a_missing_tool_is_named_with_its_package() {
+        let tool = Tool { program: "no-such-simulator", package: "nothing" };
+        let folder = tempfile::tempdir().unwrap();
+        let error = tool.run(folder.path(), [""; 0], &limits(1.0)).unwrap_err();
+        let expected = "no-such-simulator: not found on PATH; install it: apt-get install nothing";
+        assert_eq!(error.to_string(), expected);
+    }
+
+    #[test]
+    fn an_interruption_ends_the_program() {
+        let folder = tempfile::tempdir().unwrap();
+        let stop = AtomicBool::new(true);
+        let limits = Limits { time: Duration::from_secs(60), stop: Some(&stop) };
+        let error = SHELL.run(folder.path(), ["-c", "sleep 60"], &limits).unwrap_err();
+        assert!(matches!(error, Error::Interrupted));
+    }
+}

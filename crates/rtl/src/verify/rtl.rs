@@ -1,0 +1,125 @@
+//! The Verilog under test: a folder of the user's, or our own, which is in the program.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use tofsim::error::{Error, Input, Result};
+use tofsim::files::output::write_file;
+
+macro_rules! modules {
+    ($($name:literal),* $(,)?) => {
+        &[$((concat!($name, ".v"), include_str!(concat!("../../../../rtl_ref/", $name, ".v"))),)*]
+    };
+}
+
+/// Our own modules: file name and text.
+pub const OWN: &[(&str, &str)] = modules![
+    "carry_chain",
+    "centroid_estimator",
+    "coarse_counter",
+    "code_preload",
+    "control_sync",
+    "ddr_output",
+    "depth_estimator",
+    "estimator_ctrl",
+    "forward1",
+    "forward2",
+    "frame_ctrl",
+    "histogram_builder",
+    "histogram_preload",
+    "lvds_output",
+    "pll",
+    "reset_sync",
+    "spad_control",
+    "tansig",
+    "tdc",
+    "tdc_decoder",
+    "tdc_latch",
+    "tof_top",
+    "vcsel_driver",
+];
+
+/// Verilog source files.
+#[derive(Clone, Debug)]
+pub struct Rtl {
+    /// Their absolute paths, sorted.
+    pub files: Vec<PathBuf>,
+    /// Where they come from, for people.
+    pub source: String,
+}
+
+impl Rtl {
+    /// The `.v` and `.sv` files of a folder.
+    ///
+    /// # Errors
+    /// When the folder cannot be read or has none.
+    pub fn folder(folder: &Path) -> Result<Self> {
+        let fault = || Error::io(folder, "read");
+        let mut files = Vec::new();
+        for entry in fs::read_dir(folder).map_err(fault())? {
+            let path = entry.map_err(fault())?.path();
+            let verilog = path.extension().is_some_and(|end| end == "v" || end == "sv");
+            if verilog && path.is_file() {
+                files.push(path.canonicalize().map_err(fault())?);
+            }
+        }
+        files.sort();
+        let source = folder.display().to_string();
+        if files.is_empty() {
+            return Err(Input::new("--rtl", "no .v or .sv file in it").value(source).into());
+        }
+        Ok(Rtl { files, source })
+    }
+
+    /// Whether a file says by its name that it is SystemVerilog.
+    pub fn is_system_verilog(&self) -> bool {
+        self.files.iter().any(|file| file.extension().is_some_and(|end| end == "sv"))
+    }
+
+    /// Whether one of the files declares that module.
+    ///
+    /// # Errors
+    /// When a file cannot be read.
+    pub fn has(&self, module: &str) -> Result<bool> {
+        for file in &self.files {
+            let bytes = fs::read(file).map_err(Error::io(file, "read"))?;
+            let text = String::from_utf8_lossy(&bytes);
+            let mut words = text.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == '$'));
+            while words.by_ref().any(|word| word == "module") {
+                if words.find(|word| !word.is_empty()) == Some(module) {
+                    return Ok(true);
+                }
+            }
+        }
+        Ok(false)
+    }
+
+    /// Our own, written into `folder`.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn own(folder: &Path) -> Result<Self> {
+        let mut files = Vec::new();
+        for (name, text) in OWN {
+            let path = folder.join(name);
+            write_file(&path, |file| file.write_all(text.as_bytes()))?;
+            files.push(path);
+        }
+        Ok(Rtl { files, source: "rtl_ref".to_owned() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_module_of_ours_is_in_the_program() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rtl_ref");
+        let files = Rtl::folder(&folder).unwrap().files;
+        let names = files.iter().map(|path| path.file_name().unwrap().to_str().unwrap());
+        let own: Vec<_> = OWN.iter().map(|(name, _)| *name).collect();
+        assert_eq!(names.filter(|name| *name != "kc705_top.v").collect::<Vec<_>>(), own);
+    }
+}

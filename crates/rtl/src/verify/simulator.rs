@@ -1,0 +1,174 @@
+//! The two simulators: how each compiles a bench, runs it, and tells the ports of a module.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use tofsim::error::{Error, Input, Result};
+
+use super::interface::{Ports, of_icarus, of_verilator};
+use super::process::{self, Finished, IVERILOG, Limits, VERILATOR, VVP};
+use super::rtl::Rtl;
+
+/// Which simulator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Simulator {
+    /// Icarus Verilog: compiles at once.
+    Icarus,
+    /// Verilator: compiles for seconds, then runs fast.
+    Verilator,
+}
+
+/// A compiled bench.
+#[derive(Clone, Debug)]
+pub struct Compiled {
+    simulator: Simulator,
+    /// The folder that it runs in, with the vectors.
+    folder: PathBuf,
+    program: PathBuf,
+}
+
+impl Simulator {
+    /// Its name, as on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Simulator::Icarus => "icarus",
+            Simulator::Verilator => "verilator",
+        }
+    }
+
+    /// Compiles `top`, which is in `bench`, with the design's files, to run in `folder`.
+    ///
+    /// # Errors
+    /// When the simulator is missing, or refuses the sources; then its message is shown.
+    pub fn compile(
+        self,
+        folder: &Path,
+        top: &str,
+        bench: &[PathBuf],
+        rtl: &Rtl,
+        registers: bool,
+        limits: &Limits,
+    ) -> Result<Compiled> {
+        let defines = registers.then_some("-DREGISTERS");
+        let sources = bench.iter().chain(&rtl.files);
+        let program = match self {
+            Simulator::Icarus => folder.join("bench.vvp"),
+            Simulator::Verilator => folder.join("obj_dir").join("bench"),
+        };
+        let mut args: Vec<OsString> = match self {
+            Simulator::Icarus => {
+                [generation(rtl), "-s", top, "-o"].map(OsString::from).into_iter().collect()
+            }
+            Simulator::Verilator => {
+                let args = ["--binary", "--timing", "-Wno-fatal", "-Wno-lint", "-Wno-style"];
+                let more = ["--top-module", top, "-Mdir", "obj_dir", "-o", "bench"];
+                args.into_iter().chain(more).map(OsString::from).collect()
+            }
+        };
+        if self == Simulator::Icarus {
+            args.push(program.clone().into());
+        }
+        args.extend(defines.map(OsString::from));
+        args.extend(sources.map(OsString::from));
+        let tool = if self == Simulator::Icarus { IVERILOG } else { VERILATOR };
+        let finished = tool.run(folder, args, limits)?;
+        if !finished.success {
+            return Err(refused(rtl, &finished).into());
+        }
+        Ok(Compiled { simulator: self, folder: folder.to_owned(), program })
+    }
+
+    /// The ports of a module with those parameters, which decide how wide they are.
+    ///
+    /// # Errors
+    /// When the simulator is missing, refuses the sources, or finds no such module or parameter.
+    pub fn ports(
+        self,
+        folder: &Path,
+        module: &str,
+        parameters: &[(&str, u64)],
+        rtl: &Rtl,
+        limits: &Limits,
+    ) -> Result<Ports> {
+        let sources = rtl.files.iter().map(OsString::from);
+        let (output, finished) = match self {
+            Simulator::Icarus => {
+                let output = folder.join("ports.vvp");
+                let mut args = [generation(rtl), "-s", module, "-o"].map(OsString::from).to_vec();
+                args.push(output.clone().into());
+                let set = |(name, value): &_| format!("-P{module}.{name}={value}").into();
+                args.extend(parameters.iter().map(set));
+                (output, IVERILOG.run(folder, args.into_iter().chain(sources), limits)?)
+            }
+            Simulator::Verilator => {
+                let output = folder.join("ports.xml");
+                let args = ["--xml-only", "--timing", "-Wno-fatal", "-Wno-lint", "-Wno-style"];
+                let args = args.into_iter().chain(["--top-module", module, "--xml-output"]);
+                let mut args: Vec<_> = args.map(OsString::from).collect();
+                args.push(output.clone().into());
+                let set = |(name, value): &_| format!("-G{name}={value}").into();
+                args.extend(parameters.iter().map(set));
+                (output, VERILATOR.run(folder, args.into_iter().chain(sources), limits)?)
+            }
+        };
+        let missing = match self {
+            Simulator::Icarus => finished.output.contains("Unable to find the root module"),
+            Simulator::Verilator => finished.output.contains("was not found in design"),
+        };
+        if missing {
+            let fault = Input::new(&rtl.source, "no such module in it").field("module");
+            return Err(fault.value(module).into());
+        }
+        if !finished.success {
+            return Err(refused(rtl, &finished).into());
+        }
+        let bytes = std::fs::read(&output).map_err(Error::io(&output, "read"))?;
+        let text = String::from_utf8_lossy(&bytes);
+        match self {
+            Simulator::Icarus => Ok(of_icarus(&text)),
+            Simulator::Verilator => of_verilator(&text, module),
+        }
+    }
+}
+
+impl Compiled {
+    /// Runs it; with `got`, what is seen goes there line by line.
+    ///
+    /// # Errors
+    /// When it cannot be started, or the user stops everything.
+    pub fn run(&self, got: Option<&str>, limits: &Limits) -> Result<Finished> {
+        let mut args: Vec<OsString> = Vec::new();
+        if self.simulator == Simulator::Icarus {
+            args.extend(["-n".into(), self.program.clone().into()]);
+        }
+        args.extend(got.map(|name| format!("+got={name}").into()));
+        if self.simulator == Simulator::Icarus {
+            return VVP.run(&self.folder, args, limits);
+        }
+        let mut command = Command::new(&self.program);
+        command.args(args);
+        process::run(command, &self.folder, limits)
+    }
+}
+
+/// The language: Verilog-2005 unless there is SystemVerilog.
+fn generation(rtl: &Rtl) -> &'static str {
+    if rtl.is_system_verilog() { "-g2012" } else { "-g2005" }
+}
+
+/// Lines of a simulator's message that are passed on.
+const LINES: usize = 12;
+
+fn refused(rtl: &Rtl, finished: &Finished) -> Input {
+    let unknown = |line: &str| Some(line.split_once("Unknown module type: ")?.1.to_owned());
+    if let Some(module) = finished.output.lines().find_map(unknown) {
+        return Input::new(&rtl.source, format!("it has no module `{module}`"));
+    }
+    let message: Vec<_> = finished.output.lines().take(LINES).collect();
+    let what = match finished.timed_out {
+        true => "the simulator took too long to compile it",
+        false => "the simulator does not take it",
+    };
+    Input::new(&rtl.source, format!("{what}:\n{}", message.join("\n")))
+}

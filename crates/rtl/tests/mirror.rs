@@ -1,0 +1,129 @@
+//! The Verilog in `rtl_ref/` mirrors the Rust in `src/firmware/`: files, ports and house rules.
+
+use crate::common;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use tofsim::firmware::forward2::{MOST_NEURONS, NEURONS};
+use tofsim::hierarchy::{Entry, Kind, every_entry, fitted};
+use tofsim_rtl::golden::BLOCKS;
+use tofsim_rtl::golden::ports::Port;
+use tofsim_rtl::verify::interface::{Found, Ports};
+use tofsim_rtl::verify::process::Limits;
+use tofsim_rtl::verify::{Rtl, Simulator, rtl};
+
+/// Vendor primitives, and the only file that may instantiate each.
+const PRIMITIVES: &[(&str, &[&str])] = &[
+    ("CARRY4", &["carry_chain"]),
+    ("PLLE2", &["pll"]),
+    ("BUFG", &["pll"]),
+    ("ODDR", &["ddr_output"]),
+    ("OBUFDS", &["lvds_output"]),
+    ("IBUFDS", &["kc705_top"]),
+];
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Stems of the files in a folder of the repository, without those that have no twin by design.
+fn stems(folder: &str, end: &str, alone: &str) -> Vec<String> {
+    let files = common::files(&root().join(folder));
+    let stems = files.iter().filter_map(|name| name.strip_suffix(end));
+    stems.filter(|stem| *stem != alone).map(str::to_owned).collect()
+}
+
+fn modules() -> Vec<String> {
+    stems("rtl_ref", ".v", "kc705_top")
+}
+
+/// Name and text of every Verilog file.
+fn sources() -> Vec<(String, String)> {
+    let text = |stem: &str| fs::read_to_string(root().join(format!("rtl_ref/{stem}.v"))).unwrap();
+    stems("rtl_ref", ".v", "").into_iter().map(|stem| (stem.clone(), text(&stem))).collect()
+}
+
+/// Ports of each module as Rust has them; a module with several instances has one name for all.
+/// There are ports for the most neurons, as wide as the default number of them needs.
+fn rust_ports() -> BTreeMap<String, Ports> {
+    let mut modules = BTreeMap::<String, Ports>::new();
+    let narrow = |mut entry: Entry| {
+        if let Some(signal) = fitted(entry.signal.clone(), NEURONS) {
+            entry.signal = signal;
+        }
+        entry
+    };
+    let ports = every_entry().into_iter().filter(|entry| entry.kind != Kind::Internal);
+    for entry in ports.map(narrow) {
+        let instance = entry.scope.rsplit('.').next().unwrap();
+        let module = if instance.starts_with("reset_sync_") { "reset_sync" } else { instance };
+        let port = Found { output: entry.kind == Kind::Output, width: entry.signal.width };
+        let known = modules.entry(module.to_owned()).or_default();
+        let before = known.insert(entry.signal.name.clone(), port);
+        assert!(before.is_none_or(|before| before == port), "{}", entry.path());
+    }
+    modules
+}
+
+#[test]
+fn every_rust_module_has_a_verilog_twin_and_the_other_way_round() {
+    let rust = stems("src/firmware", ".rs", "mod");
+    assert_eq!(modules(), rust, "rtl_ref/*.v on the left, src/firmware/*.rs on the right");
+    let built_in: Vec<_> = rtl::OWN.iter().map(|(name, _)| name.strip_suffix(".v")).collect();
+    assert!(rust.iter().map(|stem| Some(stem.as_str())).eq(built_in), "verify::rtl::OWN");
+}
+
+#[test]
+fn every_module_has_golden_vectors() {
+    let mut blocks: Vec<_> = BLOCKS.iter().map(|spec| spec.name).collect();
+    blocks.sort_unstable();
+    assert_eq!(modules(), blocks, "rtl_ref/*.v on the left, golden::BLOCKS on the right");
+}
+
+#[test]
+fn ports_widths_and_directions_are_the_same() {
+    let folder = common::empty();
+    let rtl = Rtl::folder(&root().join("rtl_ref")).unwrap();
+    let limits = Limits { time: Duration::from_secs(60), stop: None };
+    let rust = rust_ports();
+    assert!(rust.keys().eq(&modules()), "{:?}", rust.keys());
+    for (module, ours) in &rust {
+        let verilog = Simulator::Icarus.ports(folder.path(), module, &[], &rtl, &limits).unwrap();
+        let names: BTreeSet<_> = ours.keys().chain(verilog.keys()).collect();
+        for name in names {
+            let (left, right) = (verilog.get(name), ours.get(name));
+            assert_eq!(left, right, "{name} of {module}: Verilog on the left, Rust on the right");
+        }
+    }
+    for spec in BLOCKS {
+        let port = |port: Port| (port.name, Found { output: port.output, width: port.width });
+        let of = |neurons| spec.ports(neurons).into_iter().map(port).collect::<Ports>();
+        let vectors = Ports::from_iter(of(MOST_NEURONS).into_iter().chain(of(NEURONS)));
+        assert_eq!(rust[spec.name], vectors, "ports of the golden block {}", spec.name);
+    }
+}
+
+#[test]
+fn every_file_has_one_module_a_timescale_and_no_implicit_nets() {
+    for (stem, text) in sources() {
+        let head: Vec<_> = text.lines().take(2).collect();
+        let expected = ["`timescale 1ps / 1fs", "`default_nettype none"];
+        assert_eq!(head, expected, "the first two lines of rtl_ref/{stem}.v");
+        let modules = text.lines().filter_map(|line| line.strip_prefix("module "));
+        let modules: Vec<_> = modules.filter_map(|rest| rest.split([' ', '(']).next()).collect();
+        assert_eq!(modules, [&stem], "modules in rtl_ref/{stem}.v");
+    }
+}
+
+#[test]
+fn vendor_primitives_stay_in_their_files() {
+    for (stem, text) in sources() {
+        for (primitive, files) in PRIMITIVES {
+            let allowed = files.contains(&stem.as_str());
+            let found = text.contains(primitive);
+            assert_eq!(found, allowed, "{primitive} in rtl_ref/{stem}.v");
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! Histograms from files: CSV `bin,count`, or NumPy's `.npy`, told apart by content.
+//!
+//! One histogram is in memory at a time, however many the file has.
+
+use std::fs::File;
+use std::io::{self, BufReader, Chain, Cursor, Read};
+use std::path::Path;
+
+use npyz::{DType, NpyFile, NpyHeader, Order, TypeChar};
+
+use crate::error::{Error, Input, Result, line_and_column};
+use crate::files::csv::CsvInput;
+use crate::files::npy;
+use crate::firmware::histogram_builder::BINS;
+use crate::network::{Histogram, MAX_HITS};
+
+/// First bytes of an `.npy` file.
+const MAGIC: &[u8; 6] = b"\x93NUMPY";
+/// First line of a CSV file.
+const HEADER: [&str; 2] = ["bin", "count"];
+/// Longest CSV file [bytes].
+const CSV: u64 = 1 << 20;
+/// What a count has to be.
+const COUNT: &str = "expected a whole number from 0 to 65535";
+
+/// A file, its first bytes put back.
+type Reader = BufReader<Chain<Cursor<Vec<u8>>, File>>;
+/// Elements of an array; whole numbers are exact.
+type Elements = Box<dyn Iterator<Item = io::Result<Element>>>;
+
+/// The histograms of a file, one after another.
+pub struct Histograms {
+    path: String,
+    left: Left,
+}
+
+enum Left {
+    Csv(Reader),
+    Npy { elements: Elements, next: u64, rows: u64 },
+    Nothing,
+}
+
+#[derive(Clone, Copy)]
+enum Element {
+    Whole(i128),
+    Real(f64),
+}
+
+/// Opens a file of histograms.
+pub fn open(path: &Path) -> Result<Histograms> {
+    let mut file = File::open(path).map_err(Error::io(path, "read"))?;
+    let mut first = Vec::with_capacity(MAGIC.len());
+    let begin = (&mut file).take(MAGIC.len() as u64).read_to_end(&mut first);
+    begin.map_err(Error::io(path, "read"))?;
+    let is_npy = first == MAGIC;
+    let reader = BufReader::with_capacity(1 << 16, Cursor::new(first).chain(file));
+    let name = path.display().to_string();
+    let left = if is_npy { array(reader, &name)? } else { Left::Csv(reader) };
+    Ok(Histograms { path: name, left })
+}
+
+/// The histogram of a file that has just one.
+pub fn single(path: &Path) -> Result<Histogram> {
+    let mut histograms = open(path)?;
+    match (histograms.next(), histograms.next()) {
+        (Some(one), None) => one,
+        (Some(Err(error)), _) => Err(error),
+        (first, _) => {
+            let found = if first.is_some() { "several histograms" } else { "no histogram" };
+            Err(Input::new(path.display(), format!("{found}, expected one")).into())
+        }
+    }
+}
+
+impl Iterator for Histograms {
+    type Item = Result<Histogram>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let result = match std::mem::replace(&mut self.left, Left::Nothing) {
+            Left::Nothing => return None,
+            Left::Csv(reader) => csv(reader, &self.path),
+            Left::Npy { next, rows, .. } if next == rows => return None,
+            Left::Npy { mut elements, next, rows } => {
+                let row = row(&mut elements, next, rows, &self.path);
+                if row.is_ok() {
+                    self.left = Left::Npy { elements, next: next + 1, rows };
+                }
+                row
+            }
+        };
+        Some(result)
+    }
+}
+
+/// A total that the estimator's words bear.
+fn checked(histogram: Histogram, path: &str, field: String) -> Result<Histogram> {
+    let total: u32 = histogram.iter().map(|&count| u32::from(count)).sum();
+    if total > MAX_HITS {
+        let expected = format!("the estimator's bit widths allow {MAX_HITS} hits in all");
+        return Err(Input::new(path, expected).field(field).value(total).into());
+    }
+    Ok(histogram)
+}
+
+/// The histogram of a CSV text; `source` names it in errors.
+pub fn parse_csv(source: &str, text: &str) -> Result<Histogram> {
+    let mut input = CsvInput::new(source, text, &HEADER)?;
+    let mut histogram = [0; BINS];
+    let mut bins = 0;
+    while input.advance()? {
+        if bins == BINS {
+            return Err(input.fault(0, "a row after bin 255, expected 256 rows").into());
+        }
+        if input.field(0) != Some(bins) {
+            let expected = format!("expected {bins}: bins 0 to 255, each once, in order");
+            return Err(input.fault(0, expected).into());
+        }
+        histogram[bins] = input.field(1).ok_or_else(|| input.fault(1, COUNT))?;
+        bins += 1;
+    }
+    if bins < BINS {
+        return Err(Input::new(source, format!("{bins} rows, expected {BINS}")).into());
+    }
+    checked(histogram, source, "total".to_owned())
+}
+
+/// Reads a CSV file to its end.
+fn csv(reader: Reader, path: &str) -> Result<Histogram> {
+    let mut bytes = Vec::new();
+    let read = reader.take(CSV + 1).read_to_end(&mut bytes);
+    read.map_err(Error::io(Path::new(path), "read"))?;
+    if bytes.len() as u64 > CSV {
+        let expected = "more than 1 MiB, expected CSV with 256 rows, or an .npy file";
+        return Err(Input::new(path, expected).into());
+    }
+    match std::str::from_utf8(&bytes) {
+        Ok(text) => parse_csv(path, text),
+        Err(error) => {
+            let valid = String::from_utf8_lossy(&bytes[..error.valid_up_to()]);
+            let (line, column) = line_and_column(&valid, valid.len());
+            let expected = "expected CSV in UTF-8, or an .npy file";
+            Err(Input::new(path, expected).at(line, column).into())
+        }
+    }
+}
+
+/// Reads the header of an `.npy` file.
+fn array(mut reader: Reader, path: &str) -> Result<Left> {
+    let fault = |expected: String| Error::from(Input::new(path, expected));
+    let header =
+        npy::header(&mut reader).map_err(|error| fault(format!("unreadable .npy: {error}")))?;
+    let shape = header.shape().to_vec();
+    let rows = match shape[..] {
+        [bins] if bins == BINS as u64 => 1,
+        [rows, bins] if bins == BINS as u64 && rows > 0 => rows,
+        _ => {
+            let shape = format!("{shape:?}").replace('[', "(").replace(']', ")");
+            let expected = "expected (256) or (n, 256), n at least 1";
+            return Err(Input::new(path, expected).field("shape").value(shape).into());
+        }
+    };
+    if header.order() == Order::Fortran && rows > 1 {
+        let expected = "columns are stored together, expected rows (numpy.ascontiguousarray)";
+        return Err(fault(expected.to_owned()));
+    }
+    let elements = elements(header, reader).map_err(|dtype| {
+        let expected = "expected integers or floats of 8 bytes";
+        Input::new(path, expected).field("dtype").value(dtype)
+    })?;
+    Ok(Left::Npy { elements, next: 0, rows })
+}
+
+/// The elements after the header; in error, the type that is none of ours.
+fn elements(header: NpyHeader, reader: Reader) -> std::result::Result<Elements, String> {
+    let dtype = header.dtype();
+    let DType::Plain(plain) = &dtype else { return Err(dtype.descr()) };
+    let file = NpyFile::with_header(header, reader);
+    macro_rules! read {
+        ($ty:ty, $element:expr) => {
+            Box::new(file.data::<$ty>().map_err(|_| dtype.descr())?.map(|x| x.map($element)))
+        };
+    }
+    Ok(match (plain.type_char(), plain.size_field()) {
+        (TypeChar::Uint, 1) => read!(u8, |x| Element::Whole(x.into())),
+        (TypeChar::Uint, 2) => read!(u16, |x| Element::Whole(x.into())),
+        (TypeChar::Uint, 4) => read!(u32, |x| Element::Whole(x.into())),
+        (TypeChar::Uint, 8) => read!(u64, |x| Element::Whole(x.into())),
+        (TypeChar::Int, 1) => read!(i8, |x| Element::Whole(x.into())),
+        (TypeChar::Int, 2) => read!(i16, |x| Element::Whole(x.into())),
+        (TypeChar::Int, 4) => read!(i32, |x| Element::Whole(x.into())),
+        (TypeChar::Int, 8) => read!(i64, |x| Element::Whole(x.into())),
+        (TypeChar::Float, 8) => read!(f64, Element::Real),
+        _ => return Err(dtype.descr()),
+    })
+}
+
+/// The histogram of a row.
+fn row(elements: &mut Elements, row: u64, rows: u64, path: &str) -> Result<Histogram> {
+    let mut histogram = [0; BINS];
+    for (bin, count) in histogram.iter_mut().enumerate() {
+        let field = || format!("histogram {row}, bin {bin}");
+        let element = match elements.next() {
+            Some(Ok(element)) => element,
+            Some(Err(error)) if error.kind() != io::ErrorKind::UnexpectedEof => {
+                return Err(Error::io(Path::new(path), "read")(error));
+            }
+            _ => {
+                let expected = format!("the file ends here, expected {rows} histograms");
+                return Err(Input::new(path, expected).field(field()).into());
+            }
+        };
+        *count =
+            element.count().ok_or_else(|| Input::new(path, COUNT).field(field()).value(element))?;
+    }
+    checked(histogram, path, format!("total of histogram {row}"))
+}
+
+impl Element {
+    fn count(self) -> Option<u16> {
+        match self {
+            Element::Whole(whole) => whole.try_into().ok(),
+            Element::Real(real) => (f64::from(real as u16) == real).then_some(real as u16),
+        }
+    }
+}
+
+impl std::fmt::Display for Element {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Element::Whole(whole) => whole.fmt(f),
+            Element::Real(real) => real.fmt(f),
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! Files of every kind: read with errors that name the place, written whole or not at all.
+
+pub mod csv;
+pub mod date;
+pub mod histogram;
+pub mod npy;
+pub mod output;

@@ -1,0 +1,72 @@
+//! The headers of NumPy's `.npy` files.
+
+use std::io::{self, ErrorKind, Read};
+
+use npyz::NpyHeader;
+
+/// Longest header of an `.npy` file; that of a plain array has 118 [bytes].
+const NPY_HEADER: usize = 1024;
+/// Most digits in that header, so that the product of the lengths fits in 64 bits.
+const NPY_DIGITS: usize = 18;
+
+/// The header, refused before it is parsed if it is not like a plain array's: nested brackets take
+/// the parser forever.
+pub fn header(reader: &mut impl Read) -> io::Result<NpyHeader> {
+    parse(reader).map_err(|error| match error.kind() {
+        ErrorKind::UnexpectedEof => io::Error::other("the file ends within it"),
+        _ => error,
+    })
+}
+
+fn parse(reader: &mut impl Read) -> io::Result<NpyHeader> {
+    let mut bytes = vec![0; 10];
+    reader.read_exact(&mut bytes)?;
+    let mut length = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+    if bytes[6] > 1 {
+        let mut high = [0; 2];
+        reader.read_exact(&mut high)?;
+        bytes.extend(high);
+        length |= usize::from(u16::from_le_bytes(high)) << 16;
+    }
+    if length > NPY_HEADER {
+        return Err(io::Error::other(format!("a header of {length} bytes")));
+    }
+    let begin = bytes.len();
+    bytes.resize(begin + length, 0);
+    reader.read_exact(&mut bytes[begin..])?;
+    let count = |of: fn(&u8) -> bool| bytes[begin..].iter().filter(|&byte| of(byte)).count();
+    if count(|byte| b"([{".contains(byte)) > 2 || count(u8::is_ascii_digit) > NPY_DIGITS {
+        return Err(io::Error::other("its header is not that of a plain array"));
+    }
+    NpyHeader::from_reader(&bytes[..])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(text: &str) -> Vec<u8> {
+        let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+        bytes.extend((text.len() as u16).to_le_bytes());
+        bytes.extend(text.bytes());
+        bytes
+    }
+
+    #[test]
+    fn a_plain_array_s_header_is_read() {
+        let text = "{'descr': '<f8', 'fortran_order': False, 'shape': (8, 256), }\n";
+        let header = header(&mut &file(text)[..]).unwrap();
+        assert_eq!(header.shape(), [8, 256]);
+    }
+
+    #[test]
+    fn what_the_parser_would_take_forever_for_or_overflow_on_is_refused() {
+        let refused = |text: &str| header(&mut &file(text)[..]).err().unwrap().to_string();
+        assert!(refused(&"[".repeat(60_000)).contains("a header of 60000 bytes"));
+        assert!(refused(&"[".repeat(900)).contains("not that of a plain array"));
+        let many = "{'descr': '<f8', 'fortran_order': False, 'shape': (9999999999, 9999999999), }";
+        assert!(refused(many).contains("not that of a plain array"));
+        let cut = header(&mut &b"\x93NUMPY\x01"[..]).err().unwrap();
+        assert_eq!(cut.to_string(), "the file ends within it");
+    }
+}

@@ -1,0 +1,140 @@
+//! Argmax with centroid correction, without its clock: bit for bit what
+//! [`centroid_estimator`](crate::firmware::centroid_estimator) computes, as sums over its window.
+
+use crate::firmware::centroid_estimator::{POSITION_FRACTION, Params, SURPLUS};
+use crate::firmware::forward2::Depth;
+use crate::kernel::U;
+use crate::network::Histogram;
+
+/// What an estimation finds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Found {
+    /// Depth word, 0 where nothing stands out [m].
+    pub depth: Depth,
+    /// Height of the highest bin above the background, 0 where nothing stands out [hits].
+    pub best: u32,
+    /// That bin.
+    pub peak: usize,
+    /// Hits in its window.
+    pub best_sum: u64,
+}
+
+/// The estimate of a histogram.
+pub fn locate(p: &Params, histogram: &Histogram) -> Found {
+    let w = p.half_width as usize;
+    let (mut best, mut peak) = (0, 0);
+    for (bin, &count) in histogram.iter().enumerate() {
+        let height = u32::from(count).saturating_sub(level(p, histogram, bin));
+        if height > best {
+            (best, peak) = (height, bin);
+        }
+    }
+    if best == 0 {
+        return Found::default();
+    }
+    let end = peak + w;
+    let window = histogram.iter().enumerate().take(end + 1).skip(peak.saturating_sub(w));
+    let (mut best_sum, mut ages) = (0, 0);
+    for (bin, &count) in window {
+        best_sum += u64::from(count);
+        ages += u64::from(count) * (end - bin) as u64;
+    }
+    let quotient = (ages << POSITION_FRACTION) / best_sum;
+    let half = 1 << (POSITION_FRACTION - 1);
+    let position = U::<20>::new(((end as u64) << POSITION_FRACTION) + half - quotient);
+    let metres = (position.get() * p.slope.get()) >> SURPLUS;
+    let depth = Depth::new(metres as i64 + p.offset.get());
+    Found { depth, best, peak, best_sum }
+}
+
+/// The background at a bin: the word at the begin of its window. Before bin 0 there is none; twice
+/// bin 0 stands for those.
+fn level(p: &Params, histogram: &Histogram, bin: usize) -> u32 {
+    match bin.checked_sub(p.half_width as usize) {
+        _ if !p.background => 0,
+        Some(first) => histogram[first].into(),
+        None => 2 * u32::from(histogram[0]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::firmware::centroid_estimator::{CentroidEstimator, DONE, In};
+    use crate::kernel::S;
+
+    /// The firmware's block, stepped from a start until `algo_done`, and the edges it took.
+    fn step(p: &Params, histogram: &Histogram) -> (Depth, u64) {
+        let mut block = CentroidEstimator::default();
+        let mut i = In { rst: false, algo_start: true, count: U::new(0) };
+        block.rise(&i, p);
+        i.algo_start = false;
+        let mut edges = 0;
+        while !block.registers.algo_done {
+            let word = histogram[block.registers.read_addr.index()];
+            block.rise(&In { count: U::new(word.into()), ..i }, p);
+            edges += 1;
+        }
+        (block.registers.depth, edges)
+    }
+
+    fn one(bin: usize, count: u16) -> Histogram {
+        std::array::from_fn(|k| if k == bin { count } else { 0 })
+    }
+
+    #[test]
+    fn extreme_histograms_give_what_308_edges_of_the_firmware_give() {
+        let (offset, most) = (S::new(-(1 << 29)), U::MAX);
+        for half_width in [1, 2, 16, 30, 31] {
+            for background in [false, true] {
+                let p = Params { half_width, background, ..Params::default() };
+                for p in [p, Params { slope: most, offset, ..p }] {
+                    let level = [[0; 256], [255; 256], [u16::MAX; 256]];
+                    let ones = (0..256).flat_map(|bin| [one(bin, 1), one(bin, u16::MAX)]);
+                    let steps = (0..256).map(|edge| {
+                        std::array::from_fn(|bin| if bin < edge { 3 } else { u16::MAX })
+                    });
+                    for histogram in level.into_iter().chain(ones).chain(steps) {
+                        let expected = (locate(&p, &histogram).depth, DONE);
+                        assert_eq!(step(&p, &histogram), expected, "{p:?} {histogram:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn any_histogram_and_any_parameters_give_what_the_firmware_gives(
+            histogram in prop::collection::vec(any::<u16>(), 256),
+            shift in 0..16,
+            half_width in 1..=31u64,
+            background: bool,
+            slope: u64,
+            offset: i64,
+        ) {
+            let p = Params { half_width, background, slope: U::new(slope), offset: S::new(offset) };
+            let histogram: Histogram = std::array::from_fn(|bin| histogram[bin] >> shift);
+            prop_assert_eq!(step(&p, &histogram), (locate(&p, &histogram).depth, DONE));
+        }
+    }
+
+    #[test]
+    fn a_symmetric_pulse_is_found_at_its_middle_on_any_level() {
+        for level in [0, 200] {
+            let pulse = |bin: usize| 1000u16.saturating_sub(100 * bin.abs_diff(80) as u16);
+            let found = locate(&Params::default(), &std::array::from_fn(|bin| level + pulse(bin)));
+            assert_eq!((found.peak, found.best), (80, 1000));
+            let metres = 80.5 * 0.003_747_405_725;
+            assert!((found.depth.to_f64() - metres).abs() < 2e-6, "{}", found.depth.to_f64());
+        }
+    }
+
+    #[test]
+    fn what_has_no_peak_stands_out_nowhere() {
+        assert_eq!(locate(&Params::default(), &[0; 256]), Found::default());
+        assert_eq!(locate(&Params::default(), &[100; 256]), Found::default());
+    }
+}

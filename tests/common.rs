@@ -1,0 +1,66 @@
+//! What several tests share.
+#![allow(dead_code, reason = "each test file uses a part of it")]
+
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+use tofsim::network::Histogram;
+use tofsim::scenario;
+use tofsim::sim::Run;
+use tofsim::sim::frames::Frame;
+use tofsim::sim::run::Watch;
+use tofsim::sim::setup::Setup;
+
+/// A scenario with overrides, ready to run.
+pub fn setup(name: &str, overrides: &[&str]) -> Setup {
+    let overrides: Vec<_> = overrides.iter().map(|&text| text.to_owned()).collect();
+    Setup::new(scenario::load(name, &overrides).unwrap()).unwrap()
+}
+
+/// The first `count` frames of a setup.
+pub fn frames(setup: &Setup, count: u64) -> Vec<Frame> {
+    let mut frames = Vec::new();
+    let mut take = |frame: &Frame| {
+        frames.push(frame.clone());
+        Ok(())
+    };
+    let watch = Watch { frames: Some(&mut take), ..Watch::default() };
+    Run::new(setup).frames(count, watch).unwrap();
+    assert_eq!(frames.len() as u64, count);
+    frames
+}
+
+/// Names of the files in a folder, hidden ones too.
+pub fn files(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> = fs::read_dir(folder)
+        .map(|entries| entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect())
+        .unwrap_or_default();
+    names.sort();
+    names
+}
+
+/// A histogram as CSV with a comment.
+pub fn csv(histogram: &Histogram) -> String {
+    let mut text = String::from("# made by hand\nbin,count\n");
+    for (bin, count) in histogram.iter().enumerate() {
+        writeln!(text, "{bin},{count}").unwrap();
+    }
+    text
+}
+
+/// An `.npy` file of that type and shape, by the format's description.
+pub fn npy(descr: &str, shape: &str, data: &[u8]) -> Vec<u8> {
+    let dict = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}");
+    let header = format!("{dict:<117}\n");
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((header.len() as u16).to_le_bytes());
+    bytes.extend(header.as_bytes());
+    bytes.extend(data);
+    bytes
+}
+
+/// A folder with nothing in it, gone at the end of the test.
+pub fn empty() -> tempfile::TempDir {
+    tempfile::tempdir().unwrap()
+}
