@@ -3,8 +3,8 @@
 use proptest::prelude::*;
 
 use tofsim::files::csv::CsvInput;
-use tofsim::files::histogram;
 use tofsim::network::Network;
+use tofsim::network::histogram_file;
 use tofsim::scenario;
 use tofsim::scenario::window::Window;
 use tofsim::sensor::photon_list::PhotonList;
@@ -31,7 +31,7 @@ proptest! {
 
     #[test]
     fn histograms(text in nearly(&["bin,count", "\n", "0,", "1,5\n", "65535", "#x\n", "\"", " "])) {
-        let _ = histogram::parse_csv("h", &text);
+        let _ = histogram_file::parse_csv("h", &text);
         let _ = CsvInput::new("h", &text, &["bin", "count"]);
     }
 

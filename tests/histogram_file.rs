@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use crate::common::{csv, npy};
-use tofsim::files::histogram;
 use tofsim::network::Histogram;
+use tofsim::network::histogram_file;
 
 #[test]
 fn every_type_of_whole_number_reads_the_same_in_either_byte_order() {
@@ -14,7 +14,7 @@ fn every_type_of_whole_number_reads_the_same_in_either_byte_order() {
     let check = |descr: &str, bytes: fn(u16) -> Vec<u8>| {
         let data: Vec<u8> = histogram.iter().flat_map(|&count| bytes(count)).collect();
         std::fs::write(&path, npy(descr, "(256,)", &data)).unwrap();
-        assert!(histogram::single(&path).unwrap() == histogram, "{descr}");
+        assert!(histogram_file::single(&path).unwrap() == histogram, "{descr}");
     };
     check("|u1", |n| vec![n as u8]);
     check("|i1", |n| vec![n as u8]);
@@ -33,7 +33,7 @@ fn fault(bytes: &[u8]) -> String {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("h");
     std::fs::write(&path, bytes).unwrap();
-    let error = histogram::open(&path)
+    let error = histogram_file::open(&path)
         .and_then(|mut list| list.find(Result::is_err).expect("a histogram in error").map(drop));
     let message = error.unwrap_err().to_string();
     let prefix = path.display().to_string();
@@ -80,7 +80,7 @@ fn a_csv_may_have_comments_blank_lines_spaces_and_windows_line_ends() {
     let text =
         csv(&histogram).replace(',', ", ").replace('\n', "\r\n").replace("\n77,", "\n\n#\n77,");
     std::fs::write(&path, format!("\u{feff}{text}")).unwrap();
-    assert!(histogram::single(&path).unwrap() == histogram);
+    assert!(histogram_file::single(&path).unwrap() == histogram);
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn a_faulty_npy_is_refused_with_shape_type_or_place() {
 #[test]
 fn a_histogram_file_that_is_not_there_or_no_file_is_an_error() {
     for path in ["/nonexistent/h.csv", "/"] {
-        let error = histogram::single(Path::new(path)).unwrap_err().to_string();
+        let error = histogram_file::single(Path::new(path)).unwrap_err().to_string();
         assert!(error.starts_with(&format!("{path}: cannot read")), "{error}");
     }
 }

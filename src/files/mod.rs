@@ -2,6 +2,6 @@
 
 pub mod csv;
 pub mod date;
-pub mod histogram;
 pub mod npy;
 pub mod output;
+pub mod toml;

@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+use schemars::JsonSchema;
+use serde::Deserialize;
+
 use crate::error::{Error, Input, Result, read_text};
 
 use super::float::Float;
@@ -25,7 +28,8 @@ pub struct Network {
 }
 
 /// How a network came about.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Training {
     /// Recipe and data, in words.
     pub origin: String,
@@ -40,7 +44,8 @@ pub struct Training {
 }
 
 /// Spread of the fixed-point depth over a test set.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Accuracy {
     /// Distances tested [m].
     pub distances_m: Vec<f64>,

@@ -3,6 +3,7 @@
 use fixed::types::extra::{U13, U14, U15, U17, U23, U29};
 use fixed::{FixedI16, FixedI32, FixedI64};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Weights;
@@ -27,7 +28,7 @@ pub type Depth = FixedI64<U29>;
 pub type Fixed = Weights<HiddenWeight, HiddenBias, OutputWeight, OutputBias>;
 
 /// A two's complement word: how wide, and where its point is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Format {
     /// Width [bits].

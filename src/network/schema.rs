@@ -1,17 +1,20 @@
 //! The fields of a network file and the rules they obey.
 
+use schemars::JsonSchema;
+use serde::Deserialize;
+
 use crate::error::Result;
+use crate::files::toml::Checked;
 use crate::firmware::forward2::MOST_NEURONS;
+use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tansig::ADDRESS_BITS;
 
-use super::Network;
 use super::file::{Accuracy, Training};
-use super::float::Float;
 use super::formats::{
     B1, B2, Fixed, Format, HiddenBias, HiddenWeight, L1_OUT, OutputBias, OutputWeight,
     TANSIG_RANGE, W1, W2,
 };
-use super::read::{Source, Table, Value};
+use super::{Network, Weights};
 
 /// Value of the key `schema`.
 pub(super) const SCHEMA: &str = "tofsim.network/1";
@@ -22,122 +25,176 @@ pub(super) const SCALING: [(&str, &str); 3] =
 pub(super) const FORMATS: [(&str, Format); 5] =
     [("w1", W1), ("b1", B1), ("w2", W2), ("b2", B2), ("l1_out", L1_OUT)];
 
-impl Network {
-    /// A network from the text of its file; messages name `source`.
-    pub fn parse(text: &str, source: &str) -> Result<Network> {
-        let source = Source { text, name: source };
-        let tree = source.parse()?;
-        let mut root = Table::root(source, &tree);
-        root.required("schema")?.keyword(SCHEMA)?;
-        let description = root.required("description")?.text()?;
-        let training = training(root.required("training")?.table()?)?;
-        let accuracy = section(root.optional("accuracy"), accuracy)?;
-        scaling(root.required("scaling")?.table()?)?;
-        formats(root.required("formats")?.table()?)?;
-        let fixed = integers(root.required("integers")?.table()?)?;
-        let float = section(root.optional("float"), |table| float(table, fixed.neurons()))?;
-        let name = source.name.to_owned();
-        let network = Network { name, description, training, accuracy, fixed, float };
-        root.finish()?;
-        Ok(network)
+/// A network's file.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct File {
+    schema: String,
+    description: String,
+    training: Training,
+    accuracy: Option<Accuracy>,
+    scaling: Scaling,
+    formats: Formats,
+    integers: Arrays<i16>,
+    float: Option<Arrays<f64>>,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Scaling {
+    input: String,
+    output: String,
+    normalisation: String,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Formats {
+    w1: Format,
+    b1: Format,
+    w2: Format,
+    b2: Format,
+    l1_out: Format,
+    tansig: TansigFormat,
+}
+
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct TansigFormat {
+    address_bits: u32,
+    range: i64,
+}
+
+/// `w1[neuron][bin]` and what goes with it.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Arrays<T> {
+    #[schemars(length(min = 1, max = MOST_NEURONS), inner(length(equal = BINS)))]
+    w1: Vec<Vec<T>>,
+    b1: Vec<T>,
+    w2: Vec<T>,
+    b2: T,
+}
+
+impl<T: Copy + Default> Arrays<T> {
+    /// The weights in types of their own.
+    fn weights<W1, B1, W2, B2>(
+        self,
+        w1: impl Fn(T) -> W1,
+        b1: impl Fn(T) -> B1,
+        w2: impl Fn(T) -> W2,
+        b2: impl Fn(T) -> B2,
+    ) -> Weights<W1, B1, W2, B2> {
+        let row = |row: &Vec<T>| std::array::from_fn(|bin| w1(row[bin]));
+        Weights {
+            w1: self.w1.iter().map(row).collect(),
+            b1: self.b1.into_iter().map(b1).collect(),
+            w2: self.w2.into_iter().map(w2).collect(),
+            b2: b2(self.b2),
+        }
     }
-}
 
-fn section<T>(value: Option<Value>, read: impl FnOnce(Table) -> Result<T>) -> Result<Option<T>> {
-    value.map(|value| read(value.table()?)).transpose()
-}
-
-fn training(mut table: Table) -> Result<Training> {
-    let training = Training {
-        origin: table.required("origin")?.text()?,
-        chain: table.required("chain")?.text()?,
-        command: table.optional("command").map(|command| command.text()).transpose()?,
-        seed: table.optional("seed").map(|seed| seed.natural()).transpose()?,
-        data: table.optional("data").map(|data| data.text()).transpose()?,
-    };
-    table.finish()?;
-    Ok(training)
-}
-
-fn accuracy(mut table: Table) -> Result<Accuracy> {
-    let numbers = |value: &Value| value.list()?.iter().map(Value::number).collect::<Result<_>>();
-    let distances_m: Vec<f64> = numbers(&table.required("distances_m")?)?;
-    let at_each = |value: Value| {
-        let values: Vec<f64> = numbers(&value)?;
-        match values.len() == distances_m.len() {
-            true => Ok(values),
-            false => {
-                let (found, expected) = (values.len(), distances_m.len());
-                let expected = format!("{found} values, expected one a distance: {expected}");
-                Err(value.fault(expected))
+    /// That there is one of each for each of so many neurons.
+    fn check(&self, section: &str, neurons: usize, checked: &Checked) -> Result<()> {
+        for (key, found) in [("w1", self.w1.len()), ("b1", self.b1.len()), ("w2", self.w2.len())] {
+            if found != neurons {
+                let expected = format!("expected {neurons}, one a neuron");
+                return Err(checked.fault(&format!("{section}.{key}"), expected).into());
             }
         }
-    };
-    let two_sd_mm = at_each(table.required("two_sd_mm")?)?;
-    let mean_mm = table.optional("mean_mm").map(at_each).transpose()?;
-    table.finish()?;
-    Ok(Accuracy { distances_m, two_sd_mm, mean_mm })
-}
-
-fn scaling(mut table: Table) -> Result<()> {
-    for (key, word) in SCALING {
-        table.required(key)?.keyword(word)?;
+        Ok(())
     }
-    table.finish()
 }
 
-fn formats(mut table: Table) -> Result<()> {
-    for (key, format) in FORMATS {
-        let mut word = table.required(key)?.table()?;
-        word.required("width")?.exactly(format.width.into())?;
-        word.required("fraction")?.exactly(format.fraction.into())?;
-        word.finish()?;
+impl Network {
+    /// A network from the text of its file; messages name `source`.
+    ///
+    /// # Errors
+    /// When the text is no TOML, a key is missing, unknown or out of range, or the network is one
+    /// for other formats than the firmware's.
+    pub fn parse(text: &str, source: &str) -> Result<Network> {
+        let checked = Checked::parse::<File>(source, text)?;
+        let file: File = checked.read()?;
+        file.check(&checked)?;
+        let word = i32::from;
+        let fixed: Fixed = file.integers.weights(
+            |w1| HiddenWeight::from_bits(word(w1)),
+            HiddenBias::from_bits,
+            OutputWeight::from_bits,
+            |b2| OutputBias::from_bits(word(b2)),
+        );
+        let same = |value: f64| value;
+        Ok(Network {
+            name: source.to_owned(),
+            description: file.description,
+            training: file.training,
+            accuracy: file.accuracy,
+            fixed,
+            float: file.float.map(|float| float.weights(same, same, same, same)),
+        })
     }
-    let mut tansig = table.required("tansig")?.table()?;
-    tansig.required("address_bits")?.exactly(ADDRESS_BITS.into())?;
-    tansig.required("range")?.exactly(TANSIG_RANGE)?;
-    tansig.finish()?;
-    table.finish()
 }
 
-fn integers(mut table: Table) -> Result<Fixed> {
-    let b1 = |v: &Value| Ok(HiddenBias::from_bits(word(v, B1)?));
-    let w2 = |v: &Value| Ok(OutputWeight::from_bits(word(v, W2)?));
-    let weight = |v: &Value| Ok(HiddenWeight::from_bits(word(v, W1)?.into()));
-    let w1 =
-        table.required("w1")?.many("rows", 1..=MOST_NEURONS, |row| row.array("weights", weight))?;
-    let each = w1.len()..=w1.len();
-    let fixed = Fixed {
-        b1: table.required("b1")?.many("biases", each.clone(), b1)?,
-        w2: table.required("w2")?.many("weights", each, w2)?,
-        b2: OutputBias::from_bits(word(&table.required("b2")?, B2)?.into()),
-        w1,
-    };
-    table.finish()?;
-    Ok(fixed)
+impl File {
+    /// What the types alone do not say.
+    fn check(&self, checked: &Checked) -> Result<()> {
+        let fault = |key: &str, expected: String| -> Result<()> {
+            Err(checked.fault(key, expected).into())
+        };
+        if self.schema != SCHEMA {
+            return fault("schema", format!("expected \"{SCHEMA}\""));
+        }
+        let scaling = [&self.scaling.input, &self.scaling.output, &self.scaling.normalisation];
+        for (found, (key, word)) in scaling.into_iter().zip(SCALING) {
+            if found != word {
+                return fault(&format!("scaling.{key}"), format!("expected \"{word}\""));
+            }
+        }
+        self.formats.check(checked)?;
+        let neurons = self.integers.w1.len();
+        self.integers.check("integers", neurons, checked)?;
+        if let Some(float) = &self.float {
+            float.check("float", neurons, checked)?;
+        }
+        let Some(accuracy) = &self.accuracy else { return Ok(()) };
+        let distances = accuracy.distances_m.len();
+        let columns =
+            [("two_sd_mm", Some(&accuracy.two_sd_mm)), ("mean_mm", accuracy.mean_mm.as_ref())];
+        for (key, column) in columns {
+            if column.is_some_and(|column| column.len() != distances) {
+                let expected = format!("expected one a distance: {distances}");
+                return fault(&format!("accuracy.{key}"), expected);
+            }
+        }
+        Ok(())
+    }
 }
 
-/// An integer of a 16-bit word.
-fn word(value: &Value, format: Format) -> Result<i16> {
-    let (min, max) = (format.min(), format.max());
-    let fraction = format.fraction;
-    let expected =
-        format_args!("expected an integer from {min} to {max} (16 bits, {fraction} fraction)");
-    Ok(value.integer(min..=max, expected)? as i16)
-}
-
-/// The weights before rounding of a network with so many neurons.
-fn float(mut table: Table, neurons: usize) -> Result<Float> {
-    let each = neurons..=neurons;
-    let row = |row: &Value| row.array("weights", Value::number);
-    let float = Float {
-        w1: table.required("w1")?.many("rows", each.clone(), row)?,
-        b1: table.required("b1")?.many("biases", each.clone(), Value::number)?,
-        w2: table.required("w2")?.many("weights", each, Value::number)?,
-        b2: table.required("b2")?.number()?,
-    };
-    table.finish()?;
-    Ok(float)
+impl Formats {
+    fn check(&self, checked: &Checked) -> Result<()> {
+        let words = [self.w1, self.b1, self.w2, self.b2, self.l1_out];
+        let tansig = [
+            (
+                "tansig.address_bits".to_owned(),
+                i64::from(self.tansig.address_bits),
+                ADDRESS_BITS.into(),
+            ),
+            ("tansig.range".to_owned(), self.tansig.range, TANSIG_RANGE),
+        ];
+        let pairs = words.into_iter().zip(FORMATS).flat_map(|(found, (key, own))| {
+            [
+                (format!("{key}.width"), found.width.into(), own.width.into()),
+                (format!("{key}.fraction"), found.fraction.into(), own.fraction.into()),
+            ]
+        });
+        match pairs.chain(tansig).find(|(_, found, own)| found != own) {
+            None => Ok(()),
+            Some((key, _, own)) => {
+                let expected = format!("expected {own}, as in the firmware");
+                Err(checked.fault(&format!("formats.{key}"), expected).into())
+            }
+        }
+    }
 }
 
 #[cfg(test)]

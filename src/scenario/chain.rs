@@ -9,7 +9,7 @@ use crate::firmware::tdc_decoder::Calibration;
 use crate::kernel::Time;
 
 use super::builtin::{self, Source};
-use super::check::{Checked, read};
+use crate::files::toml::Checked;
 
 /// A chain file. Either all taps are alike (`tap_ps`) or each has its own delay.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -71,7 +71,7 @@ pub fn calibration(name: &str) -> Result<Box<Calibration>> {
 
 fn parse(source: &str, text: &str) -> Result<Delays> {
     let checked = Checked::parse::<Chain>(source, text)?;
-    let chain: Chain = read(source, checked.table())?;
+    let chain: Chain = checked.read()?;
     let mut taps_ps = match (chain.tap_ps, chain.tap_delays_ps) {
         (Some(tap_ps), None) => vec![tap_ps; TAPS],
         (None, Some(taps_ps)) if taps_ps.len() == TAPS => taps_ps,

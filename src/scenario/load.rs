@@ -2,12 +2,10 @@
 
 use std::path::Path;
 
-use toml_edit::{DocumentMut, Item, Table};
-
 use crate::error::{Input, Result, nearest, read_text};
+use crate::files::toml::{Checked, assign, read};
 
 use super::builtin::{self, Source};
-use super::check::{Checked, read};
 use super::{Scenario, validate};
 
 /// The scenario that `run` takes when none is named.
@@ -52,51 +50,11 @@ fn parse(
     let checked = Checked::parse::<Scenario>(source, text)?;
     let mut table = checked.table().clone();
     for assignment in overrides {
-        lay_over(&mut table, assignment)?;
+        assign::<Scenario>(&mut table, "-s", assignment)?;
     }
     let scenario: Scenario = read(source, &table)?;
     validate::validate(&scenario, &checked)?;
     Ok(Loaded { name: name.to_owned(), scenario, files })
-}
-
-/// Sets one dotted key. What is no TOML value is taken as a text.
-fn lay_over(table: &mut Table, assignment: &str) -> Result<()> {
-    let source = format!("-s {assignment}");
-    let Some((key, value)) = assignment.split_once('=') else {
-        return Err(Input::new(source, "expected key=value").into());
-    };
-    if assignment.contains(char::is_control) {
-        return Err(Input::new("-s", "expected one key=value, on one line").value(key).into());
-    }
-    let (key, value) = (key.trim(), value.trim());
-    let as_toml = format!("{key} = {value}");
-    let text = match as_toml.parse::<DocumentMut>() {
-        Ok(_) => as_toml,
-        Err(_) => format!("{key} = {}", toml_edit::Value::from(value)),
-    };
-    let checked = Checked::parse::<Scenario>(&source, &text)
-        .map_err(|error| without_place(error, &source))?;
-    merge(table, checked.table());
-    Ok(())
-}
-
-fn merge(onto: &mut Table, from: &Table) {
-    for (key, item) in from.iter() {
-        match (onto.get_mut(key).and_then(Item::as_table_mut), item.as_table()) {
-            (Some(onto), Some(from)) => merge(onto, from),
-            _ => drop(onto.insert(key, item.clone())),
-        }
-    }
-}
-
-/// A place inside an option of the command line says nothing.
-fn without_place(error: crate::error::Error, source: &str) -> crate::error::Error {
-    match error {
-        crate::error::Error::Input(input) => {
-            Input { place: None, source: source.to_owned(), ..*input }.into()
-        }
-        other => other,
-    }
 }
 
 #[cfg(test)]

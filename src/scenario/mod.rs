@@ -2,7 +2,6 @@
 
 pub mod builtin;
 pub mod chain;
-pub mod check;
 mod load;
 mod model;
 pub mod show;

@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::scenario::window::Window;
 
 use super::Scenario;
-use super::check::Checked;
+use crate::files::toml::Checked;
 
 /// Frequency of the whole-cycle clock that the firmware is built for [Hz].
 const CLK_125_HZ: u64 = 125_000_000;

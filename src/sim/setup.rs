@@ -3,7 +3,6 @@
 use super::centroid::locate;
 use crate::error::{Input, Result};
 use crate::files::csv::CsvInput;
-use crate::files::histogram;
 use crate::firmware::forward2::Depth;
 use crate::firmware::histogram_preload;
 use crate::firmware::pll::{self, Pll};
@@ -11,6 +10,7 @@ use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, P
 use crate::firmware::{centroid_estimator, frame_ctrl, tdc, vcsel_driver};
 use crate::kernel::{S, Time, U};
 use crate::network::estimate::estimate;
+use crate::network::histogram_file;
 use crate::network::{Histogram, Network};
 use crate::optics::{Budget, Hazard};
 use crate::scenario::builtin::Source;
@@ -269,7 +269,7 @@ fn stimulus(
     }
     if let Some(name) = &stimulus.histogram {
         let (source, text) = files.read(name)?;
-        let counts = histogram::parse_csv(&source, &text)?;
+        let counts = histogram_file::parse_csv(&source, &text)?;
         let rom: histogram_preload::Rom = counts.map(|count| U::new(count as u64));
         let rom = HistogramSource::Preload(Box::new(rom));
         return Ok((CodeSource::Tdc, rom, Some(Light::None)));

@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 use crate::ila::SetUp;
 use crate::ila::setup::ProbeEntry;
 use tofsim::error::{Result, read_text};
+use tofsim::files::toml::Checked;
 use tofsim::hierarchy::TOP;
-use tofsim::scenario::check::{Checked, read};
 
 /// A map file. Where it names sides, `a` and `b` are those of `tofsim compare A B`, or the other way
 /// round if its names are found so.
@@ -143,7 +143,7 @@ impl Map {
     /// As [`Map::read`].
     pub fn parse(source: &str, text: &str) -> Result<Map> {
         let checked = Checked::parse::<Map>(source, text)?;
-        let map: Map = read(source, checked.table())?;
+        let map: Map = checked.read()?;
         for (k, rename) in map.rename.iter().enumerate() {
             if let Err(error) = Regex::new(&rename.pattern) {
                 let reason = error.to_string();

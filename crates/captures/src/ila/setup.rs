@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use tofsim::error::{Error, Input, Result, nearest, read_text};
-use tofsim::scenario::check::{Checked, read};
+use tofsim::files::toml::Checked;
 
 use super::builtin;
 use super::capture::Radix;
@@ -182,7 +182,7 @@ impl SetUp {
     /// As [`SetUp::load`].
     pub fn parse(stem: &str, source: &str, text: &str, overrides: Overrides) -> Result<Self> {
         let checked = Checked::parse::<File>(source, text)?;
-        let mut file: File = read(source, checked.table())?;
+        let mut file: File = checked.read()?;
         let overridden = lay_over(&mut file, overrides);
         let name = file.name.clone().unwrap_or_else(|| stem.to_owned());
         let set_up = SetUp { name, file, checked, overridden };

@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::report::explanation;
 use crate::text::table::plain;
 use tofsim::error::{Error, Result};
-use tofsim::files::histogram;
+use tofsim::network::histogram_file;
 use tofsim::network::{Estimate, Network, estimate};
 use tofsim_learn::quantize::{Explanation, explain};
 
@@ -71,7 +71,7 @@ pub fn run(args: &Args) -> Result<()> {
     let names: Vec<String> = args.files.iter().map(|file| file.display().to_string()).collect();
     let mut rows = Vec::new();
     for (path, file) in args.files.iter().zip(&names) {
-        for histogram in histogram::open(path)? {
+        for histogram in histogram_file::open(path)? {
             let histogram = histogram?;
             let numbers = Numbers::of(&estimate(&params, &histogram), params.neurons());
             let explanation = args.explain.then(|| explain(&network, &histogram));

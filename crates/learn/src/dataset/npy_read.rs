@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use npyz::{Deserialize, NpyFile, NpyReader, Order};
 
 use tofsim::error::{Error, Input, Result};
-use tofsim::files::{histogram, npy};
+use tofsim::files::npy;
+use tofsim::network::histogram_file;
 
 use super::npy::{NAMES, TYPES};
 use super::read::check_truth;
@@ -20,7 +21,7 @@ pub(super) fn read(folder: &Path) -> Result<Vec<Sample>> {
     let mut truth = Array::<f64, 3>::open(truth, 1)?;
     let mut rows = Array::<u64, 2>::open(rows, 2)?;
     let mut samples = Vec::new();
-    for histogram in histogram::open(&histograms)? {
+    for histogram in histogram_file::open(&histograms)? {
         let histogram = histogram?;
         let number = samples.len();
         let (Some(values), Some([row, seed])) = (truth.next()?, rows.next()?) else {

@@ -15,7 +15,7 @@ mod circuit;
 pub use circuit::Circuit;
 
 /// Word lengths, and the size of the table of activations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Datapath {
     /// Weights of the hidden layer.

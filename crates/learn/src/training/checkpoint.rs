@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use tofsim::error::{Input, Result, read_text};
 use tofsim::files::output::write_file;
+use tofsim::files::toml::Checked;
 
 use super::basis::KNOTS;
 use super::recipe::Recipe;
@@ -48,15 +49,14 @@ pub fn save(path: &Path, settings: &Settings, state: &State) -> Result<()> {
 pub fn load(path: &Path, settings: &Settings, recipe: &Recipe) -> Result<State> {
     let text = read_text(path)?;
     let name = path.display();
-    let no_checkpoint =
-        |error: toml::de::Error| Input::new(&name, format!("no checkpoint: {}", error.message()));
-    let table: toml::Table = text.parse().map_err(no_checkpoint)?;
-    let schema = table.get("schema").and_then(toml::Value::as_str).unwrap_or_default();
-    if schema != SCHEMA {
-        let expected = format!("expected \"{SCHEMA}\"");
-        return Err(Input::new(&name, expected).field("schema").value(schema).into());
+    let checked = Checked::syntax(&name.to_string(), &text)?;
+    let schema = checked.table().get("schema").and_then(|schema| schema.as_str());
+    if schema != Some(SCHEMA) {
+        let expected = format!("no checkpoint: expected \"{SCHEMA}\"");
+        let fault = Input::new(&name, expected).field("schema");
+        return Err(fault.value(schema.unwrap_or_default()).into());
     }
-    let checkpoint: Checkpoint = table.try_into().map_err(no_checkpoint)?;
+    let checkpoint: Checkpoint = checked.read()?;
     for key in settings.keys().chain(checkpoint.settings.keys()) {
         let (found, expected) = (checkpoint.settings.get(key), settings.get(key));
         if found != expected {

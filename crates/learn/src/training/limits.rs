@@ -9,7 +9,7 @@ use super::features::{COLUMNS, Scaling};
 use super::lm::Linear;
 
 /// Where the penalties begin, a little inside the words' ranges, and how steep they are.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Limits {
     /// Factor on all squares; the data's mean square is near 1.

@@ -35,7 +35,7 @@ pub struct Linear {
 }
 
 /// The method's constants; names and defaults are `trainlm`'s where it has them.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Settings {
     /// Damping to begin with.

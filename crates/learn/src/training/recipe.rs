@@ -1,9 +1,12 @@
 //! The recipe of a training: every number that decides what comes out, but for the seed.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use toml_edit::{DocumentMut, Item};
 
 use crate::quantize::datapath::Datapath;
 use tofsim::error::{Input, Result};
+use tofsim::files::toml::{Checked, assign, merge, read};
 use tofsim::firmware::forward2::NEURONS;
 
 use super::limits::Limits;
@@ -13,7 +16,7 @@ use super::weighting::Weighting;
 mod check;
 
 /// How a network is trained.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Recipe {
     /// Hidden neurons.
@@ -46,7 +49,7 @@ pub struct Recipe {
 }
 
 /// Random weights to begin with.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Start {
     /// Lengths of a neuron's weights for inputs in standard deviations; starts take them in turn.
@@ -58,7 +61,7 @@ pub struct Start {
 }
 
 /// A stage of the tournament.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stage {
     /// Networks that take part.
@@ -71,7 +74,7 @@ pub struct Stage {
 
 /// The end: blocks of epochs, before each of which distances with larger errors gain weight
 /// ([`super::equalise`]). The best block is what counts.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Finish {
     /// Networks that take part.
@@ -153,57 +156,36 @@ impl Recipe {
     /// # Errors
     /// When the text is no TOML, a key is unknown, or a value makes no sense.
     pub fn parse(text: &str, base: &Recipe, overrides: &[String], source: &str) -> Result<Self> {
-        let fault = |error: toml::de::Error| Input::new(source, error.to_string().trim_end());
-        let mut table =
-            toml::Table::try_from(base).map_err(|error| Input::new("recipe", error.to_string()))?;
-        merge(&mut table, text.parse::<toml::Table>().map_err(fault)?);
+        let mut table = base.table()?;
+        merge(table.as_table_mut(), Checked::part::<Recipe>(source, text)?.table());
         for assignment in overrides {
-            let option = format!("--with {assignment}");
-            let fault = |error: toml::de::Error| Input::new(&option, error.message());
-            if assignment.contains(char::is_control) || !assignment.contains('=') {
-                return Err(Input::new(option, "expected key=value, on one line").into());
-            }
-            let set = assignment.parse::<toml::Table>().map_err(fault)?;
-            merge(&mut table, set.clone());
-            // A wrong key is the option's fault, not the file's.
-            table.clone().try_into::<Recipe>().map_err(fault)?;
+            assign::<Recipe>(table.as_table_mut(), "--with", assignment)?;
         }
-        let recipe: Recipe = table.try_into().map_err(fault)?;
+        let recipe: Recipe = read(source, table.as_table())?;
         recipe.check()?;
         Ok(recipe)
     }
 
+    fn table(&self) -> Result<DocumentMut> {
+        let table = toml_edit::ser::to_document(self);
+        table.map_err(|error| Input::new("recipe", error).into())
+    }
+
     /// All settings by dotted key, in TOML.
     pub fn settings(&self) -> Result<Vec<(String, String)>> {
-        let table =
-            toml::Table::try_from(self).map_err(|error| Input::new("recipe", error.to_string()))?;
         let mut settings = Vec::new();
-        flatten("", &toml::Value::Table(table), &mut settings);
+        flatten("", self.table()?.as_item(), &mut settings);
         Ok(settings)
     }
 }
 
-/// Lays a table over another, key by key.
-fn merge(under: &mut toml::Table, over: toml::Table) {
-    for (key, value) in over {
-        match (under.get_mut(&key), value) {
-            (Some(toml::Value::Table(under)), toml::Value::Table(over)) => merge(under, over),
-            (_, value) => {
-                under.insert(key, value);
-            }
-        }
-    }
-}
-
-fn flatten(path: &str, value: &toml::Value, into: &mut Vec<(String, String)>) {
-    match value {
-        toml::Value::Table(table) => {
-            for (key, value) in table {
-                let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-                flatten(&path, value, into);
-            }
-        }
-        value => into.push((path.to_owned(), value.to_string())),
+fn flatten(path: &str, item: &Item, into: &mut Vec<(String, String)>) {
+    match item.as_table_like() {
+        Some(table) => table.iter().for_each(|(key, item)| {
+            let path = if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
+            flatten(&path, item, into);
+        }),
+        None => into.push((path.to_owned(), item.to_string().trim().to_owned())),
     }
 }
 

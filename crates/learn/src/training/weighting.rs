@@ -6,7 +6,7 @@ use crate::evaluation::thesis;
 use tofsim::error::{Input, Result};
 
 /// The line, and more weight at both ends of the range, where there are no neighbours to learn from.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Weighting {
     /// Distances of the line's corners, ascending [m].

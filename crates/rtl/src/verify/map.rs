@@ -8,9 +8,9 @@ use serde::Deserialize;
 
 use crate::golden::{BLOCKS, Setting, Spec, blocks};
 use tofsim::error::{Input, Result, nearest, read_text};
+use tofsim::files::toml::Checked;
 use tofsim::firmware::carry_chain::TAPS;
 use tofsim::firmware::histogram_builder::BINS;
-use tofsim::scenario::check::{Checked, read};
 
 /// A map file.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
@@ -81,7 +81,7 @@ impl Map {
 
     fn parse(source: &str, text: &str) -> Result<Self> {
         let checked = Checked::parse::<Map>(source, text)?;
-        let mut map: Map = read(source, checked.table())?;
+        let mut map: Map = checked.read()?;
         for (name, block) in &mut map.block {
             block.design = map.design.clone();
             let Some(spec) = blocks::find(name) else {
