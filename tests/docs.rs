@@ -1,6 +1,6 @@
 //! The documents say what the code does: port tables in `docs/model.md`.
 //!
-//! `UPDATE_DOCS=1 cargo test --test docs` writes the tables anew.
+//! `UPDATE_DOCS=1 cargo test -p tofsim --test simulator docs` writes the tables anew.
 
 use crate::common;
 use std::fmt::Write;
@@ -70,7 +70,7 @@ fn the_port_tables_are_those_of_the_code() {
     }
     assert!(
         old == new || std::env::var_os("UPDATE_DOCS").is_some(),
-        "docs/model.md is out of date: UPDATE_DOCS=1 cargo test --test docs"
+        "docs/model.md is out of date: UPDATE_DOCS=1 cargo test -p tofsim --test simulator docs"
     );
     for entry in &entries {
         let module = entry.scope.strip_prefix("tof_top.").unwrap_or(&entry.scope);

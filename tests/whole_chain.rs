@@ -72,7 +72,8 @@ fn closed_form(distance_m: f64, reflectance: f64) -> Depths {
     Depths::of(&depths.collect::<Vec<_>>())
 }
 
-/// Prints the table of docs/accuracy.md: `cargo test --test whole_chain -- --nocapture`.
+/// Prints the table of docs/accuracy.md:
+/// `cargo test -p tofsim --test simulator whole_chain -- --nocapture`.
 #[test]
 fn fifty_seeds_agree_with_the_float_network_on_the_closed_form() {
     println!(

@@ -1,6 +1,6 @@
 //! The commands in `docs/comparing-with-hardware.md` print what stands there.
 //!
-//! `UPDATE_DOCS=1 cargo test --test commands` writes what they print anew.
+//! `UPDATE_DOCS=1 cargo test -p tofsim-cli --test cli commands` writes what they print anew.
 
 use crate::common;
 use std::fs;

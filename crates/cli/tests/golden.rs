@@ -1,5 +1,6 @@
 //! What a user sees, kept word for word. After a change that is meant:
-//! `INSTA_UPDATE=always cargo test --test golden`, then read the difference before committing it.
+//! `INSTA_UPDATE=always cargo test -p tofsim-cli --test cli golden`, then read the difference before
+//! committing it.
 
 use crate::common;
 use std::collections::BTreeMap;

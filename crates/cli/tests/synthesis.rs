@@ -1,7 +1,7 @@
 //! The reference RTL as 7-series primitives: which, how many, and that they still do the same.
 //!
-//! `UPDATE_DOCS=1 cargo test --test synthesis` writes the table in `docs/resources.md` anew. What
-//! Yosys makes is kept in the target folder until a source changes.
+//! `UPDATE_DOCS=1 cargo test -p tofsim-cli --test cli synthesis` writes the table in
+//! `docs/resources.md` anew. What Yosys makes is kept in the target folder until a source changes.
 
 mod cells;
 mod gates;
@@ -69,7 +69,7 @@ fn every_block_synthesises_to_the_primitives_it_should() {
     if std::env::var_os("UPDATE_DOCS").is_some() {
         fs::write(RESOURCES, &new).unwrap();
     } else if old.contains(&format!("| {maker} |")) {
-        let how = "UPDATE_DOCS=1 cargo test --test synthesis";
+        let how = "UPDATE_DOCS=1 cargo test -p tofsim-cli --test cli synthesis";
         assert!(old == new, "docs/resources.md is out of date: {how}");
     } else {
         // Each version of Yosys comes to other numbers of LUTs; the primitives above hold for all.

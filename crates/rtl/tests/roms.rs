@@ -1,6 +1,6 @@
 //! The memories in `rtl_ref/` are those of the built-in network, chain and stimuli.
 //!
-//! `UPDATE_ROMS=1 cargo test --test roms` writes them anew.
+//! `UPDATE_ROMS=1 cargo test -p tofsim-rtl --test rtl roms` writes them anew.
 
 use crate::common;
 use std::collections::BTreeMap;
@@ -47,7 +47,8 @@ fn the_memories_of_the_reference_rtl_are_current() {
     assert!(there.iter().eq(expected.keys()), "{there:?} are not the memories that we make");
     for (name, text) in &expected {
         let same = fs::read_to_string(folder().join(name)).unwrap() == *text;
-        assert!(same, "rtl_ref/{name} is out of date: UPDATE_ROMS=1 cargo test --test roms");
+        let how = "UPDATE_ROMS=1 cargo test -p tofsim-rtl --test rtl roms";
+        assert!(same, "rtl_ref/{name} is out of date: {how}");
     }
 }
 
