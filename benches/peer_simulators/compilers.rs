@@ -6,8 +6,8 @@ use std::sync::Mutex;
 use std::thread;
 
 use crate::builds::Cache;
-use crate::contender::{Contender, Rtl};
-use crate::{Result, cxxrtl, icarus, verilator, versions};
+use crate::contender::Contender;
+use crate::{Result, icarus, verilator, versions};
 
 /// Which Verilog.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,24 +16,12 @@ pub enum Sources {
     Reference,
     /// The same with the fastest coding of the decoder's ones count.
     FastDecoder,
-    /// The same, blocks of `rtl` in the place of their namesakes.
-    Tuned,
-    /// The same, and `rtl/bench.sv`.
-    TunedWithBench,
-    /// The same, but the PLL with delays of `rtl_ref`.
-    TunedWithPll,
-    /// `rtl_ref`, blocks of `cxxrtl` and the estimator's of `rtl` in the place of their namesakes.
-    Cxxrtl,
 }
-
-/// The blocks of the estimator.
-const ESTIMATOR: [&str; 5] =
-    ["depth_estimator", "estimator_ctrl", "forward1", "forward2", "tansig"];
 
 impl Sources {
     /// The files.
     pub fn files(self, root: &Path) -> Result<Vec<PathBuf>> {
-        let bench = root.join("benches/peer_simulators");
+        let ours = root.join("benches/peer_simulators/rtl");
         let mut files = Vec::new();
         for entry in fs::read_dir(root.join("rtl_ref"))? {
             let file = entry?.path();
@@ -41,35 +29,16 @@ impl Sources {
             if file.extension().is_none_or(|ending| ending != "v") || block == "kc705_top" {
                 continue;
             }
-            let own = match self {
-                // Never started; nobody is to pay for that.
-                _ if block == "centroid_estimator" => Some(bench.join(format!("rtl/{block}.sv"))),
-                Sources::Reference => None,
-                Sources::FastDecoder if block != "tdc_decoder" => None,
-                Sources::TunedWithPll if block == "pll" => None,
-                // It steps every neuron that could be there.
-                Sources::Cxxrtl if ESTIMATOR.contains(&block) => {
-                    Some(bench.join(format!("rtl/{block}.sv")))
-                }
-                Sources::Cxxrtl => Some(bench.join(format!("cxxrtl/{block}.v"))),
-                _ => Some(bench.join(format!("rtl/{block}.sv"))),
+            let is_replaced = match block {
+                // It is never started, and nobody is to pay for that.
+                "centroid_estimator" => true,
+                "tdc_decoder" => self == Sources::FastDecoder,
+                _ => false,
             };
-            files.push(own.filter(|own| own.is_file()).unwrap_or(file));
-        }
-        if self == Sources::TunedWithBench {
-            files.push(bench.join("rtl/bench.sv"));
+            files.push(if is_replaced { ours.join(format!("{block}.sv")) } else { file });
         }
         files.sort();
         Ok(files)
-    }
-
-    /// How far they are from `rtl_ref`.
-    pub fn rtl(self) -> Rtl {
-        match self {
-            Sources::Reference | Sources::FastDecoder => Rtl::Reference,
-            Sources::Tuned | Sources::TunedWithPll | Sources::Cxxrtl => Rtl::Tuned,
-            Sources::TunedWithBench => Rtl::FewerEdges,
-        }
     }
 }
 
@@ -90,8 +59,7 @@ pub fn peers(root: &Path, cache: &Cache, quick: bool) -> Result<(Vec<Contender>,
         let job = move || Ok(vec![variant.contender(root, cache)?]);
         jobs.push(("verilator", Box::new(job)));
     }
-    jobs.push(("cxxrtl", Box::new(|| Ok(vec![cxxrtl::contender(root, cache)?]))));
-    jobs.push(("icarus", Box::new(|| icarus::contenders(root, cache, quick))));
+    jobs.push(("icarus", Box::new(|| Ok(vec![icarus::contender(root, cache, quick)?]))));
     sort_out(side_by_side(jobs))
 }
 

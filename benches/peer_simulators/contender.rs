@@ -58,15 +58,6 @@ impl Work {
         }
     }
 
-    /// What a peer's model is of in the three columns of the report. With a waveform only the tuned
-    /// one is timed, which is the faster.
-    pub fn compared(self) -> [Rtl; 3] {
-        match self.of_peer() {
-            Work::Cycle => [Rtl::Reference, Rtl::Tuned, Rtl::FewerEdges],
-            _ => [Rtl::Tuned; 3],
-        }
-    }
-
     /// Where its waveform goes, if it has one.
     pub fn waveform(self, folder: &Path) -> Option<PathBuf> {
         match self {
@@ -103,19 +94,6 @@ pub struct Contender {
     pub shots: u64,
     /// Takes seconds, and gets fewer rounds.
     pub is_slow: bool,
-    /// How far its Verilog is from `rtl_ref`.
-    pub rtl: Rtl,
-}
-
-/// What a peer simulates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Rtl {
-    /// `rtl_ref`, but for the coding of the decoder's ones count.
-    Reference,
-    /// The same ports, registers and clocks in whatever coding is fastest.
-    Tuned,
-    /// The same without the edges that change nothing in MODE 0.
-    FewerEdges,
 }
 
 impl fmt::Display for Contender {
@@ -139,9 +117,7 @@ impl Contender {
                 command.arg(&context.photons).args(waveform);
                 run::driver(command.current_dir(&context.root))
             }
-            Call::Vvp(path) => {
-                run::vvp(&mut context.vvp(path, frames, self.work, waveform.as_deref()))
-            }
+            Call::Vvp(path) => run::vvp(&mut context.vvp(path, frames)),
         }
     }
 
@@ -188,15 +164,11 @@ impl Context {
         &self.expected[&shots]
     }
 
-    fn vvp(&self, path: &Path, frames: u64, work: Work, waveform: Option<&Path>) -> Command {
+    fn vvp(&self, path: &Path, frames: u64) -> Command {
         let mut command = Command::new("vvp");
         command.arg("-n").arg(path).current_dir(&self.root);
-        if work == Work::Fst {
-            command.arg("-fst");
-        }
         command.arg(format!("+freq={}", self.laser_freq)).arg(format!("+frames={frames}"));
         command.arg(format!("+photons={}", self.photons.display()));
-        command.args(waveform.map(|path| format!("+waveform={}", path.display())));
         command
     }
 }

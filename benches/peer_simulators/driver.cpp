@@ -1,38 +1,7 @@
-// Times a model that Verilator has made. What it is, macros say:
-//   SELF_CLOCKED   rtl/bench.sv, which has clocks and photons in itself
-//   (none)         tof_top, driven from here
-//   TUNED          tof_top with rtl/carry_chain.sv, which is handed its times
-//   TRACE_VCD, TRACE_FST   with a waveform of every instant at which something changes
+// Times a model that Verilator has made; with TRACE_VCD or TRACE_FST, together with a waveform of
+// every instant at which something changes.
 #include "protocol.h"
 #include "verilated.h"
-
-#ifdef SELF_CLOCKED
-
-#include "Vbench.h"
-#include "Vbench___024root.h"
-
-int main(int count, char **words) {
-    Arguments arguments(count, words);
-    VerilatedContext context;
-    Vbench model(&context);
-    auto &bench = *model.rootp;
-    model.laser_freq = arguments.laser_freq;
-    model.eval();
-    for (size_t k = 0; k < arguments.photons.size(); k++)
-        bench.bench__DOT__photons[k] = arguments.photons[k];
-    bench.bench__DOT__frames = arguments.frames;
-    bench.bench__DOT__tof_top__DOT__pll__DOT__clk_250 ^= 1;
-    double begun = seconds();
-    model.eval();
-    double took = seconds() - begun;
-    for (int k = 0; k < arguments.frames; k++)
-        print_frame(bench.bench__DOT__depths[k], bench.bench__DOT__shots[k],
-                    bench.bench__DOT__ends[k]);
-    std::printf("seconds %.9f\n", took);
-    model.final();
-}
-
-#else
 
 #include "Vtof_top.h"
 #include "Vtof_top___024root.h"
@@ -85,18 +54,12 @@ private:
 
     void clocks(int levels, int64_t now) {
         show(now);
-#ifdef TUNED
-        top.rootp->tof_top__DOT__tdc__DOT__carry_chain__DOT__edge_at = now;
-#endif
         top.rootp->tof_top__DOT__pll__DOT__clocks = levels;
         eval(now);
     }
 
     void stop(bool level, int64_t now) {
         show(now);
-#ifdef TUNED
-        top.rootp->tof_top__DOT__tdc__DOT__carry_chain__DOT__stop_at = now;
-#endif
         top.tdc_stop = level;
         eval(now);
     }
@@ -148,6 +111,7 @@ private:
     void open(const char *path) {
         context.traceEverOn(true);
         top.trace(&waveform, 99);
+        waveform.set_time_resolution("1ps");
         waveform.open(path);
     }
 
@@ -162,18 +126,16 @@ private:
         waveform.dump(static_cast<uint64_t>(instant));
         instant = now / 1000;
     }
-
-    void eval(int64_t) { top.eval(); }
 #else
     void open(const char *) {}
     void close() {}
     void show(int64_t) {}
+#endif
 
     void eval(int64_t now) {
         context.time(static_cast<uint64_t>(now));
         top.eval();
     }
-#endif
 };
 
 int main(int count, char **words) {
@@ -181,5 +143,3 @@ int main(int count, char **words) {
     Bench bench(arguments);
     bench.run();
 }
-
-#endif

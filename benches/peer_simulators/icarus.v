@@ -1,8 +1,7 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// The device with its photons, for Icarus: vvp bench.vvp +freq=N +frames=N +photons=FILE
-// [+waveform=FILE]. The clocks are those of rtl_ref/pll.v. Says when it has read the photons, so that
+// The device with its photons, for Icarus: vvp bench.vvp +freq=N +frames=N +photons=FILE. The clocks are those of rtl_ref/pll.v. Says when it has read the photons, so that
 // whoever started it can take the time.
 module bench;
     parameter [15:0] ShotsPerFrame = 16'd30000;
@@ -29,17 +28,6 @@ module bench;
         while ($fscanf(file, "%d", at) == 1) begin
             photons[count] = at;
             count = count + 1;
-        end
-        if ($value$plusargs("waveform=%s", name)) begin
-            // Ports and registers of blocks; the insides of the tuned carry_chain are its own.
-            $dumpfile(name);
-            $dumpvars(1, tof_top, tof_top.pll, tof_top.reset_sync_125, tof_top.reset_sync_250,
-                tof_top.control_sync, tof_top.frame_ctrl, tof_top.vcsel_driver,
-                tof_top.vcsel_driver.ddr_output, tof_top.lvds_output, tof_top.spad_control,
-                tof_top.tdc.carry_chain.taps, tof_top.tdc.coarse_counter, tof_top.tdc.tdc_latch,
-                tof_top.tdc.tdc_decoder, tof_top.histogram_builder, tof_top.depth_estimator,
-                tof_top.depth_estimator.estimator_ctrl, tof_top.depth_estimator.forward1,
-                tof_top.depth_estimator.tansig, tof_top.depth_estimator.forward2);
         end
         $display("begin");
         $fflush;

@@ -1,4 +1,4 @@
-//! tofsim beside Verilator, Icarus and CXXRTL on the same frames: `benches/peers` (`--help`).
+//! tofsim beside Verilator and Icarus on the same frames: `benches/peers` (`--help`).
 //!
 //! Builds the peers, checks that all give tofsim's depth, shots and cycles, then times them in turn
 //! on one core. tofsim draws its photons on the fly; the peers have them in memory.
@@ -6,7 +6,6 @@
 mod builds;
 mod compilers;
 mod contender;
-mod cxxrtl;
 mod expected;
 mod icarus;
 mod ours;

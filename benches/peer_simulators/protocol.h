@@ -1,4 +1,4 @@
-// What the drivers have in common: their arguments, the photons, and what they print.
+// What the driver is told, the photons, and what it prints.
 #pragma once
 #include <chrono>
 #include <cstdint>

@@ -6,9 +6,9 @@ use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table};
 use serde_json::{Value, json};
 
-use crate::contender::{Contender, Rtl, Work};
+use crate::contender::{Contender, Work};
 use crate::rounds::Measured;
-use crate::{Result, cxxrtl, icarus, verilator, versions};
+use crate::{Result, icarus, verilator, versions};
 
 const PHOTONS_OF_PEERS: &str = "in memory";
 const PHOTONS_OF_TOFSIM: &str = "drawn on the fly";
@@ -25,8 +25,8 @@ struct Row {
     work: Work,
     laser_freq: u8,
     tofsim_ms: f64,
-    /// The fastest of each of [`Work::compared`], what is nearer to `rtl_ref` included.
-    verilator_ms: [f64; 3],
+    /// The fastest of Verilator's models.
+    verilator_ms: f64,
 }
 
 impl Report {
@@ -53,8 +53,7 @@ impl Report {
             println!("{}", table(measured));
         }
         println!(
-            "\nVerilator over tofsim: on rtl_ref with the fastest decoder, on the same tuned for it \
-             (waveforms on no other), and with clocks that leave edges out"
+            "\nVerilator, the faster of rtl_ref and rtl_ref with the fastest decoder, over tofsim"
         );
         println!("{}", self.ratios());
         println!(
@@ -71,31 +70,22 @@ impl Report {
                 work,
                 laser_freq: *laser_freq,
                 tofsim_ms: best(measured, work, |peer| peer.is_none()),
-                verilator_ms: work.compared().map(|rtl| verilator(measured, work.of_peer(), rtl)),
+                verilator_ms: best(measured, work.of_peer(), is_verilator),
             })
         });
         rows.collect()
     }
 
     fn ratios(&self) -> Table {
-        let mut table = plain(&[
-            "laser_freq",
-            "work",
-            "tofsim",
-            "rtl_ref",
-            "ratio",
-            "tuned",
-            "ratio",
-            "fewer edges",
-            "ratio",
-        ]);
+        let mut table = plain(&["laser_freq", "work", "tofsim", "verilator", "ratio"]);
         for row in self.rows() {
-            let mut cells = vec![row.laser_freq.to_string(), row.work.name().to_string()];
-            cells.push(digits(row.tofsim_ms));
-            for ms in row.verilator_ms {
-                cells.extend([digits(ms), digits(ms / row.tofsim_ms)]);
-            }
-            table.add_row(cells);
+            table.add_row([
+                row.laser_freq.to_string(),
+                row.work.name().to_string(),
+                digits(row.tofsim_ms),
+                digits(row.verilator_ms),
+                digits(row.verilator_ms / row.tofsim_ms),
+            ]);
         }
         right(table, 2)
     }
@@ -103,17 +93,12 @@ impl Report {
     fn json(&self) -> Value {
         let rows = self.rows();
         let rows = rows.iter().map(|row| {
-            let [reference, tuned, fewer_edges] = row.verilator_ms;
             json!({
                 "work": row.work.name(),
                 "laser_freq": row.laser_freq,
                 "tofsim_ms": row.tofsim_ms,
-                "verilator_ms": reference,
-                "ratio": reference / row.tofsim_ms,
-                "verilator_tuned_ms": tuned,
-                "ratio_tuned": tuned / row.tofsim_ms,
-                "verilator_fewer_edges_ms": fewer_edges,
-                "ratio_fewer_edges": fewer_edges / row.tofsim_ms,
+                "verilator_ms": row.verilator_ms,
+                "ratio": row.verilator_ms / row.tofsim_ms,
             })
         });
         let peers = self.measured.iter().flat_map(|(laser_freq, measured)| {
@@ -151,18 +136,13 @@ fn flags() -> Value {
     json!({
         "verilator": verilator::COMMON,
         "verilator OPT_FAST": verilator::OPT_FAST,
-        "verilator OPT_FAST, self-clocked": verilator::WHOLE,
         "iverilog": icarus::OPTIONS,
-        "write_cxxrtl": cxxrtl::OPTIONS,
-        "g++ (cxxrtl)": cxxrtl::OPT,
         "RUSTFLAGS": env::var("RUSTFLAGS").unwrap_or_default(),
     })
 }
 
-/// Verilator's shortest median on that Verilog and what is nearer to `rtl_ref` [ms].
-fn verilator(measured: &[Measured], work: Work, farthest: Rtl) -> f64 {
-    let is_one = |peer: &Contender| peer.simulator == "verilator" && peer.rtl <= farthest;
-    best(measured, work, |peer| peer.is_some_and(is_one))
+fn is_verilator(peer: Option<&Contender>) -> bool {
+    peer.is_some_and(|peer| peer.simulator == "verilator")
 }
 
 /// The shortest median of those peers, or of tofsim, at that work [ms].

@@ -1,4 +1,4 @@
-//! Verilator: the sources as they are, and the best that we could make of them.
+//! Verilator, on `rtl_ref` as it stands and with the fastest decoder.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -10,12 +10,8 @@ use crate::{Result, run};
 
 /// Options of every build.
 pub const COMMON: &str = "--cc --exe --build -O3 --x-assign fast --x-initial fast --noassert";
-/// Options of the C++ compiler for what runs each cycle.
+/// Options of the C++ compiler for all that runs each cycle.
 pub const OPT_FAST: &str = "-O3 -march=native";
-/// The same for the self-clocked model, which is compiled as one piece.
-pub const WHOLE: &str = "-O3 -march=native -flto -finline-limit=10000 \
-    --param inline-unit-growth=1000 --param large-function-growth=10000 \
-    --param max-inline-insns-auto=10000";
 
 /// A way to build the model.
 pub struct Variant {
@@ -23,93 +19,50 @@ pub struct Variant {
     variant: &'static str,
     work: Work,
     sources: Sources,
-    top: &'static str,
     options: &'static [&'static str],
-    defines: &'static str,
-    opt_fast: &'static str,
-    /// For Verilator's own library, which writes the waveforms.
-    opt_global: &'static str,
+    define: &'static str,
     link: &'static str,
     frames: u64,
 }
 
+/// The model as a user gets it.
+const REFERENCE: Variant = Variant {
+    name: "verilator_ref",
+    variant: "rtl_ref",
+    work: Work::Cycle,
+    sources: Sources::Reference,
+    options: &[],
+    define: "",
+    link: "",
+    frames: 2,
+};
+
 /// The ways that are timed.
-pub const VARIANTS: [Variant; 6] = [
-    Variant {
-        name: "verilator_ref",
-        variant: "rtl_ref",
-        work: Work::Cycle,
-        sources: Sources::Reference,
-        top: "tof_top",
-        options: &[],
-        defines: "",
-        opt_fast: OPT_FAST,
-        opt_global: "-O2",
-        link: "",
-        frames: 2,
-    },
+pub const VARIANTS: [Variant; 4] = [
+    REFERENCE,
     Variant {
         name: "verilator_decoder",
         variant: "rtl_ref, $countones",
-        work: Work::Cycle,
         sources: Sources::FastDecoder,
-        top: "tof_top",
-        options: &[],
-        defines: "",
-        opt_fast: OPT_FAST,
-        opt_global: "-O2",
-        link: "",
-        frames: 2,
-    },
-    Variant {
-        name: "verilator_tuned",
-        variant: "tuned",
-        work: Work::Cycle,
-        sources: Sources::Tuned,
-        top: "tof_top",
-        options: &["--timescale-override", "1ps/1ps"],
-        defines: "-DTUNED",
-        opt_fast: OPT_FAST,
-        opt_global: "-O2",
-        link: "",
-        frames: 4,
-    },
-    Variant {
-        name: "verilator_best",
-        variant: "tuned, self-clocked",
-        work: Work::Cycle,
-        sources: Sources::TunedWithBench,
-        top: "bench",
-        options: &["--converge-limit", "2000000000", "+define+SELF_CLOCKED"],
-        defines: "-DSELF_CLOCKED",
-        opt_fast: WHOLE,
-        opt_global: "-O2",
-        link: "-static",
-        frames: 12,
+        ..REFERENCE
     },
     Variant {
         name: "verilator_vcd",
-        variant: "tuned, --trace",
+        variant: "rtl_ref, $countones, --trace",
         work: Work::Vcd,
-        sources: Sources::Tuned,
-        top: "tof_top",
-        options: &["--timescale-override", "1ps/1ps", "--trace", "--no-trace-params"],
-        defines: "-DTUNED -DTRACE_VCD",
-        opt_fast: OPT_FAST,
-        opt_global: OPT_FAST,
+        sources: Sources::FastDecoder,
+        options: &["--trace", "--no-trace-params", "--trace-max-width", "800"],
+        define: "-DTRACE_VCD",
         link: "",
         frames: 1,
     },
     Variant {
         name: "verilator_fst",
-        variant: "tuned, --trace-fst",
+        variant: "rtl_ref, $countones, --trace-fst",
         work: Work::Fst,
-        sources: Sources::Tuned,
-        top: "tof_top",
-        options: &["--timescale-override", "1ps/1ps", "--trace-fst", "--no-trace-params"],
-        defines: "-DTUNED -DTRACE_FST",
-        opt_fast: OPT_FAST,
-        opt_global: OPT_FAST,
+        sources: Sources::FastDecoder,
+        options: &["--trace-fst", "--no-trace-params", "--trace-max-width", "800"],
+        define: "-DTRACE_FST",
         link: "-lz",
         frames: 1,
     },
@@ -121,7 +74,7 @@ impl Variant {
         let bench = root.join("benches/peer_simulators");
         let verilog = self.sources.files(root)?;
         let mut sources = verilog.clone();
-        sources.extend(["driver.cpp", "protocol.h", "rtl/edge.svh"].map(|file| bench.join(file)));
+        sources.extend(["driver.cpp", "protocol.h"].map(|file| bench.join(file)));
         let build = |folder: &Path| {
             run::stdout(self.command(folder, &bench, &verilog).current_dir(root)).map(drop)
         };
@@ -130,31 +83,28 @@ impl Variant {
             simulator: "verilator",
             variant: self.variant,
             work: self.work,
-            call: Call::Driver(folder.join(format!("V{}", self.top))),
+            call: Call::Driver(folder.join("Vtof_top")),
             frames: self.frames,
             shots: SHOTS,
             is_slow: false,
-            rtl: self.sources.rtl(),
         })
     }
 
     /// What its build depends on beside its sources.
     fn flags(&self) -> Vec<String> {
-        let own = [self.defines, self.opt_fast, self.opt_global, self.link, self.top, COMMON];
+        let own = [self.define, self.link, OPT_FAST, COMMON];
         own.iter().chain(self.options).map(|flag| flag.to_string()).collect()
     }
 
     fn command(&self, folder: &Path, bench: &Path, verilog: &[PathBuf]) -> Command {
-        let Variant { opt_fast, opt_global, link, defines, .. } = self;
+        let Variant { link, define, .. } = self;
         let mut command = Command::new("verilator");
         command.args(COMMON.split_whitespace()).args(self.options);
-        command.args(["-Wno-fatal", "-Wno-lint", "-Wno-TIMESCALEMOD", "--top-module", self.top]);
-        command.arg(format!("-I{}", bench.join("rtl").display()));
+        command.args(["-Wno-fatal", "-Wno-lint", "-Wno-TIMESCALEMOD", "--top-module", "tof_top"]);
         command.args(["-Mdir", &absolute(folder)]);
-        command.args(["-CFLAGS", &format!("-I{} {defines}", absolute(bench))]);
-        // What is compiled as one piece is optimised by the linker.
-        command.args(["-LDFLAGS", &format!("{opt_fast} {link}")]);
-        let make = format!("OPT_FAST=\"{opt_fast}\" OPT_SLOW=-O1 OPT_GLOBAL=\"{opt_global}\"");
+        command.args(["-CFLAGS", &format!("-I{} {define}", absolute(bench))]);
+        command.args(["-LDFLAGS", &format!("{OPT_FAST} {link}")]);
+        let make = format!("OPT_FAST=\"{OPT_FAST}\" OPT_SLOW=-O1 OPT_GLOBAL=\"{OPT_FAST}\"");
         command.args(["-MAKEFLAGS", &make]).arg(bench.join("driver.cpp")).args(verilog);
         command
     }

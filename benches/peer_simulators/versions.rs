@@ -24,20 +24,18 @@ pub fn cpu() -> String {
 pub fn compilers() -> &'static [Option<String>] {
     static FOUND: OnceLock<Vec<Option<String>>> = OnceLock::new();
     FOUND.get_or_init(|| {
-        let calls =
-            [("verilator", "--version"), ("iverilog", "-V"), ("yosys", "-V"), ("g++", "--version")];
+        let calls = [("verilator", "--version"), ("iverilog", "-V"), ("g++", "--version")];
         calls.map(|(program, argument)| first_line(program, argument)).to_vec()
     })
 }
 
 /// All of them, for the report.
 pub fn json() -> Value {
-    let [verilator, iverilog, yosys, gxx] = compilers() else { return Value::Null };
+    let [verilator, iverilog, gxx] = compilers() else { return Value::Null };
     json!({
         "tofsim": env!("CARGO_PKG_VERSION"),
         "verilator": verilator,
         "iverilog": iverilog,
-        "yosys": yosys,
         "g++": gxx,
         "rustc": first_line("rustc", "--version"),
     })

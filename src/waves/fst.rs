@@ -1,33 +1,30 @@
-//! FST files: the header by the crate `fst-writer`, the body by hand, for speed.
+//! FST files, as GTKWave's `block_format.txt` describes them.
 //!
-//! It has no place for comments, so the provenance is in the version string, as far as it fits;
+//! They have no place for comments, so the provenance is in the version string, as far as it fits;
 //! nor for state names, which a file beside the waveform gives (see [`super::write_views`]).
 
-use std::io::{self, Cursor, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
-use fst_writer::{
-    FstFileType, FstHeaderWriter, FstInfo, FstScopeType, FstSignalType, FstVarDirection,
-    FstVarType, FstWriteError,
-};
-
 use crate::error::{Error, Result};
-use crate::files::date;
-use crate::hierarchy::{Entry, IDS, Kind};
+use crate::hierarchy::Entry;
 use crate::kernel::Thermometer;
 use crate::kernel::signals::Sink;
 
 use super::digits::TapDigits;
-use super::scopes::{Element, elements};
 use super::spool::Spool;
 use super::{Body, Step};
 
-mod body;
+mod blocks;
+mod changes;
+mod header;
+mod hierarchy;
+mod stream;
+mod times;
 
-use body::Changes;
-
-/// Longest version string that the format holds [bytes].
-const VERSION: usize = 127;
+use changes::Changes;
+use header::Header;
+use hierarchy::Hierarchy;
 
 /// An FST file being written.
 pub(super) struct Fst {
@@ -52,22 +49,20 @@ impl Fst {
         order: &[u16],
         provenance: &[String],
     ) -> Result<Self> {
-        let info = FstInfo {
-            start_time: 0,
-            timescale_exponent: -12,
-            version: version(provenance),
-            date: date::fixed()?.unwrap_or_default(),
-            file_type: FstFileType::Verilog,
+        let hierarchy = Hierarchy::new(entries);
+        let header = Header {
+            scopes: hierarchy.scopes,
+            names: hierarchy.names,
+            signals: hierarchy.widths.len() as u64,
+            ..Header::new(provenance)?
         };
-        let (mut signals, mut widths) = (vec![None; IDS], Vec::new());
-        let fault = Error::io(path, "write");
-        let header = header(&info, entries, &mut signals, &mut widths);
         let mut file = Spool::create(path)?;
-        header.map_err(plain).and_then(|header| file.write_all(&header)).map_err(fault)?;
+        let begun = header.write(&mut file).and_then(|()| hierarchy.write(&mut file));
+        begun.map_err(Error::io(path, "write"))?;
         Ok(Fst {
             path: path.to_owned(),
-            changes: Changes::new(file, &widths),
-            signals,
+            changes: Changes::new(file, header, &hierarchy.widths),
+            signals: hierarchy.signals,
             taps: TapDigits::new(order),
             bytes: Vec::new(),
             pending: None,
@@ -130,90 +125,5 @@ impl Body for Fst {
 
     fn fault(&self, source: io::Error) -> Error {
         Error::io(&self.path, "write")(source)
-    }
-}
-
-/// All that comes before the first section of changes; the place of each signal that is selected,
-/// and the width of each place.
-fn header(
-    info: &FstInfo,
-    entries: &[Entry],
-    signals: &mut [Option<usize>],
-    widths: &mut Vec<usize>,
-) -> fst_writer::Result<Vec<u8>> {
-    let mut fst = FstHeaderWriter::new(Cursor::new(Vec::new()), info)?;
-    let mut handles = vec![None; signals.len()];
-    for element in elements(entries) {
-        match element {
-            Element::Enter(name) => fst.scope(name, "", FstScopeType::Module)?,
-            Element::Leave => fst.up_scope()?,
-            Element::Signal(Entry { signal, kind, id, .. }) => {
-                let (variable, direction) = match kind {
-                    Kind::Input => (FstVarType::Wire, FstVarDirection::Input),
-                    Kind::Output => (FstVarType::Wire, FstVarDirection::Output),
-                    Kind::Internal => (FstVarType::Reg, FstVarDirection::Implicit),
-                };
-                let name = match signal.width {
-                    1 => signal.name.clone(),
-                    width => format!("{} [{}:0]", signal.name, width - 1),
-                };
-                let shape = FstSignalType::bit_vec(signal.width);
-                handles[*id] = Some(fst.var(name, shape, variable, direction, handles[*id])?);
-                if signals[*id].is_none() {
-                    signals[*id] = Some(widths.len());
-                    widths.push(signal.width as usize);
-                }
-            }
-        }
-    }
-    let mut bytes = fst.finish()?.finish()?.into_inner();
-    bytes.truncate(sections_begin(&bytes));
-    Ok(bytes)
-}
-
-/// Where the first section of changes begins, of which the crate has made one without any: after
-/// the blocks, each a type and a length without that type, for header, hierarchy and geometry.
-fn sections_begin(bytes: &[u8]) -> usize {
-    let mut place = 0;
-    while let Some((&kind, rest)) = bytes[place..].split_first()
-        && kind != body::SECTION
-        && let Some(length) = rest.first_chunk()
-    {
-        place += 1 + u64::from_be_bytes(*length) as usize;
-    }
-    place
-}
-
-/// Program, version and provenance in one line of limited length.
-fn version(provenance: &[String]) -> String {
-    let mut version = concat!("tofsim ", env!("CARGO_PKG_VERSION")).to_owned();
-    for line in provenance {
-        version.push_str("; ");
-        version.push_str(line);
-    }
-    let mut end = version.len().min(VERSION);
-    while !version.is_char_boundary(end) {
-        end -= 1;
-    }
-    version[..end].replace('\0', " ")
-}
-
-/// The error of the system inside the crate's.
-fn plain(error: FstWriteError) -> io::Error {
-    match error {
-        FstWriteError::Io(error) => error,
-        other => io::Error::other(other),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn provenance_goes_into_the_version_as_far_as_it_fits() {
-        let short = version(&["scenario kc705".into(), "seed 1".into()]);
-        assert!(short.starts_with("tofsim ") && short.ends_with("; scenario kc705; seed 1"));
-        assert_eq!(version(&["é".repeat(100)]).len() / 2, VERSION / 2);
     }
 }

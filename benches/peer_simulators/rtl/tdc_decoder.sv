@@ -1,8 +1,8 @@
 `timescale 1ps / 1ps
 `default_nettype none
-`include "edge.svh"
 
-// Counts taps with $countones, and each stage works only when it has something new.
+// As in rtl_ref, but the taps are counted with $countones, and each stage works only when it has
+// something new.
 module tdc_decoder #(
     parameter CalFile = "rtl_ref/tdc_cal.mem"
 ) (
@@ -28,8 +28,7 @@ module tdc_decoder #(
         n_coarse = 3'd0;
     end
 
-    // verilator tracing_off
-    always @(`RISE_125) begin : decode
+    always @(posedge clk_125) begin : decode
         reg [16:0] t;
         if (rst) begin
             {tdc_valid, n_valid} <= 2'd0;
@@ -53,5 +52,4 @@ module tdc_decoder #(
             end
         end
     end
-    // verilator tracing_on
 endmodule

@@ -54,6 +54,11 @@ impl<R> InOrder<R> {
         }
     }
 
+    /// The same around a file that is not text, in which nothing is looked at.
+    pub(super) fn unwatched(self) -> Self {
+        InOrder { seen: u64::MAX, ..self }
+    }
+
     /// Looks at bytes; how many of them stand before a fault.
     fn look(&mut self, bytes: &[u8]) -> usize {
         let mut rest = bytes;

@@ -48,7 +48,9 @@ fn open(path: &Path) -> Result<Opened> {
     let file = File::open(path).map_err(Error::io(path, "read"))?;
     let options = LoadOptions { multi_thread: false, remove_scopes_with_empty_name: true };
     let found = Arc::new(OnceLock::new());
-    let input = BufReader::with_capacity(CHUNK, InOrder::new(file, Arc::clone(&found)));
+    let guard = InOrder::new(file, Arc::clone(&found));
+    let guard = if format(path)? == FileFormat::Fst { guard.unwatched() } else { guard };
+    let input = BufReader::with_capacity(CHUNK, guard);
     let wave = wellen::stream::read(input, &options);
     let wave =
         wave.map_err(|error| found.get().map_or_else(|| fault(path, error), |f| at(path, f)))?;
@@ -73,7 +75,7 @@ fn apart<T: Send>(path: &Path, work: impl FnOnce() -> Result<T> + Send) -> Resul
 /// The source at `path`, of that format as far as the library tells.
 pub(super) fn source(path: &Path) -> Result<Source> {
     apart(path, || {
-        if is_ghw(path)? {
+        if format(path)? == FileFormat::Ghw {
             return loaded::hierarchy(path, |hierarchy| described(path, hierarchy));
         }
         let opened = open(path)?;
@@ -81,10 +83,9 @@ pub(super) fn source(path: &Path) -> Result<Source> {
     })
 }
 
-fn is_ghw(path: &Path) -> Result<bool> {
+fn format(path: &Path) -> Result<FileFormat> {
     let file = File::open(path).map_err(Error::io(path, "read"))?;
-    let format = wellen::viewers::detect_file_format(&mut BufReader::new(file));
-    Ok(format == FileFormat::Ghw)
+    Ok(wellen::viewers::detect_file_format(&mut BufReader::new(file)))
 }
 
 fn described(path: &Path, hierarchy: &Hierarchy) -> Result<Source> {

@@ -115,6 +115,20 @@ fn a_shift_in_time_or_by_an_edge_is_taken_out() {
 }
 
 #[test]
+fn bytes_of_an_fst_that_look_like_a_time_stamp_are_none() {
+    let folder = common::empty();
+    let folder = folder.path();
+    for format in ["vcd", "fst"] {
+        let frame = ["-s", "firmware.shots_per_frame=1000", "--window", "0us..50us", "-o", "."];
+        common::stdout(folder, &[&["run", "--waves", format], &frame[..]].concat());
+    }
+    let bytes = fs::read(folder.join("kc705.fst")).unwrap();
+    let looks_so = |bytes: &[u8]| bytes.starts_with(b"\n#") && !bytes[2].is_ascii_digit();
+    assert!(bytes.windows(3).any(looks_so));
+    same(folder, &["kc705.vcd", "kc705.fst"]);
+}
+
+#[test]
 fn vcd_and_fst_of_one_run_are_the_same() {
     let folder = common::empty();
     let folder = folder.path();

@@ -1,0 +1,151 @@
+//! The value changes of an FST file, in sections that are compressed signal by signal.
+//!
+//! A section holds the values at its begin, the stream of each signal, where each stream is, and the
+//! times.
+
+use std::io::{self, Seek, Write};
+
+use super::blocks::{Block, long, number, signed};
+use super::header::Header;
+use super::stream::Stream;
+use super::times::Times;
+
+/// That streams are compressed with LZ4.
+const LZ4: u8 = b'4';
+/// Changes gathered before they are compressed [bytes].
+const GATHERED: usize = 1 << 20;
+
+/// Where changes go.
+pub(super) struct Changes<W> {
+    file: W,
+    header: Header,
+    streams: Vec<Stream>,
+    /// Values at the begin of the section, a digit for each bit.
+    frame: Vec<u8>,
+    times: Times,
+    /// The last time [ps].
+    at: u64,
+    /// Begin of the section [ps].
+    start: u64,
+    /// What all streams take, or little less [bytes].
+    size: usize,
+}
+
+impl<W: Write + Seek> Changes<W> {
+    /// Writes to `file`, behind what it has; `widths` are those of the signals, in their order.
+    pub(super) fn new(file: W, header: Header, widths: &[usize]) -> Self {
+        let streams = widths.iter().map(|&width| Stream::new(width)).collect();
+        let (frame, times) = (Vec::new(), Times::default());
+        Changes { file, header, streams, frame, times, at: 0, start: 0, size: 0 }
+    }
+
+    /// A time step begins, later than those before it or at the same time [ps].
+    pub(super) fn begin(&mut self, at: u64) -> io::Result<()> {
+        if at <= self.at {
+            return Ok(());
+        }
+        if self.size + self.times.size() > GATHERED {
+            self.write_section()?;
+        }
+        if self.times.is_empty() {
+            self.streams.iter().for_each(|stream| stream.spell(&mut self.frame));
+        }
+        self.times.push(at, self.at);
+        self.at = at;
+        Ok(())
+    }
+
+    /// A signal changes to a value of up to 64 bits.
+    #[inline]
+    pub(super) fn word(&mut self, signal: usize, value: u64) {
+        let width = self.streams[signal].width();
+        let bytes = width.div_ceil(8);
+        let aligned = value << (8 * bytes - width);
+        self.change(signal, &aligned.to_be_bytes()[8 - bytes..]);
+    }
+
+    /// A signal changes to a value, its highest bit the highest of the first byte.
+    #[inline]
+    pub(super) fn change(&mut self, signal: usize, value: &[u8]) {
+        let stream = &mut self.streams[signal];
+        stream.set(value);
+        // The values of the first time step are the frame.
+        if !self.times.is_empty() {
+            self.size += stream.note(self.times.last(), value);
+        }
+    }
+
+    /// All signals become unknown.
+    pub(super) fn unknown(&mut self) {
+        for stream in &mut self.streams {
+            stream.clear();
+            if !self.times.is_empty() {
+                stream.note_unknown(self.times.last());
+                self.size += 2 + stream.width();
+            }
+        }
+    }
+
+    /// Writes what is left, and the header with the end at that time [ps].
+    pub(super) fn finish(mut self, at: u64) -> io::Result<W> {
+        self.begin(at)?;
+        self.write_section()?;
+        self.header.end = self.at;
+        self.header.write(&mut self.file)?;
+        Ok(self.file)
+    }
+
+    fn write_section(&mut self) -> io::Result<()> {
+        let mut body = Vec::new();
+        self.take_frame(&mut body);
+        let length = self.take_streams(&mut body);
+        self.times.take(&mut body);
+        let mut head = Vec::new();
+        for field in [self.start, self.at, length as u64] {
+            long(&mut head, field);
+        }
+        Block::Changes.write(&mut self.file, &[&head, &body])?;
+        self.header.sections += 1;
+        (self.size, self.start) = (0, self.at);
+        Ok(())
+    }
+
+    /// Appends the values at the begin; their length stands there twice, because it is not compressed.
+    fn take_frame(&mut self, body: &mut Vec<u8>) {
+        let length = self.frame.len() as u64;
+        for count in [length, length, self.streams.len() as u64] {
+            number(body, count);
+        }
+        body.append(&mut self.frame);
+    }
+
+    /// Appends all streams, and where they are; what they were before compression [bytes].
+    fn take_streams(&mut self, body: &mut Vec<u8>) -> usize {
+        number(body, self.streams.len() as u64);
+        let (mut last, mut empty, mut length) = (body.len(), 0, 0);
+        body.push(LZ4);
+        let mut places = Vec::new();
+        for stream in &mut self.streams {
+            if stream.is_empty() {
+                empty += 1;
+                continue;
+            }
+            skip(&mut places, &mut empty);
+            // The lowest bit says that it is a place.
+            signed(&mut places, (2 * (body.len() - last) + 1) as u64);
+            last = body.len();
+            length += stream.take(body);
+        }
+        skip(&mut places, &mut empty);
+        body.extend_from_slice(&places);
+        long(body, places.len() as u64);
+        length
+    }
+}
+
+/// Appends that so many signals have no stream.
+fn skip(places: &mut Vec<u8>, signals: &mut u64) {
+    if *signals > 0 {
+        number(places, 2 * std::mem::take(signals));
+    }
+}

@@ -1,0 +1,117 @@
+//! The header of an FST file. Its length is fixed, so that it is written twice: at first to keep the
+//! place, and over that once the end is known.
+
+use std::io::{self, Seek, SeekFrom, Write};
+
+use crate::error::Result;
+
+use super::blocks::{Block, long};
+use crate::files::date;
+
+/// Room for the version, a zero at its end included [bytes].
+const VERSION: usize = 128;
+/// Room for the date [bytes].
+const DATE: usize = 26;
+/// Left empty behind the date [bytes].
+const RESERVED: usize = 93;
+/// Exponent of the unit of time: picoseconds.
+const TIMESCALE: i8 = -12;
+/// File type of a Verilog simulator.
+const VERILOG: u8 = 0;
+
+/// What the header says.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Header {
+    /// Time of the end [ps].
+    pub(super) end: u64,
+    /// Scopes.
+    pub(super) scopes: u64,
+    /// Names, aliases included.
+    pub(super) names: u64,
+    /// Signals, each under one or more names.
+    pub(super) signals: u64,
+    /// Sections of value changes.
+    pub(super) sections: u64,
+    /// Who wrote it, from what.
+    pub(super) version: String,
+    /// When, if that is fixed.
+    pub(super) date: String,
+}
+
+impl Header {
+    /// A header that says who writes the file, from what.
+    pub(super) fn new(provenance: &[String]) -> Result<Self> {
+        let date = date::fixed()?.unwrap_or_default();
+        Ok(Header { version: version(provenance), date, ..Header::default() })
+    }
+
+    /// Writes it at the begin of a file.
+    pub(super) fn write(&self, file: &mut (impl Write + Seek)) -> io::Result<()> {
+        let mut contents = Vec::new();
+        for time in [0, self.end] {
+            long(&mut contents, time);
+        }
+        // By this number a reader sees in which order the bytes of floating point are.
+        contents.extend_from_slice(&std::f64::consts::E.to_le_bytes());
+        let memory_of_writer = 0;
+        for count in [memory_of_writer, self.scopes, self.names, self.signals, self.sections] {
+            long(&mut contents, count);
+        }
+        contents.extend_from_slice(&TIMESCALE.to_be_bytes());
+        text(&mut contents, &self.version, VERSION);
+        text(&mut contents, &self.date, DATE);
+        text(&mut contents, "", RESERVED);
+        contents.push(VERILOG);
+        let time_zero = 0;
+        long(&mut contents, time_zero);
+        file.seek(SeekFrom::Start(0))?;
+        Block::Header.write(file, &[&contents])
+    }
+}
+
+/// Appends a text and zeros up to a length.
+fn text(bytes: &mut Vec<u8>, text: &str, length: usize) {
+    let end = bytes.len() + length;
+    bytes.extend_from_slice(text.as_bytes());
+    bytes.resize(end, 0);
+}
+
+/// Program, version and provenance in one line, as far as there is room.
+fn version(provenance: &[String]) -> String {
+    let mut version = concat!("tofsim ", env!("CARGO_PKG_VERSION")).to_owned();
+    for line in provenance {
+        version.push_str("; ");
+        version.push_str(line);
+    }
+    let mut end = version.len().min(VERSION - 1);
+    while !version.is_char_boundary(end) {
+        end -= 1;
+    }
+    version[..end].replace('\0', " ")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use super::*;
+
+    #[test]
+    fn provenance_goes_into_the_version_as_far_as_it_fits() {
+        let short = version(&["scenario kc705".into(), "seed 1".into()]);
+        assert!(short.starts_with("tofsim ") && short.ends_with("; scenario kc705; seed 1"));
+        assert_eq!(version(&["é".repeat(100)]).len() / 2, (VERSION - 1) / 2);
+    }
+
+    #[test]
+    fn a_header_that_is_written_again_takes_the_same_place() {
+        let mut file = Cursor::new(Vec::new());
+        let mut header = Header::new(&["scenario kc705".into()]).unwrap();
+        header.write(&mut file).unwrap();
+        file.write_all(b"what follows").unwrap();
+        header = Header { end: u64::MAX, sections: 9, ..header };
+        header.write(&mut file).unwrap();
+        let bytes = file.into_inner();
+        assert!(bytes.len() == 330 + 12 && bytes.ends_with(b"\0what follows"));
+    }
+}
