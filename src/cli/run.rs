@@ -12,13 +12,13 @@ use crate::report::products::Products;
 use crate::report::summary::Summary;
 use crate::report::table;
 use crate::scenario;
+use crate::sim::fast::histogram::Histograms;
 use crate::sim::frames::Frame;
-use crate::sim::histogram::Histograms;
-use crate::sim::recorder::Shot;
-use crate::sim::run::Watch;
+use crate::sim::run::Observers;
 use crate::sim::setup::Setup;
+use crate::sim::shot_recorder::Shot;
 use crate::sim::window::Window;
-use crate::sim::{Gait, Run};
+use crate::sim::{Run, Stepping};
 use crate::waves::{self, Format, Waves, write_views};
 
 use super::interrupt::stop_signal;
@@ -140,7 +140,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let sees_shots = args.fidelity == Fidelity::Cycle && products.want_shots();
     let wants_all_shots = products.want_all_shots();
     let mut take_shot = |shot: &Shot| products.shot(shot);
-    let watch = Watch {
+    let observers = Observers {
         waves,
         shots: sees_shots.then_some(&mut take_shot),
         frames: Some(&mut take_frame),
@@ -148,13 +148,16 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     };
     let began = Instant::now();
     let outcome = match histograms {
-        Some(histograms) => histograms.many(frames, watch)?,
+        Some(histograms) => histograms.many(frames, observers)?,
         None => {
-            let gait = if args.fidelity == Fidelity::Shot { Gait::Leap } else { Gait::Skip };
-            let run = Run::new(&setup).at(gait);
-            match watch.waves.is_some() || wants_all_shots {
-                true => run.frames(frames, watch)?,
-                false => run.many(frames, watch)?,
+            let stepping = match args.fidelity {
+                Fidelity::Shot => Stepping::LeapShots,
+                _ => Stepping::SkipIdle,
+            };
+            let run = Run::new(&setup).stepping(stepping);
+            match observers.waves.is_some() || wants_all_shots {
+                true => run.frames(frames, observers)?,
+                false => run.many(frames, observers)?,
             }
         }
     };

@@ -8,7 +8,7 @@ use crate::network::Histogram;
 use crate::optics::{BinProbabilities, Bins, Budget, Hazard};
 use crate::scenario::Scenario;
 use crate::sensor::streams::{self, stream};
-use crate::sim::histogram::independent_shots;
+use crate::sim::fast::histogram::independent_shots;
 use crate::sim::setup::{CYCLE, Setup};
 
 use super::Scene;

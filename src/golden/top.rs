@@ -6,7 +6,7 @@ use crate::hierarchy;
 use crate::kernel::signals::Signals;
 use crate::kernel::{Time, U};
 use crate::signals;
-use crate::sim::device::{Off, Trace};
+use crate::sim::device::{Off, SignalProbe};
 use crate::sim::frames::Frames;
 use crate::sim::setup::Setup;
 
@@ -256,7 +256,7 @@ impl<'a> Look<'a> {
     }
 }
 
-impl Trace for Look<'_> {
+impl SignalProbe for Look<'_> {
     const ON: bool = true;
 
     fn sample(&mut self, now: Time, top: &TofTop) {

@@ -9,8 +9,8 @@ use crate::firmware::tof_top::{Params, TofTop};
 use crate::kernel::Time;
 use crate::kernel::clock::Clock;
 use crate::sim::Device;
-use crate::sim::Windowed;
-use crate::sim::device::{Edge, Trace};
+use crate::sim::WindowedProbe;
+use crate::sim::device::{Edge, SignalProbe};
 use crate::sim::frames::Frames;
 use crate::sim::setup::{CYCLE, Setup};
 
@@ -174,7 +174,7 @@ impl Analyser {
 /// Looks at the edges of `clk_125` and `clk_250`.
 pub(crate) struct AtEdges<'a>(pub(crate) &'a mut Analyser);
 
-impl Trace for AtEdges<'_> {
+impl SignalProbe for AtEdges<'_> {
     const ON: bool = false;
     const EDGES: bool = true;
 
@@ -195,7 +195,7 @@ impl Trace for AtEdges<'_> {
     }
 }
 
-impl Windowed for AtEdges<'_> {
+impl WindowedProbe for AtEdges<'_> {
     #[inline(always)]
     fn is_wanted(&mut self, device: &mut Device, _: &Frames, _: &Params) -> Result<bool> {
         let analyser = &mut *self.0;
@@ -242,7 +242,7 @@ impl Always<'_> {
     }
 }
 
-impl Trace for Always<'_> {
+impl SignalProbe for Always<'_> {
     const ON: bool = true;
     const EDGES: bool = true;
 
@@ -261,7 +261,7 @@ impl Trace for Always<'_> {
     }
 }
 
-impl Windowed for Always<'_> {
+impl WindowedProbe for Always<'_> {
     fn is_wanted(&mut self, device: &mut Device, _: &Frames, _: &Params) -> Result<bool> {
         if !self.0.begun && self.is_due(device) {
             let now = device.coming_cycle().0;

@@ -2,7 +2,7 @@
 
 use crate::firmware::histogram_builder::BINS;
 use crate::optics::hazard::Cause;
-use crate::sim::recorder::Shot;
+use crate::sim::shot_recorder::Shot;
 
 /// Counts of each bin for each cause of [`CAUSES`] [hits].
 #[derive(Clone, Debug)]

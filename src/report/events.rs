@@ -17,7 +17,7 @@ use parquet::schema::parser::parse_message_type;
 
 use crate::error::{Error, Input, Result};
 use crate::output::OutputFile;
-use crate::sim::recorder::Shot;
+use crate::sim::shot_recorder::Shot;
 
 use super::causes;
 

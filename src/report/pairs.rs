@@ -155,7 +155,7 @@ mod tests {
     use super::*;
     use crate::estimation::Kind;
     use crate::scenario;
-    use crate::sim::histogram::Histograms;
+    use crate::sim::fast::histogram::Histograms;
 
     fn setup(keys: &[&str]) -> Setup {
         let keys: Vec<_> = keys.iter().map(|&key| key.to_owned()).collect();

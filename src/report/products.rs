@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Input, Result};
 use crate::output::{create_directory, write_file};
-use crate::sim::recorder::Shot;
 use crate::sim::setup::Setup;
+use crate::sim::shot_recorder::Shot;
 
 use super::causes::Causes;
 use super::events::Events;

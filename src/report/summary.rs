@@ -6,8 +6,8 @@ use crate::estimation::Reading;
 use crate::firmware::histogram_builder::BINS;
 use crate::network::formats::Depth;
 use crate::sim::frames::Frame;
-use crate::sim::recorder::Shot;
 use crate::sim::setup::Setup;
+use crate::sim::shot_recorder::Shot;
 
 use super::frame_log::FrameLog;
 use super::pairs::{Paired, Pairs, Tally};

@@ -7,10 +7,10 @@ use crate::firmware::tof_top::{Params, TofTop};
 use crate::hierarchy::{self, IDS};
 use crate::kernel::signals::{Format as Shape, Sink};
 use crate::kernel::{Thermometer, Time};
-use crate::sim::device::Trace;
+use crate::sim::device::SignalProbe;
 use crate::sim::frames::Frames;
 use crate::sim::setup::Setup;
-use crate::sim::{Device, Run, Windowed};
+use crate::sim::{Device, Run, WindowedProbe};
 use crate::waves::TapDigits;
 
 use super::names::Name;
@@ -97,7 +97,7 @@ impl Sink for Probe<'_> {
     }
 }
 
-impl Trace for Probe<'_> {
+impl SignalProbe for Probe<'_> {
     const ON: bool = true;
 
     fn sample(&mut self, now: Time, top: &TofTop) {
@@ -117,7 +117,7 @@ impl Trace for Probe<'_> {
     }
 }
 
-impl Windowed for Probe<'_> {
+impl WindowedProbe for Probe<'_> {
     fn is_wanted(&mut self, _: &mut Device, _: &Frames, _: &Params) -> Result<bool> {
         Ok(true)
     }
