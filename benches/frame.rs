@@ -8,11 +8,11 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 use tofsim::scenario;
 use tofsim::sim::Run;
-use tofsim::sim::run::Watch;
+use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 
 fn frame(setup: &Setup) -> u64 {
-    let done = Run::new(setup).frames(1, Watch::default());
+    let done = Run::new(setup).frames(1, Observers::default());
     black_box(done.expect("a built-in scenario runs")).cycles
 }
 

@@ -3,7 +3,7 @@
 use tofsim::scenario;
 use tofsim::sim::Run;
 use tofsim::sim::frames::Frame;
-use tofsim::sim::run::Watch;
+use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 
 fn main() -> tofsim::error::Result<()> {
@@ -14,7 +14,7 @@ fn main() -> tofsim::error::Result<()> {
         println!("{:.4} m, {} hits, fullest bin {fullest:?}", frame.depth_m(), frame.hits());
         Ok(())
     };
-    let watch = Watch { frames: Some(&mut show), ..Watch::default() };
+    let watch = Observers { frames: Some(&mut show), ..Observers::default() };
     let outcome = Run::new(&setup).frames(1, watch)?;
     println!("{} cycles of clk_125", outcome.cycles);
     Ok(())

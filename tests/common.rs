@@ -9,7 +9,7 @@ use tofsim::network::Histogram;
 use tofsim::scenario;
 use tofsim::sim::Run;
 use tofsim::sim::frames::Frame;
-use tofsim::sim::run::Watch;
+use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 
 /// A scenario with overrides, ready to run.
@@ -25,7 +25,7 @@ pub fn frames(setup: &Setup, count: u64) -> Vec<Frame> {
         frames.push(frame.clone());
         Ok(())
     };
-    let watch = Watch { frames: Some(&mut take), ..Watch::default() };
+    let watch = Observers { frames: Some(&mut take), ..Observers::default() };
     Run::new(setup).frames(count, watch).unwrap();
     assert_eq!(frames.len() as u64, count);
     frames

@@ -5,8 +5,8 @@ use tofsim::firmware::vcsel_driver;
 use tofsim::kernel::Time;
 use tofsim::scenario;
 use tofsim::sim::device::Off;
+use tofsim::sim::fast::{NO_HIT, ShotOutcomes, Tables, acquire, leap_shots};
 use tofsim::sim::frames::Frames;
-use tofsim::sim::leap::{NO_HIT, Outcomes, Tables};
 use tofsim::sim::setup::{CYCLE, Setup};
 
 #[test]
@@ -27,9 +27,9 @@ fn a_leap_lands_where_the_histogram_and_the_counts_are_what_stepping_gives() {
         }
         let (mut leapt, mut tables, mut leaps) = (stepped.clone(), Tables::default(), 0);
         let mut frames = [Frames::default(), Frames::default()];
-        leapt.acquire::<true>(p, &mut frames[0], u64::MAX, |device, frames| {
+        acquire(&mut leapt, p, &mut frames[0], u64::MAX, |device, frames| {
             let before = device.cycle();
-            device.leap_shots(p, &mut tables, frames);
+            leap_shots(device, p, &mut tables, frames);
             leaps += u64::from(device.cycle() > before);
         });
         while stepped.cycle() < leapt.cycle() {
@@ -56,7 +56,7 @@ fn the_staircase_of_outcomes_is_the_firmware_s_to_the_femtosecond() {
         for (rate, period) in vcsel_driver::PERIODS.into_iter().enumerate() {
             let profile = format!("tdc.profile={chain}");
             let plain = common::setup("kc705", &[&profile]);
-            let outcomes = Outcomes::new(&plain.params.tdc, period, CYCLE).unwrap();
+            let outcomes = ShotOutcomes::new(&plain.params.tdc, period, CYCLE).unwrap();
             let steps = outcomes
                 .steps()
                 .iter()

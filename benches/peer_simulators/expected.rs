@@ -6,9 +6,9 @@ use std::path::Path;
 
 use tofsim::sim::Run;
 use tofsim::sim::frames::Frame;
-use tofsim::sim::recorder::Shot;
-use tofsim::sim::run::Watch;
+use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
+use tofsim::sim::shot_recorder::Shot;
 
 use crate::Result;
 use crate::run::PeerFrame;
@@ -38,10 +38,10 @@ impl Expected {
             frames.push(frame.clone());
             Ok(())
         };
-        let watch = Watch {
+        let watch = Observers {
             shots: Some(&mut take_shot),
             frames: Some(&mut take_frame),
-            ..Watch::default()
+            ..Observers::default()
         };
         Run::new(setup).frames(1, watch)?;
         let frame = frames.first().ok_or("tofsim gave no frame")?;

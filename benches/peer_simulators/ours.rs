@@ -7,10 +7,10 @@ use std::time::{Duration, Instant};
 use tofsim::hierarchy;
 use tofsim::kernel::Time;
 use tofsim::scenario::window::Window;
-use tofsim::sim::histogram::Histograms;
-use tofsim::sim::run::Watch;
+use tofsim::sim::fast::histogram::Histograms;
+use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
-use tofsim::sim::{Gait, Run};
+use tofsim::sim::{Run, Stepping};
 use tofsim::waves::{Format, Waves};
 
 use crate::Result;
@@ -49,21 +49,21 @@ fn run(work: Work, setup: &Setup, frames: u64, folder: &Path) -> Result<()> {
 
 /// Every cycle.
 fn cycle(setup: &Setup, frames: u64) -> Result<()> {
-    at(Gait::Step, setup, frames)
+    at(Stepping::EveryCycle, setup, frames)
 }
 
 /// Idle cycles skipped.
 fn cycle_skip(setup: &Setup, frames: u64) -> Result<()> {
-    at(Gait::Skip, setup, frames)
+    at(Stepping::SkipIdle, setup, frames)
 }
 
 /// Shot by shot.
 fn shot(setup: &Setup, frames: u64) -> Result<()> {
-    at(Gait::Leap, setup, frames)
+    at(Stepping::LeapShots, setup, frames)
 }
 
-fn at(gait: Gait, setup: &Setup, frames: u64) -> Result<()> {
-    black_box(Run::new(setup).at(gait).frames(frames, Watch::default())?);
+fn at(stepping: Stepping, setup: &Setup, frames: u64) -> Result<()> {
+    black_box(Run::new(setup).stepping(stepping).frames(frames, Observers::default())?);
     Ok(())
 }
 
@@ -83,7 +83,7 @@ fn waveform(setup: &Setup, frames: u64, format: Format, path: Option<&Path>) -> 
     let waves = Waves::create(path, format, &entries, order, &[])?;
     let to = setup.end(frames).unwrap_or(Time::NEVER);
     let windows = vec![Window::Span { from: Time::ZERO, to }];
-    let watch = Watch { waves: Some((waves, windows)), ..Watch::default() };
+    let watch = Observers { waves: Some((waves, windows)), ..Observers::default() };
     black_box(Run::new(setup).frames(frames, watch)?);
     Ok(())
 }

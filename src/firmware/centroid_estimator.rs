@@ -136,19 +136,6 @@ impl CentroidEstimator {
         }
     }
 
-    /// Whether an edge would change nothing until `algo_start` or `rst` is high.
-    pub fn is_asleep(&self) -> bool {
-        !self.registers.busy && !self.registers.algo_done
-    }
-
-    /// From the first cycle of an estimation to the one before the depth is ready.
-    pub fn run(&mut self, histogram: &[U<16>; BINS], p: &Params) {
-        for _ in 1..DONE {
-            let count = histogram[self.registers.read_addr.index()];
-            self.rise(&In { rst: false, algo_start: false, count }, p);
-        }
-    }
-
     fn next(&self, i: &In, p: &Params) -> Registers {
         let (q, mut d) = (&self.registers, self.registers);
         d.algo_done = false;

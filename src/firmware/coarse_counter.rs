@@ -26,14 +26,6 @@ signals! {
     }
 }
 
-impl CoarseCounter {
-    /// So many cycles, one or more, after a laser edge.
-    pub fn after(cycles: u64) -> Self {
-        let last = U::<3>::MAX.get();
-        CoarseCounter { coarse: U::new((cycles - 1).min(last)), window: cycles - 1 <= last }
-    }
-}
-
 impl Clocked for CoarseCounter {
     type In = In;
     type Params = ();

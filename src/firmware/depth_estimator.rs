@@ -93,32 +93,13 @@ impl Params {
 impl DepthEstimator {
     /// The rising edge of `clk_125`.
     pub fn rise(&mut self, i: &In, p: &Params) {
-        *self = DepthEstimator {
-            estimator_ctrl: self.estimator_ctrl.next(&Wires::estimator_ctrl(self, i), &p.neurons()),
-            forward1: self.forward1.next(&Wires::forward1(self, i), &p.forward1),
-            tansig: self.tansig.next(&Wires::tansig(self, i), &p.tansig),
-            forward2: self.forward2.next(&Wires::forward2(self, i), &p.forward2),
-        };
-    }
+        let forward1 = Wires::forward1(self, i);
+        let tansig = Wires::tansig(self, i);
+        let forward2 = self.forward2.next(&Wires::forward2(self, i), &p.forward2);
 
-    /// In the cycle before the depth is ready, when those sums of the hidden layer have been made.
-    pub fn before_done(l1_in: [forward1::L1In; forward2::MOST_NEURONS], p: &Params) -> Self {
-        let l1_out = l1_in.map(|l1_in| p.tansig[tansig::address(l1_in)]);
-        let products = l1_out.iter().zip(&p.forward2.w2).map(|(out, w2)| out.get() * w2.get());
-        DepthEstimator {
-            estimator_ctrl: EstimatorCtrl::before_done(p.neurons()),
-            forward1: Forward1::done(l1_in, &p.forward1),
-            tansig: Tansig { l1_out },
-            forward2: Forward2 { depth: forward2::Depth::new(products.sum()) },
-        }
-    }
-
-    /// Whether an edge would change nothing until `algo_start` or `rst` is high: nothing is under
-    /// way, and the weights of the first row have been fetched.
-    pub fn is_asleep(&self, p: &Params) -> bool {
-        let idle = In { rst: false, algo_start: false, count: U::new(0) };
-        let mut next = *self;
-        next.rise(&idle, p);
-        next == *self
+        self.estimator_ctrl.tick(&Wires::estimator_ctrl(self, i), &p.neurons());
+        self.forward1.tick(&forward1, &p.forward1);
+        self.tansig.tick(&tansig, &p.tansig);
+        self.forward2 = forward2;
     }
 }

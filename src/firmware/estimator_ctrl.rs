@@ -62,20 +62,13 @@ signals! {
         /// The depth is ready; one cycle.
         pub algo_done: bool,
         /// An estimation is under way.
-        busy: bool,
+        pub(crate) busy: bool,
         /// Cycles since e0.
-        step: U<9>,
+        pub(crate) step: U<9>,
     }
 }
 
 impl EstimatorCtrl {
-    /// In the cycle before the depth of so many neurons is ready.
-    pub fn before_done(neurons: usize) -> Self {
-        let step = U::new(done(neurons) - 2);
-        let before = EstimatorCtrl { busy: true, step, ..Self::default() };
-        before.next(&In { rst: false, algo_start: false }, &neurons)
-    }
-
     /// Cycles since e0, up to the one of `algo_done`.
     pub fn phase(&self) -> Option<u64> {
         let done = self.algo_done.then(|| FORWARD2 + self.neuron.get());
@@ -139,7 +132,6 @@ mod tests {
             assert_eq!(cycles.iter().position(|ctrl| ctrl.algo_done), Some(edges));
             assert_eq!(count(&cycles, |ctrl| ctrl.algo_done), 1);
             assert_eq!(cycles[edges].phase(), Some(done(neurons)));
-            assert_eq!(EstimatorCtrl::before_done(neurons), cycles[edges - 1]);
             assert_eq!(cycles[299], EstimatorCtrl::default());
         }
     }

@@ -47,14 +47,7 @@ signals! {
         /// Sums of the neurons.
         pub l1_in: [L1In; MOST_NEURONS],
         /// Weights of this cycle.
-        weight: [Weight; MOST_NEURONS],
-    }
-}
-
-impl Forward1 {
-    /// With those sums, ready for the next histogram.
-    pub fn done(l1_in: [L1In; MOST_NEURONS], rom: &Rom) -> Self {
-        Forward1 { l1_in, weight: rom[0] }
+        pub(crate) weight: [Weight; MOST_NEURONS],
     }
 }
 
@@ -64,17 +57,26 @@ impl Clocked for Forward1 {
 
     #[inline]
     fn next(&self, i: &In, rom: &Rom) -> Self {
-        let (q, mut d) = (self, *self);
+        let mut d = *self;
+        d.tick(i, rom);
+        d
+    }
+
+    #[inline]
+    fn tick(&mut self, i: &In, rom: &Rom) {
+        let weight = rom[i.rom_addr.index().min(BIAS_ROW)];
         let operand = if i.read_en { i.count.get() as i64 } else { BIAS_FACTOR };
         let first = i.read_en && i.read_addr == 0;
-        for k in 0..MOST_NEURONS {
-            if i.forward1_en {
-                let sum = if first { L1In::new(0) } else { q.l1_in[k] };
-                d.l1_in[k] = sum + operand * q.weight[k].get();
+        if i.forward1_en {
+            for (l1_in, weight) in self.l1_in.iter_mut().zip(&self.weight) {
+                let sum = if first { L1In::new(0) } else { *l1_in };
+                *l1_in = sum + operand * weight.get();
             }
         }
-        d.weight = rom[i.rom_addr.index().min(BIAS_ROW)];
-        if i.rst { Self::default() } else { d }
+        self.weight = weight;
+        if i.rst {
+            *self = Self::default();
+        }
     }
 }
 

@@ -16,9 +16,9 @@ use crate::kernel::{AWAKE, Clocked, U, asleep_if};
 use crate::{signals, states};
 
 /// Words of the histogram, each cleared in one cycle.
-const LAST_WORD: u64 = 255;
+pub(crate) const LAST_WORD: u64 = 255;
 /// Length of Drain less one: longer than the TDC's window and pipeline [cycles of clk_125].
-const LAST_DRAIN: u64 = 15;
+pub(crate) const LAST_DRAIN: u64 = 15;
 
 states! {
     /// States of the frame.
@@ -60,7 +60,7 @@ signals! {
 }
 
 signals! {
-    /// Registers; the public ones are the output ports.
+    /// Registers; the `pub` ones are the output ports.
     pub struct FrameCtrl {
         /// Sets a word of the histogram to zero.
         pub clear: bool = true,
@@ -73,11 +73,11 @@ signals! {
         /// The frame has ended; one cycle, the first of the next Clear.
         pub frame_done: bool,
         /// State of the frame.
-        state: State,
+        pub(crate) state: State,
         /// Shots begun in this frame.
-        shots: U<16>,
+        pub(crate) shots: U<16>,
         /// Cycles spent in Drain.
-        drain: U<4>,
+        pub(crate) drain: U<4>,
     }
 }
 
@@ -90,33 +90,6 @@ impl FrameCtrl {
     /// Shots begun in this frame.
     pub fn shots(&self) -> u64 {
         self.shots.get()
-    }
-
-    /// Counts shots that were leapt over, fewer than are left.
-    pub fn leap_shots(&mut self, shots: u64) {
-        self.shots = self.shots + shots;
-    }
-
-    /// In Clear, the word that is set to zero.
-    pub fn clearing(&self) -> Option<u64> {
-        (self.state == State::Clear).then_some(self.clear_addr.get())
-    }
-
-    /// Stands for so many cycles of Clear, not its last.
-    pub fn leap_clear(&mut self, cycles: u64) {
-        self.clear_addr = self.clear_addr + cycles;
-    }
-
-    /// Whether the estimator works, is about to, or has just finished.
-    pub fn is_estimating(&self, p: &Params) -> bool {
-        const NEAR: u64 = 2;
-        match self.state {
-            State::Clear if self.frame_done => true,
-            State::Clear => p.preloaded && self.clear_addr.get() + NEAR >= LAST_WORD,
-            State::Acquire => false,
-            State::Drain => self.drain.get() + NEAR >= LAST_DRAIN,
-            State::Estimate => true,
-        }
     }
 }
 

@@ -54,10 +54,18 @@ impl Clocked for Tansig {
     #[inline]
     fn next(&self, i: &In, rom: &Rom) -> Self {
         let mut d = *self;
+        d.tick(i, rom);
+        d
+    }
+
+    #[inline]
+    fn tick(&mut self, i: &In, rom: &Rom) {
         if i.tansig_en {
-            d.l1_out = i.l1_in.map(|l1_in| rom[address(l1_in)]);
+            self.l1_out = i.l1_in.map(|l1_in| rom[address(l1_in)]);
         }
-        if i.rst { Self::default() } else { d }
+        if i.rst {
+            *self = Self::default();
+        }
     }
 }
 

@@ -36,7 +36,7 @@ pub struct Params {
     /// ROM of the decoder.
     pub cal: Box<Calibration>,
     /// Place of physical tap 0 in the order of arrival.
-    tap_0: usize,
+    pub(crate) tap_0: usize,
 }
 
 impl Params {
@@ -86,26 +86,17 @@ connect! {
 }
 
 impl Tdc {
-    /// The rising edge of `clk_125` at `now`. The last block goes first, so that each reads what the
-    /// one before it was, and one that no edge would change is left alone.
+    /// The rising edge of `clk_125` at `now`.
     #[inline(always)]
     pub fn rise(&mut self, i: &In, p: &Params, line: &mut StopLine, now: Time) {
-        if i.rst | self.tdc_latch.hit | !self.tdc_decoder.is_idle() {
-            self.tdc_decoder.tick(&Wires::tdc_decoder(self, i), &p.cal);
-        }
-        let taps = &self.carry_chain.taps;
-        if i.rst | !self.tdc_latch.is_idle(taps, i.start, p.tap_0) {
-            self.tdc_latch.tick(&Wires::tdc_latch(self, i), &p.tap_0);
-        }
-        self.coarse_counter = self.coarse_counter.next(&Wires::coarse_counter(self, i), &());
-        if !line.is_shown_by(&self.carry_chain.taps) {
-            self.carry_chain = CarryChain { taps: line.sample(now, &p.delays) };
-        }
-    }
+        let coarse_counter = Wires::coarse_counter(self, i);
+        let tdc_latch = Wires::tdc_latch(self, i);
+        let tdc_decoder = Wires::tdc_decoder(self, i);
 
-    /// In the cycle of a laser edge, after shots of which nothing is left in the chain.
-    pub fn at_laser_edge(period: u64) -> Self {
-        Tdc { coarse_counter: CoarseCounter::after(period), ..Tdc::default() }
+        self.carry_chain = CarryChain { taps: line.sample(now, &p.delays) };
+        self.coarse_counter.tick(&coarse_counter, &());
+        self.tdc_latch.tick(&tdc_latch, &p.tap_0);
+        self.tdc_decoder.tick(&tdc_decoder, &p.cal);
     }
 
     /// Coming edges at which, while the inputs hold, nothing would move but the coarse count.

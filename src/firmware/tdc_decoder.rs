@@ -56,12 +56,6 @@ signals! {
 }
 
 impl TdcDecoder {
-    /// Whether no hit is on its way through.
-    #[inline(always)]
-    pub fn is_idle(&self) -> bool {
-        !(self.n_valid | self.tdc_valid)
-    }
-
     /// The hit in the second stage: ones count and coarse count.
     pub fn decoding(&self) -> Option<(u64, u64)> {
         self.n_valid.then_some((self.n.get(), self.n_coarse.get()))
@@ -81,33 +75,23 @@ impl Clocked for TdcDecoder {
 
     #[inline(always)]
     fn next(&self, i: &In, cal: &Calibration) -> Self {
-        let mut d = *self;
-        d.tick(i, cal);
-        d
-    }
-
-    /// The second stage goes first, and reads what the first one was.
-    #[inline(always)]
-    fn tick(&mut self, i: &In, cal: &Calibration) {
-        if i.rst {
-            *self = Self::default();
-            return;
-        }
-        self.tdc_valid = false;
-        if self.n_valid
-            && let Some(code) = code(self.n_coarse.get(), self.n.index(), cal)
-        {
-            (self.tdc_valid, self.tdc_code) = (true, code);
-        }
-        self.n_valid = i.hit;
+        let (q, mut d) = (self, *self);
+        d.n_valid = i.hit;
         if i.hit {
-            (self.n, self.n_coarse) = (U::new(i.hit_taps.ones() as u64), i.hit_coarse);
+            (d.n, d.n_coarse) = (U::new(i.hit_taps.ones() as u64), i.hit_coarse);
         }
+        d.tdc_valid = false;
+        if q.n_valid
+            && let Some(code) = code(q.n_coarse.get(), q.n.index(), cal)
+        {
+            (d.tdc_valid, d.tdc_code) = (true, code);
+        }
+        if i.rst { Self::default() } else { d }
     }
 
     #[inline(always)]
     fn quiet(&self, i: &In, _: &Calibration) -> u64 {
-        asleep_if(!(i.rst | i.hit) && self.is_idle())
+        asleep_if(!(i.rst | i.hit | self.n_valid | self.tdc_valid))
     }
 }
 

@@ -43,12 +43,6 @@ signals! {
 }
 
 impl TdcLatch {
-    /// Whether the coming edge changes nothing, unless it resets.
-    #[inline(always)]
-    pub fn is_idle(&self, taps: &Taps, start: bool, tap_0: usize) -> bool {
-        !(self.hit | (start & self.used)) && taps.tap(tap_0) == self.tap_0_last
-    }
-
     /// Whether the shot has had its hit, and tap 0 at the edge before.
     pub fn before(&self) -> (bool, bool) {
         (self.used, self.tap_0_last)
@@ -69,22 +63,22 @@ impl Clocked for TdcLatch {
 
     #[inline(always)]
     fn tick(&mut self, i: &In, tap_0: &usize) {
-        if i.rst {
-            *self = Self::default();
-            return;
-        }
         let tap_0 = i.taps.tap(*tap_0);
-        self.hit = tap_0 && !self.tap_0_last && i.window && !self.used;
-        if self.hit {
+        let hit = tap_0 && !self.tap_0_last && i.window && !self.used;
+        let used = (self.used || hit) && !i.start;
+        if hit {
             (self.hit_coarse, self.hit_taps) = (i.coarse, i.taps);
         }
-        self.used = (self.used || self.hit) && !i.start;
-        self.tap_0_last = tap_0;
+        (self.hit, self.used, self.tap_0_last) = (hit, used, tap_0);
+        if i.rst {
+            *self = Self::default();
+        }
     }
 
     #[inline(always)]
     fn quiet(&self, i: &In, tap_0: &usize) -> u64 {
-        asleep_if(!i.rst && self.is_idle(&i.taps, i.start, *tap_0))
+        let idle = i.taps.tap(*tap_0) == self.tap_0_last;
+        asleep_if(idle && !(i.rst | self.hit | (i.start & self.used)))
     }
 }
 

@@ -10,6 +10,7 @@ use super::carry_chain::StopLine;
 use super::centroid_estimator::{self, CentroidEstimator};
 use super::code_preload::{self, CodePreload};
 use super::control_sync::{self, ControlSync};
+use super::ddr_output::DdrOutput;
 use super::depth_estimator::{self, DepthEstimator};
 use super::frame_ctrl::{self, FrameCtrl};
 use super::histogram_builder::{self, HistogramBuilder};
@@ -19,7 +20,6 @@ use super::tdc::{self, Tdc};
 use super::vcsel_driver::{self, VcselDriver};
 use super::{histogram_preload, lvds_output, pll};
 
-mod gait;
 mod ports;
 mod socket;
 
@@ -62,8 +62,6 @@ pub struct TofTop {
     pub centroid_estimator: CentroidEstimator,
     /// What the one in use gives.
     pub socket: Socket,
-    /// No edge would change the estimator until it is started or reset.
-    estimator_asleep: bool,
 }
 
 connect! {
@@ -159,7 +157,6 @@ impl TofTop {
             depth_estimator: DepthEstimator::default(),
             centroid_estimator: CentroidEstimator::default(),
             socket: Socket::default(),
-            estimator_asleep: false,
         }
     }
 
@@ -196,6 +193,13 @@ impl TofTop {
         self.drive_laser();
     }
 
+    /// What a rising edge of `clk_250` alone can change; more only follows from it.
+    #[inline(always)]
+    pub fn registers_250(&self) -> (ResetSync, vcsel_driver::Registers250, DdrOutput) {
+        let driver = &self.vcsel_driver;
+        (self.reset_sync_250, driver.registers_250, driver.ddr_output)
+    }
+
     /// A falling edge of `clk_250`.
     #[inline(always)]
     pub fn fall_250(&mut self) {
@@ -221,8 +225,9 @@ impl TofTop {
         }
     }
 
+    /// The code, from the registers of its source.
     #[inline(always)]
-    fn take_code(&mut self, p: &Params) {
+    pub(crate) fn take_code(&mut self, p: &Params) {
         (self.nets.tdc_valid, self.nets.tdc_code) = match &p.code_source {
             CodeSource::Tdc => (self.tdc.tdc_decoder.tdc_valid, self.tdc.tdc_decoder.tdc_code),
             CodeSource::Preload(_) => (self.code_preload.tdc_valid, self.code_preload.tdc_code),
@@ -246,8 +251,9 @@ impl TofTop {
         self.drive_laser();
     }
 
+    /// The laser's pins, from the driver's register.
     #[inline(always)]
-    fn drive_laser(&mut self) {
+    pub(crate) fn drive_laser(&mut self) {
         self.nets.laser_on = self.vcsel_driver.laser_on();
         self.lvds_output = lvds_output::out(&lvds_output::In { i: self.nets.laser_on });
     }

@@ -48,13 +48,13 @@ signals! {
         /// From the laser edge on; one cycle.
         pub start: bool,
         /// Asks `clk_250` for a pulse; the cycle before the laser edge.
-        fire: bool,
+        pub(crate) fire: bool,
         /// Place in the period.
-        count: U<5>,
+        pub(crate) count: U<5>,
         /// The period in force, less one [cycles of clk_125].
-        last: U<5>,
+        pub(crate) last: U<5>,
         /// The `laser_en` in force.
-        enable: bool,
+        pub(crate) enable: bool,
     }
 }
 
@@ -62,7 +62,7 @@ signals! {
     /// Registers in `clk_250`.
     pub struct Registers250 {
         /// Enable of the output register; the cycle of `clk_250` before the laser edge.
-        laser_pulse: bool,
+        pub(crate) laser_pulse: bool,
     }
 }
 
@@ -86,21 +86,6 @@ connect! {
 }
 
 impl Registers {
-    /// Whether a shot begins in four cycles: two before `pre_start` rises.
-    pub fn shot_is_near(&self, acquire: bool) -> bool {
-        acquire && self.count + 3 == self.last
-    }
-
-    /// Whether a shot has just begun, and the next one comes at that rate, with the laser or not.
-    pub fn begins_shot(&self, rate: usize, lit: bool) -> bool {
-        self.start && self.last == PERIODS[rate] - 1 && self.enable == lit
-    }
-
-    /// Whether the coming shot has the laser.
-    pub fn is_enabled(&self) -> bool {
-        self.enable
-    }
-
     /// The rate in force, the place in its period, and whether that is the last; `None` before a
     /// rate has been taken.
     pub fn place(&self) -> Option<(u64, u64, bool)> {
@@ -171,15 +156,17 @@ impl VcselDriver {
     /// An edge at which both clocks rise.
     #[inline(always)]
     pub fn rise(&mut self, i: &In) {
+        let registers = self.registers.next(i, &());
         self.rise_250(i);
-        self.registers = self.registers.next(i, &());
+        self.registers = registers;
     }
 
     /// An edge at which only `clk_250` rises, or the part of `clk_250` where both do.
     #[inline(always)]
     pub fn rise_250(&mut self, i: &In) {
-        self.ddr_output = self.ddr_output.rise(&Wires::ddr_output(self));
-        self.registers_250 = self.registers_250.next(&self.inputs_250(i), &());
+        let ddr_output = self.ddr_output.rise(&Wires::ddr_output(self));
+        let registers_250 = self.registers_250.next(&self.inputs_250(i), &());
+        (self.ddr_output, self.registers_250) = (ddr_output, registers_250);
     }
 
     /// A falling edge of `clk_250`.
@@ -197,16 +184,8 @@ impl VcselDriver {
     /// here and at the edges of `clk_250` between them.
     #[inline(always)]
     pub fn quiet(&self, i: &In) -> u64 {
-        match self.registers.quiet(i, &()) {
-            edges if edges != AWAKE && !self.is_pulse_near() => edges,
-            _ => AWAKE,
-        }
-    }
-
-    /// Whether the coming edges of `clk_250`, up to the next one of `clk_125`, make or end a pulse.
-    #[inline(always)]
-    pub fn is_pulse_near(&self) -> bool {
-        self.registers.fire | self.registers_250.laser_pulse | self.ddr_output.q
+        let pulse = self.registers.fire | self.registers_250.laser_pulse | self.ddr_output.q;
+        if pulse { AWAKE } else { self.registers.quiet(i, &()) }
     }
 
     /// Stands for that many edges of `clk_125`, all of them quiet.

@@ -107,7 +107,7 @@ mod tests {
     use crate::kernel::Time;
     use crate::kernel::signals::Signals;
     use crate::scenario;
-    use crate::sim::device::{Off, Trace};
+    use crate::sim::device::{Off, SignalProbe};
     use crate::sim::setup::Setup;
 
     /// Follows every signal, and looks at all of them beside it.
@@ -119,7 +119,7 @@ mod tests {
         others: usize,
     }
 
-    impl Trace for Both {
+    impl SignalProbe for Both {
         const ON: bool = true;
 
         fn sample(&mut self, now: Time, top: &TofTop) {

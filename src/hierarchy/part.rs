@@ -164,7 +164,7 @@ pub(super) mod tests {
     use crate::hierarchy::IDS;
     use crate::kernel::{Thermometer, Time};
     use crate::scenario::{self, Control};
-    use crate::sim::device::{Edge, Off, Trace};
+    use crate::sim::device::{Edge, Off, SignalProbe};
     use crate::sim::setup::Setup;
 
     /// The value of each id; of taps their number.
@@ -191,7 +191,7 @@ pub(super) mod tests {
         estimations: usize,
     }
 
-    impl Trace for Both {
+    impl SignalProbe for Both {
         const ON: bool = false;
         const EDGES: bool = true;
 

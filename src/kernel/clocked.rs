@@ -14,8 +14,8 @@ pub trait Clocked: Copy + PartialEq + std::fmt::Debug {
     /// The registers after the next rising edge.
     fn next(&self, i: &Self::In, p: &Self::Params) -> Self;
 
-    /// The rising edge. A module with wide registers that seldom change has this in place, and
-    /// [`Clocked::next`] by it.
+    /// The rising edge. A module whose registers are too wide to copy at every edge has this in place,
+    /// and [`Clocked::next`] by it.
     #[inline(always)]
     fn tick(&mut self, i: &Self::In, p: &Self::Params) {
         *self = self.next(i, p);

@@ -137,7 +137,7 @@ impl<const N: usize> Field for Thermometer<N> {
 }
 
 /// Declares a struct of signals. One line gives a signal's meaning, name, width and, after `=`,
-/// its reset value where that is not zero; public fields are output ports.
+/// its reset value where that is not zero; `pub` fields are output ports, `pub(crate)` ones are not.
 #[macro_export]
 macro_rules! signals {
     ($(#[$meta:meta])* $vis:vis struct $name:ident {
@@ -164,7 +164,7 @@ macro_rules! signals {
                         name: stringify!($field).to_owned(),
                         width: 0,
                         format: $crate::kernel::signals::Format::Bits,
-                        output: !stringify!($field_vis).is_empty(),
+                        output: matches!(stringify!($field_vis), "pub"),
                         doc: concat!($($doc),+).trim_ascii(),
                     },
                     &mut list,

@@ -14,7 +14,7 @@ use super::jitter::Jitter;
 use super::oscillator::Oscillator;
 use super::timeline::Timeline;
 
-pub use super::trace::{Edge, Off, Record, Trace};
+pub use super::probe::{AvalancheListener, Edge, Off, SignalProbe};
 
 /// Everything that has a state in a run.
 #[derive(Clone, Debug)]
@@ -31,8 +31,6 @@ pub struct Device {
     pub(super) jitter: Option<Jitter>,
     /// Edges of `clk_125` so far.
     pub(super) cycle: u64,
-    /// Until then the top only acquires, as long as `acquire` is high.
-    pub(super) acquires_until: Time,
     /// Kept up only while tracing.
     oscillator: Oscillator,
 }
@@ -57,7 +55,6 @@ impl Device {
             pll,
             jitter,
             cycle: 0,
-            acquires_until: Time::ZERO,
         }
     }
 
@@ -96,55 +93,54 @@ impl Device {
     }
 
     /// From power-up until just before the first clock edge.
-    pub fn power_up<T: Trace, R: Record>(&mut self, trace: &mut T, record: &mut R) {
-        self.settle(self.pll.locked_at, trace, record);
+    pub fn power_up<T: SignalProbe, R: AvalancheListener>(
+        &mut self,
+        probe: &mut T,
+        listener: &mut R,
+    ) {
+        self.settle(self.pll.locked_at, probe, listener);
         self.top.pll.locked = true;
         if T::ON {
-            trace.sample(self.pll.locked_at, &self.top);
+            probe.sample(self.pll.locked_at, &self.top);
         }
     }
 
     /// One cycle: the edge at which both clocks rise, and the one in its middle.
     #[inline(always)]
-    pub fn step<T: Trace, R: Record>(&mut self, p: &Params, trace: &mut T, record: &mut R) {
+    pub fn step<T: SignalProbe, R: AvalancheListener>(
+        &mut self,
+        p: &Params,
+        probe: &mut T,
+        listener: &mut R,
+    ) {
         let now = self.next_edge();
-        self.before_edge(Edge::Both, now, trace, record);
-        self.settle(now, trace, record);
-        let acquires = self.only_acquires(now);
-        if acquires {
-            self.top.convert_acquiring(p, &mut self.line, now);
-            self.top.emit_acquiring(p);
-        } else {
-            self.top.rise(p, &mut self.line, now);
-            if self.top.socket.algo_done {
-                self.timeline.take_depth(self.pll.clk_125.rise(self.cycle));
-            }
+        self.before_edge(Edge::Both, now, probe, listener);
+        self.settle(now, probe, listener);
+        self.top.rise(p, &mut self.line, now);
+        if self.top.socket.algo_done {
+            self.timeline.take_depth(self.pll.clk_125.rise(self.cycle));
         }
         self.react(now);
         if T::ON {
             self.clocks(true, true);
-            trace.sample(now, &self.top);
+            probe.sample(now, &self.top);
         }
         let middle = self.rise_250_at(2 * self.cycle + 1);
         let quarter = self.pll.clk_250.fall(0) - self.pll.clk_250.rise(0);
-        self.fall_250(now + quarter, trace, record);
-        self.before_edge(Edge::Middle, middle, trace, record);
-        let unseen = self.settle(middle, trace, record);
-        let moved = if acquires && middle < self.acquires_until {
-            self.top.rise_250_acquiring()
-        } else {
-            self.top.rise_250();
-            true
-        };
+        self.fall_250(now + quarter, probe, listener);
+        self.before_edge(Edge::Middle, middle, probe, listener);
+        let unseen = self.settle(middle, probe, listener);
+        let before = self.top.registers_250();
+        self.top.rise_250();
         if T::ON {
             self.clocks(false, true);
-            if moved || unseen {
-                trace.sample(middle, &self.top);
+            if unseen || self.top.registers_250() != before {
+                probe.sample(middle, &self.top);
             } else {
-                trace.tick(middle, &self.top);
+                probe.tick(middle, &self.top);
             }
         }
-        self.fall_250(middle + quarter, trace, record);
+        self.fall_250(middle + quarter, probe, listener);
         self.cycle += 1;
     }
 
@@ -156,30 +152,35 @@ impl Device {
 
     /// Shows what an edge takes: all that happens strictly before it has happened.
     #[inline(always)]
-    fn before_edge<T: Trace, R: Record>(
+    fn before_edge<T: SignalProbe, R: AvalancheListener>(
         &mut self,
         edge: Edge,
         now: Time,
-        trace: &mut T,
-        record: &mut R,
+        probe: &mut T,
+        listener: &mut R,
     ) {
-        if T::EDGES && trace.looks_before(edge) {
-            self.settle(now.since(Time::from_fs(1)), trace, record);
+        if T::EDGES && probe.looks_before(edge) {
+            self.settle(now.since(Time::from_fs(1)), probe, listener);
             self.clocks(edge == Edge::Middle, false);
-            trace.before_edge(edge, now, &self.top);
+            probe.before_edge(edge, now, &self.top);
         }
     }
 
     #[inline(always)]
-    fn fall_250<T: Trace, R: Record>(&mut self, at: Time, trace: &mut T, record: &mut R) {
-        let only_clocks = T::ON && !self.settle(at, trace, record) && !self.top.nets.laser_on;
+    fn fall_250<T: SignalProbe, R: AvalancheListener>(
+        &mut self,
+        at: Time,
+        probe: &mut T,
+        listener: &mut R,
+    ) {
+        let only_clocks = T::ON && !self.settle(at, probe, listener) && !self.top.nets.laser_on;
         self.top.fall_250();
         if T::ON {
             self.top.clocks.clk_250 = false;
             if only_clocks {
-                trace.tick(at, &self.top);
+                probe.tick(at, &self.top);
             } else {
-                trace.sample(at, &self.top);
+                probe.sample(at, &self.top);
             }
         }
     }
@@ -201,11 +202,11 @@ impl Device {
     /// Asynchronous events up to and at `until`, in order of time; whether there was one at that
     /// very instant, which is not sampled yet, beside edges of the oscillator.
     #[inline(always)]
-    pub fn settle<T: Trace, R: Record>(
+    pub fn settle<T: SignalProbe, R: AvalancheListener>(
         &mut self,
         until: Time,
-        trace: &mut T,
-        record: &mut R,
+        probe: &mut T,
+        listener: &mut R,
     ) -> bool {
         let mut unseen = false;
         loop {
@@ -214,7 +215,7 @@ impl Device {
                 while self.oscillator.next_edge() < next.min(until) {
                     let now = self.oscillator.next_edge();
                     self.top.clocks.clk_200 = self.oscillator.edge();
-                    trace.tick(now, &self.top);
+                    probe.tick(now, &self.top);
                 }
                 if self.oscillator.next_edge() == next.min(until) {
                     self.top.clocks.clk_200 = self.oscillator.edge();
@@ -224,31 +225,31 @@ impl Device {
                 return unseen;
             }
             if T::EDGES && next == self.timeline.next_event() {
-                trace.control_changes();
+                probe.control_changes();
             }
-            self.happen::<R>(next, record);
+            self.happen::<R>(next, listener);
             unseen = next == until;
             if T::ON && !unseen {
-                trace.sample(next, &self.top);
+                probe.sample(next, &self.top);
             }
         }
     }
 
-    fn happen<R: Record>(&mut self, now: Time, record: &mut R) {
+    fn happen<R: AvalancheListener>(&mut self, now: Time, listener: &mut R) {
         if self.timeline.next_event() == now {
             self.timeline.event(&mut self.top.pins);
         }
         if self.spad.next_event() == now {
-            self.detect(record);
+            self.detect(listener);
         }
     }
 
     /// The detector does what is due.
     #[inline(always)]
-    pub(super) fn detect<R: Record>(&mut self, record: &mut R) {
+    pub(super) fn detect<R: AvalancheListener>(&mut self, listener: &mut R) {
         let now = self.spad.next_event();
         match self.spad.event() {
-            Event::Avalanche if R::ON => record.avalanche(now, self.light.cause(now)),
+            Event::Avalanche if R::ON => listener.avalanche(now, self.light.cause(now)),
             Event::Avalanche => {}
             Event::Recovery => self.spad.arm(self.light.next_avalanche(now)),
         }
@@ -257,17 +258,11 @@ impl Device {
 
     /// What the detector and the light do about the signals that the edge at `now` changed.
     #[inline(always)]
-    fn react(&mut self, now: Time) {
+    pub(super) fn react(&mut self, now: Time) {
         let passive = self.top.control_sync.mode_sync;
         if passive != self.spad.is_passive() {
             self.spad.set_passive(passive, now);
         }
-        self.react_acquiring(now);
-    }
-
-    /// The same while the quench mode holds.
-    #[inline(always)]
-    pub(super) fn react_acquiring(&mut self, now: Time) {
         let (start, laser) = (self.top.vcsel_driver.registers.start, self.top.nets.laser_on);
         let hold = self.top.spad_control.spad_rst;
         if start || laser {

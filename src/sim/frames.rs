@@ -40,12 +40,12 @@ impl Frame {
 /// What is counted while a frame runs.
 #[derive(Clone, Debug, Default)]
 pub struct Frames {
-    done: u64,
+    pub(super) done: u64,
     /// Shots begun since power-up.
-    shots: u64,
-    tdc_hits: u64,
-    clear_at: u64,
-    start_at: u64,
+    pub(super) shots: u64,
+    pub(super) tdc_hits: u64,
+    pub(super) clear_at: u64,
+    pub(super) start_at: u64,
 }
 
 impl Frames {
@@ -81,20 +81,6 @@ impl Frames {
     #[inline(always)]
     pub fn count_hit(&mut self, top: &TofTop) {
         self.tdc_hits += top.tdc.tdc_latch.hit as u64;
-    }
-
-    /// Counts shots that were leapt over, and the hits among them.
-    pub fn leap(&mut self, shots: u64, tdc_hits: u64) {
-        self.shots += shots;
-        self.tdc_hits += tdc_hits;
-    }
-
-    /// So many frames later: with those the time, and their shots.
-    pub fn pass(&mut self, frames: u64, cycles: u64, shots: u64) {
-        self.done += frames;
-        self.shots += shots;
-        (self.clear_at, self.start_at) = (self.clear_at + cycles, self.start_at + cycles);
-        self.tdc_hits = 0;
     }
 
     fn turn(&mut self, cycle: u64, top: &TofTop, p: &Params) -> Option<Frame> {

@@ -1,23 +1,19 @@
 //! A run: the device, the light on it and the acquisition computer, stepped in time.
 
-pub mod acquisition;
-pub mod centroid;
 pub mod device;
+pub mod fast;
 pub mod frames;
-pub mod histogram;
 pub mod jitter;
-pub mod leap;
-pub mod many;
 pub mod oscillator;
-pub mod recorder;
+mod probe;
 pub mod run;
 pub mod setup;
+pub mod shot_recorder;
 mod sinks;
 pub mod timeline;
-mod trace;
-mod tracer;
+mod wave_tracer;
 
-pub use acquisition::Gait;
 pub use device::Device;
+pub use fast::Stepping;
 pub use run::{Outcome, Run};
-pub use tracer::Windowed;
+pub use wave_tracer::WindowedProbe;

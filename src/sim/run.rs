@@ -5,27 +5,26 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::error::{Error, Input, Result};
 use crate::firmware::tof_top::Params;
 use crate::kernel::Time;
+use crate::scenario::window::Window;
 use crate::waves::{Marks, Waves};
 
-use super::acquisition::Gait;
 use super::device::{Device, Off};
+use super::fast::{FastForward, Stepping};
 use super::frames::{Frame, Frames};
-use super::leap::Tables;
-use super::recorder::{Recorder, Shot};
 use super::setup::Setup;
-use super::sinks::{Recorded, Sinks};
-use super::tracer::{Tracer, Windowed};
-use crate::scenario::window::Window;
+use super::shot_recorder::{Shot, ShotRecorder};
+use super::sinks::{OptionalRecorder, Sinks};
+use super::wave_tracer::{WaveTracer, WindowedProbe};
 
-/// Cycles between two looks at the world outside.
-const BREATH: u64 = 1 << 14;
+/// Cycles between two looks at whether to stop.
+const POLL_INTERVAL: u64 = 1 << 14;
 
 /// Takes what a run gives, piece by piece; an error ends the run.
 pub type Taker<'a, T> = &'a mut dyn FnMut(&T) -> Result<()>;
 
-/// What a run is to do beside simulating.
+/// What looks at a run, and what may stop it.
 #[derive(Default)]
-pub struct Watch<'a> {
+pub struct Observers<'a> {
     /// The waveform, and the parts of the run that go into it.
     pub waves: Option<(Waves, Vec<Window>)>,
     /// Takes each shot, in order.
@@ -60,10 +59,9 @@ pub struct Run<'a> {
     pub(super) frames: Frames,
     /// What no run reaches but one that never ends [cycles of clk_125].
     pub(super) limit: u64,
-    pub(super) gait: Gait,
-    /// When to look at the world outside next [cycles of clk_125].
-    pub(super) breath: u64,
-    tables: Tables,
+    pub(super) fast: FastForward,
+    /// When to look at whether to stop next [cycles of clk_125].
+    pub(super) next_poll: u64,
 }
 
 impl<'a> Run<'a> {
@@ -75,16 +73,16 @@ impl<'a> Run<'a> {
             params: &setup.params,
             frames: Frames::default(),
             limit: 0,
-            gait: Gait::Skip,
-            breath: BREATH,
-            tables: Tables::default(),
+            fast: FastForward::default(),
+            next_poll: POLL_INTERVAL,
         }
     }
 
-    /// Goes through time at that gait while nobody looks at signals or shots; what comes of it is
-    /// the same.
-    pub fn at(self, gait: Gait) -> Self {
-        Run { gait, ..self }
+    /// Goes through time that way while nobody looks at signals or shots; what comes of it is the
+    /// same.
+    pub fn stepping(mut self, stepping: Stepping) -> Self {
+        self.fast.stepping = stepping;
+        self
     }
 
     /// Simulates until `count` frames are done.
@@ -92,11 +90,11 @@ impl<'a> Run<'a> {
     /// # Errors
     /// When the control signals keep a frame from ending, a window lies past the end, a sink
     /// fails, or the run is stopped.
-    pub fn frames(mut self, count: u64, watch: Watch) -> Result<Outcome> {
-        let Watch { waves, shots, frames, stop } = watch;
+    pub fn frames(mut self, count: u64, observers: Observers) -> Result<Outcome> {
+        let Observers { waves, shots, frames, stop } = observers;
         let mut sinks = Sinks { shots, frames, stop };
-        let mut recorder = sinks.shots.is_some().then(Recorder::default);
-        let mut tracer = waves.map(|(waves, windows)| Tracer::new(waves, windows));
+        let mut recorder = sinks.shots.is_some().then(ShotRecorder::default);
+        let mut tracer = waves.map(|(waves, windows)| WaveTracer::new(waves, windows));
         self.limit = self.setup.longest_run(count);
 
         match &mut tracer {
@@ -119,7 +117,7 @@ impl<'a> Run<'a> {
     ///
     /// # Errors
     /// When the control signals keep a frame from ending, `trace` fails, or the run is stopped.
-    pub fn traced<T: Windowed>(
+    pub fn traced<T: WindowedProbe>(
         mut self,
         count: u64,
         trace: &mut T,
@@ -132,7 +130,7 @@ impl<'a> Run<'a> {
         Ok(self.outcome(Marks::default()))
     }
 
-    fn power_up<T: Windowed>(&mut self, trace: &mut T) {
+    fn power_up<T: WindowedProbe>(&mut self, trace: &mut T) {
         if trace.begins_at_power_up(&mut self.device) {
             self.device.power_up(trace, &mut Off);
         } else {
@@ -146,78 +144,63 @@ impl<'a> Run<'a> {
         Outcome { end, cycles, shots, marks, notes: self.device.unused() }
     }
 
-    pub(super) fn go<T: Windowed, R: Recorded>(
+    pub(super) fn go<T: WindowedProbe, R: OptionalRecorder>(
         &mut self,
         count: u64,
-        trace: &mut T,
-        record: &mut R,
+        probe: &mut T,
+        recorder: &mut R,
         sinks: &mut Sinks,
     ) -> Result<()> {
         let mut ended = self.frames.done();
         loop {
             if !(T::ON || T::EDGES || R::ON) {
-                self.hurry();
+                let Run { device, frames, params, fast, next_poll, .. } = self;
+                fast.go(device, params, frames, *next_poll);
             }
-            self.cycle(trace, record)?;
+            self.cycle(probe, recorder)?;
             let frame = self.frames.edge(self.device.cycle() - 1, &self.device.top, self.params);
             if let Some(frame) = frame {
                 sinks.frame(&frame)?;
             }
-            if trace.is_done() {
+            if probe.is_done() {
                 return Ok(());
             }
             let done = self.frames.done();
             if done > ended && !self.device.top.socket.algo_done {
                 ended = done;
                 self.device.light.begin_frame(done);
-                record.pass_on(sinks)?;
-                record.begin_frame(done);
+                recorder.pass_on(sinks)?;
+                recorder.begin_frame(done);
                 if done >= count {
                     return Ok(());
                 }
             }
-            if self.device.cycle() >= self.breath {
-                self.breath = self.device.cycle() + BREATH;
-                record.pass_on(sinks)?;
-                self.breathe(sinks)?;
-            }
-        }
-    }
-
-    /// Goes where the next cycle is one that has to be stepped.
-    #[inline(always)]
-    fn hurry(&mut self) {
-        let Run { device, frames, params, tables, breath, .. } = self;
-        match self.gait {
-            Gait::Step => device.acquire::<false>(params, frames, *breath, |_, _| {}),
-            Gait::Skip => {
-                device.acquire::<true>(params, frames, *breath, |_, _| {});
-                device.skip_idle(params, *breath);
-            }
-            Gait::Leap => {
-                device.acquire::<true>(params, frames, *breath, |device, frames| {
-                    device.leap_shots(params, tables, frames);
-                });
-                device.skip_idle(params, *breath);
-                device.leap_frame_end(params);
+            if self.device.cycle() >= self.next_poll {
+                self.next_poll = self.device.cycle() + POLL_INTERVAL;
+                recorder.pass_on(sinks)?;
+                self.poll_stop(sinks)?;
             }
         }
     }
 
     #[inline(always)]
-    fn cycle<T: Windowed, R: Recorded>(&mut self, trace: &mut T, record: &mut R) -> Result<()> {
-        if (T::ON || T::EDGES) && trace.is_wanted(&mut self.device, &self.frames, self.params)? {
-            self.device.step(self.params, trace, record);
+    fn cycle<T: WindowedProbe, R: OptionalRecorder>(
+        &mut self,
+        probe: &mut T,
+        recorder: &mut R,
+    ) -> Result<()> {
+        if (T::ON || T::EDGES) && probe.is_wanted(&mut self.device, &self.frames, self.params)? {
+            self.device.step(self.params, probe, recorder);
         } else {
-            self.device.step(self.params, &mut Off, record);
+            self.device.step(self.params, &mut Off, recorder);
         }
         if R::ON {
-            record.look(&mut self.device, self.params);
+            recorder.after_edge(&mut self.device, self.params);
         }
         Ok(())
     }
 
-    fn breathe(&self, sinks: &Sinks) -> Result<()> {
+    fn poll_stop(&self, sinks: &Sinks) -> Result<()> {
         if sinks.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
             return Err(Error::Interrupted);
         }

@@ -1,6 +1,6 @@
 //! From a scenario to a device: what elaboration, optics and stimuli come to.
 
-use super::centroid::locate;
+use super::fast::centroid::locate;
 use crate::error::{Input, Result};
 use crate::files::csv::CsvInput;
 use crate::firmware::forward2::Depth;

@@ -5,10 +5,10 @@ use std::sync::atomic::AtomicBool;
 use crate::error::Result;
 use crate::firmware::tof_top::Params;
 
-use super::device::{Device, Off, Record};
+use super::device::{AvalancheListener, Device, Off};
 use super::frames::Frame;
-use super::recorder::{Recorder, Shot};
 use super::run::Taker;
+use super::shot_recorder::{Shot, ShotRecorder};
 
 /// Takers of shots and frames, and who may stop the run.
 pub(super) struct Sinks<'a> {
@@ -24,27 +24,27 @@ impl Sinks<'_> {
 }
 
 /// A recorder, or none.
-pub(super) trait Recorded: Record {
-    fn look(&mut self, device: &mut Device, p: &Params);
+pub(super) trait OptionalRecorder: AvalancheListener {
+    fn after_edge(&mut self, device: &mut Device, p: &Params);
     fn begin_frame(&mut self, frame: u64);
     fn pass_on(&mut self, sinks: &mut Sinks) -> Result<()>;
 }
 
-impl Recorded for Off {
-    fn look(&mut self, _: &mut Device, _: &Params) {}
+impl OptionalRecorder for Off {
+    fn after_edge(&mut self, _: &mut Device, _: &Params) {}
     fn begin_frame(&mut self, _: u64) {}
     fn pass_on(&mut self, _: &mut Sinks) -> Result<()> {
         Ok(())
     }
 }
 
-impl Recorded for Recorder {
-    fn look(&mut self, device: &mut Device, p: &Params) {
+impl OptionalRecorder for ShotRecorder {
+    fn after_edge(&mut self, device: &mut Device, p: &Params) {
         let (cycle, now) = device.last_edge();
         self.edge(cycle, now, &device.top, p);
     }
     fn begin_frame(&mut self, frame: u64) {
-        Recorder::begin_frame(self, frame);
+        ShotRecorder::begin_frame(self, frame);
     }
     fn pass_on(&mut self, sinks: &mut Sinks) -> Result<()> {
         let take = sinks.shots.as_mut();

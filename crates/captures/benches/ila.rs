@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use tofsim::scenario;
 use tofsim::sim::Run;
-use tofsim::sim::run::Watch;
+use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 use tofsim_captures::ila::{Analyser, Overrides, Plan, SetUp, capture};
 
@@ -70,7 +70,7 @@ struct Pair {
 impl Pair {
     fn measure(setup: &Setup, plan: &Plan) -> Self {
         let begun = Instant::now();
-        black_box(Run::new(setup).frames(1, Watch::default()).expect("kc705 runs"));
+        black_box(Run::new(setup).frames(1, Observers::default()).expect("kc705 runs"));
         let without = ms_since(begun);
         let begun = Instant::now();
         let mut analyser = Analyser::new(plan, setup);

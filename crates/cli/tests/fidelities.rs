@@ -5,11 +5,11 @@ use crate::common::{json, refused, setup, stdout};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
+use tofsim::sim::fast::histogram::Histograms;
 use tofsim::sim::frames::Frame;
-use tofsim::sim::histogram::Histograms;
-use tofsim::sim::run::Watch;
+use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
-use tofsim::sim::{Gait, Run};
+use tofsim::sim::{Run, Stepping};
 
 /// Counts by outcome: 256 codes, hits without one, no hit.
 type Counts = Vec<u64>;
@@ -32,8 +32,8 @@ fn shot_frames(setup: &Setup, count: u64) -> Vec<Frame> {
         frames.push(frame.clone());
         Ok(())
     };
-    let watch = Watch { frames: Some(&mut take), ..Watch::default() };
-    Run::new(setup).at(Gait::Leap).frames(count, watch).unwrap();
+    let watch = Observers { frames: Some(&mut take), ..Observers::default() };
+    Run::new(setup).stepping(Stepping::LeapShots).frames(count, watch).unwrap();
     frames
 }
 

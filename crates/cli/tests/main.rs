@@ -12,6 +12,7 @@ mod estimate;
 mod evaluate;
 mod fidelities;
 mod golden;
+mod ila_command;
 mod lockstep;
 mod quantize;
 mod subtraction;

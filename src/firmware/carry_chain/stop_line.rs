@@ -59,11 +59,6 @@ impl StopLine {
         !self.level && (self.travelling == 0 || self.at(0) <= since)
     }
 
-    /// The level is low, and has been for long.
-    pub fn settle_low(&mut self) {
-        (self.level, self.travelling) = (false, 0);
-    }
-
     /// Whether the taps of the last edge are those of every edge to come, until the level changes.
     #[inline(always)]
     pub fn is_shown_by(&self, taps: &Taps) -> bool {

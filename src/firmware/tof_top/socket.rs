@@ -14,24 +14,16 @@ impl TofTop {
         network: &depth_estimator::In,
         centroid: &centroid_estimator::In,
     ) {
-        if self.estimator_asleep && !network.algo_start && !network.rst {
-            return;
-        }
         match p.estimator {
-            Estimator::Network => {
-                self.depth_estimator.rise(network, &p.depth_estimator);
-                self.estimator_asleep = self.depth_estimator.is_asleep(&p.depth_estimator);
-            }
-            Estimator::Centroid => {
-                self.centroid_estimator.rise(centroid, &p.centroid_estimator);
-                self.estimator_asleep = self.centroid_estimator.is_asleep();
-            }
+            Estimator::Network => self.depth_estimator.rise(network, &p.depth_estimator),
+            Estimator::Centroid => self.centroid_estimator.rise(centroid, &p.centroid_estimator),
         }
         self.take_depth(p);
     }
 
+    /// The socket's outputs, from the estimator's registers.
     #[inline(always)]
-    pub(super) fn take_depth(&mut self, p: &Params) {
+    pub(crate) fn take_depth(&mut self, p: &Params) {
         self.socket = match p.estimator {
             Estimator::Network => {
                 let (ctrl, depth) =

@@ -10,10 +10,10 @@ use tofsim::error::Result;
 use tofsim::firmware::tof_top::{Params, TofTop};
 use tofsim::kernel::Time;
 use tofsim::kernel::clock::Clock;
-use tofsim::sim::device::{Edge, Trace};
+use tofsim::sim::device::{Edge, SignalProbe};
 use tofsim::sim::frames::Frames;
 use tofsim::sim::setup::{CYCLE, Setup};
-use tofsim::sim::{Device, Outcome, Run, Windowed};
+use tofsim::sim::{Device, Outcome, Run, WindowedProbe};
 
 use super::capture::{Capture, Probe};
 use super::clock::{Sampling, first_edge};
@@ -186,7 +186,7 @@ pub fn capture(
 /// Looks at the edges of `clk_125` and `clk_250`.
 struct AtEdges<'a>(&'a mut Analyser);
 
-impl Trace for AtEdges<'_> {
+impl SignalProbe for AtEdges<'_> {
     const ON: bool = false;
     const EDGES: bool = true;
 
@@ -207,7 +207,7 @@ impl Trace for AtEdges<'_> {
     }
 }
 
-impl Windowed for AtEdges<'_> {
+impl WindowedProbe for AtEdges<'_> {
     #[inline(always)]
     fn is_wanted(&mut self, device: &mut Device, _: &Frames, _: &Params) -> Result<bool> {
         let analyser = &mut *self.0;
@@ -245,7 +245,7 @@ impl Always<'_> {
     }
 }
 
-impl Trace for Always<'_> {
+impl SignalProbe for Always<'_> {
     const ON: bool = true;
     const EDGES: bool = true;
 
@@ -264,7 +264,7 @@ impl Trace for Always<'_> {
     }
 }
 
-impl Windowed for Always<'_> {
+impl WindowedProbe for Always<'_> {
     fn begins_at_power_up(&mut self, device: &mut Device) -> bool {
         let due = self.is_due(device);
         if due {

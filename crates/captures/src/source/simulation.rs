@@ -7,10 +7,10 @@ use tofsim::firmware::tof_top::{Params, TofTop};
 use tofsim::hierarchy::{self, IDS};
 use tofsim::kernel::signals::{Format as Shape, Sink};
 use tofsim::kernel::{Thermometer, Time};
-use tofsim::sim::device::Trace;
+use tofsim::sim::device::SignalProbe;
 use tofsim::sim::frames::Frames;
 use tofsim::sim::setup::Setup;
-use tofsim::sim::{Device, Run, Windowed};
+use tofsim::sim::{Device, Run, WindowedProbe};
 use tofsim::waves::TapDigits;
 
 use super::names::Name;
@@ -97,7 +97,7 @@ impl Sink for Probe<'_> {
     }
 }
 
-impl Trace for Probe<'_> {
+impl SignalProbe for Probe<'_> {
     const ON: bool = true;
 
     fn sample(&mut self, now: Time, top: &TofTop) {
@@ -117,7 +117,7 @@ impl Trace for Probe<'_> {
     }
 }
 
-impl Windowed for Probe<'_> {
+impl WindowedProbe for Probe<'_> {
     fn begins_at_power_up(&mut self, device: &mut Device) -> bool {
         device.resume_clocks(Time::ZERO);
         self.sample(Time::ZERO, &device.top);

@@ -9,7 +9,7 @@ use proptest::sample::select;
 use proptest::test_runner::TestCaseError;
 use tofsim::hierarchy;
 use tofsim::sim::Run;
-use tofsim::sim::run::Watch;
+use tofsim::sim::run::Observers;
 use tofsim::waves::{Format, Waves};
 use tofsim_captures::compare::{Options, compare};
 use tofsim_captures::ila::{Capture, Probe, Radix, write};
@@ -71,7 +71,7 @@ fn fst() -> &'static [u8] {
         let order = setup.params.tdc.delays.order();
         let waves = Waves::create(&path, Format::Fst, &entries, order, &[]).unwrap();
         let windows = setup.windows(&[], 1).unwrap();
-        let watch = Watch { waves: Some((waves, windows)), ..Watch::default() };
+        let watch = Observers { waves: Some((waves, windows)), ..Observers::default() };
         Run::new(&setup).frames(1, watch).unwrap();
         fs::read(path).unwrap()
     })

@@ -2,7 +2,7 @@
 
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::optics::hazard::Cause;
-use tofsim::sim::recorder::Shot;
+use tofsim::sim::shot_recorder::Shot;
 
 /// Counts of each bin for each cause of [`CAUSES`] [hits].
 #[derive(Clone, Debug)]

@@ -17,7 +17,7 @@ use parquet::schema::parser::parse_message_type;
 
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::OutputFile;
-use tofsim::sim::recorder::Shot;
+use tofsim::sim::shot_recorder::Shot;
 
 use super::causes;
 

@@ -154,7 +154,7 @@ fn as_sequence<S: Serializer>(
 mod tests {
     use super::*;
     use tofsim::scenario;
-    use tofsim::sim::histogram::Histograms;
+    use tofsim::sim::fast::histogram::Histograms;
     use tofsim_learn::estimation::Kind;
 
     fn setup(keys: &[&str]) -> Setup {

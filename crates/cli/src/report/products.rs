@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::{create_directory, write_file};
-use tofsim::sim::recorder::Shot;
 use tofsim::sim::setup::Setup;
+use tofsim::sim::shot_recorder::Shot;
 
 use super::causes::Causes;
 use super::events::Events;

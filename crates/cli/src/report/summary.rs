@@ -5,8 +5,8 @@ use serde::Serialize;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::network::formats::Depth;
 use tofsim::sim::frames::Frame;
-use tofsim::sim::recorder::Shot;
 use tofsim::sim::setup::Setup;
+use tofsim::sim::shot_recorder::Shot;
 use tofsim_learn::estimation::Reading;
 
 use super::frame_log::FrameLog;

@@ -13,12 +13,12 @@ use tofsim::files::output::create_directory;
 use tofsim::hierarchy;
 use tofsim::scenario;
 use tofsim::scenario::window::Window;
+use tofsim::sim::fast::histogram::Histograms;
 use tofsim::sim::frames::Frame;
-use tofsim::sim::histogram::Histograms;
-use tofsim::sim::recorder::Shot;
-use tofsim::sim::run::Watch;
+use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
-use tofsim::sim::{Gait, Run};
+use tofsim::sim::shot_recorder::Shot;
+use tofsim::sim::{Run, Stepping};
 use tofsim::waves::{self, Format, Waves, write_views};
 use tofsim_learn::estimation::{Kind, Panel};
 
@@ -141,7 +141,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let sees_shots = args.fidelity == Fidelity::Cycle && products.want_shots();
     let wants_all_shots = products.want_all_shots();
     let mut take_shot = |shot: &Shot| products.shot(shot);
-    let watch = Watch {
+    let observers = Observers {
         waves,
         shots: sees_shots.then_some(&mut take_shot),
         frames: Some(&mut take_frame),
@@ -149,13 +149,16 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     };
     let began = Instant::now();
     let outcome = match histograms {
-        Some(histograms) => histograms.many(frames, watch)?,
+        Some(histograms) => histograms.many(frames, observers)?,
         None => {
-            let gait = if args.fidelity == Fidelity::Shot { Gait::Leap } else { Gait::Skip };
-            let run = Run::new(&setup).at(gait);
-            match watch.waves.is_some() || wants_all_shots {
-                true => run.frames(frames, watch)?,
-                false => run.many(frames, watch)?,
+            let stepping = match args.fidelity {
+                Fidelity::Shot => Stepping::LeapShots,
+                _ => Stepping::SkipIdle,
+            };
+            let run = Run::new(&setup).stepping(stepping);
+            match observers.waves.is_some() || wants_all_shots {
+                true => run.frames(frames, observers)?,
+                false => run.many(frames, observers)?,
             }
         }
     };

@@ -6,10 +6,10 @@ use std::fs;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use tofsim::sim::frames::Frame;
-use tofsim::sim::recorder::Shot;
-use tofsim::sim::run::Watch;
+use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
-use tofsim::sim::{Gait, Run};
+use tofsim::sim::shot_recorder::Shot;
+use tofsim::sim::{Run, Stepping};
 
 use super::{PAIRS, edge_us};
 use crate::common::{empty, json, setup, stdout};
@@ -122,24 +122,24 @@ fn photons_of_a_dark_frame_are_ambient_or_no_photons_at_all() {
     assert!(rows.eq(expected));
 }
 
-fn paired_frames(setup: &Setup, gait: Option<Gait>) -> Vec<Frame> {
+fn paired_frames(setup: &Setup, stepping: Option<Stepping>) -> Vec<Frame> {
     let mut frames = Vec::new();
     let mut take = |frame: &Frame| {
         frames.push(frame.clone());
         Ok(())
     };
     let mut see = |_: &Shot| Ok(());
-    let watch = Watch { frames: Some(&mut take), ..Watch::default() };
-    match gait {
-        None => Run::new(setup).frames(4, Watch { shots: Some(&mut see), ..watch }),
-        Some(gait) => Run::new(setup).at(gait).frames(4, watch),
+    let watch = Observers { frames: Some(&mut take), ..Observers::default() };
+    match stepping {
+        None => Run::new(setup).frames(4, Observers { shots: Some(&mut see), ..watch }),
+        Some(stepping) => Run::new(setup).stepping(stepping).frames(4, watch),
     }
     .unwrap();
     frames
 }
 
 #[test]
-fn frames_alternate_at_every_gait_and_an_abandoned_one_begins_again_as_it_was() {
+fn frames_alternate_however_a_run_is_stepped_and_an_abandoned_one_begins_again_as_it_was() {
     // 20 shots of 6 cycles: a frame takes 661 cycles to `algo_done`, and the next begins one later.
     let mut controls = vec!["[]".to_owned(), "[{at_us=8,laser_freq=1}]".to_owned()];
     for edge in [3, 100, 300, 661, 662, 663, 664, 670, 674, 675, 676, 700, 950] {
@@ -158,8 +158,8 @@ fn frames_alternate_at_every_gait_and_an_abandoned_one_begins_again_as_it_was() 
         ];
         let setup = setup("kc705", &keys);
         let in_full = paired_frames(&setup, None);
-        for gait in [Gait::Step, Gait::Skip, Gait::Leap] {
-            assert_eq!(paired_frames(&setup, Some(gait)), in_full, "{gait:?}, {control}");
+        for stepping in [Stepping::EveryCycle, Stepping::SkipIdle, Stepping::LeapShots] {
+            assert_eq!(paired_frames(&setup, Some(stepping)), in_full, "{stepping:?}, {control}");
         }
         for frame in &in_full {
             let lit = frame.index % 2 == 1;

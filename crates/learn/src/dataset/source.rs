@@ -8,7 +8,7 @@ use tofsim::network::Histogram;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 use tofsim::scenario::Scenario;
 use tofsim::sensor::streams::{self, stream};
-use tofsim::sim::histogram::independent_shots;
+use tofsim::sim::fast::histogram::independent_shots;
 use tofsim::sim::setup::{CYCLE, Setup};
 
 use super::Scene;

@@ -2,7 +2,7 @@
 
 use tofsim::firmware::centroid_estimator::Params;
 use tofsim::network::Histogram;
-use tofsim::sim::centroid::{Found, locate};
+use tofsim::sim::fast::centroid::{Found, locate};
 
 use super::{Estimator, Failure};
 

@@ -14,7 +14,7 @@ use tofsim::error::Result;
 use tofsim::scenario::Loaded;
 use tofsim::sim::Run;
 use tofsim::sim::frames::Frame;
-use tofsim::sim::run::Watch;
+use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 
 /// Chance below which counts are taken for others than those drawn.
@@ -67,7 +67,7 @@ impl CrossCheck {
             Ok(())
         };
         Run::new(&setup)
-            .frames(frames, Watch { frames: Some(&mut take), stop, ..Watch::default() })?;
+            .frames(frames, Observers { frames: Some(&mut take), stop, ..Observers::default() })?;
         let shots = (frames * u64::from(source.shots())) as f64;
         let p_value = p_value(&sums, source.probabilities(scene).of_code(), shots);
         Ok(CrossCheck { distance_m: scene.distance_m, frames, other_depths, p_value })

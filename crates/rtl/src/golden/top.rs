@@ -6,7 +6,7 @@ use tofsim::hierarchy;
 use tofsim::kernel::signals::Signals;
 use tofsim::kernel::{Time, U};
 use tofsim::signals;
-use tofsim::sim::device::{Off, Trace};
+use tofsim::sim::device::{Off, SignalProbe};
 use tofsim::sim::frames::Frames;
 use tofsim::sim::setup::Setup;
 
@@ -256,7 +256,7 @@ impl<'a> Look<'a> {
     }
 }
 
-impl Trace for Look<'_> {
+impl SignalProbe for Look<'_> {
     const ON: bool = true;
 
     fn sample(&mut self, now: Time, top: &TofTop) {

@@ -13,7 +13,7 @@ use tofsim::firmware::tof_top::TofTop;
 use tofsim::kernel::U;
 use tofsim::network::mem::Mem;
 use tofsim::signals;
-use tofsim::sim::centroid::locate;
+use tofsim::sim::fast::centroid::locate;
 
 mod histograms;
 

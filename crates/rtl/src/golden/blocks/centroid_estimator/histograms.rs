@@ -6,7 +6,7 @@ use tofsim::firmware::centroid_estimator::Params;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::kernel::U;
 use tofsim::network::mem::{Mem, lines};
-use tofsim::sim::centroid::Found;
+use tofsim::sim::fast::centroid::Found;
 
 /// Largest word [hits].
 const MOST: u64 = u16::MAX as u64;

@@ -11,17 +11,19 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::prelude::*;
 
 use crate::error::{Error, Result};
+use crate::firmware::carry_chain::StopLine;
 use crate::firmware::tof_top::CodeSource;
+use crate::kernel::Time;
 use crate::sensor::light::Light;
+use crate::sim::device::{Device, Off};
+use crate::sim::frames::Frame;
+use crate::sim::run::{Observers, Outcome, Run, Taker};
+use crate::sim::setup::{CYCLE, Setup};
+use crate::sim::shot_recorder::ShotRecorder;
+use crate::sim::sinks::Sinks;
 use crate::waves::Marks;
 
-use super::acquisition::Gait;
-use super::device::Off;
-use super::frames::Frame;
-use super::recorder::Recorder;
-use super::run::{Outcome, Run, Taker, Watch};
-use super::setup::{CYCLE, Setup};
-use super::sinks::Sinks;
+use super::Stepping;
 
 /// Frames that each thread simulates between two deliveries.
 const BATCH: u64 = 64;
@@ -41,19 +43,19 @@ impl Setup {
 
 impl Run<'_> {
     /// Simulates until `count` frames are done, on all threads of the current pool where frames are
-    /// [apart](Setup::has_frames_apart), or else on one. Of `watch`, the shots of the first frame are
+    /// [apart](Setup::has_frames_apart), or else on one. Of `observers`, the shots of the first frame are
     /// shown, every frame in order, and no waveform.
     ///
     /// # Errors
     /// When the control signals keep a frame from ending, a sink fails, or the run is stopped.
-    pub fn many(mut self, count: u64, watch: Watch) -> Result<Outcome> {
-        let Watch { shots, frames, stop, .. } = watch;
+    pub fn many(mut self, count: u64, observers: Observers) -> Result<Outcome> {
+        let Observers { shots, frames, stop, .. } = observers;
         let mut sinks = Sinks { shots, frames, stop };
         self.limit = self.setup.longest_run(count);
         self.device.power_up(&mut Off, &mut Off);
         if sinks.shots.is_some() {
             let shown = count.min(self.setup.frames_together());
-            self.go(shown, &mut Off, &mut Recorder::default(), &mut sinks)?;
+            self.go(shown, &mut Off, &mut ShotRecorder::default(), &mut sinks)?;
         }
         if !self.setup.has_frames_apart() || rayon::current_num_threads() < 2 || count < 2 {
             if self.frames.done() < count {
@@ -78,9 +80,9 @@ impl Run<'_> {
     /// is left of the frames before does not matter, so that leaps find them.
     fn begins(&self, stop: Option<&AtomicBool>) -> Result<Vec<Self>> {
         let next = |run: &Self| -> Result<Self> {
-            let mut next = run.clone().at(Gait::Leap);
+            let mut next = run.clone().stepping(Stepping::LeapShots);
             next.next_frame(stop)?;
-            Ok(next.at(run.gait))
+            Ok(next.stepping(run.fast.stepping))
         };
         let mut begins = vec![if self.frames.done() == 0 { next(self)? } else { self.clone() }];
         while (begins.len() as u64) < self.setup.frames_together() {
@@ -95,8 +97,11 @@ impl Run<'_> {
         let rate = self.setup.scenario.firmware.laser_freq as usize;
         let frames = frame - self.frames.done();
         let cycles = frames * (self.setup.frame_cycles(rate) + 1);
-        run.device.pass(cycles, frame);
-        run.frames.pass(frames, cycles, self.setup.shots(frames));
+        pass(&mut run.device, cycles, frame);
+        let counts = &mut run.frames;
+        (counts.done, counts.tdc_hits) = (frame, 0);
+        counts.shots += self.setup.shots(frames);
+        (counts.clear_at, counts.start_at) = (counts.clear_at + cycles, counts.start_at + cycles);
         run
     }
 
@@ -109,10 +114,20 @@ impl Run<'_> {
         };
         let mut sinks = Sinks { shots: None, frames: Some(&mut take), stop };
         let done = self.frames.done() + 1;
-        self.breath = self.device.cycle();
+        self.next_poll = self.device.cycle();
         self.go(done, &mut Off, &mut Off, &mut sinks)?;
         found.ok_or(Error::Interrupted)
     }
+}
+
+/// So many cycles later, at the begin of `frame`, with a detector that has been quiet for long.
+fn pass(device: &mut Device, cycles: u64, frame: u64) {
+    let begun = device.pll.clk_125.rise(device.cycle);
+    device.cycle += cycles;
+    device.timeline.pass(device.pll.clk_125.rise(device.cycle) - begun);
+    device.light.begin_frame(frame);
+    device.spad.arm(Time::NEVER);
+    device.line = StopLine::default();
 }
 
 /// Makes the frames of a range on all threads and hands them on in order, some at a time.

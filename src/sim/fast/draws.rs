@@ -10,23 +10,23 @@ use crate::kernel::Time;
 use crate::optics::Hazard;
 use crate::sensor::streams::exponential;
 
-use super::outcomes::{Outcome, Outcomes};
+use super::outcomes::{ShotOutcome, ShotOutcomes};
 
 /// Bits of a word that choose a cell.
 const CELL_BITS: u32 = 12;
 
 /// To be worked out.
-const EXACTLY: Outcome = Outcome::MAX;
+const EXACTLY: ShotOutcome = ShotOutcome::MAX;
 
 /// A part of all words.
 #[derive(Clone, Copy, Debug)]
 struct Cell {
     /// First word of `above`.
     split: u64,
-    /// Outcome of the cell's words before that.
-    below: Outcome,
-    /// Outcome of the others.
-    above: Outcome,
+    /// ShotOutcome of the cell's words before that.
+    below: ShotOutcome,
+    /// ShotOutcome of the others.
+    above: ShotOutcome,
 }
 
 /// The outcomes of all words, in one kind of light.
@@ -34,13 +34,13 @@ struct Cell {
 pub struct Draws {
     cells: Vec<Cell>,
     guard: u64,
-    outcomes: Outcomes,
+    outcomes: ShotOutcomes,
     hazard: Hazard,
 }
 
 impl Draws {
     /// For shots with that hazard.
-    pub fn new(outcomes: Outcomes, hazard: Hazard) -> Self {
+    pub fn new(outcomes: ShotOutcomes, hazard: Hazard) -> Self {
         let guard = guard(&hazard);
         let (mut cells, mut places) = (Vec::with_capacity(1 << CELL_BITS), Vec::new());
         for step in outcomes.steps().windows(2).rev() {
@@ -75,7 +75,7 @@ impl Draws {
 
     /// The outcome of a shot whose first avalanche is drawn by `word`.
     #[inline(always)]
-    pub fn outcome(&self, word: u64) -> Outcome {
+    pub fn outcome(&self, word: u64) -> ShotOutcome {
         let cell = &self.cells[(word >> (u64::BITS - CELL_BITS)) as usize];
         let outcome = if word < cell.split { cell.below } else { cell.above };
         let near = word.abs_diff(cell.split) <= self.guard && cell.below != cell.above;
@@ -83,13 +83,13 @@ impl Draws {
     }
 
     /// The outcome of an avalanche so long after the laser edge.
-    pub fn outcome_at(&self, arrival: Time) -> Outcome {
+    pub fn outcome_at(&self, arrival: Time) -> ShotOutcome {
         self.outcomes.of(arrival)
     }
 
     /// As the cycle-accurate model has it: the draw, its time, the outcome.
     #[cold]
-    fn exactly(&self, word: u64) -> Outcome {
+    fn exactly(&self, word: u64) -> ShotOutcome {
         self.outcomes.of(self.hazard.inverse(exponential(word)))
     }
 }
@@ -121,7 +121,7 @@ mod tests {
         let keys: Vec<_> = keys.iter().map(|&key| key.to_owned()).collect();
         let setup = Setup::new(scenario::load("kc705", &keys).unwrap()).unwrap();
         let Light::Optics(optics) = &setup.light else { panic!("optics") };
-        let outcomes = Outcomes::new(&setup.params.tdc, PERIODS[rate], CYCLE).unwrap();
+        let outcomes = ShotOutcomes::new(&setup.params.tdc, PERIODS[rate], CYCLE).unwrap();
         Draws::new(outcomes, optics.hazard(lit).clone())
     }
 

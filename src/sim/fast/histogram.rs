@@ -14,14 +14,14 @@ use crate::kernel::Time;
 use crate::optics::{BinProbabilities, Bins};
 use crate::sensor::light::{Light, Optics};
 use crate::sensor::streams::{Source, stream};
+use crate::sim::frames::Frame;
+use crate::sim::run::{Observers, Outcome};
+use crate::sim::setup::{CYCLE, Setup};
+use crate::sim::sinks::Sinks;
 use crate::waves::Marks;
 
-use super::frames::Frame;
-use super::leap::Outcomes;
 use super::many::deliver;
-use super::run::{Outcome, Watch};
-use super::setup::{CYCLE, Setup};
-use super::sinks::Sinks;
+use super::outcomes::ShotOutcomes;
 
 /// The light of a setup and what becomes of its shots, where a frame is one draw. `who` wants to know,
 /// for the error.
@@ -29,7 +29,7 @@ use super::sinks::Sinks;
 /// # Errors
 /// When more than a shot's first avalanche decides what becomes of it (MODE 1, jitter, control
 /// changes, a stimulus in place of light, a chain too long for the laser rate), or a frame never ends.
-pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics, Outcomes)> {
+pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics, ShotOutcomes)> {
     let refusal = |field: &str, why: &str| {
         let expected = format!("{who} draws a frame as a whole: {why}");
         Input::new(format!("scenario {}", setup.name), expected).field(field)
@@ -60,7 +60,7 @@ pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics,
         return Err(refusal("stimulus", "it needs the light of the link budget").into());
     };
     let period = PERIODS[firmware.laser_freq as usize];
-    let Some(outcomes) = Outcomes::new(&setup.params.tdc, period, CYCLE) else {
+    let Some(outcomes) = ShotOutcomes::new(&setup.params.tdc, period, CYCLE) else {
         let why = "the chain is so long that a shot reaches into the next one";
         let refused = refusal("tdc.profile", why).value(&setup.scenario.tdc.profile);
         return Err(refused.into());
@@ -144,12 +144,12 @@ impl<'a> Histograms<'a> {
         drawn.into_iter().flatten().map(|draw| draw.sample(random)).sum()
     }
 
-    /// Draws frames on all threads of the current pool; of `watch`, every frame is shown, in order.
+    /// Draws frames on all threads of the current pool; of `observers`, every frame is shown, in order.
     ///
     /// # Errors
     /// When a sink fails or the run is stopped.
-    pub fn many(&self, count: u64, watch: Watch) -> Result<Outcome> {
-        let Watch { frames, stop, .. } = watch;
+    pub fn many(&self, count: u64, observers: Observers) -> Result<Outcome> {
+        let Observers { frames, stop, .. } = observers;
         let mut sinks = Sinks { shots: None, frames, stop };
         let take = &mut |frame: &Frame| sinks.frame(frame);
         deliver(0..count, take, stop, |index| Ok(self.frame(index)))?;

@@ -6,7 +6,7 @@ use crate::firmware::tof_top::{CodeSource, Params, TofTop};
 use crate::kernel::Time;
 use crate::optics::hazard::Cause;
 
-use super::device::Record;
+use super::device::AvalancheListener;
 
 /// One shot.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -35,7 +35,7 @@ pub struct Shot {
 
 /// Follows shots through the TDC's pipeline.
 #[derive(Debug, Default)]
-pub struct Recorder {
+pub struct ShotRecorder {
     /// Shots whose result may still come, oldest first.
     open: VecDeque<Shot>,
     /// Shots that are complete, oldest first.
@@ -55,7 +55,7 @@ const OPEN: usize = 3;
 /// Avalanches that may still travel in the chain, and then some.
 const AVALANCHES: usize = 16;
 
-impl Record for Recorder {
+impl AvalancheListener for ShotRecorder {
     const ON: bool = true;
 
     fn avalanche(&mut self, at: Time, cause: Option<Cause>) {
@@ -71,7 +71,7 @@ impl Record for Recorder {
     }
 }
 
-impl Recorder {
+impl ShotRecorder {
     /// Looks at the registers after the edge `cycle` at `now`.
     pub fn edge(&mut self, cycle: u64, now: Time, top: &TofTop, p: &Params) {
         match p.code_source {
@@ -79,7 +79,7 @@ impl Recorder {
             CodeSource::Preload(_) => self.follow_preload(top),
         }
         if top.vcsel_driver.registers.pre_start {
-            self.laser_en = top.vcsel_driver.registers.is_enabled();
+            self.laser_en = top.vcsel_driver.registers.enable;
         }
         if top.vcsel_driver.registers.start {
             let (frame, shot, laser_en) = (self.frame, self.shot, self.laser_en);

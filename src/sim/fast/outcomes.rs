@@ -10,13 +10,13 @@ use crate::optics::Bins;
 use crate::optics::closed_form::CODES;
 
 /// Result of a shot: a code from 0 to 255, or one of the constants here.
-pub type Outcome = u16;
+pub type ShotOutcome = u16;
 
 /// The TDC keeps the hit, but it has no code.
-pub const NO_CODE: Outcome = CODES as Outcome;
+pub const NO_CODE: ShotOutcome = CODES as ShotOutcome;
 
 /// The TDC sees nothing.
-pub const NO_HIT: Outcome = NO_CODE + 1;
+pub const NO_HIT: ShotOutcome = NO_CODE + 1;
 
 /// Number of outcomes.
 pub const OUTCOMES: usize = CODES + 2;
@@ -30,14 +30,14 @@ const LAST_CODED: u64 = 2;
 
 /// The staircase: its steps in order of time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outcomes {
+pub struct ShotOutcomes {
     /// Begin of each step, the first one 0, and its outcome; neighbours differ.
-    steps: Vec<(Time, Outcome)>,
+    steps: Vec<(Time, ShotOutcome)>,
     /// Where hits end, and where in the last shot of a frame.
     ends: [Time; 2],
 }
 
-impl Outcomes {
+impl ShotOutcomes {
     /// For shots that follow each other after `period` cycles.
     ///
     /// The last shot of a frame differs: no reset ends it, so that its window lasts to its end.
@@ -55,7 +55,7 @@ impl Outcomes {
             return None;
         }
         let ends = [end(WINDOW.min(period - 1)), end(WINDOW)];
-        let mut outcomes = Outcomes { steps: vec![(Time::ZERO, NO_CODE)], ends };
+        let mut outcomes = ShotOutcomes { steps: vec![(Time::ZERO, NO_CODE)], ends };
         for span in bins.spans() {
             outcomes.step(span.from, span.code.into());
             outcomes.step(span.until, NO_CODE);
@@ -65,13 +65,13 @@ impl Outcomes {
     }
 
     /// The outcome of an avalanche so long after the laser edge.
-    pub fn of(&self, arrival: Time) -> Outcome {
+    pub fn of(&self, arrival: Time) -> ShotOutcome {
         let next = self.steps.partition_point(|&(begin, _)| begin <= arrival);
         self.steps[next - 1].1
     }
 
     /// The steps in order of time: begin and outcome.
-    pub fn steps(&self) -> &[(Time, Outcome)] {
+    pub fn steps(&self) -> &[(Time, ShotOutcome)] {
         &self.steps
     }
 
@@ -81,7 +81,7 @@ impl Outcomes {
     }
 
     /// From `begin` on, which is not before the last step's, it is `outcome`.
-    fn step(&mut self, begin: Time, outcome: Outcome) {
+    fn step(&mut self, begin: Time, outcome: ShotOutcome) {
         if self.steps.last().is_some_and(|last| last.0 == begin) {
             self.steps.pop();
         }

@@ -1,6 +1,5 @@
 //! `tofsim ila capture` as users and scripts meet it.
 
-
 use tofsim_captures::ila::{Overrides, Plan, SetUp};
 
 use crate::common::{self, empty, files, json, refused, setup, stdout};

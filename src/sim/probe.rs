@@ -1,11 +1,11 @@
-//! Who watches a device: its signals, and its avalanches.
+//! What looks at a device's signals and listens to its avalanches.
 
 use crate::firmware::tof_top::TofTop;
 use crate::kernel::Time;
 use crate::optics::hazard::Cause;
 
 /// Sees the signals after every instant at which one may have changed.
-pub trait Trace {
+pub trait SignalProbe {
     /// Whether it looks at all.
     const ON: bool;
     /// Whether it looks just before each rising edge of `clk_125` and `clk_250` too.
@@ -23,10 +23,10 @@ pub trait Trace {
         Self::EDGES
     }
     /// The signals as the edge at `now` takes them: an asynchronous change at that very instant is
-    /// not there yet. Without [`Trace::ON`], `clk_200` stands still.
+    /// not there yet. Without [`SignalProbe::ON`], `clk_200` stands still.
     #[inline(always)]
     fn before_edge(&mut self, _edge: Edge, _now: Time, _top: &TofTop) {}
-    /// The acquisition computer changes one of its signals. Told only with [`Trace::EDGES`].
+    /// The acquisition computer changes one of its signals. Told only with [`SignalProbe::EDGES`].
     #[inline(always)]
     fn control_changes(&mut self) {}
 }
@@ -41,7 +41,7 @@ pub enum Edge {
 }
 
 /// Hears of every avalanche.
-pub trait Record {
+pub trait AvalancheListener {
     /// Whether it listens at all.
     const ON: bool;
     /// An avalanche at `at`, `None` of a known cause.
@@ -52,12 +52,12 @@ pub trait Record {
 #[derive(Clone, Copy, Debug)]
 pub struct Off;
 
-impl Trace for Off {
+impl SignalProbe for Off {
     const ON: bool = false;
     fn sample(&mut self, _: Time, _: &TofTop) {}
 }
 
-impl Record for Off {
+impl AvalancheListener for Off {
     const ON: bool = false;
     fn avalanche(&mut self, _: Time, _: Option<Cause>) {}
 }

@@ -1,17 +1,19 @@
-//! Short cuts through time change nothing: every way of running a scenario gives the same frames.
+//! Fast ways change nothing: however a scenario is run, its frames are those of the plain step.
 
 use crate::common;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use proptest::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use tofsim::scenario::{self, Control};
 use tofsim::sim::frames::Frame;
-use tofsim::sim::recorder::Shot;
-use tofsim::sim::run::Watch;
+use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
-use tofsim::sim::{Gait, Run};
+use tofsim::sim::shot_recorder::Shot;
+use tofsim::sim::{Run, Stepping};
 
 /// What a run comes to.
 #[derive(Debug, PartialEq)]
@@ -23,18 +25,27 @@ struct Result {
     notes: Vec<String>,
 }
 
-fn run(setup: &Setup, count: u64, way: Option<Gait>) -> Result {
+#[derive(Clone, Copy, Debug)]
+enum Way {
+    /// Every shot is followed, so that every cycle is stepped.
+    Followed,
+    OneByOne(Stepping),
+    OnTwoThreads(Stepping),
+}
+
+fn run(setup: &Setup, count: u64, way: Way) -> Result {
     let mut frames = Vec::new();
     let mut take = |frame: &Frame| {
         frames.push(frame.clone());
         Ok(())
     };
     let mut see = |_: &Shot| Ok(());
-    let watch = Watch { frames: Some(&mut take), ..Watch::default() };
+    let observers = Observers { frames: Some(&mut take), ..Observers::default() };
+    let run = Run::new(setup);
     let outcome = match way {
-        // Who follows every shot has every cycle stepped in full.
-        None => Run::new(setup).frames(count, Watch { shots: Some(&mut see), ..watch }),
-        Some(gait) => Run::new(setup).at(gait).frames(count, watch),
+        Way::Followed => run.frames(count, Observers { shots: Some(&mut see), ..observers }),
+        Way::OneByOne(stepping) => run.stepping(stepping).frames(count, observers),
+        Way::OnTwoThreads(stepping) => run.stepping(stepping).many(count, observers),
     };
     let outcome = outcome.unwrap();
     let (end_fs, cycles, shots) = (outcome.end.fs(), outcome.cycles, outcome.shots);
@@ -42,9 +53,18 @@ fn run(setup: &Setup, count: u64, way: Option<Gait>) -> Result {
 }
 
 fn assert_all_alike(setup: &Setup, count: u64) -> std::result::Result<(), TestCaseError> {
-    let in_full = run(setup, count, None);
-    for gait in [Gait::Step, Gait::Skip, Gait::Leap] {
-        prop_assert_eq!(&run(setup, count, Some(gait)), &in_full, "{:?}", gait);
+    static THREADS: LazyLock<ThreadPool> =
+        LazyLock::new(|| ThreadPoolBuilder::new().num_threads(2).build().unwrap());
+    let plain = run(setup, count, Way::OneByOne(Stepping::EveryCycle));
+    for way in [
+        Way::Followed,
+        Way::OneByOne(Stepping::SkipIdle),
+        Way::OneByOne(Stepping::LeapShots),
+        Way::OnTwoThreads(Stepping::SkipIdle),
+        Way::OnTwoThreads(Stepping::LeapShots),
+    ] {
+        let found = THREADS.install(|| run(setup, count, way));
+        prop_assert_eq!(&found, &plain, "{:?}", way);
     }
     Ok(())
 }
@@ -58,6 +78,8 @@ struct Case {
     photons: Option<Vec<(u64, u64)>>,
     /// Delays of a chain [fs].
     chain: Option<(u32, Vec<i64>)>,
+    /// Whether every other frame is dark.
+    pairs: bool,
     frames: u64,
 }
 
@@ -126,9 +148,10 @@ prop_compose! {
         ],
         photons in prop::option::weighted(0.25, photons()),
         chain in prop::option::weighted(0.25, chain()),
-        frames in 1..4u64,
+        pairs in prop::bool::weighted(0.25),
+        frames in 1..6u64,
     ) -> Case {
-        Case { keys, control, photons, chain, frames }
+        Case { keys, control, photons, chain, pairs, frames }
     }
 }
 
@@ -183,7 +206,13 @@ fn set_up(case: &Case, folder: &Path) -> Option<Setup> {
         keys.push(format!("tdc.profile={:?}", path.display().to_string()));
     }
     let mut loaded = scenario::load("kc705", &keys).unwrap();
-    loaded.scenario.control = timeline(&case.control);
+    let scenario = &mut loaded.scenario;
+    scenario.control = timeline(&case.control);
+    if case.pairs {
+        (scenario.firmware.dark_frames, scenario.firmware.laser_en) = (true, true);
+        scenario.firmware.shots_per_frame *= 2;
+        scenario.control.retain(|change| change.laser_en.is_none());
+    }
     Setup::new(loaded).ok()
 }
 
@@ -191,7 +220,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn every_gait_gives_the_same_in_random_scenarios(case in case()) {
+    fn every_way_gives_the_same_in_random_scenarios(case in case()) {
         let folder = tempfile::tempdir().unwrap();
         let Some(setup) = set_up(&case, folder.path()) else {
             prop_assert!(case.chain.is_some(), "only a chain may be refused");
@@ -202,7 +231,7 @@ proptest! {
 }
 
 #[test]
-fn every_gait_gives_the_same_for_whole_frames() {
+fn every_way_gives_the_same_for_whole_frames() {
     for name in [
         "kc705",
         "bright",
@@ -222,7 +251,7 @@ fn every_gait_gives_the_same_for_whole_frames() {
 
 /// A shot may begin with what a SPAD that resets itself has left in the chain.
 #[test]
-fn every_gait_gives_the_same_wherever_the_quench_mode_changes() {
+fn every_way_gives_the_same_wherever_the_quench_mode_changes() {
     // So that the SPAD is armed again at about every second laser edge.
     let scene = ["firmware.mode=1", "ambient.irradiance_w_m2_nm=0.05", "target.reflectance=0.3"];
     for freq in 0..4 {

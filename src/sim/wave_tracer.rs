@@ -1,16 +1,17 @@
 //! Writes the waveform while a window is open.
 
 use crate::error::{Input, Result};
+use crate::firmware::frame_ctrl::{self, FrameCtrl, LAST_DRAIN, LAST_WORD, State as FrameState};
 use crate::firmware::tof_top::{Params, TofTop};
 use crate::kernel::Time;
 use crate::waves::{Marks, Waves};
 
-use super::device::{Device, Off, Trace};
+use super::device::{Device, Off, SignalProbe};
 use super::frames::Frames;
 use crate::scenario::window::{Moment, Window};
 
 /// A trace that is on only within windows, or none.
-pub trait Windowed: Trace {
+pub trait WindowedProbe: SignalProbe {
     /// Begins at power-up, if it is to see what happens before the first edge of `clk_125`; whether
     /// it does.
     fn begins_at_power_up(&mut self, _device: &mut Device) -> bool {
@@ -27,7 +28,7 @@ pub trait Windowed: Trace {
     }
 }
 
-impl Windowed for Off {
+impl WindowedProbe for Off {
     fn is_wanted(&mut self, _: &mut Device, _: &Frames, _: &Params) -> Result<bool> {
         Ok(false)
     }
@@ -42,7 +43,7 @@ enum State {
 }
 
 /// Writes the waveform while a window is open.
-pub(super) struct Tracer {
+pub(super) struct WaveTracer {
     waves: Waves,
     windows: Vec<Window>,
     state: State,
@@ -56,11 +57,11 @@ pub(super) struct Tracer {
     wanting_until: Time,
 }
 
-impl Tracer {
+impl WaveTracer {
     /// For a waveform and its windows.
     pub(super) fn new(waves: Waves, windows: Vec<Window>) -> Self {
         let (marks, shot, began) = (Marks::default(), None, None);
-        Tracer {
+        WaveTracer {
             waves,
             windows,
             state: State::Waiting,
@@ -101,7 +102,7 @@ impl Tracer {
 
     fn follow_shot(&mut self, device: &Device, frames: &Frames) {
         let top = &device.top;
-        if top.vcsel_driver.registers.shot_is_near(top.frame_ctrl.acquire) {
+        if shot_is_near(top) {
             self.shot = Some(frames.shots());
         } else if top.frame_ctrl.clear {
             self.shot = None;
@@ -124,7 +125,7 @@ impl Tracer {
     }
 }
 
-impl Trace for Tracer {
+impl SignalProbe for WaveTracer {
     const ON: bool = true;
 
     fn sample(&mut self, now: Time, top: &TofTop) {
@@ -144,7 +145,7 @@ impl Trace for Tracer {
     }
 }
 
-impl Windowed for Tracer {
+impl WindowedProbe for WaveTracer {
     fn begins_at_power_up(&mut self, device: &mut Device) -> bool {
         let cycle = (Time::ZERO, device.next_edge());
         let moment = Moment { cycle, shot: None, estimating: false };
@@ -163,7 +164,7 @@ impl Windowed for Tracer {
             return Ok(self.wanting > 0);
         }
         self.follow_shot(device, frames);
-        let estimating = device.top.frame_ctrl.is_estimating(&p.frame_ctrl);
+        let estimating = is_estimating(&device.top.frame_ctrl, &p.frame_ctrl);
         let moment = Moment { cycle, shot: self.shot, estimating };
         let wanting = self.windows.iter().filter(|window| window.wants(&moment)).count();
         let wanted = wanting > 0;
@@ -186,5 +187,23 @@ impl Windowed for Tracer {
             _ => {}
         }
         Ok(wanted)
+    }
+}
+
+/// Whether a shot begins in four cycles: two before `pre_start` rises.
+fn shot_is_near(top: &TofTop) -> bool {
+    let laser = &top.vcsel_driver.registers;
+    top.frame_ctrl.acquire && laser.count + 3 == laser.last
+}
+
+/// Whether the estimator works, is about to, or has just finished.
+fn is_estimating(ctrl: &FrameCtrl, p: &frame_ctrl::Params) -> bool {
+    const NEAR: u64 = 2;
+    match ctrl.state {
+        FrameState::Clear if ctrl.frame_done => true,
+        FrameState::Clear => p.preloaded && ctrl.clear_addr.get() + NEAR >= LAST_WORD,
+        FrameState::Acquire => false,
+        FrameState::Drain => ctrl.drain.get() + NEAR >= LAST_DRAIN,
+        FrameState::Estimate => true,
     }
 }

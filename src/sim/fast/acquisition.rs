@@ -1,0 +1,80 @@
+//! The device while it only acquires: most of a run, and the same cycle again and again.
+//!
+//! Exact as [`halves`](super::halves) says, with an even clock; what can end that ends the loop: the
+//! last shot, a change of a control signal, or a limit of the caller's. Each half sleeps as long as
+//! it is quiet; an avalanche or a `start` wakes the converter. Cycles in which both sleep are
+//! counted and not stepped.
+
+use crate::firmware::tof_top::Params;
+use crate::kernel::Time;
+use crate::sim::device::{Device, Off};
+use crate::sim::frames::Frames;
+
+use super::halves::{
+    convert, converter_quiet, emit, emitter_quiet, rest_of_cycle, rouses_converter, skip_converter,
+    skip_emitter,
+};
+use super::idle::skip_until_event;
+use super::steady::{control_is_steady, cycles_of_steady_control, estimator_rests, even_period};
+
+/// Goes on until `limit`, or until something else begins than an acquisition [cycles of clk_125].
+/// Does nothing if that is so from the start. `at_shot` may move the device on in each cycle in which
+/// a shot has begun.
+#[inline(always)]
+pub fn acquire(
+    device: &mut Device,
+    p: &Params,
+    frames: &mut Frames,
+    limit: u64,
+    mut at_shot: impl FnMut(&mut Device, &mut Frames),
+) {
+    let Some(period) = even_period(device) else { return };
+    if !device.top.frame_ctrl.acquire
+        || !control_is_steady(&device.top)
+        || !estimator_rests(&device.top, p)
+    {
+        return;
+    }
+    let limit = limit.min(device.cycle.saturating_add(cycles_of_steady_control(device, period)));
+    let (mut emitter_wakes, mut converter_wakes) = (device.cycle, device.cycle);
+    let mut now = device.pll.clk_125.rise(device.cycle);
+    while device.top.frame_ctrl.acquire && device.cycle < limit {
+        while device.spad.next_event() <= now {
+            device.detect(&mut Off);
+            converter_wakes = device.cycle;
+        }
+        let emits = emitter_wakes <= device.cycle;
+        if converter_wakes <= device.cycle {
+            convert(&mut device.top, p, &mut device.line, now);
+            frames.count_hit(&device.top);
+            let quiet = converter_quiet(&device.top, p, &device.line);
+            converter_wakes = (device.cycle + 1).saturating_add(quiet);
+        } else if !emits {
+            let quiet = limit.min(emitter_wakes).min(converter_wakes) - device.cycle;
+            now += Time::from_fs(skip_until_event(device, quiet, now, period) * period.fs());
+            continue;
+        } else {
+            skip_converter(&mut device.top, 1);
+        }
+        device.cycle += 1;
+        if !emits {
+            skip_emitter(&mut device.top, 1);
+            now += period;
+            continue;
+        }
+        emit(&mut device.top, p);
+        device.react(now);
+        rest_of_cycle(&mut device.top);
+        emitter_wakes = device.cycle.saturating_add(emitter_quiet(&device.top));
+        if rouses_converter(&device.top, &device.line) {
+            converter_wakes = device.cycle;
+        }
+        now += period;
+        if device.top.vcsel_driver.registers.start {
+            frames.count_shot(&device.top);
+            at_shot(device, frames);
+            emitter_wakes = device.cycle;
+            now = device.pll.clk_125.rise(device.cycle);
+        }
+    }
+}

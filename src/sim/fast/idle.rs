@@ -1,0 +1,58 @@
+//! Idle cycles, counted and not stepped.
+//!
+//! Exact while every module is quiet, no pin changes and the detector does nothing: nothing would move
+//! but counters whose values no other module acts on, and [`Clocked::skip`] moves those.
+
+use crate::firmware::carry_chain::StopLine;
+use crate::firmware::tof_top::{Params, TofTop, Wires};
+use crate::kernel::{AWAKE, Clocked, Time};
+
+use super::Device;
+use super::halves::{converter_quiet, emitter_quiet, skip_converter, skip_emitter};
+use super::steady::{cycles_of_steady_control, estimator_rests, even_period};
+
+/// Skips the cycles before the next one in which something may happen, up to `limit` [cycles of
+/// clk_125].
+#[inline(always)]
+pub fn skip_idle(device: &mut Device, p: &Params, limit: u64) {
+    let Some(period) = even_period(device) else { return };
+    let quiet = quiet(&device.top, p, &device.line);
+    let cycles =
+        quiet.min(cycles_of_steady_control(device, period)).min(limit.saturating_sub(device.cycle));
+    if cycles != AWAKE {
+        let now = device.pll.clk_125.rise(device.cycle);
+        skip_until_event(device, cycles, now, period);
+    }
+}
+
+/// Skips that many quiet cycles, the first of them at `now`, or those whose edge of `clk_125` comes
+/// before the detector's next event. Returns how many.
+#[inline(always)]
+pub(super) fn skip_until_event(device: &mut Device, quiet: u64, now: Time, period: Time) -> u64 {
+    let event = device.spad.next_event();
+    let cycles = match event < now.saturating_add(Time::from_fs(quiet * period.fs())) {
+        true => event.since(now).fs().div_ceil(period.fs()),
+        false => quiet,
+    };
+    let top = &mut device.top;
+    top.frame_ctrl.skip(&Wires::frame_ctrl(top), cycles);
+    skip_emitter(top, cycles);
+    skip_converter(top, cycles);
+    device.cycle += cycles;
+    cycles
+}
+
+/// Coming cycles in which nothing would move but hidden counters, while all pins hold.
+fn quiet(top: &TofTop, p: &Params, line: &StopLine) -> u64 {
+    let frame_ctrl = top.frame_ctrl.quiet(&Wires::frame_ctrl(top), &p.frame_ctrl);
+    if frame_ctrl == AWAKE || top.nets.rst_dsp {
+        return AWAKE;
+    }
+    let quiet = frame_ctrl
+        .min(top.reset_sync_125.quiet(&Wires::reset_sync_125(top), &()))
+        .min(top.reset_sync_250.quiet(&Wires::reset_sync_250(top), &()))
+        .min(top.control_sync.quiet(&Wires::control_sync(top), &()))
+        .min(emitter_quiet(top))
+        .min(converter_quiet(top, p, line));
+    if quiet != AWAKE && estimator_rests(top, p) { quiet } else { AWAKE }
+}

@@ -1,0 +1,101 @@
+//! Shots of an undisturbed acquisition as a whole: a draw, a code and a count each.
+//!
+//! Exact where the first avalanche of a shot is all that decides: the light of optics, MODE 0, a chain
+//! that is clear in time, no control signal that changes. Registers that nothing reads again may
+//! differ: the TDC does not keep the taps and codes of hits leapt over.
+
+use std::sync::Arc;
+
+use crate::firmware::carry_chain::StopLine;
+use crate::firmware::coarse_counter::CoarseCounter;
+use crate::firmware::histogram_builder::BINS;
+use crate::firmware::tdc::Tdc;
+use crate::firmware::tof_top::{Params, TofTop};
+use crate::firmware::vcsel_driver::PERIODS;
+use crate::kernel::U;
+use crate::sensor::light::Light;
+use crate::sim::device::Device;
+use crate::sim::frames::Frames;
+use crate::sim::setup::CYCLE;
+
+use super::draws::Draws;
+use super::outcomes::{NO_HIT, OUTCOMES, ShotOutcomes};
+use super::steady::even_period;
+
+/// Tables of outcomes, made when first needed: for each laser rate, in the dark and with the laser.
+#[derive(Clone, Debug, Default)]
+pub struct Tables {
+    draws: [[Option<Option<Arc<Draws>>>; 2]; PERIODS.len()],
+}
+
+impl Tables {
+    /// The outcomes at a laser rate; `None` where shots are not independent, or where something else
+    /// than the light of optics, which the TDC measures, decides.
+    fn find(&mut self, rate: usize, lit: bool, p: &Params, light: &Light) -> Option<Arc<Draws>> {
+        let Light::Optics(optics) = light else { return None };
+        let make = || {
+            let outcomes = ShotOutcomes::new(&p.tdc, PERIODS[rate], CYCLE)?;
+            Some(Arc::new(Draws::new(outcomes, optics.hazard(lit).clone())))
+        };
+        self.draws[rate][lit as usize].get_or_insert_with(make).clone()
+    }
+}
+
+/// Leaps over as many shots as may be, but for the frame's last; [`acquire`](super::acquire) has just
+/// come through the cycle of a laser edge. Does nothing where a shot is more than its first avalanche.
+pub fn leap_shots(device: &mut Device, p: &Params, tables: &mut Tables, frames: &mut Frames) {
+    let Some((rate, lit)) = independent_shot(device) else { return };
+    let Some(draws) = tables.find(rate, lit, p, &device.light) else { return };
+    let Light::Optics(optics) = &mut device.light else { return };
+    let period = PERIODS[rate];
+    let in_frame = u64::from(p.frame_ctrl.shots_per_frame) - device.top.frame_ctrl.shots() - 1;
+    let until = device.timeline.next_event().since(device.pll.clk_125.rise(device.cycle));
+    let shots = in_frame.min(until.fs() / (period * CYCLE.fs()));
+    if shots == 0 {
+        return;
+    }
+    let begun = device.pll.clk_125.rise(device.cycle - 1);
+    let mut counts = [0u32; OUTCOMES.next_power_of_two()];
+    counts[draws.outcome_at(device.spad.next_event() - begun) as usize] += 1;
+    optics.pass(shots - 1, |word| {
+        // The remainder is the outcome; it shows the compiler that it is within bounds.
+        counts[draws.outcome(word) as usize % counts.len()] += 1;
+    });
+    land(&mut device.top, period, shots, &counts[..BINS]);
+    device.cycle += shots * period;
+    let now = device.pll.clk_125.rise(device.cycle - 1);
+    device.light.begin_shot(now, lit);
+    device.spad.arm(device.light.next_avalanche(now));
+    device.line = StopLine::default();
+    frames.shots += shots;
+    frames.tdc_hits += shots - u64::from(counts[NO_HIT as usize]);
+}
+
+/// The laser rate of the shot that has just begun and whether the laser fires in those after it, if
+/// the first avalanche of each is all that decides, as long as no control signal changes.
+fn independent_shot(device: &Device) -> Option<(usize, bool)> {
+    let (top, now) = (&device.top, device.pll.clk_125.rise(device.cycle - 1));
+    let rate = top.control_sync.laser_freq_sync.index();
+    let lit = top.control_sync.laser_en_sync;
+    let laser = &top.vcsel_driver.registers;
+    let independent = laser.start
+        && laser.last == PERIODS[rate] - 1
+        && laser.enable == lit
+        && !device.spad.is_passive()
+        && device.spad.is_armed()
+        && device.line.is_low_since(now - CYCLE)
+        && even_period(device) == Some(CYCLE);
+    independent.then_some((rate, lit))
+}
+
+/// The top in the cycle of a laser edge, `shots` shots after another, which have counted `counts`.
+fn land(top: &mut TofTop, period: u64, shots: u64, counts: &[u32]) {
+    for (word, &count) in top.histogram_builder.ram.iter_mut().zip(counts) {
+        *word = *word + u64::from(count);
+    }
+    top.frame_ctrl.shots = top.frame_ctrl.shots + shots;
+    let (since, last) = (period - 1, U::<3>::MAX.get());
+    let coarse_counter = CoarseCounter { coarse: U::new(since.min(last)), window: since <= last };
+    top.tdc = Tdc { coarse_counter, ..Tdc::default() };
+    top.nets.tdc_valid = false;
+}

@@ -1,0 +1,57 @@
+//! What has to stand still for a fast way to be exact.
+
+use crate::firmware::reset_sync::{self, ResetSync};
+use crate::firmware::tof_top::{Estimator, Params, TofTop, Wires};
+use crate::firmware::{centroid_estimator, depth_estimator};
+use crate::kernel::{ASLEEP, Clocked, Time, U};
+
+use super::Device;
+
+/// Whether resets and control signals stand still as long as their pins do.
+pub(super) fn control_is_steady(top: &TofTop) -> bool {
+    let released =
+        |reset: &ResetSync, i: &reset_sync::In| !reset.rst_sync && reset.quiet(i, &()) == ASLEEP;
+    !top.nets.rst_dsp
+        && released(&top.reset_sync_125, &Wires::reset_sync_125(top))
+        && released(&top.reset_sync_250, &Wires::reset_sync_250(top))
+        && top.control_sync.quiet(&Wires::control_sync(top), &()) == ASLEEP
+}
+
+/// Whether no edge would change the estimator until another start or a reset.
+pub(super) fn estimator_rests(top: &TofTop, p: &Params) -> bool {
+    if top.frame_ctrl.algo_start || estimation_phase(top, p).is_some() {
+        return false;
+    }
+    let (rst, algo_start, count) = (false, false, U::new(0));
+    match p.estimator {
+        Estimator::Network => {
+            let mut next = top.depth_estimator;
+            next.rise(&depth_estimator::In { rst, algo_start, count }, &p.depth_estimator);
+            next == top.depth_estimator
+        }
+        Estimator::Centroid => {
+            let mut next = top.centroid_estimator;
+            next.rise(&centroid_estimator::In { rst, algo_start, count }, &p.centroid_estimator);
+            next == top.centroid_estimator
+        }
+    }
+}
+
+/// Cycles since the edge that took `algo_start`, while the estimator in the socket works.
+pub(super) fn estimation_phase(top: &TofTop, p: &Params) -> Option<u64> {
+    match p.estimator {
+        Estimator::Network => top.depth_estimator.estimator_ctrl.phase(),
+        Estimator::Centroid => top.centroid_estimator.registers.phase(),
+    }
+}
+
+/// The period of `clk_125`, if it is a whole number of femtoseconds and no edge jitters.
+pub(super) fn even_period(device: &Device) -> Option<Time> {
+    device.pll.clk_125.whole_period().filter(|_| device.jitter.is_none())
+}
+
+/// Coming cycles that end before a control signal changes, or just then.
+pub(super) fn cycles_of_steady_control(device: &Device, period: Time) -> u64 {
+    let next = device.pll.clk_125.rise(device.cycle);
+    device.timeline.next_event().since(next).fs() / period.fs()
+}
