@@ -11,6 +11,7 @@ use crate::golden::timing::CLK_250;
 pub(super) const SPEC: Spec = Spec {
     name: "ddr_output",
     scope: "vcsel_driver.ddr_output",
+    stream: Some(4),
     timing: CLK_250,
     reset: None,
     fast: &["q"],

@@ -11,6 +11,7 @@ use crate::golden::timing::NONE;
 pub(super) const SPEC: Spec = Spec {
     name: "lvds_output",
     scope: "lvds_output",
+    stream: Some(12),
     timing: NONE,
     reset: None,
     fast: &[],
