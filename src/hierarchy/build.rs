@@ -167,3 +167,42 @@ fn join(parent: &str, rest: &str) -> String {
 fn scope_path(path: &str) -> String {
     join(TOP, path)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hierarchy::every_entry;
+
+    /// Counts the ports of every module, by their own declarations.
+    struct Ports(String, Vec<String>);
+
+    impl Visitor for Ports {
+        fn signals<S: Signals>(&mut self, _: &'static str, _: &S, _: Option<&mut S>) {}
+
+        fn aliases(&mut self, aliases: &'static [Alias]) {
+            self.1.extend(aliases.iter().map(|alias| join(&self.0, alias.name)));
+        }
+
+        fn module<M: Module>(&mut self, instance: &'static Instance, now: &M, _: Option<&mut M>) {
+            let mut inside = Ports(join(&self.0, instance.name), Vec::new());
+            let inputs = (instance.inputs)().into_iter().map(|signal| signal.name);
+            let clocks = instance.clocks.iter().chain(instance.outputs);
+            let names = inputs.chain(clocks.map(|(port, _)| (*port).to_owned()));
+            inside.1.extend(names.map(|name| join(&inside.0, &name)));
+            now.visit(None, &mut inside);
+            self.1.append(&mut inside.1);
+        }
+    }
+
+    #[test]
+    fn every_port_and_wire_shows_a_value_and_no_name_comes_twice() {
+        let mut ports = Ports(TOP.to_owned(), Vec::new());
+        TofTop::new(Pins::default()).visit(None, &mut ports);
+        let mut paths: Vec<_> = every_entry().iter().map(Entry::path).collect();
+        paths.sort_unstable();
+        for path in &ports.1 {
+            assert!(paths.binary_search(path).is_ok(), "{path}");
+        }
+        assert!(ports.1.len() > 150 && paths.is_sorted_by(|a, b| a < b));
+    }
+}

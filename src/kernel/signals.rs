@@ -177,6 +177,7 @@ macro_rules! signals {
         impl $crate::kernel::signals::Signals for $name {
             const COUNT: usize = 0 $(+ <$ty as $crate::kernel::signals::Field>::COUNT)*;
 
+            #[allow(clippy::needless_update, reason = "a view may say all there is")]
             fn list() -> Vec<$crate::kernel::signals::Signal> {
                 #[allow(unused_mut, reason = "a module may have no signals of one kind")]
                 let mut list = Vec::new();
