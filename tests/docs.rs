@@ -2,35 +2,22 @@
 //!
 //! `UPDATE_DOCS=1 cargo test -p tofsim --test simulator docs` writes the tables anew.
 
-use crate::common;
 use std::fmt::Write;
 use std::fs;
 
-use tofsim::hierarchy::{Entry, Kind, entries};
+use tofsim::firmware::forward2::NEURONS;
+use tofsim::hierarchy::{Entry, Kind, TOP, every_entry_of};
 
-const MODEL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/model.md");
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-/// Entries of every module, those of the stand-ins too.
-fn all_entries() -> Vec<Entry> {
-    let mut all = Vec::new();
-    let scenarios =
-        ["kc705", "histogram_validation", "estimator_validation"].map(|name| (name, ""));
-    for (scenario, key) in scenarios.into_iter().chain([("kc705", "estimator.kind=centroid")]) {
-        let keys: &[&str] = if key.is_empty() { &[] } else { &[key] };
-        for entry in entries(&common::setup(scenario, keys).params) {
-            if !all.iter().any(|known: &Entry| known.path() == entry.path()) {
-                all.push(entry);
-            }
-        }
-    }
-    all
-}
+/// Begin and end of a module's table in the text.
+const BEGIN: &str = "<!-- ports: ";
+const END: &str = "<!-- end -->";
 
 fn table(module: &str, entries: &[Entry]) -> String {
-    let scope = if module == "tof_top" { module.into() } else { format!("tof_top.{module}") };
     let mut rows = String::from("| name | width | | meaning |\n|---|---|---|---|\n");
     let mut found = false;
-    for entry in entries.iter().filter(|entry| entry.scope == scope) {
+    for entry in entries.iter().filter(|entry| below_top(entry) == module) {
         let name = entry.signal.name.as_str();
         found = true;
         if ["clk", "clk_125", "clk_250", "rst", "rst_250"].contains(&name)
@@ -50,34 +37,54 @@ fn table(module: &str, entries: &[Entry]) -> String {
     rows
 }
 
+/// The module of an entry: `tof_top`, or its path below that.
+fn below_top(entry: &Entry) -> &str {
+    entry.scope.strip_prefix("tof_top.").unwrap_or(TOP)
+}
+
+/// The text with a paragraph, and a place for the table, for each module that has none: after the
+/// module before it.
+fn with_every_module(mut text: String, entries: &[Entry]) -> String {
+    let mut modules: Vec<_> = entries.iter().map(below_top).collect();
+    modules.dedup();
+    // What it is stands where its twin is.
+    modules.retain(|module| *module != "reset_sync_250");
+    let place = |text: &str, module| text.find(&format!("{BEGIN}{module} -->"));
+    for pair in modules.windows(2).filter(|pair| pair[0] != TOP) {
+        let [before, module] = [pair[0], pair[1]];
+        if place(&text, module).is_none() {
+            let begin = place(&text, before).unwrap();
+            let end = begin + text[begin..].find(END).unwrap() + END.len();
+            let name = module.rsplit('.').next().unwrap();
+            let source = fs::read_to_string(format!("{ROOT}/src/firmware/{name}.rs")).unwrap();
+            let says = source.lines().next().unwrap().trim_start_matches("//! ");
+            let (first, rest) = says.split_at(1);
+            let says = first.to_lowercase() + rest;
+            text.insert_str(end, &format!("\n\n`{name}`: {says}\n\n{BEGIN}{module} -->\n{END}"));
+        }
+    }
+    text
+}
+
 #[test]
 fn the_port_tables_are_those_of_the_code() {
-    let old = fs::read_to_string(MODEL).unwrap();
-    let entries = all_entries();
-    let mut new = String::new();
-    let mut modules = Vec::new();
-    let mut parts = old.split("<!-- ports: ");
-    new += parts.next().unwrap();
+    let model = format!("{ROOT}/docs/model.md");
+    let old = fs::read_to_string(&model).unwrap();
+    let entries = every_entry_of(NEURONS);
+    let places = with_every_module(old.clone(), &entries);
+    let mut parts = places.split(BEGIN);
+    let mut new = parts.next().unwrap().to_owned();
     for part in parts {
         let (module, rest) = part.split_once(" -->").unwrap();
-        let (_, rest) = rest.split_once("<!-- end -->").unwrap();
-        write!(new, "<!-- ports: {module} -->\n\n{}\n<!-- end -->{rest}", table(module, &entries))
-            .unwrap();
-        modules.push(module.to_owned());
+        let (_, rest) = rest.split_once(END).unwrap();
+        write!(new, "{BEGIN}{module} -->\n\n{}\n{END}{rest}", table(module, &entries)).unwrap();
     }
     if std::env::var_os("UPDATE_DOCS").is_some() {
-        fs::write(MODEL, &new).unwrap();
-    }
-    assert!(
-        old == new || std::env::var_os("UPDATE_DOCS").is_some(),
-        "docs/model.md is out of date: UPDATE_DOCS=1 cargo test -p tofsim --test simulator docs"
-    );
-    for entry in &entries {
-        let module = entry.scope.strip_prefix("tof_top.").unwrap_or(&entry.scope);
-        let twin = module == "reset_sync_250";
+        fs::write(&model, &new).unwrap();
+    } else {
         assert!(
-            twin || modules.iter().any(|known| known == module),
-            "{module} is not in docs/model.md"
+            old == new,
+            "docs/model.md is out of date: UPDATE_DOCS=1 cargo test -p tofsim --test simulator docs"
         );
     }
 }

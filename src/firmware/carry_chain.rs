@@ -31,6 +31,7 @@ signals! {
     /// Registers, all output ports.
     pub struct CarryChain {
         /// Level of each tap at the last edge.
+        #[view(heading = "TDC")]
         pub taps: Taps,
     }
 }

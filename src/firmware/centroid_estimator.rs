@@ -15,6 +15,7 @@
 //! 308 cycles, 2.464 us, for every W. A start while busy is ignored; one in the cycle of `algo_done`
 //! is taken.
 
+use crate::kernel::module::{Module, Visitor};
 use crate::kernel::{S, U};
 use crate::signals;
 
@@ -93,18 +94,23 @@ signals! {
         /// Cycles since e0.
         step: U<9>,
         /// Hits in the window.
+        #[view(heading = "Estimator", curve = true, probe = true)]
         sum: U<22>,
         /// Hits in the window, each times the words that came after its own.
+        #[view(probe = true)]
         ages: U<27>,
         /// Height of the highest centre [hits].
+        #[view(heading = "Estimator", probe = true)]
         best: U<16>,
         /// Its bin.
+        #[view(heading = "Estimator", probe = true)]
         peak: U<8>,
         /// Hits in its window: the divisor.
         best_sum: U<22>,
         /// `ages` of its window, then what the division leaves of it.
         remainder: U<29>,
         /// Mean age of the hits in its window, 12 fraction bits [bins].
+        #[view(heading = "Estimator", probe = true)]
         quotient: U<18>,
         /// Centroid from the begin of bin 0, 12 fraction bits [bins].
         position: U<20>,
@@ -123,6 +129,15 @@ pub struct CentroidEstimator {
 impl Default for CentroidEstimator {
     fn default() -> Self {
         CentroidEstimator { registers: Registers::default(), window: [U::new(0); WORDS] }
+    }
+}
+
+impl Module for CentroidEstimator {
+    const COUNT: usize = <Registers as Module>::COUNT;
+
+    #[inline(always)]
+    fn visit(&self, then: Option<&mut Self>, visitor: &mut impl Visitor) {
+        visitor.signals("registers", &self.registers, then.map(|then| &mut then.registers));
     }
 }
 

@@ -20,6 +20,7 @@ signals! {
     /// Registers, all output ports.
     pub struct CoarseCounter {
         /// Whole cycles from the laser edge to the edge before the last.
+        #[view(heading = "TDC", probe = true)]
         pub coarse: U<3>,
         /// A hit now belongs to the shot.
         pub window: bool,

@@ -52,12 +52,17 @@ pub struct DepthEstimator {
 
 connect! {
     /// Port connections.
-    pub struct Wires(this: &DepthEstimator, i: &In);
-    estimator_ctrl: estimator_ctrl::In {
+    pub struct Wires(this: &DepthEstimator, i: &In) {
+        output read_en <- this.estimator_ctrl.read_en;
+        output read_addr <- this.estimator_ctrl.read_addr;
+        output depth <- this.forward2.depth;
+        output algo_done <- this.estimator_ctrl.algo_done;
+    }
+    estimator_ctrl(clk_125): estimator_ctrl::In {
         rst <- i.rst;
         algo_start <- i.algo_start;
     }
-    forward1: forward1::In {
+    forward1(clk_125): forward1::In {
         rst <- i.rst;
         forward1_en <- this.estimator_ctrl.forward1_en;
         read_en <- this.estimator_ctrl.read_en;
@@ -65,12 +70,12 @@ connect! {
         rom_addr <- this.estimator_ctrl.rom_addr;
         count <- i.count;
     }
-    tansig: tansig::In {
+    tansig(clk_125): tansig::In {
         rst <- i.rst;
         tansig_en <- this.estimator_ctrl.tansig_en;
         l1_in <- this.forward1.l1_in;
     }
-    forward2: forward2::In {
+    forward2(clk_125): forward2::In {
         rst <- i.rst;
         forward2_en <- this.estimator_ctrl.forward2_en;
         neuron <- this.estimator_ctrl.neuron;

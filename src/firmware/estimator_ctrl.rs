@@ -52,10 +52,13 @@ signals! {
         /// Row of weights to fetch for the cycle after; 256 is the bias.
         pub rom_addr: U<9>,
         /// The hidden layer accumulates.
+        #[view(heading = "Estimator", probe = true)]
         pub forward1_en: bool,
         /// The activations are looked up.
+        #[view(heading = "Estimator", probe = true)]
         pub tansig_en: bool,
         /// The output layer accumulates, or holds its result.
+        #[view(heading = "Estimator", probe = true)]
         pub forward2_en: bool,
         /// Neuron to add; the one past the last is the bias, then none.
         pub neuron: U<5>,

@@ -45,6 +45,7 @@ signals! {
     /// Registers; the public ones are the output ports.
     pub struct Forward1 {
         /// Sums of the neurons.
+        #[view(heading = "Hidden layer", curve = true, probe = true)]
         pub l1_in: [L1In; MOST_NEURONS],
         /// Weights of this cycle.
         pub(crate) weight: [Weight; MOST_NEURONS],

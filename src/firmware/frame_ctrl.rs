@@ -73,8 +73,10 @@ signals! {
         /// The frame has ended; one cycle, the first of the next Clear.
         pub frame_done: bool,
         /// State of the frame.
+        #[view(heading = "Control", probe = true)]
         pub(crate) state: State,
         /// Shots begun in this frame.
+        #[view(heading = "Control", probe = true)]
         pub(crate) shots: U<16>,
         /// Cycles spent in Drain.
         pub(crate) drain: U<4>,

@@ -6,6 +6,7 @@
 //! RAM has no reset.
 
 use crate::kernel::U;
+use crate::kernel::module::{Module, Visitor};
 use crate::signals;
 
 /// Words of the histogram.
@@ -40,6 +41,13 @@ impl Default for HistogramBuilder {
     fn default() -> Self {
         HistogramBuilder { ram: Box::new([U::new(0); BINS]) }
     }
+}
+
+impl Module for HistogramBuilder {
+    const COUNT: usize = 0;
+
+    /// The words of the RAM come after all registers (see [`crate::hierarchy`]).
+    fn visit(&self, _: Option<&mut Self>, _: &mut impl Visitor) {}
 }
 
 impl HistogramBuilder {

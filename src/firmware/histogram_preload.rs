@@ -15,6 +15,11 @@ signals! {
     }
 }
 
+signals! {
+    /// There are no registers.
+    pub struct HistogramPreload {}
+}
+
 /// The ROM [hits].
 pub type Rom = [U<16>; BINS];
 

@@ -9,6 +9,11 @@ use crate::kernel::clock::Clock;
 use crate::signals;
 
 signals! {
+    /// There are no input ports beside the clock.
+    pub struct In {}
+}
+
+signals! {
     /// Output ports beside the clocks.
     pub struct Out {
         /// The outputs run.

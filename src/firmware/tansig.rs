@@ -36,6 +36,7 @@ signals! {
     /// Registers, all output ports.
     pub struct Tansig {
         /// Activations of the neurons.
+        #[view(heading = "Hidden layer")]
         pub l1_out: [L1Out; MOST_NEURONS],
     }
 }

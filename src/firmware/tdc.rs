@@ -62,22 +62,25 @@ pub struct Tdc {
 
 connect! {
     /// Port connections.
-    pub struct Wires(this: &Tdc, i: &In);
-    carry_chain: carry_chain::In {
+    pub struct Wires(this: &Tdc, i: &In) {
+        output tdc_code <- this.tdc_decoder.tdc_code;
+        output tdc_valid <- this.tdc_decoder.tdc_valid;
+    }
+    carry_chain(clk_125): carry_chain::In {
         tdc_stop <- i.tdc_stop;
     }
-    coarse_counter: coarse_counter::In {
+    coarse_counter(clk_125): coarse_counter::In {
         rst <- i.rst;
         start <- i.start;
     }
-    tdc_latch: tdc_latch::In {
+    tdc_latch(clk_125): tdc_latch::In {
         rst <- i.rst;
         start <- i.start;
         window <- this.coarse_counter.window;
         coarse <- this.coarse_counter.coarse;
         taps <- this.carry_chain.taps;
     }
-    tdc_decoder: tdc_decoder::In {
+    tdc_decoder(clk_125): tdc_decoder::In {
         rst <- i.rst;
         hit <- this.tdc_latch.hit;
         hit_coarse <- this.tdc_latch.hit_coarse;

@@ -49,6 +49,7 @@ signals! {
         /// `n` is new.
         n_valid: bool,
         /// Taps the hit had run through.
+        #[view(heading = "TDC", probe = true)]
         n: U<10>,
         /// Coarse count of `n`.
         n_coarse: U<3>,

@@ -30,6 +30,7 @@ signals! {
     /// Registers; the public ones are the output ports.
     pub struct TdcLatch {
         /// A new hit is kept; one cycle.
+        #[view(heading = "TDC", probe = true)]
         pub hit: bool,
         /// Its coarse count.
         pub hit_coarse: U<3>,

@@ -14,11 +14,12 @@ use super::ddr_output::DdrOutput;
 use super::depth_estimator::{self, DepthEstimator};
 use super::frame_ctrl::{self, FrameCtrl};
 use super::histogram_builder::{self, HistogramBuilder};
+use super::histogram_preload::{self, HistogramPreload};
 use super::reset_sync::{self, ResetSync};
 use super::spad_control::{self, SpadControl};
 use super::tdc::{self, Tdc};
 use super::vcsel_driver::{self, VcselDriver};
-use super::{histogram_preload, lvds_output, pll};
+use super::{lvds_output, pll};
 
 mod ports;
 mod socket;
@@ -26,7 +27,7 @@ mod socket;
 pub use ports::{Clocks, CodeSource, Estimator, HistogramSource, Nets, Params, Pins, Socket};
 
 /// The state of the firmware.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct TofTop {
     /// Input pins.
     pub pins: Pins,
@@ -56,6 +57,8 @@ pub struct TofTop {
     pub code_preload: CodePreload,
     /// Histogram.
     pub histogram_builder: HistogramBuilder,
+    /// Its stand-in.
+    pub histogram_preload: HistogramPreload,
     /// Estimator.
     pub depth_estimator: DepthEstimator,
     /// Its stand-in.
@@ -66,70 +69,99 @@ pub struct TofTop {
 
 connect! {
     /// Port connections. Every module output is a register, so one pass settles them.
-    pub struct Wires(this: &TofTop);
-    reset_sync_125: reset_sync::In {
+    pub struct Wires(this: &TofTop) {
+        signals clocks, pins, nets;
+        wire rst_125 <- this.reset_sync_125.rst_sync;
+        wire rst_250 <- this.reset_sync_250.rst_sync;
+        wire mode_sync <- this.control_sync.mode_sync;
+        wire laser_freq_sync <- this.control_sync.laser_freq_sync;
+        wire laser_en_sync <- this.control_sync.laser_en_sync;
+        wire dsp_en_sync <- this.control_sync.dsp_en_sync;
+        wire dsp_rst_sync <- this.control_sync.dsp_rst_sync;
+        wire clear <- this.frame_ctrl.clear;
+        wire clear_addr <- this.frame_ctrl.clear_addr;
+        wire acquire <- this.frame_ctrl.acquire;
+        wire algo_start <- this.frame_ctrl.algo_start;
+        wire pre_start <- this.vcsel_driver.registers.pre_start;
+        wire start <- this.vcsel_driver.registers.start;
+        wire read_en <- this.socket.read_en;
+        wire read_addr <- this.socket.read_addr;
+        output laser_on_lvds_p <- this.lvds_output.o;
+        output laser_on_lvds_n <- this.lvds_output.ob;
+        output spad_rst <- this.spad_control.spad_rst;
+        output spad_sel <- this.spad_control.spad_sel;
+        output depth <- this.socket.depth;
+        output algo_done <- this.socket.algo_done;
+        output hist_valid <- this.socket.read_en;
+        output hist_bin <- this.socket.read_addr;
+        output hist_count <- this.nets.count;
+        output frame_done <- this.frame_ctrl.frame_done;
+        output locked <- this.pll.locked;
+    }
+    pll(clk_200): pll::In {} -> { clk_125: this.clocks.clk_125, clk_250: this.clocks.clk_250, }
+    reset_sync_125(clk <- clk_125): reset_sync::In {
         rst <- this.pins.rst;
         locked <- this.pll.locked;
     }
-    reset_sync_250: reset_sync::In {
+    reset_sync_250(clk <- clk_250): reset_sync::In {
         rst <- this.pins.rst;
         locked <- this.pll.locked;
     }
-    control_sync: control_sync::In {
+    control_sync(clk_125): control_sync::In {
         mode <- this.pins.mode;
         laser_freq <- this.pins.laser_freq;
         laser_en <- this.pins.laser_en;
         dsp_en <- this.pins.dsp_en;
         dsp_rst <- this.pins.dsp_rst;
     }
-    frame_ctrl: frame_ctrl::In {
+    frame_ctrl(clk_125): frame_ctrl::In {
         rst <- this.reset_sync_125.rst_sync;
         start <- this.vcsel_driver.registers.start;
         dsp_rst <- this.control_sync.dsp_rst_sync;
         dsp_en <- this.control_sync.dsp_en_sync;
         algo_done <- this.socket.algo_done;
     }
-    vcsel_driver: vcsel_driver::In {
+    vcsel_driver(clk_125, clk_250): vcsel_driver::In {
         rst <- this.reset_sync_125.rst_sync;
         rst_250 <- this.reset_sync_250.rst_sync;
         acquire <- this.frame_ctrl.acquire;
         laser_en <- this.control_sync.laser_en_sync;
         laser_freq <- this.control_sync.laser_freq_sync;
     }
-    lvds_output: lvds_output::In {
+    lvds_output(): lvds_output::In {
         i <- this.vcsel_driver.ddr_output.q;
     }
-    spad_control: spad_control::In {
+    spad_control(clk_125): spad_control::In {
         rst <- this.reset_sync_125.rst_sync;
         mode <- this.control_sync.mode_sync;
         pre_start <- this.vcsel_driver.registers.pre_start;
     }
-    tdc: tdc::In {
+    tdc(clk_125): tdc::In {
         rst <- this.nets.rst_dsp;
         start <- this.vcsel_driver.registers.start;
         tdc_stop <- this.pins.tdc_stop;
     }
-    code_preload: code_preload::In {
+    code_preload(clk_125): code_preload::In {
         rst <- this.nets.rst_dsp;
         start <- this.vcsel_driver.registers.start;
     }
-    histogram_builder: histogram_builder::In {
+    histogram_builder(clk_125): histogram_builder::In {
         clear <- this.frame_ctrl.clear;
         clear_addr <- this.frame_ctrl.clear_addr;
         tdc_valid <- this.nets.tdc_valid;
         tdc_code <- this.nets.tdc_code;
         read_en <- this.socket.read_en;
         read_addr <- this.socket.read_addr;
-    }
-    histogram_preload: histogram_preload::In {
+    } -> { count: this.nets.count, }
+    histogram_preload(): histogram_preload::In {
         read_addr <- this.socket.read_addr;
-    }
-    depth_estimator: depth_estimator::In {
+    } -> { count: this.nets.count, }
+    depth_estimator(clk_125): depth_estimator::In {
         rst <- this.nets.rst_dsp;
         algo_start <- this.frame_ctrl.algo_start;
         count <- this.nets.count;
     }
-    centroid_estimator: centroid_estimator::In {
+    centroid_estimator(clk_125): centroid_estimator::In {
         rst <- this.nets.rst_dsp;
         algo_start <- this.frame_ctrl.algo_start;
         count <- this.nets.count;
@@ -139,25 +171,7 @@ connect! {
 impl TofTop {
     /// The firmware at power-up, with its control pins at `pins`.
     pub fn new(pins: Pins) -> Self {
-        TofTop {
-            pins,
-            clocks: Clocks::default(),
-            nets: Nets::default(),
-            pll: pll::Out::default(),
-            reset_sync_125: ResetSync::default(),
-            reset_sync_250: ResetSync::default(),
-            control_sync: ControlSync::default(),
-            frame_ctrl: FrameCtrl::default(),
-            vcsel_driver: VcselDriver::default(),
-            lvds_output: lvds_output::Out::default(),
-            spad_control: SpadControl::default(),
-            tdc: Tdc::default(),
-            code_preload: CodePreload::default(),
-            histogram_builder: HistogramBuilder::default(),
-            depth_estimator: DepthEstimator::default(),
-            centroid_estimator: CentroidEstimator::default(),
-            socket: Socket::default(),
-        }
+        TofTop { pins, ..TofTop::default() }
     }
 
     /// An edge at which `clk_125` and `clk_250` rise, at `now`. All inputs are read in the first

@@ -62,6 +62,7 @@ signals! {
     /// Registers in `clk_250`.
     pub struct Registers250 {
         /// Enable of the output register; the cycle of `clk_250` before the laser edge.
+        #[view(probe = true)]
         pub(crate) laser_pulse: bool,
     }
 }
@@ -79,8 +80,11 @@ pub struct VcselDriver {
 
 connect! {
     /// Port connections inside the driver.
-    pub struct Wires(this: &VcselDriver);
-    ddr_output: ddr_output::In {
+    pub struct Wires(this: &VcselDriver) {
+        signals registers, registers_250;
+        output laser_on <- this.ddr_output.q;
+    }
+    ddr_output(clk_250): ddr_output::In {
         d <- this.registers_250.laser_pulse;
     }
 }

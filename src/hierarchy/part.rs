@@ -1,136 +1,51 @@
-//! Follows some of the signals, so that the others cost nothing.
-//!
-//! Who looks before every edge of `clk_125` can let modules sleep that next to no edge changes.
-//! The synchronisers and the PLL change within two edges of their pins, and who makes the pins
-//! change says so. The estimator changes at every edge while it works; an edge that leaves it as
-//! it is leaves it so until it is started or reset. The RAM changes where it is written.
+//! Follows some of the signals: reports those that have changed.
 
 use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tof_top::TofTop;
-use crate::kernel::signals::Sink;
+use crate::kernel::module::{Instance, Module, Visitor};
+use crate::kernel::signals::{Signals, Sink};
 
-use super::instants::Instant;
-use super::{RAM, changes, copy, follow, groups};
+use super::{IDS, RAM};
 
-/// How long a module is looked at after it has been woken or has changed: at two looks a cycle,
-/// more than the two edges that a change takes through a synchroniser [looks].
-const AWAKE: u32 = 8;
-
-/// Some of the groups of signals and some words of the RAM, and what they were.
+/// Some of the signals, and what they were.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// A bit for each group.
-    pub(super) groups: u32,
+    /// Of each id whether it is one of them; a struct of signals is looked at as a whole.
+    wanted: Box<[bool; IDS]>,
     /// Words of the RAM, each once.
     words: Vec<usize>,
-    /// Whether modules may sleep.
-    sleeps: bool,
-    control: Sleeper,
-    estimator: Sleeper,
-    /// The coming edge may write a word of the RAM.
+    /// The edge of `clk_125` before the coming look may write a word of the RAM.
     writes: bool,
-    pub(super) kept: Option<TofTop>,
-}
-
-/// Groups that need not be looked at most of the time.
-#[derive(Clone, Debug)]
-struct Sleeper {
-    /// A bit for each group.
-    groups: u32,
-    /// Looks until it falls asleep.
-    awake: u32,
-}
-
-impl Sleeper {
-    /// The groups of those scopes.
-    fn of(scopes: &[&str]) -> Self {
-        let bits = groups().into_iter().enumerate().map(|(group, (scope, ..))| {
-            let module = scope.split('.').next().unwrap_or_default();
-            u32::from(scopes.contains(&module)) << group
-        });
-        Sleeper { groups: bits.sum(), awake: AWAKE }
-    }
-
-    /// Its groups if it sleeps; each call is a look.
-    #[inline]
-    fn asleep(&mut self) -> u32 {
-        let asleep = if self.awake == 0 { self.groups } else { 0 };
-        self.awake = self.awake.saturating_sub(1);
-        asleep
-    }
+    kept: Option<TofTop>,
 }
 
 impl Part {
-    /// The part with the values of those ids. If modules sleep in it, it has to be brought up to
-    /// date before every edge of `clk_125`, once or twice a cycle, and to be told what
-    /// [`Part::control_changes`] has to know.
-    pub fn of(ids: impl IntoIterator<Item = usize>, sleeps: bool) -> Self {
-        let ends: Vec<usize> = groups()
-            .iter()
-            .scan(0, |end, (.., signals)| {
-                *end += signals.len();
-                Some(*end)
-            })
-            .collect();
-        let mut part = Part {
-            groups: 0,
-            words: Vec::new(),
-            sleeps,
-            control: Sleeper::of(&["pll", "reset_sync_125", "reset_sync_250", "control_sync"]),
-            estimator: Sleeper::of(&["depth_estimator", "centroid_estimator"]),
-            writes: true,
-            kept: None,
-        };
-        for id in ids {
-            match ends.iter().position(|&end| id < end) {
-                Some(group) => part.groups |= 1 << group,
-                None => part.words.push(id - RAM),
-            }
-        }
-        part.words.sort_unstable();
-        part.words.dedup();
-        part
+    /// The signals of those ids, and those that stand in one struct with them.
+    pub fn of(ids: impl IntoIterator<Item = usize>) -> Self {
+        let mut wanted = Box::new([false; IDS]);
+        ids.into_iter().for_each(|id| wanted[id] = true);
+        let words = (0..BINS).filter(|bin| wanted[RAM + bin]).collect();
+        Part { wanted, words, writes: true, kept: None }
     }
 
-    /// A pin that the synchronisers take changes before the next edge, or at it.
-    pub fn control_changes(&mut self) {
-        self.control.awake = AWAKE;
-    }
-
-    /// Reports every signal, as if for the first time.
+    /// Reports every signal, as if for the first time, whichever ids were asked for.
     pub fn show(&mut self, top: &TofTop, sink: &mut impl Sink) {
         changes(top, None, sink);
         match &mut self.kept {
             Some(kept) => copy(top, kept),
             None => self.kept = Some(top.clone()),
         }
-        (self.control.awake, self.estimator.awake, self.writes) = (AWAKE, AWAKE, true);
+        self.writes = true;
     }
 
-    /// Reports every signal that differs from what it was; at first, every one.
+    /// Reports every signal that differs from what it was; at first, every one. This has to be called
+    /// in every cycle of `clk_125`.
     #[inline]
     pub fn follow(&mut self, top: &TofTop, sink: &mut impl Sink) {
         let Some(kept) = &mut self.kept else { return self.show(top, sink) };
-        let (mut groups, mut works, mut written) = (self.groups, false, true);
-        if self.sleeps {
-            let asleep = self.estimator.asleep();
-            let (network, centroid) = (&top.depth_estimator, &top.centroid_estimator.registers);
-            works = asleep == 0
-                && (kept.depth_estimator != *network
-                    || kept.centroid_estimator.registers != *centroid);
-            if works || top.frame_ctrl.algo_start || top.nets.rst_dsp {
-                self.estimator.awake = AWAKE;
-            }
-            groups &= !(asleep | self.control.asleep());
-            written =
-                std::mem::replace(&mut self.writes, top.nets.tdc_valid || top.frame_ctrl.clear);
-        }
-        follow::<{ Instant::Rise125 as u8 }>(top, groups, kept, sink);
-        if works {
-            kept.depth_estimator = top.depth_estimator;
-            kept.centroid_estimator.registers = top.centroid_estimator.registers;
-        }
-        if written {
+        top.visit(Some(kept), &mut Look { wanted: Some(&*self.wanted), id: 0, sink });
+        let writes = top.nets.tdc_valid || top.frame_ctrl.clear;
+        if std::mem::replace(&mut self.writes, writes) {
             let (now, then) = (&top.histogram_builder.ram, &mut kept.histogram_builder.ram);
             for &bin in &self.words {
                 if then[bin] != now[bin] {
@@ -140,28 +55,88 @@ impl Part {
             }
         }
     }
-}
 
-/// Reports every word of the RAM that differs from `before`, or every one.
-pub(super) fn ram_changes(top: &TofTop, before: Option<&TofTop>, sink: &mut impl Sink) {
-    let now = &top.histogram_builder.ram;
-    let then = before.map(|b| &b.histogram_builder.ram);
-    if then != Some(now) {
-        for bin in 0..BINS {
-            if then.is_none_or(|then| then[bin] != now[bin]) {
-                sink.word(RAM + bin, now[bin].get());
-            }
+    /// The same where only levels of clocks, the first of all ids, may have changed.
+    #[inline(always)]
+    pub fn tick(&mut self, top: &TofTop, sink: &mut impl Sink) {
+        if let Some(kept) = &mut self.kept {
+            top.clocks.changes(Some(&kept.clocks), 0, sink);
+            kept.clocks = top.clocks;
         }
     }
 }
 
+/// Reports every signal that differs from `before`, or every one.
+pub fn changes(top: &TofTop, before: Option<&TofTop>, sink: &mut impl Sink) {
+    let mut then = before.cloned();
+    top.visit(then.as_mut(), &mut Look { wanted: None, id: 0, sink });
+    for (bin, now) in top.histogram_builder.ram.iter().enumerate() {
+        if before.is_none_or(|before| before.histogram_builder.ram[bin] != *now) {
+            sink.word(RAM + bin, now.get());
+        }
+    }
+}
+
+/// Makes all that [`changes`] looks at in `to` what it is in `from`, without allocating.
+pub fn copy(from: &TofTop, to: &mut TofTop) {
+    from.visit(Some(to), &mut Copy);
+    to.histogram_builder.ram.copy_from_slice(&from.histogram_builder.ram[..]);
+}
+
+/// Reports what differs and keeps it.
+struct Look<'a, S> {
+    /// Ids to look at, if not all.
+    wanted: Option<&'a [bool; IDS]>,
+    /// The coming signal.
+    id: usize,
+    sink: &'a mut S,
+}
+
+impl<K: Sink> Visitor for Look<'_, K> {
+    #[inline(always)]
+    fn signals<S: Signals>(&mut self, _: &'static str, now: &S, then: Option<&mut S>) {
+        let ids = self.id..self.id + S::COUNT;
+        self.id = ids.end;
+        match then {
+            None => now.changes(None, ids.start, self.sink),
+            Some(then) => {
+                let is_wanted =
+                    self.wanted.is_none_or(|wanted| wanted[ids.clone()].contains(&true));
+                if is_wanted && then != now {
+                    now.changes(Some(&*then), ids.start, self.sink);
+                    *then = *now;
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn module<M: Module>(&mut self, _: &'static Instance, now: &M, then: Option<&mut M>) {
+        now.visit(then, self);
+    }
+}
+
+/// Copies, and reports nothing.
+struct Copy;
+
+impl Visitor for Copy {
+    fn signals<S: Signals>(&mut self, _: &'static str, now: &S, then: Option<&mut S>) {
+        if let Some(then) = then {
+            *then = *now;
+        }
+    }
+
+    fn module<M: Module>(&mut self, _: &'static Instance, now: &M, then: Option<&mut M>) {
+        now.visit(then, self);
+    }
+}
+
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
-    use crate::hierarchy::IDS;
     use crate::kernel::{Thermometer, Time};
     use crate::scenario::{self, Control};
     use crate::sim::device::{Edge, Off, SignalProbe};
@@ -169,7 +144,7 @@ pub(super) mod tests {
 
     /// The value of each id; of taps their number.
     #[derive(Clone, PartialEq)]
-    pub(in crate::hierarchy) struct Values(pub Vec<u64>);
+    struct Values(Vec<u64>);
 
     impl Sink for Values {
         fn word(&mut self, id: usize, value: u64) {
@@ -181,28 +156,35 @@ pub(super) mod tests {
         }
     }
 
-    /// Follows a part of every signal with modules asleep, and looks at all of them beside it.
+    /// Follows every signal, and looks at all of them beside it.
     struct Both {
         part: Part,
         followed: Values,
+        /// Looks at every change, not only before edges.
+        every_change: bool,
+        /// Looks before the edges of `clk_250` too.
         middle: bool,
         looks: usize,
+        ticks: usize,
         resets: usize,
         estimations: usize,
     }
 
-    impl SignalProbe for Both {
-        const ON: bool = false;
-        const EDGES: bool = true;
-
-        fn looks_before(&self, edge: Edge) -> bool {
-            self.middle || edge == Edge::Both
+    impl Both {
+        fn new(seed: u64) -> Self {
+            Both {
+                part: Part::of(0..IDS),
+                followed: Values(vec![0; IDS]),
+                every_change: seed % 3 == 2,
+                middle: seed % 2 == 1,
+                looks: 0,
+                ticks: 0,
+                resets: 0,
+                estimations: 0,
+            }
         }
 
-        fn sample(&mut self, _: Time, _: &TofTop) {}
-
-        fn before_edge(&mut self, _: Edge, now: Time, top: &TofTop) {
-            self.part.follow(top, &mut self.followed);
+        fn compare(&mut self, now: Time, top: &TofTop) {
             let mut every = Values(vec![0; IDS]);
             changes(top, None, &mut every);
             assert!(self.followed == every, "at {now}");
@@ -210,19 +192,40 @@ pub(super) mod tests {
             self.resets += usize::from(top.nets.rst_dsp);
             self.estimations += usize::from(top.socket.algo_done);
         }
+    }
 
-        fn control_changes(&mut self) {
-            self.part.control_changes();
+    impl SignalProbe for Both {
+        const ON: bool = true;
+        const EDGES: bool = true;
+
+        fn looks_before(&self, edge: Edge) -> bool {
+            !self.every_change && (self.middle || edge == Edge::Both)
+        }
+
+        fn sample(&mut self, now: Time, top: &TofTop) {
+            if self.every_change {
+                self.part.follow(top, &mut self.followed);
+                self.compare(now, top);
+            }
+        }
+
+        fn tick(&mut self, now: Time, top: &TofTop) {
+            if self.every_change {
+                self.part.tick(top, &mut self.followed);
+                self.compare(now, top);
+                self.ticks += 1;
+            }
+        }
+
+        fn before_edge(&mut self, _: Edge, now: Time, top: &TofTop) {
+            self.part.follow(top, &mut self.followed);
+            self.compare(now, top);
         }
     }
 
     /// Changes of the control signals at any time, at an edge, and as pulses from an edge to before
     /// the next, which no look before an edge sees.
-    pub(in crate::hierarchy) fn control(
-        setup: &Setup,
-        cycles: u64,
-        random: &mut ChaCha8Rng,
-    ) -> Vec<Control> {
+    fn control(setup: &Setup, cycles: u64, random: &mut ChaCha8Rng) -> Vec<Control> {
         let clk_125 = &setup.pll().clk_125;
         let mut changes = Vec::new();
         let mut cycle = 10;
@@ -247,35 +250,30 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_module_that_sleeps_misses_no_change() {
+    fn no_change_is_missed() {
         for seed in 0..6 {
             let (mut random, cycles) = (ChaCha8Rng::seed_from_u64(seed), 30_000);
             let kind = if seed < 4 { "network" } else { "centroid" };
             let short =
                 ["firmware.shots_per_frame=30".to_owned(), format!("estimator.kind={kind}")];
             let load = || scenario::load("bright", &short).unwrap();
-            let mut loaded = load();
-            let plain = Setup::new(load()).unwrap();
+            let (plain, mut loaded) = (Setup::new(load()).unwrap(), load());
             loaded.scenario.control = control(&plain, cycles, &mut random);
             let setup = Setup::new(loaded).unwrap();
-            let mut both = Both {
-                part: Part::of(0..IDS, true),
-                followed: Values(vec![0; IDS]),
-                middle: seed % 2 == 1,
-                looks: 0,
-                resets: 0,
-                estimations: 0,
-            };
-            let mut device = setup.device();
+            let (mut both, mut device) = (Both::new(seed), setup.device());
             device.power_up(&mut Off, &mut Off);
             // Begins amid a change now and then.
             for _ in 0..random.random_range(0..40) {
                 device.step(&setup.params, &mut Off, &mut Off);
             }
+            let edge = device.next_edge();
+            device.resume_clocks(edge);
+            both.part.show(&device.top, &mut both.followed);
             for _ in 0..cycles {
                 device.step(&setup.params, &mut both, &mut Off);
             }
             assert!(both.looks >= 30_000 && both.resets > 5 && both.estimations > 5, "seed {seed}");
+            assert!(both.ticks > 40_000 || !both.every_change, "seed {seed}");
         }
     }
 
@@ -283,7 +281,7 @@ pub(super) mod tests {
     fn a_part_reports_nothing_of_what_it_leaves_out() {
         let setup = Setup::new(scenario::load("bright", &[]).unwrap()).unwrap();
         let mut device = setup.device();
-        let (mut part, mut values) = (Part::of([RAM + 3], true), Values(vec![7; IDS]));
+        let (mut part, mut values) = (Part::of([RAM + 3]), Values(vec![7; IDS]));
         part.follow(&device.top, &mut values);
         assert!(!values.0.contains(&7), "at first it reports everything");
         values = Values(vec![7; IDS]);

@@ -3,20 +3,28 @@
 /// Where an input port comes from: `(module, port, source)`, each a dotted path inside the parent.
 pub type Connection = (&'static str, &'static str, &'static str);
 
-/// Joins the input ports of a container's modules to their sources.
+/// Joins the modules inside a container: their clocks, their input ports to their sources, and what of
+/// theirs the container shows under names of its own.
 ///
 /// From one list it makes, on an empty struct, a function for each module that reads its input
-/// ports, and a table of the same connections, by which waveforms declare an input port as an alias
-/// of the signal that drives it. A source is a path that begins with the container (`this`) or with
-/// the container's own input ports.
+/// ports, and the container's [`Module`](crate::kernel::module::Module), by which waveforms have all of
+/// it. In the braces after the struct stand the fields with signals of the container's own, then its
+/// wires and output ports that show what a module inside holds. Each module is a field of the container
+/// and has, in parentheses, its clock ports, with `port <- clock` where that is called otherwise. A
+/// source is a path that begins with the container (`this`) or with the container's own input ports;
+/// after `->` stand output ports of a module that are no registers of it.
 #[macro_export]
 macro_rules! connect {
     (
         $(#[$doc:meta])*
-        $vis:vis struct $Wires:ident $from:tt;
-        $($module:ident: $file:ident::In {
+        $vis:vis struct $Wires:ident $from:tt {
+            $(signals $($own:ident),+;)?
+            $(wire $wire:ident <- this $(. $wire_from:ident)+;)*
+            $(output $output:ident <- this $(. $output_from:ident)+;)*
+        }
+        $($module:ident ($($clock:ident $(<- $clock_from:ident)?),*): $file:ident::In {
             $($port:ident <- $root:ident $(. $field:ident)+;)*
-        })*
+        } $(-> { $($driver:ident: this $(. $driven:ident)+,)+ })?)*
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
@@ -32,14 +40,6 @@ macro_rules! connect {
                 ),)*)*
             ];
 
-            /// The modules and their input ports.
-            $vis fn inputs() -> Vec<(&'static str, Vec<$crate::kernel::signals::Signal>)> {
-                vec![$((
-                    stringify!($module),
-                    <$file::In as $crate::kernel::signals::Signals>::list(),
-                ),)*]
-            }
-
             $(
                 #[doc = concat!("Input ports of `", stringify!($module), "` as they stand.")]
                 #[inline(always)]
@@ -49,5 +49,56 @@ macro_rules! connect {
                 }
             )*
         }
+
+        impl $crate::kernel::module::Module for $crate::connect!(@container $from) {
+            const COUNT: usize = 0
+                $($(+ $crate::kernel::module::count(|this: &Self| &this.$own))+)?
+                $(+ $crate::kernel::module::count(|this: &Self| &this.$module))*;
+
+            #[inline(always)]
+            fn visit(
+                &self,
+                mut then: Option<&mut Self>,
+                visitor: &mut impl $crate::kernel::module::Visitor,
+            ) {
+                $($(visitor.signals(
+                    stringify!($own),
+                    &self.$own,
+                    then.as_deref_mut().map(|then| &mut then.$own),
+                );)+)?
+                visitor.aliases(const { &[
+                    $($crate::kernel::module::Alias {
+                        name: stringify!($wire),
+                        output: false,
+                        source: concat!("this" $(, ".", stringify!($wire_from))+),
+                    },)*
+                    $($crate::kernel::module::Alias {
+                        name: stringify!($output),
+                        output: true,
+                        source: concat!("this" $(, ".", stringify!($output_from))+),
+                    },)*
+                ] });
+                $(visitor.module(
+                    const { &$crate::kernel::module::Instance {
+                        name: stringify!($module),
+                        clocks: &[$($crate::connect!(@clock $clock $($clock_from)?)),*],
+                        inputs: <$file::In as $crate::kernel::signals::Signals>::list,
+                        sources: &[$((
+                            stringify!($port),
+                            concat!(stringify!($root) $(, ".", stringify!($field))+),
+                        ),)*],
+                        outputs: &[$($((
+                            stringify!($driver),
+                            concat!("this" $(, ".", stringify!($driven))+),
+                        ),)+)?],
+                    } },
+                    &self.$module,
+                    then.as_deref_mut().map(|then| &mut then.$module),
+                );)*
+            }
+        }
     };
+    (@container ($this:ident: &$Container:ident $($rest:tt)*)) => { $Container };
+    (@clock $clock:ident) => { (stringify!($clock), stringify!($clock)) };
+    (@clock $clock:ident $from:ident) => { (stringify!($clock), stringify!($from)) };
 }

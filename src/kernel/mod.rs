@@ -4,6 +4,7 @@ pub mod bits;
 pub mod clock;
 pub mod clocked;
 pub mod connect;
+pub mod module;
 pub mod signals;
 pub mod thermometer;
 pub mod time;

@@ -20,6 +20,23 @@ pub enum Format {
     Taps,
 }
 
+/// Who looks at a signal first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct View {
+    /// The heading under which a viewer shows it; empty: with all others.
+    pub heading: &'static str,
+    /// Whether a viewer shows it as a curve as well.
+    pub curve: bool,
+    /// Whether a logic analyser on the board would probe it, so that runs too long to compare
+    /// everything compare it.
+    pub probe: bool,
+}
+
+impl View {
+    /// Nobody in particular.
+    pub const NONE: View = View { heading: "", curve: false, probe: false };
+}
+
 /// One signal of a module.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Signal {
@@ -31,6 +48,8 @@ pub struct Signal {
     pub format: Format,
     /// Whether other modules may read it.
     pub output: bool,
+    /// Who looks at it first.
+    pub view: View,
     /// What it means.
     pub doc: &'static str,
 }
@@ -138,10 +157,12 @@ impl<const N: usize> Field for Thermometer<N> {
 
 /// Declares a struct of signals. One line gives a signal's meaning, name, width and, after `=`,
 /// its reset value where that is not zero; `pub` fields are output ports, `pub(crate)` ones are not.
+/// `#[view(..)]` above a field sets fields of its [`View`].
 #[macro_export]
 macro_rules! signals {
     ($(#[$meta:meta])* $vis:vis struct $name:ident {
-        $($(#[doc = $doc:literal])+ $field_vis:vis $field:ident: $ty:ty $(= $reset:expr)?,)*
+        $($(#[doc = $doc:literal])+ $(#[view($($view:ident = $shown:literal),+)])?
+            $field_vis:vis $field:ident: $ty:ty $(= $reset:expr)?,)*
     }) => {
         $(#[$meta])*
         #[derive(Clone, Copy, Debug, PartialEq)]
@@ -156,6 +177,7 @@ macro_rules! signals {
         impl $crate::kernel::signals::Signals for $name {
             const COUNT: usize = 0 $(+ <$ty as $crate::kernel::signals::Field>::COUNT)*;
 
+            #[allow(clippy::needless_update, reason = "a view may say all there is")]
             fn list() -> Vec<$crate::kernel::signals::Signal> {
                 #[allow(unused_mut, reason = "a module may have no signals of one kind")]
                 let mut list = Vec::new();
@@ -165,6 +187,10 @@ macro_rules! signals {
                         width: 0,
                         format: $crate::kernel::signals::Format::Bits,
                         output: matches!(stringify!($field_vis), "pub"),
+                        view: $crate::kernel::signals::View {
+                            $($($view: $shown,)+)?
+                            ..$crate::kernel::signals::View::NONE
+                        },
                         doc: concat!($($doc),+).trim_ascii(),
                     },
                     &mut list,

@@ -24,53 +24,33 @@ pub(super) struct Row<'a> {
     pub(super) curve: bool,
 }
 
-/// Headings, and below each the signals: paths below the top, `*` at the end for any number.
+/// Headings, and below each the signals: paths below the top, `*` at the end for any number, or those
+/// whose [`View`](crate::kernel::signals::View) has the heading, in the order of the modules.
 const FLOW: &[(&str, &[&str])] = &[
     ("Clocks and reset", &["clk_125", "clk_250", "rst_dsp"]),
-    ("Control", &["mode", "laser_freq", "laser_en", "frame_ctrl.state", "frame_ctrl.shots"]),
+    ("Control", &["mode", "laser_freq", "laser_en", VIEWED]),
     (
         "Laser",
         &["vcsel_driver.count", "pre_start", "vcsel_driver.laser_pulse", "laser_on", "start"],
     ),
     ("SPAD", &["spad_rst", "tdc_stop"]),
-    (
-        "TDC",
-        &[
-            "tdc.carry_chain.taps",
-            "tdc.coarse_counter.coarse",
-            "tdc.tdc_latch.hit",
-            "tdc.tdc_decoder.n",
-            "tdc_valid",
-            "tdc_code",
-        ],
-    ),
+    ("TDC", &[VIEWED, "tdc_valid", "tdc_code"]),
     ("Histogram", &["hist_valid", "hist_bin", "hist_count"]),
-    (
-        "Estimator",
-        &[
-            "algo_start",
-            "depth_estimator.estimator_ctrl.forward1_en",
-            "depth_estimator.estimator_ctrl.tansig_en",
-            "depth_estimator.estimator_ctrl.forward2_en",
-            "centroid_estimator.sum",
-            "centroid_estimator.best",
-            "centroid_estimator.peak",
-            "centroid_estimator.quotient",
-        ],
-    ),
+    ("Estimator", &["algo_start", VIEWED]),
     ("Outputs", &["depth", "algo_done", "frame_done"]),
     (
         "Control pins",
         &["rst", "dsp_en", "dsp_rst", "locked", "clk_200", "clear", "clear_addr", "acquire"],
     ),
-    ("Hidden layer", &["depth_estimator.forward1.l1_in_*", "depth_estimator.tansig.l1_out_*"]),
+    ("Hidden layer", &[VIEWED]),
     ("Histogram, word by word", &["histogram_builder.ram_*"]),
 ];
+/// Stands for the signals whose view has the heading.
+const VIEWED: &str = "";
 /// Heading of what is left.
 const OTHER: &str = "Other signals";
-/// Signals whose shape over time says something.
-const CURVES: [&str; 4] =
-    ["hist_count", "depth", "depth_estimator.forward1.l1_in_*", "centroid_estimator.sum"];
+/// Signals of the top whose shape over time says something.
+const CURVES: [&str; 2] = ["hist_count", "depth"];
 /// Signals under a heading beyond which it is shown closed, where space is short.
 const FEW: usize = 7;
 /// Signals that a screen has room for.
@@ -85,10 +65,14 @@ pub(super) fn groups(entries: &[Entry]) -> Vec<Group<'_>> {
         let mut rows = Vec::new();
         for pattern in patterns {
             for entry in entries {
-                let name = below_top(entry);
-                if matches(&name, pattern) && shown.insert(entry.id) {
-                    let curve = CURVES.iter().any(|pattern| matches(&name, pattern));
-                    rows.push(Row { entry, name, curve });
+                let (below, view) = (below_top(entry), entry.signal.view);
+                let is_meant = match *pattern {
+                    VIEWED => view.heading == name,
+                    _ => matches(&below, pattern),
+                };
+                if is_meant && shown.insert(entry.id) {
+                    let curve = view.curve || CURVES.contains(&&*below);
+                    rows.push(Row { entry, name: below, curve });
                 }
             }
         }
@@ -136,8 +120,20 @@ mod tests {
     #[test]
     fn every_name_in_the_flow_is_a_signal() {
         let all = [every_entry(), ram_entries()].concat();
-        for pattern in FLOW.iter().flat_map(|(_, patterns)| *patterns).chain(&CURVES) {
+        let is_name = |pattern: &&&str| **pattern != VIEWED;
+        let patterns = FLOW.iter().flat_map(|(_, patterns)| *patterns).chain(&CURVES);
+        for pattern in patterns.filter(is_name) {
             assert!(all.iter().any(|entry| matches(&below_top(entry), pattern)), "{pattern}");
+        }
+    }
+
+    #[test]
+    fn every_heading_that_a_signal_asks_for_has_a_place_for_it() {
+        for Entry { signal, .. } in every_entry() {
+            let heading = signal.view.heading;
+            let has_place =
+                |(name, patterns): &(&str, &[&str])| *name == heading && patterns.contains(&VIEWED);
+            assert!(heading.is_empty() || FLOW.iter().any(has_place), "{}", signal.name);
         }
     }
 

@@ -28,7 +28,7 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 use crate::firmware::TofTop;
-use crate::hierarchy::{Entry, Instants};
+use crate::hierarchy::{Entry, Part};
 use crate::kernel::Time;
 use crate::kernel::signals::Sink;
 
@@ -64,7 +64,7 @@ pub struct Waves {
     writer: Writer,
     state: State,
     /// What the file shows, since the first window.
-    shown: Box<Instants>,
+    shown: Box<Part>,
     /// Time of the last call [ps].
     last: u64,
     /// The first error of writing.
@@ -126,7 +126,7 @@ impl Waves {
             Format::Vcd => Writer::Vcd(Box::new(Vcd::create(path, entries, order, provenance)?)),
             Format::Fst => Writer::Fst(Box::new(Fst::create(path, entries, order, provenance)?)),
         };
-        let shown = Box::new(Instants::of(entries.iter().map(|entry| entry.id)));
+        let shown = Box::new(Part::of(entries.iter().map(|entry| entry.id)));
         Ok(Waves { writer, state: State::Blank, shown, last: 0, failed: None })
     }
 

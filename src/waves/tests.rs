@@ -9,11 +9,9 @@ use super::bench::{Bench, SHOTS, params, with_delays};
 use super::readback::{DerefIn, FORMATS, FRAME, assert_same, at, contents, create, record};
 use super::*;
 use crate::firmware::carry_chain::TAPS;
-use crate::firmware::depth_estimator;
-use crate::firmware::forward2::MOST_NEURONS;
-use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Pins};
+use crate::firmware::tof_top::Pins;
 use crate::hierarchy::{entries, ram_entries};
-use crate::kernel::{Thermometer, U};
+use crate::kernel::Thermometer;
 
 #[test]
 fn vcd_and_fst_hold_every_entry_and_the_same_changes() {
@@ -128,32 +126,4 @@ fn a_file_of_many_blocks_is_read_back_whole() {
     assert!(sections > 1, "{sections}");
     let [vcd, fst] = [0, 1].map(|k| contents(&mut read(&paths[k]).unwrap()));
     assert_same(&vcd, &fst);
-}
-
-#[test]
-fn every_input_port_has_an_entry() {
-    use crate::firmware::{tdc, tof_top, vcsel_driver};
-    let mut params = params();
-    let rom = Box::new([U::new(0); 256]);
-    let mut paths: BTreeSet<_> = entries(&params).iter().map(Entry::path).collect();
-    params.depth_estimator.forward2.neurons = MOST_NEURONS;
-    params.code_source = CodeSource::Preload(Box::new([U::new(0)]));
-    params.histogram_source = HistogramSource::Preload(rom);
-    paths.extend(entries(&params).iter().map(Entry::path));
-    params.estimator = Estimator::Centroid;
-    paths.extend(entries(&params).iter().map(Entry::path));
-    let modules = [
-        ("tof_top", tof_top::Wires::inputs()),
-        ("tof_top.tdc", tdc::Wires::inputs()),
-        ("tof_top.vcsel_driver", vcsel_driver::Wires::inputs()),
-        ("tof_top.depth_estimator", depth_estimator::Wires::inputs()),
-    ];
-    for (parent, modules) in modules {
-        for (module, ports) in modules {
-            for port in ports {
-                let path = format!("{parent}.{module}.{}", port.name);
-                assert!(paths.contains(&path), "{path}");
-            }
-        }
-    }
 }

@@ -1,5 +1,6 @@
 //! The command, as its users see it.
 
+mod adding_a_block;
 mod bad_input;
 mod centroid;
 mod cli;

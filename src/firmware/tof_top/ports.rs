@@ -89,6 +89,16 @@ pub enum Estimator {
     Centroid,
 }
 
+impl Estimator {
+    /// Its module.
+    pub fn module(self) -> &'static str {
+        match self {
+            Estimator::Network => "depth_estimator",
+            Estimator::Centroid => "centroid_estimator",
+        }
+    }
+}
+
 /// Outputs of the estimator in use; waveforms show that estimator's own.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Socket {
@@ -122,6 +132,24 @@ pub struct Params {
 }
 
 impl Params {
+    /// Modules of the top that are left out: stand-ins, or what they stand in for.
+    pub fn left_out(&self) -> [&'static str; 3] {
+        [
+            match self.code_source {
+                CodeSource::Tdc => "code_preload",
+                CodeSource::Preload(_) => "tdc",
+            },
+            match self.histogram_source {
+                HistogramSource::Builder => "histogram_preload",
+                HistogramSource::Preload(_) => "histogram_builder",
+            },
+            match self.estimator {
+                Estimator::Network => Estimator::Centroid.module(),
+                Estimator::Centroid => Estimator::Network.module(),
+            },
+        ]
+    }
+
     /// From the edge that takes `algo_start` to the one that raises `algo_done`, for the estimator in
     /// use [cycles of clk_125].
     pub fn estimator_cycles(&self) -> u64 {

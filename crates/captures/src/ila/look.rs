@@ -60,15 +60,8 @@ struct Present {
 }
 
 impl Look {
-    /// At probes that stand side by side in a row of `stride` words, and at operands. Who sees
-    /// the signals before every edge may set `edges_only`, as [`Part::of`] has it.
-    pub(super) fn new(
-        probes: &[Bits],
-        operands: &[Bits],
-        stride: usize,
-        order: &[u16],
-        edges_only: bool,
-    ) -> Self {
+    /// At probes that stand side by side in a row of `stride` words, and at operands.
+    pub(super) fn new(probes: &[Bits], operands: &[Bits], stride: usize, order: &[u16]) -> Self {
         let mut inserts: Vec<(usize, Insert)> = Vec::new();
         let mut begin = 0;
         for &Bits { id, low, width, .. } in probes {
@@ -92,18 +85,13 @@ impl Look {
             stride,
             operands_changed: true,
         };
-        Look { part: Part::of(inserts.iter().map(|insert| insert.0), edges_only), present }
+        Look { part: Part::of(inserts.iter().map(|insert| insert.0)), present }
     }
 
     /// Brings the values up to date.
     #[inline]
     pub(super) fn follow(&mut self, top: &TofTop) {
         self.part.follow(top, &mut self.present);
-    }
-
-    /// See [`Part::control_changes`].
-    pub(super) fn control_changes(&mut self) {
-        self.part.control_changes();
     }
 
     /// The probes' values.
@@ -228,7 +216,7 @@ mod tests {
         bits.extend(slices.collect::<Vec<_>>());
         let operands: Vec<Bits> = bits.iter().copied().filter(|bits| bits.width <= 128).collect();
         let stride = bits.iter().map(|bits| bits.width as usize).sum::<usize>().div_ceil(64);
-        let mut look = Look::new(&bits, &operands, stride, order, true);
+        let mut look = Look::new(&bits, &operands, stride, order);
         let mut device = setup.device();
         device.power_up(&mut Off, &mut Off);
         for cycle in 0..600 {

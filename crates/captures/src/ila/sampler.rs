@@ -75,7 +75,7 @@ impl Analyser {
         // At power-up itself there is nothing before the edge.
         let armed = first_edge(&clock, plan.arm_at.max(Time::from_fs(1)));
         let mut analyser = Analyser {
-            look: Look::new(&plan.bits, &plan.operands, capture.stride, order, !plan.every_change),
+            look: Look::new(&plan.bits, &plan.operands, capture.stride, order),
             core: Core::new(plan.shape, capture.stride),
             probes: capture.probes,
             trigger: Asked::new(plan.trigger.clone()),
@@ -200,10 +200,6 @@ impl SignalProbe for AtEdges<'_> {
     #[inline(always)]
     fn before_edge(&mut self, edge: Edge, _: Time, top: &TofTop) {
         self.0.edge(edge, top);
-    }
-
-    fn control_changes(&mut self) {
-        self.0.look.control_changes();
     }
 }
 

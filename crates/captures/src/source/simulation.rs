@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use tofsim::error::Result;
 use tofsim::firmware::tof_top::{Params, TofTop};
-use tofsim::hierarchy::{self, IDS};
+use tofsim::hierarchy::{self, IDS, Part};
 use tofsim::kernel::signals::{Format as Shape, Sink};
 use tofsim::kernel::{Thermometer, Time};
 use tofsim::sim::device::SignalProbe;
@@ -60,7 +60,8 @@ pub(super) fn read(origin: &Arc<Origin>, ids: &[usize], widths: &[u32]) -> Resul
     }
     Ok(Cursor::spawn(widths, move |feed| {
         let taps = TapDigits::new(origin.setup.params.tdc.delays.order());
-        let mut probe = Probe { feed: &mut *feed, places, taps, before: None, gone: false };
+        let values = Values { feed: &mut *feed, places, taps };
+        let mut probe = Probe { values, part: Part::of(0..IDS), gone: false };
         let end = Run::new(&origin.setup).traced(origin.frames, &mut probe, None)?.end;
         // That nobody listens any more is no fault.
         let _ = feed.at(end.fs());
@@ -70,15 +71,20 @@ pub(super) fn read(origin: &Arc<Origin>, ids: &[usize], widths: &[u32]) -> Resul
 
 /// Feeds what changes.
 struct Probe<'a> {
+    values: Values<'a>,
+    part: Part,
+    gone: bool,
+}
+
+/// Where the values go.
+struct Values<'a> {
     feed: &'a mut Feed,
     /// Signals of the cursor by id.
     places: Vec<Vec<usize>>,
     taps: TapDigits,
-    before: Option<Box<TofTop>>,
-    gone: bool,
 }
 
-impl Sink for Probe<'_> {
+impl Sink for Values<'_> {
     fn word(&mut self, id: usize, value: u64) {
         for &signal in &self.places[id] {
             self.feed.change(signal, &[value], &[0]);
@@ -101,19 +107,11 @@ impl SignalProbe for Probe<'_> {
     const ON: bool = true;
 
     fn sample(&mut self, now: Time, top: &TofTop) {
-        if self.gone || self.feed.at(now.fs()).is_err() {
+        if self.gone || self.values.feed.at(now.fs()).is_err() {
             self.gone = true;
             return;
         }
-        let before = self.before.take();
-        hierarchy::changes(top, before.as_deref(), self);
-        self.before = Some(match before {
-            Some(mut before) => {
-                hierarchy::copy(top, &mut before);
-                before
-            }
-            None => Box::new(top.clone()),
-        });
+        self.part.follow(top, &mut self.values);
     }
 }
 

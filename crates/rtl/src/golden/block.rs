@@ -94,6 +94,9 @@ pub struct Spec {
     pub name: &'static str,
     /// One place of it in the hierarchy, below the top.
     pub scope: &'static str,
+    /// Number of the random stream that its stimulus has always had; a block without one has a stream
+    /// that belongs to its name.
+    pub stream: Option<u64>,
     /// When its clocks move and when it is looked at.
     pub timing: Timing,
     /// Its synchronous reset, active high.
@@ -109,6 +112,14 @@ pub struct Spec {
 }
 
 impl Spec {
+    /// Number of the random stream of its stimulus: whatever other blocks there are, it stays.
+    pub fn stream(&self) -> u64 {
+        // FNV-1a of the name, above all numbers that are given by hand.
+        let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        let of_name = || self.name.bytes().fold(0xcbf2_9ce4_8422_2325, step) | 1 << 63;
+        self.stream.unwrap_or_else(of_name)
+    }
+
     /// Dotted path of the block in the hierarchy.
     pub fn path(&self) -> String {
         match self.scope {

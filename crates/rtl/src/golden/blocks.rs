@@ -2,67 +2,46 @@
 
 use super::block::Spec;
 
-mod carry_chain;
-pub(super) mod centroid_estimator;
-mod coarse_counter;
-mod code_preload;
-mod control_sync;
-mod ddr_output;
-mod depth_estimator;
-mod estimator_ctrl;
-mod forward1;
-mod forward2;
-mod frame_ctrl;
-mod histogram_builder;
-mod histogram_preload;
-mod lvds_output;
-mod pll;
-mod reset_sync;
-mod spad_control;
-mod tansig;
-mod tdc;
-mod tdc_decoder;
-mod tdc_latch;
-mod tof_top;
-mod vcsel_driver;
+/// Blocks, each a module of the same name here and in `rtl_ref`.
+macro_rules! blocks {
+    ($($name:ident)*) => {
+        $(pub(super) mod $name;)*
 
-/// Every block, in the order of their names.
-pub static BLOCKS: &[Spec] = &[
-    carry_chain::SPEC,
-    centroid_estimator::SPEC,
-    coarse_counter::SPEC,
-    code_preload::SPEC,
-    control_sync::SPEC,
-    ddr_output::SPEC,
-    depth_estimator::SPEC,
-    estimator_ctrl::SPEC,
-    forward1::SPEC,
-    forward2::SPEC,
-    frame_ctrl::SPEC,
-    histogram_builder::SPEC,
-    histogram_preload::SPEC,
-    lvds_output::SPEC,
-    pll::SPEC,
-    reset_sync::SPEC,
-    spad_control::SPEC,
-    tansig::SPEC,
-    tdc::SPEC,
-    tdc_decoder::SPEC,
-    tdc_latch::SPEC,
-    tof_top::SPEC,
-    vcsel_driver::SPEC,
-];
+        /// Every block, in the order of their names.
+        pub static BLOCKS: &[Spec] = &[$($name::SPEC),*];
 
-/// Blocks whose draws come after all others', whatever their names: each that is added goes to the end,
-/// so that the stimuli of those before it stay as they are.
-const LATER: &[&str] = &["centroid_estimator"];
+        /// Our own Verilog: file name and text of each block's module.
+        pub const VERILOG: &[(&str, &str)] = &[$((
+            concat!(stringify!($name), ".v"),
+            include_str!(concat!("../../../../rtl_ref/", stringify!($name), ".v")),
+        )),*];
+    };
+}
 
-/// The place of a block's draws.
-pub(super) fn place(name: &str) -> u64 {
-    let is_later = |spec: &&Spec| LATER.contains(&spec.name);
-    let first = BLOCKS.iter().filter(|spec| !is_later(spec)).map(|spec| spec.name);
-    let mut names = first.chain(LATER.iter().copied());
-    names.position(|other| other == name).unwrap_or_default() as u64
+blocks! {
+    carry_chain
+    centroid_estimator
+    coarse_counter
+    code_preload
+    control_sync
+    ddr_output
+    depth_estimator
+    estimator_ctrl
+    forward1
+    forward2
+    frame_ctrl
+    histogram_builder
+    histogram_preload
+    lvds_output
+    pll
+    reset_sync
+    spad_control
+    tansig
+    tdc
+    tdc_decoder
+    tdc_latch
+    tof_top
+    vcsel_driver
 }
 
 /// The block called `name`.
@@ -73,6 +52,7 @@ pub fn find(name: &str) -> Option<&'static Spec> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::golden::draw::MEMORIES;
     use crate::golden::timing::Step;
     use crate::golden::{Setting, Vectors};
     use tofsim::scenario;
@@ -104,14 +84,12 @@ mod tests {
     }
 
     #[test]
-    fn each_block_has_draws_of_its_own_and_a_later_one_moves_no_others() {
-        let mut places: Vec<_> = BLOCKS.iter().map(|spec| place(spec.name)).collect();
-        assert_eq!(
-            (place("carry_chain"), place("coarse_counter"), place("vcsel_driver")),
-            (0, 1, 21)
-        );
-        places.sort_unstable();
-        assert!(places.into_iter().eq(0..BLOCKS.len() as u64));
+    fn each_block_has_a_stream_of_its_own_by_number_or_by_name() {
+        let named = |name| Spec { name, stream: None, ..tdc::SPEC }.stream();
+        let mut streams: Vec<_> = BLOCKS.iter().map(Spec::stream).collect();
+        streams.extend([MEMORIES, u64::MAX, named("tdc"), named("tdc_2")]);
+        streams.sort_unstable();
+        assert!(streams.is_sorted_by(|a, b| a < b));
     }
 
     #[test]

@@ -6,7 +6,7 @@ use rand_chacha::rand_core::Rng;
 use tofsim::kernel::{S, U};
 use tofsim::sensor::streams::{Source, stream};
 
-/// The place, after all blocks, of the draws that fill a block's memories.
+/// Number of the stream that fills a block's memories.
 pub const MEMORIES: u64 = 1 << 32;
 
 /// Draws for the stimulus of one block.
@@ -14,9 +14,9 @@ pub const MEMORIES: u64 = 1 << 32;
 pub struct Draw(ChaCha8Rng);
 
 impl Draw {
-    /// The draws that belong to a seed; each block has its own, by its place in the list.
-    pub fn new(seed: u64, block: u64) -> Self {
-        Draw(stream(seed, Source::Stimulus, block))
+    /// The stream of that number, which belongs to a block ([`Spec::stream`](super::Spec::stream)).
+    pub fn new(seed: u64, number: u64) -> Self {
+        Draw(stream(seed, Source::Stimulus, number))
     }
 
     /// 64 random bits.

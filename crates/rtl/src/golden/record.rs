@@ -6,7 +6,6 @@ use tofsim::hierarchy::{self, Entry, IDS, Kind, fitted};
 use tofsim::kernel::signals::{Signal, Signals};
 
 use super::block::{Block, Setting, Spec};
-use super::blocks::place;
 use super::draw::Draw;
 use super::table::{Column, Fill, Table};
 use super::vectors::Vectors;
@@ -19,15 +18,16 @@ pub(super) struct Watched {
 }
 
 impl Watched {
-    /// The outputs, registers and inner ports of a block, as far as `wanted` of their names.
-    pub(super) fn new(spec: &Spec, entries: &[Entry], wanted: impl Fn(&str) -> bool) -> Self {
+    /// The outputs, registers and inner ports of a block, those that are not its outputs as far as
+    /// `wanted`.
+    pub(super) fn new(spec: &Spec, entries: &[Entry], wanted: impl Fn(&Entry) -> bool) -> Self {
         let samples = spec.timing.samples();
         let mut watched =
             Watched { columns: Vec::new(), places: vec![vec![Vec::new(); IDS]; samples] };
         for entry in entries.iter().filter(|entry| is_watched(spec, entry)) {
             let name = name_in(spec, entry);
             let internal = entry.kind != Kind::Output || name.contains('.');
-            if internal && !wanted(&name) {
+            if internal && !wanted(entry) {
                 continue;
             }
             let first = if spec.fast.contains(&name.as_str()) { 0 } else { samples - 1 };
@@ -85,7 +85,7 @@ pub(super) fn record<B: Block>(
     let mut stimulus = Table::new(inputs(&signals));
     let order = setting.setup.params.tdc.delays.order();
 
-    let mut draw = Draw::new(setting.seed, place(spec.name));
+    let mut draw = Draw::new(setting.seed, spec.stream());
     let mut top = TofTop::new(Pins::default());
     for cycle in 0..setting.cycles() {
         let i = block.stimulus(cycle, &top, &mut draw);

@@ -2,7 +2,7 @@
 
 use tofsim::error::{Input, Result};
 use tofsim::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Pins, TofTop};
-use tofsim::hierarchy;
+use tofsim::hierarchy::{self, Entry, IDS, Part};
 use tofsim::kernel::signals::Signals;
 use tofsim::kernel::{Time, U};
 use tofsim::signals;
@@ -37,27 +37,6 @@ signals! {
     }
 }
 
-/// Inner signals that a logic analyser on the board would see, compared in runs too long for all.
-const ANALYSER: &[&str] = &[
-    "vcsel_driver.laser_pulse",
-    "frame_ctrl.state",
-    "frame_ctrl.shots",
-    "tdc.coarse_counter.coarse",
-    "tdc.tdc_latch.hit",
-    "tdc.tdc_decoder.n",
-    "depth_estimator.estimator_ctrl.forward1_en",
-    "depth_estimator.estimator_ctrl.tansig_en",
-    "depth_estimator.estimator_ctrl.forward2_en",
-    "centroid_estimator.sum",
-    "centroid_estimator.ages",
-    "centroid_estimator.best",
-    "centroid_estimator.peak",
-    "centroid_estimator.quotient",
-];
-
-/// The same of each neuron.
-const ANALYSER_SUMS: &str = "depth_estimator.forward1.l1_in_";
-
 /// Sees the firmware just before the edge that takes a line.
 pub(super) type Watch<'a> = &'a mut dyn FnMut(&TofTop);
 
@@ -71,8 +50,9 @@ pub(super) fn record(
     check(setup)?;
     let params = &setup.params;
     let entries = hierarchy::entries(params);
-    let analysed = |name: &str| ANALYSER.contains(&name) || name.starts_with(ANALYSER_SUMS);
-    let wanted = |name: &str| !setting.as_told || !name.contains('.') || analysed(name);
+    // Runs that may be long compare what a logic analyser on the board would see.
+    let is_own = |entry: &Entry| entry.scope == hierarchy::TOP;
+    let wanted = |entry: &Entry| !setting.as_told || is_own(entry) || entry.signal.view.probe;
     let mut device = setup.device();
     let (begin, first_edge) = (setup.pll().locked_at, device.next_edge());
     let look = Look::new(spec, begin, params, Watched::new(spec, &entries, wanted), watch);
@@ -183,8 +163,8 @@ struct Look<'a> {
     order: &'a [u16],
     /// The firmware since the last instant at which something changed.
     current: TofTop,
-    /// The firmware at the last sample of each kind.
-    sampled: Vec<Option<TofTop>>,
+    /// What the samples of each kind have shown.
+    sampled: Vec<Part>,
     /// Next sample: its instant, and which of the cycle it is.
     next: Time,
     sample: usize,
@@ -211,7 +191,7 @@ impl<'a> Look<'a> {
             places: watched.places,
             order: params.tdc.delays.order(),
             current: TofTop::new(Pins::default()),
-            sampled: vec![None; samples],
+            sampled: vec![Part::of(0..IDS); samples],
             next: begin + spacing,
             sample: 0,
             spacing,
@@ -225,12 +205,7 @@ impl<'a> Look<'a> {
     fn take(&mut self, pins: &Pins) {
         let places = &self.places[self.sample];
         let mut fill = Fill { table: &mut self.expected, places, order: self.order };
-        let before = &mut self.sampled[self.sample];
-        hierarchy::changes(&self.current, before.as_ref(), &mut fill);
-        match before {
-            Some(before) => hierarchy::copy(&self.current, before),
-            None => *before = Some(self.current.clone()),
-        }
+        self.sampled[self.sample].follow(&self.current, &mut fill);
         self.sample += 1;
         self.next += self.spacing;
         if 2 * self.sample == self.places.len() {

@@ -17,6 +17,7 @@ use tofsim::signals;
 pub(super) const SPEC: Spec = Spec {
     name: "carry_chain",
     scope: "tdc.carry_chain",
+    stream: Some(0),
     timing: CLK_125,
     reset: None,
     fast: &[],

@@ -25,6 +25,7 @@ const CUT: u64 = 6;
 pub(super) const SPEC: Spec = Spec {
     name: "centroid_estimator",
     scope: "centroid_estimator",
+    stream: Some(22),
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],

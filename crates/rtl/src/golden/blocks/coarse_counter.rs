@@ -12,6 +12,7 @@ use tofsim::kernel::Clocked;
 pub(super) const SPEC: Spec = Spec {
     name: "coarse_counter",
     scope: "tdc.coarse_counter",
+    stream: Some(1),
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],

@@ -20,6 +20,7 @@ const LONG: u64 = 2 * CODES + 10;
 pub(super) const SPEC: Spec = Spec {
     name: "code_preload",
     scope: "code_preload",
+    stream: Some(2),
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],

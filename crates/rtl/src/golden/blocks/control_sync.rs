@@ -12,6 +12,7 @@ use tofsim::kernel::Clocked;
 pub(super) const SPEC: Spec = Spec {
     name: "control_sync",
     scope: "control_sync",
+    stream: Some(3),
     timing: CLK_125,
     reset: None,
     fast: &[],

@@ -11,6 +11,7 @@ use tofsim::firmware::tof_top::TofTop;
 pub(super) const SPEC: Spec = Spec {
     name: "ddr_output",
     scope: "vcsel_driver.ddr_output",
+    stream: Some(4),
     timing: CLK_250,
     reset: None,
     fast: &["q"],

@@ -25,6 +25,7 @@ const CUT: u64 = 6;
 pub(super) const SPEC: Spec = Spec {
     name: "depth_estimator",
     scope: "depth_estimator",
+    stream: Some(5),
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],

@@ -16,6 +16,7 @@ const LAYERS: u64 = 254;
 pub(super) const SPEC: Spec = Spec {
     name: "estimator_ctrl",
     scope: "depth_estimator.estimator_ctrl",
+    stream: Some(6),
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],

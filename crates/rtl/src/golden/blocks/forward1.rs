@@ -23,6 +23,7 @@ const PATIENCE: i64 = 1000;
 pub(super) const SPEC: Spec = Spec {
     name: "forward1",
     scope: "depth_estimator.forward1",
+    stream: Some(7),
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],

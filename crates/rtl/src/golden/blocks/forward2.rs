@@ -19,6 +19,7 @@ const WRAP: i64 = 1 << 34;
 pub(super) const SPEC: Spec = Spec {
     name: "forward2",
     scope: "depth_estimator.forward2",
+    stream: Some(8),
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],

@@ -19,6 +19,7 @@ const DRAIN: u64 = 16;
 pub(super) const SPEC: Spec = Spec {
     name: "frame_ctrl",
     scope: "frame_ctrl",
+    stream: Some(9),
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],

@@ -20,6 +20,7 @@ const MANY: u64 = 2600;
 pub(super) const SPEC: Spec = Spec {
     name: "histogram_builder",
     scope: "histogram_builder",
+    stream: Some(10),
     timing: CLK_125,
     reset: None,
     fast: &[],

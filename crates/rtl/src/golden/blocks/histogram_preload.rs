@@ -15,6 +15,7 @@ use tofsim::network::mem::Mem;
 pub(super) const SPEC: Spec = Spec {
     name: "histogram_preload",
     scope: "histogram_preload",
+    stream: Some(11),
     timing: NONE,
     reset: None,
     fast: &[],

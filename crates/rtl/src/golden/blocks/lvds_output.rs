@@ -11,6 +11,7 @@ use tofsim::firmware::tof_top::TofTop;
 pub(super) const SPEC: Spec = Spec {
     name: "lvds_output",
     scope: "lvds_output",
+    stream: Some(12),
     timing: NONE,
     reset: None,
     fast: &[],

@@ -14,6 +14,7 @@ use tofsim::signals;
 pub(super) const SPEC: Spec = Spec {
     name: "pll",
     scope: "pll",
+    stream: Some(13),
     timing: OWN,
     reset: None,
     fast: &["clk_125", "clk_250", "locked"],

@@ -12,6 +12,7 @@ use tofsim::kernel::Clocked;
 pub(super) const SPEC: Spec = Spec {
     name: "reset_sync",
     scope: "reset_sync_125",
+    stream: Some(14),
     timing: CLK,
     reset: None,
     fast: &[],

@@ -13,6 +13,7 @@ use tofsim::kernel::Clocked;
 pub(super) const SPEC: Spec = Spec {
     name: "spad_control",
     scope: "spad_control",
+    stream: Some(15),
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],

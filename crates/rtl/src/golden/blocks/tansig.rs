@@ -26,6 +26,7 @@ const BEYOND: [i64; 4] =
 pub(super) const SPEC: Spec = Spec {
     name: "tansig",
     scope: "depth_estimator.tansig",
+    stream: Some(16),
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],

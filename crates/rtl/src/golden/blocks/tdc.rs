@@ -24,6 +24,7 @@ use light::Light;
 pub(super) const SPEC: Spec = Spec {
     name: "tdc",
     scope: "tdc",
+    stream: Some(17),
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],

@@ -20,6 +20,7 @@ const COARSE: u64 = 3;
 pub(super) const SPEC: Spec = Spec {
     name: "tdc_decoder",
     scope: "tdc.tdc_decoder",
+    stream: Some(18),
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],

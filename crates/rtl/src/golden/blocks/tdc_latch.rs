@@ -14,6 +14,7 @@ use tofsim::kernel::Clocked;
 pub(super) const SPEC: Spec = Spec {
     name: "tdc_latch",
     scope: "tdc.tdc_latch",
+    stream: Some(19),
     timing: CLK_125,
     reset: Some("rst"),
     fast: &[],

@@ -14,6 +14,7 @@ use tofsim::sim::setup::Setup;
 pub(super) const SPEC: Spec = Spec {
     name: "tof_top",
     scope: "",
+    stream: Some(20),
     timing: OWN_WITH_RESET,
     reset: None,
     fast: &[

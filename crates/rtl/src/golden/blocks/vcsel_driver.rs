@@ -12,6 +12,7 @@ use tofsim::kernel::U;
 pub(super) const SPEC: Spec = Spec {
     name: "vcsel_driver",
     scope: "vcsel_driver",
+    stream: Some(21),
     timing: BOTH,
     reset: Some("rst"),
     fast: &["laser_on", "laser_pulse", "ddr_output.q"],

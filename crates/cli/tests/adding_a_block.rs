@@ -1,0 +1,146 @@
+//! `docs/adding-a-block.md` is enough to add a block: its pieces are applied to a copy of the repository,
+//! and what comes of it is built and run.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+
+/// A piece of the example, and the file it goes into.
+struct Piece<'a> {
+    file: &'a str,
+    place: Place<'a>,
+    text: String,
+}
+
+/// Where in a file: all of a new one, or beside the one line that reads so.
+enum Place<'a> {
+    New,
+    Before(&'a str),
+    After(&'a str),
+}
+
+/// The pieces: each block of code with what the line before it says.
+fn pieces(page: &str) -> Vec<Piece<'_>> {
+    let mut pieces = Vec::new();
+    let (mut lines, mut said) = (page.lines(), "");
+    while let Some(line) = lines.next() {
+        if line.starts_with("```") {
+            let text = lines.by_ref().take_while(|line| *line != "```");
+            let text = text.map(|line| format!("{line}\n")).collect();
+            let words: Vec<_> = said.split('`').collect();
+            let (file, place) = match words[..] {
+                ["", file, ", a new file:"] => (file, Place::New),
+                ["In ", file, ", before ", line, ":"] => (file, Place::Before(line)),
+                ["In ", file, ", after ", line, ":"] => (file, Place::After(line)),
+                _ => panic!("where does the code after this line go? {said}"),
+            };
+            pieces.push(Piece { file, place, text });
+        } else if !line.is_empty() {
+            said = line;
+        }
+    }
+    pieces
+}
+
+impl Piece<'_> {
+    fn apply(&self, root: &Path) {
+        let path = root.join(self.file);
+        let (line, is_after) = match self.place {
+            Place::New => {
+                assert!(!path.exists(), "{} is there already", self.file);
+                return fs::write(path, &self.text).unwrap();
+            }
+            Place::Before(line) => (line, false),
+            Place::After(line) => (line, true),
+        };
+        let old = fs::read_to_string(&path).unwrap();
+        let found = old.lines().filter(|other| other.trim() == line).count();
+        assert_eq!(found, 1, "lines in {} that read {line}", self.file);
+        let insert = |other: &str| match (other.trim() == line, is_after) {
+            (false, _) => format!("{other}\n"),
+            (true, true) => format!("{other}\n{}", self.text),
+            (true, false) => format!("{}{other}\n", self.text),
+        };
+        fs::write(path, old.lines().map(insert).collect::<String>()).unwrap();
+    }
+}
+
+/// A copy of the files that git knows.
+fn copy(to: &Path) {
+    let listed = Command::new("git").args(["ls-files", "-z"]).current_dir(ROOT).output().unwrap();
+    assert!(listed.status.success());
+    for name in String::from_utf8(listed.stdout).unwrap().split_terminator('\0') {
+        let path = to.join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::copy(Path::new(ROOT).join(name), path).unwrap();
+    }
+}
+
+/// What a program writes, which has to succeed.
+fn run(command: &mut Command) -> String {
+    let output = command.output().unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{command:?}\n{text}{errors}");
+    text
+}
+
+#[test]
+#[ignore = "long: ./check --full runs it"]
+fn the_block_of_the_page_passes_lockstep_and_is_in_waveform_vectors_and_port_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = folder.path();
+    copy(root);
+    let page = fs::read_to_string(root.join("docs/adding-a-block.md")).unwrap();
+    let pieces = pieces(&page);
+    assert!(pieces.len() > 8);
+    pieces.iter().for_each(|piece| piece.apply(root));
+
+    // The program is built with the test that writes the port tables; libraries only the first time.
+    let target = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("adding_a_block");
+    let cargo = |args: &[&str]| {
+        let mut cargo = Command::new(env!("CARGO"));
+        cargo.args(args).current_dir(root).env("CARGO_TARGET_DIR", &target);
+        run(cargo.env("UPDATE_DOCS", "1"));
+    };
+    cargo(&["fmt", "--check"]);
+    cargo(&["test", "--offline", "-p", "tofsim", "--test", "simulator", "docs::"]);
+    cargo(&["build", "--offline", "-p", "tofsim-cli"]);
+    let model = fs::read_to_string(root.join("docs/model.md")).unwrap();
+    assert!(model.contains("`miss_counter`: counts the shots of a frame that end without a code."));
+    assert!(model.contains("| `misses` | 16 | out | Shots without a code in this frame. |"));
+
+    let lint = "verilator --lint-only -Wall --top-module tof_top rtl_ref/*.v";
+    run(Command::new("sh").args(["-c", lint]).current_dir(root));
+    let tofsim =
+        |args: &[&str]| run(Command::new(target.join("debug/tofsim")).args(args).current_dir(root));
+    for simulator in ["icarus", "verilator"] {
+        tofsim(&["verify", "--block", "miss_counter", "--simulator", simulator]);
+    }
+    let far = ["-s", "target.distance_m=1.2", "--window", "shot:0..50"];
+    tofsim(&[&["run", "-o", "out", "--signals", "miss_counter.*"], &far[..]].concat());
+    let vcd = fs::read_to_string(root.join("out/kc705.vcd")).unwrap();
+    for line in ["$scope module miss_counter $end", " clk_125 $end", " misses [15:0] $end"] {
+        assert!(vcd.contains(line), "{line}");
+    }
+    tofsim(&["vectors", "miss_counter", "-o", "out"]);
+    let ports = fs::read_to_string(root.join("out/miss_counter/ports.json")).unwrap();
+    assert!(ports.contains(r#""meaning": "Shots without a code in this frame.""#));
+}
+
+#[test]
+fn every_piece_of_the_page_has_its_place() {
+    let page = fs::read_to_string(Path::new(ROOT).join("docs/adding-a-block.md")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    for piece in pieces(&page) {
+        let path = folder.path().join(piece.file);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        let original = Path::new(ROOT).join(piece.file);
+        if !path.exists() && original.exists() {
+            fs::copy(original, &path).unwrap();
+        }
+        piece.apply(folder.path());
+    }
+}

@@ -1,0 +1,208 @@
+//! Finds every name in every scope, on a way through the firmware.
+
+use crate::firmware::TofTop;
+use crate::firmware::tof_top::{Estimator, Pins};
+use crate::kernel::module::{Alias, Instance, Module, Visitor};
+use crate::kernel::signals::{Signal, Signals, View};
+
+use super::{Entry, Kind, TOP};
+
+/// What the way has come by. Paths are dotted and begin below the top.
+#[derive(Default)]
+pub(super) struct Build {
+    /// The module that was entered last.
+    path: String,
+    /// Where its input ports come from.
+    sources: Vec<(&'static str, String)>,
+    /// Every module's path, in order.
+    scopes: Vec<String>,
+    /// Signals that hold a value, by id, each with its place in the scopes.
+    held: Vec<(usize, Entry)>,
+    /// Path of the field of each of them.
+    fields: Vec<String>,
+    aliases: Vec<Shown>,
+}
+
+/// A name for what is held elsewhere.
+struct Shown {
+    /// Place in the scopes.
+    scope: usize,
+    name: &'static str,
+    kind: Kind,
+    /// Path of the field that holds the value.
+    holder: String,
+    /// What a port means, if not what the value does.
+    doc: Option<&'static str>,
+}
+
+impl Build {
+    /// Every name, with that estimator in the socket, in the order of the modules.
+    pub(super) fn entries(estimator: Estimator) -> Vec<Entry> {
+        let mut build = Build { scopes: vec![String::new()], ..Build::default() };
+        TofTop::new(Pins::default()).visit(None, &mut build);
+        let aliases = build.aliases.iter().flat_map(|alias| build.shown(alias, estimator));
+        let mut entries: Vec<_> = build.held.iter().cloned().chain(aliases).collect();
+        entries.sort_by_key(|(scope, entry)| (*scope, entry.kind as u8));
+        entries.into_iter().map(|(_, entry)| entry).collect()
+    }
+
+    /// Place of a module's path in the scopes.
+    fn place(&self, path: &str) -> usize {
+        self.scopes.iter().position(|scope| scope == path).unwrap_or_default()
+    }
+
+    fn alias(&mut self, name: &'static str, kind: Kind, holder: String, doc: Option<&'static str>) {
+        let scope = self.place(&self.path);
+        self.aliases.push(Shown { scope, name, kind, holder, doc });
+    }
+
+    /// The holder of what `source` says inside the module at `parent`.
+    fn holder(&self, parent: &str, source: &str) -> String {
+        match source.split_once('.') {
+            Some(("this", rest)) => join(parent, rest),
+            Some((_, port)) => {
+                let of_port = self.sources.iter().find(|(name, _)| *name == port);
+                of_port.map(|(_, holder)| holder.clone()).unwrap_or_default()
+            }
+            None => String::new(),
+        }
+    }
+
+    /// The field that shows at an output of the socket; of another signal its own.
+    fn in_socket(&self, estimator: Estimator, holder: &str) -> String {
+        let Some(port) = holder.strip_prefix("socket.") else { return holder.to_owned() };
+        let scope = self.place(estimator.module());
+        let is_port =
+            |alias: &&Shown| (alias.scope, alias.name, alias.kind) == (scope, port, Kind::Output);
+        if let Some(alias) = self.aliases.iter().find(is_port) {
+            return alias.holder.clone();
+        }
+        let own = self.held.iter().find(|(at, entry)| (*at, &*entry.signal.name) == (scope, port));
+        own.map(|(_, entry)| self.fields[entry.id].clone()).unwrap_or_default()
+    }
+
+    /// The entries of an alias: one, or of an array `name_0`, `name_1` ...
+    fn shown(&self, alias: &Shown, estimator: Estimator) -> Vec<(usize, Entry)> {
+        let holder = self.in_socket(estimator, &alias.holder);
+        let element = format!("{holder}_");
+        let name = |field: &String| match field.strip_prefix(&element) {
+            _ if *field == holder => Some(alias.name.to_owned()),
+            Some(k) if k.bytes().all(|b| b.is_ascii_digit()) => Some(format!("{}_{k}", alias.name)),
+            _ => None,
+        };
+        let entry = |(id, field): (usize, &String)| {
+            let (name, of) = (name(field)?, &self.held[id].1.signal);
+            let (doc, output) = (alias.doc.unwrap_or(of.doc), alias.kind == Kind::Output);
+            let signal = Signal { name, doc, output, view: View::NONE, ..of.clone() };
+            let scope = scope_path(&self.scopes[alias.scope]);
+            Some((alias.scope, Entry { scope, signal, kind: alias.kind, id }))
+        };
+        self.fields.iter().enumerate().filter_map(entry).collect()
+    }
+}
+
+impl Visitor for Build {
+    fn signals<S: Signals>(&mut self, field: &'static str, _: &S, _: Option<&mut S>) {
+        let place = self.place(&self.path);
+        for signal in S::list() {
+            let id = self.held.len();
+            self.fields.push(join(&join(&self.path, field), &signal.name));
+            let kind = match (field, signal.output) {
+                ("pins", _) => Kind::Input,
+                ("clocks", _) if signal.name == "clk_200" => Kind::Input,
+                ("clocks" | "nets", _) | (_, false) => Kind::Internal,
+                (_, true) => Kind::Output,
+            };
+            self.held.push((place, Entry { scope: scope_path(&self.path), signal, kind, id }));
+        }
+    }
+
+    fn aliases(&mut self, aliases: &'static [Alias]) {
+        for &Alias { name, output, source } in aliases {
+            let kind = if output { Kind::Output } else { Kind::Internal };
+            self.alias(name, kind, self.holder(&self.path, source), None);
+        }
+    }
+
+    fn module<M: Module>(&mut self, instance: &'static Instance, now: &M, _: Option<&mut M>) {
+        let parent = self.path.clone();
+        let holder = |source: &str| self.holder(&parent, source);
+        let sources: Vec<_> =
+            instance.sources.iter().map(|(port, source)| (*port, holder(source))).collect();
+        let outputs: Vec<_> =
+            instance.outputs.iter().map(|(port, source)| (*port, holder(source))).collect();
+        let outer = std::mem::replace(&mut self.sources, sources.clone());
+        self.path = join(&parent, instance.name);
+        self.scopes.push(self.path.clone());
+
+        // A clock that has another name outside goes before the other inputs.
+        let (renamed, own): (Vec<_>, Vec<_>) =
+            instance.clocks.iter().partition(|(port, clock)| port != clock);
+        let clock = |clock: &str| format!("clocks.{clock}");
+        for (port, source) in renamed {
+            self.alias(port, Kind::Input, clock(source), None);
+        }
+        let inputs = (instance.inputs)();
+        for (port, holder) in sources {
+            let is_port = |s: &&Signal| s.name == port || s.name == format!("{port}_0");
+            self.alias(port, Kind::Input, holder, inputs.iter().find(is_port).map(|s| s.doc));
+        }
+        for (port, source) in own {
+            self.alias(port, Kind::Input, clock(source), None);
+        }
+        now.visit(None, self);
+        for (port, holder) in outputs {
+            self.alias(port, Kind::Output, holder, None);
+        }
+        (self.path, self.sources) = (parent, outer);
+    }
+}
+
+/// Two dotted paths, either of which may be empty.
+fn join(parent: &str, rest: &str) -> String {
+    let parts = [parent, rest].into_iter().filter(|part| !part.is_empty());
+    parts.collect::<Vec<_>>().join(".")
+}
+
+fn scope_path(path: &str) -> String {
+    join(TOP, path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hierarchy::every_entry;
+
+    /// Counts the ports of every module, by their own declarations.
+    struct Ports(String, Vec<String>);
+
+    impl Visitor for Ports {
+        fn signals<S: Signals>(&mut self, _: &'static str, _: &S, _: Option<&mut S>) {}
+
+        fn aliases(&mut self, aliases: &'static [Alias]) {
+            self.1.extend(aliases.iter().map(|alias| join(&self.0, alias.name)));
+        }
+
+        fn module<M: Module>(&mut self, instance: &'static Instance, now: &M, _: Option<&mut M>) {
+            let mut inside = Ports(join(&self.0, instance.name), Vec::new());
+            let inputs = (instance.inputs)().into_iter().map(|signal| signal.name);
+            let clocks = instance.clocks.iter().chain(instance.outputs);
+            let names = inputs.chain(clocks.map(|(port, _)| (*port).to_owned()));
+            inside.1.extend(names.map(|name| join(&inside.0, &name)));
+            now.visit(None, &mut inside);
+            self.1.append(&mut inside.1);
+        }
+    }
+
+    #[test]
+    fn every_port_and_wire_shows_a_value_and_no_name_comes_twice() {
+        let mut ports = Ports(TOP.to_owned(), Vec::new());
+        TofTop::new(Pins::default()).visit(None, &mut ports);
+        let mut paths: Vec<_> = every_entry().iter().map(Entry::path).collect();
+        paths.sort_unstable();
+        for path in &ports.1 {
+            assert!(paths.binary_search(path).is_ok(), "{path}");
+        }
+        assert!(ports.1.len() > 150 && paths.is_sorted_by(|a, b| a < b));
+    }
+}
