@@ -11,9 +11,7 @@ use crate::files::date;
 /// Room for the version, a zero at its end included [bytes].
 const VERSION: usize = 128;
 /// Room for the date [bytes].
-const DATE: usize = 26;
-/// Left empty behind the date [bytes].
-const RESERVED: usize = 93;
+const DATE: usize = 119;
 /// Exponent of the unit of time: picoseconds.
 const TIMESCALE: i8 = -12;
 /// File type of a Verilog simulator.
@@ -60,7 +58,6 @@ impl Header {
         contents.extend_from_slice(&TIMESCALE.to_be_bytes());
         text(&mut contents, &self.version, VERSION);
         text(&mut contents, &self.date, DATE);
-        text(&mut contents, "", RESERVED);
         contents.push(VERILOG);
         let time_zero = 0;
         long(&mut contents, time_zero);
