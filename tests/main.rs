@@ -6,6 +6,7 @@ mod depth;
 mod docs;
 mod gaits;
 mod histogram_file;
+mod layers;
 mod leap;
 mod physics;
 mod skip;
