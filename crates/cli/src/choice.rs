@@ -4,7 +4,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use tofsim_captures::compare::Unknowns;
 use tofsim_captures::ila::Radix;
-use tofsim_captures::ila::export::Format as CaptureFormat;
+use tofsim_captures::ila::export::CaptureFormat;
 use tofsim_learn::dataset::files::Format as DatasetFormat;
 use tofsim_learn::estimation::Kind;
 use tofsim_rtl::verify::Simulator;

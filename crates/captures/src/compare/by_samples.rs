@@ -5,10 +5,9 @@ use tofsim::error::Result;
 
 use super::align::Alignment;
 use super::delay::Delay;
+use super::differences::{Differences, Spot};
 use super::plan::Plan;
 use super::selection::{Piece, Place, Selected};
-use super::tallies::Tallies;
-use super::tally::Spot;
 
 /// What came of a pass over both sequences.
 #[derive(Clone, Debug, Default)]
@@ -35,7 +34,7 @@ pub(super) fn compare(
     plan: &Plan,
     alignment: &Alignment,
     until_fs: u128,
-    tallies: &mut Tallies,
+    differences: &mut Differences,
 ) -> Result<Passed> {
     let pairs = &plan.matching.pairs;
     let mut sides = [
@@ -47,7 +46,7 @@ pub(super) fn compare(
     let mut wrong: Vec<bool> = vec![false; pairs.len()];
     let mut differing: Vec<usize> = Vec::new();
     let (mut passed, mut touched) = (Passed::default(), Vec::new());
-    tallies.touch_all();
+    differences.touch_all();
     'pieces: loop {
         let mut count = 0;
         delays.iter_mut().for_each(Delay::clear);
@@ -61,28 +60,28 @@ pub(super) fn compare(
                 break 'pieces;
             }
             for (side, selected) in sides.iter_mut().enumerate() {
-                selected.samples.changes(|signal| tallies.touch(side, signal));
+                selected.samples.changes(|signal| differences.touch(side, signal));
             }
             let states = [sides[0].samples.state(), sides[1].samples.state()];
             let at = [a.sample.at, b.sample.at];
-            let spot = Spot { order: passed.compared, piece: a.piece, at };
-            if let Some(both) = &mut tallies.both {
+            let spot = Spot { order: passed.compared, window: a.piece, at };
+            if let Some(both) = &mut differences.both {
                 both.at(place_ps(plan, a))?;
             }
             let gaps = [a.sample.marks.gap, b.sample.marks.gap];
             for delay in &mut delays {
-                delay.compare(plan, spot, (states, gaps), tallies)?;
+                delay.compare(plan, spot, (states, gaps), differences)?;
             }
             if gaps != [false, false] {
                 continue;
             }
-            tallies.take_touched(&mut touched);
+            differences.take_touched(&mut touched);
             for &pair in &touched {
                 let pair = pair as usize;
                 if !pairs[pair].is_plain() {
                     continue;
                 }
-                let same = tallies.is_same(pair, states);
+                let same = differences.is_same(pair, states);
                 if wrong[pair] == same {
                     wrong[pair] = !same;
                     match same {
@@ -90,10 +89,10 @@ pub(super) fn compare(
                         false => differing.push(pair),
                     }
                 }
-                tallies.show(pair, states, !same)?;
+                differences.show(pair, states, !same)?;
             }
             for &pair in &differing {
-                tallies.count(pair, spot, states);
+                differences.count(pair, spot, states);
             }
             passed.compared += 1;
             count += 1;
@@ -103,9 +102,9 @@ pub(super) fn compare(
             break;
         }
     }
-    for (pair, tally) in tallies.tallies.iter_mut().enumerate() {
+    for (pair, count) in differences.counts.iter_mut().enumerate() {
         if pairs[pair].is_plain() {
-            tally.compared = passed.compared;
+            count.compared = passed.compared;
         }
     }
     Ok(passed)

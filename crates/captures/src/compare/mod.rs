@@ -4,25 +4,25 @@
 //! read as streams, in bounded memory, as often as that needs.
 
 mod align;
-mod books;
+mod bits;
 mod both;
 mod by_changes;
 mod by_samples;
 mod delay;
 mod diagnose;
+mod differences;
 mod find;
 pub mod map;
 mod matching;
 mod operands;
 mod pair;
+mod parts;
 mod plan;
+mod remarks;
 mod result;
 mod samples;
 mod selection;
 mod show;
-mod strip;
-mod tallies;
-mod tally;
 mod view;
 
 use std::path::PathBuf;
@@ -34,32 +34,30 @@ use tofsim::kernel::Time;
 
 pub use align::Align;
 pub use align::{Survey, survey};
-pub use diagnose::Finding;
-pub use map::Map;
-pub use matching::{Choice, Reason, Unmatched};
-pub use pair::{How, Unknowns};
-pub use result::{Compared, Comparison, Described, Difference};
-pub use samples::Sampling;
+pub use map::SignalMap;
+pub use matching::{SignalChoice, Unmatched, UnmatchedReason};
+pub use pair::{MatchedBy, Unknowns};
+pub use result::{Compared, Comparison, Described, Difference, Finding};
+pub use samples::SampleClock;
 pub use samples::time;
 
 use align::Alignment;
-use books::{compiled, empty};
 use both::Both;
 use by_changes::Span;
 use by_samples::Short;
+use differences::Differences;
 use matching::matching;
 use plan::{Plan, Terms};
-use tallies::Tallies;
 
 /// How two sources are compared.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// What belongs together by intention.
-    pub map: Map,
+    pub map: SignalMap,
     /// Which signals are looked at.
-    pub choice: Choice,
+    pub choice: SignalChoice,
     /// Clock of a waveform's samples, instead of the map's.
-    pub clock: Option<Sampling>,
+    pub clock: Option<SampleClock>,
     /// How the sides are brought together, instead of as the map says.
     pub align: Option<Align>,
     /// What a waveform triggers on, instead of the map's.
@@ -111,19 +109,19 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
     let both = options.waves.as_deref().map(|path| Both::create(path, &plan.matching.pairs));
     let signals = [0, 1].map(|side| plan.matching.slots[side].ids.len());
     let pairs = &plan.matching.pairs;
-    let mut tallies = Tallies::new(pairs, signals, options.unknowns, both.transpose()?);
+    let mut differences = Differences::new(pairs, signals, options.unknowns, both.transpose()?);
     let until_fs = options.until.map_or(u128::MAX >> 32, |until| until.fs() as u128);
     let result = if sampled {
         let alignment = align::alignment(&plan, &align, time_from(options))?;
-        let mut result = by_sample(&plan, &align, &alignment, until_fs, &mut tallies)?;
-        compiled(&plan, &tallies, options, &mut result);
+        let mut result = by_sample(&plan, &align, &alignment, until_fs, &mut differences)?;
+        conclude(&plan, &differences, options.all, &mut result);
         if !result.is_same() {
             result.findings = diagnose::samples(&plan, &alignment, &result)?;
         }
         result
     } else {
-        let mut result = by_change(&plan, &align, until_fs, &mut tallies)?;
-        compiled(&plan, &tallies, options, &mut result);
+        let mut result = by_change(&plan, &align, until_fs, &mut differences)?;
+        conclude(&plan, &differences, options.all, &mut result);
         result.findings = diagnose::changes(&result);
         result
     };
@@ -132,10 +130,16 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
         let value = format!("{} and {}", a.name, b.name);
         return Err(Input::new("compare", expected).value(value).into());
     }
-    if let Some(both) = tallies.both.take() {
+    if let Some(both) = differences.both.take() {
         both.finish(&result)?;
     }
     Ok(result)
+}
+
+/// Puts what was counted into the result, and what else is to be said.
+fn conclude(plan: &Plan, differences: &Differences, all: bool, result: &mut Comparison) {
+    result.pairs = differences.results(result.compared);
+    remarks::add(plan, &differences.counts, all, result);
 }
 
 fn terms(options: &Options) -> Result<Terms> {
@@ -192,10 +196,10 @@ fn by_sample(
     align: &Align,
     alignment: &Alignment,
     until_fs: u128,
-    tallies: &mut Tallies,
+    differences: &mut Differences,
 ) -> Result<Comparison> {
-    let passed = by_samples::compare(plan, alignment, until_fs, tallies)?;
-    let mut result = empty(plan, "samples", alignment.found.clone());
+    let passed = by_samples::compare(plan, alignment, until_fs, differences)?;
+    let mut result = Comparison::new(plan.sources, "samples", alignment.found.clone());
     result.offset = alignment.offset;
     result.compared = passed.compared;
     result.differences = alignment.differences.clone();
@@ -221,7 +225,7 @@ fn by_change(
     plan: &Plan,
     align: &Align,
     until_fs: u128,
-    tallies: &mut Tallies,
+    differences: &mut Differences,
 ) -> Result<Comparison> {
     if let Some(pair) = plan.matching.pairs.iter().find(|pair| pair.latency != 0) {
         let expected = "a latency is in samples; say which clock they are taken by with --clock";
@@ -229,8 +233,8 @@ fn by_change(
     }
     let (late_fs, found) = align::shift(plan, align)?;
     let span = Span { late_fs, from_fs: plan.after.fs() as u128, until_fs };
-    let passed = by_changes::compare(plan, span, tallies)?;
-    let mut result = empty(plan, "changes", found);
+    let passed = by_changes::compare(plan, span, differences)?;
+    let mut result = Comparison::new(plan.sources, "changes", found);
     result.compared = passed.compared;
     if let Some([a, b]) = passed.ends {
         let [a, b] = [result.sides[0].place(a), result.sides[1].place(b)];

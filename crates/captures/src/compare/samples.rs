@@ -3,16 +3,17 @@
 use std::str::FromStr;
 
 use crate::ila;
-use crate::source::{Axis, Cursor, Format, Marks, Source, State, Tick};
+use crate::source::{Axis, Cursor, Marks, Source, SourceFormat, SourceState, Tick};
 use tofsim::error::{Input, Result};
 use tofsim::kernel::Time;
 use tofsim::kernel::clock::Clock;
 
-use super::find::{self, Slots};
+use super::find;
+use super::parts::Slots;
 
 /// What a waveform is sampled by.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Sampling {
+pub enum SampleClock {
     /// Just before the rising edges of a signal.
     Signal(String),
     /// Just before instants of a clock that is no signal.
@@ -24,21 +25,21 @@ pub enum Sampling {
     },
 }
 
-impl FromStr for Sampling {
+impl FromStr for SampleClock {
     type Err = String;
 
     /// A signal, or as `125MHz` or `125MHz + 2ns` a frequency and the time of the first edge.
     fn from_str(text: &str) -> std::result::Result<Self, String> {
         Ok(match text.parse() {
-            Ok(ila::clock::Sampling::Free { frequency_hz, phase }) => {
-                Sampling::Free { frequency_hz, phase }
+            Ok(ila::clock::AnalyserClock::Free { frequency_hz, phase }) => {
+                SampleClock::Free { frequency_hz, phase }
             }
             Err(expected)
                 if text.trim_start().starts_with(|first: char| first.is_ascii_digit()) =>
             {
                 return Err(expected.to_owned());
             }
-            _ => Sampling::Signal(text.to_owned()),
+            _ => SampleClock::Signal(text.to_owned()),
         })
     }
 }
@@ -82,7 +83,7 @@ pub(super) struct Samples {
     cursor: Cursor,
     clocking: Clocking,
     /// Values at the sample.
-    state: State,
+    state: SourceState,
     /// Signals of which the cursor has newer values than the sample.
     newer: Vec<u32>,
     /// Signals that have changed since they were last asked for.
@@ -94,11 +95,11 @@ impl Samples {
     /// Signal of the cursor that is the clock of this source, which is read too.
     pub(super) fn clock_signal(
         source: &Source,
-        sampling: Option<&Sampling>,
+        sampling: Option<&SampleClock>,
         slots: &mut Slots,
     ) -> Result<Option<usize>> {
         match (source.axis, sampling) {
-            (Axis::Time(_), Some(Sampling::Signal(name))) => {
+            (Axis::Time(_), Some(SampleClock::Signal(name))) => {
                 let (_, part) = find::part(source, name, slots)?;
                 if part.width != 1 {
                     let expected = format!("expected a clock of one bit, not {}", part.width);
@@ -119,15 +120,15 @@ impl Samples {
     pub(super) fn new(
         source: &Source,
         slots: &Slots,
-        sampling: Option<&Sampling>,
+        sampling: Option<&SampleClock>,
         clock: Option<usize>,
     ) -> Result<Samples> {
         let clocking = match (source.axis, clock, sampling) {
             (Axis::Time(_), Some(signal), _) => Clocking::Rising(signal, None),
-            (Axis::Time(tick), None, Some(&Sampling::Free { frequency_hz, phase })) => {
+            (Axis::Time(tick), None, Some(&SampleClock::Free { frequency_hz, phase })) => {
                 Clocking::Free { clock: Clock::new(frequency_hz, 1, 1, phase), tick }
             }
-            _ => Clocking::Rows { endless: source.format == Format::IlaVcd },
+            _ => Clocking::Rows { endless: source.format == SourceFormat::IlaVcd },
         };
         let cursor = source.read(&slots.ids)?;
         let state = cursor.state.clone();
@@ -136,7 +137,7 @@ impl Samples {
     }
 
     /// Values at the sample.
-    pub(super) fn state(&self) -> &State {
+    pub(super) fn state(&self) -> &SourceState {
         &self.state
     }
 

@@ -27,12 +27,12 @@ pub trait Payload {
 
 /// Rows of words, one after the other.
 #[derive(Clone, Debug)]
-pub struct Rows {
+pub struct StoredRows {
     stride: usize,
     words: Vec<u64>,
 }
 
-impl Payload for Rows {
+impl Payload for StoredRows {
     type Row = [u64];
 
     #[inline]
@@ -47,12 +47,12 @@ impl Payload for Rows {
 
 /// Numbers of the samples, where not all between the first and the last are kept.
 #[derive(Clone, Debug)]
-pub struct Numbers {
+pub struct StoredNumbers {
     qualified: bool,
     kept: Vec<u64>,
 }
 
-impl Payload for Numbers {
+impl Payload for StoredNumbers {
     type Row = ();
 
     #[inline]
@@ -67,7 +67,7 @@ impl Payload for Numbers {
 
 /// Samples of a window, by their numbers from 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Kept {
+pub enum KeptSamples {
     /// All from one to before another.
     Range(std::ops::Range<u64>),
     /// Those that qualified, and the one that triggered.
@@ -114,16 +114,16 @@ impl<P: Payload> Core<P> {
     }
 }
 
-impl Core<Rows> {
+impl Core<StoredRows> {
     /// An empty buffer for rows of `stride` words.
     pub fn new(shape: Shape, stride: usize) -> Self {
         let words = Vec::with_capacity(shape.depth * shape.windows * stride);
-        Core::with(shape, Rows { stride, words })
+        Core::with(shape, StoredRows { stride, words })
     }
 
     /// What the buffer holds: the full windows and, stopped early, a last one that is not.
     pub fn finish(self, probes: Vec<Probe>) -> Capture {
-        let Rows { stride, mut words } = self.payload;
+        let StoredRows { stride, mut words } = self.payload;
         let windows = self.storing.windows();
         let (mut begins, mut triggers, mut samples) = (Vec::new(), Vec::new(), 0);
         for window in &windows {
@@ -140,27 +140,27 @@ impl Core<Rows> {
     }
 }
 
-impl Core<Numbers> {
+impl Core<StoredNumbers> {
     /// A buffer that holds the numbers of samples only. Without qualification it keeps none but
     /// those of the triggers.
     pub fn numbers(shape: Shape, qualified: bool) -> Self {
-        Core::with(shape, Numbers { qualified, kept: Vec::new() })
+        Core::with(shape, StoredNumbers { qualified, kept: Vec::new() })
     }
 
     /// Samples that each window holds, in order of time.
-    pub fn windows(&self) -> Vec<Kept> {
+    pub fn windows(&self) -> Vec<KeptSamples> {
         let windows = self.storing.windows();
         let numbered = windows.into_iter().enumerate();
         numbered
             .map(|(k, window)| match self.triggers.get(k) {
                 _ if self.payload.qualified => {
-                    Kept::List(window.slots().map(|slot| self.payload.kept[slot]).collect())
+                    KeptSamples::List(window.slots().map(|slot| self.payload.kept[slot]).collect())
                 }
                 Some(&trigger) => {
                     let begin = trigger - window.before as u64;
-                    Kept::Range(begin..trigger + window.after as u64)
+                    KeptSamples::Range(begin..trigger + window.after as u64)
                 }
-                None => Kept::Range(self.number - window.before as u64..self.number),
+                None => KeptSamples::Range(self.number - window.before as u64..self.number),
             })
             .collect()
     }
@@ -185,8 +185,8 @@ mod tests {
         let capture = core.finish(Vec::new());
         let kept: Vec<u64> = (numbers.windows().into_iter())
             .flat_map(|kept| match kept {
-                Kept::Range(range) => range.collect(),
-                Kept::List(list) => list,
+                KeptSamples::Range(range) => range.collect(),
+                KeptSamples::List(list) => list,
             })
             .collect();
         assert_eq!(kept, capture.words, "both cores keep the same");

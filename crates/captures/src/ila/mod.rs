@@ -6,8 +6,8 @@ pub mod capture;
 pub mod clock;
 pub mod core;
 pub mod export;
-mod look;
 pub mod plan;
+mod probe_values;
 pub mod probes;
 pub mod read;
 pub mod sampler;
@@ -16,6 +16,6 @@ pub mod storing;
 pub mod write;
 
 pub use capture::{Capture, Probe, Radix};
-pub use plan::Plan;
+pub use plan::AnalyserPlan;
 pub use sampler::{Analyser, capture};
-pub use setup::{Overrides, SetUp};
+pub use setup::{AnalyserSetup, Overrides};

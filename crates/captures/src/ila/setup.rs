@@ -15,7 +15,8 @@ use super::capture::Radix;
 /// A set-up file.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-pub struct File {
+#[schemars(rename = "File")]
+pub struct AnalyserSetupFile {
     /// Name of the capture and of its files [default: the file's own].
     pub name: Option<String>,
     /// What it shows.
@@ -54,9 +55,9 @@ pub struct File {
     pub probe: Vec<ProbeEntry>,
 }
 
-impl Default for File {
+impl Default for AnalyserSetupFile {
     fn default() -> Self {
-        File {
+        AnalyserSetupFile {
             name: None,
             description: String::new(),
             scenario: tofsim::scenario::DEFAULT.to_owned(),
@@ -144,16 +145,16 @@ pub struct Overrides {
 }
 
 /// A set-up, with the places of its keys for what may yet be found wrong.
-pub struct SetUp {
+pub struct AnalyserSetup {
     /// Name of the capture and of its files.
     pub name: String,
     /// The values.
-    pub file: File,
+    pub file: AnalyserSetupFile,
     checked: Checked,
     overridden: Vec<(&'static str, &'static str)>,
 }
 
-impl SetUp {
+impl AnalyserSetup {
     /// Loads a built-in set-up by name or a file by path, and lays `overrides` over it.
     ///
     /// # Errors
@@ -179,13 +180,13 @@ impl SetUp {
     /// Reads a set-up from text; `source` is its file and `stem` its name, if it gives none.
     ///
     /// # Errors
-    /// As [`SetUp::load`].
+    /// As [`AnalyserSetup::load`].
     pub fn parse(stem: &str, source: &str, text: &str, overrides: Overrides) -> Result<Self> {
-        let checked = Checked::parse::<File>(source, text)?;
-        let mut file: File = checked.read()?;
+        let checked = Checked::parse::<AnalyserSetupFile>(source, text)?;
+        let mut file: AnalyserSetupFile = checked.read()?;
         let overridden = lay_over(&mut file, overrides);
         let name = file.name.clone().unwrap_or_else(|| stem.to_owned());
-        let set_up = SetUp { name, file, checked, overridden };
+        let set_up = AnalyserSetup { name, file, checked, overridden };
         let known = |c: char| c.is_alphanumeric() || "_-.".contains(c);
         if set_up.name.is_empty() || set_up.name.starts_with('.') || !set_up.name.chars().all(known)
         {
@@ -235,7 +236,10 @@ impl SetUp {
 }
 
 /// Takes the overrides that are there; returns their keys and options.
-fn lay_over(file: &mut File, overrides: Overrides) -> Vec<(&'static str, &'static str)> {
+fn lay_over(
+    file: &mut AnalyserSetupFile,
+    overrides: Overrides,
+) -> Vec<(&'static str, &'static str)> {
     let mut taken = Vec::new();
     let mut lay = |key, option, is_there: bool| {
         if is_there {

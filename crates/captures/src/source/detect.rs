@@ -7,7 +7,8 @@ use std::path::Path;
 use crate::ila::Radix;
 use tofsim::error::{Error, Input, Result};
 
-use super::{Source, capture, wave};
+use super::signals::Source;
+use super::{capture, wave};
 
 /// First bytes of a zip archive, which an ILA's is.
 const ARCHIVE: &[u8] = b"PK";

@@ -6,134 +6,32 @@ mod counts;
 mod detect;
 mod end;
 mod guard;
+mod library;
 mod loaded;
 mod locate;
 mod marks;
 mod names;
 mod remark;
+mod shapes;
+mod signals;
 mod simulation;
 mod state;
 mod stream;
 mod tick;
 mod wave;
 
-use std::collections::{HashMap, HashSet};
 use std::path::Path;
-use std::sync::Arc;
 
 use crate::ila::Radix;
 use tofsim::error::Result;
-use tofsim::kernel::signals::Format as Shape;
 use tofsim::sim::setup::Setup;
 
 pub use names::Name;
-pub(crate) use simulation::shapes;
-pub use state::State;
+pub(crate) use shapes::{known_shape, shapes};
+pub use signals::{Axis, Signal, SignalKind, Source, SourceFormat};
+pub use state::SourceState;
 pub use stream::{Cursor, Feed, Gone, Marks};
 pub use tick::Tick;
-
-/// What kind of file or program a source is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// Value change dump of a simulator.
-    Vcd,
-    /// GTKWave's compressed waveform.
-    Fst,
-    /// GHDL's waveform.
-    Ghw,
-    /// An ILA's samples as CSV with a row of radices.
-    IlaCsv,
-    /// The same without.
-    LegacyIlaCsv,
-    /// An ILA's samples as VCD.
-    IlaVcd,
-    /// An ILA's archive.
-    Ila,
-    /// tofsim itself.
-    Simulation,
-}
-
-impl Format {
-    /// What it is called.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Format::Vcd => "VCD",
-            Format::Fst => "FST",
-            Format::Ghw => "GHW",
-            Format::IlaCsv => "ILA CSV",
-            Format::LegacyIlaCsv => "ILA CSV without radix row",
-            Format::IlaVcd => "ILA VCD",
-            Format::Ila => "ILA archive",
-            Format::Simulation => "simulation",
-        }
-    }
-}
-
-/// What the places in a source are counted in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axis {
-    /// Time, in ticks of that length.
-    Time(Tick),
-    /// Samples of a clock that the source does not have.
-    Samples,
-}
-
-/// What the values of a signal are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// Bits, each 0, 1 or unknown.
-    Bits,
-    /// A number in floating point.
-    Real,
-    /// Text or events, which are not compared.
-    Other,
-}
-
-/// A signal by one of its names.
-#[derive(Clone, Debug)]
-pub struct Signal {
-    /// Its name with all scopes.
-    pub name: Name,
-    /// Its width [bits].
-    pub width: u32,
-    /// Index of its lowest bit.
-    pub lsb: i64,
-    /// What its values are.
-    pub kind: Kind,
-    /// How its values are shown, if the source says.
-    pub radix: Option<Radix>,
-    /// What its values mean, if the source says.
-    pub shape: Option<Shape>,
-    /// Names of the same signal share it.
-    pub id: usize,
-}
-
-/// A source, of which the list of signals is known.
-#[derive(Clone, Debug)]
-pub struct Source {
-    /// Path, or name of the scenario.
-    pub name: String,
-    /// What it is.
-    pub format: Format,
-    /// What its places are counted in.
-    pub axis: Axis,
-    /// Its signals, in its order.
-    pub signals: Vec<Signal>,
-    /// Number of samples, if it says.
-    pub samples: Option<u64>,
-    /// Its last place, if it says.
-    pub end: Option<u64>,
-    /// Whether it says how values are written, where that matters.
-    pub radix_told: bool,
-    origin: Origin,
-}
-
-#[derive(Clone, Debug)]
-enum Origin {
-    Wave(wave::Origin),
-    Capture(capture::Origin),
-    Simulation(Arc<simulation::Origin>),
-}
 
 impl Source {
     /// Looks at a file; what it holds decides its format. `radix` is that of values in a file that
@@ -148,45 +46,5 @@ impl Source {
     /// A simulation of so many frames.
     pub fn simulation(setup: Setup, frames: u64) -> Source {
         simulation::source(setup, frames)
-    }
-
-    /// Begins to read the signals with those ids; signal `k` of the cursor is `ids[k]`.
-    ///
-    /// # Errors
-    /// When the file has changed or cannot be read any more.
-    pub fn read(&self, ids: &[usize]) -> Result<Cursor> {
-        let widths: Vec<u32> = ids.iter().map(|&id| self.width(id)).collect();
-        match &self.origin {
-            Origin::Wave(origin) => wave::read(origin, ids, &widths),
-            Origin::Capture(origin) => capture::read(origin, ids, &widths),
-            Origin::Simulation(origin) => simulation::read(origin, ids, &widths),
-        }
-    }
-
-    /// Whether its places are samples of a logic analyser.
-    pub fn is_capture(&self) -> bool {
-        self.axis == Axis::Samples
-    }
-
-    /// Adds ranges to names that several signals would share without.
-    fn distinguish(mut self) -> Self {
-        let mut ids: HashMap<String, HashSet<usize>> = HashMap::new();
-        for signal in &self.signals {
-            ids.entry(signal.name.text.clone()).or_default().insert(signal.id);
-        }
-        for signal in &mut self.signals {
-            let shared = ids.get(&signal.name.text).is_some_and(|ids| ids.len() > 1);
-            if shared && signal.kind == Kind::Bits {
-                let top = signal.lsb + i64::from(signal.width) - 1;
-                let text = format!("{}[{top}:{}]", signal.name.text, signal.lsb);
-                signal.name = Name::new(text);
-            }
-        }
-        self
-    }
-
-    fn width(&self, id: usize) -> u32 {
-        let signal = self.signals.iter().find(|signal| signal.id == id);
-        signal.map_or(0, |signal| if signal.kind == Kind::Other { 0 } else { signal.width })
     }
 }

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use crate::text::table::{counted, grouped, plain};
 
-use tofsim_captures::compare::{Compared, Comparison, Described, How, Reason};
+use tofsim_captures::compare::{Compared, Comparison, Described, MatchedBy, UnmatchedReason};
 use tofsim_captures::source::Axis;
 
 /// Signals that are listed one by one.
@@ -75,7 +75,7 @@ fn differing(result: &Comparison, text: &mut String) -> std::fmt::Result {
             result.sides[0].place(first.at[0]),
             first.expected.clone(),
             first.got.clone(),
-            pair.strip.clone(),
+            pair.overview.clone(),
         ]);
     }
     writeln!(text, "\n{}", table.trim_fmt())?;
@@ -88,12 +88,14 @@ fn differing(result: &Comparison, text: &mut String) -> std::fmt::Result {
 
 /// What came together and what did not.
 fn matched(result: &Comparison, verbose: bool, text: &mut String) -> std::fmt::Result {
-    let count = |how: How| result.pairs.iter().filter(|pair| pair.how == how).count();
+    let count = |how: MatchedBy| result.pairs.iter().filter(|pair| pair.how == how).count();
     let aliases: usize = result.pairs.iter().map(|pair| pair.aliases).sum();
     let mut parts = Vec::new();
-    for (how, words) in
-        [(How::Name, "by name"), (How::Suffix, "by the end of the name"), (How::Map, "by the map")]
-    {
+    for (how, words) in [
+        (MatchedBy::Name, "by name"),
+        (MatchedBy::Suffix, "by the end of the name"),
+        (MatchedBy::Map, "by the map"),
+    ] {
         if count(how) > 0 {
             parts.push(format!("{} {words}", count(how)));
         }
@@ -111,7 +113,7 @@ fn matched(result: &Comparison, verbose: bool, text: &mut String) -> std::fmt::R
     for (side, which) in ["first", "second"].iter().enumerate() {
         let own = |reason: bool| {
             let unmatched = result.unmatched.iter().filter(move |u| u.side == side);
-            unmatched.filter(move |u| (u.reason == Reason::Ignored) == reason)
+            unmatched.filter(move |u| (u.reason == UnmatchedReason::Ignored) == reason)
         };
         let (alone, ignored) = (own(false).count(), own(true).count());
         if alone > 0 {
@@ -158,7 +160,7 @@ pub fn json(result: &Comparison) -> Value {
             "compared": pair.compared,
             "differing": pair.differing,
             "first": first,
-            "where": pair.strip,
+            "where": pair.overview,
         })
     };
     let unit = |side: &Described| match side.axis {
@@ -214,7 +216,8 @@ pub fn junit(result: &Comparison) -> Result<String, quick_junit::SerializeError>
     };
     for pair in &result.pairs {
         let fault = (pair.differing > 0).then(|| {
-            let count = format!("{} of {} differ: {}", pair.differing, pair.compared, pair.strip);
+            let count =
+                format!("{} of {} differ: {}", pair.differing, pair.compared, pair.overview);
             (first_line(result, pair), count)
         });
         case(&pair.name, fault);

@@ -3,11 +3,11 @@
 use crate::source::Axis;
 use tofsim::error::{Input, Result};
 
-use super::super::pair::Bits;
+use super::super::bits::Bits;
 use super::super::plan::Plan;
 use super::super::samples::Sample;
 use super::super::selection::Piece;
-use super::Alignment;
+use super::alignment::Alignment;
 use super::survey::survey;
 
 /// The first edges of a signal belong together.

@@ -9,26 +9,9 @@ use tofsim::error::Result;
 
 use super::align::Alignment;
 use super::plan::Plan;
-use super::result::{Compared, Comparison};
+use super::result::{Compared, Comparison, Finding};
 
 use collect::{Collected, Column, collect};
-
-/// What some differences look like.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Finding {
-    /// A word for it.
-    pub kind: &'static str,
-    /// The finding in a sentence.
-    pub text: String,
-    /// Signals that it explains, by their names on the first side.
-    pub signals: Vec<String>,
-}
-
-impl Finding {
-    fn new(kind: &'static str, signals: &[&str], text: String) -> Self {
-        Finding { kind, text, signals: signals.iter().map(|&name| name.to_owned()).collect() }
-    }
-}
 
 /// Looks at the window of the first difference once more.
 pub(super) fn samples(
@@ -73,12 +56,12 @@ fn single(result: &Comparison, rest: &[&Compared]) -> Option<Finding> {
 
 /// Signals without a partner that have the same values as one of the other side.
 fn renamed(collected: &Collected) -> Vec<Finding> {
-    let [lonely_a, lonely_b] = &collected.lonely;
+    let [own, others] = &collected.unpaired;
     let fits = |a: &Column, b: &Column| a.width == b.width && a.values == b.values;
     let mut findings = Vec::new();
-    for a in lonely_a {
-        let like: Vec<&Column> = lonely_b.iter().filter(|b| fits(a, b)).collect();
-        let back = lonely_a.iter().filter(|other| like.iter().any(|b| fits(other, b))).count();
+    for a in own {
+        let like: Vec<&Column> = others.iter().filter(|b| fits(a, b)).collect();
+        let back = own.iter().filter(|other| like.iter().any(|b| fits(other, b))).count();
         if let [b] = like[..]
             && back == 1
         {

@@ -1,10 +1,10 @@
 //! A column that was read in another radix than it was written in.
 
 use crate::ila::Radix;
+use crate::words::extend;
 
-use super::super::pair::extend;
 use super::super::plan::Plan;
-use super::Finding;
+use super::super::result::Finding;
 use super::collect::{Collected, Column};
 
 /// All that a column may be written in.

@@ -1,7 +1,6 @@
 //! Samples that are missing, too many, or shifted.
 
-use super::super::result::Compared;
-use super::Finding;
+use super::super::result::{Compared, Finding};
 use super::collect::Collected;
 
 /// Samples that may be missing or too many.

@@ -9,7 +9,8 @@ use super::super::capture::Radix;
 use super::dump::Dump;
 use super::heads::Heads;
 use super::lines::first_lines;
-use super::{Column, Form, Opened, csv, ltx};
+use super::opened::{CaptureForm, Column, Opened};
+use super::{csv, ltx};
 use tofsim::error::{Error, Input, Result};
 
 /// Most bytes of an entry that is read in passing.
@@ -57,7 +58,7 @@ pub(super) fn open(source: String, file: File, radix: Option<Radix>) -> Result<O
     let samples = Some(dump.samples);
     let rows = Box::new(dump.rows(columns.clone(), places));
     let radix_told = heads.radix_row;
-    Ok(Opened { form: Form::Archive, columns, words, samples, radix_told, rows })
+    Ok(Opened { form: CaptureForm::Archive, columns, words, samples, radix_told, rows })
 }
 
 /// Places the columns in a row, and tells the lowest bit in the dump of each that is not text.
@@ -137,7 +138,7 @@ impl Archive {
             file.rewind().map_err(fault)?;
             csv::open(source.to_owned(), file, radix)
         })?;
-        Ok(Opened { form: Form::Archive, ..opened })
+        Ok(Opened { form: CaptureForm::Archive, ..opened })
     }
 }
 

@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 
 use super::super::capture::Radix;
+use super::opened::{Column, WIDEST_PROBE, WIDEST_SAMPLE};
 use super::table::Table;
-use super::{Column, WIDEST_PROBE, WIDEST_SAMPLE};
 use tofsim::error::Result;
 
 /// The columns that every CSV begins with.

@@ -5,91 +5,10 @@ mod csv;
 mod dump;
 mod ltx;
 mod vcd;
-
-use std::io::{self, Write};
-
-use super::capture::{Capture, Probe, Radix};
+mod words;
 
 pub use archive::archive;
 pub use csv::csv;
 pub use dump::dump;
 pub use ltx::ltx;
 pub use vcd::vcd;
-
-/// A form that a capture can be written in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Format {
-    /// CSV with a row of radices, as Vivado 2019.1 and later write it.
-    Csv,
-    /// CSV without that row.
-    LegacyCsv,
-    /// Value change dump.
-    Vcd,
-    /// Vivado's archive.
-    Ila,
-}
-
-impl Format {
-    /// The ending of its files, without the dot.
-    pub const fn extension(self) -> &'static str {
-        match self {
-            Format::Csv | Format::LegacyCsv => "csv",
-            Format::Vcd => "vcd",
-            Format::Ila => "ila",
-        }
-    }
-}
-
-/// Bytes gathered before they go to the file.
-const BLOCK: usize = 1 << 16;
-
-/// Writes what was gathered, if it is worth it.
-fn spill(out: &mut dyn Write, text: &mut Vec<u8>) -> io::Result<()> {
-    if text.len() >= BLOCK {
-        out.write_all(text)?;
-        text.clear();
-    }
-    Ok(())
-}
-
-/// Copies the bits from `low` on into `value`, as many as `width`.
-#[inline]
-fn take(sample: &[u64], low: usize, width: usize, value: &mut [u64]) {
-    let (first, shift) = (low / 64, low % 64);
-    for (place, word) in value.iter_mut().enumerate() {
-        let at = first + place;
-        let above = sample.get(at + 1).copied().unwrap_or(0);
-        *word = if shift == 0 { sample[at] } else { sample[at] >> shift | above << (64 - shift) };
-    }
-    if let Some(top) = value.last_mut()
-        && !width.is_multiple_of(64)
-    {
-        *top &= (1 << (width % 64)) - 1;
-    }
-}
-
-/// The radix in which a probe's values are written: decimals end at 128 bits.
-fn shown(probe: &Probe) -> Radix {
-    match probe.radix {
-        Radix::Signed | Radix::Unsigned if probe.width > 128 => Radix::Hex,
-        radix => radix,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn bits_are_taken_across_words() {
-        let sample = [0xf000_0000_0000_0001, 0x2a, 0];
-        let mut value = [0; 1];
-        take(&sample, 60, 8, &mut value);
-        assert_eq!(value, [0xaf]);
-        take(&sample, 0, 64, &mut value);
-        assert_eq!(value, [sample[0]]);
-        let mut value = [0; 2];
-        take(&sample, 4, 68, &mut value);
-        assert_eq!(value, [0xaf00_0000_0000_0000, 2]);
-    }
-}

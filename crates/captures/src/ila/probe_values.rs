@@ -35,13 +35,13 @@ struct Place {
 
 /// The present values of the probes and of what the conditions look at.
 #[derive(Clone, Debug)]
-pub(super) struct Look {
+pub(super) struct ProbeValues {
     part: Part,
-    present: Present,
+    present: Packed,
 }
 
 #[derive(Clone, Debug)]
-struct Present {
+struct Packed {
     /// The first place of each id, one of no bits if it has none.
     places: Box<[Place; IDS]>,
     /// All further places. The first of them is none.
@@ -59,7 +59,7 @@ struct Present {
     operands_changed: bool,
 }
 
-impl Look {
+impl ProbeValues {
     /// At probes that stand side by side in a row of `stride` words, and at operands.
     pub(super) fn new(probes: &[Bits], operands: &[Bits], stride: usize, order: &[u16]) -> Self {
         let mut inserts: Vec<(usize, Insert)> = Vec::new();
@@ -75,7 +75,7 @@ impl Look {
         inserts.sort_by_key(|(id, _)| *id);
         let first = (0..=IDS).map(|id| inserts.partition_point(|insert| insert.0 < id) as u32);
         let (places, further) = places(&inserts);
-        let present = Present {
+        let present = Packed {
             places,
             further,
             first: first.collect(),
@@ -85,7 +85,7 @@ impl Look {
             stride,
             operands_changed: true,
         };
-        Look { part: Part::of(inserts.iter().map(|insert| insert.0)), present }
+        ProbeValues { part: Part::of(inserts.iter().map(|insert| insert.0)), present }
     }
 
     /// Brings the values up to date.
@@ -136,14 +136,14 @@ fn places(inserts: &[(usize, Insert)]) -> (Box<[Place; IDS]>, Vec<Place>) {
     (places, further)
 }
 
-impl Present {
+impl Packed {
     #[inline]
     fn inserts(&self, id: usize) -> std::ops::Range<usize> {
         self.first[id] as usize..self.first[id + 1] as usize
     }
 }
 
-impl Sink for Present {
+impl Sink for Packed {
     #[inline]
     fn word(&mut self, id: usize, value: u64) {
         let mut place = &self.places[id];
@@ -216,7 +216,7 @@ mod tests {
         bits.extend(slices.collect::<Vec<_>>());
         let operands: Vec<Bits> = bits.iter().copied().filter(|bits| bits.width <= 128).collect();
         let stride = bits.iter().map(|bits| bits.width as usize).sum::<usize>().div_ceil(64);
-        let mut look = Look::new(&bits, &operands, stride, order);
+        let mut look = ProbeValues::new(&bits, &operands, stride, order);
         let mut device = setup.device();
         device.power_up(&mut Off, &mut Off);
         for cycle in 0..600 {
