@@ -1,10 +1,11 @@
-//! The depth network: its file, its fixed-point and floating-point passes, and its ROMs.
+//! The depth network: its file, its passes in fixed and floating point, and its ROMs.
 
 pub mod estimate;
 pub mod file;
 pub mod float;
 pub mod formats;
 pub mod mem;
+pub mod pass;
 mod read;
 pub mod roms;
 pub mod round;

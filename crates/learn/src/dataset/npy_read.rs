@@ -10,9 +10,10 @@ use npyz::{Deserialize, NpyFile, NpyReader, Order};
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::{histogram, npy};
 
+use super::blocks::Sample;
+use super::checks::check_truth;
 use super::npy::{NAMES, TYPES};
-use super::read::check_truth;
-use super::{Sample, Scene};
+use super::scene::Scene;
 
 /// Reads the three files of a folder.
 pub(super) fn read(folder: &Path) -> Result<Vec<Sample>> {

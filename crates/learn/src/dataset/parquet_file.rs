@@ -18,7 +18,7 @@ use tofsim::error::{Error, Result};
 use tofsim::files::output::OutputFile;
 use tofsim::firmware::histogram_builder::BINS;
 
-use super::Sample;
+use super::blocks::Sample;
 
 /// Key of the description in the file's metadata.
 pub const KEY: &str = "tofsim.dataset";

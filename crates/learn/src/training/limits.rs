@@ -6,12 +6,12 @@ use crate::quantize::datapath::Datapath;
 
 use super::basis::KNOTS;
 use super::features::{COLUMNS, Scaling};
-use super::lm::Linear;
+use super::lm::NormalEquations;
 
 /// Where the penalties begin, a little inside the words' ranges, and how steep they are.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Limits {
+pub struct WordLimits {
     /// Factor on all squares; the data's mean square is near 1.
     pub penalty: f64,
     /// Magnitude of W1, of its word's range [1].
@@ -28,9 +28,9 @@ pub struct Limits {
     pub b2_slope: f64,
 }
 
-impl Default for Limits {
+impl Default for WordLimits {
     fn default() -> Self {
-        Limits {
+        WordLimits {
             penalty: 0.5,
             w1_share: 0.96,
             b1_share: 0.975,
@@ -42,7 +42,7 @@ impl Default for Limits {
     }
 }
 
-impl Limits {
+impl WordLimits {
     /// The hinges for words.
     pub fn hinges(&self, words: &Datapath) -> Hinges {
         Hinges {
@@ -81,7 +81,7 @@ impl Hinges {
     }
 
     /// Adds the penalties to normal equations.
-    pub fn add(&self, x: &[f64], neurons: usize, scaling: &Scaling, linear: &mut Linear) {
+    pub fn add(&self, x: &[f64], neurons: usize, scaling: &Scaling, linear: &mut NormalEquations) {
         self.visit(x, neurons, scaling, |hinge, slopes| {
             linear.cost += self.penalty * hinge * hinge;
             for (place, &(row, slope)) in slopes.iter().enumerate() {
@@ -147,9 +147,9 @@ mod tests {
         x[KNOTS] = 9.0;
         x[COLUMNS + KNOTS] = -9.0;
         x.extend([2.1, -2.2, -0.3]);
-        let (limits, size) = (Limits::default().hinges(&Datapath::default()), x.len());
+        let (limits, size) = (WordLimits::default().hinges(&Datapath::default()), x.len());
         let zeros = Symmetric::zeros(size);
-        let mut linear = Linear { cost: 0.0, matrix: zeros, gradient: vec![0.0; size] };
+        let mut linear = NormalEquations { cost: 0.0, matrix: zeros, gradient: vec![0.0; size] };
         limits.add(&x, 2, &scaling, &mut linear);
         assert!((linear.cost - limits.cost(&x, 2, &scaling)).abs() < 1e-12 * linear.cost);
         for place in 0..size {
@@ -168,7 +168,7 @@ mod tests {
     fn a_network_well_inside_costs_nothing() {
         let scaling = Scaling { mean: vec![10.0; KNOTS], inverse_sd: vec![0.1; KNOTS] };
         let x = vec![0.001; 8 * COLUMNS + 9];
-        let hinges = |words: Datapath| Limits::default().hinges(&words);
+        let hinges = |words: Datapath| WordLimits::default().hinges(&words);
         assert_eq!(hinges(Datapath::default()).cost(&x, 8, &scaling), 0.0);
         // A word that ends at 6e-5, and a weight of 1e-4 for raw counts.
         let short = Datapath { w1: Format { width: 2, fraction: 15 }, ..Datapath::default() };

@@ -10,11 +10,11 @@ mod solve;
 use tofsim::error::Input;
 use tofsim::network::Histogram;
 
-use super::by_name::Acquisition;
+use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition};
+use super::estimator::{Estimator, Failure, hits};
 use super::matched_filter::MatchedFilter;
-use super::{ARRIVAL_PS_PER_M, Estimator, Failure};
 
-pub use model::{Model, Scene, normal_cdf};
+pub use model::{Echo, Model};
 use solve::{inverse_diagonal, solve};
 
 /// Largest step of any coordinate in one iteration [sigma, e-folds].
@@ -45,7 +45,7 @@ pub struct Likelihood {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
     /// Arrival, signal and background.
-    pub scene: Scene,
+    pub scene: Echo,
     /// Standard deviation of the arrival by the model's own curvature [ps].
     pub arrival_deviation_ps: f64,
     /// Steps it took.
@@ -74,9 +74,9 @@ impl Likelihood {
     /// # Errors
     /// When there is no echo, or the climb does not end.
     pub fn fit(&self, histogram: &Histogram) -> Result<Fit, Failure> {
-        super::hits(histogram, self.model.shots() as u32)?;
+        hits(histogram, self.model.shots() as u32)?;
         let start = self.start.best(histogram).ok_or(Failure::NoPeak)?;
-        let start = Scene {
+        let start = Echo {
             arrival_ps: start.arrival_ps,
             signal: start.signal,
             background_per_ps: start.background_per_ps,
@@ -85,7 +85,7 @@ impl Likelihood {
     }
 
     /// The top that is reached from `start`.
-    fn climb(&self, histogram: &Histogram, start: Scene) -> Result<Fit, Failure> {
+    fn climb(&self, histogram: &Histogram, start: Echo) -> Result<Fit, Failure> {
         let mut at = self.model.coordinates(&start);
         let mut value = self.model.log_likelihood(&at, histogram);
         let mut damping = 0.0f64;

@@ -8,10 +8,9 @@
 //! Coordinates are mu / sigma, ln S and N times the end of the last bin: numbers of order 1, and S
 //! stays positive.
 
-use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use std::f64::consts::PI;
 
-use crate::estimation::ARRIVAL_PS_PER_M;
-use crate::estimation::by_name::Acquisition;
+use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, Acquisition, normal_cdf, spans_ps};
 use tofsim::error::Input;
 use tofsim::network::Histogram;
 use tofsim::optics::Budget;
@@ -29,7 +28,7 @@ const IMPROBABLE: f64 = 1e-250;
 
 /// What the histogram depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Scene {
+pub struct Echo {
     /// Mean arrival of the echo [ps].
     pub arrival_ps: f64,
     /// Detected laser photons per shot, S_p [1].
@@ -38,9 +37,9 @@ pub struct Scene {
     pub background_per_ps: f64,
 }
 
-impl From<&Budget> for Scene {
+impl From<&Budget> for Echo {
     fn from(budget: &Budget) -> Self {
-        Scene {
+        Echo {
             arrival_ps: budget.mean_arrival.fs() as f64 * 1e-3,
             signal: budget.signal_per_shot,
             background_per_ps: budget.background_rate_hz() * 1e-12,
@@ -73,12 +72,11 @@ impl Model {
         acquisition.check()?;
         let mut stretches: Vec<(f64, usize)> = Vec::new();
         let mut end_ps = 0.0;
-        for span in acquisition.bins.spans() {
-            let (from, until) = (span.from.fs() as f64 * 1e-3, span.until.fs() as f64 * 1e-3);
+        for (code, from, until) in spans_ps(acquisition.bins) {
             if from > end_ps {
                 stretches.push((from, CELLS - 1));
             }
-            stretches.push((until, span.code.into()));
+            stretches.push((until, code.into()));
             end_ps = until;
         }
         let (shots, sigma_ps) = (acquisition.shots, acquisition.pulse_sigma_ps);
@@ -106,7 +104,7 @@ impl Model {
     }
 
     /// Coordinates of a scene, within their limits.
-    pub fn coordinates(&self, scene: &Scene) -> [f64; 3] {
+    pub fn coordinates(&self, scene: &Echo) -> [f64; 3] {
         let background = scene.background_per_ps * self.end_ps;
         let signal = scene.signal.max(FAINTEST);
         [
@@ -117,8 +115,8 @@ impl Model {
     }
 
     /// The scene at coordinates.
-    pub fn scene(&self, at: &[f64; 3]) -> Scene {
-        Scene {
+    pub fn scene(&self, at: &[f64; 3]) -> Echo {
+        Echo {
             arrival_ps: at[0] * self.sigma_ps,
             signal: libm::exp(at[1]),
             background_per_ps: at[2] / self.end_ps,
@@ -149,7 +147,7 @@ impl Model {
     /// The Cramér-Rao bound: the smallest standard deviation that an unbiased estimate of the
     /// distance can have, if signal and background are not known either [m]. `None` where the
     /// histogram tells nothing.
-    pub fn cramer_rao_m(&self, scene: &Scene) -> Option<f64> {
+    pub fn cramer_rao_m(&self, scene: &Echo) -> Option<f64> {
         let information = self.information(&self.cells(&self.coordinates(scene)));
         let variance = inverse_diagonal(&information, false)?[0];
         Some(variance.sqrt() * self.sigma_ps / ARRIVAL_PS_PER_M)
@@ -208,9 +206,4 @@ impl Cells {
         self.of[cell] += p;
         self.by[cell].iter_mut().zip(by).for_each(|(sum, by)| *sum += by);
     }
-}
-
-/// Standard normal distribution function.
-pub fn normal_cdf(z: f64) -> f64 {
-    0.5 * libm::erfc(-z * FRAC_1_SQRT_2)
 }

@@ -1,5 +1,6 @@
 use super::*;
 use tofsim::firmware::carry_chain::{Delays, TAPS};
+use tofsim::kernel::Time;
 use tofsim::optics::{BinProbabilities, Budget, Hazard};
 
 const PERIOD: Time = Time::from_ns(8);
