@@ -5,8 +5,8 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use tofsim_captures::compare::Unknowns;
 use tofsim_captures::ila::Radix;
 use tofsim_captures::ila::export::Format as CaptureFormat;
-use tofsim_learn::dataset::files::Format as DatasetFormat;
-use tofsim_learn::estimation::Kind;
+use tofsim_learn::dataset::files::DatasetFormat;
+use tofsim_learn::estimation::EstimatorKind;
 use tofsim_rtl::verify::Simulator;
 
 /// A word, what it stands for, and what the help says of it.
@@ -69,22 +69,6 @@ pub fn dataset_format() -> impl TypedValueParser<Value = DatasetFormat> {
 }
 
 /// An estimator.
-pub fn estimator() -> impl TypedValueParser<Value = Kind> {
-    words(&[
-        ("network", Kind::Network, "The network in fixed point, bit for bit as the firmware"),
-        ("network-float", Kind::NetworkFloat, "The network in double precision"),
-        (
-            "centroid",
-            Kind::Centroid,
-            "Argmax with centroid correction, bit for bit as the firmware's other estimator",
-        ),
-        ("peak", Kind::Peak, "The thesis's peak detection, on the bins of the chain"),
-        (
-            "subtraction",
-            Kind::Subtraction,
-            "Peak detection on a lit histogram less a dark one, of half the shots each",
-        ),
-        ("likelihood", Kind::Likelihood, "Maximum likelihood with pile-up in the model"),
-        ("matched", Kind::Matched, "Matched filter after Coates's correction of pile-up"),
-    ])
+pub fn estimator() -> impl TypedValueParser<Value = EstimatorKind> {
+    words(&EstimatorKind::ALL)
 }

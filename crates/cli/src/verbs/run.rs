@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::choice;
 use crate::report::frame_log::FrameLog;
-use crate::report::products::Products;
+use crate::report::run_files::RunFiles;
 use crate::report::summary::Summary;
 use crate::report::table;
 use tofsim::error::{Error, Input, Result};
@@ -20,8 +20,9 @@ use tofsim::sim::run::Watch;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::{Gait, Run};
 use tofsim::waves::{self, Format, Waves, write_views};
-use tofsim_learn::estimation::{Kind, Panel};
+use tofsim_learn::estimation::{EstimatorKind, Panel};
 
+use super::draws::use_threads;
 use super::interrupt::stop_signal;
 use super::stdout::{print, print_with};
 use super::talk::Talk;
@@ -69,7 +70,7 @@ pub struct Args {
     /// Estimators that look at each frame's histogram beside the firmware's own, separated by commas;
     /// subtraction makes pairs of a dark and a lit frame (firmware.dark_frames), and all look at those
     #[arg(long, value_parser = choice::estimator(), value_delimiter = ',')]
-    estimator: Vec<Kind>,
+    estimator: Vec<EstimatorKind>,
     /// Write a row for each shot, as .csv or .parquet
     #[arg(long, value_name = "FILE")]
     events: Option<PathBuf>,
@@ -126,7 +127,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         (args.fidelity == Fidelity::Histogram).then(|| Histograms::new(&setup)).transpose()?;
     let plan = WavePlan::new(args, waves, &setup, frames)?;
     let (folder, events) = (args.output.as_deref(), args.events.as_deref());
-    let mut products = Products::new(folder, events, &provenance(args, &setup), &setup)?;
+    let mut files = RunFiles::new(folder, events, &provenance(args, &setup), &setup)?;
     let waves = plan.as_ref().map(|plan| plan.open(args, &setup)).transpose()?;
     use_threads(args.threads)?;
 
@@ -138,9 +139,9 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         progress.inc(1);
         log.push(&setup, frame)
     };
-    let sees_shots = args.fidelity == Fidelity::Cycle && products.want_shots();
-    let wants_all_shots = products.want_all_shots();
-    let mut take_shot = |shot: &Shot| products.shot(shot);
+    let sees_shots = args.fidelity == Fidelity::Cycle && files.want_shots();
+    let wants_all_shots = files.want_all_shots();
+    let mut take_shot = |shot: &Shot| files.shot(shot);
     let watch = Watch {
         waves,
         shots: sees_shots.then_some(&mut take_shot),
@@ -171,12 +172,12 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     }
     let waves = plan.map(|plan| plan.path.display().to_string());
     let fidelity = args.fidelity.name();
-    let summary = Summary::new(&setup, fidelity, waves, &log, products.tdc());
-    for path in products.finish(&setup, &mut log, &summary)? {
+    let summary = Summary::new(&setup, fidelity, waves, &log, files.tdc());
+    for path in files.finish(&setup, &mut log, &summary)? {
         talk.detail(format_args!("wrote {}", path.display()));
     }
     if args.json {
-        return print_with(|out| log.write_json(&summary, out));
+        return print_with(|out| summary.write(&mut log, out));
     }
     let mut text = table::run(&setup, &log, outcome.cycles, wall);
     if let Some(results) = &summary.tdc {
@@ -202,7 +203,7 @@ impl Args {
     }
 
     fn wants_pairs(&self) -> bool {
-        self.estimator.contains(&Kind::Subtraction)
+        self.estimator.contains(&EstimatorKind::Subtraction)
     }
 
     /// That there are pairs if an estimator needs them, and not too many.
@@ -245,13 +246,6 @@ impl Args {
         );
         Input::new(option, expected).into()
     }
-}
-
-/// Makes the pool of so many threads, if a number is asked for.
-fn use_threads(threads: Option<u16>) -> Result<()> {
-    let Some(threads) = threads else { return Ok(()) };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
-    pool.map_err(|error| Input::new("--threads", error).value(threads).into())
 }
 
 /// The waveform: what goes into it, and where.
