@@ -15,6 +15,7 @@ mod npy_read;
 pub mod pairs;
 pub mod parquet_file;
 mod parquet_read;
+pub mod parquet_table;
 mod read;
 pub mod rows;
 pub mod scene;

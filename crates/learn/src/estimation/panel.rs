@@ -60,6 +60,11 @@ impl Panel {
         self.estimators.push(estimator);
     }
 
+    /// The estimators alone, to be evaluated.
+    pub fn into_estimators(self) -> Vec<Box<dyn Estimator>> {
+        self.estimators
+    }
+
     /// What each says of a frame, in the order in which they were named.
     pub fn read(&self, histogram: &Histogram) -> Vec<Reading> {
         self.each(|estimator| estimator.estimate(histogram))
