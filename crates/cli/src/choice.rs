@@ -2,9 +2,11 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
+use tofsim::waves::Format;
 use tofsim_captures::compare::Unknowns;
 use tofsim_captures::ila::Radix;
 use tofsim_captures::ila::export::Format as CaptureFormat;
+use tofsim_learn::dataset::Grid;
 use tofsim_learn::dataset::files::DatasetFormat;
 use tofsim_learn::estimation::EstimatorKind;
 use tofsim_rtl::verify::Simulator;
@@ -65,6 +67,57 @@ pub fn dataset_format() -> impl TypedValueParser<Value = DatasetFormat> {
     words(&[
         ("parquet", DatasetFormat::Parquet, "One table, dataset.parquet"),
         ("npy", DatasetFormat::Npy, "Arrays: histograms.npy, truth.npy and rows.npy"),
+    ])
+}
+
+/// The scenes of a data set.
+pub fn grid() -> impl TypedValueParser<Value = Grid> {
+    const GRIDS: [Choice<Grid>; 2] = [
+        ("train", Grid::training(), "201 distances, every 2.5 mm"),
+        ("test", Grid::test(), "51 distances, every 10 mm"),
+    ];
+    words(&GRIDS)
+}
+
+/// How a run is simulated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fidelity {
+    Cycle,
+    Shot,
+    Histogram,
+}
+
+impl Fidelity {
+    const ALL: [Choice<Fidelity>; 3] = [
+        ("cycle", Fidelity::Cycle, "Every register at every edge that changes one"),
+        ("shot", Fidelity::Shot, "A draw, a code and a count for each shot; no signals to look at"),
+        (
+            "histogram",
+            Fidelity::Histogram,
+            "A draw for each frame, of its whole histogram; for MODE 0, without control changes",
+        ),
+    ];
+
+    /// Its word.
+    pub fn name(self) -> &'static str {
+        Fidelity::ALL[self as usize].0
+    }
+}
+
+/// How a run is simulated.
+pub fn fidelity() -> impl TypedValueParser<Value = Fidelity> {
+    words(&Fidelity::ALL)
+}
+
+/// The format of a waveform, if there is to be one.
+pub type WaveformChoice = Option<Format>;
+
+/// What a waveform is written as.
+pub fn waveform() -> impl TypedValueParser<Value = WaveformChoice> {
+    words(&[
+        ("vcd", Some(Format::Vcd), "Value change dump"),
+        ("fst", Some(Format::Fst), "GTKWave's compressed format"),
+        ("none", None, "No waveform"),
     ])
 }
 

@@ -34,8 +34,8 @@ pub struct Args {
     #[command(flatten)]
     draws: Draws,
     /// Which scenes
-    #[arg(long, value_enum, default_value_t = Scenes::Train)]
-    grid: Scenes,
+    #[arg(long, value_parser = choice::grid(), default_value = "train")]
+    grid: Grid,
     /// What to write, separated by commas
     #[arg(long, value_parser = choice::dataset_format(), value_delimiter = ',', default_value = "parquet")]
     format: Vec<DatasetFormat>,
@@ -45,14 +45,6 @@ pub struct Args {
     /// Print one JSON object instead of a table
     #[arg(long)]
     json: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Scenes {
-    /// 201 distances, every 2.5 mm
-    Train,
-    /// 51 distances, every 10 mm
-    Test,
 }
 
 /// What `--json` prints.
@@ -69,7 +61,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let loaded = args.draws.load(&args.scenario)?;
     let (name, seed) = (loaded.name.clone(), loaded.scenario.seed);
     let source = HistogramSource::new(&Setup::new(loaded)?)?;
-    let rows = args.draws.rows(args.grid.grid(), seed);
+    let rows = args.draws.rows(args.grid, seed);
     let description = DatasetDescription::new(&name, &args.draws.set, &source, &rows, seed);
     let files = DatasetFiles::create(&args.output, &args.format, &description)?;
     let pool = args.draws.pool()?;
@@ -105,15 +97,6 @@ fn write(
         next = drawn;
     }
     files.finish()
-}
-
-impl Scenes {
-    fn grid(self) -> Grid {
-        match self {
-            Scenes::Train => Grid::training(),
-            Scenes::Test => Grid::test(),
-        }
-    }
 }
 
 fn table(description: &DatasetDescription, files: &[String]) -> String {
