@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use parquet::basic::Compression;
 use parquet::data_type::DataType;
-use parquet::errors::ParquetError;
+use parquet::errors::Result as Written;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
@@ -41,10 +41,7 @@ impl ParquetTable {
     }
 
     /// Adds rows, whose columns `fill` writes in order.
-    pub fn write_group(
-        &mut self,
-        fill: impl FnOnce(&mut RowGroup) -> std::result::Result<(), ParquetError>,
-    ) -> Result<()> {
+    pub fn write_group(&mut self, fill: impl FnOnce(&mut RowGroup) -> Written<()>) -> Result<()> {
         let path = self.writer.inner().target().to_owned();
         let write = || {
             let mut group = RowGroup(self.writer.next_row_group()?);
@@ -63,10 +60,7 @@ impl ParquetTable {
 
 impl RowGroup<'_> {
     /// The next column, where every row has a value.
-    pub fn required<T: DataType>(
-        &mut self,
-        values: impl Iterator<Item = T::T>,
-    ) -> std::result::Result<(), ParquetError> {
+    pub fn required<T: DataType>(&mut self, values: impl Iterator<Item = T::T>) -> Written<()> {
         self.column::<T>(&values.collect::<Vec<_>>(), None)
     }
 
@@ -74,17 +68,13 @@ impl RowGroup<'_> {
     pub fn optional<T: DataType>(
         &mut self,
         values: impl Iterator<Item = Option<T::T>>,
-    ) -> std::result::Result<(), ParquetError> {
+    ) -> Written<()> {
         let values: Vec<_> = values.collect();
         let defined: Vec<_> = values.iter().map(|value| i16::from(value.is_some())).collect();
         self.column::<T>(&values.into_iter().flatten().collect::<Vec<_>>(), Some(&defined))
     }
 
-    fn column<T: DataType>(
-        &mut self,
-        values: &[T::T],
-        defined: Option<&[i16]>,
-    ) -> std::result::Result<(), ParquetError> {
+    fn column<T: DataType>(&mut self, values: &[T::T], defined: Option<&[i16]>) -> Written<()> {
         let Some(mut column) = self.0.next_column()? else { return Ok(()) };
         column.typed::<T>().write_batch(values, defined, None)?;
         column.close()

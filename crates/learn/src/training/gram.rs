@@ -56,8 +56,7 @@ impl Gram {
 
     /// Adds other sums.
     pub fn add(&mut self, other: &Gram) {
-        let pairs = self.sums.as_flattened_mut().as_flattened_mut().iter_mut();
-        pairs.zip(other.sums.as_flattened().as_flattened()).for_each(|(sum, other)| *sum += other);
+        add(&mut self.sums, &other.sums);
     }
 
     /// The sum for a weight and two columns.
@@ -94,14 +93,18 @@ impl Moments {
 
     /// Adds other sums.
     pub fn add(&mut self, other: &Moments) {
-        let pairs = self.sums.as_flattened_mut().as_flattened_mut().iter_mut();
-        pairs.zip(other.sums.as_flattened().as_flattened()).for_each(|(sum, other)| *sum += other);
+        add(&mut self.sums, &other.sums);
     }
 
     /// The sum for a weight and a column.
     pub fn at(&self, weight: usize, column: usize) -> f64 {
         self.sums[weight / GROUP * TILES + column / LANES][weight % GROUP][column % LANES]
     }
+}
+
+fn add(sums: &mut [Sums], others: &[Sums]) {
+    let sums = sums.as_flattened_mut().as_flattened_mut().iter_mut();
+    sums.zip(others.as_flattened().as_flattened()).for_each(|(sum, other)| *sum += other);
 }
 
 /// Adds the sums over a block of twelve weights times a column times eight columns.

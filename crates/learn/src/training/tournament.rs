@@ -19,7 +19,7 @@ use super::equalise::{follow, ratios};
 use super::features::Scaling;
 use super::fold::fold;
 use super::lm::{Lm, Problem, Stop};
-use super::recipe::Recipe;
+use super::recipe::{Recipe, Stage};
 use super::samples::{Samples, digest};
 use super::start::{Purpose, start};
 use super::state::{BestBlock, Candidate, CurvePoint, TournamentState};
@@ -107,23 +107,16 @@ impl<'a> Tournament<'a> {
 
     /// Epochs of all candidates that are still to be made, times their samples, of all there are.
     pub fn progress(&self) -> (u64, u64) {
-        let (mut done, mut all) = (0, 0);
-        for (place, stage) in self.recipe.stages.iter().enumerate() {
-            let work = |epochs| stage.candidates as u64 * stage.samples * epochs;
-            all += work(stage.epochs);
-            done += match place.cmp(&self.state.stage) {
-                std::cmp::Ordering::Less => work(stage.epochs),
-                std::cmp::Ordering::Equal => work(self.state.epochs),
-                std::cmp::Ordering::Greater => 0,
-            };
-        }
-        let finish = &self.recipe.finish;
-        let work = |epochs| finish.candidates as u64 * finish.samples * epochs;
-        all += work(finish.blocks as u64 * finish.epochs);
-        if self.in_finish() {
-            done += work(self.state.block as u64 * finish.epochs + self.state.epochs);
-        }
-        (done, all)
+        let (recipe, state) = (self.recipe, &self.state);
+        let blocks = |place| if place < recipe.stages.len() { 1 } else { recipe.finish.blocks };
+        let work = |place: usize, epochs: u64| {
+            let Stage { candidates, samples, .. } = recipe.stage(place);
+            candidates as u64 * samples * epochs
+        };
+        let whole = |place| work(place, blocks(place) as u64 * recipe.stage(place).epochs);
+        let made = state.block as u64 * recipe.stage(state.stage).epochs + state.epochs;
+        let done = (0..state.stage).map(whole).sum::<u64>() + work(state.stage, made);
+        (done, (0..=recipe.stages.len()).map(whole).sum())
     }
 
     /// Trains until the next checkpoint, or until `stop` is set; what was done since the last one is
