@@ -12,7 +12,8 @@ use tofsim::scenario::{Scenario, chain};
 use tofsim::sensor::streams::{Source, stream};
 use tofsim_learn::estimation::Acquisition;
 use tofsim_learn::estimation::Estimator;
-use tofsim_learn::estimation::likelihood::{Echo, Likelihood};
+use tofsim_learn::estimation::acquisition::Echo;
+use tofsim_learn::estimation::likelihood::Likelihood;
 use tofsim_learn::estimation::matched_filter::MatchedFilter;
 use tofsim_learn::estimation::peak_detection::PeakDetection;
 

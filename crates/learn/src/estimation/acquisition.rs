@@ -4,8 +4,8 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use tofsim::error::Input;
 use tofsim::kernel::Time;
-use tofsim::optics::Bins;
 use tofsim::optics::budget::LIGHT_M_S;
+use tofsim::optics::{Bins, Budget};
 
 /// Width of a bin as the decoder's codes count it [ps].
 pub const BIN_PS: f64 = 25.0;
@@ -41,6 +41,27 @@ impl Acquisition<'_> {
             return Err(fault("pulse_sigma_ps", "expected 1 to 1e6 [ps]").value(value));
         }
         Ok(())
+    }
+}
+
+/// What a histogram depends on: the echo of the target, and the background.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Echo {
+    /// Mean arrival of the echo [ps].
+    pub arrival_ps: f64,
+    /// Detected laser photons per shot, S_p [1].
+    pub signal: f64,
+    /// Rate of other avalanches, N_r and dark ones [1/ps].
+    pub background_per_ps: f64,
+}
+
+impl From<&Budget> for Echo {
+    fn from(budget: &Budget) -> Self {
+        Echo {
+            arrival_ps: budget.mean_arrival.fs() as f64 * 1e-3,
+            signal: budget.signal_per_shot,
+            background_per_ps: budget.background_rate_hz() * 1e-12,
+        }
     }
 }
 

@@ -34,26 +34,22 @@ pub enum EstimatorKind {
 
 impl EstimatorKind {
     /// All of them: the word on the command line, the kind, what it does.
-    pub const ALL: [(&'static str, EstimatorKind, &'static str); 7] = [
-        (
-            "network",
-            EstimatorKind::Network,
-            "The network in fixed point, bit for bit as the firmware",
-        ),
-        ("network-float", EstimatorKind::NetworkFloat, "The network in double precision"),
+    pub const ALL: [(&'static str, Self, &'static str); 7] = [
+        ("network", Self::Network, "The network in fixed point, bit for bit as the firmware"),
+        ("network-float", Self::NetworkFloat, "The network in double precision"),
         (
             "centroid",
-            EstimatorKind::Centroid,
+            Self::Centroid,
             "Argmax with centroid correction, bit for bit as the firmware's other estimator",
         ),
-        ("peak", EstimatorKind::Peak, "The thesis's peak detection, on the bins of the chain"),
+        ("peak", Self::Peak, "The thesis's peak detection, on the bins of the chain"),
         (
             subtraction::NAME,
-            EstimatorKind::Subtraction,
+            Self::Subtraction,
             "Peak detection on a lit histogram less a dark one, of half the shots each",
         ),
-        ("likelihood", EstimatorKind::Likelihood, "Maximum likelihood with pile-up in the model"),
-        ("matched", EstimatorKind::Matched, "Matched filter after Coates's correction of pile-up"),
+        ("likelihood", Self::Likelihood, "Maximum likelihood with pile-up in the model"),
+        ("matched", Self::Matched, "Matched filter after Coates's correction of pile-up"),
     ];
 }
 

@@ -11,7 +11,7 @@ use tofsim::error::Input;
 use tofsim::network::Histogram;
 use tofsim::optics::Bins;
 
-use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, BIN_PS, normal_cdf, spans_ps};
+use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, BIN_PS, Echo, normal_cdf, spans_ps};
 use super::coates::{Corrected, correct};
 use super::estimator::{Estimator, Failure, hits};
 
@@ -90,12 +90,8 @@ impl Pulse {
 /// What the filter found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Match {
-    /// Mean arrival [ps].
-    pub arrival_ps: f64,
-    /// Detected laser photons per shot, S_p [1].
-    pub signal: f64,
-    /// Rate of other avalanches; below zero by chance [1/ps].
-    pub background_per_ps: f64,
+    /// The echo; its background is below zero by chance.
+    pub echo: Echo,
     /// Signal in its own standard deviations [1].
     pub significance: f64,
 }
@@ -142,10 +138,13 @@ impl MatchedFilter {
                 place += 0.5 * (before - after) / bend;
             }
         }
-        Some(Match {
+        let echo = Echo {
             arrival_ps: place * BIN_PS,
             signal: fit.signal,
             background_per_ps: fit.background / self.range_ps,
+        };
+        Some(Match {
+            echo,
             significance: fit.signal / self.signal_deviation(&self.pulses[best], &bins, fit),
         })
     }
@@ -221,7 +220,7 @@ impl Estimator for MatchedFilter {
         hits(histogram, self.shots as u32)?;
         match self.best(histogram) {
             Some(found) if found.significance >= self.significance => {
-                Ok(found.arrival_ps / ARRIVAL_PS_PER_M)
+                Ok(found.echo.arrival_ps / ARRIVAL_PS_PER_M)
             }
             _ => Err(Failure::NoPeak),
         }

@@ -8,9 +8,6 @@ use super::cholesky::Symmetric;
 
 /// A sum of squares to make small.
 pub trait Problem: Sync {
-    /// Number of parameters.
-    fn parameters(&self) -> usize;
-
     /// The mean square at `x`.
     fn cost(&self, x: &[f64]) -> f64;
 

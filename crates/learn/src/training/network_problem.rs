@@ -13,7 +13,7 @@ use super::features::{BLOCK, Block, COLUMNS, Features, LANES, Scaling, TILES, ti
 use super::gram::{GROUP, Weights, groups};
 use super::limits::Hinges;
 use super::lm::{NormalEquations, Problem};
-use super::sums::{Sums, parameters};
+use super::sums::Sums;
 
 /// Blocks that a thread sums up at a time. Fixed, as the order of sums is.
 const RUN: usize = 8;
@@ -217,10 +217,6 @@ impl NetworkProblem<'_> {
 }
 
 impl Problem for NetworkProblem<'_> {
-    fn parameters(&self) -> usize {
-        parameters(self.neurons)
-    }
-
     fn cost(&self, x: &[f64]) -> f64 {
         self.mean_square(x) + self.hinges.cost(x, self.neurons, self.scaling)
     }

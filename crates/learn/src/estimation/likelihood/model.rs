@@ -10,10 +10,9 @@
 
 use std::f64::consts::PI;
 
-use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, Acquisition, normal_cdf, spans_ps};
+use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo, normal_cdf, spans_ps};
 use tofsim::error::Input;
 use tofsim::network::Histogram;
-use tofsim::optics::Budget;
 
 use super::solve::{Matrix, inverse_diagonal};
 
@@ -25,27 +24,6 @@ const LEAST: f64 = 0.01;
 const FAINTEST: f64 = 1e-7;
 /// Probability that is as good as none [1].
 const IMPROBABLE: f64 = 1e-250;
-
-/// What the histogram depends on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Echo {
-    /// Mean arrival of the echo [ps].
-    pub arrival_ps: f64,
-    /// Detected laser photons per shot, S_p [1].
-    pub signal: f64,
-    /// Rate of other avalanches, N_r and dark ones [1/ps].
-    pub background_per_ps: f64,
-}
-
-impl From<&Budget> for Echo {
-    fn from(budget: &Budget) -> Self {
-        Echo {
-            arrival_ps: budget.mean_arrival.fs() as f64 * 1e-3,
-            signal: budget.signal_per_shot,
-            background_per_ps: budget.background_rate_hz() * 1e-12,
-        }
-    }
-}
 
 /// The model of one pulse and one chain.
 #[derive(Clone, Debug)]
@@ -103,19 +81,19 @@ impl Model {
         LEAST / self.shots as f64
     }
 
-    /// Coordinates of a scene, within their limits.
-    pub fn coordinates(&self, scene: &Echo) -> [f64; 3] {
-        let background = scene.background_per_ps * self.end_ps;
-        let signal = scene.signal.max(FAINTEST);
+    /// Coordinates of an echo, within their limits.
+    pub fn coordinates(&self, echo: &Echo) -> [f64; 3] {
+        let background = echo.background_per_ps * self.end_ps;
+        let signal = echo.signal.max(FAINTEST);
         [
-            scene.arrival_ps / self.sigma_ps,
+            echo.arrival_ps / self.sigma_ps,
             libm::log(signal),
             background.max(self.least_background()),
         ]
     }
 
-    /// The scene at coordinates.
-    pub fn scene(&self, at: &[f64; 3]) -> Echo {
+    /// The echo at coordinates.
+    pub fn echo(&self, at: &[f64; 3]) -> Echo {
         Echo {
             arrival_ps: at[0] * self.sigma_ps,
             signal: libm::exp(at[1]),
@@ -147,8 +125,8 @@ impl Model {
     /// The Cramér-Rao bound: the smallest standard deviation that an unbiased estimate of the
     /// distance can have, if signal and background are not known either [m]. `None` where the
     /// histogram tells nothing.
-    pub fn cramer_rao_m(&self, scene: &Echo) -> Option<f64> {
-        let information = self.information(&self.cells(&self.coordinates(scene)));
+    pub fn cramer_rao_m(&self, echo: &Echo) -> Option<f64> {
+        let information = self.information(&self.cells(&self.coordinates(echo)));
         let variance = inverse_diagonal(&information, false)?[0];
         Some(variance.sqrt() * self.sigma_ps / ARRIVAL_PS_PER_M)
     }

@@ -110,7 +110,7 @@ fn the_scene_of_an_expected_histogram_is_found_again() {
         let likelihood = likelihood(&bins);
         for scene in scenes() {
             let fit = likelihood.fit(&expected(&bins, &scene)).unwrap();
-            let error = (fit.scene.arrival_ps - scene.arrival_ps) / fit.arrival_deviation_ps;
+            let error = (fit.echo.arrival_ps - scene.arrival_ps) / fit.arrival_deviation_ps;
             assert!(error.abs() < 0.5, "{scene:?}: {fit:?}");
             let bound_m = likelihood.model.cramer_rao_m(&scene).unwrap();
             let deviation_m = fit.arrival_deviation_ps / ARRIVAL_PS_PER_M;
@@ -142,7 +142,7 @@ fn a_histogram_narrower_than_the_pulse_is_answered_or_refused_but_not_by_nan() {
             histogram[bin] = count;
             if let Ok(fit) = likelihood.fit(&histogram) {
                 let centre_ps = (bin as f64 + 0.5) * 25.0;
-                let error_ps = fit.scene.arrival_ps - centre_ps;
+                let error_ps = fit.echo.arrival_ps - centre_ps;
                 assert!(error_ps.abs() < 10.0 * 137.0, "{bin} {count}: {fit:?}");
             }
         }

@@ -10,10 +10,6 @@ pub(crate) struct Dense<F> {
 }
 
 impl<F: Fn(&[f64]) -> (Vec<f64>, Vec<Vec<f64>>) + Sync> Problem for Dense<F> {
-    fn parameters(&self) -> usize {
-        self.parameters
-    }
-
     fn cost(&self, x: &[f64]) -> f64 {
         let (r, _) = (self.residuals)(x);
         r.iter().map(|r| r * r).sum::<f64>() / r.len() as f64

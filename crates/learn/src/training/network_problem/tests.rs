@@ -1,6 +1,7 @@
 use super::*;
 use crate::quantize::datapath::Datapath;
 use crate::training::limits::WordLimits;
+use crate::training::sums::parameters;
 use tofsim::network::Histogram;
 
 /// 300 histograms, so that the last block is not full, and a smooth network.
