@@ -9,8 +9,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::features::{BLOCK, Block, COLUMNS, Features, LANES, Scaling, TILES, tile};
-use super::gram::{GROUP, Weights, groups};
+use super::features::{BLOCK, COLUMNS, FeatureBlock, Features, LANES, Scaling, TILES, tile};
+use super::gram::{BlockWeights, GROUP, groups};
 use super::limits::Hinges;
 use super::lm::{NormalEquations, Problem};
 use super::sums::Sums;
@@ -41,8 +41,8 @@ pub struct NetworkProblem<'a> {
 
 /// What the samples of a block weigh in the sums.
 struct Scratch {
-    pairs: Weights,
-    cross: Weights,
+    pairs: BlockWeights,
+    cross: BlockWeights,
     activations: Vec<f64>,
     slopes: Vec<f64>,
     outputs: Vec<f64>,
@@ -64,7 +64,7 @@ impl Scratch {
 impl NetworkProblem<'_> {
     /// Sums of a neuron's inputs, lane by lane and then over the lanes.
     #[inline(always)]
-    fn sum(block: &Block, sample: usize, row: &[f64]) -> f64 {
+    fn sum(block: &FeatureBlock, sample: usize, row: &[f64]) -> f64 {
         let mut sums = [0.0; LANES];
         for t in 0..TILES {
             let (inputs, weights) = (&tile(block, t)[sample], &row[t * LANES..][..LANES]);
@@ -77,7 +77,13 @@ impl NetworkProblem<'_> {
 
     /// Depth of a sample; leaves the neurons' outputs in `activations` [m].
     #[inline(always)]
-    fn depth(&self, x: &[f64], block: &Block, sample: usize, activations: &mut [f64]) -> f64 {
+    fn depth(
+        &self,
+        x: &[f64],
+        block: &FeatureBlock,
+        sample: usize,
+        activations: &mut [f64],
+    ) -> f64 {
         let output = &x[self.neurons * COLUMNS..];
         let mut depth = output[self.neurons];
         for (k, activation) in activations.iter_mut().enumerate() {
