@@ -146,14 +146,14 @@ enum Way<'a> {
     /// Histogram by histogram.
     Draw(Histograms<'a>),
     /// Edge by edge or shot by shot.
-    Run(Run<'a>),
+    Run(Box<Run<'a>>),
 }
 
 impl<'a> Way<'a> {
     fn new(fidelity: Fidelity, setup: &'a Setup) -> Result<Self> {
         Ok(match fidelity {
-            Fidelity::Cycle => Way::Run(Run::new(setup).at(Gait::Skip)),
-            Fidelity::Shot => Way::Run(Run::new(setup).at(Gait::Leap)),
+            Fidelity::Cycle => Way::Run(Box::new(Run::new(setup).at(Gait::Skip))),
+            Fidelity::Shot => Way::Run(Box::new(Run::new(setup).at(Gait::Leap))),
             Fidelity::Histogram => Way::Draw(Histograms::new(setup)?),
         })
     }

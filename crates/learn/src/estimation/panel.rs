@@ -79,15 +79,13 @@ impl Panel {
         &self,
         estimate: impl Fn(&dyn Estimator) -> std::result::Result<f64, Failure>,
     ) -> Vec<Reading> {
-        let reading = |estimator: &Box<dyn Estimator>| {
-            let estimate = estimate(estimator.as_ref());
-            Reading {
-                estimator: estimator.name(),
-                failure: estimate.as_ref().err().map(ToString::to_string),
-                depth_m: estimate.ok(),
-            }
+        let reading = |name, estimate: std::result::Result<f64, Failure>| Reading {
+            estimator: name,
+            failure: estimate.as_ref().err().map(ToString::to_string),
+            depth_m: estimate.ok(),
         };
-        self.estimators.iter().map(reading).collect()
+        let estimators = self.estimators.iter();
+        estimators.map(|one| reading(one.name(), estimate(one.as_ref()))).collect()
     }
 }
 
@@ -105,5 +103,25 @@ mod tests {
         let failures: Vec<_> = nothing.iter().map(|reading| reading.failure.as_deref()).collect();
         assert_eq!(failures, [Some("no hits"), None, Some("no hits")]);
         assert!(Panel::default().read(&[0; 256]).is_empty());
+    }
+
+    #[test]
+    fn an_estimator_of_one_s_own_is_asked_last() {
+        struct Own;
+        impl Estimator for Own {
+            fn name(&self) -> &'static str {
+                "own"
+            }
+
+            fn estimate(&self, histogram: &Histogram) -> std::result::Result<f64, Failure> {
+                Ok(f64::from(histogram[7]))
+            }
+        }
+        let setup = Setup::new(scenario::load("kc705", &[]).unwrap()).unwrap();
+        let mut panel = Panel::new(&[EstimatorKind::Network], &setup).unwrap();
+        let own: Box<dyn Estimator + Send + Sync> = Box::new(Own);
+        panel.add(own);
+        let readings = panel.read(&[3; 256]);
+        assert_eq!((readings[1].estimator, readings[1].depth_m), ("own", Some(3.0)));
     }
 }
