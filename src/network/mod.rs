@@ -1,4 +1,4 @@
-//! The depth network: its file, its fixed-point and floating-point passes, and its ROMs.
+//! The depth network: its file, its passes in fixed and floating point, and its ROMs.
 
 pub mod estimate;
 pub mod file;
@@ -6,6 +6,7 @@ pub mod float;
 pub mod formats;
 pub mod histogram_file;
 pub mod mem;
+pub mod pass;
 pub mod roms;
 pub mod round;
 mod schema;

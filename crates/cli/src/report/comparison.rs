@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 
-use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
+use quick_junit::SerializeError;
 use serde_json::{Value, json};
 
+use crate::text::junit::{self, JunitCase};
 use crate::text::table::{counted, grouped, plain};
 
 use tofsim_captures::compare::{Compared, Comparison, Described, MatchedBy, UnmatchedReason};
@@ -200,33 +201,20 @@ pub fn json(result: &Comparison) -> Value {
 ///
 /// # Errors
 /// When it cannot be put into XML.
-pub fn junit(result: &Comparison) -> Result<String, quick_junit::SerializeError> {
+pub fn junit(result: &Comparison) -> Result<String, SerializeError> {
     let [a, b] = [&result.sides[0].name, &result.sides[1].name];
-    let mut suite = TestSuite::new(format!("tofsim compare {a} {b}"));
-    let mut case = |name: &str, fault: Option<(String, String)>| {
-        let mut status = match fault {
-            None => TestCaseStatus::success(),
-            Some(_) => TestCaseStatus::non_success(NonSuccessKind::Failure),
-        };
-        if let Some((message, description)) = fault {
-            status.set_message(message);
-            status.set_description(description);
-        }
-        suite.add_test_case(TestCase::new(name, status));
-    };
-    for pair in &result.pairs {
-        let fault = (pair.differing > 0).then(|| {
+    let pair = |pair: &Compared| {
+        let failure = (pair.differing > 0).then(|| {
             let count =
                 format!("{} of {} differ: {}", pair.differing, pair.compared, pair.overview);
             (first_line(result, pair), count)
         });
-        case(&pair.name, fault);
-    }
+        JunitCase { name: pair.name.clone(), failure }
+    };
     let findings: Vec<_> = result.findings.iter().map(|f| f.text.as_str()).collect();
-    let fault = (!result.differences.is_empty())
-        .then(|| (result.differences.join("; "), findings.join("\n")));
-    case("structure", fault);
-    let mut all = quick_junit::Report::new("tofsim compare");
-    all.add_test_suite(suite);
-    all.to_string()
+    let differs = !result.differences.is_empty();
+    let failure = differs.then(|| (result.differences.join("; "), findings.join("\n")));
+    let structure = JunitCase { name: "structure".to_owned(), failure };
+    let cases = result.pairs.iter().map(pair).chain([structure]);
+    junit::junit("tofsim compare", format!("tofsim compare {a} {b}"), cases)
 }

@@ -1,8 +1,9 @@
 //! The reports as a table, as JSON and as JUnit XML.
 
-use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
+use quick_junit::SerializeError;
 use serde_json::{Value, json};
 
+use crate::text::junit::{self, JunitCase};
 use crate::text::table::{grouped, plain};
 
 use tofsim_rtl::verify::cycle_counts::{Count, Proof};
@@ -81,22 +82,13 @@ pub fn json(rtl: &str, simulator: &str, reports: &[Report]) -> Value {
 ///
 /// # Errors
 /// When it cannot be put into XML.
-pub fn junit(simulator: &str, reports: &[Report]) -> Result<String, quick_junit::SerializeError> {
-    let mut suite = TestSuite::new(format!("tofsim verify {simulator}"));
-    for report in reports {
-        let mut status = match report.passed() {
-            true => TestCaseStatus::success(),
-            false => TestCaseStatus::non_success(NonSuccessKind::Failure),
-        };
-        if !report.passed() {
-            status.set_message(report.fault());
-            status.set_description(around(report));
-        }
-        suite.add_test_case(TestCase::new(report.name.clone(), status));
-    }
-    let mut all = quick_junit::Report::new("tofsim verify");
-    all.add_test_suite(suite);
-    all.to_string()
+pub fn junit(simulator: &str, reports: &[Report]) -> Result<String, SerializeError> {
+    let case = |report: &Report| JunitCase {
+        name: report.name.clone(),
+        failure: (!report.passed()).then(|| (report.fault(), around(report))),
+    };
+    let suite = format!("tofsim verify {simulator}");
+    junit::junit("tofsim verify", suite, reports.iter().map(case))
 }
 
 /// What, expected, counted twice, proven.

@@ -21,7 +21,7 @@ pub mod verify;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 use tofsim::error::Result;
 
@@ -75,8 +75,8 @@ impl Cli {
             Verb::Dataset(args) => dataset::run(args, &talk),
             Verb::Train(args) => train::run(args, &talk),
             Verb::Scenario(args) => scenario::run(args),
-            Verb::Completions(args) => completions::run(args),
-            Verb::Man(args) => man::run(args),
+            Verb::Completions(args) => completions::run(args, &mut Cli::command()),
+            Verb::Man(args) => man::run(args, Cli::command()),
         }?;
         Ok(ExitCode::SUCCESS)
     }

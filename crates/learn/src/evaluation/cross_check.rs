@@ -9,7 +9,7 @@ use std::sync::atomic::AtomicBool;
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use crate::dataset::{Scene, Source};
+use crate::dataset::{HistogramSource, Scene};
 use tofsim::error::Result;
 use tofsim::scenario::Loaded;
 use tofsim::sim::Run;
@@ -47,7 +47,7 @@ impl CrossCheck {
     /// When the scenario does not run, or it is stopped.
     pub fn new(
         loaded: &Loaded,
-        source: &Source,
+        source: &HistogramSource,
         scene: &Scene,
         frames: u64,
         stop: Option<&AtomicBool>,

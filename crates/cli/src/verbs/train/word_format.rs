@@ -4,7 +4,7 @@ use std::fmt::{self, Display};
 use std::str::FromStr;
 
 use tofsim::network::formats::Format;
-use tofsim_learn::quantize::datapath::Datapath;
+use tofsim_learn::quantize::Datapath;
 
 /// A word of the datapath and its format.
 #[derive(Clone, Copy, Debug, PartialEq)]

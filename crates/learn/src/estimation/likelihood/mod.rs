@@ -10,11 +10,11 @@ mod solve;
 use tofsim::error::Input;
 use tofsim::network::Histogram;
 
-use super::by_name::Acquisition;
+use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo};
+use super::estimator::{Estimator, Failure, hits};
 use super::matched_filter::MatchedFilter;
-use super::{ARRIVAL_PS_PER_M, Estimator, Failure};
 
-pub use model::{Model, Scene, normal_cdf};
+pub use model::Model;
 use solve::{inverse_diagonal, solve};
 
 /// Largest step of any coordinate in one iteration [sigma, e-folds].
@@ -27,29 +27,27 @@ const RUNAWAY: f64 = 20.0;
 const NOTHING: f64 = 1e-4;
 /// A damping that leaves no step worth trying [1].
 const STUCK: f64 = 1e6;
+/// Most steps, taken or not.
+const MOST_ITERATIONS: usize = 200;
+/// The climb is over when a step promises less than this gain of the log likelihood [1].
+const TOLERANCE: f64 = 1e-5;
+/// Signal that counts as one, in its own standard deviations [1].
+const SIGNIFICANCE: f64 = 4.0;
 
 /// The maximum-likelihood estimator of one pulse and one chain.
 #[derive(Clone, Debug)]
 pub struct Likelihood {
     model: Model,
     start: MatchedFilter,
-    /// Most steps, taken or not.
-    pub most_iterations: usize,
-    /// The climb is over when a step promises less than this gain of the log likelihood [1].
-    pub tolerance: f64,
-    /// Signal that counts as one, in its own standard deviations [1].
-    pub significance: f64,
 }
 
 /// The most likely scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
     /// Arrival, signal and background.
-    pub scene: Scene,
+    pub echo: Echo,
     /// Standard deviation of the arrival by the model's own curvature [ps].
     pub arrival_deviation_ps: f64,
-    /// Steps it took.
-    pub iterations: usize,
 }
 
 impl Likelihood {
@@ -60,8 +58,7 @@ impl Likelihood {
     /// When [`Acquisition::check`] fails.
     pub fn new(acquisition: &Acquisition) -> Result<Self, Input> {
         let (model, start) = (Model::new(acquisition)?, MatchedFilter::new(acquisition)?);
-        let (most_iterations, tolerance, significance) = (200, 1e-5, 4.0);
-        Ok(Likelihood { model, start, most_iterations, tolerance, significance })
+        Ok(Likelihood { model, start })
     }
 
     /// The model that is fitted.
@@ -74,30 +71,25 @@ impl Likelihood {
     /// # Errors
     /// When there is no echo, or the climb does not end.
     pub fn fit(&self, histogram: &Histogram) -> Result<Fit, Failure> {
-        super::hits(histogram, self.model.shots() as u32)?;
+        hits(histogram, self.model.shots() as u32)?;
         let start = self.start.best(histogram).ok_or(Failure::NoPeak)?;
-        let start = Scene {
-            arrival_ps: start.arrival_ps,
-            signal: start.signal,
-            background_per_ps: start.background_per_ps,
-        };
-        self.climb(histogram, start)
+        self.climb(histogram, start.echo)
     }
 
     /// The top that is reached from `start`.
-    fn climb(&self, histogram: &Histogram, start: Scene) -> Result<Fit, Failure> {
+    fn climb(&self, histogram: &Histogram, start: Echo) -> Result<Fit, Failure> {
         let mut at = self.model.coordinates(&start);
         let mut value = self.model.log_likelihood(&at, histogram);
         let mut damping = 0.0f64;
         let mut slope = self.model.slope(&at, histogram);
-        for iterations in 1..=self.most_iterations {
+        for _ in 0..MOST_ITERATIONS {
             let (gradient, information) = &slope;
             // At its lowest the background stays, unless it is to rise.
             let held = at[2] <= self.model.least_background() && gradient[2] <= 0.0;
             let step = solve(information, gradient, damping, held);
             let gain = step.map(|step| (0..3).map(|k| step[k] * gradient[k]).sum::<f64>());
-            if damping == 0.0 && gain.is_some_and(|gain| gain < self.tolerance) {
-                return self.accept(&at, information, held, iterations);
+            if damping == 0.0 && gain.is_some_and(|gain| gain < TOLERANCE) {
+                return self.accept(&at, information, held);
             }
             let tried = step.map(|step| self.go(&at, &step));
             let reached = tried.map(|to| (to, self.model.log_likelihood(&to, histogram)));
@@ -108,7 +100,7 @@ impl Likelihood {
                     slope = self.model.slope(&at, histogram);
                 }
                 None if damping == 0.0 && gain.is_some_and(|gain| gain < NOTHING) => {
-                    return self.accept(&at, information, held, iterations);
+                    return self.accept(&at, information, held);
                 }
                 None => damping = (damping * 10.0).max(1e-3),
             }
@@ -133,17 +125,16 @@ impl Likelihood {
         at: &[f64; 3],
         information: &[[f64; 3]; 3],
         held: bool,
-        iterations: usize,
     ) -> Result<Fit, Failure> {
         let variances = inverse_diagonal(information, held).ok_or(Failure::NoConvergence)?;
-        let scene = self.model.scene(at);
+        let echo = self.model.echo(at);
         let within = -self.model.sigma_ps()..=self.model.end_ps() + self.model.sigma_ps();
         // The deviation of ln S is that of S by S.
-        if variances[1].sqrt() * self.significance > 1.0 || !within.contains(&scene.arrival_ps) {
+        if variances[1].sqrt() * SIGNIFICANCE > 1.0 || !within.contains(&echo.arrival_ps) {
             return Err(Failure::NoPeak);
         }
         let arrival_deviation_ps = variances[0].sqrt() * self.model.sigma_ps();
-        Ok(Fit { scene, arrival_deviation_ps, iterations })
+        Ok(Fit { echo, arrival_deviation_ps })
     }
 }
 
@@ -153,7 +144,7 @@ impl Estimator for Likelihood {
     }
 
     fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure> {
-        Ok(self.fit(histogram)?.scene.arrival_ps / ARRIVAL_PS_PER_M)
+        Ok(self.fit(histogram)?.echo.arrival_ps / ARRIVAL_PS_PER_M)
     }
 }
 

@@ -3,21 +3,20 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use tofsim::error::Result;
-use tofsim::firmware::histogram_builder::BINS;
 use tofsim::network::float::Float;
-use tofsim::network::formats::{Format, Overflow};
-use tofsim::network::{Histogram, MAX_HITS};
+use tofsim::network::formats::{Fixed, Format, Overflow};
+use tofsim::network::pass::HiddenNeuron;
+use tofsim::network::{Histogram, MAX_HITS, Weights};
 
-use super::Datapath;
+use super::datapath::Datapath;
 
 /// A network in a datapath.
 #[derive(Debug)]
 pub struct Circuit {
     datapath: Datapath,
-    w1: Vec<[i64; BINS]>,
-    b1: Vec<i64>,
-    w2: Vec<i64>,
-    b2: i64,
+    /// The words as integers, biases aligned with the products.
+    words: Weights<i64, i64, i64, i64>,
+    /// Activations by address.
     table: Vec<i64>,
     /// Weights that no word holds, and were saturated.
     pub saturated_weights: usize,
@@ -32,53 +31,65 @@ impl Circuit {
     /// When [`Datapath::check`] fails.
     pub fn new(float: &Float, datapath: Datapath) -> Result<Self> {
         datapath.check()?;
+        Ok(Circuit::rounded(float, datapath))
+    }
+
+    /// A network in the firmware's own datapath, in whose words its integers already are.
+    pub fn firmware(fixed: &Fixed) -> Self {
+        Circuit::rounded(&Float::from_fixed(fixed), Datapath::default())
+    }
+
+    fn rounded(float: &Float, datapath: Datapath) -> Self {
         let mut saturated_weights = 0;
         let mut word = |format: Format, value: f64| {
             let fits = format.round(value, Overflow::Refuse);
             saturated_weights += usize::from(fits.is_none());
             fits.or_else(|| format.round(value, Overflow::Saturate)).unwrap_or_default()
         };
-        let w1 = float.w1.iter().map(|row| row.map(|weight| word(datapath.w1, weight))).collect();
-        let b1: Vec<i64> = float.b1.iter().map(|&bias| word(datapath.b1, bias)).collect();
-        let w2 = float.w2.iter().map(|&weight| word(datapath.w2, weight)).collect();
-        let b2 = word(datapath.b2, float.b2);
-        let (entries, half) = (1i64 << datapath.address_bits, 1i64 << (datapath.address_bits - 1));
-        let step = f64::from(1u32 << datapath.range_log2) / half as f64;
-        let entry = |place: i64| {
-            let value = libm::tanh((place - half) as f64 * step);
-            datapath.l1_out.round(value, Overflow::Saturate).unwrap_or_default()
+        let Datapath { w1, b1, w2, b2, l1_out, .. } = datapath;
+        let (align_hidden, align_output) =
+            (w1.fraction - b1.fraction, w2.fraction + l1_out.fraction - b2.fraction);
+        let words = Weights {
+            w1: float.w1.iter().map(|row| row.map(|weight| word(w1, weight))).collect(),
+            b1: float.b1.iter().map(|&bias| word(b1, bias) << align_hidden).collect(),
+            w2: float.w2.iter().map(|&weight| word(w2, weight)).collect(),
+            b2: word(b2, float.b2) << align_output,
         };
-        Ok(Circuit {
-            datapath,
-            w1,
-            b1: b1
-                .iter()
-                .map(|bias| bias << (datapath.w1.fraction - datapath.b1.fraction))
-                .collect(),
-            w2,
-            b2: b2 << (datapath.w2.fraction + datapath.l1_out.fraction - datapath.b2.fraction),
-            table: (0..entries).map(entry).collect(),
-            saturated_weights,
-            saturated_sums: AtomicU64::new(0),
-        })
+        let half = 1i64 << (datapath.address_bits - 1);
+        let step = f64::from(1u32 << datapath.range_log2) / half as f64;
+        let entry = |address: i64| {
+            let value = libm::tanh(address as f64 * step);
+            l1_out.round(value, Overflow::Saturate).unwrap_or_default()
+        };
+        let (table, saturated_sums) = ((-half..half).map(entry).collect(), AtomicU64::new(0));
+        Circuit { datapath, words, table, saturated_weights, saturated_sums }
+    }
+
+    /// Address of a sum in the table of activations, signed, and whether the sum lies past the table.
+    pub fn address(&self, sum: i64) -> (i64, bool) {
+        let (shift, half) = (self.datapath.shift(), self.table.len() as i64 / 2);
+        let rounded = (sum + (1 << (shift - 1))) >> shift;
+        let address = rounded.clamp(-half, half - 1);
+        (address, address != rounded)
+    }
+
+    /// Depth of a histogram as the word that it is; `record` is shown every neuron.
+    pub fn depth(&self, histogram: &Histogram, record: impl FnMut(HiddenNeuron<i64>)) -> i64 {
+        let (half, mut past_the_table) = (self.table.len() as i64 / 2, 0);
+        let activate = |sum| {
+            let (address, is_past) = self.address(sum);
+            past_the_table += u64::from(is_past);
+            self.table[(address + half) as usize]
+        };
+        let depth = self.words.pass(histogram, activate, record);
+        self.saturated_sums.fetch_add(past_the_table, Ordering::Relaxed);
+        depth
     }
 
     /// Depth of a histogram [m].
     pub fn depth_m(&self, histogram: &Histogram) -> f64 {
-        let (shift, half) = (self.datapath.shift(), self.table.len() as i64 / 2);
-        let (mut depth, mut saturated) = (self.b2, 0);
-        for neuron in 0..self.w2.len() {
-            let products = self.w1[neuron].iter().zip(histogram);
-            let products = products.map(|(weight, &count)| weight * i64::from(count));
-            let sum = products.sum::<i64>() + self.b1[neuron];
-            let rounded = (sum + (1 << (shift - 1))) >> shift;
-            let address = rounded.clamp(-half, half - 1);
-            saturated += u64::from(address != rounded);
-            depth += self.table[(address + half) as usize] * self.w2[neuron];
-        }
-        self.saturated_sums.fetch_add(saturated, Ordering::Relaxed);
         let fraction = self.datapath.w2.fraction + self.datapath.l1_out.fraction;
-        depth as f64 * (-f64::from(fraction)).exp2()
+        self.depth(histogram, |_| ()) as f64 * (-f64::from(fraction)).exp2()
     }
 
     /// Sums that lay past the table, of all histograms seen.
@@ -88,11 +99,12 @@ impl Circuit {
 
     /// Bits, with sign, that no sum of a legal histogram exceeds: of the hidden layer and the depth.
     pub fn sum_bits(&self) -> [u32; 2] {
-        let largest = |row: &[i64; BINS]| row.iter().map(|weight| weight.abs()).max().unwrap_or(0);
-        let hidden = self.w1.iter().zip(&self.b1);
+        let Weights { w1, b1, w2, b2 } = &self.words;
+        let largest = |row: &[i64]| row.iter().map(|weight| weight.abs()).max().unwrap_or(0);
+        let hidden = w1.iter().zip(b1);
         let hidden = hidden.map(|(row, bias)| i64::from(MAX_HITS) * largest(row) + bias.abs());
         let one = self.datapath.l1_out.min().abs();
-        let depth = self.w2.iter().map(|weight| weight.abs() * one).sum::<i64>() + self.b2.abs();
+        let depth = w2.iter().map(|weight| weight.abs() * one).sum::<i64>() + b2.abs();
         [hidden.max().unwrap_or(0), depth].map(|most| i64::BITS - most.leading_zeros() + 1)
     }
 }
@@ -135,5 +147,13 @@ mod tests {
             errors.sum::<f64>().sqrt()
         };
         assert!(error(8) > 2.0 * error(10) && error(10) > 2.0 * error(12));
+    }
+
+    #[test]
+    fn a_weight_that_no_word_holds_is_saturated_and_counted() {
+        let mut wild = Network::builtin("uniform").unwrap().unwrap().twin();
+        wild.w1[0][0] = 1.0;
+        let circuit = Circuit::new(&wild, Datapath::default()).unwrap();
+        assert_eq!(circuit.saturated_weights, 1);
     }
 }

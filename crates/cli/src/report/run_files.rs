@@ -12,7 +12,7 @@ use super::causes::Causes;
 use super::events::Events;
 use super::frame_log::FrameLog;
 use super::histogram_csv;
-use super::histogram_svg::Plot;
+use super::histogram_svg::HistogramPlot;
 use super::pair_table;
 use super::summary::Summary;
 
@@ -29,7 +29,7 @@ fn is_same(a: &Path, b: &Path) -> bool {
 }
 
 /// Files under construction, and what they are made from.
-pub struct Products<'a> {
+pub struct RunFiles<'a> {
     folder: Option<&'a Path>,
     events: Option<Events>,
     causes: Causes,
@@ -40,7 +40,7 @@ pub struct Products<'a> {
     wants_tdc: bool,
 }
 
-impl<'a> Products<'a> {
+impl<'a> RunFiles<'a> {
     /// Begins the files: a row for each shot in `events`, the rest in `folder`.
     pub fn new(
         folder: Option<&'a Path>,
@@ -59,10 +59,10 @@ impl<'a> Products<'a> {
         let events = events.map(create).transpose()?;
         let (shown, wants_tdc) = (setup.frames_together() - 1, setup.scenario.report.tdc);
         let causes = Causes::default();
-        Ok(Products { folder, events, causes, shown, tdc: Vec::new(), wants_tdc })
+        Ok(RunFiles { folder, events, causes, shown, tdc: Vec::new(), wants_tdc })
     }
 
-    /// Whether [`Products::shot`] has to be told of shots.
+    /// Whether [`RunFiles::shot`] has to be told of shots.
     pub fn want_shots(&self) -> bool {
         self.folder.is_some() || self.events.is_some() || self.wants_tdc
     }
@@ -106,7 +106,7 @@ impl<'a> Products<'a> {
         if self.causes.is_empty() {
             self.causes.add_unknown(&frame.histogram);
         }
-        let plot = Plot {
+        let plot = HistogramPlot {
             title: format!("{}, seed {}, {} shots", setup.name, setup.scenario.seed, frame.shots),
             causes: &self.causes,
             true_depth_m: setup.true_depth_m(),
@@ -116,7 +116,7 @@ impl<'a> Products<'a> {
             },
         };
         let path = folder.join(NAMES[0]);
-        write_file(&path, |file| log.write_json(summary, file))?;
+        write_file(&path, |file| summary.write(log, file))?;
         written.push(path);
         let mut write = |name: &str, text: &[u8]| {
             let path = folder.join(name);
