@@ -206,7 +206,7 @@ fn renamed(sides: [&Source; 2], map: &Map, swapped: bool) -> Result<[Vec<Name>; 
 }
 
 /// How the values of two signals are shown.
-fn shown(a: &Signal, b: &Signal, known: &[(Name, tofsim::kernel::signals::Format)]) -> Show {
+fn shown(a: &Signal, b: &Signal, known: &[(Name, tofsim::kernel::signals::SignalFormat)]) -> Show {
     if a.kind == Kind::Real {
         return Show::Real;
     }

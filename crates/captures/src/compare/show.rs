@@ -1,7 +1,7 @@
 //! How a value is written for people: in its signal's own radix, and as the number it stands for.
 
 use crate::ila::Radix;
-use tofsim::kernel::signals::Format as Shape;
+use tofsim::kernel::signals::SignalFormat as Shape;
 
 use super::pair::{Bits, extend};
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use tofsim::error::Result;
 use tofsim::firmware::tof_top::{Params, TofTop};
 use tofsim::hierarchy::{self, IDS, Part};
-use tofsim::kernel::signals::{Format as Shape, Sink};
+use tofsim::kernel::signals::{SignalFormat as Shape, Sink};
 use tofsim::kernel::{Thermometer, Time};
 use tofsim::sim::device::SignalProbe;
 use tofsim::sim::frames::Frames;

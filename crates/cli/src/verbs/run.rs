@@ -19,7 +19,7 @@ use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 use tofsim::sim::{Run, Stepping};
-use tofsim::waves::{self, Format, Waves, write_views};
+use tofsim::waves::{self, WaveFormat, Waves, write_views};
 use tofsim_learn::estimation::{Kind, Panel};
 
 use super::interrupt::stop_signal;
@@ -157,7 +157,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
             };
             let run = Run::new(&setup).stepping(stepping);
             match observers.waves.is_some() || wants_all_shots {
-                true => run.frames(frames, observers)?,
+                true => run.observe(frames, observers)?,
                 false => run.many(frames, observers)?,
             }
         }
@@ -260,7 +260,7 @@ fn use_threads(threads: Option<u16>) -> Result<()> {
 /// The waveform: what goes into it, and where.
 struct WavePlan {
     path: PathBuf,
-    format: Format,
+    format: WaveFormat,
     entries: Vec<hierarchy::Entry>,
     windows: Vec<Window>,
 }
@@ -269,8 +269,8 @@ impl WavePlan {
     fn new(args: &Args, waves: WavesFormat, setup: &Setup, frames: u64) -> Result<Option<Self>> {
         let (format, ending) = match waves {
             WavesFormat::None => return Ok(None),
-            WavesFormat::Vcd => (Format::Vcd, "vcd"),
-            WavesFormat::Fst => (Format::Fst, "fst"),
+            WavesFormat::Vcd => (WaveFormat::Vcd, "vcd"),
+            WavesFormat::Fst => (WaveFormat::Fst, "fst"),
         };
         let entries = hierarchy::entries(&setup.params);
         let entries = waves::select(entries, hierarchy::ram_entries(), &args.signals)?;
@@ -290,11 +290,7 @@ impl WavePlan {
 
 /// Who made a file, from what.
 fn provenance(args: &Args, setup: &Setup) -> Vec<String> {
-    let mut lines = vec![
-        format!("tofsim {}", env!("CARGO_PKG_VERSION")),
-        format!("scenario {}", setup.name),
-        format!("seed {}", setup.scenario.seed),
-    ];
+    let mut lines = setup.provenance();
     lines.extend(args.set.iter().map(|set| format!("set {set}")));
     lines
 }

@@ -10,7 +10,7 @@ use crate::estimation::network::FloatNetwork;
 use crate::estimation::{Estimator, Failure};
 use crate::quantize::datapath::{Circuit, Cost, Datapath};
 use tofsim::error::Result;
-use tofsim::network::formats::Format;
+use tofsim::network::formats::WordFormat;
 use tofsim::network::{Histogram, Network};
 
 use super::thesis::DISTANCES_M;
@@ -50,7 +50,7 @@ pub fn sweep() -> Vec<(String, Datapath)> {
         }
     }
     // A word that keeps its range has a fraction bit less for each bit less.
-    let shorter = |format: Format, width: u32| Format {
+    let shorter = |format: WordFormat, width: u32| WordFormat {
         width,
         fraction: format.fraction + width - format.width,
     };

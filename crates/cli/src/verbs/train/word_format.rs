@@ -3,14 +3,14 @@
 use std::fmt::{self, Display};
 use std::str::FromStr;
 
-use tofsim::network::formats::Format;
+use tofsim::network::formats::WordFormat;
 use tofsim_learn::quantize::datapath::Datapath;
 
 /// A word of the datapath and its format.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WordFormat {
     word: &'static str,
-    format: Format,
+    format: WordFormat,
 }
 
 impl WordFormat {
@@ -34,14 +34,14 @@ impl FromStr for WordFormat {
         let number = |digits: &str| digits.parse().map_err(|_| expected());
         Ok(WordFormat {
             word,
-            format: Format { width: number(width)?, fraction: number(fraction)? },
+            format: WordFormat { width: number(width)?, fraction: number(fraction)? },
         })
     }
 }
 
 impl Display for WordFormat {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Format { width, fraction } = self.format;
+        let WordFormat { width, fraction } = self.format;
         write!(f, "{}={width}.{fraction}", self.word)
     }
 }
@@ -58,8 +58,8 @@ mod tests {
             format.set(&mut datapath);
             assert_eq!(format.to_string(), text);
         }
-        assert_eq!(datapath.w1, Format { width: 12, fraction: 19 });
-        assert_eq!(datapath.l1_out, Format { width: 8, fraction: 7 });
+        assert_eq!(datapath.w1, WordFormat { width: 12, fraction: 19 });
+        assert_eq!(datapath.l1_out, WordFormat { width: 8, fraction: 7 });
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use tofsim::error::Result;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::network::float::Float;
-use tofsim::network::formats::{Format, Overflow};
+use tofsim::network::formats::{Overflow, WordFormat};
 use tofsim::network::{Histogram, MAX_HITS};
 
 use super::Datapath;
@@ -33,7 +33,7 @@ impl Circuit {
     pub fn new(float: &Float, datapath: Datapath) -> Result<Self> {
         datapath.check()?;
         let mut saturated_weights = 0;
-        let mut word = |format: Format, value: f64| {
+        let mut word = |format: WordFormat, value: f64| {
             let fits = format.round(value, Overflow::Refuse);
             saturated_weights += usize::from(fits.is_none());
             fits.or_else(|| format.round(value, Overflow::Saturate)).unwrap_or_default()
