@@ -12,7 +12,7 @@ use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 
 fn frame(setup: &Setup) -> u64 {
-    let done = Run::new(setup).frames(1, Observers::default());
+    let done = Run::new(setup).observe(1, Observers::default());
     black_box(done.expect("a built-in scenario runs")).cycles
 }
 

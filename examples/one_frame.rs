@@ -1,21 +1,13 @@
-//! One frame from Rust: a scenario with overrides, its depth and the fullest bin.
+//! One frame, from photons to a depth.
 
-use tofsim::scenario;
-use tofsim::sim::Run;
-use tofsim::sim::frames::Frame;
-use tofsim::sim::run::Observers;
-use tofsim::sim::setup::Setup;
+use tofsim::{Run, Setup};
 
-fn main() -> tofsim::error::Result<()> {
-    let overrides = ["target.distance_m=0.3".to_owned(), "seed=7".to_owned()];
-    let setup = Setup::new(scenario::load("kc705", &overrides)?)?;
-    let mut show = |frame: &Frame| {
-        let fullest = frame.histogram.iter().enumerate().max_by_key(|(_, count)| **count);
+fn main() -> tofsim::Result<()> {
+    let setup = Setup::load("kc705", &["target.distance_m=0.3", "seed=7"])?;
+    for frame in Run::new(&setup).frames(1)? {
+        let fullest = frame.histogram.iter().enumerate().max_by_key(|(_, hits)| **hits);
         println!("{:.4} m, {} hits, fullest bin {fullest:?}", frame.depth_m(), frame.hits());
-        Ok(())
-    };
-    let watch = Observers { frames: Some(&mut show), ..Observers::default() };
-    let outcome = Run::new(&setup).frames(1, watch)?;
-    println!("{} cycles of clk_125", outcome.cycles);
+        println!("{} cycles of clk_125", frame.frame_cycles);
+    }
     Ok(())
 }

@@ -9,7 +9,7 @@ use crate::firmware::TofTop;
 use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tof_top::{Estimator, Params};
 use crate::kernel::module::Module;
-use crate::kernel::signals::{Format, Signal, View};
+use crate::kernel::signals::{Signal, SignalFormat, View};
 
 mod build;
 mod part;
@@ -100,7 +100,7 @@ pub fn ram_entries() -> Vec<Entry> {
         signal: Signal {
             name: format!("ram_{bin}"),
             width: 16,
-            format: Format::Unsigned,
+            format: SignalFormat::Unsigned,
             output: false,
             view: View::NONE,
             doc: "Word of the histogram [hits].",

@@ -6,27 +6,16 @@ use std::fs;
 use std::path::Path;
 
 use tofsim::network::Histogram;
-use tofsim::scenario;
-use tofsim::sim::Run;
-use tofsim::sim::frames::Frame;
-use tofsim::sim::run::Observers;
-use tofsim::sim::setup::Setup;
+use tofsim::{Frame, Run, Setup};
 
 /// A scenario with overrides, ready to run.
 pub fn setup(name: &str, overrides: &[&str]) -> Setup {
-    let overrides: Vec<_> = overrides.iter().map(|&text| text.to_owned()).collect();
-    Setup::new(scenario::load(name, &overrides).unwrap()).unwrap()
+    Setup::load(name, overrides).unwrap()
 }
 
 /// The first `count` frames of a setup.
 pub fn frames(setup: &Setup, count: u64) -> Vec<Frame> {
-    let mut frames = Vec::new();
-    let mut take = |frame: &Frame| {
-        frames.push(frame.clone());
-        Ok(())
-    };
-    let watch = Observers { frames: Some(&mut take), ..Observers::default() };
-    Run::new(setup).frames(count, watch).unwrap();
+    let frames = Run::new(setup).frames(count).unwrap();
     assert_eq!(frames.len() as u64, count);
     frames
 }

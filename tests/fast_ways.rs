@@ -8,6 +8,7 @@ use tofsim::firmware::{tdc, vcsel_driver};
 use tofsim::hierarchy;
 use tofsim::kernel::signals::Sink;
 use tofsim::kernel::{Clocked, Thermometer, Time};
+use tofsim::scenario::QuenchMode::{EachShot, FreeRunning};
 use tofsim::scenario::{self, Control};
 use tofsim::sim::Device;
 use tofsim::sim::device::Off;
@@ -134,7 +135,7 @@ fn control(random: &mut ChaCha8Rng, cycles: u64) -> Vec<Control> {
             0 => [pair[0].rst, pair[1].rst] = [Some(true), Some(false)],
             1 => [pair[0].dsp_rst, pair[1].dsp_rst] = [Some(true), Some(false)],
             2 => [pair[0].dsp_en, pair[1].dsp_en] = [Some(false), Some(true)],
-            3 => [pair[0].mode, pair[1].mode] = [Some(1), Some(0)],
+            3 => [pair[0].mode, pair[1].mode] = [Some(FreeRunning), Some(EachShot)],
             4 => pair[1].laser_en = Some(random.random_bool(0.8)),
             _ => pair[0].laser_freq = Some(random.random_range(0..4)),
         }

@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 
 use proptest::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use tofsim::scenario::{self, Control};
+use tofsim::scenario::{self, Control, QuenchMode};
 use tofsim::sim::frames::Frame;
 use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
@@ -43,8 +43,8 @@ fn run(setup: &Setup, count: u64, way: Way) -> Result {
     let observers = Observers { frames: Some(&mut take), ..Observers::default() };
     let run = Run::new(setup);
     let outcome = match way {
-        Way::Followed => run.frames(count, Observers { shots: Some(&mut see), ..observers }),
-        Way::OneByOne(stepping) => run.stepping(stepping).frames(count, observers),
+        Way::Followed => run.observe(count, Observers { shots: Some(&mut see), ..observers }),
+        Way::OneByOne(stepping) => run.stepping(stepping).observe(count, observers),
         Way::OnTwoThreads(stepping) => run.stepping(stepping).many(count, observers),
     };
     let outcome = outcome.unwrap();
@@ -161,7 +161,8 @@ fn change(&(edge, offset_fs, what): &(u64, i64, u8)) -> Control {
     let mut change = Control { at_us: at_fs as f64 / 1e9, ..Control::default() };
     match what {
         0..=3 => change.laser_freq = Some(what.into()),
-        4 | 5 => change.mode = Some(u64::from(what - 4)),
+        4 => change.mode = Some(QuenchMode::EachShot),
+        5 => change.mode = Some(QuenchMode::FreeRunning),
         6 | 7 => change.laser_en = Some(what == 7),
         8 => change.dsp_en = Some(false),
         9 => change.dsp_rst = Some(true),

@@ -43,7 +43,7 @@ impl Expected {
             frames: Some(&mut take_frame),
             ..Observers::default()
         };
-        Run::new(setup).frames(1, watch)?;
+        Run::new(setup).observe(1, watch)?;
         let frame = frames.first().ok_or("tofsim gave no frame")?;
         if list.lines().count() as u64 != frame.shots {
             return Err("tofsim gave another number of shots than the frame has".into());

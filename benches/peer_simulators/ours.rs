@@ -11,7 +11,7 @@ use tofsim::sim::fast::histogram::Histograms;
 use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::{Run, Stepping};
-use tofsim::waves::{Format, Waves};
+use tofsim::waves::{WaveFormat, Waves};
 
 use crate::Result;
 use crate::contender::Work;
@@ -42,8 +42,8 @@ fn run(work: Work, setup: &Setup, frames: u64, folder: &Path) -> Result<()> {
         Work::CycleSkip => cycle_skip(setup, frames),
         Work::Shot => shot(setup, frames),
         Work::Histogram => histogram(setup, frames),
-        Work::Vcd => waveform(setup, frames, Format::Vcd, work.waveform(folder).as_deref()),
-        Work::Fst => waveform(setup, frames, Format::Fst, work.waveform(folder).as_deref()),
+        Work::Vcd => waveform(setup, frames, WaveFormat::Vcd, work.waveform(folder).as_deref()),
+        Work::Fst => waveform(setup, frames, WaveFormat::Fst, work.waveform(folder).as_deref()),
     }
 }
 
@@ -63,7 +63,7 @@ fn shot(setup: &Setup, frames: u64) -> Result<()> {
 }
 
 fn at(stepping: Stepping, setup: &Setup, frames: u64) -> Result<()> {
-    black_box(Run::new(setup).stepping(stepping).frames(frames, Observers::default())?);
+    black_box(Run::new(setup).stepping(stepping).observe(frames, Observers::default())?);
     Ok(())
 }
 
@@ -77,13 +77,13 @@ fn histogram(setup: &Setup, frames: u64) -> Result<()> {
 }
 
 /// Every cycle, every signal of the whole run in a waveform.
-fn waveform(setup: &Setup, frames: u64, format: Format, path: Option<&Path>) -> Result<()> {
+fn waveform(setup: &Setup, frames: u64, format: WaveFormat, path: Option<&Path>) -> Result<()> {
     let path = path.ok_or("a waveform needs a path")?;
     let (entries, order) = (hierarchy::entries(&setup.params), setup.params.tdc.delays.order());
     let waves = Waves::create(path, format, &entries, order, &[])?;
     let to = setup.end(frames).unwrap_or(Time::NEVER);
     let windows = vec![Window::Span { from: Time::ZERO, to }];
     let watch = Observers { waves: Some((waves, windows)), ..Observers::default() };
-    black_box(Run::new(setup).frames(frames, watch)?);
+    black_box(Run::new(setup).observe(frames, watch)?);
     Ok(())
 }

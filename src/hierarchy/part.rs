@@ -138,7 +138,7 @@ mod tests {
 
     use super::*;
     use crate::kernel::{Thermometer, Time};
-    use crate::scenario::{self, Control};
+    use crate::scenario::{self, Control, QuenchMode};
     use crate::sim::device::{Edge, Off, SignalProbe};
     use crate::sim::setup::Setup;
 
@@ -239,7 +239,10 @@ mod tests {
                 0 => [pulse[0].rst, pulse[1].rst] = [Some(true), Some(false)],
                 1 => [pulse[0].dsp_rst, pulse[1].dsp_rst] = [Some(true), Some(false)],
                 2 => [pulse[0].dsp_en, pulse[1].dsp_en] = [Some(false), Some(true)],
-                3 => [pulse[0].mode, pulse[1].mode] = [Some(1), Some(0)],
+                3 => {
+                    [pulse[0].mode, pulse[1].mode] =
+                        [Some(QuenchMode::FreeRunning), Some(QuenchMode::EachShot)]
+                }
                 4 => pulse[0].laser_freq = Some(random.random_range(0..4)),
                 _ => pulse[1].laser_en = Some(random.random_bool(0.8)),
             }

@@ -4,7 +4,7 @@ use super::{S, Thermometer, U};
 
 /// How a value reads best.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum SignalFormat {
     /// One bit, or a word whose value is a pattern.
     Bits,
     /// A count or an address.
@@ -45,7 +45,7 @@ pub struct Signal {
     /// Its width [bits].
     pub width: u32,
     /// How to show it.
-    pub format: Format,
+    pub format: SignalFormat,
     /// Whether other modules may read it.
     pub output: bool,
     /// Who looks at it first.
@@ -87,14 +87,14 @@ pub trait Word: Copy + PartialEq {
     /// Its width [bits].
     const WIDTH: u32;
     /// How to show it.
-    const FORMAT: Format;
+    const FORMAT: SignalFormat;
     /// Its bits.
     fn bits(&self) -> u64;
 }
 
 impl Word for bool {
     const WIDTH: u32 = 1;
-    const FORMAT: Format = Format::Bits;
+    const FORMAT: SignalFormat = SignalFormat::Bits;
     fn bits(&self) -> u64 {
         *self as u64
     }
@@ -102,7 +102,7 @@ impl Word for bool {
 
 impl<const N: u32> Word for U<N> {
     const WIDTH: u32 = N;
-    const FORMAT: Format = Format::Unsigned;
+    const FORMAT: SignalFormat = SignalFormat::Unsigned;
     fn bits(&self) -> u64 {
         self.get()
     }
@@ -110,7 +110,7 @@ impl<const N: u32> Word for U<N> {
 
 impl<const N: u32, const F: u32> Word for S<N, F> {
     const WIDTH: u32 = N;
-    const FORMAT: Format = Format::Signed { fraction: F };
+    const FORMAT: SignalFormat = SignalFormat::Signed { fraction: F };
     fn bits(&self) -> u64 {
         S::bits(*self)
     }
@@ -146,7 +146,7 @@ impl<T: Word, const K: usize> Field for [T; K] {
 impl<const N: usize> Field for Thermometer<N> {
     const COUNT: usize = 1;
     fn declare(like: Signal, list: &mut Vec<Signal>) {
-        list.push(Signal { width: N as u32, format: Format::Taps, ..like });
+        list.push(Signal { width: N as u32, format: SignalFormat::Taps, ..like });
     }
     fn changes(&self, before: Option<&Self>, id: usize, sink: &mut impl Sink) {
         if before != Some(self) {
@@ -185,7 +185,7 @@ macro_rules! signals {
                     $crate::kernel::signals::Signal {
                         name: stringify!($field).to_owned(),
                         width: 0,
-                        format: $crate::kernel::signals::Format::Bits,
+                        format: $crate::kernel::signals::SignalFormat::Bits,
                         output: matches!(stringify!($field_vis), "pub"),
                         view: $crate::kernel::signals::View {
                             $($($view: $shown,)+)?
@@ -232,8 +232,8 @@ macro_rules! states {
 
         impl $crate::kernel::signals::Word for $name {
             const WIDTH: u32 = $width;
-            const FORMAT: $crate::kernel::signals::Format =
-                $crate::kernel::signals::Format::State(&[$(stringify!($state)),+]);
+            const FORMAT: $crate::kernel::signals::SignalFormat =
+                $crate::kernel::signals::SignalFormat::State(&[$(stringify!($state)),+]);
             fn bits(&self) -> u64 {
                 *self as u64
             }

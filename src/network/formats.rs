@@ -30,7 +30,7 @@ pub type Fixed = Weights<HiddenWeight, HiddenBias, OutputWeight, OutputBias>;
 /// A two's complement word: how wide, and where its point is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Format {
+pub struct WordFormat {
     /// Width [bits].
     pub width: u32,
     /// Fraction bits; may exceed the width.
@@ -38,15 +38,15 @@ pub struct Format {
 }
 
 /// Format of [`HiddenWeight`].
-pub const W1: Format = Format { width: 16, fraction: 23 };
+pub const W1: WordFormat = WordFormat { width: 16, fraction: 23 };
 /// Format of [`HiddenBias`].
-pub const B1: Format = Format { width: 16, fraction: 13 };
+pub const B1: WordFormat = WordFormat { width: 16, fraction: 13 };
 /// Format of [`OutputWeight`].
-pub const W2: Format = Format { width: 16, fraction: 14 };
+pub const W2: WordFormat = WordFormat { width: 16, fraction: 14 };
 /// Format of [`OutputBias`].
-pub const B2: Format = Format { width: 16, fraction: 17 };
+pub const B2: WordFormat = WordFormat { width: 16, fraction: 17 };
 /// Format of [`Activation`].
-pub const L1_OUT: Format = Format { width: 16, fraction: 15 };
+pub const L1_OUT: WordFormat = WordFormat { width: 16, fraction: 15 };
 
 /// Sums past this magnitude share the last entries of the activation table.
 pub const TANSIG_RANGE: i64 = 4;
@@ -60,7 +60,7 @@ pub enum Overflow {
     Refuse,
 }
 
-impl Format {
+impl WordFormat {
     /// Smallest integer of the word.
     pub const fn min(self) -> i64 {
         -(1 << (self.width - 1))

@@ -6,7 +6,7 @@ use crate::firmware::histogram_builder::BINS;
 use super::Weights;
 use super::float::Float;
 use super::formats::{
-    B1, B2, Fixed, Format, HiddenBias, HiddenWeight, OutputBias, OutputWeight, Overflow, W1, W2,
+    B1, B2, Fixed, HiddenBias, HiddenWeight, OutputBias, OutputWeight, Overflow, W1, W2, WordFormat,
 };
 
 /// Rounded weights, and what did not fit.
@@ -51,7 +51,7 @@ impl Rounding<'_> {
     /// The words nearest to values.
     fn list(
         &mut self,
-        format: Format,
+        format: WordFormat,
         values: &[f64],
         name: &str,
     ) -> Result<impl Iterator<Item = i16> + use<>> {
@@ -63,7 +63,7 @@ impl Rounding<'_> {
     }
 
     /// The word of 16 bits nearest to a value.
-    fn word(&mut self, format: Format, value: f64, field: impl Fn() -> String) -> Result<i16> {
+    fn word(&mut self, format: WordFormat, value: f64, field: impl Fn() -> String) -> Result<i16> {
         if let Some(word) = format.round(value, Overflow::Refuse) {
             return Ok(word as i16);
         }

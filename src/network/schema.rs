@@ -11,8 +11,8 @@ use crate::firmware::tansig::ADDRESS_BITS;
 
 use super::file::{Accuracy, Training};
 use super::formats::{
-    B1, B2, Fixed, Format, HiddenBias, HiddenWeight, L1_OUT, OutputBias, OutputWeight,
-    TANSIG_RANGE, W1, W2,
+    B1, B2, Fixed, HiddenBias, HiddenWeight, L1_OUT, OutputBias, OutputWeight, TANSIG_RANGE, W1,
+    W2, WordFormat,
 };
 use super::{Network, Weights};
 
@@ -22,7 +22,7 @@ pub(super) const SCHEMA: &str = "tofsim.network/1";
 pub(super) const SCALING: [(&str, &str); 3] =
     [("input", "counts"), ("output", "metres"), ("normalisation", "folded")];
 /// Keys of `[formats]`, but for `tansig`.
-pub(super) const FORMATS: [(&str, Format); 5] =
+pub(super) const FORMATS: [(&str, WordFormat); 5] =
     [("w1", W1), ("b1", B1), ("w2", W2), ("b2", B2), ("l1_out", L1_OUT)];
 
 /// A network's file.
@@ -50,11 +50,11 @@ struct Scaling {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Formats {
-    w1: Format,
-    b1: Format,
-    w2: Format,
-    b2: Format,
-    l1_out: Format,
+    w1: WordFormat,
+    b1: WordFormat,
+    w2: WordFormat,
+    b2: WordFormat,
+    l1_out: WordFormat,
     tansig: TansigFormat,
 }
 

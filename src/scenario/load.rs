@@ -6,7 +6,8 @@ use crate::error::{Input, Result, nearest, read_text};
 use crate::files::toml::{Checked, assign, read};
 
 use super::builtin::{self, Source};
-use super::{Scenario, validate};
+use super::model::Scenario;
+use super::validate;
 
 /// The scenario that `run` takes when none is named.
 pub const DEFAULT: &str = "kc705";
@@ -52,6 +53,7 @@ fn parse(
     for assignment in overrides {
         assign::<Scenario>(&mut table, "-s", assignment)?;
     }
+    validate::windows(&table, &checked)?;
     let scenario: Scenario = read(source, &table)?;
     validate::validate(&scenario, &checked)?;
     Ok(Loaded { name: name.to_owned(), scenario, files })

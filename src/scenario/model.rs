@@ -6,6 +6,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::window::Window;
+
 /// Declares one table of the scenario, with the defaults beside the keys.
 macro_rules! table {
     ($(#[$meta:meta])* pub struct $name:ident {
@@ -27,7 +29,7 @@ macro_rules! table {
 mod board;
 mod optics;
 
-pub use board::{Control, Estimator, EstimatorKind, Firmware, Pll, Tdc};
+pub use board::{Control, Estimator, EstimatorKind, Firmware, Pll, QuenchMode, Tdc};
 pub use optics::{Ambient, AmbientModel, Filter, Laser, Lens, Spad, Target};
 
 table! {
@@ -91,6 +93,7 @@ table! {
         /// Parts of the run that go into the waveform where `--window` is not given; an empty list
         /// stands for `shot:0..16` and `estimation`.
         #[schemars(extend("source" = "choice: a first look under 5 MB"))]
-        pub windows: Vec<String> = Vec::new(),
+        #[schemars(with = "Vec<String>")]
+        pub windows: Vec<Window> = Vec::new(),
     }
 }

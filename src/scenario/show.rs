@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value as Json;
 
-use super::Scenario;
+use super::model::Scenario;
 
 /// The JSON Schema of a scenario.
 pub fn schema() -> Json {

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use serde::{Deserialize, Serialize};
+
 use crate::kernel::Time;
 
 /// A part of a run: `shot:0..8`, `10us..12us` or `estimation`.
@@ -11,7 +13,8 @@ use crate::kernel::Time;
 /// edge (one before `pre_start`) to the next one's, shots counted over the whole run; a window of
 /// time is widened to whole cycles; `estimation` is every frame's, from two cycles before
 /// `algo_start` to one after `frame_done`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub enum Window {
     /// Shots, the end excluded.
     Shots {
@@ -102,6 +105,20 @@ impl FromStr for Window {
         }
         let (from, to) = (time(from).ok_or(expected)?, time(to).ok_or(expected)?);
         if from < to { Ok(Window::Span { from, to }) } else { reversed(&from, &to) }
+    }
+}
+
+impl TryFrom<String> for Window {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
+    }
+}
+
+impl From<Window> for String {
+    fn from(window: Window) -> Self {
+        window.to_string()
     }
 }
 

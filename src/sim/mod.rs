@@ -1,5 +1,6 @@
 //! A run: the device, the light on it and the acquisition computer, stepped in time.
 
+pub mod cycles;
 pub mod device;
 pub mod fast;
 pub mod frames;

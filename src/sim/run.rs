@@ -85,12 +85,26 @@ impl<'a> Run<'a> {
         self
     }
 
-    /// Simulates until `count` frames are done.
+    /// Simulates `count` frames and returns them.
     ///
     /// # Errors
-    /// When the control signals keep a frame from ending, a window lies past the end, a sink
+    /// When the control signals keep a frame from ending.
+    pub fn frames(self, count: u64) -> Result<Vec<Frame>> {
+        let mut frames = Vec::new();
+        let mut take = |frame: &Frame| {
+            frames.push(frame.clone());
+            Ok(())
+        };
+        self.observe(count, Observers { frames: Some(&mut take), ..Observers::default() })?;
+        Ok(frames)
+    }
+
+    /// Simulates until `count` frames are done, and shows the observers what they ask for.
+    ///
+    /// # Errors
+    /// When the control signals keep a frame from ending, a window lies past the end, an observer
     /// fails, or the run is stopped.
-    pub fn frames(mut self, count: u64, observers: Observers) -> Result<Outcome> {
+    pub fn observe(mut self, count: u64, observers: Observers) -> Result<Outcome> {
         let Observers { waves, shots, frames, stop } = observers;
         let mut sinks = Sinks { shots, frames, stop };
         let mut recorder = sinks.shots.is_some().then(ShotRecorder::default);

@@ -1,6 +1,7 @@
 //! From a scenario to a device: what elaboration, optics and stimuli come to.
 
-use super::fast::centroid::locate;
+use std::path::Path;
+
 use crate::error::{Input, Result};
 use crate::files::csv::CsvInput;
 use crate::firmware::forward2::Depth;
@@ -8,20 +9,23 @@ use crate::firmware::histogram_preload;
 use crate::firmware::pll::{self, Pll};
 use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Pins};
 use crate::firmware::{centroid_estimator, frame_ctrl, tdc, vcsel_driver};
+use crate::hierarchy;
 use crate::kernel::{S, Time, U};
 use crate::network::estimate::estimate;
 use crate::network::histogram_file;
 use crate::network::{Histogram, Network};
 use crate::optics::{Budget, Hazard};
 use crate::scenario::builtin::Source;
+use crate::scenario::window::Window;
 use crate::scenario::{self, EstimatorKind, Firmware, Loaded, Scenario, chain};
 use crate::sensor::light::{Light, Optics};
 use crate::sensor::photon_list::{Given, PhotonList};
+use crate::waves::{self, WaveFormat, Waves};
 
 use super::device::Device;
+use super::fast::centroid::locate;
 use super::jitter::Jitter;
 use super::timeline::{Timeline, pins_at_power_up};
-use crate::scenario::window::Window;
 
 /// Period of `clk_125`.
 pub const CYCLE: Time = Time::from_ns(8);
@@ -55,6 +59,17 @@ pub struct Setup {
 }
 
 impl Setup {
+    /// Loads a built-in scenario by name or a file by path, with overrides such as
+    /// `target.distance_m=0.3`, and makes it ready to run.
+    ///
+    /// # Errors
+    /// When there is no such scenario, a key or value is wrong, or a file that the scenario names cannot
+    /// be read or used.
+    pub fn load(name: &str, overrides: &[&str]) -> Result<Self> {
+        let overrides: Vec<_> = overrides.iter().map(|&text| text.to_owned()).collect();
+        Setup::new(scenario::load(name, &overrides)?)
+    }
+
     /// Loads the files that the scenario names and works out what it sets.
     ///
     /// # Errors
@@ -187,7 +202,7 @@ impl Setup {
                     .chain([Window::Estimation])
                     .collect());
             }
-            ([], own) => ("report.windows", own.iter().flat_map(|text| text.parse()).collect()),
+            ([], own) => ("report.windows", own.to_vec()),
             (given, _) => ("--window", given.to_vec()),
         };
         let end = self.end(frames).unwrap_or(Time::NEVER);
@@ -197,6 +212,28 @@ impl Setup {
                 .map_err(|expected| Input::new(source, expected).value(window))?;
         }
         Ok(windows)
+    }
+
+    /// Begins a waveform file of the signals that match one of `globs`, or without globs of all but the
+    /// words of the RAM. It takes no part in the run before [`Run::observe`](crate::Run::observe) has it.
+    ///
+    /// # Errors
+    /// When a glob matches no signal, or the file cannot be written.
+    pub fn waves(&self, path: &Path, format: WaveFormat, globs: &[&str]) -> Result<Waves> {
+        let globs: Vec<_> = globs.iter().map(|&glob| glob.to_owned()).collect();
+        let entries = hierarchy::entries(&self.params);
+        let entries = waves::select(entries, hierarchy::ram_entries(), &globs)?;
+        let order = self.params.tdc.delays.order();
+        Waves::create(path, format, &entries, order, &self.provenance())
+    }
+
+    /// What a file that comes of it says of where it comes from, a line each.
+    pub fn provenance(&self) -> Vec<String> {
+        vec![
+            format!("tofsim {}", env!("CARGO_PKG_VERSION")),
+            format!("scenario {}", self.name),
+            format!("seed {}", self.scenario.seed),
+        ]
     }
 
     /// A number of cycles that no run of `frames` frames reaches unless its control signals keep

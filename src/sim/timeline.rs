@@ -2,7 +2,7 @@
 
 use crate::firmware::tof_top::Pins;
 use crate::kernel::{Time, U};
-use crate::scenario::{Control, Firmware, Scenario};
+use crate::scenario::{Control, Firmware, QuenchMode, Scenario};
 
 /// Changes still to come, in order of time.
 #[derive(Clone, Debug)]
@@ -56,7 +56,7 @@ impl Timeline {
             (pins.laser_en, self.turn) = (!pins.laser_en, Time::NEVER);
         } else if let Some((_, change)) = self.changes.next() {
             pins.laser_freq = change.laser_freq.map_or(pins.laser_freq, U::new);
-            pins.mode = change.mode.map_or(pins.mode, |mode| mode == 1);
+            pins.mode = change.mode.map_or(pins.mode, |mode| mode == QuenchMode::FreeRunning);
             pins.laser_en = change.laser_en.unwrap_or(pins.laser_en);
             pins.dsp_en = change.dsp_en.unwrap_or(pins.dsp_en);
             pins.dsp_rst = change.dsp_rst.unwrap_or(pins.dsp_rst);
@@ -81,7 +81,7 @@ pub fn pins_at_power_up(firmware: &Firmware) -> Pins {
     Pins {
         rst: firmware.rst,
         tdc_stop: false,
-        mode: firmware.mode == 1,
+        mode: firmware.mode == QuenchMode::FreeRunning,
         laser_freq: U::new(firmware.laser_freq),
         laser_en: firmware.laser_en && !firmware.dark_frames,
         dsp_en: firmware.dsp_en,
@@ -97,7 +97,8 @@ mod tests {
         let mut scenario = Scenario::default();
         scenario.firmware.dark_frames = dark_frames;
         scenario.firmware.response_ns = 200.5;
-        scenario.control = vec![Control { at_us: 1.0, mode: Some(1), ..Control::default() }];
+        scenario.control =
+            vec![Control { at_us: 1.0, mode: Some(QuenchMode::FreeRunning), ..Control::default() }];
         (Timeline::new(&scenario), pins_at_power_up(&scenario.firmware))
     }
 

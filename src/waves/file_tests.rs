@@ -39,7 +39,7 @@ fn windows_that_touch_are_one() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("run.vcd");
     let params = params();
-    let mut waves = [create(&path, Format::Vcd, &entries(&params), &params)];
+    let mut waves = [create(&path, WaveFormat::Vcd, &entries(&params), &params)];
     let mut bench = Bench::new(params);
     waves[0].begin(bench.now(), &bench.top);
     bench.run(10, &mut waves);
@@ -78,7 +78,7 @@ fn a_sample_without_a_change_writes_nothing() {
     }
     let size = |extra: u64| {
         let path = directory.path().join("run.vcd");
-        let mut waves = create(&path, Format::Vcd, &entries, &params);
+        let mut waves = create(&path, WaveFormat::Vcd, &entries, &params);
         waves.begin(Time::ZERO, &TofTop::new(Pins::default()));
         for k in 1..=1 + extra {
             waves.sample(Time::from_ns(k), &bench.top);
@@ -94,7 +94,7 @@ fn time_is_rounded_down_and_never_goes_back() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("run.vcd");
     let params = params();
-    let mut waves = create(&path, Format::Vcd, &entries(&params), &params);
+    let mut waves = create(&path, WaveFormat::Vcd, &entries(&params), &params);
     let mut top = TofTop::new(Pins::default());
     waves.begin(Time::ZERO, &top);
     for fs in [5_999, 6_000, 6_999, 4_000] {
@@ -138,7 +138,7 @@ fn a_full_disk_is_an_error_that_names_the_file_now_and_later() {
                 }
             });
         }
-        assert_eq!(first.is_some(), format == Format::Vcd, "VCD is written as it goes");
+        assert_eq!(first.is_some(), format == WaveFormat::Vcd, "VCD is written as it goes");
         let last = waves.finish(bench.now()).unwrap_err().to_string();
         assert!(last.contains("full: cannot write") && last.contains("space"), "{last}");
     }

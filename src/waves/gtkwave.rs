@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::hierarchy::Entry;
-use crate::kernel::signals::Format as Shape;
+use crate::kernel::signals::SignalFormat;
 
 use super::layout::{Group, Row};
 use super::views::Marks;
@@ -111,27 +111,27 @@ impl Lines<'_> {
     fn row(&mut self, row: &Row<'_>) {
         let signal = &row.entry.signal;
         let radix = match signal.format {
-            Shape::State(_) => flag::BINARY | flag::NAMES,
-            Shape::Bits if signal.width == 1 => flag::BINARY,
-            Shape::Bits => flag::HEXADECIMAL,
-            Shape::Unsigned if signal.width > 32 => flag::HEXADECIMAL,
-            Shape::Unsigned => flag::DECIMAL,
-            Shape::Signed { fraction: 0 } => flag::SIGNED,
-            Shape::Signed { .. } => flag::SIGNED | flag::FIXED_POINT,
-            Shape::Taps => flag::DECIMAL | flag::ONES,
+            SignalFormat::State(_) => flag::BINARY | flag::NAMES,
+            SignalFormat::Bits if signal.width == 1 => flag::BINARY,
+            SignalFormat::Bits => flag::HEXADECIMAL,
+            SignalFormat::Unsigned if signal.width > 32 => flag::HEXADECIMAL,
+            SignalFormat::Unsigned => flag::DECIMAL,
+            SignalFormat::Signed { fraction: 0 } => flag::SIGNED,
+            SignalFormat::Signed { .. } => flag::SIGNED | flag::FIXED_POINT,
+            SignalFormat::Taps => flag::DECIMAL | flag::ONES,
         };
         self.line(format_args!("@{:x}", radix | flag::RIGHT));
         match signal.format {
-            Shape::Signed { fraction } if fraction > 0 => {
+            SignalFormat::Signed { fraction } if fraction > 0 => {
                 self.line(format_args!("[fpshift_count] {fraction}"));
             }
-            Shape::State(_) => self.line(format_args!("^1 {}", names_file(self.stem, row))),
+            SignalFormat::State(_) => self.line(format_args!("^1 {}", names_file(self.stem, row))),
             _ => {}
         }
-        let note = if signal.format == Shape::Taps { " (ones)" } else { "" };
+        let note = if signal.format == SignalFormat::Taps { " (ones)" } else { "" };
         self.named(row, note);
         if row.curve {
-            let signed = matches!(signal.format, Shape::Signed { .. });
+            let signed = matches!(signal.format, SignalFormat::Signed { .. });
             let radix = if signed { flag::SIGNED } else { flag::DECIMAL };
             let curve = radix | flag::RIGHT | flag::STEPS | flag::FULL_SCALE;
             self.line(format_args!("@{curve:x}"));

@@ -42,19 +42,19 @@ pub use views::{Marks, write_views};
 
 /// A format of waveform files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum WaveFormat {
     /// Value change dump: text, read by everything.
     Vcd,
     /// GTKWave's binary format, some twenty times smaller.
     Fst,
 }
 
-impl Format {
+impl WaveFormat {
     /// The ending of its files, without the dot.
     pub const fn extension(self) -> &'static str {
         match self {
-            Format::Vcd => "vcd",
-            Format::Fst => "fst",
+            WaveFormat::Vcd => "vcd",
+            WaveFormat::Fst => "fst",
         }
     }
 }
@@ -117,14 +117,18 @@ impl Waves {
     /// arrival; `provenance` says where the file comes from, a line each.
     pub fn create(
         path: &Path,
-        format: Format,
+        format: WaveFormat,
         entries: &[Entry],
         order: &[u16],
         provenance: &[String],
     ) -> Result<Waves> {
         let writer = match format {
-            Format::Vcd => Writer::Vcd(Box::new(Vcd::create(path, entries, order, provenance)?)),
-            Format::Fst => Writer::Fst(Box::new(Fst::create(path, entries, order, provenance)?)),
+            WaveFormat::Vcd => {
+                Writer::Vcd(Box::new(Vcd::create(path, entries, order, provenance)?))
+            }
+            WaveFormat::Fst => {
+                Writer::Fst(Box::new(Fst::create(path, entries, order, provenance)?))
+            }
         };
         let shown = Box::new(Part::of(entries.iter().map(|entry| entry.id)));
         Ok(Waves { writer, state: State::Blank, shown, last: 0, failed: None })

@@ -6,17 +6,17 @@ use std::path::{Path, PathBuf};
 use wellen::simple::Waveform;
 
 use super::bench::{Bench, SHOTS};
-use super::{Format, Waves};
+use super::{WaveFormat, Waves};
 use crate::firmware::tof_top::Params;
 use crate::hierarchy::{Entry, entries, ram_entries};
 
 /// Both formats.
-pub(super) const FORMATS: [Format; 2] = [Format::Vcd, Format::Fst];
+pub(super) const FORMATS: [WaveFormat; 2] = [WaveFormat::Vcd, WaveFormat::Fst];
 /// A frame and a little more [cycles of clk_125].
 pub(super) const FRAME: u64 = 256 + 6 * SHOTS as u64 + 16 + 268 + 20;
 
 /// Begins a file with some provenance.
-pub(super) fn create(path: &Path, format: Format, entries: &[Entry], params: &Params) -> Waves {
+pub(super) fn create(path: &Path, format: WaveFormat, entries: &[Entry], params: &Params) -> Waves {
     let provenance = ["scenario kc705".to_owned(), "seed 1".to_owned()];
     Waves::create(path, format, entries, params.tdc.delays.order(), &provenance).unwrap()
 }

@@ -4,9 +4,9 @@
 
 use std::fmt::Write;
 
-use crate::kernel::signals::Format as Shape;
+use crate::kernel::signals::SignalFormat;
 
-use super::Format;
+use super::WaveFormat;
 use super::layout::{Group, Row};
 use super::views::Marks;
 
@@ -14,7 +14,7 @@ use super::views::Marks;
 pub(super) const MAPPINGS: &str = ".surfer/mappings";
 
 /// The command file: a heading and its signals, group by group, then the marks.
-pub(super) fn commands(format: Format, groups: &[Group<'_>], marks: &Marks) -> String {
+pub(super) fn commands(format: WaveFormat, groups: &[Group<'_>], marks: &Marks) -> String {
     let mut text = String::new();
     let mut place = 0;
     for group in groups.iter().filter(|group| !group.closed) {
@@ -54,13 +54,13 @@ pub(super) fn mapping(states: &[&str], row: &Row<'_>) -> String {
     text
 }
 
-fn shown_as(format: Format, row: &Row<'_>) -> Option<String> {
+fn shown_as(format: WaveFormat, row: &Row<'_>) -> Option<String> {
     match row.entry.signal.format {
-        Shape::Unsigned if row.entry.signal.width <= 32 => Some("Unsigned".into()),
-        Shape::Signed { .. } => Some("Signed".into()),
-        Shape::Taps => Some("Number of ones".into()),
-        Shape::State(_) if format == Format::Fst => Some(mapping_name(row)),
-        Shape::State(_) | Shape::Bits | Shape::Unsigned => None,
+        SignalFormat::Unsigned if row.entry.signal.width <= 32 => Some("Unsigned".into()),
+        SignalFormat::Signed { .. } => Some("Signed".into()),
+        SignalFormat::Taps => Some("Number of ones".into()),
+        SignalFormat::State(_) if format == WaveFormat::Fst => Some(mapping_name(row)),
+        SignalFormat::State(_) | SignalFormat::Bits | SignalFormat::Unsigned => None,
     }
 }
 

@@ -93,7 +93,7 @@ fn taps_stand_in_their_physical_place() {
     assert_eq!(params.tdc.delays.order()[..4], [0, 2, 3, 1]);
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("run.vcd");
-    let mut waves = create(&path, Format::Vcd, &entries(&params), &params);
+    let mut waves = create(&path, WaveFormat::Vcd, &entries(&params), &params);
     let mut top = TofTop::new(Pins::default());
     top.tdc.carry_chain.taps = Thermometer::new(true, [3]);
     waves.begin(Time::ZERO, &top);

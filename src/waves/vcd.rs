@@ -13,7 +13,7 @@ use crate::files::date;
 use crate::files::output::OutputFile;
 use crate::hierarchy::{Entry, IDS, Kind};
 use crate::kernel::Thermometer;
-use crate::kernel::signals::{Format, Sink};
+use crate::kernel::signals::{SignalFormat, Sink};
 
 use super::digits::TapDigits;
 use super::scopes::{Element, elements};
@@ -166,7 +166,7 @@ fn header(
             }
             Element::Signal(entry) => entry,
         };
-        if let Format::State(states) = entry.signal.format
+        if let SignalFormat::State(states) = entry.signal.format
             && let Some(table) = tables.iter().position(|table| table.1 == states)
         {
             writeln!(vcd.writer(), "$attrbegin misc 07 \"\" {} $end", table + 1)?;
@@ -190,7 +190,7 @@ fn header(
 fn state_tables(entries: &[Entry]) -> Vec<(String, &'static [&'static str], usize)> {
     let mut tables: Vec<(String, &[&str], usize)> = Vec::new();
     for entry in entries {
-        if let Format::State(states) = entry.signal.format
+        if let SignalFormat::State(states) = entry.signal.format
             && tables.iter().all(|table| table.1 != states)
         {
             let module = entry.scope.rsplit('.').next().unwrap_or(&entry.scope);

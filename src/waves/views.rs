@@ -12,10 +12,10 @@ use crate::error::Result;
 use crate::files::output::{create_directory, write_file};
 use crate::hierarchy::Entry;
 use crate::kernel::Time;
-use crate::kernel::signals::Format as Shape;
+use crate::kernel::signals::SignalFormat;
 
 use super::layout::groups;
-use super::{Format, gtkwave, surfer};
+use super::{WaveFormat, gtkwave, surfer};
 
 /// Instants to mark and to show first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -45,7 +45,7 @@ impl Marks {
 /// paths. A waveform that went to a device or a pipe has none.
 pub fn write_views(
     wave_path: &Path,
-    format: Format,
+    format: WaveFormat,
     entries: &[Entry],
     marks: &Marks,
 ) -> Result<Vec<PathBuf>> {
@@ -61,11 +61,11 @@ pub fn write_views(
     let groups = groups(entries);
     let mut files = Vec::new();
     for row in groups.iter().flat_map(|group| &group.rows) {
-        if let Shape::State(states) = row.entry.signal.format {
+        if let SignalFormat::State(states) = row.entry.signal.format {
             let width = row.entry.signal.width as usize;
             let path = folder.join(gtkwave::names_file(&stem, row));
             files.push((path, gtkwave::names(states, width)));
-            if format == Format::Fst {
+            if format == WaveFormat::Fst {
                 let mappings = folder.join(surfer::MAPPINGS);
                 create_directory(&mappings)?;
                 files
@@ -96,7 +96,7 @@ mod tests {
     use super::*;
     use crate::hierarchy::{entries, ram_entries};
 
-    fn written(folder: &Path, format: Format, entries: &[Entry]) -> Vec<(String, String)> {
+    fn written(folder: &Path, format: WaveFormat, entries: &[Entry]) -> Vec<(String, String)> {
         let wave = folder.join("run").with_extension(format.extension());
         fs::write(&wave, "").unwrap();
         let marks = Marks {
@@ -121,7 +121,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let mut some = [entries(&params()), ram_entries()].concat();
         some.retain(|entry| !entry.scope.contains(".tdc"));
-        let files = written(folder.path(), Format::Vcd, &some);
+        let files = written(folder.path(), WaveFormat::Vcd, &some);
         let save = file(&files, "run.gtkw");
         let bare = |line: &str| line.split('[').next().unwrap().to_owned();
         let listed: BTreeSet<_> = (save.lines())
@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn marks_and_zoom_are_those_of_the_run() {
         let folder = tempfile::tempdir().unwrap();
-        let files = written(folder.path(), Format::Vcd, &entries(&params()));
+        let files = written(folder.path(), WaveFormat::Vcd, &entries(&params()));
         let save = file(&files, "run.gtkw");
         assert!(save.contains("[timestart] 2000000\n"));
         assert!(save.contains(" 2104000 2104000 5000000 -1 "));
@@ -151,7 +151,7 @@ mod tests {
     #[test]
     fn states_have_names_in_both_viewers() {
         let folder = tempfile::tempdir().unwrap();
-        let files = written(folder.path(), Format::Fst, &entries(&params()));
+        let files = written(folder.path(), WaveFormat::Fst, &entries(&params()));
         let names = file(&files, "run.frame_ctrl.state.txt");
         assert_eq!(names, "00 Clear\n01 Acquire\n10 Drain\n11 Estimate\n");
         assert!(file(&files, "run.gtkw").contains("\n@2028\n^1 run.frame_ctrl.state.txt\n"));
@@ -162,7 +162,7 @@ mod tests {
     #[test]
     fn no_path_leads_out_of_the_folder() {
         let folder = tempfile::tempdir().unwrap();
-        for (name, text) in written(folder.path(), Format::Fst, &entries(&params())) {
+        for (name, text) in written(folder.path(), WaveFormat::Fst, &entries(&params())) {
             assert!(!text.contains(&folder.path().display().to_string()), "{name}");
         }
     }
@@ -170,7 +170,7 @@ mod tests {
     #[test]
     fn groups_begin_and_end_in_turn() {
         let folder = tempfile::tempdir().unwrap();
-        let files = written(folder.path(), Format::Vcd, &entries(&params()));
+        let files = written(folder.path(), WaveFormat::Vcd, &entries(&params()));
         let save = file(&files, "run.gtkw").lines();
         let bounds: Vec<_> = (save.filter_map(|line| line.strip_prefix('@')))
             .map(|flags| u64::from_str_radix(flags, 16).unwrap() >> 23 & 3)
@@ -184,7 +184,7 @@ mod tests {
         let marks = Marks::default();
         let folder = tempfile::tempdir().unwrap();
         let null = crate::files::output::device(folder.path(), "null");
-        let paths = write_views(&null, Format::Vcd, &[], &marks).unwrap();
+        let paths = write_views(&null, WaveFormat::Vcd, &[], &marks).unwrap();
         assert!(paths.is_empty());
     }
 }

@@ -71,7 +71,7 @@ struct Pair {
 impl Pair {
     fn measure(setup: &Setup, plan: &AnalyserPlan) -> Self {
         let begun = Instant::now();
-        black_box(Run::new(setup).frames(1, Observers::default()).expect("kc705 runs"));
+        black_box(Run::new(setup).observe(1, Observers::default()).expect("kc705 runs"));
         let without = ms_since(begun);
         let begun = Instant::now();
         let mut analyser = Analyser::new(plan, setup);

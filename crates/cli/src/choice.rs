@@ -2,7 +2,7 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use tofsim::waves::Format;
+use tofsim::waves::WaveFormat;
 use tofsim_captures::compare::Unknowns;
 use tofsim_captures::ila::Radix;
 use tofsim_captures::ila::export::CaptureFormat;
@@ -110,13 +110,13 @@ pub fn fidelity() -> impl TypedValueParser<Value = Fidelity> {
 }
 
 /// The format of a waveform, if there is to be one.
-pub type WaveformChoice = Option<Format>;
+pub type WaveformChoice = Option<WaveFormat>;
 
 /// What a waveform is written as.
 pub fn waveform() -> impl TypedValueParser<Value = WaveformChoice> {
     words(&[
-        ("vcd", Some(Format::Vcd), "Value change dump"),
-        ("fst", Some(Format::Fst), "GTKWave's compressed format"),
+        ("vcd", Some(WaveFormat::Vcd), "Value change dump"),
+        ("fst", Some(WaveFormat::Fst), "GTKWave's compressed format"),
         ("none", None, "No waveform"),
     ])
 }

@@ -7,7 +7,6 @@ use rand_chacha::ChaCha8Rng;
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 use tofsim::sim::fast::histogram::Histograms;
 use tofsim::sim::frames::Frame;
-use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::{Run, Stepping};
 
@@ -27,14 +26,7 @@ fn counts(frames: &[Frame]) -> Counts {
 }
 
 fn shot_frames(setup: &Setup, count: u64) -> Vec<Frame> {
-    let mut frames = Vec::new();
-    let mut take = |frame: &Frame| {
-        frames.push(frame.clone());
-        Ok(())
-    };
-    let watch = Observers { frames: Some(&mut take), ..Observers::default() };
-    Run::new(setup).stepping(Stepping::LeapShots).frames(count, watch).unwrap();
-    frames
+    Run::new(setup).stepping(Stepping::LeapShots).frames(count).unwrap()
 }
 
 fn drawn_frames(setup: &Setup, count: u64) -> Vec<Frame> {

@@ -43,7 +43,7 @@ fn main() -> Result<()> {
         }
         Ok(())
     };
-    Run::new(&setup).frames(2, Observers { frames: Some(&mut show), ..Observers::default() })?;
+    Run::new(&setup).observe(2, Observers { frames: Some(&mut show), ..Observers::default() })?;
 
     let source = HistogramSource::new(&setup)?;
     let rows = Rows::Subset(Subset::new(Grid::test(), 1020, 1));

@@ -36,6 +36,35 @@ table! {
     }
 }
 
+/// How the SPAD is armed again (Table 6.2); a file has the code that the pin `mode` has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "u64", into = "u64")]
+pub enum QuenchMode {
+    /// MODE 0: by a reset before each shot.
+    #[default]
+    EachShot,
+    /// MODE 1: by itself, after the dead time.
+    FreeRunning,
+}
+
+impl TryFrom<u64> for QuenchMode {
+    type Error = String;
+
+    fn try_from(code: u64) -> Result<Self, String> {
+        match code {
+            0 => Ok(QuenchMode::EachShot),
+            1 => Ok(QuenchMode::FreeRunning),
+            _ => Err(format!("expected 0 or 1, not {code}")),
+        }
+    }
+}
+
+impl From<QuenchMode> for u64 {
+    fn from(mode: QuenchMode) -> u64 {
+        mode as u64
+    }
+}
+
 table! {
     /// Control signals at power-up, and the frame.
     pub struct Firmware {
@@ -44,7 +73,8 @@ table! {
         pub laser_freq: u64 = 3,
         /// SPAD quench mode: 0 resets before each shot, 1 recovers after the dead time.
         #[schemars(range(min = 0, max = 1), extend("unit" = "code", "source" = "Table 6.2"))]
-        pub mode: u64 = 0,
+        #[schemars(with = "u64")]
+        pub mode: QuenchMode = QuenchMode::EachShot,
         /// Lets the laser fire.
         #[schemars(extend("source" = "section 2.4, Laser_control"))]
         pub laser_en: bool = true,
@@ -119,7 +149,8 @@ pub struct Control {
     pub laser_freq: Option<u64>,
     /// SPAD quench mode, 0 or 1.
     #[schemars(range(min = 0, max = 1), extend("unit" = "code", "source" = "Table 6.2"))]
-    pub mode: Option<u64>,
+    #[schemars(with = "Option<u64>")]
+    pub mode: Option<QuenchMode>,
     /// Lets the laser fire.
     pub laser_en: Option<bool>,
     /// Lets the estimator start.

@@ -12,6 +12,7 @@ use crate::error::{Input, Result};
 use crate::firmware::vcsel_driver::PERIODS;
 use crate::kernel::Time;
 use crate::optics::{BinProbabilities, Bins};
+use crate::scenario::QuenchMode;
 use crate::sensor::light::{Light, Optics};
 use crate::sensor::streams::{Source, stream};
 use crate::sim::frames::Frame;
@@ -44,9 +45,9 @@ pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics,
             return Err(refusal(field, "no frame would end").value(value).into());
         }
     }
-    if firmware.mode != 0 {
+    if firmware.mode != QuenchMode::EachShot {
         let why = "expected 0: in MODE 1 a shot may have several avalanches";
-        return Err(refusal("firmware.mode", why).value(firmware.mode).into());
+        return Err(refusal("firmware.mode", why).value(u64::from(firmware.mode)).into());
     }
     if !setup.scenario.control.is_empty() {
         return Err(refusal("control", "nothing may change within it").into());

@@ -14,6 +14,7 @@ use crate::error::{Error, Result};
 use crate::firmware::carry_chain::StopLine;
 use crate::firmware::tof_top::CodeSource;
 use crate::kernel::Time;
+use crate::scenario::QuenchMode;
 use crate::sensor::light::Light;
 use crate::sim::device::{Device, Off};
 use crate::sim::frames::Frame;
@@ -33,7 +34,7 @@ impl Setup {
     pub fn has_frames_apart(&self) -> bool {
         let (firmware, delays) = (&self.scenario.firmware, &self.params.tdc.delays);
         self.scenario.control.is_empty()
-            && firmware.mode == 0
+            && firmware.mode == QuenchMode::EachShot
             && matches!(self.params.code_source, CodeSource::Tdc)
             && !matches!(self.light, Light::List(_))
             && delays.tap_0() <= CYCLE

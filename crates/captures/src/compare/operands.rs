@@ -3,7 +3,7 @@
 use crate::condition::{Bound, Condition, Level, Place};
 use crate::source::{Name, Source, SourceState, known_shape, shapes};
 use tofsim::error::Result;
-use tofsim::kernel::signals::Format as Shape;
+use tofsim::kernel::signals::SignalFormat as Shape;
 
 use super::find;
 use super::matching::Matching;

@@ -3,7 +3,7 @@
 use crate::ila::Radix;
 use crate::source::{Name, Signal, SignalKind, known_shape};
 use crate::words::extend;
-use tofsim::kernel::signals::Format as Shape;
+use tofsim::kernel::signals::SignalFormat as Shape;
 
 use super::bits::Bits;
 

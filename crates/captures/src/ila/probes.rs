@@ -6,7 +6,7 @@ use crate::condition::slice;
 use tofsim::error::nearest;
 use tofsim::firmware::tof_top::Params;
 use tofsim::hierarchy::{self, TOP};
-use tofsim::kernel::signals::{Format, Signal};
+use tofsim::kernel::signals::{Signal, SignalFormat};
 
 use super::capture::{Probe, Radix};
 
@@ -52,7 +52,7 @@ impl Design {
     /// What was expected instead.
     pub fn signal(&self, path: &str) -> Result<Bits, String> {
         let (id, signal) = self.look_up(path)?;
-        let signed = matches!(signal.format, Format::Signed { .. });
+        let signed = matches!(signal.format, SignalFormat::Signed { .. });
         Ok(Bits { id, low: 0, width: signal.width, signed })
     }
 
@@ -91,8 +91,8 @@ impl Design {
             lsb: if single { 0 } else { low },
             vector: bits.width > 1,
             radix: radix.unwrap_or(match signal.format {
-                Format::Signed { .. } if bits.signed => Radix::Signed,
-                Format::Unsigned if bits.width > 1 => Radix::Unsigned,
+                SignalFormat::Signed { .. } if bits.signed => Radix::Signed,
+                SignalFormat::Unsigned if bits.width > 1 => Radix::Unsigned,
                 _ => Radix::Hex,
             }),
         };
@@ -128,7 +128,7 @@ mod tests {
     fn a_slice_keeps_its_place_but_no_sign() {
         let setup = Setup::new(scenario::load("kc705", &[]).unwrap()).unwrap();
         let design = Design::new(&setup.params);
-        let is_signed = |signal: &Signal| matches!(signal.format, Format::Signed { .. });
+        let is_signed = |signal: &Signal| matches!(signal.format, SignalFormat::Signed { .. });
         let mut signed = design.signals.iter().filter(|(_, (_, signal))| is_signed(signal));
         let (path, _) = signed.find(|(_, (_, signal))| signal.width > 5).unwrap();
         let (probe, bits) = design.probe(path, None, None).unwrap();

@@ -1,7 +1,7 @@
 //! What the values of the firmware's signals mean, for other sources of the same names.
 
 use tofsim::hierarchy;
-use tofsim::kernel::signals::Format as Shape;
+use tofsim::kernel::signals::SignalFormat as Shape;
 
 use super::names::Name;
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::ila::Radix;
 use tofsim::error::Result;
-use tofsim::kernel::signals::Format as Shape;
+use tofsim::kernel::signals::SignalFormat as Shape;
 
 use super::names::Name;
 use super::stream::Cursor;

@@ -10,7 +10,7 @@ use proptest::test_runner::TestCaseError;
 use tofsim::hierarchy;
 use tofsim::sim::Run;
 use tofsim::sim::run::Observers;
-use tofsim::waves::{Format, Waves};
+use tofsim::waves::{WaveFormat, Waves};
 use tofsim_captures::compare::{Options, compare};
 use tofsim_captures::ila::{Capture, Probe, Radix, write};
 use tofsim_captures::source::Source;
@@ -69,10 +69,10 @@ fn fst() -> &'static [u8] {
         let mut entries = hierarchy::entries(&setup.params);
         entries.retain(|entry| entry.scope.starts_with("tof_top.tdc"));
         let order = setup.params.tdc.delays.order();
-        let waves = Waves::create(&path, Format::Fst, &entries, order, &[]).unwrap();
+        let waves = Waves::create(&path, WaveFormat::Fst, &entries, order, &[]).unwrap();
         let windows = setup.windows(&[], 1).unwrap();
         let watch = Observers { waves: Some((waves, windows)), ..Observers::default() };
-        Run::new(&setup).frames(1, watch).unwrap();
+        Run::new(&setup).observe(1, watch).unwrap();
         fs::read(path).unwrap()
     })
 }

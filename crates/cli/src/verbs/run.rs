@@ -19,7 +19,7 @@ use tofsim::sim::run::{Observers, Outcome};
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 use tofsim::sim::{Run, Stepping};
-use tofsim::waves::{self, Format, Marks, Waves, write_views};
+use tofsim::waves::{self, Marks, WaveFormat, Waves, write_views};
 use tofsim_learn::estimation::{EstimatorKind, Panel};
 
 use super::draws::use_threads;
@@ -56,7 +56,7 @@ pub struct Args {
     /// any number [default: one a core]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
-    /// Format of the waveform [default: vcd; none for fidelities without signals]
+    /// WaveFormat of the waveform [default: vcd; none for fidelities without signals]
     #[arg(long, value_parser = choice::waveform())]
     waves: Option<WaveformChoice>,
     /// Part of the run that goes into the waveform: shot:0..8, 10us..12us or estimation; may be
@@ -162,7 +162,7 @@ impl<'a> Way<'a> {
     fn simulate(self, frames: u64, watch: Observers, wants_all_shots: bool) -> Result<Outcome> {
         match self {
             Way::Draw(histograms) => histograms.many(frames, watch),
-            Way::Run(run) if watch.waves.is_some() || wants_all_shots => run.frames(frames, watch),
+            Way::Run(run) if watch.waves.is_some() || wants_all_shots => run.observe(frames, watch),
             Way::Run(run) => run.many(frames, watch),
         }
     }
@@ -172,7 +172,7 @@ impl Args {
     /// The format of the waveform, if there is one.
     fn waves_format(&self) -> Result<WaveformChoice> {
         match (self.fidelity, self.waves) {
-            (Fidelity::Cycle, waves) => Ok(waves.unwrap_or(Some(Format::Vcd))),
+            (Fidelity::Cycle, waves) => Ok(waves.unwrap_or(Some(WaveFormat::Vcd))),
             (_, None | Some(None)) => Ok(None),
             (_, Some(Some(_))) => Err(self.without_signals("--waves")),
         }
@@ -233,16 +233,16 @@ impl Args {
 /// The waveform: what goes into it, and where.
 struct WavePlan {
     path: PathBuf,
-    format: Format,
+    format: WaveFormat,
     entries: Vec<hierarchy::Entry>,
     windows: Vec<Window>,
 }
 
 impl WavePlan {
-    fn new(args: &Args, format: Format, setup: &Setup, frames: u64) -> Result<Self> {
+    fn new(args: &Args, format: WaveFormat, setup: &Setup, frames: u64) -> Result<Self> {
         let ending = match format {
-            Format::Vcd => "vcd",
-            Format::Fst => "fst",
+            WaveFormat::Vcd => "vcd",
+            WaveFormat::Fst => "fst",
         };
         let entries = hierarchy::entries(&setup.params);
         let entries = waves::select(entries, hierarchy::ram_entries(), &args.signals)?;
@@ -271,11 +271,7 @@ impl WavePlan {
 
 /// Who made a file, from what.
 fn provenance(args: &Args, setup: &Setup) -> Vec<String> {
-    let mut lines = vec![
-        format!("tofsim {}", env!("CARGO_PKG_VERSION")),
-        format!("scenario {}", setup.name),
-        format!("seed {}", setup.scenario.seed),
-    ];
+    let mut lines = setup.provenance();
     lines.extend(args.set.iter().map(|set| format!("set {set}")));
     lines
 }

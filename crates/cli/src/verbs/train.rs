@@ -20,7 +20,7 @@ use super::talk::Talk;
 mod word_format;
 mod written;
 
-use word_format::WordFormat;
+use word_format::FormatOption;
 
 /// Train a depth network on simulated histograms, within the firmware's number formats or others
 #[derive(Debug, clap::Args)]
@@ -62,7 +62,7 @@ pub struct Args {
     /// Width and fraction bits of w1, b1, w2, b2 or l1_out (activations), such as w1=16.23; may be
     /// repeated [default: those of the thesis's Table 6.4]
     #[arg(long = "format", value_name = "WORD=WIDTH.FRACTION")]
-    formats: Vec<WordFormat>,
+    formats: Vec<FormatOption>,
     /// Starts that take part in the first stage
     #[arg(long, value_name = "N")]
     starts: Option<usize>,

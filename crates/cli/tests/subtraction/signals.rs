@@ -131,8 +131,8 @@ fn paired_frames(setup: &Setup, stepping: Option<Stepping>) -> Vec<Frame> {
     let mut see = |_: &Shot| Ok(());
     let watch = Observers { frames: Some(&mut take), ..Observers::default() };
     match stepping {
-        None => Run::new(setup).frames(4, Observers { shots: Some(&mut see), ..watch }),
-        Some(stepping) => Run::new(setup).stepping(stepping).frames(4, watch),
+        None => Run::new(setup).observe(4, Observers { shots: Some(&mut see), ..watch }),
+        Some(stepping) => Run::new(setup).stepping(stepping).observe(4, watch),
     }
     .unwrap();
     frames

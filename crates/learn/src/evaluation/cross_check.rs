@@ -67,7 +67,7 @@ impl CrossCheck {
             Ok(())
         };
         Run::new(&setup)
-            .frames(frames, Observers { frames: Some(&mut take), stop, ..Observers::default() })?;
+            .observe(frames, Observers { frames: Some(&mut take), stop, ..Observers::default() })?;
         let shots = (frames * u64::from(source.shots())) as f64;
         let p_value = p_value(&sums, source.probabilities(scene).of_code(), shots);
         Ok(CrossCheck { distance_m: scene.distance_m, frames, other_depths, p_value })

@@ -11,7 +11,7 @@ use crate::estimation::network::{self, NetworkEstimator};
 use crate::quantize::circuit::Circuit;
 use crate::quantize::datapath::{Cost, Datapath};
 use tofsim::error::Result;
-use tofsim::network::formats::Format;
+use tofsim::network::formats::WordFormat;
 use tofsim::network::{Histogram, Network};
 
 use super::errors::Evaluation;
@@ -52,7 +52,7 @@ pub fn sweep() -> Vec<(String, Datapath)> {
         }
     }
     // A word that keeps its range has a fraction bit less for each bit less.
-    let shorter = |format: Format, width: u32| Format {
+    let shorter = |format: WordFormat, width: u32| WordFormat {
         width,
         fraction: format.fraction + width - format.width,
     };

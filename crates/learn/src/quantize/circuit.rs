@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use tofsim::error::Result;
 use tofsim::network::float::Float;
-use tofsim::network::formats::{Fixed, Format, Overflow};
+use tofsim::network::formats::{Fixed, Overflow, WordFormat};
 use tofsim::network::pass::HiddenNeuron;
 use tofsim::network::{Histogram, MAX_HITS, Weights};
 
@@ -41,7 +41,7 @@ impl Circuit {
 
     fn rounded(float: &Float, datapath: Datapath) -> Self {
         let mut saturated_weights = 0;
-        let mut word = |format: Format, value: f64| {
+        let mut word = |format: WordFormat, value: f64| {
             let fits = format.round(value, Overflow::Refuse);
             saturated_weights += usize::from(fits.is_none());
             fits.or_else(|| format.round(value, Overflow::Saturate)).unwrap_or_default()

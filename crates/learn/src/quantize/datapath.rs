@@ -5,22 +5,22 @@ use serde::{Deserialize, Serialize};
 
 use tofsim::error::{Input, Result};
 use tofsim::firmware::tansig;
-use tofsim::network::formats::{B1, B2, Format, L1_OUT, TANSIG_RANGE, W1, W2};
+use tofsim::network::formats::{B1, B2, L1_OUT, TANSIG_RANGE, W1, W2, WordFormat};
 
 /// Word lengths, and the size of the table of activations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Datapath {
     /// Weights of the hidden layer.
-    pub w1: Format,
+    pub w1: WordFormat,
     /// Biases of the hidden layer.
-    pub b1: Format,
+    pub b1: WordFormat,
     /// Weights of the output layer [m].
-    pub w2: Format,
+    pub w2: WordFormat,
     /// Bias of the output layer [m].
-    pub b2: Format,
+    pub b2: WordFormat,
     /// Activations.
-    pub l1_out: Format,
+    pub l1_out: WordFormat,
     /// Address bits of the table.
     pub address_bits: u32,
     /// The table goes from minus to plus two to this power.
@@ -56,7 +56,7 @@ impl Datapath {
     pub const WORDS: [&str; 5] = ["w1", "b1", "w2", "b2", "l1_out"];
 
     /// The format of a word.
-    pub fn word(&mut self, name: &str) -> Option<&mut Format> {
+    pub fn word(&mut self, name: &str) -> Option<&mut WordFormat> {
         let words = [&mut self.w1, &mut self.b1, &mut self.w2, &mut self.b2, &mut self.l1_out];
         Self::WORDS.into_iter().zip(words).find(|(word, _)| *word == name).map(|(_, format)| format)
     }
@@ -76,7 +76,7 @@ impl Datapath {
         };
         let words = [self.w1, self.b1, self.w2, self.b2, self.l1_out];
         for (field, word) in Self::WORDS.into_iter().zip(words) {
-            let Format { width, fraction } = word;
+            let WordFormat { width, fraction } = word;
             if !(2..=24).contains(&width) {
                 return fault(field, width, "expected a width of 2 to 24 bits");
             }
@@ -142,21 +142,21 @@ mod tests {
         assert_eq!(Datapath::default().cost(16), Cost { ramb36: 4 + 16, dsp48: 16 + 1 });
         let small = Datapath { address_bits: 10, ..Datapath::default() };
         assert_eq!(small.cost(8).ramb36, 2 + 4);
-        let wide = Datapath { w1: Format { width: 30, fraction: 37 }, ..Datapath::default() };
+        let wide = Datapath { w1: WordFormat { width: 30, fraction: 37 }, ..Datapath::default() };
         assert_eq!(wide.cost(8), Cost { ramb36: 4 + 8, dsp48: 16 + 1 });
     }
 
     #[test]
     fn what_cannot_be_aligned_is_refused() {
         let fault = |datapath: Datapath| datapath.check().unwrap_err().to_string();
-        let b1 = Format { width: 16, fraction: 24 };
+        let b1 = WordFormat { width: 16, fraction: 24 };
         assert!(fault(Datapath { b1, ..Datapath::default() }).contains("b1 = 24: expected"));
         let fine = Datapath { address_bits: 30, ..Datapath::default() };
         assert!(fault(fine).contains("address_bits = 30: expected 4 to 16"));
-        let w1 = Format { width: 12, fraction: 8 };
+        let w1 = WordFormat { width: 12, fraction: 8 };
         let coarse = Datapath { w1, b1: w1, ..Datapath::default() };
         assert!(fault(coarse).contains("address_bits = 12: expected steps"));
-        let b2 = Format { width: 40, fraction: 14 };
+        let b2 = WordFormat { width: 40, fraction: 14 };
         assert!(
             fault(Datapath { b2, ..Datapath::default() }).contains("b2 = 40: expected a width")
         );

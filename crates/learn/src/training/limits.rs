@@ -128,7 +128,7 @@ impl Hinges {
 mod tests {
     use super::*;
     use crate::training::cholesky::Symmetric;
-    use tofsim::network::formats::Format;
+    use tofsim::network::formats::WordFormat;
 
     #[test]
     fn the_penalties_derivatives_are_their_differences() {
@@ -163,7 +163,7 @@ mod tests {
         let hinges = |words: Datapath| WordLimits::default().hinges(&words);
         assert_eq!(hinges(Datapath::default()).cost(&x, 8, &scaling), 0.0);
         // A word that ends at 6e-5, and a weight of 1e-4 for raw counts.
-        let short = Datapath { w1: Format { width: 2, fraction: 15 }, ..Datapath::default() };
+        let short = Datapath { w1: WordFormat { width: 2, fraction: 15 }, ..Datapath::default() };
         assert!(hinges(short).cost(&x, 8, &scaling) > 0.0);
     }
 }

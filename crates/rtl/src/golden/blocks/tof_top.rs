@@ -8,7 +8,7 @@ use crate::golden::timing::OWN_WITH_RESET;
 use crate::golden::{Vectors, top};
 use tofsim::firmware::frame_ctrl::State;
 use tofsim::firmware::tof_top::TofTop;
-use tofsim::scenario::Control;
+use tofsim::scenario::{Control, QuenchMode};
 use tofsim::sim::setup::Setup;
 
 pub(super) const SPEC: Spec = Spec {
@@ -85,7 +85,7 @@ fn control(setup: &Setup, setting: &Setting) -> Vec<Control> {
         let mut change = Control {
             at_us: first_us + at_ns as f64 * 1e-3,
             laser_freq: draw.one_in(2).then(|| draw.below(4)),
-            mode: draw.one_in(8).then(|| draw.below(2)),
+            mode: draw.one_in(8).then(|| quench_mode(draw.below(2))),
             laser_en: draw.one_in(8).then(|| !draw.one_in(4)),
             dsp_en: draw.one_in(4).then(|| !draw.one_in(4)),
             dsp_rst: (again || draw.one_in(20)).then_some(true),
@@ -113,12 +113,16 @@ fn control(setup: &Setup, setting: &Setting) -> Vec<Control> {
     changes
 }
 
+fn quench_mode(code: u64) -> QuenchMode {
+    if code == 0 { QuenchMode::EachShot } else { QuenchMode::FreeRunning }
+}
+
 /// A frame begun anew, and in it a short reset, another mode or a hold, in some cycle of the shots or
 /// about the one that starts the estimator; each change and how long it lasts [ns].
 fn planted(draw: &mut Draw) -> [(u64, Control); 4] {
     let begin = Control {
         laser_freq: Some(3),
-        mode: Some(0),
+        mode: Some(QuenchMode::EachShot),
         laser_en: Some(true),
         dsp_en: Some(true),
         dsp_rst: Some(true),
@@ -130,13 +134,13 @@ fn planted(draw: &mut Draw) -> [(u64, Control); 4] {
     let (wait_ns, span_ns, change) = match kind {
         0..4 => (shots_ns, 3 + draw.below(14), Control { rst: Some(true), ..NO_CHANGE }),
         4..6 => (shots_ns, 8, Control { dsp_rst: Some(true), ..NO_CHANGE }),
-        6 => (shots_ns, 8 + draw.below(90), Control { mode: Some(1), ..NO_CHANGE }),
+        6 => (shots_ns, 8 + draw.below(90), Control { mode: Some(QuenchMode::FreeRunning), ..NO_CHANGE }),
         _ => (ESTIMATE_NS + 8 * draw.below(3), 80, Control { dsp_en: Some(false), ..NO_CHANGE }),
     };
     let end = Control {
         rst: Some(false),
         dsp_rst: Some(false),
-        mode: Some(0),
+        mode: Some(QuenchMode::EachShot),
         dsp_en: Some(true),
         ..NO_CHANGE
     };
