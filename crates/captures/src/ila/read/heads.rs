@@ -110,8 +110,7 @@ impl Heads {
 
 /// A radix word; words of text have no radix.
 fn radix(word: &[u8]) -> Option<Option<Radix>> {
-    let radices = [Radix::Hex, Radix::Signed, Radix::Unsigned, Radix::Binary, Radix::Octal];
-    match radices.into_iter().find(|radix| radix.word().as_bytes() == word) {
+    match Radix::ALL.into_iter().find(|radix| radix.word().as_bytes() == word) {
         None if word == b"ASCII" => Some(None),
         None => None,
         found => Some(found),
