@@ -1,11 +1,12 @@
 //! Compares two sequences of samples, one by one, as an alignment says.
 
-use crate::source::Axis;
+use crate::source::{Axis, SourceState};
 use tofsim::error::Result;
 
 use super::align::Alignment;
 use super::delay::Delay;
 use super::differences::{Differences, Spot};
+use super::pair::Pair;
 use super::plan::Plan;
 use super::selection::{Piece, Place, Selected};
 
@@ -43,9 +44,8 @@ pub(super) fn compare(
     ];
     let steady: Vec<usize> = (0..pairs.len()).filter(|&pair| !pairs[pair].is_plain()).collect();
     let mut delays: Vec<Delay> = steady.iter().map(|&pair| Delay::new(pair)).collect();
-    let mut wrong: Vec<bool> = vec![false; pairs.len()];
-    let mut differing: Vec<usize> = Vec::new();
-    let (mut passed, mut touched) = (Passed::default(), Vec::new());
+    let mut plain = PlainPairs::new(pairs);
+    let mut passed = Passed::default();
     differences.touch_all();
     'pieces: loop {
         let mut count = 0;
@@ -75,25 +75,7 @@ pub(super) fn compare(
             if gaps != [false, false] {
                 continue;
             }
-            differences.take_touched(&mut touched);
-            for &pair in &touched {
-                let pair = pair as usize;
-                if !pairs[pair].is_plain() {
-                    continue;
-                }
-                let same = differences.is_same(pair, states);
-                if wrong[pair] == same {
-                    wrong[pair] = !same;
-                    match same {
-                        true => differing.retain(|&other| other != pair),
-                        false => differing.push(pair),
-                    }
-                }
-                differences.show(pair, states, !same)?;
-            }
-            for &pair in &differing {
-                differences.count(pair, spot, states);
-            }
+            plain.compare(spot, states, differences)?;
             passed.compared += 1;
             count += 1;
         }
@@ -108,6 +90,50 @@ pub(super) fn compare(
         }
     }
     Ok(passed)
+}
+
+/// The pairs that are compared by the bits at one place alone.
+struct PlainPairs<'a> {
+    pairs: &'a [Pair],
+    /// Whether each differs now, and those that do.
+    wrong: Vec<bool>,
+    differing: Vec<usize>,
+    touched: Vec<u32>,
+}
+
+impl<'a> PlainPairs<'a> {
+    fn new(pairs: &'a [Pair]) -> Self {
+        let wrong = vec![false; pairs.len()];
+        PlainPairs { pairs, wrong, differing: Vec::new(), touched: Vec::new() }
+    }
+
+    /// Compares those of which a side has changed, and counts all that differ.
+    fn compare(
+        &mut self,
+        spot: Spot,
+        states: [&SourceState; 2],
+        differences: &mut Differences,
+    ) -> Result<()> {
+        differences.take_touched(&mut self.touched);
+        for pair in self.touched.iter().map(|&pair| pair as usize) {
+            if !self.pairs[pair].is_plain() {
+                continue;
+            }
+            let same = differences.is_same(pair, states);
+            if self.wrong[pair] == same {
+                self.wrong[pair] = !same;
+                match same {
+                    true => self.differing.retain(|&other| other != pair),
+                    false => self.differing.push(pair),
+                }
+            }
+            differences.show(pair, states, !same)?;
+        }
+        for &pair in &self.differing {
+            differences.count(pair, spot, states);
+        }
+        Ok(())
+    }
 }
 
 /// Whether nothing more is said: a capture that does not say how many samples it has goes on as

@@ -31,11 +31,11 @@ pub struct SignalMap {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trigger: Option<String>,
     /// Time before which a waveform is not looked at.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "is_default")]
     #[schemars(range(min = 0.0, max = 1e9), extend("unit" = "us"))]
     pub after_us: f64,
     /// Registers before the probes of the logic analyser.
-    #[serde(skip_serializing_if = "is_exact")]
+    #[serde(skip_serializing_if = "is_default")]
     #[schemars(range(min = 0, max = 6), extend("unit" = "edges"))]
     pub input_stages: u64,
     /// Condition under which a logic analyser has stored a sample.
@@ -53,10 +53,6 @@ pub struct SignalMap {
     /// Signals that belong together by intention.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub signal: Vec<Rule>,
-}
-
-fn is_zero(number: &f64) -> bool {
-    *number == 0.0
 }
 
 /// A change of names.
@@ -106,14 +102,14 @@ pub struct Rule {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dont_care: Option<String>,
     /// Whether the second side has it the other way round.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    #[serde(skip_serializing_if = "is_default")]
     pub invert: bool,
     /// Samples that the second side has it later (less than 0: earlier).
-    #[serde(skip_serializing_if = "is_none_later")]
+    #[serde(skip_serializing_if = "is_default")]
     #[schemars(range(min = -65_536, max = 65_536), extend("unit" = "samples"))]
     pub latency: i64,
     /// Largest difference that is none, for numbers.
-    #[serde(skip_serializing_if = "is_exact")]
+    #[serde(skip_serializing_if = "is_default")]
     #[schemars(range(min = 0), extend("unit" = "LSB"))]
     pub tolerance: u64,
     /// Signal of one bit on the first side; compared only where it is 1.
@@ -121,12 +117,8 @@ pub struct Rule {
     pub valid: Option<String>,
 }
 
-fn is_none_later(samples: &i64) -> bool {
-    *samples == 0
-}
-
-fn is_exact(tolerance: &u64) -> bool {
-    *tolerance == 0
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 impl SignalMap {

@@ -153,6 +153,14 @@ impl Samples {
         self.changed.append(&mut self.newer);
     }
 
+    /// Takes the cursor's next instant into the sample.
+    fn take(&mut self) -> Marks {
+        let newer = &mut self.newer;
+        let marks = self.cursor.take(|signal| newer.push(signal as u32));
+        self.catch_up();
+        marks
+    }
+
     /// The next sample, `None` at the end.
     pub(super) fn next(&mut self) -> Result<Option<Sample>> {
         self.catch_up();
@@ -202,9 +210,7 @@ impl Samples {
             if tick.femtoseconds(at) >= edge.fs() as u128 {
                 return Ok(self.sample(tick.count(edge.fs() as u128), Marks::default(), false));
             }
-            let newer = &mut self.newer;
-            self.cursor.take(|signal| newer.push(signal as u32));
-            self.catch_up();
+            self.take();
         }
         Ok(None)
     }
@@ -213,9 +219,7 @@ impl Samples {
         let row = self.next;
         match self.cursor.peek()? {
             Some(at) if at == row => {
-                let newer = &mut self.newer;
-                let marks = self.cursor.take(|signal| newer.push(signal as u32));
-                self.catch_up();
+                let marks = self.take();
                 Ok(self.sample(row, marks, false))
             }
             Some(_) => Ok(self.sample(row, Marks::default(), false)),

@@ -17,7 +17,7 @@ use tofsim::sim::{Device, Outcome, Run, WindowedProbe};
 
 use super::capture::{Capture, Probe};
 use super::clock::{AnalyserClock, first_edge};
-use super::core::{Core, StoredRows};
+use super::core::Core;
 use super::plan::AnalyserPlan;
 use super::probe_values::ProbeValues;
 
@@ -28,7 +28,7 @@ use super::probe_values::ProbeValues;
 #[derive(Clone, Debug)]
 pub struct Analyser {
     look: ProbeValues,
-    core: Core<StoredRows>,
+    core: Core,
     probes: Vec<Probe>,
     trigger: LiveCondition,
     qualifier: LiveCondition,

@@ -241,26 +241,16 @@ fn lay_over(
     overrides: Overrides,
 ) -> Vec<(&'static str, &'static str)> {
     let mut taken = Vec::new();
-    let mut lay = |key, option, is_there: bool| {
-        if is_there {
-            taken.push((key, option));
-        }
-    };
-    lay("clock", "--clock", overrides.clock.is_some());
-    lay("depth", "--depth", overrides.depth.is_some());
-    lay("windows", "--windows", overrides.windows.is_some());
-    lay("position", "--position", overrides.position.is_some());
-    lay("trigger", "--trigger", overrides.trigger.is_some());
-    lay("capture", "--capture", overrides.capture.is_some());
-    lay("arm_at_us", "--arm-at-us", overrides.arm_at_us.is_some());
-    lay("input_stages", "--stages", overrides.input_stages.is_some());
-    file.clock = overrides.clock.unwrap_or(std::mem::take(&mut file.clock));
-    file.depth = overrides.depth.unwrap_or(file.depth);
-    file.windows = overrides.windows.unwrap_or(file.windows);
-    file.position = overrides.position.or(file.position);
-    file.trigger = overrides.trigger.or(file.trigger.take());
-    file.capture = overrides.capture.or(file.capture.take());
-    file.arm_at_us = overrides.arm_at_us.unwrap_or(file.arm_at_us);
-    file.input_stages = overrides.input_stages.unwrap_or(file.input_stages);
+    macro_rules! lay {
+        ($($key:ident by $option:literal),*) => {
+            $(if let Some(value) = overrides.$key {
+                file.$key = value.into();
+                taken.push((stringify!($key), $option));
+            })*
+        };
+    }
+    lay!(clock by "--clock", depth by "--depth", windows by "--windows");
+    lay!(position by "--position", trigger by "--trigger", capture by "--capture");
+    lay!(arm_at_us by "--arm-at-us", input_stages by "--stages");
     taken
 }

@@ -143,7 +143,7 @@ fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
     let (skipped, missing) = (first.saturating_sub(plan.stages), plan.stages.saturating_sub(first));
     for _ in 0..missing {
         let triggers = trigger.sample_nothing();
-        core.sample(&(), triggers, qualifier.as_mut().is_none_or(SideCondition::sample_nothing));
+        core.sample_number(triggers, qualifier.as_mut().is_none_or(SideCondition::sample_nothing));
     }
     let mut samples = plan.samples(side)?;
     while !core.is_full()
@@ -154,7 +154,7 @@ fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
         }
         let triggers = trigger.sample(samples.state());
         let qualifies = qualifier.as_mut().is_none_or(|term| term.sample(samples.state()));
-        core.sample(&(), triggers, qualifies);
+        core.sample_number(triggers, qualifies);
     }
     let found = core.triggers().len();
     if found < shape.windows {

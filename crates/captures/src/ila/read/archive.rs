@@ -9,7 +9,7 @@ use super::super::capture::Radix;
 use super::dump::Dump;
 use super::heads::Heads;
 use super::lines::first_lines;
-use super::opened::{CaptureForm, Column, Opened};
+use super::opened::{CaptureForm, Column, Opened, damaged};
 use super::{csv, ltx};
 use tofsim::error::{Error, Input, Result};
 
@@ -139,14 +139,6 @@ impl Archive {
             csv::open(source.to_owned(), file, radix)
         })?;
         Ok(Opened { form: CaptureForm::Archive, ..opened })
-    }
-}
-
-/// An error of reading an entry; those of ours stay what they are.
-fn damaged(source: &str, error: io::Error) -> Error {
-    match error.downcast::<Error>() {
-        Ok(error) => error,
-        Err(error) => Input::new(source, format!("damaged: {error}")).into(),
     }
 }
 

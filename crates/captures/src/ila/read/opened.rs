@@ -1,6 +1,8 @@
 //! A capture that is read: its columns, and its samples one after the other.
 
-use tofsim::error::Result;
+use std::io;
+
+use tofsim::error::{Error, Input, Result};
 
 use super::super::capture::Radix;
 
@@ -105,4 +107,12 @@ pub struct Opened {
     pub radix_told: bool,
     /// The samples.
     pub rows: Box<dyn CaptureRows>,
+}
+
+/// An error of reading an entry; those of ours stay what they are.
+pub(super) fn damaged(source: &str, error: io::Error) -> Error {
+    match error.downcast::<Error>() {
+        Ok(error) => error,
+        Err(error) => Input::new(source, format!("damaged: {error}")).into(),
+    }
 }
