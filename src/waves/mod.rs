@@ -16,6 +16,7 @@ mod layout;
 mod readback;
 mod scopes;
 mod select;
+pub mod side_by_side;
 mod spool;
 mod surfer;
 #[cfg(test)]

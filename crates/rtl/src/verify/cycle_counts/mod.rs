@@ -7,19 +7,22 @@
 
 #[cfg(test)]
 mod faults;
+mod measured;
 mod model;
+mod promises;
 mod prove;
-mod rows;
-mod seen;
 mod simulate;
 #[cfg(test)]
 mod tests;
 
+use super::process::Limits;
+use super::rtl::Rtl;
+use crate::golden::blocks::CENTROID;
+use promises::Promise;
+
 use tofsim::error::{Error, Result};
 
-use super::process::Limits;
-use super::{CENTROID, Rtl};
-use rows::Row;
+pub use prove::Proof;
 
 /// One promise: a row of `tofsim verify --cycle-counts`.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,15 +42,6 @@ pub struct Count {
     pub proven: Proof,
 }
 
-/// What came of a proof.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Proof {
-    /// The promise holds in every cycle, and no number next to it does.
-    Proven,
-    /// It may not hold; why.
-    NotProven(String),
-}
-
 impl Count {
     /// Whether all three agree with the promise.
     pub fn holds(&self) -> bool {
@@ -63,28 +57,27 @@ impl Count {
 /// When a tool is missing, Icarus Verilog cannot compile `rtl` with our bench (a module or a port
 /// is missing), the simulation does not end, or the user stops.
 pub fn cycle_counts(rtl: &Rtl, neurons: usize, limits: &Limits) -> Result<Vec<Count>> {
-    let mut rows = rows::rows(neurons);
+    let mut promises = promises::promises(neurons);
     if rtl.has(CENTROID)? {
-        rows.push(rows::centroid());
+        promises.push(promises::centroid());
     }
-    count(&rows, neurons, rtl, limits)
+    count(&promises, neurons, rtl, limits)
 }
 
-fn count(rows: &[Row], neurons: usize, rtl: &Rtl, limits: &Limits) -> Result<Vec<Count>> {
+fn count(promises: &[Promise], neurons: usize, rtl: &Rtl, limits: &Limits) -> Result<Vec<Count>> {
     let folder = tempfile::tempdir().map_err(Error::io(&std::env::temp_dir(), "create"))?;
-    let simulated = simulate::seen(rtl, neurons, folder.path(), limits)?;
-    let modelled = model::seen(neurons);
-    rows.iter()
-        .map(|row| {
-            let key = row.key();
-            Ok(Count {
-                what: row.what.clone(),
-                expected: row.expected,
-                unit: row.unit,
-                model: modelled.count(&key, row.expected),
-                rtl: simulated.count(&key, row.expected),
-                proven: prove::prove(row, rtl, folder.path(), limits)?,
-            })
+    let simulated = simulate::measure(rtl, neurons, folder.path(), limits)?;
+    let modelled = model::measure(neurons);
+    let count = |promise: &Promise| {
+        let (key, expected) = (promise.key(), promise.expected);
+        Ok(Count {
+            what: promise.what.clone(),
+            expected,
+            unit: promise.unit,
+            model: modelled.count(&key, expected),
+            rtl: simulated.count(&key, expected),
+            proven: prove::prove(promise, rtl, folder.path(), limits)?,
         })
-        .collect()
+    };
+    promises.iter().map(count).collect()
 }

@@ -1,9 +1,7 @@
 //! The photons of a TDC's stimulus.
 
-use crate::golden::draw::Draw;
-use crate::golden::stops::{self, Stops};
+use crate::golden::prelude::*;
 use tofsim::firmware::carry_chain::{Delays, TAPS};
-use tofsim::kernel::Time;
 
 /// Period of `clk_125`.
 const CYCLE: Time = Time::from_ns(8);

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-/// Counts under the names that [`Row::key`](super::rows::Row::key) has.
+/// Counts under the names that [`Promise::key`](super::promises::Promise::key) has.
 #[derive(Debug, Default)]
-pub struct Seen(BTreeMap<String, Vec<u64>>);
+pub struct Measured(BTreeMap<String, Vec<u64>>);
 
-impl Seen {
+impl Measured {
     /// Adds a count.
     pub fn add(&mut self, key: impl Into<String>, count: u64) {
         self.0.entry(key.into()).or_default().push(count);
@@ -26,12 +26,12 @@ mod tests {
 
     #[test]
     fn one_odd_count_among_many_is_the_one_that_shows() {
-        let mut seen = Seen::default();
+        let mut measured = Measured::default();
         for count in [25, 24, 25] {
-            seen.add("period", count);
+            measured.add("period", count);
         }
-        assert_eq!(seen.count("period", 25), Some(24));
-        assert_eq!(seen.count("period", 24), Some(25));
-        assert_eq!(seen.count("latency", 267), None);
+        assert_eq!(measured.count("period", 25), Some(24));
+        assert_eq!(measured.count("period", 24), Some(25));
+        assert_eq!(measured.count("latency", 267), None);
     }
 }

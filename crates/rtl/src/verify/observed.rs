@@ -1,4 +1,4 @@
-//! What the bench saw, line by line, beside what it should have seen.
+//! What the bench saw, line by line, beside what it should have observed.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use super::verdict::Mismatch;
 
 /// The lines that a bench writes with `+got=`, and what it compared them with.
 #[derive(Clone, Debug)]
-pub struct Seen<'a> {
+pub struct Observed<'a> {
     lines: Vec<String>,
     bench: &'a Bench<'a>,
 }
@@ -20,7 +20,7 @@ const AROUND: usize = 2;
 /// Inputs wider than this are not shown [bits].
 const WIDEST: usize = 64;
 
-impl<'a> Seen<'a> {
+impl<'a> Observed<'a> {
     /// From the file.
     ///
     /// # Errors
@@ -30,7 +30,7 @@ impl<'a> Seen<'a> {
         if text.is_empty() {
             return Err(Input::new(path.display(), "the bench has written nothing").into());
         }
-        Ok(Seen { lines: text.lines().map(str::to_owned).collect(), bench })
+        Ok(Observed { lines: text.lines().map(str::to_owned).collect(), bench })
     }
 
     /// Lines.
@@ -63,9 +63,9 @@ impl<'a> Seen<'a> {
     /// output that comes later has come, and of one that is not compared.
     pub fn wanted(&self, cycle: usize, column: &Column) -> String {
         let expected = &self.bench.vectors().expected;
-        let delay = self.bench.delays.get(&column.name).copied().unwrap_or(0);
+        let delay = self.bench.allowed.delay(&column.name);
         let row = usize::try_from(cycle as i64 - delay).ok().filter(|row| *row < expected.rows());
-        match row.filter(|_| !self.bench.ignored.contains(&column.name)) {
+        match row.filter(|_| !self.bench.allowed.ignored.contains(&column.name)) {
             Some(row) => binary(expected, row, column),
             None => "x".repeat(column.width),
         }
@@ -129,7 +129,8 @@ fn hexadecimal(bits: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::golden::{Setting, blocks};
+    use crate::golden::blocks;
+    use crate::golden::setting::Setting;
     use tofsim::scenario;
     use tofsim::sim::setup::Setup;
 
@@ -144,17 +145,17 @@ mod tests {
         let setting = Setting { cycles: Some(9), ..Setting::new(setup) };
         let vectors = (spec.record)(spec, &setting).unwrap();
         let mut bench = Bench::new(&vectors);
-        bench.delays.insert("window".to_owned(), 1);
+        bench.allowed.delays.insert("window".to_owned(), 1);
         let lines = vec!["0x5".to_owned(), "fff".to_owned()];
-        let seen = Seen { lines, bench: &bench };
-        assert_eq!(seen.bits(0, &column(6, 1)), "xxx010");
-        assert_eq!(seen.bits(1, &column(3, 9)), "111");
-        assert_eq!(seen.bits(7, &column(1, 0)), "");
+        let observed = Observed { lines, bench: &bench };
+        assert_eq!(observed.bits(0, &column(6, 1)), "xxx010");
+        assert_eq!(observed.bits(1, &column(3, 9)), "111");
+        assert_eq!(observed.bits(7, &column(1, 0)), "");
         assert_eq!(hexadecimal("xxx010"), "xx");
         assert_eq!(hexadecimal("10101"), "15");
 
         let window = &vectors.expected.columns()[1];
-        assert_eq!(seen.wanted(0, window), "x", "comes a clock later");
-        assert_eq!(seen.wanted(1, window), binary(&vectors.expected, 0, window));
+        assert_eq!(observed.wanted(0, window), "x", "comes a clock later");
+        assert_eq!(observed.wanted(1, window), binary(&vectors.expected, 0, window));
     }
 }

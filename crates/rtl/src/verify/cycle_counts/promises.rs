@@ -4,7 +4,7 @@ use tofsim::firmware::forward2::NEURONS;
 
 /// A Verilog module with properties of some modules of the design.
 #[derive(Debug)]
-pub struct Check {
+pub struct Properties {
     /// Its name, which is its file's stem.
     pub module: &'static str,
     /// The file.
@@ -17,7 +17,7 @@ pub struct Check {
     pub steps: u32,
 }
 
-static ESTIMATOR: Check = Check {
+static ESTIMATOR: Properties = Properties {
     module: "check_estimator",
     text: include_str!("check_estimator.sv"),
     open: &["forward1", "forward2", "tansig"],
@@ -25,7 +25,7 @@ static ESTIMATOR: Check = Check {
     steps: 4,
 };
 
-static CENTROID: Check = Check {
+static CENTROID: Properties = Properties {
     module: "check_centroid",
     text: include_str!("check_centroid.sv"),
     open: &[],
@@ -33,7 +33,7 @@ static CENTROID: Check = Check {
     steps: 4,
 };
 
-static SHOT: Check = Check {
+static SHOT: Properties = Properties {
     module: "check_shot",
     text: include_str!("check_shot.sv"),
     open: &["ddr_output"],
@@ -41,7 +41,7 @@ static SHOT: Check = Check {
     steps: 40,
 };
 
-static PULSE: Check = Check {
+static PULSE: Properties = Properties {
     module: "check_pulse",
     text: include_str!("check_pulse.sv"),
     open: &[],
@@ -51,7 +51,7 @@ static PULSE: Check = Check {
 
 /// A promise.
 #[derive(Debug)]
-pub struct Row {
+pub struct Promise {
     /// What is promised, for people.
     pub what: String,
     /// The number.
@@ -59,31 +59,31 @@ pub struct Row {
     /// Its unit.
     pub unit: &'static str,
     /// Where its property stands.
-    pub check: &'static Check,
-    /// The property: a wire in the check.
+    pub properties: &'static Properties,
+    /// The property: a wire in that module.
     pub property: &'static str,
-    /// The check's parameter that has the number.
+    /// The parameter of that module which has the number.
     pub parameter: &'static str,
     /// The laser's code that it is about.
     pub code: Option<usize>,
     /// Macro to set.
     pub define: Option<[String; 2]>,
-    /// Registers without which there is no proof, by their paths in the check's `dut`.
+    /// Registers without which there is no proof, by their paths in that module's `dut`.
     pub registers: &'static [&'static str],
 }
 
-impl Row {
+impl Promise {
     fn new(
-        check: &'static Check,
+        properties: &'static Properties,
         property: &'static str,
         expected: u64,
         what: impl Into<String>,
     ) -> Self {
-        Row {
+        Promise {
             what: what.into(),
             expected,
             unit: "cycles of clk_125",
-            check,
+            properties,
             property,
             parameter: "Expected",
             code: None,
@@ -108,11 +108,11 @@ pub fn define(neurons: usize) -> Option<[String; 2]> {
 }
 
 /// What is promised of the estimator that a design may leave out.
-pub fn centroid() -> Row {
-    Row {
+pub fn centroid() -> Promise {
+    Promise {
         parameter: "Latency",
         registers: &["busy", "step"],
-        ..Row::new(
+        ..Promise::new(
             &CENTROID,
             "centroid_latency",
             308,
@@ -122,20 +122,22 @@ pub fn centroid() -> Row {
 }
 
 /// Everything else that is promised of a design whose estimator has so many neurons.
-pub fn rows(neurons: usize) -> Vec<Row> {
-    let estimator = |property, expected, parameter, registers, what| Row {
+pub fn promises(neurons: usize) -> Vec<Promise> {
+    let estimator = |property, expected, parameter, registers, what| Promise {
         parameter,
         registers,
         define: define(neurons),
-        ..Row::new(&ESTIMATOR, property, expected, what)
+        ..Promise::new(&ESTIMATOR, property, expected, what)
     };
-    let shot = |property, expected, what| Row::new(&SHOT, property, expected, what);
-    let pulse =
-        |property, expected, what| Row { unit: "ps", ..Row::new(&PULSE, property, expected, what) };
+    let shot = |property, expected, what| Promise::new(&SHOT, property, expected, what);
+    let pulse = |property, expected, what| Promise {
+        unit: "ps",
+        ..Promise::new(&PULSE, property, expected, what)
+    };
     let forward1 = &["estimator_ctrl.busy", "estimator_ctrl.step", "estimator_ctrl.forward1_en"];
     let tansig = &["estimator_ctrl.busy", "estimator_ctrl.step", "estimator_ctrl.tansig_en"];
     let forward2 = &["estimator_ctrl.busy", "estimator_ctrl.step", "estimator_ctrl.forward2_en"];
-    let mut rows = vec![
+    let mut promises = vec![
         estimator(
             "latency",
             259 + neurons as u64,
@@ -158,10 +160,11 @@ pub fn rows(neurons: usize) -> Vec<Row> {
     {
         for (code, period) in [25, 13, 8, 6].into_iter().enumerate() {
             let what = format!("laser_freq {code}: {span}");
-            rows.push(Row { code: Some(code), ..Row::new(&SHOT, property, period, what) });
+            promises
+                .push(Promise { code: Some(code), ..Promise::new(&SHOT, property, period, what) });
         }
     }
-    rows.extend([
+    promises.extend([
         shot("pre_start_lead", 2, "pre_start to start"),
         shot("spad_rst_lead", 1, "MODE 0: spad_rst to start"),
         shot("spad_rst_width", 1, "MODE 0: spad_rst high, each shot"),
@@ -169,5 +172,5 @@ pub fn rows(neurons: usize) -> Vec<Row> {
         pulse("laser_on_lag", 0, "start to laser_on"),
         pulse("laser_on_width", 2000, "laser_on high"),
     ]);
-    rows
+    promises
 }
