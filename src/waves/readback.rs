@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 
 use wellen::simple::Waveform;
 
-use super::bench::{Bench, SHOTS};
-use super::{WaveFormat, Waves};
 use crate::firmware::tof_top::Params;
 use crate::hierarchy::{Entry, entries, ram_entries};
+
+use super::bench::{Bench, SHOTS};
+use super::{WaveFormat, Waves};
 
 /// Both formats.
 pub(super) const FORMATS: [WaveFormat; 2] = [WaveFormat::Vcd, WaveFormat::Fst];

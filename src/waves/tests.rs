@@ -5,13 +5,14 @@ use std::fs;
 
 use wellen::simple::read;
 
-use super::bench::{Bench, SHOTS, params, with_delays};
-use super::readback::{DerefIn, FORMATS, FRAME, assert_same, at, contents, create, record};
-use super::*;
 use crate::firmware::carry_chain::TAPS;
 use crate::firmware::tof_top::Pins;
 use crate::hierarchy::{entries, ram_entries};
 use crate::kernel::Thermometer;
+
+use super::bench::{Bench, SHOTS, params, with_delays};
+use super::readback::{DerefIn, FORMATS, FRAME, assert_same, at, contents, create, record};
+use super::*;
 
 #[test]
 fn vcd_and_fst_hold_every_entry_and_the_same_changes() {

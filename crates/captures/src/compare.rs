@@ -27,10 +27,11 @@ mod view;
 
 use std::path::PathBuf;
 
-use crate::condition::Condition;
-use crate::source::Source;
 use tofsim::error::{Input, Result};
 use tofsim::kernel::Time;
+
+use crate::condition::Condition;
+use crate::source::Source;
 
 pub use align::Align;
 pub use align::{Survey, survey};

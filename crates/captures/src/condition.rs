@@ -14,9 +14,9 @@ mod tree;
 pub use bound::Bound;
 pub use tree::{Level, Place};
 
-use tofsim::error::{Error, Input, Result};
-
 use tree::{Leaf, Node, Test};
+
+use tofsim::error::{Error, Input, Result};
 
 /// Widest signal of a condition [bits].
 pub const WIDEST: u32 = 128;

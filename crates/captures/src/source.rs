@@ -22,9 +22,10 @@ mod wave;
 
 use std::path::Path;
 
-use crate::ila::Radix;
 use tofsim::error::Result;
 use tofsim::sim::setup::Setup;
+
+use crate::ila::Radix;
 
 pub use names::Name;
 pub(crate) use shapes::{known_shape, shapes};

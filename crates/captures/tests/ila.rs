@@ -7,10 +7,11 @@ use std::fs;
 use std::io::{Cursor, Write};
 use std::path::Path;
 
+use zip::write::SimpleFileOptions;
+
 use tofsim::error::Result;
 use tofsim_captures::ila::Radix;
 use tofsim_captures::ila::read::{CaptureRow, Opened, open};
-use zip::write::SimpleFileOptions;
 
 /// Opens a file and reads all its rows.
 pub fn read(path: &Path, radix: Option<Radix>) -> Result<(Opened, Vec<CaptureRow>)> {

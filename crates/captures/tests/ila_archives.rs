@@ -1,8 +1,9 @@
 //! Archives as Vivado writes them, and what is wrong with others.
 
+use tofsim_captures::ila::read::{CaptureForm, Column, Opened};
+
 use crate::ila::fixtures::{archive_but, bytes};
 use crate::ila::{archive, read_bytes};
-use tofsim_captures::ila::read::{CaptureForm, Column, Opened};
 
 /// What is said about an archive with other entries.
 fn archive_fault(but: &[(&str, &[u8])]) -> String {

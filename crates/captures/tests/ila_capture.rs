@@ -1,6 +1,7 @@
 //! The virtual logic analyser, from set-up to capture.
 
 use bitvec::prelude::*;
+
 use tofsim::kernel::Time;
 use tofsim::sim::Run;
 use tofsim::sim::setup::Setup;

@@ -1,9 +1,10 @@
 //! Captures as real tools write them, and what is wrong with others.
 
-use crate::ila::fixtures::{bytes, fixture};
-use crate::ila::{read, read_bytes};
 use tofsim_captures::ila::Radix;
 use tofsim_captures::ila::read::{CaptureForm, CaptureRow, Column, Opened};
+
+use crate::ila::fixtures::{bytes, fixture};
+use crate::ila::{read, read_bytes};
 
 /// The values of a column.
 fn values(opened: &Opened, rows: &[CaptureRow], name: &str) -> Vec<u64> {

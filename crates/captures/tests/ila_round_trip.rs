@@ -1,12 +1,14 @@
 //! What is written is read again: the same bits, marks and names.
 
-use crate::ila;
 use std::io::Cursor;
 
 use proptest::collection::vec;
 use proptest::prelude::*;
+
 use tofsim_captures::ila::read::{CaptureForm, CaptureRow, Opened};
 use tofsim_captures::ila::{Capture, Probe, Radix, write};
+
+use crate::ila;
 
 const RADICES: [Radix; 5] =
     [Radix::Hex, Radix::Signed, Radix::Unsigned, Radix::Binary, Radix::Octal];

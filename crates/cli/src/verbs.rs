@@ -22,10 +22,9 @@ pub mod verify;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
+use talk::Talk;
 
 use tofsim::error::Result;
-
-use talk::Talk;
 
 /// Cycle-accurate simulator of the FPGA firmware of a time-of-flight rangefinder
 #[derive(Debug, Parser)]

@@ -2,12 +2,13 @@
 //!
 //! `UPDATE_DOCS=1 cargo test -p tofsim-cli --test cli commands` writes what they print anew.
 
-use crate::common;
 use std::fs;
 use std::path::Path;
 
 use tofsim_captures::compare::SignalMap;
 use tofsim_captures::ila::{AnalyserPlan, AnalyserSetup, Overrides};
+
+use crate::common;
 
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/comparing-with-hardware.md");
 

@@ -5,12 +5,14 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::common::{empty, files, json, npy, refused, setup, stdout};
 use parquet::data_type::{DataType, DoubleType, Int32Type, Int64Type};
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::parser::parse_message_type;
+
 use tofsim_learn::dataset::{self, Grid, HistogramSource, Rows, Sample, Subset};
+
+use crate::common::{empty, files, json, npy, refused, setup, stdout};
 
 /// The arguments of a dataset of a few hundred rows, as both formats.
 const FEW: [&str; 9] =

@@ -4,8 +4,9 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{csv, npy};
 use tofsim::network::{Histogram, Network, estimate};
+
+use crate::common::{csv, npy};
 
 /// A small generator of random words (SplitMix64).
 struct Random(u64);

@@ -3,7 +3,6 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{files, json, refused, stdout};
 use tofsim::network::Network;
 use tofsim_learn::quantize::Datapath;
 use tofsim_learn::training::features::{Features, Scaling};
@@ -13,6 +12,8 @@ use tofsim_learn::training::network_problem::NetworkProblem;
 use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::start::start;
 use tofsim_learn::training::sums::parameters;
+
+use crate::common::{files, json, refused, stdout};
 
 /// Arguments of a training of about a second.
 const SMALL: [&str; 8] = [

@@ -1,6 +1,5 @@
 //! The Verilog in `rtl_ref/` mirrors the Rust in `src/firmware/`: files, ports and house rules.
 
-use crate::common;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::PathBuf;
@@ -13,6 +12,8 @@ use tofsim_rtl::golden::ports::Port;
 use tofsim_rtl::verify::interface::{PortShape, Ports};
 use tofsim_rtl::verify::process::Limits;
 use tofsim_rtl::verify::{Rtl, Simulator};
+
+use crate::common;
 
 /// Vendor primitives, and the only file that may instantiate each.
 const PRIMITIVES: &[(&str, &[&str])] = &[

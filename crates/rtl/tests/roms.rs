@@ -2,13 +2,14 @@
 //!
 //! `UPDATE_ROMS=1 cargo test -p tofsim-rtl --test rtl roms` writes them anew.
 
-use crate::common;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use tofsim::network::mem::Mem;
 use tofsim_rtl::golden::parameters;
+
+use crate::common;
 
 /// Which memories come from another scenario than the board on the desk: the stand-ins' stimuli.
 const STIMULI: [(&str, &str); 2] =

@@ -1,7 +1,8 @@
 //! Compares two waveforms at every instant at which one of them changes.
 
-use crate::source::{Axis, Cursor, Tick};
 use tofsim::error::Result;
+
+use crate::source::{Axis, Cursor, Tick};
 
 use super::differences::{Differences, Spot};
 use super::plan::Plan;

@@ -1,7 +1,8 @@
 //! Compares two sequences of samples, one by one, as an alignment says.
 
-use crate::source::{Axis, SourceState};
 use tofsim::error::Result;
+
+use crate::source::{Axis, SourceState};
 
 use super::align::Alignment;
 use super::delay::Delay;

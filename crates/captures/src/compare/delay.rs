@@ -2,8 +2,9 @@
 
 use std::collections::VecDeque;
 
-use crate::source::SourceState;
 use tofsim::error::Result;
+
+use crate::source::SourceState;
 
 use super::bits::Bits;
 use super::differences::{Differences, Spot};

@@ -5,13 +5,13 @@ mod collect;
 mod radix;
 mod rows;
 
+use collect::{Collected, Column, collect};
+
 use tofsim::error::Result;
 
 use super::align::Alignment;
 use super::plan::Plan;
 use super::result::{Compared, Comparison, Finding};
-
-use collect::{Collected, Column, collect};
 
 /// Looks at the window of the first difference once more.
 pub(super) fn samples(

@@ -1,8 +1,9 @@
 //! Counts for each pair how often and where its sides differ, place by place.
 
+use tofsim::error::Result;
+
 use crate::source::{Name, SourceState, shapes};
 use crate::words::bit;
-use tofsim::error::Result;
 
 use super::bits::Bits;
 use super::both::Both;

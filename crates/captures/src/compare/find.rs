@@ -1,8 +1,9 @@
 //! Finds a signal of a source by what a user calls it.
 
+use tofsim::error::{Input, Result, nearest};
+
 use crate::condition::slice;
 use crate::source::{Name, Signal, SignalKind, Source};
-use tofsim::error::{Input, Result, nearest};
 
 use super::parts::{Part, Slots};
 

@@ -7,11 +7,12 @@ use regex::Regex;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::ila::AnalyserSetup;
-use crate::ila::setup::ProbeEntry;
 use tofsim::error::{Result, read_text};
 use tofsim::files::toml::Checked;
 use tofsim::hierarchy::TOP;
+
+use crate::ila::AnalyserSetup;
+use crate::ila::setup::ProbeEntry;
 
 /// A map file. Where it names sides, `a` and `b` are those of `tofsim compare A B`, or the other way
 /// round if its names are found so.

@@ -10,8 +10,9 @@ use std::collections::HashSet;
 use globset::{Glob, GlobSet, GlobSetBuilder};
 use regex::Regex;
 
-use crate::source::{Name, Signal, SignalKind, Source};
 use tofsim::error::{Input, Result};
+
+use crate::source::{Name, Signal, SignalKind, Source};
 
 use super::map::{Side, SignalMap};
 

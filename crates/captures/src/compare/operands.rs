@@ -1,9 +1,10 @@
 //! Conditions over the signals of a waveform.
 
-use crate::condition::{Bound, Condition, Level, Place};
-use crate::source::{Name, Source, SourceState, known_shape, shapes};
 use tofsim::error::Result;
 use tofsim::kernel::signals::SignalFormat as Shape;
+
+use crate::condition::{Bound, Condition, Level, Place};
+use crate::source::{Name, Source, SourceState, known_shape, shapes};
 
 use super::find;
 use super::matching::Matching;

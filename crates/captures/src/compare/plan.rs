@@ -1,9 +1,10 @@
 //! What a comparison reads from each side, and how it makes samples of it.
 
-use crate::condition::Condition;
-use crate::source::{Axis, Source};
 use tofsim::error::Result;
 use tofsim::kernel::Time;
+
+use crate::condition::Condition;
+use crate::source::{Axis, Source};
 
 use super::matching::{Matching, Unmatched, UnmatchedReason};
 use super::operands::SideCondition;

@@ -2,11 +2,12 @@
 
 use std::str::FromStr;
 
-use crate::ila;
-use crate::source::{Axis, Cursor, Marks, Source, SourceFormat, SourceState, Tick};
 use tofsim::error::{Input, Result};
 use tofsim::kernel::Time;
 use tofsim::kernel::clock::Clock;
+
+use crate::ila;
+use crate::source::{Axis, Cursor, Marks, Source, SourceFormat, SourceState, Tick};
 
 use super::find;
 use super::parts::Slots;

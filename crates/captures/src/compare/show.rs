@@ -1,9 +1,10 @@
 //! How a value is written for people: in its signal's own radix, and as the number it stands for.
 
+use tofsim::kernel::signals::SignalFormat as Shape;
+
 use crate::ila::Radix;
 use crate::source::{Name, Signal, SignalKind, known_shape};
 use crate::words::extend;
-use tofsim::kernel::signals::SignalFormat as Shape;
 
 use super::bits::Bits;
 

@@ -2,9 +2,11 @@
 
 use std::fmt::Write;
 
-use super::result::{Compared, Comparison};
-use crate::source::Axis;
 use tofsim::waves::zoom;
+
+use crate::source::Axis;
+
+use super::result::{Compared, Comparison};
 
 /// Scopes of the two sides and of what differs.
 pub(super) const SCOPES: [&str; 3] = ["expected", "got", "differs"];

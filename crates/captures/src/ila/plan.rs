@@ -2,10 +2,11 @@
 
 use std::collections::HashMap;
 
-use crate::condition::{Bound, Condition, Place};
 use tofsim::error::{Input, Result};
 use tofsim::kernel::Time;
 use tofsim::sim::setup::Setup;
+
+use crate::condition::{Bound, Condition, Place};
 
 use super::capture::Probe;
 use super::clock::AnalyserClock;

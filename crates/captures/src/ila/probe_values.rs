@@ -2,12 +2,13 @@
 
 use bitvec::prelude::*;
 
-use crate::condition::WIDEST;
 use tofsim::firmware::carry_chain::TAPS;
 use tofsim::firmware::tof_top::TofTop;
 use tofsim::hierarchy::{IDS, Part};
 use tofsim::kernel::Thermometer;
 use tofsim::kernel::signals::Sink;
+
+use crate::condition::WIDEST;
 
 use super::probes::Bits;
 

@@ -2,11 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::condition::slice;
 use tofsim::error::nearest;
 use tofsim::firmware::tof_top::Params;
 use tofsim::hierarchy::{self, TOP};
 use tofsim::kernel::signals::{Signal, SignalFormat};
+
+use crate::condition::slice;
 
 use super::capture::{Probe, Radix};
 

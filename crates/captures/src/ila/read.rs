@@ -17,8 +17,9 @@ use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::Path;
 
-use super::capture::Radix;
 use tofsim::error::{Error, Result};
+
+use super::capture::Radix;
 
 pub use opened::{
     CaptureForm, CaptureRow, CaptureRows, Column, LARGEST, Opened, WIDEST_PROBE, WIDEST_SAMPLE,

@@ -5,7 +5,6 @@
 
 use std::sync::atomic::AtomicBool;
 
-use crate::condition::{Bound, Level};
 use tofsim::error::Result;
 use tofsim::firmware::tof_top::{Params, TofTop};
 use tofsim::kernel::Time;
@@ -14,6 +13,8 @@ use tofsim::sim::device::{Edge, SignalProbe};
 use tofsim::sim::frames::Frames;
 use tofsim::sim::setup::{CYCLE, Setup};
 use tofsim::sim::{Device, Outcome, Run, WindowedProbe};
+
+use crate::condition::{Bound, Level};
 
 use super::capture::{Capture, Probe};
 use super::clock::{AnalyserClock, first_edge};

@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use tofsim::error::Result;
+
 use crate::ila::Radix;
 use crate::ila::read::{CaptureForm, CaptureRow, Column, open};
-use tofsim::error::Result;
 
 use super::names::Name;
 use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat};

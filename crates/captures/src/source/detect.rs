@@ -4,8 +4,9 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use crate::ila::Radix;
 use tofsim::error::{Error, Input, Result};
+
+use crate::ila::Radix;
 
 use super::signals::Source;
 use super::{capture, wave};

@@ -4,9 +4,10 @@ use std::collections::{HashMap, HashSet};
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use crate::ila::Radix;
 use tofsim::error::Result;
 use tofsim::kernel::signals::SignalFormat as Shape;
+
+use crate::ila::Radix;
 
 use super::names::Name;
 use super::stream::Cursor;

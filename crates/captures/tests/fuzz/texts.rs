@@ -2,6 +2,7 @@
 
 use proptest::prelude::*;
 use proptest::sample::select;
+
 use tofsim_captures::compare::SignalMap;
 use tofsim_captures::condition::{Condition, Level, Place};
 use tofsim_captures::ila::{AnalyserSetup, Overrides};

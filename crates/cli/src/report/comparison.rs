@@ -5,11 +5,11 @@ use std::fmt::Write;
 use quick_junit::SerializeError;
 use serde_json::{Value, json};
 
-use crate::text::junit::{self, JunitCase};
-use crate::text::table::{counted, grouped, plain};
-
 use tofsim_captures::compare::{Compared, Comparison, Described, MatchedBy, UnmatchedReason};
 use tofsim_captures::source::Axis;
+
+use crate::text::junit::{self, JunitCase};
+use crate::text::table::{counted, grouped, plain};
 
 /// Signals that are listed one by one.
 const LISTED: usize = 24;

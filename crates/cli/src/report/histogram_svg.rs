@@ -7,8 +7,9 @@ use plotters::prelude::*;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::optics::hazard::Cause;
 
-use super::causes::{self, CAUSES, Causes};
 use crate::text::svg::{Canvas, DrawingFault, chart, picture};
+
+use super::causes::{self, CAUSES, Causes};
 
 /// Width of a bin [ns].
 const BIN_NS: f64 = 0.025;

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use plotters::prelude::*;
 
-use crate::text::svg::{Canvas, DrawingFault, chart, picture};
-
 use tofsim_learn::training::state::CurvePoint;
+
+use crate::text::svg::{Canvas, DrawingFault, chart, picture};
 
 /// The curve as CSV, a row for each network at each checkpoint.
 pub fn csv(points: &[CurvePoint]) -> String {

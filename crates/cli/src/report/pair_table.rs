@@ -8,10 +8,11 @@ use tofsim::sim::setup::{CYCLE, Setup};
 use tofsim_learn::estimation::subtraction::NAME;
 use tofsim_learn::estimation::{HistogramPair, Reading};
 
+use crate::text::table::{facts, grouped};
+
 use super::frame_log::FrameLog;
 use super::pairs::{PairStatistics, mean, right_of_echo};
 use super::readings;
-use crate::text::table::{facts, grouped};
 
 /// The table of a run in pairs.
 pub fn table(setup: &Setup, log: &FrameLog) -> Table {

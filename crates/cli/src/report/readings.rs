@@ -5,8 +5,9 @@ use comfy_table::Table;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::Reading;
 
-use super::frame_log::FrameLog;
 use crate::text::table::{align_right, plain};
+
+use super::frame_log::FrameLog;
 
 /// What each estimator says of the only frame or pair, with its error.
 pub fn rows(setup: &Setup, readings: &[Reading]) -> impl Iterator<Item = (&'static str, String)> {

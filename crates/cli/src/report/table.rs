@@ -8,10 +8,11 @@ use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::{CYCLE, Setup};
 use tofsim_learn::estimation::Reading;
 
+use crate::text::table::{align_right, facts, grouped, number_or_dash, plain};
+
 use super::frame_log::{DepthSpread, FrameLog};
 use super::summary::TdcSummary;
 use super::{pair_table, readings};
-use crate::text::table::{align_right, facts, grouped, number_or_dash, plain};
 
 /// What came of a run, in a dozen lines.
 pub fn run(setup: &Setup, log: &FrameLog, cycles: u64, wall: Duration) -> String {

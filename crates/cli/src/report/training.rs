@@ -5,10 +5,10 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::text::table::{align_right, plain};
-
 use tofsim_learn::training::accuracy::{DistanceErrors, worst_ratio};
 use tofsim_learn::training::weighting::Weighting;
+
+use crate::text::table::{align_right, plain};
 
 /// What `--json` prints.
 #[derive(Serialize)]

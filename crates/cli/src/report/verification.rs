@@ -3,11 +3,11 @@
 use quick_junit::SerializeError;
 use serde_json::{Value, json};
 
-use crate::text::junit::{self, JunitCase};
-use crate::text::table::{grouped, plain};
-
 use tofsim_rtl::verify::cycle_counts::{Count, Proof};
 use tofsim_rtl::verify::{BlockReport, Verdict};
+
+use crate::text::junit::{self, JunitCase};
+use crate::text::table::{grouped, plain};
 
 /// A line for each block, and the cycles around each first mismatch.
 pub fn text(reports: &[BlockReport]) -> String {

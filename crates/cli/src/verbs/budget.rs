@@ -2,12 +2,13 @@
 
 use serde::Serialize;
 
-use crate::text::table::plain;
 use tofsim::error::Result;
 use tofsim::firmware::vcsel_driver::PERIODS;
 use tofsim::optics::{Budget, eye_safety};
 use tofsim::scenario::{self, Scenario};
 use tofsim::sim::setup::CYCLE;
+
+use crate::text::table::plain;
 
 use super::stdout::{json_line, print};
 

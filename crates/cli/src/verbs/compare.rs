@@ -6,8 +6,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use crate::choice;
-use crate::report::comparison;
+use values::{latency, setting, time};
+
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::write_file;
 use tofsim::kernel::Time;
@@ -21,10 +21,11 @@ use tofsim_captures::condition::Condition;
 use tofsim_captures::ila::{AnalyserSetup, Overrides, Radix};
 use tofsim_captures::source::Source;
 
+use crate::choice;
+use crate::report::comparison;
+
 use super::stdout::print;
 use super::talk::Talk;
-
-use values::{latency, setting, time};
 
 /// Compare two waveforms or captures: what A has is expected, what B has was got
 ///

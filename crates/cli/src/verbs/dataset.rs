@@ -5,13 +5,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::Serialize;
 
-use crate::choice;
-use crate::text::table::{facts, grouped};
 use tofsim::error::{Error, Result};
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::files::{DatasetFiles, DatasetFormat};
 use tofsim_learn::dataset::{Blocks, DatasetDescription, Grid, HistogramSource};
+
+use crate::choice;
+use crate::text::table::{facts, grouped};
 
 use super::draws::Draws;
 use super::interrupt::stop_signal;

@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use crate::report::explanation;
-use crate::text::table::{align_right, plain};
 use tofsim::error::Result;
 use tofsim::network::histogram_file;
 use tofsim::network::{Estimate, Network, estimate};
 use tofsim_learn::quantize::{Explanation, explain};
+
+use crate::report::explanation;
+use crate::text::table::{align_right, plain};
 
 use super::stdout::{json_line, print};
 

@@ -7,8 +7,6 @@ use std::sync::atomic::AtomicBool;
 
 use serde::Serialize;
 
-use crate::choice;
-use crate::report::{evaluation as report, evaluation_files};
 use tofsim::error::{Input, Result};
 use tofsim::network::Network;
 use tofsim::scenario::{self, Loaded};
@@ -21,6 +19,9 @@ use tofsim_learn::evaluation::bound;
 use tofsim_learn::evaluation::cross_check::CrossCheck;
 use tofsim_learn::evaluation::thesis::{self, DISTANCES_M};
 use tofsim_learn::evaluation::{Evaluation, Figures};
+
+use crate::choice;
+use crate::report::{evaluation as report, evaluation_files};
 
 use super::draws::Draws;
 use super::interrupt::stop_signal;

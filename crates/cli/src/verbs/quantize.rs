@@ -5,8 +5,6 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use crate::report::exploration;
-use crate::text::table::plain;
 use tofsim::error::{Error, Result};
 use tofsim::files::output::{create_directory, write_file};
 use tofsim::network::file::Training;
@@ -17,6 +15,9 @@ use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::{Grid, HistogramSource};
 use tofsim_learn::evaluation::exploration::{ExploredDatapath, explore, sweep};
 use tofsim_learn::quantize::import;
+
+use crate::report::exploration;
+use crate::text::table::plain;
 
 use super::draws::Draws;
 use super::interrupt::stop_signal;

@@ -3,11 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use crate::choice::{self, Fidelity, WaveformChoice};
-use crate::report::frame_log::FrameLog;
-use crate::report::run_files::RunFiles;
-use crate::report::summary::Summary;
-use crate::report::table;
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::create_directory;
 use tofsim::hierarchy;
@@ -21,6 +16,12 @@ use tofsim::sim::shot_recorder::Shot;
 use tofsim::sim::{Run, Stepping};
 use tofsim::waves::{self, Marks, WaveFormat, Waves, write_views};
 use tofsim_learn::estimation::{EstimatorKind, Panel};
+
+use crate::choice::{self, Fidelity, WaveformChoice};
+use crate::report::frame_log::FrameLog;
+use crate::report::run_files::RunFiles;
+use crate::report::summary::Summary;
+use crate::report::table;
 
 use super::draws::use_threads;
 use super::interrupt::stop_signal;

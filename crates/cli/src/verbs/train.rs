@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use crate::report::training::{self, TrainingReport};
 use tofsim::error::{Input, Result, read_text};
 use tofsim::files::output::create_directory;
 use tofsim::scenario;
@@ -11,6 +10,8 @@ use tofsim_learn::dataset::HistogramSource;
 use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::tournament::Tournament;
 use tofsim_learn::training::{checkpoint, data};
+
+use crate::report::training::{self, TrainingReport};
 
 use super::draws::{from_here, use_threads};
 use super::interrupt::stop_signal;

@@ -7,8 +7,6 @@ use std::time::Duration;
 
 use rayon::prelude::*;
 
-use crate::choice;
-use crate::report::verification as report;
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::write_file;
 use tofsim_rtl::golden::blocks::CENTROID;
@@ -16,6 +14,9 @@ use tofsim_rtl::golden::{BLOCKS, Setting, Spec};
 use tofsim_rtl::verify::cycle_counts::Count;
 use tofsim_rtl::verify::process::Limits;
 use tofsim_rtl::verify::{BlockCheck, BlockReport, Rtl, RtlMap, Simulator};
+
+use crate::choice;
+use crate::report::verification as report;
 
 use super::interrupt::stop_signal;
 use super::stdout::print;

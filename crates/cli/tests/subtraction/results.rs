@@ -3,14 +3,16 @@
 use std::fs;
 
 use serde_json::Value;
+
 use tofsim::network::Histogram;
 use tofsim::optics::Bins;
 use tofsim::sim::setup::CYCLE;
 use tofsim_learn::estimation::subtraction::Subtraction;
 use tofsim_learn::estimation::{Estimator, HistogramPair};
 
-use super::{PAIRS, counts, pairs};
 use crate::common::{self, empty, json, refused, setup, stdout};
+
+use super::{PAIRS, counts, pairs};
 
 fn histogram(frame: &Value) -> Histogram {
     let counts = counts(&frame["histogram"]);

@@ -2,11 +2,12 @@
 
 use rayon::prelude::*;
 
-use crate::estimation::HistogramPair;
-use crate::estimation::subtraction::half;
 use tofsim::error::Input;
 use tofsim::optics::BinProbabilities;
 use tofsim::sensor::streams::{self, stream};
+
+use crate::estimation::HistogramPair;
+use crate::estimation::subtraction::half;
 
 use super::blocks::{Last, RUN, Sample};
 use super::scene::Scene;

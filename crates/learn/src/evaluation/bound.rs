@@ -2,11 +2,12 @@
 
 use rayon::prelude::*;
 
+use tofsim::error::Input;
+
 use crate::dataset::source::scaled;
 use crate::dataset::{Grid, HistogramSource};
 use crate::estimation::Acquisition;
 use crate::estimation::likelihood::Model;
-use tofsim::error::Input;
 
 /// Twice the root mean square of the bound over the grid's lights at each distance; `None` where a
 /// scene tells nothing, as without a laser [mm].

@@ -9,13 +9,14 @@ use std::sync::atomic::AtomicBool;
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use crate::dataset::{HistogramSource, Scene};
 use tofsim::error::Result;
 use tofsim::scenario::Loaded;
 use tofsim::sim::Run;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
+
+use crate::dataset::{HistogramSource, Scene};
 
 /// Chance below which counts are taken for others than those drawn.
 const LEVEL: f64 = 1e-6;

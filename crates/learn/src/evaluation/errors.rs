@@ -4,9 +4,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
+use tofsim::error::{Error, Result};
+
 use crate::dataset::{HistogramSource, Pairs, Rows, Scene};
 use crate::estimation::Estimator;
-use tofsim::error::{Error, Result};
 
 use super::groups::{self, Group};
 

@@ -5,14 +5,15 @@ use std::sync::atomic::AtomicBool;
 
 use serde::Serialize;
 
+use tofsim::error::Result;
+use tofsim::network::formats::WordFormat;
+use tofsim::network::{Histogram, Network};
+
 use crate::dataset::{HistogramSource, Rows};
 use crate::estimation::Estimator;
 use crate::estimation::network::{self, NetworkEstimator};
 use crate::quantize::circuit::Circuit;
 use crate::quantize::datapath::{Cost, Datapath};
-use tofsim::error::Result;
-use tofsim::network::formats::WordFormat;
-use tofsim::network::{Histogram, Network};
 
 use super::errors::Evaluation;
 use super::figures::Figures;

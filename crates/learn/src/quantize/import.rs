@@ -12,13 +12,12 @@ mod npy;
 
 use std::path::Path;
 
+use arrays::{Array, Arrays};
+
 use tofsim::error::{Input, Result};
 use tofsim::firmware::forward2::MOST_NEURONS;
 use tofsim::firmware::histogram_builder::BINS;
-
 use tofsim::network::float::Float;
-
-use arrays::{Array, Arrays};
 
 /// Reads a network's arrays: a MATLAB file (`.mat`), an object of JSON (`.json`), or a folder of
 /// NumPy arrays (`IW.npy` and so on), told apart by the ending.

@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::quantize::datapath::Datapath;
 use tofsim::firmware::forward2::NEURONS;
+
+use crate::quantize::datapath::Datapath;
 
 use super::limits::WordLimits;
 use super::lm::LmSettings;

@@ -8,10 +8,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
-use crate::dataset::{Grid, HistogramSource};
-use crate::quantize::Circuit;
 use tofsim::error::{Error, Result};
 use tofsim::network::float::Float;
+
+use crate::dataset::{Grid, HistogramSource};
+use crate::quantize::Circuit;
 
 use super::accuracy::{DistanceErrors, by_distance, worst};
 use super::data::{self, StageData};

@@ -1,6 +1,7 @@
 //! Histograms that no light makes.
 
 use proptest::prelude::*;
+
 use tofsim::firmware::centroid_estimator::Params;
 use tofsim::network::{Histogram, Network};
 use tofsim_learn::estimation::peak_detection::PeakDetection;

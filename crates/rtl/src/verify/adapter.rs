@@ -3,13 +3,14 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use tofsim::error::Result;
+use tofsim::files::output::write_file;
+
 use crate::golden::bench::Bench;
 use crate::golden::bench::allowances::Allowances;
 use crate::golden::ports::Port;
 use crate::golden::spec::Spec;
 use crate::golden::verilog::{parameter_list, range};
-use tofsim::error::Result;
-use tofsim::files::output::write_file;
 
 use super::interface::Ports;
 use super::map::BlockMap;

@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use tofsim::error::Result;
+use tofsim::files::output::create_directory;
+
 use crate::golden::bench::Bench;
 use crate::golden::parameters::{NEURONS, Parameter};
 use crate::golden::setting::Setting;
 use crate::golden::spec::{Spec, Vectors};
-use tofsim::error::Result;
-use tofsim::files::output::create_directory;
 
 use super::interface;
 use super::map::BlockMap;

@@ -15,12 +15,14 @@ mod simulate;
 #[cfg(test)]
 mod tests;
 
-use super::process::Limits;
-use super::rtl::Rtl;
-use crate::golden::blocks::CENTROID;
 use promises::Promise;
 
 use tofsim::error::{Error, Result};
+
+use crate::golden::blocks::CENTROID;
+
+use super::process::Limits;
+use super::rtl::Rtl;
 
 pub use prove::Proof;
 

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::golden::ports::Port;
 use tofsim::error::{Input, Result, nearest};
+
+use crate::golden::ports::Port;
 
 /// A port as a simulator tells it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

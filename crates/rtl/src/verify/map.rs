@@ -6,13 +6,14 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::golden::blocks::{self, BLOCKS};
-use crate::golden::setting::Setting;
-use crate::golden::spec::Spec;
 use tofsim::error::{Input, Result, nearest, read_text};
 use tofsim::files::toml::Checked;
 use tofsim::firmware::carry_chain::TAPS;
 use tofsim::firmware::histogram_builder::BINS;
+
+use crate::golden::blocks::{self, BLOCKS};
+use crate::golden::setting::Setting;
+use crate::golden::spec::Spec;
 
 /// A map file.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use tofsim::error::{Input, Result, read_text};
+
 use crate::golden::bench::Bench;
 use crate::golden::table::{Column, Table};
-use tofsim::error::{Input, Result, read_text};
 
 use super::verdict::Mismatch;
 

@@ -4,13 +4,14 @@ use std::io::{self, Write};
 use std::ops::Range;
 use std::path::Path;
 
-use crate::golden::spec::Vectors;
-use crate::golden::table::Column;
 use tofsim::error::Result;
 use tofsim::files::output::write_file;
 use tofsim::waves::side_by_side::{
     HEXADECIMAL, Layout, SIDES, Scope, Shown, SideBySide, Value, View, range,
 };
+
+use crate::golden::spec::Vectors;
+use crate::golden::table::Column;
 
 use super::observed::{Observed, binary};
 use super::verdict::Mismatch;

@@ -6,8 +6,9 @@ use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 use vcd::Value;
 
-use crate::source::SourceState;
 use tofsim::error::{Input, Result};
+
+use crate::source::SourceState;
 
 use super::super::bits::Bits;
 use super::super::plan::Plan;

@@ -1,7 +1,8 @@
 //! Alignment by the first edge of a signal, and by the begin.
 
-use crate::source::Axis;
 use tofsim::error::{Input, Result};
+
+use crate::source::Axis;
 
 use super::super::bits::Bits;
 use super::super::plan::Plan;

@@ -1,7 +1,8 @@
 //! What a capture says of its windows and triggers.
 
-use crate::source::{Source, SourceFormat};
 use tofsim::error::Result;
+
+use crate::source::{Source, SourceFormat};
 
 /// A window of a capture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,9 +1,10 @@
 //! Alignment by trigger: a capture's marks against another's, or against what a logic analyser of
 //! the same set-up would store of the waveform.
 
+use tofsim::error::{Input, Result};
+
 use crate::ila::core::{Core, KeptSamples};
 use crate::ila::storing::Shape;
-use tofsim::error::{Input, Result};
 
 use super::super::find;
 use super::super::operands::SideCondition;

@@ -2,8 +2,9 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use crate::source::SourceState;
 use tofsim::error::Result;
+
+use crate::source::SourceState;
 
 use super::super::align::Alignment;
 use super::super::bits::Bits;

@@ -1,7 +1,8 @@
 //! Which signals came together, and why others did not.
 
-use crate::source::Name;
 use tofsim::error::{Input, Result, nearest};
+
+use crate::source::Name;
 
 use super::super::pair::Pair;
 use super::super::parts::Slots;

@@ -2,9 +2,10 @@
 
 use std::collections::HashSet;
 
+use tofsim::error::{Input, Result};
+
 use crate::source::{Source, shapes};
 use crate::words::ones;
-use tofsim::error::{Input, Result};
 
 use super::super::find;
 use super::super::map::{Rule, SignalMap, parse_mask};

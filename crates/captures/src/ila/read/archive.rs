@@ -5,13 +5,14 @@ use std::io::{self, BufReader, Read, Seek};
 
 use zip::ZipArchive;
 
+use tofsim::error::{Error, Input, Result};
+
 use super::super::capture::Radix;
 use super::dump::Dump;
 use super::heads::Heads;
 use super::lines::first_lines;
 use super::opened::{CaptureForm, Column, Opened, damaged};
 use super::{csv, ltx};
-use tofsim::error::{Error, Input, Result};
 
 /// Most bytes of an entry that is read in passing.
 const LARGEST_ENTRY: u64 = 1 << 30;

@@ -3,6 +3,8 @@
 use std::fs::File;
 use std::io::Seek;
 
+use tofsim::error::{Error, Result};
+
 use super::super::capture::Radix;
 use super::digits;
 use super::heads::{FIXED, Heads};
@@ -11,7 +13,6 @@ use super::lines::first_lines;
 use super::opened::{CaptureForm, CaptureRow, CaptureRows, Opened};
 use super::order::Order;
 use super::table::Table;
-use tofsim::error::{Error, Result};
 
 /// Opens a CSV. Without a row of radices it is read twice.
 pub(super) fn open(source: String, mut file: File, hint: Option<Radix>) -> Result<Opened> {

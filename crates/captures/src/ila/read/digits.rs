@@ -1,7 +1,8 @@
 //! Digits of a cell, as bits.
 
-use super::super::capture::Radix;
 use crate::words::trim;
+
+use super::super::capture::Radix;
 
 /// What is wrong with a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,10 +4,11 @@ mod reader;
 
 use std::io::BufRead;
 
-use super::opened::{CaptureRow, CaptureRows, Column, LARGEST, WIDEST_SAMPLE};
+use reader::Reader;
+
 use tofsim::error::{Input, Result};
 
-use reader::Reader;
+use super::opened::{CaptureRow, CaptureRows, Column, LARGEST, WIDEST_SAMPLE};
 
 /// What a dump holds.
 #[derive(Debug, Default)]

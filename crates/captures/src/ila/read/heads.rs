@@ -2,10 +2,11 @@
 
 use std::collections::HashSet;
 
+use tofsim::error::Result;
+
 use super::super::capture::Radix;
 use super::opened::{Column, WIDEST_PROBE, WIDEST_SAMPLE};
 use super::table::Table;
-use tofsim::error::Result;
 
 /// The columns that every CSV begins with.
 pub(super) const FIXED: [&str; 3] = ["Sample in Buffer", "Sample in Window", "TRIGGER"];

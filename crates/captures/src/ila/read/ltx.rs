@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 
 use roxmltree::{Document, Node};
 
+use tofsim::error::{Input, Result};
+
 use super::heads;
 use super::opened::{Column, WIDEST_PROBE};
-use tofsim::error::{Input, Result};
 
 /// A probe in its core.
 struct PlacedProbe {

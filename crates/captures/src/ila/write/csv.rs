@@ -2,9 +2,10 @@
 
 use std::io::{self, Write};
 
+use crate::words::extend;
+
 use super::super::capture::{Capture, Probe, Radix};
 use super::words::{shown, spill, take};
-use crate::words::extend;
 
 /// Writes a capture as Vivado's CSV; `radix_row` leaves out or puts in the second row.
 pub fn csv(out: &mut dyn Write, capture: &Capture, radix_row: bool) -> io::Result<()> {

@@ -2,9 +2,10 @@
 
 use std::io::{self, Write};
 
+use tofsim::files::date;
+
 use super::super::capture::{Capture, Probe};
 use super::words::{spill, take};
-use tofsim::files::date;
 
 /// Writes a capture as Vivado's VCD. `_TRIGGER` and `_WINDOW` turn over at every trigger and at
 /// every window but the first.

@@ -2,8 +2,9 @@
 
 use std::io::{self, Write};
 
-use super::super::capture::{Probe, Radix};
 use crate::words::trim;
+
+use super::super::capture::{Probe, Radix};
 
 /// Bytes gathered before they go to the file.
 const BLOCK: usize = 1 << 16;

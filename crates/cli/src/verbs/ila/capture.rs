@@ -6,11 +6,6 @@ use std::path::{Path, PathBuf};
 use comfy_table::CellAlignment;
 use serde::Serialize;
 
-use crate::choice;
-use crate::text::table::plain;
-use crate::verbs::interrupt::stop_signal;
-use crate::verbs::stdout::print;
-use crate::verbs::talk::Talk;
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::write_file;
 use tofsim::kernel::Time;
@@ -20,6 +15,12 @@ use tofsim::sim::{Outcome, Run};
 use tofsim_captures::compare::SignalMap;
 use tofsim_captures::ila::export::{CaptureFormat, export};
 use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, Overrides, capture};
+
+use crate::choice;
+use crate::text::table::plain;
+use crate::verbs::interrupt::stop_signal;
+use crate::verbs::stdout::print;
+use crate::verbs::talk::Talk;
 
 /// Sample a simulation as a logic analyser on the board would, and write Vivado's files
 ///

@@ -4,13 +4,14 @@ use std::path::PathBuf;
 
 use serde_json::json;
 
-use crate::choice;
-use crate::text::table::{grouped, plain};
-use crate::verbs::stdout::print;
 use tofsim::error::{Input, Result};
 use tofsim_captures::compare::{Survey, survey};
 use tofsim_captures::ila::Radix;
 use tofsim_captures::source::{SignalKind, Source, SourceFormat};
+
+use crate::choice;
+use crate::text::table::{grouped, plain};
+use crate::verbs::stdout::print;
 
 /// Say what a logic analyser's file holds
 ///

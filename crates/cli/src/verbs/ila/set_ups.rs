@@ -3,12 +3,13 @@
 use schemars::schema_for;
 use serde_json::json;
 
-use crate::text::table::plain;
-use crate::verbs::stdout::print;
 use tofsim::error::Result;
 use tofsim_captures::compare::SignalMap;
 use tofsim_captures::ila::setup::AnalyserSetupFile;
 use tofsim_captures::ila::{AnalyserSetup, Overrides, builtin};
+
+use crate::text::table::plain;
+use crate::verbs::stdout::print;
 
 /// Prints the built-in set-ups and what they show.
 pub fn list(as_json: bool) -> Result<()> {

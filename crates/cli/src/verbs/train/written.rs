@@ -3,7 +3,6 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use crate::report::{learning_curve, training as report};
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::write_file;
 use tofsim::network::Network;
@@ -15,6 +14,7 @@ use tofsim_learn::training::accuracy::DistanceErrors;
 use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::tournament::Tournament;
 
+use crate::report::{learning_curve, training as report};
 use crate::verbs::talk::Talk;
 
 /// Rounds, tests and writes a network, made on a chain by a command with a seed; the network's file,

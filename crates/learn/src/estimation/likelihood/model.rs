@@ -10,9 +10,10 @@
 
 use std::f64::consts::PI;
 
-use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo, normal_cdf, spans_ps};
 use tofsim::error::Input;
 use tofsim::network::Histogram;
+
+use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo, normal_cdf, spans_ps};
 
 use super::solve::{Matrix, inverse_diagonal};
 

@@ -1,7 +1,8 @@
-use super::*;
 use tofsim::firmware::carry_chain::{Delays, TAPS};
 use tofsim::kernel::Time;
 use tofsim::optics::{BinProbabilities, Budget, Hazard};
+
+use super::*;
 
 const PERIOD: Time = Time::from_ns(8);
 

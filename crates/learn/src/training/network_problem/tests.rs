@@ -1,8 +1,10 @@
-use super::*;
+use tofsim::network::Histogram;
+
 use crate::quantize::datapath::Datapath;
 use crate::training::limits::WordLimits;
 use crate::training::sums::parameters;
-use tofsim::network::Histogram;
+
+use super::*;
 
 /// 300 histograms, so that the last block is not full, and a smooth network.
 fn counts() -> Vec<Histogram> {

@@ -1,8 +1,9 @@
 //! Pulses of every width and distance, changes exactly on a clock edge and exactly on a tap's
 //! boundary, and several pulses in the chain at once.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::carry_chain::{CarryChain as Chain, Delays, TAPS};
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     stream: Some(0),

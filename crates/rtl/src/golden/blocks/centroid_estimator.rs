@@ -2,11 +2,12 @@
 //! empty, level, full, all hits in one bin at either end or next to it, equal maxima, random and as
 //! measured; starts while busy, and a reset in each part.
 
-use crate::golden::prelude::*;
-use crate::golden::estimations::{Estimations, Histogram, memory};
 use tofsim::firmware::centroid_estimator::{DIVIDE, DONE, In, PLACE, Params};
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::sim::fast::centroid::locate;
+
+use crate::golden::prelude::*;
+use crate::golden::estimations::{Estimations, Histogram, memory};
 
 mod histograms;
 

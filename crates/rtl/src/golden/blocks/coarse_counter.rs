@@ -1,7 +1,8 @@
 //! Shots of every length: cut short, exactly full, and with a pause after the window.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::coarse_counter::In;
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     stream: Some(1),

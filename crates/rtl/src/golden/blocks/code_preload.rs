@@ -1,8 +1,9 @@
 //! A ROM of 37 random codes, read past its end and cut short by a reset at every word; shots back to
 //! back and apart.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::code_preload::In;
+
+use crate::golden::prelude::*;
 
 /// Words of the ROM: no power of two.
 const CODES: u64 = 37;

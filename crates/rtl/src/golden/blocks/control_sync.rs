@@ -1,7 +1,8 @@
 //! Every pair of levels of the five signals one after the other, held for a few cycles or one.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::control_sync::In;
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     stream: Some(3),

@@ -1,7 +1,8 @@
 //! Pulses of one half cycle, alone and in rows.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::ddr_output::In;
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     stream: Some(4),

@@ -2,11 +2,12 @@
 //! empty, level, as measured, random, and all hits in one bin such that each neuron saturates at
 //! either end; starts while busy, and a reset in each layer.
 
-use crate::golden::prelude::*;
-use crate::golden::estimations::{Estimations, Histogram, memory};
 use tofsim::firmware::depth_estimator::{In, Params};
 use tofsim::firmware::estimator_ctrl::done;
 use tofsim::firmware::tansig::{ENTRIES, address};
+
+use crate::golden::prelude::*;
+use crate::golden::estimations::{Estimations, Histogram, memory};
 
 mod histograms;
 

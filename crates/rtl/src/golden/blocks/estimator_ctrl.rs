@@ -1,8 +1,9 @@
 //! Whole estimations with starts while busy in every phase, and estimations cut short by a reset in
 //! every third phase and in all about a change of layer; the seed says which third.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::estimator_ctrl::{In, done};
+
+use crate::golden::prelude::*;
 
 /// Phases past this one are all cut short: the changes of layer are there.
 const LAYERS: u64 = 254;

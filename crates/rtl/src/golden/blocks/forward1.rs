@@ -3,8 +3,9 @@
 
 use std::sync::Arc;
 
-use crate::golden::prelude::*;
 use tofsim::firmware::forward1::{BIAS_ROW, In, Rom};
+
+use crate::golden::prelude::*;
 
 /// Cycles in one style.
 const STRETCH: u64 = 512;

@@ -1,8 +1,9 @@
 //! Activations of the whole range in the estimator's order and in any, and one product over and over
 //! until the depth has wrapped both ways; with the scenario's network, but the bias negative.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::forward2::{In, L1Out, MOST_NEURONS, Rom};
+
+use crate::golden::prelude::*;
 
 /// Cycles in one style.
 const STRETCH: usize = 512;

@@ -1,9 +1,10 @@
 //! Frames of three shots, left in turn at every place by either reset or both; starts, ends of the
 //! estimation and pauses of `dsp_en` also where they mean nothing.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::frame_ctrl::{In, Params, State};
 use tofsim::kernel::signals::Word;
+
+use crate::golden::prelude::*;
 
 /// Few, so that all states recur.
 const SHOTS: u16 = 3;

@@ -1,8 +1,9 @@
 //! Clear, hits and readout as in a frame, each overlapped by the others; all three at once at equal
 //! and different addresses; and then hits of one word until it wraps.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::histogram_builder::In;
+
+use crate::golden::prelude::*;
 
 /// Lines before one word is hit until it wraps.
 const MIXED: usize = 20_000;

@@ -1,8 +1,9 @@
 //! Every address of a random histogram, in order and at random.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::firmware::histogram_preload::{self, In, Rom};
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     stream: Some(11),

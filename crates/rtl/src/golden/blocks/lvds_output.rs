@@ -1,7 +1,8 @@
 //! Both levels, in every order.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::lvds_output::{self, In};
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     stream: Some(12),

@@ -1,8 +1,9 @@
 //! The oscillator from power-up: before lock, the first edges, and the clocks running.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::pll::Pll as Clocks;
 use tofsim::kernel::clock::Clock;
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     stream: Some(13),

@@ -1,7 +1,8 @@
 //! Reset and lock in every order, some for a single cycle.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::reset_sync::In;
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     stream: Some(14),

@@ -1,8 +1,9 @@
 //! `pre_start` of every length in both modes, with the mode changed and the reset pressed in every
 //! phase of it.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::spad_control::In;
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     stream: Some(15),

@@ -3,10 +3,11 @@
 
 use std::sync::Arc;
 
-use crate::golden::prelude::*;
 use tofsim::firmware::forward1::L1In;
 use tofsim::firmware::forward2::MOST_NEURONS;
 use tofsim::firmware::tansig::{ENTRIES, In, Rom, address};
+
+use crate::golden::prelude::*;
 
 /// Sums of an address.
 const STEP: i64 = 1 << 14;

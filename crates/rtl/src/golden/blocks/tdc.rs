@@ -2,8 +2,9 @@
 //! on the boundaries of taps, before the shot and after its window, held over into the next; and a
 //! sweep through every number of taps that a hit can have.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::tdc::{In, Params};
+
+use crate::golden::prelude::*;
 
 mod goals;
 mod light;

@@ -1,9 +1,10 @@
 //! Every number of ones, in one run or several, at every coarse count; with the scenario's
 //! calibration but for the last words, which give times exactly at both ends of the range.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::carry_chain::Taps;
 use tofsim::firmware::tdc_decoder::{CYCLE, Calibration, In, code};
+
+use crate::golden::prelude::*;
 
 /// Last time before the range, its first, its last, and the first after it [25/16 ps].
 const ENDS: [i64; 4] = [-1, 0, 4095, 4096];

@@ -1,9 +1,10 @@
 //! Hits with every number of taps, in every order with start, window and reset; levels held over;
 //! old pulses beside the hit.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::carry_chain::Taps;
 use tofsim::firmware::tdc_latch::In;
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     stream: Some(19),

@@ -1,11 +1,12 @@
 //! The whole firmware: a scenario as it is, or short frames under control signals that change at
 //! random, also in the middle of a frame, and abandon some.
 
-use crate::golden::prelude::*;
-use crate::golden::top;
 use tofsim::firmware::frame_ctrl::State;
 use tofsim::scenario::{Control, QuenchMode};
 use tofsim::sim::setup::Setup;
+
+use crate::golden::prelude::*;
+use crate::golden::top;
 
 pub(super) const SPEC: Spec = Spec {
     stream: Some(20),

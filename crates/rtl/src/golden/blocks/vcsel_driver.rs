@@ -1,7 +1,8 @@
 //! Every change of rate at every phase, acquisition and laser switched on and off, both resets.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::vcsel_driver::{In, PERIODS};
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     stream: Some(21),

@@ -4,10 +4,11 @@ use std::ffi::{OsStr, OsString};
 use std::io::Write;
 use std::path::Path;
 
-use crate::verify::process::{Finished, Limits, YOSYS};
-use crate::verify::rtl::Rtl;
 use tofsim::error::Result;
 use tofsim::files::output::write_file;
+
+use crate::verify::process::{Finished, Limits, YOSYS};
+use crate::verify::rtl::Rtl;
 
 use super::promises::Promise;
 

@@ -3,12 +3,13 @@
 use std::io::Write;
 use std::path::Path;
 
+use tofsim::error::{Input, Result};
+use tofsim::files::output::write_file;
+
 use crate::golden::blocks::CENTROID;
 use crate::verify::process::Limits;
 use crate::verify::rtl::Rtl;
 use crate::verify::simulator::Simulator;
-use tofsim::error::{Input, Result};
-use tofsim::files::output::write_file;
 
 use super::measured::Measured;
 use super::promises::define;

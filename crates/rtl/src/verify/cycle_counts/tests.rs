@@ -3,8 +3,9 @@
 use std::fs;
 use std::time::Duration;
 
-use super::*;
 use tofsim::firmware::forward2::NEURONS;
+
+use super::*;
 
 fn limits() -> Limits<'static> {
     Limits { time: Duration::from_secs(60), stop: None }

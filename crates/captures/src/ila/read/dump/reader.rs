@@ -3,8 +3,9 @@
 use std::fmt::Display;
 use std::io::{BufRead, Read};
 
-use super::super::opened::damaged;
 use tofsim::error::{Error, Input, Result};
+
+use super::super::opened::damaged;
 
 /// Longest key [bytes].
 const LONGEST_KEY: u64 = 64;

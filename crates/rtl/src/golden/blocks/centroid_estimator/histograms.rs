@@ -1,10 +1,11 @@
 //! The histograms of a centroid estimator's stimulus.
 
-use crate::golden::estimations::Histogram;
-use crate::golden::prelude::*;
 use tofsim::firmware::centroid_estimator::Params;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::sim::fast::centroid::Found;
+
+use crate::golden::estimations::Histogram;
+use crate::golden::prelude::*;
 
 /// Largest word [hits].
 const MOST: u64 = u16::MAX as u64;

@@ -1,12 +1,13 @@
 //! The histograms of a depth estimator's stimulus.
 
-use crate::golden::estimations::Histogram;
-use crate::golden::prelude::*;
 use tofsim::firmware::depth_estimator::Params;
 use tofsim::firmware::forward1::BIAS_ROW;
 use tofsim::firmware::forward2::NEURONS;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::firmware::tansig::{ENTRIES, address};
+
+use crate::golden::estimations::Histogram;
+use crate::golden::prelude::*;
 
 /// Hits of a full frame.
 const HITS: u64 = u16::MAX as u64;

@@ -1,8 +1,9 @@
 //! What a TDC's stimulus should reach.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::tdc::Params;
 use tofsim::firmware::tdc_decoder::code;
+
+use crate::golden::prelude::*;
 
 use super::light::{self, Ages};
 

@@ -1,7 +1,8 @@
 //! The photons of a TDC's stimulus.
 
-use crate::golden::prelude::*;
 use tofsim::firmware::carry_chain::{Delays, TAPS};
+
+use crate::golden::prelude::*;
 
 /// Period of `clk_125`.
 const CYCLE: Time = Time::from_ns(8);
