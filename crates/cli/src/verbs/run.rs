@@ -57,7 +57,7 @@ pub struct Args {
     /// any number [default: one a core]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
-    /// WaveFormat of the waveform [default: vcd; none for fidelities without signals]
+    /// Format of the waveform [default: vcd; none for fidelities without signals]
     #[arg(long, value_parser = choice::waveform())]
     waves: Option<WaveformChoice>,
     /// Part of the run that goes into the waveform: shot:0..8, 10us..12us or estimation; may be
