@@ -5,57 +5,18 @@
 //! a port that passes it on is an alias of the same id, found by the same connections that the
 //! simulation uses.
 
-use crate::firmware::TofTop;
 use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tof_top::{Estimator, Params};
-use crate::kernel::module::Module;
 use crate::kernel::signals::{Signal, SignalFormat, View};
 
 mod build;
+mod entry;
 mod part;
 
 use build::Build;
+use entry::RAM;
+pub use entry::{Entry, IDS, Kind, TOP};
 pub use part::{Part, changes, copy};
-
-/// Name of the top scope.
-pub const TOP: &str = "tof_top";
-
-/// What a name stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// Input port of its module.
-    Input,
-    /// Output port of its module.
-    Output,
-    /// Register or wire inside its module.
-    Internal,
-}
-
-/// One name in one scope.
-#[derive(Clone, Debug)]
-pub struct Entry {
-    /// Dotted path of the module, `tof_top` first.
-    pub scope: String,
-    /// Name, width, format and meaning.
-    pub signal: Signal,
-    /// Port or not.
-    pub kind: Kind,
-    /// The value it shows; aliases share it.
-    pub id: usize,
-}
-
-impl Entry {
-    /// Dotted path of the signal.
-    pub fn path(&self) -> String {
-        format!("{}.{}", self.scope, self.signal.name)
-    }
-}
-
-/// First id of the RAM's words, after those of all registers and wires.
-const RAM: usize = TofTop::COUNT;
-
-/// Number of ids.
-pub const IDS: usize = RAM + BINS;
 
 /// Every name in every scope that those parameters have, without the RAM's words.
 pub fn entries(params: &Params) -> Vec<Entry> {

@@ -16,14 +16,8 @@ const LAYERS: [&[&str]; 7] = [
 ];
 
 /// How the names of all files of a circle begin that has yet to go.
-const KNOWN_CIRCLES: [&str; 6] = [
-    "src/firmware/",
-    "src/hierarchy",
-    "src/network",
-    "src/optics",
-    "src/sim/",
-    "src/waves",
-];
+const KNOWN_CIRCLES: [&str; 6] =
+    ["src/firmware/", "src/hierarchy", "src/network", "src/optics", "src/sim/", "src/waves"];
 
 /// A file of a crate, and the files that it imports from.
 type Imports = BTreeMap<String, BTreeSet<String>>;

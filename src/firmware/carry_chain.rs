@@ -4,20 +4,13 @@
 //! of taps 0 .. i - 1; an arrival at or before the edge counts. The line is longer than a clock
 //! period, so several transitions may travel in it.
 
-use crate::kernel::{Thermometer, Time, U};
 use crate::signals;
 
-use super::tdc_decoder::Calibration;
-
+mod delays;
 mod stop_line;
 
+pub use delays::{Calibration, Delays, TAPS, Taps};
 pub use stop_line::StopLine;
-
-/// Length of the chain: 200 CARRY4 [taps].
-pub const TAPS: usize = 800;
-
-/// The taps, as registers.
-pub type Taps = Thermometer<TAPS>;
 
 signals! {
     /// Input ports.
@@ -33,172 +26,5 @@ signals! {
         /// Level of each tap at the last edge.
         #[view(heading = "TDC")]
         pub taps: Taps,
-    }
-}
-
-/// The delays of a chain: what its placement decides.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Delays {
-    /// When each tap is reached, in order of arrival, from the transition of `tdc_stop`.
-    arrivals: Vec<Time>,
-    /// Physical tap at each place of that order.
-    order: Vec<u16>,
-    /// Age at which a transition has reached every tap.
-    longest: Time,
-    /// When the transition leaves the last tap.
-    end: Time,
-    /// For each [`CELL`] of age, how many taps are reached at its begin.
-    guide: Vec<u16>,
-}
-
-/// Ages that share an entry of the guide, as a power of two: about a tap [fs].
-const CELL: u32 = 13;
-
-impl Delays {
-    /// From the delay before the first tap and the delay of each of the 800 taps [fs]. A negative
-    /// delay is legal as long as every tap is reached after `tdc_stop` changes: real chains are
-    /// not monotonic, because of carry look-ahead and clock skew.
-    ///
-    /// Returns `None` if the number of taps is wrong or a tap is reached at time 0 or before.
-    pub fn new(offset: Time, tap_delays_fs: &[i64]) -> Option<Self> {
-        let mut at = i64::try_from(offset.fs()).ok()?;
-        let mut reached = Vec::with_capacity(TAPS);
-        for (tap, delay) in tap_delays_fs.iter().enumerate() {
-            reached.push((at, tap as u16));
-            at = at.checked_add(*delay)?;
-        }
-        reached.sort();
-        let end = at.max(reached.last()?.0);
-        if reached.len() != TAPS || reached[0].0 <= 0 {
-            return None;
-        }
-        let arrivals: Vec<_> = reached.iter().map(|&(at, _)| Time::from_fs(at as u64)).collect();
-        let cells = 0..=arrivals[TAPS - 1].fs() >> CELL;
-        let begins = cells.map(|cell| Time::from_fs(cell << CELL));
-        Some(Delays {
-            guide: begins.map(|age| arrivals.partition_point(|&at| at < age) as u16).collect(),
-            longest: arrivals[TAPS - 1],
-            arrivals,
-            order: reached.iter().map(|&(_, tap)| tap).collect(),
-            end: Time::from_fs(end as u64),
-        })
-    }
-
-    /// How many taps a transition of that age has reached.
-    #[inline]
-    pub fn rank(&self, age: Time) -> usize {
-        if age >= self.longest { TAPS } else { self.rank_inside(age) }
-    }
-
-    /// The same for a transition that has not reached every tap.
-    #[inline(always)]
-    fn rank_inside(&self, age: Time) -> usize {
-        let mut rank = self.guide[(age.fs() >> CELL) as usize] as usize;
-        // Most cells hold one arrival or none.
-        rank += (self.arrivals[rank] <= age) as usize;
-        while self.arrivals[rank] <= age {
-            rank += 1;
-        }
-        rank
-    }
-
-    /// When each tap is reached, in order of arrival, from the transition of `tdc_stop`.
-    pub fn arrivals(&self) -> &[Time] {
-        &self.arrivals
-    }
-
-    /// Physical tap at each place in the order of arrival.
-    pub fn order(&self) -> &[u16] {
-        &self.order
-    }
-
-    /// Age at which a transition has reached every tap.
-    pub fn longest(&self) -> Time {
-        self.longest
-    }
-
-    /// Age at which a transition reaches physical tap 0, where hits are detected.
-    pub fn tap_0(&self) -> Time {
-        self.arrivals[self.tap_0_position()]
-    }
-
-    /// Place of physical tap 0 in the order of arrival.
-    pub fn tap_0_position(&self) -> usize {
-        self.order.iter().position(|&tap| tap == 0).unwrap_or(0)
-    }
-
-    /// The decoder's ROM for a chain whose delays are known: for each ones count the middle of
-    /// the interval of ages that gives it, rounded half up. The interval that holds a whole clock
-    /// period (time 0 at the edge after the laser's) is clamped so that its time is not negative.
-    pub fn calibration(&self, period: Time) -> Calibration {
-        let boundary = |n: usize| if n < TAPS { self.arrivals[n] } else { self.end }.fs();
-        let unit = |twice_fs: u64| (2 * twice_fs + 3125) / 6250;
-        let mut cal = [U::new(unit(2 * boundary(0))); TAPS + 1];
-        for (n, word) in cal.iter_mut().enumerate().skip(1) {
-            *word = U::new(unit(boundary(n - 1) + boundary(n)));
-        }
-        let at_start = self.rank(period);
-        cal[at_start] = cal[at_start].min(U::new(unit(2 * period.fs())));
-        cal
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn uniform(tap_fs: i64, offset_ps: u64) -> Delays {
-        Delays::new(Time::from_fs(offset_ps * 1000), &[tap_fs; TAPS]).unwrap()
-    }
-
-    #[test]
-    fn an_arrival_at_the_edge_counts() {
-        let delays = uniform(11_500, 2_230);
-        assert_eq!(delays.rank(Time::from_fs(2_229_999)), 0);
-        assert_eq!(delays.rank(Time::from_fs(2_230_000)), 1);
-        assert_eq!(delays.rank(Time::from_fs(2_241_499)), 1);
-        assert_eq!(delays.rank(Time::from_fs(2_241_500)), 2);
-    }
-
-    #[test]
-    fn the_rank_is_the_number_of_arrivals_at_every_boundary() {
-        let uneven: Vec<_> = (0..TAPS as i64).map(|tap| (tap * 7919 % 41 - 9) * 1_000).collect();
-        for delays in [uniform(11_500, 2_230), Delays::new(Time::from_ns(3), &uneven).unwrap()] {
-            for age in delays.arrivals.iter().flat_map(|at| [at.fs() - 1, at.fs(), at.fs() + 1]) {
-                let counted = delays.arrivals.iter().filter(|at| at.fs() <= age).count();
-                assert_eq!(delays.rank(Time::from_fs(age)), counted);
-            }
-            assert_eq!(delays.rank(Time::from_ns(1_000_000)), TAPS);
-        }
-    }
-
-    #[test]
-    fn ideal_taps_are_two_to_a_bin_and_time_zero_is_clamped() {
-        let cal = uniform(12_500, 2_000).calibration(Time::from_ns(8));
-        assert_eq!(cal[480], 5116);
-        assert_eq!(cal[479], 5108);
-        assert_eq!(cal[481], 5120, "holds an age of exactly 8 ns");
-        assert_eq!(cal[482], 5132);
-        assert_eq!(cal[0], 1280);
-        assert_eq!(cal[800], 1280 + 8 * 800 - 4);
-    }
-
-    #[test]
-    fn taps_may_be_reached_out_of_order() {
-        let mut tap_delays = [10_000; TAPS];
-        tap_delays[0] = 25_000;
-        tap_delays[1] = -5_000;
-        let delays = Delays::new(Time::from_ns(2), &tap_delays).unwrap();
-        assert_eq!(delays.order()[..4], [0, 2, 1, 3]);
-        assert_eq!(delays.rank(Time::from_fs(2_020_000)), 2);
-    }
-
-    #[test]
-    fn a_tap_before_the_transition_is_refused() {
-        assert_eq!(Delays::new(Time::ZERO, &[10_000; TAPS]), None);
-        assert_eq!(Delays::new(Time::from_ns(2), &[10_000; TAPS - 1]), None);
-        let mut tap_delays = [10_000; TAPS];
-        tap_delays[5] = -3_000_000;
-        assert_eq!(Delays::new(Time::from_ns(2), &tap_delays), None);
     }
 }

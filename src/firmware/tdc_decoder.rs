@@ -13,7 +13,8 @@
 use crate::kernel::{Clocked, S, U, asleep_if};
 use crate::signals;
 
-use super::carry_chain::{TAPS, Taps};
+pub use super::carry_chain::Calibration;
+use super::carry_chain::Taps;
 
 /// One cycle of `clk_125` [25/16 ps].
 pub const CYCLE: i64 = 5120;
@@ -21,9 +22,6 @@ pub const CYCLE: i64 = 5120;
 const BIN_SHIFT: u32 = 4;
 /// First time past the last bin, 6.4 ns [25/16 ps].
 const RANGE: i64 = 256 << BIN_SHIFT;
-
-/// ROM: for each ones count the time from the hit to the edge that sampled it [25/16 ps].
-pub type Calibration = [U<14>; TAPS + 1];
 
 signals! {
     /// Input ports.
@@ -99,6 +97,7 @@ impl Clocked for TdcDecoder {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::firmware::carry_chain::TAPS;
 
     fn decode(coarse: u64, n: usize, cal: &Calibration) -> (bool, u64) {
         let hit = In {

@@ -5,7 +5,7 @@ use crate::firmware::tof_top::{Estimator, Pins};
 use crate::kernel::module::{Alias, Instance, Module, Visitor};
 use crate::kernel::signals::{Signal, Signals, View};
 
-use super::{Entry, Kind, TOP};
+use super::entry::{Entry, Kind, TOP};
 
 /// What the way has come by. Paths are dotted and begin below the top.
 #[derive(Default)]

@@ -5,7 +5,7 @@ use crate::firmware::tof_top::TofTop;
 use crate::kernel::module::{Instance, Module, Visitor};
 use crate::kernel::signals::{Signals, Sink};
 
-use super::{IDS, RAM};
+use super::entry::{IDS, RAM};
 
 /// Some of the signals, and what they were.
 #[derive(Clone, Debug)]

@@ -3,7 +3,7 @@
 use crate::kernel::Time;
 use crate::kernel::thermometer::MAX_TRANSITIONS;
 
-use super::{Delays, Taps};
+use super::delays::{Delays, Taps};
 
 /// Its level and the transitions still travelling in the chain.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -68,7 +68,7 @@ impl StopLine {
     /// The taps at a clock edge; forgets transitions that have left the chain.
     #[inline(always)]
     pub fn sample(&mut self, now: Time, delays: &Delays) -> Taps {
-        while self.travelling > 0 && now - self.at(self.travelling - 1) >= delays.longest {
+        while self.travelling > 0 && now - self.at(self.travelling - 1) >= delays.longest() {
             self.travelling -= 1;
         }
         match self.travelling {

@@ -15,8 +15,8 @@ use crate::firmware::tof_top::{Estimator, HistogramSource, Params, TofTop};
 use crate::kernel::{Clocked, U};
 use crate::network::Histogram;
 use crate::network::estimate::estimate;
+use crate::sim::device::Device;
 
-use super::Device;
 use super::steady::{control_is_steady, estimation_phase, estimator_rests};
 
 /// Cycles of Clear that are stepped at its begin, for what the end of the last frame leaves behind.

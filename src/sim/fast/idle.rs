@@ -6,8 +6,8 @@
 use crate::firmware::carry_chain::StopLine;
 use crate::firmware::tof_top::{Params, TofTop, Wires};
 use crate::kernel::{AWAKE, Clocked, Time};
+use crate::sim::device::Device;
 
-use super::Device;
 use super::halves::{converter_quiet, emitter_quiet, skip_converter, skip_emitter};
 use super::steady::{cycles_of_steady_control, estimator_rests, even_period};
 

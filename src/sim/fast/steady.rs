@@ -4,8 +4,7 @@ use crate::firmware::reset_sync::{self, ResetSync};
 use crate::firmware::tof_top::{Estimator, Params, TofTop, Wires};
 use crate::firmware::{centroid_estimator, depth_estimator};
 use crate::kernel::{ASLEEP, Clocked, Time, U};
-
-use super::Device;
+use crate::sim::device::Device;
 
 /// Whether resets and control signals stand still as long as their pins do.
 pub(super) fn control_is_steady(top: &TofTop) -> bool {
