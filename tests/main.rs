@@ -8,5 +8,6 @@ mod fast_ways;
 mod histogram_file;
 mod leap;
 mod physics;
+mod public_face;
 mod stepping;
 mod whole_chain;

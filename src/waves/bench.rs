@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::Waves;
+use super::writer::Waves;
 use crate::firmware::carry_chain::{Delays, StopLine, TAPS};
 use crate::firmware::forward2::{MOST_NEURONS, NEURONS};
 use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Pins, TofTop};
