@@ -3,6 +3,7 @@
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Poisson};
+
 use tofsim::network::{Histogram, Network, estimate};
 
 /// Histograms a network is tried on.

@@ -3,6 +3,7 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+
 use tofsim::firmware::tof_top::{Params, TofTop, Wires};
 use tofsim::firmware::{tdc, vcsel_driver};
 use tofsim::hierarchy;

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use crate::common::{csv, npy};
 use tofsim::network::Histogram;
 use tofsim::network::histogram_file;
+
+use crate::common::{csv, npy};
 
 #[test]
 fn every_type_of_whole_number_reads_the_same_in_either_byte_order() {

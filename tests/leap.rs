@@ -1,6 +1,5 @@
 //! Shots leapt over come to what stepping them gives, and single outcomes to the firmware's.
 
-use crate::common;
 use tofsim::firmware::vcsel_driver;
 use tofsim::kernel::Time;
 use tofsim::scenario;
@@ -8,6 +7,8 @@ use tofsim::sim::device::Off;
 use tofsim::sim::fast::{NO_HIT, ShotOutcomes, Tables, acquire, leap_shots};
 use tofsim::sim::frames::Frames;
 use tofsim::sim::setup::{CYCLE, Setup};
+
+use crate::common;
 
 #[test]
 fn a_leap_lands_where_the_histogram_and_the_counts_are_what_stepping_gives() {

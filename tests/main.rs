@@ -6,6 +6,7 @@ mod depth;
 mod docs;
 mod fast_ways;
 mod histogram_file;
+mod layers;
 mod leap;
 mod physics;
 mod public_face;

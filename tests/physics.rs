@@ -4,6 +4,7 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Exp, Normal, Poisson};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
+
 use tofsim::firmware::carry_chain::{Delays, TAPS};
 use tofsim::kernel::Time;
 use tofsim::optics::eye_safety::maximum_average_power_w;

@@ -1,6 +1,5 @@
 //! Fast ways change nothing: however a scenario is run, its frames are those of the plain step.
 
-use crate::common;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -8,12 +7,15 @@ use std::sync::LazyLock;
 
 use proptest::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+
 use tofsim::scenario::{self, Control, QuenchMode};
 use tofsim::sim::frames::Frame;
 use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 use tofsim::sim::{Run, Stepping};
+
+use crate::common;
 
 /// What a run comes to.
 #[derive(Debug, PartialEq)]

@@ -1,14 +1,16 @@
 //! The whole chain, photons through firmware to metres, against the closed form and the network in
 //! floating point.
 
-use crate::common;
 use std::thread;
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
+
 use tofsim::network::Histogram;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 use tofsim::sensor::streams::{Source, stream};
 use tofsim::sim::setup::{CYCLE, Setup};
+
+use crate::common;
 
 const DISTANCES_M: [f64; 6] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
 const REFLECTANCES: [f64; 2] = [0.08, 0.60];

@@ -20,9 +20,8 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use clap::Parser;
-
 use builds::Cache;
+use clap::Parser;
 use contender::{Contender, Context, Work};
 use expected::Expected;
 use report::Report;

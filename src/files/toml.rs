@@ -216,8 +216,9 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The schema itself, or what it refers to.
+    /// The schema itself, or what it refers to; of what may be absent, what it is if it is there.
     fn resolve(&self, schema: &'a Json) -> &'a Json {
+        let schema = schema.pointer("/anyOf/0").unwrap_or(schema);
         let reference = schema.get("$ref").and_then(Json::as_str);
         let target = reference.and_then(|path| self.root.pointer(path.trim_start_matches('#')));
         target.unwrap_or(schema)

@@ -98,13 +98,19 @@ impl Params {
 impl DepthEstimator {
     /// The rising edge of `clk_125`.
     pub fn rise(&mut self, i: &In, p: &Params) {
-        let forward1 = Wires::forward1(self, i);
-        let tansig = Wires::tansig(self, i);
-        let forward2 = self.forward2.next(&Wires::forward2(self, i), &p.forward2);
+        let EstimatorCtrl { tansig_en, forward2_en, .. } = self.estimator_ctrl;
+        let (estimator_ctrl, forward1) = (Wires::estimator_ctrl(self, i), Wires::forward1(self, i));
+        // Clock enables: without them the wide inputs need not be read.
+        let tansig = (i.rst || tansig_en).then(|| Wires::tansig(self, i));
+        let forward2 = (i.rst || forward2_en).then(|| Wires::forward2(self, i));
 
-        self.estimator_ctrl.tick(&Wires::estimator_ctrl(self, i), &p.neurons());
+        self.estimator_ctrl.tick(&estimator_ctrl, &p.neurons());
         self.forward1.tick(&forward1, &p.forward1);
-        self.tansig.tick(&tansig, &p.tansig);
-        self.forward2 = forward2;
+        if let Some(i) = tansig {
+            self.tansig.tick(&i, &p.tansig);
+        }
+        if let Some(i) = forward2 {
+            self.forward2.tick(&i, &p.forward2);
+        }
     }
 }

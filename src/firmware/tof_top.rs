@@ -223,7 +223,7 @@ impl TofTop {
 
     /// The TDC or its stand-in.
     #[inline(always)]
-    fn convert(
+    pub(crate) fn convert(
         &mut self,
         p: &Params,
         tdc: &tdc::In,

@@ -1,7 +1,5 @@
 //! The network in double precision: what the fixed-point datapath approximates.
 
-use crate::firmware::histogram_builder::BINS;
-
 use super::formats::Fixed;
 use super::histogram::Histogram;
 use super::weights::Weights;
@@ -20,21 +18,9 @@ impl Float {
         }
     }
 
-    /// Sums of the hidden neurons.
-    pub fn hidden_sums(&self, histogram: &Histogram) -> Vec<f64> {
-        let sum = |(row, bias): (&[f64; BINS], &f64)| {
-            let products = row.iter().zip(histogram);
-            let products = products.map(|(weight, &count)| weight * f64::from(count));
-            products.sum::<f64>() + bias
-        };
-        self.w1.iter().zip(&self.b1).map(sum).collect()
-    }
-
     /// Depth of a histogram [m].
     pub fn forward(&self, histogram: &Histogram) -> f64 {
-        let hidden = self.hidden_sums(histogram).into_iter().map(libm::tanh);
-        let products = hidden.zip(&self.w2).map(|(activation, weight)| activation * weight);
-        products.sum::<f64>() + self.b2
+        self.pass(histogram, libm::tanh, |_| ())
     }
 }
 

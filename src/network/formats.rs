@@ -2,7 +2,6 @@
 
 use fixed::types::extra::{U13, U14, U15, U17, U23, U29};
 use fixed::{FixedI16, FixedI32, FixedI64};
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -4,12 +4,12 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::error::{Input, Result, nearest};
+use crate::files::toml::Checked;
 use crate::firmware::carry_chain::{Delays, TAPS};
 use crate::firmware::tdc_decoder::Calibration;
 use crate::kernel::Time;
 
 use super::builtin::{self, Source};
-use crate::files::toml::Checked;
 
 /// A chain file. Either all taps are alike (`tap_ps`) or each has its own delay.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -30,6 +30,8 @@ pub struct Device {
     pub(super) jitter: Option<Jitter>,
     /// Edges of `clk_125` so far.
     pub(super) cycle: u64,
+    /// From a rising edge of `clk_250` to its fall.
+    quarter: Time,
     /// Kept up only while tracing.
     oscillator: Oscillator,
 }
@@ -50,6 +52,7 @@ impl Device {
             spad: Spad::new(dead_time, light.next_avalanche(Time::ZERO)),
             light,
             timeline,
+            quarter: pll.clk_250.fall(0) - pll.clk_250.rise(0),
             oscillator: Oscillator::new(pll.clk_200.clone()),
             pll,
             jitter,
@@ -125,7 +128,7 @@ impl Device {
             probe.sample(now, &self.top);
         }
         let middle = self.rise_250_at(2 * self.cycle + 1);
-        let quarter = self.pll.clk_250.fall(0) - self.pll.clk_250.rise(0);
+        let quarter = self.quarter;
         self.fall_250(now + quarter, probe, listener);
         self.before_edge(Edge::Middle, middle, probe, listener);
         let unseen = self.settle(middle, probe, listener);

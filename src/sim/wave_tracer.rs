@@ -4,11 +4,11 @@ use crate::error::{Input, Result};
 use crate::firmware::frame_ctrl::{self, FrameCtrl, LAST_DRAIN, LAST_WORD, State as FrameState};
 use crate::firmware::tof_top::{Params, TofTop};
 use crate::kernel::Time;
+use crate::scenario::window::{Moment, Window};
 use crate::waves::{Marks, Waves};
 
 use super::device::{Device, Off, SignalProbe};
 use super::frames::Frames;
-use crate::scenario::window::{Moment, Window};
 
 /// A trace that is on only within windows, or none.
 pub trait WindowedProbe: SignalProbe {

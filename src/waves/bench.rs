@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use super::writer::Waves;
 use crate::firmware::carry_chain::{Delays, StopLine, TAPS};
 use crate::firmware::forward2::{MOST_NEURONS, NEURONS};
 use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Pins, TofTop};
 use crate::firmware::{centroid_estimator, depth_estimator, forward2, frame_ctrl, tdc};
 use crate::kernel::{S, Time, U};
+
+use super::writer::Waves;
 
 /// Shots in a frame.
 pub(super) const SHOTS: u16 = 12;

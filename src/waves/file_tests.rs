@@ -5,15 +5,16 @@ use std::io;
 
 use wellen::simple::read;
 
-use super::bench::{Bench, params};
-use super::readback::{FORMATS, FRAME, at, contents, create, record};
-use super::writer::WaveFormat;
 #[cfg(unix)]
 use crate::files::output::device;
 use crate::firmware::TofTop;
 use crate::firmware::tof_top::Pins;
 use crate::hierarchy::{entries, ram_entries};
 use crate::kernel::Time;
+
+use super::bench::{Bench, params};
+use super::readback::{FORMATS, FRAME, at, contents, create, record};
+use super::writer::WaveFormat;
 
 #[test]
 fn outside_the_windows_everything_is_unknown() {

@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 
 use wellen::simple::Waveform;
 
-use super::bench::{Bench, SHOTS};
-use super::writer::{WaveFormat, Waves};
 use crate::firmware::tof_top::Params;
 use crate::hierarchy::{Entry, entries, ram_entries};
+
+use super::bench::{Bench, SHOTS};
+use super::writer::{WaveFormat, Waves};
 
 pub(super) const FORMATS: [WaveFormat; 2] = [WaveFormat::Vcd, WaveFormat::Fst];
 /// A frame and a little more [cycles of clk_125].

@@ -6,10 +6,11 @@ use std::io::{BufReader, BufWriter, Write};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use tofsim_captures::compare::{Options, compare};
-use tofsim_captures::source::Source;
 use wellen::LoadOptions;
 use wellen::stream::Filter;
+
+use tofsim_captures::compare::{Options, compare};
+use tofsim_captures::source::Source;
 
 /// Size of each file, if not told [MB].
 const SIZE: u64 = 200;

@@ -13,7 +13,7 @@ use tofsim::scenario;
 use tofsim::sim::Run;
 use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
-use tofsim_captures::ila::{Analyser, Overrides, Plan, SetUp, capture};
+use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Overrides, capture};
 
 /// Modules, and their signals that are probed.
 const PROBES: &[(&str, &str)] = &[
@@ -41,7 +41,7 @@ const CASES: &[(u64, u64)] = &[(3, 0), (0, 0), (0, 2_450)];
 /// Pairs of frames.
 const PAIRS: usize = 41;
 
-fn set_up(arm_at_us: u64) -> SetUp {
+fn set_up(arm_at_us: u64) -> AnalyserSetup {
     let mut text = format!(
         "depth = 131072\nposition = 65536\narm_at_us = {arm_at_us}\n\
          trigger = \"frame_ctrl.shots == 15000\"\n"
@@ -52,7 +52,8 @@ fn set_up(arm_at_us: u64) -> SetUp {
             text += &format!("[[probe]]\nsignal = \"{path}\"\n");
         }
     }
-    SetUp::parse("bench", "bench.toml", &text, Overrides::default()).expect("the set-up is right")
+    AnalyserSetup::parse("bench", "bench.toml", &text, Overrides::default())
+        .expect("the set-up is right")
 }
 
 /// A frame without an analyser and one with it.
@@ -68,7 +69,7 @@ struct Pair {
 }
 
 impl Pair {
-    fn measure(setup: &Setup, plan: &Plan) -> Self {
+    fn measure(setup: &Setup, plan: &AnalyserPlan) -> Self {
         let begun = Instant::now();
         black_box(Run::new(setup).observe(1, Observers::default()).expect("kc705 runs"));
         let without = ms_since(begun);
@@ -102,7 +103,7 @@ fn main() {
         let overrides = [format!("firmware.laser_freq={laser_freq}")];
         let loaded = scenario::load(scenario::DEFAULT, &overrides).expect("kc705 is built in");
         let setup = Setup::new(loaded).expect("kc705 can be set up");
-        let plan = Plan::new(&set_up(arm_at_us), &setup).expect("the probes are there");
+        let plan = AnalyserPlan::new(&set_up(arm_at_us), &setup).expect("the probes are there");
         assert_eq!(plan.probes.len(), 64);
         let pairs: Vec<_> = (0..pairs).map(|_| Pair::measure(&setup, &plan)).collect();
         let of = |value: fn(&Pair) -> f64| median(pairs.iter().map(value));

@@ -9,10 +9,13 @@ mod bound;
 mod literal;
 mod parse;
 mod token;
+mod tree;
 
 pub use bound::Bound;
+pub use tree::{Level, Place};
 
-use literal::Literal;
+use tree::{Leaf, Node, Test};
+
 use tofsim::error::{Error, Input, Result};
 
 /// Widest signal of a condition [bits].
@@ -22,78 +25,8 @@ pub const WIDEST: u32 = 128;
 #[derive(Clone, Debug)]
 pub struct Condition {
     source: String,
-    text: String,
     node: Node,
     leaves: Vec<Leaf>,
-}
-
-/// Where the signal of a name is found among the levels of a sample.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place {
-    /// Number that [`Bound::sample`] asks for.
-    pub index: usize,
-    /// Width [bits].
-    pub width: u32,
-    /// Whether its value is two's complement.
-    pub signed: bool,
-}
-
-/// What a signal is at a sample.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Level {
-    /// The bits; an unknown one may be either.
-    pub value: u128,
-    /// The bits that are not known.
-    pub unknown: u128,
-}
-
-impl Level {
-    /// A level without unknown bits.
-    pub const fn known(value: u128) -> Self {
-        Level { value, unknown: 0 }
-    }
-}
-
-/// How tests are joined.
-#[derive(Clone, Debug)]
-enum Node {
-    /// A test, by its number.
-    Leaf(usize),
-    Not(Box<Node>),
-    All(Vec<Node>),
-    Any(Vec<Node>),
-}
-
-/// A test of one signal.
-#[derive(Clone, Debug)]
-struct Leaf {
-    /// Name, perhaps with a slice.
-    name: String,
-    /// Column of the name.
-    column: usize,
-    test: Test,
-}
-
-/// What a signal is tested for.
-#[derive(Clone, Debug)]
-enum Test {
-    /// Compared with a value, which stands at a column.
-    Compare(Relation, Literal, usize),
-    /// Is 1.
-    High,
-    Rising,
-    Falling,
-    Changed,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Relation {
-    Equal,
-    Unequal,
-    Less,
-    LessOrEqual,
-    Greater,
-    GreaterOrEqual,
 }
 
 impl Condition {
@@ -103,29 +36,7 @@ impl Condition {
     /// When it is no condition; the error has the column in the text.
     pub fn parse(source: &str, text: &str) -> Result<Self> {
         let (node, leaves) = parse::parse(source, text)?;
-        Ok(Condition { source: source.to_owned(), text: text.to_owned(), node, leaves })
-    }
-
-    /// The text it was read from.
-    pub fn text(&self) -> &str {
-        &self.text
-    }
-
-    /// Names used, each once, without a slice `[7:4]`. An index `[3]` stays: only
-    /// [`Condition::bind`] can tell a bit of a signal from a signal of that name.
-    pub fn signals(&self) -> Vec<&str> {
-        let mut names: Vec<&str> = Vec::new();
-        let mut seen = std::collections::HashSet::new();
-        for leaf in &self.leaves {
-            let name = match slice(&leaf.name) {
-                Some((name, high, low)) if high != low || leaf.name.contains(':') => name,
-                _ => &leaf.name,
-            };
-            if seen.insert(name) {
-                names.push(name);
-            }
-        }
-        names
+        Ok(Condition { source: source.to_owned(), node, leaves })
     }
 
     /// Ties the names to places. `find` is asked for each name as it is written, then, where that

@@ -8,3 +8,4 @@ pub mod compare;
 pub mod condition;
 pub mod ila;
 pub mod source;
+mod words;

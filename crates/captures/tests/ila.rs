@@ -7,15 +7,16 @@ use std::fs;
 use std::io::{Cursor, Write};
 use std::path::Path;
 
-use tofsim::error::Result;
-use tofsim_captures::ila::Radix;
-use tofsim_captures::ila::read::{Opened, Row, open};
 use zip::write::SimpleFileOptions;
 
+use tofsim::error::Result;
+use tofsim_captures::ila::Radix;
+use tofsim_captures::ila::read::{CaptureRow, Opened, open};
+
 /// Opens a file and reads all its rows.
-pub fn read(path: &Path, radix: Option<Radix>) -> Result<(Opened, Vec<Row>)> {
+pub fn read(path: &Path, radix: Option<Radix>) -> Result<(Opened, Vec<CaptureRow>)> {
     let mut opened = open(path, radix)?;
-    let (mut rows, mut row) = (Vec::new(), Row::default());
+    let (mut rows, mut row) = (Vec::new(), CaptureRow::default());
     while opened.rows.next(&mut row)? {
         rows.push(row.clone());
     }
@@ -26,7 +27,7 @@ pub fn read(path: &Path, radix: Option<Radix>) -> Result<(Opened, Vec<Row>)> {
 pub fn read_bytes(
     bytes: &[u8],
     radix: Option<Radix>,
-) -> std::result::Result<(Opened, Vec<Row>), String> {
+) -> std::result::Result<(Opened, Vec<CaptureRow>), String> {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("capture");
     fs::write(&path, bytes).unwrap();

@@ -1,8 +1,9 @@
 //! Archives as Vivado writes them, and what is wrong with others.
 
+use tofsim_captures::ila::read::{CaptureForm, Column, Opened};
+
 use crate::ila::fixtures::{archive_but, bytes};
 use crate::ila::{archive, read_bytes};
-use tofsim_captures::ila::read::{Column, Form, Opened};
 
 /// What is said about an archive with other entries.
 fn archive_fault(but: &[(&str, &[u8])]) -> String {
@@ -13,7 +14,10 @@ fn archive_fault(but: &[(&str, &[u8])]) -> String {
 fn an_archive_is_read_from_its_dump() {
     let (csv, rows) = read_bytes(&bytes("archive/waveform.csv"), None).unwrap();
     let (opened, from_dump) = read_bytes(&archive_but(&[]), None).unwrap();
-    assert_eq!((opened.form, opened.radix_told, opened.samples), (Form::Archive, true, Some(5)));
+    assert_eq!(
+        (opened.form, opened.radix_told, opened.samples),
+        (CaptureForm::Archive, true, Some(5))
+    );
     assert_eq!(opened.columns, csv.columns);
     assert_eq!(from_dump, rows);
 }
@@ -31,7 +35,7 @@ fn an_archive_without_a_csv_has_its_names_from_the_list_of_probes() {
 fn an_archive_without_a_dump_is_read_from_its_csv() {
     let (csv, rows) = read_bytes(&bytes("archive/waveform.csv"), None).unwrap();
     let (opened, from_csv) = read_bytes(&archive_but(&[("waveform.dmp", b"")]), None).unwrap();
-    assert_eq!((opened.form, from_csv), (Form::Archive, rows));
+    assert_eq!((opened.form, from_csv), (CaptureForm::Archive, rows));
     assert_eq!(opened.columns, csv.columns);
 }
 

@@ -1,17 +1,18 @@
 //! The virtual logic analyser, from set-up to capture.
 
 use bitvec::prelude::*;
+
 use tofsim::kernel::Time;
 use tofsim::sim::Run;
 use tofsim::sim::setup::Setup;
-use tofsim_captures::ila::{Analyser, Capture, Overrides, Plan, SetUp, sampler};
+use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, Overrides, sampler};
 
 use crate::common::{self, empty, setup};
 
 /// What an analyser has after so many frames, and when it triggered.
 fn capture(setup: &Setup, text: &str, frames: u64) -> (Capture, Vec<Time>) {
-    let set_up = SetUp::parse("t", "t.toml", text, Overrides::default()).unwrap();
-    let mut analyser = Analyser::new(&Plan::new(&set_up, setup).unwrap(), setup);
+    let set_up = AnalyserSetup::parse("t", "t.toml", text, Overrides::default()).unwrap();
+    let mut analyser = Analyser::new(&AnalyserPlan::new(&set_up, setup).unwrap(), setup);
     sampler::capture(Run::new(setup), frames, &mut analyser, None).unwrap();
     let triggers = analyser.triggers();
     (analyser.finish(), triggers)
@@ -30,9 +31,9 @@ fn rises(values: &[u64]) -> Vec<usize> {
 }
 
 fn built_in(name: &str) -> (Capture, Vec<Time>) {
-    let set_up = SetUp::load(name, Overrides::default()).unwrap();
+    let set_up = AnalyserSetup::load(name, Overrides::default()).unwrap();
     let setup = setup(&set_up.file.scenario, &[]);
-    let mut analyser = Analyser::new(&Plan::new(&set_up, &setup).unwrap(), &setup);
+    let mut analyser = Analyser::new(&AnalyserPlan::new(&set_up, &setup).unwrap(), &setup);
     sampler::capture(Run::new(&setup), set_up.file.frames, &mut analyser, None).unwrap();
     assert!(analyser.is_full(), "{name}");
     let triggers = analyser.triggers();

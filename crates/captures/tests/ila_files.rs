@@ -1,17 +1,18 @@
 //! Captures as real tools write them, and what is wrong with others.
 
+use tofsim_captures::ila::Radix;
+use tofsim_captures::ila::read::{CaptureForm, CaptureRow, Column, Opened};
+
 use crate::ila::fixtures::{bytes, fixture};
 use crate::ila::{read, read_bytes};
-use tofsim_captures::ila::Radix;
-use tofsim_captures::ila::read::{Column, Form, Opened, Row};
 
 /// The values of a column.
-fn values(opened: &Opened, rows: &[Row], name: &str) -> Vec<u64> {
+fn values(opened: &Opened, rows: &[CaptureRow], name: &str) -> Vec<u64> {
     let column = opened.columns.iter().find(|column| column.name == name).unwrap();
     rows.iter().map(|row| row.value[column.word]).collect()
 }
 
-fn open(name: &str) -> (Opened, Vec<Row>) {
+fn open(name: &str) -> (Opened, Vec<CaptureRow>) {
     read(&fixture(name), None).unwrap()
 }
 
@@ -33,7 +34,7 @@ fn fault_in(radix: &str, probe: &str, rows: &str) -> String {
 #[test]
 fn values_of_every_radix_and_odd_names_are_read() {
     let (opened, rows) = open("radices.csv");
-    assert_eq!((opened.form, opened.radix_told, opened.samples), (Form::Csv, true, None));
+    assert_eq!((opened.form, opened.radix_told, opened.samples), (CaptureForm::Csv, true, None));
     let heads: Vec<_> = opened.columns.iter().map(Column::head).collect();
     let expected = [
         "top/u_tdc/code[8:0]",
@@ -78,7 +79,7 @@ fn windows_line_ends_and_a_byte_order_mark_change_nothing() {
 fn radices_that_the_file_does_not_tell_are_inferred() {
     let (opened, rows) = open("legacy.csv");
     let told = (opened.form, opened.radix_told, opened.samples);
-    assert_eq!(told, (Form::LegacyCsv, false, Some(3)));
+    assert_eq!(told, (CaptureForm::LegacyCsv, false, Some(3)));
     let expected =
         [Radix::Hex, Radix::Signed, Radix::Unsigned, Radix::Binary, Radix::Hex, Radix::Hex];
     assert_eq!(radices(&opened), expected.map(Some));

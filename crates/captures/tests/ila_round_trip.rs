@@ -1,12 +1,14 @@
 //! What is written is read again: the same bits, marks and names.
 
-use crate::ila;
 use std::io::Cursor;
 
 use proptest::collection::vec;
 use proptest::prelude::*;
-use tofsim_captures::ila::read::{Form, Opened, Row};
+
+use tofsim_captures::ila::read::{CaptureForm, CaptureRow, Opened};
 use tofsim_captures::ila::{Capture, Probe, Radix, write};
+
+use crate::ila;
 
 const RADICES: [Radix; 5] =
     [Radix::Hex, Radix::Signed, Radix::Unsigned, Radix::Binary, Radix::Octal];
@@ -40,7 +42,7 @@ fn bits(words: &[u64], low: usize, width: u32) -> Vec<bool> {
     (low..low + width as usize).map(|bit| words[bit / 64] >> (bit % 64) & 1 == 1).collect()
 }
 
-fn assert_same(capture: &Capture, opened: &Opened, rows: &[Row], named: bool) {
+fn assert_same(capture: &Capture, opened: &Opened, rows: &[CaptureRow], named: bool) {
     assert_eq!(rows.len(), capture.samples());
     let columns = opened.columns.iter();
     for (column, probe) in columns.clone().zip(&capture.probes) {
@@ -80,10 +82,10 @@ fn archive(capture: &Capture) -> Vec<u8> {
 /// Through CSV and archive, the latter also without its CSV and without its dump.
 fn check(capture: &Capture) {
     let (opened, rows) = ila::read_bytes(&csv(capture, true), None).unwrap();
-    assert_eq!(opened.form, Form::Csv);
+    assert_eq!(opened.form, CaptureForm::Csv);
     assert_same(capture, &opened, &rows, true);
     let (opened, rows) = ila::read_bytes(&archive(capture), None).unwrap();
-    assert_eq!(opened.form, Form::Archive);
+    assert_eq!(opened.form, CaptureForm::Archive);
     assert_same(capture, &opened, &rows, true);
     let (mut dump, mut list) = (Vec::new(), Vec::new());
     write::dump(&mut dump, capture).unwrap();
@@ -137,7 +139,7 @@ proptest! {
         });
         let capture = capture(probes.collect(), samples, 32, &words);
         let (opened, rows) = ila::read_bytes(&csv(&capture, false), Some(RADICES[radix])).unwrap();
-        prop_assert_eq!(opened.form, Form::LegacyCsv);
+        prop_assert_eq!(opened.form, CaptureForm::LegacyCsv);
         assert_same(&capture, &opened, &rows, true);
     }
 }

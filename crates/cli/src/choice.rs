@@ -2,11 +2,13 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
+use tofsim::waves::WaveFormat;
 use tofsim_captures::compare::Unknowns;
 use tofsim_captures::ila::Radix;
-use tofsim_captures::ila::export::Format as CaptureFormat;
-use tofsim_learn::dataset::files::Format as DatasetFormat;
-use tofsim_learn::estimation::Kind;
+use tofsim_captures::ila::export::CaptureFormat;
+use tofsim_learn::dataset::Grid;
+use tofsim_learn::dataset::files::DatasetFormat;
+use tofsim_learn::estimation::EstimatorKind;
 use tofsim_rtl::verify::Simulator;
 
 /// A word, what it stands for, and what the help says of it.
@@ -68,23 +70,58 @@ pub fn dataset_format() -> impl TypedValueParser<Value = DatasetFormat> {
     ])
 }
 
-/// An estimator.
-pub fn estimator() -> impl TypedValueParser<Value = Kind> {
+/// The scenes of a data set.
+pub fn grid() -> impl TypedValueParser<Value = Grid> {
+    const GRIDS: [Choice<Grid>; 2] = [
+        ("train", Grid::training(), "201 distances, every 2.5 mm"),
+        ("test", Grid::test(), "51 distances, every 10 mm"),
+    ];
+    words(&GRIDS)
+}
+
+/// How a run is simulated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fidelity {
+    Cycle,
+    Shot,
+    Histogram,
+}
+
+impl Fidelity {
+    const ALL: [Choice<Fidelity>; 3] = [
+        ("cycle", Fidelity::Cycle, "Every register at every edge that changes one"),
+        ("shot", Fidelity::Shot, "A draw, a code and a count for each shot; no signals to look at"),
+        (
+            "histogram",
+            Fidelity::Histogram,
+            "A draw for each frame, of its whole histogram; for MODE 0, without control changes",
+        ),
+    ];
+
+    /// Its word.
+    pub fn name(self) -> &'static str {
+        Fidelity::ALL[self as usize].0
+    }
+}
+
+/// How a run is simulated.
+pub fn fidelity() -> impl TypedValueParser<Value = Fidelity> {
+    words(&Fidelity::ALL)
+}
+
+/// The format of a waveform, if there is to be one.
+pub type WaveformChoice = Option<WaveFormat>;
+
+/// What a waveform is written as.
+pub fn waveform() -> impl TypedValueParser<Value = WaveformChoice> {
     words(&[
-        ("network", Kind::Network, "The network in fixed point, bit for bit as the firmware"),
-        ("network-float", Kind::NetworkFloat, "The network in double precision"),
-        (
-            "centroid",
-            Kind::Centroid,
-            "Argmax with centroid correction, bit for bit as the firmware's other estimator",
-        ),
-        ("peak", Kind::Peak, "The thesis's peak detection, on the bins of the chain"),
-        (
-            "subtraction",
-            Kind::Subtraction,
-            "Peak detection on a lit histogram less a dark one, of half the shots each",
-        ),
-        ("likelihood", Kind::Likelihood, "Maximum likelihood with pile-up in the model"),
-        ("matched", Kind::Matched, "Matched filter after Coates's correction of pile-up"),
+        ("vcd", Some(WaveFormat::Vcd), "Value change dump"),
+        ("fst", Some(WaveFormat::Fst), "GTKWave's compressed format"),
+        ("none", None, "No waveform"),
     ])
+}
+
+/// An estimator.
+pub fn estimator() -> impl TypedValueParser<Value = EstimatorKind> {
+    words(&EstimatorKind::ALL)
 }

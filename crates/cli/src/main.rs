@@ -8,9 +8,9 @@ mod verbs;
 use std::process::ExitCode;
 
 use clap::Parser;
+use verbs::Cli;
 
 use tofsim::error::Error;
-use verbs::Cli;
 
 /// Interrupted by the user, as shells have it.
 const INTERRUPTED: u8 = 130;

@@ -1,8 +1,10 @@
 //! The centroid estimator in the firmware's socket, as a user sees it.
 
-use crate::common::{empty, json, output, refused, setup, short_run, stdout};
 use serde_json::Value;
+
 use tofsim::hierarchy::entries;
+
+use crate::common::{empty, json, output, refused, setup, short_run, stdout};
 
 /// The key that puts it there.
 const KIND: &str = "estimator.kind=centroid";

@@ -2,12 +2,13 @@
 //!
 //! `UPDATE_DOCS=1 cargo test -p tofsim-cli --test cli commands` writes what they print anew.
 
-use crate::common;
 use std::fs;
 use std::path::Path;
 
-use tofsim_captures::compare::Map;
-use tofsim_captures::ila::{Overrides, Plan, SetUp};
+use tofsim_captures::compare::SignalMap;
+use tofsim_captures::ila::{AnalyserPlan, AnalyserSetup, Overrides};
+
+use crate::common;
 
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/comparing-with-hardware.md");
 
@@ -91,9 +92,10 @@ fn the_set_up_and_the_map_on_the_page_are_read() {
         .map(|block| block.split("```").next().unwrap().to_owned())
         .collect();
     let [set_up, map] = &blocks[..] else { panic!("{} blocks", blocks.len()) };
-    let set_up = SetUp::parse("example", "example.toml", set_up, Overrides::default()).unwrap();
-    let plan = Plan::new(&set_up, &common::setup(&set_up.file.scenario, &[])).unwrap();
+    let set_up =
+        AnalyserSetup::parse("example", "example.toml", set_up, Overrides::default()).unwrap();
+    let plan = AnalyserPlan::new(&set_up, &common::setup(&set_up.file.scenario, &[])).unwrap();
     assert_eq!((plan.probes.len(), plan.shape.depth, plan.shape.windows), (2, 512, 2));
-    let map = Map::parse("map.toml", map).unwrap();
+    let map = SignalMap::parse("map.toml", map).unwrap();
     assert_eq!((map.rename.len(), map.signal.len()), (1, 2));
 }

@@ -13,11 +13,12 @@ mod waveforms;
 mod which;
 mod windows;
 
-use crate::common;
 use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
+
+use crate::common;
 
 /// Status of a comparison and its JSON object.
 fn compare(folder: &Path, args: &[&str]) -> (i32, Value) {

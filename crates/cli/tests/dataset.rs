@@ -5,12 +5,14 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::common::{empty, files, json, npy, refused, setup, stdout};
 use parquet::data_type::{DataType, DoubleType, Int32Type, Int64Type};
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::parser::parse_message_type;
-use tofsim_learn::dataset::{self, Grid, Rows, Sample, Source, Subset};
+
+use tofsim_learn::dataset::{self, Grid, HistogramSource, Rows, Sample, Subset};
+
+use crate::common::{empty, files, json, npy, refused, setup, stdout};
 
 /// The arguments of a dataset of a few hundred rows, as both formats.
 const FEW: [&str; 9] =
@@ -30,7 +32,7 @@ fn both_formats_hold_the_rows_that_the_library_draws() {
     let arrays = dataset::read(&out).unwrap();
     assert!(table == arrays);
 
-    let source = Source::new(&setup("near", &[])).unwrap();
+    let source = HistogramSource::new(&setup("near", &[])).unwrap();
     let rows = Rows::Subset(Subset::new(Grid::training(), 300, 9));
     assert_eq!(table.len(), 300);
     for (index, sample) in table.iter().enumerate() {

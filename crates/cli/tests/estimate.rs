@@ -4,8 +4,9 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{csv, npy};
 use tofsim::network::{Histogram, Network, estimate};
+
+use crate::common::{csv, npy};
 
 /// A small generator of random words (SplitMix64).
 struct Random(u64);
@@ -216,8 +217,8 @@ fn the_program_prints_the_naive_integers() {
 
 #[test]
 fn an_explanation_has_every_value_and_a_budget_that_adds_up() {
-    let histogram = Path::new("stimuli/histograms/kc705.csv");
-    let json = run(&[histogram, Path::new("--explain")]);
+    let histogram = concat!(env!("CARGO_MANIFEST_DIR"), "/../../stimuli/histograms/kc705.csv");
+    let json = run(&[Path::new(histogram), Path::new("--explain")]);
     let explained = &json["histograms"][0]["explanation"];
     let number = |value: &serde_json::Value| value.as_f64().unwrap();
     let budget = &explained["budget"];
@@ -235,7 +236,7 @@ fn an_explanation_has_every_value_and_a_budget_that_adds_up() {
     }
 
     let program = Command::new(env!("CARGO_BIN_EXE_tofsim"))
-        .args(["estimate", "stimuli/histograms/kc705.csv", "--explain"])
+        .args(["estimate", histogram, "--explain"])
         .output()
         .unwrap();
     let text = String::from_utf8(program.stdout).unwrap();

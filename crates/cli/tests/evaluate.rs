@@ -2,8 +2,9 @@
 
 use std::fs;
 
-use crate::common::{self, empty, json, output, refused, stdout};
 use serde_json::Value;
+
+use crate::common::{self, empty, json, output, refused, stdout};
 
 const FEW: [&str; 7] = ["evaluate", "--rows", "2040", "--check", "2", "--seed", "3"];
 

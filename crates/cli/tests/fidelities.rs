@@ -1,14 +1,16 @@
 //! The fidelities beside `cycle`: the same frames from `shot`, the same distribution from
 //! `histogram`, and a refusal by name of what they cannot show.
 
-use crate::common::{json, refused, setup, stdout};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
+
 use tofsim::sim::fast::histogram::Histograms;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::{Run, Stepping};
+
+use crate::common::{json, refused, setup, stdout};
 
 /// Counts by outcome: 256 codes, hits without one, no hit.
 type Counts = Vec<u64>;

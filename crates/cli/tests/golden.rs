@@ -2,13 +2,14 @@
 //! `INSTA_UPDATE=always cargo test -p tofsim-cli --test cli golden`, then read the difference before
 //! committing it.
 
-use crate::common;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
 use wellen::simple::read;
+
+use crate::common;
 
 /// What is shown: one shot from its reset to its code [ps].
 const SPAN_PS: u64 = 88_000;

@@ -1,6 +1,6 @@
 //! `tofsim ila capture` as users and scripts meet it.
 
-use tofsim_captures::ila::{Overrides, Plan, SetUp};
+use tofsim_captures::ila::{AnalyserPlan, AnalyserSetup, Overrides};
 
 use crate::common::{self, empty, files, json, refused, setup, stdout};
 
@@ -90,9 +90,9 @@ fn faults_of_options_name_them() {
 #[test]
 fn faults_of_a_set_up_have_their_place() {
     let of = |scenario: &str, text: &str| {
-        let set_up = SetUp::parse("t", "t.toml", text, Overrides::default());
+        let set_up = AnalyserSetup::parse("t", "t.toml", text, Overrides::default());
         let setup = setup(scenario, &[]);
-        set_up.and_then(|set_up| Plan::new(&set_up, &setup)).unwrap_err().to_string()
+        set_up.and_then(|set_up| AnalyserPlan::new(&set_up, &setup)).unwrap_err().to_string()
     };
     let fault = |text: &str| of("kc705", &format!("{text}\n[[probe]]\nsignal = \"rst\""));
     for (text, expected) in [
@@ -131,7 +131,7 @@ fn faults_of_a_set_up_have_their_place() {
 #[test]
 fn a_position_on_the_command_line_goes_before_the_set_up_s() {
     let overrides = Overrides { position: Some(2), ..Overrides::default() };
-    let set_up = SetUp::parse("t", "t.toml", "position = 9", overrides).unwrap();
+    let set_up = AnalyserSetup::parse("t", "t.toml", "position = 9", overrides).unwrap();
     assert_eq!(set_up.file.position, Some(2));
 }
 

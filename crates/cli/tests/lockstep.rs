@@ -1,10 +1,11 @@
 //! Rust and Verilog do the same, clock by clock: each block alone, the whole with short frames and
 //! under random control, and full frames at every laser rate.
 
-use crate::common;
 use serde_json::Value;
 
 use tofsim_rtl::golden::BLOCKS;
+
+use crate::common;
 
 /// Lines of a block's own bench, at least.
 const CYCLES: u64 = 20_000;

@@ -3,9 +3,10 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{self, json, refused};
 use tofsim::network::{Histogram, Network};
 use tofsim_learn::quantize::import;
+
+use crate::common::{self, json, refused};
 
 const MAT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/network_arrays.mat");
 const JSON: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference/network_arrays.json");

@@ -7,10 +7,11 @@ mod refused;
 mod results;
 mod signals;
 
-use crate::common;
 use std::path::Path;
 
 use serde_json::Value;
+
+use crate::common;
 
 /// A run in pairs without waveform.
 const PAIRS: [&str; 5] = ["run", "--estimator", "subtraction", "--waves", "none"];

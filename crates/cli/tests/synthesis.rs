@@ -10,11 +10,11 @@ mod yosys;
 use std::collections::BTreeMap;
 use std::fs;
 
+use cells::{Cells, table};
+
 use tofsim::network::{Network, mem};
 use tofsim_learn::quantize::datapath::Datapath;
 use tofsim_rtl::verify::Verdict;
-
-use cells::{Cells, table};
 
 const RESOURCES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/resources.md");
 const BEGIN: &str = "<!-- resources -->";

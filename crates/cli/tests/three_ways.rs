@@ -1,7 +1,6 @@
 //! Ten thousand histograms, random and extreme, through the clocked Rust block, the Verilog and
 //! `tofsim estimate`: the same depth word from all three, with eight neurons and with sixteen.
 
-use crate::common;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -17,6 +16,8 @@ use tofsim::network::mem::{self, lines};
 use tofsim::network::{Histogram, Network};
 use tofsim_rtl::verify::process::Limits;
 use tofsim_rtl::verify::{Rtl, Simulator};
+
+use crate::common;
 
 const HISTOGRAMS: usize = 10_000;
 /// Most hits of a histogram.

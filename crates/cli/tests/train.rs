@@ -3,16 +3,17 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{files, json, refused, stdout};
 use tofsim::network::Network;
-use tofsim_learn::quantize::datapath::Datapath;
+use tofsim_learn::quantize::Datapath;
 use tofsim_learn::training::features::{Features, Scaling};
-use tofsim_learn::training::limits::Limits;
-use tofsim_learn::training::lm::{Lm, Settings};
+use tofsim_learn::training::limits::WordLimits;
+use tofsim_learn::training::lm::{Lm, LmSettings};
 use tofsim_learn::training::network_problem::NetworkProblem;
 use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::start::start;
 use tofsim_learn::training::sums::parameters;
+
+use crate::common::{files, json, refused, stdout};
 
 /// Arguments of a training of about a second.
 const SMALL: [&str; 8] = [
@@ -275,14 +276,14 @@ fn bins_that_never_count_do_no_harm() {
         weights: &weights,
         neurons: 2,
         table_noise: 0.0,
-        hinges: Limits::default().hinges(&Datapath::default()),
+        hinges: WordLimits::default().hinges(&Datapath::default()),
         held_out: None,
     };
-    let mut lm = Lm::new(start(&recipe.start, 2, 1, 0), &Settings::default());
-    lm.epoch(&problem, &Settings::default()).unwrap();
+    let mut lm = Lm::new(start(&recipe.start, 2, 1, 0), &LmSettings::default());
+    lm.epoch(&problem, &LmSettings::default()).unwrap();
     let first = lm.cost;
     for _ in 0..10 {
-        lm.epoch(&problem, &Settings::default()).unwrap();
+        lm.epoch(&problem, &LmSettings::default()).unwrap();
     }
     assert!(lm.x.len() == parameters(2) && lm.x.iter().all(|x| x.is_finite()));
     assert!(lm.cost < 0.5 * first, "{} {first}", lm.cost);

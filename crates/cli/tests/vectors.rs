@@ -1,6 +1,5 @@
 //! `tofsim vectors`: the files that a user's own bench or simulator starts from.
 
-use crate::common;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -8,6 +7,8 @@ use std::process::Command;
 use serde_json::Value;
 
 use tofsim_rtl::golden::BLOCKS;
+
+use crate::common;
 
 const OWN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rtl_ref");
 

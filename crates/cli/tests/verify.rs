@@ -1,12 +1,13 @@
 //! `tofsim verify` on other people's Verilog: what differs is found and shown, what cannot be checked
 //! is refused with the reason.
 
-use crate::common;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use serde_json::Value;
+
+use crate::common;
 
 const OWN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rtl_ref");
 const THEIRS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/verilog");

@@ -1,12 +1,13 @@
 //! Waveforms as their users see them: read by `wellen` and by `vcd2fst`, which are not ours.
 
-use crate::common;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
 use wellen::VarRef;
 use wellen::simple::{Waveform, read};
+
+use crate::common;
 
 /// Changes of a signal: time [ps] and value as bits, most significant first.
 type Changes = Vec<(u64, String)>;

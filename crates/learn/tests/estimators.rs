@@ -10,9 +10,10 @@ use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 use tofsim::scenario::builtin::Source as Place;
 use tofsim::scenario::{Scenario, chain};
 use tofsim::sensor::streams::{Source, stream};
+use tofsim_learn::estimation::Acquisition;
 use tofsim_learn::estimation::Estimator;
-use tofsim_learn::estimation::by_name::Acquisition;
-use tofsim_learn::estimation::likelihood::{Likelihood, Scene};
+use tofsim_learn::estimation::acquisition::Echo;
+use tofsim_learn::estimation::likelihood::Likelihood;
 use tofsim_learn::estimation::matched_filter::MatchedFilter;
 use tofsim_learn::estimation::peak_detection::PeakDetection;
 
@@ -111,7 +112,7 @@ fn against_the_bound(profile: &str) {
     for distance_m in DISTANCES_M {
         let (mut variance, mut likely, mut matched) = (0.0, Vec::new(), Vec::new());
         grid(distance_m, &bins, 1, |budget, histograms| {
-            let bound_m = likelihood.model().cramer_rao_m(&Scene::from(budget)).unwrap();
+            let bound_m = likelihood.model().cramer_rao_m(&Echo::from(budget)).unwrap();
             variance += bound_m * bound_m / 300.0;
             for histogram in histograms {
                 likely.push(likelihood.estimate(&histogram).unwrap() - distance_m);

@@ -1,6 +1,5 @@
 //! The Verilog in `rtl_ref/` mirrors the Rust in `src/firmware/`: files, ports and house rules.
 
-use crate::common;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::PathBuf;
@@ -10,9 +9,11 @@ use tofsim::firmware::forward2::{MOST_NEURONS, NEURONS};
 use tofsim::hierarchy::{Entry, Kind, every_entry, fitted};
 use tofsim_rtl::golden::BLOCKS;
 use tofsim_rtl::golden::ports::Port;
-use tofsim_rtl::verify::interface::{Found, Ports};
+use tofsim_rtl::verify::interface::{PortShape, Ports};
 use tofsim_rtl::verify::process::Limits;
 use tofsim_rtl::verify::{Rtl, Simulator};
+
+use crate::common;
 
 /// Vendor primitives, and the only file that may instantiate each.
 const PRIMITIVES: &[(&str, &[&str])] = &[
@@ -59,7 +60,7 @@ fn rust_ports() -> BTreeMap<String, Ports> {
     for entry in ports.map(narrow) {
         let instance = entry.scope.rsplit('.').next().unwrap();
         let module = if instance.starts_with("reset_sync_") { "reset_sync" } else { instance };
-        let port = Found { output: entry.kind == Kind::Output, width: entry.signal.width };
+        let port = PortShape { output: entry.kind == Kind::Output, width: entry.signal.width };
         let known = modules.entry(module.to_owned()).or_default();
         let before = known.insert(entry.signal.name.clone(), port);
         assert!(before.is_none_or(|before| before == port), "{}", entry.path());
@@ -96,7 +97,7 @@ fn ports_widths_and_directions_are_the_same() {
         }
     }
     for spec in BLOCKS {
-        let port = |port: Port| (port.name, Found { output: port.output, width: port.width });
+        let port = |port: Port| (port.name, PortShape { output: port.output, width: port.width });
         let of = |neurons| spec.ports(neurons).into_iter().map(port).collect::<Ports>();
         let vectors = Ports::from_iter(of(MOST_NEURONS).into_iter().chain(of(NEURONS)));
         assert_eq!(rust[spec.name], vectors, "ports of the golden block {}", spec.name);

@@ -2,12 +2,14 @@
 //!
 //! `UPDATE_ROMS=1 cargo test -p tofsim-rtl --test rtl roms` writes them anew.
 
-use crate::common;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use tofsim_rtl::golden::roms;
+use tofsim::network::mem::Mem;
+use tofsim_rtl::golden::parameters;
+
+use crate::common;
 
 /// Which memories come from another scenario than the board on the desk: the stand-ins' stimuli.
 const STIMULI: [(&str, &str); 2] =
@@ -19,11 +21,14 @@ fn folder() -> PathBuf {
 
 /// What the memories have to be.
 fn expected() -> BTreeMap<&'static str, String> {
-    let of = |scenario| roms::tof_top(&common::setup(scenario, &[]).params).into_iter();
-    let mut expected: BTreeMap<_, _> = of("kc705").map(|rom| (rom.name, rom.text)).collect();
+    let of = |scenario| {
+        let parameters = parameters::tof_top(&common::setup(scenario, &[]));
+        let text = |memory: &Mem| (memory.name, memory.text.clone());
+        parameters::memories(&parameters).map(text).collect::<BTreeMap<_, _>>()
+    };
+    let mut expected = of("kc705");
     for (name, scenario) in STIMULI {
-        let rom = of(scenario).find(|rom| rom.name == name).unwrap();
-        expected.insert(name, rom.text);
+        expected.insert(name, of(scenario).remove(name).unwrap());
     }
     expected
 }

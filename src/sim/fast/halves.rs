@@ -5,10 +5,11 @@
 //! emitter's `start` is all that passes between the halves, so the converter goes first and sees what
 //! it was. Either may be quiet.
 
-use crate::firmware::carry_chain::{CarryChain, StopLine};
-use crate::firmware::tdc::{self, Tdc};
+use crate::firmware::carry_chain::StopLine;
 use crate::firmware::tof_top::{CodeSource, Params, TofTop, Wires};
-use crate::firmware::{code_preload, frame_ctrl, histogram_builder, spad_control, vcsel_driver};
+use crate::firmware::{
+    code_preload, frame_ctrl, histogram_builder, spad_control, tdc, vcsel_driver,
+};
 use crate::kernel::{AWAKE, Clocked, Time};
 
 /// Coming cycles in which nothing of the emitter would move but the laser's count.
@@ -45,34 +46,8 @@ pub(super) fn convert(top: &mut TofTop, p: &Params, line: &mut StopLine, now: Ti
     let (clear, read_en) = (false, false);
     let histogram = Wires::histogram_builder(top);
     top.histogram_builder.tick(&histogram_builder::In { clear, read_en, ..histogram });
-    match &p.code_source {
-        CodeSource::Tdc => {
-            let i = tdc_inputs(top);
-            convert_time(&mut top.tdc, &i, &p.tdc, line, now);
-        }
-        CodeSource::Preload(rom) => {
-            top.code_preload = top.code_preload.next(&preload_inputs(top), rom);
-        }
-    }
+    top.convert(p, &tdc_inputs(top), &preload_inputs(top), line, now);
     top.take_code(p);
-}
-
-/// The TDC's part, in place: the last block first, so that each reads what the one before it was, and
-/// one that no edge would change is left alone.
-#[inline(always)]
-fn convert_time(tdc: &mut Tdc, i: &tdc::In, p: &tdc::Params, line: &mut StopLine, now: Time) {
-    let decoder = tdc::Wires::tdc_decoder(tdc, i);
-    if tdc.tdc_decoder.quiet(&decoder, &p.cal) == AWAKE {
-        tdc.tdc_decoder.tick(&decoder, &p.cal);
-    }
-    let latch = tdc::Wires::tdc_latch(tdc, i);
-    if tdc.tdc_latch.quiet(&latch, &p.tap_0) == AWAKE {
-        tdc.tdc_latch.tick(&latch, &p.tap_0);
-    }
-    tdc.coarse_counter.tick(&tdc::Wires::coarse_counter(tdc, i), &());
-    if !line.is_shown_by(&tdc.carry_chain.taps) {
-        tdc.carry_chain = CarryChain { taps: line.sample(now, &p.delays) };
-    }
 }
 
 /// The emitter's part of the same edge.
@@ -85,29 +60,17 @@ pub(super) fn emit(top: &mut TofTop, p: &Params) {
         top.frame_ctrl = top.frame_ctrl.next(&i, &p.frame_ctrl);
     }
     top.spad_control = top.spad_control.next(&spad_inputs(top), &());
-    if pulse_is_near(top) {
-        top.vcsel_driver.rise_250(&laser);
-        top.drive_laser();
-    }
-    top.vcsel_driver.registers = top.vcsel_driver.registers.next(&laser, &());
+    top.vcsel_driver.rise(&laser);
+    top.drive_laser();
 }
 
 /// The rest of the emitter's cycle: `clk_250` falls, rises and falls.
 #[inline(always)]
 pub(super) fn rest_of_cycle(top: &mut TofTop) {
-    if pulse_is_near(top) {
-        top.vcsel_driver.fall_250();
-        top.vcsel_driver.rise_250(&laser_inputs(top));
-        top.vcsel_driver.fall_250();
-        top.drive_laser();
-    }
-}
-
-/// Whether the coming edges of `clk_250`, up to the next one of `clk_125`, make or end a pulse.
-#[inline(always)]
-fn pulse_is_near(top: &TofTop) -> bool {
-    let driver = &top.vcsel_driver;
-    driver.registers.fire | driver.registers_250.laser_pulse | driver.ddr_output.q
+    top.vcsel_driver.fall_250();
+    top.vcsel_driver.rise_250(&laser_inputs(top));
+    top.vcsel_driver.fall_250();
+    top.drive_laser();
 }
 
 /// Stands for that many cycles of the emitter, all of them quiet.

@@ -4,9 +4,9 @@
 use std::io::{self, Seek, SeekFrom, Write};
 
 use crate::error::Result;
+use crate::files::date;
 
 use super::blocks::{Block, long};
-use crate::files::date;
 
 /// Room for the version, a zero at its end included [bytes].
 const VERSION: usize = 128;

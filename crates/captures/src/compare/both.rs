@@ -3,19 +3,15 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use vcd::{IdCode, TimescaleUnit, Value, Writer};
+use vcd::{IdCode, TimescaleUnit, Writer};
 
 use tofsim::error::{Input, Result};
 use tofsim::files::output::{OutputFile, write_file};
 
-use super::pair::{Bits, Pair};
+use super::bits::Bits;
+use super::pair::Pair;
 use super::result::Comparison;
-use super::view::View;
-
-/// Scopes of the two sides and of what differs.
-pub(super) const SCOPES: [&str; 3] = ["expected", "got", "differs"];
-/// The scope around them.
-pub(super) const TOP: &str = "compare";
+use super::view::{SCOPES, TOP, View, flat};
 
 /// The waveform, being written.
 pub(super) struct Both {
@@ -109,8 +105,8 @@ impl Both {
         let mut vcd = Writer::new(&mut self.file);
         for (bits, code) in sides.into_iter().zip(codes) {
             match width {
-                1 => vcd.change_scalar(code, value(bits, 0))?,
-                _ => vcd.change_vector(code, (0..width).rev().map(|bit| value(bits, bit)))?,
+                1 => vcd.change_scalar(code, bits.level(0))?,
+                _ => vcd.change_vector(code, (0..width).rev().map(|bit| bits.level(bit)))?,
             }
         }
         vcd.change_scalar(codes[2], differs)?;
@@ -135,19 +131,4 @@ impl Both {
         write_file(&commands, |file| file.write_all(view.surfer().as_bytes()))?;
         Ok(vec![path, save, commands])
     }
-}
-
-fn value(bits: &Bits, bit: u32) -> Value {
-    let at = |words: &[u64]| words[bit as usize / 64] >> (bit % 64) & 1;
-    match (at(&bits.unknown), at(&bits.value)) {
-        (0, 0) => Value::V0,
-        (0, _) => Value::V1,
-        (_, 0) => Value::X,
-        _ => Value::Z,
-    }
-}
-
-/// A name without dots, which would be scopes, or spaces.
-pub(super) fn flat(name: &str) -> String {
-    name.replace('.', "/").replace(' ', "_").replace('\\', "")
 }

@@ -1,11 +1,11 @@
 //! Compares two waveforms at every instant at which one of them changes.
 
-use crate::source::{Axis, Cursor, Tick};
 use tofsim::error::Result;
 
+use crate::source::{Axis, Cursor, Tick};
+
+use super::differences::{Differences, Spot};
 use super::plan::Plan;
-use super::tallies::Tallies;
-use super::tally::Spot;
 
 /// Where two waveforms are compared.
 #[derive(Clone, Copy, Debug)]
@@ -71,7 +71,7 @@ impl Side {
 ///
 /// The last instant of one counts only if both have changes there: a simulator may stop before it
 /// has written those of its last time step, and we write the end of a run without any.
-pub(super) fn compare(plan: &Plan, span: Span, tallies: &mut Tallies) -> Result<Passed> {
+pub(super) fn compare(plan: &Plan, span: Span, differences: &mut Differences) -> Result<Passed> {
     let ticks = plan.sources.map(|source| match source.axis {
         Axis::Time(tick) => tick,
         Axis::Samples => Tick::FEMTOSECOND,
@@ -99,7 +99,7 @@ pub(super) fn compare(plan: &Plan, span: Span, tallies: &mut Tallies) -> Result<
         for (side, cursor) in sides.iter_mut().enumerate() {
             cursor.take(now, |signal| {
                 changes[side] = true;
-                tallies.touch(side, signal);
+                differences.touch(side, signal);
             })?;
         }
         if now < from || (now == end && changes != [true, true]) {
@@ -107,9 +107,9 @@ pub(super) fn compare(plan: &Plan, span: Span, tallies: &mut Tallies) -> Result<
         }
         if !begun {
             begun = true;
-            tallies.touch_all();
+            differences.touch_all();
         }
-        tallies.take_touched(&mut touched);
+        differences.take_touched(&mut touched);
         if touched.is_empty() {
             continue;
         }
@@ -118,21 +118,21 @@ pub(super) fn compare(plan: &Plan, span: Span, tallies: &mut Tallies) -> Result<
             let common = (now + late(side)).max(0) as u64;
             coarse.convert(common, ticks[side])
         };
-        let spot = Spot { order: passed.compared, piece: 0, at: [at(0), at(1)] };
-        if let Some(both) = &mut tallies.both {
+        let spot = Spot { order: passed.compared, window: 0, at: [at(0), at(1)] };
+        if let Some(both) = &mut differences.both {
             both.at(coarse.femtoseconds(now.max(0) as u64) / 1000)?;
         }
         for &pair in &touched {
             let pair = pair as usize;
-            if tallies.is_off(pair, states) {
+            if plan.matching.pairs[pair].is_off(states[0]) {
                 continue;
             }
-            tallies.tallies[pair].compared += 1;
-            let same = tallies.is_same(pair, states);
+            differences.counts[pair].compared += 1;
+            let same = differences.is_same(pair, states);
             if !same {
-                tallies.count(pair, spot, states);
+                differences.count(pair, spot, states);
             }
-            tallies.show(pair, states, !same)?;
+            differences.show(pair, states, !same)?;
         }
         passed.compared += 1;
     }

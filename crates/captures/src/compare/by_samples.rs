@@ -1,14 +1,15 @@
 //! Compares two sequences of samples, one by one, as an alignment says.
 
-use crate::source::Axis;
 use tofsim::error::Result;
+
+use crate::source::{Axis, SourceState};
 
 use super::align::Alignment;
 use super::delay::Delay;
+use super::differences::{Differences, Spot};
+use super::pair::Pair;
 use super::plan::Plan;
 use super::selection::{Piece, Place, Selected};
-use super::tallies::Tallies;
-use super::tally::Spot;
 
 /// What came of a pass over both sequences.
 #[derive(Clone, Debug, Default)]
@@ -35,7 +36,7 @@ pub(super) fn compare(
     plan: &Plan,
     alignment: &Alignment,
     until_fs: u128,
-    tallies: &mut Tallies,
+    differences: &mut Differences,
 ) -> Result<Passed> {
     let pairs = &plan.matching.pairs;
     let mut sides = [
@@ -44,10 +45,9 @@ pub(super) fn compare(
     ];
     let steady: Vec<usize> = (0..pairs.len()).filter(|&pair| !pairs[pair].is_plain()).collect();
     let mut delays: Vec<Delay> = steady.iter().map(|&pair| Delay::new(pair)).collect();
-    let mut wrong: Vec<bool> = vec![false; pairs.len()];
-    let mut differing: Vec<usize> = Vec::new();
-    let (mut passed, mut touched) = (Passed::default(), Vec::new());
-    tallies.touch_all();
+    let mut plain = PlainPairs::new(pairs);
+    let mut passed = Passed::default();
+    differences.touch_all();
     'pieces: loop {
         let mut count = 0;
         delays.iter_mut().for_each(Delay::clear);
@@ -61,40 +61,22 @@ pub(super) fn compare(
                 break 'pieces;
             }
             for (side, selected) in sides.iter_mut().enumerate() {
-                selected.samples.changes(|signal| tallies.touch(side, signal));
+                selected.samples.changes(|signal| differences.touch(side, signal));
             }
             let states = [sides[0].samples.state(), sides[1].samples.state()];
             let at = [a.sample.at, b.sample.at];
-            let spot = Spot { order: passed.compared, piece: a.piece, at };
-            if let Some(both) = &mut tallies.both {
+            let spot = Spot { order: passed.compared, window: a.piece, at };
+            if let Some(both) = &mut differences.both {
                 both.at(place_ps(plan, a))?;
             }
             let gaps = [a.sample.marks.gap, b.sample.marks.gap];
             for delay in &mut delays {
-                delay.compare(plan, spot, (states, gaps), tallies)?;
+                delay.compare(plan, spot, (states, gaps), differences)?;
             }
             if gaps != [false, false] {
                 continue;
             }
-            tallies.take_touched(&mut touched);
-            for &pair in &touched {
-                let pair = pair as usize;
-                if !pairs[pair].is_plain() {
-                    continue;
-                }
-                let same = tallies.is_same(pair, states);
-                if wrong[pair] == same {
-                    wrong[pair] = !same;
-                    match same {
-                        true => differing.retain(|&other| other != pair),
-                        false => differing.push(pair),
-                    }
-                }
-                tallies.show(pair, states, !same)?;
-            }
-            for &pair in &differing {
-                tallies.count(pair, spot, states);
-            }
+            plain.compare(spot, states, differences)?;
             passed.compared += 1;
             count += 1;
         }
@@ -103,12 +85,56 @@ pub(super) fn compare(
             break;
         }
     }
-    for (pair, tally) in tallies.tallies.iter_mut().enumerate() {
+    for (pair, count) in differences.counts.iter_mut().enumerate() {
         if pairs[pair].is_plain() {
-            tally.compared = passed.compared;
+            count.compared = passed.compared;
         }
     }
     Ok(passed)
+}
+
+/// The pairs that are compared by the bits at one place alone.
+struct PlainPairs<'a> {
+    pairs: &'a [Pair],
+    /// Whether each differs now, and those that do.
+    wrong: Vec<bool>,
+    differing: Vec<usize>,
+    touched: Vec<u32>,
+}
+
+impl<'a> PlainPairs<'a> {
+    fn new(pairs: &'a [Pair]) -> Self {
+        let wrong = vec![false; pairs.len()];
+        PlainPairs { pairs, wrong, differing: Vec::new(), touched: Vec::new() }
+    }
+
+    /// Compares those of which a side has changed, and counts all that differ.
+    fn compare(
+        &mut self,
+        spot: Spot,
+        states: [&SourceState; 2],
+        differences: &mut Differences,
+    ) -> Result<()> {
+        differences.take_touched(&mut self.touched);
+        for pair in self.touched.iter().map(|&pair| pair as usize) {
+            if !self.pairs[pair].is_plain() {
+                continue;
+            }
+            let same = differences.is_same(pair, states);
+            if self.wrong[pair] == same {
+                self.wrong[pair] = !same;
+                match same {
+                    true => self.differing.retain(|&other| other != pair),
+                    false => self.differing.push(pair),
+                }
+            }
+            differences.show(pair, states, !same)?;
+        }
+        for &pair in &self.differing {
+            differences.count(pair, spot, states);
+        }
+        Ok(())
+    }
 }
 
 /// Whether nothing more is said: a capture that does not say how many samples it has goes on as

@@ -2,13 +2,13 @@
 
 use std::collections::VecDeque;
 
-use crate::source::State;
 use tofsim::error::Result;
 
-use super::pair::Bits;
+use crate::source::SourceState;
+
+use super::bits::Bits;
+use super::differences::{Differences, Spot};
 use super::plan::Plan;
-use super::tallies::Tallies;
-use super::tally::Spot;
 
 /// A pair of which one side is late, or that is compared only at times.
 pub(super) struct Delay {
@@ -42,11 +42,11 @@ impl Delay {
         &mut self,
         plan: &Plan,
         spot: Spot,
-        (states, gaps): ([&State; 2], [bool; 2]),
-        tallies: &mut Tallies,
+        (states, gaps): ([&SourceState; 2], [bool; 2]),
+        differences: &mut Differences,
     ) -> Result<()> {
-        let differs = self.step(plan, spot, (states, gaps), tallies);
-        tallies.show(self.pair, states, differs)
+        let differs = self.step(plan, spot, (states, gaps), differences);
+        differences.show(self.pair, states, differs)
     }
 
     /// Whether the pair differs at the sample that has both sides now.
@@ -54,14 +54,12 @@ impl Delay {
         &mut self,
         plan: &Plan,
         spot: Spot,
-        (states, gaps): ([&State; 2], [bool; 2]),
-        tallies: &mut Tallies,
+        (states, gaps): ([&SourceState; 2], [bool; 2]),
+        differences: &mut Differences,
     ) -> bool {
         let pair = &plan.matching.pairs[self.pair];
         let mut values = [Bits::default(), Bits::default()];
-        for (side, bits) in values.iter_mut().enumerate() {
-            pair.gather(side, states[side], bits);
-        }
+        pair.gather_both(states, &mut values);
         let off = [gaps[0] || pair.is_off(states[0]), gaps[1]];
         let now = Entry { values, spot, off };
         self.early.push_back(now.clone());
@@ -73,12 +71,12 @@ impl Delay {
         if a.off[0] || b.off[1] {
             return false;
         }
-        tallies.tallies[self.pair].compared += 1;
+        differences.counts[self.pair].compared += 1;
         let (expected, got) = (&a.values[0], &b.values[1]);
-        let differs = !pair.equal(expected, got, tallies.unknowns());
+        let differs = !pair.equal(expected, got, differences.unknowns());
         if differs {
             let at = [a.spot.at[0], b.spot.at[1]];
-            tallies.count_values(self.pair, Spot { at, ..now.spot }, expected, got);
+            differences.count_values(self.pair, Spot { at, ..now.spot }, expected, got);
         }
         differs
     }

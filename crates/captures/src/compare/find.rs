@@ -1,34 +1,14 @@
 //! Finds a signal of a source by what a user calls it.
 
-use std::collections::HashMap;
-
-use crate::source::{Kind, Name, Source};
 use tofsim::error::{Input, Result, nearest};
 
-use super::pair::Part;
+use crate::condition::slice;
+use crate::source::{Name, Signal, SignalKind, Source};
+
+use super::parts::{Part, Slots};
 
 /// Names that an error offers.
 const OFFERED: usize = 4;
-
-/// The signals of a source that a comparison reads, each once.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Slots {
-    /// Id of each.
-    pub(super) ids: Vec<usize>,
-    by_id: HashMap<usize, usize>,
-}
-
-impl Slots {
-    /// The place of a signal, which is read from now on.
-    pub(super) fn place(&mut self, id: usize) -> usize {
-        let next = self.ids.len();
-        let place = *self.by_id.entry(id).or_insert(next);
-        if place == next {
-            self.ids.push(id);
-        }
-        place
-    }
-}
 
 /// The index of the one signal that has this name, or whose name ends so; nearest the top.
 ///
@@ -36,7 +16,7 @@ impl Slots {
 /// When there is none, or several that are not the same signal.
 pub(super) fn signal(source: &Source, text: &str) -> Result<usize> {
     let wanted = Name::new(text);
-    let named = |(_, signal): &(usize, &crate::source::Signal)| signal.name.is(&wanted);
+    let named = |(_, signal): &(usize, &Signal)| signal.name.is(&wanted);
     let mut found: Vec<usize> =
         source.signals.iter().enumerate().filter(named).map(|(k, _)| k).collect();
     if found.is_empty() {
@@ -98,13 +78,13 @@ pub(super) fn part(source: &Source, text: &str, slots: &mut Slots) -> Result<(us
 /// The whole signal, where slices of it have names of their own and so have all of them a range.
 fn widest(source: &Source, text: &str) -> Option<usize> {
     let begin = Name::new(text).scope(0) + "[";
-    let is_part = |(_, signal): &(usize, &crate::source::Signal)| {
+    let is_part = |(_, signal): &(usize, &Signal)| {
         let name = signal.name.scope(0);
         name.strip_prefix(&begin).is_some_and(|range| range.contains(':'))
     };
     let parts: Vec<_> = source.signals.iter().enumerate().filter(is_part).collect();
     let (found, whole) = *parts.iter().max_by_key(|(_, signal)| signal.width)?;
-    let top = |signal: &crate::source::Signal| signal.lsb + i64::from(signal.width);
+    let top = |signal: &Signal| signal.lsb + i64::from(signal.width);
     let holds_all = parts.iter().all(|(k, part)| {
         *k == found
             || (part.lsb >= whole.lsb && top(part) <= top(whole) && part.width < whole.width)
@@ -121,7 +101,7 @@ fn bits(
 ) -> Result<(usize, Part)> {
     let signal = &source.signals[found];
     let fault = |expected: String| Err(Input::new(&source.name, expected).field(text).into());
-    if signal.kind == Kind::Other {
+    if signal.kind == SignalKind::Other {
         return fault("is text, which is not compared".into());
     }
     let top = signal.lsb + i64::from(signal.width) - 1;
@@ -132,11 +112,4 @@ fn bits(
     let (width, low) = ((high - low + 1) as u32, (low - signal.lsb) as u32);
     let place = slots.place(signal.id);
     Ok((found, Part { signal: place, low, width, whole: width == signal.width }))
-}
-
-/// A name with a range, taken apart.
-fn slice(text: &str) -> Option<(&str, u32, u32)> {
-    let (name, range) = text.strip_suffix(']')?.rsplit_once('[')?;
-    let (high, low) = range.split_once(':').unwrap_or((range, range));
-    Some((name, high.parse().ok()?, low.parse().ok()?))
 }

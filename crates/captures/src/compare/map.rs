@@ -7,17 +7,19 @@ use regex::Regex;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::ila::SetUp;
-use crate::ila::setup::ProbeEntry;
 use tofsim::error::{Result, read_text};
 use tofsim::files::toml::Checked;
 use tofsim::hierarchy::TOP;
+
+use crate::ila::AnalyserSetup;
+use crate::ila::setup::ProbeEntry;
 
 /// A map file. Where it names sides, `a` and `b` are those of `tofsim compare A B`, or the other way
 /// round if its names are found so.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-pub struct Map {
+#[schemars(rename = "Map")]
+pub struct SignalMap {
     /// Clock of a waveform's samples: a signal, taken just before its rising edges, or a frequency
     /// and the time of the first edge as `125MHz` or `125MHz + 2ns`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -30,11 +32,11 @@ pub struct Map {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trigger: Option<String>,
     /// Time before which a waveform is not looked at.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "is_default")]
     #[schemars(range(min = 0.0, max = 1e9), extend("unit" = "us"))]
     pub after_us: f64,
     /// Registers before the probes of the logic analyser.
-    #[serde(skip_serializing_if = "is_exact")]
+    #[serde(skip_serializing_if = "is_default")]
     #[schemars(range(min = 0, max = 6), extend("unit" = "edges"))]
     pub input_stages: u64,
     /// Condition under which a logic analyser has stored a sample.
@@ -52,10 +54,6 @@ pub struct Map {
     /// Signals that belong together by intention.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub signal: Vec<Rule>,
-}
-
-fn is_zero(number: &f64) -> bool {
-    *number == 0.0
 }
 
 /// A change of names.
@@ -105,14 +103,14 @@ pub struct Rule {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dont_care: Option<String>,
     /// Whether the second side has it the other way round.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    #[serde(skip_serializing_if = "is_default")]
     pub invert: bool,
     /// Samples that the second side has it later (less than 0: earlier).
-    #[serde(skip_serializing_if = "is_none_later")]
+    #[serde(skip_serializing_if = "is_default")]
     #[schemars(range(min = -65_536, max = 65_536), extend("unit" = "samples"))]
     pub latency: i64,
     /// Largest difference that is none, for numbers.
-    #[serde(skip_serializing_if = "is_exact")]
+    #[serde(skip_serializing_if = "is_default")]
     #[schemars(range(min = 0), extend("unit" = "LSB"))]
     pub tolerance: u64,
     /// Signal of one bit on the first side; compared only where it is 1.
@@ -120,30 +118,26 @@ pub struct Rule {
     pub valid: Option<String>,
 }
 
-fn is_none_later(samples: &i64) -> bool {
-    *samples == 0
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
-fn is_exact(tolerance: &u64) -> bool {
-    *tolerance == 0
-}
-
-impl Map {
+impl SignalMap {
     /// Reads and checks a map file.
     ///
     /// # Errors
     /// When it cannot be read or something in it is not what it should be; with the place.
-    pub fn read(path: &Path) -> Result<Map> {
-        Map::parse(&path.display().to_string(), &read_text(path)?)
+    pub fn read(path: &Path) -> Result<SignalMap> {
+        SignalMap::parse(&path.display().to_string(), &read_text(path)?)
     }
 
     /// A map from the text of `source`.
     ///
     /// # Errors
-    /// As [`Map::read`].
-    pub fn parse(source: &str, text: &str) -> Result<Map> {
-        let checked = Checked::parse::<Map>(source, text)?;
-        let map: Map = checked.read()?;
+    /// As [`SignalMap::read`].
+    pub fn parse(source: &str, text: &str) -> Result<SignalMap> {
+        let checked = Checked::parse::<SignalMap>(source, text)?;
+        let map: SignalMap = checked.read()?;
         for (k, rename) in map.rename.iter().enumerate() {
             if let Err(error) = Regex::new(&rename.pattern) {
                 let reason = error.to_string();
@@ -171,7 +165,7 @@ impl Map {
 
     /// The map that belongs to a logic analyser's set-up: the simulation's signals on the first
     /// side, the probes on the second.
-    pub fn of(set_up: &SetUp) -> Map {
+    pub fn of(set_up: &AnalyserSetup) -> SignalMap {
         let file = &set_up.file;
         let clock = match file.clock.starts_with("clk_") {
             true => format!("{TOP}.{}", file.clock),
@@ -182,7 +176,7 @@ impl Map {
             b: vec![shown(probe)],
             ..Rule::default()
         });
-        Map {
+        SignalMap {
             clock: Some(clock),
             align: Some("trigger".to_owned()),
             trigger: Some(file.trigger.clone().unwrap_or_else(|| "always".to_owned())),
@@ -190,7 +184,7 @@ impl Map {
             input_stages: file.input_stages,
             qualified_by: file.capture.clone(),
             signal: probes.collect(),
-            ..Map::default()
+            ..SignalMap::default()
         }
     }
 
@@ -239,13 +233,13 @@ mod tests {
     fn a_map_is_read_as_it_is_written() {
         let text = "clock = \"clk_250\"\nalign = \"trigger\"\n\n[[signal]]\n\
             a = [\"vcsel_driver.laser_pulse\"]\nb = [\"VCSEL_ON\"]\n";
-        let map = Map::parse("map.toml", text).unwrap();
+        let map = SignalMap::parse("map.toml", text).unwrap();
         assert_eq!(map.to_toml(), text);
     }
 
     #[test]
     fn a_fault_has_its_place() {
-        let fault = |text: &str| Map::parse("map.toml", text).unwrap_err().to_string();
+        let fault = |text: &str| SignalMap::parse("map.toml", text).unwrap_err().to_string();
         let error = fault("[[rename]]\npattern = \"(\"\nby = \"\"\n");
         assert!(error.starts_with("map.toml:2:11: rename.0.pattern"), "{error}");
         let error = fault("[[signal]]\na = [\"x\"]\ndont_care = \"f0\"\n");

@@ -1,23 +1,24 @@
 //! Conditions over the signals of a waveform.
 
-use crate::condition::{Bound, Condition, Level, Place};
-use crate::source::{Name, Source, State, shapes};
 use tofsim::error::Result;
 use tofsim::kernel::signals::SignalFormat as Shape;
 
+use crate::condition::{Bound, Condition, Level, Place};
+use crate::source::{Name, Source, SourceState, known_shape, shapes};
+
 use super::find;
 use super::matching::Matching;
-use super::pair::Part;
+use super::parts::Part;
 
 /// A condition tied to one side.
 #[derive(Clone)]
-pub(super) struct Tied {
+pub(super) struct SideCondition {
     bound: Bound,
     /// The parts of each operand, the highest first.
     operands: Vec<Vec<Part>>,
 }
 
-impl Tied {
+impl SideCondition {
     /// Ties a condition to the signals of a side, which may be called as on either.
     ///
     /// Whether one is a number in two's complement is what the map says, or else what the firmware's
@@ -30,7 +31,7 @@ impl Tied {
         side: usize,
         matching: &mut Matching,
         condition: &Condition,
-    ) -> Result<Tied> {
+    ) -> Result<SideCondition> {
         let mut operands = Vec::new();
         let known = shapes();
         let bound = condition.bind(&mut |text| {
@@ -46,16 +47,14 @@ impl Tied {
             }
             let found = find::signal(source, text)?;
             let signal = &source.signals[found];
-            let place = matching.slots[side].place(signal.id);
-            let part = Part { signal: place, low: 0, width: signal.width, whole: true };
-            operands.push(vec![part]);
+            operands.push(vec![Part::whole(&mut matching.slots[side], signal)]);
             Ok(Place { index, width: signal.width, signed: is_signed(&signal.name.text, &known) })
         })?;
-        Ok(Tied { bound, operands })
+        Ok(SideCondition { bound, operands })
     }
 
     /// Whether it holds at a sample.
-    pub(super) fn sample(&mut self, state: &State) -> bool {
+    pub(super) fn sample(&mut self, state: &SourceState) -> bool {
         let operands = &self.operands;
         self.bound.sample(|operand| level(state, &operands[operand]))
     }
@@ -67,12 +66,10 @@ impl Tied {
 }
 
 fn is_signed(name: &str, known: &[(Name, Shape)]) -> bool {
-    let name = Name::new(name);
-    let found = known.iter().find(|(known, _)| known.common(&name).is_some_and(|parts| parts >= 2));
-    matches!(found, Some((_, Shape::Signed { .. })))
+    matches!(known_shape(known, &[&Name::new(name)]), Some(Shape::Signed { .. }))
 }
 
-fn level(state: &State, parts: &[Part]) -> Level {
+fn level(state: &SourceState, parts: &[Part]) -> Level {
     let mut level = Level::default();
     for part in parts {
         let mask = u128::MAX >> (128 - part.width.clamp(1, 128));

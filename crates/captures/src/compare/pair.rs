@@ -1,29 +1,11 @@
 //! Two signals that are compared, and how.
 
-use crate::source::{Signal, State};
+use crate::source::SourceState;
+use crate::words::{bit, extend, ones};
 
-use super::find::Slots;
+use super::bits::Bits;
+use super::parts::Part;
 use super::show::Show;
-
-/// Bits of a signal of a cursor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Part {
-    /// Signal of the cursor.
-    pub(super) signal: usize,
-    /// Lowest bit.
-    pub(super) low: u32,
-    /// Number of bits.
-    pub(super) width: u32,
-    /// Whether that is the whole signal.
-    pub(super) whole: bool,
-}
-
-impl Part {
-    /// All of a signal, which is read from now on.
-    pub(super) fn whole(slots: &mut Slots, signal: &Signal) -> Self {
-        Part { signal: slots.place(signal.id), low: 0, width: signal.width, whole: true }
-    }
-}
 
 /// What an unknown bit is the same as.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -39,7 +21,7 @@ pub enum Unknowns {
 
 /// How two signals came together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum How {
+pub enum MatchedBy {
     /// The names are the same.
     Name,
     /// One name is the end of the other.
@@ -57,7 +39,7 @@ pub(super) struct Pair {
     pub(super) other: String,
     /// More names of the same two signals.
     pub(super) aliases: usize,
-    pub(super) how: How,
+    pub(super) how: MatchedBy,
     pub(super) width: u32,
     pub(super) sides: [Vec<Part>; 2],
     pub(super) show: Show,
@@ -72,32 +54,11 @@ pub(super) struct Pair {
     pub(super) valid: Option<usize>,
 }
 
-/// A value in words: bits, and which of them are unknown.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
-pub(super) struct Bits {
-    pub(super) value: Vec<u64>,
-    pub(super) unknown: Vec<u64>,
-}
-
-impl Bits {
-    /// Whether no bit is unknown.
-    pub(super) fn is_known(&self) -> bool {
-        self.unknown.iter().all(|&word| word == 0)
-    }
-
-    /// The value, if it has at most 128 bits, all known.
-    pub(super) fn number(&self) -> Option<u128> {
-        let low = self.value.first().copied().unwrap_or(0);
-        let high = self.value.get(1).copied().unwrap_or(0);
-        (self.value.len() <= 2 && self.is_known()).then_some(low as u128 | (high as u128) << 64)
-    }
-}
-
 impl Pair {
     /// Two signals of so many bits that are compared at every place, bit for bit.
     pub(super) fn new(
         names: [String; 2],
-        how: How,
+        how: MatchedBy,
         width: u32,
         sides: [Vec<Part>; 2],
         show: Show,
@@ -127,12 +88,12 @@ impl Pair {
 
     /// Whether it is not compared, where the first side has those values.
     #[inline]
-    pub(super) fn is_off(&self, state: &State) -> bool {
+    pub(super) fn is_off(&self, state: &SourceState) -> bool {
         self.valid.is_some_and(|valid| state.value(valid)[0] != 1 || state.unknown(valid)[0] != 0)
     }
 
     /// Collects the value of one side, the second's as the first should have it.
-    pub(super) fn gather(&self, side: usize, state: &State, bits: &mut Bits) {
+    pub(super) fn gather(&self, side: usize, state: &SourceState, bits: &mut Bits) {
         let words = (self.width as usize).div_ceil(64);
         bits.value.clear();
         bits.unknown.clear();
@@ -153,9 +114,16 @@ impl Pair {
         }
         if side == 1 && self.invert {
             for (k, word) in bits.value.iter_mut().enumerate() {
-                let all = top(self.width, k);
+                let all = ones(self.width, k);
                 *word = (!*word & !bits.unknown[k] & all) | (*word & bits.unknown[k]);
             }
+        }
+    }
+
+    /// Collects the values of both sides.
+    pub(super) fn gather_both(&self, states: [&SourceState; 2], bits: &mut [Bits; 2]) {
+        for (side, bits) in bits.iter_mut().enumerate() {
+            self.gather(side, states[side], bits);
         }
     }
 
@@ -163,7 +131,7 @@ impl Pair {
     #[inline]
     pub(super) fn same(
         &self,
-        states: [&State; 2],
+        states: [&SourceState; 2],
         unknowns: Unknowns,
         scratch: &mut [Bits; 2],
     ) -> bool {
@@ -178,9 +146,8 @@ impl Pair {
         {
             return true;
         }
+        self.gather_both(states, scratch);
         let [a, b] = scratch;
-        self.gather(0, states[0], a);
-        self.gather(1, states[1], b);
         self.equal(a, b, unknowns)
     }
 
@@ -211,37 +178,21 @@ impl Pair {
     }
 }
 
-/// A two's complement number of `width` bits.
-pub(super) fn extend(value: u128, width: u32) -> i128 {
-    let shift = 128 - width.clamp(1, 128);
-    ((value << shift) as i128) >> shift
-}
-
-/// The bits that word `k` of a signal of `width` bits has.
-pub(super) fn top(width: u32, k: usize) -> u64 {
-    match (width as usize).saturating_sub(64 * k) {
-        0 => 0,
-        bits if bits >= 64 => u64::MAX,
-        bits => (1 << bits) - 1,
-    }
-}
-
 /// Puts the bits of `part` into `words` from bit `low` on.
 fn put(words: &mut [u64], low: u32, from: &[u64], part: &Part) {
-    for bit in 0..part.width {
-        let (source, target) = (part.low + bit, low + bit);
-        let value = from[source as usize / 64] >> (source % 64) & 1;
-        words[target as usize / 64] |= value << (target % 64);
+    for k in 0..part.width {
+        let target = low + k;
+        words[target as usize / 64] |= bit(from, part.low + k) << (target % 64);
     }
 }
 
-impl How {
+impl MatchedBy {
     /// In a word.
     pub const fn word(self) -> &'static str {
         match self {
-            How::Name => "name",
-            How::Suffix => "suffix",
-            How::Map => "map",
+            MatchedBy::Name => "name",
+            MatchedBy::Suffix => "suffix",
+            MatchedBy::Map => "map",
         }
     }
 }

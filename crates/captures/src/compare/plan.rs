@@ -1,26 +1,27 @@
 //! What a comparison reads from each side, and how it makes samples of it.
 
-use crate::condition::Condition;
-use crate::source::{Axis, Source};
 use tofsim::error::Result;
 use tofsim::kernel::Time;
 
-use super::matching::{Matching, Reason, Unmatched};
-use super::operands::Tied;
-use super::samples::{Sample, Samples, Sampling};
+use crate::condition::Condition;
+use crate::source::{Axis, Source};
+
+use super::matching::{Matching, Unmatched, UnmatchedReason};
+use super::operands::SideCondition;
+use super::samples::{Sample, SampleClock, Samples};
 
 /// Two sources with their signals matched, to be read as often as needed.
 pub(super) struct Plan<'a> {
     pub(super) sources: [&'a Source; 2],
     pub(super) matching: Matching,
     /// Signals of each side that have no partner.
-    pub(super) lonely: [Vec<Lonely>; 2],
-    sampling: Option<Sampling>,
+    pub(super) unpaired: [Vec<Unpaired>; 2],
+    sampling: Option<SampleClock>,
     clock: [Option<usize>; 2],
     /// What a waveform triggers on.
-    pub(super) trigger: [Option<Tied>; 2],
+    pub(super) trigger: [Option<SideCondition>; 2],
     /// Under which condition a logic analyser stored a sample.
-    pub(super) qualifier: [Option<Tied>; 2],
+    pub(super) qualifier: [Option<SideCondition>; 2],
     /// Before this time a waveform is not looked at.
     pub(super) after: Time,
     /// Samples before that which a logic analyser's registers delay into it.
@@ -28,19 +29,19 @@ pub(super) struct Plan<'a> {
 }
 
 /// A signal without a partner, which is read to find one.
-pub(super) struct Lonely {
+pub(super) struct Unpaired {
     pub(super) name: String,
     pub(super) signal: usize,
     pub(super) width: u32,
 }
 
 /// Signals without a partner that are looked at.
-const LONELY: usize = 64;
+const UNPAIRED: usize = 64;
 
 /// Conditions and clock as they were given.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Terms {
-    pub(super) sampling: Option<Sampling>,
+    pub(super) sampling: Option<SampleClock>,
     pub(super) trigger: Option<Condition>,
     pub(super) qualifier: Option<Condition>,
     pub(super) after: Time,
@@ -64,26 +65,27 @@ impl<'a> Plan<'a> {
                 continue;
             }
             let bind = |matching: &mut Matching, condition: &Option<Condition>| {
-                let bind =
-                    |condition: &Condition| Tied::new(sources[side], side, matching, condition);
+                let bind = |condition: &Condition| {
+                    SideCondition::new(sources[side], side, matching, condition)
+                };
                 condition.as_ref().map(bind).transpose()
             };
             trigger[side] = bind(&mut matching, &terms.trigger)?;
             qualifier[side] = bind(&mut matching, &terms.qualifier)?;
         }
-        let lonely = [0, 1].map(|side| lonely(sources, side, &mut matching));
+        let unpaired = [0, 1].map(|side| unpaired(sources, side, &mut matching));
         let Terms { sampling, after, stages, .. } = terms;
-        Ok(Plan { sources, matching, lonely, sampling, clock, trigger, qualifier, after, stages })
+        Ok(Plan { sources, matching, unpaired, sampling, clock, trigger, qualifier, after, stages })
     }
 
     /// A plan to compare changes.
     pub(super) fn changes(sources: [&'a Source; 2], matching: Matching, after: Time) -> Plan<'a> {
         let (clock, trigger, qualifier) = ([None, None], [None, None], [None, None]);
-        let lonely = [Vec::new(), Vec::new()];
+        let unpaired = [Vec::new(), Vec::new()];
         Plan {
             sources,
             matching,
-            lonely,
+            unpaired,
             sampling: None,
             clock,
             trigger,
@@ -118,18 +120,18 @@ impl<'a> Plan<'a> {
 }
 
 /// Signals of a side without a partner, if the other side's could be one.
-fn lonely(sources: [&Source; 2], side: usize, matching: &mut Matching) -> Vec<Lonely> {
+fn unpaired(sources: [&Source; 2], side: usize, matching: &mut Matching) -> Vec<Unpaired> {
     if !sources.iter().any(|source| source.is_capture()) {
         return Vec::new();
     }
     let Matching { unmatched, slots, .. } = matching;
-    let own = |reason: &Unmatched| reason.side == side && reason.reason == Reason::Alone;
-    let lonely = unmatched.iter().filter(|unmatched| own(unmatched)).take(LONELY);
-    lonely
+    let own = |reason: &Unmatched| reason.side == side && reason.reason == UnmatchedReason::Alone;
+    let unpaired = unmatched.iter().filter(|unmatched| own(unmatched)).take(UNPAIRED);
+    unpaired
         .map(|unmatched| {
             let signal = &sources[side].signals[unmatched.signal];
             let (name, width) = (unmatched.name.clone(), signal.width);
-            Lonely { name, signal: slots[side].place(signal.id), width }
+            Unpaired { name, signal: slots[side].place(signal.id), width }
         })
         .collect()
 }

@@ -2,9 +2,8 @@
 
 use crate::source::{Axis, Source};
 
-use super::diagnose::Finding;
 use super::matching::Unmatched;
-use super::pair::How;
+use super::pair::MatchedBy;
 
 /// What a comparison has found.
 #[derive(Clone, Debug)]
@@ -29,6 +28,23 @@ pub struct Comparison {
     pub findings: Vec<Finding>,
     /// What a user may not expect.
     pub notes: Vec<String>,
+}
+
+/// What some differences look like.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finding {
+    /// A word for it.
+    pub kind: &'static str,
+    /// The finding in a sentence.
+    pub text: String,
+    /// Signals that it explains, by their names on the first side.
+    pub signals: Vec<String>,
+}
+
+impl Finding {
+    pub(super) fn new(kind: &'static str, signals: &[&str], text: String) -> Self {
+        Finding { kind, text, signals: signals.iter().map(|&name| name.to_owned()).collect() }
+    }
 }
 
 /// A side, for people.
@@ -77,7 +93,7 @@ pub struct Compared {
     /// Name on the second side.
     pub other: String,
     /// How they came together.
-    pub how: How,
+    pub how: MatchedBy,
     /// Further names of the same signals.
     pub aliases: usize,
     /// Width [bits].
@@ -89,7 +105,7 @@ pub struct Compared {
     /// The first of them.
     pub first: Option<Difference>,
     /// Where they lie: `#` in the parts of the range that have some.
-    pub strip: String,
+    pub overview: String,
 }
 
 /// A place at which the sides differ.
@@ -110,6 +126,22 @@ pub struct Difference {
 }
 
 impl Comparison {
+    /// Of two sources, with nothing found yet.
+    pub(super) fn new(sources: [&Source; 2], unit: &'static str, alignment: String) -> Self {
+        Comparison {
+            sides: sources.map(Described::new),
+            unit,
+            alignment,
+            offset: None,
+            compared: 0,
+            pairs: Vec::new(),
+            unmatched: Vec::new(),
+            differences: Vec::new(),
+            findings: Vec::new(),
+            notes: Vec::new(),
+        }
+    }
+
     /// Whether the sides are the same.
     pub fn is_same(&self) -> bool {
         self.differences.is_empty() && self.pairs.iter().all(|pair| pair.differing == 0)

@@ -2,17 +2,19 @@
 
 use std::str::FromStr;
 
-use crate::ila;
-use crate::source::{Axis, Cursor, Format, Marks, Source, State, Tick};
 use tofsim::error::{Input, Result};
 use tofsim::kernel::Time;
 use tofsim::kernel::clock::Clock;
 
-use super::find::{self, Slots};
+use crate::ila;
+use crate::source::{Axis, Cursor, Marks, Source, SourceFormat, SourceState, Tick};
+
+use super::find;
+use super::parts::Slots;
 
 /// What a waveform is sampled by.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Sampling {
+pub enum SampleClock {
     /// Just before the rising edges of a signal.
     Signal(String),
     /// Just before instants of a clock that is no signal.
@@ -24,21 +26,21 @@ pub enum Sampling {
     },
 }
 
-impl FromStr for Sampling {
+impl FromStr for SampleClock {
     type Err = String;
 
     /// A signal, or as `125MHz` or `125MHz + 2ns` a frequency and the time of the first edge.
     fn from_str(text: &str) -> std::result::Result<Self, String> {
         Ok(match text.parse() {
-            Ok(ila::clock::Sampling::Free { frequency_hz, phase }) => {
-                Sampling::Free { frequency_hz, phase }
+            Ok(ila::clock::AnalyserClock::Free { frequency_hz, phase }) => {
+                SampleClock::Free { frequency_hz, phase }
             }
             Err(expected)
                 if text.trim_start().starts_with(|first: char| first.is_ascii_digit()) =>
             {
                 return Err(expected.to_owned());
             }
-            _ => Sampling::Signal(text.to_owned()),
+            _ => SampleClock::Signal(text.to_owned()),
         })
     }
 }
@@ -82,7 +84,7 @@ pub(super) struct Samples {
     cursor: Cursor,
     clocking: Clocking,
     /// Values at the sample.
-    state: State,
+    state: SourceState,
     /// Signals of which the cursor has newer values than the sample.
     newer: Vec<u32>,
     /// Signals that have changed since they were last asked for.
@@ -94,11 +96,11 @@ impl Samples {
     /// Signal of the cursor that is the clock of this source, which is read too.
     pub(super) fn clock_signal(
         source: &Source,
-        sampling: Option<&Sampling>,
+        sampling: Option<&SampleClock>,
         slots: &mut Slots,
     ) -> Result<Option<usize>> {
         match (source.axis, sampling) {
-            (Axis::Time(_), Some(Sampling::Signal(name))) => {
+            (Axis::Time(_), Some(SampleClock::Signal(name))) => {
                 let (_, part) = find::part(source, name, slots)?;
                 if part.width != 1 {
                     let expected = format!("expected a clock of one bit, not {}", part.width);
@@ -119,15 +121,15 @@ impl Samples {
     pub(super) fn new(
         source: &Source,
         slots: &Slots,
-        sampling: Option<&Sampling>,
+        sampling: Option<&SampleClock>,
         clock: Option<usize>,
     ) -> Result<Samples> {
         let clocking = match (source.axis, clock, sampling) {
             (Axis::Time(_), Some(signal), _) => Clocking::Rising(signal, None),
-            (Axis::Time(tick), None, Some(&Sampling::Free { frequency_hz, phase })) => {
+            (Axis::Time(tick), None, Some(&SampleClock::Free { frequency_hz, phase })) => {
                 Clocking::Free { clock: Clock::new(frequency_hz, 1, 1, phase), tick }
             }
-            _ => Clocking::Rows { endless: source.format == Format::IlaVcd },
+            _ => Clocking::Rows { endless: source.format == SourceFormat::IlaVcd },
         };
         let cursor = source.read(&slots.ids)?;
         let state = cursor.state.clone();
@@ -136,7 +138,7 @@ impl Samples {
     }
 
     /// Values at the sample.
-    pub(super) fn state(&self) -> &State {
+    pub(super) fn state(&self) -> &SourceState {
         &self.state
     }
 
@@ -150,6 +152,14 @@ impl Samples {
             self.state.take(&self.cursor.state, signal as usize);
         }
         self.changed.append(&mut self.newer);
+    }
+
+    /// Takes the cursor's next instant into the sample.
+    fn take(&mut self) -> Marks {
+        let newer = &mut self.newer;
+        let marks = self.cursor.take(|signal| newer.push(signal as u32));
+        self.catch_up();
+        marks
     }
 
     /// The next sample, `None` at the end.
@@ -201,9 +211,7 @@ impl Samples {
             if tick.femtoseconds(at) >= edge.fs() as u128 {
                 return Ok(self.sample(tick.count(edge.fs() as u128), Marks::default(), false));
             }
-            let newer = &mut self.newer;
-            self.cursor.take(|signal| newer.push(signal as u32));
-            self.catch_up();
+            self.take();
         }
         Ok(None)
     }
@@ -212,9 +220,7 @@ impl Samples {
         let row = self.next;
         match self.cursor.peek()? {
             Some(at) if at == row => {
-                let newer = &mut self.newer;
-                let marks = self.cursor.take(|signal| newer.push(signal as u32));
-                self.catch_up();
+                let marks = self.take();
                 Ok(self.sample(row, marks, false))
             }
             Some(_) => Ok(self.sample(row, Marks::default(), false)),

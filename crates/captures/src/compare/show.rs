@@ -1,9 +1,12 @@
 //! How a value is written for people: in its signal's own radix, and as the number it stands for.
 
-use crate::ila::Radix;
 use tofsim::kernel::signals::SignalFormat as Shape;
 
-use super::pair::{Bits, extend};
+use crate::ila::Radix;
+use crate::source::{Name, Signal, SignalKind, known_shape};
+use crate::words::extend;
+
+use super::bits::Bits;
 
 /// How a signal's values are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +30,18 @@ pub(super) enum Show {
 }
 
 impl Show {
+    /// As one of two signals says or, if none does, as the firmware's of their names; `known` are
+    /// those.
+    pub(super) fn of(a: &Signal, b: &Signal, known: &[(Name, Shape)]) -> Show {
+        if a.kind == SignalKind::Real {
+            return Show::Real;
+        }
+        let shape = a.shape.or(b.shape).map(Show::shape);
+        let shown = shape.or_else(|| a.radix.or(b.radix).map(Show::radix));
+        let known = || known_shape(known, &[&a.name, &b.name]).map(Show::shape);
+        shown.or_else(known).unwrap_or(Show::Bits)
+    }
+
     /// As the firmware's signal of that shape.
     pub(super) fn shape(shape: Shape) -> Show {
         match shape {
@@ -93,15 +108,8 @@ fn scaled(value: f64, fraction: u32) -> String {
 
 /// All digits: one of a single bit, binary where a bit is unknown, or else hexadecimal.
 fn digits(bits: &Bits, width: u32) -> String {
-    let at = |words: &[u64], bit: u32| words[bit as usize / 64] >> (bit % 64) & 1;
     if width == 1 || !bits.is_known() {
-        let digit = |bit| match (at(&bits.unknown, bit), at(&bits.value, bit)) {
-            (0, 0) => '0',
-            (0, _) => '1',
-            (_, 0) => 'x',
-            _ => 'z',
-        };
-        let text: String = (0..width).rev().map(digit).collect();
+        let text: String = (0..width).rev().map(|bit| bits.level(bit).to_string()).collect();
         let first = text.chars().next().unwrap_or('x');
         let all = text.chars().all(|digit| digit == first);
         return match width {

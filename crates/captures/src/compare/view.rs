@@ -2,11 +2,16 @@
 
 use std::fmt::Write;
 
-use super::both::{SCOPES, TOP, flat};
-use super::result::{Compared, Comparison};
-use crate::source::Axis;
 use tofsim::waves::zoom;
 
+use crate::source::Axis;
+
+use super::result::{Compared, Comparison};
+
+/// Scopes of the two sides and of what differs.
+pub(super) const SCOPES: [&str; 3] = ["expected", "got", "differs"];
+/// The scope around them.
+pub(super) const TOP: &str = "compare";
 /// Pairs that are shown at first.
 const SHOWN: usize = 32;
 /// Part of the waveform that is shown around the first difference.
@@ -85,4 +90,9 @@ impl<'a> View<'a> {
         }
         text
     }
+}
+
+/// A name without dots, which would be scopes, or spaces.
+pub(super) fn flat(name: &str) -> String {
+    name.replace('.', "/").replace(' ', "_").replace('\\', "")
 }

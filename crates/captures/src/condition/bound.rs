@@ -1,7 +1,7 @@
 //! A condition tied to the signals of a sample.
 
 use super::literal::mask;
-use super::{Level, Node, Relation, Test};
+use super::tree::{Level, Node, Relation, Test};
 
 /// A condition that can be asked sample by sample.
 #[derive(Clone, Debug)]
@@ -104,7 +104,7 @@ impl Bound {
         Bound { node, watched, outcomes }
     }
 
-    /// Whether it holds at this sample, where `value` gives the level of a [`super::Place`] by its
+    /// Whether it holds at this sample, where `value` gives the level of a [`Place`](super::Place) by its
     /// index.
     ///
     /// It remembers the levels for `rising`, `falling` and `changed`, none of which holds at the
@@ -114,11 +114,6 @@ impl Bound {
             *outcome = watched.sample(value(watched.index));
         }
         self.outcome(&self.node) == Some(true)
-    }
-
-    /// Indices of the places it looks at, in the order of its tests.
-    pub fn places(&self) -> impl Iterator<Item = usize> {
-        self.watched.iter().map(|watched| watched.index)
     }
 
     fn outcome(&self, node: &Node) -> Option<bool> {

@@ -3,8 +3,8 @@
 use tofsim::error::{Input, Result};
 
 use super::literal::Literal;
-use super::token::{Kind, Token, tokens};
-use super::{Leaf, Node, Relation, Test};
+use super::token::{Token, TokenKind, tokens};
+use super::tree::{Leaf, Node, Relation, Test};
 
 /// How deep parentheses may stand in each other.
 const DEEPEST: usize = 64;
@@ -30,7 +30,7 @@ pub(super) fn parse(source: &str, text: &str) -> Result<(Node, Vec<Leaf>)> {
     let mut parser = Parser { source, tokens: &tokens, leaves: Vec::new(), depth: 0 };
     let node = parser.any()?;
     match parser.first() {
-        Token { kind: Kind::End, .. } => Ok((node, parser.leaves)),
+        Token { kind: TokenKind::End, .. } => Ok((node, parser.leaves)),
         token => Err(parser.fault(token, "expected `&&`, `||` or the end of the condition")),
     }
 }
@@ -85,15 +85,15 @@ impl<'a> Parser<'a> {
     fn leaf(&mut self) -> Result<Node> {
         let token = self.first();
         let is_name = match token.kind {
-            Kind::Word => !KEYWORDS.contains(&token.text),
-            Kind::Quoted => !token.text.is_empty(),
-            Kind::Sign | Kind::End => false,
+            TokenKind::Word => !KEYWORDS.contains(&token.text),
+            TokenKind::Quoted => !token.text.is_empty(),
+            TokenKind::Sign | TokenKind::End => false,
         };
         if !is_name {
             return Err(self.fault(token, "expected the name of a signal"));
         }
         self.tokens = &self.tokens[1..];
-        if token.kind == Kind::Word && token.text == ALWAYS {
+        if token.kind == TokenKind::Word && token.text == ALWAYS {
             return Ok(Node::All(Vec::new()));
         }
         let name = token.text.to_owned() + self.slice(token);
@@ -106,7 +106,7 @@ impl<'a> Parser<'a> {
     fn slice(&mut self, name: Token) -> &'a str {
         let next = self.first();
         let behind = name.column + name.text.chars().count() + 2 == next.column;
-        match name.kind == Kind::Quoted && behind && next.text.starts_with('[') {
+        match name.kind == TokenKind::Quoted && behind && next.text.starts_with('[') {
             true => {
                 self.tokens = &self.tokens[1..];
                 next.text
@@ -129,7 +129,7 @@ impl<'a> Parser<'a> {
         let token = self.first();
         let fault = |expected| Err(self.fault(token, expected));
         match Literal::parse(token.text) {
-            _ if token.kind != Kind::Word => fault("expected a value"),
+            _ if token.kind != TokenKind::Word => fault("expected a value"),
             Err(expected) => fault(expected),
             Ok(literal) => {
                 let exact = matches!(relation, Relation::Equal | Relation::Unequal);
@@ -150,7 +150,8 @@ impl<'a> Parser<'a> {
     /// Takes the coming token if it is one of these.
     fn take(&mut self, words: &[&str]) -> bool {
         let token = self.first();
-        let taken = matches!(token.kind, Kind::Sign | Kind::Word) && words.contains(&token.text);
+        let taken =
+            matches!(token.kind, TokenKind::Sign | TokenKind::Word) && words.contains(&token.text);
         if taken {
             self.tokens = &self.tokens[1..];
         }
@@ -158,7 +159,7 @@ impl<'a> Parser<'a> {
     }
 
     fn fault(&self, token: Token, expected: &str) -> tofsim::error::Error {
-        let value = if token.kind == Kind::End { "the end" } else { token.text };
+        let value = if token.kind == TokenKind::End { "the end" } else { token.text };
         Input::new(self.source, expected).at(1, token.column).value(value).into()
     }
 }

@@ -127,12 +127,6 @@ fn a_bit_that_becomes_unknown_has_changed_but_not_fallen() {
 }
 
 #[test]
-fn the_names_used_come_once_and_without_slices() {
-    let text = "bus[7:4] == 1 || bus == 2 && \"a b\" changed || list[2] == 1";
-    assert_eq!(Condition::parse("", text).unwrap().signals(), ["bus", "a b", "list[2]"]);
-}
-
-#[test]
 fn a_fault_has_its_column() {
     for (text, expected) in [
         ("", "--trigger:1:1: the end: expected the name of a signal"),

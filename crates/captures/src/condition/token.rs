@@ -5,14 +5,14 @@ use tofsim::error::{Input, Result};
 /// A word or a sign, and its column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Token<'a> {
-    pub(super) kind: Kind,
+    pub(super) kind: TokenKind,
     /// As it is written; of a name in quotes what is between them.
     pub(super) text: &'a str,
     pub(super) column: usize,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum TokenKind {
     Sign,
     Word,
     /// A name in quotes.
@@ -34,7 +34,7 @@ pub(super) fn tokens<'a>(source: &str, text: &'a str) -> Result<Vec<Token<'a>>> 
         column += rest[..rest.len() - trimmed.len()].chars().count();
         rest = trimmed;
         if rest.is_empty() {
-            tokens.push(Token { kind: Kind::End, text: "", column });
+            tokens.push(Token { kind: TokenKind::End, text: "", column });
             return Ok(tokens);
         }
         let (kind, token, taken) = token(rest)
@@ -46,13 +46,13 @@ pub(super) fn tokens<'a>(source: &str, text: &'a str) -> Result<Vec<Token<'a>>> 
 }
 
 /// The first token of `rest` and how many bytes it takes, or what is wrong with it.
-fn token(rest: &str) -> std::result::Result<(Kind, &str, usize), (&str, &str)> {
+fn token(rest: &str) -> std::result::Result<(TokenKind, &str, usize), (&str, &str)> {
     if let Some(inside) = rest.strip_prefix('"') {
         let end = inside.find('"').ok_or((rest, "expected a closing quote"))?;
-        return Ok((Kind::Quoted, &inside[..end], end + 2));
+        return Ok((TokenKind::Quoted, &inside[..end], end + 2));
     }
     if let Some(sign) = SIGNS.iter().find(|sign| rest.starts_with(**sign)) {
-        return Ok((Kind::Sign, &rest[..sign.len()], sign.len()));
+        return Ok((TokenKind::Sign, &rest[..sign.len()], sign.len()));
     }
     let end = rest.find(|character| !belongs_to_word(character)).unwrap_or(rest.len());
     match end {
@@ -61,6 +61,6 @@ fn token(rest: &str) -> std::result::Result<(Kind, &str, usize), (&str, &str)> {
             let length = rest.chars().next().map_or(0, char::len_utf8);
             Err((&rest[..length], "expected a name, a value or an operator"))
         }
-        end => Ok((Kind::Word, &rest[..end], end)),
+        end => Ok((TokenKind::Word, &rest[..end], end)),
     }
 }

@@ -18,6 +18,10 @@ pub enum Radix {
 }
 
 impl Radix {
+    /// All of them.
+    pub const ALL: [Radix; 5] =
+        [Radix::Hex, Radix::Signed, Radix::Unsigned, Radix::Binary, Radix::Octal];
+
     /// The word that Vivado writes.
     pub const fn word(self) -> &'static str {
         match self {

@@ -9,7 +9,7 @@ use tofsim::kernel::clock::Clock;
 
 /// A clock of the design, or one of its own.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Sampling {
+pub enum AnalyserClock {
     /// `clk_125`.
     Clk125,
     /// `clk_250`.
@@ -28,28 +28,28 @@ pub enum Sampling {
 /// Slowest and fastest free clock [Hz].
 const RANGE: std::ops::RangeInclusive<f64> = 1e3..=1e9;
 
-impl Sampling {
+impl AnalyserClock {
     /// Its rising edges, without jitter.
     pub fn clock(&self, pll: &Pll) -> Clock {
         match self {
-            Sampling::Clk125 => pll.clk_125.clone(),
-            Sampling::Clk250 => pll.clk_250.clone(),
-            Sampling::Clk200 => pll.clk_200.clone(),
-            Sampling::Free { frequency_hz, phase } => Clock::new(*frequency_hz, 1, 1, *phase),
+            AnalyserClock::Clk125 => pll.clk_125.clone(),
+            AnalyserClock::Clk250 => pll.clk_250.clone(),
+            AnalyserClock::Clk200 => pll.clk_200.clone(),
+            AnalyserClock::Free { frequency_hz, phase } => Clock::new(*frequency_hz, 1, 1, *phase),
         }
     }
 }
 
-impl FromStr for Sampling {
+impl FromStr for AnalyserClock {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         const EXPECTED: &str = "expected clk_125, clk_250, clk_200, or a frequency from 1 kHz to \
             1 GHz with the time of the first edge, such as 100MHz or 62.5 MHz + 250 ps";
         match text.trim() {
-            "clk_125" => return Ok(Sampling::Clk125),
-            "clk_250" => return Ok(Sampling::Clk250),
-            "clk_200" => return Ok(Sampling::Clk200),
+            "clk_125" => return Ok(AnalyserClock::Clk125),
+            "clk_250" => return Ok(AnalyserClock::Clk250),
+            "clk_200" => return Ok(AnalyserClock::Clk200),
             _ => {}
         }
         let (frequency, phase) = text.split_once('+').unwrap_or((text, "0ps"));
@@ -61,7 +61,7 @@ impl FromStr for Sampling {
             return Err(EXPECTED);
         }
         let phase = Time::from_ps_f64(phase_ps);
-        Ok(Sampling::Free { frequency_hz: frequency_hz as u64, phase })
+        Ok(AnalyserClock::Free { frequency_hz: frequency_hz as u64, phase })
     }
 }
 
@@ -74,13 +74,13 @@ fn quantity(text: &str, units: &[(&str, f64)]) -> Option<f64> {
     Some(number * unit)
 }
 
-impl fmt::Display for Sampling {
+impl fmt::Display for AnalyserClock {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Sampling::Clk125 => f.write_str("clk_125"),
-            Sampling::Clk250 => f.write_str("clk_250"),
-            Sampling::Clk200 => f.write_str("clk_200"),
-            Sampling::Free { frequency_hz, phase } => {
+            AnalyserClock::Clk125 => f.write_str("clk_125"),
+            AnalyserClock::Clk250 => f.write_str("clk_250"),
+            AnalyserClock::Clk200 => f.write_str("clk_200"),
+            AnalyserClock::Free { frequency_hz, phase } => {
                 write!(f, "{frequency_hz} Hz + {} ps", phase.fs() as f64 / 1e3)
             }
         }
@@ -107,9 +107,10 @@ mod tests {
 
     #[test]
     fn a_clock_is_one_of_the_design_s_or_a_frequency_with_a_phase() {
-        let free = |frequency_hz, fs| Sampling::Free { frequency_hz, phase: Time::from_fs(fs) };
+        let free =
+            |frequency_hz, fs| AnalyserClock::Free { frequency_hz, phase: Time::from_fs(fs) };
         for (text, sampling) in [
-            ("clk_125", Sampling::Clk125),
+            ("clk_125", AnalyserClock::Clk125),
             ("100MHz", free(100_000_000, 0)),
             ("62.5 MHz + 250 ps", free(62_500_000, 250_000)),
             ("1 GHz+1.5ns", free(1_000_000_000, 1_500_000)),
@@ -118,7 +119,7 @@ mod tests {
             assert_eq!(sampling.to_string().parse(), Ok(sampling), "{text}");
         }
         for text in ["", "clk_100", "100", "MHz", "nan Hz", "1.5 Hz", "2 GHz", "1MHz + -1 ps"] {
-            assert!(text.parse::<Sampling>().is_err(), "{text}");
+            assert!(text.parse::<AnalyserClock>().is_err(), "{text}");
         }
     }
 

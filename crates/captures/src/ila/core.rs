@@ -1,89 +1,62 @@
 //! The logic analyser's core: a ring buffer behind a trigger.
 //!
-//! [`Core`] stores rows of words. [`Core::numbers`] stores no payload but the numbers of the
-//! samples, which tells what a capture of some recorded waveform would hold.
+//! [`Core::new`] stores rows of words, [`Core::numbers`] nothing but the numbers of the samples,
+//! which tells what a capture of some recorded waveform would hold.
 
 use super::capture::{Capture, Probe};
 use super::storing::{Shape, Storing};
 
 /// Stores samples of so many words.
 #[derive(Clone, Debug)]
-pub struct Core<P> {
+pub struct Core {
     storing: Storing,
-    payload: P,
+    /// Words of a row.
+    stride: usize,
+    /// The stored rows, one after the other.
+    words: Vec<u64>,
     /// Number of the next sample.
     number: u64,
     /// Number of the sample that triggered each window.
     triggers: Vec<u64>,
 }
 
-/// What is kept of each stored sample.
-pub trait Payload {
-    /// A sample as it comes.
-    type Row: ?Sized;
-    /// Keeps a row at a place, which is the first free one or an older sample's.
-    fn store(&mut self, slot: usize, number: u64, row: &Self::Row);
-}
-
-/// Rows of words, one after the other.
-#[derive(Clone, Debug)]
-pub struct Rows {
-    stride: usize,
-    words: Vec<u64>,
-}
-
-impl Payload for Rows {
-    type Row = [u64];
-
-    #[inline]
-    fn store(&mut self, slot: usize, _: u64, row: &[u64]) {
-        let begin = slot * self.stride;
-        match self.words.get_mut(begin..begin + self.stride) {
-            Some(words) => words.copy_from_slice(row),
-            None => self.words.extend_from_slice(row),
-        }
-    }
-}
-
-/// Numbers of the samples, where not all between the first and the last are kept.
-#[derive(Clone, Debug)]
-pub struct Numbers {
-    qualified: bool,
-    kept: Vec<u64>,
-}
-
-impl Payload for Numbers {
-    type Row = ();
-
-    #[inline]
-    fn store(&mut self, slot: usize, number: u64, (): &()) {
-        match self.kept.get_mut(slot) {
-            _ if !self.qualified => {}
-            Some(kept) => *kept = number,
-            None => self.kept.push(number),
-        }
-    }
-}
-
 /// Samples of a window, by their numbers from 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Kept {
+pub enum KeptSamples {
     /// All from one to before another.
     Range(std::ops::Range<u64>),
     /// Those that qualified, and the one that triggered.
     List(Vec<u64>),
 }
 
-impl<P: Payload> Core<P> {
-    fn with(shape: Shape, payload: P) -> Self {
-        Core { storing: Storing::new(shape), payload, number: 0, triggers: Vec::new() }
+impl Core {
+    /// An empty buffer for rows of `stride` words.
+    pub fn new(shape: Shape, stride: usize) -> Self {
+        let (storing, words) = (Storing::new(shape), Vec::new());
+        Core { storing, stride, words, number: 0, triggers: Vec::new() }
+    }
+
+    /// A buffer that holds the numbers of samples only. Without qualification it keeps none but
+    /// those of the triggers.
+    pub fn numbers(shape: Shape, qualified: bool) -> Self {
+        Core::new(shape, usize::from(qualified))
+    }
+
+    /// Takes a sample into a buffer of numbers.
+    pub fn sample_number(&mut self, triggers: bool, qualifies: bool) {
+        let row = [self.number];
+        self.sample(&row[..self.stride], triggers, qualifies);
     }
 
     /// Takes a sample: its row, whether the trigger holds, and whether it may be stored.
     #[inline]
-    pub fn sample(&mut self, row: &P::Row, triggers: bool, qualifies: bool) {
+    pub fn sample(&mut self, row: &[u64], triggers: bool, qualifies: bool) {
         if let Some(stored) = self.storing.sample(triggers, qualifies) {
-            self.payload.store(stored.slot, self.number, row);
+            let begin = stored.slot * self.stride;
+            match self.words.get_mut(begin..begin + self.stride) {
+                Some(words) => words.copy_from_slice(row),
+                None => self.words.extend_from_slice(row),
+            }
             if stored.triggered {
                 self.triggers.push(self.number);
             }
@@ -112,19 +85,11 @@ impl<P: Payload> Core<P> {
     pub fn taken(&self) -> u64 {
         self.number
     }
-}
-
-impl Core<Rows> {
-    /// An empty buffer for rows of `stride` words.
-    pub fn new(shape: Shape, stride: usize) -> Self {
-        let words = Vec::with_capacity(shape.depth * shape.windows * stride);
-        Core::with(shape, Rows { stride, words })
-    }
 
     /// What the buffer holds: the full windows and, stopped early, a last one that is not.
     pub fn finish(self, probes: Vec<Probe>) -> Capture {
-        let Rows { stride, mut words } = self.payload;
         let windows = self.storing.windows();
+        let Core { stride, mut words, .. } = self;
         let (mut begins, mut triggers, mut samples) = (Vec::new(), Vec::new(), 0);
         for window in &windows {
             let ring = window.begin * stride..(window.begin + window.before) * stride;
@@ -138,29 +103,21 @@ impl Core<Rows> {
         words.truncate(samples * stride);
         Capture { stride, words, windows: begins, triggers, ..Capture::new(probes) }
     }
-}
 
-impl Core<Numbers> {
-    /// A buffer that holds the numbers of samples only. Without qualification it keeps none but
-    /// those of the triggers.
-    pub fn numbers(shape: Shape, qualified: bool) -> Self {
-        Core::with(shape, Numbers { qualified, kept: Vec::new() })
-    }
-
-    /// Samples that each window holds, in order of time.
-    pub fn windows(&self) -> Vec<Kept> {
+    /// Samples that each window of a buffer of numbers holds, in order of time.
+    pub fn windows(&self) -> Vec<KeptSamples> {
         let windows = self.storing.windows();
         let numbered = windows.into_iter().enumerate();
         numbered
             .map(|(k, window)| match self.triggers.get(k) {
-                _ if self.payload.qualified => {
-                    Kept::List(window.slots().map(|slot| self.payload.kept[slot]).collect())
+                _ if self.stride > 0 => {
+                    KeptSamples::List(window.slots().map(|slot| self.words[slot]).collect())
                 }
                 Some(&trigger) => {
                     let begin = trigger - window.before as u64;
-                    Kept::Range(begin..trigger + window.after as u64)
+                    KeptSamples::Range(begin..trigger + window.after as u64)
                 }
-                None => Kept::Range(self.number - window.before as u64..self.number),
+                None => KeptSamples::Range(self.number - window.before as u64..self.number),
             })
             .collect()
     }
@@ -179,14 +136,14 @@ mod tests {
         for (number, sample) in samples.chars().enumerate() {
             let (triggers, qualifies) = ("tT".contains(sample), !"-T".contains(sample));
             core.sample(&[number as u64], triggers, qualifies);
-            numbers.sample(&(), triggers, qualifies);
+            numbers.sample_number(triggers, qualifies);
         }
         let triggers = numbers.triggers().to_vec();
         let capture = core.finish(Vec::new());
         let kept: Vec<u64> = (numbers.windows().into_iter())
             .flat_map(|kept| match kept {
-                Kept::Range(range) => range.collect(),
-                Kept::List(list) => list,
+                KeptSamples::Range(range) => range.collect(),
+                KeptSamples::List(list) => list,
             })
             .collect();
         assert_eq!(kept, capture.words, "both cores keep the same");

@@ -11,7 +11,7 @@ use super::write;
 
 /// One of the forms that Vivado's `write_hw_ila_data` has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum CaptureFormat {
     /// A row for each sample
     Csv,
     /// Value change dump, its time the number of the sample
@@ -20,16 +20,17 @@ pub enum Format {
     Ila,
 }
 
-impl Format {
+impl CaptureFormat {
     /// All of them.
-    pub const ALL: [Format; 3] = [Format::Csv, Format::Vcd, Format::Ila];
+    pub const ALL: [CaptureFormat; 3] =
+        [CaptureFormat::Csv, CaptureFormat::Vcd, CaptureFormat::Ila];
 
     /// Ending of a file's name.
     pub const fn ending(self) -> &'static str {
         match self {
-            Format::Csv => "csv",
-            Format::Vcd => "vcd",
-            Format::Ila => "ila",
+            CaptureFormat::Csv => "csv",
+            CaptureFormat::Vcd => "vcd",
+            CaptureFormat::Ila => "ila",
         }
     }
 }
@@ -43,18 +44,18 @@ pub fn export(
     capture: &Capture,
     folder: &Path,
     stem: &str,
-    formats: &[Format],
+    formats: &[CaptureFormat],
     radix_row: bool,
 ) -> Result<Vec<PathBuf>> {
     create_directory(folder)?;
     let mut paths = Vec::new();
-    for format in Format::ALL.into_iter().filter(|format| formats.contains(format)) {
+    for format in CaptureFormat::ALL.into_iter().filter(|format| formats.contains(format)) {
         let path = folder.join(format!("{stem}.{}", format.ending()));
         write_file(&path, |out| -> io::Result<()> {
             match format {
-                Format::Csv => write::csv(out, capture, radix_row),
-                Format::Vcd => write::vcd(out, capture),
-                Format::Ila => write::archive(out, capture),
+                CaptureFormat::Csv => write::csv(out, capture, radix_row),
+                CaptureFormat::Vcd => write::vcd(out, capture),
+                CaptureFormat::Ila => write::archive(out, capture),
             }
         })?;
         paths.push(path);

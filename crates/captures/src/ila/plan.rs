@@ -2,15 +2,16 @@
 
 use std::collections::HashMap;
 
-use crate::condition::{Bound, Condition, Place};
 use tofsim::error::{Input, Result};
 use tofsim::kernel::Time;
 use tofsim::sim::setup::Setup;
 
+use crate::condition::{Bound, Condition, Place};
+
 use super::capture::Probe;
-use super::clock::Sampling;
+use super::clock::AnalyserClock;
 use super::probes::{Bits, Design};
-use super::setup::SetUp;
+use super::setup::AnalyserSetup;
 use super::storing::Shape;
 
 /// Most bits of a sample.
@@ -21,7 +22,7 @@ const DEPTHS: std::ops::RangeInclusive<u64> = 1 << 10..=1 << 17;
 
 /// What a logic analyser is to do.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct AnalyserPlan {
     /// The probes.
     pub probes: Vec<Probe>,
     /// The signal's bits of each.
@@ -29,7 +30,7 @@ pub struct Plan {
     /// Windows and trigger position.
     pub shape: Shape,
     /// What it samples with.
-    pub sampling: Sampling,
+    pub sampling: AnalyserClock,
     /// The trigger, over `operands`; without one every sample triggers.
     pub trigger: Option<Bound>,
     /// Which samples may be stored, over `operands`; without one all.
@@ -46,13 +47,13 @@ pub struct Plan {
     pub stop_when_full: bool,
 }
 
-impl Plan {
+impl AnalyserPlan {
     /// Ties a set-up to the design of `setup`.
     ///
     /// # Errors
     /// When it names signals that the design does not have, or its numbers do not go together; the
     /// error has the place.
-    pub fn new(set_up: &SetUp, setup: &Setup) -> Result<Self> {
+    pub fn new(set_up: &AnalyserSetup, setup: &Setup) -> Result<Self> {
         let design = Design::new(&setup.params);
         let (probes, bits) = probes(set_up, &design)?;
         let file = &set_up.file;
@@ -76,9 +77,9 @@ impl Plan {
             return Err(fault("input_stages", value, "expected 0 to 6 [edges]"));
         }
         let oscillator = design.signal("clk_200").map(|bits| bits.id);
-        let at_edges = matches!(sampling, Sampling::Clk125 | Sampling::Clk250)
+        let at_edges = matches!(sampling, AnalyserClock::Clk125 | AnalyserClock::Clk250)
             && bits.iter().chain(&operands).all(|bits| Ok(bits.id) != oscillator);
-        Ok(Plan {
+        Ok(AnalyserPlan {
             every_change: !at_edges,
             shape: shape(set_up)?,
             probes,
@@ -94,7 +95,7 @@ impl Plan {
     }
 }
 
-fn probes(set_up: &SetUp, design: &Design) -> Result<(Vec<Probe>, Vec<Bits>)> {
+fn probes(set_up: &AnalyserSetup, design: &Design) -> Result<(Vec<Probe>, Vec<Bits>)> {
     let (mut probes, mut all_bits) = (Vec::<Probe>::new(), Vec::new());
     let (mut heads, mut width) = (HashMap::new(), 0);
     for (index, entry) in set_up.file.probe.iter().enumerate() {
@@ -124,7 +125,7 @@ fn probes(set_up: &SetUp, design: &Design) -> Result<(Vec<Probe>, Vec<Bits>)> {
     }
 }
 
-fn shape(set_up: &SetUp) -> Result<Shape> {
+fn shape(set_up: &AnalyserSetup) -> Result<Shape> {
     let file = &set_up.file;
     if !file.depth.is_power_of_two() || !DEPTHS.contains(&file.depth) {
         let expected = "expected a power of two from 1024 to 131072 [samples]";
@@ -146,7 +147,7 @@ fn shape(set_up: &SetUp) -> Result<Shape> {
 
 /// Binds a condition, probes by name before signals by path, and adds what it looks at.
 fn condition(
-    set_up: &SetUp,
+    set_up: &AnalyserSetup,
     key: &str,
     text: &str,
     design: &Design,

@@ -1,12 +1,13 @@
 //! Finds signals of the design by the names that set-ups and conditions have for them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use crate::condition::slice;
 use tofsim::error::nearest;
 use tofsim::firmware::tof_top::Params;
 use tofsim::hierarchy::{self, TOP};
 use tofsim::kernel::signals::{Signal, SignalFormat};
+
+use crate::condition::slice;
 
 use super::capture::{Probe, Radix};
 
@@ -28,7 +29,7 @@ pub struct Bits {
 pub struct Design {
     signals: BTreeMap<String, (usize, Signal)>,
     /// Signals that other settings of the scenario would have.
-    left_out: BTreeMap<String, ()>,
+    left_out: BTreeSet<String>,
 }
 
 impl Design {
@@ -41,8 +42,8 @@ impl Design {
         let signals: BTreeMap<_, _> =
             here.map(|entry| (below(&entry.path()), (entry.id, entry.signal))).collect();
         let every = hierarchy::every_entry().into_iter().chain(ram);
-        let mut left_out: BTreeMap<_, _> = every.map(|entry| (below(&entry.path()), ())).collect();
-        left_out.retain(|path, ()| !signals.contains_key(path));
+        let mut left_out: BTreeSet<_> = every.map(|entry| below(&entry.path())).collect();
+        left_out.retain(|path| !signals.contains_key(path));
         Design { signals, left_out }
     }
 
@@ -104,7 +105,7 @@ impl Design {
         if let Some((id, signal)) = self.signals.get(&path) {
             return Ok((*id, signal));
         }
-        if self.left_out.contains_key(&path) {
+        if self.left_out.contains(&path) {
             return Err("the scenario's design leaves this module out".to_owned());
         }
         let hint = nearest(&path, self.signals.keys().map(String::as_str));

@@ -5,7 +5,6 @@
 
 use std::sync::atomic::AtomicBool;
 
-use crate::condition::{Bound, Level};
 use tofsim::error::Result;
 use tofsim::firmware::tof_top::{Params, TofTop};
 use tofsim::kernel::Time;
@@ -15,11 +14,13 @@ use tofsim::sim::frames::Frames;
 use tofsim::sim::setup::{CYCLE, Setup};
 use tofsim::sim::{Device, Outcome, Run, WindowedProbe};
 
+use crate::condition::{Bound, Level};
+
 use super::capture::{Capture, Probe};
-use super::clock::{Sampling, first_edge};
-use super::core::{Core, Rows};
-use super::look::Look;
-use super::plan::Plan;
+use super::clock::{AnalyserClock, first_edge};
+use super::core::Core;
+use super::plan::AnalyserPlan;
+use super::probe_values::ProbeValues;
 
 /// A logic analyser in a run.
 ///
@@ -27,14 +28,14 @@ use super::plan::Plan;
 /// zero where there was no such edge.
 #[derive(Clone, Debug)]
 pub struct Analyser {
-    look: Look,
-    core: Core<Rows>,
+    look: ProbeValues,
+    core: Core,
     probes: Vec<Probe>,
-    trigger: Asked,
-    qualifier: Asked,
+    trigger: LiveCondition,
+    qualifier: LiveCondition,
     /// An operand changed at the sample before, so that an edge of it may end here.
     operands_changed: bool,
-    sampling: Sampling,
+    sampling: AnalyserClock,
     clock: Clock,
     every_change: bool,
     begun: bool,
@@ -49,17 +50,17 @@ pub struct Analyser {
 
 /// A condition, if there is one, and whether it holds at the present sample.
 #[derive(Clone, Debug)]
-struct Asked {
+struct LiveCondition {
     condition: Option<Bound>,
     holds: bool,
 }
 
-impl Asked {
+impl LiveCondition {
     fn new(condition: Option<Bound>) -> Self {
-        Asked { condition, holds: true }
+        LiveCondition { condition, holds: true }
     }
 
-    fn ask(&mut self, look: &Look) {
+    fn ask(&mut self, look: &ProbeValues) {
         if let Some(condition) = &mut self.condition {
             self.holds = condition.sample(|operand| Level::known(look.operand(operand)));
         }
@@ -68,18 +69,18 @@ impl Asked {
 
 impl Analyser {
     /// Set up as planned for runs of `setup`.
-    pub fn new(plan: &Plan, setup: &Setup) -> Self {
+    pub fn new(plan: &AnalyserPlan, setup: &Setup) -> Self {
         let capture = Capture::new(plan.probes.clone());
         let order = setup.params.tdc.delays.order();
         let clock = plan.sampling.clock(setup.pll());
         // At power-up itself there is nothing before the edge.
         let armed = first_edge(&clock, plan.arm_at.max(Time::from_fs(1)));
         let mut analyser = Analyser {
-            look: Look::new(&plan.bits, &plan.operands, capture.stride, order),
+            look: ProbeValues::new(&plan.bits, &plan.operands, capture.stride, order),
             core: Core::new(plan.shape, capture.stride),
             probes: capture.probes,
-            trigger: Asked::new(plan.trigger.clone()),
-            qualifier: Asked::new(plan.qualifier.clone()),
+            trigger: LiveCondition::new(plan.trigger.clone()),
+            qualifier: LiveCondition::new(plan.qualifier.clone()),
             operands_changed: false,
             every_change: plan.every_change,
             sampling: plan.sampling.clone(),
@@ -132,7 +133,7 @@ impl Analyser {
     /// Whether it samples at this edge of `clk_250`.
     #[inline]
     fn looks_before(&self, edge: Edge) -> bool {
-        edge == Edge::Both || self.sampling != Sampling::Clk125
+        edge == Edge::Both || self.sampling != AnalyserClock::Clk125
     }
 
     /// An edge of `clk_250`.
@@ -158,12 +159,12 @@ impl Analyser {
 
     /// Number of the sampling clock's first edge in a cycle of `clk_125`.
     fn first_of(&self, cycle: u64) -> u64 {
-        if self.sampling == Sampling::Clk125 { cycle } else { 2 * cycle }
+        if self.sampling == AnalyserClock::Clk125 { cycle } else { 2 * cycle }
     }
 
     /// Whether the clock is one whose edges the run shows.
     fn is_shown(&self) -> bool {
-        matches!(self.sampling, Sampling::Clk125 | Sampling::Clk250)
+        matches!(self.sampling, AnalyserClock::Clk125 | AnalyserClock::Clk250)
     }
 }
 
@@ -178,15 +179,15 @@ pub fn capture(
     stop: Option<&AtomicBool>,
 ) -> Result<Outcome> {
     match analyser.every_change {
-        true => run.traced(count, &mut Always(analyser), stop),
-        false => run.traced(count, &mut AtEdges(analyser), stop),
+        true => run.traced(count, &mut EveryChange(analyser), stop),
+        false => run.traced(count, &mut ClockEdges(analyser), stop),
     }
 }
 
 /// Looks at the edges of `clk_125` and `clk_250`.
-struct AtEdges<'a>(&'a mut Analyser);
+struct ClockEdges<'a>(&'a mut Analyser);
 
-impl SignalProbe for AtEdges<'_> {
+impl SignalProbe for ClockEdges<'_> {
     const ON: bool = false;
     const EDGES: bool = true;
 
@@ -203,7 +204,7 @@ impl SignalProbe for AtEdges<'_> {
     }
 }
 
-impl WindowedProbe for AtEdges<'_> {
+impl WindowedProbe for ClockEdges<'_> {
     #[inline(always)]
     fn is_wanted(&mut self, device: &mut Device, _: &Frames, _: &Params) -> Result<bool> {
         let analyser = &mut *self.0;
@@ -221,9 +222,9 @@ impl WindowedProbe for AtEdges<'_> {
 }
 
 /// Looks at every change.
-struct Always<'a>(&'a mut Analyser);
+struct EveryChange<'a>(&'a mut Analyser);
 
-impl Always<'_> {
+impl EveryChange<'_> {
     /// Whether the first sample comes within the next two cycles; by then all clocks have turned.
     fn is_due(&self, device: &mut Device) -> bool {
         self.0.clock.rise(self.0.first) <= device.coming_cycle().1 + CYCLE
@@ -241,7 +242,7 @@ impl Always<'_> {
     }
 }
 
-impl SignalProbe for Always<'_> {
+impl SignalProbe for EveryChange<'_> {
     const ON: bool = true;
     const EDGES: bool = true;
 
@@ -260,7 +261,7 @@ impl SignalProbe for Always<'_> {
     }
 }
 
-impl WindowedProbe for Always<'_> {
+impl WindowedProbe for EveryChange<'_> {
     fn begins_at_power_up(&mut self, device: &mut Device) -> bool {
         let due = self.is_due(device);
         if due {

@@ -15,7 +15,8 @@ use super::capture::Radix;
 /// A set-up file.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-pub struct File {
+#[schemars(rename = "File")]
+pub struct AnalyserSetupFile {
     /// Name of the capture and of its files [default: the file's own].
     pub name: Option<String>,
     /// What it shows.
@@ -54,9 +55,9 @@ pub struct File {
     pub probe: Vec<ProbeEntry>,
 }
 
-impl Default for File {
+impl Default for AnalyserSetupFile {
     fn default() -> Self {
-        File {
+        AnalyserSetupFile {
             name: None,
             description: String::new(),
             scenario: tofsim::scenario::DEFAULT.to_owned(),
@@ -144,16 +145,16 @@ pub struct Overrides {
 }
 
 /// A set-up, with the places of its keys for what may yet be found wrong.
-pub struct SetUp {
+pub struct AnalyserSetup {
     /// Name of the capture and of its files.
     pub name: String,
     /// The values.
-    pub file: File,
+    pub file: AnalyserSetupFile,
     checked: Checked,
     overridden: Vec<(&'static str, &'static str)>,
 }
 
-impl SetUp {
+impl AnalyserSetup {
     /// Loads a built-in set-up by name or a file by path, and lays `overrides` over it.
     ///
     /// # Errors
@@ -179,13 +180,13 @@ impl SetUp {
     /// Reads a set-up from text; `source` is its file and `stem` its name, if it gives none.
     ///
     /// # Errors
-    /// As [`SetUp::load`].
+    /// As [`AnalyserSetup::load`].
     pub fn parse(stem: &str, source: &str, text: &str, overrides: Overrides) -> Result<Self> {
-        let checked = Checked::parse::<File>(source, text)?;
-        let mut file: File = checked.read()?;
+        let checked = Checked::parse::<AnalyserSetupFile>(source, text)?;
+        let mut file: AnalyserSetupFile = checked.read()?;
         let overridden = lay_over(&mut file, overrides);
         let name = file.name.clone().unwrap_or_else(|| stem.to_owned());
-        let set_up = SetUp { name, file, checked, overridden };
+        let set_up = AnalyserSetup { name, file, checked, overridden };
         let known = |c: char| c.is_alphanumeric() || "_-.".contains(c);
         if set_up.name.is_empty() || set_up.name.starts_with('.') || !set_up.name.chars().all(known)
         {
@@ -235,28 +236,21 @@ impl SetUp {
 }
 
 /// Takes the overrides that are there; returns their keys and options.
-fn lay_over(file: &mut File, overrides: Overrides) -> Vec<(&'static str, &'static str)> {
+fn lay_over(
+    file: &mut AnalyserSetupFile,
+    overrides: Overrides,
+) -> Vec<(&'static str, &'static str)> {
     let mut taken = Vec::new();
-    let mut lay = |key, option, is_there: bool| {
-        if is_there {
-            taken.push((key, option));
-        }
-    };
-    lay("clock", "--clock", overrides.clock.is_some());
-    lay("depth", "--depth", overrides.depth.is_some());
-    lay("windows", "--windows", overrides.windows.is_some());
-    lay("position", "--position", overrides.position.is_some());
-    lay("trigger", "--trigger", overrides.trigger.is_some());
-    lay("capture", "--capture", overrides.capture.is_some());
-    lay("arm_at_us", "--arm-at-us", overrides.arm_at_us.is_some());
-    lay("input_stages", "--stages", overrides.input_stages.is_some());
-    file.clock = overrides.clock.unwrap_or(std::mem::take(&mut file.clock));
-    file.depth = overrides.depth.unwrap_or(file.depth);
-    file.windows = overrides.windows.unwrap_or(file.windows);
-    file.position = overrides.position.or(file.position);
-    file.trigger = overrides.trigger.or(file.trigger.take());
-    file.capture = overrides.capture.or(file.capture.take());
-    file.arm_at_us = overrides.arm_at_us.unwrap_or(file.arm_at_us);
-    file.input_stages = overrides.input_stages.unwrap_or(file.input_stages);
+    macro_rules! lay {
+        ($($key:ident by $option:literal),*) => {
+            $(if let Some(value) = overrides.$key {
+                file.$key = value.into();
+                taken.push((stringify!($key), $option));
+            })*
+        };
+    }
+    lay!(clock by "--clock", depth by "--depth", windows by "--windows");
+    lay!(position by "--position", trigger by "--trigger", capture by "--capture");
+    lay!(arm_at_us by "--arm-at-us", input_stages by "--stages");
     taken
 }

@@ -1,18 +1,20 @@
 //! A logic analyser's CSV files and archives.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use crate::ila::Radix;
-use crate::ila::read::{Column, Form, Row, open};
 use tofsim::error::Result;
 
+use crate::ila::Radix;
+use crate::ila::read::{CaptureForm, CaptureRow, Column, open};
+
 use super::names::Name;
+use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat};
 use super::stream::Cursor;
-use super::{Axis, Format, Kind, Signal, Source};
 
 /// Where a capture is.
 #[derive(Clone, Debug)]
-pub(super) struct Origin {
+struct Origin {
     path: PathBuf,
     radix: Option<Radix>,
 }
@@ -21,9 +23,9 @@ pub(super) struct Origin {
 pub(super) fn source(path: &Path, radix: Option<Radix>) -> Result<Source> {
     let opened = open(path, radix)?;
     let format = match opened.form {
-        Form::Csv => Format::IlaCsv,
-        Form::LegacyCsv => Format::LegacyIlaCsv,
-        Form::Archive => Format::Ila,
+        CaptureForm::Csv => SourceFormat::IlaCsv,
+        CaptureForm::LegacyCsv => SourceFormat::LegacyIlaCsv,
+        CaptureForm::Archive => SourceFormat::Ila,
     };
     let columns = opened.columns.iter().enumerate();
     Ok(Source {
@@ -31,52 +33,52 @@ pub(super) fn source(path: &Path, radix: Option<Radix>) -> Result<Source> {
         format,
         axis: Axis::Samples,
         signals: columns.map(|(id, column)| signal(column, id)).collect(),
-        samples: opened.samples,
         end: None,
         radix_told: opened.radix_told,
-        origin: super::Origin::Capture(Origin { path: path.to_owned(), radix }),
+        origin: Arc::new(Origin { path: path.to_owned(), radix }),
     })
 }
 
 fn signal(column: &Column, id: usize) -> Signal {
-    let kind = if column.text { Kind::Other } else { Kind::Bits };
+    let kind = if column.text { SignalKind::Other } else { SignalKind::Bits };
     let (width, radix) = (column.width, column.radix);
     let lsb = column.lsb.into();
     Signal { name: Name::new(&column.name), width, lsb, kind, radix, shape: None, id }
 }
 
-/// Begins to read.
-pub(super) fn read(origin: &Origin, ids: &[usize], widths: &[u32]) -> Result<Cursor> {
-    let mut opened = open(&origin.path, origin.radix)?;
-    let mut places = Vec::new();
-    for &id in ids {
-        let column = &opened.columns[id];
-        places.push(column.word..column.word + column.words());
-    }
-    Ok(Cursor::spawn(widths, move |feed| {
-        let (mut row, mut before) = (Row::default(), Row::default());
-        let mut first = true;
-        while opened.rows.next(&mut row)? {
-            if feed.at(row.sample).is_err() {
-                return Ok(());
-            }
-            feed.mark(|marks| {
-                marks.window = row.window_start;
-                marks.trigger = row.trigger;
-                marks.gap = row.gap;
-            });
-            for (signal, place) in places.iter().enumerate() {
-                let (value, unknown) = (&row.value[place.clone()], &row.unknown[place.clone()]);
-                if first
-                    || value != &before.value[place.clone()]
-                    || unknown != &before.unknown[place.clone()]
-                {
-                    feed.change(signal, value, unknown);
-                }
-            }
-            std::mem::swap(&mut row, &mut before);
-            first = false;
+impl signals::Origin for Origin {
+    fn read(&self, ids: &[usize], widths: &[u32]) -> Result<Cursor> {
+        let mut opened = open(&self.path, self.radix)?;
+        let mut places = Vec::new();
+        for &id in ids {
+            let column = &opened.columns[id];
+            places.push(column.word..column.word + column.words());
         }
-        Ok(())
-    }))
+        Ok(Cursor::spawn(widths, move |feed| {
+            let (mut row, mut before) = (CaptureRow::default(), CaptureRow::default());
+            let mut first = true;
+            while opened.rows.next(&mut row)? {
+                if feed.at(row.sample).is_err() {
+                    return Ok(());
+                }
+                feed.mark(|marks| {
+                    marks.window = row.window_start;
+                    marks.trigger = row.trigger;
+                    marks.gap = row.gap;
+                });
+                for (signal, place) in places.iter().enumerate() {
+                    let (value, unknown) = (&row.value[place.clone()], &row.unknown[place.clone()]);
+                    if first
+                        || value != &before.value[place.clone()]
+                        || unknown != &before.unknown[place.clone()]
+                    {
+                        feed.change(signal, value, unknown);
+                    }
+                }
+                std::mem::swap(&mut row, &mut before);
+                first = false;
+            }
+            Ok(())
+        }))
+    }
 }

@@ -4,10 +4,12 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use crate::ila::Radix;
 use tofsim::error::{Error, Input, Result};
 
-use super::{Source, capture, wave};
+use crate::ila::Radix;
+
+use super::signals::Source;
+use super::{capture, wave};
 
 /// First bytes of a zip archive, which an ILA's is.
 const ARCHIVE: &[u8] = b"PK";

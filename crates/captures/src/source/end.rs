@@ -6,7 +6,7 @@ use std::path::Path;
 
 use tofsim::error::{Error, Result};
 
-use super::Format;
+use super::signals::SourceFormat;
 
 /// Bytes at the end of a VCD in which its last time stamp is looked for.
 const TAIL: u64 = 1 << 16;
@@ -17,11 +17,11 @@ const FST_END: u64 = 1 + 8 + 8;
 ///
 /// # Errors
 /// When the file cannot be read.
-pub(super) fn end(path: &Path, format: Format) -> Result<Option<u64>> {
+pub(super) fn end(path: &Path, format: SourceFormat) -> Result<Option<u64>> {
     let mut file = File::open(path).map_err(Error::io(path, "read"))?;
     let found = match format {
-        Format::Fst => fst(&mut file),
-        Format::Vcd => vcd(&mut file),
+        SourceFormat::Fst => fst(&mut file),
+        SourceFormat::Vcd => vcd(&mut file),
         _ => Ok(None),
     };
     found.map_err(Error::io(path, "read"))
@@ -73,10 +73,10 @@ mod tests {
     fn the_last_time_stamp_of_a_vcd_is_its_end() {
         let mut file = tempfile::NamedTempFile::new().unwrap();
         write!(file, "$end\n#0\n1!\n#700\n0!\nb01 #\n#720\n").unwrap();
-        assert_eq!(end(file.path(), Format::Vcd).unwrap(), Some(720));
+        assert_eq!(end(file.path(), SourceFormat::Vcd).unwrap(), Some(720));
         write!(file, "#730 1! #740 0!\nb0 #9\n$comment\n#5\n$end\n").unwrap();
-        assert_eq!(end(file.path(), Format::Vcd).unwrap(), Some(740));
+        assert_eq!(end(file.path(), SourceFormat::Vcd).unwrap(), Some(740));
         write!(file, "{}", "1!\n".repeat(40_000)).unwrap();
-        assert_eq!(end(file.path(), Format::Vcd).unwrap(), None);
+        assert_eq!(end(file.path(), SourceFormat::Vcd).unwrap(), None);
     }
 }

@@ -11,7 +11,9 @@ use std::thread;
 use tofsim::error::{self, Input};
 
 use super::remark::Remark;
-use super::stream::READER;
+
+/// Name of the threads that read, by which a panic of theirs is known.
+pub(super) const READER: &str = "tofsim reader";
 
 /// Passes a VCD on, and fails where a time stamp goes back.
 pub(super) struct InOrder<R> {

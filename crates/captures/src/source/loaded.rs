@@ -8,10 +8,10 @@ use wellen::{Hierarchy, LoadOptions, SignalRef};
 
 use tofsim::error::{Error, Result};
 
-use super::Source;
 use super::counts::check;
+use super::library::{Words, fault};
+use super::signals::Source;
 use super::stream::Feed;
-use super::wave::{Words, fault};
 
 fn open(path: &Path) -> Result<wellen::viewers::HeaderResult<BufReader<File>>> {
     let mut file = File::open(path).map_err(Error::io(path, "read"))?;

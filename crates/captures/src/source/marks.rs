@@ -5,7 +5,8 @@
 
 use wellen::SignalRef;
 
-use super::Signal;
+use super::names::Name;
+use super::signals::Signal;
 use super::stream::Feed;
 
 /// Names of the marks.
@@ -38,7 +39,7 @@ impl Style {
         for signal in signals {
             let probe = signal.name.text.strip_prefix("dut.").unwrap_or(&signal.name.text);
             let Some(escaped) = probe.strip_prefix('\\') else {
-                signal.name = super::Name::new(probe);
+                signal.name = Name::new(probe);
                 continue;
             };
             // A name is escaped for its brackets; the library takes those of `P[1]` for a range.
@@ -46,7 +47,7 @@ impl Style {
                 true => format!("{escaped}[{}]", std::mem::take(&mut signal.lsb)),
                 false => escaped.to_owned(),
             };
-            signal.name = super::Name::new(whole);
+            signal.name = Name::new(whole);
         }
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use tofsim::error::Result;
 use tofsim::firmware::tof_top::{Params, TofTop};
 use tofsim::hierarchy::{self, IDS, Part};
-use tofsim::kernel::signals::{SignalFormat as Shape, Sink};
+use tofsim::kernel::signals::Sink;
 use tofsim::kernel::{Thermometer, Time};
 use tofsim::sim::device::SignalProbe;
 use tofsim::sim::frames::Frames;
@@ -14,13 +14,14 @@ use tofsim::sim::{Device, Run, WindowedProbe};
 use tofsim::waves::TapDigits;
 
 use super::names::Name;
+use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat};
 use super::stream::{Cursor, Feed};
-use super::{Axis, Format, Kind, Signal, Source, Tick};
+use super::tick::Tick;
 
 /// What is simulated.
-#[derive(Debug)]
-pub(super) struct Origin {
-    setup: Setup,
+#[derive(Clone, Debug)]
+struct Origin {
+    setup: Arc<Setup>,
     frames: u64,
 }
 
@@ -34,43 +35,43 @@ pub(super) fn source(setup: Setup, frames: u64) -> Source {
         name: Name::new(entry.path()),
         width: entry.signal.width,
         lsb: 0,
-        kind: Kind::Bits,
+        kind: SignalKind::Bits,
         radix: None,
         shape: Some(entry.signal.format),
         id: entry.id,
     });
     Source {
         name: format!("scenario {}", setup.name),
-        format: Format::Simulation,
+        format: SourceFormat::Simulation,
         axis: Axis::Time(Tick::FEMTOSECOND),
         signals: signals.collect(),
-        samples: None,
         end: None,
         radix_told: true,
-        origin: super::Origin::Simulation(Arc::new(Origin { setup, frames })),
+        origin: Arc::new(Origin { setup: Arc::new(setup), frames }),
     }
 }
 
-/// Begins to simulate.
-pub(super) fn read(origin: &Arc<Origin>, ids: &[usize], widths: &[u32]) -> Result<Cursor> {
-    let origin = Arc::clone(origin);
-    let mut places = vec![Vec::new(); IDS];
-    for (signal, &id) in ids.iter().enumerate() {
-        places[id].push(signal);
+impl signals::Origin for Origin {
+    fn read(&self, ids: &[usize], widths: &[u32]) -> Result<Cursor> {
+        let Origin { setup, frames } = self.clone();
+        let mut places = vec![Vec::new(); IDS];
+        for (signal, &id) in ids.iter().enumerate() {
+            places[id].push(signal);
+        }
+        Ok(Cursor::spawn(widths, move |feed| {
+            let taps = TapDigits::new(setup.params.tdc.delays.order());
+            let values = Values { feed: &mut *feed, places, taps };
+            let mut probe = ChangeFeed { values, part: Part::of(0..IDS), gone: false };
+            let end = Run::new(&setup).traced(frames, &mut probe, None)?.end;
+            // That nobody listens any more is no fault.
+            let _ = feed.at(end.fs());
+            Ok(())
+        }))
     }
-    Ok(Cursor::spawn(widths, move |feed| {
-        let taps = TapDigits::new(origin.setup.params.tdc.delays.order());
-        let values = Values { feed: &mut *feed, places, taps };
-        let mut probe = Probe { values, part: Part::of(0..IDS), gone: false };
-        let end = Run::new(&origin.setup).traced(origin.frames, &mut probe, None)?.end;
-        // That nobody listens any more is no fault.
-        let _ = feed.at(end.fs());
-        Ok(())
-    }))
 }
 
 /// Feeds what changes.
-struct Probe<'a> {
+struct ChangeFeed<'a> {
     values: Values<'a>,
     part: Part,
     gone: bool,
@@ -103,7 +104,7 @@ impl Sink for Values<'_> {
     }
 }
 
-impl SignalProbe for Probe<'_> {
+impl SignalProbe for ChangeFeed<'_> {
     const ON: bool = true;
 
     fn sample(&mut self, now: Time, top: &TofTop) {
@@ -115,7 +116,7 @@ impl SignalProbe for Probe<'_> {
     }
 }
 
-impl WindowedProbe for Probe<'_> {
+impl WindowedProbe for ChangeFeed<'_> {
     fn begins_at_power_up(&mut self, device: &mut Device) -> bool {
         device.resume_clocks(Time::ZERO);
         self.sample(Time::ZERO, &device.top);
@@ -129,10 +130,4 @@ impl WindowedProbe for Probe<'_> {
     fn is_done(&self) -> bool {
         self.gone
     }
-}
-
-/// The shapes of the firmware's signals, for other sources of the same names.
-pub(crate) fn shapes() -> Vec<(Name, Shape)> {
-    let entries = hierarchy::every_entry().into_iter().chain(hierarchy::ram_entries());
-    entries.map(|entry| (Name::new(entry.path()), entry.signal.format)).collect()
 }

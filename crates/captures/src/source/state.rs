@@ -1,14 +1,16 @@
 //! The values of signals at one place.
 
+use crate::words::trim;
+
 /// The values of all signals of a stream at one place; each begins at a word of its own.
 #[derive(Clone, Debug, PartialEq)]
-pub struct State {
+pub struct SourceState {
     first: Vec<u32>,
     value: Vec<u64>,
     unknown: Vec<u64>,
 }
 
-impl State {
+impl SourceState {
     /// All unknown.
     pub fn new(widths: &[u32]) -> Self {
         let mut first = vec![0];
@@ -16,14 +18,10 @@ impl State {
         for &width in widths {
             let words = (width as usize).div_ceil(64);
             unknown.resize(unknown.len() + words, u64::MAX);
-            if !width.is_multiple_of(64)
-                && let Some(last) = unknown.last_mut()
-            {
-                *last >>= 64 - width % 64;
-            }
+            trim(&mut unknown, width);
             first.push(unknown.len() as u32);
         }
-        State { first, value: vec![0; unknown.len()], unknown }
+        SourceState { first, value: vec![0; unknown.len()], unknown }
     }
 
     /// Its words.
@@ -53,7 +51,7 @@ impl State {
 
     /// Takes the values of `signal` from another state of the same signals.
     #[inline]
-    pub fn take(&mut self, from: &State, signal: usize) {
+    pub fn take(&mut self, from: &SourceState, signal: usize) {
         let range = self.range(signal);
         self.value[range.clone()].copy_from_slice(&from.value[range.clone()]);
         self.unknown[range.clone()].copy_from_slice(&from.unknown[range]);

@@ -5,8 +5,8 @@ use std::thread;
 
 use tofsim::error::Result;
 
-use super::guard::guarded;
-use super::state::State;
+use super::guard::{READER, guarded};
+use super::state::SourceState;
 
 /// Words of a block beyond which it is sent.
 const BLOCK: usize = 1 << 15;
@@ -130,7 +130,7 @@ pub struct Cursor {
     change: usize,
     word: usize,
     /// Values after the last instant taken.
-    pub state: State,
+    pub state: SourceState,
 }
 
 impl Cursor {
@@ -161,7 +161,7 @@ impl Cursor {
             instant: 0,
             change: 0,
             word: 0,
-            state: State::new(widths),
+            state: SourceState::new(widths),
         }
     }
 
@@ -205,9 +205,6 @@ impl Cursor {
         marks
     }
 }
-
-/// Name of the threads that read, by which a panic of theirs is known.
-pub(super) const READER: &str = "tofsim reader";
 
 #[cfg(test)]
 mod tests {

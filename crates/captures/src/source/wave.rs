@@ -7,20 +7,20 @@ use std::sync::{Arc, OnceLock};
 use std::thread;
 
 use wellen::stream::{Filter, StreamError, StreamingWaveform};
-use wellen::{
-    BitVecRef, FileFormat, Hierarchy, LoadOptions, SignalEncoding, SignalRef, SignalValueRef,
-    States, Var, WellenError,
-};
+use wellen::{FileFormat, Hierarchy, LoadOptions, SignalEncoding, SignalRef, SignalValueRef, Var};
 
 use tofsim::error::{Error, Input, Result};
 
 use super::end::end;
-use super::guard::{Fault, InOrder, guarded};
+use super::guard::{Fault, InOrder, READER, guarded};
+use super::library::{Words, fault};
+use super::loaded;
 use super::locate::located;
 use super::marks::{Marking, Style};
 use super::names::Name;
-use super::stream::{Cursor, Feed, Gone, READER};
-use super::{Axis, Format, Kind, Signal, Source, Tick, loaded};
+use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat};
+use super::stream::{Cursor, Feed, Gone};
+use super::tick::Tick;
 
 /// Widest signal that is read [bits].
 const WIDEST: u32 = 1 << 20;
@@ -29,9 +29,9 @@ const CHUNK: usize = 1 << 17;
 
 /// Where a waveform is.
 #[derive(Clone, Debug)]
-pub(super) struct Origin {
+struct Origin {
     path: PathBuf,
-    format: Format,
+    format: SourceFormat,
     /// Signal of the library for each id.
     references: Vec<SignalRef>,
     /// The marks of a logic analyser.
@@ -106,11 +106,12 @@ fn described(path: &Path, hierarchy: &Hierarchy) -> Result<Source> {
         return Err(Input::new(source, expected).field(&wide.name.text).value(wide.width).into());
     }
     let format = match hierarchy.file_format() {
-        FileFormat::Fst => Format::Fst,
-        FileFormat::Ghw => Format::Ghw,
-        FileFormat::Vcd | FileFormat::Unknown => Format::Vcd,
+        FileFormat::Fst => SourceFormat::Fst,
+        FileFormat::Ghw => SourceFormat::Ghw,
+        FileFormat::Vcd | FileFormat::Unknown => SourceFormat::Vcd,
     };
-    let marks = (format == Format::Vcd).then(|| Style::of(&signals, hierarchy.version())).flatten();
+    let marks =
+        (format == SourceFormat::Vcd).then(|| Style::of(&signals, hierarchy.version())).flatten();
     let axis = match &marks {
         Some(_) => Axis::Samples,
         None => Axis::Time(tick(&source, hierarchy)?),
@@ -120,21 +121,20 @@ fn described(path: &Path, hierarchy: &Hierarchy) -> Result<Source> {
     }
     Ok(Source {
         name: source,
-        format: if marks.is_some() { Format::IlaVcd } else { format },
+        format: if marks.is_some() { SourceFormat::IlaVcd } else { format },
         axis,
         signals,
-        samples: None,
         end: if marks.is_some() { None } else { end(path, format)? },
         radix_told: marks.is_none(),
-        origin: super::Origin::Wave(Origin { path: path.to_owned(), format, references, marks }),
+        origin: Arc::new(Origin { path: path.to_owned(), format, references, marks }),
     })
 }
 
 fn signal(var: &Var, hierarchy: &Hierarchy, id: usize) -> Signal {
     let (kind, width) = match var.signal_encoding(hierarchy) {
-        SignalEncoding::BitVector(0) | SignalEncoding::String => (Kind::Other, 0),
-        SignalEncoding::BitVector(width) => (Kind::Bits, width),
-        SignalEncoding::Real => (Kind::Real, 64),
+        SignalEncoding::BitVector(0) | SignalEncoding::String => (SignalKind::Other, 0),
+        SignalEncoding::BitVector(width) => (SignalKind::Bits, width),
+        SignalEncoding::Real => (SignalKind::Real, 64),
     };
     // The library makes scopes of the indices of arrays.
     let name = Name::new(var.full_name(hierarchy).replace(".[", "["));
@@ -155,21 +155,22 @@ fn tick(source: &str, hierarchy: &Hierarchy) -> Result<Tick> {
     tick.ok_or_else(fault)
 }
 
-/// Begins to read.
-pub(super) fn read(origin: &Origin, ids: &[usize], widths: &[u32]) -> Result<Cursor> {
-    let references: Vec<SignalRef> = ids.iter().map(|&id| origin.references[id]).collect();
-    let origin = origin.clone();
-    Ok(Cursor::spawn(widths, move |feed| {
-        let source = origin.path.display().to_string();
-        let result = guarded(&source, || match origin.format {
-            Format::Ghw => loaded::feed(&origin.path, &references, feed),
-            _ => stream(&origin, &references, feed),
-        });
-        match origin.format {
-            Format::Vcd => result.map_err(|error| located(&origin.path, error)),
-            _ => result,
-        }
-    }))
+impl signals::Origin for Origin {
+    fn read(&self, ids: &[usize], widths: &[u32]) -> Result<Cursor> {
+        let references: Vec<SignalRef> = ids.iter().map(|&id| self.references[id]).collect();
+        let origin = self.clone();
+        Ok(Cursor::spawn(widths, move |feed| {
+            let source = origin.path.display().to_string();
+            let result = guarded(&source, || match origin.format {
+                SourceFormat::Ghw => loaded::feed(&origin.path, &references, feed),
+                _ => stream(&origin, &references, feed),
+            });
+            match origin.format {
+                SourceFormat::Vcd => result.map_err(|error| located(&origin.path, error)),
+                _ => result,
+            }
+        }))
+    }
 }
 
 fn stream(origin: &Origin, references: &[SignalRef], feed: &mut Feed) -> Result<()> {
@@ -229,72 +230,6 @@ impl Places {
         match self.first.get(index..index + 2) {
             Some(bounds) => &self.signals[bounds[0] as usize..bounds[1] as usize],
             None => &[],
-        }
-    }
-}
-
-/// A value in words.
-#[derive(Default)]
-pub(super) struct Words {
-    /// Lowest word first.
-    pub(super) value: Vec<u64>,
-    /// Unknown bits.
-    pub(super) unknown: Vec<u64>,
-}
-
-impl Words {
-    /// Takes a value, in as many words as its signal has.
-    #[inline]
-    pub(super) fn set(&mut self, value: SignalValueRef<'_>, words: usize) {
-        self.value.clear();
-        self.unknown.clear();
-        self.value.resize(words, 0);
-        self.unknown.resize(words, 0);
-        match value {
-            SignalValueRef::BitVec(bits) => self.bits(bits),
-            SignalValueRef::Real(real) => self.value[0] = real.to_bits(),
-            SignalValueRef::Event | SignalValueRef::String(_) => {}
-        }
-    }
-
-    #[inline]
-    fn bits(&mut self, bits: BitVecRef<'_>) {
-        if bits.states() == States::Two
-            && let Some(bytes) = bits.be_bytes()
-        {
-            for (place, &byte) in bytes.iter().rev().enumerate() {
-                self.value[place / 8] |= u64::from(byte) << (8 * (place % 8));
-            }
-            return;
-        }
-        for bit in 0..bits.width() {
-            let (word, place) = (bit as usize / 64, bit % 64);
-            let (value, unknown) = match u8::from(bits.get_bit(bit)) {
-                0 | 7 => (0, 0),
-                1 | 4 => (1, 0),
-                3 => (1, 1),
-                _ => (0, 1),
-            };
-            self.value[word] |= value << place;
-            self.unknown[word] |= unknown << place;
-        }
-    }
-}
-
-/// An error of the library, with the line where that is known.
-pub(super) fn fault(path: &Path, error: WellenError) -> Error {
-    let source = path.display();
-    match error {
-        WellenError::Io(error) => Error::io(path, "read")(error),
-        WellenError::UnknownFileFormat => {
-            Input::new(source, "expected a VCD, FST or GHW waveform, or an ILA capture").into()
-        }
-        WellenError::FailedToLoad(FileFormat::Vcd, text) => {
-            let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-            Input::new(source, format!("cannot be read: {text}")).into()
-        }
-        WellenError::FailedToLoad(..) => {
-            Input::new(source, "is damaged, or not as its format asks").into()
         }
     }
 }

@@ -1,15 +1,17 @@
 //! Captures of logic analysers.
 
-use crate::ila;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
 use proptest::test_runner::TestCaseError;
+
 use tofsim_captures::ila::read::WIDEST_SAMPLE;
+
+use crate::ila;
+use crate::ila::fixtures;
 
 use super::edit::{edited, edits};
 use super::fuzz;
-use crate::ila::fixtures;
 
 /// Text that means something in one of the formats.
 const PIECES: [&str; 34] = [

@@ -2,9 +2,10 @@
 
 use proptest::prelude::*;
 use proptest::sample::select;
-use tofsim_captures::compare::Map;
+
+use tofsim_captures::compare::SignalMap;
 use tofsim_captures::condition::{Condition, Level, Place};
-use tofsim_captures::ila::{Overrides, SetUp};
+use tofsim_captures::ila::{AnalyserSetup, Overrides};
 
 use super::edit::{edited, edits};
 use super::fuzz;
@@ -66,7 +67,7 @@ const WORDS: [&str; 24] = [
 fn maps_that_are_nearly_right() {
     fuzz(edits(&TOML), |edits| {
         let text = String::from_utf8_lossy(&edited(MAP.into(), &edits)).into_owned();
-        if let Err(error) = Map::parse("map.toml", &text) {
+        if let Err(error) = SignalMap::parse("map.toml", &text) {
             let error = error.to_string();
             prop_assert!(error.starts_with("map.toml"), "{}", error);
         }
@@ -78,7 +79,7 @@ fn maps_that_are_nearly_right() {
 fn set_ups_that_are_nearly_right() {
     fuzz(edits(&TOML), |edits| {
         let text = String::from_utf8_lossy(&edited(SET_UP.into(), &edits)).into_owned();
-        if let Err(error) = SetUp::parse("t", "t.toml", &text, Overrides::default()) {
+        if let Err(error) = AnalyserSetup::parse("t", "t.toml", &text, Overrides::default()) {
             let error = error.to_string();
             prop_assert!(error.starts_with("t.toml"), "{}", error);
         }

@@ -7,6 +7,7 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
 use proptest::test_runner::TestCaseError;
+
 use tofsim::hierarchy;
 use tofsim::sim::Run;
 use tofsim::sim::run::Observers;
@@ -15,9 +16,10 @@ use tofsim_captures::compare::{Options, compare};
 use tofsim_captures::ila::{Capture, Probe, Radix, write};
 use tofsim_captures::source::Source;
 
+use crate::common;
+
 use super::edit::{edited, edits};
 use super::fuzz;
-use crate::common;
 
 /// Text that means something in a VCD.
 const PIECES: [&str; 28] = [

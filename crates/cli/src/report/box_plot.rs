@@ -4,7 +4,7 @@ use plotters::prelude::*;
 
 use tofsim_learn::evaluation::Group;
 
-use crate::text::svg::{Canvas, Fault, picture};
+use crate::text::svg::{Canvas, DrawingFault, chart, picture};
 
 /// Whiskers reach so many heights of the box at most, and not past the last error.
 const WHISKER: f64 = 1.5;
@@ -41,7 +41,7 @@ impl BoxPlot<'_> {
         picture(|canvas| self.draw(canvas))
     }
 
-    fn draw<'a>(&self, canvas: &Canvas<'a>) -> Result<(), Fault<'a>> {
+    fn draw<'a>(&self, canvas: &Canvas<'a>) -> Result<(), DrawingFault<'a>> {
         let boxes: Vec<_> = self.groups.iter().filter_map(Box5::of).collect();
         let values: Vec<_> = self.groups.iter().map(|group| group.value).collect();
         let (first, last) = (values.first().copied(), values.last().copied());
@@ -51,11 +51,7 @@ impl BoxPlot<'_> {
         let beside = |&value: &f64| self.beside_mm.map(|beside| beside(value));
         let beside = values.iter().filter_map(beside);
         let highest = 1.1 * whiskers.chain(beside).fold(0.1, f64::max);
-        let mut chart = ChartBuilder::on(canvas)
-            .margin(12)
-            .caption(&self.title, ("sans-serif", 18))
-            .x_label_area_size(42)
-            .y_label_area_size(64)
+        let mut chart = chart(canvas, &self.title)
             .build_cartesian_2d(first - apart..last + apart, -highest..highest)?;
         chart
             .configure_mesh()

@@ -2,13 +2,14 @@
 
 use std::fmt::Write;
 
-use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
+use quick_junit::SerializeError;
 use serde_json::{Value, json};
 
-use crate::text::table::{counted, grouped, plain};
-
-use tofsim_captures::compare::{Compared, Comparison, Described, How, Reason};
+use tofsim_captures::compare::{Compared, Comparison, Described, MatchedBy, UnmatchedReason};
 use tofsim_captures::source::Axis;
+
+use crate::text::junit::{self, JunitCase};
+use crate::text::table::{counted, grouped, plain};
 
 /// Signals that are listed one by one.
 const LISTED: usize = 24;
@@ -75,7 +76,7 @@ fn differing(result: &Comparison, text: &mut String) -> std::fmt::Result {
             result.sides[0].place(first.at[0]),
             first.expected.clone(),
             first.got.clone(),
-            pair.strip.clone(),
+            pair.overview.clone(),
         ]);
     }
     writeln!(text, "\n{}", table.trim_fmt())?;
@@ -88,12 +89,14 @@ fn differing(result: &Comparison, text: &mut String) -> std::fmt::Result {
 
 /// What came together and what did not.
 fn matched(result: &Comparison, verbose: bool, text: &mut String) -> std::fmt::Result {
-    let count = |how: How| result.pairs.iter().filter(|pair| pair.how == how).count();
+    let count = |how: MatchedBy| result.pairs.iter().filter(|pair| pair.how == how).count();
     let aliases: usize = result.pairs.iter().map(|pair| pair.aliases).sum();
     let mut parts = Vec::new();
-    for (how, words) in
-        [(How::Name, "by name"), (How::Suffix, "by the end of the name"), (How::Map, "by the map")]
-    {
+    for (how, words) in [
+        (MatchedBy::Name, "by name"),
+        (MatchedBy::Suffix, "by the end of the name"),
+        (MatchedBy::Map, "by the map"),
+    ] {
         if count(how) > 0 {
             parts.push(format!("{} {words}", count(how)));
         }
@@ -111,7 +114,7 @@ fn matched(result: &Comparison, verbose: bool, text: &mut String) -> std::fmt::R
     for (side, which) in ["first", "second"].iter().enumerate() {
         let own = |reason: bool| {
             let unmatched = result.unmatched.iter().filter(move |u| u.side == side);
-            unmatched.filter(move |u| (u.reason == Reason::Ignored) == reason)
+            unmatched.filter(move |u| (u.reason == UnmatchedReason::Ignored) == reason)
         };
         let (alone, ignored) = (own(false).count(), own(true).count());
         if alone > 0 {
@@ -158,7 +161,7 @@ pub fn json(result: &Comparison) -> Value {
             "compared": pair.compared,
             "differing": pair.differing,
             "first": first,
-            "where": pair.strip,
+            "where": pair.overview,
         })
     };
     let unit = |side: &Described| match side.axis {
@@ -198,32 +201,20 @@ pub fn json(result: &Comparison) -> Value {
 ///
 /// # Errors
 /// When it cannot be put into XML.
-pub fn junit(result: &Comparison) -> Result<String, quick_junit::SerializeError> {
+pub fn junit(result: &Comparison) -> Result<String, SerializeError> {
     let [a, b] = [&result.sides[0].name, &result.sides[1].name];
-    let mut suite = TestSuite::new(format!("tofsim compare {a} {b}"));
-    let mut case = |name: &str, fault: Option<(String, String)>| {
-        let mut status = match fault {
-            None => TestCaseStatus::success(),
-            Some(_) => TestCaseStatus::non_success(NonSuccessKind::Failure),
-        };
-        if let Some((message, description)) = fault {
-            status.set_message(message);
-            status.set_description(description);
-        }
-        suite.add_test_case(TestCase::new(name, status));
-    };
-    for pair in &result.pairs {
-        let fault = (pair.differing > 0).then(|| {
-            let count = format!("{} of {} differ: {}", pair.differing, pair.compared, pair.strip);
+    let pair = |pair: &Compared| {
+        let failure = (pair.differing > 0).then(|| {
+            let count =
+                format!("{} of {} differ: {}", pair.differing, pair.compared, pair.overview);
             (first_line(result, pair), count)
         });
-        case(&pair.name, fault);
-    }
+        JunitCase { name: pair.name.clone(), failure }
+    };
     let findings: Vec<_> = result.findings.iter().map(|f| f.text.as_str()).collect();
-    let fault = (!result.differences.is_empty())
-        .then(|| (result.differences.join("; "), findings.join("\n")));
-    case("structure", fault);
-    let mut all = quick_junit::Report::new("tofsim compare");
-    all.add_test_suite(suite);
-    all.to_string()
+    let differs = !result.differences.is_empty();
+    let failure = differs.then(|| (result.differences.join("; "), findings.join("\n")));
+    let structure = JunitCase { name: "structure".to_owned(), failure };
+    let cases = result.pairs.iter().map(pair).chain([structure]);
+    junit::junit("tofsim compare", format!("tofsim compare {a} {b}"), cases)
 }

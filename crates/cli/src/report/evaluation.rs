@@ -1,11 +1,11 @@
 //! An evaluation as tables, beside the thesis's.
 
-use comfy_table::{CellAlignment, Table};
+use comfy_table::Table;
 
-use tofsim_learn::evaluation::thesis::{self, DISTANCES_M, Published};
+use tofsim_learn::evaluation::thesis::{self, DISTANCES_M};
 use tofsim_learn::evaluation::{Figures, Spread};
 
-use crate::text::table::plain;
+use crate::text::table::{align_right, number_or_dash, plain};
 
 /// Twice the standard deviation, the mean and the failures at the thesis's distances, with its own
 /// rows; `bound_mm` is the Cramer-Rao bound there.
@@ -14,8 +14,8 @@ pub fn tables(figures: &[Figures], bound_mm: &[Option<f64>]) -> String {
     let mut means = table("mean error [mm]");
     let mut failures = table("failures");
     for published in [&thesis::FLOAT, &thesis::FIXED, &thesis::PEAK] {
-        published_row(&mut spreads, published, &published.two_sd_mm, 1);
-        published_row(&mut means, published, &published.mean_mm, 1);
+        add(&mut spreads, published.name, published.two_sd_mm.map(|mm| format!("{mm:.1}")));
+        add(&mut means, published.name, published.mean_mm.map(|mm| format!("{mm:.1}")));
     }
     for one in figures {
         row(&mut spreads, one, |spread| with_error(spread.two_sd_mm, spread.two_sd_error_mm));
@@ -25,13 +25,10 @@ pub fn tables(figures: &[Figures], bound_mm: &[Option<f64>]) -> String {
             format!("{} of {histograms}", spread.failures)
         });
     }
-    let cell = |mm: &Option<f64>| mm.map_or("-".to_owned(), |mm| format!("{mm:.2}"));
-    let cells = bound_mm.iter().map(cell);
-    spreads.add_row(["Cramer-Rao bound".to_owned()].into_iter().chain(cells));
+    add(&mut spreads, "Cramer-Rao bound", bound_mm.iter().map(|mm| number_or_dash(*mm, 2)));
     let trials = thesis::PEAK_TRIALS;
     let cells = thesis::PEAK_FAILURES.map(|failures| format!("{failures} of {trials}"));
-    failures
-        .add_row([vec!["thesis, peak detection (Table 4.3)".to_owned()], cells.to_vec()].concat());
+    add(&mut failures, "thesis, peak detection (Table 4.3)", cells);
     let tables = [spreads, means, failures].map(|table| format!("{}\n", table.trim_fmt()));
     tables.join("\n")
 }
@@ -53,45 +50,37 @@ pub fn beside_the_line(figures: &Figures) -> Option<String> {
 fn table(title: &str) -> Table {
     let mut table = plain();
     let distances = DISTANCES_M.map(|distance_m| format!("{distance_m} m"));
-    table.set_header([vec![title.to_owned()], distances.to_vec()].concat());
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
+    table.set_header([title.to_owned()].into_iter().chain(distances));
+    align_right(&mut table, 1..);
     table
 }
 
-fn published_row(table: &mut Table, published: &Published, values: &[f64; 6], decimals: usize) {
-    let cells = values.map(|mm| format!("{mm:.decimals$}"));
-    table.add_row([vec![published.name.to_owned()], cells.to_vec()].concat());
+/// Adds a row with a name.
+fn add(table: &mut Table, name: &str, cells: impl IntoIterator<Item = String>) {
+    table.add_row([name.to_owned()].into_iter().chain(cells));
 }
 
 fn row(table: &mut Table, figures: &Figures, cell: impl Fn(&Spread) -> String) {
-    let mut cells = vec![figures.name.to_owned()];
-    for distance_m in DISTANCES_M {
-        cells.push(figures.at(distance_m).map_or("-".to_owned(), &cell));
-    }
-    table.add_row(cells);
+    let at = |distance_m| figures.at(distance_m).map_or("-".to_owned(), &cell);
+    add(table, figures.name, DISTANCES_M.map(at));
 }
 
 fn with_error(value_mm: Option<f64>, error_mm: Option<f64>) -> String {
-    match (value_mm, error_mm) {
-        (Some(value), Some(error)) => format!("{value:.2} +-{error:.2}"),
-        (Some(value), None) => format!("{value:.2}"),
-        (None, _) => "-".to_owned(),
-    }
+    let error = error_mm.filter(|_| value_mm.is_some());
+    number_or_dash(value_mm, 2) + &error.map_or(String::new(), |error| format!(" +-{error:.2}"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use tofsim_learn::dataset::Scene;
-    use tofsim_learn::evaluation::{Column, Evaluation};
+    use tofsim_learn::evaluation::{EstimatorErrors, Evaluation};
 
     #[test]
     fn a_distance_that_was_not_drawn_has_no_figure() {
         let scene = Scene { distance_m: 0.2, reflectance: 0.3, irradiance_w_m2_nm: 0.0 };
         let errors_m = [-1.0, 1.0].map(|sign| Some(sign / 1e3 / 2f64.sqrt())).to_vec();
-        let column = Column { name: "network", errors_m };
+        let column = EstimatorErrors { name: "network", errors_m };
         let evaluation = Evaluation { scenes: vec![scene; 2], columns: vec![column.clone()] };
         let figures = Figures::new(&evaluation, &column);
         let text = tables(std::slice::from_ref(&figures), &[Some(0.5); 6]);

@@ -1,17 +1,14 @@
 //! The values of an estimation as tables: fixed point beside double precision.
 
-use std::fmt::Write;
-
-use comfy_table::{CellAlignment, Table};
+use comfy_table::Table;
 
 use tofsim_learn::quantize::Explanation;
-use tofsim_learn::quantize::explain::{Budget, Neuron, Pair};
+use tofsim_learn::quantize::explain::{ErrorBudget, ExplainedNeuron, WordAndTwin};
 
-use crate::text::table::plain;
+use crate::text::table::{align_right, plain};
 
 /// The tables, with a line about what saturates and where the two first part.
 pub fn text(explained: &Explanation) -> String {
-    let mut text = String::new();
     let mut table = plain();
     table.set_header(["value", "neuron", "word", "fixed", "float", "LSB", "mm", ""]);
     layer(&mut table, "l1_in", explained, |neuron| (neuron.l1_in, String::new()));
@@ -22,13 +19,15 @@ pub fn text(explained: &Explanation) -> String {
     layer(&mut table, "product", explained, |neuron| (neuron.product, String::new()));
     row(&mut table, "bias", "", &explained.bias, String::new());
     row(&mut table, "depth", "", &explained.depth, String::new());
-    // Writing to a string does not fail.
-    let _ = writeln!(text, "{}\n", right(table, 1..7).trim_fmt());
-    let _ = writeln!(text, "{}\n", right(budget(&explained.budget), 1..2).trim_fmt());
-    let _ = writeln!(text, "{}", parting(explained));
-    let saturated = explained.saturated;
-    let _ = writeln!(text, "saturated: {saturated} of {} neurons", explained.neurons.len());
-    text
+    align_right(&mut table, 1..7);
+    format!(
+        "{}\n\n{}\n\n{}\nsaturated: {} of {} neurons\n",
+        table.trim_fmt(),
+        budget(&explained.budget).trim_fmt(),
+        parting(explained),
+        explained.saturated,
+        explained.neurons.len()
+    )
 }
 
 /// A row for each neuron: a value, and a note.
@@ -36,7 +35,7 @@ fn layer(
     table: &mut Table,
     name: &str,
     explained: &Explanation,
-    of: impl Fn(&Neuron) -> (Pair, String),
+    of: impl Fn(&ExplainedNeuron) -> (WordAndTwin, String),
 ) {
     for (k, neuron) in explained.neurons.iter().enumerate() {
         let (pair, note) = of(neuron);
@@ -44,7 +43,7 @@ fn layer(
     }
 }
 
-fn row(table: &mut Table, layer: &str, neuron: &str, pair: &Pair, note: String) {
+fn row(table: &mut Table, layer: &str, neuron: &str, pair: &WordAndTwin, note: String) {
     table.add_row([
         layer.to_owned(),
         neuron.to_owned(),
@@ -57,7 +56,7 @@ fn row(table: &mut Table, layer: &str, neuron: &str, pair: &Pair, note: String) 
     ]);
 }
 
-fn budget(budget: &Budget) -> Table {
+fn budget(budget: &ErrorBudget) -> Table {
     let mut table = plain();
     table.set_header(["what rounding adds to the depth", "mm"]);
     for (part, mm) in [
@@ -69,6 +68,7 @@ fn budget(budget: &Budget) -> Table {
     ] {
         table.add_row([part.to_owned(), format!("{mm:+.4}")]);
     }
+    align_right(&mut table, 1..);
     table
 }
 
@@ -80,11 +80,4 @@ fn parting(explained: &Explanation) -> String {
             format!("first off by more than half an LSB: {layer} of neuron {neuron}")
         }
     }
-}
-
-fn right(mut table: Table, columns: std::ops::Range<usize>) -> Table {
-    for column in table.column_iter_mut().skip(columns.start).take(columns.len()) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    table
 }

@@ -1,14 +1,12 @@
 //! Accuracy against cost as a table.
 
-use comfy_table::CellAlignment;
-
-use tofsim_learn::evaluation::exploration::Point;
+use tofsim_learn::evaluation::exploration::ExploredDatapath;
 use tofsim_learn::evaluation::thesis::DISTANCES_M;
 
-use crate::text::table::plain;
+use crate::text::table::{align_right, number_or_dash, plain};
 
 /// A row for each datapath.
-pub fn text(points: &[Point]) -> String {
+pub fn text(points: &[ExploredDatapath]) -> String {
     let mut table = plain();
     let mut header = vec!["datapath".to_owned()];
     header.extend(DISTANCES_M.map(|distance_m| format!("2 sd {distance_m} m")));
@@ -19,9 +17,7 @@ pub fn text(points: &[Point]) -> String {
     table.set_header(header);
     for point in points {
         let mut cells = vec![point.variant.clone()];
-        cells.extend(
-            point.two_sd_mm.iter().map(|mm| mm.map_or("-".to_owned(), |mm| format!("{mm:.2}"))),
-        );
+        cells.extend(point.two_sd_mm.iter().map(|mm| number_or_dash(*mm, 2)));
         let [hidden, depth] = point.sum_bits;
         cells.extend([
             format!("{:.3}", point.rms_to_float_mm),
@@ -34,9 +30,7 @@ pub fn text(points: &[Point]) -> String {
         ]);
         table.add_row(cells);
     }
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
+    align_right(&mut table, 1..);
     format!(
         "{}\n\n2 sd and differences in mm; weights that no word holds are cut to the nearest; sums past \
          the table of each histogram's 8;\nbits of the sums of the hidden layer and of the depth\n",

@@ -3,21 +3,32 @@
 use std::io::{self, Seek, Write};
 use std::path::Path;
 
+use serde::Serialize;
 use tempfile::SpooledTempFile;
 
 use tofsim::error::{Error, Input, Result};
+use tofsim::network::formats::Depth;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::{Panel, Reading};
 
-use super::pairs::Pairs;
-use super::summary::{FrameSummary, Spread, Summary};
+use super::frame_summary::FrameSummary;
+use super::pairs::PairLog;
 
 /// Frames of which a table has rows.
 pub const ROWS: usize = 20;
 
 /// JSON that is kept in memory; more of it goes to a temporary file [bytes].
 const KEPT: usize = 1 << 20;
+
+/// Depth over the frames of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct DepthSpread {
+    /// Mean [m].
+    pub mean_m: f64,
+    /// Two standard deviations, with n - 1 [m].
+    pub two_sd_m: f64,
+}
 
 /// The frames of a run so far.
 pub struct FrameLog {
@@ -28,7 +39,7 @@ pub struct FrameLog {
     /// How many frames.
     pub count: u64,
     /// The pairs that the frames make, if they make pairs.
-    pub pairs: Option<Pairs>,
+    pub pairs: Option<PairLog>,
     panel: Panel,
     /// Sums of the depth words and of their squares, which no order of summing changes.
     sums: (i128, i128),
@@ -37,12 +48,12 @@ pub struct FrameLog {
 }
 
 impl FrameLog {
-    /// Without frames of `setup`; `json` if [`FrameLog::write_json`] will be called. The estimators of
+    /// Without frames of `setup`; `json` if [`FrameLog::copy_json`] will be called. The estimators of
     /// `panel` look at every frame of which there will be a report, and at every pair.
     pub fn new(setup: &Setup, json: bool, panel: Panel) -> Self {
         let json = json.then(|| SpooledTempFile::new(KEPT));
         let (rows, readings) = (Vec::new(), Vec::new());
-        let pairs = setup.has_pairs().then(|| Pairs::new(setup));
+        let pairs = setup.has_pairs().then(|| PairLog::new(setup));
         FrameLog { rows, readings, count: 0, pairs, panel, sums: (0, 0), json }
     }
 
@@ -76,22 +87,33 @@ impl FrameLog {
 
     /// Mean and spread of the depths of two frames or more; those of pairs are in
     /// [`FrameLog::pairs`].
-    pub fn spread(&self) -> Option<Spread> {
-        Spread::of(self.count, self.sums).filter(|_| self.pairs.is_none())
+    pub fn spread(&self) -> Option<DepthSpread> {
+        DepthSpread::of(self.count, self.sums).filter(|_| self.pairs.is_none())
     }
 
-    /// Writes the run as one line of JSON: `summary` with the frames in it.
+    /// Copies what has been written of the frames, between commas.
     ///
     /// # Errors
     /// When reading the temporary file fails, or writing to `out`.
-    pub fn write_json(&mut self, summary: &Summary, out: &mut impl Write) -> io::Result<()> {
-        let (head, tail) = summary.around_frames()?;
-        out.write_all(head.as_bytes())?;
-        if let Some(json) = &mut self.json {
-            json.rewind()?;
-            io::copy(json, out)?;
+    pub fn copy_json(&mut self, out: &mut impl Write) -> io::Result<()> {
+        let Some(json) = &mut self.json else { return Ok(()) };
+        json.rewind()?;
+        io::copy(json, out).map(drop)
+    }
+}
+
+impl DepthSpread {
+    /// From the number of frames and the sums of their depth words and of the squares of those;
+    /// `None` for fewer than two frames. All exact but the last divisions.
+    pub fn of(count: u64, (sum, squares): (i128, i128)) -> Option<Self> {
+        if count < 2 {
+            return None;
         }
-        out.write_all(tail.as_bytes())
+        let lsb_m = 1.0 / (1u64 << Depth::FRAC_NBITS) as f64;
+        let n = i128::from(count);
+        let variance = (n * squares - sum * sum) as f64 / (n as f64 * (n - 1) as f64);
+        let mean_m = sum as f64 / count as f64 * lsb_m;
+        Some(DepthSpread { mean_m, two_sd_m: 2.0 * variance.sqrt() * lsb_m })
     }
 }
 

@@ -7,8 +7,9 @@ use plotters::prelude::*;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::optics::hazard::Cause;
 
+use crate::text::svg::{Canvas, DrawingFault, chart, picture};
+
 use super::causes::{self, CAUSES, Causes};
-use crate::text::svg::{Canvas, Fault, picture};
 
 /// Width of a bin [ns].
 const BIN_NS: f64 = 0.025;
@@ -19,7 +20,7 @@ const M_PER_NS: f64 = 0.149_896_229;
 
 /// What is drawn.
 #[derive(Debug)]
-pub struct Plot<'a> {
+pub struct HistogramPlot<'a> {
     /// Words above the picture.
     pub title: String,
     /// Counts by cause.
@@ -30,23 +31,19 @@ pub struct Plot<'a> {
     pub depth_m: Option<f64>,
 }
 
-impl Plot<'_> {
+impl HistogramPlot<'_> {
     /// The picture as SVG text; an error only if the plotting library fails.
     pub fn svg(&self) -> Result<String, String> {
         picture(|canvas| self.draw(canvas))
     }
 
-    fn draw<'a>(&self, canvas: &Canvas<'a>) -> Result<(), Fault<'a>> {
+    fn draw<'a>(&self, canvas: &Canvas<'a>) -> Result<(), DrawingFault<'a>> {
         let top = self.stack(CAUSES.len());
         let peak = (0..BINS).max_by_key(|&bin| (top[bin], BINS - bin)).unwrap_or(0);
         let highest = (top[peak] as f64 * 1.12).max(1.0);
         let depth: Range<f64> = 0.0..RANGE_NS * M_PER_NS;
-        let mut chart = ChartBuilder::on(canvas)
-            .margin(12)
-            .caption(&self.title, ("sans-serif", 18))
-            .x_label_area_size(42)
+        let mut chart = chart(canvas, &self.title)
             .top_x_label_area_size(40)
-            .y_label_area_size(64)
             .build_cartesian_2d(0.0..RANGE_NS, 0.0..highest)?
             .set_secondary_coord(depth, 0.0..highest);
         chart

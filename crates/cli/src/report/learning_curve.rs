@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use plotters::prelude::*;
 
-use crate::text::svg::{Canvas, Fault, picture};
+use tofsim_learn::training::state::CurvePoint;
 
-use tofsim_learn::training::state::Point;
+use crate::text::svg::{Canvas, DrawingFault, chart, picture};
 
 /// The curve as CSV, a row for each network at each checkpoint.
-pub fn csv(points: &[Point]) -> String {
+pub fn csv(points: &[CurvePoint]) -> String {
     let mut text = String::from("stage,block,start,epochs,cost,mu,validation,ratio\n");
-    for Point { stage, block, start, epochs, cost, mu, validation, ratio } in points {
+    for CurvePoint { stage, block, start, epochs, cost, mu, validation, ratio } in points {
         let [validation, ratio] =
             [validation, ratio].map(|of| of.map_or(String::new(), |of| format!("{of:?}")));
         text += &format!("{stage},{block},{start},{epochs},{cost:?},{mu:?},{validation},{ratio}\n");
@@ -20,11 +20,11 @@ pub fn csv(points: &[Point]) -> String {
 }
 
 /// The curve as SVG text, a line for each start; an error only if the plotting library fails.
-pub fn svg(points: &[Point]) -> Result<String, String> {
+pub fn svg(points: &[CurvePoint]) -> Result<String, String> {
     picture(|canvas| draw(points, canvas))
 }
 
-fn draw<'a>(points: &[Point], canvas: &Canvas<'a>) -> Result<(), Fault<'a>> {
+fn draw<'a>(points: &[CurvePoint], canvas: &Canvas<'a>) -> Result<(), DrawingFault<'a>> {
     let mut lines: BTreeMap<usize, Vec<(f64, f64)>> = BTreeMap::new();
     for point in points.iter().filter(|point| point.cost.is_finite() && point.cost > 0.0) {
         lines.entry(point.start).or_default().push((point.epochs as f64, point.cost));
@@ -33,11 +33,7 @@ fn draw<'a>(points: &[Point], canvas: &Canvas<'a>) -> Result<(), Fault<'a>> {
     let last = all().map(|point| point.0).fold(1.0, f64::max);
     let least = all().map(|point| point.1).fold(1.0, f64::min) / 1.5;
     let most = all().map(|point| point.1).fold(1.0, f64::max) * 1.5;
-    let mut chart = ChartBuilder::on(canvas)
-        .margin(12)
-        .caption("Cost of every start; 1 is the spread to stay below", ("sans-serif", 18))
-        .x_label_area_size(42)
-        .y_label_area_size(64)
+    let mut chart = chart(canvas, "Cost of every start; 1 is the spread to stay below")
         .build_cartesian_2d(0.0..last, (least..most).log_scale())?;
     chart
         .configure_mesh()
@@ -66,7 +62,7 @@ mod tests {
     fn a_line_for_each_start_and_a_row_for_each_point() {
         let point = |start, epochs, cost| {
             let validation = (start == 1).then_some(2.5);
-            Point { stage: 0, block: 0, start, epochs, cost, mu: 0.1, validation, ratio: None }
+            CurvePoint { stage: 0, block: 0, start, epochs, cost, mu: 0.1, validation, ratio: None }
         };
         let points = [
             point(0, 3, 5.0),

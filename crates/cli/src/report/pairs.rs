@@ -6,15 +6,16 @@ use tofsim::firmware::histogram_builder::BINS;
 use tofsim::network::Histogram;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
+use tofsim_learn::estimation::acquisition::BIN_PS;
 use tofsim_learn::estimation::subtraction::NAME;
-use tofsim_learn::estimation::{BIN_PS, Pair, Panel, Reading};
+use tofsim_learn::estimation::{HistogramPair, Panel, Reading};
 
 /// How far behind its mean the echo is over [sigma].
 const REACH: f64 = 4.0;
 
 /// A frame's place in a pair.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Paired {
+pub struct PlaceInPair {
     /// The pair, from 0.
     pub pair: u64,
     /// Whether the laser was on.
@@ -37,8 +38,8 @@ pub struct Difference {
 
 /// What subtraction made of the pairs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Tally {
-    /// Pairs.
+pub struct PairStatistics {
+    /// PairLog.
     pub count: u64,
     /// Those in which subtraction found no distance; none if it was not asked.
     pub failures: Option<u64>,
@@ -52,7 +53,7 @@ pub struct Tally {
 
 /// Makes pairs of frames as they come.
 #[derive(Debug)]
-pub struct Pairs {
+pub struct PairLog {
     /// First bin that lies right of the echo.
     right: Option<usize>,
     dark: Option<Histogram>,
@@ -87,23 +88,24 @@ impl Moments {
     }
 }
 
-impl Pairs {
+impl PairLog {
     /// No pair of `setup` yet.
     pub fn new(setup: &Setup) -> Self {
         let (depths, rights) = (Moments::default(), Moments::default());
-        Pairs { right: right_of_echo(setup), dark: None, count: 0, readings: 0, depths, rights }
+        PairLog { right: right_of_echo(setup), dark: None, count: 0, readings: 0, depths, rights }
     }
 
     /// Takes the next frame; returns its place and, if it ends a pair, what the estimators say of
     /// that.
-    pub fn take(&mut self, frame: &Frame, panel: &Panel) -> (Option<Paired>, Vec<Reading>) {
-        let mut paired = Paired { pair: self.count, laser_en: frame.laser_en, difference: None };
+    pub fn take(&mut self, frame: &Frame, panel: &Panel) -> (Option<PlaceInPair>, Vec<Reading>) {
+        let mut paired =
+            PlaceInPair { pair: self.count, laser_en: frame.laser_en, difference: None };
         if !frame.laser_en {
             self.dark = Some(frame.histogram);
             return (Some(paired), Vec::new());
         }
         let Some(dark) = self.dark.take() else { return (Some(paired), Vec::new()) };
-        let pair = Pair { dark, lit: frame.histogram };
+        let pair = HistogramPair { dark, lit: frame.histogram };
         let difference = pair.difference();
         let right_of_echo = self.right.map(|bin| mean(&difference[bin..]));
         paired.difference = Some(Difference { difference, right_of_echo });
@@ -118,8 +120,8 @@ impl Pairs {
     }
 
     /// What the pairs have come to so far.
-    pub fn tally(&self) -> Tally {
-        Tally {
+    pub fn statistics(&self) -> PairStatistics {
+        PairStatistics {
             count: self.count,
             failures: (self.readings > 0).then(|| self.readings - self.depths.count),
             mean_m: self.depths.mean(),
@@ -143,8 +145,9 @@ pub(super) fn mean(counts: &[i32]) -> f64 {
     counts.iter().map(|&count| i64::from(count)).sum::<i64>() as f64 / counts.len() as f64
 }
 
-fn as_sequence<S: Serializer>(
-    counts: &[i32; BINS],
+/// Writes an array that is longer than those which `serde` knows.
+pub(super) fn as_sequence<T: Serialize, S: Serializer>(
+    counts: &[T; BINS],
     serializer: S,
 ) -> std::result::Result<S::Ok, S::Error> {
     serializer.collect_seq(counts)
@@ -155,7 +158,7 @@ mod tests {
     use super::*;
     use tofsim::scenario;
     use tofsim::sim::fast::histogram::Histograms;
-    use tofsim_learn::estimation::Kind;
+    use tofsim_learn::estimation::EstimatorKind;
 
     fn setup(keys: &[&str]) -> Setup {
         let keys: Vec<_> = keys.iter().map(|&key| key.to_owned()).collect();
@@ -165,9 +168,9 @@ mod tests {
     #[test]
     fn a_lit_frame_goes_with_the_dark_one_before_it() {
         let setup = setup(&["firmware.dark_frames=true", "firmware.shots_per_frame=2000"]);
-        let panel = Panel::new(&[Kind::Subtraction, Kind::Peak], &setup).unwrap();
+        let panel = Panel::new(&[EstimatorKind::Subtraction, EstimatorKind::Peak], &setup).unwrap();
         let histograms = Histograms::new(&setup).unwrap();
-        let mut pairs = Pairs::new(&setup);
+        let mut pairs = PairLog::new(&setup);
         for index in 0..6 {
             let frame = histograms.frame(index);
             let (paired, readings) = pairs.take(&frame, &panel);
@@ -181,7 +184,7 @@ mod tests {
                 assert!(summed.eq(frame.histogram.map(i32::from)));
             }
         }
-        assert_eq!(pairs.tally().count, 3);
+        assert_eq!(pairs.statistics().count, 3);
     }
 
     #[test]

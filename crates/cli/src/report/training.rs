@@ -1,21 +1,18 @@
 //! What a training found, as text: a table, JSON and CSV.
 
 use std::fmt::Write;
-use std::io;
 use std::path::Path;
 
-use comfy_table::CellAlignment;
 use serde::Serialize;
 
-use crate::text::table::plain;
-use tofsim::error::{Error, Result};
-
-use tofsim_learn::training::accuracy::{Row, worst_ratio};
+use tofsim_learn::training::accuracy::{DistanceErrors, worst_ratio};
 use tofsim_learn::training::weighting::Weighting;
+
+use crate::text::table::{align_right, plain};
 
 /// What `--json` prints.
 #[derive(Serialize)]
-struct Report {
+pub struct TrainingReport {
     schema: &'static str,
     network: String,
     /// Largest ratio of a spread to the line.
@@ -29,22 +26,19 @@ struct Report {
     line_mm: Vec<f64>,
 }
 
-/// All distances as one JSON object; `network` is the file that was written.
-///
-/// # Errors
-/// When they cannot be put as JSON.
-pub fn json(rows: &[Row], line: &Weighting, network: &Path) -> Result<String> {
-    let report = Report {
-        schema: "tofsim.train/1",
-        network: network.display().to_string(),
-        worst_ratio: worst_ratio(rows, line),
-        distances_m: rows.iter().map(|row| row.distance_m).collect(),
-        mean_mm: rows.iter().map(|row| row.mean_mm).collect(),
-        two_sd_mm: rows.iter().map(|row| row.two_sd_mm).collect(),
-        line_mm: rows.iter().map(|row| line.line_mm(row.distance_m)).collect(),
-    };
-    let text = serde_json::to_string(&report).map_err(io::Error::from);
-    Ok(text.map_err(Error::io(Path::new("stdout"), "write"))? + "\n")
+impl TrainingReport {
+    /// All distances; `network` is the file that was written.
+    pub fn new(rows: &[DistanceErrors], line: &Weighting, network: &Path) -> Self {
+        TrainingReport {
+            schema: "tofsim.train/1",
+            network: network.display().to_string(),
+            worst_ratio: worst_ratio(rows, line),
+            distances_m: rows.iter().map(|row| row.distance_m).collect(),
+            mean_mm: rows.iter().map(|row| row.mean_mm).collect(),
+            two_sd_mm: rows.iter().map(|row| row.two_sd_mm).collect(),
+            line_mm: rows.iter().map(|row| line.line_mm(row.distance_m)).collect(),
+        }
+    }
 }
 
 /// Rounded to hundredths, as files have it.
@@ -53,9 +47,9 @@ pub fn hundredths(value: f64) -> f64 {
 }
 
 /// A row for each distance, as CSV.
-pub fn csv(rows: &[Row]) -> String {
+pub fn csv(rows: &[DistanceErrors]) -> String {
     let mut text = String::from("distance_m,histograms,mean_mm,two_sd_mm,rms_mm\n");
-    for Row { distance_m, count, mean_mm, two_sd_mm, rms_mm } in rows {
+    for DistanceErrors { distance_m, count, mean_mm, two_sd_mm, rms_mm } in rows {
         // Writing to a string does not fail.
         let _ = writeln!(text, "{distance_m},{count},{mean_mm:?},{two_sd_mm:?},{rms_mm:?}");
     }
@@ -63,7 +57,7 @@ pub fn csv(rows: &[Row]) -> String {
 }
 
 /// The line's distances, and the worst of all, for people.
-pub fn table(rows: &[Row], line: &Weighting) -> String {
+pub fn table(rows: &[DistanceErrors], line: &Weighting) -> String {
     let mut table = plain();
     table.set_header(["distance_m", "mean_mm", "two_sd_mm", "to stay below"]);
     for row in rows.iter().filter(|row| line.distances_m.contains(&row.distance_m)) {
@@ -71,8 +65,8 @@ pub fn table(rows: &[Row], line: &Weighting) -> String {
         let [mean, spread] = [row.mean_mm, row.two_sd_mm].map(|value| format!("{value:.2}"));
         table.add_row([row.distance_m.to_string(), mean, spread, below]);
     }
-    table.column_iter_mut().for_each(|column| column.set_cell_alignment(CellAlignment::Right));
-    let ratio = |row: &Row| row.two_sd_mm / line.line_mm(row.distance_m);
+    align_right(&mut table, ..);
+    let ratio = |row: &DistanceErrors| row.two_sd_mm / line.line_mm(row.distance_m);
     let worst = rows.iter().max_by(|a, b| ratio(a).total_cmp(&ratio(b)));
     let worst = worst.map_or(String::new(), |row| {
         let (ratio, distance) = (ratio(row), row.distance_m);
@@ -85,8 +79,8 @@ pub fn table(rows: &[Row], line: &Weighting) -> String {
 mod tests {
     use super::*;
 
-    fn row(distance_m: f64, two_sd_mm: f64) -> Row {
-        Row { distance_m, count: 3, mean_mm: -0.25, two_sd_mm, rms_mm: 1.0 }
+    fn row(distance_m: f64, two_sd_mm: f64) -> DistanceErrors {
+        DistanceErrors { distance_m, count: 3, mean_mm: -0.25, two_sd_mm, rms_mm: 1.0 }
     }
 
     #[test]
@@ -102,8 +96,8 @@ mod tests {
         let rows = [row(0.1, 1.5), row(0.15, 2.5)];
         let csv = csv(&rows);
         assert!(csv.ends_with("0.1,3,-0.25,1.5,1.0\n0.15,3,-0.25,2.5,1.0\n"), "{csv}");
-        let json = json(&rows, &Weighting::default(), Path::new("a/network.toml")).unwrap();
-        let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+        let path = Path::new("a/network.toml");
+        let json = serde_json::json!(TrainingReport::new(&rows, &Weighting::default(), path));
         assert_eq!(json["two_sd_mm"][1], 2.5);
         assert_eq!(json["line_mm"][0], 1.6);
         assert_eq!(json["network"], "a/network.toml");

@@ -1,15 +1,16 @@
 //! The reports as a table, as JSON and as JUnit XML.
 
-use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
+use quick_junit::SerializeError;
 use serde_json::{Value, json};
 
+use tofsim_rtl::verify::cycle_counts::{Count, Proof};
+use tofsim_rtl::verify::{BlockReport, Verdict};
+
+use crate::text::junit::{self, JunitCase};
 use crate::text::table::{grouped, plain};
 
-use tofsim_rtl::verify::cycle_counts::{Count, Proof};
-use tofsim_rtl::verify::{Report, Verdict};
-
 /// A line for each block, and the cycles around each first mismatch.
-pub fn text(reports: &[Report]) -> String {
+pub fn text(reports: &[BlockReport]) -> String {
     let mut table = plain();
     table.set_header(["block", "cycles", "mismatches", "stimulus goals", "verdict"]);
     for report in reports {
@@ -36,7 +37,7 @@ pub fn text(reports: &[Report]) -> String {
 }
 
 /// The cycles around the first mismatch.
-fn around(report: &Report) -> String {
+fn around(report: &BlockReport) -> String {
     let [head, rows @ ..] = report.around.as_slice() else { return String::new() };
     let mut table = plain();
     table.set_header(head);
@@ -45,8 +46,8 @@ fn around(report: &Report) -> String {
 }
 
 /// One object, `tofsim.verify/1`.
-pub fn json(rtl: &str, simulator: &str, reports: &[Report]) -> Value {
-    let block = |report: &Report| {
+pub fn json(rtl: &str, simulator: &str, reports: &[BlockReport]) -> Value {
+    let block = |report: &BlockReport| {
         let first = match &report.verdict {
             Verdict::Differs { first, .. } => json!({
                 "cycle": first.cycle,
@@ -72,7 +73,7 @@ pub fn json(rtl: &str, simulator: &str, reports: &[Report]) -> Value {
         "schema": "tofsim.verify/1",
         "rtl": rtl,
         "simulator": simulator,
-        "passed": reports.iter().all(Report::passed),
+        "passed": reports.iter().all(BlockReport::passed),
         "blocks": reports.iter().map(block).collect::<Vec<_>>(),
     })
 }
@@ -81,22 +82,13 @@ pub fn json(rtl: &str, simulator: &str, reports: &[Report]) -> Value {
 ///
 /// # Errors
 /// When it cannot be put into XML.
-pub fn junit(simulator: &str, reports: &[Report]) -> Result<String, quick_junit::SerializeError> {
-    let mut suite = TestSuite::new(format!("tofsim verify {simulator}"));
-    for report in reports {
-        let mut status = match report.passed() {
-            true => TestCaseStatus::success(),
-            false => TestCaseStatus::non_success(NonSuccessKind::Failure),
-        };
-        if !report.passed() {
-            status.set_message(report.fault());
-            status.set_description(around(report));
-        }
-        suite.add_test_case(TestCase::new(report.name.clone(), status));
-    }
-    let mut all = quick_junit::Report::new("tofsim verify");
-    all.add_test_suite(suite);
-    all.to_string()
+pub fn junit(simulator: &str, reports: &[BlockReport]) -> Result<String, SerializeError> {
+    let case = |report: &BlockReport| JunitCase {
+        name: report.name.clone(),
+        failure: (!report.passed()).then(|| (report.fault(), around(report))),
+    };
+    let suite = format!("tofsim verify {simulator}");
+    junit::junit("tofsim verify", suite, reports.iter().map(case))
 }
 
 /// What, expected, counted twice, proven.

@@ -9,11 +9,22 @@ const SIZE: (u32, u32) = (1000, 520);
 /// Where a picture is drawn.
 pub type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// What goes wrong there.
-pub type Fault<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
+pub type DrawingFault<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
+
+/// A chart with words above it and room for its axes.
+pub fn chart<'a, 'b, 'c>(
+    canvas: &'a Canvas<'b>,
+    title: &str,
+) -> ChartBuilder<'a, 'c, SVGBackend<'b>> {
+    let mut chart = ChartBuilder::on(canvas);
+    chart.margin(12).caption(title, ("sans-serif", 18));
+    chart.x_label_area_size(42).y_label_area_size(64);
+    chart
+}
 
 /// The text of what `draw` draws on white; an error only if the plotting library fails.
 pub fn picture(
-    draw: impl for<'a> FnOnce(&Canvas<'a>) -> Result<(), Fault<'a>>,
+    draw: impl for<'a> FnOnce(&Canvas<'a>) -> Result<(), DrawingFault<'a>>,
 ) -> Result<String, String> {
     let mut text = String::new();
     let canvas = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();

@@ -1,13 +1,35 @@
 //! Plain tables, and numbers for people.
 
-use comfy_table::Table;
+use std::ops::RangeBounds;
+
 use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
 
 /// An empty table without borders.
 pub fn plain() -> Table {
     let mut table = Table::new();
     table.load_style(NOTHING);
     table
+}
+
+/// A table of names and what they stand for.
+pub fn facts(rows: impl IntoIterator<Item = (&'static str, String)>) -> Table {
+    let mut table = plain();
+    table.add_rows(rows.into_iter().map(|(name, value)| [name.to_owned(), value]));
+    table
+}
+
+/// Sets columns flush right, counted from 0.
+pub fn align_right(table: &mut Table, columns: impl RangeBounds<usize>) {
+    let columns = table.column_iter_mut().enumerate().filter(|(k, _)| columns.contains(k));
+    columns.for_each(|(_, column)| {
+        column.set_cell_alignment(CellAlignment::Right);
+    });
+}
+
+/// A number with so many decimals, or a dash.
+pub fn number_or_dash(value: Option<f64>, decimals: usize) -> String {
+    value.map_or("-".to_owned(), |value| format!("{value:.decimals$}"))
 }
 
 /// A number with its thousands apart.
@@ -27,4 +49,17 @@ pub fn grouped(number: u64) -> String {
 pub fn counted(count: u64, things: &str) -> String {
     let things = if count == 1 { things.trim_end_matches('s') } else { things };
     format!("{} {things}", grouped(count))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thousands_are_set_apart() {
+        assert_eq!(grouped(0), "0");
+        assert_eq!(grouped(999), "999");
+        assert_eq!(grouped(1_000), "1,000");
+        assert_eq!(grouped(12_345_678), "12,345,678");
+    }
 }

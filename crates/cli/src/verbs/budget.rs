@@ -2,14 +2,15 @@
 
 use serde::Serialize;
 
-use crate::text::table::plain;
-use tofsim::error::{Input, Result};
+use tofsim::error::Result;
 use tofsim::firmware::vcsel_driver::PERIODS;
 use tofsim::optics::{Budget, eye_safety};
 use tofsim::scenario::{self, Scenario};
 use tofsim::sim::setup::CYCLE;
 
-use super::stdout::print;
+use crate::text::table::plain;
+
+use super::stdout::{json_line, print};
 
 /// Print the link budget: photons and avalanches that a shot can expect, and eye safety
 #[derive(Debug, clap::Args)]
@@ -107,6 +108,5 @@ pub fn run(args: &Args) -> Result<()> {
     if !args.json {
         return print(&report.table());
     }
-    let text = serde_json::to_string(&report).map_err(|error| Input::new("--json", error))?;
-    print(&(text + "\n"))
+    print(&json_line(&report)?)
 }

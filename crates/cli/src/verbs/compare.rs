@@ -6,23 +6,26 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use crate::choice;
-use crate::report::comparison;
+use values::{latency, setting, time};
+
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::write_file;
 use tofsim::kernel::Time;
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim_captures::compare::map::Rule;
-use tofsim_captures::compare::{Align, Choice, Map, Options, Sampling, Unknowns, compare};
+use tofsim_captures::compare::{
+    Align, Options, SampleClock, SignalChoice, SignalMap, Unknowns, compare,
+};
 use tofsim_captures::condition::Condition;
-use tofsim_captures::ila::{Overrides, Radix, SetUp};
+use tofsim_captures::ila::{AnalyserSetup, Overrides, Radix};
 use tofsim_captures::source::Source;
+
+use crate::choice;
+use crate::report::comparison;
 
 use super::stdout::print;
 use super::talk::Talk;
-
-use values::{latency, setting, time};
 
 /// Compare two waveforms or captures: what A has is expected, what B has was got
 ///
@@ -111,7 +114,7 @@ struct When {
     /// Take samples of waveforms just before the rising edges of a signal or, as 100MHz + 250ps, of
     /// a clock of one's own [default: at each change]
     #[arg(long, value_name = "CLOCK")]
-    clock: Option<Sampling>,
+    clock: Option<SampleClock>,
     /// start, trigger, edge SIGNAL, correlation [SIGNAL,...], windows [SIGNAL,...], offset N
     /// (samples) or offset 8ns [default: trigger of captures; correlation of a capture with a
     /// waveform; time of waveforms]
@@ -217,13 +220,13 @@ fn options(args: &Args) -> Result<Options> {
     };
     let mut map = match &args.which.map {
         Some(name) => map(name)?,
-        None => Map::default(),
+        None => SignalMap::default(),
     };
     map.signal.extend(rules(&args.how));
     let (when, which) = (&args.when, &args.which);
     Ok(Options {
         map,
-        choice: Choice { only: which.signals.clone(), ignore: which.ignore.clone() },
+        choice: SignalChoice { only: which.signals.clone(), ignore: which.ignore.clone() },
         clock: when.clock.clone(),
         align: when.align.clone(),
         trigger: condition("--trigger", &when.trigger)?,
@@ -238,15 +241,15 @@ fn options(args: &Args) -> Result<Options> {
 }
 
 /// A map file, or the map of a set-up.
-fn map(name: &str) -> Result<Map> {
+fn map(name: &str) -> Result<SignalMap> {
     let built_in = !name.contains(['/', '.']);
     let is_set_up =
         |path: &Path| std::fs::read_to_string(path).is_ok_and(|text| text.contains("[[probe]]"));
     if built_in || is_set_up(Path::new(name)) {
-        let set_up = SetUp::load(name, Overrides::default());
-        return Ok(Map::of(&set_up.map_err(as_map)?));
+        let set_up = AnalyserSetup::load(name, Overrides::default());
+        return Ok(SignalMap::of(&set_up.map_err(as_map)?));
     }
-    Map::read(Path::new(name))
+    SignalMap::read(Path::new(name))
 }
 
 /// The fault of a set-up that is not there, by the option that asked for it here.

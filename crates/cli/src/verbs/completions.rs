@@ -1,6 +1,6 @@
 //! `tofsim completions`: what a shell needs to complete our command lines.
 
-use clap::CommandFactory;
+use clap::Command;
 use clap_complete::{Shell, generate};
 
 use tofsim::error::Result;
@@ -15,9 +15,9 @@ pub struct Args {
     shell: Shell,
 }
 
-/// Runs the command.
-pub fn run(args: &Args) -> Result<()> {
+/// Prints the script for the whole of `command`.
+pub fn run(args: &Args, command: &mut Command) -> Result<()> {
     let mut script = Vec::new();
-    generate(args.shell, &mut super::Cli::command(), "tofsim", &mut script);
+    generate(args.shell, command, "tofsim", &mut script);
     print(&String::from_utf8_lossy(&script))
 }

@@ -5,17 +5,18 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::Serialize;
 
-use crate::choice;
-use crate::text::table::{grouped, plain};
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::{Error, Result};
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
-use tofsim_learn::dataset::files::{Files, Format};
-use tofsim_learn::dataset::{Blocks, Description, Grid, Source};
+use tofsim_learn::dataset::files::{DatasetFiles, DatasetFormat};
+use tofsim_learn::dataset::{Blocks, DatasetDescription, Grid, HistogramSource};
+
+use crate::choice;
+use crate::text::table::{facts, grouped};
 
 use super::draws::Draws;
 use super::interrupt::stop_signal;
-use super::stdout::print;
+use super::stdout::{json_line, print};
 use super::talk::Talk;
 
 /// Draw histograms of many scenes, for training and tests
@@ -34,11 +35,11 @@ pub struct Args {
     #[command(flatten)]
     draws: Draws,
     /// Which scenes
-    #[arg(long, value_enum, default_value_t = Scenes::Train)]
-    grid: Scenes,
+    #[arg(long, value_parser = choice::grid(), default_value = "train")]
+    grid: Grid,
     /// What to write, separated by commas
     #[arg(long, value_parser = choice::dataset_format(), value_delimiter = ',', default_value = "parquet")]
-    format: Vec<Format>,
+    format: Vec<DatasetFormat>,
     /// Write the files and dataset.json, their description, there
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -47,19 +48,11 @@ pub struct Args {
     json: bool,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Scenes {
-    /// 201 distances, every 2.5 mm
-    Train,
-    /// 51 distances, every 10 mm
-    Test,
-}
-
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Report<'a> {
     #[serde(flatten)]
-    description: &'a Description,
+    description: &'a DatasetDescription,
     /// What was written.
     files: Vec<String>,
 }
@@ -68,10 +61,10 @@ struct Report<'a> {
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let loaded = args.draws.load(&args.scenario)?;
     let (name, seed) = (loaded.name.clone(), loaded.scenario.seed);
-    let source = Source::new(&Setup::new(loaded)?)?;
-    let rows = args.draws.rows(args.grid.grid(), seed);
-    let description = Description::new(&name, &args.draws.set, &source, &rows, seed);
-    let files = Files::create(&args.output, &args.format, &description)?;
+    let source = HistogramSource::new(&Setup::new(loaded)?)?;
+    let rows = args.draws.rows(args.grid, seed);
+    let description = DatasetDescription::new(&name, &args.draws.set, &source, &rows, seed);
+    let files = DatasetFiles::create(&args.output, &args.format, &description)?;
     let pool = args.draws.pool()?;
     let stop = stop_signal();
     let progress = talk.progress(rows.len(), "rows");
@@ -82,16 +75,14 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
 
     let files = written.iter().map(|path| path.display().to_string()).collect();
     if args.json {
-        let text = serde_json::to_string(&Report { description: &description, files });
-        let text = text.map_err(|error| Input::new("--json", error))?;
-        return print(&(text + "\n"));
+        return print(&json_line(&Report { description: &description, files })?);
     }
     print(&table(&description, &files))
 }
 
 /// Writes a block while the next one is drawn.
 fn write(
-    mut files: Files,
+    mut files: DatasetFiles,
     mut blocks: Blocks<'_>,
     stop: Option<&AtomicBool>,
     done: impl Fn(u64),
@@ -109,27 +100,17 @@ fn write(
     files.finish()
 }
 
-impl Scenes {
-    fn grid(self) -> Grid {
-        match self {
-            Scenes::Train => Grid::training(),
-            Scenes::Test => Grid::test(),
-        }
-    }
-}
-
-fn table(description: &Description, files: &[String]) -> String {
-    let mut table = plain();
-    let mut row = |name: &str, value: String| {
-        table.add_row([name.to_owned(), value]);
-    };
-    row("scenario", description.scenario.clone());
-    row("chain", description.profile.clone());
+fn table(description: &DatasetDescription, files: &[String]) -> String {
     let choice = if description.subset { "random scenes of " } else { "" };
-    row("grid", format!("{choice}{}", description.grid));
-    row("histograms", grouped(description.rows));
-    row("shots", format!("{} each", grouped(description.shots_per_frame.into())));
-    row("seed", description.seed.to_string());
-    files.iter().for_each(|file| row("file", file.clone()));
-    format!("{}\n", table.trim_fmt())
+    let shots = grouped(description.shots_per_frame.into());
+    let rows = [
+        ("scenario", description.scenario.clone()),
+        ("chain", description.profile.clone()),
+        ("grid", format!("{choice}{}", description.grid)),
+        ("histograms", grouped(description.rows)),
+        ("shots", format!("{shots} each")),
+        ("seed", description.seed.to_string()),
+    ];
+    let files = files.iter().map(|file| ("file", file.clone()));
+    format!("{}\n", facts(rows.into_iter().chain(files)).trim_fmt())
 }

@@ -69,6 +69,13 @@ impl Draws {
     }
 }
 
+/// Makes the pool of so many threads, if a number is asked for.
+pub fn use_threads(threads: Option<u16>) -> Result<()> {
+    let Some(threads) = threads else { return Ok(()) };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+    pool.map_err(|error| Input::new("--threads", error).value(threads).into())
+}
+
 /// A name as it is, and a path as the scenario has to have it, which sees paths from its own folder.
 pub fn from_here(name: &str, loaded: &Loaded) -> Result<String> {
     if !name.contains(['/', '.']) || loaded.files == builtin::Source::BuiltIn {

@@ -1,19 +1,18 @@
 //! `tofsim estimate`: depths of histograms from files, bit for bit as the firmware computes them.
 
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use comfy_table::CellAlignment;
 use serde::Serialize;
 
-use crate::report::explanation;
-use crate::text::table::plain;
-use tofsim::error::{Error, Result};
+use tofsim::error::Result;
 use tofsim::network::histogram_file;
 use tofsim::network::{Estimate, Network, estimate};
 use tofsim_learn::quantize::{Explanation, explain};
 
-use super::stdout::print;
+use crate::report::explanation;
+use crate::text::table::{align_right, plain};
+
+use super::stdout::{json_line, print};
 
 /// Estimate depths of histograms, bit for bit as the firmware does
 #[derive(Debug, clap::Args)]
@@ -89,8 +88,7 @@ pub fn run(args: &Args) -> Result<()> {
     let only = if let [row] = &rows[..] { Some(row.numbers.clone()) } else { None };
     let schema = "tofsim.estimate/1";
     let report = Report { schema, network: &network.name, only, histograms: &rows };
-    let text = serde_json::to_string(&report).map_err(io::Error::from);
-    print(&(text.map_err(Error::io(Path::new("stdout"), "write"))? + "\n"))
+    print(&json_line(&report)?)
 }
 
 impl Numbers {
@@ -125,8 +123,6 @@ fn table(rows: &[Row], several: bool) -> String {
         cells.extend(several.then(|| file.to_string()));
         table.add_row(cells);
     }
-    for column in table.column_iter_mut().take(3) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
+    align_right(&mut table, ..3);
     format!("{}\n", table.trim_fmt())
 }

@@ -7,23 +7,25 @@ use std::sync::atomic::AtomicBool;
 
 use serde::Serialize;
 
-use crate::choice;
-use crate::report::{evaluation as report, evaluation_files};
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::{Input, Result};
 use tofsim::network::Network;
 use tofsim::scenario::{self, Loaded};
 use tofsim::sim::setup::Setup;
-use tofsim_learn::dataset::{Grid, Rows, Scene, Source};
-use tofsim_learn::estimation::by_name::Acquisition;
-use tofsim_learn::estimation::{Estimator, Kind, Needs, subtraction};
+use tofsim_learn::dataset::{Grid, HistogramSource, Rows, Scene};
+use tofsim_learn::estimation::{
+    Acquisition, Estimator, EstimatorInputs, EstimatorKind, subtraction,
+};
 use tofsim_learn::evaluation::bound;
 use tofsim_learn::evaluation::cross_check::CrossCheck;
 use tofsim_learn::evaluation::thesis::{self, DISTANCES_M};
 use tofsim_learn::evaluation::{Evaluation, Figures};
 
+use crate::choice;
+use crate::report::{evaluation as report, evaluation_files};
+
 use super::draws::Draws;
 use super::interrupt::stop_signal;
-use super::stdout::print;
+use super::stdout::{json_line, print};
 use super::talk::Talk;
 
 /// Light of the scenes that the cross-check takes: in the middle of the grid.
@@ -54,7 +56,7 @@ pub struct Args {
     draws: Draws,
     /// Estimators, separated by commas
     #[arg(long, value_parser = choice::estimator(), value_delimiter = ',', default_value = "network,network-float")]
-    estimator: Vec<Kind>,
+    estimator: Vec<EstimatorKind>,
     /// Frames to simulate cycle by cycle at each of six distances, to be compared with the fast path
     #[arg(long, value_name = "N", default_value_t = 8, allow_hyphen_values = true)]
     check: u64,
@@ -97,7 +99,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let loaded = args.draws.load_with(&args.scenario, &args.network)?;
     let network = Network::find(&args.network, None)?;
     let setup = Setup::new(loaded.clone())?;
-    let source = Source::new(&setup)?;
+    let source = HistogramSource::new(&setup)?;
     let (seed, profile) = (loaded.scenario.seed, &loaded.scenario.tdc.profile);
     if file_name(&network.training.chain) != file_name(profile) {
         talk.note(format_args!(
@@ -105,7 +107,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             network.name, network.training.chain
         ));
     }
-    let needs = Needs {
+    let needs = EstimatorInputs {
         acquisition: Acquisition {
             bins: source.bins(),
             shots: source.shots().into(),
@@ -144,8 +146,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             fixed_two_sd_mm: thesis::FIXED.two_sd_mm,
         },
     };
-    let json = serde_json::to_string(&report).map_err(std::io::Error::from);
-    let json = json.map_err(Error::io(Path::new("stdout"), "write"))? + "\n";
+    let json = json_line(&report)?;
     if let Some(folder) = &args.output {
         evaluation_files::write(folder, &json, &report.estimators)?;
         talk.detail(format_args!("wrote {}", folder.display()));
@@ -157,8 +158,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
 impl Args {
     fn evaluate(
         &self,
-        (source, rows, seed): (&Source, &Rows, u64),
-        estimators: &[Box<dyn Estimator + Send>],
+        (source, rows, seed): (&HistogramSource, &Rows, u64),
+        estimators: &[Box<dyn Estimator>],
         stop: Option<&AtomicBool>,
         talk: &Talk,
     ) -> Result<Evaluation> {
@@ -174,7 +175,7 @@ impl Args {
     fn cross_check(
         &self,
         loaded: &Loaded,
-        source: &Source,
+        source: &HistogramSource,
         stop: Option<&AtomicBool>,
     ) -> Result<Vec<CrossCheck>> {
         let distances: &[f64] = if self.check > 0 { &DISTANCES_M } else { &[] };

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use clap::{Command, CommandFactory};
+use clap::Command;
 use clap_mangen::Man;
 
 use tofsim::error::{Error, Result};
@@ -19,9 +19,8 @@ pub struct Args {
     output: Option<PathBuf>,
 }
 
-/// Runs the command.
-pub fn run(args: &Args) -> Result<()> {
-    let mut command = super::Cli::command();
+/// Prints or writes the pages of `command`.
+pub fn run(args: &Args, mut command: Command) -> Result<()> {
     command.build();
     let Some(folder) = &args.output else {
         return print(&String::from_utf8_lossy(&page(command)?));

@@ -5,8 +5,6 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use crate::report::exploration;
-use crate::text::table::plain;
 use tofsim::error::{Error, Result};
 use tofsim::files::output::{create_directory, write_file};
 use tofsim::network::file::Training;
@@ -14,13 +12,16 @@ use tofsim::network::formats::Overflow;
 use tofsim::network::{Network, mem};
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
-use tofsim_learn::dataset::{Grid, Source};
-use tofsim_learn::evaluation::exploration::{Point, explore, sweep};
+use tofsim_learn::dataset::{Grid, HistogramSource};
+use tofsim_learn::evaluation::exploration::{ExploredDatapath, explore, sweep};
 use tofsim_learn::quantize::import;
+
+use crate::report::exploration;
+use crate::text::table::plain;
 
 use super::draws::Draws;
 use super::interrupt::stop_signal;
-use super::stdout::print;
+use super::stdout::{json_line, print};
 use super::talk::Talk;
 
 /// Histograms of an exploration, if nothing else is said: 200 at each distance.
@@ -101,7 +102,7 @@ struct Exploration<'a> {
     profile: &'a str,
     seed: u64,
     rows: u64,
-    points: Vec<Point>,
+    points: Vec<ExploredDatapath>,
 }
 
 #[derive(Clone, Copy, Serialize)]
@@ -157,7 +158,7 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
         files: files.iter().map(|path| path.display().to_string()).collect(),
     };
     if args.json {
-        return print(&(json(&report)? + "\n"));
+        return print(&json_line(&report)?);
     }
     print(&report.text())
 }
@@ -167,7 +168,7 @@ impl Args {
         let loaded = self.draws.load_with(&self.scenario, network)?;
         let (seed, profile) = (loaded.scenario.seed, loaded.scenario.tdc.profile.clone());
         let network = Network::find(network, None)?;
-        let source = Source::new(&Setup::new(loaded)?)?;
+        let source = HistogramSource::new(&Setup::new(loaded)?)?;
         let rows = self.draws.some_rows(EXPLORED, Grid::test(), seed);
         let (stop, progress) = (stop_signal(), talk.progress(rows.len(), "rows"));
         let points = self.draws.pool()?.install(|| {
@@ -180,7 +181,7 @@ impl Args {
             let schema = "tofsim.exploration/1";
             let report =
                 Exploration { schema, network: name, profile: &profile, seed, rows, points };
-            return print(&(json(&report)? + "\n"));
+            return print(&json_line(&report)?);
         }
         let head = format!("network {name}, chain {profile}, {rows} histograms, seed {seed}\n\n");
         print(&(head + &exploration::text(&points)))
@@ -221,11 +222,6 @@ impl Report {
         }
         text
     }
-}
-
-fn json(report: &impl Serialize) -> Result<String> {
-    let text = serde_json::to_string(report).map_err(std::io::Error::from);
-    text.map_err(Error::io(Path::new("stdout"), "write"))
 }
 
 /// Without the folders before it, which are nobody's business in the file.

@@ -3,11 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use crate::choice;
-use crate::report::frame_log::FrameLog;
-use crate::report::products::Products;
-use crate::report::summary::Summary;
-use crate::report::table;
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::create_directory;
 use tofsim::hierarchy;
@@ -15,13 +10,20 @@ use tofsim::scenario;
 use tofsim::scenario::window::Window;
 use tofsim::sim::fast::histogram::Histograms;
 use tofsim::sim::frames::Frame;
-use tofsim::sim::run::Observers;
+use tofsim::sim::run::{Observers, Outcome};
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 use tofsim::sim::{Run, Stepping};
-use tofsim::waves::{self, WaveFormat, Waves, write_views};
-use tofsim_learn::estimation::{Kind, Panel};
+use tofsim::waves::{self, Marks, WaveFormat, Waves, write_views};
+use tofsim_learn::estimation::{EstimatorKind, Panel};
 
+use crate::choice::{self, Fidelity, WaveformChoice};
+use crate::report::frame_log::FrameLog;
+use crate::report::run_files::RunFiles;
+use crate::report::summary::Summary;
+use crate::report::table;
+
+use super::draws::use_threads;
 use super::interrupt::stop_signal;
 use super::stdout::{print, print_with};
 use super::talk::Talk;
@@ -49,15 +51,15 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..))]
     frames: u64,
     /// How to simulate; cycle and shot give the same frames, histogram the same in distribution
-    #[arg(long, value_enum, default_value_t = Fidelity::Cycle)]
+    #[arg(long, value_parser = choice::fidelity(), default_value = "cycle")]
     fidelity: Fidelity,
     /// Threads for the frames of a run without waveform and events; the results are the same for
     /// any number [default: one a core]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     /// Format of the waveform [default: vcd; none for fidelities without signals]
-    #[arg(long, value_enum)]
-    waves: Option<WavesFormat>,
+    #[arg(long, value_parser = choice::waveform())]
+    waves: Option<WaveformChoice>,
     /// Part of the run that goes into the waveform: shot:0..8, 10us..12us or estimation; may be
     /// repeated [default: the scenario's, or shot:0..16 and estimation]
     #[arg(long, value_name = "W", value_parser = str::parse::<Window>)]
@@ -69,7 +71,7 @@ pub struct Args {
     /// Estimators that look at each frame's histogram beside the firmware's own, separated by commas;
     /// subtraction makes pairs of a dark and a lit frame (firmware.dark_frames), and all look at those
     #[arg(long, value_parser = choice::estimator(), value_delimiter = ',')]
-    estimator: Vec<Kind>,
+    estimator: Vec<EstimatorKind>,
     /// Write a row for each shot, as .csv or .parquet
     #[arg(long, value_name = "FILE")]
     events: Option<PathBuf>,
@@ -79,36 +81,6 @@ pub struct Args {
     /// Print one JSON object instead of a table
     #[arg(long)]
     json: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Fidelity {
-    /// Every register at every edge that changes one
-    Cycle,
-    /// A draw, a code and a count for each shot; no signals to look at
-    Shot,
-    /// A draw for each frame, of its whole histogram; for MODE 0, without control changes
-    Histogram,
-}
-
-impl Fidelity {
-    fn name(self) -> &'static str {
-        match self {
-            Fidelity::Cycle => "cycle",
-            Fidelity::Shot => "shot",
-            Fidelity::Histogram => "histogram",
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum WavesFormat {
-    /// Value change dump
-    Vcd,
-    /// GTKWave's compressed format
-    Fst,
-    /// No waveform
-    None,
 }
 
 /// Runs the command.
@@ -122,11 +94,11 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     args.check_fidelity(&setup)?;
     args.check_pairs(&setup)?;
     let frames = args.frames * setup.frames_together();
-    let histograms =
-        (args.fidelity == Fidelity::Histogram).then(|| Histograms::new(&setup)).transpose()?;
-    let plan = WavePlan::new(args, waves, &setup, frames)?;
+    let way = Way::new(args.fidelity, &setup)?;
+    let plan = |format| WavePlan::new(args, format, &setup, frames);
+    let plan = waves.map(plan).transpose()?;
     let (folder, events) = (args.output.as_deref(), args.events.as_deref());
-    let mut products = Products::new(folder, events, &provenance(args, &setup), &setup)?;
+    let mut files = RunFiles::new(folder, events, &provenance(args, &setup), &setup)?;
     let waves = plan.as_ref().map(|plan| plan.open(args, &setup)).transpose()?;
     use_threads(args.threads)?;
 
@@ -138,48 +110,30 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         progress.inc(1);
         log.push(&setup, frame)
     };
-    let sees_shots = args.fidelity == Fidelity::Cycle && products.want_shots();
-    let wants_all_shots = products.want_all_shots();
-    let mut take_shot = |shot: &Shot| products.shot(shot);
-    let observers = Observers {
+    let sees_shots = args.fidelity == Fidelity::Cycle && files.want_shots();
+    let wants_all_shots = files.want_all_shots();
+    let mut take_shot = |shot: &Shot| files.shot(shot);
+    let watch = Observers {
         waves,
         shots: sees_shots.then_some(&mut take_shot),
         frames: Some(&mut take_frame),
         stop: stop.as_deref(),
     };
     let began = Instant::now();
-    let outcome = match histograms {
-        Some(histograms) => histograms.many(frames, observers)?,
-        None => {
-            let stepping = match args.fidelity {
-                Fidelity::Shot => Stepping::LeapShots,
-                _ => Stepping::SkipIdle,
-            };
-            let run = Run::new(&setup).stepping(stepping);
-            match observers.waves.is_some() || wants_all_shots {
-                true => run.observe(frames, observers)?,
-                false => run.many(frames, observers)?,
-            }
-        }
-    };
+    let outcome = way.simulate(frames, watch, wants_all_shots)?;
     let wall = began.elapsed();
     progress.finish_and_clear();
     outcome.notes.iter().chain(&setup.notes()).for_each(|note| talk.note(note));
 
-    if let Some(plan) = &plan {
-        for view in write_views(&plan.path, plan.format, &plan.entries, &outcome.marks)? {
-            talk.detail(format_args!("wrote {}", view.display()));
-        }
-        talk.note(format_args!("waveform: {}", plan.path.display()));
-    }
+    plan.as_ref().map_or(Ok(()), |plan| plan.finish(&outcome.marks, talk))?;
     let waves = plan.map(|plan| plan.path.display().to_string());
     let fidelity = args.fidelity.name();
-    let summary = Summary::new(&setup, fidelity, waves, &log, products.tdc());
-    for path in products.finish(&setup, &mut log, &summary)? {
+    let summary = Summary::new(&setup, fidelity, waves, &log, files.tdc());
+    for path in files.finish(&setup, &mut log, &summary)? {
         talk.detail(format_args!("wrote {}", path.display()));
     }
     if args.json {
-        return print_with(|out| log.write_json(&summary, out));
+        return print_with(|out| summary.write(&mut log, out));
     }
     let mut text = table::run(&setup, &log, outcome.cycles, wall);
     if let Some(results) = &summary.tdc {
@@ -188,13 +142,40 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     print(&text)
 }
 
+/// A way to simulate, at the fidelity that is asked for.
+enum Way<'a> {
+    /// Histogram by histogram.
+    Draw(Histograms<'a>),
+    /// Edge by edge or shot by shot.
+    Run(Box<Run<'a>>),
+}
+
+impl<'a> Way<'a> {
+    fn new(fidelity: Fidelity, setup: &'a Setup) -> Result<Self> {
+        Ok(match fidelity {
+            Fidelity::Cycle => Way::Run(Box::new(Run::new(setup).stepping(Stepping::SkipIdle))),
+            Fidelity::Shot => Way::Run(Box::new(Run::new(setup).stepping(Stepping::LeapShots))),
+            Fidelity::Histogram => Way::Draw(Histograms::new(setup)?),
+        })
+    }
+
+    /// Simulates frames, on several threads unless there is a waveform or every shot is wanted.
+    fn simulate(self, frames: u64, watch: Observers, wants_all_shots: bool) -> Result<Outcome> {
+        match self {
+            Way::Draw(histograms) => histograms.many(frames, watch),
+            Way::Run(run) if watch.waves.is_some() || wants_all_shots => run.observe(frames, watch),
+            Way::Run(run) => run.many(frames, watch),
+        }
+    }
+}
+
 impl Args {
     /// The format of the waveform, if there is one.
-    fn waves_format(&self) -> Result<WavesFormat> {
+    fn waves_format(&self) -> Result<WaveformChoice> {
         match (self.fidelity, self.waves) {
-            (Fidelity::Cycle, waves) => Ok(waves.unwrap_or(WavesFormat::Vcd)),
-            (_, None | Some(WavesFormat::None)) => Ok(WavesFormat::None),
-            (_, Some(_)) => Err(self.without_signals("--waves")),
+            (Fidelity::Cycle, waves) => Ok(waves.unwrap_or(Some(WaveFormat::Vcd))),
+            (_, None | Some(None)) => Ok(None),
+            (_, Some(Some(_))) => Err(self.without_signals("--waves")),
         }
     }
 
@@ -205,7 +186,7 @@ impl Args {
     }
 
     fn wants_pairs(&self) -> bool {
-        self.estimator.contains(&Kind::Subtraction)
+        self.estimator.contains(&EstimatorKind::Subtraction)
     }
 
     /// That there are pairs if an estimator needs them, and not too many.
@@ -250,13 +231,6 @@ impl Args {
     }
 }
 
-/// Makes the pool of so many threads, if a number is asked for.
-fn use_threads(threads: Option<u16>) -> Result<()> {
-    let Some(threads) = threads else { return Ok(()) };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
-    pool.map_err(|error| Input::new("--threads", error).value(threads).into())
-}
-
 /// The waveform: what goes into it, and where.
 struct WavePlan {
     path: PathBuf,
@@ -266,11 +240,10 @@ struct WavePlan {
 }
 
 impl WavePlan {
-    fn new(args: &Args, waves: WavesFormat, setup: &Setup, frames: u64) -> Result<Option<Self>> {
-        let (format, ending) = match waves {
-            WavesFormat::None => return Ok(None),
-            WavesFormat::Vcd => (WaveFormat::Vcd, "vcd"),
-            WavesFormat::Fst => (WaveFormat::Fst, "fst"),
+    fn new(args: &Args, format: WaveFormat, setup: &Setup, frames: u64) -> Result<Self> {
+        let ending = match format {
+            WaveFormat::Vcd => "vcd",
+            WaveFormat::Fst => "fst",
         };
         let entries = hierarchy::entries(&setup.params);
         let entries = waves::select(entries, hierarchy::ram_entries(), &args.signals)?;
@@ -278,13 +251,22 @@ impl WavePlan {
         let folder = args.output.as_deref().unwrap_or(Path::new("waves"));
         create_directory(folder)?;
         let path = folder.join(format!("{}.{ending}", setup.name));
-        Ok(Some(WavePlan { path, format, entries, windows }))
+        Ok(WavePlan { path, format, entries, windows })
     }
 
     fn open(&self, args: &Args, setup: &Setup) -> Result<(Waves, Vec<Window>)> {
         let (order, provenance) = (setup.params.tdc.delays.order(), provenance(args, setup));
         let waves = Waves::create(&self.path, self.format, &self.entries, order, &provenance)?;
         Ok((waves, self.windows.clone()))
+    }
+
+    /// Writes what viewers need beside the waveform, and says where it is.
+    fn finish(&self, marks: &Marks, talk: &Talk) -> Result<()> {
+        for view in write_views(&self.path, self.format, &self.entries, marks)? {
+            talk.detail(format_args!("wrote {}", view.display()));
+        }
+        talk.note(format_args!("waveform: {}", self.path.display()));
+        Ok(())
     }
 }
 

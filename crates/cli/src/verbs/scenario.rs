@@ -3,10 +3,11 @@
 use clap::Subcommand;
 use serde_json::json;
 
-use crate::text::table::plain;
 use tofsim::error::Result;
 use tofsim::scenario::{self, builtin, show};
 use tofsim::sim::setup::Setup;
+
+use crate::text::table::plain;
 
 use super::stdout::print;
 

@@ -3,11 +3,19 @@
 use std::io::{self, BufWriter, StdoutLock, Write};
 use std::path::Path;
 
+use serde::Serialize;
+
 use tofsim::error::{Error, Result};
 
 /// Prints `text` as it is; a closed pipe or a full disk is an error.
 pub fn print(text: &str) -> Result<()> {
     print_with(|out| out.write_all(text.as_bytes()))
+}
+
+/// An object as a line of JSON.
+pub fn json_line(object: &impl Serialize) -> Result<String> {
+    let text = serde_json::to_string(object).map_err(io::Error::from);
+    Ok(text.map_err(Error::io(Path::new("stdout"), "write"))? + "\n")
 }
 
 /// Prints what `fill` writes; a closed pipe or a full disk is an error.

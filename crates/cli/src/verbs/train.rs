@@ -6,20 +6,22 @@ use tofsim::error::{Input, Result, read_text};
 use tofsim::files::output::create_directory;
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
-use tofsim_learn::dataset::Source;
+use tofsim_learn::dataset::HistogramSource;
 use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::tournament::Tournament;
 use tofsim_learn::training::{checkpoint, data};
 
-use super::draws::from_here;
+use crate::report::training::{self, TrainingReport};
+
+use super::draws::{from_here, use_threads};
 use super::interrupt::stop_signal;
-use super::stdout::print;
+use super::stdout::{json_line, print};
 use super::talk::Talk;
 
 mod word_format;
 mod written;
 
-use word_format::WordFormat;
+use word_format::FormatOption;
 
 /// Train a depth network on simulated histograms, within the firmware's number formats or others
 #[derive(Debug, clap::Args)]
@@ -61,7 +63,7 @@ pub struct Args {
     /// Width and fraction bits of w1, b1, w2, b2 or l1_out (activations), such as w1=16.23; may be
     /// repeated [default: those of the thesis's Table 6.4]
     #[arg(long = "format", value_name = "WORD=WIDTH.FRACTION")]
-    formats: Vec<WordFormat>,
+    formats: Vec<FormatOption>,
     /// Starts that take part in the first stage
     #[arg(long, value_name = "N")]
     starts: Option<usize>,
@@ -98,21 +100,18 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         loaded.scenario.tdc.profile = from_here(profile, &loaded)?;
     }
     let setup = Setup::new(loaded)?;
-    let source = Source::new(&setup)?;
-    let mut settings: checkpoint::Settings = recipe.settings()?.into_iter().collect();
+    let source = HistogramSource::new(&setup)?;
+    let mut settings: checkpoint::CheckpointSettings = recipe.settings()?.into_iter().collect();
     settings.insert("seed".to_owned(), args.seed.to_string());
     settings.insert("scenario".to_owned(), data::fingerprint(&source));
 
     let path = args.output.join("checkpoint");
     let state = args.resume.then(|| checkpoint::load(&path, &settings, &recipe)).transpose()?;
     create_directory(&args.output)?;
-    if let Some(threads) = args.threads {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
-        pool.map_err(|error| Input::new("--threads", error).value(threads))?;
-    }
+    use_threads(args.threads)?;
     let mut tournament = match state {
-        Some(state) => Tournament::resume(&recipe, &source, args.seed, state)?,
-        None => Tournament::new(&recipe, &source, args.seed)?,
+        Some(state) => Tournament::resume(&recipe, &source, args.seed, state),
+        None => Tournament::new(&recipe, &source, args.seed),
     };
     let stop = stop_signal();
     let (done, all) = tournament.progress();
@@ -133,7 +132,14 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         }
     }
     progress.finish_and_clear();
-    args.finish(&setup, &recipe, &tournament, talk)
+    let chain = args.profile.clone().unwrap_or_else(|| setup.scenario.tdc.profile.clone());
+    let made = (chain, args.command(), args.seed);
+    let (network, rows) = written::write(&args.output, &recipe, &tournament, made, talk)?;
+    let line = &recipe.weighting;
+    print(&match args.json {
+        true => json_line(&TrainingReport::new(&rows, line, &network))?,
+        false => training::table(&rows, line),
+    })
 }
 
 /// Says how far it is.

@@ -3,18 +3,20 @@
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-use crate::choice;
-use crate::report::verification as report;
+use rayon::prelude::*;
+
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::write_file;
+use tofsim_rtl::golden::blocks::CENTROID;
 use tofsim_rtl::golden::{BLOCKS, Setting, Spec};
 use tofsim_rtl::verify::cycle_counts::Count;
 use tofsim_rtl::verify::process::Limits;
-use tofsim_rtl::verify::{CENTROID, Check, Map, Report, Rtl, Simulator};
+use tofsim_rtl::verify::{BlockCheck, BlockReport, Rtl, RtlMap, Simulator};
+
+use crate::choice;
+use crate::report::verification as report;
 
 use super::interrupt::stop_signal;
 use super::stdout::print;
@@ -77,7 +79,7 @@ struct Task {
 
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
-    let map = args.map.as_deref().map(Map::read).transpose()?;
+    let map = args.map.as_deref().map(RtlMap::read).transpose()?;
     let work = tempfile::tempdir().map_err(Error::io(&std::env::temp_dir(), "write"))?;
     let rtl = match &args.rtl {
         Some(folder) => Rtl::folder(folder)?,
@@ -90,7 +92,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     }
     let tasks = tasks(args, map.as_ref(), &rtl, talk)?;
     let check = |task: &Task| {
-        let check = Check {
+        let check = BlockCheck {
             rtl: &rtl,
             map: map.as_ref().and_then(|map| map.block.get(task.spec.name)),
             simulator: args.simulator,
@@ -102,7 +104,9 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         talk.detail(format_args!("{}: done", task.name));
         report
     };
-    let reports = in_parallel(&tasks, check)?;
+    let reports: Vec<_> = tasks.par_iter().map(check).collect();
+    // Whichever fails first in time, the first error is that of the first task.
+    let reports = reports.into_iter().collect::<Result<Vec<_>>>()?;
 
     let simulator = args.simulator.name();
     if let Some(path) = &args.junit {
@@ -114,7 +118,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         true => print(&format!("{:#}\n", report::json(&rtl.source, simulator, &reports)))?,
         false => print(&report::text(&reports))?,
     }
-    let passed = reports.iter().all(Report::passed);
+    let passed = reports.iter().all(BlockReport::passed);
     Ok(ExitCode::from(u8::from(!passed)))
 }
 
@@ -130,7 +134,7 @@ fn cycle_counts(args: &Args, rtl: &Rtl, limits: &Limits) -> Result<ExitCode> {
 }
 
 /// The blocks that are asked for, then the whole.
-fn tasks(args: &Args, map: Option<&Map>, rtl: &Rtl, talk: &Talk) -> Result<Vec<Task>> {
+fn tasks(args: &Args, map: Option<&RtlMap>, rtl: &Rtl, talk: &Talk) -> Result<Vec<Task>> {
     let setting = args.from.setting()?;
     let setting = map.map_or(setting.clone(), |map| map.fit(&setting));
     let specs: Vec<_> = match (args.block.as_slice(), args.top) {
@@ -150,7 +154,7 @@ fn tasks(args: &Args, map: Option<&Map>, rtl: &Rtl, talk: &Talk) -> Result<Vec<T
 }
 
 /// All blocks, but for an estimator that the thesis does not have and the design need not.
-fn every(map: Option<&Map>, rtl: &Rtl, talk: &Talk) -> Result<Vec<&'static Spec>> {
+fn every(map: Option<&RtlMap>, rtl: &Rtl, talk: &Talk) -> Result<Vec<&'static Spec>> {
     let named = map.and_then(|map| map.block.get(CENTROID));
     let module = named.map_or(CENTROID, |block| block.module(CENTROID));
     if named.is_some() || rtl.has(module)? {
@@ -158,34 +162,4 @@ fn every(map: Option<&Map>, rtl: &Rtl, talk: &Talk) -> Result<Vec<&'static Spec>
     }
     talk.note(format_args!("{}: no module {module}, which is not checked", rtl.source));
     Ok(BLOCKS.iter().filter(|spec| spec.name != CENTROID).collect())
-}
-
-/// Does all tasks on as many threads as the machine has, in any order; the reports, and the first
-/// error, are in the order of the tasks.
-fn in_parallel(
-    tasks: &[Task],
-    check: impl Fn(&Task) -> Result<Report> + Sync,
-) -> Result<Vec<Report>> {
-    let threads = std::thread::available_parallelism().map_or(1, |n| n.get()).min(tasks.len());
-    let (next, slots) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                while let Some(task) = tasks.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let place = tasks.iter().position(|other| std::ptr::eq(other, task));
-                    let report = check(task);
-                    let failed = report.is_err();
-                    if let Ok(mut slots) = slots.lock() {
-                        slots.push((place, report));
-                    }
-                    if failed {
-                        next.store(tasks.len(), Ordering::Relaxed);
-                    }
-                }
-            });
-        }
-    });
-    let mut reports = slots.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
-    reports.sort_by_key(|(place, _)| *place);
-    reports.into_iter().map(|(_, report)| report).collect()
 }

@@ -4,8 +4,9 @@ use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
-use super::{csv, different, refused, same, vcd, write};
 use crate::common;
+
+use super::{csv, different, refused, same, vcd, write};
 
 /// A waveform of a clock of 10 ns, rising at 5, 15, 25 ... ns, a word that never repeats within 200
 /// steps, and a pulse at step 60; both change with the clock.

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use super::{refused, same};
 use crate::common;
+
+use super::{refused, same};
 
 /// Set-ups, and the waveform of the run: scenario, frames, window, signals.
 const SET_UPS: [(&str, &str, &str, &str, &[&str]); 4] = [

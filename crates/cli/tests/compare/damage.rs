@@ -5,8 +5,9 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::{different, differing, findings, refused};
 use crate::common;
+
+use super::{different, differing, findings, refused};
 
 /// A capture and its parts, as lists of cells.
 struct Table {

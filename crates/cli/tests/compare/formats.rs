@@ -5,8 +5,9 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::{different, refused, same, write};
 use crate::common;
+
+use super::{different, refused, same, write};
 
 fn info(folder: &Path, name: &str) -> Value {
     common::json(folder, &["ila", "info", name, "--json"])

@@ -2,8 +2,9 @@
 
 use std::fs;
 
-use super::{compare, csv, different, differing, refused, same, vcd, write};
 use crate::common;
+
+use super::{compare, csv, different, differing, refused, same, vcd, write};
 
 fn rows(cells: &[&str]) -> Vec<String> {
     cells.iter().map(|&row| row.to_owned()).collect()

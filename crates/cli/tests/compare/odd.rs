@@ -1,7 +1,8 @@
 //! Set-ups that are a little odd, whose captures have to be the same as their run all the same.
 
-use super::{csv, different, findings, refused, same, vcd, write};
 use crate::common;
+
+use super::{csv, different, findings, refused, same, vcd, write};
 
 const SHORT: &str = "firmware.shots_per_frame=60";
 

@@ -2,9 +2,10 @@
 
 use std::fs;
 
+use crate::common;
+
 use super::align::{CLOCK, args, capture, part, sample, waveform, windows, word};
 use super::{csv, different, refused, same, write};
-use crate::common;
 
 #[test]
 fn a_capture_is_found_wherever_it_lies() {

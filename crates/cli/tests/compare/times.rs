@@ -3,9 +3,10 @@
 use std::fs;
 use std::path::Path;
 
+use crate::common;
+
 use super::waveforms::counting;
 use super::{different, differing, same, vcd, write};
-use crate::common;
 
 #[test]
 fn the_first_instant_left_out_is_that_of_until() {

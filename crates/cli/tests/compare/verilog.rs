@@ -4,8 +4,9 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use super::same;
 use crate::common;
+
+use super::same;
 
 const SHORT: &str = "firmware.shots_per_frame=40";
 

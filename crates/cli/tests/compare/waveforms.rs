@@ -3,8 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use super::{different, differing, refused, same, vcd, write};
 use crate::common;
+
+use super::{different, differing, refused, same, vcd, write};
 
 /// A clock and a count, in steps of 5 ns; the count at step 7 is `seventh`.
 pub fn counting(timescale: &str, scale: u64, scope: &str, seventh: u64) -> String {

@@ -1,7 +1,8 @@
 //! Which signals belong together: names, maps, slices.
 
-use super::{csv, different, differing, refused, same, vcd, write};
 use crate::common;
+
+use super::{csv, different, differing, refused, same, vcd, write};
 
 fn rows(cells: &[&str]) -> Vec<String> {
     cells.iter().map(|&row| row.to_owned()).collect()

@@ -1,8 +1,9 @@
 //! Captures of several windows, with gaps and marks.
 
+use crate::common;
+
 use super::align::{CLOCK, args, capture, waveform, windows};
 use super::{csv, different, differing, same, vcd, write};
-use crate::common;
 
 /// Windows of one column each, without triggers unless there is a `t` behind the value.
 fn column(windows: &[&str]) -> String {

@@ -1,11 +1,13 @@
 //! Dark and lit histograms against the closed form, and the bias that their difference has.
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
+
 use tofsim::optics::{BinProbabilities, Bins, Hazard};
 use tofsim::sim::setup::{CYCLE, Setup};
 
-use super::{counts, pairs};
 use crate::common::{empty, setup};
+
+use super::{counts, pairs};
 
 /// Level of the tests of distributions; their seeds are fixed.
 const LEVEL: f64 = 1e-3;

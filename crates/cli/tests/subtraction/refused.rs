@@ -1,7 +1,8 @@
 //! What makes no pairs is refused by name.
 
-use super::PAIRS;
 use crate::common::{self, empty, refused};
+
+use super::PAIRS;
 
 #[test]
 fn what_makes_no_pairs_is_refused_by_name() {

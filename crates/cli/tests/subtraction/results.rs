@@ -3,14 +3,16 @@
 use std::fs;
 
 use serde_json::Value;
+
 use tofsim::network::Histogram;
 use tofsim::optics::Bins;
 use tofsim::sim::setup::CYCLE;
 use tofsim_learn::estimation::subtraction::Subtraction;
-use tofsim_learn::estimation::{Estimator, Pair};
+use tofsim_learn::estimation::{Estimator, HistogramPair};
+
+use crate::common::{self, empty, json, refused, setup, stdout};
 
 use super::{PAIRS, counts, pairs};
-use crate::common::{self, empty, json, refused, setup, stdout};
 
 fn histogram(frame: &Value) -> Histogram {
     let counts = counts(&frame["histogram"]);
@@ -41,7 +43,7 @@ fn a_depth_comes_from_a_dark_and_a_lit_frame_at_every_fidelity() {
                 assert_eq!(frame["difference"].is_array(), kind == 1);
                 assert_eq!(frame["estimates"].is_array(), kind == 1);
             }
-            let pair = Pair { dark: histogram(&two[0]), lit: histogram(&two[1]) };
+            let pair = HistogramPair { dark: histogram(&two[0]), lit: histogram(&two[1]) };
             let difference = counts(&two[1]["difference"]);
             assert!(difference.iter().copied().eq(pair.difference().map(i64::from)));
             assert!(difference.iter().any(|&hits| hits < 0), "signed");

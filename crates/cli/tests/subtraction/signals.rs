@@ -5,14 +5,16 @@ use std::fs;
 
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
+
 use tofsim::sim::frames::Frame;
 use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 use tofsim::sim::{Run, Stepping};
 
-use super::{PAIRS, edge_us};
 use crate::common::{empty, json, setup, stdout};
+
+use super::{PAIRS, edge_us};
 
 /// Instants at which each of the signals of a VCD rises or falls, with the new level; those of a name
 /// in several modules once [ps].

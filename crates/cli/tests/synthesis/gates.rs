@@ -8,8 +8,9 @@ use tofsim::files::output::write_file;
 use tofsim_rtl::golden::{Setting, Vectors, blocks};
 use tofsim_rtl::verify::{Rtl, Simulator, Verdict};
 
-use super::yosys::{self, LIMITS, Sources};
 use crate::common;
+
+use super::yosys::{self, LIMITS, Sources};
 
 /// Shots of a frame; synthesis fixes it, as it does the contents of the ROMs.
 const SHOTS: u64 = 300;

@@ -6,7 +6,9 @@ use rayon::prelude::*;
 
 use tofsim::network::Histogram;
 
-use super::{Row, Rows, Scene, Source};
+use super::rows::{NumberedScene, Rows};
+use super::scene::Scene;
+use super::source::HistogramSource;
 
 /// Rows of a block: 1 MB of histograms.
 pub const BLOCK: u64 = 2048;
@@ -29,13 +31,13 @@ pub struct Sample {
 /// Rows in order, [`BLOCK`] at a time and fewer at the end, drawn on all threads of the current pool.
 #[derive(Clone, Debug)]
 pub struct Blocks<'a> {
-    source: &'a Source,
+    source: &'a HistogramSource,
     rows: &'a Rows,
     seed: u64,
     left: Range<u64>,
 }
 
-impl Source {
+impl HistogramSource {
     /// Draws the rows whose indices are in `range`, without those beyond the last. The same for any
     /// number of threads; memory is that of a block.
     pub fn blocks<'a>(&'a self, rows: &'a Rows, seed: u64, range: Range<u64>) -> Blocks<'a> {
@@ -48,7 +50,7 @@ impl Source {
         let mut white = Last(None);
         let mut codes = Last(None);
         let sample = |index| {
-            let Row { number: row, scene } = rows.row(index);
+            let NumberedScene { number: row, scene } = rows.row(index);
             let white = white.or(scene.distance_m, |&distance_m| self.white(distance_m));
             let codes = codes.or(scene, |scene| self.probabilities_of(white, scene));
             let histogram = self.draw_from(codes, seed, row);
@@ -95,9 +97,9 @@ mod tests {
     use tofsim::scenario;
     use tofsim::sim::setup::Setup;
 
-    fn source() -> Source {
+    fn source() -> HistogramSource {
         let few = ["firmware.shots_per_frame=300".to_owned()];
-        Source::new(&Setup::new(scenario::load("kc705", &few).unwrap()).unwrap()).unwrap()
+        HistogramSource::new(&Setup::new(scenario::load("kc705", &few).unwrap()).unwrap()).unwrap()
     }
 
     #[test]

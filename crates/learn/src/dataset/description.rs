@@ -4,11 +4,12 @@ use serde::Serialize;
 
 use tofsim::scenario::Scenario;
 
-use super::{Rows, Source};
+use super::rows::Rows;
+use super::source::HistogramSource;
 
 /// Where a dataset comes from; with it, and with a row's number and seed, the row can be made again.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Description {
+pub struct DatasetDescription {
     /// `tofsim.dataset/1`.
     pub schema: &'static str,
     /// Version of the program.
@@ -33,11 +34,17 @@ pub struct Description {
     pub settings: Scenario,
 }
 
-impl Description {
+impl DatasetDescription {
     /// Of the rows that a source draws with a seed. `scenario` is its name.
-    pub fn new(scenario: &str, set: &[String], source: &Source, rows: &Rows, seed: u64) -> Self {
+    pub fn new(
+        scenario: &str,
+        set: &[String],
+        source: &HistogramSource,
+        rows: &Rows,
+        seed: u64,
+    ) -> Self {
         let settings = source.scenario().clone();
-        Description {
+        DatasetDescription {
             schema: "tofsim.dataset/1",
             version: env!("CARGO_PKG_VERSION"),
             scenario: scenario.to_owned(),

@@ -6,16 +6,17 @@ use std::path::{Path, PathBuf};
 use tofsim::error::Result;
 use tofsim::files::output::{OutputFile, create_directory};
 
+use super::blocks::Sample;
+use super::description::DatasetDescription;
 use super::npy::NpyFiles;
 use super::parquet_file::{self, ParquetFile};
-use super::{Description, Sample};
 
 /// The file with the description alone.
 pub const DESCRIPTION: &str = "dataset.json";
 
 /// What a dataset is written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum DatasetFormat {
     /// One table, dataset.parquet
     Parquet,
     /// Arrays: histograms.npy, truth.npy and rows.npy
@@ -23,15 +24,19 @@ pub enum Format {
 }
 
 /// The files under construction.
-pub struct Files {
+pub struct DatasetFiles {
     json: OutputFile,
     parquet: Option<ParquetFile>,
     npy: Option<NpyFiles>,
 }
 
-impl Files {
+impl DatasetFiles {
     /// Begins the files of a dataset in a folder, which is made.
-    pub fn create(folder: &Path, formats: &[Format], description: &Description) -> Result<Self> {
+    pub fn create(
+        folder: &Path,
+        formats: &[DatasetFormat],
+        description: &DatasetDescription,
+    ) -> Result<Self> {
         create_directory(folder)?;
         let mut json = OutputFile::create(&folder.join(DESCRIPTION))?;
         let text = serde_json::to_string(description).map_err(std::io::Error::from);
@@ -40,10 +45,10 @@ impl Files {
         let wants = |format| formats.contains(&format);
         let parquet = || ParquetFile::create(&folder.join(parquet_file::NAME), &text);
         let npy = || NpyFiles::create(folder, description.rows);
-        Ok(Files {
+        Ok(DatasetFiles {
             json,
-            parquet: wants(Format::Parquet).then(parquet).transpose()?,
-            npy: wants(Format::Npy).then(npy).transpose()?,
+            parquet: wants(DatasetFormat::Parquet).then(parquet).transpose()?,
+            npy: wants(DatasetFormat::Npy).then(npy).transpose()?,
         })
     }
 

@@ -1,6 +1,6 @@
 //! The thesis's grids of scenes (section 5.4): every distance with every irradiance and reflectance.
 
-use super::Scene;
+use super::scene::Scene;
 
 /// Equally spaced decimals: `(first + k step) / per_unit` for `k` below `count`, each the `f64`
 /// nearest to the decimal.

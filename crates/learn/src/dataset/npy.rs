@@ -11,7 +11,7 @@ use tofsim::error::{Error, Result};
 use tofsim::files::output::OutputFile;
 use tofsim::firmware::histogram_builder::BINS;
 
-use super::Sample;
+use super::blocks::Sample;
 
 /// Names of the files in a dataset's folder.
 pub const NAMES: [&str; 3] = ["histograms.npy", "truth.npy", "rows.npy"];

@@ -11,9 +11,10 @@ use tofsim::error::{Error, Input, Result};
 use tofsim::files::npy;
 use tofsim::network::histogram_file;
 
+use super::blocks::Sample;
+use super::checks::check_truth;
 use super::npy::{NAMES, TYPES};
-use super::read::check_truth;
-use super::{Sample, Scene};
+use super::scene::Scene;
 
 /// Reads the three files of a folder.
 pub(super) fn read(folder: &Path) -> Result<Vec<Sample>> {

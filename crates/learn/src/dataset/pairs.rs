@@ -2,19 +2,21 @@
 
 use rayon::prelude::*;
 
-use crate::estimation::Pair;
-use crate::estimation::subtraction::half;
 use tofsim::error::Input;
 use tofsim::optics::BinProbabilities;
 use tofsim::sensor::streams::{self, stream};
 
-use super::blocks::{Last, RUN};
-use super::{Sample, Scene, Source};
+use crate::estimation::HistogramPair;
+use crate::estimation::subtraction::half;
+
+use super::blocks::{Last, RUN, Sample};
+use super::scene::Scene;
+use super::source::HistogramSource;
 
 /// Draws pairs of any scene, all else being as a source has it.
 #[derive(Clone, Copy, Debug)]
 pub struct Pairs<'a> {
-    source: &'a Source,
+    source: &'a HistogramSource,
     /// Of each histogram [shots].
     shots: u64,
 }
@@ -24,7 +26,7 @@ impl<'a> Pairs<'a> {
     ///
     /// # Errors
     /// When they have no half, or the laser never fires.
-    pub fn new(source: &'a Source) -> Result<Self, Input> {
+    pub fn new(source: &'a HistogramSource) -> Result<Self, Input> {
         let shots = half(source.shots().into())?;
         if !source.scenario().firmware.laser_en {
             let expected = "expected true: a lit histogram needs the laser";
@@ -41,12 +43,12 @@ impl<'a> Pairs<'a> {
 
     /// Pairs for the rows of `samples`, on all threads of the current pool. Each row's comes from a
     /// stream of its own.
-    pub fn draw(&self, samples: &[Sample]) -> Vec<Pair> {
+    pub fn draw(&self, samples: &[Sample]) -> Vec<HistogramPair> {
         samples.par_chunks(RUN as usize).flat_map_iter(|samples| self.run(samples)).collect()
     }
 
     /// Neighbouring rows share what they have in common.
-    fn run(&self, samples: &[Sample]) -> Vec<Pair> {
+    fn run(&self, samples: &[Sample]) -> Vec<HistogramPair> {
         let (mut white, mut codes) = (Last(None), Last(None));
         let pair = |sample: &Sample| {
             let scene = sample.scene;
@@ -60,7 +62,7 @@ impl<'a> Pairs<'a> {
                 let counts = codes[kind].draw(self.shots, &mut random);
                 counts.map(|count| count as u16)
             });
-            Pair { dark, lit }
+            HistogramPair { dark, lit }
         };
         samples.iter().map(pair).collect()
     }
@@ -73,9 +75,9 @@ mod tests {
     use tofsim::scenario;
     use tofsim::sim::setup::Setup;
 
-    fn source(keys: &[&str]) -> Source {
+    fn source(keys: &[&str]) -> HistogramSource {
         let keys: Vec<_> = keys.iter().map(|&key| key.to_owned()).collect();
-        Source::new(&Setup::new(scenario::load("kc705", &keys).unwrap()).unwrap()).unwrap()
+        HistogramSource::new(&Setup::new(scenario::load("kc705", &keys).unwrap()).unwrap()).unwrap()
     }
 
     #[test]
@@ -103,7 +105,7 @@ mod tests {
         let white = source.white(scene.distance_m);
         for lit in [false, true] {
             let codes = source.probabilities_with(&white, &scene, lit);
-            let of = |pair: &Pair| if lit { pair.lit } else { pair.dark };
+            let of = |pair: &HistogramPair| if lit { pair.lit } else { pair.dark };
             let (mut chi2, mut cells) = (0.0, 0.0);
             for (bin, p) in codes.of_code().iter().enumerate() {
                 let found: f64 = drawn.iter().map(|pair| f64::from(of(pair)[bin])).sum();

@@ -13,9 +13,10 @@ use parquet::schema::types::SchemaDescriptor;
 use tofsim::error::{Error, Input, Result};
 use tofsim::firmware::histogram_builder::BINS;
 
+use super::blocks::Sample;
+use super::checks::{Fault, check_total, check_truth};
 use super::parquet_file::{HEAD, bin_name};
-use super::read::{Fault, check_total, check_truth};
-use super::{Sample, Scene};
+use super::scene::Scene;
 
 /// Values read at a time.
 const CHUNK: usize = 1 << 14;

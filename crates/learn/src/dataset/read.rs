@@ -5,9 +5,9 @@ use std::io::Read;
 use std::path::Path;
 
 use tofsim::error::{Error, Input, Result};
-use tofsim::network::{Histogram, MAX_HITS};
 
-use super::{Sample, Scene, npy, npy_read, parquet_file, parquet_read};
+use super::blocks::Sample;
+use super::{npy, npy_read, parquet_file, parquet_read};
 
 /// First bytes of a Parquet file.
 const PARQUET: &[u8; 4] = b"PAR1";
@@ -40,29 +40,4 @@ pub fn read(path: &Path) -> Result<Vec<Sample>> {
             Err(Input::new(path.display(), expected).into())
         }
     }
-}
-
-/// What is wrong with a row: the column, what stands there and what was expected.
-pub(super) type Fault = (String, String, String);
-
-/// Refuses what no scene has.
-pub(super) fn check_truth(scene: &Scene) -> std::result::Result<(), Fault> {
-    let values = [scene.distance_m, scene.reflectance, scene.irradiance_w_m2_nm];
-    for (name, value) in parquet_file::HEAD[2..].iter().zip(values) {
-        if !(0.0..=f64::MAX).contains(&value) {
-            let column = format!("column {name}");
-            return Err((column, value.to_string(), "expected a number from 0".to_owned()));
-        }
-    }
-    Ok(())
-}
-
-/// Refuses what the estimator's words do not bear.
-pub(super) fn check_total(histogram: &Histogram) -> std::result::Result<(), Fault> {
-    let total: u32 = histogram.iter().map(|&count| u32::from(count)).sum();
-    if total > MAX_HITS {
-        let expected = format!("the estimator's bit widths allow {MAX_HITS} hits in all");
-        return Err(("total".to_owned(), total.to_string(), expected));
-    }
-    Ok(())
 }

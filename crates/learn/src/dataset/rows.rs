@@ -1,10 +1,12 @@
 //! Which rows a dataset has.
 
-use super::{Grid, Scene, Subset};
+use super::grid::Grid;
+use super::scene::Scene;
+use super::subset::Subset;
 
 /// A row: what its histogram is drawn for, and where its random numbers are.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+pub struct NumberedScene {
     /// Row number; with the seed it decides the random numbers.
     pub number: u64,
     /// The scene.
@@ -43,11 +45,13 @@ impl Rows {
     }
 
     /// The row at `index`, from 0 and below [`Rows::len`].
-    pub fn row(&self, index: u64) -> Row {
+    pub fn row(&self, index: u64) -> NumberedScene {
         match self {
-            Rows::All(grid) => Row { number: grid.first_row + index, scene: grid.scene(index) },
+            Rows::All(grid) => {
+                NumberedScene { number: grid.first_row + index, scene: grid.scene(index) }
+            }
             Rows::Subset(subset) => {
-                Row { number: subset.first_row() + index, scene: subset.scene(index) }
+                NumberedScene { number: subset.first_row() + index, scene: subset.scene(index) }
             }
         }
     }

@@ -11,16 +11,16 @@ use tofsim::sensor::streams::{self, stream};
 use tofsim::sim::fast::histogram::independent_shots;
 use tofsim::sim::setup::{CYCLE, Setup};
 
-use super::Scene;
+use super::scene::Scene;
 
 /// Draws histograms of any scene, all else being as a scenario has it.
 #[derive(Clone, Debug)]
-pub struct Source {
+pub struct HistogramSource {
     scenario: Scenario,
     bins: Bins,
 }
 
-impl Source {
+impl HistogramSource {
     /// With the optics, chain and shots of `setup`; its own scene does not matter.
     ///
     /// # Errors
@@ -34,7 +34,7 @@ impl Source {
         }
         let tdc = &setup.params.tdc;
         let bins = Bins::of_chain(&tdc.delays, &tdc.cal, CYCLE);
-        Ok(Source { scenario: setup.scenario.clone(), bins })
+        Ok(HistogramSource { scenario: setup.scenario.clone(), bins })
     }
 
     /// Shots of a histogram, 65,535 at most.
@@ -67,7 +67,7 @@ impl Source {
         self.probabilities_of(&self.white(scene.distance_m), scene)
     }
 
-    /// The same where the [white target's budget](Source::white) at the scene's distance is known.
+    /// The same where the [white target's budget](HistogramSource::white) at the scene's distance is known.
     pub fn probabilities_of(&self, white: &Budget, scene: &Scene) -> BinProbabilities {
         self.probabilities_with(white, scene, self.scenario.firmware.laser_en)
     }
@@ -109,9 +109,9 @@ mod tests {
     use tofsim::kernel::Time;
     use tofsim::scenario;
 
-    fn source(overrides: &[&str]) -> Result<Source> {
+    fn source(overrides: &[&str]) -> Result<HistogramSource> {
         let overrides: Vec<_> = overrides.iter().map(|&text| text.to_owned()).collect();
-        Source::new(&Setup::new(scenario::load("kc705", &overrides)?)?)
+        HistogramSource::new(&Setup::new(scenario::load("kc705", &overrides)?)?)
     }
 
     const SCENE: Scene = Scene { distance_m: 0.3, reflectance: 0.34, irradiance_w_m2_nm: 0.2 };

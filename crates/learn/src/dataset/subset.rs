@@ -3,10 +3,10 @@
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use tofsim::sensor::streams::{Source, stream};
+use tofsim::sensor::streams::{self, stream};
 
-use super::Scene;
 use super::grid::{Grid, ROWS};
+use super::scene::Scene;
 
 /// So many rows of a grid, in order of distance.
 ///
@@ -44,7 +44,7 @@ impl Subset {
         let (distance, place) = (distance as u64, (index - first) as u64);
         let round = place / lights;
         let numbers = self.first_row() + (round * distances + distance);
-        let mut random = stream(self.seed, Source::Scene, numbers);
+        let mut random = stream(self.seed, streams::Source::Scene, numbers);
         self.grid.scene_at(distance, drawn(lights, place % lights, &mut random))
     }
 }
@@ -116,7 +116,7 @@ mod tests {
         let len = 201 * 50;
         let mut counts = [[0.0; 53]; 9];
         for scene in (0..len).map(|index| Subset::new(grid, len, 3).scene(index)) {
-            let of = |steps: crate::dataset::Steps, value| {
+            let of = |steps: super::super::grid::Steps, value| {
                 steps.values().position(|known| known == value).unwrap()
             };
             let irradiance = of(grid.irradiances_w_m2_nm, scene.irradiance_w_m2_nm);

@@ -3,19 +3,19 @@
 use tofsim::error::Input;
 use tofsim::firmware::centroid_estimator;
 use tofsim::network::Network;
-use tofsim::optics::Bins;
 
+use super::acquisition::Acquisition;
 use super::centroid::Centroid;
+use super::estimator::Estimator;
 use super::likelihood::Likelihood;
 use super::matched_filter::MatchedFilter;
-use super::network::{FixedNetwork, FloatNetwork};
+use super::network::{fixed, float};
 use super::peak_detection::PeakDetection;
-use super::subtraction::Subtraction;
-use super::{Estimator, Failure, Pair};
+use super::subtraction::{self, Subtraction};
 
 /// An estimator's name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Kind {
+pub enum EstimatorKind {
     /// The network in fixed point, bit for bit as the firmware
     Network,
     /// The network in double precision
@@ -32,46 +32,30 @@ pub enum Kind {
     Matched,
 }
 
-impl Kind {
-    /// All of them.
-    pub const ALL: [Kind; 7] = [
-        Kind::Network,
-        Kind::NetworkFloat,
-        Kind::Centroid,
-        Kind::Peak,
-        Kind::Subtraction,
-        Kind::Likelihood,
-        Kind::Matched,
+impl EstimatorKind {
+    /// All of them: the word on the command line, the kind, what it does.
+    pub const ALL: [(&'static str, Self, &'static str); 7] = [
+        ("network", Self::Network, "The network in fixed point, bit for bit as the firmware"),
+        ("network-float", Self::NetworkFloat, "The network in double precision"),
+        (
+            "centroid",
+            Self::Centroid,
+            "Argmax with centroid correction, bit for bit as the firmware's other estimator",
+        ),
+        ("peak", Self::Peak, "The thesis's peak detection, on the bins of the chain"),
+        (
+            subtraction::NAME,
+            Self::Subtraction,
+            "Peak detection on a lit histogram less a dark one, of half the shots each",
+        ),
+        ("likelihood", Self::Likelihood, "Maximum likelihood with pile-up in the model"),
+        ("matched", Self::Matched, "Matched filter after Coates's correction of pile-up"),
     ];
-
-    /// In a word, as its estimator calls itself.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Kind::Network => "network",
-            Kind::NetworkFloat => "network-float",
-            Kind::Centroid => "centroid",
-            Kind::Peak => "peak",
-            Kind::Subtraction => "subtraction",
-            Kind::Likelihood => "likelihood",
-            Kind::Matched => "matched",
-        }
-    }
-}
-
-/// How the histograms come about, as far as estimators know it.
-#[derive(Clone, Copy, Debug)]
-pub struct Acquisition<'a> {
-    /// Which avalanche times give which code.
-    pub bins: &'a Bins,
-    /// Shots of a histogram, or of a dark and a lit one together [shots].
-    pub shots: u64,
-    /// Standard deviation of the pulse as the detector times it [ps].
-    pub pulse_sigma_ps: f64,
 }
 
 /// What there is to make an estimator of.
 #[derive(Clone, Copy, Debug)]
-pub struct Needs<'a> {
+pub struct EstimatorInputs<'a> {
     /// The histograms.
     pub acquisition: Acquisition<'a>,
     /// The network in the depth estimator.
@@ -80,65 +64,24 @@ pub struct Needs<'a> {
     pub centroid: &'a centroid_estimator::Params,
 }
 
-impl Acquisition<'_> {
-    /// Whether there is anything to estimate from.
-    ///
-    /// # Errors
-    /// For no bins, no shots or more than a bin of 16 bits holds, or a width that is no width.
-    pub fn check(&self) -> Result<(), Input> {
-        let fault = |field, expected| Input::new("acquisition", expected).field(field);
-        if self.bins.spans().is_empty() {
-            return Err(fault("bins", "expected a chain that gives a code at all"));
-        }
-        if !(1..=65_535).contains(&self.shots) {
-            return Err(fault("shots", "expected 1 to 65535").value(self.shots));
-        }
-        if !(1.0..=1e6).contains(&self.pulse_sigma_ps) {
-            let value = self.pulse_sigma_ps;
-            return Err(fault("pulse_sigma_ps", "expected 1 to 1e6 [ps]").value(value));
-        }
-        Ok(())
-    }
-}
-
-impl Kind {
+impl EstimatorKind {
     /// The estimator of that name.
     ///
     /// # Errors
     /// When [`Acquisition::check`] fails.
-    pub fn estimator(self, needs: &Needs) -> Result<Box<dyn Estimator + Send>, Input> {
-        needs.acquisition.check()?;
+    pub fn estimator(self, inputs: &EstimatorInputs) -> Result<Box<dyn Estimator>, Input> {
+        let EstimatorInputs { acquisition, network, centroid } = inputs;
+        acquisition.check()?;
+        let (shots, bins) = (acquisition.shots, acquisition.bins);
         Ok(match self {
-            Kind::Network => Box::new(FixedNetwork::new(needs.network)),
-            Kind::NetworkFloat => Box::new(FloatNetwork::new(needs.network)),
-            Kind::Centroid => Box::new(Centroid::new(needs.centroid)),
-            Kind::Peak => {
-                Box::new(PeakDetection::of_bins(needs.acquisition.shots, needs.acquisition.bins))
-            }
-            Kind::Subtraction => {
-                Box::new(Subtraction::of_bins(needs.acquisition.shots, needs.acquisition.bins)?)
-            }
-            Kind::Likelihood => Box::new(Likelihood::new(&needs.acquisition)?),
-            Kind::Matched => Box::new(MatchedFilter::new(&needs.acquisition)?),
+            EstimatorKind::Network => Box::new(fixed(network)),
+            EstimatorKind::NetworkFloat => Box::new(float(network)),
+            EstimatorKind::Centroid => Box::new(Centroid::new(centroid)),
+            EstimatorKind::Peak => Box::new(PeakDetection::of_bins(shots, bins)),
+            EstimatorKind::Subtraction => Box::new(Subtraction::of_bins(shots, bins)?),
+            EstimatorKind::Likelihood => Box::new(Likelihood::new(acquisition)?),
+            EstimatorKind::Matched => Box::new(MatchedFilter::new(acquisition)?),
         })
-    }
-}
-
-impl<T: Estimator + Send + ?Sized> Estimator for Box<T> {
-    fn name(&self) -> &'static str {
-        (**self).name()
-    }
-
-    fn estimate(&self, histogram: &tofsim::network::Histogram) -> Result<f64, Failure> {
-        (**self).estimate(histogram)
-    }
-
-    fn needs_dark(&self) -> bool {
-        (**self).needs_dark()
-    }
-
-    fn estimate_pair(&self, pair: &Pair) -> Result<f64, Failure> {
-        (**self).estimate_pair(pair)
     }
 }
 
@@ -146,6 +89,7 @@ impl<T: Estimator + Send + ?Sized> Estimator for Box<T> {
 mod tests {
     use super::*;
     use tofsim::kernel::Time;
+    use tofsim::optics::Bins;
     use tofsim::scenario::{builtin::Source, chain};
 
     #[test]
@@ -156,16 +100,16 @@ mod tests {
         let network = &Network::builtin("ideal").unwrap().unwrap();
         let acquisition = Acquisition { bins, shots: 30_000, pulse_sigma_ps: 137.0 };
         let centroid = &centroid_estimator::Params::default();
-        let needs = Needs { acquisition, network, centroid };
-        for kind in Kind::ALL {
-            assert_eq!(kind.estimator(&needs).unwrap().name(), kind.name());
+        let needs = EstimatorInputs { acquisition, network, centroid };
+        for (name, kind, _) in EstimatorKind::ALL {
+            assert_eq!(kind.estimator(&needs).unwrap().name(), name);
         }
         for (shots, pulse_sigma_ps, field) in
             [(0, 137.0, "shots = 0"), (65_536, 137.0, "shots"), (1, f64::NAN, "sigma_ps = NaN")]
         {
             let acquisition = Acquisition { bins, shots, pulse_sigma_ps };
-            let needs = Needs { acquisition, network, centroid };
-            let fault = Kind::Peak.estimator(&needs).err().unwrap().to_string();
+            let needs = EstimatorInputs { acquisition, network, centroid };
+            let fault = EstimatorKind::Peak.estimator(&needs).err().unwrap().to_string();
             assert!(fault.contains(field), "{fault}");
         }
     }

@@ -4,7 +4,7 @@ use tofsim::firmware::centroid_estimator::Params;
 use tofsim::network::Histogram;
 use tofsim::sim::fast::centroid::{Found, locate};
 
-use super::{Estimator, Failure};
+use super::estimator::{Estimator, Failure, hits};
 
 /// The estimator; a histogram in which nothing stands out has no distance.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ impl Estimator for Centroid {
     }
 
     fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure> {
-        super::hits(histogram, u32::MAX)?;
+        hits(histogram, u32::MAX)?;
         match locate(&self.params, histogram) {
             Found { best: 0, .. } => Err(Failure::NoPeak),
             found => Ok(found.depth.to_f64()),

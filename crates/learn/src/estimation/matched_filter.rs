@@ -8,14 +8,12 @@
 //! grid's.
 
 use tofsim::error::Input;
-use tofsim::kernel::Time;
 use tofsim::network::Histogram;
 use tofsim::optics::Bins;
 
-use super::by_name::Acquisition;
+use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, BIN_PS, Echo, normal_cdf, spans_ps};
 use super::coates::{Corrected, correct};
-use super::likelihood::normal_cdf;
-use super::{ARRIVAL_PS_PER_M, BIN_PS, Estimator, Failure};
+use super::estimator::{Estimator, Failure, hits};
 
 /// How far from its mean the pulse is taken into account [sigma].
 const REACH: f64 = 5.0;
@@ -49,11 +47,10 @@ struct Pieces {
 /// Bins by their first time.
 fn pieces(bins: &Bins) -> Vec<Pieces> {
     let mut pieces: Vec<Pieces> = Vec::new();
-    for span in bins.spans() {
-        let times = [ps(span.from), ps(span.until)];
-        match pieces.iter_mut().find(|bin| bin.code == span.code) {
-            Some(bin) => bin.spans.push(times),
-            None => pieces.push(Pieces { code: span.code, spans: vec![times] }),
+    for (code, from, until) in spans_ps(bins) {
+        match pieces.iter_mut().find(|bin| bin.code == code) {
+            Some(bin) => bin.spans.push([from, until]),
+            None => pieces.push(Pieces { code, spans: vec![[from, until]] }),
         }
     }
     pieces
@@ -63,11 +60,6 @@ impl Pieces {
     fn width_ps(&self) -> f64 {
         self.spans.iter().map(|[from, until]| until - from).sum()
     }
-}
-
-/// A time for physics [ps].
-fn ps(time: Time) -> f64 {
-    time.fs() as f64 * 1e-3
 }
 
 /// The pulse at one arrival.
@@ -98,12 +90,8 @@ impl Pulse {
 /// What the filter found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Match {
-    /// Mean arrival [ps].
-    pub arrival_ps: f64,
-    /// Detected laser photons per shot, S_p [1].
-    pub signal: f64,
-    /// Rate of other avalanches; below zero by chance [1/ps].
-    pub background_per_ps: f64,
+    /// The echo; its background is below zero by chance.
+    pub echo: Echo,
     /// Signal in its own standard deviations [1].
     pub significance: f64,
 }
@@ -117,7 +105,7 @@ impl MatchedFilter {
         acquisition.check()?;
         let pieces = pieces(acquisition.bins);
         let range_ps: f64 = pieces.iter().map(Pieces::width_ps).sum();
-        let end_ps = acquisition.bins.spans().iter().map(|span| ps(span.until)).fold(0.0, f64::max);
+        let end_ps = spans_ps(acquisition.bins).map(|(.., until)| until).fold(0.0, f64::max);
         let pulse = |place| Pulse::new(&pieces, place as f64 * BIN_PS, acquisition.pulse_sigma_ps);
         Ok(MatchedFilter {
             shots: acquisition.shots,
@@ -150,11 +138,14 @@ impl MatchedFilter {
                 place += 0.5 * (before - after) / bend;
             }
         }
-        Some(Match {
+        let echo = Echo {
             arrival_ps: place * BIN_PS,
             signal: fit.signal,
             background_per_ps: fit.background / self.range_ps,
-            significance: fit.signal / self.signal_deviation(&self.pulses[best], &bins, flat),
+        };
+        Some(Match {
+            echo,
+            significance: fit.signal / self.signal_deviation(&self.pulses[best], &bins, fit),
         })
     }
 
@@ -168,8 +159,7 @@ impl MatchedFilter {
     }
 
     /// Standard deviation of the fitted signal.
-    fn signal_deviation(&self, pulse: &Pulse, bins: &[Corrected], flat: [f64; 2]) -> f64 {
-        let fit = Fit::new(pulse, self, bins, flat);
+    fn signal_deviation(&self, pulse: &Pulse, bins: &[Corrected], fit: &Fit) -> f64 {
         let terms = self.widths.iter().zip(bins).enumerate().map(|(k, (width, bin))| {
             let part =
                 k.checked_sub(pulse.first).and_then(|k| pulse.parts.get(k)).copied().unwrap_or(0.0);
@@ -227,10 +217,10 @@ impl Estimator for MatchedFilter {
     }
 
     fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure> {
-        super::hits(histogram, self.shots as u32)?;
+        hits(histogram, self.shots as u32)?;
         match self.best(histogram) {
             Some(found) if found.significance >= self.significance => {
-                Ok(found.arrival_ps / ARRIVAL_PS_PER_M)
+                Ok(found.echo.arrival_ps / ARRIVAL_PS_PER_M)
             }
             _ => Err(Failure::NoPeak),
         }

@@ -1,62 +1,50 @@
 //! The network as an estimator: as the firmware has it, and before rounding.
 
-use tofsim::firmware::depth_estimator::Params;
-use tofsim::network::float::Float;
 use tofsim::network::{Histogram, MAX_HITS, Network, estimate};
 
-use super::{Estimator, Failure};
+use super::estimator::{Estimator, Failure, hits};
 
-/// The network in fixed point, bit for bit as the firmware; it answers to an empty histogram too.
-#[derive(Clone, Debug)]
-pub struct FixedNetwork {
-    params: Params,
+/// A network's pass as an estimator; it answers to an empty histogram too.
+pub struct NetworkEstimator<P> {
+    name: &'static str,
+    depth_m: P,
 }
 
-impl FixedNetwork {
-    /// Of a network file.
-    pub fn new(network: &Network) -> Self {
-        FixedNetwork { params: network.params() }
+impl<P: Fn(&Histogram) -> f64 + Send + Sync> NetworkEstimator<P> {
+    /// By the pass, which gives metres.
+    pub fn new(name: &'static str, depth_m: P) -> Self {
+        NetworkEstimator { name, depth_m }
     }
 }
 
-impl Estimator for FixedNetwork {
+impl<P: Fn(&Histogram) -> f64 + Send + Sync> Estimator for NetworkEstimator<P> {
     fn name(&self) -> &'static str {
-        "network"
+        self.name
     }
 
     fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure> {
         bearable(histogram)?;
-        Ok(estimate(&self.params, histogram).depth.to_f64())
+        Ok((self.depth_m)(histogram))
     }
 }
 
-/// The network in double precision; it answers to an empty histogram too.
-#[derive(Clone, Debug)]
-pub struct FloatNetwork {
-    weights: Float,
+/// The network in fixed point, bit for bit as the firmware.
+pub fn fixed(network: &Network) -> impl Estimator + use<> {
+    let params = network.params();
+    NetworkEstimator::new("network", move |histogram: &Histogram| {
+        estimate(&params, histogram).depth.to_f64()
+    })
 }
 
-impl FloatNetwork {
-    /// Of a network file: its weights before rounding, or else the values of its integers.
-    pub fn new(network: &Network) -> Self {
-        FloatNetwork { weights: network.twin() }
-    }
-}
-
-impl Estimator for FloatNetwork {
-    fn name(&self) -> &'static str {
-        "network-float"
-    }
-
-    fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure> {
-        bearable(histogram)?;
-        Ok(self.weights.forward(histogram))
-    }
+/// The network in double precision: its weights before rounding, or else the values of its integers.
+pub fn float(network: &Network) -> impl Estimator + use<> {
+    let weights = network.twin();
+    NetworkEstimator::new("network-float", move |histogram: &Histogram| weights.forward(histogram))
 }
 
 /// Fails for more hits than the datapath's words bear.
 fn bearable(histogram: &Histogram) -> Result<(), Failure> {
-    match super::hits(histogram, MAX_HITS) {
+    match hits(histogram, MAX_HITS) {
         Ok(_) | Err(Failure::NoHits) => Ok(()),
         Err(failure) => Err(failure),
     }
@@ -71,18 +59,18 @@ mod tests {
         let network = Network::builtin("ideal").unwrap().unwrap();
         let mut histogram = [20; 256];
         histogram[100..130].fill(300);
-        let fixed = estimate(&network.params(), &histogram).depth.to_f64();
-        assert_eq!(FixedNetwork::new(&network).estimate(&histogram), Ok(fixed));
-        let float = network.twin().forward(&histogram);
-        assert_eq!(FloatNetwork::new(&network).estimate(&histogram), Ok(float));
+        let expected = estimate(&network.params(), &histogram).depth.to_f64();
+        assert_eq!(fixed(&network).estimate(&histogram), Ok(expected));
+        let expected = network.twin().forward(&histogram);
+        assert_eq!(float(&network).estimate(&histogram), Ok(expected));
     }
 
     #[test]
     fn more_hits_than_the_words_bear_are_refused() {
         let network = Network::builtin("ideal").unwrap().unwrap();
         let failure = Failure::TooManyHits { hits: 65_536, most: 65_535 };
-        assert_eq!(FixedNetwork::new(&network).estimate(&[256; 256]), Err(failure));
-        assert_eq!(FloatNetwork::new(&network).estimate(&[256; 256]), Err(failure));
-        assert!(FixedNetwork::new(&network).estimate(&[0; 256]).is_ok());
+        assert_eq!(fixed(&network).estimate(&[256; 256]), Err(failure));
+        assert_eq!(float(&network).estimate(&[256; 256]), Err(failure));
+        assert!(fixed(&network).estimate(&[0; 256]).is_ok());
     }
 }

@@ -7,13 +7,14 @@ use tofsim::network::Histogram;
 use tofsim::optics::Bins;
 use tofsim::sim::setup::{CYCLE, Setup};
 
-use super::by_name::Acquisition;
-use super::{Estimator, Failure, Kind, Needs, Pair};
+use super::acquisition::Acquisition;
+use super::by_name::{EstimatorInputs, EstimatorKind};
+use super::estimator::{Estimator, Failure, HistogramPair};
 
 /// Estimators that look at each histogram of a run, beside the one in the firmware.
 #[derive(Default)]
 pub struct Panel {
-    estimators: Vec<Box<dyn Estimator + Send>>,
+    estimators: Vec<Box<dyn Estimator>>,
 }
 
 /// What one of them says of a histogram.
@@ -33,21 +34,35 @@ impl Panel {
     ///
     /// # Errors
     /// When they cannot be made for it.
-    pub fn new(kinds: &[Kind], setup: &Setup) -> Result<Self> {
+    pub fn new(kinds: &[EstimatorKind], setup: &Setup) -> Result<Self> {
         let tdc = &setup.params.tdc;
         let bins = &Bins::of_chain(&tdc.delays, &tdc.cal, CYCLE);
         let pulse_sigma_ps = setup.scenario.laser.pulse_sigma_ps;
-        let estimator = |kind: &Kind| {
+        let estimator = |kind: &EstimatorKind| {
             let shots = match kind {
-                Kind::Subtraction => setup.scenario.firmware.shots_per_frame,
+                EstimatorKind::Subtraction => setup.scenario.firmware.shots_per_frame,
                 _ => setup.params.frame_ctrl.shots_per_frame.into(),
             };
             let acquisition = Acquisition { bins, shots, pulse_sigma_ps };
             let centroid = &setup.params.centroid_estimator;
-            Ok(kind.estimator(&Needs { acquisition, network: &setup.network, centroid })?)
+            Ok(kind.estimator(&EstimatorInputs {
+                acquisition,
+                network: &setup.network,
+                centroid,
+            })?)
         };
         let estimators = kinds.iter().map(estimator);
         Ok(Panel { estimators: estimators.collect::<Result<_>>()? })
+    }
+
+    /// Adds one, which may be of one's own making; it is the last to be asked.
+    pub fn add(&mut self, estimator: Box<dyn Estimator>) {
+        self.estimators.push(estimator);
+    }
+
+    /// The estimators alone, to be evaluated.
+    pub fn into_estimators(self) -> Vec<Box<dyn Estimator>> {
+        self.estimators
     }
 
     /// What each says of a frame, in the order in which they were named.
@@ -56,7 +71,7 @@ impl Panel {
     }
 
     /// What each says of a dark and a lit frame; most look at the lit one only.
-    pub fn read_pair(&self, pair: &Pair) -> Vec<Reading> {
+    pub fn read_pair(&self, pair: &HistogramPair) -> Vec<Reading> {
         self.each(|estimator| estimator.estimate_pair(pair))
     }
 
@@ -64,15 +79,13 @@ impl Panel {
         &self,
         estimate: impl Fn(&dyn Estimator) -> std::result::Result<f64, Failure>,
     ) -> Vec<Reading> {
-        let reading = |estimator: &dyn Estimator| {
-            let estimate = estimate(estimator);
-            Reading {
-                estimator: estimator.name(),
-                failure: estimate.as_ref().err().map(ToString::to_string),
-                depth_m: estimate.ok(),
-            }
+        let reading = |name, estimate: std::result::Result<f64, Failure>| Reading {
+            estimator: name,
+            failure: estimate.as_ref().err().map(ToString::to_string),
+            depth_m: estimate.ok(),
         };
-        self.estimators.iter().map(|estimator| reading(estimator)).collect()
+        let estimators = self.estimators.iter();
+        estimators.map(|one| reading(one.name(), estimate(one.as_ref()))).collect()
     }
 }
 
@@ -84,11 +97,31 @@ mod tests {
     #[test]
     fn each_says_where_the_target_is_or_why_not() {
         let setup = Setup::new(scenario::load("kc705", &[]).unwrap()).unwrap();
-        let kinds = [Kind::Matched, Kind::Network, Kind::Peak];
+        let kinds = [EstimatorKind::Matched, EstimatorKind::Network, EstimatorKind::Peak];
         let panel = Panel::new(&kinds, &setup).unwrap();
         let nothing = panel.read(&[0; 256]);
         let failures: Vec<_> = nothing.iter().map(|reading| reading.failure.as_deref()).collect();
         assert_eq!(failures, [Some("no hits"), None, Some("no hits")]);
         assert!(Panel::default().read(&[0; 256]).is_empty());
+    }
+
+    #[test]
+    fn an_estimator_of_one_s_own_is_asked_last() {
+        struct Own;
+        impl Estimator for Own {
+            fn name(&self) -> &'static str {
+                "own"
+            }
+
+            fn estimate(&self, histogram: &Histogram) -> std::result::Result<f64, Failure> {
+                Ok(f64::from(histogram[7]))
+            }
+        }
+        let setup = Setup::new(scenario::load("kc705", &[]).unwrap()).unwrap();
+        let mut panel = Panel::new(&[EstimatorKind::Network], &setup).unwrap();
+        let own: Box<dyn Estimator + Send + Sync> = Box::new(Own);
+        panel.add(own);
+        let readings = panel.read(&[3; 256]);
+        assert_eq!((readings[1].estimator, readings[1].depth_m), ("own", Some(3.0)));
     }
 }

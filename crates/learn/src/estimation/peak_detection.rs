@@ -17,9 +17,10 @@ use tofsim::error::Input;
 use tofsim::network::Histogram;
 use tofsim::optics::Bins;
 
+use super::acquisition::{ARRIVAL_PS_PER_M, BIN_PS, spans_ps};
+use super::estimator::{Estimator, Failure, hits};
 use super::findpeaks::{Criteria, Peak, findpeaks};
 use super::spline::Spline;
-use super::{ARRIVAL_PS_PER_M, BIN_PS, Estimator, Failure};
 
 /// Peak detection with its constants.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,9 +70,8 @@ impl PeakDetection {
     pub fn of_bins(shots: u64, bins: &Bins) -> Self {
         // Of each code: how long it is given, and that times the middle.
         let mut sums = [[0.0; 2]; 256];
-        for span in bins.spans() {
-            let (from_ps, until_ps) = (span.from.fs() as f64 * 1e-3, span.until.fs() as f64 * 1e-3);
-            let [width_ps, moment] = &mut sums[span.code as usize];
+        for (code, from_ps, until_ps) in spans_ps(bins) {
+            let [width_ps, moment] = &mut sums[code as usize];
             *width_ps += until_ps - from_ps;
             *moment += (until_ps - from_ps) * (from_ps + until_ps) / 2.0;
         }
@@ -139,7 +139,7 @@ impl Estimator for PeakDetection {
     }
 
     fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure> {
-        super::hits(histogram, u32::MAX)?;
+        hits(histogram, u32::MAX)?;
         self.detect(&histogram.map(f64::from))
     }
 }

@@ -13,27 +13,11 @@ use tofsim::error::Input;
 use tofsim::network::Histogram;
 use tofsim::optics::Bins;
 
+use super::estimator::{Estimator, Failure, HistogramPair, hits};
 use super::peak_detection::PeakDetection;
-use super::{Estimator, Failure};
 
 /// Its name on the command line.
 pub const NAME: &str = "subtraction";
-
-/// Two histograms of equally many shots.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pair {
-    /// H1, with the laser off [hits].
-    pub dark: Histogram,
-    /// H2, with the laser on [hits].
-    pub lit: Histogram,
-}
-
-impl Pair {
-    /// H0 = H2 - H1, bin by bin [hits].
-    pub fn difference(&self) -> [i32; 256] {
-        std::array::from_fn(|bin| i32::from(self.lit[bin]) - i32::from(self.dark[bin]))
-    }
-}
 
 /// Shots of each histogram of a pair that has so many.
 ///
@@ -78,8 +62,8 @@ impl Estimator for Subtraction {
         Err(Failure::NoDarkFrame)
     }
 
-    fn estimate_pair(&self, pair: &Pair) -> Result<f64, Failure> {
-        super::hits(&pair.lit, u32::MAX)?;
+    fn estimate_pair(&self, pair: &HistogramPair) -> Result<f64, Failure> {
+        hits(&pair.lit, u32::MAX)?;
         self.detection.detect(&pair.difference().map(f64::from))
     }
 }
@@ -92,7 +76,7 @@ mod tests {
     fn counts_are_signed() {
         let (mut lit, mut dark) = ([10; 256], [10; 256]);
         (lit[3], dark[3], lit[4], dark[5]) = (0, u16::MAX, u16::MAX, 11);
-        assert_eq!(Pair { dark, lit }.difference()[2..6], [0, -65_535, 65_525, -1]);
+        assert_eq!(HistogramPair { dark, lit }.difference()[2..6], [0, -65_535, 65_525, -1]);
     }
 
     #[test]
@@ -101,9 +85,10 @@ mod tests {
         let mut lit = dark;
         (150..170).for_each(|bin| lit[bin] += 40 * (10 - bin.abs_diff(160) as u16));
         let subtraction = Subtraction { detection: PeakDetection::new(30_000) };
-        let found = subtraction.estimate_pair(&Pair { dark, lit }).unwrap();
+        let found = subtraction.estimate_pair(&HistogramPair { dark, lit }).unwrap();
         assert!((found - subtraction.detection.distance_m(160.5 * 25.0)).abs() < 0.005);
-        let failure = |dark, lit| subtraction.estimate_pair(&Pair { dark, lit }).unwrap_err();
+        let failure =
+            |dark, lit| subtraction.estimate_pair(&HistogramPair { dark, lit }).unwrap_err();
         assert_eq!(failure(lit, dark), Failure::NoPeak, "dark and lit are not the same");
         assert_eq!(failure(dark, dark), Failure::NoPeak);
         assert_eq!(failure(dark, [0; 256]), Failure::NoHits);

@@ -2,11 +2,12 @@
 
 use rayon::prelude::*;
 
-use crate::dataset::source::scaled;
-use crate::dataset::{Grid, Source};
-use crate::estimation::by_name::Acquisition;
-use crate::estimation::likelihood::Model;
 use tofsim::error::Input;
+
+use crate::dataset::source::scaled;
+use crate::dataset::{Grid, HistogramSource};
+use crate::estimation::Acquisition;
+use crate::estimation::likelihood::Model;
 
 /// Twice the root mean square of the bound over the grid's lights at each distance; `None` where a
 /// scene tells nothing, as without a laser [mm].
@@ -14,7 +15,7 @@ use tofsim::error::Input;
 /// # Errors
 /// When the acquisition makes no sense.
 pub fn two_sd_mm(
-    source: &Source,
+    source: &HistogramSource,
     acquisition: &Acquisition,
     grid: &Grid,
     distances_m: &[f64],
@@ -45,7 +46,7 @@ mod tests {
     fn the_bound_over_the_thesis_grid_is_what_a_prototype_found() {
         let ideal = ["tdc.profile=ideal".to_owned()];
         let setup = Setup::new(scenario::load("kc705", &ideal).unwrap()).unwrap();
-        let source = Source::new(&setup).unwrap();
+        let source = HistogramSource::new(&setup).unwrap();
         let acquisition = Acquisition { bins: source.bins(), shots: 30_000, pulse_sigma_ps: 137.0 };
         let distances_m = [0.1, 0.3, 0.6];
         let bound = two_sd_mm(&source, &acquisition, &Grid::test(), &distances_m).unwrap();

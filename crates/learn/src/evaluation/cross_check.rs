@@ -9,13 +9,14 @@ use std::sync::atomic::AtomicBool;
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use crate::dataset::{Scene, Source};
 use tofsim::error::Result;
 use tofsim::scenario::Loaded;
 use tofsim::sim::Run;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
+
+use crate::dataset::{HistogramSource, Scene};
 
 /// Chance below which counts are taken for others than those drawn.
 const LEVEL: f64 = 1e-6;
@@ -47,7 +48,7 @@ impl CrossCheck {
     /// When the scenario does not run, or it is stopped.
     pub fn new(
         loaded: &Loaded,
-        source: &Source,
+        source: &HistogramSource,
         scene: &Scene,
         frames: u64,
         stop: Option<&AtomicBool>,

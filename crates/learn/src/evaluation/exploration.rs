@@ -5,20 +5,23 @@ use std::sync::atomic::AtomicBool;
 
 use serde::Serialize;
 
-use crate::dataset::{Rows, Source};
-use crate::estimation::network::FloatNetwork;
-use crate::estimation::{Estimator, Failure};
-use crate::quantize::datapath::{Circuit, Cost, Datapath};
 use tofsim::error::Result;
 use tofsim::network::formats::WordFormat;
 use tofsim::network::{Histogram, Network};
 
+use crate::dataset::{HistogramSource, Rows};
+use crate::estimation::Estimator;
+use crate::estimation::network::{self, NetworkEstimator};
+use crate::quantize::circuit::Circuit;
+use crate::quantize::datapath::{Cost, Datapath};
+
+use super::errors::Evaluation;
+use super::figures::Figures;
 use super::thesis::DISTANCES_M;
-use super::{Evaluation, Figures};
 
 /// A datapath and what it does to the depth.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Point {
+pub struct ExploredDatapath {
     /// What differs from the firmware's datapath.
     pub variant: String,
     /// Twice the standard deviation of the depth at the thesis's distances [mm].
@@ -67,18 +70,6 @@ pub fn sweep() -> Vec<(String, Datapath)> {
     points
 }
 
-struct Variant(Circuit);
-
-impl Estimator for &Variant {
-    fn name(&self) -> &'static str {
-        "variant"
-    }
-
-    fn estimate(&self, histogram: &Histogram) -> std::result::Result<f64, Failure> {
-        Ok(self.0.depth_m(histogram))
-    }
-}
-
 /// Lets a network in each datapath see the rows, on all threads of the current pool; the same for
 /// any number of threads.
 ///
@@ -87,22 +78,22 @@ impl Estimator for &Variant {
 pub fn explore(
     network: &Network,
     datapaths: &[(String, Datapath)],
-    (source, rows, seed): (&Source, &Rows, u64),
+    (source, rows, seed): (&HistogramSource, &Rows, u64),
     stop: Option<&AtomicBool>,
     done: impl FnMut(u64),
-) -> Result<Vec<Point>> {
+) -> Result<Vec<ExploredDatapath>> {
     let float = network.twin();
-    let variants =
-        datapaths.iter().map(|(_, datapath)| Circuit::new(&float, *datapath).map(Variant));
-    let variants = variants.collect::<Result<Vec<_>>>()?;
-    let mut estimators: Vec<Box<dyn Estimator + Send + '_>> =
-        vec![Box::new(FloatNetwork::new(network))];
-    estimators.extend(variants.iter().map(|variant| Box::new(variant) as _));
+    let circuits = datapaths.iter().map(|(_, datapath)| Circuit::new(&float, *datapath));
+    let circuits = circuits.collect::<Result<Vec<_>>>()?;
+    let mut estimators: Vec<Box<dyn Estimator + '_>> = vec![Box::new(network::float(network))];
+    estimators.extend(circuits.iter().map(|circuit| {
+        let depth_m = |histogram: &Histogram| circuit.depth_m(histogram);
+        Box::new(NetworkEstimator::new("variant", depth_m)) as _
+    }));
     let evaluation = Evaluation::new(source, rows, seed, &estimators, stop, done)?;
-    drop(estimators);
     let exact = &evaluation.columns[0];
-    let variants = variants.iter().zip(&evaluation.columns[1..]);
-    let points = datapaths.iter().zip(variants).map(|((name, datapath), (variant, column))| {
+    let variants = circuits.iter().zip(&evaluation.columns[1..]);
+    let points = datapaths.iter().zip(variants).map(|((name, datapath), (circuit, column))| {
         let figures = Figures::new(&evaluation, column);
         let two_sd = |distance_m: &f64| figures.at(*distance_m)?.two_sd_mm;
         let pairs = exact.errors_m.iter().zip(&column.errors_m);
@@ -110,14 +101,14 @@ pub fn explore(
         let (sum, largest) =
             apart.fold((0.0, 0.0f64), |(sum, largest), mm| (sum + mm * mm, largest.max(mm.abs())));
         let histograms = column.errors_m.len().max(1) as f64;
-        Point {
+        ExploredDatapath {
             variant: name.clone(),
             two_sd_mm: DISTANCES_M.iter().map(two_sd).collect(),
             rms_to_float_mm: f64::sqrt(sum / histograms),
             largest_to_float_mm: largest,
-            saturated_weights: variant.0.saturated_weights,
-            saturated_sums: variant.0.saturated_sums() as f64 / histograms,
-            sum_bits: variant.0.sum_bits(),
+            saturated_weights: circuit.saturated_weights,
+            saturated_sums: circuit.saturated_sums() as f64 / histograms,
+            sum_bits: circuit.sum_bits(),
             cost: datapath.cost(network.fixed.neurons()),
         }
     });
@@ -133,7 +124,8 @@ mod tests {
 
     #[test]
     fn an_address_bit_more_halves_the_error_until_the_weights_rounding_is_left() {
-        let source = Source::new(&Setup::new(scenario::load("kc705", &[]).unwrap()).unwrap());
+        let source =
+            HistogramSource::new(&Setup::new(scenario::load("kc705", &[]).unwrap()).unwrap());
         let network = Network::builtin("uniform").unwrap().unwrap();
         let rows = Rows::Subset(Subset::new(Grid::test(), 510, 1));
         let data = (&source.unwrap(), &rows, 2);

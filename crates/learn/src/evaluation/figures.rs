@@ -2,7 +2,10 @@
 
 use serde::Serialize;
 
-use super::{Column, Evaluation, Group, Spread, thesis};
+use super::errors::{EstimatorErrors, Evaluation};
+use super::groups::Group;
+use super::spread::Spread;
+use super::thesis;
 
 /// Errors of one estimator, all and in groups.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -36,7 +39,7 @@ pub struct Grouping<'a> {
 
 impl Figures {
     /// Of a column of an evaluation.
-    pub fn new(evaluation: &Evaluation, column: &Column) -> Self {
+    pub fn new(evaluation: &Evaluation, column: &EstimatorErrors) -> Self {
         let by_distance_m = evaluation.by(column, |scene| scene.distance_m);
         let worst = worst(&by_distance_m);
         Figures {
@@ -97,7 +100,7 @@ mod tests {
                 errors_m.push(Some(sign * two_sd_mm / 2e3 / 2f64.sqrt()));
             }
         }
-        let column = Column { name: "network", errors_m };
+        let column = EstimatorErrors { name: "network", errors_m };
         let evaluation = Evaluation { scenes, columns: vec![column.clone()] };
         let figures = Figures::new(&evaluation, &column);
         assert_eq!(figures.worst_distance_m, Some(0.1));

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::Spread;
+use super::spread::Spread;
 
 /// The errors of all rows that share a value.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -2,18 +2,19 @@
 //! twin in double precision.
 //!
 //! The float pass is that of the weights before rounding. Fixed point departs from it in four
-//! steps, and the depth after each of them makes a [`Budget`] whose parts add up to the whole
+//! steps, and the depth after each of them makes a [`ErrorBudget`] whose parts add up to the whole
 //! difference: the weights and biases of the hidden layer are rounded, the address of the
 //! activation is, the entry of the table is, the weights and the bias of the output layer are.
 
 use serde::Serialize;
 
-use tofsim::firmware::tansig::{ADDRESS_BITS, address};
-use tofsim::kernel::S;
-
-use tofsim::network::estimate::estimate;
+use tofsim::firmware::tansig::ADDRESS_BITS;
+use tofsim::network::float::Float;
 use tofsim::network::formats::{B2, L1_OUT, TANSIG_RANGE};
+use tofsim::network::pass::HiddenNeuron;
 use tofsim::network::{Histogram, Network};
+
+use super::circuit::Circuit;
 
 /// Fraction bits of a hidden neuron's sum.
 const L1_IN_FRACTION: u32 = 23;
@@ -24,7 +25,7 @@ const ADDRESS_STEP: f64 = 2.0 * TANSIG_RANGE as f64 / (1 << ADDRESS_BITS) as f64
 
 /// A value of the datapath and its twin.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Pair {
+pub struct WordAndTwin {
     /// The word as an integer.
     pub word: i64,
     /// What the word stands for.
@@ -37,12 +38,12 @@ pub struct Pair {
     pub difference_mm: f64,
 }
 
-impl Pair {
+impl WordAndTwin {
     fn new(word: i64, fraction: u32, float: f64, metres_per_unit: f64) -> Self {
         let lsb = (-f64::from(fraction)).exp2();
         let fixed = word as f64 * lsb;
         let difference = fixed - float;
-        Pair {
+        WordAndTwin {
             word,
             fixed,
             float,
@@ -59,22 +60,22 @@ impl Pair {
 
 /// A hidden neuron.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Neuron {
+pub struct ExplainedNeuron {
     /// Sum of the products and the bias.
-    pub l1_in: Pair,
+    pub l1_in: WordAndTwin,
     /// Address in the table of activations.
     pub address: i64,
     /// The sum lies past the table, and has its last entry.
     pub saturated: bool,
     /// Activation.
-    pub l1_out: Pair,
+    pub l1_out: WordAndTwin,
     /// Product with the weight of the output layer [m].
-    pub product: Pair,
+    pub product: WordAndTwin,
 }
 
 /// What each rounding adds to the depth; the parts add up to the whole difference [mm].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Budget {
+pub struct ErrorBudget {
     /// W1 and B1 are rounded to their words.
     pub hidden_weights_mm: f64,
     /// The sum is rounded to an address of the table, or saturated.
@@ -93,59 +94,55 @@ pub struct Explanation {
     /// Hits in the histogram.
     pub hits: u64,
     /// The hidden layer.
-    pub neurons: Vec<Neuron>,
+    pub neurons: Vec<ExplainedNeuron>,
     /// Bias of the output layer [m].
-    pub bias: Pair,
+    pub bias: WordAndTwin,
     /// The depth [m].
-    pub depth: Pair,
+    pub depth: WordAndTwin,
     /// Where the words are first not the nearest to their twins: `l1_in`, `l1_out`, `product` or
     /// `depth`, if anywhere, and of which neuron.
     pub first_parting: Option<(&'static str, Option<usize>)>,
     /// Neurons whose sum lies past the table of activations.
     pub saturated: usize,
     /// Where the difference comes from.
-    pub budget: Budget,
+    pub budget: ErrorBudget,
 }
 
 /// Explains the estimation of a histogram.
 pub fn explain(network: &Network, histogram: &Histogram) -> Explanation {
-    let (params, float) = (network.params(), network.twin());
-    let fixed = estimate(&params, histogram);
-    let neuron = |(k, sum): (usize, f64)| {
-        let (word, w2) = (fixed.l1_in[k], float.w2[k]);
-        let activation = libm::tanh(sum);
-        let place = address(word);
-        let entry = params.tansig[place].get();
-        let slope = w2 * (1.0 - activation * activation);
-        let last = 1i64 << (ADDRESS_BITS - 1);
-        let rounded = (word.to_f64() / ADDRESS_STEP + 0.5).floor() as i64;
-        Neuron {
-            l1_in: Pair::new(word.get(), L1_IN_FRACTION, sum, slope),
-            address: S::<{ ADDRESS_BITS }>::new(place as i64).get(),
-            saturated: !(-last..last).contains(&rounded),
-            l1_out: Pair::new(entry, L1_OUT.fraction, activation, w2),
-            product: {
-                let product = entry * params.forward2.w2[k].get();
-                Pair::new(product, DEPTH_FRACTION, activation * w2, 1.0)
-            },
+    let (circuit, float) = (Circuit::firmware(&network.fixed), network.twin());
+    let (mut fixed, mut exact) = (Vec::new(), Vec::new());
+    let word = circuit.depth(histogram, |neuron| fixed.push(neuron));
+    let depth_m = float.pass(histogram, libm::tanh, |neuron| exact.push(neuron));
+    let neuron = |((fixed, exact), &w2): ((HiddenNeuron<i64>, HiddenNeuron<f64>), &f64)| {
+        let slope = w2 * (1.0 - exact.activation * exact.activation);
+        let (address, saturated) = circuit.address(fixed.sum);
+        ExplainedNeuron {
+            l1_in: WordAndTwin::new(fixed.sum, L1_IN_FRACTION, exact.sum, slope),
+            address,
+            saturated,
+            l1_out: WordAndTwin::new(fixed.activation, L1_OUT.fraction, exact.activation, w2),
+            product: WordAndTwin::new(fixed.product, DEPTH_FRACTION, exact.product, 1.0),
         }
     };
-    let neurons: Vec<_> =
-        float.hidden_sums(histogram).into_iter().enumerate().map(neuron).collect();
-    let depth = Pair::new(fixed.depth.get(), DEPTH_FRACTION, float.forward(histogram), 1.0);
+    let neurons: Vec<_> = fixed.into_iter().zip(exact).zip(&float.w2).map(neuron).collect();
+    let depth = WordAndTwin::new(word, DEPTH_FRACTION, depth_m, 1.0);
     Explanation {
         hits: histogram.iter().map(|&count| u64::from(count)).sum(),
-        bias: Pair::new(params.forward2.b2.get(), B2.fraction, float.b2, 1.0),
+        bias: WordAndTwin::new(network.fixed.b2.to_bits().into(), B2.fraction, float.b2, 1.0),
         first_parting: first_parting(&neurons, &depth),
         saturated: neurons.iter().filter(|neuron| neuron.saturated).count(),
-        budget: budget(network, &neurons, &depth),
+        budget: budget(&float, &neurons, &depth),
         neurons,
         depth,
     }
 }
 
-fn first_parting(neurons: &[Neuron], depth: &Pair) -> Option<(&'static str, Option<usize>)> {
-    let layer = |name, parts: &dyn Fn(&Neuron) -> bool| {
+fn first_parting(
+    neurons: &[ExplainedNeuron],
+    depth: &WordAndTwin,
+) -> Option<(&'static str, Option<usize>)> {
+    let layer = |name, parts: &dyn Fn(&ExplainedNeuron) -> bool| {
         neurons.iter().position(parts).map(|neuron| (name, Some(neuron)))
     };
     layer("l1_in", &|neuron| neuron.l1_in.parts())
@@ -155,9 +152,8 @@ fn first_parting(neurons: &[Neuron], depth: &Pair) -> Option<(&'static str, Opti
 }
 
 /// The depth after each step from float to fixed point.
-fn budget(network: &Network, neurons: &[Neuron], depth: &Pair) -> Budget {
-    let float = network.twin();
-    let output = |activation: &dyn Fn(&Neuron) -> f64| {
+fn budget(float: &Float, neurons: &[ExplainedNeuron], depth: &WordAndTwin) -> ErrorBudget {
+    let output = |activation: &dyn Fn(&ExplainedNeuron) -> f64| {
         let products = neurons.iter().zip(&float.w2).map(|(neuron, w2)| activation(neuron) * w2);
         products.sum::<f64>() + float.b2
     };
@@ -171,7 +167,7 @@ fn budget(network: &Network, neurons: &[Neuron], depth: &Pair) -> Budget {
     let [hidden_weights_mm, address_mm, table_mm, output_weights_mm] =
         std::array::from_fn(|step| 1e3 * (steps[step + 1] - steps[step]));
     let total_mm = 1e3 * (depth.fixed - depth.float);
-    Budget { hidden_weights_mm, address_mm, table_mm, output_weights_mm, total_mm }
+    ErrorBudget { hidden_weights_mm, address_mm, table_mm, output_weights_mm, total_mm }
 }
 
 #[cfg(test)]

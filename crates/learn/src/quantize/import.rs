@@ -12,13 +12,12 @@ mod npy;
 
 use std::path::Path;
 
+use arrays::{Array, Arrays};
+
 use tofsim::error::{Input, Result};
 use tofsim::firmware::forward2::MOST_NEURONS;
 use tofsim::firmware::histogram_builder::BINS;
-
 use tofsim::network::float::Float;
-
-use arrays::{Array, Arrays};
 
 /// Reads a network's arrays: a MATLAB file (`.mat`), an object of JSON (`.json`), or a folder of
 /// NumPy arrays (`IW.npy` and so on), told apart by the ending.
@@ -56,8 +55,8 @@ fn fold(mut arrays: Arrays) -> Result<Float> {
     let hidden = arrays.required("IW")?.shaped(&arrays, &[neurons, columns])?;
     let output = arrays.required("LW")?.shaped(&arrays, &[neurons])?;
     let b2 = arrays.required("b2")?.shaped(&arrays, &[1])?[0];
-    let x = Map::take(&mut arrays, "x", columns)?;
-    let y = Map::take(&mut arrays, "y", 1)?;
+    let x = MapMinMax::take(&mut arrays, "x", columns)?;
+    let y = MapMinMax::take(&mut arrays, "y", 1)?;
     arrays.finish()?;
     if y.gain[0] == 0.0 {
         let expected = "expected a gain other than 0";
@@ -82,13 +81,13 @@ fn fold(mut arrays: Arrays) -> Result<Float> {
 }
 
 /// The settings of `mapminmax` on one side; without them, values pass as they are.
-struct Map {
+struct MapMinMax {
     xoffset: Vec<f64>,
     gain: Vec<f64>,
     ymin: f64,
 }
 
-impl Map {
+impl MapMinMax {
     fn take(arrays: &mut Arrays, side: &'static str, len: usize) -> Result<Self> {
         let [xoffset, gain, ymin] = match side {
             "x" => ["x_xoffset", "x_gain", "x_ymin"],
@@ -96,11 +95,11 @@ impl Map {
         };
         let found = [xoffset, gain, ymin].map(|name| arrays.optional(name));
         if found.iter().all(Option::is_none) {
-            return Ok(Map { xoffset: vec![0.0; len], gain: vec![1.0; len], ymin: 0.0 });
+            return Ok(MapMinMax { xoffset: vec![0.0; len], gain: vec![1.0; len], ymin: 0.0 });
         }
         let [offsets, gains, least] = found;
         let missing = |name| arrays.fault(name, "missing, while others of mapminmax are there");
-        Ok(Map {
+        Ok(MapMinMax {
             xoffset: offsets.ok_or_else(|| missing(xoffset))?.shaped(arrays, &[len])?,
             gain: gains.ok_or_else(|| missing(gain))?.shaped(arrays, &[len])?,
             ymin: least.ok_or_else(|| missing(ymin))?.shaped(arrays, &[1])?[0],

@@ -9,7 +9,7 @@ use super::weighting::Weighting;
 
 /// Errors at a distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+pub struct DistanceErrors {
     /// True distance [m].
     pub distance_m: f64,
     /// Histograms there.
@@ -26,20 +26,20 @@ pub struct Row {
 pub fn by_distance(
     samples: &Samples,
     depth_m: impl Fn(&Histogram) -> f64 + Sync + Send,
-) -> Vec<Row> {
+) -> Vec<DistanceErrors> {
     let depths: Vec<f64> = samples.counts.par_iter().map(depth_m).collect();
     let pairs: Vec<_> = samples.distances_m.iter().copied().zip(depths).collect();
     pairs.chunk_by(|a, b| a.0 == b.0).map(row).collect()
 }
 
 /// Errors at one distance.
-fn row(pairs: &[(f64, f64)]) -> Row {
+fn row(pairs: &[(f64, f64)]) -> DistanceErrors {
     let n = pairs.len() as f64;
     let errors = || pairs.iter().map(|(distance, depth)| (depth - distance) * 1e3);
     let mean_mm = errors().sum::<f64>() / n;
     let squares: f64 = errors().map(|error| (error - mean_mm) * (error - mean_mm)).sum();
     let variance = if pairs.len() > 1 { squares / (n - 1.0) } else { 0.0 };
-    Row {
+    DistanceErrors {
         distance_m: pairs[0].0,
         count: pairs.len(),
         mean_mm,
@@ -49,14 +49,14 @@ fn row(pairs: &[(f64, f64)]) -> Row {
 }
 
 /// The largest ratio of a spread to the line; infinite if a spread is no number.
-pub fn worst_ratio(rows: &[Row], line: &Weighting) -> f64 {
-    let ratio = |row: &Row| row.two_sd_mm / line.line_mm(row.distance_m);
+pub fn worst_ratio(rows: &[DistanceErrors], line: &Weighting) -> f64 {
+    let ratio = |row: &DistanceErrors| row.two_sd_mm / line.line_mm(row.distance_m);
     let number = |ratio: f64| if ratio.is_nan() { f64::INFINITY } else { ratio };
     rows.iter().map(ratio).map(number).fold(0.0, f64::max)
 }
 
 /// The largest ratio of a spread to the line or of a mean error to its limit, whichever is worse.
-pub fn worst(rows: &[Row], line: &Weighting) -> f64 {
+pub fn worst(rows: &[DistanceErrors], line: &Weighting) -> f64 {
     let means = rows.iter().map(|row| row.mean_mm.abs() / line.mean_mm);
     means.fold(worst_ratio(rows, line), f64::max)
 }
@@ -78,9 +78,9 @@ mod tests {
         assert!((far.mean_mm + 100.0).abs() < 1e-9 && far.two_sd_mm == 0.0);
         let worst = worst_ratio(&rows, &Weighting::default());
         assert!((worst - 4.0 / 1.6).abs() < 1e-9);
-        let biased = [Row { mean_mm: -3.0, ..near }];
+        let biased = [DistanceErrors { mean_mm: -3.0, ..near }];
         assert!((super::worst(&biased, &Weighting::default()) - 3.0).abs() < 1e-9);
-        let nan = Row { two_sd_mm: f64::NAN, ..near };
+        let nan = DistanceErrors { two_sd_mm: f64::NAN, ..near };
         assert_eq!(worst_ratio(&[nan, near], &Weighting::default()), f64::INFINITY);
     }
 }

@@ -13,28 +13,28 @@ use tofsim::files::toml::Checked;
 
 use super::basis::KNOTS;
 use super::recipe::Recipe;
-use super::state::State;
+use super::state::TournamentState;
 use super::sums::parameters;
 
 /// Value of the key `schema`.
 const SCHEMA: &str = "tofsim.checkpoint/1";
 
-/// Settings by name; a checkpoint is for these alone.
-pub type Settings = BTreeMap<String, String>;
+/// CheckpointSettings by name; a checkpoint is for these alone.
+pub type CheckpointSettings = BTreeMap<String, String>;
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Checkpoint {
     schema: String,
-    settings: Settings,
-    state: State,
+    settings: CheckpointSettings,
+    state: TournamentState,
 }
 
 /// Writes a state; the file is whole or the one before.
 ///
 /// # Errors
 /// When the file cannot be written.
-pub fn save(path: &Path, settings: &Settings, state: &State) -> Result<()> {
+pub fn save(path: &Path, settings: &CheckpointSettings, state: &TournamentState) -> Result<()> {
     let (schema, settings, state) = (SCHEMA.to_owned(), settings.clone(), state.clone());
     let text = toml::to_string(&Checkpoint { schema, settings, state });
     let text = text.map_err(|error| Input::new(path.display(), error))?;
@@ -46,7 +46,11 @@ pub fn save(path: &Path, settings: &Settings, state: &State) -> Result<()> {
 /// # Errors
 /// When the file cannot be read or is no checkpoint, is one of another version or of other
 /// settings, or does not fit the recipe.
-pub fn load(path: &Path, settings: &Settings, recipe: &Recipe) -> Result<State> {
+pub fn load(
+    path: &Path,
+    settings: &CheckpointSettings,
+    recipe: &Recipe,
+) -> Result<TournamentState> {
     let text = read_text(path)?;
     let name = path.display();
     let checked = Checked::syntax(&name.to_string(), &text)?;
@@ -75,23 +79,19 @@ pub fn load(path: &Path, settings: &Settings, recipe: &Recipe) -> Result<State> 
 }
 
 /// That a state is one of the recipe's; or else which field is not.
-fn check(state: &State, recipe: &Recipe) -> std::result::Result<(), &'static str> {
-    let (stages, finish) = (&recipe.stages, &recipe.finish);
-    let (candidates, epochs) = match stages.get(state.stage) {
-        Some(stage) => (stage.candidates, stage.epochs),
-        None => (finish.candidates, finish.epochs),
-    };
-    let blocks = if state.stage == stages.len() { finish.blocks } else { 0 };
+fn check(state: &TournamentState, recipe: &Recipe) -> std::result::Result<(), &'static str> {
+    let (stages, stage) = (recipe.stages.len(), recipe.stage(state.stage));
+    let blocks = if state.stage == stages { recipe.finish.blocks } else { 0 };
     let size = parameters(recipe.neurons);
     let fits = |x: &[f64]| x.len() == size && x.iter().all(|x| x.is_finite());
     let mut least = state.candidates.iter().filter_map(|candidate| candidate.lm.least.as_ref());
     let scaling = [&state.scaling.mean, &state.scaling.inverse_sd];
     let checks = [
-        ("stage", state.stage <= stages.len()),
+        ("stage", state.stage <= stages),
         ("block", state.block <= blocks),
-        ("epochs", state.epochs < epochs),
+        ("epochs", state.epochs < stage.epochs),
         ("scaling", scaling.iter().all(|s| s.len() == KNOTS && s.iter().all(|x| x.is_finite()))),
-        ("candidates", state.candidates.len() == candidates),
+        ("candidates", state.candidates.len() == stage.candidates),
         ("candidates.lm.x", state.candidates.iter().all(|candidate| fits(&candidate.lm.x))),
         ("candidates.lm.least", least.all(|(_, x)| fits(x))),
         ("best.x", state.best.iter().all(|best| fits(&best.x))),
@@ -107,9 +107,9 @@ mod tests {
     use super::*;
     use crate::training::features::Scaling;
     use crate::training::lm::Lm;
-    use crate::training::state::{Best, Candidate};
+    use crate::training::state::{BestBlock, Candidate};
 
-    fn state(recipe: &Recipe) -> State {
+    fn state(recipe: &Recipe) -> TournamentState {
         // Numbers of all magnitudes, none of them round.
         let number = |k: usize| (k as f64 + 0.1).sqrt() * 10f64.powi(k as i32 % 600 - 300);
         let x: Vec<f64> = (0..parameters(recipe.neurons)).map(number).collect();
@@ -118,19 +118,19 @@ mod tests {
             lm: Lm::new(x.iter().map(|x| x * (start as f64 - 1.5)).collect(), &recipe.optimiser),
             factors: vec![-0.0, f64::MIN_POSITIVE / 3.0],
         };
-        State {
+        TournamentState {
             stage: 0,
             block: 0,
             epochs: 3,
             data: "0123456789abcdef".to_owned(),
             scaling: Scaling { mean: vec![0.1; KNOTS], inverse_sd: vec![1.0 / 3.0; KNOTS] },
             candidates: (0..recipe.stages[0].candidates).map(candidate).collect(),
-            best: Some(Best { start: 1, block: 2, ratio: f64::INFINITY, x: x.clone() }),
+            best: Some(BestBlock { start: 1, block: 2, ratio: f64::INFINITY, x: x.clone() }),
             curve: Vec::new(),
         }
     }
 
-    fn settings(seed: &str) -> Settings {
+    fn settings(seed: &str) -> CheckpointSettings {
         [("seed", seed), ("finish.blocks", "2")]
             .map(|(key, value)| (key.to_owned(), value.to_owned()))
             .into()
@@ -143,7 +143,7 @@ mod tests {
         save(&path, &settings("1"), &state).unwrap();
         let loaded = load(&path, &settings("1"), &recipe).unwrap();
         assert_eq!(loaded, state);
-        let bits = |state: &State| -> Vec<u64> {
+        let bits = |state: &TournamentState| -> Vec<u64> {
             let numbers = state.candidates.iter().flat_map(|c| c.lm.x.iter().chain(&c.factors));
             numbers.map(|x| x.to_bits()).collect()
         };

@@ -49,7 +49,11 @@ impl Symmetric {
         for row in 0..factor.panels.len() * PANEL {
             factor.add(row, row, if row < self.size { damping } else { 1.0 });
         }
-        pulp::Arch::new().dispatch(Factorise(&mut factor))?;
+        // With the widest vectors that the processor has.
+        pulp::Arch::new().dispatch(
+            #[inline(always)]
+            || factor.factorise(),
+        )?;
         Some(factor.substitute(right))
     }
 
@@ -100,18 +104,6 @@ impl Symmetric {
         }
         x.truncate(self.size);
         x
-    }
-}
-
-/// The factorisation with the widest vectors that the processor has.
-struct Factorise<'a>(&'a mut Symmetric);
-
-impl pulp::WithSimd for Factorise<'_> {
-    type Output = Option<()>;
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _simd: S) -> Option<()> {
-        self.0.factorise()
     }
 }
 

@@ -1,21 +1,21 @@
 //! Samples of a training, drawn for one purpose.
 
-use std::fmt::Write;
-
-use crate::dataset::{Grid, Rows, Source, Subset};
-use tofsim::error::Result;
+use crate::dataset::{Grid, HistogramSource, Rows, Subset};
 
 use super::features::{Features, Scaling};
 use super::network_problem::NetworkProblem;
-use super::recipe::{Recipe, Stage};
-use super::samples::Samples;
+use super::recipe::Recipe;
+use super::samples::{Samples, digest};
 use super::start::{Purpose, derived};
 
 /// Draws `len` histograms, equally many at each distance.
-///
-/// # Errors
-/// When there are none.
-pub fn draw(source: &Source, grid: Grid, len: u64, seed: u64, purpose: Purpose) -> Result<Samples> {
+pub fn draw(
+    source: &HistogramSource,
+    grid: Grid,
+    len: u64,
+    seed: u64,
+    purpose: Purpose,
+) -> Samples {
     let seed = derived(seed, purpose);
     let rows = Rows::Subset(Subset::new(grid, len, seed));
     let mut samples = Samples::default();
@@ -23,48 +23,37 @@ pub fn draw(source: &Source, grid: Grid, len: u64, seed: u64, purpose: Purpose) 
         samples.counts.push(sample.histogram);
         samples.distances_m.push(sample.scene.distance_m);
     }
-    samples.check()?;
-    Ok(samples)
+    samples
 }
 
 /// Histograms that a stage trains on, or after all stages the end.
-///
-/// # Errors
-/// When there are none.
-pub fn stage_samples(recipe: &Recipe, source: &Source, seed: u64, stage: usize) -> Result<Samples> {
-    let samples = match recipe.stages.get(stage) {
-        Some(&Stage { samples, .. }) => samples,
-        None => recipe.finish.samples,
-    };
+pub fn stage_samples(
+    recipe: &Recipe,
+    source: &HistogramSource,
+    seed: u64,
+    stage: usize,
+) -> Samples {
+    let samples = recipe.stage(stage).samples;
     draw(source, Grid::training(), samples, seed, Purpose::Stage(stage))
 }
 
 /// Histograms of the validation stop, if it is wanted.
-///
-/// # Errors
-/// When there are none.
-pub fn held_out(recipe: &Recipe, source: &Source, seed: u64) -> Result<Option<Samples>> {
-    let wanted = (recipe.validation > 0).then_some(recipe.validation);
-    let draw = |len| draw(source, Grid::training(), len, seed, Purpose::Validation);
-    wanted.map(draw).transpose()
+pub fn held_out(recipe: &Recipe, source: &HistogramSource, seed: u64) -> Option<Samples> {
+    let len = recipe.validation;
+    (len > 0).then(|| draw(source, Grid::training(), len, seed, Purpose::Validation))
 }
 
 /// Histograms that the best block is chosen by, so many for each scene of the test grid.
-///
-/// # Errors
-/// When there are none.
-pub fn choice_samples(recipe: &Recipe, source: &Source, seed: u64) -> Result<Samples> {
+pub fn choice_samples(recipe: &Recipe, source: &HistogramSource, seed: u64) -> Samples {
     let grid = Grid::test();
     let scenes = grid.distances_m.count * grid.lights();
     draw(source, grid, recipe.finish.choice * scenes, seed, Purpose::Choice)
 }
 
 /// A number that changes with the chain's bins and anything in the scenario.
-pub fn fingerprint(source: &Source) -> String {
-    let mut text = String::new();
-    // Writing to a string does not fail.
-    let _ = write!(text, "{:?} {:?}", source.scenario(), source.bins());
-    format!("{:016x}", super::samples::digest(0, text.as_bytes()))
+pub fn fingerprint(source: &HistogramSource) -> String {
+    let text = format!("{:?} {:?}", source.scenario(), source.bins());
+    format!("{:016x}", digest(0, text.as_bytes()))
 }
 
 /// The data of a stage as the optimiser wants them.

@@ -62,12 +62,12 @@ impl Scaling {
 /// Inputs of all samples, in blocks: `block[tile][sample]`. The last block ends in zeros.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Features {
-    blocks: Vec<Block>,
+    blocks: Vec<FeatureBlock>,
     samples: usize,
 }
 
 /// Inputs of 256 samples, a tile after the other.
-pub type Block = Vec<Tile>;
+pub type FeatureBlock = Vec<Tile>;
 
 impl Features {
     /// Of histograms.
@@ -90,14 +90,14 @@ impl Features {
     }
 
     /// The blocks, each of 256 samples but the last.
-    pub fn blocks(&self) -> &[Block] {
+    pub fn blocks(&self) -> &[FeatureBlock] {
         &self.blocks
     }
 }
 
 /// The samples of a tile in a block.
 #[inline(always)]
-pub fn tile(block: &Block, tile: usize) -> &[Tile] {
+pub fn tile(block: &FeatureBlock, tile: usize) -> &[Tile] {
     &block[tile * BLOCK..(tile + 1) * BLOCK]
 }
 

@@ -6,7 +6,7 @@
 //! sum has its own place in a register and takes its terms in order, without fused operations, so
 //! that every processor gives the same bits.
 
-use super::features::{BLOCK, Block, LANES, TILES, Tile, tile};
+use super::features::{BLOCK, FeatureBlock, LANES, TILES, Tile, tile};
 
 /// Weights that are worked on together.
 pub const GROUP: usize = 12;
@@ -16,7 +16,7 @@ const PLACES: usize = LANES * TILES * (TILES + 1) / 2;
 const ONE: usize = LANES - 1;
 
 /// Weights of 256 samples, twelve pairs of neurons at a time: `weights[group][sample]`.
-pub type Weights = Vec<[[f32; GROUP]; BLOCK]>;
+pub type BlockWeights = Vec<[[f32; GROUP]; BLOCK]>;
 
 /// Sums for a group of weights and a column times a tile.
 type Sums = [[f64; LANES]; GROUP];
@@ -41,7 +41,7 @@ impl Gram {
 
     /// Adds a block.
     #[inline(always)]
-    pub fn add_block(&mut self, block: &Block, weights: &Weights) {
+    pub fn add_block(&mut self, block: &FeatureBlock, weights: &BlockWeights) {
         for (weights, sums) in weights.iter().zip(self.sums.chunks_mut(PLACES)) {
             let mut places = sums.iter_mut();
             for t in 0..TILES {
@@ -56,8 +56,7 @@ impl Gram {
 
     /// Adds other sums.
     pub fn add(&mut self, other: &Gram) {
-        let pairs = self.sums.as_flattened_mut().as_flattened_mut().iter_mut();
-        pairs.zip(other.sums.as_flattened().as_flattened()).for_each(|(sum, other)| *sum += other);
+        add(&mut self.sums, &other.sums);
     }
 
     /// The sum for a weight and two columns.
@@ -84,7 +83,7 @@ impl Moments {
 
     /// Adds a block.
     #[inline(always)]
-    pub fn add_block(&mut self, block: &Block, weights: &Weights) {
+    pub fn add_block(&mut self, block: &FeatureBlock, weights: &BlockWeights) {
         for (weights, sums) in weights.iter().zip(self.sums.chunks_mut(TILES)) {
             for (t, sums) in sums.iter_mut().enumerate() {
                 multiply(tile(block, TILES - 1), ONE, tile(block, t), weights, sums);
@@ -94,14 +93,18 @@ impl Moments {
 
     /// Adds other sums.
     pub fn add(&mut self, other: &Moments) {
-        let pairs = self.sums.as_flattened_mut().as_flattened_mut().iter_mut();
-        pairs.zip(other.sums.as_flattened().as_flattened()).for_each(|(sum, other)| *sum += other);
+        add(&mut self.sums, &other.sums);
     }
 
     /// The sum for a weight and a column.
     pub fn at(&self, weight: usize, column: usize) -> f64 {
         self.sums[weight / GROUP * TILES + column / LANES][weight % GROUP][column % LANES]
     }
+}
+
+fn add(sums: &mut [Sums], others: &[Sums]) {
+    let sums = sums.as_flattened_mut().as_flattened_mut().iter_mut();
+    sums.zip(others.as_flattened().as_flattened()).for_each(|(sum, other)| *sum += other);
 }
 
 /// Adds the sums over a block of twelve weights times a column times eight columns.

@@ -6,12 +6,12 @@ use crate::quantize::datapath::Datapath;
 
 use super::basis::KNOTS;
 use super::features::{COLUMNS, Scaling};
-use super::lm::Linear;
+use super::lm::NormalEquations;
 
 /// Where the penalties begin, a little inside the words' ranges, and how steep they are.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Limits {
+pub struct WordLimits {
     /// Factor on all squares; the data's mean square is near 1.
     pub penalty: f64,
     /// Magnitude of W1, of its word's range [1].
@@ -28,9 +28,9 @@ pub struct Limits {
     pub b2_slope: f64,
 }
 
-impl Default for Limits {
+impl Default for WordLimits {
     fn default() -> Self {
-        Limits {
+        WordLimits {
             penalty: 0.5,
             w1_share: 0.96,
             b1_share: 0.975,
@@ -42,31 +42,18 @@ impl Default for Limits {
     }
 }
 
-impl Limits {
-    /// The hinges for words.
+impl WordLimits {
+    /// The penalties for words.
     pub fn hinges(&self, words: &Datapath) -> Hinges {
-        Hinges {
-            penalty: self.penalty,
-            w1: self.w1_share * words.w1.range(),
-            b1: self.b1_share * words.b1.range(),
-            w2_m: self.w2_share * words.w2.range(),
-            w2_slope: self.w2_slope,
-            b2_m: self.b2_share * words.b2.range(),
-            b2_slope: self.b2_slope,
-        }
+        Hinges { limits: *self, words: *words }
     }
 }
 
 /// The penalties of a network for certain words.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hinges {
-    penalty: f64,
-    w1: f64,
-    b1: f64,
-    w2_m: f64,
-    w2_slope: f64,
-    b2_m: f64,
-    b2_slope: f64,
+    limits: WordLimits,
+    words: Datapath,
 }
 
 /// A parameter and the derivative of a hinge with respect to it.
@@ -77,17 +64,17 @@ impl Hinges {
     pub fn cost(&self, x: &[f64], neurons: usize, scaling: &Scaling) -> f64 {
         let mut sum = 0.0;
         self.visit(x, neurons, scaling, |hinge, _| sum += hinge * hinge);
-        self.penalty * sum
+        self.limits.penalty * sum
     }
 
     /// Adds the penalties to normal equations.
-    pub fn add(&self, x: &[f64], neurons: usize, scaling: &Scaling, linear: &mut Linear) {
+    pub fn add(&self, x: &[f64], neurons: usize, scaling: &Scaling, linear: &mut NormalEquations) {
         self.visit(x, neurons, scaling, |hinge, slopes| {
-            linear.cost += self.penalty * hinge * hinge;
+            linear.cost += self.limits.penalty * hinge * hinge;
             for (place, &(row, slope)) in slopes.iter().enumerate() {
-                linear.gradient[row] += self.penalty * hinge * slope;
+                linear.gradient[row] += self.limits.penalty * hinge * slope;
                 for &(column, other) in &slopes[..=place] {
-                    linear.matrix.add(row, column, self.penalty * slope * other);
+                    linear.matrix.add(row, column, self.limits.penalty * slope * other);
                 }
             }
         });
@@ -101,6 +88,11 @@ impl Hinges {
         scaling: &Scaling,
         mut hinge: impl FnMut(f64, &[Slope]),
     ) {
+        let (limits, words) = (&self.limits, &self.words);
+        let w1 = limits.w1_share * words.w1.range();
+        let b1 = limits.b1_share * words.b1.range();
+        let w2_m = limits.w2_share * words.w2.range();
+        let b2_m = limits.b2_share * words.b2.range();
         let mut outside = |value: f64, limit: f64, slope: f64, slopes: &mut [Slope]| {
             let excess = slope * (value.abs() - limit);
             if excess > 0.0 {
@@ -116,19 +108,19 @@ impl Hinges {
             let mut bias = row[KNOTS];
             let of_raw = scaling.inverse_sd.iter().zip(&scaling.mean);
             for ((place, weight), (of_raw, mean)) in (first..).zip(row).zip(of_raw) {
-                let relative = of_raw / self.w1;
+                let relative = of_raw / w1;
                 outside(weight * relative, 1.0, 1.0, &mut [(place, relative)]);
                 bias -= weight * of_raw * mean;
                 slopes.push((place, -of_raw * mean));
             }
-            outside(bias, self.b1, 1.0, &mut slopes);
+            outside(bias, b1, 1.0, &mut slopes);
         }
         let output = neurons * COLUMNS;
         for (place, weight) in (output..).zip(&x[output..output + neurons]) {
-            outside(*weight, self.w2_m, self.w2_slope, &mut [(place, 1.0)]);
+            outside(*weight, w2_m, limits.w2_slope, &mut [(place, 1.0)]);
         }
         let place = output + neurons;
-        outside(x[place], self.b2_m, self.b2_slope, &mut [(place, 1.0)]);
+        outside(x[place], b2_m, limits.b2_slope, &mut [(place, 1.0)]);
     }
 }
 
@@ -147,9 +139,9 @@ mod tests {
         x[KNOTS] = 9.0;
         x[COLUMNS + KNOTS] = -9.0;
         x.extend([2.1, -2.2, -0.3]);
-        let (limits, size) = (Limits::default().hinges(&Datapath::default()), x.len());
+        let (limits, size) = (WordLimits::default().hinges(&Datapath::default()), x.len());
         let zeros = Symmetric::zeros(size);
-        let mut linear = Linear { cost: 0.0, matrix: zeros, gradient: vec![0.0; size] };
+        let mut linear = NormalEquations { cost: 0.0, matrix: zeros, gradient: vec![0.0; size] };
         limits.add(&x, 2, &scaling, &mut linear);
         assert!((linear.cost - limits.cost(&x, 2, &scaling)).abs() < 1e-12 * linear.cost);
         for place in 0..size {
@@ -168,7 +160,7 @@ mod tests {
     fn a_network_well_inside_costs_nothing() {
         let scaling = Scaling { mean: vec![10.0; KNOTS], inverse_sd: vec![0.1; KNOTS] };
         let x = vec![0.001; 8 * COLUMNS + 9];
-        let hinges = |words: Datapath| Limits::default().hinges(&words);
+        let hinges = |words: Datapath| WordLimits::default().hinges(&words);
         assert_eq!(hinges(Datapath::default()).cost(&x, 8, &scaling), 0.0);
         // A word that ends at 6e-5, and a weight of 1e-4 for raw counts.
         let short = Datapath { w1: WordFormat { width: 2, fraction: 15 }, ..Datapath::default() };

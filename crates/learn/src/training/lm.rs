@@ -8,14 +8,11 @@ use super::cholesky::Symmetric;
 
 /// A sum of squares to make small.
 pub trait Problem: Sync {
-    /// Number of parameters.
-    fn parameters(&self) -> usize;
-
     /// The mean square at `x`.
     fn cost(&self, x: &[f64]) -> f64;
 
     /// The mean square at `x` and its normal equations.
-    fn linearise(&self, x: &[f64]) -> Linear;
+    fn linearise(&self, x: &[f64]) -> NormalEquations;
 
     /// The mean square over data that no step is made from, if there are any.
     fn validation(&self, _x: &[f64]) -> Option<f64> {
@@ -25,7 +22,7 @@ pub trait Problem: Sync {
 
 /// The normal equations at a point.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Linear {
+pub struct NormalEquations {
     /// Mean square of the residuals r.
     pub cost: f64,
     /// J'J / n, with J the derivatives of the residuals.
@@ -37,7 +34,7 @@ pub struct Linear {
 /// The method's constants; names and defaults are `trainlm`'s where it has them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Settings {
+pub struct LmSettings {
     /// Damping to begin with.
     pub mu: f64,
     /// Factor on the damping after a step that helps.
@@ -54,9 +51,9 @@ pub struct Settings {
     pub max_fail: u32,
 }
 
-impl Default for Settings {
+impl Default for LmSettings {
     fn default() -> Self {
-        Settings {
+        LmSettings {
             mu: 1e-3,
             mu_dec: 0.1,
             mu_inc: 10.0,
@@ -105,7 +102,7 @@ pub struct Lm {
 
 impl Lm {
     /// At the start.
-    pub fn new(x: Vec<f64>, settings: &Settings) -> Self {
+    pub fn new(x: Vec<f64>, settings: &LmSettings) -> Self {
         Lm {
             x,
             cost: f64::INFINITY,
@@ -119,7 +116,7 @@ impl Lm {
     }
 
     /// Goes on from the same parameters on another problem.
-    pub fn restart(&mut self, settings: &Settings) {
+    pub fn restart(&mut self, settings: &LmSettings) {
         *self = Lm { epochs: self.epochs, ..Lm::new(std::mem::take(&mut self.x), settings) };
     }
 
@@ -128,11 +125,11 @@ impl Lm {
     /// # Errors
     /// When the mean square or its derivatives are no numbers, or the normal equations cannot be
     /// solved at any damping.
-    pub fn epoch(&mut self, problem: &impl Problem, settings: &Settings) -> Result<()> {
+    pub fn epoch(&mut self, problem: &impl Problem, settings: &LmSettings) -> Result<()> {
         if self.stop.is_some() {
             return Ok(());
         }
-        let Linear { cost, matrix, gradient } = problem.linearise(&self.x);
+        let NormalEquations { cost, matrix, gradient } = problem.linearise(&self.x);
         self.cost = cost;
         if !cost.is_finite() {
             return Err(fault("mean square", cost, "expected a finite number").into());
@@ -169,7 +166,7 @@ impl Lm {
         Ok(())
     }
 
-    fn validate(&mut self, problem: &impl Problem, settings: &Settings) {
+    fn validate(&mut self, problem: &impl Problem, settings: &LmSettings) {
         self.validation = problem.validation(&self.x);
         let Some(error) = self.validation else { return };
         match &mut self.least {

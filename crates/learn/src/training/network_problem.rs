@@ -5,13 +5,15 @@
 //! sum of a neuron would move the depth by so much. The latter belong to one neuron alone, so they
 //! only change the weights of the sums in [`super::gram`].
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
-use super::features::{BLOCK, Block, COLUMNS, Features, LANES, Scaling, TILES, tile};
-use super::gram::{GROUP, Weights, groups};
+use super::features::{BLOCK, COLUMNS, FeatureBlock, Features, LANES, Scaling, TILES, tile};
+use super::gram::{BlockWeights, GROUP, groups};
 use super::limits::Hinges;
-use super::lm::{Linear, Problem};
-use super::sums::{Sums, parameters};
+use super::lm::{NormalEquations, Problem};
+use super::sums::Sums;
 
 /// Blocks that a thread sums up at a time. Fixed, as the order of sums is.
 const RUN: usize = 8;
@@ -39,8 +41,8 @@ pub struct NetworkProblem<'a> {
 
 /// What the samples of a block weigh in the sums.
 struct Scratch {
-    pairs: Weights,
-    cross: Weights,
+    pairs: BlockWeights,
+    cross: BlockWeights,
     activations: Vec<f64>,
     slopes: Vec<f64>,
     outputs: Vec<f64>,
@@ -62,7 +64,7 @@ impl Scratch {
 impl NetworkProblem<'_> {
     /// Sums of a neuron's inputs, lane by lane and then over the lanes.
     #[inline(always)]
-    fn sum(block: &Block, sample: usize, row: &[f64]) -> f64 {
+    fn sum(block: &FeatureBlock, sample: usize, row: &[f64]) -> f64 {
         let mut sums = [0.0; LANES];
         for t in 0..TILES {
             let (inputs, weights) = (&tile(block, t)[sample], &row[t * LANES..][..LANES]);
@@ -75,7 +77,13 @@ impl NetworkProblem<'_> {
 
     /// Depth of a sample; leaves the neurons' outputs in `activations` [m].
     #[inline(always)]
-    fn depth(&self, x: &[f64], block: &Block, sample: usize, activations: &mut [f64]) -> f64 {
+    fn depth(
+        &self,
+        x: &[f64],
+        block: &FeatureBlock,
+        sample: usize,
+        activations: &mut [f64],
+    ) -> f64 {
         let output = &x[self.neurons * COLUMNS..];
         let mut depth = output[self.neurons];
         for (k, activation) in activations.iter_mut().enumerate() {
@@ -164,11 +172,36 @@ impl NetworkProblem<'_> {
         sums.cross.add_block(block, &scratch.cross);
     }
 
+    /// Squares of the residuals of neighbouring blocks, with vectors as wide as `arch` has them.
+    fn squares(&self, arch: pulp::Arch, x: &[f64], run: Range<usize>) -> f64 {
+        arch.dispatch(
+            #[inline(always)]
+            || {
+                let mut activations = vec![0.0; self.neurons];
+                run.fold(0.0, |cost, index| cost + self.block_cost(x, index, &mut activations))
+            },
+        )
+    }
+
+    /// The same of their sums.
+    fn sums(&self, arch: pulp::Arch, x: &[f64], run: Range<usize>) -> Sums {
+        arch.dispatch(
+            #[inline(always)]
+            || {
+                let (mut scratch, mut sums) =
+                    (Scratch::new(self.neurons), Sums::zeros(self.neurons));
+                run.for_each(|index| self.add_block(x, index, &mut scratch, &mut sums));
+                sums
+            },
+        )
+    }
+
     /// Mean square of the residuals, without penalties.
     fn mean_square(&self, x: &[f64]) -> f64 {
         let arch = pulp::Arch::new();
-        let costs = self.runs().into_par_iter().map(|run| arch.dispatch(Costs(self, x, run)));
-        let sum: f64 = costs.collect::<Vec<_>>().iter().sum();
+        let costs = self.runs().into_par_iter().map(|run| self.squares(arch, x, run));
+        let costs: Vec<f64> = costs.collect();
+        let sum: f64 = costs.iter().sum();
         sum / self.features.samples() as f64
     }
 
@@ -183,52 +216,13 @@ impl NetworkProblem<'_> {
     }
 
     /// Runs of neighbouring blocks, for the threads.
-    fn runs(&self) -> Vec<std::ops::Range<usize>> {
+    fn runs(&self) -> Vec<Range<usize>> {
         let blocks = self.features.blocks().len();
         (0..blocks).step_by(RUN).map(|first| first..blocks.min(first + RUN)).collect()
     }
 }
 
-/// A run of blocks with the widest vectors that the processor has.
-struct Costs<'a>(&'a NetworkProblem<'a>, &'a [f64], std::ops::Range<usize>);
-
-impl pulp::WithSimd for Costs<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _simd: S) -> f64 {
-        let Costs(problem, x, run) = self;
-        let mut activations = vec![0.0; problem.neurons];
-        let mut cost = 0.0;
-        for index in run {
-            cost += problem.block_cost(x, index, &mut activations);
-        }
-        cost
-    }
-}
-
-/// The same for the sums.
-struct Linearise<'a>(&'a NetworkProblem<'a>, &'a [f64], std::ops::Range<usize>);
-
-impl pulp::WithSimd for Linearise<'_> {
-    type Output = Sums;
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _simd: S) -> Sums {
-        let Linearise(problem, x, run) = self;
-        let (mut scratch, mut sums) = (Scratch::new(problem.neurons), Sums::zeros(problem.neurons));
-        for index in run {
-            problem.add_block(x, index, &mut scratch, &mut sums);
-        }
-        sums
-    }
-}
-
 impl Problem for NetworkProblem<'_> {
-    fn parameters(&self) -> usize {
-        parameters(self.neurons)
-    }
-
     fn cost(&self, x: &[f64]) -> f64 {
         self.mean_square(x) + self.hinges.cost(x, self.neurons, self.scaling)
     }
@@ -237,9 +231,9 @@ impl Problem for NetworkProblem<'_> {
         self.held_out.map(|held_out| held_out.mean_square(x))
     }
 
-    fn linearise(&self, x: &[f64]) -> Linear {
+    fn linearise(&self, x: &[f64]) -> NormalEquations {
         let arch = pulp::Arch::new();
-        let parts = self.runs().into_par_iter().map(|run| arch.dispatch(Linearise(self, x, run)));
+        let parts = self.runs().into_par_iter().map(|run| self.sums(arch, x, run));
         let parts: Vec<Sums> = parts.collect();
         let sums = parts.iter().fold(Sums::zeros(self.neurons), Sums::with);
         let mut linear = sums.assemble(self.neurons, self.features.samples());

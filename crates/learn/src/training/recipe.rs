@@ -2,18 +2,17 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use toml_edit::{DocumentMut, Item};
 
-use crate::quantize::datapath::Datapath;
-use tofsim::error::{Input, Result};
-use tofsim::files::toml::{Checked, assign, merge, read};
 use tofsim::firmware::forward2::NEURONS;
 
-use super::limits::Limits;
-use super::lm::Settings;
+use crate::quantize::datapath::Datapath;
+
+use super::limits::WordLimits;
+use super::lm::LmSettings;
 use super::weighting::Weighting;
 
 mod check;
+mod read;
 
 /// How a network is trained.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -33,7 +32,7 @@ pub struct Recipe {
     /// Noise of a neuron's sum from the activation table's steps [steps].
     pub table_noise: f64,
     /// Random starts.
-    pub start: Start,
+    pub start: RandomStart,
     /// The tournament: each stage goes on with the best of the one before.
     pub stages: Vec<Stage>,
     /// What is done with the winner.
@@ -43,15 +42,15 @@ pub struct Recipe {
     /// Words that it is to fit, and the table of activations.
     pub formats: Datapath,
     /// Penalties for what the words cannot hold.
-    pub limits: Limits,
+    pub limits: WordLimits,
     /// The optimiser.
-    pub optimiser: Settings,
+    pub optimiser: LmSettings,
 }
 
 /// Random weights to begin with.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Start {
+pub struct RandomStart {
     /// Lengths of a neuron's weights for inputs in standard deviations; starts take them in turn.
     pub lengths: Vec<f64>,
     /// Biases are spread evenly from minus this to this.
@@ -109,7 +108,7 @@ impl Default for Recipe {
             least_gain: 0.0,
             validation: 0,
             table_noise: 0.4096,
-            start: Start { lengths: vec![0.1, 0.3], bias: 1.0, output_m: 0.1 },
+            start: RandomStart { lengths: vec![0.1, 0.3], bias: 1.0, output_m: 0.1 },
             stages: vec![
                 stage(120, 40, 8_000),
                 stage(30, 60, 8_000),
@@ -130,8 +129,8 @@ impl Default for Recipe {
             },
             weighting: Weighting::default(),
             formats: Datapath::default(),
-            limits: Limits::default(),
-            optimiser: Settings { mu_min: 1e-12, ..Settings::default() },
+            limits: WordLimits::default(),
+            optimiser: LmSettings { mu_min: 1e-12, ..LmSettings::default() },
         }
     }
 }
@@ -151,67 +150,9 @@ impl Recipe {
         }
     }
 
-    /// The recipe in the text of a file; messages name `source`.
-    ///
-    /// # Errors
-    /// When the text is no TOML, a key is unknown, or a value makes no sense.
-    pub fn parse(text: &str, base: &Recipe, overrides: &[String], source: &str) -> Result<Self> {
-        let mut table = base.table()?;
-        merge(table.as_table_mut(), Checked::part::<Recipe>(source, text)?.table());
-        for assignment in overrides {
-            assign::<Recipe>(table.as_table_mut(), "--with", assignment)?;
-        }
-        let recipe: Recipe = read(source, table.as_table())?;
-        recipe.check()?;
-        Ok(recipe)
-    }
-
-    fn table(&self) -> Result<DocumentMut> {
-        let table = toml_edit::ser::to_document(self);
-        table.map_err(|error| Input::new("recipe", error).into())
-    }
-
-    /// All settings by dotted key, in TOML.
-    pub fn settings(&self) -> Result<Vec<(String, String)>> {
-        let mut settings = Vec::new();
-        flatten("", self.table()?.as_item(), &mut settings);
-        Ok(settings)
-    }
-}
-
-fn flatten(path: &str, item: &Item, into: &mut Vec<(String, String)>) {
-    match item.as_table_like() {
-        Some(table) => table.iter().for_each(|(key, item)| {
-            let path = if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
-            flatten(&path, item, into);
-        }),
-        None => into.push((path.to_owned(), item.to_string().trim().to_owned())),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    pub(super) fn parse(text: &str, overrides: &[&str]) -> Result<Recipe> {
-        let overrides: Vec<_> = overrides.iter().map(|&text| text.to_owned()).collect();
-        Recipe::parse(text, &Recipe::default(), &overrides, "a.toml")
-    }
-
-    #[test]
-    fn what_is_not_said_stays_and_an_option_comes_last() {
-        let recipe = parse("table_noise = 0.0\n[finish]\nblocks = 3\n", &["finish.blocks=4"]);
-        let recipe = recipe.unwrap();
-        assert_eq!((recipe.table_noise, recipe.finish.blocks), (0.0, 4));
-        assert_eq!(recipe.finish.epochs, Recipe::default().finish.epochs);
-        assert_eq!(parse("", &[]).unwrap(), Recipe::default());
-        Recipe::quick().check().unwrap();
-    }
-
-    #[test]
-    fn settings_have_dotted_keys() {
-        let settings = Recipe::default().settings().unwrap();
-        assert!(settings.contains(&("finish.blocks".to_owned(), "14".to_owned())));
-        assert!(settings.contains(&("optimiser.mu".to_owned(), "0.001".to_owned())));
+    /// A stage by its place; after the last the end, of which it is one block.
+    pub fn stage(&self, place: usize) -> Stage {
+        let Finish { candidates, epochs, samples, .. } = self.finish;
+        self.stages.get(place).copied().unwrap_or(Stage { candidates, epochs, samples })
     }
 }

@@ -1,6 +1,5 @@
 //! Histograms with their true distances: what a network is trained and judged on.
 
-use tofsim::error::{Input, Result};
 use tofsim::network::Histogram;
 
 /// Histograms and distances, one of each a sample.
@@ -13,38 +12,6 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// Number of samples.
-    pub fn len(&self) -> usize {
-        self.counts.len()
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.counts.is_empty()
-    }
-
-    /// That there is something to train on.
-    ///
-    /// # Errors
-    /// When there are no samples, more or fewer distances than histograms, or a distance is no
-    /// finite number.
-    pub fn check(&self) -> Result<()> {
-        let fault = |field: &str, expected: &str| Input::new("samples", expected).field(field);
-        let (counts, distances) = (self.counts.len(), self.distances_m.len());
-        if counts == 0 {
-            return Err(fault("counts", "expected one histogram at least").value(0).into());
-        }
-        if counts != distances {
-            let expected = format!("expected one a histogram: {counts}");
-            return Err(fault("distances_m", &expected).value(distances).into());
-        }
-        let finite = self.distances_m.iter().position(|distance| !distance.is_finite());
-        let Some(place) = finite else { return Ok(()) };
-        let field = format!("distances_m[{place}]");
-        let refused = fault(&field, "expected a finite number of metres");
-        Err(refused.value(self.distances_m[place]).into())
-    }
-
     /// A number that changes with any count and any distance.
     pub fn digest(&self) -> u64 {
         let mut value = digest(0, &[]);
@@ -67,16 +34,6 @@ pub(super) fn digest(before: u64, bytes: &[u8]) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn what_cannot_be_trained_on_is_refused() {
-        let fault = |samples: Samples| samples.check().unwrap_err().to_string();
-        assert!(fault(Samples::default()).contains("one histogram at least"));
-        let uneven = Samples { counts: vec![[0; 256]; 2], distances_m: vec![0.1] };
-        assert!(fault(uneven).contains("distances_m = 1: expected one a histogram: 2"));
-        let nan = Samples { counts: vec![[0; 256]], distances_m: vec![f64::NAN] };
-        assert!(fault(nan).contains("distances_m[0] = NaN"));
-    }
 
     #[test]
     fn the_digest_sees_every_count_and_distance() {

@@ -7,7 +7,7 @@ use tofsim::sensor::streams::uniform;
 
 use super::basis::KNOTS;
 use super::features::COLUMNS;
-use super::recipe::Start;
+use super::recipe::RandomStart;
 use super::sums::parameters;
 
 /// What a seed is for.
@@ -41,7 +41,7 @@ pub fn derived(seed: u64, purpose: Purpose) -> u64 {
 }
 
 /// Parameters to begin with; each start has random numbers of its own.
-pub fn start(settings: &Start, neurons: usize, seed: u64, number: usize) -> Vec<f64> {
+pub fn start(settings: &RandomStart, neurons: usize, seed: u64, number: usize) -> Vec<f64> {
     let mut random = ChaCha8Rng::seed_from_u64(derived(seed, Purpose::Starts));
     random.set_stream(number as u64);
     let length = settings.lengths[number % settings.lengths.len()];

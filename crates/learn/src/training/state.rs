@@ -20,7 +20,7 @@ pub struct Candidate {
 /// The best block so far.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Best {
+pub struct BestBlock {
     /// Which start it comes from.
     pub start: usize,
     /// Blocks made by then.
@@ -34,7 +34,7 @@ pub struct Best {
 /// A point of the learning curve.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Point {
+pub struct CurvePoint {
     /// Stage, counted from 0; the end is the last.
     pub stage: usize,
     /// Block of the end, counted from 0.
@@ -57,7 +57,7 @@ pub struct Point {
 /// All that decides how a tournament goes on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct State {
+pub struct TournamentState {
     /// Stage that is going on; the end is the last.
     pub stage: usize,
     /// Block of the end that is going on.
@@ -71,7 +71,7 @@ pub struct State {
     /// Those still taking part.
     pub candidates: Vec<Candidate>,
     /// The best block.
-    pub best: Option<Best>,
+    pub best: Option<BestBlock>,
     /// How the costs fell.
-    pub curve: Vec<Point>,
+    pub curve: Vec<CurvePoint>,
 }

@@ -3,7 +3,7 @@
 use super::cholesky::Symmetric;
 use super::features::COLUMNS;
 use super::gram::{Gram, Moments};
-use super::lm::Linear;
+use super::lm::NormalEquations;
 
 /// Number of parameters of a network: for each neuron its knots and its bias, then the output
 /// layer's weights and its bias.
@@ -49,7 +49,7 @@ impl Sums {
     }
 
     /// J'J / n and J'r / n from the sums of so many samples.
-    pub fn assemble(&self, neurons: usize, samples: usize) -> Linear {
+    pub fn assemble(&self, neurons: usize, samples: usize) -> NormalEquations {
         let (n, output) = (neurons, neurons * COLUMNS);
         let mut matrix = Symmetric::zeros(parameters(n));
         let mut pair = 0;
@@ -75,6 +75,6 @@ impl Sums {
         let share = 1.0 / samples as f64;
         matrix.scale(share);
         let gradient = self.gradient.iter().map(|sum| sum * share).collect();
-        Linear { cost: self.cost * share, matrix, gradient }
+        NormalEquations { cost: self.cost * share, matrix, gradient }
     }
 }

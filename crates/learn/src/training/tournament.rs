@@ -8,30 +8,31 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
-use crate::dataset::{Grid, Source};
-use crate::quantize::datapath::Circuit;
 use tofsim::error::{Error, Result};
 use tofsim::network::float::Float;
 
-use super::accuracy::{Row, by_distance, worst};
+use crate::dataset::{Grid, HistogramSource};
+use crate::quantize::Circuit;
+
+use super::accuracy::{DistanceErrors, by_distance, worst};
 use super::data::{self, StageData};
 use super::equalise::{follow, ratios};
 use super::features::Scaling;
 use super::fold::fold;
 use super::lm::{Lm, Problem, Stop};
-use super::recipe::Recipe;
+use super::recipe::{Recipe, Stage};
 use super::samples::{Samples, digest};
 use super::start::{Purpose, start};
-use super::state::{Best, Candidate, Point, State};
+use super::state::{BestBlock, Candidate, CurvePoint, TournamentState};
 
 /// A tournament and its data.
 #[derive(Debug)]
 pub struct Tournament<'a> {
     recipe: &'a Recipe,
-    source: &'a Source,
+    source: &'a HistogramSource,
     seed: u64,
     /// What decides how it goes on.
-    pub state: State,
+    pub state: TournamentState,
     data: StageData,
     held_out: Option<StageData>,
     choice: Samples,
@@ -39,49 +40,56 @@ pub struct Tournament<'a> {
 
 impl<'a> Tournament<'a> {
     /// At the beginning.
-    ///
-    /// # Errors
-    /// When no data can be drawn.
-    pub fn new(recipe: &'a Recipe, source: &'a Source, seed: u64) -> Result<Self> {
-        let samples = data::stage_samples(recipe, source, seed, 0)?;
+    pub fn new(recipe: &'a Recipe, source: &'a HistogramSource, seed: u64) -> Self {
+        let samples = data::stage_samples(recipe, source, seed, 0);
         let candidates = (0..recipe.stages[0].candidates).map(|number| Candidate {
             start: number,
             lm: Lm::new(start(&recipe.start, recipe.neurons, seed, number), &recipe.optimiser),
             factors: Vec::new(),
         });
-        let scaling = Scaling::of(&samples.counts);
-        let held_out = data::held_out(recipe, source, seed)?;
-        let held_out = held_out.map(|samples| StageData::new(&samples, &scaling));
-        let data = StageData::new(&samples, &scaling);
-        let mut used = format!("{:016x}", data.digest);
-        if let Some(held_out) = &held_out {
-            used = format!("{:016x}", digest(held_out.digest, used.as_bytes()));
-        }
-        let state = State {
+        let state = TournamentState {
             stage: 0,
             block: 0,
             epochs: 0,
-            data: used,
-            scaling,
+            data: String::new(),
+            scaling: Scaling::of(&samples.counts),
             candidates: candidates.collect(),
             best: None,
             curve: Vec::new(),
         };
-        let choice = data::choice_samples(recipe, source, seed)?;
-        Ok(Tournament { recipe, source, seed, state, data, held_out, choice })
+        let mut tournament = Tournament::with(recipe, source, seed, state, &samples);
+        let mut used = format!("{:016x}", tournament.data.digest);
+        if let Some(held_out) = &tournament.held_out {
+            used = format!("{:016x}", digest(held_out.digest, used.as_bytes()));
+        }
+        tournament.state.data = used;
+        tournament
     }
 
     /// Where another left off.
-    ///
-    /// # Errors
-    /// When no data can be drawn.
-    pub fn resume(recipe: &'a Recipe, source: &'a Source, seed: u64, state: State) -> Result<Self> {
-        let samples = data::stage_samples(recipe, source, seed, state.stage)?;
-        let data = StageData::new(&samples, &state.scaling);
-        let held_out = data::held_out(recipe, source, seed)?;
-        let held_out = held_out.map(|samples| StageData::new(&samples, &state.scaling));
-        let choice = data::choice_samples(recipe, source, seed)?;
-        Ok(Tournament { recipe, source, seed, state, data, held_out, choice })
+    pub fn resume(
+        recipe: &'a Recipe,
+        source: &'a HistogramSource,
+        seed: u64,
+        state: TournamentState,
+    ) -> Self {
+        let samples = data::stage_samples(recipe, source, seed, state.stage);
+        Tournament::with(recipe, source, seed, state, &samples)
+    }
+
+    /// In a state, with the samples of its stage.
+    fn with(
+        recipe: &'a Recipe,
+        source: &'a HistogramSource,
+        seed: u64,
+        state: TournamentState,
+        samples: &Samples,
+    ) -> Self {
+        let stage_data = |samples: &Samples| StageData::new(samples, &state.scaling);
+        let data = stage_data(samples);
+        let held_out = data::held_out(recipe, source, seed).as_ref().map(stage_data);
+        let choice = data::choice_samples(recipe, source, seed);
+        Tournament { recipe, source, seed, state, data, held_out, choice }
     }
 
     /// Whether all is done.
@@ -95,38 +103,28 @@ impl<'a> Tournament<'a> {
 
     /// Epochs of the stage or block that is going on.
     fn target(&self) -> u64 {
-        match self.recipe.stages.get(self.state.stage) {
-            Some(stage) => stage.epochs,
-            None => self.recipe.finish.epochs,
-        }
+        self.recipe.stage(self.state.stage).epochs
     }
 
     /// Epochs of all candidates that are still to be made, times their samples, of all there are.
     pub fn progress(&self) -> (u64, u64) {
-        let (mut done, mut all) = (0, 0);
-        for (place, stage) in self.recipe.stages.iter().enumerate() {
-            let work = |epochs| stage.candidates as u64 * stage.samples * epochs;
-            all += work(stage.epochs);
-            done += match place.cmp(&self.state.stage) {
-                std::cmp::Ordering::Less => work(stage.epochs),
-                std::cmp::Ordering::Equal => work(self.state.epochs),
-                std::cmp::Ordering::Greater => 0,
-            };
-        }
-        let finish = &self.recipe.finish;
-        let work = |epochs| finish.candidates as u64 * finish.samples * epochs;
-        all += work(finish.blocks as u64 * finish.epochs);
-        if self.in_finish() {
-            done += work(self.state.block as u64 * finish.epochs + self.state.epochs);
-        }
-        (done, all)
+        let (recipe, state) = (self.recipe, &self.state);
+        let blocks = |place| if place < recipe.stages.len() { 1 } else { recipe.finish.blocks };
+        let work = |place: usize, epochs: u64| {
+            let Stage { candidates, samples, .. } = recipe.stage(place);
+            candidates as u64 * samples * epochs
+        };
+        let whole = |place| work(place, blocks(place) as u64 * recipe.stage(place).epochs);
+        let made = state.block as u64 * recipe.stage(state.stage).epochs + state.epochs;
+        let done = (0..state.stage).map(whole).sum::<u64>() + work(state.stage, made);
+        (done, (0..=recipe.stages.len()).map(whole).sum())
     }
 
     /// Trains until the next checkpoint, or until `stop` is set; what was done since the last one is
     /// then lost.
     ///
     /// # Errors
-    /// When a cost is no number, data cannot be drawn, or the user stops.
+    /// When a cost is no number, or the user stops.
     pub fn advance(&mut self, stop: Option<&AtomicBool>) -> Result<()> {
         if self.is_over() {
             return Ok(());
@@ -148,7 +146,8 @@ impl<'a> Tournament<'a> {
             self.state.block += 1;
             return Ok(());
         }
-        self.next_stage()
+        self.next_stage();
+        Ok(())
     }
 
     /// Adds to the learning curve, and lets those rest that gain too little.
@@ -157,14 +156,15 @@ impl<'a> Tournament<'a> {
         for candidate in &mut self.state.candidates {
             let (start, lm) = (candidate.start, &mut candidate.lm);
             let Lm { epochs, cost, mu, validation, .. } = *lm;
-            let same =
-                |point: &&Point| (point.stage, point.block, point.start) == (stage, block, start);
+            let same = |point: &&CurvePoint| {
+                (point.stage, point.block, point.start) == (stage, block, start)
+            };
             if let Some(before) = self.state.curve.iter().rev().find(same)
                 && before.cost - cost < self.recipe.least_gain * before.cost
             {
                 lm.stop = lm.stop.or(Some(Stop::Gain));
             }
-            self.state.curve.push(Point {
+            self.state.curve.push(CurvePoint {
                 stage,
                 block,
                 start,
@@ -199,23 +199,18 @@ impl<'a> Tournament<'a> {
     }
 
     /// Keeps the best for the next stage, and draws its data.
-    fn next_stage(&mut self) -> Result<()> {
+    fn next_stage(&mut self) {
         let state = &mut self.state;
         state.stage += 1;
-        let keep = match self.recipe.stages.get(state.stage) {
-            Some(stage) => stage.candidates,
-            None => self.recipe.finish.candidates,
-        };
         state
             .candidates
             .sort_by(|a, b| a.lm.cost.total_cmp(&b.lm.cost).then(a.start.cmp(&b.start)));
-        state.candidates.truncate(keep);
+        state.candidates.truncate(self.recipe.stage(state.stage).candidates);
         state.candidates.iter_mut().for_each(|one| one.lm.restart(&self.recipe.optimiser));
-        let samples = data::stage_samples(self.recipe, self.source, self.seed, state.stage)?;
+        let samples = data::stage_samples(self.recipe, self.source, self.seed, state.stage);
         self.data = StageData::new(&samples, &state.scaling);
         let both = digest(self.data.digest, state.data.as_bytes());
         state.data = format!("{both:016x}");
-        Ok(())
     }
 
     /// Gives more weight to distances where the error is larger than the line has it.
@@ -243,7 +238,8 @@ impl<'a> Tournament<'a> {
             let point = self.state.curve.iter_mut().rev().find(|point| point.start == start);
             point.into_iter().for_each(|point| point.ratio = Some(ratio));
             if fits && self.state.best.as_ref().is_none_or(|best| ratio < best.ratio) {
-                self.state.best = Some(Best { start, block, ratio, x: candidate.lm.x.clone() });
+                self.state.best =
+                    Some(BestBlock { start, block, ratio, x: candidate.lm.x.clone() });
             }
         }
         Ok(())
@@ -257,18 +253,15 @@ impl<'a> Tournament<'a> {
     }
 
     /// Errors of a network on histograms that neither training nor choice has seen, one a scene.
-    ///
-    /// # Errors
-    /// When no data can be drawn.
-    pub fn test(&self, circuit: &Circuit) -> Result<Vec<Row>> {
+    pub fn test(&self, circuit: &Circuit) -> Vec<DistanceErrors> {
         let grid = Grid::test();
         let len = grid.distances_m.count * grid.lights();
-        let samples = data::draw(self.source, grid, len, self.seed, Purpose::Test)?;
-        Ok(errors(circuit, &samples))
+        let samples = data::draw(self.source, grid, len, self.seed, Purpose::Test);
+        errors(circuit, &samples)
     }
 }
 
 /// Errors by distance, with the firmware's formats bit for bit those of the firmware.
-fn errors(circuit: &Circuit, samples: &Samples) -> Vec<Row> {
+fn errors(circuit: &Circuit, samples: &Samples) -> Vec<DistanceErrors> {
     by_distance(samples, |histogram| circuit.depth_m(histogram))
 }

@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::evaluation::thesis;
 use tofsim::error::{Input, Result};
+
+use crate::evaluation::thesis;
 
 /// The line, and more weight at both ends of the range, where there are no neighbours to learn from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]

@@ -1,12 +1,13 @@
 //! Histograms that no light makes.
 
 use proptest::prelude::*;
+
 use tofsim::firmware::centroid_estimator::Params;
 use tofsim::network::{Histogram, Network};
-use tofsim_learn::estimation::by_name::{Acquisition, Kind, Needs};
 use tofsim_learn::estimation::peak_detection::PeakDetection;
 use tofsim_learn::estimation::subtraction::Subtraction;
-use tofsim_learn::estimation::{Estimator, Failure, Pair};
+use tofsim_learn::estimation::{Acquisition, EstimatorInputs, EstimatorKind};
+use tofsim_learn::estimation::{Estimator, Failure, HistogramPair};
 
 use super::{acquisition, bins};
 
@@ -36,15 +37,15 @@ proptest! {
     ) {
         let (bins, network) = (bins(profile), Network::builtin("ideal").unwrap().unwrap());
         let acquisition = Acquisition { shots, ..acquisition(&bins) };
-        let needs = Needs { acquisition, network: &network, centroid: &Params::default() };
-        for kind in [Kind::Network, Kind::NetworkFloat, Kind::Peak, Kind::Likelihood, Kind::Matched] {
+        let needs = EstimatorInputs { acquisition, network: &network, centroid: &Params::default() };
+        for kind in [EstimatorKind::Network, EstimatorKind::NetworkFloat, EstimatorKind::Peak, EstimatorKind::Likelihood, EstimatorKind::Matched] {
             match kind.estimator(&needs).unwrap().estimate(&histogram) {
                 Ok(distance_m) => prop_assert!(distance_m.abs() < 50.0, "{kind:?} {distance_m}"),
                 Err(failure) => prop_assert!(!failure.to_string().is_empty()),
             }
         }
         let subtraction = Subtraction { detection: PeakDetection::new(shots) };
-        let found = subtraction.estimate_pair(&Pair { dark: [200; 256], lit: histogram });
+        let found = subtraction.estimate_pair(&HistogramPair { dark: [200; 256], lit: histogram });
         prop_assert!(found.is_err() || found.is_ok_and(f64::is_finite));
     }
 }
@@ -53,8 +54,8 @@ proptest! {
 fn an_empty_histogram_has_no_distance() {
     let (bins, network) = (bins("uniform"), Network::builtin("uniform").unwrap().unwrap());
     let (acquisition, centroid) = (acquisition(&bins), &Params::default());
-    let needs = Needs { acquisition, network: &network, centroid };
-    for kind in [Kind::Peak, Kind::Likelihood, Kind::Matched] {
+    let needs = EstimatorInputs { acquisition, network: &network, centroid };
+    for kind in [EstimatorKind::Peak, EstimatorKind::Likelihood, EstimatorKind::Matched] {
         assert_eq!(kind.estimator(&needs).unwrap().estimate(&[0; 256]), Err(Failure::NoHits));
     }
 }

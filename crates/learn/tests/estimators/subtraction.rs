@@ -5,7 +5,7 @@ use tofsim::scenario::Scenario;
 use tofsim::sensor::streams::{Source, stream};
 use tofsim_learn::estimation::peak_detection::PeakDetection;
 use tofsim_learn::estimation::subtraction::Subtraction;
-use tofsim_learn::estimation::{Estimator, Pair};
+use tofsim_learn::estimation::{Estimator, HistogramPair};
 
 use super::{DISTANCES_M, SHOTS, bins, grid};
 
@@ -27,12 +27,12 @@ fn subtraction_leaves_a_negative_tail_and_no_better_detection() {
         for _ in 0..100 {
             let mut draw = |of: &BinProbabilities| of.draw(15_000, &mut random).map(|n| n as u16);
             let (on, off) = (draw(&on), draw(&off));
-            let difference = Pair { dark: off, lit: on }.difference();
+            let difference = HistogramPair { dark: off, lit: on }.difference();
             let mean = |part: &[i32]| part.iter().sum::<i32>() as f64 / part.len() as f64 / 100.0;
             left += mean(&difference[..140]);
             right += mean(&difference[180..]);
             let subtraction = Subtraction { detection: PeakDetection::new(2 * 15_000) };
-            let found = subtraction.estimate_pair(&Pair { dark: off, lit: on });
+            let found = subtraction.estimate_pair(&HistogramPair { dark: off, lit: on });
             successes[0] += found.is_ok() as usize;
             let detection = PeakDetection::new(15_000);
             successes[1] += detection.estimate(&on).is_ok() as usize;
@@ -60,7 +60,7 @@ fn failures_with_and_without_dark_shots(distance_m: f64, repeats: usize) -> [usi
         let codes = hazards.map(|hazard| BinProbabilities::new(&hazard, &bins));
         for histogram in histograms {
             let mut draw = |k: usize| codes[k].draw(SHOTS / 2, &mut random).map(|n| n as u16);
-            let pair = Pair { dark: draw(0), lit: draw(1) };
+            let pair = HistogramPair { dark: draw(0), lit: draw(1) };
             let found = [
                 of_all.estimate_pair(&pair),
                 of_lit.estimate_pair(&pair),

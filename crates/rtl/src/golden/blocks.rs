@@ -1,6 +1,6 @@
 //! The blocks, one file each: what is special about it and how its input is drawn.
 
-use super::block::Spec;
+use super::spec::Spec;
 
 /// Blocks, each a module of the same name here and in `rtl_ref`.
 macro_rules! blocks {
@@ -43,6 +43,9 @@ blocks! {
     tof_top
     vcsel_driver
 }
+
+/// The estimator that the thesis does not have, and other people's designs need not.
+pub const CENTROID: &str = "centroid_estimator";
 
 /// The block called `name`.
 pub fn find(name: &str) -> Option<&'static Spec> {

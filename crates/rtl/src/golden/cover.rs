@@ -46,6 +46,11 @@ impl Cover {
     }
 }
 
+/// Levels as the bits of a number, the first on top.
+pub fn bits<const N: usize>(levels: [bool; N]) -> u64 {
+    levels.into_iter().fold(0, |bits, level| 2 * bits + u64::from(level))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -59,5 +64,6 @@ mod tests {
         cover.see_if(false, 1);
         assert_eq!((cover.met(), cover.cases()), (1, 4));
         assert_eq!(cover.missing().collect::<Vec<_>>(), [0, 1, 3]);
+        assert_eq!(bits([true, true, false]), 6);
     }
 }

@@ -4,9 +4,9 @@ use serde_json::{Value, json};
 
 use tofsim::hierarchy::{self, Entry, Kind};
 
-use super::block::{Parameter, Spec};
+use super::parameters::{Parameter, Parameters};
+use super::spec::{Spec, Vectors};
 use super::table::{Column, Table};
-use super::vectors::Vectors;
 
 /// A port of a block.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,14 +73,14 @@ pub fn json(vectors: &Vectors) -> Value {
             "before_edge_ps": timing.before_edge_ps(column.sample) + 1,
             "register": column.internal,
         })),
-        "roms": vectors.roms.iter().map(|rom| rom.name).collect::<Vec<_>>(),
+        "roms": vectors.memories().map(|memory| memory.name).collect::<Vec<_>>(),
     })
 }
 
-fn parameters(parameters: &[(&'static str, Parameter)]) -> Value {
+fn parameters(parameters: &Parameters) -> Value {
     let value = |parameter: &Parameter| match parameter {
         Parameter::Number(number) => json!(number),
-        Parameter::File(name) => json!(name),
+        Parameter::Memory(memory) => json!(memory.name),
     };
     parameters.iter().map(|(name, parameter)| ((*name).to_owned(), value(parameter))).collect()
 }

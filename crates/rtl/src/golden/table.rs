@@ -117,8 +117,8 @@ pub fn hex(bits: &BitSlice<u64, Lsb0>) -> String {
     if digits.is_empty() { "0".to_owned() } else { digits }
 }
 
-/// Puts reported signals into a table.
-pub struct Fill<'a> {
+/// Puts reported signals into the line under construction.
+pub struct LineSink<'a> {
     /// Where the values go.
     pub table: &'a mut Table,
     /// Columns of each id.
@@ -127,7 +127,7 @@ pub struct Fill<'a> {
     pub order: &'a [u16],
 }
 
-impl Sink for Fill<'_> {
+impl Sink for LineSink<'_> {
     fn word(&mut self, id: usize, value: u64) {
         for &column in &self.places[id] {
             self.table.set(column, value);

@@ -1,7 +1,7 @@
 //! The whole firmware as a scenario runs it, sampled where the bench looks.
 
 use tofsim::error::{Input, Result};
-use tofsim::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Pins, TofTop};
+use tofsim::firmware::tof_top::{Params, Pins, TofTop};
 use tofsim::hierarchy::{self, Entry, IDS, Part};
 use tofsim::kernel::signals::Signals;
 use tofsim::kernel::{Time, U};
@@ -10,12 +10,11 @@ use tofsim::sim::device::{Off, SignalProbe};
 use tofsim::sim::frames::Frames;
 use tofsim::sim::setup::Setup;
 
-use super::block::{Parameter, Setting, Spec, neurons};
-use super::blocks::centroid_estimator;
-use super::record::{Watched, inputs};
-use super::roms;
-use super::table::{Fill, Table};
-use super::vectors::Vectors;
+use super::columns::{Compared, inputs};
+use super::parameters;
+use super::setting::Setting;
+use super::spec::{Spec, Vectors};
+use super::table::{LineSink, Table};
 
 signals! {
     /// The pins of a line: all but `tdc_stop`, which changes at any time.
@@ -38,14 +37,14 @@ signals! {
 }
 
 /// Sees the firmware just before the edge that takes a line.
-pub(super) type Watch<'a> = &'a mut dyn FnMut(&TofTop);
+pub(super) type EveryCycle<'a> = &'a mut dyn FnMut(&TofTop);
 
 /// The vectors of a run: its frames, or so many cycles. `watch` sees every cycle.
 pub(super) fn record(
     spec: &'static Spec,
     setup: &Setup,
     setting: &Setting,
-    watch: Watch,
+    watch: EveryCycle,
 ) -> Result<Vectors> {
     check(setup)?;
     let params = &setup.params;
@@ -55,19 +54,19 @@ pub(super) fn record(
     let wanted = |entry: &Entry| !setting.as_told || is_own(entry) || entry.signal.view.probe;
     let mut device = setup.device();
     let (begin, first_edge) = (setup.pll().locked_at, device.next_edge());
-    let look = Look::new(spec, begin, params, Watched::new(spec, &entries, wanted), watch);
-    let look = run(setup, setting, &mut device, look)?;
+    let sampler = Sampler::new(spec, begin, params, Compared::new(spec, &entries, wanted), watch);
+    let sampler = run(setup, setting, &mut device, sampler)?;
     Ok(Vectors {
         spec,
         seed: setting.seed,
         source: setup.name.clone(),
         neurons: params.depth_estimator.neurons(),
-        parameters: parameters(setup),
-        stimulus: look.stimulus,
-        expected: look.expected,
+        parameters: parameters::tof_top(setup),
+        bench_memory: None,
+        stimulus: sampler.stimulus,
+        expected: sampler.expected,
         first_edge_ps: first_edge.ps(),
-        stops: look.stops,
-        roms: roms::tof_top(params),
+        stops: sampler.stops,
         coverage: Vec::new(),
     })
 }
@@ -76,26 +75,26 @@ fn run<'a>(
     setup: &'a Setup,
     setting: &Setting,
     device: &mut tofsim::sim::Device,
-    mut look: Look<'a>,
-) -> Result<Look<'a>> {
+    mut sampler: Sampler<'a>,
+) -> Result<Sampler<'a>> {
     let (params, mut frames) = (&setup.params, Frames::default());
     let whole_frames = setting.as_told && setting.cycles.is_none();
     let limit = match whole_frames {
         true => setup.longest_run(setting.frames),
         false => setting.cycles() as u64,
     };
-    device.power_up(&mut look, &mut Off);
+    device.power_up(&mut sampler, &mut Off);
     while device.cycle() < limit {
-        device.step(params, &mut look, &mut Off);
+        device.step(params, &mut sampler, &mut Off);
         frames.edge(device.cycle() - 1, &device.top, params);
         if whole_frames && frames.done() == setting.frames && device.top.frame_ctrl.frame_done {
-            device.step(params, &mut look, &mut Off);
-            return Ok(look);
+            device.step(params, &mut sampler, &mut Off);
+            return Ok(sampler);
         }
     }
     match whole_frames {
         true => Err(Input::new(format!("scenario {}", setup.name), "the frame never ends").into()),
-        false => Ok(look),
+        false => Ok(sampler),
     }
 }
 
@@ -121,42 +120,8 @@ fn check(setup: &Setup) -> Result<()> {
     Ok(())
 }
 
-fn parameters(setup: &Setup) -> Vec<(&'static str, Parameter)> {
-    use Parameter::{File, Number};
-    let params = &setup.params;
-    let mut list = vec![
-        ("ShotsPerFrame", Number(params.frame_ctrl.shots_per_frame.into())),
-        ("LockTime", Number(setup.pll().locked_at.ps())),
-        ("W1File", File("w1.mem")),
-        ("B1File", File("b1.mem")),
-        ("W2File", File("w2.mem")),
-        ("B2File", File("b2.mem")),
-        ("TansigFile", File("tansig.mem")),
-        ("CalFile", File("tdc_cal.mem")),
-        ("DelaysFile", File("tap_delays.mem")),
-    ];
-    let (preloads_codes, codes) = match &params.code_source {
-        CodeSource::Tdc => (0, 1),
-        CodeSource::Preload(rom) => (1, rom.len() as u64),
-    };
-    list.extend(neurons(params.depth_estimator.neurons()));
-    let preloads_histogram = matches!(params.histogram_source, HistogramSource::Preload(_));
-    list.extend([
-        ("CodeSource", Number(preloads_codes)),
-        ("Codes", Number(codes)),
-        ("CodeFile", File("codes.mem")),
-        ("HistogramSource", Number(preloads_histogram.into())),
-        ("HistogramFile", File("histogram.mem")),
-    ]);
-    if params.estimator == Estimator::Centroid {
-        list.push(("Estimator", Number(1)));
-        list.extend(centroid_estimator::parameters(&params.centroid_estimator));
-    }
-    list
-}
-
 /// Keeps what the bench would see.
-struct Look<'a> {
+struct Sampler<'a> {
     stimulus: Table,
     expected: Table,
     places: Vec<Vec<Vec<usize>>>,
@@ -172,20 +137,20 @@ struct Look<'a> {
     /// The reset at the edge in the middle of the cycle.
     early_rst: bool,
     stops: Vec<Time>,
-    watch: Watch<'a>,
+    watch: EveryCycle<'a>,
 }
 
-impl<'a> Look<'a> {
+impl<'a> Sampler<'a> {
     fn new(
         spec: &'static Spec,
         begin: Time,
         params: &'a Params,
-        watched: Watched,
-        watch: Watch<'a>,
+        watched: Compared,
+        watch: EveryCycle<'a>,
     ) -> Self {
         let samples = spec.timing.samples();
         let spacing = Time::from_fs(1000 * spec.timing.period_ps() / samples as u64);
-        Look {
+        Sampler {
             stimulus: Table::new(inputs(&Stimulus::list())),
             expected: Table::new(watched.columns),
             places: watched.places,
@@ -204,7 +169,7 @@ impl<'a> Look<'a> {
     /// Takes the sample that falls due.
     fn take(&mut self, pins: &Pins) {
         let places = &self.places[self.sample];
-        let mut fill = Fill { table: &mut self.expected, places, order: self.order };
+        let mut fill = LineSink { table: &mut self.expected, places, order: self.order };
         self.sampled[self.sample].follow(&self.current, &mut fill);
         self.sample += 1;
         self.next += self.spacing;
@@ -224,14 +189,14 @@ impl<'a> Look<'a> {
         let Pins { rst: rst_late, mode, laser_freq, laser_en, dsp_en, dsp_rst, .. } = *pins;
         let line = Stimulus { rst, rst_late, mode, laser_freq, laser_en, dsp_en, dsp_rst };
         let places: Vec<_> = (0..Stimulus::COUNT).map(|column| vec![column]).collect();
-        let mut fill = Fill { table: &mut self.stimulus, places: &places, order: &[] };
+        let mut fill = LineSink { table: &mut self.stimulus, places: &places, order: &[] };
         line.changes(None, 0, &mut fill);
         self.stimulus.push();
         self.expected.push();
     }
 }
 
-impl SignalProbe for Look<'_> {
+impl SignalProbe for Sampler<'_> {
     const ON: bool = true;
 
     fn sample(&mut self, now: Time, top: &TofTop) {

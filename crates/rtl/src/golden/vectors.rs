@@ -1,45 +1,15 @@
-//! The vectors of a block, and the files they become.
+//! The files that golden vectors become.
 
 use std::io::Write;
 use std::path::Path;
 
 use tofsim::error::Result;
 use tofsim::files::output::{create_directory, write_file};
-use tofsim::kernel::Time;
-use tofsim::network::mem::{Mem, lines};
+use tofsim::network::mem::lines;
 
 use super::bench::Bench;
-use super::block::{Parameter, Spec};
-use super::cover::Cover;
 use super::ports;
-use super::table::Table;
-
-/// What a block was given and what it did.
-#[derive(Debug)]
-pub struct Vectors {
-    /// The block.
-    pub spec: &'static Spec,
-    /// Seed of the stimulus.
-    pub seed: u64,
-    /// Name of the scenario.
-    pub source: String,
-    /// Hidden neurons of the network.
-    pub neurons: usize,
-    /// Verilog parameters.
-    pub parameters: Vec<(&'static str, Parameter)>,
-    /// What goes in: line k is taken by edge k.
-    pub stimulus: Table,
-    /// What comes out: line k is seen just before edge k.
-    pub expected: Table,
-    /// Edge 0 [ps].
-    pub first_edge_ps: u64,
-    /// When `tdc_stop` changes; it starts low.
-    pub stops: Vec<Time>,
-    /// Memories that the Verilog loads.
-    pub roms: Vec<Mem>,
-    /// What the stimulus has reached.
-    pub coverage: Vec<Cover>,
-}
+use super::spec::Vectors;
 
 impl Vectors {
     /// File name of the bench.
@@ -61,21 +31,19 @@ impl Vectors {
     /// When one cannot be written.
     pub fn write_with(&self, folder: &Path, bench: &Bench) -> Result<()> {
         create_directory(folder)?;
-        for rom in &self.roms {
-            write_file(&folder.join(rom.name), |file| file.write_all(rom.text.as_bytes()))?;
+        let text = |name: &str, text: &str| {
+            write_file(&folder.join(name), |file| file.write_all(text.as_bytes()))
+        };
+        for memory in self.memories() {
+            text(memory.name, &memory.text)?;
         }
         if !self.stops.is_empty() {
-            let times = self.stops.iter().map(|at| at.fs().into());
-            let text = lines(times, 16);
-            write_file(&folder.join("tdc_stop.mem"), |file| file.write_all(text.as_bytes()))?;
+            text("tdc_stop.mem", &lines(self.stops.iter().map(|at| at.fs().into()), 16))?;
         }
-        let table =
-            |table: &Table, name: &str| write_file(&folder.join(name), |file| table.write(file));
-        table(&self.stimulus, "stimulus.mem")?;
-        table(&self.expected, "expected.mem")?;
-        let ports = ports::json(self);
-        write_file(&folder.join("ports.json"), |file| writeln!(file, "{ports:#}"))?;
-        let bench = bench.text();
-        write_file(&folder.join(self.bench_name()), |file| file.write_all(bench.as_bytes()))
+        for (name, table) in [("stimulus.mem", &self.stimulus), ("expected.mem", &self.expected)] {
+            write_file(&folder.join(name), |file| table.write(file))?;
+        }
+        text("ports.json", &format!("{:#}\n", ports::json(self)))?;
+        text(&self.bench_name(), &bench.text())
     }
 }

@@ -1,14 +1,16 @@
 //! The Verilog between our bench and a user's module, from what the map says.
 
-use std::fmt::Write as _;
-use std::io::Write as _;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::golden::Spec;
-use crate::golden::bench::{Bench, range};
-use crate::golden::ports::Port;
 use tofsim::error::Result;
 use tofsim::files::output::write_file;
+
+use crate::golden::bench::Bench;
+use crate::golden::bench::allowances::Allowances;
+use crate::golden::ports::Port;
+use crate::golden::spec::Spec;
+use crate::golden::verilog::{parameter_list, range};
 
 use super::interface::Ports;
 use super::map::BlockMap;
@@ -78,13 +80,16 @@ impl BlockMap {
         found: &Ports,
         folder: &Path,
     ) -> Result<Vec<PathBuf>> {
-        bench.delays.clone_from(&self.latency);
-        bench.ignored.extend(self.ignore.iter().cloned());
-        bench.valid.clone_from(&self.valid);
+        bench.allowed = Allowances {
+            delays: self.latency.clone(),
+            ignored: self.ignore.iter().cloned().collect(),
+            valid: self.valid.clone(),
+            ..Allowances::default()
+        };
         for port in spec.ports(bench.vectors().neurons) {
             let width = self.width(spec, &port);
             if width < port.width {
-                bench.bits.insert(port.name, width as usize);
+                bench.allowed.bits.insert(port.name, width as usize);
             }
         }
         bench.module = format!("{}_adapter", spec.name);
@@ -94,73 +99,64 @@ impl BlockMap {
         Ok(vec![path])
     }
 
+    /// The adapter.
     fn text(&self, bench: &Bench, spec: &Spec, found: &Ports) -> String {
-        let parameters: Vec<_> =
-            bench.parameters().map(|name| format!("    parameter {name} = 0")).collect();
-        let parameters = match parameters.as_slice() {
-            [] => String::new(),
-            list => format!("#(\n{}\n) ", list.join(",\n")),
-        };
+        let ports = spec.ports(bench.vectors().neurons);
         let declare = |port: &Port| {
             let direction = if port.output { "output" } else { "input" };
             format!("    {direction} wire {}{}", range(port.width), port.name)
         };
-        let neurons = bench.vectors().neurons;
-        let ports: Vec<_> = spec.ports(neurons).iter().map(declare).collect();
-        let mut text = format!(
-            "`timescale 1ps/1fs\n`default_nettype none\n\nmodule {} {parameters}(\n{}\n);\n",
-            bench.module,
-            ports.join(",\n"),
-        );
-        let mut connected = Vec::new();
-        for port in spec.ports(neurons) {
+        let parameter = |name| format!("    parameter {name} = 0");
+        let set = |ours| match self.parameter(ours) {
+            "" => None,
+            theirs => Some(format!("        .{theirs}({ours})")),
+        };
+        let (mut lines, mut connected) = (String::new(), Vec::new());
+        for port in ports.iter().filter(|port| !self.is_made(&port.name)) {
             let theirs = self.theirs(&port.name);
-            if self.is_made(&port.name) {
-                continue;
-            }
             if port.output && !found.contains_key(theirs) {
-                let _ = writeln!(text, "    assign {} = {}'d0;", port.name, port.width);
-                continue;
-            }
-            let inverted = if self.invert.contains(&port.name) { "~" } else { "" };
-            let width = self.width(spec, &port);
-            let name = &port.name;
-            if port.output {
-                let _ = writeln!(text, "    wire {}their_{name};", range(width));
-                let value = fit(&format!("their_{name}"), width, port.width);
-                let _ = writeln!(text, "    assign {name} = {inverted}{value};");
-                connected.push(format!("        .{theirs}(their_{name})"));
+                lines += &format!("    assign {} = {}'d0;\n", port.name, port.width);
             } else {
-                let source =
-                    if name == "algo_start" && self.vector.is_some() { "go" } else { name };
-                let value = fit(source, port.width, width);
-                connected.push(format!("        .{theirs}({inverted}{value})"));
+                let (declared, signal) = self.connection(spec, port);
+                lines += &declared;
+                connected.push(format!("        .{theirs}({signal})"));
             }
         }
         if let Some(counts) = &self.counts {
-            text += &self.counts_text();
+            lines += &self.counts_text();
             connected.push(format!("        .{counts}(counts)"));
         }
         if let Some(vector) = &self.vector {
-            text += &self.vector_text();
+            lines += &self.vector_text();
             connected.push(format!("        .{vector}(vector)"));
         }
-        let assigned = bench.parameters().filter_map(|ours| {
-            let theirs = self.parameter(ours);
-            (!theirs.is_empty()).then(|| format!("        .{theirs}({ours})"))
-        });
-        let assigned: Vec<_> = assigned.collect();
-        let assigned = match assigned.as_slice() {
-            [] => String::new(),
-            list => format!("#(\n{}\n    ) ", list.join(",\n")),
-        };
-        let _ = write!(
-            text,
-            "\n    {} {assigned}dut (\n{}\n    );\nendmodule\n\n`default_nettype wire\n",
+        format!(
+            "`timescale 1ps/1fs\n`default_nettype none\n\nmodule {} {}(\n{}\n);\n{lines}\n    \
+             {} {}dut (\n{}\n    );\nendmodule\n\n`default_nettype wire\n",
+            bench.module,
+            parameter_list(&bench.parameters().map(parameter).collect::<Vec<_>>(), ""),
+            ports.iter().map(declare).collect::<Vec<_>>().join(",\n"),
             self.module(spec.name),
+            parameter_list(&bench.parameters().filter_map(set).collect::<Vec<_>>(), "    "),
             connected.join(",\n"),
-        );
-        text
+        )
+    }
+
+    /// What is declared for a port of theirs, and what is connected to it.
+    fn connection(&self, spec: &Spec, port: &Port) -> (String, String) {
+        let inverted = if self.invert.contains(&port.name) { "~" } else { "" };
+        let (name, width) = (port.name.as_str(), self.width(spec, port));
+        if !port.output {
+            let starts = name == "algo_start" && self.vector.is_some();
+            let value = fit(if starts { "go" } else { name }, port.width, width);
+            return (String::new(), format!("{inverted}{value}"));
+        }
+        let theirs = format!("their_{name}");
+        let value = fit(&theirs, width, port.width);
+        let range = range(width);
+        let declared =
+            format!("    wire {range}{theirs};\n    assign {name} = {inverted}{value};\n");
+        (declared, theirs)
     }
 
     /// All counts side by side, read as if they were a RAM with one address.

@@ -2,24 +2,26 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::golden::bench::Bench;
-use crate::golden::block::{NEURONS, Parameter};
-use crate::golden::{Setting, Spec, Vectors};
 use tofsim::error::Result;
 use tofsim::files::output::create_directory;
 
+use crate::golden::bench::Bench;
+use crate::golden::parameters::{NEURONS, Parameter};
+use crate::golden::setting::Setting;
+use crate::golden::spec::{Spec, Vectors};
+
 use super::interface;
 use super::map::BlockMap;
+use super::observed::Observed;
 use super::process::Limits;
 use super::rtl::Rtl;
-use super::seen::Seen;
 use super::simulator::{Compiled, Simulator};
 use super::verdict::{Mismatch, Verdict};
 use super::wave;
 
 /// What is checked, and how.
 #[derive(Clone, Debug)]
-pub struct Check<'a> {
+pub struct BlockCheck<'a> {
     /// The Verilog.
     pub rtl: &'a Rtl,
     /// How it differs from ours by intention.
@@ -36,7 +38,7 @@ pub struct Check<'a> {
 
 /// How a block came out.
 #[derive(Clone, Debug)]
-pub struct Report {
+pub struct BlockReport {
     /// The block, and what of it if that is not its own bench.
     pub name: String,
     /// Lines compared.
@@ -51,7 +53,7 @@ pub struct Report {
     pub coverage: (usize, usize),
 }
 
-impl Report {
+impl BlockReport {
     /// Whether the block does what it should.
     pub fn passed(&self) -> bool {
         self.verdict == Verdict::Pass
@@ -104,7 +106,7 @@ fn short(digits: &str) -> String {
     }
 }
 
-impl Check<'_> {
+impl BlockCheck<'_> {
     /// Checks a block in `work`, a folder of its own.
     ///
     /// # Errors
@@ -116,7 +118,7 @@ impl Check<'_> {
         spec: &'static Spec,
         setting: &Setting,
         work: &Path,
-    ) -> Result<Report> {
+    ) -> Result<BlockReport> {
         create_directory(work)?;
         let module = self.map.map_or(spec.name, |map| map.module(spec.name));
         let vectors = (spec.record)(spec, setting)?;
@@ -138,7 +140,7 @@ impl Check<'_> {
         let compiled =
             self.simulator.compile(work, &top, &sources, self.rtl, self.registers, &self.limits)?;
         let verdict = self.verdict(&compiled, None)?;
-        let mut report = Report {
+        let mut report = BlockReport {
             name: name.to_owned(),
             cycles: vectors.stimulus.rows(),
             verdict,
@@ -161,7 +163,7 @@ impl Check<'_> {
     /// Runs once more to see everything, for the table and the waveform.
     fn look_again(
         &self,
-        report: &mut Report,
+        report: &mut BlockReport,
         compiled: &Compiled,
         bench: &Bench,
         first: &Mismatch,
@@ -169,10 +171,10 @@ impl Check<'_> {
     ) -> Result<()> {
         const GOT: &str = "got.mem";
         self.verdict(compiled, Some(GOT))?;
-        let seen = Seen::read(&work.join(GOT), bench)?;
-        report.around = seen.around(first);
+        let observed = Observed::read(&work.join(GOT), bench)?;
+        report.around = observed.around(first);
         create_directory(self.output)?;
-        wave::write(self.output, &report.name, bench.vectors(), &seen, first)?;
+        wave::write(self.output, &report.name, bench.vectors(), &observed, first)?;
         report.wave = Some(self.output.join(format!("{}.vcd", report.name)));
         Ok(())
     }

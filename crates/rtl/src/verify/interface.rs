@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use crate::golden::ports::Port;
 use tofsim::error::{Input, Result, nearest};
+
+use crate::golden::ports::Port;
 
 /// A port as a simulator tells it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Found {
+pub struct PortShape {
     /// Whether the module drives it.
     pub output: bool,
     /// Its width [bits].
@@ -15,7 +16,7 @@ pub struct Found {
 }
 
 /// Ports of a module by name.
-pub type Ports = BTreeMap<String, Found>;
+pub type Ports = BTreeMap<String, PortShape>;
 
 /// From the compiled form of Icarus: `.port_info 2 /OUTPUT 36 "depth";`, first those of the root.
 pub(super) fn of_icarus(text: &str) -> Ports {
@@ -27,7 +28,7 @@ pub(super) fn of_icarus(text: &str) -> Ports {
         let output = words.next()? == "/OUTPUT";
         let width = words.next()?.parse().ok()?;
         let name = line.split('"').nth(1)?.to_owned();
-        Some((name, Found { output, width }))
+        Some((name, PortShape { output, width }))
     };
     lines.filter_map(port).collect()
 }
@@ -55,7 +56,7 @@ pub(super) fn of_verilator(text: &str, module: &str) -> Result<Ports> {
     let port = |node: roxmltree::Node| {
         let output = node.attribute("dir")? == "output";
         let width = width(node.attribute("dtype_id")?)?;
-        Some((node.attribute("name")?.to_owned(), Found { output, width }))
+        Some((node.attribute("name")?.to_owned(), PortShape { output, width }))
     };
     Ok(found.children().filter_map(port).collect())
 }
@@ -107,7 +108,7 @@ mod tests {
     fn icarus_tells_the_ports_of_the_root() {
         let ports = of_icarus(VVP);
         assert_eq!(ports.keys().collect::<Vec<_>>(), ["clk", "depth"]);
-        assert_eq!(ports["depth"], Found { output: true, width: 36 });
+        assert_eq!(ports["depth"], PortShape { output: true, width: 36 });
     }
 
     #[test]

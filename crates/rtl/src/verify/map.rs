@@ -6,16 +6,19 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::golden::{BLOCKS, Setting, Spec, blocks};
 use tofsim::error::{Input, Result, nearest, read_text};
 use tofsim::files::toml::Checked;
 use tofsim::firmware::carry_chain::TAPS;
 use tofsim::firmware::histogram_builder::BINS;
 
+use crate::golden::blocks::{self, BLOCKS};
+use crate::golden::setting::Setting;
+use crate::golden::spec::Spec;
+
 /// A map file.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-pub struct Map {
+pub struct RtlMap {
     /// Sizes of the design.
     pub design: Design,
     /// What is different in each block, by our name of the block.
@@ -70,7 +73,7 @@ pub struct BlockMap {
     pub(super) design: Design,
 }
 
-impl Map {
+impl RtlMap {
     /// Reads and checks a map file.
     ///
     /// # Errors
@@ -80,8 +83,8 @@ impl Map {
     }
 
     fn parse(source: &str, text: &str) -> Result<Self> {
-        let checked = Checked::parse::<Map>(source, text)?;
-        let mut map: Map = checked.read()?;
+        let checked = Checked::parse::<RtlMap>(source, text)?;
+        let mut map: RtlMap = checked.read()?;
         for (name, block) in &mut map.block {
             block.design = map.design.clone();
             let Some(spec) = blocks::find(name) else {
@@ -174,14 +177,14 @@ mod tests {
     use super::*;
 
     fn fault(text: &str) -> String {
-        Map::parse("map.toml", text).unwrap_err().to_string()
+        RtlMap::parse("map.toml", text).unwrap_err().to_string()
     }
 
     #[test]
     fn a_map_names_what_there_is() {
         let text = "[design]\ntaps = 700\n[block.forward1]\nmodule = \"hidden\"\n\
             invert = [\"rst\"]\nports = { clk_125 = \"clk\" }\nlatency = { l1_in_0 = 2 }\n";
-        let map = Map::parse("map.toml", text).unwrap();
+        let map = RtlMap::parse("map.toml", text).unwrap();
         assert_eq!(map.block["forward1"].module("forward1"), "hidden");
         assert_eq!(map.block["forward1"].design.taps, 700);
     }

@@ -4,9 +4,10 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::golden::blocks::VERILOG;
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::write_file;
+
+use crate::golden::blocks::VERILOG;
 
 /// Verilog source files.
 #[derive(Clone, Debug)]

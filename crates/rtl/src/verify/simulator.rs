@@ -50,28 +50,19 @@ impl Simulator {
         registers: bool,
         limits: &Limits,
     ) -> Result<Compiled> {
-        let defines = registers.then_some("-DREGISTERS");
-        let sources = bench.iter().chain(&rtl.files);
-        let program = match self {
-            Simulator::Icarus => folder.join("bench.vvp"),
-            Simulator::Verilator => folder.join("obj_dir").join("bench"),
-        };
-        let mut args: Vec<OsString> = match self {
+        let (tool, program, mut args) = match self {
             Simulator::Icarus => {
-                [generation(rtl), "-s", top, "-o"].map(OsString::from).into_iter().collect()
+                let program = folder.join("bench.vvp");
+                (IVERILOG, program.clone(), icarus(rtl, top, &program))
             }
             Simulator::Verilator => {
-                let args = ["--binary", "--timing", "-Wno-fatal", "-Wno-lint", "-Wno-style"];
-                let more = ["--top-module", top, "-Mdir", "obj_dir", "-o", "bench"];
-                args.into_iter().chain(more).map(OsString::from).collect()
+                let program = folder.join("obj_dir").join("bench");
+                let more = ["-Mdir", "obj_dir", "-o", "bench"];
+                (VERILATOR, program, verilator("--binary", top, more))
             }
         };
-        if self == Simulator::Icarus {
-            args.push(program.clone().into());
-        }
-        args.extend(defines.map(OsString::from));
-        args.extend(sources.map(OsString::from));
-        let tool = if self == Simulator::Icarus { IVERILOG } else { VERILATOR };
+        args.extend(registers.then(|| "-DREGISTERS".into()));
+        args.extend(bench.iter().chain(&rtl.files).map(OsString::from));
         let finished = tool.run(folder, args, limits)?;
         if !finished.success {
             return Err(refused(rtl, &finished).into());
@@ -91,31 +82,22 @@ impl Simulator {
         rtl: &Rtl,
         limits: &Limits,
     ) -> Result<Ports> {
-        let sources = rtl.files.iter().map(OsString::from);
-        let (output, finished) = match self {
+        let (tool, output, mut args, set) = match self {
             Simulator::Icarus => {
                 let output = folder.join("ports.vvp");
-                let mut args = [generation(rtl), "-s", module, "-o"].map(OsString::from).to_vec();
-                args.push(output.clone().into());
-                let set = |(name, value): &_| format!("-P{module}.{name}={value}").into();
-                args.extend(parameters.iter().map(set));
-                (output, IVERILOG.run(folder, args.into_iter().chain(sources), limits)?)
+                (IVERILOG, output.clone(), icarus(rtl, module, &output), format!("-P{module}."))
             }
             Simulator::Verilator => {
                 let output = folder.join("ports.xml");
-                let args = ["--xml-only", "--timing", "-Wno-fatal", "-Wno-lint", "-Wno-style"];
-                let args = args.into_iter().chain(["--top-module", module, "--xml-output"]);
-                let mut args: Vec<_> = args.map(OsString::from).collect();
-                args.push(output.clone().into());
-                let set = |(name, value): &_| format!("-G{name}={value}").into();
-                args.extend(parameters.iter().map(set));
-                (output, VERILATOR.run(folder, args.into_iter().chain(sources), limits)?)
+                let more = [OsString::from("--xml-output"), output.clone().into()];
+                (VERILATOR, output, verilator("--xml-only", module, more), "-G".to_owned())
             }
         };
-        let missing = match self {
-            Simulator::Icarus => finished.output.contains("Unable to find the root module"),
-            Simulator::Verilator => finished.output.contains("was not found in design"),
-        };
+        args.extend(parameters.iter().map(|(name, value)| format!("{set}{name}={value}").into()));
+        args.extend(rtl.files.iter().map(OsString::from));
+        let finished = tool.run(folder, args, limits)?;
+        let says = ["Unable to find the root module", "was not found in design"];
+        let missing = says.iter().any(|text| finished.output.contains(text));
         if missing {
             let fault = Input::new(&rtl.source, "no such module in it").field("module");
             return Err(fault.value(module).into());
@@ -150,6 +132,23 @@ impl Compiled {
         command.args(args);
         process::run(command, &self.folder, limits)
     }
+}
+
+/// Icarus's arguments to compile `top` into a file, but for the sources.
+fn icarus(rtl: &Rtl, top: &str, output: &Path) -> Vec<OsString> {
+    let mut args = [generation(rtl), "-s", top, "-o"].map(OsString::from).to_vec();
+    args.push(output.into());
+    args
+}
+
+/// Verilator's arguments to do something with `top`, but for the sources.
+fn verilator<A: Into<OsString>>(
+    action: &str,
+    top: &str,
+    more: impl IntoIterator<Item = A>,
+) -> Vec<OsString> {
+    let args = [action, "--timing", "-Wno-fatal", "-Wno-lint", "-Wno-style", "--top-module", top];
+    args.map(OsString::from).into_iter().chain(more.into_iter().map(Into::into)).collect()
 }
 
 /// The language: Verilog-2005 unless there is SystemVerilog.

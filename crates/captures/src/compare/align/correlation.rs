@@ -4,13 +4,16 @@ use std::sync::Arc;
 
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
+use vcd::Value;
 
 use tofsim::error::{Input, Result};
 
-use super::super::pair::Bits;
+use crate::source::SourceState;
+
+use super::super::bits::Bits;
 use super::super::plan::Plan;
 use super::super::selection::{Piece, Selected};
-use super::Alignment;
+use super::alignment::Alignment;
 use super::survey::survey;
 
 /// Longest sequence that is looked for [samples].
@@ -74,14 +77,14 @@ impl Columns {
 }
 
 /// The bits of some pairs, side by side.
-struct Probe<'a> {
+struct PairBits<'a> {
     plan: &'a Plan<'a>,
     pairs: Vec<usize>,
     width: usize,
     scratch: Bits,
 }
 
-impl<'a> Probe<'a> {
+impl<'a> PairBits<'a> {
     fn new(plan: &'a Plan, signals: &[String]) -> Result<Self> {
         let pairs = match signals {
             [] => (0..plan.matching.pairs.len()).collect(),
@@ -91,22 +94,19 @@ impl<'a> Probe<'a> {
                 .collect::<Result<Vec<_>>>()?,
         };
         let width = pairs.iter().map(|&pair| plan.matching.pairs[pair].width as usize).sum();
-        Ok(Probe { plan, pairs, width: std::cmp::min(width, BITS), scratch: Bits::default() })
+        Ok(PairBits { plan, pairs, width: std::cmp::min(width, BITS), scratch: Bits::default() })
     }
 
-    fn push(&mut self, side: usize, state: &crate::source::State, columns: &mut Columns) {
+    fn push(&mut self, side: usize, state: &SourceState, columns: &mut Columns) {
         let mut values = Vec::with_capacity(self.width);
         for &pair in &self.pairs {
             let pair = &self.plan.matching.pairs[pair];
             pair.gather(side, state, &mut self.scratch);
-            for bit in 0..pair.width as usize {
-                let at = |words: &[u64]| words[bit / 64] >> (bit % 64) & 1 == 1;
-                values.push(match (at(&self.scratch.unknown), at(&self.scratch.value)) {
-                    (true, _) => 0,
-                    (false, true) => 1,
-                    (false, false) => -1,
-                });
-            }
+            values.extend((0..pair.width).map(|bit| match self.scratch.level(bit) {
+                Value::V0 => -1,
+                Value::V1 => 1,
+                _ => 0,
+            }));
             if values.len() >= self.width {
                 break;
             }
@@ -129,7 +129,7 @@ pub(super) struct Search {
 
 /// The best offsets, the best first.
 pub(super) fn search(plan: &Plan, signals: &[String], search: &Search) -> Result<Vec<Candidate>> {
-    let mut probe = Probe::new(plan, signals)?;
+    let mut probe = PairBits::new(plan, signals)?;
     let pieces = [search.piece.clone()];
     let mut needle = Columns::new(probe.width);
     let mut selected = Selected::new(plan.samples(search.side)?, &pieces);

@@ -1,13 +1,14 @@
 //! Alignment by the first edge of a signal, and by the begin.
 
-use crate::source::Axis;
 use tofsim::error::{Input, Result};
 
-use super::super::pair::Bits;
+use crate::source::Axis;
+
+use super::super::bits::Bits;
 use super::super::plan::Plan;
 use super::super::samples::Sample;
 use super::super::selection::Piece;
-use super::Alignment;
+use super::alignment::Alignment;
 use super::survey::survey;
 
 /// The first edges of a signal belong together.

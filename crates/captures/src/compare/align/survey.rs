@@ -1,7 +1,8 @@
 //! What a capture says of its windows and triggers.
 
-use crate::source::{Format, Source};
 use tofsim::error::Result;
+
+use crate::source::{Source, SourceFormat};
 
 /// A window of a capture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +35,7 @@ pub struct Survey {
 pub fn survey(source: &Source) -> Result<Survey> {
     let mut survey = Survey::default();
     // Of a VCD, only the changes of all signals tell how far it goes.
-    let count = if source.format == Format::IlaVcd { usize::MAX } else { 1 };
+    let count = if source.format == SourceFormat::IlaVcd { usize::MAX } else { 1 };
     let ids: Vec<usize> = source.signals.iter().take(count).map(|signal| signal.id).collect();
     let mut cursor = source.read(&ids)?;
     while let Some(at) = cursor.peek()? {
@@ -51,7 +52,7 @@ pub fn survey(source: &Source) -> Result<Survey> {
         }
     }
     survey.samples = match source.format {
-        Format::IlaVcd => None,
+        SourceFormat::IlaVcd => None,
         _ => Some(survey.last.map_or(0, |last| last + 1)),
     };
     for k in 0..survey.windows.len() {

@@ -1,14 +1,16 @@
 //! Alignment by trigger: a capture's marks against another's, or against what a logic analyser of
 //! the same set-up would store of the waveform.
 
-use crate::ila::core::{Core, Kept};
-use crate::ila::storing::Shape;
 use tofsim::error::{Input, Result};
 
-use super::super::operands::Tied;
+use crate::ila::core::{Core, KeptSamples};
+use crate::ila::storing::Shape;
+
+use super::super::find;
+use super::super::operands::SideCondition;
 use super::super::plan::Plan;
 use super::super::selection::Piece;
-use super::Alignment;
+use super::alignment::Alignment;
 use super::survey::{Window, survey};
 
 /// Brings the samples that triggered together.
@@ -142,7 +144,7 @@ fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
     let (skipped, missing) = (first.saturating_sub(plan.stages), plan.stages.saturating_sub(first));
     for _ in 0..missing {
         let triggers = trigger.sample_nothing();
-        core.sample(&(), triggers, qualifier.as_mut().is_none_or(Tied::sample_nothing));
+        core.sample_number(triggers, qualifier.as_mut().is_none_or(SideCondition::sample_nothing));
     }
     let mut samples = plan.samples(side)?;
     while !core.is_full()
@@ -153,7 +155,7 @@ fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
         }
         let triggers = trigger.sample(samples.state());
         let qualifies = qualifier.as_mut().is_none_or(|term| term.sample(samples.state()));
-        core.sample(&(), triggers, qualifies);
+        core.sample_number(triggers, qualifies);
     }
     let found = core.triggers().len();
     if found < shape.windows {
@@ -166,22 +168,22 @@ fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
 }
 
 /// Samples of a window that are numbered below `missing`.
-fn lead(kept: &Kept, missing: u64) -> u64 {
+fn lead(kept: &KeptSamples, missing: u64) -> u64 {
     match kept {
-        Kept::Range(range) => missing.min(range.end).saturating_sub(range.start),
-        Kept::List(list) => list.iter().filter(|&&sample| sample < missing).count() as u64,
+        KeptSamples::Range(range) => missing.min(range.end).saturating_sub(range.start),
+        KeptSamples::List(list) => list.iter().filter(|&&sample| sample < missing).count() as u64,
     }
 }
 
 /// The other samples of a window, by their numbers in the waveform.
-fn piece(kept: Kept, missing: u64, skipped: u64) -> Piece {
+fn piece(kept: KeptSamples, missing: u64, skipped: u64) -> Piece {
     let number = |sample: u64| sample - missing + skipped;
     match kept {
-        Kept::Range(range) => {
+        KeptSamples::Range(range) => {
             let (start, end) = (range.start.max(missing), range.end.max(missing));
             Piece::Run(number(start), Some(end - start))
         }
-        Kept::List(list) => {
+        KeptSamples::List(list) => {
             Piece::Kept(list.into_iter().filter(|&sample| sample >= missing).map(number).collect())
         }
     }
@@ -220,7 +222,7 @@ fn by_counter(plan: &Plan, counter: &str, at: u64, at_waveform: i64) -> Result<A
         return Err(Input::new("--time-from", "expected one capture").into());
     };
     let source = plan.sources[side];
-    let signal = super::super::find::signal(source, counter)?;
+    let signal = find::signal(source, counter)?;
     let signal = &source.signals[signal];
     let fault = |expected: &str| Input::new(&source.name, expected).field(counter);
     if signal.width > 64 {

@@ -4,7 +4,7 @@ use tofsim::error::{Input, Result};
 
 use super::super::plan::Plan;
 use super::super::selection::Piece;
-use super::Alignment;
+use super::alignment::Alignment;
 use super::correlation::{Search, decide, search};
 use super::survey::survey;
 

@@ -2,11 +2,12 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use crate::source::State;
 use tofsim::error::Result;
 
+use crate::source::SourceState;
+
 use super::super::align::Alignment;
-use super::super::pair::Bits;
+use super::super::bits::Bits;
 use super::super::plan::Plan;
 use super::super::result::Comparison;
 use super::super::selection::Selected;
@@ -38,7 +39,7 @@ pub(super) struct Collected {
     /// Both sides of the pairs that differ.
     pub(super) pairs: Vec<[Column; 2]>,
     /// Signals of each side that have no partner.
-    pub(super) lonely: [Vec<Column>; 2],
+    pub(super) unpaired: [Vec<Column>; 2],
     /// For each side and sample what stands for the values of all pairs.
     pub(super) rows: [Vec<u64>; 2],
 }
@@ -110,15 +111,15 @@ fn empty(plan: &Plan, result: &Comparison, window: usize) -> Collected {
                 [&pair.name, &pair.other].map(|name| column(name, Some(k), pair.width))
             })
             .collect(),
-        lonely: [0, 1].map(|side| {
-            let lonely = plan.lonely[side].iter();
-            lonely.map(|lonely| column(&lonely.name, None, lonely.width)).collect()
+        unpaired: [0, 1].map(|side| {
+            let unpaired = plan.unpaired[side].iter();
+            unpaired.map(|unpaired| column(&unpaired.name, None, unpaired.width)).collect()
         }),
         rows: Default::default(),
     }
 }
 
-fn push(plan: &Plan, side: usize, state: &State, collected: &mut Collected) {
+fn push(plan: &Plan, side: usize, state: &SourceState, collected: &mut Collected) {
     let mut bits = Bits::default();
     for column in &mut collected.pairs {
         if let Some(pair) = column[side].pair {
@@ -126,9 +127,9 @@ fn push(plan: &Plan, side: usize, state: &State, collected: &mut Collected) {
             column[side].values.push(key(&bits));
         }
     }
-    for (column, lonely) in collected.lonely[side].iter_mut().zip(&plan.lonely[side]) {
-        bits.value = state.value(lonely.signal).to_vec();
-        bits.unknown = state.unknown(lonely.signal).to_vec();
+    for (column, unpaired) in collected.unpaired[side].iter_mut().zip(&plan.unpaired[side]) {
+        bits.value = state.value(unpaired.signal).to_vec();
+        bits.unknown = state.unknown(unpaired.signal).to_vec();
         column.values.push(key(&bits));
     }
     let mut row = DefaultHasher::new();

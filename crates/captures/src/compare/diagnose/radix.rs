@@ -1,14 +1,11 @@
 //! A column that was read in another radix than it was written in.
 
 use crate::ila::Radix;
+use crate::words::extend;
 
-use super::super::pair::extend;
 use super::super::plan::Plan;
-use super::Finding;
+use super::super::result::Finding;
 use super::collect::{Collected, Column};
-
-/// All that a column may be written in.
-const ALL: [Radix; 5] = [Radix::Hex, Radix::Signed, Radix::Unsigned, Radix::Binary, Radix::Octal];
 
 /// Pairs that would be the same if one column were read in another radix.
 pub(super) fn findings(plan: &Plan, collected: &Collected) -> Vec<Finding> {
@@ -23,7 +20,7 @@ pub(super) fn findings(plan: &Plan, collected: &Collected) -> Vec<Finding> {
             let fits =
                 |&to: &Radix| to != radix && reread(own, radix, to) == Some(other.values.clone());
             let likely = self::radix(plan, 1 - side, other);
-            if let Some(to) = likely.into_iter().chain(ALL).find(fits) {
+            if let Some(to) = likely.into_iter().chain(Radix::ALL).find(fits) {
                 let side = ["first", "second"][side];
                 let text = format!(
                     "{} of the {side} side is the same if it is read as {} and not as {}: wrong radix",

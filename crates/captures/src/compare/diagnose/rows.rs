@@ -1,7 +1,6 @@
 //! Samples that are missing, too many, or shifted.
 
-use super::super::result::Compared;
-use super::Finding;
+use super::super::result::{Compared, Finding};
 use super::collect::Collected;
 
 /// Samples that may be missing or too many.
@@ -31,20 +30,19 @@ pub(super) fn finding(collected: &Collected, rest: &[&Compared]) -> Option<Findi
     }
     for step in 1..=STEP.min(a.len() / 2) {
         // The values may stand still at first, so that more agree than do belong together.
-        if agree(&a[first + step.min(a.len() - first)..], &b[first..]) && first > 0 {
-            let text = format!(
-                "{window}{step} {} missing on the second side at or before sample {place}",
-                counted(step)
-            );
-            return Some(Finding::new("missing samples", &names, text));
-        }
-        if agree(&a[first..], &b[first + step.min(b.len() - first)..]) && first > 0 {
-            let text = format!(
-                "{window}{step} {} too many on the second side at or before sample {place}",
-                counted(step)
-            );
-            return Some(Finding::new("extra samples", &names, text));
-        }
+        let later = |rows: &[u64]| first + step.min(rows.len() - first);
+        let (kind, what) = if agree(&a[later(a)..], &b[first..]) && first > 0 {
+            ("missing samples", "missing")
+        } else if agree(&a[first..], &b[later(b)..]) && first > 0 {
+            ("extra samples", "too many")
+        } else {
+            continue;
+        };
+        let text = format!(
+            "{window}{step} {} {what} on the second side at or before sample {place}",
+            counted(step)
+        );
+        return Some(Finding::new(kind, &names, text));
     }
     None
 }

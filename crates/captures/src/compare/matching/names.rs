@@ -4,8 +4,10 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use crate::source::{Name, Source, shapes};
 
-use super::super::pair::{How, Pair, Part};
-use super::{Matching, Reason, Unmatched, shown};
+use super::super::pair::{MatchedBy, Pair};
+use super::super::parts::Part;
+use super::super::show::Show;
+use super::matched::{Matching, Unmatched, UnmatchedReason};
 
 /// Signals of one name beyond which it says nothing about where they belong.
 const COMMON: usize = 64;
@@ -89,31 +91,31 @@ pub(super) fn by_name(
     let known = shapes();
     let mut pairs: HashMap<(usize, usize), usize> = HashMap::new();
     let mut joined = [HashSet::new(), HashSet::new()];
-    let mut reasons: [HashMap<usize, Reason>; 2] = Default::default();
+    let mut reasons: [HashMap<usize, UnmatchedReason>; 2] = Default::default();
     for &k in &candidates[0] {
         let Some((_, found)) = best[0].get(&k) else { continue };
         let a = &sides[0].signals[k];
         let mutual: Vec<usize> = (found.iter().copied())
             .filter(|b| best[1].get(b).is_some_and(|(_, back)| back.contains(&k)))
             .collect();
-        let mut refuse = |side: usize, signal: usize, reason: Reason| {
+        let mut refuse = |side: usize, signal: usize, reason: UnmatchedReason| {
             reasons[side].entry(signal).or_insert(reason);
         };
         let Some(&first) = mutual.first() else { continue };
         let b = &sides[1].signals[first];
         if let Some(others) = several(sides[1], &mutual) {
-            refuse(0, k, Reason::Ambiguous(others));
+            refuse(0, k, UnmatchedReason::Ambiguous(others));
             continue;
         }
         if let Some((_, back)) = best[1].get(&first)
             && let Some(others) = several(sides[0], back)
         {
-            refuse(1, first, Reason::Ambiguous(others));
+            refuse(1, first, UnmatchedReason::Ambiguous(others));
             continue;
         }
         if a.width != b.width || a.kind != b.kind {
-            refuse(0, k, Reason::Width(a.width, b.width));
-            mutual.iter().for_each(|&b_k| refuse(1, b_k, Reason::Width(b.width, a.width)));
+            refuse(0, k, UnmatchedReason::Width(a.width, b.width));
+            mutual.iter().for_each(|&b_k| refuse(1, b_k, UnmatchedReason::Width(b.width, a.width)));
             continue;
         }
         joined[0].insert(a.id);
@@ -126,10 +128,10 @@ pub(super) fn by_name(
         let [left, right] = &mut matching.slots;
         matching.pairs.push(Pair::new(
             [a.name.text.clone(), b.name.text.clone()],
-            if a.name.is(&b.name) { How::Name } else { How::Suffix },
+            if a.name.is(&b.name) { MatchedBy::Name } else { MatchedBy::Suffix },
             a.width,
             [vec![Part::whole(left, a)], vec![Part::whole(right, b)]],
-            shown(a, b, &known),
+            Show::of(a, b, &known),
         ));
     }
     for side in 0..2 {
@@ -138,7 +140,7 @@ pub(super) fn by_name(
             if joined[side].contains(&signal.id) {
                 continue;
             }
-            let reason = reasons[side].remove(&k).unwrap_or(Reason::Alone);
+            let reason = reasons[side].remove(&k).unwrap_or(UnmatchedReason::Alone);
             let name = signal.name.text.clone();
             matching.unmatched.push(Unmatched { side, name, signal: k, reason });
         }

@@ -2,17 +2,20 @@
 
 use std::collections::HashSet;
 
-use crate::source::{Source, shapes};
 use tofsim::error::{Input, Result};
 
-use super::super::find::{self, Slots};
-use super::super::map::{Map, Rule, parse_mask};
-use super::super::pair::{How, Pair, Part, top};
+use crate::source::{Source, shapes};
+use crate::words::ones;
+
+use super::super::find;
+use super::super::map::{Rule, SignalMap, parse_mask};
+use super::super::pair::{MatchedBy, Pair};
+use super::super::parts::{Part, Slots};
 use super::super::show::Show;
-use super::{Matching, shown};
+use super::matched::Matching;
 
 /// Whether more of the map's names are found with the sides the other way round.
-pub(super) fn is_swapped(sides: [&Source; 2], map: &Map) -> bool {
+pub(super) fn is_swapped(sides: [&Source; 2], map: &SignalMap) -> bool {
     let found = |order: [usize; 2]| {
         let has = |side: usize, names: &[String]| {
             let part = |name: &String| find::part(sides[side], name, &mut Slots::default()).is_ok();
@@ -58,7 +61,7 @@ pub(super) fn by_rule(
     }
     let [a, b] = [0, 1].map(|side| &sides[side].signals[first[side]]);
     let names = names.map(|parts| parts.join(" "));
-    let mut pair = Pair::new(names, How::Map, width, parts, shown(a, b, &shapes()));
+    let mut pair = Pair::new(names, MatchedBy::Map, width, parts, Show::of(a, b, &shapes()));
     pair.follow(rule, sides, matching)?;
     Ok(pair)
 }
@@ -88,7 +91,7 @@ impl Pair {
         }
         if let Some(text) = &rule.dont_care {
             let mask = parse_mask(text).unwrap_or_default();
-            let beyond = |(k, word): (usize, &u64)| word & !top(self.width, k) != 0;
+            let beyond = |(k, word): (usize, &u64)| word & !ones(self.width, k) != 0;
             if mask.iter().enumerate().any(beyond) {
                 let expected = format!("expected {} bits at most", self.width);
                 return Err(Input::new("map", expected).field("dont_care").value(text).into());

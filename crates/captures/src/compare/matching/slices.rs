@@ -5,8 +5,10 @@ use std::collections::{HashMap, HashSet};
 use crate::source::{Source, shapes};
 
 use super::super::find;
-use super::super::pair::{How, Pair, Part};
-use super::{Matching, Reason, Unmatched, shown};
+use super::super::pair::{MatchedBy, Pair};
+use super::super::parts::Part;
+use super::super::show::Show;
+use super::matched::{Matching, Unmatched, UnmatchedReason};
 
 /// Matches what is left and has a range in its name with those bits of the other side's signal.
 ///
@@ -14,12 +16,15 @@ use super::{Matching, Reason, Unmatched, shown};
 /// The bus has its partners then if the slices are all of it. Slices of what is left out are, too.
 pub(super) fn by_slice(sides: [&Source; 2], matching: &mut Matching) {
     let known = shapes();
-    let left_out = |left: &&Unmatched| left.reason == Reason::Ignored;
+    let left_out = |left: &&Unmatched| left.reason == UnmatchedReason::Ignored;
     let ignored: HashSet<_> = matching.unmatched.iter().filter(left_out).map(key).collect();
     let mut parts: HashMap<(usize, usize), Vec<Part>> = HashMap::new();
     let Matching { pairs, unmatched, slots, .. } = matching;
     unmatched.retain_mut(|left| {
-        if left.reason != Reason::Alone || !left.name.ends_with(']') || !left.name.contains(':') {
+        if left.reason != UnmatchedReason::Alone
+            || !left.name.ends_with(']')
+            || !left.name.contains(':')
+        {
             return true;
         }
         let (own, other) = (left.side, 1 - left.side);
@@ -31,7 +36,7 @@ pub(super) fn by_slice(sides: [&Source; 2], matching: &mut Matching) {
             return true;
         }
         if ignored.contains(&(other, bus)) {
-            left.reason = Reason::Ignored;
+            left.reason = UnmatchedReason::Ignored;
             return true;
         }
         parts.entry((other, bus)).or_default().push(part);
@@ -39,15 +44,15 @@ pub(super) fn by_slice(sides: [&Source; 2], matching: &mut Matching) {
         if own == 1 {
             both.swap(0, 1);
         }
-        let (names, show) = ([0, 1].map(|_| left.name.clone()), shown(signal, signal, &known));
-        pairs.push(Pair::new(names, How::Suffix, signal.width, both, show));
+        let (names, show) = ([0, 1].map(|_| left.name.clone()), Show::of(signal, signal, &known));
+        pairs.push(Pair::new(names, MatchedBy::Suffix, signal.width, both, show));
         false
     });
     unmatched.retain_mut(|left| {
         let Some(parts) = parts.get_mut(&key(left)) else { return true };
         let width = sides[left.side].signals[left.signal].width;
-        left.reason = Reason::Part(width - covered(parts));
-        left.reason != Reason::Part(0)
+        left.reason = UnmatchedReason::Part(width - covered(parts));
+        left.reason != UnmatchedReason::Part(0)
     });
 }
 

@@ -5,12 +5,14 @@ use std::io::{self, BufReader, Read, Seek};
 
 use zip::ZipArchive;
 
+use tofsim::error::{Error, Input, Result};
+
 use super::super::capture::Radix;
 use super::dump::Dump;
 use super::heads::Heads;
 use super::lines::first_lines;
-use super::{Column, Form, Opened, csv, ltx};
-use tofsim::error::{Error, Input, Result};
+use super::opened::{CaptureForm, Column, Opened, damaged};
+use super::{csv, ltx};
 
 /// Most bytes of an entry that is read in passing.
 const LARGEST_ENTRY: u64 = 1 << 30;
@@ -57,7 +59,7 @@ pub(super) fn open(source: String, file: File, radix: Option<Radix>) -> Result<O
     let samples = Some(dump.samples);
     let rows = Box::new(dump.rows(columns.clone(), places));
     let radix_told = heads.radix_row;
-    Ok(Opened { form: Form::Archive, columns, words, samples, radix_told, rows })
+    Ok(Opened { form: CaptureForm::Archive, columns, words, samples, radix_told, rows })
 }
 
 /// Places the columns in a row, and tells the lowest bit in the dump of each that is not text.
@@ -137,15 +139,7 @@ impl Archive {
             file.rewind().map_err(fault)?;
             csv::open(source.to_owned(), file, radix)
         })?;
-        Ok(Opened { form: Form::Archive, ..opened })
-    }
-}
-
-/// An error of reading an entry; those of ours stay what they are.
-fn damaged(source: &str, error: io::Error) -> Error {
-    match error.downcast::<Error>() {
-        Ok(error) => error,
-        Err(error) => Input::new(source, format!("damaged: {error}")).into(),
+        Ok(Opened { form: CaptureForm::Archive, ..opened })
     }
 }
 

@@ -3,14 +3,16 @@
 use std::fs::File;
 use std::io::Seek;
 
+use tofsim::error::{Error, Result};
+
 use super::super::capture::Radix;
+use super::digits;
 use super::heads::{FIXED, Heads};
 use super::infer::infer;
 use super::lines::first_lines;
+use super::opened::{CaptureForm, CaptureRow, CaptureRows, Opened};
 use super::order::Order;
 use super::table::Table;
-use super::{Form, Opened, Row, Rows, digits};
-use tofsim::error::{Error, Result};
 
 /// Opens a CSV. Without a row of radices it is read twice.
 pub(super) fn open(source: String, mut file: File, hint: Option<Radix>) -> Result<Opened> {
@@ -29,7 +31,7 @@ pub(super) fn open(source: String, mut file: File, hint: Option<Radix>) -> Resul
     for _ in 0..heads.rows() {
         table.advance()?;
     }
-    let form = if heads.radix_row { Form::Csv } else { Form::LegacyCsv };
+    let form = if heads.radix_row { CaptureForm::Csv } else { CaptureForm::LegacyCsv };
     let columns = heads.columns.clone();
     let words = columns.iter().map(|column| column.words()).sum();
     let radix_told = heads.radix_row;
@@ -45,8 +47,8 @@ struct CsvRows {
     order: Order,
 }
 
-impl Rows for CsvRows {
-    fn next(&mut self, row: &mut Row) -> Result<bool> {
+impl CaptureRows for CsvRows {
+    fn next(&mut self, row: &mut CaptureRow) -> Result<bool> {
         let CsvRows { table, heads, words, order } = self;
         let first = FIXED.len() + heads.gap as usize;
         if !table.advance_to(first + heads.columns.len())? {

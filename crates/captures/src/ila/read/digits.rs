@@ -1,5 +1,7 @@
 //! Digits of a cell, as bits.
 
+use crate::words::trim;
+
 use super::super::capture::Radix;
 
 /// What is wrong with a cell.
@@ -160,15 +162,6 @@ fn decimal(cell: &[u8], width: u32, value: &mut [u64]) -> Result<(), Fault> {
     }
     let top = value[value.len() - 1];
     if !width.is_multiple_of(64) && top >> (width % 64) != 0 { Err(Fault::Wide) } else { Ok(()) }
-}
-
-/// Clears what is above the width.
-fn trim(words: &mut [u64], width: u32) {
-    if let Some(top) = words.last_mut()
-        && !width.is_multiple_of(64)
-    {
-        *top &= (1 << (width % 64)) - 1;
-    }
 }
 
 #[cfg(test)]

@@ -4,10 +4,11 @@ mod reader;
 
 use std::io::BufRead;
 
-use super::{Column, LARGEST, Row, Rows, WIDEST_SAMPLE};
+use reader::Reader;
+
 use tofsim::error::{Input, Result};
 
-use reader::Reader;
+use super::opened::{CaptureRow, CaptureRows, Column, LARGEST, WIDEST_SAMPLE};
 
 /// What a dump holds.
 #[derive(Debug, Default)]
@@ -134,7 +135,7 @@ impl Dump {
     }
 
     /// The samples, laid out as `columns`; `places` are the lowest bits of those in the dump.
-    pub(super) fn rows(self, columns: Vec<Column>, places: Vec<usize>) -> impl Rows + use<> {
+    pub(super) fn rows(self, columns: Vec<Column>, places: Vec<usize>) -> impl CaptureRows + use<> {
         let words = columns.iter().map(Column::words).sum();
         let block = vec![0; if self.samples > 0 { self.width as usize } else { 0 }];
         DumpRows { block, dump: self, columns, places, words, next: 0 }
@@ -152,8 +153,8 @@ struct DumpRows {
     block: Vec<u64>,
 }
 
-impl Rows for DumpRows {
-    fn next(&mut self, row: &mut Row) -> Result<bool> {
+impl CaptureRows for DumpRows {
+    fn next(&mut self, row: &mut CaptureRow) -> Result<bool> {
         let (sample, dump) = (self.next, &self.dump);
         if sample == dump.samples {
             return Ok(false);
@@ -202,7 +203,7 @@ mod tests {
         assert_eq!((dump.core.as_str(), dump.width, dump.samples), ("7", 2, 3));
         let column = super::super::heads::parse("a[1:0]").unwrap();
         let mut rows = dump.rows(vec![column], vec![0]);
-        let (mut row, mut found) = (Row::default(), Vec::new());
+        let (mut row, mut found) = (CaptureRow::default(), Vec::new());
         while rows.next(&mut row).unwrap() {
             found.push((
                 row.in_window,

@@ -2,10 +2,11 @@
 
 use std::collections::HashSet;
 
-use super::super::capture::Radix;
-use super::table::Table;
-use super::{Column, WIDEST_PROBE, WIDEST_SAMPLE};
 use tofsim::error::Result;
+
+use super::super::capture::Radix;
+use super::opened::{Column, WIDEST_PROBE, WIDEST_SAMPLE};
+use super::table::Table;
 
 /// The columns that every CSV begins with.
 pub(super) const FIXED: [&str; 3] = ["Sample in Buffer", "Sample in Window", "TRIGGER"];
@@ -44,17 +45,7 @@ impl Heads {
             radix_row && heads.field(3) == b"GAP" && (short || radices.field(3) == b"UNSIGNED");
         let first = FIXED.len() + gap as usize;
         if radix_row {
-            let expected = heads.len() - (gap && short) as usize;
-            if radices.len() != expected {
-                let text = format!("{} radices, expected {expected}", radices.len());
-                return Err(radices.row_fault(text).into());
-            }
-            for (index, word) in ["Radix - UNSIGNED", "UNSIGNED", "UNSIGNED"].iter().enumerate() {
-                if radices.field(index) != word.as_bytes() {
-                    let text = format!("expected `{word}`");
-                    return Err(radices.fault(index, text, |_| false).into());
-                }
-            }
+            check_radices(&radices, heads.len() - (gap && short) as usize)?;
         }
         if !(first + 1..=first + MOST_PROBES).contains(&heads.len()) {
             let (most, found) = (MOST_PROBES, heads.len() - first);
@@ -108,10 +99,24 @@ impl Heads {
     }
 }
 
+/// That a row of radices has so many, and the right ones for the first columns.
+fn check_radices(radices: &Table<&[u8]>, expected: usize) -> Result<()> {
+    if radices.len() != expected {
+        let text = format!("{} radices, expected {expected}", radices.len());
+        return Err(radices.row_fault(text).into());
+    }
+    for (index, word) in ["Radix - UNSIGNED", "UNSIGNED", "UNSIGNED"].iter().enumerate() {
+        if radices.field(index) != word.as_bytes() {
+            let text = format!("expected `{word}`");
+            return Err(radices.fault(index, text, |_| false).into());
+        }
+    }
+    Ok(())
+}
+
 /// A radix word; words of text have no radix.
 fn radix(word: &[u8]) -> Option<Option<Radix>> {
-    let radices = [Radix::Hex, Radix::Signed, Radix::Unsigned, Radix::Binary, Radix::Octal];
-    match radices.into_iter().find(|radix| radix.word().as_bytes() == word) {
+    match Radix::ALL.into_iter().find(|radix| radix.word().as_bytes() == word) {
         None if word == b"ASCII" => Some(None),
         None => None,
         found => Some(found),

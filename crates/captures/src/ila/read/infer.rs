@@ -5,11 +5,12 @@
 
 use std::io::Read;
 
+use tofsim::error::{Input, Result};
+
 use super::super::capture::Radix;
 use super::digits;
 use super::heads::Heads;
 use super::table::Table;
-use tofsim::error::{Input, Result};
 
 /// What is tried, first what is taken if all give the same values.
 const TRIED: [Radix; 5] = [Radix::Hex, Radix::Unsigned, Radix::Signed, Radix::Binary, Radix::Octal];

@@ -4,11 +4,13 @@ use std::collections::BTreeMap;
 
 use roxmltree::{Document, Node};
 
-use super::{Column, WIDEST_PROBE, heads};
 use tofsim::error::{Input, Result};
 
+use super::heads;
+use super::opened::{Column, WIDEST_PROBE};
+
 /// A probe in its core.
-struct Probe {
+struct PlacedProbe {
     /// Port of the core and bit of the port.
     place: (u64, u64),
     column: Column,
@@ -20,7 +22,7 @@ pub(super) fn columns(source: &str, text: &str, core: &str, width: u32) -> Resul
         let position = error.pos();
         Input::new(source, &error).at(position.row as usize, position.col as usize)
     })?;
-    let mut cores: BTreeMap<String, Vec<Probe>> = BTreeMap::new();
+    let mut cores: BTreeMap<String, Vec<PlacedProbe>> = BTreeMap::new();
     let is_probe =
         |node: &Node| node.has_tag_name("probe") && node.attribute("type") == Some("ila");
     for node in document.descendants().filter(is_probe) {
@@ -47,10 +49,11 @@ pub(super) fn columns(source: &str, text: &str, core: &str, width: u32) -> Resul
             return Err(fault(expected).value(names.len()).into());
         }
         let name = option("CORE_UUID").or(option("HW_ILA")).unwrap_or_default();
-        let probe = Probe { place, column: column(&names).map_err(fault)? };
+        let probe = PlacedProbe { place, column: column(&names).map_err(fault)? };
         cores.entry(name.to_owned()).or_default().push(probe);
     }
-    let bits = |probes: &[Probe]| probes.iter().map(|probe| probe.column.width as u64).sum::<u64>();
+    let bits =
+        |probes: &[PlacedProbe]| probes.iter().map(|probe| probe.column.width as u64).sum::<u64>();
     let mut fitting: Vec<_> =
         cores.into_iter().filter(|(_, probes)| bits(probes) == width as u64).collect();
     if fitting.len() > 1 {

@@ -5,8 +5,9 @@ use std::io::Read;
 
 use ::csv::{ByteRecord, Error as CsvError, ErrorKind, Reader, ReaderBuilder};
 
-use super::lines::Lines;
 use tofsim::error::{Error, Input, Result};
+
+use super::lines::Lines;
 
 /// Bytes read at a time.
 const BLOCK: usize = 1 << 16;

@@ -5,7 +5,11 @@ use std::io::{self, Seek, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
-use super::{Capture, csv, dump, ltx, vcd};
+use super::super::capture::Capture;
+use super::csv::csv;
+use super::dump::dump;
+use super::ltx::ltx;
+use super::vcd::vcd;
 
 /// Writes a capture as Vivado's archive. Its entries carry no date.
 pub fn archive(out: impl Write + Seek, capture: &Capture) -> io::Result<()> {
@@ -30,8 +34,8 @@ pub fn archive(out: impl Write + Seek, capture: &Capture) -> io::Result<()> {
 mod tests {
     use std::io::{Cursor, Read};
 
-    use super::super::{Probe, Radix};
     use super::*;
+    use crate::ila::{Probe, Radix};
 
     fn written() -> Vec<u8> {
         let name = "count".to_owned();

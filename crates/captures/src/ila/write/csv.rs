@@ -2,7 +2,10 @@
 
 use std::io::{self, Write};
 
-use super::{Capture, Radix, shown, spill, take};
+use crate::words::extend;
+
+use super::super::capture::{Capture, Probe, Radix};
+use super::words::{shown, spill, take};
 
 /// Writes a capture as Vivado's CSV; `radix_row` leaves out or puts in the second row.
 pub fn csv(out: &mut dyn Write, capture: &Capture, radix_row: bool) -> io::Result<()> {
@@ -50,7 +53,7 @@ struct Cell {
 }
 
 impl Cell {
-    fn of((probe, low): (&super::Probe, usize)) -> Self {
+    fn of((probe, low): (&Probe, usize)) -> Self {
         let width = probe.width as usize;
         Cell { low, width, radix: shown(probe), value: vec![0; width.div_ceil(64)] }
     }
@@ -63,8 +66,7 @@ impl Cell {
             Radix::Binary => self.digits(1, text),
             Radix::Unsigned => write!(text, "{}", self.number())?,
             Radix::Signed => {
-                let unused = 128 - self.width as u32;
-                write!(text, "{}", (self.number() << unused) as i128 >> unused)?;
+                write!(text, "{}", extend(self.number(), self.width as u32))?;
             }
         }
         Ok(())
@@ -89,8 +91,8 @@ impl Cell {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Probe;
     use super::*;
+    use crate::ila::Probe;
 
     fn probe(name: &str, width: u32, vector: bool, radix: Radix) -> Probe {
         Probe { name: name.to_owned(), width, lsb: 0, vector, radix }

@@ -2,7 +2,8 @@
 
 use std::io::{self, Write};
 
-use super::{Capture, spill};
+use super::super::capture::Capture;
+use super::words::spill;
 
 /// Writes a capture as Vivado's `waveform.dmp`.
 pub fn dump(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
@@ -31,8 +32,8 @@ fn marks(samples: &[usize]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Probe, Radix};
     use super::*;
+    use crate::ila::{Probe, Radix};
 
     #[test]
     fn a_line_holds_the_samples_of_a_bit() {

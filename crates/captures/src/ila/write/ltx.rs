@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::Capture;
+use super::super::capture::Capture;
 
 /// Name of the core in the files of an archive.
 pub(super) const CORE: &str = "u_ila_0";
@@ -59,8 +59,8 @@ fn escaped(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Probe, Radix};
     use super::*;
+    use crate::ila::{Probe, Radix};
 
     #[test]
     fn nets_are_named_bit_by_bit_from_the_top() {

@@ -2,13 +2,16 @@
 
 use std::io::{self, Write};
 
-use super::{Capture, Probe, spill, take};
 use tofsim::files::date;
+
+use super::super::capture::{Capture, Probe};
+use super::words::{spill, take};
 
 /// Writes a capture as Vivado's VCD. `_TRIGGER` and `_WINDOW` turn over at every trigger and at
 /// every window but the first.
 pub fn vcd(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
-    let mut signals: Vec<_> = capture.probes.iter().zip(capture.places()).map(Signal::of).collect();
+    let mut signals: Vec<_> =
+        capture.probes.iter().zip(capture.places()).map(VcdSignal::of).collect();
     let [trigger_id, window_id, gap_id] =
         [1, 2, 3].map(|after| identifier(capture.width() + after));
     head(out, &signals, [&trigger_id, &window_id, &gap_id])?;
@@ -52,13 +55,13 @@ pub fn vcd(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
     out.write_all(&text)
 }
 
-fn head(out: &mut dyn Write, signals: &[Signal], marks: [&str; 3]) -> io::Result<()> {
+fn head(out: &mut dyn Write, signals: &[VcdSignal], marks: [&str; 3]) -> io::Result<()> {
     if let Some(date) = date::fixed().map_err(io::Error::other)? {
         writeln!(out, "$date\n        {date}\n$end")?;
     }
     writeln!(out, "$version\n        tofsim {}\n$end", env!("CARGO_PKG_VERSION"))?;
     writeln!(out, "$timescale\n        1ps\n$end\n$scope module dut $end")?;
-    for Signal { probe, identifier, .. } in signals {
+    for VcdSignal { probe, identifier, .. } in signals {
         let escape = if probe.name.contains(['[', ']']) { "\\" } else { "" };
         write!(out, "$var reg {} {identifier} {escape}{} ", probe.width, probe.name)?;
         if probe.vector {
@@ -89,7 +92,7 @@ fn push_scalar(text: &mut Vec<u8>, digit: u8, identifier: &str) {
 }
 
 /// A probe and its last value.
-struct Signal<'a> {
+struct VcdSignal<'a> {
     probe: &'a Probe,
     low: usize,
     identifier: String,
@@ -97,10 +100,10 @@ struct Signal<'a> {
     value: Vec<u64>,
 }
 
-impl<'a> Signal<'a> {
+impl<'a> VcdSignal<'a> {
     fn of((probe, low): (&'a Probe, usize)) -> Self {
         let words = vec![0; probe.width.div_ceil(64) as usize];
-        Signal { probe, low, identifier: identifier(low + 1), last: words.clone(), value: words }
+        VcdSignal { probe, low, identifier: identifier(low + 1), last: words.clone(), value: words }
     }
 
     /// Appends the value if it has changed, or in any case.
@@ -132,8 +135,8 @@ impl<'a> Signal<'a> {
 mod tests {
     use std::io::Cursor;
 
-    use super::super::Radix;
     use super::*;
+    use crate::ila::Radix;
 
     fn probe(name: &str, width: u32, lsb: u32, vector: bool) -> Probe {
         Probe { name: name.to_owned(), width, lsb, vector, radix: Radix::Hex }

@@ -6,20 +6,21 @@ use std::path::{Path, PathBuf};
 use comfy_table::CellAlignment;
 use serde::Serialize;
 
-use crate::choice;
-use crate::text::table::plain;
-use crate::verbs::interrupt::stop_signal;
-use crate::verbs::stdout::print;
-use crate::verbs::talk::Talk;
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::write_file;
 use tofsim::kernel::Time;
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::{Outcome, Run};
-use tofsim_captures::compare::Map;
-use tofsim_captures::ila::export::{Format, export};
-use tofsim_captures::ila::{Analyser, Capture, Overrides, Plan, SetUp, capture};
+use tofsim_captures::compare::SignalMap;
+use tofsim_captures::ila::export::{CaptureFormat, export};
+use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, Overrides, capture};
+
+use crate::choice;
+use crate::text::table::plain;
+use crate::verbs::interrupt::stop_signal;
+use crate::verbs::stdout::print;
+use crate::verbs::talk::Talk;
 
 /// Sample a simulation as a logic analyser on the board would, and write Vivado's files
 ///
@@ -53,7 +54,7 @@ pub struct Args {
     instead: Instead,
     /// Format to write; may be repeated [default: all]
     #[arg(long, value_parser = choice::capture_format())]
-    format: Vec<Format>,
+    format: Vec<CaptureFormat>,
     /// Leave out the CSV's row of radices, as Vivado before 2019.1
     #[arg(long)]
     legacy_csv: bool,
@@ -137,9 +138,9 @@ struct ProbeReport {
 
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
-    let set_up = SetUp::load(&args.probes, args.instead.overrides())?;
+    let set_up = AnalyserSetup::load(&args.probes, args.instead.overrides())?;
     let setup = simulated(args, &set_up)?;
-    let mut plan = Plan::new(&set_up, &setup)?;
+    let mut plan = AnalyserPlan::new(&set_up, &setup)?;
     plan.stop_when_full = args.stop_when_full;
     let mut analyser = Analyser::new(&plan, &setup);
     let frames = args.frames.unwrap_or(set_up.file.frames);
@@ -155,7 +156,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     if !args.stop_when_full {
         outcome.notes.iter().for_each(|note| talk.note(note));
     }
-    let formats = if args.format.is_empty() { &Format::ALL[..] } else { &args.format };
+    let formats = if args.format.is_empty() { &CaptureFormat::ALL[..] } else { &args.format };
     let mut files = export(&capture, &args.output, &set_up.name, formats, !args.legacy_csv)?;
     files.push(write_map(args, &set_up)?);
     for file in &files {
@@ -165,7 +166,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     print(&if args.json { json(&report)? } else { text(&set_up, &report) })
 }
 
-fn simulated(args: &Args, set_up: &SetUp) -> Result<Setup> {
+fn simulated(args: &Args, set_up: &AnalyserSetup) -> Result<Setup> {
     let name = args.scenario.as_deref().unwrap_or(&set_up.file.scenario);
     // What the set-up sets is meant for its own scenario.
     let own = if args.scenario.is_none() { &set_up.file.set[..] } else { &[] };
@@ -177,15 +178,15 @@ fn simulated(args: &Args, set_up: &SetUp) -> Result<Setup> {
 }
 
 /// The map by which `tofsim compare` lays the capture over a waveform.
-fn write_map(args: &Args, set_up: &SetUp) -> Result<PathBuf> {
+fn write_map(args: &Args, set_up: &AnalyserSetup) -> Result<PathBuf> {
     let path = args.output.join(format!("{}.map.toml", set_up.name));
-    let text = Map::of(set_up).to_toml();
+    let text = SignalMap::of(set_up).to_toml();
     write_file(&path, |file| file.write_all(text.as_bytes()))?;
     Ok(path)
 }
 
 /// That nothing triggered, and what would have had to.
-fn never(set_up: &SetUp, analyser: &Analyser, end: Time) -> Error {
+fn never(set_up: &AnalyserSetup, analyser: &Analyser, end: Time) -> Error {
     let taken = analyser.taken();
     let expected =
         format!("never held before the run ended at {end}, after {taken} samples; nothing written");
@@ -200,7 +201,7 @@ fn never(set_up: &SetUp, analyser: &Analyser, end: Time) -> Error {
     }
 }
 
-fn missing(plan: &Plan, capture: &Capture) -> String {
+fn missing(plan: &AnalyserPlan, capture: &Capture) -> String {
     let (windows, depth) = (plan.shape.windows, plan.shape.depth);
     let last = capture.samples() - capture.windows.last().copied().unwrap_or(0);
     let full = capture.samples() / depth;
@@ -209,9 +210,9 @@ fn missing(plan: &Plan, capture: &Capture) -> String {
 }
 
 fn report(
-    set_up: &SetUp,
+    set_up: &AnalyserSetup,
     setup: &Setup,
-    plan: &Plan,
+    plan: &AnalyserPlan,
     capture: &Capture,
     (triggers, full): (&[Time], bool),
     outcome: &Outcome,
@@ -254,7 +255,7 @@ fn json(report: &Report) -> Result<String> {
 /// Trigger times that are shown.
 const SHOWN: usize = 8;
 
-fn text(set_up: &SetUp, report: &Report) -> String {
+fn text(set_up: &AnalyserSetup, report: &Report) -> String {
     let mut table = plain();
     let mut row = |name: &str, value: String| {
         table.add_row([name.to_owned(), value]);

@@ -4,13 +4,14 @@ use std::path::PathBuf;
 
 use serde_json::json;
 
-use crate::choice;
-use crate::text::table::{grouped, plain};
-use crate::verbs::stdout::print;
 use tofsim::error::{Input, Result};
 use tofsim_captures::compare::{Survey, survey};
 use tofsim_captures::ila::Radix;
-use tofsim_captures::source::{Format, Kind, Source};
+use tofsim_captures::source::{SignalKind, Source, SourceFormat};
+
+use crate::choice;
+use crate::text::table::{grouped, plain};
+use crate::verbs::stdout::print;
 
 /// Say what a logic analyser's file holds
 ///
@@ -52,8 +53,8 @@ fn unsaid(source: &Source, survey: &Survey) -> Vec<&'static str> {
         unsaid.push("the time between windows");
     }
     match source.format {
-        Format::IlaVcd => unsaid.extend(["the number of samples", "the radix of the probes"]),
-        Format::LegacyIlaCsv => unsaid.push("the radix of the probes, which is inferred"),
+        SourceFormat::IlaVcd => unsaid.extend(["the number of samples", "the radix of the probes"]),
+        SourceFormat::LegacyIlaCsv => unsaid.push("the radix of the probes, which is inferred"),
         _ if !source.radix_told => unsaid.push("the radix of the probes"),
         _ => {}
     }
@@ -67,7 +68,7 @@ fn as_json(source: &Source, survey: &Survey) -> serde_json::Value {
             "width": signal.width,
             "lsb": signal.lsb,
             "radix": signal.radix.map(|radix| radix.word()),
-            "text": signal.kind == Kind::Other,
+            "text": signal.kind == SignalKind::Other,
         })
     };
     let triggers: Vec<_> = survey.windows.iter().filter_map(|window| window.trigger).collect();
@@ -124,7 +125,7 @@ fn as_text(source: &Source, survey: &Survey) -> String {
     table.set_header(["probe", "width", "radix"]);
     for signal in &source.signals {
         let radix = match (signal.kind, signal.radix) {
-            (Kind::Other, _) => "text",
+            (SignalKind::Other, _) => "text",
             (_, Some(radix)) => radix.word(),
             (_, None) => "-",
         };

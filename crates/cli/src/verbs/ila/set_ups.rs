@@ -3,21 +3,22 @@
 use schemars::schema_for;
 use serde_json::json;
 
+use tofsim::error::Result;
+use tofsim_captures::compare::SignalMap;
+use tofsim_captures::ila::setup::AnalyserSetupFile;
+use tofsim_captures::ila::{AnalyserSetup, Overrides, builtin};
+
 use crate::text::table::plain;
 use crate::verbs::stdout::print;
-use tofsim::error::Result;
-use tofsim_captures::compare::Map;
-use tofsim_captures::ila::setup::File;
-use tofsim_captures::ila::{Overrides, SetUp, builtin};
 
 /// Prints the built-in set-ups and what they show.
 pub fn list(as_json: bool) -> Result<()> {
     let mut rows = Vec::new();
     for (name, _) in builtin::SET_UPS {
-        rows.push((*name, SetUp::load(name, Overrides::default())?.file));
+        rows.push((*name, AnalyserSetup::load(name, Overrides::default())?.file));
     }
     if as_json {
-        let object = |(name, file): &(&str, File)| json!({ "name": name, "scenario": file.scenario, "description": file.description });
+        let object = |(name, file): &(&str, AnalyserSetupFile)| json!({ "name": name, "scenario": file.scenario, "description": file.description });
         return print(&format!("{}\n", json!(rows.iter().map(object).collect::<Vec<_>>())));
     }
     let mut table = plain();
@@ -31,7 +32,7 @@ pub fn list(as_json: bool) -> Result<()> {
 pub fn show(name: &str) -> Result<()> {
     match builtin::set_up(name) {
         Some(text) => print(text),
-        None => SetUp::load(name, Overrides::default())
+        None => AnalyserSetup::load(name, Overrides::default())
             .and_then(|_| tofsim::error::read_text(std::path::Path::new(name)))
             .and_then(|text| print(&text)),
     }
@@ -39,6 +40,6 @@ pub fn show(name: &str) -> Result<()> {
 
 /// Prints the JSON Schema of set-ups, or of maps.
 pub fn schema(of_maps: bool) -> Result<()> {
-    let schema = if of_maps { schema_for!(Map) } else { schema_for!(File) };
+    let schema = if of_maps { schema_for!(SignalMap) } else { schema_for!(AnalyserSetupFile) };
     print(&format!("{:#}\n", schema.as_value()))
 }

@@ -1,79 +1,69 @@
 //! What a training leaves in its folder.
 
 use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
-use crate::report::{learning_curve, training as report};
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::write_file;
 use tofsim::network::Network;
 use tofsim::network::file::{Accuracy, Training};
 use tofsim::network::float::Float;
 use tofsim::network::formats::{Fixed, Overflow};
-use tofsim::sim::setup::Setup;
-use tofsim_learn::quantize::datapath::{Circuit, Datapath};
-use tofsim_learn::quantize::export;
-use tofsim_learn::training::accuracy::Row;
+use tofsim_learn::quantize::{Circuit, Datapath, export};
+use tofsim_learn::training::accuracy::DistanceErrors;
 use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::tournament::Tournament;
 
-use super::Args;
-use crate::verbs::stdout::print;
+use crate::report::{learning_curve, training as report};
 use crate::verbs::talk::Talk;
 
-impl Args {
-    /// Rounds, tests and writes the network.
-    pub(super) fn finish(
-        &self,
-        setup: &Setup,
-        recipe: &Recipe,
-        tournament: &Tournament,
-        talk: &Talk,
-    ) -> Result<()> {
-        let write = |name: &str, text: &str| -> Result<()> {
-            let path = self.output.join(name);
-            write_file(&path, |file| file.write_all(text.as_bytes()))?;
-            talk.detail(format_args!("wrote {}", path.display()));
-            Ok(())
-        };
-        let points = &tournament.state.curve;
-        write("curve.csv", &learning_curve::csv(points))?;
-        let svg = learning_curve::svg(points).map_err(io::Error::other);
-        write("curve.svg", &svg.map_err(Error::io(&self.output.join("curve.svg"), "write"))?)?;
-        let float = tournament.result();
-        let is_firmware_s = recipe.formats == Datapath::default();
-        let fixed = is_firmware_s.then(|| float.round("trained network", Overflow::Refuse));
-        let fixed = fixed.transpose()?.map(|rounded| rounded.fixed);
-        let circuit = Circuit::new(&float, recipe.formats)?;
-        if circuit.saturated_weights > 0 {
-            let expected = "weights that their words do not hold, expected none; train longer";
-            let fault = Input::new("trained network", expected);
-            return Err(fault.value(circuit.saturated_weights).into());
-        }
-        let rows = tournament.test(&circuit)?;
-        write("accuracy.csv", &report::csv(&rows))?;
-
-        let best = tournament.state.best.as_ref();
-        let block = best.map_or(String::new(), |best| {
-            format!(", start {} after block {}", best.start, best.block)
-        });
-        let training = Training {
-            origin: format!("Levenberg-Marquardt on simulated histograms{block}"),
-            chain: self.profile.clone().unwrap_or_else(|| setup.scenario.tdc.profile.clone()),
-            command: Some(self.command()),
-            seed: Some(self.seed),
-            data: Some(tournament.state.data.clone()),
-        };
-        let (name, text) = match fixed {
-            Some(fixed) => ("network.toml", network(fixed, float, training, &rows, recipe)),
-            None => ("network.json", export::json(&float, &training)),
-        };
-        let path = self.output.join(name);
-        print(&match self.json {
-            true => report::json(&rows, &recipe.weighting, &path)?,
-            false => report::table(&rows, &recipe.weighting),
-        })?;
-        write_file(&path, |file| file.write_all(text.as_bytes()))
+/// Rounds, tests and writes a network, made on a chain by a command with a seed; the network's file,
+/// and its errors.
+pub fn write(
+    folder: &Path,
+    recipe: &Recipe,
+    tournament: &Tournament,
+    (chain, command, seed): (String, String, u64),
+    talk: &Talk,
+) -> Result<(PathBuf, Vec<DistanceErrors>)> {
+    let write = |name: &str, text: &str| -> Result<PathBuf> {
+        let path = folder.join(name);
+        write_file(&path, |file| file.write_all(text.as_bytes()))?;
+        talk.detail(format_args!("wrote {}", path.display()));
+        Ok(path)
+    };
+    let points = &tournament.state.curve;
+    write("curve.csv", &learning_curve::csv(points))?;
+    let svg = learning_curve::svg(points).map_err(io::Error::other);
+    write("curve.svg", &svg.map_err(Error::io(&folder.join("curve.svg"), "write"))?)?;
+    let float = tournament.result();
+    let is_firmware_s = recipe.formats == Datapath::default();
+    let fixed = is_firmware_s.then(|| float.round("trained network", Overflow::Refuse));
+    let fixed = fixed.transpose()?.map(|rounded| rounded.fixed);
+    let circuit = Circuit::new(&float, recipe.formats)?;
+    if circuit.saturated_weights > 0 {
+        let expected = "weights that their words do not hold, expected none; train longer";
+        let fault = Input::new("trained network", expected);
+        return Err(fault.value(circuit.saturated_weights).into());
     }
+    let rows = tournament.test(&circuit);
+    write("accuracy.csv", &report::csv(&rows))?;
+
+    let best = tournament.state.best.as_ref();
+    let block = best
+        .map_or(String::new(), |best| format!(", start {} after block {}", best.start, best.block));
+    let training = Training {
+        origin: format!("Levenberg-Marquardt on simulated histograms{block}"),
+        chain,
+        command: Some(command),
+        seed: Some(seed),
+        data: Some(tournament.state.data.clone()),
+    };
+    let path = match fixed {
+        Some(fixed) => write("network.toml", &network(fixed, float, training, &rows, recipe))?,
+        None => write("network.json", &export::json(&float, &training))?,
+    };
+    Ok((path, rows))
 }
 
 /// The file of the network in the firmware's words, with what is known of it.
@@ -81,11 +71,12 @@ fn network(
     fixed: Fixed,
     float: Float,
     training: Training,
-    rows: &[Row],
+    rows: &[DistanceErrors],
     recipe: &Recipe,
 ) -> String {
     let line = &recipe.weighting.distances_m;
-    let rows: Vec<&Row> = rows.iter().filter(|row| line.contains(&row.distance_m)).collect();
+    let rows: Vec<&DistanceErrors> =
+        rows.iter().filter(|row| line.contains(&row.distance_m)).collect();
     let accuracy = Accuracy {
         distances_m: rows.iter().map(|row| row.distance_m).collect(),
         two_sd_mm: rows.iter().map(|row| report::hundredths(row.two_sd_mm)).collect(),

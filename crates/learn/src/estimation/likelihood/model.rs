@@ -8,13 +8,12 @@
 //! Coordinates are mu / sigma, ln S and N times the end of the last bin: numbers of order 1, and S
 //! stays positive.
 
-use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use std::f64::consts::PI;
 
-use crate::estimation::ARRIVAL_PS_PER_M;
-use crate::estimation::by_name::Acquisition;
 use tofsim::error::Input;
 use tofsim::network::Histogram;
-use tofsim::optics::Budget;
+
+use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo, normal_cdf, spans_ps};
 
 use super::solve::{Matrix, inverse_diagonal};
 
@@ -26,27 +25,6 @@ const LEAST: f64 = 0.01;
 const FAINTEST: f64 = 1e-7;
 /// Probability that is as good as none [1].
 const IMPROBABLE: f64 = 1e-250;
-
-/// What the histogram depends on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Scene {
-    /// Mean arrival of the echo [ps].
-    pub arrival_ps: f64,
-    /// Detected laser photons per shot, S_p [1].
-    pub signal: f64,
-    /// Rate of other avalanches, N_r and dark ones [1/ps].
-    pub background_per_ps: f64,
-}
-
-impl From<&Budget> for Scene {
-    fn from(budget: &Budget) -> Self {
-        Scene {
-            arrival_ps: budget.mean_arrival.fs() as f64 * 1e-3,
-            signal: budget.signal_per_shot,
-            background_per_ps: budget.background_rate_hz() * 1e-12,
-        }
-    }
-}
 
 /// The model of one pulse and one chain.
 #[derive(Clone, Debug)]
@@ -73,12 +51,11 @@ impl Model {
         acquisition.check()?;
         let mut stretches: Vec<(f64, usize)> = Vec::new();
         let mut end_ps = 0.0;
-        for span in acquisition.bins.spans() {
-            let (from, until) = (span.from.fs() as f64 * 1e-3, span.until.fs() as f64 * 1e-3);
+        for (code, from, until) in spans_ps(acquisition.bins) {
             if from > end_ps {
                 stretches.push((from, CELLS - 1));
             }
-            stretches.push((until, span.code.into()));
+            stretches.push((until, code.into()));
             end_ps = until;
         }
         let (shots, sigma_ps) = (acquisition.shots, acquisition.pulse_sigma_ps);
@@ -105,20 +82,20 @@ impl Model {
         LEAST / self.shots as f64
     }
 
-    /// Coordinates of a scene, within their limits.
-    pub fn coordinates(&self, scene: &Scene) -> [f64; 3] {
-        let background = scene.background_per_ps * self.end_ps;
-        let signal = scene.signal.max(FAINTEST);
+    /// Coordinates of an echo, within their limits.
+    pub fn coordinates(&self, echo: &Echo) -> [f64; 3] {
+        let background = echo.background_per_ps * self.end_ps;
+        let signal = echo.signal.max(FAINTEST);
         [
-            scene.arrival_ps / self.sigma_ps,
+            echo.arrival_ps / self.sigma_ps,
             libm::log(signal),
             background.max(self.least_background()),
         ]
     }
 
-    /// The scene at coordinates.
-    pub fn scene(&self, at: &[f64; 3]) -> Scene {
-        Scene {
+    /// The echo at coordinates.
+    pub fn echo(&self, at: &[f64; 3]) -> Echo {
+        Echo {
             arrival_ps: at[0] * self.sigma_ps,
             signal: libm::exp(at[1]),
             background_per_ps: at[2] / self.end_ps,
@@ -149,8 +126,8 @@ impl Model {
     /// The Cramér-Rao bound: the smallest standard deviation that an unbiased estimate of the
     /// distance can have, if signal and background are not known either [m]. `None` where the
     /// histogram tells nothing.
-    pub fn cramer_rao_m(&self, scene: &Scene) -> Option<f64> {
-        let information = self.information(&self.cells(&self.coordinates(scene)));
+    pub fn cramer_rao_m(&self, echo: &Echo) -> Option<f64> {
+        let information = self.information(&self.cells(&self.coordinates(echo)));
         let variance = inverse_diagonal(&information, false)?[0];
         Some(variance.sqrt() * self.sigma_ps / ARRIVAL_PS_PER_M)
     }
@@ -208,9 +185,4 @@ impl Cells {
         self.of[cell] += p;
         self.by[cell].iter_mut().zip(by).for_each(|(sum, by)| *sum += by);
     }
-}
-
-/// Standard normal distribution function.
-pub fn normal_cdf(z: f64) -> f64 {
-    0.5 * libm::erfc(-z * FRAC_1_SQRT_2)
 }

@@ -1,7 +1,8 @@
-use super::*;
 use tofsim::firmware::carry_chain::{Delays, TAPS};
 use tofsim::kernel::Time;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
+
+use super::*;
 
 const PERIOD: Time = Time::from_ns(8);
 
@@ -24,9 +25,9 @@ fn likelihood(bins: &Bins) -> Likelihood {
     Likelihood::new(&Acquisition { bins, shots: 30_000, pulse_sigma_ps: 137.0 }).unwrap()
 }
 
-fn scenes() -> [Scene; 4] {
+fn scenes() -> [Echo; 4] {
     let scene =
-        |arrival_ps, signal, background_per_ps| Scene { arrival_ps, signal, background_per_ps };
+        |arrival_ps, signal, background_per_ps| Echo { arrival_ps, signal, background_per_ps };
     [
         scene(667.0, 39.0, 9.5e-4),
         scene(2000.0, 0.5, 1e-10),
@@ -36,7 +37,7 @@ fn scenes() -> [Scene; 4] {
 }
 
 /// The most probable histogram of a scene.
-fn expected(bins: &Bins, scene: &Scene) -> Histogram {
+fn expected(bins: &Bins, scene: &Echo) -> Histogram {
     let budget = Budget {
         signal_per_shot: scene.signal,
         ambient_rate_hz: scene.background_per_ps * 1e12,
@@ -60,8 +61,7 @@ fn the_gradient_is_the_difference_of_log_likelihoods() {
     for bins in [even(12_500, 2_000), even(11_500, 2_230), uneven()] {
         let model = likelihood(&bins).model;
         for scene in scenes() {
-            let histogram =
-                expected(&bins, &Scene { arrival_ps: scene.arrival_ps + 20.0, ..scene });
+            let histogram = expected(&bins, &Echo { arrival_ps: scene.arrival_ps + 20.0, ..scene });
             let at = model.coordinates(&scene);
             let (gradient, _) = model.slope(&at, &histogram);
             for k in 0..3 {
@@ -111,7 +111,7 @@ fn the_scene_of_an_expected_histogram_is_found_again() {
         let likelihood = likelihood(&bins);
         for scene in scenes() {
             let fit = likelihood.fit(&expected(&bins, &scene)).unwrap();
-            let error = (fit.scene.arrival_ps - scene.arrival_ps) / fit.arrival_deviation_ps;
+            let error = (fit.echo.arrival_ps - scene.arrival_ps) / fit.arrival_deviation_ps;
             assert!(error.abs() < 0.5, "{scene:?}: {fit:?}");
             let bound_m = likelihood.model.cramer_rao_m(&scene).unwrap();
             let deviation_m = fit.arrival_deviation_ps / ARRIVAL_PS_PER_M;
@@ -143,7 +143,7 @@ fn a_histogram_narrower_than_the_pulse_is_answered_or_refused_but_not_by_nan() {
             histogram[bin] = count;
             if let Ok(fit) = likelihood.fit(&histogram) {
                 let centre_ps = (bin as f64 + 0.5) * 25.0;
-                let error_ps = fit.scene.arrival_ps - centre_ps;
+                let error_ps = fit.echo.arrival_ps - centre_ps;
                 assert!(error_ps.abs() < 10.0 * 137.0, "{bin} {count}: {fit:?}");
             }
         }
@@ -155,10 +155,10 @@ fn the_bound_is_the_textbooks_where_nothing_disturbs() {
     // A faint pulse, no background, wide range: sigma / sqrt(photons), but for the width of a bin.
     let bins = even(12_500, 2_000);
     let model = likelihood(&bins).model;
-    let scene = Scene { arrival_ps: 3000.0, signal: 1e-3, background_per_ps: 0.0 };
+    let scene = Echo { arrival_ps: 3000.0, signal: 1e-3, background_per_ps: 0.0 };
     let photons = 30_000.0 * 1e-3f64;
     let expected_m = 137.0 / photons.sqrt() / ARRIVAL_PS_PER_M;
     let found = model.cramer_rao_m(&scene).unwrap() / expected_m;
     assert!((0.99..1.02).contains(&found), "{found}");
-    assert_eq!(model.cramer_rao_m(&Scene { arrival_ps: 1e6, ..scene }), None);
+    assert_eq!(model.cramer_rao_m(&Echo { arrival_ps: 1e6, ..scene }), None);
 }

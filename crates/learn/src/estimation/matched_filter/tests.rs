@@ -1,6 +1,8 @@
-use super::*;
 use tofsim::firmware::carry_chain::{Delays, TAPS};
+use tofsim::kernel::Time;
 use tofsim::optics::{BinProbabilities, Budget, Hazard};
+
+use super::*;
 
 const PERIOD: Time = Time::from_ns(8);
 
@@ -29,9 +31,9 @@ fn an_expected_histogram_gives_its_scene_between_the_grids_places() {
             let probabilities = BinProbabilities::new(&Hazard::new(&budget), &bins);
             let histogram = probabilities.of_code().map(|p| (p * 60_000.0).round() as u16);
             let found = filter(&bins).best(&histogram).unwrap();
-            assert!((found.arrival_ps - arrival_ps).abs() < 1.0, "{found:?}");
-            assert!((found.signal / signal - 1.0).abs() < 0.02, "{found:?}");
-            let error = found.background_per_ps - rate_hz * 1e-12;
+            assert!((found.echo.arrival_ps - arrival_ps).abs() < 1.0, "{found:?}");
+            assert!((found.echo.signal / signal - 1.0).abs() < 0.02, "{found:?}");
+            let error = found.echo.background_per_ps - rate_hz * 1e-12;
             assert!(error.abs() < 4e-6, "{found:?}");
             assert!(found.significance > 5.0, "{found:?}");
         }

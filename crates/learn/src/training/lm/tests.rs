@@ -10,16 +10,12 @@ pub(crate) struct Dense<F> {
 }
 
 impl<F: Fn(&[f64]) -> (Vec<f64>, Vec<Vec<f64>>) + Sync> Problem for Dense<F> {
-    fn parameters(&self) -> usize {
-        self.parameters
-    }
-
     fn cost(&self, x: &[f64]) -> f64 {
         let (r, _) = (self.residuals)(x);
         r.iter().map(|r| r * r).sum::<f64>() / r.len() as f64
     }
 
-    fn linearise(&self, x: &[f64]) -> Linear {
+    fn linearise(&self, x: &[f64]) -> NormalEquations {
         let (r, jacobian) = (self.residuals)(x);
         let n = r.len() as f64;
         let mut matrix = Symmetric::zeros(self.parameters);
@@ -30,7 +26,7 @@ impl<F: Fn(&[f64]) -> (Vec<f64>, Vec<Vec<f64>>) + Sync> Problem for Dense<F> {
                 (0..=i).for_each(|j| matrix.add(i, j, row[i] * row[j] / n));
             }
         }
-        Linear { cost: self.cost(x), matrix, gradient }
+        NormalEquations { cost: self.cost(x), matrix, gradient }
     }
 
     fn validation(&self, _x: &[f64]) -> Option<f64> {
@@ -61,12 +57,12 @@ fn small_network(x: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
 #[test]
 fn ten_steps_are_those_of_an_independent_implementation() {
     let text = include_str!("../../../tests/reference/lm_small_network.csv");
-    let mut lm = Lm::new(vec![0.5, -0.8, 0.1, -0.2, 0.3, 0.4, 0.05], &Settings::default());
+    let mut lm = Lm::new(vec![0.5, -0.8, 0.1, -0.2, 0.3, 0.4, 0.05], &LmSettings::default());
     let problem = dense(7, small_network, &[]);
     let mut steps = 0;
     for line in text.lines().filter(|line| !line.starts_with(['#', 'e'])) {
         let numbers: Vec<f64> = line.split(',').map(|n| n.parse().unwrap()).collect();
-        lm.epoch(&problem, &Settings::default()).unwrap();
+        lm.epoch(&problem, &LmSettings::default()).unwrap();
         let found = [lm.epochs as f64, lm.mu, lm.cost].into_iter().chain(lm.x.iter().copied());
         for (found, expected) in found.zip(&numbers) {
             assert!((found - expected).abs() <= 1e-9 * expected.abs().max(1.0), "{line}");
@@ -79,9 +75,9 @@ fn ten_steps_are_those_of_an_independent_implementation() {
 #[test]
 fn it_stops_at_the_bottom() {
     let problem = dense(1, |x: &[f64]| (vec![x[0] - 3.0], vec![vec![1.0]]), &[]);
-    let mut lm = Lm::new(vec![0.0], &Settings::default());
+    let mut lm = Lm::new(vec![0.0], &LmSettings::default());
     for _ in 0..20 {
-        lm.epoch(&problem, &Settings::default()).unwrap();
+        lm.epoch(&problem, &LmSettings::default()).unwrap();
     }
     assert_eq!(lm.stop, Some(Stop::Gradient));
     assert!((lm.x[0] - 3.0).abs() < 1e-7);
@@ -89,7 +85,7 @@ fn it_stops_at_the_bottom() {
 
 #[test]
 fn a_step_that_cannot_help_stops_it_and_one_that_cannot_be_made_is_an_error() {
-    let settings = Settings { mu_max: 1e3, ..Settings::default() };
+    let settings = LmSettings { mu_max: 1e3, ..LmSettings::default() };
     // A wrong derivative: every step leads uphill.
     let uphill = dense(1, |x: &[f64]| (vec![x[0] + 1.0], vec![vec![-1.0]]), &[]);
     let mut lm = Lm::new(vec![0.0], &settings);
@@ -108,7 +104,7 @@ fn a_step_that_cannot_help_stops_it_and_one_that_cannot_be_made_is_an_error() {
 fn singular_equations_are_damped() {
     // Two parameters of which only the sum counts.
     let sum = dense(2, |x: &[f64]| (vec![x[0] + x[1] - 2.0], vec![vec![1.0, 1.0]]), &[]);
-    let settings = Settings { mu: 0.0, ..Settings::default() };
+    let settings = LmSettings { mu: 0.0, ..LmSettings::default() };
     let mut lm = Lm::new(vec![0.0, 0.0], &settings);
     lm.epoch(&sum, &settings).unwrap();
     assert!(lm.mu > 0.0 && lm.cost < 1e-6, "{lm:?}");
@@ -117,7 +113,7 @@ fn singular_equations_are_damped() {
 
 #[test]
 fn a_growing_validation_error_stops_it() {
-    let settings = Settings { max_fail: 2, ..Settings::default() };
+    let settings = LmSettings { max_fail: 2, ..LmSettings::default() };
     let problem = dense(7, small_network, &[1.0, 1.5, 0.5, 0.6, 0.7, 0.1]);
     let mut lm = Lm::new(vec![0.5, -0.8, 0.1, -0.2, 0.3, 0.4, 0.05], &settings);
     let mut passed = Vec::new();

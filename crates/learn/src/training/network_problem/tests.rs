@@ -1,7 +1,10 @@
-use super::*;
-use crate::quantize::datapath::Datapath;
-use crate::training::limits::Limits;
 use tofsim::network::Histogram;
+
+use crate::quantize::datapath::Datapath;
+use crate::training::limits::WordLimits;
+use crate::training::sums::parameters;
+
+use super::*;
 
 /// 300 histograms, so that the last block is not full, and a smooth network.
 fn counts() -> Vec<Histogram> {
@@ -25,7 +28,7 @@ fn with_problem<T>(neurons: usize, check: impl FnOnce(&NetworkProblem, &[f64]) -
         neurons,
         // Much, so that a fault in its derivatives shows.
         table_noise: 0.5,
-        hinges: Limits::default().hinges(&Datapath::default()),
+        hinges: WordLimits::default().hinges(&Datapath::default()),
         held_out: None,
     };
     let x: Vec<f64> = (0..parameters(neurons)).map(|k| (k as f64).sin() * 0.1).collect();
@@ -110,9 +113,9 @@ fn errors_are_depth_minus_distance() {
 fn wider_vectors_change_no_bit() {
     with_problem(3, |problem, x| {
         let (narrow, wide) = (pulp::Arch::Scalar, pulp::Arch::new());
-        let sums = |arch: pulp::Arch| arch.dispatch(Linearise(problem, x, 0..2));
+        let sums = |arch: pulp::Arch| problem.sums(arch, x, 0..2);
         assert!(sums(narrow) == sums(wide));
-        let cost = |arch: pulp::Arch| arch.dispatch(Costs(problem, x, 0..2)).to_bits();
+        let cost = |arch: pulp::Arch| problem.squares(arch, x, 0..2).to_bits();
         assert_eq!(cost(narrow), cost(wide));
     });
 }

@@ -1,9 +1,9 @@
 //! Whether the numbers of a recipe make sense.
 
-use tofsim::error::{Input, Result};
+use tofsim::error::{Error, Input};
 use tofsim::firmware::forward2::MOST_NEURONS;
 
-use super::{Recipe, Stage};
+use super::Recipe;
 
 /// Histograms of a scene that the test grid has (thesis section 4.1).
 const MOST_CHOICE: u64 = 5;
@@ -15,15 +15,7 @@ impl Recipe {
     ///
     /// # Errors
     /// Naming the first that does not.
-    pub fn check(&self) -> Result<()> {
-        let positive = |field: &str, value: f64| match value > 0.0 && value.is_finite() {
-            true => Ok(()),
-            false => Err(fault(field, value, "expected a number above 0")),
-        };
-        let at_least = |field: &str, value: u64, least: u64| match value >= least {
-            true => Ok(()),
-            false => Err(fault(field, value, format!("expected {least} or more"))),
-        };
+    pub fn check(&self) -> Result<(), Error> {
         at_least("neurons", self.neurons as u64, 1)?;
         if self.neurons > MOST_NEURONS {
             let expected =
@@ -41,24 +33,8 @@ impl Recipe {
         if self.start.lengths.is_empty() {
             return Err(fault("start.lengths", "[]", "expected one length or more").into());
         }
-        let mut before = usize::MAX;
+        self.check_stages()?;
         let finish = &self.finish;
-        let end =
-            Stage { candidates: finish.candidates, epochs: finish.epochs, samples: finish.samples };
-        for (place, stage) in self.stages.iter().chain([&end]).enumerate() {
-            let name = match place == self.stages.len() {
-                true => "finish".to_owned(),
-                false => format!("stages[{place}]"),
-            };
-            at_least(&format!("{name}.candidates"), stage.candidates as u64, 1)?;
-            at_least(&format!("{name}.epochs"), stage.epochs, 1)?;
-            at_least(&format!("{name}.samples"), stage.samples, LEAST_SAMPLES)?;
-            if stage.candidates > before {
-                let expected = format!("expected {before} at most, as in the stage before");
-                return Err(fault(&format!("{name}.candidates"), stage.candidates, expected).into());
-            }
-            before = stage.candidates;
-        }
         at_least("finish.blocks", finish.blocks as u64, 1)?;
         if !(1..=MOST_CHOICE).contains(&finish.choice) {
             let expected = format!("expected 1 to {MOST_CHOICE}");
@@ -75,7 +51,9 @@ impl Recipe {
             ("limits.w2_share", self.limits.w2_share),
             ("limits.b2_share", self.limits.b2_share),
         ] {
-            positive(field, value)?;
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(fault(field, value, "expected a number above 0").into());
+            }
         }
         if self.optimiser.mu_inc <= 1.0 || !self.optimiser.mu_inc.is_finite() {
             return Err(fault("optimiser.mu_inc", self.optimiser.mu_inc, "expected above 1").into());
@@ -92,6 +70,34 @@ impl Recipe {
         self.formats.check()?;
         self.weighting.check()
     }
+
+    /// That no stage has more candidates than the one before, and all have enough of everything.
+    fn check_stages(&self) -> Result<(), Error> {
+        let mut before = usize::MAX;
+        for place in 0..=self.stages.len() {
+            let (stage, name) = match self.stages.get(place) {
+                Some(stage) => (*stage, format!("stages[{place}]")),
+                None => (self.stage(place), "finish".to_owned()),
+            };
+            let field = format!("{name}.candidates");
+            at_least(&field, stage.candidates as u64, 1)?;
+            at_least(&format!("{name}.epochs"), stage.epochs, 1)?;
+            at_least(&format!("{name}.samples"), stage.samples, LEAST_SAMPLES)?;
+            if stage.candidates > before {
+                let expected = format!("expected {before} at most, as in the stage before");
+                return Err(fault(&field, stage.candidates, expected).into());
+            }
+            before = stage.candidates;
+        }
+        Ok(())
+    }
+}
+
+fn at_least(field: &str, value: u64, least: u64) -> Result<(), Input> {
+    match value >= least {
+        true => Ok(()),
+        false => Err(fault(field, value, format!("expected {least} or more"))),
+    }
 }
 
 fn fault(field: &str, value: impl std::fmt::Display, expected: impl std::fmt::Display) -> Input {
@@ -100,7 +106,12 @@ fn fault(field: &str, value: impl std::fmt::Display, expected: impl std::fmt::Di
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::parse;
+    use super::*;
+
+    fn parse(text: &str, set: &[&str]) -> Result<Recipe, Error> {
+        let set: Vec<_> = set.iter().map(|&text| text.to_owned()).collect();
+        Recipe::parse(text, &Recipe::default(), &set, "a.toml")
+    }
 
     #[test]
     fn what_makes_no_sense_is_named() {

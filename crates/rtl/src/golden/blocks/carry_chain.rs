@@ -1,35 +1,15 @@
 //! Pulses of every width and distance, changes exactly on a clock edge and exactly on a tap's
 //! boundary, and several pulses in the chain at once.
 
-use crate::golden::block::{Block, Latency, Parameter, Setting, Spec};
-use crate::golden::cover::Cover;
-use crate::golden::draw::Draw;
-use crate::golden::record::record;
-use crate::golden::roms;
-use crate::golden::stops::{self, Stops};
-use crate::golden::timing::CLK_125;
 use tofsim::firmware::carry_chain::{CarryChain as Chain, Delays, TAPS};
-use tofsim::firmware::tof_top::TofTop;
-use tofsim::kernel::Time;
-use tofsim::network::mem::Mem;
-use tofsim::signals;
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    name: "carry_chain",
-    scope: "tdc.carry_chain",
     stream: Some(0),
-    timing: CLK_125,
-    reset: None,
-    fast: &[],
     latency: &[Latency { from: "tdc_stop", to: "taps", cycles: |_| 0 }],
-    glue: None,
-    record: |spec, setting| record(spec, setting, CarryChain::new(setting)),
+    ..Spec::new("carry_chain", "tdc.carry_chain", record::<CarryChain>)
 };
-
-signals! {
-    /// Nothing: `tdc_stop` is no part of a line.
-    pub(super) struct Stimulus {}
-}
 
 struct CarryChain {
     delays: Delays,
@@ -39,6 +19,16 @@ struct CarryChain {
 }
 
 impl CarryChain {
+    /// A change at that instant, or as soon after the last one as the chain can hold.
+    fn toggle(&mut self, edge: Time, at: Time) {
+        let gap = Time::from_fs(self.delays.longest().fs() / 5);
+        self.stops.toggle(at.max(self.stops.last() + gap).max(edge + Time::from_fs(1)));
+    }
+}
+
+impl Block for CarryChain {
+    type Stimulus = Nothing;
+
     fn new(setting: &Setting) -> Self {
         let delays = setting.setup.params.tdc.delays.clone();
         let arrivals = delays.arrivals();
@@ -51,20 +41,10 @@ impl CarryChain {
         }
     }
 
-    /// A change at that instant, or as soon after the last one as the chain can hold.
-    fn toggle(&mut self, edge: Time, at: Time) {
-        let gap = Time::from_fs(self.delays.longest().fs() / 5);
-        self.stops.toggle(at.max(self.stops.last() + gap).max(edge + Time::from_fs(1)));
-    }
-}
-
-impl Block for CarryChain {
-    type Stimulus = Stimulus;
-
-    fn stimulus(&mut self, cycle: usize, _: &TofTop, draw: &mut Draw) -> Stimulus {
+    fn stimulus(&mut self, cycle: usize, _: &TofTop, draw: &mut Draw) -> Nothing {
         let edge = stops::edge(cycle);
         if self.stops.last() > edge {
-            return Stimulus {};
+            return Nothing {};
         }
         let coming = stops::edge(cycle + 2);
         let quiet = !self.stops.ends_high() && self.stops.last() + self.delays.longest() <= coming;
@@ -87,19 +67,17 @@ impl Block for CarryChain {
                 self.toggle(edge, stops::before(coming, &self.delays, draw));
             }
         }
-        Stimulus {}
+        Nothing {}
     }
-
-    fn edge(&mut self, _: &Stimulus, _: &mut TofTop) {}
 
     fn cycle(
         &mut self,
         cycle: usize,
-        _: &Stimulus,
+        _: &Nothing,
         top: &mut TofTop,
-        look: &mut dyn FnMut(&TofTop),
+        sample: &mut dyn FnMut(&TofTop),
     ) {
-        look(top);
+        sample(top);
         let now = stops::edge(cycle);
         self.stops.advance(now);
         let taps = self.stops.line.sample(now, &self.delays);
@@ -109,12 +87,8 @@ impl Block for CarryChain {
         self.travelling.see(changes as u64);
     }
 
-    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        vec![("DelaysFile", Parameter::File("tap_delays.mem"))]
-    }
-
-    fn roms(&self) -> Vec<Mem> {
-        vec![roms::tap_delays(&self.delays)]
+    fn parameters(&self) -> Parameters {
+        files(["DelaysFile"], [roms::tap_delays(&self.delays)])
     }
 
     fn stops(&self) -> &[Time] {

@@ -1,16 +1,9 @@
 //! A ROM of 37 random codes, read past its end and cut short by a reset at every word; shots back to
 //! back and apart.
 
-use crate::golden::block::{Block, Latency, Parameter, Setting, Spec};
-use crate::golden::cover::Cover;
-use crate::golden::draw::{Draw, MEMORIES};
-use crate::golden::record::record;
-use crate::golden::roms;
-use crate::golden::timing::CLK_125;
 use tofsim::firmware::code_preload::In;
-use tofsim::firmware::tof_top::TofTop;
-use tofsim::kernel::{Clocked, U};
-use tofsim::network::mem::Mem;
+
+use crate::golden::prelude::*;
 
 /// Words of the ROM: no power of two.
 const CODES: u64 = 37;
@@ -18,15 +11,10 @@ const CODES: u64 = 37;
 const LONG: u64 = 2 * CODES + 10;
 
 pub(super) const SPEC: Spec = Spec {
-    name: "code_preload",
-    scope: "code_preload",
     stream: Some(2),
-    timing: CLK_125,
     reset: Some("rst"),
-    fast: &[],
     latency: &[Latency { from: "start", to: "tdc_valid", cycles: |_| 1 }],
-    glue: None,
-    record: |spec, setting| record(spec, setting, CodePreload::new(setting)),
+    ..Spec::new("code_preload", "code_preload", record::<CodePreload>)
 };
 
 struct CodePreload {
@@ -42,7 +30,9 @@ struct CodePreload {
     phases: Cover,
 }
 
-impl CodePreload {
+impl Block for CodePreload {
+    type Stimulus = In;
+
     fn new(setting: &Setting) -> Self {
         let mut draw = Draw::new(setting.seed, MEMORIES);
         CodePreload {
@@ -55,10 +45,6 @@ impl CodePreload {
             phases: Cover::new("rst x 8 + start in three cycles, as bits", 0..16),
         }
     }
-}
-
-impl Block for CodePreload {
-    type Stimulus = In;
 
     fn stimulus(&mut self, _: usize, _: &TofTop, draw: &mut Draw) -> In {
         let rst = self.shots == self.until && draw.one_in(3);
@@ -83,13 +69,9 @@ impl Block for CodePreload {
         top.code_preload = top.code_preload.next(i, &self.rom);
     }
 
-    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        let file = Parameter::File("codes.mem");
-        vec![("Codes", Parameter::Number(CODES)), ("CodeFile", file)]
-    }
-
-    fn roms(&self) -> Vec<Mem> {
-        vec![roms::codes(&self.rom)]
+    fn parameters(&self) -> Parameters {
+        let codes = Parameter::Memory(roms::codes(&self.rom));
+        vec![("Codes", Parameter::Number(CODES)), ("CodeFile", codes)]
     }
 
     fn coverage(self) -> Vec<Cover> {

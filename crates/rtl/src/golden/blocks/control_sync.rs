@@ -1,21 +1,11 @@
 //! Every pair of levels of the five signals one after the other, held for a few cycles or one.
 
-use crate::golden::block::{Block, Latency, Spec};
-use crate::golden::cover::Cover;
-use crate::golden::draw::Draw;
-use crate::golden::record::record;
-use crate::golden::timing::CLK_125;
 use tofsim::firmware::control_sync::In;
-use tofsim::firmware::tof_top::TofTop;
-use tofsim::kernel::Clocked;
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    name: "control_sync",
-    scope: "control_sync",
     stream: Some(3),
-    timing: CLK_125,
-    reset: None,
-    fast: &[],
     latency: &[
         Latency { from: "mode", to: "mode_sync", cycles: |_| 1 },
         Latency { from: "laser_freq", to: "laser_freq_sync", cycles: |_| 1 },
@@ -23,8 +13,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "dsp_en", to: "dsp_en_sync", cycles: |_| 1 },
         Latency { from: "dsp_rst", to: "dsp_rst_sync", cycles: |_| 1 },
     ],
-    glue: None,
-    record: |spec, setting| record(spec, setting, ControlSync::new()),
+    ..Spec::new("control_sync", "control_sync", record::<ControlSync>)
 };
 
 struct ControlSync {
@@ -34,8 +23,14 @@ struct ControlSync {
     alone: Cover,
 }
 
-impl ControlSync {
-    fn new() -> Self {
+fn levels(i: &In) -> u64 {
+    bits([i.mode, i.laser_en, i.dsp_en, i.dsp_rst])
+}
+
+impl Block for ControlSync {
+    type Stimulus = In;
+
+    fn new(_: &Setting) -> Self {
         ControlSync {
             i: In::default(),
             levels: Cover::new("mode, laser_en, dsp_en, dsp_rst as bits, from x 16 + to", 0..256),
@@ -43,14 +38,6 @@ impl ControlSync {
             alone: Cover::new("one signal, 0 to 4, changes alone", 0..5),
         }
     }
-}
-
-fn levels(i: &In) -> u64 {
-    [i.mode, i.laser_en, i.dsp_en, i.dsp_rst].iter().fold(0, |sum, &bit| sum * 2 + u64::from(bit))
-}
-
-impl Block for ControlSync {
-    type Stimulus = In;
 
     fn stimulus(&mut self, _: usize, _: &TofTop, draw: &mut Draw) -> In {
         let (before, i) = (self.i, &mut self.i);

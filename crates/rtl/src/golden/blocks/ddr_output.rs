@@ -1,23 +1,15 @@
 //! Pulses of one half cycle, alone and in rows.
 
-use crate::golden::block::{Block, Latency, Spec};
-use crate::golden::cover::Cover;
-use crate::golden::draw::Draw;
-use crate::golden::record::record;
-use crate::golden::timing::CLK_250;
 use tofsim::firmware::ddr_output::In;
-use tofsim::firmware::tof_top::TofTop;
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    name: "ddr_output",
-    scope: "vcsel_driver.ddr_output",
     stream: Some(4),
-    timing: CLK_250,
-    reset: None,
+    timing: timing::CLK_250,
     fast: &["q"],
     latency: &[Latency { from: "d", to: "q", cycles: |_| 0 }],
-    glue: None,
-    record: |spec, setting| record(spec, setting, DdrOutput::new()),
+    ..Spec::new("ddr_output", "vcsel_driver.ddr_output", record::<DdrOutput>)
 };
 
 struct DdrOutput {
@@ -25,14 +17,12 @@ struct DdrOutput {
     levels: Cover,
 }
 
-impl DdrOutput {
-    fn new() -> Self {
-        DdrOutput { last: 0, levels: Cover::new("d in three cycles, as bits", 0..8) }
-    }
-}
-
 impl Block for DdrOutput {
     type Stimulus = In;
+
+    fn new(_: &Setting) -> Self {
+        DdrOutput { last: 0, levels: Cover::new("d in three cycles, as bits", 0..8) }
+    }
 
     fn stimulus(&mut self, cycle: usize, _: &TofTop, draw: &mut Draw) -> In {
         let d = draw.one_in(2);
@@ -45,10 +35,10 @@ impl Block for DdrOutput {
         top.vcsel_driver.ddr_output = top.vcsel_driver.ddr_output.rise(i);
     }
 
-    fn cycle(&mut self, _: usize, i: &In, top: &mut TofTop, look: &mut dyn FnMut(&TofTop)) {
-        look(top);
+    fn cycle(&mut self, _: usize, i: &In, top: &mut TofTop, sample: &mut dyn FnMut(&TofTop)) {
+        sample(top);
         top.vcsel_driver.ddr_output = top.vcsel_driver.ddr_output.fall();
-        look(top);
+        sample(top);
         self.edge(i, top);
     }
 

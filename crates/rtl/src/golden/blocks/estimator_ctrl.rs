@@ -1,31 +1,21 @@
 //! Whole estimations with starts while busy in every phase, and estimations cut short by a reset in
 //! every third phase and in all about a change of layer; the seed says which third.
 
-use crate::golden::block::{Block, Latency, Parameter, Setting, Spec, neurons};
-use crate::golden::cover::Cover;
-use crate::golden::draw::Draw;
-use crate::golden::record::record;
-use crate::golden::timing::CLK_125;
 use tofsim::firmware::estimator_ctrl::{In, done};
-use tofsim::firmware::tof_top::TofTop;
-use tofsim::kernel::Clocked;
+
+use crate::golden::prelude::*;
 
 /// Phases past this one are all cut short: the changes of layer are there.
 const LAYERS: u64 = 254;
 
 pub(super) const SPEC: Spec = Spec {
-    name: "estimator_ctrl",
-    scope: "depth_estimator.estimator_ctrl",
     stream: Some(6),
-    timing: CLK_125,
     reset: Some("rst"),
-    fast: &[],
     latency: &[
         Latency { from: "algo_start", to: "read_en", cycles: |_| 0 },
         Latency { from: "algo_start", to: "algo_done", cycles: done },
     ],
-    glue: None,
-    record: |spec, setting| record(spec, setting, EstimatorCtrl::new(setting)),
+    ..Spec::new("estimator_ctrl", "depth_estimator.estimator_ctrl", record::<EstimatorCtrl>)
 };
 
 struct EstimatorCtrl {
@@ -41,7 +31,9 @@ struct EstimatorCtrl {
     idle: Cover,
 }
 
-impl EstimatorCtrl {
+impl Block for EstimatorCtrl {
+    type Stimulus = In;
+
     fn new(setting: &Setting) -> Self {
         let third = setting.seed % 3;
         let is_cut = |phase: &u64| phase % 3 == third || *phase == 0 || *phase > LAYERS;
@@ -57,10 +49,6 @@ impl EstimatorCtrl {
             cuts,
         }
     }
-}
-
-impl Block for EstimatorCtrl {
-    type Stimulus = In;
 
     fn stimulus(&mut self, cycle: usize, top: &TofTop, draw: &mut Draw) -> In {
         let phase = top.depth_estimator.estimator_ctrl.phase();
@@ -77,7 +65,7 @@ impl Block for EstimatorCtrl {
                 self.starts.see_if(i.algo_start && !i.rst, phase);
                 self.resets.see_if(i.rst, phase);
             }
-            None => self.idle.see(u64::from(i.rst) * 2 + u64::from(i.algo_start)),
+            None => self.idle.see(bits([i.rst, i.algo_start])),
         }
         if i.algo_start && !i.rst && phase.is_none_or(|phase| phase == done(self.neurons)) {
             self.runs += 1;
@@ -91,8 +79,8 @@ impl Block for EstimatorCtrl {
         *ctrl = ctrl.next(i, &self.neurons);
     }
 
-    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        neurons(self.neurons).into_iter().collect()
+    fn parameters(&self) -> Parameters {
+        parameters::neurons(self.neurons).into_iter().collect()
     }
 
     fn coverage(self) -> Vec<Cover> {

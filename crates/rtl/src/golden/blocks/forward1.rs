@@ -3,15 +3,9 @@
 
 use std::sync::Arc;
 
-use crate::golden::block::{Block, Latency, Parameter, Setting, Spec, neurons};
-use crate::golden::cover::Cover;
-use crate::golden::draw::Draw;
-use crate::golden::record::record;
-use crate::golden::timing::CLK_125;
 use tofsim::firmware::forward1::{BIAS_ROW, In, Rom};
-use tofsim::firmware::tof_top::TofTop;
-use tofsim::kernel::{Clocked, U};
-use tofsim::network::mem::{self, Mem};
+
+use crate::golden::prelude::*;
 
 /// Cycles in one style.
 const STRETCH: u64 = 512;
@@ -21,18 +15,13 @@ const WRAP: i64 = 1 << 34;
 const PATIENCE: i64 = 1000;
 
 pub(super) const SPEC: Spec = Spec {
-    name: "forward1",
-    scope: "depth_estimator.forward1",
     stream: Some(7),
-    timing: CLK_125,
     reset: Some("rst"),
-    fast: &[],
     latency: &[
         Latency { from: "count", to: "l1_in_0", cycles: |_| 0 },
         Latency { from: "rom_addr", to: "l1_in_0", cycles: |_| 1 },
     ],
-    glue: None,
-    record: |spec, setting| record(spec, setting, Forward1::new(setting)),
+    ..Spec::new("forward1", "depth_estimator.forward1", record::<Forward1>)
 };
 
 struct Forward1 {
@@ -46,7 +35,9 @@ struct Forward1 {
     sequence: Cover,
 }
 
-impl Forward1 {
+impl Block for Forward1 {
+    type Stimulus = In;
+
     fn new(setting: &Setting) -> Self {
         let rom = setting.setup.params.depth_estimator.forward1.clone();
         let pull = |goal: u64, row: u64| {
@@ -70,10 +61,6 @@ impl Forward1 {
             neurons,
         }
     }
-}
-
-impl Block for Forward1 {
-    type Stimulus = In;
 
     fn stimulus(&mut self, cycle: usize, _: &TofTop, draw: &mut Draw) -> In {
         let (stretch, place) = (cycle as u64 / STRETCH, cycle as u64 % STRETCH);
@@ -114,8 +101,7 @@ impl Block for Forward1 {
             },
             _ => any,
         };
-        let bits = [i.rst, i.forward1_en, i.read_en, i.read_addr == 0];
-        self.situations.see(bits.iter().fold(0, |sum, &bit| sum * 2 + u64::from(bit)));
+        self.situations.see(bits([i.rst, i.forward1_en, i.read_en, i.read_addr == 0]));
         self.rows.see_if(!i.rst, i.rom_addr.get());
         i
     }
@@ -132,14 +118,8 @@ impl Block for Forward1 {
         }
     }
 
-    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        let file = Parameter::File;
-        let files = [("W1File", file("w1.mem")), ("B1File", file("b1.mem"))];
-        files.into_iter().chain(neurons(self.neurons)).collect()
-    }
-
-    fn roms(&self) -> Vec<Mem> {
-        mem::forward1(&self.rom, self.neurons).into()
+    fn parameters(&self) -> Parameters {
+        parameters::with_neurons(files(["W1File", "B1File"], mem::forward1(&self.rom, self.neurons)), self.neurons)
     }
 
     fn coverage(self) -> Vec<Cover> {

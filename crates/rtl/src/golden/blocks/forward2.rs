@@ -1,15 +1,9 @@
 //! Activations of the whole range in the estimator's order and in any, and one product over and over
 //! until the depth has wrapped both ways; with the scenario's network, but the bias negative.
 
-use crate::golden::block::{Block, Latency, Parameter, Setting, Spec, neurons};
-use crate::golden::cover::Cover;
-use crate::golden::draw::Draw;
-use crate::golden::record::record;
-use crate::golden::timing::CLK_125;
 use tofsim::firmware::forward2::{In, L1Out, MOST_NEURONS, Rom};
-use tofsim::firmware::tof_top::TofTop;
-use tofsim::kernel::{Clocked, S, U};
-use tofsim::network::mem::{self, Mem};
+
+use crate::golden::prelude::*;
 
 /// Cycles in one style.
 const STRETCH: usize = 512;
@@ -17,15 +11,10 @@ const STRETCH: usize = 512;
 const WRAP: i64 = 1 << 34;
 
 pub(super) const SPEC: Spec = Spec {
-    name: "forward2",
-    scope: "depth_estimator.forward2",
     stream: Some(8),
-    timing: CLK_125,
     reset: Some("rst"),
-    fast: &[],
     latency: &[Latency { from: "l1_out_0", to: "depth", cycles: |_| 0 }],
-    glue: None,
-    record: |spec, setting| record(spec, setting, Forward2::new(setting)),
+    ..Spec::new("forward2", "depth_estimator.forward2", record::<Forward2>)
 };
 
 struct Forward2 {
@@ -42,6 +31,17 @@ struct Forward2 {
 }
 
 impl Forward2 {
+    /// Activations of all neurons, of every size.
+    fn activations(&self, draw: &mut Draw) -> [L1Out; MOST_NEURONS] {
+        let mut l1_out = [S::new(0); MOST_NEURONS];
+        l1_out[..self.rom.neurons].fill_with(|| draw.signed());
+        l1_out
+    }
+}
+
+impl Block for Forward2 {
+    type Stimulus = In;
+
     fn new(setting: &Setting) -> Self {
         let mut rom = setting.setup.params.depth_estimator.forward2;
         rom.b2 = S::new(-rom.b2.get().abs());
@@ -57,19 +57,6 @@ impl Forward2 {
             wraps: Cover::new("depth wraps upwards, downwards", 0..2),
         }
     }
-}
-
-impl Forward2 {
-    /// Activations of all neurons, of every size.
-    fn activations(&self, draw: &mut Draw) -> [L1Out; MOST_NEURONS] {
-        let mut l1_out = [S::new(0); MOST_NEURONS];
-        l1_out[..self.rom.neurons].fill_with(|| draw.signed());
-        l1_out
-    }
-}
-
-impl Block for Forward2 {
-    type Stimulus = In;
 
     fn stimulus(&mut self, cycle: usize, _: &TofTop, draw: &mut Draw) -> In {
         let any = In {
@@ -94,8 +81,7 @@ impl Block for Forward2 {
             }
             _ => any,
         };
-        let bits = u64::from(i.rst) * 2 + u64::from(i.forward2_en);
-        self.neurons.see(bits * self.values + i.neuron.get());
+        self.neurons.see(bits([i.rst, i.forward2_en]) * self.values + i.neuron.get());
         let now = (i.forward2_en && !i.rst).then(|| i.neuron.get());
         if let (Some(last), Some(now)) = (self.last, now) {
             self.order.see(last * self.values + now);
@@ -114,14 +100,8 @@ impl Block for Forward2 {
         self.wraps.see_if(goes_on && change > WRAP, 1);
     }
 
-    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        let file = Parameter::File;
-        let files = [("W2File", file("w2.mem")), ("B2File", file("b2.mem"))];
-        files.into_iter().chain(neurons(self.rom.neurons)).collect()
-    }
-
-    fn roms(&self) -> Vec<Mem> {
-        mem::forward2(&self.rom).into()
+    fn parameters(&self) -> Parameters {
+        parameters::with_neurons(files(["W2File", "B2File"], mem::forward2(&self.rom)), self.rom.neurons)
     }
 
     fn coverage(self) -> Vec<Cover> {

@@ -1,15 +1,10 @@
 //! Frames of three shots, left in turn at every place by either reset or both; starts, ends of the
 //! estimation and pauses of `dsp_en` also where they mean nothing.
 
-use crate::golden::block::{Block, Latency, Parameter, Setting, Spec};
-use crate::golden::cover::Cover;
-use crate::golden::draw::Draw;
-use crate::golden::record::record;
-use crate::golden::timing::CLK_125;
 use tofsim::firmware::frame_ctrl::{In, Params, State};
-use tofsim::firmware::tof_top::TofTop;
-use tofsim::kernel::Clocked;
 use tofsim::kernel::signals::Word;
+
+use crate::golden::prelude::*;
 
 /// Few, so that all states recur.
 const SHOTS: u16 = 3;
@@ -17,19 +12,14 @@ const SHOTS: u16 = 3;
 const DRAIN: u64 = 16;
 
 pub(super) const SPEC: Spec = Spec {
-    name: "frame_ctrl",
-    scope: "frame_ctrl",
     stream: Some(9),
-    timing: CLK_125,
     reset: Some("rst"),
-    fast: &[],
     latency: &[
         Latency { from: "start", to: "acquire", cycles: |_| 0 },
         Latency { from: "dsp_en", to: "algo_start", cycles: |_| 0 },
         Latency { from: "algo_done", to: "frame_done", cycles: |_| 0 },
     ],
-    glue: None,
-    record: |spec, setting| record(spec, setting, FrameCtrl::new(setting)),
+    ..Spec::new("frame_ctrl", "frame_ctrl", record::<FrameCtrl>)
 };
 
 struct FrameCtrl {
@@ -50,7 +40,13 @@ struct FrameCtrl {
     inputs: Cover,
 }
 
-impl FrameCtrl {
+fn is_preloaded_state(state: State) -> bool {
+    matches!(state, State::Clear | State::Estimate)
+}
+
+impl Block for FrameCtrl {
+    type Stimulus = In;
+
     fn new(setting: &Setting) -> Self {
         let preloaded = setting.setup.params.frame_ctrl.preloaded;
         let clear = (0..256).step_by(51).map(|word| (State::Clear, word));
@@ -80,14 +76,6 @@ impl FrameCtrl {
             exits,
         }
     }
-}
-
-fn is_preloaded_state(state: State) -> bool {
-    matches!(state, State::Clear | State::Estimate)
-}
-
-impl Block for FrameCtrl {
-    type Stimulus = In;
 
     fn stimulus(&mut self, _: usize, top: &TofTop, draw: &mut Draw) -> In {
         let ctrl = &top.frame_ctrl;
@@ -117,11 +105,9 @@ impl Block for FrameCtrl {
             dsp_en: dsp_en && !held,
             algo_done: draw.one_in(4),
         };
-        let levels = [i.start, i.dsp_en, i.algo_done];
-        let levels = levels.iter().fold(0, |sum, &level| sum * 2 + u64::from(level));
         self.resets.see_if(leave, state.bits() * 256 + place);
         self.kinds.see(state.bits() * 4 + kind);
-        self.inputs.see(state.bits() * 8 + levels);
+        self.inputs.see(state.bits() * 8 + bits([i.start, i.dsp_en, i.algo_done]));
         if leave {
             self.turn += 1;
         }
@@ -136,7 +122,7 @@ impl Block for FrameCtrl {
         top.frame_ctrl = top.frame_ctrl.next(i, &self.params);
     }
 
-    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
+    fn parameters(&self) -> Parameters {
         vec![
             ("ShotsPerFrame", Parameter::Number(SHOTS.into())),
             ("Preloaded", Parameter::Number(self.params.preloaded.into())),

@@ -1,14 +1,9 @@
 //! Clear, hits and readout as in a frame, each overlapped by the others; all three at once at equal
 //! and different addresses; and then hits of one word until it wraps.
 
-use crate::golden::block::{Block, Latency, Setting, Spec};
-use crate::golden::cover::Cover;
-use crate::golden::draw::Draw;
-use crate::golden::record::record;
-use crate::golden::timing::CLK_125;
 use tofsim::firmware::histogram_builder::In;
-use tofsim::firmware::tof_top::TofTop;
-use tofsim::kernel::U;
+
+use crate::golden::prelude::*;
 
 /// Lines before one word is hit until it wraps.
 const MIXED: usize = 20_000;
@@ -18,22 +13,18 @@ const LINES: usize = MIXED + 67_500;
 const MANY: u64 = 2600;
 
 pub(super) const SPEC: Spec = Spec {
-    name: "histogram_builder",
-    scope: "histogram_builder",
     stream: Some(10),
-    timing: CLK_125,
-    reset: None,
-    fast: &[],
     latency: &[
         Latency { from: "clear", to: "count", cycles: |_| 0 },
         Latency { from: "tdc_valid", to: "count", cycles: |_| 0 },
     ],
-    glue: None,
-    record: |spec, setting| {
-        let cycles = setting.cycles.or(Some(LINES));
-        record(spec, &Setting { cycles, ..setting.clone() }, HistogramBuilder::new(setting))
-    },
+    ..Spec::new("histogram_builder", "histogram_builder", record_lines)
 };
+
+fn record_lines(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
+    let cycles = setting.cycles.or(Some(LINES));
+    record::<HistogramBuilder>(spec, &Setting { cycles, ..setting.clone() })
+}
 
 struct HistogramBuilder {
     bins: u64,
@@ -46,22 +37,6 @@ struct HistogramBuilder {
     shown: Cover,
     overlaps: Cover,
     sizes: Cover,
-}
-
-impl HistogramBuilder {
-    fn new(setting: &Setting) -> Self {
-        let words = 0..setting.bins;
-        HistogramBuilder {
-            bins: setting.bins,
-            hot: setting.seed % setting.bins,
-            full: false,
-            cleared: Cover::new("words cleared that were not 0", words.clone()),
-            hit: Cover::new("words hit", words.clone()),
-            shown: Cover::new("words shown that are not 0", words),
-            overlaps: Cover::new("clear, tdc_valid, read_en as bits x 5 + equal addresses", 0..40),
-            sizes: Cover::new("bits of a count shown, or wrapped (17)", 1..=17),
-        }
-    }
 }
 
 /// Which of the three addresses are equal: none, two of them, all.
@@ -78,6 +53,20 @@ fn equal(i: &In) -> u64 {
 
 impl Block for HistogramBuilder {
     type Stimulus = In;
+
+    fn new(setting: &Setting) -> Self {
+        let words = 0..setting.bins;
+        HistogramBuilder {
+            bins: setting.bins,
+            hot: setting.seed % setting.bins,
+            full: false,
+            cleared: Cover::new("words cleared that were not 0", words.clone()),
+            hit: Cover::new("words hit", words.clone()),
+            shown: Cover::new("words shown that are not 0", words),
+            overlaps: Cover::new("clear, tdc_valid, read_en as bits x 5 + equal addresses", 0..40),
+            sizes: Cover::new("bits of a count shown, or wrapped (17)", 1..=17),
+        }
+    }
 
     fn stimulus(&mut self, cycle: usize, top: &TofTop, draw: &mut Draw) -> In {
         let histogram = &top.histogram_builder;
@@ -121,9 +110,7 @@ impl Block for HistogramBuilder {
         let is_hot = hit && i.tdc_code == self.hot && i.read_en;
         self.sizes.see_if(self.full && is_hot && shown < 64, 17);
         self.full |= shown >= 65_472;
-        let bits = [i.clear, i.tdc_valid, i.read_en];
-        let bits = bits.iter().fold(0, |sum, &bit| sum * 2 + u64::from(bit));
-        self.overlaps.see(bits * 5 + equal(&i));
+        self.overlaps.see(bits([i.clear, i.tdc_valid, i.read_en]) * 5 + equal(&i));
         i
     }
 

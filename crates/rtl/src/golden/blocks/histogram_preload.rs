@@ -1,27 +1,14 @@
 //! Every address of a random histogram, in order and at random.
 
-use crate::golden::block::{Block, Parameter, Setting, Spec};
-use crate::golden::cover::Cover;
-use crate::golden::draw::{Draw, MEMORIES};
-use crate::golden::record::record;
-use crate::golden::roms;
-use crate::golden::timing::NONE;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::firmware::histogram_preload::{self, In, Rom};
-use tofsim::firmware::tof_top::TofTop;
-use tofsim::kernel::U;
-use tofsim::network::mem::Mem;
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    name: "histogram_preload",
-    scope: "histogram_preload",
     stream: Some(11),
-    timing: NONE,
-    reset: None,
-    fast: &[],
-    latency: &[],
-    glue: None,
-    record: |spec, setting| record(spec, setting, HistogramPreload::new(setting)),
+    timing: timing::NONE,
+    ..Spec::new("histogram_preload", "histogram_preload", record::<HistogramPreload>)
 };
 
 struct HistogramPreload {
@@ -30,7 +17,9 @@ struct HistogramPreload {
     words: Cover,
 }
 
-impl HistogramPreload {
+impl Block for HistogramPreload {
+    type Stimulus = In;
+
     fn new(setting: &Setting) -> Self {
         let mut draw = Draw::new(setting.seed, MEMORIES);
         let mut rom = [U::new(0); BINS];
@@ -38,10 +27,6 @@ impl HistogramPreload {
         let words = Cover::new("words read", 0..setting.bins);
         HistogramPreload { rom, bins: setting.bins, words }
     }
-}
-
-impl Block for HistogramPreload {
-    type Stimulus = In;
 
     fn stimulus(&mut self, cycle: usize, _: &TofTop, draw: &mut Draw) -> In {
         let word = match cycle as u64 / self.bins % 2 {
@@ -56,14 +41,8 @@ impl Block for HistogramPreload {
         top.nets.count = histogram_preload::count(i, &self.rom);
     }
 
-    fn edge(&mut self, _: &In, _: &mut TofTop) {}
-
-    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        vec![("HistogramFile", Parameter::File("histogram.mem"))]
-    }
-
-    fn roms(&self) -> Vec<Mem> {
-        vec![roms::histogram(&self.rom)]
+    fn parameters(&self) -> Parameters {
+        files(["HistogramFile"], [roms::histogram(&self.rom)])
     }
 
     fn coverage(self) -> Vec<Cover> {

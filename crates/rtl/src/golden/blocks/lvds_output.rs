@@ -1,23 +1,13 @@
 //! Both levels, in every order.
 
-use crate::golden::block::{Block, Spec};
-use crate::golden::cover::Cover;
-use crate::golden::draw::Draw;
-use crate::golden::record::record;
-use crate::golden::timing::NONE;
 use tofsim::firmware::lvds_output::{self, In};
-use tofsim::firmware::tof_top::TofTop;
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    name: "lvds_output",
-    scope: "lvds_output",
     stream: Some(12),
-    timing: NONE,
-    reset: None,
-    fast: &[],
-    latency: &[],
-    glue: None,
-    record: |spec, setting| record(spec, setting, LvdsOutput::new()),
+    timing: timing::NONE,
+    ..Spec::new("lvds_output", "lvds_output", record::<LvdsOutput>)
 };
 
 struct LvdsOutput {
@@ -25,18 +15,16 @@ struct LvdsOutput {
     changes: Cover,
 }
 
-impl LvdsOutput {
-    fn new() -> Self {
-        LvdsOutput { last: false, changes: Cover::new("i from x 2 + to", 0..4) }
-    }
-}
-
 impl Block for LvdsOutput {
     type Stimulus = In;
 
+    fn new(_: &Setting) -> Self {
+        LvdsOutput { last: false, changes: Cover::new("i from x 2 + to", 0..4) }
+    }
+
     fn stimulus(&mut self, _: usize, _: &TofTop, draw: &mut Draw) -> In {
         let i = draw.one_in(2);
-        self.changes.see(u64::from(self.last) * 2 + u64::from(i));
+        self.changes.see(bits([self.last, i]));
         self.last = i;
         In { i }
     }
@@ -44,8 +32,6 @@ impl Block for LvdsOutput {
     fn settle(&mut self, i: &In, top: &mut TofTop) {
         top.lvds_output = lvds_output::out(i);
     }
-
-    fn edge(&mut self, _: &In, _: &mut TofTop) {}
 
     fn coverage(self) -> Vec<Cover> {
         vec![self.changes]

@@ -3,17 +3,11 @@
 
 use std::sync::Arc;
 
-use crate::golden::block::{Block, Latency, Parameter, Setting, Spec, neurons};
-use crate::golden::cover::Cover;
-use crate::golden::draw::Draw;
-use crate::golden::record::record;
-use crate::golden::timing::CLK_125;
 use tofsim::firmware::forward1::L1In;
 use tofsim::firmware::forward2::MOST_NEURONS;
 use tofsim::firmware::tansig::{ENTRIES, In, Rom, address};
-use tofsim::firmware::tof_top::TofTop;
-use tofsim::kernel::{Clocked, S};
-use tofsim::network::mem::{self, Mem};
+
+use crate::golden::prelude::*;
 
 /// Sums of an address.
 const STEP: i64 = 1 << 14;
@@ -24,15 +18,10 @@ const BEYOND: [i64; 4] =
     [-HALF * STEP - STEP / 2 - 1, HALF * STEP - STEP / 2, -(1 << 35), (1 << 35) - 1];
 
 pub(super) const SPEC: Spec = Spec {
-    name: "tansig",
-    scope: "depth_estimator.tansig",
     stream: Some(16),
-    timing: CLK_125,
     reset: Some("rst"),
-    fast: &[],
     latency: &[Latency { from: "l1_in_0", to: "l1_out_0", cycles: |_| 0 }],
-    glue: None,
-    record: |spec, setting| record(spec, setting, Tansig::new(setting)),
+    ..Spec::new("tansig", "depth_estimator.tansig", record::<Tansig>)
 };
 
 struct Tansig {
@@ -47,23 +36,6 @@ struct Tansig {
 }
 
 impl Tansig {
-    fn new(setting: &Setting) -> Self {
-        let neurons = setting.neurons();
-        let cases = neurons as u64 * ENTRIES as u64;
-        Tansig {
-            rom: setting.setup.params.depth_estimator.tansig.clone(),
-            neurons,
-            swept: 0,
-            lowest: Cover::new("lowest sum of neuron x 4096 + address", 0..cases),
-            highest: Cover::new("highest sum of neuron x 4096 + address", 0..cases),
-            beyond: Cover::new(
-                "neuron x 4 + just below, just above, lowest, highest of all",
-                0..neurons as u64 * 4,
-            ),
-            situations: Cover::new("rst x 2 + tansig_en", 0..4),
-        }
-    }
-
     /// The sum of a neuron in the sweep: other addresses for other neurons.
     fn sweep(&self, neuron: usize, draw: &mut Draw) -> L1In {
         let place = (self.swept * 5 + neuron * 517) % ENTRIES;
@@ -90,6 +62,23 @@ impl Tansig {
 impl Block for Tansig {
     type Stimulus = In;
 
+    fn new(setting: &Setting) -> Self {
+        let neurons = setting.neurons();
+        let cases = neurons as u64 * ENTRIES as u64;
+        Tansig {
+            rom: setting.setup.params.depth_estimator.tansig.clone(),
+            neurons,
+            swept: 0,
+            lowest: Cover::new("lowest sum of neuron x 4096 + address", 0..cases),
+            highest: Cover::new("highest sum of neuron x 4096 + address", 0..cases),
+            beyond: Cover::new(
+                "neuron x 4 + just below, just above, lowest, highest of all",
+                0..neurons as u64 * 4,
+            ),
+            situations: Cover::new("rst x 2 + tansig_en", 0..4),
+        }
+    }
+
     fn stimulus(&mut self, _: usize, _: &TofTop, draw: &mut Draw) -> In {
         let (rst, tansig_en, special) = (draw.one_in(32), !draw.one_in(4), draw.one_in(8));
         let mut l1_in = [S::new(0); MOST_NEURONS];
@@ -100,7 +89,7 @@ impl Block for Tansig {
                 (false, _) => self.sweep(neuron, draw),
             };
         }
-        self.situations.see(u64::from(rst) * 2 + u64::from(tansig_en));
+        self.situations.see(bits([rst, tansig_en]));
         if tansig_en && !rst {
             let sums = l1_in[..self.neurons].iter().enumerate();
             sums.for_each(|(neuron, sum)| self.see(neuron, *sum));
@@ -114,13 +103,8 @@ impl Block for Tansig {
         *tansig = tansig.next(i, &self.rom);
     }
 
-    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        let file = ("TansigFile", Parameter::File("tansig.mem"));
-        [file].into_iter().chain(neurons(self.neurons)).collect()
-    }
-
-    fn roms(&self) -> Vec<Mem> {
-        vec![mem::tansig(&self.rom)]
+    fn parameters(&self) -> Parameters {
+        parameters::with_neurons(files(["TansigFile"], [mem::tansig(&self.rom)]), self.neurons)
     }
 
     fn coverage(self) -> Vec<Cover> {

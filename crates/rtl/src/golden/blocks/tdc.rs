@@ -2,18 +2,9 @@
 //! on the boundaries of taps, before the shot and after its window, held over into the next; and a
 //! sweep through every number of taps that a hit can have.
 
-use crate::golden::block::{Block, Latency, Parameter, Setting, Spec};
-use crate::golden::cover::Cover;
-use crate::golden::draw::Draw;
-use crate::golden::record::record;
-use crate::golden::roms;
-use crate::golden::stops;
-use crate::golden::timing::CLK_125;
 use tofsim::firmware::tdc::{In, Params};
-use tofsim::firmware::tof_top::TofTop;
-use tofsim::kernel::Time;
-use tofsim::network::mem::{self, Mem};
-use tofsim::signals;
+
+use crate::golden::prelude::*;
 
 mod goals;
 mod light;
@@ -22,18 +13,13 @@ use goals::{Goals, LAST_RESET};
 use light::Light;
 
 pub(super) const SPEC: Spec = Spec {
-    name: "tdc",
-    scope: "tdc",
     stream: Some(17),
-    timing: CLK_125,
     reset: Some("rst"),
-    fast: &[],
     latency: &[
         Latency { from: "tdc_stop", to: "tdc_valid", cycles: |_| 3 },
         Latency { from: "tdc_stop", to: "tdc_code", cycles: |_| 3 },
     ],
-    glue: None,
-    record: |spec, setting| record(spec, setting, Tdc::new(setting)),
+    ..Spec::new("tdc", "tdc", record::<Tdc>)
 };
 
 signals! {
@@ -57,17 +43,15 @@ struct Tdc {
     goals: Goals,
 }
 
-impl Tdc {
+impl Block for Tdc {
+    type Stimulus = Stimulus;
+
     fn new(setting: &Setting) -> Self {
         let params = setting.setup.params.tdc.clone();
         let light = Light::new(&params.delays);
         let goals = Goals::new(&light.ages, &params);
         Tdc { params, light, started: 0, next: 3, reset: LAST_RESET, goals }
     }
-}
-
-impl Block for Tdc {
-    type Stimulus = Stimulus;
 
     fn stimulus(&mut self, cycle: usize, top: &TofTop, draw: &mut Draw) -> Stimulus {
         let start = cycle == self.next;
@@ -96,29 +80,23 @@ impl Block for Tdc {
         Stimulus { rst, start }
     }
 
-    fn edge(&mut self, _: &Stimulus, _: &mut TofTop) {}
-
     fn cycle(
         &mut self,
         cycle: usize,
         i: &Stimulus,
         top: &mut TofTop,
-        look: &mut dyn FnMut(&TofTop),
+        sample: &mut dyn FnMut(&TofTop),
     ) {
-        look(top);
+        sample(top);
         let (now, stops) = (stops::edge(cycle), &mut self.light.stops);
         stops.advance(now);
         let i = In { rst: i.rst, start: i.start, tdc_stop: stops.line.level() };
         top.tdc.rise(&i, &self.params, &mut stops.line, now);
     }
 
-    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        let file = Parameter::File;
-        vec![("DelaysFile", file("tap_delays.mem")), ("CalFile", file("tdc_cal.mem"))]
-    }
-
-    fn roms(&self) -> Vec<Mem> {
-        vec![roms::tap_delays(&self.params.delays), mem::tdc_decoder(&self.params.cal)]
+    fn parameters(&self) -> Parameters {
+        let Params { delays, cal, .. } = &self.params;
+        files(["DelaysFile", "CalFile"], [roms::tap_delays(delays), mem::tdc_decoder(cal)])
     }
 
     fn stops(&self) -> &[Time] {

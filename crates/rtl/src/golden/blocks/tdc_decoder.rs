@@ -1,16 +1,10 @@
 //! Every number of ones, in one run or several, at every coarse count; with the scenario's
 //! calibration but for the last words, which give times exactly at both ends of the range.
 
-use crate::golden::block::{Block, Latency, Parameter, Setting, Spec};
-use crate::golden::cover::Cover;
-use crate::golden::draw::Draw;
-use crate::golden::record::record;
-use crate::golden::timing::CLK_125;
 use tofsim::firmware::carry_chain::Taps;
 use tofsim::firmware::tdc_decoder::{CYCLE, Calibration, In, code};
-use tofsim::firmware::tof_top::TofTop;
-use tofsim::kernel::{Clocked, U};
-use tofsim::network::mem::{self, Mem};
+
+use crate::golden::prelude::*;
 
 /// Last time before the range, its first, its last, and the first after it [25/16 ps].
 const ENDS: [i64; 4] = [-1, 0, 4095, 4096];
@@ -18,18 +12,13 @@ const ENDS: [i64; 4] = [-1, 0, 4095, 4096];
 const COARSE: u64 = 3;
 
 pub(super) const SPEC: Spec = Spec {
-    name: "tdc_decoder",
-    scope: "tdc.tdc_decoder",
     stream: Some(18),
-    timing: CLK_125,
     reset: Some("rst"),
-    fast: &[],
     latency: &[
         Latency { from: "hit", to: "tdc_valid", cycles: |_| 1 },
         Latency { from: "hit_taps", to: "tdc_code", cycles: |_| 1 },
     ],
-    glue: None,
-    record: |spec, setting| record(spec, setting, TdcDecoder::new(setting)),
+    ..Spec::new("tdc_decoder", "tdc.tdc_decoder", record::<TdcDecoder>)
 };
 
 struct TdcDecoder {
@@ -47,6 +36,24 @@ struct TdcDecoder {
 }
 
 impl TdcDecoder {
+    /// So many ones, in one run or two, with the gaps anywhere.
+    fn draw(&self, n: usize, draw: &mut Draw) -> Taps {
+        let zeros = self.taps - n;
+        let mut below = |n: usize| draw.below(n as u64 + 1) as usize;
+        let (begin, first) = (below(zeros), below(n));
+        let gap = below(zeros - begin);
+        let second = begin + first + gap;
+        match below(2) {
+            0 => Taps::new(true, [n]),
+            1 => Taps::new(false, [begin, begin + n]),
+            _ => Taps::new(false, [begin, begin + first, second, second + n - first]),
+        }
+    }
+}
+
+impl Block for TdcDecoder {
+    type Stimulus = In;
+
     fn new(setting: &Setting) -> Self {
         let (mut cal, taps) = (setting.setup.params.tdc.cal.clone(), setting.places());
         let times = (0..COARSE).flat_map(|coarse| ENDS.map(|end| (coarse, end)));
@@ -70,24 +77,6 @@ impl TdcDecoder {
         }
     }
 
-    /// So many ones, in one run or two, with the gaps anywhere.
-    fn draw(&self, n: usize, draw: &mut Draw) -> Taps {
-        let zeros = self.taps - n;
-        let mut below = |n: usize| draw.below(n as u64 + 1) as usize;
-        let (begin, first) = (below(zeros), below(n));
-        let gap = below(zeros - begin);
-        let second = begin + first + gap;
-        match below(2) {
-            0 => Taps::new(true, [n]),
-            1 => Taps::new(false, [begin, begin + n]),
-            _ => Taps::new(false, [begin, begin + first, second, second + n - first]),
-        }
-    }
-}
-
-impl Block for TdcDecoder {
-    type Stimulus = In;
-
     fn stimulus(&mut self, cycle: usize, top: &TofTop, draw: &mut Draw) -> In {
         let decoder = &top.tdc.tdc_decoder;
         let (rst, hit) = (cycle > 0 && draw.one_in(40), draw.one_in(2));
@@ -100,8 +89,8 @@ impl Block for TdcDecoder {
         };
         self.hits += usize::from(hit && !rst && special > 1);
 
-        let (before, bits) = (decoder.decoding(), [rst, hit, decoder.decoding().is_some()]);
-        self.situations.see(bits.iter().fold(0, |sum, &bit| sum * 2 + u64::from(bit)));
+        let before = decoder.decoding();
+        self.situations.see(bits([rst, hit, before.is_some()]));
         self.codes.see_if(decoder.tdc_valid, decoder.tdc_code.get());
         if let Some((n, coarse)) = before.filter(|_| !rst) {
             self.ones.see(n);
@@ -116,12 +105,8 @@ impl Block for TdcDecoder {
         top.tdc.tdc_decoder = top.tdc.tdc_decoder.next(i, &self.cal);
     }
 
-    fn parameters(&self) -> Vec<(&'static str, Parameter)> {
-        vec![("CalFile", Parameter::File("tdc_cal.mem"))]
-    }
-
-    fn roms(&self) -> Vec<Mem> {
-        vec![mem::tdc_decoder(&self.cal)]
+    fn parameters(&self) -> Parameters {
+        files(["CalFile"], [mem::tdc_decoder(&self.cal)])
     }
 
     fn coverage(self) -> Vec<Cover> {

@@ -1,30 +1,20 @@
 //! Hits with every number of taps, in every order with start, window and reset; levels held over;
 //! old pulses beside the hit.
 
-use crate::golden::block::{Block, Latency, Setting, Spec};
-use crate::golden::cover::Cover;
-use crate::golden::draw::Draw;
-use crate::golden::record::record;
-use crate::golden::timing::CLK_125;
 use tofsim::firmware::carry_chain::Taps;
 use tofsim::firmware::tdc_latch::In;
-use tofsim::firmware::tof_top::TofTop;
-use tofsim::kernel::Clocked;
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    name: "tdc_latch",
-    scope: "tdc.tdc_latch",
     stream: Some(19),
-    timing: CLK_125,
     reset: Some("rst"),
-    fast: &[],
     latency: &[
         Latency { from: "taps", to: "hit", cycles: |_| 0 },
         Latency { from: "taps", to: "hit_taps", cycles: |_| 0 },
         Latency { from: "coarse", to: "hit_coarse", cycles: |_| 0 },
     ],
-    glue: None,
-    record: |spec, setting| record(spec, setting, TdcLatch::new(setting)),
+    ..Spec::new("tdc_latch", "tdc.tdc_latch", record::<TdcLatch>)
 };
 
 struct TdcLatch {
@@ -40,21 +30,6 @@ struct TdcLatch {
 }
 
 impl TdcLatch {
-    fn new(setting: &Setting) -> Self {
-        let (tap_0, taps) = (setting.setup.params.tdc.delays.tap_0_position(), setting.places());
-        TdcLatch {
-            tap_0,
-            taps,
-            rank: tap_0 + 1,
-            hits: Cover::new(
-                "taps that the rise of a hit has reached",
-                tap_0 as u64 + 1..=taps as u64,
-            ),
-            coarse: Cover::new("coarse of a hit", 0..8),
-            situations: Cover::new("rst, start, window, tap 0, before, used as bits", 0..64),
-        }
-    }
-
     /// Taps with tap 0 high or low, and perhaps a pulse behind.
     fn draw(&self, high: bool, draw: &mut Draw) -> Taps {
         let first = if high { self.rank } else { self.tap_0 + 1 };
@@ -74,6 +49,21 @@ impl TdcLatch {
 impl Block for TdcLatch {
     type Stimulus = In;
 
+    fn new(setting: &Setting) -> Self {
+        let (tap_0, taps) = (setting.setup.params.tdc.delays.tap_0_position(), setting.places());
+        TdcLatch {
+            tap_0,
+            taps,
+            rank: tap_0 + 1,
+            hits: Cover::new(
+                "taps that the rise of a hit has reached",
+                tap_0 as u64 + 1..=taps as u64,
+            ),
+            coarse: Cover::new("coarse of a hit", 0..8),
+            situations: Cover::new("rst, start, window, tap 0, before, used as bits", 0..64),
+        }
+    }
+
     fn stimulus(&mut self, cycle: usize, top: &TofTop, draw: &mut Draw) -> In {
         let (used, before) = top.tdc.tdc_latch.before();
         // A hit at the first edge shows how the registers begin.
@@ -86,8 +76,7 @@ impl Block for TdcLatch {
             coarse: draw.word(),
             taps: self.draw(high, draw),
         };
-        let bits = [i.rst, i.start, i.window, high, before, used];
-        self.situations.see(bits.iter().fold(0, |sum, &bit| sum * 2 + u64::from(bit)));
+        self.situations.see(bits([i.rst, i.start, i.window, high, before, used]));
         if high && !before && i.window && !used && !i.rst {
             self.hits.see(self.rank as u64);
             self.coarse.see(i.coarse.get());

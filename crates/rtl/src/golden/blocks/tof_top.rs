@@ -1,22 +1,16 @@
 //! The whole firmware: a scenario as it is, or short frames under control signals that change at
 //! random, also in the middle of a frame, and abandon some.
 
-use crate::golden::block::{Setting, Spec};
-use crate::golden::cover::Cover;
-use crate::golden::draw::Draw;
-use crate::golden::timing::OWN_WITH_RESET;
-use crate::golden::{Vectors, top};
 use tofsim::firmware::frame_ctrl::State;
-use tofsim::firmware::tof_top::TofTop;
-use tofsim::scenario::Control;
+use tofsim::scenario::{Control, QuenchMode};
 use tofsim::sim::setup::Setup;
 
+use crate::golden::prelude::*;
+use crate::golden::top;
+
 pub(super) const SPEC: Spec = Spec {
-    name: "tof_top",
-    scope: "",
     stream: Some(20),
-    timing: OWN_WITH_RESET,
-    reset: None,
+    timing: timing::OWN_WITH_RESET,
     fast: &[
         "laser_on_lvds_p",
         "laser_on_lvds_n",
@@ -30,9 +24,7 @@ pub(super) const SPEC: Spec = Spec {
         "lvds_output.o",
         "lvds_output.ob",
     ],
-    latency: &[],
-    glue: None,
-    record,
+    ..Spec::new("tof_top", "", record_top)
 };
 
 /// A little more than Clear takes after a reset [ns].
@@ -42,20 +34,10 @@ const SHOTS_NS: u64 = 2_040;
 const ESTIMATE_NS: u64 = 8 * 320;
 /// A whole frame [ns].
 const FRAME_NS: u64 = 5_000;
-/// Nothing.
-const NO_CHANGE: Control = Control {
-    at_us: 0.0,
-    laser_freq: None,
-    mode: None,
-    laser_en: None,
-    dsp_en: None,
-    dsp_rst: None,
-    rst: None,
-};
 /// Shots of a frame under random control.
 const SHOTS: u16 = 8;
 
-fn record(spec: &'static Spec, setting: &Setting) -> tofsim::error::Result<Vectors> {
+fn record_top(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     if setting.as_told {
         return top::record(spec, &setting.setup, setting, &mut |_| ());
     }
@@ -85,7 +67,7 @@ fn control(setup: &Setup, setting: &Setting) -> Vec<Control> {
         let mut change = Control {
             at_us: first_us + at_ns as f64 * 1e-3,
             laser_freq: draw.one_in(2).then(|| draw.below(4)),
-            mode: draw.one_in(8).then(|| draw.below(2)),
+            mode: draw.one_in(8).then(|| quench_mode(draw.below(2))),
             laser_en: draw.one_in(8).then(|| !draw.one_in(4)),
             dsp_en: draw.one_in(4).then(|| !draw.one_in(4)),
             dsp_rst: (again || draw.one_in(20)).then_some(true),
@@ -113,32 +95,36 @@ fn control(setup: &Setup, setting: &Setting) -> Vec<Control> {
     changes
 }
 
+fn quench_mode(code: u64) -> QuenchMode {
+    if code == 0 { QuenchMode::EachShot } else { QuenchMode::FreeRunning }
+}
+
 /// A frame begun anew, and in it a short reset, another mode or a hold, in some cycle of the shots or
 /// about the one that starts the estimator; each change and how long it lasts [ns].
 fn planted(draw: &mut Draw) -> [(u64, Control); 4] {
     let begin = Control {
         laser_freq: Some(3),
-        mode: Some(0),
+        mode: Some(QuenchMode::EachShot),
         laser_en: Some(true),
         dsp_en: Some(true),
         dsp_rst: Some(true),
-        ..NO_CHANGE
+        ..Control::default()
     };
-    let go = Control { dsp_rst: Some(false), ..NO_CHANGE };
+    let go = Control { dsp_rst: Some(false), ..Control::default() };
     let shots_ns = SHOTS_NS + draw.below(8 * 6 * u64::from(SHOTS));
     let kind = draw.below(9);
     let (wait_ns, span_ns, change) = match kind {
-        0..4 => (shots_ns, 3 + draw.below(14), Control { rst: Some(true), ..NO_CHANGE }),
-        4..6 => (shots_ns, 8, Control { dsp_rst: Some(true), ..NO_CHANGE }),
-        6 => (shots_ns, 8 + draw.below(90), Control { mode: Some(1), ..NO_CHANGE }),
-        _ => (ESTIMATE_NS + 8 * draw.below(3), 80, Control { dsp_en: Some(false), ..NO_CHANGE }),
+        0..4 => (shots_ns, 3 + draw.below(14), Control { rst: Some(true), ..Control::default() }),
+        4..6 => (shots_ns, 8, Control { dsp_rst: Some(true), ..Control::default() }),
+        6 => (shots_ns, 8 + draw.below(90), Control { mode: Some(QuenchMode::FreeRunning), ..Control::default() }),
+        _ => (ESTIMATE_NS + 8 * draw.below(3), 80, Control { dsp_en: Some(false), ..Control::default() }),
     };
     let end = Control {
         rst: Some(false),
         dsp_rst: Some(false),
-        mode: Some(0),
+        mode: Some(QuenchMode::EachShot),
         dsp_en: Some(true),
-        ..NO_CHANGE
+        ..Control::default()
     };
     // After another dsp_rst the frame is seen to its end.
     let rest_ns = if (4..6).contains(&kind) { FRAME_NS } else { 400 + draw.below(300) };

@@ -1,24 +1,16 @@
 //! Every change of rate at every phase, acquisition and laser switched on and off, both resets.
 
-use crate::golden::block::{Block, Latency, Spec};
-use crate::golden::cover::Cover;
-use crate::golden::draw::Draw;
-use crate::golden::record::record;
-use crate::golden::timing::BOTH;
-use tofsim::firmware::tof_top::TofTop;
 use tofsim::firmware::vcsel_driver::{In, PERIODS};
-use tofsim::kernel::U;
+
+use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    name: "vcsel_driver",
-    scope: "vcsel_driver",
     stream: Some(21),
-    timing: BOTH,
+    timing: timing::BOTH,
     reset: Some("rst"),
     fast: &["laser_on", "laser_pulse", "ddr_output.q"],
     latency: &[Latency { from: "acquire", to: "start", cycles: |_| 5 }],
-    glue: None,
-    record: |spec, setting| record(spec, setting, VcselDriver::new()),
+    ..Spec::new("vcsel_driver", "vcsel_driver", record::<VcselDriver>)
 };
 
 struct VcselDriver {
@@ -27,8 +19,10 @@ struct VcselDriver {
     phases: Cover,
 }
 
-impl VcselDriver {
-    fn new() -> Self {
+impl Block for VcselDriver {
+    type Stimulus = In;
+
+    fn new(_: &Setting) -> Self {
         let i =
             In { rst: true, rst_250: true, acquire: true, laser_en: true, laser_freq: U::new(3) };
         let phases = PERIODS
@@ -41,10 +35,6 @@ impl VcselDriver {
             phases: Cover::new("laser_freq changes, rate x 32 + count", phases),
         }
     }
-}
-
-impl Block for VcselDriver {
-    type Stimulus = In;
 
     fn stimulus(&mut self, _: usize, top: &TofTop, draw: &mut Draw) -> In {
         let registers = &top.vcsel_driver.registers;
@@ -67,16 +57,16 @@ impl Block for VcselDriver {
         top.vcsel_driver.rise(i);
     }
 
-    fn cycle(&mut self, cycle: usize, i: &In, top: &mut TofTop, look: &mut dyn FnMut(&TofTop)) {
-        look(top);
+    fn cycle(&mut self, cycle: usize, i: &In, top: &mut TofTop, sample: &mut dyn FnMut(&TofTop)) {
+        sample(top);
         top.vcsel_driver.fall_250();
-        look(top);
+        sample(top);
         if cycle > 0 {
             top.vcsel_driver.rise_250(i);
         }
-        look(top);
+        sample(top);
         top.vcsel_driver.fall_250();
-        look(top);
+        sample(top);
         self.edge(i, top);
     }
 

@@ -4,9 +4,9 @@ use super::Proof;
 use super::tests::{Edit, with_fault};
 
 /// A fault, what it is found by, and what is counted then.
-fn fault(key: &str, edits: &[Edit], seen: u64) {
+fn fault(key: &str, edits: &[Edit], measured: u64) {
     let count = with_fault(key, edits);
-    assert_eq!(count.rtl, Some(seen), "{key}");
+    assert_eq!(count.rtl, Some(measured), "{key}");
     assert_eq!(count.model, Some(count.expected), "{key}");
     assert!(matches!(count.proven, Proof::NotProven(_)) && !count.holds(), "{key}");
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use tofsim::firmware::centroid_estimator::{self, CentroidEstimator};
 use tofsim::firmware::depth_estimator::{self, DepthEstimator, Params};
+use tofsim::firmware::estimator_ctrl::EstimatorCtrl;
 use tofsim::firmware::forward1::BIAS_ROW;
 use tofsim::firmware::forward2::{MOST_NEURONS, Rom};
 use tofsim::firmware::spad_control::{self, SpadControl};
@@ -11,7 +12,7 @@ use tofsim::firmware::vcsel_driver::{self, PERIODS, VcselDriver};
 use tofsim::kernel::{Clocked, S, U};
 use tofsim::network::roms::tansig_table;
 
-use super::seen::Seen;
+use super::measured::Measured;
 
 /// Half a cycle of `clk_250` [ps].
 const HALF: u64 = 2000;
@@ -19,80 +20,73 @@ const HALF: u64 = 2000;
 const PATIENCE: u64 = 1000;
 
 /// Everything that the benches print, of an estimator with so many neurons.
-pub fn seen(neurons: usize) -> Seen {
-    let mut seen = Seen::default();
-    estimator(neurons, &mut seen);
-    centroid(&mut seen);
+pub fn measure(neurons: usize) -> Measured {
+    let mut measured = Measured::default();
+    estimator(neurons, &mut measured);
+    centroid(&mut measured);
     for mode in [false, true] {
-        (0..PERIODS.len()).for_each(|code| shots(mode, code as u64, &mut seen));
+        (0..PERIODS.len()).for_each(|code| shots(mode, code as u64, &mut measured));
     }
-    seen
+    measured
 }
 
-/// Counts with a start while it is idle, and with a held one that is taken again with `algo_done`.
-fn estimator(neurons: usize, seen: &mut Seen) {
+/// The outputs of an estimator in each cycle of three estimations: one begins while it is idle, two
+/// with a held start, which is taken again with `algo_done`. `edge` gives the outputs after an edge.
+fn estimations<T>(mut edge: impl FnMut(bool) -> T, done: fn(&T) -> bool) -> [Vec<T>; 3] {
+    [false, true, true].map(|hold| {
+        let mut outputs = vec![edge(true)];
+        while !outputs.last().is_some_and(done) && outputs.len() as u64 <= PATIENCE {
+            outputs.push(edge(hold));
+        }
+        if !hold {
+            edge(false);
+        }
+        outputs
+    })
+}
+
+/// Counts the cycles of the layers and of the whole.
+fn estimator(neurons: usize, measured: &mut Measured) {
     let params = Params {
         forward1: Arc::new([[S::new(0); MOST_NEURONS]; BIAS_ROW + 1]),
         tansig: tansig_table(),
         forward2: Rom { neurons, w2: [S::new(0); MOST_NEURONS], b2: S::new(0) },
     };
     let mut estimator = DepthEstimator::default();
-    let mut edge = |algo_start| {
+    let edge = |algo_start| {
         estimator.rise(&depth_estimator::In { rst: false, algo_start, count: U::new(0) }, &params);
         estimator.estimator_ctrl
     };
-    for hold in [false, true, true] {
-        let mut ctrl = edge(true);
-        let mut cycles = [0; 3];
-        let mut k = 0;
-        loop {
-            for (cycles, enable) in
-                cycles.iter_mut().zip([ctrl.forward1_en, ctrl.tansig_en, ctrl.forward2_en])
-            {
-                *cycles += u64::from(enable);
-            }
-            if ctrl.algo_done || k == PATIENCE {
-                break;
-            }
-            ctrl = edge(hold);
-            k += 1;
-        }
-        if ctrl.algo_done {
-            seen.add("latency", k);
-        }
-        for (layer, cycles) in ["forward1", "tansig", "forward2"].into_iter().zip(cycles) {
-            seen.add(format!("{layer}_cycles"), cycles);
-        }
-        if !hold {
-            edge(false);
+    for outputs in estimations(edge, |ctrl| ctrl.algo_done) {
+        let cycles = |enable: fn(&EstimatorCtrl) -> bool| {
+            outputs.iter().filter(|ctrl| enable(ctrl)).count() as u64
+        };
+        measured.add("forward1_cycles", cycles(|ctrl| ctrl.forward1_en));
+        measured.add("tansig_cycles", cycles(|ctrl| ctrl.tansig_en));
+        measured.add("forward2_cycles", cycles(|ctrl| ctrl.forward2_en));
+        if outputs.last().is_some_and(|ctrl| ctrl.algo_done) {
+            measured.add("latency", outputs.len() as u64 - 1);
         }
     }
 }
 
-/// The same of the centroid estimator.
-fn centroid(seen: &mut Seen) {
+/// Counts the cycles of the centroid estimator.
+fn centroid(measured: &mut Measured) {
     let mut estimator = CentroidEstimator::default();
-    let mut edge = |algo_start| {
+    let edge = |algo_start| {
         let i = centroid_estimator::In { rst: false, algo_start, count: U::new(0) };
         estimator.rise(&i, &centroid_estimator::Params::default());
         estimator.registers.algo_done
     };
-    for hold in [false, true, true] {
-        let (mut done, mut k) = (edge(true), 0);
-        while !done && k < PATIENCE {
-            (done, k) = (edge(hold), k + 1);
-        }
-        if done {
-            seen.add("centroid_latency", k);
-        }
-        if !hold {
-            edge(false);
+    for outputs in estimations(edge, |algo_done| *algo_done) {
+        if outputs.last() == Some(&true) {
+            measured.add("centroid_latency", outputs.len() as u64 - 1);
         }
     }
 }
 
 /// Counts five shots from the rise of `acquire` on.
-fn shots(mode: bool, code: u64, seen: &mut Seen) {
+fn shots(mode: bool, code: u64, measured: &mut Measured) {
     let laser_freq = U::new(code);
     let mut i =
         vcsel_driver::In { rst: false, rst_250: false, acquire: false, laser_en: true, laser_freq };
@@ -117,13 +111,13 @@ fn shots(mode: bool, code: u64, seen: &mut Seen) {
         }
         if driver.registers.start {
             let from = if shots == 0 { "first_shot" } else { "laser_period" };
-            seen.add(format!("{from}_{code}"), k - start_at);
-            seen.add("pre_start_lead", k - pre_start_at);
+            measured.add(format!("{from}_{code}"), k - start_at);
+            measured.add("pre_start_lead", k - pre_start_at);
             if mode {
-                seen.add("spad_rst_mode_1", spad_rst_cycles);
+                measured.add("spad_rst_mode_1", spad_rst_cycles);
             } else {
-                seen.add("spad_rst_lead", k - spad_rst_at);
-                seen.add("spad_rst_width", spad_rst_cycles);
+                measured.add("spad_rst_lead", k - spad_rst_at);
+                measured.add("spad_rst_width", spad_rst_cycles);
             }
             (shots, start_at, spad_rst_cycles) = (shots + 1, k, 0);
         }
@@ -137,8 +131,8 @@ fn shots(mode: bool, code: u64, seen: &mut Seen) {
             match (was_on, driver.laser_on()) {
                 (false, true) => laser_on_at = now,
                 (true, false) => {
-                    seen.add("laser_on_width", now - laser_on_at);
-                    seen.add("laser_on_lag", laser_on_at.abs_diff(4 * start_at * HALF));
+                    measured.add("laser_on_width", now - laser_on_at);
+                    measured.add("laser_on_lag", laser_on_at.abs_diff(4 * start_at * HALF));
                 }
                 _ => {}
             }

@@ -4,13 +4,22 @@ use std::ffi::{OsStr, OsString};
 use std::io::Write;
 use std::path::Path;
 
-use crate::verify::Rtl;
-use crate::verify::process::{Finished, Limits, YOSYS};
 use tofsim::error::Result;
 use tofsim::files::output::write_file;
 
-use super::Proof;
-use super::rows::Row;
+use crate::verify::process::{Finished, Limits, YOSYS};
+use crate::verify::rtl::Rtl;
+
+use super::promises::Promise;
+
+/// What came of a proof.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Proof {
+    /// The promise holds in every cycle, and no number next to it does.
+    Proven,
+    /// It may not hold; why.
+    NotProven(String),
+}
 
 /// What one run of Yosys says.
 enum Answer {
@@ -22,22 +31,22 @@ enum Answer {
     Stuck(String),
 }
 
-/// Proves `row` of `rtl`, and that the numbers next to it cannot be proven.
+/// Proves `promise` of `rtl`, and that the numbers next to it cannot be proven.
 ///
 /// # Errors
 /// When Yosys is missing, `folder` cannot be written, or the user stops.
-pub fn prove(row: &Row, rtl: &Rtl, folder: &Path, limits: &Limits) -> Result<Proof> {
-    let file = folder.join(row.check.module).with_extension("sv");
-    write_file(&file, |file| file.write_all(row.check.text.as_bytes()))?;
-    match ask(row, row.expected, rtl, folder, limits)? {
+pub fn prove(promise: &Promise, rtl: &Rtl, folder: &Path, limits: &Limits) -> Result<Proof> {
+    let file = folder.join(promise.properties.module).with_extension("sv");
+    write_file(&file, |file| file.write_all(promise.properties.text.as_bytes()))?;
+    match ask(promise, promise.expected, rtl, folder, limits)? {
         Answer::Holds => {}
         Answer::Fails(why) | Answer::Stuck(why) => return Ok(Proof::NotProven(why)),
     }
-    for mutant in mutants(row.expected) {
-        match ask(row, mutant, rtl, folder, limits)? {
+    for mutant in mutants(promise.expected) {
+        match ask(promise, mutant, rtl, folder, limits)? {
             Answer::Fails(_) => {}
             Answer::Holds => {
-                let why = format!("vacuous: {mutant} is proven as well as {}", row.expected);
+                let why = format!("vacuous: {mutant} is proven as well as {}", promise.expected);
                 return Ok(Proof::NotProven(why));
             }
             Answer::Stuck(why) => {
@@ -54,22 +63,28 @@ pub fn mutants(expected: u64) -> impl Iterator<Item = u64> {
     expected.checked_sub(1).into_iter().chain([expected + 1])
 }
 
-fn ask(row: &Row, number: u64, rtl: &Rtl, folder: &Path, limits: &Limits) -> Result<Answer> {
+fn ask(
+    promise: &Promise,
+    number: u64,
+    rtl: &Rtl,
+    folder: &Path,
+    limits: &Limits,
+) -> Result<Answer> {
     let frontend = if rtl.is_system_verilog() { "verilog -defer -sv" } else { "verilog -defer" };
     let mut args: Vec<OsString> = ["-f", frontend, "-p"].map(OsString::from).into();
-    args.push(script(row, number).into());
+    args.push(script(promise, number).into());
     args.extend(rtl.files.iter().map(|file| OsStr::new(file).to_owned()));
-    Ok(answer(row, &YOSYS.run(folder, args, limits)?, limits))
+    Ok(answer(promise, &YOSYS.run(folder, args, limits)?, limits))
 }
 
 /// What Yosys is to do. A module that is left open is one that it does not know.
-fn script(row: &Row, number: u64) -> String {
-    let Row { check, property, parameter, .. } = row;
-    let module = check.module;
-    let code = row.code.map_or(String::new(), |code| format!("-chparam Code {code}"));
+fn script(promise: &Promise, number: u64) -> String {
+    let Promise { properties, property, parameter, .. } = promise;
+    let module = properties.module;
+    let code = promise.code.map_or(String::new(), |code| format!("-chparam Code {code}"));
     let define =
-        row.define.as_ref().map_or(String::new(), |[name, value]| format!(" -D{name}={value}"));
-    let mut lines: Vec<_> = check.open.iter().map(|open| format!("delete *{open}")).collect();
+        promise.define.as_ref().map_or(String::new(), |[name, value]| format!(" -D{name}={value}"));
+    let mut lines: Vec<_> = properties.open.iter().map(|open| format!("delete *{open}")).collect();
     lines.extend([
         format!("read_verilog -sv -formal -DHOLDS={property}{define} {module}.sv"),
         format!("hierarchy -top {module} -chparam {parameter} {number} {code}"),
@@ -77,16 +92,16 @@ fn script(row: &Row, number: u64) -> String {
     ]);
     // Something has to drive each register.
     let driven = |register| format!("select -assert-min 1 w:dut.{register} %ci* c:* %i");
-    lines.extend(row.registers.iter().map(driven));
+    lines.extend(promise.registers.iter().map(driven));
     let options = "-tempinduct -prove-asserts -set-assumes -ignore_unknown_cells -seq 1";
     lines.extend([
-        format!("{}; opt_clean", check.step),
-        format!("sat {options} -maxsteps {} {module}", check.steps),
+        format!("{}; opt_clean", properties.step),
+        format!("sat {options} -maxsteps {} {module}", properties.steps),
     ]);
     lines.join("\n")
 }
 
-fn answer(row: &Row, finished: &Finished, limits: &Limits) -> Answer {
+fn answer(promise: &Promise, finished: &Finished, limits: &Limits) -> Answer {
     let says = |text| finished.output.contains(text);
     if finished.timed_out {
         Answer::Stuck(format!("Yosys has no answer after {} s", limits.time.as_secs_f64()))
@@ -96,9 +111,12 @@ fn answer(row: &Row, finished: &Finished, limits: &Limits) -> Answer {
         let steps = finished.output.matches("[base case ").count();
         Answer::Fails(format!("Yosys has a counterexample of {steps} steps"))
     } else if says("Reached maximum number of time steps") {
-        Answer::Fails(format!("an induction of {} steps does not prove it", row.check.steps))
+        Answer::Fails(format!(
+            "an induction of {} steps does not prove it",
+            promise.properties.steps
+        ))
     } else if says("ERROR: Assertion failed: selection") {
-        Answer::Stuck(format!("the proof needs the registers {}", row.registers.join(" and ")))
+        Answer::Stuck(format!("the proof needs the registers {}", promise.registers.join(" and ")))
     } else {
         let error = finished.output.lines().find(|line| line.contains("ERROR: "));
         Answer::Stuck(format!("Yosys: {}", error.unwrap_or("ended without an answer")))

@@ -3,13 +3,16 @@
 use std::io::Write;
 use std::path::Path;
 
-use crate::verify::process::Limits;
-use crate::verify::{Rtl, Simulator};
 use tofsim::error::{Input, Result};
 use tofsim::files::output::write_file;
 
-use super::rows::define;
-use super::seen::Seen;
+use crate::golden::blocks::CENTROID;
+use crate::verify::process::Limits;
+use crate::verify::rtl::Rtl;
+use crate::verify::simulator::Simulator;
+
+use super::measured::Measured;
+use super::promises::define;
 
 /// The benches: name of the module, which is the file's stem, and text.
 const BENCHES: [(&str, &str); 3] = [
@@ -23,9 +26,9 @@ const BENCHES: [(&str, &str); 3] = [
 /// # Errors
 /// When a tool is missing, the Verilog cannot be compiled with a bench, the simulation does not
 /// end, `folder` cannot be written, or the user stops.
-pub fn seen(rtl: &Rtl, neurons: usize, folder: &Path, limits: &Limits) -> Result<Seen> {
-    let mut seen = Seen::default();
-    let left_out = if rtl.has(super::CENTROID)? { None } else { Some("bench_centroid") };
+pub fn measure(rtl: &Rtl, neurons: usize, folder: &Path, limits: &Limits) -> Result<Measured> {
+    let mut measured = Measured::default();
+    let left_out = if rtl.has(CENTROID)? { None } else { Some("bench_centroid") };
     for (name, text) in BENCHES.into_iter().filter(|(name, _)| Some(*name) != left_out) {
         let bench = format!("{name}.v");
         let define = define(neurons)
@@ -39,9 +42,9 @@ pub fn seen(rtl: &Rtl, neurons: usize, folder: &Path, limits: &Limits) -> Result
             let expected = format!("{name} has not ended after {seconds} s of simulation");
             return Err(Input::new(&rtl.source, expected).into());
         }
-        run.output.lines().filter_map(count).for_each(|(key, count)| seen.add(key, count));
+        run.output.lines().filter_map(count).for_each(|(key, count)| measured.add(key, count));
     }
-    Ok(seen)
+    Ok(measured)
 }
 
 /// A line `count KEY NUMBER`.

@@ -3,8 +3,9 @@
 use std::fs;
 use std::time::Duration;
 
-use super::*;
 use tofsim::firmware::forward2::NEURONS;
+
+use super::*;
 
 fn limits() -> Limits<'static> {
     Limits { time: Duration::from_secs(60), stop: None }
@@ -23,10 +24,10 @@ pub fn with_fault(key: &str, edits: &[Edit]) -> Count {
         assert!(text.contains(from), "{file} has no `{from}`");
         fs::write(&path, text.replace(from, to)).unwrap();
     }
-    let mut rows = rows::rows(NEURONS);
-    rows.push(rows::centroid());
-    rows.retain(|row| row.key() == key);
-    count(&rows, NEURONS, &rtl, &limits()).unwrap().remove(0)
+    let mut promises = promises::promises(NEURONS);
+    promises.push(promises::centroid());
+    promises.retain(|promise| promise.key() == key);
+    count(&promises, NEURONS, &rtl, &limits()).unwrap().remove(0)
 }
 
 #[test]
@@ -44,9 +45,9 @@ fn everything_that_is_promised_is_counted_and_proven() {
 fn sixteen_neurons_take_275_clocks() {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
-    let mut rows = rows::rows(16);
-    rows.retain(|row| row.check.module == "check_estimator");
-    let counts = count(&rows, 16, &rtl, &limits()).unwrap();
+    let mut promises = promises::promises(16);
+    promises.retain(|promise| promise.properties.module == "check_estimator");
+    let counts = count(&promises, 16, &rtl, &limits()).unwrap();
     assert_eq!(counts.iter().map(|count| count.expected).collect::<Vec<_>>(), [275, 257, 1, 18]);
     for count in counts {
         assert!(count.holds(), "{count:?}");
@@ -86,9 +87,9 @@ fn a_design_may_leave_the_centroid_estimator_out() {
     let mut rtl = Rtl::own(folder.path()).unwrap();
     rtl.files.retain(|file| !file.ends_with("centroid_estimator.v"));
     assert!(!rtl.has(CENTROID).unwrap());
-    let seen = simulate::seen(&rtl, NEURONS, folder.path(), &limits()).unwrap();
-    assert_eq!(seen.count("latency", 267), Some(267));
-    assert_eq!(seen.count("centroid_latency", 308), None);
+    let measured = simulate::measure(&rtl, NEURONS, folder.path(), &limits()).unwrap();
+    assert_eq!(measured.count("latency", 267), Some(267));
+    assert_eq!(measured.count("centroid_latency", 308), None);
 }
 
 #[test]
@@ -129,6 +130,7 @@ fn a_proof_that_takes_too_long_is_none() {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
     let limits = Limits { time: Duration::ZERO, stop: None };
-    let proven = prove::prove(&rows::rows(NEURONS)[0], &rtl, folder.path(), &limits).unwrap();
+    let proven =
+        prove::prove(&promises::promises(NEURONS)[0], &rtl, folder.path(), &limits).unwrap();
     assert_eq!(proven, Proof::NotProven("Yosys has no answer after 0 s".to_owned()));
 }

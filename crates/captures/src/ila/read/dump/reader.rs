@@ -1,9 +1,11 @@
 //! The lines of a dump: a key, a colon, and text, numbers or samples.
 
 use std::fmt::Display;
-use std::io::{self, BufRead, Read};
+use std::io::{BufRead, Read};
 
 use tofsim::error::{Error, Input, Result};
+
+use super::super::opened::damaged;
 
 /// Longest key [bytes].
 const LONGEST_KEY: u64 = 64;
@@ -27,13 +29,6 @@ impl<'a, R: BufRead> Reader<'a, R> {
         Input::new(self.source, expected).at(self.line, column)
     }
 
-    fn broken(&self, error: io::Error) -> Error {
-        match error.downcast::<Error>() {
-            Ok(error) => error,
-            Err(error) => Input::new(self.source, format!("damaged: {error}")).into(),
-        }
-    }
-
     /// What stands before the colon of the next line that is not empty.
     pub(super) fn key(&mut self) -> Result<Option<String>> {
         loop {
@@ -41,7 +36,8 @@ impl<'a, R: BufRead> Reader<'a, R> {
             let mut key = Vec::new();
             loop {
                 let mut byte = [0];
-                let count = self.file.read(&mut byte).map_err(|error| self.broken(error))?;
+                let count =
+                    self.file.read(&mut byte).map_err(|error| damaged(self.source, error))?;
                 match byte[0] {
                     b':' if count > 0 => {
                         return Ok(Some(String::from_utf8_lossy(&key).trim().to_owned()));
@@ -65,7 +61,8 @@ impl<'a, R: BufRead> Reader<'a, R> {
     pub(super) fn text(&mut self, column: usize) -> Result<String> {
         let mut text = Vec::new();
         let mut line = self.file.by_ref().take(LONGEST_LIST);
-        let count = line.read_until(b'\n', &mut text).map_err(|error| self.broken(error))?;
+        let count =
+            line.read_until(b'\n', &mut text).map_err(|error| damaged(self.source, error))?;
         if count as u64 == LONGEST_LIST && text.last() != Some(&b'\n') {
             let text = format!("the line is longer than {LONGEST_LIST} bytes");
             return Err(self.fault(column, text).into());
@@ -89,7 +86,7 @@ impl<'a, R: BufRead> Reader<'a, R> {
     }
 
     pub(super) fn skip(&mut self) -> Result<()> {
-        self.file.skip_until(b'\n').map_err(|error| self.broken(error))?;
+        self.file.skip_until(b'\n').map_err(|error| damaged(self.source, error))?;
         Ok(())
     }
 
@@ -100,7 +97,7 @@ impl<'a, R: BufRead> Reader<'a, R> {
         while !ended {
             let buffer = match self.file.fill_buf() {
                 Ok(buffer) => buffer,
-                Err(error) => return Err(self.broken(error)),
+                Err(error) => return Err(damaged(self.source, error)),
             };
             let mut used = 0;
             let mut wrong = None;

@@ -1,19 +1,18 @@
 //! The histograms of a centroid estimator's stimulus.
 
-use crate::golden::block::Glue;
-use crate::golden::draw::Draw;
 use tofsim::firmware::centroid_estimator::Params;
 use tofsim::firmware::histogram_builder::BINS;
-use tofsim::kernel::U;
-use tofsim::network::mem::{Mem, lines};
 use tofsim::sim::fast::centroid::Found;
+
+use crate::golden::estimations::Histogram;
+use crate::golden::prelude::*;
 
 /// Largest word [hits].
 const MOST: u64 = u16::MAX as u64;
 /// Last bin.
 const LAST: usize = BINS - 1;
 /// How many histograms.
-pub(super) const COUNT: usize = 32;
+const COUNT: usize = 32;
 
 /// How the bench reads them: as from `histogram_preload`, there is a word while `read_en` is low too.
 pub(super) const GLUE: Glue = Glue {
@@ -22,9 +21,6 @@ pub(super) const GLUE: Glue = Glue {
                   initial $readmemh(\"histograms.mem\", histograms);\n  \
                   wire [15:0] count = histograms[{histogram, read_addr}];\n",
 };
-
-/// Words of a histogram [hits].
-pub(super) type Histogram = [U<16>; BINS];
 
 /// What an estimation meets at the limits of its range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,10 +126,4 @@ fn measured(draw: &mut Draw) -> Histogram {
         }
     }
     histogram
-}
-
-/// Their memory, one after the other.
-pub(super) fn mem(histograms: &[Histogram]) -> Mem {
-    let words = histograms.iter().flatten().map(|count| count.get().into());
-    Mem { name: "histograms.mem", text: lines(words, 4) }
 }

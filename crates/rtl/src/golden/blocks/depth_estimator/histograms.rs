@@ -1,19 +1,18 @@
 //! The histograms of a depth estimator's stimulus.
 
-use crate::golden::block::Glue;
-use crate::golden::draw::Draw;
 use tofsim::firmware::depth_estimator::Params;
 use tofsim::firmware::forward1::BIAS_ROW;
 use tofsim::firmware::forward2::NEURONS;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::firmware::tansig::{ENTRIES, address};
-use tofsim::kernel::{S, U};
-use tofsim::network::mem::{Mem, lines};
+
+use crate::golden::estimations::Histogram;
+use crate::golden::prelude::*;
 
 /// Hits of a full frame.
 const HITS: u64 = u16::MAX as u64;
 /// How many histograms.
-pub(super) const COUNT: usize = 64;
+const COUNT: usize = 64;
 /// How many are measured ones that each estimator under test must have seen, at least.
 const MEASURED: usize = 5;
 
@@ -24,9 +23,6 @@ pub(super) const GLUE: Glue = Glue {
                   initial $readmemh(\"histograms.mem\", histograms);\n  \
                   wire [15:0] count = read_en ? histograms[{histogram, read_addr}] : 16'd0;\n",
 };
-
-/// Words of a histogram [hits].
-pub(super) type Histogram = [U<16>; BINS];
 
 /// Empty, level, random, all hits in the bin that drives each neuron to either end, more than there
 /// can be for sums of the whole width of eight neurons, and measured ones; how many of them are not
@@ -69,10 +65,4 @@ fn measured(draw: &mut Draw) -> Histogram {
         histogram[bin as usize] = histogram[bin as usize] + 1;
     }
     histogram
-}
-
-/// Their memory, one after the other.
-pub(super) fn mem(histograms: &[Histogram]) -> Mem {
-    let words = histograms.iter().flatten().map(|count| count.get().into());
-    Mem { name: "histograms.mem", text: lines(words, 4) }
 }

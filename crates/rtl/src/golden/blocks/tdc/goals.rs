@@ -1,9 +1,9 @@
 //! What a TDC's stimulus should reach.
 
-use crate::golden::cover::Cover;
 use tofsim::firmware::tdc::Params;
 use tofsim::firmware::tdc_decoder::code;
-use tofsim::firmware::tof_top::TofTop;
+
+use crate::golden::prelude::*;
 
 use super::light::{self, Ages};
 

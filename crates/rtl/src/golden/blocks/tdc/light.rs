@@ -1,9 +1,8 @@
 //! The photons of a TDC's stimulus.
 
-use crate::golden::draw::Draw;
-use crate::golden::stops::{self, Stops};
 use tofsim::firmware::carry_chain::{Delays, TAPS};
-use tofsim::kernel::Time;
+
+use crate::golden::prelude::*;
 
 /// Period of `clk_125`.
 const CYCLE: Time = Time::from_ns(8);

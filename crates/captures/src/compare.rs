@@ -1,0 +1,246 @@
+//! Compares any two of waveforms, captures and simulations.
+//!
+//! Signals come together by name or by a map ([`map`]), samples by an alignment; both sides are
+//! read as streams, in bounded memory, as often as that needs.
+
+mod align;
+mod bits;
+mod both;
+mod by_changes;
+mod by_samples;
+mod delay;
+mod diagnose;
+mod differences;
+mod find;
+pub mod map;
+mod matching;
+mod operands;
+mod pair;
+mod parts;
+mod plan;
+mod remarks;
+mod result;
+mod samples;
+mod selection;
+mod show;
+mod view;
+
+use std::path::PathBuf;
+
+use tofsim::error::{Input, Result};
+use tofsim::kernel::Time;
+
+use crate::condition::Condition;
+use crate::source::Source;
+
+pub use align::Align;
+pub use align::{Survey, survey};
+pub use map::SignalMap;
+pub use matching::{SignalChoice, Unmatched, UnmatchedReason};
+pub use pair::{MatchedBy, Unknowns};
+pub use result::{Compared, Comparison, Described, Difference, Finding};
+pub use samples::SampleClock;
+pub use samples::time;
+
+use align::Alignment;
+use both::Both;
+use by_changes::Span;
+use by_samples::Short;
+use differences::Differences;
+use matching::matching;
+use plan::{Plan, Terms};
+
+/// How two sources are compared.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// What belongs together by intention.
+    pub map: SignalMap,
+    /// Which signals are looked at.
+    pub choice: SignalChoice,
+    /// Clock of a waveform's samples, instead of the map's.
+    pub clock: Option<SampleClock>,
+    /// How the sides are brought together, instead of as the map says.
+    pub align: Option<Align>,
+    /// What a waveform triggers on, instead of the map's.
+    pub trigger: Option<Condition>,
+    /// Under which condition samples were stored, instead of the map's.
+    pub qualified_by: Option<Condition>,
+    /// Signal of a capture that counts the clock, instead of the map's.
+    pub time_from: Option<String>,
+    /// Time before which nothing is looked at, instead of the map's.
+    pub after: Option<Time>,
+    /// Time from which on nothing is.
+    pub until: Option<Time>,
+    /// What an unknown bit is the same as.
+    pub unknowns: Unknowns,
+    /// Every signal needs a partner.
+    pub all: bool,
+    /// Where both sides go as one waveform.
+    pub waves: Option<PathBuf>,
+}
+
+/// Compares two sources: what the first has is expected, what the second has was got.
+///
+/// # Errors
+/// When they cannot be read, nothing belongs together, or it is not clear which samples do.
+pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> {
+    let sources = [a, b];
+    let matching = matching(sources, &options.map, &options.choice)?;
+    if matching.pairs.is_empty() {
+        let expected = "no signal of one has a partner in the other; give a map (--map)";
+        let value = format!("{} and {}", a.name, b.name);
+        return Err(Input::new("compare", expected).value(value).into());
+    }
+    if sources.iter().all(|source| source.is_capture())
+        && (options.until.is_some() || options.after.is_some())
+    {
+        let expected = "expected a waveform: captures have no times";
+        return Err(Input::new("--after or --until", expected).into());
+    }
+    let mut terms = terms(options)?;
+    let align = align(sources, options, &terms)?;
+    if align != Align::Trigger {
+        terms.trigger = None;
+    }
+    let sampled = sources.iter().any(|source| source.is_capture()) || terms.sampling.is_some();
+    let plan = match sampled {
+        true => Plan::new(sources, matching, terms)?,
+        false => Plan::changes(sources, matching, terms.after),
+    };
+    let both = options.waves.as_deref().map(|path| Both::create(path, &plan.matching.pairs));
+    let signals = [0, 1].map(|side| plan.matching.slots[side].ids.len());
+    let pairs = &plan.matching.pairs;
+    let mut differences = Differences::new(pairs, signals, options.unknowns, both.transpose()?);
+    let until_fs = options.until.map_or(u128::MAX >> 32, |until| until.fs() as u128);
+    let result = if sampled {
+        let alignment = align::alignment(&plan, &align, time_from(options))?;
+        let mut result = by_sample(&plan, &align, &alignment, until_fs, &mut differences)?;
+        conclude(&plan, &differences, options.all, &mut result);
+        if !result.is_same() {
+            result.findings = diagnose::samples(&plan, &alignment, &result)?;
+        }
+        result
+    } else {
+        let mut result = by_change(&plan, &align, until_fs, &mut differences)?;
+        conclude(&plan, &differences, options.all, &mut result);
+        result.findings = diagnose::changes(&result);
+        result
+    };
+    if result.compared == 0 && result.is_same() {
+        let expected = "nothing to compare: there is no place that both sides have";
+        let value = format!("{} and {}", a.name, b.name);
+        return Err(Input::new("compare", expected).value(value).into());
+    }
+    if let Some(both) = differences.both.take() {
+        both.finish(&result)?;
+    }
+    Ok(result)
+}
+
+/// Puts what was counted into the result, and what else is to be said.
+fn conclude(plan: &Plan, differences: &Differences, all: bool, result: &mut Comparison) {
+    result.pairs = differences.results(result.compared);
+    remarks::add(plan, &differences.counts, all, result);
+}
+
+fn terms(options: &Options) -> Result<Terms> {
+    let map = &options.map;
+    let fault = |key: &str, value: &str, error: String| Input::new(key, error).value(value);
+    let sampling = match (&options.clock, &map.clock) {
+        (Some(clock), _) => Some(clock.clone()),
+        (None, Some(text)) => Some(text.parse().map_err(|e| fault("clock", text, e))?),
+        (None, None) => None,
+    };
+    let condition = |given: &Option<Condition>, key: &str, text: &Option<String>| match given {
+        Some(condition) => Ok(Some(condition.clone())),
+        None => text.as_ref().map(|text| Condition::parse(key, text)).transpose(),
+    };
+    Ok(Terms {
+        sampling,
+        trigger: condition(&options.trigger, "trigger", &map.trigger)?,
+        qualifier: condition(&options.qualified_by, "qualified_by", &map.qualified_by)?,
+        stages: map.input_stages,
+        after: options.after.unwrap_or(Time::from_ps_f64(map.after_us * 1e6)),
+    })
+}
+
+/// How the sides are brought together, if not told: captures by their triggers, a capture and a
+/// waveform by the trigger's condition or else by correlation, waveforms by time.
+fn align(sources: [&Source; 2], options: &Options, terms: &Terms) -> Result<Align> {
+    if let Some(align) = &options.align {
+        return Ok(align.clone());
+    }
+    if let Some(text) = &options.map.align {
+        let fault = |error: String| Input::new("align", error).value(text);
+        return Ok(text.parse().map_err(fault)?);
+    }
+    match sources.map(Source::is_capture) {
+        [true, true] => {
+            let mut triggered = true;
+            for source in sources {
+                triggered &= survey(source)?.windows.iter().any(|window| window.trigger.is_some());
+            }
+            Ok(if triggered { Align::Trigger } else { Align::Start })
+        }
+        [false, false] if terms.trigger.is_none() || terms.sampling.is_none() => Ok(Align::Start),
+        _ if terms.trigger.is_some() => Ok(Align::Trigger),
+        _ => Ok(Align::Correlation(Vec::new())),
+    }
+}
+
+fn time_from(options: &Options) -> Option<&str> {
+    options.time_from.as_deref().or(options.map.time_from.as_deref())
+}
+
+fn by_sample(
+    plan: &Plan,
+    align: &Align,
+    alignment: &Alignment,
+    until_fs: u128,
+    differences: &mut Differences,
+) -> Result<Comparison> {
+    let passed = by_samples::compare(plan, alignment, until_fs, differences)?;
+    let mut result = Comparison::new(plan.sources, "samples", alignment.found.clone());
+    result.offset = alignment.offset;
+    result.compared = passed.compared;
+    result.differences = alignment.differences.clone();
+    for Short { window, side, count, is_wanted } in passed.short {
+        let name = &plan.sources[side].name;
+        let other = &plan.sources[1 - side].name;
+        let text =
+            format!("window {window}: {name} ends after {count} samples, before {other} does");
+        match plan.capture() {
+            _ if is_wanted => result.differences.push(text),
+            Some(capture) if capture != side => result.differences.push(text),
+            Some(_) => {}
+            None if *align == Align::Start => {
+                result.differences.push(format!("{text} (--until ends earlier)"));
+            }
+            None => result.notes.push(text),
+        }
+    }
+    Ok(result)
+}
+
+fn by_change(
+    plan: &Plan,
+    align: &Align,
+    until_fs: u128,
+    differences: &mut Differences,
+) -> Result<Comparison> {
+    if let Some(pair) = plan.matching.pairs.iter().find(|pair| pair.latency != 0) {
+        let expected = "a latency is in samples; say which clock they are taken by with --clock";
+        return Err(Input::new("map", expected).field(&pair.name).into());
+    }
+    let (late_fs, found) = align::shift(plan, align)?;
+    let span = Span { late_fs, from_fs: plan.after.fs() as u128, until_fs };
+    let passed = by_changes::compare(plan, span, differences)?;
+    let mut result = Comparison::new(plan.sources, "changes", found);
+    result.compared = passed.compared;
+    if let Some([a, b]) = passed.ends {
+        let [a, b] = [result.sides[0].place(a), result.sides[1].place(b)];
+        let text = format!("the first side ends at {a}, the second at {b} (--until ends earlier)");
+        result.differences.push(text);
+    }
+    Ok(result)
+}

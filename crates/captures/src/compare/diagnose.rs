@@ -1,0 +1,91 @@
+//! What differences look like: one flipped bit, a sample too many or too few, a shifted window, a
+//! renamed probe, two swapped ones, a wrong radix.
+
+mod collect;
+mod radix;
+mod rows;
+
+use collect::{Collected, Column, collect};
+
+use tofsim::error::Result;
+
+use super::align::Alignment;
+use super::plan::Plan;
+use super::result::{Compared, Comparison, Finding};
+
+/// Looks at the window of the first difference once more.
+pub(super) fn samples(
+    plan: &Plan,
+    alignment: &Alignment,
+    result: &Comparison,
+) -> Result<Vec<Finding>> {
+    let collected = collect(plan, alignment, result)?;
+    let mut findings = renamed(&collected);
+    findings.extend(swapped(&collected));
+    findings.extend(radix::findings(plan, &collected));
+    let explained = |name: &str| findings.iter().any(|f| f.signals.iter().any(|s| s == name));
+    let rest: Vec<_> = result.differing().filter(|pair| !explained(&pair.name)).collect();
+    match single(result, &rest) {
+        Some(finding) => findings.push(finding),
+        None if rest.is_empty() => {}
+        None => findings.extend(rows::finding(&collected, &rest)),
+    }
+    Ok(findings)
+}
+
+/// What changes of waveforms alone can tell.
+pub(super) fn changes(result: &Comparison) -> Vec<Finding> {
+    let rest: Vec<_> = result.differing().collect();
+    single(result, &rest).into_iter().collect()
+}
+
+/// That a signal differs at one place and nothing else does.
+fn single(result: &Comparison, rest: &[&Compared]) -> Option<Finding> {
+    let [pair] = rest else { return None };
+    let first = pair.first.as_ref().filter(|_| pair.differing == 1)?;
+    let bits: Vec<String> = first.bits.iter().map(u32::to_string).collect();
+    let (kind, what) = match &bits[..] {
+        [] => ("one value", "the value".to_owned()),
+        [bit] => ("flipped bit", format!("bit {bit}")),
+        _ => ("one value", format!("bits {}", bits.join(", "))),
+    };
+    let place = result.sides[1].place(first.at[1]);
+    let text = format!("{what} of {} at one place, {place}", pair.name);
+    Some(Finding::new(kind, &[&pair.name], text))
+}
+
+/// Signals without a partner that have the same values as one of the other side.
+fn renamed(collected: &Collected) -> Vec<Finding> {
+    let [own, others] = &collected.unpaired;
+    let fits = |a: &Column, b: &Column| a.width == b.width && a.values == b.values;
+    let mut findings = Vec::new();
+    for a in own {
+        let like: Vec<&Column> = others.iter().filter(|b| fits(a, b)).collect();
+        let back = own.iter().filter(|other| like.iter().any(|b| fits(other, b))).count();
+        if let [b] = like[..]
+            && back == 1
+        {
+            let text = format!(
+                "{} of the first side and {} of the second have the same values: renamed?",
+                a.name, b.name
+            );
+            findings.push(Finding::new("renamed", &[&a.name, &b.name], text));
+        }
+    }
+    findings
+}
+
+/// Pairs of which each has the other's values.
+fn swapped(collected: &Collected) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    let pairs = &collected.pairs;
+    for (k, [a, b]) in pairs.iter().enumerate() {
+        for [c, d] in &pairs[k + 1..] {
+            if a.width == c.width && a.values == d.values && c.values == b.values {
+                let text = format!("{} and {} are swapped", a.name, c.name);
+                findings.push(Finding::new("swapped", &[&a.name, &c.name], text));
+            }
+        }
+    }
+    findings
+}

@@ -1,0 +1,251 @@
+//! Counts for each pair how often and where its sides differ, place by place.
+
+use tofsim::error::Result;
+
+use crate::source::{Name, SourceState, shapes};
+use crate::words::bit;
+
+use super::bits::Bits;
+use super::both::Both;
+use super::pair::{Pair, Unknowns};
+use super::result::{Compared, Difference};
+
+/// A place in both sides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Spot {
+    /// Number of the comparison, from 0.
+    pub(super) order: u64,
+    pub(super) window: usize,
+    /// Place in each source: a tick or a row.
+    pub(super) at: [u64; 2],
+}
+
+/// What is counted of a pair.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PairCount {
+    /// Places compared.
+    pub(super) compared: u64,
+    differing: u64,
+    first: Option<Difference>,
+    overview: Overview,
+}
+
+/// What is counted of all pairs, and which of them are to be compared next.
+pub(super) struct Differences<'a> {
+    pairs: &'a [Pair],
+    unknowns: Unknowns,
+    pub(super) counts: Vec<PairCount>,
+    /// Both sides as a waveform, if that is wanted.
+    pub(super) both: Option<Both>,
+    scratch: [Bits; 2],
+    /// For each side and signal the pairs that look at it.
+    users: [Vec<Vec<u32>>; 2],
+    touched: Vec<u32>,
+    is_touched: Vec<bool>,
+}
+
+impl<'a> Differences<'a> {
+    /// None yet; `signals` are the numbers of signals that each side reads.
+    pub(super) fn new(
+        pairs: &'a [Pair],
+        signals: [usize; 2],
+        unknowns: Unknowns,
+        both: Option<Both>,
+    ) -> Self {
+        let mut users = signals.map(|signals| vec![Vec::new(); signals]);
+        for (k, pair) in pairs.iter().enumerate() {
+            for (side, users) in users.iter_mut().enumerate() {
+                let signals = pair.sides[side].iter().map(|part| part.signal);
+                let valid = pair.valid.filter(|_| side == 0);
+                for signal in signals.chain(valid) {
+                    users[signal].push(k as u32);
+                }
+            }
+        }
+        Differences {
+            pairs,
+            unknowns,
+            counts: vec![PairCount::default(); pairs.len()],
+            both,
+            scratch: Default::default(),
+            users,
+            touched: Vec::new(),
+            is_touched: vec![false; pairs.len()],
+        }
+    }
+
+    /// What an unknown bit is the same as.
+    pub(super) fn unknowns(&self) -> Unknowns {
+        self.unknowns
+    }
+
+    /// A signal of a side has changed.
+    #[inline]
+    pub(super) fn touch(&mut self, side: usize, signal: usize) {
+        for &pair in &self.users[side][signal] {
+            if !self.is_touched[pair as usize] {
+                self.is_touched[pair as usize] = true;
+                self.touched.push(pair);
+            }
+        }
+    }
+
+    /// All pairs are looked at next.
+    pub(super) fn touch_all(&mut self) {
+        self.touched = (0..self.pairs.len() as u32).collect();
+        self.is_touched.fill(true);
+    }
+
+    /// Hands out the pairs touched since the last time.
+    pub(super) fn take_touched(&mut self, into: &mut Vec<u32>) {
+        into.clear();
+        std::mem::swap(into, &mut self.touched);
+        into.iter().for_each(|&pair| self.is_touched[pair as usize] = false);
+    }
+
+    /// Whether the sides of a pair are the same.
+    #[inline]
+    pub(super) fn is_same(&mut self, pair: usize, states: [&SourceState; 2]) -> bool {
+        self.pairs[pair].same(states, self.unknowns, &mut self.scratch)
+    }
+
+    /// Shows a pair in the waveform.
+    pub(super) fn show(
+        &mut self,
+        pair: usize,
+        states: [&SourceState; 2],
+        differs: bool,
+    ) -> Result<()> {
+        let Some(both) = &mut self.both else { return Ok(()) };
+        self.pairs[pair].gather_both(states, &mut self.scratch);
+        let [a, b] = &self.scratch;
+        both.change(pair, [a, b], differs)
+    }
+
+    /// Counts a pair that differs at a place, with the values in the states.
+    pub(super) fn count(&mut self, pair: usize, spot: Spot, states: [&SourceState; 2]) {
+        let count = &mut self.counts[pair];
+        if count.first.is_none() {
+            self.pairs[pair].gather_both(states, &mut self.scratch);
+            let [a, b] = &self.scratch;
+            count.first = Some(difference(&self.pairs[pair], spot, a, b));
+        }
+        count.differs(spot.order);
+    }
+
+    /// Counts a pair whose values are at hand.
+    pub(super) fn count_values(&mut self, pair: usize, spot: Spot, a: &Bits, b: &Bits) {
+        let count = &mut self.counts[pair];
+        count.first.get_or_insert_with(|| difference(&self.pairs[pair], spot, a, b));
+        count.differs(spot.order);
+    }
+
+    /// The result for each pair where so many places were compared, the first to differ first and
+    /// in the order of data flow.
+    pub(super) fn results(&self, compared: u64) -> Vec<Compared> {
+        let known = shapes();
+        let flow = |name: &str| {
+            let name = Name::new(name);
+            let place = known.iter().position(|(known, _)| {
+                known.common(&name).is_some_and(|parts| parts >= 2 || parts == name.depth())
+            });
+            place.unwrap_or(known.len())
+        };
+        let result = |(pair, count): (&Pair, &PairCount)| Compared {
+            name: pair.name.clone(),
+            other: pair.other.clone(),
+            how: pair.how,
+            aliases: pair.aliases,
+            width: pair.width,
+            compared: count.compared,
+            differing: count.differing,
+            first: count.first.clone(),
+            overview: count.overview.text(compared),
+        };
+        let mut results: Vec<_> = self.pairs.iter().zip(&self.counts).map(result).collect();
+        results.sort_by_cached_key(|pair| match &pair.first {
+            Some(first) => (first.order, flow(&pair.name)),
+            None => (u64::MAX, 0),
+        });
+        results
+    }
+}
+
+fn difference(pair: &Pair, spot: Spot, a: &Bits, b: &Bits) -> Difference {
+    let Spot { order, window, at } = spot;
+    let differs = |k: &u32| bit(&a.value, *k) != bit(&b.value, *k);
+    let known = a.is_known() && b.is_known();
+    let bits = if known { (0..pair.width).filter(differs).collect() } else { Vec::new() };
+    let (expected, got) = (pair.show.text(a, pair.width), pair.show.text(b, pair.width));
+    Difference { order, window, at, expected, got, bits }
+}
+
+impl PairCount {
+    fn differs(&mut self, order: u64) {
+        self.differing += 1;
+        self.overview.mark(order);
+    }
+}
+
+/// Characters of an overview.
+const LENGTH: usize = 64;
+
+/// Marks in equal parts of a range whose end is not known before; the parts grow as it does.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Overview {
+    marks: [u64; LENGTH],
+    /// Logarithm of a part's size.
+    scale: u32,
+}
+
+impl Default for Overview {
+    fn default() -> Self {
+        Overview { marks: [0; LENGTH], scale: 0 }
+    }
+}
+
+impl Overview {
+    /// Something lies at `place`.
+    fn mark(&mut self, place: u64) {
+        self.reach(place);
+        self.marks[(place >> self.scale) as usize] += 1;
+    }
+
+    /// Makes the parts as large as it takes to have `place` in one of them.
+    fn reach(&mut self, place: u64) {
+        while (place >> self.scale) >= LENGTH as u64 {
+            for k in 0..LENGTH / 2 {
+                self.marks[k] = self.marks[2 * k] + self.marks[2 * k + 1];
+            }
+            self.marks[LENGTH / 2..].fill(0);
+            self.scale += 1;
+        }
+    }
+
+    /// A line for a range of `length`: `#` where something lies, `.` elsewhere.
+    fn text(&self, length: u64) -> String {
+        let (mut whole, last) = (self.clone(), length.saturating_sub(1));
+        whole.reach(last);
+        let parts = &whole.marks[..=(last >> whole.scale) as usize];
+        parts.iter().map(|&count| if count > 0 { '#' } else { '.' }).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_overview_grows_coarser_as_the_range_grows() {
+        let mut overview = Overview::default();
+        overview.mark(3);
+        overview.mark(60);
+        assert_eq!(overview.text(64).matches('#').count(), 2);
+        assert_eq!(overview.text(8), "...#....");
+        overview.mark(127);
+        let text = overview.text(128);
+        assert_eq!((text.len(), text.find('#'), text.rfind('#')), (64, Some(1), Some(63)));
+        assert_eq!(overview.text(1024).len(), 64);
+        assert_eq!(Overview::default().text(0), ".");
+    }
+}

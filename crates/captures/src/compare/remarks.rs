@@ -1,0 +1,52 @@
+//! What a result says of the sides besides their values.
+
+use crate::source::SourceFormat;
+
+use super::differences::PairCount;
+use super::matching::UnmatchedReason;
+use super::plan::Plan;
+use super::result::Comparison;
+
+/// The sides as a sentence calls them.
+const SIDES: [&str; 2] = ["first", "second"];
+
+/// Adds the pairs that were compared nowhere, the signals without a partner, and what the formats
+/// cannot say. With `all`, every signal needs a partner.
+pub(super) fn add(plan: &Plan, counts: &[PairCount], all: bool, result: &mut Comparison) {
+    let (differences, notes) = (&mut result.differences, &mut result.notes);
+    for (pair, count) in plan.matching.pairs.iter().zip(counts) {
+        match count.compared {
+            0 if pair.latency != 0 => {
+                differences
+                    .push(format!("{}: no sample has both sides with that latency", pair.name));
+            }
+            0 if pair.valid.is_some() => {
+                notes.push(format!("{} is compared nowhere: it is never valid", pair.name));
+            }
+            _ => {}
+        }
+    }
+    for unmatched in &plan.matching.unmatched {
+        let source = &plan.sources[unmatched.side];
+        if (all || source.is_capture()) && unmatched.reason != UnmatchedReason::Ignored {
+            let reason = unmatched.reason.text();
+            differences
+                .push(format!("{}: {} is not compared: {reason}", source.name, unmatched.name));
+        }
+    }
+    result.unmatched = plan.matching.unmatched.clone();
+    if plan.matching.swapped {
+        notes.push("the map's names are found with the sides exchanged".to_owned());
+    }
+    for (side, source) in plan.sources.iter().enumerate() {
+        let name = SIDES[side];
+        let is_vcd = source.format == SourceFormat::IlaVcd;
+        if is_vcd && !plan.sources[1 - side].is_capture() {
+            let note = "does not say how many samples it has; compared up to its last change";
+            notes.push(format!("the {name} side {note}"));
+        }
+        if source.is_capture() && !source.radix_told && !is_vcd {
+            notes.push(format!("the {name} side does not say in which radix its values are"));
+        }
+    }
+}

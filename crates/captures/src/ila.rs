@@ -1,0 +1,21 @@
+//! The logic analyser: captures a running simulation as Vivado's ILA captures the board, and reads
+//! and writes Vivado's files.
+
+pub mod builtin;
+pub mod capture;
+pub mod clock;
+pub mod core;
+pub mod export;
+pub mod plan;
+mod probe_values;
+pub mod probes;
+pub mod read;
+pub mod sampler;
+pub mod setup;
+pub mod storing;
+pub mod write;
+
+pub use capture::{Capture, Probe, Radix};
+pub use plan::AnalyserPlan;
+pub use sampler::{Analyser, capture};
+pub use setup::{AnalyserSetup, Overrides};

@@ -1,0 +1,37 @@
+//! Reads captures as Vivado (and AMD's chipscopy) writes them: CSV with and without a row of
+//! radices, and the archive. A file is told by its content, never by its name.
+
+mod archive;
+mod csv;
+mod digits;
+mod dump;
+mod heads;
+mod infer;
+mod lines;
+mod ltx;
+mod opened;
+mod order;
+mod table;
+
+use std::fs::File;
+use std::io::{Read, Seek};
+use std::path::Path;
+
+use tofsim::error::{Error, Result};
+
+use super::capture::Radix;
+
+pub use opened::{
+    CaptureForm, CaptureRow, CaptureRows, Column, LARGEST, Opened, WIDEST_PROBE, WIDEST_SAMPLE,
+};
+
+/// Opens a capture. `radix` decides where a CSV without radices can be read in several ways.
+pub fn open(path: &Path, radix: Option<Radix>) -> Result<Opened> {
+    let fault = || Error::io(path, "read");
+    let mut file = File::open(path).map_err(fault())?;
+    let mut start = Vec::new();
+    file.by_ref().take(2).read_to_end(&mut start).map_err(fault())?;
+    file.rewind().map_err(fault())?;
+    let source = path.display().to_string();
+    if start == b"PK" { archive::open(source, file, radix) } else { csv::open(source, file, radix) }
+}

@@ -1,0 +1,14 @@
+//! Writes captures as Vivado writes them: CSV, VCD, and the archive that holds both.
+
+mod archive;
+mod csv;
+mod dump;
+mod ltx;
+mod vcd;
+mod words;
+
+pub use archive::archive;
+pub use csv::csv;
+pub use dump::dump;
+pub use ltx::ltx;
+pub use vcd::vcd;

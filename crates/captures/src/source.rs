@@ -1,0 +1,51 @@
+//! What can be compared: waveforms, captures of logic analysers and simulations, each read as a
+//! stream of changes in bounded memory.
+
+mod capture;
+mod counts;
+mod detect;
+mod end;
+mod guard;
+mod library;
+mod loaded;
+mod locate;
+mod marks;
+mod names;
+mod remark;
+mod shapes;
+mod signals;
+mod simulation;
+mod state;
+mod stream;
+mod tick;
+mod wave;
+
+use std::path::Path;
+
+use tofsim::error::Result;
+use tofsim::sim::setup::Setup;
+
+use crate::ila::Radix;
+
+pub use names::Name;
+pub(crate) use shapes::{known_shape, shapes};
+pub use signals::{Axis, Signal, SignalKind, Source, SourceFormat};
+pub use state::SourceState;
+pub use stream::{Cursor, Feed, Gone, Marks};
+pub use tick::Tick;
+
+impl Source {
+    /// Looks at a file; what it holds decides its format. `radix` is that of values in a file that
+    /// does not say.
+    ///
+    /// # Errors
+    /// When it cannot be read or is none of the formats.
+    pub fn file(path: &Path, radix: Option<Radix>) -> Result<Source> {
+        Ok(detect::open(path, radix)?.distinguish())
+    }
+
+    /// A simulation of so many frames.
+    pub fn simulation(setup: Setup, frames: u64) -> Source {
+        simulation::source(setup, frames)
+    }
+}

@@ -1,0 +1,152 @@
+//! The signals of a source, and what its places and values are.
+
+use std::collections::{HashMap, HashSet};
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use tofsim::error::Result;
+use tofsim::kernel::signals::SignalFormat as Shape;
+
+use crate::ila::Radix;
+
+use super::names::Name;
+use super::stream::Cursor;
+use super::tick::Tick;
+
+/// What kind of file or program a source is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SourceFormat {
+    /// Value change dump of a simulator.
+    Vcd,
+    /// GTKWave's compressed waveform.
+    Fst,
+    /// GHDL's waveform.
+    Ghw,
+    /// An ILA's samples as CSV with a row of radices.
+    IlaCsv,
+    /// The same without.
+    LegacyIlaCsv,
+    /// An ILA's samples as VCD.
+    IlaVcd,
+    /// An ILA's archive.
+    Ila,
+    /// tofsim itself.
+    Simulation,
+}
+
+impl SourceFormat {
+    /// What it is called.
+    pub const fn name(self) -> &'static str {
+        match self {
+            SourceFormat::Vcd => "VCD",
+            SourceFormat::Fst => "FST",
+            SourceFormat::Ghw => "GHW",
+            SourceFormat::IlaCsv => "ILA CSV",
+            SourceFormat::LegacyIlaCsv => "ILA CSV without radix row",
+            SourceFormat::IlaVcd => "ILA VCD",
+            SourceFormat::Ila => "ILA archive",
+            SourceFormat::Simulation => "simulation",
+        }
+    }
+}
+
+/// What the places in a source are counted in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// Time, in ticks of that length.
+    Time(Tick),
+    /// Samples of a clock that the source does not have.
+    Samples,
+}
+
+/// What the values of a signal are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SignalKind {
+    /// Bits, each 0, 1 or unknown.
+    Bits,
+    /// A number in floating point.
+    Real,
+    /// Text or events, which are not compared.
+    Other,
+}
+
+/// A signal by one of its names.
+#[derive(Clone, Debug)]
+pub struct Signal {
+    /// Its name with all scopes.
+    pub name: Name,
+    /// Its width [bits].
+    pub width: u32,
+    /// Index of its lowest bit.
+    pub lsb: i64,
+    /// What its values are.
+    pub kind: SignalKind,
+    /// How its values are shown, if the source says.
+    pub radix: Option<Radix>,
+    /// What its values mean, if the source says.
+    pub shape: Option<Shape>,
+    /// Names of the same signal share it.
+    pub id: usize,
+}
+
+/// A source, of which the list of signals is known.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// Path, or name of the scenario.
+    pub name: String,
+    /// What it is.
+    pub format: SourceFormat,
+    /// What its places are counted in.
+    pub axis: Axis,
+    /// Its signals, in its order.
+    pub signals: Vec<Signal>,
+    /// Its last place, if it says.
+    pub end: Option<u64>,
+    /// Whether it says how values are written, where that matters.
+    pub radix_told: bool,
+    pub(super) origin: Arc<dyn Origin>,
+}
+
+/// Where the changes of a source come from.
+pub(super) trait Origin: Debug + Send + Sync {
+    /// Begins to read the signals with those ids and widths.
+    fn read(&self, ids: &[usize], widths: &[u32]) -> Result<Cursor>;
+}
+
+impl Source {
+    /// Begins to read the signals with those ids; signal `k` of the cursor is `ids[k]`.
+    ///
+    /// # Errors
+    /// When the file has changed or cannot be read any more.
+    pub fn read(&self, ids: &[usize]) -> Result<Cursor> {
+        let widths: Vec<u32> = ids.iter().map(|&id| self.width(id)).collect();
+        self.origin.read(ids, &widths)
+    }
+
+    /// Whether its places are samples of a logic analyser.
+    pub fn is_capture(&self) -> bool {
+        self.axis == Axis::Samples
+    }
+
+    /// Adds ranges to names that several signals would share without.
+    pub(super) fn distinguish(mut self) -> Self {
+        let mut ids: HashMap<String, HashSet<usize>> = HashMap::new();
+        for signal in &self.signals {
+            ids.entry(signal.name.text.clone()).or_default().insert(signal.id);
+        }
+        for signal in &mut self.signals {
+            let shared = ids.get(&signal.name.text).is_some_and(|ids| ids.len() > 1);
+            if shared && signal.kind == SignalKind::Bits {
+                let top = signal.lsb + i64::from(signal.width) - 1;
+                let text = format!("{}[{top}:{}]", signal.name.text, signal.lsb);
+                signal.name = Name::new(text);
+            }
+        }
+        self
+    }
+
+    fn width(&self, id: usize) -> u32 {
+        let signal = self.signals.iter().find(|signal| signal.id == id);
+        signal.map_or(0, |signal| if signal.kind == SignalKind::Other { 0 } else { signal.width })
+    }
+}

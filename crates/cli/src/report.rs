@@ -1,0 +1,23 @@
+//! What a run leaves behind for people and scripts.
+
+pub mod box_plot;
+pub mod causes;
+pub mod comparison;
+pub mod evaluation;
+pub mod evaluation_files;
+pub mod events;
+pub mod explanation;
+pub mod exploration;
+pub mod frame_log;
+pub mod frame_summary;
+pub mod histogram_csv;
+pub mod histogram_svg;
+pub mod learning_curve;
+pub mod pair_table;
+pub mod pairs;
+pub mod readings;
+pub mod run_files;
+pub mod summary;
+pub mod table;
+pub mod training;
+pub mod verification;

@@ -1,0 +1,50 @@
+//! What estimators say of frames, in tables.
+
+use comfy_table::Table;
+
+use tofsim::sim::setup::Setup;
+use tofsim_learn::estimation::Reading;
+
+use crate::text::table::{align_right, plain};
+
+use super::frame_log::FrameLog;
+
+/// What each estimator says of the only frame or pair, with its error.
+pub fn rows(setup: &Setup, readings: &[Reading]) -> impl Iterator<Item = (&'static str, String)> {
+    readings.iter().map(|reading| {
+        let error_mm = |depth_m| Some(1e3 * (depth_m - setup.true_depth_m()?));
+        let error =
+            |depth_m| error_mm(depth_m).map_or(String::new(), |mm| format!("  {mm:+.2} mm"));
+        let depth = |depth_m| format!("{depth_m:.6} m{}", error(depth_m));
+        (reading.estimator, said(reading, depth))
+    })
+}
+
+/// A row for each frame or pair that the log has rows of, `left` more being left out: `cells`, and what
+/// the estimators say.
+pub fn many<'a>(
+    header: &[&str],
+    log: &FrameLog,
+    rows: impl Iterator<Item = (Vec<String>, &'a Vec<Reading>)>,
+    left: u64,
+) -> Table {
+    let mut table = plain();
+    let asked = log.readings.iter().rfind(|readings| !readings.is_empty());
+    let names = asked.into_iter().flatten().map(|reading| reading.estimator);
+    table.set_header(header.iter().copied().chain(names));
+    for (mut cells, readings) in rows {
+        let depth = |reading| said(reading, |depth_m| format!("{depth_m:.6}"));
+        cells.extend(readings.iter().map(depth));
+        table.add_row(cells);
+    }
+    if left > 0 {
+        table.add_row([format!("... {left} more")]);
+    }
+    align_right(&mut table, ..);
+    table
+}
+
+/// A depth, or why there is none.
+fn said(reading: &Reading, depth: impl Fn(f64) -> String) -> String {
+    reading.depth_m.map_or_else(|| reading.failure.clone().unwrap_or_default(), depth)
+}

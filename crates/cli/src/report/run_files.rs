@@ -1,0 +1,135 @@
+//! The files that a run leaves beside its waveform.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use tofsim::error::{Error, Input, Result};
+use tofsim::files::output::{create_directory, write_file};
+use tofsim::sim::setup::Setup;
+use tofsim::sim::shot_recorder::Shot;
+
+use super::causes::Causes;
+use super::events::Events;
+use super::frame_log::FrameLog;
+use super::histogram_csv;
+use super::histogram_svg::HistogramPlot;
+use super::pair_table;
+use super::summary::Summary;
+
+/// What is written into the folder; the last one only where frames come in pairs.
+const NAMES: [&str; 4] = ["summary.json", "histogram.csv", "histogram.svg", "difference.csv"];
+
+/// Whether two paths lead to one place in one folder.
+fn is_same(a: &Path, b: &Path) -> bool {
+    let folder = |path: &Path| match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder.canonicalize().ok(),
+        _ => Path::new(".").canonicalize().ok(),
+    };
+    a.file_name() == b.file_name() && folder(a) == folder(b)
+}
+
+/// Files under construction, and what they are made from.
+pub struct RunFiles<'a> {
+    folder: Option<&'a Path>,
+    events: Option<Events>,
+    causes: Causes,
+    /// The frame that is shown: the first, or the first lit one of pairs.
+    shown: u64,
+    /// Rows for the scenario's TDC report.
+    tdc: Vec<Shot>,
+    wants_tdc: bool,
+}
+
+impl<'a> RunFiles<'a> {
+    /// Begins the files: a row for each shot in `events`, the rest in `folder`.
+    pub fn new(
+        folder: Option<&'a Path>,
+        events: Option<&Path>,
+        provenance: &[String],
+        setup: &Setup,
+    ) -> Result<Self> {
+        folder.map_or(Ok(()), create_directory)?;
+        if let (Some(folder), Some(events)) = (folder, events)
+            && NAMES.iter().any(|name| is_same(&folder.join(name), events))
+        {
+            let expected = "expected another name: the run writes a file of its own there";
+            return Err(Input::new("--events", expected).value(events.display()).into());
+        }
+        let create = |path| Events::create(path, setup.has_pairs(), provenance);
+        let events = events.map(create).transpose()?;
+        let (shown, wants_tdc) = (setup.frames_together() - 1, setup.scenario.report.tdc);
+        let causes = Causes::default();
+        Ok(RunFiles { folder, events, causes, shown, tdc: Vec::new(), wants_tdc })
+    }
+
+    /// Whether [`RunFiles::shot`] has to be told of shots.
+    pub fn want_shots(&self) -> bool {
+        self.folder.is_some() || self.events.is_some() || self.wants_tdc
+    }
+
+    /// Whether it needs more of them than those up to the frame that is shown.
+    pub fn want_all_shots(&self) -> bool {
+        self.events.is_some() || self.wants_tdc
+    }
+
+    /// Rows for the scenario's TDC report.
+    pub fn tdc(&self) -> &[Shot] {
+        &self.tdc
+    }
+
+    /// Takes a shot.
+    pub fn shot(&mut self, shot: &Shot) -> Result<()> {
+        if shot.frame == self.shown {
+            self.causes.add(shot);
+        }
+        if self.wants_tdc {
+            self.tdc.push(*shot);
+        }
+        self.events.as_mut().map_or(Ok(()), |events| events.write(shot))
+    }
+
+    /// Puts the files in place. Returns their paths.
+    pub fn finish(
+        &mut self,
+        setup: &Setup,
+        log: &mut FrameLog,
+        summary: &Summary,
+    ) -> Result<Vec<PathBuf>> {
+        let mut written = Vec::new();
+        if let Some(events) = self.events.take() {
+            written.push(events.finish()?);
+        }
+        let (Some(folder), Some(frame)) = (self.folder, log.rows.get(self.shown as usize).cloned())
+        else {
+            return Ok(written);
+        };
+        if self.causes.is_empty() {
+            self.causes.add_unknown(&frame.histogram);
+        }
+        let plot = HistogramPlot {
+            title: format!("{}, seed {}, {} shots", setup.name, setup.scenario.seed, frame.shots),
+            causes: &self.causes,
+            true_depth_m: setup.true_depth_m(),
+            depth_m: match &log.pairs {
+                None => Some(frame.depth_m()),
+                Some(_) => log.readings[self.shown as usize].iter().find_map(|one| one.depth_m),
+            },
+        };
+        let path = folder.join(NAMES[0]);
+        write_file(&path, |file| summary.write(log, file))?;
+        written.push(path);
+        let mut write = |name: &str, text: &[u8]| {
+            let path = folder.join(name);
+            write_file(&path, |file| file.write_all(text))?;
+            written.push(path);
+            Ok::<_, Error>(())
+        };
+        write(NAMES[1], &histogram_csv::text(&frame.histogram))?;
+        let svg = plot.svg().map_err(|fault| Input::new("histogram.svg", fault))?;
+        write(NAMES[2], svg.as_bytes())?;
+        if let ([dark, lit, ..], Some(_)) = (log.rows.as_slice(), &log.pairs) {
+            write(NAMES[3], &pair_table::csv(dark, lit))?;
+        }
+        Ok(written)
+    }
+}

@@ -1,0 +1,82 @@
+//! The command line: one file per subcommand, each with its `Args` and `run`.
+
+pub mod budget;
+pub mod compare;
+pub mod completions;
+pub mod dataset;
+pub mod draws;
+pub mod estimate;
+pub mod evaluate;
+pub mod ila;
+pub mod interrupt;
+pub mod man;
+pub mod quantize;
+pub mod run;
+pub mod scenario;
+pub mod stdout;
+pub mod talk;
+pub mod train;
+pub mod vectors;
+pub mod verify;
+
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser, Subcommand};
+use talk::Talk;
+
+use tofsim::error::Result;
+
+/// Cycle-accurate simulator of the FPGA firmware of a time-of-flight rangefinder
+#[derive(Debug, Parser)]
+#[command(name = "tofsim", version, propagate_version = true, disable_help_subcommand = true)]
+#[command(after_help = "Data goes to standard output, talk to standard error.\n\
+    Exit status: 0 fine or same, 1 differences found or a check failed, \
+    2 usage or input error, 130 interrupted.")]
+pub struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+    #[command(flatten)]
+    talk: talk::Args,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    Run(run::Args),
+    Budget(budget::Args),
+    Estimate(estimate::Args),
+    Evaluate(Box<evaluate::Args>),
+    Quantize(quantize::Args),
+    Vectors(vectors::Args),
+    Verify(verify::Args),
+    Ila(ila::Args),
+    Compare(Box<compare::Args>),
+    Dataset(dataset::Args),
+    Train(Box<train::Args>),
+    Scenario(scenario::Args),
+    Completions(completions::Args),
+    Man(man::Args),
+}
+
+impl Cli {
+    /// Does what the command line asks for; the status says whether all was the same or fine.
+    pub fn run(&self) -> Result<ExitCode> {
+        let talk = Talk::new(&self.talk);
+        match &self.verb {
+            Verb::Run(args) => run::run(args, &talk),
+            Verb::Budget(args) => budget::run(args),
+            Verb::Estimate(args) => estimate::run(args),
+            Verb::Evaluate(args) => return evaluate::run(args, &talk),
+            Verb::Quantize(args) => quantize::run(args, &talk),
+            Verb::Vectors(args) => vectors::run(args, &talk),
+            Verb::Verify(args) => return verify::run(args, &talk),
+            Verb::Ila(args) => ila::run(args, &talk),
+            Verb::Compare(args) => return compare::run(args, &talk),
+            Verb::Dataset(args) => dataset::run(args, &talk),
+            Verb::Train(args) => train::run(args, &talk),
+            Verb::Scenario(args) => scenario::run(args),
+            Verb::Completions(args) => completions::run(args, &mut Cli::command()),
+            Verb::Man(args) => man::run(args, Cli::command()),
+        }?;
+        Ok(ExitCode::SUCCESS)
+    }
+}

@@ -1,0 +1,95 @@
+//! What finds the distance of a target from a histogram, and why there may be none.
+
+use std::fmt;
+
+use tofsim::network::Histogram;
+
+/// A dark and a lit histogram of equally many shots.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HistogramPair {
+    /// H1, with the laser off [hits].
+    pub dark: Histogram,
+    /// H2, with the laser on [hits].
+    pub lit: Histogram,
+}
+
+impl HistogramPair {
+    /// H0 = H2 - H1, bin by bin [hits].
+    pub fn difference(&self) -> [i32; 256] {
+        std::array::from_fn(|bin| i32::from(self.lit[bin]) - i32::from(self.dark[bin]))
+    }
+}
+
+/// Finds the distance of a target from the histogram of a frame.
+pub trait Estimator: Send + Sync {
+    /// Its name on the command line.
+    fn name(&self) -> &'static str;
+
+    /// Distance of the target [m].
+    ///
+    /// # Errors
+    /// When the histogram does not show one.
+    fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure>;
+
+    /// Whether it has to have a dark histogram too.
+    fn needs_dark(&self) -> bool {
+        false
+    }
+
+    /// Distance of the target, where the lit histogram has a dark one beside it: most have no use
+    /// for that [m].
+    ///
+    /// # Errors
+    /// When the histograms do not show one.
+    fn estimate_pair(&self, pair: &HistogramPair) -> Result<f64, Failure> {
+        self.estimate(&pair.lit)
+    }
+}
+
+/// Why there is no distance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Failure {
+    /// The histogram is empty.
+    NoHits,
+    /// It holds more hits than it can have [hits].
+    TooManyHits {
+        /// Sum over the bins.
+        hits: u32,
+        /// Largest sum that is possible.
+        most: u32,
+    },
+    /// Nothing stands out of the background.
+    NoPeak,
+    /// So many peaks stand out, and nothing tells which is the echo.
+    SeveralPeaks(usize),
+    /// There is no dark histogram to subtract.
+    NoDarkFrame,
+    /// The iterations did not settle.
+    NoConvergence,
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failure::NoHits => write!(f, "no hits"),
+            Failure::TooManyHits { hits, most } => {
+                write!(f, "{hits} hits, expected {most} at most")
+            }
+            Failure::NoPeak => write!(f, "no peak"),
+            Failure::SeveralPeaks(peaks) => write!(f, "{peaks} peaks"),
+            Failure::NoDarkFrame => write!(f, "no dark frame"),
+            Failure::NoConvergence => write!(f, "no convergence"),
+        }
+    }
+}
+
+impl std::error::Error for Failure {}
+
+/// Sum of a histogram, which has to be 1 to `most` [hits].
+pub(super) fn hits(histogram: &Histogram, most: u32) -> Result<u32, Failure> {
+    match histogram.iter().map(|&count| u32::from(count)).sum() {
+        0 => Err(Failure::NoHits),
+        hits if hits > most => Err(Failure::TooManyHits { hits, most }),
+        hits => Ok(hits),
+    }
+}

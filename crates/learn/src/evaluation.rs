@@ -1,0 +1,19 @@
+//! How well estimators find the distance: errors over a grid of scenes, fresh histograms drawn for
+//! each.
+//!
+//! Every estimator sees the same histograms; one that needs dark histograms too sees pairs of its own.
+//! Errors are kept row by row, so that any grouping of them is exact: by distance, as the thesis has it, by reflectance, by irradiance.
+
+pub mod bound;
+pub mod cross_check;
+pub mod errors;
+pub mod exploration;
+pub mod figures;
+pub mod groups;
+pub mod spread;
+pub mod thesis;
+
+pub use errors::{EstimatorErrors, Evaluation};
+pub use figures::Figures;
+pub use groups::Group;
+pub use spread::Spread;

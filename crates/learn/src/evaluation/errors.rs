@@ -1,0 +1,136 @@
+//! The errors of estimators, histogram by histogram.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+
+use tofsim::error::{Error, Result};
+
+use crate::dataset::{HistogramSource, Pairs, Rows, Scene};
+use crate::estimation::Estimator;
+
+use super::groups::{self, Group};
+
+/// Errors of estimators, row by row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Evaluation {
+    /// What each row looks at.
+    pub scenes: Vec<Scene>,
+    /// Estimators and their errors.
+    pub columns: Vec<EstimatorErrors>,
+}
+
+/// Errors of one estimator.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EstimatorErrors {
+    /// Name on the command line.
+    pub name: &'static str,
+    /// Estimated less true distance of each row; none where the estimator failed [m].
+    pub errors_m: Vec<Option<f64>>,
+}
+
+impl Evaluation {
+    /// Draws the rows and lets every estimator see them, on all threads of the current pool; `done`
+    /// hears of rows as they are done. The same for any number of threads.
+    ///
+    /// # Errors
+    /// When an estimator needs dark histograms too and there can be none, or it is stopped.
+    pub fn new(
+        source: &HistogramSource,
+        rows: &Rows,
+        seed: u64,
+        estimators: &[Box<dyn Estimator + '_>],
+        stop: Option<&AtomicBool>,
+        mut done: impl FnMut(u64),
+    ) -> Result<Self> {
+        let mut scenes = Vec::with_capacity(rows.len() as usize);
+        let empty = || Vec::with_capacity(rows.len() as usize);
+        let columns = estimators.iter();
+        let columns = columns.map(|one| EstimatorErrors { name: one.name(), errors_m: empty() });
+        let mut columns: Vec<EstimatorErrors> = columns.collect();
+        let needs_dark = estimators.iter().any(|one| one.needs_dark());
+        let pairs = needs_dark.then(|| Pairs::new(source)).transpose()?;
+        for block in source.blocks(rows, seed, 0..rows.len()) {
+            if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+                return Err(Error::Interrupted);
+            }
+            let drawn = pairs.map_or(Vec::new(), |pairs| pairs.draw(&block));
+            for (estimator, column) in estimators.iter().zip(&mut columns) {
+                let errors = block.par_iter().enumerate().map(|(k, sample)| {
+                    let found = match estimator.needs_dark() {
+                        true => estimator.estimate_pair(&drawn[k]),
+                        false => estimator.estimate(&sample.histogram),
+                    };
+                    Some(found.ok()? - sample.scene.distance_m)
+                });
+                column.errors_m.par_extend(errors);
+            }
+            scenes.extend(block.iter().map(|sample| sample.scene));
+            done(block.len() as u64);
+        }
+        Ok(Evaluation { scenes, columns })
+    }
+
+    /// The errors of a column by what `key` is of the row's scene, in rising order of it.
+    pub fn by(&self, column: &EstimatorErrors, key: impl Fn(&Scene) -> f64) -> Vec<Group> {
+        groups::by(self.scenes.iter().map(key), &column.errors_m)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dataset::{Grid, Subset};
+    use crate::estimation::Failure;
+    use tofsim::network::Histogram;
+    use tofsim::scenario;
+    use tofsim::sim::setup::Setup;
+
+    /// Finds 0.3 m wherever there are fewer hits than that.
+    struct Constant(u32);
+
+    impl Estimator for Constant {
+        fn name(&self) -> &'static str {
+            "constant"
+        }
+
+        fn estimate(&self, histogram: &Histogram) -> std::result::Result<f64, Failure> {
+            let hits: u32 = histogram.iter().map(|&count| u32::from(count)).sum();
+            if hits < self.0 { Ok(0.3) } else { Err(Failure::NoPeak) }
+        }
+    }
+
+    fn evaluation(threads: usize) -> Evaluation {
+        let few = ["firmware.shots_per_frame=300".to_owned()];
+        let setup = Setup::new(scenario::load("kc705", &few).unwrap()).unwrap();
+        let source = HistogramSource::new(&setup).unwrap();
+        let rows = Rows::Subset(Subset::new(Grid::test(), 510, 1));
+        let estimators: [Box<dyn Estimator>; 2] =
+            [Box::new(Constant(u32::MAX)), Box::new(Constant(250))];
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| Evaluation::new(&source, &rows, 4, &estimators, None, |_| {})).unwrap()
+    }
+
+    #[test]
+    fn errors_are_estimates_less_the_truth_and_failures_have_none() {
+        let evaluation = evaluation(1);
+        let [all, some] = &evaluation.columns[..] else { panic!("two columns") };
+        for (scene, error) in evaluation.scenes.iter().zip(&all.errors_m) {
+            assert_eq!(*error, Some(0.3 - scene.distance_m));
+        }
+        let failed = some.errors_m.iter().filter(|error| error.is_none()).count();
+        assert!((100..450).contains(&failed), "{failed}");
+        let by_distance = evaluation.by(some, |scene| scene.distance_m);
+        assert_eq!(by_distance.len(), 51);
+        assert_eq!(
+            by_distance.iter().map(|group| group.spread.failures).sum::<u64>(),
+            failed as u64
+        );
+        assert!(by_distance.iter().all(|g| g.spread.estimates + g.spread.failures == 10));
+    }
+
+    #[test]
+    fn the_number_of_threads_changes_nothing() {
+        assert_eq!(evaluation(1), evaluation(3));
+    }
+}

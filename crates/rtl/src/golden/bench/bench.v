@@ -1,0 +1,60 @@
+// Golden vectors for {name} by tofsim {version}: scenario {source}, seed {seed}.
+// Line k of stimulus.mem is taken by edge k, line k of expected.mem seen just before it.
+// Define REGISTERS to compare registers inside too; +got=FILE writes what was seen.
+`timescale 1ps/1fs
+`default_nettype none
+
+module tb_{name};
+  localparam Cycles = {cycles};
+  localparam [63:0] FirstEdge = 64'd{first_edge}; // [ps]
+  localparam [63:0] Period = 64'd{period}; // [ps]
+
+{signals}
+  {module} {parameters}dut (
+{ports}
+  );
+
+  reg {line_in}stimulus [0:Cycles-1];
+  reg {line_out}expected [0:Cycles-1];
+  reg {line_out}got;
+  reg {line_out}want;
+  integer cycle;
+  integer mismatches = 0;
+  integer got_file = 0;
+  reg [8191:0] got_name;
+{looks}
+  task compare;
+  begin
+{allowances}    if (got !== want) begin
+      if (mismatches == 0) show;
+      mismatches = mismatches + 1;
+    end
+    if (got_file != 0) $fdisplay(got_file, "%h", got);
+  end
+  endtask
+
+  task show;
+  begin
+{show}  end
+  endtask
+
+  initial begin
+    $readmemh("stimulus.mem", stimulus);
+    $readmemh("expected.mem", expected);
+    if ($value$plusargs("got=%s", got_name)) got_file = $fopen(got_name, "w");
+{before}    for (cycle = 0; cycle < Cycles; cycle = cycle + 1) begin
+      want = expected[cycle];
+      got = want;
+{steps}    end
+    if (got_file != 0) $fclose(got_file);
+    if (mismatches == 0) begin
+      $display("tb_{name}: PASS, %0d cycles, 0 mismatches", Cycles);
+      $finish;
+    end else begin
+      $display("tb_{name}: FAIL, %0d cycles, %0d mismatches", Cycles, mismatches);
+      $fatal(1, "tb_{name}: %0d mismatches", mismatches);
+    end
+  end
+endmodule
+
+`default_nettype wire

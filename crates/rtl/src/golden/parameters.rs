@@ -1,0 +1,104 @@
+//! Verilog parameters that the benches set, and the memories that some of them name.
+
+use tofsim::firmware::histogram_builder::BINS;
+use tofsim::firmware::tof_top::{CodeSource, Estimator, HistogramSource};
+use tofsim::firmware::{centroid_estimator, depth_estimator, forward2};
+use tofsim::kernel::U;
+use tofsim::network::mem::{self, Mem};
+use tofsim::sim::setup::Setup;
+
+use super::roms;
+
+/// A parameter's value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Parameter {
+    /// A number.
+    Number(u64),
+    /// The file name of a memory that the Verilog loads.
+    Memory(Mem),
+}
+
+/// Names and values, in the order in which the benches set them.
+pub type Parameters = Vec<(&'static str, Parameter)>;
+
+/// The parameter with the number of hidden neurons.
+pub const NEURONS: &str = "Neurons";
+
+/// That parameter, where it is not the default: so many another design need not have.
+pub fn neurons(neurons: usize) -> Option<(&'static str, Parameter)> {
+    (neurons != forward2::NEURONS).then_some((NEURONS, Parameter::Number(neurons as u64)))
+}
+
+/// Those of a block of the depth estimator: its memories, and how many neurons they are for.
+pub fn with_neurons(mut memories: Parameters, count: usize) -> Parameters {
+    memories.extend(neurons(count));
+    memories
+}
+
+/// Memories under the names of their parameters.
+pub fn files(
+    names: impl IntoIterator<Item = &'static str>,
+    memories: impl IntoIterator<Item = Mem>,
+) -> Parameters {
+    names.into_iter().zip(memories.into_iter().map(Parameter::Memory)).collect()
+}
+
+/// The memories among some parameters.
+pub fn memories(parameters: &Parameters) -> impl Iterator<Item = &Mem> {
+    parameters.iter().filter_map(|(_, value)| match value {
+        Parameter::Memory(memory) => Some(memory),
+        Parameter::Number(_) => None,
+    })
+}
+
+/// Those of the depth estimator, without the number of neurons.
+pub fn depth_estimator(params: &depth_estimator::Params) -> Parameters {
+    let names = ["W1File", "B1File", "W2File", "B2File", "TansigFile"];
+    files(names, mem::depth_estimator(params))
+}
+
+/// Those of the centroid estimator.
+pub fn centroid_estimator(params: &centroid_estimator::Params) -> Parameters {
+    vec![
+        ("HalfWidth", Parameter::Number(params.half_width)),
+        ("Background", Parameter::Number(params.background.into())),
+        ("Slope", Parameter::Number(params.slope.get())),
+        ("Offset", Parameter::Number(params.offset.bits())),
+    ]
+}
+
+/// Those of the whole firmware. The memory of an unused stand-in is loaded too: zeros.
+pub fn tof_top(setup: &Setup) -> Parameters {
+    use Parameter::{Memory, Number};
+    let params = &setup.params;
+    let mut list = vec![
+        ("ShotsPerFrame", Number(params.frame_ctrl.shots_per_frame.into())),
+        ("LockTime", Number(setup.pll().locked_at.ps())),
+    ];
+    list.extend(depth_estimator(&params.depth_estimator));
+    list.extend([
+        ("CalFile", Memory(mem::tdc_decoder(&params.tdc.cal))),
+        ("DelaysFile", Memory(roms::tap_delays(&params.tdc.delays))),
+    ]);
+    list.extend(neurons(params.depth_estimator.neurons()));
+    let (preloads_codes, codes) = match &params.code_source {
+        CodeSource::Tdc => (false, &[U::new(0)][..]),
+        CodeSource::Preload(rom) => (true, &rom[..]),
+    };
+    let (preloads_histogram, histogram) = match &params.histogram_source {
+        HistogramSource::Builder => (false, &[U::new(0); BINS][..]),
+        HistogramSource::Preload(rom) => (true, &rom[..]),
+    };
+    list.extend([
+        ("CodeSource", Number(preloads_codes.into())),
+        ("Codes", Number(codes.len() as u64)),
+        ("CodeFile", Memory(roms::codes(codes))),
+        ("HistogramSource", Number(preloads_histogram.into())),
+        ("HistogramFile", Memory(roms::histogram(histogram))),
+    ]);
+    if params.estimator == Estimator::Centroid {
+        list.push(("Estimator", Number(1)));
+        list.extend(centroid_estimator(&params.centroid_estimator));
+    }
+    list
+}

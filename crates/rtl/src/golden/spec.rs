@@ -1,0 +1,128 @@
+//! What a block is, and what its golden vectors are.
+
+use tofsim::error::Result;
+use tofsim::hierarchy;
+use tofsim::kernel::Time;
+use tofsim::network::mem::Mem;
+
+use super::cover::Cover;
+use super::parameters::{Parameters, memories};
+use super::setting::Setting;
+use super::table::Table;
+use super::timing::{CLK_125, Timing};
+
+/// How many clocks an effect takes at least, from the edge that takes the input to the one that
+/// changes the output: 0 for a plain register. A combinational path has none.
+#[derive(Clone, Copy, Debug)]
+pub struct Latency {
+    /// Input port.
+    pub from: &'static str,
+    /// Output port.
+    pub to: &'static str,
+    /// Clock cycles with so many neurons.
+    pub cycles: fn(usize) -> u64,
+}
+
+/// An input that answers an output within the cycle, and so is no part of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Glue {
+    /// The input port.
+    pub drives: &'static str,
+    /// Its declaration and driver in the bench.
+    pub verilog: &'static str,
+}
+
+/// Makes a block's vectors.
+pub type Record = fn(&'static Spec, &Setting) -> Result<Vectors>;
+
+/// What a block is, beside its ports.
+#[derive(Debug)]
+pub struct Spec {
+    /// Its module.
+    pub name: &'static str,
+    /// One place of it in the hierarchy, below the top.
+    pub scope: &'static str,
+    /// Number of the random stream that its stimulus has always had; a block without one has a stream
+    /// that belongs to its name.
+    pub stream: Option<u64>,
+    /// When its clocks move and when it is looked at.
+    pub timing: Timing,
+    /// Its synchronous reset, active high.
+    pub reset: Option<&'static str>,
+    /// Outputs and registers that change within a cycle of the clock that counts.
+    pub fast: &'static [&'static str],
+    /// How long effects take.
+    pub latency: &'static [Latency],
+    /// A loop around the block, if it needs one.
+    pub glue: Option<Glue>,
+    /// Steps the Rust model.
+    pub record: Record,
+}
+
+impl Spec {
+    /// A block of that name and place which `record` steps: what it is unless its file says otherwise.
+    /// Plain registers of `clk_125`, no reset, a random stream that belongs to its name.
+    pub const fn new(name: &'static str, scope: &'static str, record: Record) -> Self {
+        Spec {
+            name,
+            scope,
+            stream: None,
+            timing: CLK_125,
+            reset: None,
+            fast: &[],
+            latency: &[],
+            glue: None,
+            record,
+        }
+    }
+
+    /// Number of the random stream of its stimulus: whatever other blocks there are, it stays.
+    pub fn stream(&self) -> u64 {
+        // FNV-1a of the name, above all numbers that are given by hand.
+        let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        let of_name = || self.name.bytes().fold(0xcbf2_9ce4_8422_2325, step) | 1 << 63;
+        self.stream.unwrap_or_else(of_name)
+    }
+
+    /// Dotted path of the block in the hierarchy.
+    pub fn path(&self) -> String {
+        match self.scope {
+            "" => hierarchy::TOP.to_owned(),
+            scope => format!("{}.{scope}", hierarchy::TOP),
+        }
+    }
+}
+
+/// What a block was given and what it did.
+#[derive(Debug)]
+pub struct Vectors {
+    /// The block.
+    pub spec: &'static Spec,
+    /// Seed of the stimulus.
+    pub seed: u64,
+    /// Name of the scenario.
+    pub source: String,
+    /// Hidden neurons of the network.
+    pub neurons: usize,
+    /// Verilog parameters.
+    pub parameters: Parameters,
+    /// What goes in: line k is taken by edge k.
+    pub stimulus: Table,
+    /// What comes out: line k is seen just before edge k.
+    pub expected: Table,
+    /// Edge 0 [ps].
+    pub first_edge_ps: u64,
+    /// When `tdc_stop` changes; it starts low.
+    pub stops: Vec<Time>,
+    /// A memory that the bench reads.
+    pub bench_memory: Option<Mem>,
+    /// What the stimulus has reached.
+    pub coverage: Vec<Cover>,
+}
+
+impl Vectors {
+    /// Memories that the Verilog or the bench loads.
+    pub fn memories(&self) -> impl Iterator<Item = &Mem> {
+        memories(&self.parameters).chain(&self.bench_memory)
+    }
+}

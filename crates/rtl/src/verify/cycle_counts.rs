@@ -1,0 +1,85 @@
+//! The cycle counts that the design promises: counted in the Rust model, counted in a simulation
+//! of the Verilog, and proven of it.
+//!
+//! A proof is a k-induction by Yosys, without a bound in time, for whatever the inputs do after a
+//! first cycle of reset. Numbers next to the promised one must not be provable: a property that
+//! is true of them too says nothing, and counts as not proven.
+
+#[cfg(test)]
+mod faults;
+mod measured;
+mod model;
+mod promises;
+mod prove;
+mod simulate;
+#[cfg(test)]
+mod tests;
+
+use promises::Promise;
+
+use tofsim::error::{Error, Result};
+
+use crate::golden::blocks::CENTROID;
+
+use super::process::Limits;
+use super::rtl::Rtl;
+
+pub use prove::Proof;
+
+/// One promise: a row of `tofsim verify --cycle-counts`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Count {
+    /// What is counted, for people.
+    pub what: String,
+    /// What the design promises.
+    pub expected: u64,
+    /// Unit of the three numbers.
+    pub unit: &'static str,
+    /// What stepping the Rust model shows. Where the same thing is counted more than once, the
+    /// first count that is not the promised one. `None`: it never happens.
+    pub model: Option<u64>,
+    /// What Icarus Verilog shows, in the same way.
+    pub rtl: Option<u64>,
+    /// What Yosys says of the Verilog.
+    pub proven: Proof,
+}
+
+impl Count {
+    /// Whether all three agree with the promise.
+    pub fn holds(&self) -> bool {
+        let expected = Some(self.expected);
+        self.model == expected && self.rtl == expected && self.proven == Proof::Proven
+    }
+}
+
+/// Counts and proves everything for an estimator with so many neurons; `limits` are those of one run of
+/// a tool.
+///
+/// # Errors
+/// When a tool is missing, Icarus Verilog cannot compile `rtl` with our bench (a module or a port
+/// is missing), the simulation does not end, or the user stops.
+pub fn cycle_counts(rtl: &Rtl, neurons: usize, limits: &Limits) -> Result<Vec<Count>> {
+    let mut promises = promises::promises(neurons);
+    if rtl.has(CENTROID)? {
+        promises.push(promises::centroid());
+    }
+    count(&promises, neurons, rtl, limits)
+}
+
+fn count(promises: &[Promise], neurons: usize, rtl: &Rtl, limits: &Limits) -> Result<Vec<Count>> {
+    let folder = tempfile::tempdir().map_err(Error::io(&std::env::temp_dir(), "create"))?;
+    let simulated = simulate::measure(rtl, neurons, folder.path(), limits)?;
+    let modelled = model::measure(neurons);
+    let count = |promise: &Promise| {
+        let (key, expected) = (promise.key(), promise.expected);
+        Ok(Count {
+            what: promise.what.clone(),
+            expected,
+            unit: promise.unit,
+            model: modelled.count(&key, expected),
+            rtl: simulated.count(&key, expected),
+            proven: prove::prove(promise, rtl, folder.path(), limits)?,
+        })
+    };
+    promises.iter().map(count).collect()
+}

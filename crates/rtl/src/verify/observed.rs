@@ -1,0 +1,162 @@
+//! What the bench saw, line by line, beside what it should have observed.
+
+use std::path::Path;
+
+use tofsim::error::{Input, Result, read_text};
+
+use crate::golden::bench::Bench;
+use crate::golden::table::{Column, Table};
+
+use super::verdict::Mismatch;
+
+/// The lines that a bench writes with `+got=`, and what it compared them with.
+#[derive(Clone, Debug)]
+pub struct Observed<'a> {
+    lines: Vec<String>,
+    bench: &'a Bench<'a>,
+}
+
+/// Cycles shown before and after the first mismatch.
+const AROUND: usize = 2;
+/// Inputs wider than this are not shown [bits].
+const WIDEST: usize = 64;
+
+impl<'a> Observed<'a> {
+    /// From the file.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn read(path: &Path, bench: &'a Bench<'a>) -> Result<Self> {
+        let text = read_text(path)?;
+        if text.is_empty() {
+            return Err(Input::new(path.display(), "the bench has written nothing").into());
+        }
+        Ok(Observed { lines: text.lines().map(str::to_owned).collect(), bench })
+    }
+
+    /// Lines.
+    pub fn len(&self) -> usize {
+        self.lines.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.lines.is_empty()
+    }
+
+    /// A value as binary digits, the highest first, with x and z.
+    pub fn bits(&self, row: usize, column: &Column) -> String {
+        let digits = self.lines.get(row).map_or("", String::as_str).trim();
+        let Column { low, width, .. } = *column;
+        let (first, last) = (low / 4, (low + width).div_ceil(4));
+        let Some(end) = digits.len().checked_sub(first) else { return String::new() };
+        let begin = digits.len().saturating_sub(last);
+        let nibble = |digit: char| match digit.to_digit(16) {
+            Some(value) => format!("{value:04b}"),
+            None => String::from(digit.to_ascii_lowercase()).repeat(4),
+        };
+        let bits: String = digits.get(begin..end).unwrap_or("").chars().map(nibble).collect();
+        let end = bits.len().saturating_sub(low % 4);
+        bits.get(end.saturating_sub(width)..end).unwrap_or("").to_owned()
+    }
+
+    /// What a value should have been, as binary digits, or x where nothing is expected: before an
+    /// output that comes later has come, and of one that is not compared.
+    pub fn wanted(&self, cycle: usize, column: &Column) -> String {
+        let expected = &self.bench.vectors().expected;
+        let delay = self.bench.allowed.delay(&column.name);
+        let row = usize::try_from(cycle as i64 - delay).ok().filter(|row| *row < expected.rows());
+        match row.filter(|_| !self.bench.allowed.ignored.contains(&column.name)) {
+            Some(row) => binary(expected, row, column),
+            None => "x".repeat(column.width),
+        }
+    }
+
+    /// Whether the two sides differ there.
+    pub fn differs(&self, cycle: usize, column: &Column) -> bool {
+        let wanted = self.wanted(cycle, column);
+        !wanted.contains('x') && wanted != self.bits(cycle, column)
+    }
+
+    /// The five cycles around the first mismatch, a row for each line of a table: inputs, and both
+    /// sides of what differs there, below the numbers of the cycles.
+    pub fn around(&self, first: &Mismatch) -> Vec<Vec<String>> {
+        let vectors = self.bench.vectors();
+        let begin = first.cycle.saturating_sub(AROUND);
+        let cycles = begin..(first.cycle + AROUND + 1).min(self.len());
+        let row = |name: &str, side: &str, values: &dyn Fn(usize) -> String| {
+            let head = [name.to_owned(), side.to_owned()];
+            head.into_iter().chain(cycles.clone().map(values)).collect()
+        };
+        let mut rows: Vec<Vec<String>> =
+            vec![row("cycle", "", &|cycle| match cycle == first.cycle {
+                true => format!("{cycle} *"),
+                false => cycle.to_string(),
+            })];
+        for (k, column) in vectors.stimulus.columns().iter().enumerate() {
+            if column.width <= WIDEST {
+                rows.push(row(&column.name, "input", &|cycle| vectors.stimulus.hex(cycle, k)));
+            }
+        }
+        for column in vectors.expected.columns() {
+            if self.differs(first.cycle, column) && column.width <= WIDEST {
+                let wanted = |cycle| hexadecimal(&self.wanted(cycle, column));
+                rows.push(row(&column.name, "expected", &wanted));
+                let got = |cycle| hexadecimal(&self.bits(cycle, column));
+                rows.push(row(&column.name, "got", &got));
+            }
+        }
+        rows
+    }
+}
+
+/// A value of a line as binary digits, the highest first.
+pub fn binary(table: &Table, row: usize, column: &Column) -> String {
+    let bits = &table.row(row)[column.low..column.low + column.width];
+    bits.iter().rev().map(|bit| if *bit { '1' } else { '0' }).collect()
+}
+
+/// Binary digits as hexadecimal ones; a digit of which a part is unknown is x.
+fn hexadecimal(bits: &str) -> String {
+    let padding = (4 - bits.len() % 4) % 4;
+    let padded = "0".repeat(padding) + bits;
+    let digit = |k: usize| {
+        let nibble = &padded[4 * k..4 * k + 4];
+        u8::from_str_radix(nibble, 2).map_or("x".to_owned(), |value| format!("{value:x}"))
+    };
+    (0..padded.len() / 4).map(digit).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::golden::blocks;
+    use crate::golden::setting::Setting;
+    use tofsim::scenario;
+    use tofsim::sim::setup::Setup;
+
+    fn column(width: usize, low: usize) -> Column {
+        Column { name: String::new(), width, low, sample: 0, internal: false }
+    }
+
+    #[test]
+    fn a_column_is_cut_out_of_a_line_with_unknown_bits() {
+        let setup = Setup::new(scenario::load(scenario::DEFAULT, &[]).unwrap()).unwrap();
+        let spec = blocks::find("coarse_counter").unwrap();
+        let setting = Setting { cycles: Some(9), ..Setting::new(setup) };
+        let vectors = (spec.record)(spec, &setting).unwrap();
+        let mut bench = Bench::new(&vectors);
+        bench.allowed.delays.insert("window".to_owned(), 1);
+        let lines = vec!["0x5".to_owned(), "fff".to_owned()];
+        let observed = Observed { lines, bench: &bench };
+        assert_eq!(observed.bits(0, &column(6, 1)), "xxx010");
+        assert_eq!(observed.bits(1, &column(3, 9)), "111");
+        assert_eq!(observed.bits(7, &column(1, 0)), "");
+        assert_eq!(hexadecimal("xxx010"), "xx");
+        assert_eq!(hexadecimal("10101"), "15");
+
+        let window = &vectors.expected.columns()[1];
+        assert_eq!(observed.wanted(0, window), "x", "comes a clock later");
+        assert_eq!(observed.wanted(1, window), binary(&vectors.expected, 0, window));
+    }
+}

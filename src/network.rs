@@ -1,0 +1,20 @@
+//! The depth network: its file, its passes in fixed and floating point, and its ROMs.
+
+pub mod estimate;
+pub mod file;
+pub mod float;
+pub mod formats;
+pub mod histogram;
+pub mod histogram_file;
+pub mod mem;
+pub mod pass;
+pub mod roms;
+mod round;
+mod schema;
+mod weights;
+mod write;
+
+pub use estimate::{Estimate, estimate};
+pub use file::Network;
+pub use histogram::{Histogram, MAX_HITS};
+pub use weights::Weights;

@@ -1,0 +1,246 @@
+//! A waveform of what was expected beside what was got, and set-ups of viewers for it.
+
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+use vcd::{IdCode, TimescaleUnit, Writer};
+
+pub use vcd::Value;
+
+/// The scopes of the two sides.
+pub const SIDES: [&str; 2] = ["expected", "got"];
+
+/// What is in the waveform.
+#[derive(Clone, Debug)]
+pub struct Layout<'a> {
+    /// Name and version of the program, if the header says them.
+    pub version: Option<&'a str>,
+    /// The scope that has everything.
+    pub top: &'a str,
+    /// A bit above the other scopes.
+    pub first: Option<&'a str>,
+    /// A bit below them.
+    pub last: Option<&'a str>,
+}
+
+/// A scope with its signals: names and widths [bits].
+pub type Scope<'a> = (&'a str, Vec<(String, u32)>);
+
+/// The waveform, being written.
+#[derive(Debug)]
+pub struct SideBySide<W> {
+    out: W,
+    /// Of each scope's signals.
+    codes: Vec<Vec<IdCode>>,
+    /// Of the bit beside the scopes.
+    bit: IdCode,
+}
+
+impl<W: Write> SideBySide<W> {
+    /// Writes the header.
+    ///
+    /// # Errors
+    /// When `out` cannot be written, as everywhere here.
+    pub fn begin(mut out: W, layout: &Layout, scopes: &[Scope]) -> io::Result<Self> {
+        let mut vcd = Writer::new(&mut out);
+        if let Some(version) = layout.version {
+            vcd.version(version)?;
+        }
+        vcd.timescale(1, TimescaleUnit::PS)?;
+        vcd.add_module(layout.top)?;
+        let mut bit = layout.first.map(|name| vcd.add_wire(1, name)).transpose()?;
+        let mut codes = Vec::new();
+        for (name, signals) in scopes {
+            vcd.add_module(name)?;
+            let signals = signals.iter().map(|(name, width)| vcd.add_wire(*width, name));
+            codes.push(signals.collect::<io::Result<_>>()?);
+            vcd.upscope()?;
+        }
+        if let Some(name) = layout.last {
+            bit = Some(vcd.add_wire(1, name)?);
+        }
+        vcd.upscope()?;
+        vcd.enddefinitions()?;
+        Ok(SideBySide { out, codes, bit: bit.unwrap_or(IdCode::FIRST) })
+    }
+
+    /// Changes that follow are at this time [ps].
+    ///
+    /// # Errors
+    /// See [`begin`](Self::begin).
+    pub fn time(&mut self, ps: u64) -> io::Result<()> {
+        Writer::new(&mut self.out).timestamp(ps)
+    }
+
+    /// The bit beside the scopes changes.
+    ///
+    /// # Errors
+    /// See [`begin`](Self::begin).
+    pub fn bit(&mut self, level: bool) -> io::Result<()> {
+        Writer::new(&mut self.out).change_scalar(self.bit, level)
+    }
+
+    /// A signal of one bit changes.
+    ///
+    /// # Errors
+    /// See [`begin`](Self::begin).
+    pub fn scalar(&mut self, scope: usize, signal: usize, level: Value) -> io::Result<()> {
+        Writer::new(&mut self.out).change_scalar(self.codes[scope][signal], level)
+    }
+
+    /// A signal changes; its bits, the highest first.
+    ///
+    /// # Errors
+    /// See [`begin`](Self::begin).
+    pub fn vector(
+        &mut self,
+        scope: usize,
+        signal: usize,
+        bits: impl IntoIterator<Item = Value>,
+    ) -> io::Result<()> {
+        Writer::new(&mut self.out).change_vector(self.codes[scope][signal], bits)
+    }
+
+    /// What it writes to.
+    pub fn out(&self) -> &W {
+        &self.out
+    }
+
+    /// The same, at the end.
+    pub fn into_out(self) -> W {
+        self.out
+    }
+}
+
+/// How a signal of two and more bits, or of one, is shown: GTKWave's flags.
+pub const HEXADECIMAL: &str = "22";
+/// The same for a bit.
+pub const BINARY: &str = "28";
+
+/// A signal that a viewer shows.
+#[derive(Clone, Debug)]
+pub struct Shown<'a> {
+    /// GTKWave's flags.
+    pub flags: &'static str,
+    /// GTKWave's number of a colour, if it has one.
+    pub colour: Option<u32>,
+    /// What GTKWave calls it.
+    pub label: String,
+    /// Its scope.
+    pub scope: &'a str,
+    /// Its name there.
+    pub name: String,
+    /// Its width [bits].
+    pub width: u32,
+}
+
+/// The range that GTKWave has after a vector's name.
+pub fn range(width: u32) -> String {
+    if width == 1 { String::new() } else { format!("[{}:0]", width - 1) }
+}
+
+/// What a viewer shows at first.
+#[derive(Clone, Debug)]
+pub struct View<'a> {
+    /// The scope that has everything, and the bit in it.
+    pub top: [&'a str; 2],
+    /// GTKWave's colour of that bit.
+    pub colour: Option<u32>,
+    /// Where the window begins [ps].
+    pub from: u64,
+    /// GTKWave's number for the zoom.
+    pub zoom: String,
+    /// Height of the window [pixels].
+    pub height: u32,
+    /// Widths of the columns of scopes and of names, if they are set [pixels].
+    pub columns: Option<[u32; 2]>,
+    /// The first difference [ps].
+    pub marker: Option<u64>,
+    /// Signals in order.
+    pub signals: Vec<Shown<'a>>,
+}
+
+impl View<'_> {
+    /// GTKWave's save file for the waveform called `wave`.
+    pub fn gtkwave(&self, wave: &str) -> String {
+        let View { top: [top, bit], from, zoom, height, .. } = self;
+        let marker = self.marker.map_or("-1".to_owned(), |at| at.to_string());
+        let mut text = format!(
+            "[dumpfile] \"{wave}\"\n[timestart] {from}\n[size] 1400 {height}\n*{zoom} {marker}\n"
+        );
+        // Writing to a string cannot fail.
+        if let Some([scopes, names]) = self.columns {
+            let _ = writeln!(text, "[sst_width] {scopes}\n[signals_width] {names}");
+        }
+        let colour =
+            |colour: Option<u32>| colour.map_or(String::new(), |n| format!("[color] {n}\n"));
+        let _ = writeln!(text, "@{BINARY}\n{}{top}.{bit}", colour(self.colour));
+        for Shown { flags, colour: own, label, scope, name, width } in &self.signals {
+            let (own, range) = (colour(*own), range(*width));
+            let _ = writeln!(text, "@{flags}\n{own}+{{{label}}} {top}.{scope}.{name}{range}");
+        }
+        text
+    }
+
+    /// Surfer's command file.
+    pub fn surfer(&self) -> String {
+        let [top, bit] = self.top;
+        let mut text = format!("variable_add {top}.{bit}\n");
+        for Shown { scope, name, .. } in &self.signals {
+            let _ = writeln!(text, "variable_add {top}.{scope}.{name}");
+        }
+        if let Some(at) = self.marker {
+            let _ = write!(text, "marker_set first {at}\ncursor_set {at}\n");
+        }
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_sides_stand_under_one_top_with_the_bit_that_goes_with_them() {
+        let layout = Layout { version: None, top: "pair", first: None, last: Some("any") };
+        let scopes = SIDES.map(|side| (side, vec![("depth".to_owned(), 2)]));
+        let mut wave = SideBySide::begin(Vec::new(), &layout, &scopes).unwrap();
+        wave.time(8).unwrap();
+        wave.vector(1, 0, [Value::V1, Value::X]).unwrap();
+        wave.bit(true).unwrap();
+        let text = String::from_utf8(wave.into_out()).unwrap();
+        let expected = "$timescale 1 ps $end\n$scope module pair $end\n\
+            $scope module expected $end\n$var wire 2 ! depth $end\n$upscope $end\n\
+            $scope module got $end\n$var wire 2 \" depth $end\n$upscope $end\n\
+            $var wire 1 # any $end\n$upscope $end\n$enddefinitions $end\n#8\nb1x \"\n1#\n";
+        assert_eq!(text, expected);
+    }
+
+    #[test]
+    fn a_view_begins_with_the_bit_and_puts_a_marker_on_the_first_difference() {
+        let depth = Shown {
+            flags: HEXADECIMAL,
+            colour: Some(4),
+            label: "depth got".to_owned(),
+            scope: "got",
+            name: "depth".to_owned(),
+            width: 36,
+        };
+        let view = View {
+            top: ["pair", "any"],
+            colour: None,
+            from: 8,
+            zoom: "-14.0".to_owned(),
+            height: 700,
+            columns: None,
+            marker: Some(16),
+            signals: vec![depth],
+        };
+        let save = "[dumpfile] \"a.vcd\"\n[timestart] 8\n[size] 1400 700\n*-14.0 16\n@28\npair.any\n\
+            @22\n[color] 4\n+{depth got} pair.got.depth[35:0]\n";
+        assert_eq!(view.gtkwave("a.vcd"), save);
+        let commands = "variable_add pair.any\nvariable_add pair.got.depth\n\
+            marker_set first 16\ncursor_set 16\n";
+        assert_eq!(view.surfer(), commands);
+    }
+}
