@@ -1,13 +1,13 @@
 //! What any clocked design needs: time, clocks, words that wrap, modules, and named signals.
 
-pub mod bits;
+mod bits;
 pub mod clock;
-pub mod clocked;
+mod clocked;
 pub mod connect;
 pub mod module;
 pub mod signals;
-pub mod thermometer;
-pub mod time;
+pub(crate) mod thermometer;
+pub(crate) mod time;
 
 pub use bits::{S, U};
 pub use clocked::{ASLEEP, AWAKE, Clocked, asleep_if};

@@ -22,7 +22,7 @@
 //! use tofsim::{Run, Setup};
 //!
 //! # fn main() -> tofsim::Result<()> {
-//! let setup = Setup::load("kc705", &["target.distance_m=0.3", "firmware.shots_per_frame=3000"])?;
+//! let setup = Setup::load("kc705", &["target.distance_m=0.3"])?;
 //! for frame in Run::new(&setup).frames(2)? {
 //!     println!("{:.4} m from {} hits", frame.depth_m(), frame.hits());
 //!     # assert!((frame.depth_m() - 0.3).abs() < 0.05);
@@ -72,7 +72,7 @@
 //! }
 //!
 //! # fn main() -> tofsim::Result<()> {
-//! let setup = Setup::load("kc705", &["firmware.shots_per_frame=3000"])?;
+//! let setup = Setup::load("kc705", &[])?;
 //! for frame in Run::new(&setup).frames(1)? {
 //!     println!("{:.4} m, the network says {:.4}", fullest_bin_m(&frame.histogram), frame.depth_m());
 //!     # assert!((fullest_bin_m(&frame.histogram) - 0.5).abs() < 0.1);
@@ -114,8 +114,8 @@ pub mod waves;
 
 pub use error::{Error, Input, Result};
 pub use kernel::time::Time;
-pub use network::Histogram;
 pub use network::file::Network;
+pub use network::histogram::Histogram;
 pub use optics::budget::Budget;
 pub use scenario::Scenario;
 pub use scenario::window::Window;
@@ -123,7 +123,9 @@ pub use sim::cycles::Cycle;
 pub use sim::fast::Stepping;
 pub use sim::fast::histogram::Histograms as HistogramRun;
 pub use sim::frames::Frame;
-pub use sim::run::{Observers, Outcome, Run, Taker};
+pub use sim::run::{Observers, Outcome, Run};
 pub use sim::setup::Setup;
 pub use sim::shot_recorder::Shot;
-pub use waves::{Marks, WaveFormat, Waves};
+pub use sim::sinks::Taker;
+pub use waves::marks::Marks;
+pub use waves::writer::{WaveFormat, Waves};

@@ -1,9 +1,9 @@
 //! From the scene to photons: link budget, eye safety and the statistics of the first avalanche.
 
 pub mod budget;
-pub mod closed_form;
+pub(crate) mod closed_form;
 pub mod eye_safety;
-pub mod geometry;
+mod geometry;
 pub mod hazard;
 
 pub use budget::Budget;

@@ -1,6 +1,6 @@
 //! The detector and the light that reaches it, as avalanches in time.
 
-pub mod light;
+pub(crate) mod light;
 pub mod photon_list;
-pub mod spad;
+pub(crate) mod spad;
 pub mod streams;

@@ -1,17 +1,17 @@
 //! A run: the device, the light on it and the acquisition computer, stepped in time.
 
-pub mod cycles;
+pub(crate) mod cycles;
 pub mod device;
 pub mod fast;
 pub mod frames;
-pub mod jitter;
-pub mod oscillator;
+mod jitter;
+mod oscillator;
 mod probe;
 pub mod run;
 pub mod setup;
 pub mod shot_recorder;
-mod sinks;
-pub mod timeline;
+pub(crate) mod sinks;
+mod timeline;
 mod wave_tracer;
 
 pub use device::Device;

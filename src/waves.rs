@@ -6,12 +6,14 @@
 
 #[cfg(test)]
 mod bench;
+mod body;
 mod digits;
 #[cfg(test)]
 mod file_tests;
 mod fst;
 mod gtkwave;
 mod layout;
+pub(crate) mod marks;
 #[cfg(test)]
 mod readback;
 mod scopes;
@@ -23,239 +25,11 @@ mod surfer;
 mod tests;
 mod vcd;
 mod views;
-
-use std::io;
-use std::path::Path;
-
-use crate::error::{Error, Result};
-use crate::firmware::TofTop;
-use crate::hierarchy::{Entry, Part};
-use crate::kernel::Time;
-use crate::kernel::signals::Sink;
+pub(crate) mod writer;
 
 pub use digits::TapDigits;
-use fst::Fst;
 pub use gtkwave::zoom;
-use vcd::Vcd;
-
+pub use marks::Marks;
 pub use select::select;
-pub use views::{Marks, write_views};
-
-/// A format of waveform files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WaveFormat {
-    /// Value change dump: text, read by everything.
-    Vcd,
-    /// GTKWave's binary format, some twenty times smaller.
-    Fst,
-}
-
-impl WaveFormat {
-    /// The ending of its files, without the dot.
-    pub const fn extension(self) -> &'static str {
-        match self {
-            WaveFormat::Vcd => "vcd",
-            WaveFormat::Fst => "fst",
-        }
-    }
-}
-
-/// A waveform file being written. Dropped without [`Waves::finish`], it leaves no trace.
-pub struct Waves {
-    writer: Writer,
-    state: State,
-    /// What the file shows, since the first window.
-    shown: Box<Part>,
-    /// Time of the last call [ps].
-    last: u64,
-    /// The first error of writing.
-    failed: Option<io::Error>,
-}
-
-enum Writer {
-    Vcd(Box<Vcd>),
-    Fst(Box<Fst>),
-}
-
-#[derive(Clone, Copy, PartialEq)]
-enum State {
-    /// No window has begun.
-    Blank,
-    /// In a window.
-    Open,
-    /// The window has ended, at this time [ps]; its end is not written yet, because the next
-    /// window may begin there.
-    Ended(u64),
-}
-
-/// What a time step is.
-#[derive(Clone, Copy, PartialEq)]
-enum Step {
-    /// The first one, at time 0: every signal.
-    Start,
-    /// A window begins: every signal.
-    Open,
-    /// Some signals change.
-    Change,
-    /// A window ends: every signal is unknown.
-    Close,
-}
-
-/// A file format, given the values of one time step after the other.
-trait Body: Sink {
-    /// Writes a step; `at` is never earlier than the step before [ps].
-    fn step(&mut self, at: u64, step: Step, fill: impl FnOnce(&mut Self)) -> io::Result<()>;
-    /// All signals unknown; for use in a step.
-    fn unknown(&mut self);
-    /// Puts the finished file, which ends at `at`, in place [ps].
-    fn finish(self, at: u64) -> Result<()>;
-    /// Turns an error of writing here into one that names the file.
-    fn fault(&self, source: io::Error) -> Error;
-}
-
-impl Waves {
-    /// Begins a file of `entries`. `order` is the physical tap at each place in the order of
-    /// arrival; `provenance` says where the file comes from, a line each.
-    pub fn create(
-        path: &Path,
-        format: WaveFormat,
-        entries: &[Entry],
-        order: &[u16],
-        provenance: &[String],
-    ) -> Result<Waves> {
-        let writer = match format {
-            WaveFormat::Vcd => {
-                Writer::Vcd(Box::new(Vcd::create(path, entries, order, provenance)?))
-            }
-            WaveFormat::Fst => {
-                Writer::Fst(Box::new(Fst::create(path, entries, order, provenance)?))
-            }
-        };
-        let shown = Box::new(Part::of(entries.iter().map(|entry| entry.id)));
-        Ok(Waves { writer, state: State::Blank, shown, last: 0, failed: None })
-    }
-
-    /// A window begins: every signal is shown as it is now. Within a window, only what has changed.
-    ///
-    /// An error of writing, here and in the calls below, is kept for [`Waves::check`].
-    pub fn begin(&mut self, now: Time, top: &TofTop) {
-        let at = self.at(now);
-        match self.state {
-            State::Open => return self.sample(now, top),
-            State::Ended(end) if end == at => {
-                self.state = State::Open;
-                return self.sample(now, top);
-            }
-            State::Ended(end) => self.unknown(end, Step::Close),
-            State::Blank if at > 0 => self.unknown(0, Step::Start),
-            State::Blank => {}
-        }
-        let step = if at > 0 { Step::Open } else { Step::Start };
-        self.state = State::Open;
-        let result = match &mut self.writer {
-            Writer::Vcd(file) => file.step(at, step, |file| self.shown.show(top, file)),
-            Writer::Fst(file) => file.step(at, step, |file| self.shown.show(top, file)),
-        };
-        self.keep(result);
-    }
-
-    /// Shows what has changed since the last call; outside windows nothing. Within a window this
-    /// has to be called at every edge of `clk_250` and at every change between them.
-    #[inline]
-    pub fn sample(&mut self, now: Time, top: &TofTop) {
-        if self.state != State::Open {
-            return;
-        }
-        let at = self.at(now);
-        let (shown, step) = (&mut self.shown, Step::Change);
-        let result = match &mut self.writer {
-            Writer::Vcd(file) => file.step(at, step, |file| shown.follow(top, file)),
-            Writer::Fst(file) => file.step(at, step, |file| shown.follow(top, file)),
-        };
-        self.keep(result);
-    }
-
-    /// The same where only levels of clocks have changed.
-    #[inline]
-    pub fn tick(&mut self, now: Time, top: &TofTop) {
-        if self.state != State::Open {
-            return;
-        }
-        let at = self.at(now);
-        let (shown, step) = (&mut self.shown, Step::Change);
-        let result = match &mut self.writer {
-            Writer::Vcd(file) => file.step(at, step, |file| shown.tick(top, file)),
-            Writer::Fst(file) => file.step(at, step, |file| shown.tick(top, file)),
-        };
-        self.keep(result);
-    }
-
-    /// A window ends: from now on every signal is unknown.
-    pub fn end(&mut self, now: Time) {
-        let at = self.at(now);
-        if self.state == State::Open {
-            self.state = State::Ended(at);
-        }
-    }
-
-    /// The first error of writing so far.
-    #[inline]
-    pub fn check(&self) -> Result<()> {
-        match &self.failed {
-            None => Ok(()),
-            Some(error) => Err(self.fault(error)),
-        }
-    }
-
-    /// The run has ended: puts the file in place.
-    pub fn finish(mut self, end: Time) -> Result<()> {
-        let at = self.at(end);
-        match self.state {
-            State::Blank => self.unknown(0, Step::Start),
-            State::Ended(end) if end < at => self.unknown(end, Step::Close),
-            State::Ended(_) | State::Open => {}
-        }
-        self.check()?;
-        match self.writer {
-            Writer::Vcd(file) => file.finish(at),
-            Writer::Fst(file) => file.finish(at),
-        }
-    }
-
-    fn unknown(&mut self, at: u64, step: Step) {
-        let result = match &mut self.writer {
-            Writer::Vcd(file) => file.step(at, step, Body::unknown),
-            Writer::Fst(file) => file.step(at, step, Body::unknown),
-        };
-        self.keep(result);
-    }
-
-    /// Time as the file has it, which never goes back [ps].
-    #[inline(always)]
-    fn at(&mut self, now: Time) -> u64 {
-        self.last = now.ps().max(self.last);
-        self.last
-    }
-
-    #[inline(always)]
-    fn keep(&mut self, result: io::Result<()>) {
-        if let Err(error) = result {
-            self.fail(error);
-        }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn fail(&mut self, error: io::Error) {
-        self.failed.get_or_insert(error);
-    }
-
-    #[cold]
-    fn fault(&self, error: &io::Error) -> Error {
-        let source = io::Error::new(error.kind(), error.to_string());
-        match &self.writer {
-            Writer::Vcd(file) => file.fault(source),
-            Writer::Fst(file) => file.fault(source),
-        }
-    }
-}
+pub use views::write_views;
+pub use writer::{WaveFormat, Waves};

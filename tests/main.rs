@@ -9,5 +9,6 @@ mod histogram_file;
 mod layers;
 mod leap;
 mod physics;
+mod public_face;
 mod stepping;
 mod whole_chain;

@@ -1,6 +1,6 @@
 //! One output of a PLL: an ideal clock whose edges are computed, never accumulated.
 
-use super::Time;
+use super::time::Time;
 
 /// A clock of `reference_hz * multiply / divide`, low until its first rising edge at `phase`.
 ///

@@ -40,7 +40,6 @@ pub struct Instance {
 /// A name for a value that is held elsewhere.
 #[derive(Debug)]
 pub struct Alias {
-    /// The name.
     pub name: &'static str,
     /// Whether it is an output port; if not, a wire.
     pub output: bool,

@@ -1,6 +1,7 @@
 //! Named signals: a struct made by [`signals!`](crate::signals) can list and report its fields.
 
-use super::{S, Thermometer, U};
+use super::bits::{S, U};
+use super::thermometer::Thermometer;
 
 /// How a value reads best.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,7 +51,6 @@ pub struct Signal {
     pub output: bool,
     /// Who looks at it first.
     pub view: View,
-    /// What it means.
     pub doc: &'static str,
 }
 
@@ -88,7 +88,6 @@ pub trait Word: Copy + PartialEq {
     const WIDTH: u32;
     /// How to show it.
     const FORMAT: SignalFormat;
-    /// Its bits.
     fn bits(&self) -> u64;
 }
 

@@ -7,8 +7,8 @@ use crate::firmware::forward1::{self, BIAS_ROW};
 use crate::firmware::forward2::{self, MOST_NEURONS, NEURONS};
 use crate::firmware::tansig::address;
 
-use super::Histogram;
 use super::formats::{Activation, Depth, HiddenBias, HiddenWeight, L1In, OutputBias, OutputWeight};
+use super::histogram::Histogram;
 
 /// What an estimation leaves in the registers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

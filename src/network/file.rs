@@ -101,6 +101,11 @@ impl Network {
             other => other,
         })
     }
+
+    /// The weights in double precision: those before rounding, or else the values of the integers.
+    pub fn twin(&self) -> Float {
+        self.float.clone().unwrap_or_else(|| Float::from_fixed(&self.fixed))
+    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! The network in double precision: what the fixed-point datapath approximates.
 
 use super::formats::Fixed;
-use super::{Histogram, Network, Weights};
+use super::histogram::Histogram;
+use super::weights::Weights;
 
 /// A network's weights before rounding.
 pub type Float = Weights<f64, f64, f64, f64>;
@@ -23,16 +24,10 @@ impl Float {
     }
 }
 
-impl Network {
-    /// The weights in double precision: those before rounding, or else the values of the integers.
-    pub fn twin(&self) -> Float {
-        self.float.clone().unwrap_or_else(|| Float::from_fixed(&self.fixed))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::network::Network;
 
     #[test]
     fn one_bin_and_one_neuron_by_hand() {

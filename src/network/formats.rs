@@ -5,7 +5,7 @@ use fixed::{FixedI16, FixedI32, FixedI64};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Weights;
+use super::weights::Weights;
 
 /// W1: 16 bits, 23 of them fraction, so below 2^-8. Carried in 32 bits, because a `fixed` type
 /// has no more fraction bits than bits; [`W1`] has the range.

@@ -12,7 +12,8 @@ use crate::error::{Error, Input, Result, line_and_column};
 use crate::files::csv::CsvInput;
 use crate::files::npy;
 use crate::firmware::histogram_builder::BINS;
-use crate::network::{Histogram, MAX_HITS};
+
+use super::histogram::{Histogram, MAX_HITS};
 
 /// First bytes of an `.npy` file.
 const MAGIC: &[u8; 6] = b"\x93NUMPY";

@@ -11,9 +11,7 @@ use crate::firmware::tdc_decoder::Calibration;
 /// A ROM's file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mem {
-    /// File name.
     pub name: &'static str,
-    /// Its lines.
     pub text: String,
 }
 

@@ -3,7 +3,8 @@
 use std::iter::Sum;
 use std::ops::{Add, Mul};
 
-use super::{Histogram, Weights};
+use super::histogram::Histogram;
+use super::weights::Weights;
 
 /// What a hidden neuron comes to.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,7 +9,7 @@ use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tansig;
 use crate::kernel::S;
 
-use super::Network;
+use super::file::Network;
 use super::formats::{Fixed, L1_OUT, Overflow, TANSIG_RANGE};
 
 impl Fixed {

@@ -3,16 +3,15 @@
 use crate::error::{Input, Result};
 use crate::firmware::histogram_builder::BINS;
 
-use super::Weights;
 use super::float::Float;
 use super::formats::{
     B1, B2, Fixed, HiddenBias, HiddenWeight, OutputBias, OutputWeight, Overflow, W1, W2, WordFormat,
 };
+use super::weights::Weights;
 
 /// Rounded weights, and what did not fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rounded {
-    /// The words.
     pub fixed: Fixed,
     /// Weights that no word holds, and were saturated.
     pub saturated: usize,

@@ -9,12 +9,12 @@ use crate::firmware::forward2::MOST_NEURONS;
 use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tansig::ADDRESS_BITS;
 
-use super::file::{Accuracy, Training};
+use super::file::{Accuracy, Network, Training};
 use super::formats::{
     B1, B2, Fixed, HiddenBias, HiddenWeight, L1_OUT, OutputBias, OutputWeight, TANSIG_RANGE, W1,
     W2, WordFormat,
 };
-use super::{Network, Weights};
+use super::weights::Weights;
 
 /// Value of the key `schema`.
 pub(super) const SCHEMA: &str = "tofsim.network/1";

@@ -4,7 +4,7 @@ use std::fmt::{Display, Write};
 
 use crate::firmware::tansig::ADDRESS_BITS;
 
-use super::Network;
+use super::file::Network;
 use super::formats::TANSIG_RANGE;
 use super::schema::{FORMATS, SCALING, SCHEMA};
 

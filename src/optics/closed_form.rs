@@ -10,7 +10,7 @@ use crate::firmware::carry_chain::Delays;
 use crate::firmware::tdc_decoder::{self, Calibration};
 use crate::kernel::Time;
 
-use super::Hazard;
+use super::hazard::Hazard;
 
 /// Codes of the TDC [codes].
 pub const CODES: usize = 256;
@@ -111,7 +111,6 @@ impl BinProbabilities {
         BinProbabilities(of_code)
     }
 
-    /// By code.
     pub fn of_code(&self) -> &[f64; CODES] {
         &self.0
     }

@@ -16,7 +16,7 @@ use std::sync::LazyLock;
 
 use crate::kernel::Time;
 
-use super::Budget;
+use super::budget::Budget;
 
 /// Pieces of the broken line to a sigma [1].
 const PER_SIGMA: usize = 64;
@@ -76,7 +76,6 @@ pub struct Hazard {
     scale: f64,
     /// First node; it may be before the laser edge, and is never reached without signal.
     first: Node,
-    /// Last node.
     last: Node,
     /// H at the nodes, and then NaN, which no search passes.
     nodes: Vec<f64>,

@@ -26,7 +26,6 @@ pub enum Event {
     Recovery,
 }
 
-/// The diode.
 #[derive(Clone, Debug)]
 pub struct Spad {
     state: State,

@@ -23,7 +23,6 @@ pub struct Device {
     pub top: TofTop,
     /// The wire from detector to firmware.
     pub line: StopLine,
-    /// The light.
     pub light: Light,
     pub(super) spad: Spad,
     pub(super) timeline: Timeline,

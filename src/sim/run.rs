@@ -13,14 +13,11 @@ use super::fast::{FastForward, Stepping};
 use super::frames::{Frame, Frames};
 use super::setup::Setup;
 use super::shot_recorder::{Shot, ShotRecorder};
-use super::sinks::{OptionalRecorder, Sinks};
+use super::sinks::{OptionalRecorder, Sinks, Taker};
 use super::wave_tracer::{WaveTracer, WindowedProbe};
 
 /// Cycles between two looks at whether to stop.
 const POLL_INTERVAL: u64 = 1 << 14;
-
-/// Takes what a run gives, piece by piece; an error ends the run.
-pub type Taker<'a, T> = &'a mut dyn FnMut(&T) -> Result<()>;
 
 /// What looks at a run, and what may stop it.
 #[derive(Default)]
@@ -131,6 +128,7 @@ impl<'a> Run<'a> {
     ///
     /// # Errors
     /// When the control signals keep a frame from ending, `trace` fails, or the run is stopped.
+    #[doc(hidden)]
     pub fn traced<T: WindowedProbe>(
         mut self,
         count: u64,

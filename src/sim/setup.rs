@@ -50,6 +50,7 @@ pub struct Setup {
     /// The link budget.
     pub budget: Budget,
     /// What elaboration fixes in the firmware.
+    #[doc(hidden)]
     pub params: Params,
     /// The network in the estimator.
     pub network: Network,

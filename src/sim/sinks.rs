@@ -7,8 +7,10 @@ use crate::firmware::tof_top::Params;
 
 use super::device::{AvalancheListener, Device, Off};
 use super::frames::Frame;
-use super::run::Taker;
 use super::shot_recorder::{Shot, ShotRecorder};
+
+/// Takes what a run gives, piece by piece; an error ends the run.
+pub type Taker<'a, T> = &'a mut dyn FnMut(&T) -> Result<()>;
 
 /// Takers of shots and frames, and who may stop the run.
 pub(super) struct Sinks<'a> {

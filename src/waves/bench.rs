@@ -8,7 +8,7 @@ use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, P
 use crate::firmware::{centroid_estimator, depth_estimator, forward2, frame_ctrl, tdc};
 use crate::kernel::{S, Time, U};
 
-use super::Waves;
+use super::writer::Waves;
 
 /// Shots in a frame.
 pub(super) const SHOTS: u16 = 12;

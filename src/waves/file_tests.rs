@@ -1,16 +1,20 @@
 //! How waveform files come to be: windows, times, provenance, disks that are full.
 
 use std::fs;
+use std::io;
 
 use wellen::simple::read;
 
-use super::bench::{Bench, params};
-use super::readback::{FORMATS, FRAME, at, contents, create, record};
-use super::*;
 #[cfg(unix)]
 use crate::files::output::device;
+use crate::firmware::TofTop;
 use crate::firmware::tof_top::Pins;
 use crate::hierarchy::{entries, ram_entries};
+use crate::kernel::Time;
+
+use super::bench::{Bench, params};
+use super::readback::{FORMATS, FRAME, at, contents, create, record};
+use super::writer::WaveFormat;
 
 #[test]
 fn outside_the_windows_everything_is_unknown() {

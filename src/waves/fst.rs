@@ -11,9 +11,9 @@ use crate::hierarchy::Entry;
 use crate::kernel::Thermometer;
 use crate::kernel::signals::Sink;
 
+use super::body::{Body, Step};
 use super::digits::TapDigits;
 use super::spool::Spool;
-use super::{Body, Step};
 
 mod blocks;
 mod changes;
@@ -42,7 +42,6 @@ pub(super) struct Fst {
 }
 
 impl Fst {
-    /// Begins a file.
     pub(super) fn create(
         path: &Path,
         entries: &[Entry],

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use crate::hierarchy::Entry;
 use crate::kernel::signals::SignalFormat;
 
-use super::layout::{Group, Row};
-use super::views::Marks;
+use super::layout::{Group, ShownSignal};
+use super::marks::Marks;
 
 /// Trace flags, as the save file has them in hexadecimal.
 mod flag {
@@ -59,7 +59,7 @@ pub(super) fn save_file(wave: &str, stem: &str, groups: &[Group<'_>], marks: &Ma
 }
 
 /// The file that names the states of `row`.
-pub(super) fn names_file(stem: &str, row: &Row<'_>) -> String {
+pub(super) fn names_file(stem: &str, row: &ShownSignal<'_>) -> String {
     format!("{stem}.{}.txt", row.name)
 }
 
@@ -108,7 +108,7 @@ impl Lines<'_> {
         self.line(format_args!("-{name}"));
     }
 
-    fn row(&mut self, row: &Row<'_>) {
+    fn row(&mut self, row: &ShownSignal<'_>) {
         let signal = &row.entry.signal;
         let radix = match signal.format {
             SignalFormat::State(_) => flag::BINARY | flag::NAMES,
@@ -143,7 +143,7 @@ impl Lines<'_> {
         }
     }
 
-    fn named(&mut self, row: &Row<'_>, note: &str) {
+    fn named(&mut self, row: &ShownSignal<'_>, note: &str) {
         // GTKWave would show a name with dots from the last dot on.
         let parts: Vec<_> = row.name.rsplit('.').take(2).collect();
         let shown = parts.into_iter().rev().collect::<Vec<_>>().join("/");

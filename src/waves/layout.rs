@@ -10,13 +10,11 @@ pub(super) struct Group<'a> {
     pub(super) name: &'static str,
     /// Whether only the heading is shown at first.
     pub(super) closed: bool,
-    /// Signals.
-    pub(super) rows: Vec<Row<'a>>,
+    pub(super) rows: Vec<ShownSignal<'a>>,
 }
 
 /// One signal.
-pub(super) struct Row<'a> {
-    /// The signal.
+pub(super) struct ShownSignal<'a> {
     pub(super) entry: &'a Entry,
     /// Its path below the top.
     pub(super) name: String,
@@ -72,7 +70,7 @@ pub(super) fn groups(entries: &[Entry]) -> Vec<Group<'_>> {
                 };
                 if is_meant && shown.insert(entry.id) {
                     let curve = view.curve || CURVES.contains(&&*below);
-                    rows.push(Row { entry, name: below, curve });
+                    rows.push(ShownSignal { entry, name: below, curve });
                 }
             }
         }

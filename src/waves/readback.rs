@@ -9,9 +9,8 @@ use crate::firmware::tof_top::Params;
 use crate::hierarchy::{Entry, entries, ram_entries};
 
 use super::bench::{Bench, SHOTS};
-use super::{WaveFormat, Waves};
+use super::writer::{WaveFormat, Waves};
 
-/// Both formats.
 pub(super) const FORMATS: [WaveFormat; 2] = [WaveFormat::Vcd, WaveFormat::Fst];
 /// A frame and a little more [cycles of clk_125].
 pub(super) const FRAME: u64 = 256 + 6 * SHOTS as u64 + 16 + 268 + 20;

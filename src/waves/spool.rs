@@ -16,7 +16,6 @@ pub(super) struct Spool {
 }
 
 impl Spool {
-    /// Begins a file.
     pub(super) fn create(path: &Path) -> Result<Self> {
         let file = OutputFile::create(path)?;
         let kept = match fs::metadata(path) {

@@ -6,9 +6,9 @@ use std::fmt::Write;
 
 use crate::kernel::signals::SignalFormat;
 
-use super::WaveFormat;
-use super::layout::{Group, Row};
-use super::views::Marks;
+use super::layout::{Group, ShownSignal};
+use super::marks::Marks;
+use super::writer::WaveFormat;
 
 /// Folder of mappings, in the folder where Surfer is started.
 pub(super) const MAPPINGS: &str = ".surfer/mappings";
@@ -39,12 +39,11 @@ pub(super) fn commands(format: WaveFormat, groups: &[Group<'_>], marks: &Marks) 
 }
 
 /// Name of the mapping for the states of `row`, and of its file.
-pub(super) fn mapping_name(row: &Row<'_>) -> String {
+pub(super) fn mapping_name(row: &ShownSignal<'_>) -> String {
     row.name.replace('.', "_")
 }
 
-/// The mapping's contents.
-pub(super) fn mapping(states: &[&str], row: &Row<'_>) -> String {
+pub(super) fn mapping(states: &[&str], row: &ShownSignal<'_>) -> String {
     let mut text = String::new();
     line(&mut text, format_args!("Name = {}", mapping_name(row)));
     line(&mut text, format_args!("Bits = {}", row.entry.signal.width));
@@ -54,7 +53,7 @@ pub(super) fn mapping(states: &[&str], row: &Row<'_>) -> String {
     text
 }
 
-fn shown_as(format: WaveFormat, row: &Row<'_>) -> Option<String> {
+fn shown_as(format: WaveFormat, row: &ShownSignal<'_>) -> Option<String> {
     match row.entry.signal.format {
         SignalFormat::Unsigned if row.entry.signal.width <= 32 => Some("Unsigned".into()),
         SignalFormat::Signed { .. } => Some("Signed".into()),

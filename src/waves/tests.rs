@@ -5,14 +5,16 @@ use std::fs;
 
 use wellen::simple::read;
 
+use crate::firmware::TofTop;
 use crate::firmware::carry_chain::TAPS;
 use crate::firmware::tof_top::Pins;
 use crate::hierarchy::{entries, ram_entries};
 use crate::kernel::Thermometer;
+use crate::kernel::Time;
 
 use super::bench::{Bench, SHOTS, params, with_delays};
 use super::readback::{DerefIn, FORMATS, FRAME, assert_same, at, contents, create, record};
-use super::*;
+use super::writer::WaveFormat;
 
 #[test]
 fn vcd_and_fst_hold_every_entry_and_the_same_changes() {

@@ -15,9 +15,9 @@ use crate::hierarchy::{Entry, IDS, Kind};
 use crate::kernel::Thermometer;
 use crate::kernel::signals::{SignalFormat, Sink};
 
+use super::body::{Body, Step};
 use super::digits::TapDigits;
 use super::scopes::{Element, elements};
-use super::{Body, Step};
 
 mod text;
 
@@ -44,7 +44,6 @@ struct Signal {
 }
 
 impl Vcd {
-    /// Begins a file.
     pub(super) fn create(
         path: &Path,
         entries: &[Entry],

@@ -11,35 +11,12 @@ use std::path::{Path, PathBuf};
 use crate::error::Result;
 use crate::files::output::{create_directory, write_file};
 use crate::hierarchy::Entry;
-use crate::kernel::Time;
 use crate::kernel::signals::SignalFormat;
 
 use super::layout::groups;
-use super::{WaveFormat, gtkwave, surfer};
-
-/// Instants to mark and to show first.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Marks {
-    /// First laser edge in a written window.
-    pub laser_edge: Option<Time>,
-    /// First edge of the SPAD's output after it.
-    pub spad_edge: Option<Time>,
-    /// End of an estimation in a written window.
-    pub algo_done: Option<Time>,
-    /// Begin of what is shown at first.
-    pub from: Time,
-    /// End of what is shown at first.
-    pub to: Time,
-}
-
-impl Marks {
-    /// The marks that are known, with their names.
-    pub(super) fn named(&self) -> Vec<(&'static str, Time)> {
-        let marks =
-            [("laser", self.laser_edge), ("SPAD", self.spad_edge), ("done", self.algo_done)];
-        marks.into_iter().filter_map(|(name, at)| Some((name, at?))).collect()
-    }
-}
+use super::marks::Marks;
+use super::writer::WaveFormat;
+use super::{gtkwave, surfer};
 
 /// Writes the set-ups for the waveform at `wave_path`, which holds `entries`, and returns their
 /// paths. A waveform that went to a device or a pipe has none.
@@ -95,6 +72,7 @@ mod tests {
     use super::super::bench::params;
     use super::*;
     use crate::hierarchy::{entries, ram_entries};
+    use crate::kernel::Time;
 
     fn written(folder: &Path, format: WaveFormat, entries: &[Entry]) -> Vec<(String, String)> {
         let wave = folder.join("run").with_extension(format.extension());

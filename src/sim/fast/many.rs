@@ -18,10 +18,10 @@ use crate::scenario::QuenchMode;
 use crate::sensor::light::Light;
 use crate::sim::device::{Device, Off};
 use crate::sim::frames::Frame;
-use crate::sim::run::{Observers, Outcome, Run, Taker};
+use crate::sim::run::{Observers, Outcome, Run};
 use crate::sim::setup::{CYCLE, Setup};
 use crate::sim::shot_recorder::ShotRecorder;
-use crate::sim::sinks::Sinks;
+use crate::sim::sinks::{Sinks, Taker};
 use crate::waves::Marks;
 
 use super::Stepping;

@@ -22,7 +22,6 @@ const VERILOG: u8 = 0;
 pub(super) struct Header {
     /// Time of the end [ps].
     pub(super) end: u64,
-    /// Scopes.
     pub(super) scopes: u64,
     /// Names, aliases included.
     pub(super) names: u64,

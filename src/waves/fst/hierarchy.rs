@@ -24,7 +24,6 @@ pub(super) struct Hierarchy {
     pub(super) signals: Vec<Option<usize>>,
     /// Width of the signal at each place [bits].
     pub(super) widths: Vec<usize>,
-    /// Scopes.
     pub(super) scopes: u64,
     /// Names, aliases included.
     pub(super) names: u64,
@@ -82,7 +81,6 @@ impl Hierarchy {
         self.spelled.push(0);
     }
 
-    /// Writes its blocks.
     pub(super) fn write(&self, file: &mut impl Write) -> io::Result<()> {
         let mut uncompressed = Vec::new();
         long(&mut uncompressed, self.spelled.len() as u64);

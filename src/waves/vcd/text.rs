@@ -87,7 +87,6 @@ impl Text {
         file.write_all(text)
     }
 
-    /// Appends a text.
     pub(super) fn push(&mut self, text: &[u8]) {
         self.bytes[self.len..][..text.len()].copy_from_slice(text);
         self.len += text.len();

@@ -1,0 +1,31 @@
+//! What a format of waveform files has to write.
+
+use std::io;
+
+use crate::error::{Error, Result};
+use crate::kernel::signals::Sink;
+
+/// What a time step is.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Step {
+    /// The first one, at time 0: every signal.
+    Start,
+    /// A window begins: every signal.
+    Open,
+    /// Some signals change.
+    Change,
+    /// A window ends: every signal is unknown.
+    Close,
+}
+
+/// A file format, given the values of one time step after the other.
+pub(super) trait Body: Sink {
+    /// Writes a step; `at` is never earlier than the step before [ps].
+    fn step(&mut self, at: u64, step: Step, fill: impl FnOnce(&mut Self)) -> io::Result<()>;
+    /// All signals unknown; for use in a step.
+    fn unknown(&mut self);
+    /// Puts the finished file, which ends at `at`, in place [ps].
+    fn finish(self, at: u64) -> Result<()>;
+    /// Turns an error of writing here into one that names the file.
+    fn fault(&self, source: io::Error) -> Error;
+}
