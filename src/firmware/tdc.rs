@@ -36,7 +36,7 @@ pub struct Params {
     /// ROM of the decoder.
     pub cal: Box<Calibration>,
     /// Place of physical tap 0 in the order of arrival.
-    pub(crate) tap_0: usize,
+    tap_0: usize,
 }
 
 impl Params {

@@ -48,7 +48,7 @@ signals! {
         /// From the laser edge on; one cycle.
         pub start: bool,
         /// Asks `clk_250` for a pulse; the cycle before the laser edge.
-        pub(crate) fire: bool,
+        fire: bool,
         /// Place in the period.
         pub(crate) count: U<5>,
         /// The period in force, less one [cycles of clk_125].
@@ -63,7 +63,7 @@ signals! {
     pub struct Registers250 {
         /// Enable of the output register; the cycle of `clk_250` before the laser edge.
         #[view(probe = true)]
-        pub(crate) laser_pulse: bool,
+        laser_pulse: bool,
     }
 }
 

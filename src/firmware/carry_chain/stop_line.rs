@@ -54,11 +54,6 @@ impl StopLine {
         None
     }
 
-    /// Whether the level is low and has been for some time.
-    pub fn is_low_since(&self, since: Time) -> bool {
-        !self.level && (self.travelling == 0 || self.at(0) <= since)
-    }
-
     /// Whether the taps of the last edge are those of every edge to come, until the level changes.
     #[inline(always)]
     pub fn is_shown_by(&self, taps: &Taps) -> bool {

@@ -23,7 +23,7 @@ impl TofTop {
 
     /// The socket's outputs, from the estimator's registers.
     #[inline(always)]
-    pub(crate) fn take_depth(&mut self, p: &Params) {
+    fn take_depth(&mut self, p: &Params) {
         self.socket = match p.estimator {
             Estimator::Network => {
                 let (ctrl, depth) =

@@ -2,7 +2,7 @@
 //!
 //! Exact while no control signal changes and nothing else goes on: a word of the RAM is zero after
 //! its cycle of Clear, and an estimation is sums of integers. The TDC, whose window is closed, sees
-//! avalanches on the way with the next edges.
+//! avalanches on the way with the next edges, and wires and weights follow with the next one.
 
 use crate::firmware::centroid_estimator;
 use crate::firmware::depth_estimator::{self, DepthEstimator};
@@ -19,16 +19,13 @@ use crate::sim::device::Device;
 
 use super::steady::{control_is_steady, estimation_phase, estimator_rests};
 
-/// Cycles of Clear that are stepped at its begin, for what the end of the last frame leaves behind.
-const CLEAR_BEGIN: u64 = 4;
-
 /// Leaps to the end of Clear or of an estimation, if one has just begun and nothing else goes on.
 #[inline(always)]
 pub fn leap_frame_end(device: &mut Device, p: &Params) {
     let ctrl = &device.top.frame_ctrl;
-    let clearing = ctrl.state == State::Clear && ctrl.clear_addr == CLEAR_BEGIN;
+    let clearing = ctrl.state == State::Clear && ctrl.clear_addr == 0;
     let cycles = match clearing {
-        true => LAST_WORD - CLEAR_BEGIN,
+        true => LAST_WORD,
         false if estimation_phase(&device.top, p) == Some(0) => p.estimator_cycles() - 1,
         false => return,
     };
@@ -46,11 +43,10 @@ pub fn leap_frame_end(device: &mut Device, p: &Params) {
     device.cycle += cycles;
 }
 
-/// Lands in Clear so many cycles later, not past its end.
+/// Lands in Clear so many cycles after its first, not past its end.
 fn land_in_clear(top: &mut TofTop, cycles: u64) {
-    let from = top.frame_ctrl.clear_addr.index();
-    top.histogram_builder.ram[from..from + cycles as usize].fill(U::new(0));
-    top.frame_ctrl.clear_addr = top.frame_ctrl.clear_addr + cycles;
+    top.histogram_builder.ram[..cycles as usize].fill(U::new(0));
+    top.frame_ctrl.clear_addr = U::new(cycles);
 }
 
 /// Lands in the cycle before the depth is ready, from the first cycle of an estimation.
@@ -73,8 +69,6 @@ fn land_in_estimation(top: &mut TofTop, p: &Params) {
             }
         }
     }
-    top.take_depth(p);
-    top.settle(p);
 }
 
 /// The network in the cycle before the depth is ready.
@@ -88,7 +82,7 @@ fn before_done(histogram: &Histogram, p: &depth_estimator::Params) -> DepthEstim
     let products = l1_out.iter().zip(&p.forward2.w2).map(|(out, w2)| out.get() * w2.get());
     DepthEstimator {
         estimator_ctrl: estimator_ctrl.next(&idle, &neurons),
-        forward1: Forward1 { l1_in, weight: p.forward1[0] },
+        forward1: Forward1 { l1_in, ..Forward1::default() },
         tansig: Tansig { l1_out },
         forward2: Forward2 { depth: Depth::new(products.sum()) },
     }

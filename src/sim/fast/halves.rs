@@ -25,9 +25,6 @@ pub(super) fn emitter_quiet(top: &TofTop) -> u64 {
 /// holds.
 #[inline(always)]
 pub(super) fn converter_quiet(top: &TofTop, p: &Params, line: &StopLine) -> u64 {
-    if top.nets.tdc_valid | top.vcsel_driver.registers.start {
-        return AWAKE;
-    }
     match &p.code_source {
         CodeSource::Tdc => top.tdc.quiet(&tdc_inputs(top), &p.tdc, line),
         CodeSource::Preload(rom) => top.code_preload.quiet(&preload_inputs(top), rom),

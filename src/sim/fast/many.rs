@@ -100,7 +100,7 @@ impl Run<'_> {
         let cycles = frames * (self.setup.frame_cycles(rate) + 1);
         pass(&mut run.device, cycles, frame);
         let counts = &mut run.frames;
-        (counts.done, counts.tdc_hits) = (frame, 0);
+        counts.done = frame;
         counts.shots += self.setup.shots(frames);
         (counts.clear_at, counts.start_at) = (counts.clear_at + cycles, counts.start_at + cycles);
         run

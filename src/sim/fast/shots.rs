@@ -2,17 +2,15 @@
 //!
 //! Exact where the first avalanche of a shot is all that decides: the light of optics, MODE 0, a chain
 //! that is clear in time, no control signal that changes. Registers that nothing reads again may
-//! differ: the TDC does not keep the taps and codes of hits leapt over.
+//! differ: the TDC lands as after a reset.
 
 use std::sync::Arc;
 
 use crate::firmware::carry_chain::StopLine;
-use crate::firmware::coarse_counter::CoarseCounter;
 use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tdc::Tdc;
 use crate::firmware::tof_top::{Params, TofTop};
 use crate::firmware::vcsel_driver::PERIODS;
-use crate::kernel::U;
 use crate::sensor::light::Light;
 use crate::sim::device::Device;
 use crate::sim::frames::Frames;
@@ -61,7 +59,7 @@ pub fn leap_shots(device: &mut Device, p: &Params, tables: &mut Tables, frames: 
         // The remainder is the outcome; it shows the compiler that it is within bounds.
         counts[draws.outcome(word) as usize % counts.len()] += 1;
     });
-    land(&mut device.top, period, shots, &counts[..BINS]);
+    land(&mut device.top, shots, &counts[..BINS]);
     device.cycle += shots * period;
     let now = device.pll.clk_125.rise(device.cycle - 1);
     device.light.begin_shot(now, lit);
@@ -72,30 +70,22 @@ pub fn leap_shots(device: &mut Device, p: &Params, tables: &mut Tables, frames: 
 }
 
 /// The laser rate of the shot that has just begun and whether the laser fires in those after it, if
-/// the first avalanche of each is all that decides, as long as no control signal changes.
+/// the first avalanche of each is all that decides. Control signals have held since before the laser
+/// edge: they are what the driver took with it, and the SPAD's output fell a cycle before it at last.
 fn independent_shot(device: &Device) -> Option<(usize, bool)> {
-    let (top, now) = (&device.top, device.pll.clk_125.rise(device.cycle - 1));
-    let rate = top.control_sync.laser_freq_sync.index();
-    let lit = top.control_sync.laser_en_sync;
-    let laser = &top.vcsel_driver.registers;
-    let independent = laser.start
-        && laser.last == PERIODS[rate] - 1
-        && laser.enable == lit
-        && !device.spad.is_passive()
-        && device.spad.is_armed()
-        && device.line.is_low_since(now - CYCLE)
-        && even_period(device) == Some(CYCLE);
+    let control = &device.top.control_sync;
+    let (rate, lit) = (control.laser_freq_sync.index(), control.laser_en_sync);
+    let independent =
+        !device.spad.is_passive() && device.spad.is_armed() && even_period(device) == Some(CYCLE);
     independent.then_some((rate, lit))
 }
 
 /// The top in the cycle of a laser edge, `shots` shots after another, which have counted `counts`.
-fn land(top: &mut TofTop, period: u64, shots: u64, counts: &[u32]) {
+fn land(top: &mut TofTop, shots: u64, counts: &[u32]) {
     for (word, &count) in top.histogram_builder.ram.iter_mut().zip(counts) {
         *word = *word + u64::from(count);
     }
     top.frame_ctrl.shots = top.frame_ctrl.shots + shots;
-    let (since, last) = (period - 1, U::<3>::MAX.get());
-    let coarse_counter = CoarseCounter { coarse: U::new(since.min(last)), window: since <= last };
-    top.tdc = Tdc { coarse_counter, ..Tdc::default() };
+    top.tdc = Tdc::default();
     top.nets.tdc_valid = false;
 }

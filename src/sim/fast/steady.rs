@@ -16,9 +16,9 @@ pub(super) fn control_is_steady(top: &TofTop) -> bool {
         && top.control_sync.quiet(&Wires::control_sync(top), &()) == ASLEEP
 }
 
-/// Whether no edge would change the estimator until another start or a reset.
+/// Whether no edge would change the estimator until it is started or reset.
 pub(super) fn estimator_rests(top: &TofTop, p: &Params) -> bool {
-    if top.frame_ctrl.algo_start || estimation_phase(top, p).is_some() {
+    if estimation_phase(top, p).is_some() {
         return false;
     }
     let (rst, algo_start, count) = (false, false, U::new(0));
