@@ -112,9 +112,9 @@ impl<W: Write> SideBySide<W> {
     }
 }
 
-/// How a signal of two and more bits, or of one, is shown: GTKWave's flags.
+/// GTKWave's flags of a signal that is shown in hexadecimal digits.
 pub const HEXADECIMAL: &str = "22";
-/// The same for a bit.
+/// The same in binary ones.
 pub const BINARY: &str = "28";
 
 /// A signal that a viewer shows.

@@ -49,13 +49,7 @@ fn around(report: &BlockReport) -> String {
 pub fn json(rtl: &str, simulator: &str, reports: &[BlockReport]) -> Value {
     let block = |report: &BlockReport| {
         let first = match &report.verdict {
-            Verdict::Differs { first, .. } => json!({
-                "cycle": first.cycle,
-                "time_ps": first.time_ps,
-                "signal": first.signal,
-                "expected": first.expected,
-                "got": first.got,
-            }),
+            Verdict::Differs { first, .. } => json!(first),
             _ => Value::Null,
         };
         json!({

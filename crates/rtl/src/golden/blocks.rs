@@ -56,8 +56,9 @@ pub fn find(name: &str) -> Option<&'static Spec> {
 mod tests {
     use super::*;
     use crate::golden::draw::MEMORIES;
+    use crate::golden::setting::Setting;
+    use crate::golden::spec::Vectors;
     use crate::golden::timing::Step;
-    use crate::golden::{Setting, Vectors};
     use tofsim::scenario;
     use tofsim::sim::setup::Setup;
 

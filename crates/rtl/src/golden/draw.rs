@@ -14,7 +14,7 @@ pub const MEMORIES: u64 = 1 << 32;
 pub struct Draw(ChaCha8Rng);
 
 impl Draw {
-    /// The stream of that number, which belongs to a block ([`Spec::stream`](super::Spec::stream)).
+    /// The stream of that number, which belongs to a block ([`Spec::stream`](super::spec::Spec::stream)).
     pub fn new(seed: u64, number: u64) -> Self {
         Draw(stream(seed, Source::Stimulus, number))
     }

@@ -39,12 +39,12 @@ signals! {
 /// Sees the firmware just before the edge that takes a line.
 pub(super) type EveryCycle<'a> = &'a mut dyn FnMut(&TofTop);
 
-/// The vectors of a run: its frames, or so many cycles. `watch` sees every cycle.
+/// The vectors of a run: its frames, or so many cycles. `every_cycle` sees each of them.
 pub(super) fn record(
     spec: &'static Spec,
     setup: &Setup,
     setting: &Setting,
-    watch: EveryCycle,
+    every_cycle: EveryCycle,
 ) -> Result<Vectors> {
     check(setup)?;
     let params = &setup.params;
@@ -54,7 +54,8 @@ pub(super) fn record(
     let wanted = |entry: &Entry| !setting.as_told || is_own(entry) || entry.signal.view.probe;
     let mut device = setup.device();
     let (begin, first_edge) = (setup.pll().locked_at, device.next_edge());
-    let sampler = Sampler::new(spec, begin, params, Compared::new(spec, &entries, wanted), watch);
+    let sampler =
+        Sampler::new(spec, begin, params, Compared::new(spec, &entries, wanted), every_cycle);
     let sampler = run(setup, setting, &mut device, sampler)?;
     Ok(Vectors {
         spec,
@@ -137,7 +138,7 @@ struct Sampler<'a> {
     /// The reset at the edge in the middle of the cycle.
     early_rst: bool,
     stops: Vec<Time>,
-    watch: EveryCycle<'a>,
+    every_cycle: EveryCycle<'a>,
 }
 
 impl<'a> Sampler<'a> {
@@ -145,15 +146,15 @@ impl<'a> Sampler<'a> {
         spec: &'static Spec,
         begin: Time,
         params: &'a Params,
-        watched: Compared,
-        watch: EveryCycle<'a>,
+        compared: Compared,
+        every_cycle: EveryCycle<'a>,
     ) -> Self {
         let samples = spec.timing.samples();
         let spacing = Time::from_fs(1000 * spec.timing.period_ps() / samples as u64);
         Sampler {
             stimulus: Table::new(inputs(&Stimulus::list())),
-            expected: Table::new(watched.columns),
-            places: watched.places,
+            expected: Table::new(compared.columns),
+            places: compared.places,
             order: params.tdc.delays.order(),
             current: TofTop::new(Pins::default()),
             sampled: vec![Part::of(0..IDS); samples],
@@ -162,7 +163,7 @@ impl<'a> Sampler<'a> {
             spacing,
             early_rst: false,
             stops: Vec::new(),
-            watch,
+            every_cycle,
         }
     }
 
@@ -184,7 +185,7 @@ impl<'a> Sampler<'a> {
 
     /// Ends the line of a cycle.
     fn line(&mut self, pins: &Pins) {
-        (self.watch)(&self.current);
+        (self.every_cycle)(&self.current);
         let rst = self.early_rst;
         let Pins { rst: rst_late, mode, laser_freq, laser_en, dsp_en, dsp_rst, .. } = *pins;
         let line = Stimulus { rst, rst_late, mode, laser_freq, laser_en, dsp_en, dsp_rst };

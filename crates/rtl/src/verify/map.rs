@@ -9,6 +9,7 @@ use serde::Deserialize;
 use tofsim::error::{Input, Result, nearest, read_text};
 use tofsim::files::toml::Checked;
 use tofsim::firmware::carry_chain::TAPS;
+use tofsim::firmware::forward2::MOST_NEURONS;
 use tofsim::firmware::histogram_builder::BINS;
 
 use crate::golden::blocks::{self, BLOCKS};
@@ -121,43 +122,32 @@ fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> 
 impl BlockMap {
     /// Whether everything that is named exists in our block.
     fn check(&self, spec: &Spec, fault: &dyn Fn(&str, String) -> Input) -> Result<()> {
-        let ports = spec.ports(tofsim::firmware::forward2::MOST_NEURONS);
-        let known = |name: &str, outputs: bool| {
-            ports.iter().any(|port| port.name == name && (port.output || !outputs))
-        };
-        let listed = |outputs: bool| {
-            let ports = ports.iter().filter(move |port| port.output || !outputs);
-            ports.map(|port| port.name.as_str())
-        };
-        let named = (self.ports.keys().map(|name| ("ports", name, false)))
-            .chain(self.invert.iter().map(|name| ("invert", name, false)))
-            .chain(self.ignore.iter().map(|name| ("ignore", name, true)))
-            .chain(self.latency.keys().map(|name| ("latency", name, true)))
-            .chain(self.valid.keys().map(|name| ("valid", name, true)));
-        for (table, name, outputs) in named {
-            if !known(name, outputs) {
-                let what = if outputs { "output" } else { "port" };
-                let key = match table {
-                    "invert" | "ignore" => table.to_owned(),
-                    _ => format!("{table}.{name}"),
-                };
-                return Err(fault(&key, unknown(what, name, listed(outputs))).into());
+        let ports = spec.ports(MOST_NEURONS);
+        // Each name of a port of ours: where it stands, and whether it has to be an output.
+        let place = |table: &str, name: &str| format!("{table}.{name}");
+        let named = (self.ports.keys().map(|name| (place("ports", name), name, false)))
+            .chain(self.invert.iter().map(|name| ("invert".to_owned(), name, false)))
+            .chain(self.ignore.iter().map(|name| ("ignore".to_owned(), name, true)))
+            .chain(self.latency.keys().map(|name| (place("latency", name), name, true)))
+            .chain(self.valid.keys().map(|name| (place("valid", name), name, true)))
+            .chain(self.valid.iter().map(|(key, name)| (place("valid", key), name, true)));
+        for (key, name, is_output) in named {
+            let ports = ports.iter().filter(|port| port.output || !is_output);
+            let known = ports.map(|port| port.name.as_str());
+            if !known.clone().any(|other| other == name) {
+                let what = if is_output { "output" } else { "port" };
+                return Err(fault(&key, unknown(what, name, known)).into());
             }
         }
-        for (key, name) in &self.valid {
-            if !known(name, true) {
-                let expected = unknown("output", name, listed(true));
-                return Err(fault(&format!("valid.{key}"), expected).into());
+        let adapters = [
+            ("counts", "histogram_builder", self.counts.is_some()),
+            ("vector", "depth_estimator", self.vector.is_some()),
+        ];
+        for (key, block, is_set) in adapters {
+            if is_set && spec.name != block {
+                return Err(fault(key, format!("only {block} has this adapter")).into());
             }
         }
-        let only = |key: &str, block: &str, set: bool| -> Result<()> {
-            match set && spec.name != block {
-                true => Err(fault(key, format!("only {block} has this adapter")).into()),
-                false => Ok(()),
-            }
-        };
-        only("counts", "histogram_builder", self.counts.is_some())?;
-        only("vector", "depth_estimator", self.vector.is_some())?;
         if self.vector.is_some() && self.design.bins != BINS {
             let expected =
                 format!("expected design.bins = {BINS}: the network has that many inputs");

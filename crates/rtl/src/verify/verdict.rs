@@ -1,7 +1,9 @@
 //! What a bench says, and what is made of it.
 
+use serde::Serialize;
+
 /// The first line on which the two sides differ.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Mismatch {
     /// Line of the vectors.
     pub cycle: usize,
