@@ -7,7 +7,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use tofsim::error::{Input, Result, read_text};
+use tofsim::error::{Error, Input, Result, read_text};
 use tofsim::files::output::write_file;
 use tofsim::files::toml::Checked;
 
@@ -53,14 +53,21 @@ pub fn load(
 ) -> Result<TournamentState> {
     let text = read_text(path)?;
     let name = path.display();
-    let checked = Checked::syntax(&name.to_string(), &text)?;
+    let no_checkpoint = |error: Error| match error {
+        Error::Input(fault) => {
+            let expected = format!("no checkpoint: {}", fault.expected);
+            Input { expected, ..*fault }.into()
+        }
+        other => other,
+    };
+    let checked = Checked::syntax(&name.to_string(), &text).map_err(no_checkpoint)?;
     let schema = checked.table().get("schema").and_then(|schema| schema.as_str());
     if schema != Some(SCHEMA) {
-        let expected = format!("no checkpoint: expected \"{SCHEMA}\"");
+        let expected = format!("expected \"{SCHEMA}\"");
         let fault = Input::new(&name, expected).field("schema");
         return Err(fault.value(schema.unwrap_or_default()).into());
     }
-    let checkpoint: Checkpoint = checked.read()?;
+    let checkpoint: Checkpoint = checked.read().map_err(no_checkpoint)?;
     for key in settings.keys().chain(checkpoint.settings.keys()) {
         let (found, expected) = (checkpoint.settings.get(key), settings.get(key));
         if found != expected {
