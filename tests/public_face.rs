@@ -49,7 +49,7 @@ fn words_have_their_sign_states_their_code_and_taps_their_number_of_ones() {
         GO_ON
     };
     Run::new(&setup).step_cycles(1, signals, step).unwrap();
-    assert!(lowest < 0 && lowest >= -(1 << 35), "{lowest}");
+    assert!((-(1 << 35)..0).contains(&lowest), "{lowest}");
     assert_eq!(states, [true; 4]);
     assert!((1..=800).contains(&most), "{most}");
 }

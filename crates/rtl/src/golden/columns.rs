@@ -38,8 +38,8 @@ impl Compared {
                 continue;
             }
             let first = if spec.fast.contains(&name.as_str()) { 0 } else { samples - 1 };
-            for sample in first..samples {
-                places[sample][entry.id].push(columns.len());
+            for (sample, places) in places.iter_mut().enumerate().skip(first) {
+                places[entry.id].push(columns.len());
                 let (name, width) = (name.clone(), entry.signal.width as usize);
                 columns.push(Column { name, width, low: 0, sample, internal });
             }

@@ -117,7 +117,9 @@ mod tests {
     fn what_makes_no_sense_is_named() {
         let fault = |text: &str, set: &[&str]| parse(text, set).unwrap_err().to_string();
         assert!(fault("neuron = 3", &[]).contains("neuron: unknown key; did you mean `neurons`?"));
-        assert!(fault("", &["limits.b3=1"]).starts_with("--with limits.b3=1: limits.b3: unknown key"));
+        assert!(
+            fault("", &["limits.b3=1"]).starts_with("--with limits.b3=1: limits.b3: unknown key")
+        );
         assert!(fault("", &["neurons"]).contains("expected key=value"));
         assert!(fault("", &["neurons=0"]).contains("neurons = 0: expected 1 or more"));
         assert!(fault("", &["finish.choice=6"]).contains("finish.choice = 6: expected 1 to 5"));
