@@ -88,7 +88,7 @@ fn run(command: &mut Command) -> String {
 }
 
 #[test]
-#[ignore = "long: ./check --full runs it"]
+#[ignore = "builds a copy of the repository: cargo test -p tofsim-cli -- --ignored the_block"]
 fn the_block_of_the_page_passes_lockstep_and_is_in_waveform_vectors_and_port_table() {
     let folder = tempfile::tempdir().unwrap();
     let root = folder.path();
@@ -107,7 +107,7 @@ fn the_block_of_the_page_passes_lockstep_and_is_in_waveform_vectors_and_port_tab
     };
     cargo(&["fmt", "--check"]);
     cargo(&["test", "--offline", "-p", "tofsim", "--test", "simulator", "docs::"]);
-    cargo(&["build", "--offline", "-p", "tofsim-cli"]);
+    cargo(&["build", "--offline", "--profile", "test", "-p", "tofsim-cli"]);
     let model = fs::read_to_string(root.join("docs/model.md")).unwrap();
     assert!(model.contains("`miss_counter`: counts the shots of a frame that end without a code."));
     assert!(model.contains("| `misses` | 16 | out | Shots without a code in this frame. |"));
