@@ -201,7 +201,11 @@ fn options_reach_the_recipe_and_what_makes_no_sense_is_refused() {
     let candidates: Vec<_> = recipe.stages.iter().map(|stage| stage.candidates).collect();
     assert_eq!(candidates, [3, 3, 3, 3]);
     let error = refused(folder, &["train", "--with", "limit.b1=3"]);
-    assert!(error.contains("--with limit.b1=3") && error.contains("unknown field"), "{error}");
+    assert!(
+        error.contains("--with limit.b1=3")
+            && error.contains("unknown key; did you mean `limits`?"),
+        "{error}"
+    );
     fs::write(folder.join("bad.toml"), "neurons = \"many\"\n").unwrap();
     assert!(refused(folder, &["train", "--recipe", "bad.toml"]).contains("bad.toml"));
     assert!(refused(folder, &["train", "--neurons", "0"]).contains("neurons = 0"));
