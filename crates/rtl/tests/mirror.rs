@@ -26,7 +26,7 @@ const PRIMITIVES: &[(&str, &[&str])] = &[
 ];
 
 fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
 }
 
 /// Stems of the files in a folder of the repository, without those that have no twin by design.
