@@ -76,6 +76,12 @@ impl Input {
         Input { field: Some(field.to_string()), ..self }
     }
 
+    /// The same of a field that lies below the key `above`.
+    pub(crate) fn below(self, above: impl fmt::Display) -> Self {
+        let field = self.field.as_ref().map_or(above.to_string(), |key| format!("{above}.{key}"));
+        self.field(field)
+    }
+
     /// What stands there; long values are shortened.
     pub fn value(self, value: impl fmt::Display) -> Self {
         let text = value.to_string();

@@ -4,6 +4,8 @@
 //! fault has its place: an unknown key (with the nearest known one), a wrong type, a list of the
 //! wrong length, a number out of range or no number, an unknown word.
 
+use std::ops::Range;
+
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value as Json};
@@ -83,7 +85,7 @@ impl Checked {
         let schema = schemars::schema_for!(T);
         let (root, text) = (schema.as_value(), self.document.raw());
         let walk = Walk { root, source: &self.source, text, whole };
-        Ok(walk.table(self.document.as_table(), root, "")?)
+        Ok(walk.table(self.document.as_table(), root)?)
     }
 }
 
@@ -92,8 +94,28 @@ impl Checked {
 /// # Errors
 /// When the values do not make one.
 pub fn read<T: DeserializeOwned>(source: &str, table: &Table) -> Result<T> {
-    toml_edit::de::from_document(DocumentMut::from(table.clone()))
-        .map_err(|error| Input::new(source, error.message()).into())
+    serde_json::from_value(json(table)).map_err(|error| Input::new(source, error).into())
+}
+
+fn json(table: &dyn TableLike) -> Json {
+    let of_item = |item: &Item| match (item.as_table_like(), item.as_array_of_tables()) {
+        (Some(table), _) => json(table),
+        (_, Some(tables)) => tables.iter().map(|table| json(table)).collect(),
+        _ => item.as_value().map_or(Json::Null, json_of_value),
+    };
+    table.iter().map(|(key, item)| (key, of_item(item))).collect()
+}
+
+fn json_of_value(value: &Value) -> Json {
+    match value {
+        Value::String(text) => text.value().as_str().into(),
+        Value::Integer(number) => (*number.value()).into(),
+        Value::Float(number) => (*number.value()).into(),
+        Value::Boolean(truth) => (*truth.value()).into(),
+        Value::Datetime(moment) => moment.value().to_string().into(),
+        Value::Array(values) => values.iter().map(json_of_value).collect(),
+        Value::InlineTable(table) => json(table),
+    }
 }
 
 /// Sets one dotted key of a table that is to be a `T`, as `option` of the command line has it:
@@ -145,80 +167,77 @@ struct Walk<'a> {
 type Checkup = std::result::Result<(), Input>;
 
 impl<'a> Walk<'a> {
-    fn table(&self, table: &dyn TableLike, schema: &'a Json, path: &str) -> Checkup {
+    fn table(&self, table: &dyn TableLike, schema: &'a Json) -> Checkup {
         let schema = self.resolve(schema);
         let required = schema.get("required").and_then(Json::as_array).filter(|_| self.whole);
         let mut required = required.into_iter().flatten().filter_map(Json::as_str);
         if let Some(key) = required.find(|key| !table.contains_key(key)) {
-            let full = if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
             let expected = self.expected(&schema["properties"][key]);
-            return Err(Input::new(self.source, format!("missing; {expected}")).field(full));
+            return Err(Input::new(self.source, format!("missing; {expected}")).field(key));
         }
         let known = schema.get("properties").and_then(Json::as_object);
         let empty = Map::new();
         let known = known.unwrap_or(&empty);
         for (key, item) in table.iter() {
-            let full = if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
             let any = schema.get("additionalProperties").filter(|any| any.is_object());
             let Some(schema) = known.get(key).or(any) else {
                 let span = table.get_key_value(key).and_then(|(key, _)| key.span());
-                let fault = Input::new(self.source, unknown_key(key, known)).field(full);
+                let fault = Input::new(self.source, unknown_key(key, known)).field(key);
                 return Err(located(fault, self.text, span));
             };
-            self.item(item, schema, &full)?;
+            self.item(item, schema).map_err(|fault| fault.below(key))?;
         }
         Ok(())
     }
 
-    fn item(&self, item: &Item, schema: &'a Json, path: &str) -> Checkup {
-        let expected = self.expected(schema);
-        let fault = |expected: &str| {
-            let fault = Input::new(self.source, expected).field(path).value(shown(item));
-            Err(located(fault, self.text, item.span()))
-        };
-        let schema = self.resolve(schema);
-        if let Some(words) = words(schema) {
-            let known = item.as_str().is_some_and(|word| words.contains(&word));
-            return if known { Ok(()) } else { fault(&expected) };
+    fn item(&self, item: &Item, schema: &'a Json) -> Checkup {
+        if let Some(value) = item.as_value() {
+            return self.value(value, schema);
         }
-        match (kind(schema), item) {
-            ("object", item) => match item.as_table_like() {
-                Some(table) => self.table(table, schema, path),
-                None => fault("expected a table"),
+        let resolved = self.resolve(schema);
+        match (kind(resolved), item.as_table_like(), item.as_array_of_tables()) {
+            ("object", Some(table), _) => self.table(table, resolved),
+            ("array", _, Some(tables)) if has_length(tables.len(), resolved) => {
+                let items = &resolved["items"];
+                tables.iter().enumerate().try_for_each(|(k, table)| {
+                    self.table(table, items).map_err(|fault| fault.below(k))
+                })
+            }
+            _ => Err(self.fault(shown(item), item.span(), schema)),
+        }
+    }
+
+    fn value(&self, value: &Value, schema: &'a Json) -> Checkup {
+        let resolved = self.resolve(schema);
+        let holds = match (kind(resolved), value) {
+            ("object", Value::InlineTable(table)) => return self.table(table, resolved),
+            ("array", Value::Array(values)) if has_length(values.len(), resolved) => {
+                let items = self.resolve(&resolved["items"]);
+                let each = |(k, value)| self.value(value, items).map_err(|fault| fault.below(k));
+                return values.iter().enumerate().try_for_each(each);
+            }
+            ("number" | "integer", Value::Integer(number)) => {
+                in_range(*number.value() as f64, resolved)
+            }
+            ("number", Value::Float(number)) => in_range(*number.value(), resolved),
+            ("boolean", Value::Boolean(_)) => true,
+            (_, Value::String(word)) => match words(resolved) {
+                Some(words) => words.contains(&word.value().as_str()),
+                None => kind(resolved) == "string",
             },
-            ("array", item) if has_other_length(item, schema) => fault(&expected),
-            ("array", Item::ArrayOfTables(tables)) => {
-                let elements = tables.iter().enumerate();
-                elements.into_iter().try_for_each(|(k, table)| {
-                    self.table(table, &schema["items"], &format!("{path}.{k}"))
-                })
-            }
-            ("array", Item::Value(Value::Array(values))) => {
-                values.iter().enumerate().try_for_each(|(k, value)| {
-                    let item = Item::Value(value.clone());
-                    self.item(&item, &schema["items"], &format!("{path}.{k}"))
-                })
-            }
-            ("string", Item::Value(Value::String(_)))
-            | ("boolean", Item::Value(Value::Boolean(_))) => Ok(()),
-            ("number" | "integer", Item::Value(Value::Integer(number))) => {
-                let number = *number.value() as f64;
-                if in_range(number, schema) { Ok(()) } else { fault(&expected) }
-            }
-            ("number", Item::Value(Value::Float(number))) => {
-                if in_range(*number.value(), schema) {
-                    Ok(())
-                } else {
-                    fault(&expected)
-                }
-            }
-            _ => fault(&expected),
-        }
+            _ => false,
+        };
+        if holds { Ok(()) } else { Err(self.fault(shown_value(value), value.span(), schema)) }
+    }
+
+    /// That something is not what the schema wants.
+    fn fault(&self, shown: String, span: Option<Range<usize>>, schema: &'a Json) -> Input {
+        located(Input::new(self.source, self.expected(schema)).value(shown), self.text, span)
     }
 
     /// The schema itself, or what it refers to; of what may be absent, what it is if it is there.
     fn resolve(&self, schema: &'a Json) -> &'a Json {
-        let schema = schema.pointer("/anyOf/0").unwrap_or(schema);
+        let schema = schema.get("anyOf").map_or(schema, |alternatives| &alternatives[0]);
         let reference = schema.get("$ref").and_then(Json::as_str);
         let target = reference.and_then(|path| self.root.pointer(path.trim_start_matches('#')));
         target.unwrap_or(schema)
@@ -271,14 +290,11 @@ fn in_range(number: f64, schema: &Json) -> bool {
     number >= bound("minimum").unwrap_or(f64::MIN) && number <= bound("maximum").unwrap_or(f64::MAX)
 }
 
-/// Whether a list is too short or too long.
-fn has_other_length(item: &Item, schema: &Json) -> bool {
-    let length = item.as_array().map(|list| list.len());
-    let length = length.or(item.as_array_of_tables().map(|list| list.len())).map(|n| n as u64);
+/// Whether a list of so many is neither too short nor too long.
+fn has_length(found: usize, schema: &Json) -> bool {
     let bound = |name| schema.get(name).and_then(Json::as_u64);
-    length.is_some_and(|n| {
-        n < bound("minItems").unwrap_or(0) || n > bound("maxItems").unwrap_or(u64::MAX)
-    })
+    let (least, most) = (bound("minItems").unwrap_or(0), bound("maxItems").unwrap_or(u64::MAX));
+    (least..=most).contains(&(found as u64))
 }
 
 /// How long a list has to be, in words.
@@ -301,7 +317,7 @@ fn unknown_key(key: &str, known: &Map<String, Json>) -> String {
     }
 }
 
-fn located(input: Input, text: &str, span: Option<std::ops::Range<usize>>) -> Input {
+fn located(input: Input, text: &str, span: Option<Range<usize>>) -> Input {
     match span {
         Some(span) => {
             let (line, column) = line_and_column(text, span.start);
@@ -315,11 +331,12 @@ fn located(input: Input, text: &str, span: Option<std::ops::Range<usize>>) -> In
 const LISTED: usize = 8;
 
 fn shown(item: &Item) -> String {
-    match item {
-        Item::Table(_) | Item::ArrayOfTables(_) => "a table".to_owned(),
-        Item::Value(Value::Array(list)) if list.len() > LISTED => {
-            format!("a list of {}", list.len())
-        }
-        item => item.to_string().trim().to_owned(),
+    item.as_value().map_or_else(|| "a table".to_owned(), shown_value)
+}
+
+fn shown_value(value: &Value) -> String {
+    match value.as_array() {
+        Some(list) if list.len() > LISTED => format!("a list of {}", list.len()),
+        _ => value.to_string().trim().to_owned(),
     }
 }
