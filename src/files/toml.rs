@@ -94,27 +94,31 @@ impl Checked {
 /// # Errors
 /// When the values do not make one.
 pub fn read<T: DeserializeOwned>(source: &str, table: &Table) -> Result<T> {
-    serde_json::from_value(json(table)).map_err(|error| Input::new(source, error).into())
+    let values = toml::Value::Table(values(table));
+    values.try_into().map_err(|error| Input::new(source, error.message()).into())
 }
 
-fn json(table: &dyn TableLike) -> Json {
+/// The values of a table without their places.
+fn values(table: &dyn TableLike) -> toml::Table {
     let of_item = |item: &Item| match (item.as_table_like(), item.as_array_of_tables()) {
-        (Some(table), _) => json(table),
-        (_, Some(tables)) => tables.iter().map(|table| json(table)).collect(),
-        _ => item.as_value().map_or(Json::Null, json_of_value),
+        (Some(table), _) => Some(values(table).into()),
+        (_, Some(tables)) => {
+            Some(tables.iter().map(|table| values(table)).collect::<Vec<_>>().into())
+        }
+        _ => item.as_value().map(value),
     };
-    table.iter().map(|(key, item)| (key, of_item(item))).collect()
+    table.iter().filter_map(|(key, item)| Some((key.to_owned(), of_item(item)?))).collect()
 }
 
-fn json_of_value(value: &Value) -> Json {
-    match value {
+fn value(with_place: &Value) -> toml::Value {
+    match with_place {
         Value::String(text) => text.value().as_str().into(),
         Value::Integer(number) => (*number.value()).into(),
         Value::Float(number) => (*number.value()).into(),
         Value::Boolean(truth) => (*truth.value()).into(),
-        Value::Datetime(moment) => moment.value().to_string().into(),
-        Value::Array(values) => values.iter().map(json_of_value).collect(),
-        Value::InlineTable(table) => json(table),
+        Value::Datetime(moment) => (*moment.value()).into(),
+        Value::Array(list) => toml::Value::Array(list.iter().map(value).collect()),
+        Value::InlineTable(table) => values(table).into(),
     }
 }
 

@@ -12,7 +12,8 @@ pub type Connection = (&'static str, &'static str, &'static str);
 /// wires and output ports that show what a module inside holds. Each module is a field of the container
 /// and has, in parentheses, its clock ports, with `port <- clock` where that is called otherwise. A
 /// source is a path that begins with the container (`this`) or with the container's own input ports;
-/// after `->` stand output ports of a module that are no registers of it.
+/// after `->` stand output ports of a module that are no registers of it. `#[watches]` marks a module
+/// that nothing reads: runs that nobody traces need not move it.
 #[macro_export]
 macro_rules! connect {
     (
@@ -22,7 +23,7 @@ macro_rules! connect {
             $(wire $wire:ident <- this $(. $wire_from:ident)+;)*
             $(output $output:ident <- this $(. $output_from:ident)+;)*
         }
-        $($module:ident ($($clock:ident $(<- $clock_from:ident)?),*): $file:ident::In {
+        $($(#[$mark:ident])? $module:ident ($($clock:ident $(<- $clock_from:ident)?),*): $file:ident::In {
             $($port:ident <- $root:ident $(. $field:ident)+;)*
         } $(-> { $($driver:ident: this $(. $driven:ident)+,)+ })?)*
     ) => {
@@ -39,6 +40,10 @@ macro_rules! connect {
                     concat!(stringify!($root) $(, ".", stringify!($field))+),
                 ),)*)*
             ];
+
+            /// The modules that only watch.
+            $vis const WATCHERS: &[&str] =
+                &[$($($crate::connect!(@watcher $mark $module),)?)*];
 
             $(
                 #[doc = concat!("Input ports of `", stringify!($module), "` as they stand.")]
@@ -99,6 +104,7 @@ macro_rules! connect {
         }
     };
     (@container ($this:ident: &$Container:ident $($rest:tt)*)) => { $Container };
+    (@watcher watches $module:ident) => { stringify!($module) };
     (@clock $clock:ident) => { (stringify!($clock), stringify!($clock)) };
     (@clock $clock:ident $from:ident) => { (stringify!($clock), stringify!($from)) };
 }
