@@ -43,6 +43,7 @@ fn every_block_passes_in_icarus() {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn every_block_passes_in_verilator() {
     every_block_passes_in("verilator");
 }
@@ -52,6 +53,7 @@ const ESTIMATOR: [&str; 5] =
     ["depth_estimator", "estimator_ctrl", "forward1", "forward2", "tansig"];
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn an_estimator_of_sixteen_neurons_passes_in_both() {
     let mut args = vec!["-s", "estimator.network=uniform-16"];
     args.extend(ESTIMATOR.iter().flat_map(|block| ["--block", *block]));
@@ -68,6 +70,7 @@ fn an_estimator_of_sixteen_neurons_passes_in_both() {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn other_seeds_pass_too() {
     for seed in ["2", "3", "4"] {
         verified(&["--seed", seed, "--cycles", "8000"]);
@@ -106,6 +109,7 @@ fn the_centroid_estimator_passes_with_other_windows_and_scales() {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn the_top_passes_with_the_centroid_estimator_in_its_socket() {
     let kind = ["-s", "estimator.kind=centroid"];
     let short = ["--top", "--frames", "2", "-s", "firmware.shots_per_frame=300"];
@@ -142,6 +146,7 @@ fn a_chain_whose_taps_are_reached_out_of_order_passes_in_icarus() {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn full_frames_at_every_rate_pass_in_verilator() {
     for (rate, period) in [(0, 25), (1, 13), (2, 8), (3, 6)] {
         let rate = format!("firmware.laser_freq={rate}");

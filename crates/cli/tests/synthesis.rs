@@ -92,6 +92,7 @@ fn sixteen_neurons_take_seventeen_multipliers() {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn the_synthesised_core_does_what_the_rust_model_does() {
     assert_eq!(gates::compare(&yosys::rtl_ref()), Verdict::Pass);
 }

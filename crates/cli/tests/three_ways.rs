@@ -175,11 +175,13 @@ fn agree(network: &str, edges: u64) {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn eight_neurons_agree_on_10_000_histograms() {
     agree("uniform", 267);
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn sixteen_neurons_agree_on_10_000_histograms() {
     agree("uniform-16", 275);
 }

@@ -60,6 +60,7 @@ fn the_same_command_writes_the_same_files_on_any_number_of_threads() {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn a_training_that_was_stopped_ends_as_one_that_was_not() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
@@ -80,6 +81,7 @@ fn a_training_that_was_stopped_ends_as_one_that_was_not() {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn formats_that_are_not_the_firmware_s_are_trained_for_and_written_as_arrays() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
@@ -125,6 +127,7 @@ fn formats_that_are_not_the_firmware_s_are_trained_for_and_written_as_arrays() {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn a_validation_error_that_grows_ends_a_stage_where_it_was_least() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();

@@ -67,6 +67,7 @@ fn in_icarus_it_is_the_same_without_a_map() {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn in_verilator_it_is_the_same_without_a_map() {
     let folder = common::empty();
     let folder = folder.path();

@@ -31,6 +31,7 @@ pub fn with_fault(key: &str, edits: &[Edit]) -> Count {
 }
 
 #[test]
+#[ignore = "long: ./check --full"]
 fn everything_that_is_promised_is_counted_and_proven() {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
