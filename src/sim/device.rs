@@ -226,9 +226,6 @@ impl Device {
             if next > until {
                 return unseen;
             }
-            if T::EDGES && next == self.timeline.next_event() {
-                probe.control_changes();
-            }
             self.happen::<R>(next, listener);
             unseen = next == until;
             if T::ON && !unseen {

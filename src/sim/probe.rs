@@ -26,9 +26,6 @@ pub trait SignalProbe {
     /// not there yet. Without [`SignalProbe::ON`], `clk_200` stands still.
     #[inline(always)]
     fn before_edge(&mut self, _edge: Edge, _now: Time, _top: &TofTop) {}
-    /// The acquisition computer changes one of its signals. Told only with [`SignalProbe::EDGES`].
-    #[inline(always)]
-    fn control_changes(&mut self) {}
 }
 
 /// A rising edge of `clk_250`.
