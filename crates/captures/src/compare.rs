@@ -23,7 +23,6 @@ mod result;
 mod samples;
 mod selection;
 mod show;
-mod view;
 
 use std::path::PathBuf;
 
