@@ -4,7 +4,6 @@
 //! read as streams, in bounded memory, as often as that needs.
 
 mod align;
-mod bits;
 mod both;
 mod by_changes;
 mod by_samples;

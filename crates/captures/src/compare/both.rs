@@ -10,10 +10,10 @@ use tofsim::waves::side_by_side::{
 };
 use tofsim::waves::zoom;
 
-use super::bits::Bits;
 use super::pair::Pair;
 use super::result::{Compared, Comparison};
 use crate::source::Axis;
+use crate::words::Bits;
 
 /// The scopes: both sides, and what differs.
 const SCOPES: [&str; 3] = [SIDES[0], SIDES[1], "differs"];

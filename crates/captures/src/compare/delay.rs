@@ -6,9 +6,9 @@ use tofsim::error::Result;
 
 use crate::source::SourceState;
 
-use super::bits::Bits;
 use super::differences::{Differences, Spot};
 use super::plan::Plan;
+use crate::words::Bits;
 
 /// A pair of which one side is late, or that is compared only at times.
 pub(super) struct Delay {

@@ -2,10 +2,9 @@
 
 use tofsim::error::Result;
 
-use crate::source::{Name, SourceState, shapes};
-use crate::words::bit;
+use crate::source::{Name, SHAPES, SourceState};
+use crate::words::{Bits, bit};
 
-use super::bits::Bits;
 use super::both::Both;
 use super::pair::{Pair, Unknowns};
 use super::result::{Compared, Difference};
@@ -143,13 +142,12 @@ impl<'a> Differences<'a> {
     /// The result for each pair where so many places were compared, the first to differ first and
     /// in the order of data flow.
     pub(super) fn results(&self, compared: u64) -> Vec<Compared> {
-        let known = shapes();
         let flow = |name: &str| {
             let name = Name::new(name);
-            let place = known.iter().position(|(known, _)| {
+            let place = SHAPES.iter().position(|(known, _)| {
                 known.common(&name).is_some_and(|parts| parts >= 2 || parts == name.depth())
             });
-            place.unwrap_or(known.len())
+            place.unwrap_or(SHAPES.len())
         };
         let result = |(pair, count): (&Pair, &PairCount)| Compared {
             name: pair.name.clone(),

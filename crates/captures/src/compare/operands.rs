@@ -4,7 +4,7 @@ use tofsim::error::Result;
 use tofsim::kernel::signals::SignalFormat as Shape;
 
 use crate::condition::{Bound, Condition, Level, Place};
-use crate::source::{Name, Source, SourceState, known_shape, shapes};
+use crate::source::{Name, Source, SourceState, known_shape};
 
 use super::find;
 use super::matching::Matching;
@@ -33,14 +33,13 @@ impl SideCondition {
         condition: &Condition,
     ) -> Result<SideCondition> {
         let mut operands = Vec::new();
-        let known = shapes();
         let bound = condition.bind(&mut |text| {
             let index = operands.len();
             let pair = matching.pairs.iter().find(|pair| pair.name == text || pair.other == text);
             if let Some(pair) = pair {
                 let whole = pair.sides[side].iter().all(|part| part.whole);
                 let signed = pair.signed.unwrap_or_else(|| {
-                    whole && [&pair.name, &pair.other].iter().any(|name| is_signed(name, &known))
+                    whole && [&pair.name, &pair.other].iter().any(|name| is_signed(name))
                 });
                 operands.push(pair.sides[side].clone());
                 return Ok(Place { index, width: pair.width, signed });
@@ -48,7 +47,7 @@ impl SideCondition {
             let found = find::signal(source, text)?;
             let signal = &source.signals[found];
             operands.push(vec![Part::whole(&mut matching.slots[side], signal)]);
-            Ok(Place { index, width: signal.width, signed: is_signed(&signal.name.text, &known) })
+            Ok(Place { index, width: signal.width, signed: is_signed(&signal.name.text) })
         })?;
         Ok(SideCondition { bound, operands })
     }
@@ -65,8 +64,8 @@ impl SideCondition {
     }
 }
 
-fn is_signed(name: &str, known: &[(Name, Shape)]) -> bool {
-    matches!(known_shape(known, &[&Name::new(name)]), Some(Shape::Signed { .. }))
+fn is_signed(name: &str) -> bool {
+    matches!(known_shape(&[&Name::new(name)]), Some(Shape::Signed { .. }))
 }
 
 fn level(state: &SourceState, parts: &[Part]) -> Level {

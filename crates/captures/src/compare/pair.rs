@@ -1,9 +1,8 @@
 //! Two signals that are compared, and how.
 
 use crate::source::SourceState;
-use crate::words::{bit, extend, ones};
+use crate::words::{Bits, bit, extend, ones};
 
-use super::bits::Bits;
 use super::parts::Part;
 use super::show::Show;
 

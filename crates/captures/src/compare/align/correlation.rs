@@ -10,11 +10,11 @@ use tofsim::error::{Input, Result};
 
 use crate::source::SourceState;
 
-use super::super::bits::Bits;
 use super::super::plan::Plan;
 use super::super::selection::{Piece, Selected};
 use super::alignment::Alignment;
 use super::survey::survey;
+use crate::words::Bits;
 
 /// Longest sequence that is looked for [samples].
 const LONGEST: u64 = 1 << 17;

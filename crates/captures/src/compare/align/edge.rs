@@ -4,12 +4,12 @@ use tofsim::error::{Input, Result};
 
 use crate::source::Axis;
 
-use super::super::bits::Bits;
 use super::super::plan::Plan;
 use super::super::samples::Sample;
 use super::super::selection::Piece;
 use super::alignment::Alignment;
 use super::survey::survey;
+use crate::words::Bits;
 
 /// The first edges of a signal belong together.
 pub(super) fn alignment(plan: &Plan, signal: &str) -> Result<Alignment> {

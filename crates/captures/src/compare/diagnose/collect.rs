@@ -7,10 +7,10 @@ use tofsim::error::Result;
 use crate::source::SourceState;
 
 use super::super::align::Alignment;
-use super::super::bits::Bits;
 use super::super::plan::Plan;
 use super::super::result::Comparison;
 use super::super::selection::Selected;
+use crate::words::Bits;
 
 /// Longest part of a window that is looked at [samples].
 const LONGEST: u64 = 1 << 17;
