@@ -93,13 +93,13 @@ impl Both {
     }
 
     /// The values of a pair change.
-    pub(super) fn change(&mut self, pair: usize, sides: [&Bits; 2], differs: bool) -> Result<()> {
+    pub(super) fn change(&mut self, pair: usize, sides: &[Bits; 2], differs: bool) -> Result<()> {
         self.write(pair, sides, differs).map_err(|error| self.wave.out().fault(error))
     }
 
-    fn write(&mut self, pair: usize, sides: [&Bits; 2], differs: bool) -> io::Result<()> {
+    fn write(&mut self, pair: usize, sides: &[Bits; 2], differs: bool) -> io::Result<()> {
         let width = self.widths[pair];
-        for (side, bits) in sides.into_iter().enumerate() {
+        for (side, bits) in sides.iter().enumerate() {
             match width {
                 1 => self.wave.scalar(side, pair, bits.level(0))?,
                 _ => {

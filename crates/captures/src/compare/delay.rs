@@ -42,10 +42,11 @@ impl Delay {
         &mut self,
         plan: &Plan,
         spot: Spot,
-        (states, gaps): ([&SourceState; 2], [bool; 2]),
+        states: [&SourceState; 2],
+        gaps: [bool; 2],
         differences: &mut Differences,
     ) -> Result<()> {
-        let differs = self.step(plan, spot, (states, gaps), differences);
+        let differs = self.step(plan, spot, states, gaps, differences);
         differences.show(self.pair, states, differs)
     }
 
@@ -54,7 +55,8 @@ impl Delay {
         &mut self,
         plan: &Plan,
         spot: Spot,
-        (states, gaps): ([&SourceState; 2], [bool; 2]),
+        states: [&SourceState; 2],
+        gaps: [bool; 2],
         differences: &mut Differences,
     ) -> bool {
         let pair = &plan.matching.pairs[self.pair];
@@ -71,12 +73,13 @@ impl Delay {
         if a.off[0] || b.off[1] {
             return false;
         }
-        differences.counts[self.pair].compared += 1;
         let (expected, got) = (&a.values[0], &b.values[1]);
-        let differs = !pair.equal(expected, got, differences.unknowns());
+        let differs = !pair.equal(expected, got, differences.unknowns);
+        let count = &mut differences.counts[self.pair];
+        count.compared += 1;
         if differs {
             let at = [a.spot.at[0], b.spot.at[1]];
-            differences.count_values(self.pair, Spot { at, ..now.spot }, expected, got);
+            count.differs(pair, Spot { at, ..now.spot }, expected, got);
         }
         differs
     }

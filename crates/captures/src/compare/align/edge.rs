@@ -36,7 +36,7 @@ pub(super) fn shift(plan: &Plan, signal: &str) -> Result<(i128, String)> {
             pair.gather(side, &cursor.state, &mut now);
             let changed = before.is_some_and(|before| before != now && before.is_known());
             let at_fs = tick.femtoseconds(at);
-            if changed && at_fs >= plan.after.fs() as u128 {
+            if changed && at_fs >= plan.terms.after.fs() as u128 {
                 break at_fs as i128;
             }
             before = Some(now.clone());
@@ -78,7 +78,7 @@ pub(super) fn start(plan: &Plan) -> Result<Alignment> {
             }
             let [Some((sample_a, a)), Some((sample_b, b))] = first else {
                 let side = usize::from(first[0].is_some());
-                let expected = format!("the clock never rises after {}", plan.after);
+                let expected = format!("the clock never rises after {}", plan.terms.after);
                 return Err(Input::new(&plan.sources[side].name, expected).into());
             };
             let (side, at) = if a < b { (0, b) } else { (1, a) };

@@ -121,8 +121,11 @@ fn no_condition(plan: &Plan, side: usize) -> Input {
 
 fn never(plan: &Plan, side: usize, found: usize, windows: usize) -> Input {
     let expected = match found {
-        0 => format!("the trigger never comes after {}", plan.after),
-        _ => format!("the trigger comes {found} times after {}, not {windows} times", plan.after),
+        0 => format!("the trigger never comes after {}", plan.terms.after),
+        _ => format!(
+            "the trigger comes {found} times after {}, not {windows} times",
+            plan.terms.after
+        ),
     };
     Input::new(&plan.sources[side].name, expected)
 }
@@ -141,7 +144,8 @@ fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
     let mut qualifier = plan.qualifier[side].clone();
     let mut core = Core::numbers(shape, qualifier.is_some());
     let first = begin(plan, side)?;
-    let (skipped, missing) = (first.saturating_sub(plan.stages), plan.stages.saturating_sub(first));
+    let (skipped, missing) =
+        (first.saturating_sub(plan.terms.stages), plan.terms.stages.saturating_sub(first));
     for _ in 0..missing {
         let triggers = trigger.sample_nothing();
         core.sample_number(triggers, qualifier.as_mut().is_none_or(SideCondition::sample_nothing));
