@@ -1,7 +1,4 @@
 //! The logic analyser's core: a ring buffer behind a trigger.
-//!
-//! [`Core::new`] stores rows of words, [`Core::numbers`] nothing but the numbers of the samples,
-//! which tells what a capture of some recorded waveform would hold.
 
 use super::capture::{Capture, Probe};
 use super::storing::{Shape, Storing};
@@ -20,32 +17,11 @@ pub struct Core {
     triggers: Vec<u64>,
 }
 
-/// Samples of a window, by their numbers from 0.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum KeptSamples {
-    /// All from one to before another.
-    Range(std::ops::Range<u64>),
-    /// Those that qualified, and the one that triggered.
-    List(Vec<u64>),
-}
-
 impl Core {
     /// An empty buffer for rows of `stride` words.
     pub fn new(shape: Shape, stride: usize) -> Self {
         let (storing, words) = (Storing::new(shape), Vec::new());
         Core { storing, stride, words, number: 0, triggers: Vec::new() }
-    }
-
-    /// A buffer that holds the numbers of samples only. Without qualification it keeps none but
-    /// those of the triggers.
-    pub fn numbers(shape: Shape, qualified: bool) -> Self {
-        Core::new(shape, usize::from(qualified))
-    }
-
-    /// Takes a sample into a buffer of numbers.
-    pub fn sample_number(&mut self, triggers: bool, qualifies: bool) {
-        let row = [self.number];
-        self.sample(&row[..self.stride], triggers, qualifies);
     }
 
     /// Takes a sample: its row, whether the trigger holds, and whether it may be stored.
@@ -103,50 +79,21 @@ impl Core {
         words.truncate(samples * stride);
         Capture { stride, words, windows: begins, triggers, ..Capture::new(probes) }
     }
-
-    /// Samples that each window of a buffer of numbers holds, in order of time.
-    pub fn windows(&self) -> Vec<KeptSamples> {
-        let windows = self.storing.windows();
-        let numbered = windows.into_iter().enumerate();
-        numbered
-            .map(|(k, window)| match self.triggers.get(k) {
-                _ if self.stride > 0 => {
-                    KeptSamples::List(window.slots().map(|slot| self.words[slot]).collect())
-                }
-                Some(&trigger) => {
-                    let begin = trigger - window.before as u64;
-                    KeptSamples::Range(begin..trigger + window.after as u64)
-                }
-                None => KeptSamples::Range(self.number - window.before as u64..self.number),
-            })
-            .collect()
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Both cores over samples that trigger where there is a `t`, and do not qualify where the
-    /// letter is `-` or `T`; the row is the sample's number.
+    /// Samples that trigger where there is a `t`, and do not qualify where the letter is `-` or
+    /// `T`; the row is the sample's number.
     fn capture(depth: usize, windows: usize, position: usize, samples: &str) -> Capture {
-        let shape = Shape { depth, windows, position };
-        let qualified = samples.contains(['-', 'T']);
-        let (mut core, mut numbers) = (Core::new(shape, 1), Core::numbers(shape, qualified));
+        let mut core = Core::new(Shape { depth, windows, position }, 1);
         for (number, sample) in samples.chars().enumerate() {
-            let (triggers, qualifies) = ("tT".contains(sample), !"-T".contains(sample));
-            core.sample(&[number as u64], triggers, qualifies);
-            numbers.sample_number(triggers, qualifies);
+            core.sample(&[number as u64], "tT".contains(sample), !"-T".contains(sample));
         }
-        let triggers = numbers.triggers().to_vec();
+        let triggers = core.triggers().to_vec();
         let capture = core.finish(Vec::new());
-        let kept: Vec<u64> = (numbers.windows().into_iter())
-            .flat_map(|kept| match kept {
-                KeptSamples::Range(range) => range.collect(),
-                KeptSamples::List(list) => list,
-            })
-            .collect();
-        assert_eq!(kept, capture.words, "both cores keep the same");
         let triggered: Vec<_> = capture.triggers.iter().map(|&at| capture.words[at]).collect();
         assert_eq!(triggered, triggers);
         capture

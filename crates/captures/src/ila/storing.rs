@@ -46,14 +46,6 @@ pub struct Window {
     pub after: usize,
 }
 
-impl Window {
-    /// Places of the samples in order of time.
-    pub fn slots(self) -> impl Iterator<Item = usize> {
-        let ring = (0..self.before).map(move |k| (k + self.turn) % self.before);
-        ring.chain(self.before..self.before + self.after).map(move |k| self.begin + k)
-    }
-}
-
 /// Decides, sample by sample, what a logic analyser stores.
 ///
 /// A window first fills with `position` samples, then waits for a trigger while it keeps the last
@@ -77,14 +69,8 @@ pub struct Storing {
 impl Storing {
     /// An empty buffer.
     pub fn new(shape: Shape) -> Self {
-        let mut storing = Storing {
-            shape,
-            state: State::Waiting,
-            before: 0,
-            next: 0,
-            after: 0,
-            full: Vec::new(),
-        };
+        let (state, full) = (State::Waiting, Vec::new());
+        let mut storing = Storing { shape, state, before: 0, next: 0, after: 0, full };
         storing.begin();
         storing
     }
