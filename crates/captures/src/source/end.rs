@@ -43,10 +43,10 @@ fn vcd(path: &Path, mut file: impl BufRead) -> Result<Option<u64>> {
         line += 1;
         for word in text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()) {
             match word[0] {
+                _ if std::mem::take(&mut is_name) => {}
                 b'$' if word == b"$end" => in_command = false,
                 b'$' => in_command |= !word.starts_with(b"$dump"),
                 _ if in_command => {}
-                _ if std::mem::take(&mut is_name) => {}
                 b'b' | b'B' | b'r' | b'R' | b's' | b'S' => is_name = true,
                 b'#' => {
                     let fault = |expected| Input::new(path.display(), expected).at(line, 1);
@@ -84,7 +84,7 @@ mod tests {
     #[test]
     fn the_last_time_stamp_of_a_vcd_is_its_end() {
         assert_eq!(last("$end\n#0\n1!\n#700\n0!\nb01 #\n#720\n"), Ok(Some(720)));
-        let names = "$comment\n#5\n$end\n$var wire 1 # a $end\n#730 1! #740 0!\nb0 #9\n0#\n";
+        let names = "$comment\n#5\n$end\n$var wire 1 # a $end\n#730 1!\nb0 $x\n#740 0!\nb0 #9\n0#\n";
         assert_eq!(last(names), Ok(Some(740)));
         assert_eq!(last("$end\n"), Ok(None));
     }
