@@ -7,7 +7,6 @@ mod digits;
 mod dump;
 mod heads;
 mod infer;
-mod lines;
 mod ltx;
 mod opened;
 mod order;

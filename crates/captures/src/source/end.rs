@@ -84,7 +84,8 @@ mod tests {
     #[test]
     fn the_last_time_stamp_of_a_vcd_is_its_end() {
         assert_eq!(last("$end\n#0\n1!\n#700\n0!\nb01 #\n#720\n"), Ok(Some(720)));
-        let names = "$comment\n#5\n$end\n$var wire 1 # a $end\n#730 1!\nb0 $x\n#740 0!\nb0 #9\n0#\n";
+        let names =
+            "$comment\n#5\n$end\n$var wire 1 # a $end\n#730 1!\nb0 $x\n#740 0!\nb0 #9\n0#\n";
         assert_eq!(last(names), Ok(Some(740)));
         assert_eq!(last("$end\n"), Ok(None));
     }

@@ -10,8 +10,8 @@ use tofsim::error::{Error, Input, Result};
 use super::super::capture::Radix;
 use super::dump::Dump;
 use super::heads::Heads;
-use super::lines::first_lines;
 use super::opened::{CaptureForm, Column, Opened, damaged};
+use super::table::first_lines;
 use super::{csv, ltx};
 
 /// Most bytes of an entry that is read in passing.

@@ -36,9 +36,8 @@ pub(super) fn infer(
         for (index, (column, guess)) in columns.filter(|(_, (column, _))| !column.text) {
             let index = super::heads::FIXED.len() + index;
             let before = guess.left;
-            let quoted = |field| heads.is_text(field);
-            if guess.look(table.field(index), column.width, &mut scratch) {
-                guess.telling = Some(table.fault(index, "", quoted).field(column.head()));
+            if guess.look(&table.row.field(index), column.width, &mut scratch) {
+                guess.telling = Some(table.row.fault(index, "").field(column.head()));
             }
             if guess.left == 0 {
                 let expected = match guess.seen {
@@ -48,7 +47,7 @@ pub(super) fn infer(
                     }
                     false => format!("expected a number of {} bits", column.width),
                 };
-                return Err(table.fault(index, expected, quoted).field(column.head()).into());
+                return Err(table.row.fault(index, expected).field(column.head()).into());
             }
             guess.seen = true;
         }
