@@ -7,6 +7,7 @@ mod digits;
 mod dump;
 mod heads;
 mod infer;
+mod line;
 mod ltx;
 mod opened;
 mod order;

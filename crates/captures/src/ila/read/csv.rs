@@ -1,7 +1,6 @@
 //! CSV files, streamed.
 
-use std::fs::File;
-use std::io::Seek;
+use std::io::{Read, Seek};
 
 use tofsim::error::{Error, Result};
 
@@ -14,7 +13,11 @@ use super::order::Order;
 use super::table::{Table, first_lines};
 
 /// Opens a CSV. Without a row of radices it is read twice.
-pub(super) fn open(source: String, mut file: File, hint: Option<Radix>) -> Result<Opened> {
+pub(super) fn open<R: Read + Seek + Send + 'static>(
+    source: String,
+    mut file: R,
+    hint: Option<Radix>,
+) -> Result<Opened> {
     let fault = |error| Error::io(source.as_ref(), "read")(error);
     let lines = first_lines(&mut file).map_err(fault)?;
     file.rewind().map_err(fault)?;
@@ -39,14 +42,14 @@ pub(super) fn open(source: String, mut file: File, hint: Option<Radix>) -> Resul
 }
 
 /// The rows below the heads.
-struct CsvRows {
-    table: Table<File>,
+struct CsvRows<R> {
+    table: Table<R>,
     heads: Heads,
     words: usize,
     order: Order,
 }
 
-impl CaptureRows for CsvRows {
+impl<R: Read + Send> CaptureRows for CsvRows<R> {
     fn next(&mut self, row: &mut CaptureRow) -> Result<bool> {
         let CsvRows { table, heads, words, order } = self;
         let first = FIXED.len() + heads.gap as usize;
