@@ -6,7 +6,7 @@ use tofsim::error::{Input, Result};
 use tofsim::kernel::Time;
 use tofsim::kernel::clock::Clock;
 
-use crate::ila;
+use crate::ila::clock::{AnalyserClock, quantity};
 use crate::source::{Axis, Cursor, Marks, Source, SourceFormat, SourceState, Tick};
 
 use super::find;
@@ -32,7 +32,7 @@ impl FromStr for SampleClock {
     /// A signal, or as `125MHz` or `125MHz + 2ns` a frequency and the time of the first edge.
     fn from_str(text: &str) -> std::result::Result<Self, String> {
         Ok(match text.parse() {
-            Ok(ila::clock::AnalyserClock::Free { frequency_hz, phase }) => {
+            Ok(AnalyserClock::Free { frequency_hz, phase }) => {
                 SampleClock::Free { frequency_hz, phase }
             }
             Err(expected)
@@ -49,8 +49,7 @@ impl FromStr for SampleClock {
 pub fn time(text: &str) -> Option<Time> {
     const UNITS: [(&str, f64); 6] =
         [("fs", 1e-3), ("ps", 1.0), ("ns", 1e3), ("us", 1e6), ("ms", 1e9), ("s", 1e12)];
-    let (number, ps) = UNITS.iter().find_map(|(unit, ps)| Some((text.strip_suffix(unit)?, ps)))?;
-    let ps = number.trim().parse::<f64>().ok()? * ps;
+    let ps = quantity(text, &UNITS)?;
     (0.0..=1e16).contains(&ps).then(|| Time::from_ps_f64(ps))
 }
 

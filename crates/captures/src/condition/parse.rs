@@ -16,12 +16,12 @@ const ALWAYS: &str = "always";
 const KEYWORDS: &[&str] = &["and", "or", "rising", "falling", "changed"];
 
 const RELATIONS: &[(&str, Relation)] = &[
-    ("==", Relation::Equal),
-    ("!=", Relation::Unequal),
-    ("<", Relation::Less),
-    ("<=", Relation::LessOrEqual),
-    (">", Relation::Greater),
-    (">=", Relation::GreaterOrEqual),
+    ("==", Relation::Equal(true)),
+    ("!=", Relation::Equal(false)),
+    ("<", Relation::Order(u128::lt)),
+    ("<=", Relation::Order(u128::le)),
+    (">", Relation::Order(u128::gt)),
+    (">=", Relation::Order(u128::ge)),
 ];
 
 /// The tests of a condition and how they are joined.
@@ -132,8 +132,7 @@ impl<'a> Parser<'a> {
             _ if token.kind != TokenKind::Word => fault("expected a value"),
             Err(expected) => fault(expected),
             Ok(literal) => {
-                let exact = matches!(relation, Relation::Equal | Relation::Unequal);
-                if literal.has_any() && !exact {
+                if literal.has_any() && !matches!(relation, Relation::Equal(_)) {
                     return fault("expected all digits: x is for == and != only");
                 }
                 self.tokens = &self.tokens[1..];

@@ -179,55 +179,18 @@ pub fn capture(
     stop: Option<&AtomicBool>,
 ) -> Result<Outcome> {
     match analyser.every_change {
-        true => run.traced(count, &mut EveryChange(analyser), stop),
-        false => run.traced(count, &mut ClockEdges(analyser), stop),
+        true => run.traced(count, &mut Tap::<true>(analyser), stop),
+        false => run.traced(count, &mut Tap::<false>(analyser), stop),
     }
 }
 
-/// Looks at the edges of `clk_125` and `clk_250`.
-struct ClockEdges<'a>(&'a mut Analyser);
+/// Looks at every change, or else at the edges of `clk_125` and `clk_250`.
+struct Tap<'a, const EVERY: bool>(&'a mut Analyser);
 
-impl SignalProbe for ClockEdges<'_> {
-    const ON: bool = false;
-    const EDGES: bool = true;
-
-    fn sample(&mut self, _: Time, _: &TofTop) {}
-
-    #[inline(always)]
-    fn looks_before(&self, edge: Edge) -> bool {
-        self.0.looks_before(edge)
-    }
-
-    #[inline(always)]
-    fn before_edge(&mut self, edge: Edge, _: Time, top: &TofTop) {
-        self.0.edge(edge, top);
-    }
-}
-
-impl WindowedProbe for ClockEdges<'_> {
-    #[inline(always)]
-    fn is_wanted(&mut self, device: &mut Device, _: &Frames, _: &Params) -> Result<bool> {
-        let analyser = &mut *self.0;
-        if !analyser.begun {
-            let cycle = device.cycle();
-            analyser.begun = analyser.first_of(cycle + 1) > analyser.first;
-            analyser.edge = analyser.first_of(cycle);
-        }
-        Ok(analyser.begun && !analyser.is_full())
-    }
-
-    fn is_done(&self) -> bool {
-        self.0.stop_when_full && self.0.is_full()
-    }
-}
-
-/// Looks at every change.
-struct EveryChange<'a>(&'a mut Analyser);
-
-impl EveryChange<'_> {
+impl<const EVERY: bool> Tap<'_, EVERY> {
     /// Whether the first sample comes within the next two cycles; by then all clocks have turned.
     fn is_due(&self, device: &mut Device) -> bool {
-        self.0.clock.rise(self.0.first) <= device.coming_cycle().1 + CYCLE
+        EVERY && self.0.clock.rise(self.0.first) <= device.coming_cycle().1 + CYCLE
     }
 
     fn begin(&mut self, device: &mut Device, now: Time) {
@@ -242,26 +205,35 @@ impl EveryChange<'_> {
     }
 }
 
-impl SignalProbe for EveryChange<'_> {
-    const ON: bool = true;
+impl<const EVERY: bool> SignalProbe for Tap<'_, EVERY> {
+    const ON: bool = EVERY;
     const EDGES: bool = true;
 
     fn sample(&mut self, now: Time, top: &TofTop) {
+        if !EVERY {
+            return;
+        }
         if !self.0.is_shown() {
             self.0.catch_up(now);
         }
         self.0.look.follow(top);
     }
 
+    #[inline(always)]
+    fn looks_before(&self, edge: Edge) -> bool {
+        EVERY || self.0.looks_before(edge)
+    }
+
+    #[inline(always)]
     fn before_edge(&mut self, edge: Edge, now: Time, top: &TofTop) {
-        match self.0.is_shown() {
+        match !EVERY || self.0.is_shown() {
             true => self.0.edge(edge, top),
             false => self.sample(now.since(Time::from_fs(1)), top),
         }
     }
 }
 
-impl WindowedProbe for EveryChange<'_> {
+impl<const EVERY: bool> WindowedProbe for Tap<'_, EVERY> {
     fn begins_at_power_up(&mut self, device: &mut Device) -> bool {
         let due = self.is_due(device);
         if due {
@@ -270,10 +242,16 @@ impl WindowedProbe for EveryChange<'_> {
         due
     }
 
+    #[inline(always)]
     fn is_wanted(&mut self, device: &mut Device, _: &Frames, _: &Params) -> Result<bool> {
         if !self.0.begun && self.is_due(device) {
             let now = device.coming_cycle().0;
             self.begin(device, now);
+        } else if !EVERY && !self.0.begun {
+            let analyser = &mut *self.0;
+            let cycle = device.cycle();
+            analyser.begun = analyser.first_of(cycle + 1) > analyser.first;
+            analyser.edge = analyser.first_of(cycle);
         }
         Ok(self.0.begun && !self.0.is_full())
     }

@@ -5,7 +5,6 @@ mod csv;
 mod dump;
 mod ltx;
 mod vcd;
-mod words;
 
 pub use archive::archive;
 pub use csv::csv;

@@ -3,7 +3,6 @@
 use std::io::{self, Write};
 
 use super::super::capture::Capture;
-use super::words::spill;
 
 /// Writes a capture as Vivado's `waveform.dmp`.
 pub fn dump(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
@@ -14,15 +13,14 @@ pub fn dump(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
     writeln!(out, "window_marks:{}", marks(&capture.windows))?;
     writeln!(out, "trigger_marks:{}", marks(&capture.triggers))?;
     writeln!(out, "gaps:\ntimestamps:\ngap_timestamps:")?;
-    let mut text = Vec::new();
     for bit in 0..capture.width() {
-        write!(text, "ch[{bit}]: ")?;
         let words = capture.words.iter().skip(bit / 64).step_by(capture.stride);
-        text.extend(words.map(|word| b'0' + (word >> (bit % 64) & 1) as u8));
-        text.push(b'\n');
-        spill(out, &mut text)?;
+        let samples: Vec<u8> = words.map(|word| b'0' + (word >> (bit % 64) & 1) as u8).collect();
+        write!(out, "ch[{bit}]: ")?;
+        out.write_all(&samples)?;
+        out.write_all(b"\n")?;
     }
-    out.write_all(&text)
+    Ok(())
 }
 
 fn marks(samples: &[usize]) -> String {
