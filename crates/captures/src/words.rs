@@ -26,9 +26,7 @@ impl Bits {
 
     /// The value, if it has at most 128 bits, all known.
     pub(crate) fn number(&self) -> Option<u128> {
-        let low = self.value.first().copied().unwrap_or(0);
-        let high = self.value.get(1).copied().unwrap_or(0);
-        (self.value.len() <= 2 && self.is_known()).then_some(low as u128 | (high as u128) << 64)
+        (self.value.len() <= 2 && self.is_known()).then(|| lowest(&self.value))
     }
 
     /// What a waveform has for a bit.
@@ -40,6 +38,11 @@ impl Bits {
             _ => Value::Z,
         }
     }
+}
+
+/// The lowest 128 bits.
+pub(crate) fn lowest(words: &[u64]) -> u128 {
+    words.iter().take(2).rev().fold(0, |value, &word| value << 64 | u128::from(word))
 }
 
 /// A bit.

@@ -8,27 +8,21 @@ use crate::source::{Axis, Source};
 
 use super::matching::{Matching, Unmatched, UnmatchedReason};
 use super::operands::SideCondition;
-use super::samples::{Sample, SampleClock, Samples};
+use super::parts::Part;
+use super::samples::{Clocking, Sample, SampleClock, Samples};
 
 /// Two sources with their signals matched, to be read as often as needed.
 pub(super) struct Plan<'a> {
     pub(super) sources: [&'a Source; 2],
     pub(super) matching: Matching,
-    /// Signals of each side that have no partner.
-    pub(super) unpaired: [Vec<Unpaired>; 2],
-    clock: [Option<usize>; 2],
+    /// Signals of each side that have no partner, which are read to find one.
+    pub(super) unpaired: [Vec<(String, Part)>; 2],
+    clocking: [Clocking; 2],
     /// What a waveform triggers on.
     pub(super) trigger: [Option<SideCondition>; 2],
     /// Under which condition a logic analyser stored a sample.
     pub(super) qualifier: [Option<SideCondition>; 2],
     pub(super) terms: Terms,
-}
-
-/// A signal without a partner, which is read to find one.
-pub(super) struct Unpaired {
-    pub(super) name: String,
-    pub(super) signal: usize,
-    pub(super) width: u32,
 }
 
 /// Signals without a partner that are looked at.
@@ -56,11 +50,11 @@ impl<'a> Plan<'a> {
         terms: Terms,
         sampled: bool,
     ) -> Result<Plan<'a>> {
-        let mut clock = [None, None];
+        let mut clocking = [0, 1].map(|_| Clocking::Rows { endless: false });
         let (mut trigger, mut qualifier) = ([None, None], [None, None]);
         for (side, source) in sources.into_iter().enumerate().filter(|_| sampled) {
             let slots = &mut matching.slots[side];
-            clock[side] = Samples::clock_signal(source, terms.sampling.as_ref(), slots)?;
+            clocking[side] = Clocking::new(source, terms.sampling.as_ref(), slots)?;
             if source.is_capture() {
                 continue;
             }
@@ -72,13 +66,13 @@ impl<'a> Plan<'a> {
             qualifier[side] = bind(&terms.qualifier)?;
         }
         let unpaired = [0, 1].map(|side| unpaired(sources, side, &mut matching));
-        Ok(Plan { sources, matching, unpaired, clock, trigger, qualifier, terms })
+        Ok(Plan { sources, matching, unpaired, clocking, trigger, qualifier, terms })
     }
 
     /// The samples of a side from the first on.
     pub(super) fn samples(&self, side: usize) -> Result<Samples> {
         let slots = &self.matching.slots[side];
-        Samples::new(self.sources[side], slots, self.terms.sampling.as_ref(), self.clock[side])
+        Samples::new(self.sources[side], slots, self.clocking[side].clone())
     }
 
     /// Whether a sample is late enough to be looked at.
@@ -100,7 +94,7 @@ impl<'a> Plan<'a> {
 }
 
 /// Signals of a side without a partner, if the other side's could be one.
-fn unpaired(sources: [&Source; 2], side: usize, matching: &mut Matching) -> Vec<Unpaired> {
+fn unpaired(sources: [&Source; 2], side: usize, matching: &mut Matching) -> Vec<(String, Part)> {
     if !sources.iter().any(|source| source.is_capture()) {
         return Vec::new();
     }
@@ -110,8 +104,7 @@ fn unpaired(sources: [&Source; 2], side: usize, matching: &mut Matching) -> Vec<
     unpaired
         .map(|unmatched| {
             let signal = &sources[side].signals[unmatched.signal];
-            let (name, width) = (unmatched.name.clone(), signal.width);
-            Unpaired { name, signal: slots[side].place(signal.id), width }
+            (unmatched.name.clone(), Part::whole(&mut slots[side], signal))
         })
         .collect()
 }

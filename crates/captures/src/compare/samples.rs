@@ -10,7 +10,7 @@ use crate::ila::clock::{AnalyserClock, quantity};
 use crate::source::{Axis, Cursor, Marks, Source, SourceFormat, SourceState, Tick};
 
 use super::find;
-use super::parts::Slots;
+use super::parts::{Part, Slots};
 
 /// What a waveform is sampled by.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,7 +65,9 @@ pub(super) struct Sample {
     pub(super) held: bool,
 }
 
-enum Clocking {
+/// What makes samples of a source.
+#[derive(Clone)]
+pub(super) enum Clocking {
     /// The rising edges of a signal of the cursor, and its level.
     Rising(usize, Option<bool>),
     Free {
@@ -76,6 +78,36 @@ enum Clocking {
     Rows {
         endless: bool,
     },
+}
+
+impl Clocking {
+    /// Of a source that is sampled so; a clock is read too.
+    pub(super) fn new(
+        source: &Source,
+        sampling: Option<&SampleClock>,
+        slots: &mut Slots,
+    ) -> Result<Clocking> {
+        let Axis::Time(tick) = source.axis else {
+            return Ok(Clocking::Rows { endless: source.format == SourceFormat::IlaVcd });
+        };
+        match sampling {
+            Some(SampleClock::Signal(name)) => match find::part(source, name, slots)? {
+                (_, Part { width: 1, signal, .. }) => Ok(Clocking::Rising(signal, None)),
+                (_, Part { width, .. }) => {
+                    let expected = format!("expected a clock of one bit, not {width}");
+                    Err(Input::new(&source.name, expected).field(name).into())
+                }
+            },
+            Some(&SampleClock::Free { frequency_hz, phase }) => {
+                Ok(Clocking::Free { clock: Clock::new(frequency_hz, 1, 1, phase), tick })
+            }
+            None => {
+                let expected = "a waveform has no samples; say which clock they are taken by \
+                    with --clock";
+                Err(Input::new(&source.name, expected).into())
+            }
+        }
+    }
 }
 
 /// A source as a sequence of samples.
@@ -92,47 +124,10 @@ pub(super) struct Samples {
 }
 
 impl Samples {
-    /// Signal of the cursor that is the clock of this source, which is read too.
-    pub(super) fn clock_signal(
-        source: &Source,
-        sampling: Option<&SampleClock>,
-        slots: &mut Slots,
-    ) -> Result<Option<usize>> {
-        match (source.axis, sampling) {
-            (Axis::Time(_), Some(SampleClock::Signal(name))) => {
-                let (_, part) = find::part(source, name, slots)?;
-                if part.width != 1 {
-                    let expected = format!("expected a clock of one bit, not {}", part.width);
-                    return Err(Input::new(&source.name, expected).field(name).into());
-                }
-                Ok(Some(part.signal))
-            }
-            (Axis::Time(_), None) => {
-                let expected = "a waveform has no samples; say which clock they are taken by \
-                    with --clock";
-                Err(Input::new(&source.name, expected).into())
-            }
-            _ => Ok(None),
-        }
-    }
-
-    /// Begins to read the signals of `slots`; `clock` is what [`Samples::clock_signal`] found.
-    pub(super) fn new(
-        source: &Source,
-        slots: &Slots,
-        sampling: Option<&SampleClock>,
-        clock: Option<usize>,
-    ) -> Result<Samples> {
-        let clocking = match (source.axis, clock, sampling) {
-            (Axis::Time(_), Some(signal), _) => Clocking::Rising(signal, None),
-            (Axis::Time(tick), None, Some(&SampleClock::Free { frequency_hz, phase })) => {
-                Clocking::Free { clock: Clock::new(frequency_hz, 1, 1, phase), tick }
-            }
-            _ => Clocking::Rows { endless: source.format == SourceFormat::IlaVcd },
-        };
+    /// Begins to read the signals of `slots`.
+    pub(super) fn new(source: &Source, slots: &Slots, clocking: Clocking) -> Result<Samples> {
         let cursor = source.read(&slots.ids)?;
-        let state = cursor.state.clone();
-        let newer = Vec::new();
+        let (state, newer) = (cursor.state.clone(), Vec::new());
         Ok(Samples { cursor, clocking, state, newer, changed: Vec::new(), next: 0 })
     }
 

@@ -1,16 +1,52 @@
 //! The logic analyser's core: a ring buffer behind a trigger.
 
 use super::capture::{Capture, Probe};
-use super::storing::{Shape, Storing};
+
+/// The shape of a capture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shape {
+    /// Samples of a window, at least 1.
+    pub depth: usize,
+    /// Windows, at least 1.
+    pub windows: usize,
+    /// Samples of a window before the one that triggers, less than `depth`.
+    pub position: usize,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    /// Stores what is to stand before a trigger, which is not looked for yet.
+    Filling,
+    /// Looks for a trigger.
+    Waiting,
+    /// Stores what stands behind the trigger.
+    Triggered,
+    /// All windows have their samples.
+    Full,
+}
 
 /// Stores samples of so many words.
+///
+/// A window first fills with `position` samples, then waits for a trigger while it keeps the last
+/// `position`, then stores until it has `depth`; the next begins with the very next sample. Only
+/// samples that qualify are stored, and the one that triggers.
 #[derive(Clone, Debug)]
 pub struct Core {
-    storing: Storing,
+    shape: Shape,
     /// Words of a row.
     stride: usize,
     /// The stored rows, one after the other.
     words: Vec<u64>,
+    state: State,
+    /// Samples stored in the present window before its trigger.
+    before: usize,
+    /// Place of the next of them.
+    next: usize,
+    /// Samples stored from the trigger on.
+    after: usize,
+    /// For each full window how far the samples before its trigger are out of turn: the place of the
+    /// oldest.
+    full: Vec<usize>,
     /// Number of the next sample.
     number: u64,
     /// Number of the sample that triggered each window.
@@ -20,36 +56,93 @@ pub struct Core {
 impl Core {
     /// An empty buffer for rows of `stride` words.
     pub fn new(shape: Shape, stride: usize) -> Self {
-        let (storing, words) = (Storing::new(shape), Vec::new());
-        Core { storing, stride, words, number: 0, triggers: Vec::new() }
+        let mut core = Core {
+            shape,
+            stride,
+            words: Vec::new(),
+            state: State::Waiting,
+            before: 0,
+            next: 0,
+            after: 0,
+            full: Vec::new(),
+            number: 0,
+            triggers: Vec::new(),
+        };
+        core.begin();
+        core
+    }
+
+    fn begin(&mut self) {
+        (self.before, self.next, self.after) = (0, 0, 0);
+        self.state = match self.shape.position {
+            _ if self.full.len() == self.shape.windows => State::Full,
+            0 => State::Waiting,
+            _ => State::Filling,
+        };
     }
 
     /// Takes a sample: its row, whether the trigger holds, and whether it may be stored.
     #[inline]
     pub fn sample(&mut self, row: &[u64], triggers: bool, qualifies: bool) {
-        if let Some(stored) = self.storing.sample(triggers, qualifies) {
-            let begin = stored.slot * self.stride;
+        let slot = match self.state {
+            State::Waiting if triggers => {
+                self.triggers.push(self.number);
+                Some(self.follow())
+            }
+            State::Triggered if qualifies => Some(self.follow()),
+            State::Filling | State::Waiting if qualifies && self.shape.position > 0 => {
+                Some(self.lead())
+            }
+            _ => None,
+        };
+        if let Some(slot) = slot {
+            let begin = slot * self.stride;
             match self.words.get_mut(begin..begin + self.stride) {
                 Some(words) => words.copy_from_slice(row),
                 None => self.words.extend_from_slice(row),
-            }
-            if stored.triggered {
-                self.triggers.push(self.number);
             }
         }
         self.number += 1;
     }
 
+    /// Where a sample before the trigger is stored: at the first free place or an older one's.
+    #[inline]
+    fn lead(&mut self) -> usize {
+        let slot = self.full.len() * self.shape.depth + self.next;
+        self.next = if self.next + 1 == self.shape.position { 0 } else { self.next + 1 };
+        if self.state == State::Filling {
+            self.before += 1;
+            if self.before == self.shape.position {
+                self.state = State::Waiting;
+            }
+        }
+        slot
+    }
+
+    /// Where the trigger's sample or one behind it is stored.
+    #[inline]
+    fn follow(&mut self) -> usize {
+        let Shape { depth, position, .. } = self.shape;
+        let slot = self.full.len() * depth + position + self.after;
+        self.state = State::Triggered;
+        self.after += 1;
+        if position + self.after == depth {
+            self.full.push(self.next);
+            self.begin();
+        }
+        slot
+    }
+
     /// Whether all windows have their samples.
     #[inline]
     pub fn is_full(&self) -> bool {
-        self.storing.is_full()
+        self.state == State::Full
     }
 
-    /// Whether a trigger, now or later, can still matter.
+    /// Whether a trigger, now or later, can still matter: not behind that of the last window.
     #[inline]
     pub fn looks_for_triggers(&self) -> bool {
-        self.storing.looks_for_triggers()
+        self.triggers.len() < self.shape.windows
     }
 
     /// Numbers of the samples that triggered, counted from 0.
@@ -62,22 +155,25 @@ impl Core {
         self.number
     }
 
-    /// What the buffer holds: the full windows and, stopped early, a last one that is not.
+    /// What the buffer holds: the full windows, then the one under way if it has a sample. Stopped
+    /// before its trigger, that one is what is there to stand before a trigger.
     pub fn finish(self, probes: Vec<Probe>) -> Capture {
-        let windows = self.storing.windows();
         let Core { stride, mut words, .. } = self;
-        let (mut begins, mut triggers, mut samples) = (Vec::new(), Vec::new(), 0);
-        for window in &windows {
-            let ring = window.begin * stride..(window.begin + window.before) * stride;
-            words[ring].rotate_left(window.turn * stride);
-            begins.push(samples);
-            if window.after > 0 {
-                triggers.push(samples + window.before);
+        let Shape { depth, position, .. } = self.shape;
+        let full = self.full.iter().map(|&turn| (position, turn, depth - position));
+        let turn = if self.state == State::Filling { 0 } else { self.next };
+        let partial = (self.before + self.after > 0).then_some((self.before, turn, self.after));
+        let (mut windows, mut triggers, mut samples) = (Vec::new(), Vec::new(), 0);
+        for (before, turn, after) in full.chain(partial) {
+            words[samples * stride..(samples + before) * stride].rotate_left(turn * stride);
+            windows.push(samples);
+            if after > 0 {
+                triggers.push(samples + before);
             }
-            samples += window.before + window.after;
+            samples += before + after;
         }
         words.truncate(samples * stride);
-        Capture { stride, words, windows: begins, triggers, ..Capture::new(probes) }
+        Capture { stride, words, windows, triggers, ..Capture::new(probes) }
     }
 }
 

@@ -31,8 +31,10 @@ pub struct Analyser {
     look: ProbeValues,
     core: Core,
     probes: Vec<Probe>,
-    trigger: LiveCondition,
-    qualifier: LiveCondition,
+    trigger: Option<Bound>,
+    qualifier: Option<Bound>,
+    /// Whether they hold at the present sample.
+    holds: [bool; 2],
     /// An operand changed at the sample before, so that an edge of it may end here.
     operands_changed: bool,
     sampling: AnalyserClock,
@@ -48,23 +50,11 @@ pub struct Analyser {
     stop_when_full: bool,
 }
 
-/// A condition, if there is one, and whether it holds at the present sample.
-#[derive(Clone, Debug)]
-struct LiveCondition {
-    condition: Option<Bound>,
-    holds: bool,
-}
-
-impl LiveCondition {
-    fn new(condition: Option<Bound>) -> Self {
-        LiveCondition { condition, holds: true }
-    }
-
-    fn ask(&mut self, look: &ProbeValues) {
-        if let Some(condition) = &mut self.condition {
-            self.holds = condition.sample(|operand| Level::known(look.operand(operand)));
-        }
-    }
+/// Whether a condition holds, if there is one.
+fn holds(condition: &mut Option<Bound>, look: &ProbeValues) -> bool {
+    condition
+        .as_mut()
+        .is_none_or(|condition| condition.sample(|operand| Level::known(look.operand(operand))))
 }
 
 impl Analyser {
@@ -79,8 +69,9 @@ impl Analyser {
             look: ProbeValues::new(&plan.bits, &plan.operands, capture.stride, order),
             core: Core::new(plan.shape, capture.stride),
             probes: capture.probes,
-            trigger: LiveCondition::new(plan.trigger.clone()),
-            qualifier: LiveCondition::new(plan.qualifier.clone()),
+            trigger: plan.trigger.clone(),
+            qualifier: plan.qualifier.clone(),
+            holds: [true; 2],
             operands_changed: false,
             every_change: plan.every_change,
             sampling: plan.sampling.clone(),
@@ -122,12 +113,13 @@ impl Analyser {
         let changed = self.look.take_operands_changed();
         if changed || self.operands_changed {
             if self.core.looks_for_triggers() {
-                self.trigger.ask(&self.look);
+                self.holds[0] = holds(&mut self.trigger, &self.look);
             }
-            self.qualifier.ask(&self.look);
+            self.holds[1] = holds(&mut self.qualifier, &self.look);
         }
         self.operands_changed = changed;
-        self.core.sample(self.look.row(), self.trigger.holds, self.qualifier.holds);
+        let [triggers, qualifies] = self.holds;
+        self.core.sample(self.look.row(), triggers, qualifies);
     }
 
     /// Whether it samples at this edge of `clk_250`.

@@ -4,6 +4,7 @@ mod archive;
 mod csv;
 mod dump;
 mod ltx;
+mod spill;
 mod vcd;
 
 pub use archive::archive;

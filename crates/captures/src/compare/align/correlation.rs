@@ -28,13 +28,13 @@ const LISTED: usize = 4;
 
 /// An offset and how well it does.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Candidate {
+struct Candidate {
     /// Sample of the longer side at the shorter one's first.
-    pub(super) offset: i64,
+    offset: i64,
     /// Bits that differ.
-    pub(super) differing: u64,
+    differing: u64,
     /// Bits that could.
-    pub(super) compared: u64,
+    compared: u64,
 }
 
 impl Candidate {
@@ -114,19 +114,19 @@ impl<'a> PairBits<'a> {
 }
 
 /// What is looked for, and where.
-pub(super) struct Search {
+struct Search {
     /// Side with the shorter sequence.
-    pub(super) side: usize,
+    side: usize,
     /// The sequence.
-    pub(super) piece: Piece,
+    piece: Piece,
     /// Whether it may hang over the other's begin and end by up to half.
-    pub(super) overhangs: bool,
+    overhangs: bool,
     /// First sample of the other side that is looked at.
-    pub(super) from: u64,
+    from: u64,
 }
 
 /// The best offsets, the best first.
-pub(super) fn search(plan: &Plan, signals: &[String], search: &Search) -> Result<Vec<Candidate>> {
+fn search(plan: &Plan, signals: &[String], search: &Search) -> Result<Vec<Candidate>> {
     let mut probe = PairBits::new(plan, signals)?;
     let pieces = [search.piece.clone()];
     let mut needle = probe.columns();
@@ -239,11 +239,7 @@ impl Matcher {
 ///
 /// # Errors
 /// When there is none, or another does as well.
-pub(super) fn decide(
-    candidates: &[Candidate],
-    side: usize,
-    what: &str,
-) -> Result<(Candidate, String)> {
+fn decide(candidates: &[Candidate], side: usize, what: &str) -> Result<(Candidate, String)> {
     let Some(best) = candidates.first() else {
         return Err(Input::new("--align", format!("{what}: one side is too short")).into());
     };
@@ -288,4 +284,25 @@ pub(super) fn alignment(plan: &Plan, signals: &[String]) -> Result<Alignment> {
     let what = if plan.capture().is_some() { "the capture" } else { "the first side" };
     let (best, text) = decide(&found, side, what)?;
     Ok(Alignment::shifted(best.later(side), text))
+}
+
+/// An offset for each window, in the order of time.
+pub(super) fn windows(plan: &Plan, signals: &[String]) -> Result<Alignment> {
+    let Some(side) = plan.capture() else {
+        let expected = "windows: expected a capture on one side and a waveform on the other";
+        return Err(Input::new("--align", expected).into());
+    };
+    let mut pieces = [Vec::new(), Vec::new()];
+    let (mut found, mut from) = (Vec::new(), 0);
+    for (k, window) in survey(plan.sources[side])?.windows.iter().enumerate() {
+        let piece = Piece::Run(window.first, window.count);
+        let look = Search { side, piece: piece.clone(), overhangs: false, from };
+        let (best, text) = decide(&search(plan, signals, &look)?, side, &format!("window {k}"))?;
+        found.push(format!("window {k}: {text}"));
+        let begin = best.offset.unsigned_abs();
+        from = begin + window.count.unwrap_or(1);
+        pieces[side].push(piece);
+        pieces[1 - side].push(Piece::Run(begin, window.count));
+    }
+    Ok(Alignment { pieces, found: found.join("\n"), offset: None, differences: Vec::new() })
 }

@@ -3,8 +3,7 @@
 
 use tofsim::error::{Input, Result};
 
-use crate::ila::core::Core;
-use crate::ila::storing::Shape;
+use crate::ila::core::{Core, Shape};
 
 use super::super::find;
 use super::super::operands::SideCondition;

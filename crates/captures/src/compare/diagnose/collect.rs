@@ -7,6 +7,7 @@ use tofsim::error::Result;
 use crate::source::SourceState;
 
 use super::super::align::Alignment;
+use super::super::parts::gather;
 use super::super::plan::Plan;
 use super::super::result::Comparison;
 use super::super::selection::Selected;
@@ -113,7 +114,7 @@ fn empty(plan: &Plan, result: &Comparison, window: usize) -> Collected {
             .collect(),
         unpaired: [0, 1].map(|side| {
             let unpaired = plan.unpaired[side].iter();
-            unpaired.map(|unpaired| column(&unpaired.name, None, unpaired.width)).collect()
+            unpaired.map(|(name, part)| column(name, None, part.width)).collect()
         }),
         rows: Default::default(),
     }
@@ -127,9 +128,8 @@ fn push(plan: &Plan, side: usize, state: &SourceState, collected: &mut Collected
             column[side].values.push(key(&bits));
         }
     }
-    for (column, unpaired) in collected.unpaired[side].iter_mut().zip(&plan.unpaired[side]) {
-        bits.value = state.value(unpaired.signal).to_vec();
-        bits.unknown = state.unknown(unpaired.signal).to_vec();
+    for (column, (_, part)) in collected.unpaired[side].iter_mut().zip(&plan.unpaired[side]) {
+        gather(&[*part], state, &mut bits);
         column.values.push(key(&bits));
     }
     let mut row = DefaultHasher::new();

@@ -1,9 +1,10 @@
 //! Which signals came together, and why others did not.
 
-use tofsim::error::{Input, Result, nearest};
+use tofsim::error::{Input, Result};
 
 use crate::source::Name;
 
+use super::super::find::near;
 use super::super::pair::Pair;
 use super::super::parts::Slots;
 
@@ -85,8 +86,7 @@ impl Matching {
             [pair] => Ok(pair),
             [] => {
                 let names = self.pairs.iter().map(|pair| pair.name.as_str());
-                let near = nearest(text, names).map(|name| format!("; near it: {name}"));
-                Err(fault(format!("no such signal{}", near.unwrap_or_default())).into())
+                Err(fault(format!("no such signal{}", near(text, names))).into())
             }
             _ => {
                 let names: Vec<_> =

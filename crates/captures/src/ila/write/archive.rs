@@ -1,6 +1,6 @@
 //! The `.ila` archive: the other forms in one ZIP file.
 
-use std::io::{self, BufWriter, Seek, Write};
+use std::io::{self, Seek, Write};
 
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
@@ -29,9 +29,7 @@ pub fn archive(out: impl Write + Seek, capture: &Capture) -> io::Result<()> {
     ];
     for (name, form) in forms {
         zip.start_file(name, options)?;
-        let mut out = BufWriter::new(&mut zip);
-        form(&mut out, capture)?;
-        out.flush()?;
+        form(&mut zip, capture)?;
     }
     zip.finish()?;
     Ok(())

@@ -7,26 +7,28 @@ use bitvec::prelude::*;
 use crate::words::extend;
 
 use super::super::capture::{Capture, Probe, Radix};
+use super::spill::spill;
 
 /// Writes a capture as Vivado's CSV; `radix_row` leaves out or puts in the second row.
 pub fn csv(out: &mut dyn Write, capture: &Capture, radix_row: bool) -> io::Result<()> {
     head(out, capture, radix_row)?;
     let mut windows = capture.windows.iter().copied().peekable();
     let mut triggers = capture.triggers.iter().copied().peekable();
-    let mut begin = 0;
+    let (mut begin, mut text) = (0, Vec::new());
     for sample in 0..capture.samples() {
         while let Some(window) = windows.next_if(|&window| window <= sample) {
             begin = window;
         }
         let trigger = triggers.next_if_eq(&sample).is_some() as u8;
-        write!(out, "{sample},{},{trigger}", sample - begin)?;
+        write!(text, "{sample},{},{trigger}", sample - begin)?;
         for (probe, place) in capture.probes.iter().zip(capture.places()) {
-            out.write_all(b",")?;
-            write_cell(out, shown(probe), &capture.sample(sample)[place])?;
+            text.push(b',');
+            write_cell(&mut text, shown(probe), &capture.sample(sample)[place])?;
         }
-        out.write_all(b"\n")?;
+        text.push(b'\n');
+        spill(out, &mut text)?;
     }
-    Ok(())
+    out.write_all(&text)
 }
 
 fn head(out: &mut dyn Write, capture: &Capture, radix_row: bool) -> io::Result<()> {
@@ -49,7 +51,7 @@ fn shown(probe: &Probe) -> Radix {
     }
 }
 
-fn write_cell(out: &mut dyn Write, radix: Radix, cell: &BitSlice<u64>) -> io::Result<()> {
+fn write_cell(out: &mut Vec<u8>, radix: Radix, cell: &BitSlice<u64>) -> io::Result<()> {
     let digits = |bits| {
         let digit = |digit: &BitSlice<u64>| b"0123456789abcdef"[digit.load_le::<usize>()];
         cell.chunks(bits).rev().map(digit).collect::<Vec<u8>>()

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use super::super::capture::Capture;
+use super::spill::spill;
 
 /// Writes a capture as Vivado's `waveform.dmp`.
 pub fn dump(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
@@ -13,14 +14,15 @@ pub fn dump(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
     writeln!(out, "window_marks:{}", marks(&capture.windows))?;
     writeln!(out, "trigger_marks:{}", marks(&capture.triggers))?;
     writeln!(out, "gaps:\ntimestamps:\ngap_timestamps:")?;
+    let mut text = Vec::new();
     for bit in 0..capture.width() {
         let words = capture.words.iter().skip(bit / 64).step_by(capture.stride);
-        let samples: Vec<u8> = words.map(|word| b'0' + (word >> (bit % 64) & 1) as u8).collect();
-        write!(out, "ch[{bit}]: ")?;
-        out.write_all(&samples)?;
-        out.write_all(b"\n")?;
+        write!(text, "ch[{bit}]: ")?;
+        text.extend(words.map(|word| b'0' + (word >> (bit % 64) & 1) as u8));
+        text.push(b'\n');
+        spill(out, &mut text)?;
     }
-    Ok(())
+    out.write_all(&text)
 }
 
 fn marks(samples: &[usize]) -> String {

@@ -7,6 +7,7 @@ use bitvec::prelude::*;
 use tofsim::files::date;
 
 use super::super::capture::Capture;
+use super::spill::spill;
 
 /// Writes a capture as Vivado's VCD. `_TRIGGER` and `_WINDOW` turn over at every trigger and at
 /// every window but the first.
@@ -16,32 +17,33 @@ pub fn vcd(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
         [1, 2, 3].map(|after| identifier(capture.width() + after));
     let mut windows = capture.windows.iter().copied().filter(|&window| window > 0).peekable();
     let mut triggers = capture.triggers.iter().copied().peekable();
-    let (mut trigger, mut window) = (0, 1);
+    let (mut trigger, mut window, mut text) = (0, 1, Vec::new());
     for sample in 0..capture.samples() {
         let (now, before) = (capture.sample(sample), capture.sample(sample.saturating_sub(1)));
-        let mut text = String::new();
+        let mut changes = String::new();
         let places = capture.places().filter(|_| sample == 0 || now != before);
         for place in
             places.filter(|place| sample == 0 || now[place.clone()] != before[place.clone()])
         {
-            text += &change(&now[place.clone()], &identifier(place.start + 1));
+            changes += &change(&now[place.clone()], &identifier(place.start + 1));
         }
         let triggers_now = triggers.next_if_eq(&sample).is_some();
         let begins = windows.next_if_eq(&sample).is_some();
         (trigger, window) = (trigger ^ u8::from(triggers_now), window ^ u8::from(begins));
         if triggers_now || sample == 0 {
-            text += &format!("{trigger}{trigger_id}\n");
+            changes += &format!("{trigger}{trigger_id}\n");
         }
         if begins || sample == 0 {
-            text += &format!("{window}{window_id}\n");
+            changes += &format!("{window}{window_id}\n");
         }
         match sample {
-            0 => write!(out, "#0\n$dumpvars\n{text}0{gap_id}\n$end\n")?,
-            _ if text.is_empty() => {}
-            _ => write!(out, "#{sample}\n{text}")?,
+            0 => write!(text, "#0\n$dumpvars\n{changes}0{gap_id}\n$end\n")?,
+            _ if changes.is_empty() => {}
+            _ => write!(text, "#{sample}\n{changes}")?,
         }
+        spill(out, &mut text)?;
     }
-    Ok(())
+    out.write_all(&text)
 }
 
 fn head(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
