@@ -48,7 +48,7 @@ pub(super) fn alignment(plan: &Plan, align: &Align, time_from: Option<&str>) -> 
         Align::Trigger => trigger::alignment(plan, time_from),
         Align::Start | Align::Offset(_) if time_from.is_some() => {
             let offset = if let Align::Offset(samples) = align { *samples } else { 0 };
-            trigger::counted(plan, time_from.unwrap_or_default(), offset)
+            trigger::by_counter(plan, time_from.unwrap_or_default(), 0, offset)
         }
         _ if unsteady => {
             let expected = "expected trigger or, with --time-from, start or offset N: the samples \

@@ -68,8 +68,8 @@ pub(super) struct Sample {
 /// What makes samples of a source.
 #[derive(Clone)]
 pub(super) enum Clocking {
-    /// The rising edges of a signal of the cursor, and its level.
-    Rising(usize, Option<bool>),
+    /// The rising edges of a signal of the cursor.
+    Rising(usize),
     Free {
         clock: Clock,
         tick: Tick,
@@ -92,7 +92,7 @@ impl Clocking {
         };
         match sampling {
             Some(SampleClock::Signal(name)) => match find::part(source, name, slots)? {
-                (_, Part { width: 1, signal, .. }) => Ok(Clocking::Rising(signal, None)),
+                (_, Part { width: 1, signal, .. }) => Ok(Clocking::Rising(signal)),
                 (_, Part { width, .. }) => {
                     let expected = format!("expected a clock of one bit, not {width}");
                     Err(Input::new(&source.name, expected).field(name).into())
@@ -117,9 +117,9 @@ pub(super) struct Samples {
     /// Values at the sample.
     state: SourceState,
     /// Signals of which the cursor has newer values than the sample.
-    newer: Vec<u32>,
+    newer: Vec<usize>,
     /// Signals that have changed since they were last asked for.
-    changed: Vec<u32>,
+    changed: Vec<usize>,
     next: u64,
 }
 
@@ -137,13 +137,13 @@ impl Samples {
     }
 
     /// Tells the signals that have changed since this was last asked; one may come twice.
-    pub(super) fn changes(&mut self, mut changed: impl FnMut(usize)) {
-        self.changed.drain(..).for_each(|signal| changed(signal as usize));
+    pub(super) fn changes(&mut self, changed: impl FnMut(usize)) {
+        self.changed.drain(..).for_each(changed);
     }
 
     fn catch_up(&mut self) {
         for &signal in &self.newer {
-            self.state.take(&self.cursor.state, signal as usize);
+            self.state.take(&self.cursor.state, signal);
         }
         self.changed.append(&mut self.newer);
     }
@@ -151,7 +151,7 @@ impl Samples {
     /// Takes the cursor's next instant into the sample.
     fn take(&mut self) -> Marks {
         let newer = &mut self.newer;
-        let marks = self.cursor.take(|signal| newer.push(signal as u32));
+        let marks = self.cursor.take(|signal| newer.push(signal));
         self.catch_up();
         marks
     }
@@ -160,8 +160,11 @@ impl Samples {
     pub(super) fn next(&mut self) -> Result<Option<Sample>> {
         self.catch_up();
         match self.clocking {
-            Clocking::Rising(signal, level) => self.next_edge(signal, level),
-            Clocking::Free { .. } => self.next_instant(),
+            Clocking::Rising(signal) => self.next_edge(signal),
+            Clocking::Free { ref clock, tick } => {
+                let skipped = u64::from(clock.rise(0) == Time::ZERO);
+                self.next_instant(clock.rise(self.next + skipped), tick)
+            }
             Clocking::Rows { endless } => self.next_row(endless),
         }
     }
@@ -172,35 +175,23 @@ impl Samples {
         Some(Sample { index, at, marks, held })
     }
 
-    fn next_edge(&mut self, clock: usize, mut level: Option<bool>) -> Result<Option<Sample>> {
+    fn next_edge(&mut self, clock: usize) -> Result<Option<Sample>> {
+        let level = |state: &SourceState| match state.unknown(clock)[0] {
+            0 => Some(state.value(clock)[0]),
+            _ => None,
+        };
         while let Some(at) = self.cursor.peek()? {
             let newer = &mut self.newer;
-            let mut ticks = false;
-            self.cursor.take(|signal| {
-                newer.push(signal as u32);
-                ticks |= signal == clock;
-            });
-            if ticks {
-                let state = &self.cursor.state;
-                let now = (state.unknown(clock)[0] == 0).then(|| state.value(clock)[0] == 1);
-                let rises = level == Some(false) && now == Some(true);
-                level = now;
-                self.clocking = Clocking::Rising(clock, level);
-                if rises {
-                    return Ok(self.sample(at, Marks::default(), false));
-                }
+            self.cursor.take(|signal| newer.push(signal));
+            if level(&self.state) == Some(0) && level(&self.cursor.state) == Some(1) {
+                return Ok(self.sample(at, Marks::default(), false));
             }
             self.catch_up();
         }
         Ok(None)
     }
 
-    fn next_instant(&mut self) -> Result<Option<Sample>> {
-        let Clocking::Free { clock, tick } = &self.clocking else { return Ok(None) };
-        let (mut edge, tick) = (clock.rise(self.next + 1), *tick);
-        if clock.rise(0) > Time::ZERO {
-            edge = clock.rise(self.next);
-        }
+    fn next_instant(&mut self, edge: Time, tick: Tick) -> Result<Option<Sample>> {
         while let Some(at) = self.cursor.peek()? {
             if tick.femtoseconds(at) >= edge.fs() as u128 {
                 return Ok(self.sample(tick.count(edge.fs() as u128), Marks::default(), false));

@@ -44,19 +44,25 @@ struct Parser<'a> {
 
 impl<'a> Parser<'a> {
     fn any(&mut self) -> Result<Node> {
-        let mut nodes = vec![self.all()?];
-        while self.take(&["||", "or"]) {
-            nodes.push(self.all()?);
-        }
-        Ok(joined(nodes, Node::Any))
+        self.joined(&["||", "or"], Self::all, Node::Any)
     }
 
     fn all(&mut self) -> Result<Node> {
-        let mut nodes = vec![self.test()?];
-        while self.take(&["&&", "and"]) {
-            nodes.push(self.test()?);
+        self.joined(&["&&", "and"], Self::test, Node::All)
+    }
+
+    /// Parts with one of those words between them.
+    fn joined(
+        &mut self,
+        words: &[&str],
+        part: fn(&mut Self) -> Result<Node>,
+        join: fn(Vec<Node>) -> Node,
+    ) -> Result<Node> {
+        let mut nodes = vec![part(self)?];
+        while self.take(words) {
+            nodes.push(part(self)?);
         }
-        Ok(joined(nodes, Node::All))
+        Ok(if nodes.len() == 1 { nodes.remove(0) } else { join(nodes) })
     }
 
     fn test(&mut self) -> Result<Node> {
@@ -160,12 +166,5 @@ impl<'a> Parser<'a> {
     fn fault(&self, token: Token, expected: &str) -> tofsim::error::Error {
         let value = if token.kind == TokenKind::End { "the end" } else { token.text };
         Input::new(self.source, expected).at(1, token.column).value(value).into()
-    }
-}
-
-fn joined(mut nodes: Vec<Node>, join: fn(Vec<Node>) -> Node) -> Node {
-    match nodes.len() {
-        1 => nodes.remove(0),
-        _ => join(nodes),
     }
 }

@@ -3,7 +3,7 @@
 
 mod archive;
 mod csv;
-mod digits;
+pub(crate) mod digits;
 mod dump;
 mod heads;
 mod infer;

@@ -9,6 +9,7 @@ mod vcd;
 
 pub use archive::archive;
 pub use csv::csv;
+pub(crate) use csv::write_cell;
 pub use dump::dump;
 pub use ltx::ltx;
 pub use vcd::vcd;

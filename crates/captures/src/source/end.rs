@@ -41,7 +41,10 @@ fn vcd(path: &Path, mut file: impl BufRead) -> Result<Option<u64>> {
     let mut last = None;
     while file.read_until(b'\n', &mut text).map_err(Error::io(path, "read"))? > 0 {
         line += 1;
-        for word in text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()) {
+        // Most lines change a value.
+        let may_tell = in_command || is_name || text.iter().any(|byte| b"#$".contains(byte));
+        let words = if may_tell { &text[..] } else { &[] };
+        for word in words.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()) {
             match word[0] {
                 _ if std::mem::take(&mut is_name) => {}
                 b'$' if word == b"$end" => in_command = false,

@@ -178,14 +178,13 @@ fn first(plan: &Plan, side: usize) -> Result<u64> {
     first.ok_or_else(|| never(plan, side, 0, 1).into())
 }
 
-/// The samples of a capture that has a column that counts the clock, the first of them `offset`
-/// samples after the waveform's.
-pub(super) fn counted(plan: &Plan, counter: &str, offset: i64) -> Result<Alignment> {
-    by_counter(plan, counter, 0, offset)
-}
-
-/// As the counter says, where sample `at` of the capture is sample `at_waveform` of the waveform.
-fn by_counter(plan: &Plan, counter: &str, at: u64, at_waveform: i64) -> Result<Alignment> {
+/// The samples of a capture that has a column that counts the clock, where sample `at` of the capture is sample `at_waveform` of the waveform.
+pub(super) fn by_counter(
+    plan: &Plan,
+    counter: &str,
+    at: u64,
+    at_waveform: i64,
+) -> Result<Alignment> {
     let Some(side) = plan.capture() else {
         return Err(Input::new("--time-from", "expected one capture").into());
     };

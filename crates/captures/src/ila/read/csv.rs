@@ -76,12 +76,13 @@ impl<R: Read + Send> CaptureRows for CsvRows<R> {
                 continue;
             };
             let place = column.word..column.word + column.words();
-            let (value, unknown) = (&mut row.value[place.clone()], &mut row.unknown[place]);
-            let read = digits::read(&cells.field(index), radix, column.width, value, unknown);
-            read.map_err(|fault| {
+            let read = digits::read(&cells.field(index), radix, column.width);
+            let bits = read.map_err(|fault| {
                 let expected = fault.say(radix, column.width);
                 cells.fault(index, expected).field(column.head())
             })?;
+            row.value[place.clone()].copy_from_slice(&bits.value);
+            row.unknown[place].copy_from_slice(&bits.unknown);
         }
         Ok(true)
     }

@@ -1,12 +1,12 @@
 //! Digits of a cell, as bits.
 
-use crate::words::trim;
+use crate::words::{Bits, trim};
 
 use super::super::capture::Radix;
 
 /// What is wrong with a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Fault {
+pub(crate) enum Fault {
     /// There is nothing in it.
     Empty,
     /// A character that is no digit of the radix.
@@ -33,29 +33,25 @@ impl Fault {
     }
 }
 
-/// Reads a cell into the words of a probe, which have to be 0.
-pub(super) fn read(
-    cell: &[u8],
-    radix: Radix,
-    width: u32,
-    value: &mut [u64],
-    unknown: &mut [u64],
-) -> Result<(), Fault> {
+/// Reads a cell of a probe.
+pub(crate) fn read(cell: &[u8], radix: Radix, width: u32) -> Result<Bits, Fault> {
     if cell.is_empty() {
         return Err(Fault::Empty);
     }
+    let mut bits = Bits::default();
+    bits.clear(width.div_ceil(64) as usize);
     match radix {
-        Radix::Hex => grouped(cell, 4, width, value, unknown),
-        Radix::Octal => grouped(cell, 3, width, value, unknown),
-        Radix::Binary => grouped(cell, 1, width, value, unknown),
+        Radix::Hex => grouped(cell, 4, width, &mut bits)?,
+        Radix::Octal => grouped(cell, 3, width, &mut bits)?,
+        Radix::Binary => grouped(cell, 1, width, &mut bits)?,
         Radix::Signed | Radix::Unsigned if is_unknown(cell) => {
-            unknown.fill(u64::MAX);
-            trim(unknown, width);
-            Ok(())
+            bits.unknown.fill(u64::MAX);
+            trim(&mut bits.unknown, width);
         }
-        Radix::Unsigned => decimal(cell, width, value),
-        Radix::Signed => signed(cell, width, value),
+        Radix::Unsigned => decimal(cell, width, &mut bits.value)?,
+        Radix::Signed => signed(cell, width, &mut bits.value)?,
     }
+    Ok(bits)
 }
 
 /// Whether a cell holds nothing but X.
@@ -68,24 +64,18 @@ fn is_x(byte: &u8) -> bool {
 }
 
 /// Digits of so many bits each, the lowest last.
-fn grouped(
-    cell: &[u8],
-    bits: u32,
-    width: u32,
-    value: &mut [u64],
-    unknown: &mut [u64],
-) -> Result<(), Fault> {
-    let digit = |byte: u8| char::from(byte).to_digit(1 << bits);
+fn grouped(cell: &[u8], size: u32, width: u32, bits: &mut Bits) -> Result<(), Fault> {
+    let digit = |byte: u8| char::from(byte).to_digit(1 << size);
     if !cell.iter().all(|byte| is_x(byte) || digit(*byte).is_some()) {
         return Err(Fault::Digit);
     }
     for (place, &byte) in cell.iter().rev().enumerate() {
-        let low = place as u32 * bits;
-        let room = width.saturating_sub(low).min(bits);
+        let low = place as u32 * size;
+        let room = width.saturating_sub(low).min(size);
         let (target, ones) = match digit(byte) {
-            Some(digit) => (&mut *value, digit),
+            Some(digit) => (&mut bits.value, digit),
             // A probe's top digit may have fewer bits than the others; its X stands for those.
-            None if room > 0 => (&mut *unknown, (1 << room) - 1),
+            None if room > 0 => (&mut bits.unknown, (1 << room) - 1),
             None => return Err(Fault::Wide),
         };
         if ones >> room != 0 {
@@ -141,10 +131,7 @@ mod tests {
     use super::*;
 
     fn value(cell: &str, radix: Radix, width: u32) -> Result<(Vec<u64>, Vec<u64>), Fault> {
-        let words = width.div_ceil(64) as usize;
-        let (mut value, mut unknown) = (vec![0; words], vec![0; words]);
-        read(cell.as_bytes(), radix, width, &mut value, &mut unknown)?;
-        Ok((value, unknown))
+        read(cell.as_bytes(), radix, width).map(|bits| (bits.value, bits.unknown))
     }
 
     fn known(cell: &str, radix: Radix, width: u32) -> Vec<u64> {

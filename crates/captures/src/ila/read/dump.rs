@@ -130,8 +130,7 @@ impl Dump {
     /// The samples, laid out as `columns`; `places` are the lowest bits of those in the dump.
     pub(super) fn rows(self, columns: Vec<Column>, places: Vec<usize>) -> impl CaptureRows + use<> {
         let words = columns.iter().map(Column::words).sum();
-        let block = vec![0; if self.samples > 0 { self.width as usize } else { 0 }];
-        DumpRows { block, dump: self, columns, places, words, next: 0 }
+        DumpRows { dump: self, columns, places, words, next: 0 }
     }
 }
 
@@ -142,8 +141,6 @@ struct DumpRows {
     places: Vec<usize>,
     words: usize,
     next: u64,
-    /// 64 samples of each bit.
-    block: Vec<u64>,
 }
 
 impl CaptureRows for DumpRows {
@@ -153,10 +150,6 @@ impl CaptureRows for DumpRows {
             return Ok(false);
         }
         self.next += 1;
-        if sample.is_multiple_of(64) {
-            let words = dump.bits.iter().skip((sample / 64) as usize).step_by(dump.stride);
-            self.block.iter_mut().zip(words).for_each(|(place, &word)| *place = word);
-        }
         let windows = dump.windows.partition_point(|&window| window <= sample);
         let begin = windows.checked_sub(1).map_or(0, |window| dump.windows[window]);
         row.sample = sample;
@@ -169,7 +162,8 @@ impl CaptureRows for DumpRows {
         for (column, &low) in numbers.zip(&self.places) {
             let target = if row.gap { &mut row.unknown } else { &mut row.value };
             for bit in 0..column.width as usize {
-                let digit = row.gap as u64 | self.block[low + bit] >> (sample % 64) & 1;
+                let word = dump.bits[(low + bit) * dump.stride + (sample / 64) as usize];
+                let digit = row.gap as u64 | word >> (sample % 64) & 1;
                 target[column.word + bit / 64] |= digit << (bit % 64);
             }
         }

@@ -51,7 +51,8 @@ fn shown(probe: &Probe) -> Radix {
     }
 }
 
-fn write_cell(out: &mut Vec<u8>, radix: Radix, cell: &BitSlice<u64>) -> io::Result<()> {
+/// Writes the digits of a value.
+pub(crate) fn write_cell(out: &mut Vec<u8>, radix: Radix, cell: &BitSlice<u64>) -> io::Result<()> {
     let digits = |bits| {
         let digit = |digit: &BitSlice<u64>| b"0123456789abcdef"[digit.load_le::<usize>()];
         cell.chunks(bits).rev().map(digit).collect::<Vec<u8>>()
