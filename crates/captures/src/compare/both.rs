@@ -12,7 +12,6 @@ use tofsim::waves::zoom;
 
 use super::pair::Pair;
 use super::result::{Compared, Comparison};
-use crate::source::Axis;
 use crate::words::Bits;
 
 /// The scopes: both sides, and what differs.
@@ -140,10 +139,7 @@ fn flat(name: &str) -> String {
 
 /// What viewers show of a waveform with that begin and end [ps]: what differs first stands on top.
 fn view(result: &Comparison, begin: u64, end: u64) -> View<'static> {
-    let time = |at: u64| match result.sides[0].axis {
-        Axis::Time(tick) => (tick.femtoseconds(at) / 1000) as u64,
-        Axis::Samples => at,
-    };
+    let time = |at: u64| result.sides[0].axis.femtoseconds(at).map_or(at, |fs| (fs / 1000) as u64);
     let firsts = result.pairs.iter().filter_map(|pair| pair.first.as_ref());
     let first = firsts.map(|first| time(first.at[0])).min();
     let whole = end.saturating_sub(begin).max(1);

@@ -4,8 +4,6 @@ use std::collections::BTreeSet;
 
 use tofsim::error::Result;
 
-use crate::source::Axis;
-
 use super::align::{Align, Alignment};
 use super::delay::Delay;
 use super::differences::{Differences, Spot};
@@ -48,7 +46,7 @@ pub(super) fn compare(
             for (side, selected) in sides.iter_mut().enumerate() {
                 selected.samples.changes(|signal| differences.touch(side, signal));
             }
-            let states = [sides[0].samples.state(), sides[1].samples.state()];
+            let states = [&sides[0].samples.state, &sides[1].samples.state];
             let at = [a.sample.at, b.sample.at];
             let spot = Spot { order: result.compared, window: a.piece, at };
             if let Some(both) = &mut differences.both {
@@ -101,18 +99,14 @@ fn is_late(plan: &Plan, places: [Place; 2]) -> bool {
 
 /// Whether the end of what is compared is reached, on a side that has times.
 fn is_reached(plan: &Plan, side: usize, place: Place) -> Option<bool> {
-    match plan.sources[side].axis {
-        Axis::Time(tick) => Some(tick.femtoseconds(place.sample.at) >= plan.terms.until_fs),
-        Axis::Samples => None,
-    }
+    let time = plan.sources[side].axis.femtoseconds(place.sample.at)?;
+    Some(time >= plan.terms.until_fs)
 }
 
 /// Time of a place in the waveform of both sides: the first side's, or its sample's number [ps].
 fn place_ps(plan: &Plan, place: Place) -> u128 {
-    match plan.sources[0].axis {
-        Axis::Time(tick) => tick.femtoseconds(place.sample.at) / 1000,
-        Axis::Samples => place.sample.at as u128,
-    }
+    let time = plan.sources[0].axis.femtoseconds(place.sample.at);
+    time.map_or(place.sample.at.into(), |fs| fs / 1000)
 }
 
 /// Says if one side has ended although its piece, or the other side, goes on.

@@ -4,7 +4,7 @@ use tofsim::error::Result;
 use tofsim::kernel::Time;
 
 use crate::condition::Condition;
-use crate::source::{Axis, Source};
+use crate::source::Source;
 
 use super::matching::{Matching, Unmatched, UnmatchedReason};
 use super::operands::SideCondition;
@@ -77,10 +77,8 @@ impl<'a> Plan<'a> {
 
     /// Whether a sample is late enough to be looked at.
     pub(super) fn is_looked_at(&self, side: usize, sample: Sample) -> bool {
-        match self.sources[side].axis {
-            Axis::Time(tick) => tick.femtoseconds(sample.at) >= self.terms.after.fs() as u128,
-            Axis::Samples => true,
-        }
+        let time = self.sources[side].axis.femtoseconds(sample.at);
+        time.is_none_or(|fs| fs >= self.terms.after.fs() as u128)
     }
 
     /// The side that is a capture, where the other is none.

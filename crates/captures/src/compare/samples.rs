@@ -115,7 +115,7 @@ pub(super) struct Samples {
     cursor: Cursor,
     clocking: Clocking,
     /// Values at the sample.
-    state: SourceState,
+    pub(super) state: SourceState,
     /// Signals of which the cursor has newer values than the sample.
     newer: Vec<usize>,
     /// Signals that have changed since they were last asked for.
@@ -129,11 +129,6 @@ impl Samples {
         let cursor = source.read(&slots.ids)?;
         let (state, newer) = (cursor.state.clone(), Vec::new());
         Ok(Samples { cursor, clocking, state, newer, changed: Vec::new(), next: 0 })
-    }
-
-    /// Values at the sample.
-    pub(super) fn state(&self) -> &SourceState {
-        &self.state
     }
 
     /// Tells the signals that have changed since this was last asked; one may come twice.

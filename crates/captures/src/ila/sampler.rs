@@ -16,7 +16,7 @@ use tofsim::sim::{Device, Outcome, Run, WindowedProbe};
 
 use crate::condition::{Bound, Level};
 
-use super::capture::{Capture, Probe};
+use super::capture::Capture;
 use super::clock::{AnalyserClock, first_edge};
 use super::core::Core;
 use super::plan::AnalyserPlan;
@@ -28,18 +28,14 @@ use super::probe_values::ProbeValues;
 /// zero where there was no such edge.
 #[derive(Clone, Debug)]
 pub struct Analyser {
+    plan: AnalyserPlan,
     look: ProbeValues,
     core: Core,
-    probes: Vec<Probe>,
-    trigger: Option<Bound>,
-    qualifier: Option<Bound>,
-    /// Whether they hold at the present sample.
+    /// Whether trigger and qualifier hold at the present sample.
     holds: [bool; 2],
     /// An operand changed at the sample before, so that an edge of it may end here.
     operands_changed: bool,
-    sampling: AnalyserClock,
     clock: Clock,
-    every_change: bool,
     begun: bool,
     /// Next edge of the sampling clock.
     edge: u64,
@@ -47,7 +43,6 @@ pub struct Analyser {
     first: u64,
     /// The edge that its first sample stands for.
     armed: u64,
-    stop_when_full: bool,
 }
 
 /// Whether a condition holds, if there is one.
@@ -60,27 +55,22 @@ fn holds(condition: &mut Option<Bound>, look: &ProbeValues) -> bool {
 impl Analyser {
     /// Set up as planned for runs of `setup`.
     pub fn new(plan: &AnalyserPlan, setup: &Setup) -> Self {
-        let capture = Capture::new(plan.probes.clone());
+        let stride = Capture::new(plan.probes.clone()).stride;
         let order = setup.params.tdc.delays.order();
         let clock = plan.sampling.clock(setup.pll());
         // At power-up itself there is nothing before the edge.
         let armed = first_edge(&clock, plan.arm_at.max(Time::from_fs(1)));
         let mut analyser = Analyser {
-            look: ProbeValues::new(&plan.bits, &plan.operands, capture.stride, order),
-            core: Core::new(plan.shape, capture.stride),
-            probes: capture.probes,
-            trigger: plan.trigger.clone(),
-            qualifier: plan.qualifier.clone(),
+            plan: plan.clone(),
+            look: ProbeValues::new(&plan.bits, &plan.operands, stride, order),
+            core: Core::new(plan.shape, stride),
             holds: [true; 2],
             operands_changed: false,
-            every_change: plan.every_change,
-            sampling: plan.sampling.clone(),
             clock,
             begun: false,
             edge: 0,
             first: armed.saturating_sub(plan.input_stages),
             armed,
-            stop_when_full: plan.stop_when_full,
         };
         (armed..plan.input_stages).for_each(|_| analyser.take());
         analyser
@@ -104,7 +94,7 @@ impl Analyser {
 
     /// What it has stored.
     pub fn finish(self) -> Capture {
-        self.core.finish(self.probes)
+        self.core.finish(self.plan.probes)
     }
 
     /// Takes the present values as a sample.
@@ -113,9 +103,9 @@ impl Analyser {
         let changed = self.look.take_operands_changed();
         if changed || self.operands_changed {
             if self.core.looks_for_triggers() {
-                self.holds[0] = holds(&mut self.trigger, &self.look);
+                self.holds[0] = holds(&mut self.plan.trigger, &self.look);
             }
-            self.holds[1] = holds(&mut self.qualifier, &self.look);
+            self.holds[1] = holds(&mut self.plan.qualifier, &self.look);
         }
         self.operands_changed = changed;
         let [triggers, qualifies] = self.holds;
@@ -125,7 +115,7 @@ impl Analyser {
     /// Whether it samples at this edge of `clk_250`.
     #[inline]
     fn looks_before(&self, edge: Edge) -> bool {
-        edge == Edge::Both || self.sampling != AnalyserClock::Clk125
+        edge == Edge::Both || self.plan.sampling != AnalyserClock::Clk125
     }
 
     /// An edge of `clk_250`.
@@ -151,12 +141,12 @@ impl Analyser {
 
     /// Number of the sampling clock's first edge in a cycle of `clk_125`.
     fn first_of(&self, cycle: u64) -> u64 {
-        if self.sampling == AnalyserClock::Clk125 { cycle } else { 2 * cycle }
+        if self.plan.sampling == AnalyserClock::Clk125 { cycle } else { 2 * cycle }
     }
 
     /// Whether the clock is one whose edges the run shows.
     fn is_shown(&self) -> bool {
-        matches!(self.sampling, AnalyserClock::Clk125 | AnalyserClock::Clk250)
+        matches!(self.plan.sampling, AnalyserClock::Clk125 | AnalyserClock::Clk250)
     }
 }
 
@@ -170,7 +160,7 @@ pub fn capture(
     analyser: &mut Analyser,
     stop: Option<&AtomicBool>,
 ) -> Result<Outcome> {
-    match analyser.every_change {
+    match analyser.plan.every_change {
         true => run.traced(count, &mut Tap::<true>(analyser), stop),
         false => run.traced(count, &mut Tap::<false>(analyser), stop),
     }
@@ -249,6 +239,6 @@ impl<const EVERY: bool> WindowedProbe for Tap<'_, EVERY> {
     }
 
     fn is_done(&self) -> bool {
-        self.0.stop_when_full && self.0.is_full()
+        self.0.plan.stop_when_full && self.0.is_full()
     }
 }

@@ -135,7 +135,7 @@ fn search(plan: &Plan, signals: &[String], search: &Search) -> Result<Vec<Candid
         if place.sample.held || needle.length as u64 == LONGEST {
             break;
         }
-        probe.push(search.side, selected.samples.state(), &mut needle);
+        probe.push(search.side, &selected.samples.state, &mut needle);
     }
     if needle.length < 2 {
         let source = &plan.sources[search.side].name;
@@ -159,7 +159,7 @@ fn search(plan: &Plan, signals: &[String], search: &Search) -> Result<Vec<Candid
             Some(sample) => {
                 first.get_or_insert(sample.index);
                 taken += 1;
-                probe.push(other, samples.state(), &mut hay);
+                probe.push(other, &samples.state, &mut hay);
             }
             None => {
                 hay.pad(hang);

@@ -53,7 +53,7 @@ fn first(plan: &Plan, side: usize, pair: usize) -> Result<u64> {
         if sample.held {
             break;
         }
-        pair.gather(side, samples.state(), &mut now);
+        pair.gather(side, &samples.state, &mut now);
         if plan.is_looked_at(side, sample)
             && before.as_ref().is_some_and(|before| *before != now && before.is_known())
         {

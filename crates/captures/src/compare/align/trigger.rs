@@ -112,11 +112,6 @@ fn one_capture(plan: &Plan, side: usize, time_from: Option<&str>) -> Result<Alig
     Ok(Alignment { pieces, found, offset, differences: Vec::new() })
 }
 
-fn no_condition(plan: &Plan, side: usize) -> Input {
-    let expected = "expected a condition (--trigger, or in the map) that the waveform triggers on";
-    Input::new(&plan.sources[side].name, expected)
-}
-
 fn never(plan: &Plan, side: usize, found: usize, windows: usize) -> Input {
     let expected = match found {
         0 => format!("the trigger never comes after {}", plan.terms.after),
@@ -131,7 +126,11 @@ fn never(plan: &Plan, side: usize, found: usize, windows: usize) -> Input {
 /// The samples of each window that a logic analyser of that shape would store of a waveform, and how
 /// many more of each window are from before the waveform's first.
 fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Vec<(Piece, u64)>> {
-    let mut trigger = plan.trigger[side].clone().ok_or_else(|| no_condition(plan, side))?;
+    let Some(mut trigger) = plan.trigger[side].clone() else {
+        let expected =
+            "expected a condition (--trigger, or in the map) that the waveform triggers on";
+        return Err(Input::new(&plan.sources[side].name, expected).into());
+    };
     let mut qualifier = plan.qualifier[side].clone();
     let first = first_looked_at(plan, side)?.map_or(u64::MAX, |sample| sample.index);
     let stages = plan.terms.stages;
@@ -148,8 +147,8 @@ fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Vec<(Piece, u64)>> {
         if sample.index < skipped {
             continue;
         }
-        let triggers = trigger.sample(samples.state());
-        let qualifies = qualifier.as_mut().is_none_or(|term| term.sample(samples.state()));
+        let triggers = trigger.sample(&samples.state);
+        let qualifies = qualifier.as_mut().is_none_or(|term| term.sample(&samples.state));
         core.sample(&[sample.index - skipped + missing], triggers, qualifies);
     }
     let capture = core.finish(Vec::new());
