@@ -136,7 +136,7 @@ pub struct Shown<'a> {
 
 /// The range that GTKWave has after a vector's name.
 pub fn range(width: u32) -> String {
-    if width == 1 { String::new() } else { format!("[{}:0]", width - 1) }
+    if width > 1 { format!("[{}:0]", width - 1) } else { String::new() }
 }
 
 /// What a viewer shows at first.

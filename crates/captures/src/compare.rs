@@ -4,7 +4,6 @@
 //! read as streams, in bounded memory, as often as that needs.
 
 mod align;
-mod bits;
 mod both;
 mod by_changes;
 mod by_samples;
@@ -23,7 +22,6 @@ mod result;
 mod samples;
 mod selection;
 mod show;
-mod view;
 
 use std::path::PathBuf;
 
@@ -42,10 +40,7 @@ pub use result::{Compared, Comparison, Described, Difference, Finding};
 pub use samples::SampleClock;
 pub use samples::time;
 
-use align::Alignment;
 use both::Both;
-use by_changes::Span;
-use by_samples::Short;
 use differences::Differences;
 use matching::matching;
 use plan::{Plan, Terms};
@@ -103,25 +98,20 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
         terms.trigger = None;
     }
     let sampled = sources.iter().any(|source| source.is_capture()) || terms.sampling.is_some();
-    let plan = match sampled {
-        true => Plan::new(sources, matching, terms)?,
-        false => Plan::changes(sources, matching, terms.after),
-    };
+    let plan = Plan::new(sources, matching, terms, sampled)?;
     let both = options.waves.as_deref().map(|path| Both::create(path, &plan.matching.pairs));
-    let signals = [0, 1].map(|side| plan.matching.slots[side].ids.len());
-    let pairs = &plan.matching.pairs;
-    let mut differences = Differences::new(pairs, signals, options.unknowns, both.transpose()?);
-    let until_fs = options.until.map_or(u128::MAX >> 32, |until| until.fs() as u128);
+    let mut differences = Differences::new(&plan.matching, options.unknowns, both.transpose()?);
     let result = if sampled {
-        let alignment = align::alignment(&plan, &align, time_from(options))?;
-        let mut result = by_sample(&plan, &align, &alignment, until_fs, &mut differences)?;
+        let time_from = options.time_from.as_deref().or(options.map.time_from.as_deref());
+        let alignment = align::alignment(&plan, &align, time_from)?;
+        let mut result = by_samples::compare(&plan, &align, &alignment, &mut differences)?;
         conclude(&plan, &differences, options.all, &mut result);
         if !result.is_same() {
             result.findings = diagnose::samples(&plan, &alignment, &result)?;
         }
         result
     } else {
-        let mut result = by_change(&plan, &align, until_fs, &mut differences)?;
+        let mut result = by_changes::compare(&plan, &align, &mut differences)?;
         conclude(&plan, &differences, options.all, &mut result);
         result.findings = diagnose::changes(&result);
         result
@@ -161,6 +151,7 @@ fn terms(options: &Options) -> Result<Terms> {
         qualifier: condition(&options.qualified_by, "qualified_by", &map.qualified_by)?,
         stages: map.input_stages,
         after: options.after.unwrap_or(Time::from_ps_f64(map.after_us * 1e6)),
+        until_fs: options.until.map_or(u128::MAX >> 32, |until| until.fs() as u128),
     })
 }
 
@@ -186,61 +177,4 @@ fn align(sources: [&Source; 2], options: &Options, terms: &Terms) -> Result<Alig
         _ if terms.trigger.is_some() => Ok(Align::Trigger),
         _ => Ok(Align::Correlation(Vec::new())),
     }
-}
-
-fn time_from(options: &Options) -> Option<&str> {
-    options.time_from.as_deref().or(options.map.time_from.as_deref())
-}
-
-fn by_sample(
-    plan: &Plan,
-    align: &Align,
-    alignment: &Alignment,
-    until_fs: u128,
-    differences: &mut Differences,
-) -> Result<Comparison> {
-    let passed = by_samples::compare(plan, alignment, until_fs, differences)?;
-    let mut result = Comparison::new(plan.sources, "samples", alignment.found.clone());
-    result.offset = alignment.offset;
-    result.compared = passed.compared;
-    result.differences = alignment.differences.clone();
-    for Short { window, side, count, is_wanted } in passed.short {
-        let name = &plan.sources[side].name;
-        let other = &plan.sources[1 - side].name;
-        let text =
-            format!("window {window}: {name} ends after {count} samples, before {other} does");
-        match plan.capture() {
-            _ if is_wanted => result.differences.push(text),
-            Some(capture) if capture != side => result.differences.push(text),
-            Some(_) => {}
-            None if *align == Align::Start => {
-                result.differences.push(format!("{text} (--until ends earlier)"));
-            }
-            None => result.notes.push(text),
-        }
-    }
-    Ok(result)
-}
-
-fn by_change(
-    plan: &Plan,
-    align: &Align,
-    until_fs: u128,
-    differences: &mut Differences,
-) -> Result<Comparison> {
-    if let Some(pair) = plan.matching.pairs.iter().find(|pair| pair.latency != 0) {
-        let expected = "a latency is in samples; say which clock they are taken by with --clock";
-        return Err(Input::new("map", expected).field(&pair.name).into());
-    }
-    let (late_fs, found) = align::shift(plan, align)?;
-    let span = Span { late_fs, from_fs: plan.after.fs() as u128, until_fs };
-    let passed = by_changes::compare(plan, span, differences)?;
-    let mut result = Comparison::new(plan.sources, "changes", found);
-    result.compared = passed.compared;
-    if let Some([a, b]) = passed.ends {
-        let [a, b] = [result.sides[0].place(a), result.sides[1].place(b)];
-        let text = format!("the first side ends at {a}, the second at {b} (--until ends earlier)");
-        result.differences.push(text);
-    }
-    Ok(result)
 }

@@ -56,28 +56,21 @@ impl Condition {
         find: &mut dyn FnMut(&str) -> Result<Place>,
     ) -> Result<bound::Watched> {
         let (place, low, width) = self.find(leaf, find)?;
-        let fault = |column, value: &str, expected: String| {
-            Input::new(&self.source, expected).at(1, column).value(value)
-        };
+        let fault = |expected: String| Err(self.fault(leaf.column, &leaf.name, expected));
         if width > WIDEST {
-            let expected = format!("expected a signal of at most {WIDEST} bits, not {width}");
-            return Err(fault(leaf.column, &leaf.name, expected).into());
+            return fault(format!("expected a signal of at most {WIDEST} bits, not {width}"));
         }
         if low + width > WIDEST {
-            let expected = format!("expected bits of the lowest {WIDEST}");
-            return Err(fault(leaf.column, &leaf.name, expected).into());
+            return fault(format!("expected bits of the lowest {WIDEST}"));
         }
         let signed = place.signed && width == place.width;
         match &leaf.test {
             Test::Compare(_, literal, column) => {
-                if let Err(expected) = literal.fits(width, signed) {
-                    return Err(fault(*column, &literal.text, expected).into());
-                }
+                let fits = literal.fits(width, signed);
+                fits.map_err(|expected| self.fault(*column, &literal.text, expected))?;
             }
-            Test::Changed => {}
             Test::High | Test::Rising | Test::Falling if width != 1 => {
-                let expected = format!("expected a signal of one bit, not {width}");
-                return Err(fault(leaf.column, &leaf.name, expected).into());
+                return fault(format!("expected a signal of one bit, not {width}"));
             }
             _ => {}
         }
@@ -109,12 +102,13 @@ impl Condition {
                 1 => format!("`{name}` has one bit, [0]"),
                 width => format!("`{name}` has the bits [{}:0], the higher first", width - 1),
             };
-            return Err(Input::new(&self.source, expected)
-                .at(1, leaf.column)
-                .value(&leaf.name)
-                .into());
+            return Err(self.fault(leaf.column, &leaf.name, expected));
         }
         Ok((place, low, high - low + 1))
+    }
+
+    fn fault(&self, column: usize, value: &str, expected: String) -> Error {
+        Input::new(&self.source, expected).at(1, column).value(value).into()
     }
 
     /// An error of `find`, at the name's column.

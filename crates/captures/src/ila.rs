@@ -12,7 +12,6 @@ pub mod probes;
 pub mod read;
 pub mod sampler;
 pub mod setup;
-pub mod storing;
 pub mod write;
 
 pub use capture::{Capture, Probe, Radix};

@@ -11,7 +11,6 @@ mod loaded;
 mod locate;
 mod marks;
 mod names;
-mod remark;
 mod shapes;
 mod signals;
 mod simulation;
@@ -28,11 +27,14 @@ use tofsim::sim::setup::Setup;
 use crate::ila::Radix;
 
 pub use names::Name;
-pub(crate) use shapes::{known_shape, shapes};
+pub(crate) use shapes::{SHAPES, known_shape};
 pub use signals::{Axis, Signal, SignalKind, Source, SourceFormat};
 pub use state::SourceState;
 pub use stream::{Cursor, Feed, Gone, Marks};
 pub use tick::Tick;
+
+/// Bytes of a waveform that are read at once.
+const CHUNK: usize = 1 << 17;
 
 impl Source {
     /// Looks at a file; what it holds decides its format. `radix` is that of values in a file that

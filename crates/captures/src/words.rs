@@ -1,5 +1,50 @@
 //! Bits of wide values, in words of 64, the lowest first.
 
+use vcd::Value;
+
+/// A value: bits, and which of them are unknown.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct Bits {
+    pub(crate) value: Vec<u64>,
+    pub(crate) unknown: Vec<u64>,
+}
+
+impl Bits {
+    /// Makes it 0, of so many words.
+    #[inline]
+    pub(crate) fn clear(&mut self, words: usize) {
+        for place in [&mut self.value, &mut self.unknown] {
+            place.clear();
+            place.resize(words, 0);
+        }
+    }
+
+    /// Whether no bit is unknown.
+    pub(crate) fn is_known(&self) -> bool {
+        self.unknown.iter().all(|&word| word == 0)
+    }
+
+    /// The value, if it has at most 128 bits, all known.
+    pub(crate) fn number(&self) -> Option<u128> {
+        (self.value.len() <= 2 && self.is_known()).then(|| lowest(&self.value))
+    }
+
+    /// What a waveform has for a bit.
+    pub(crate) fn level(&self, at: u32) -> Value {
+        match (bit(&self.unknown, at), bit(&self.value, at)) {
+            (0, 0) => Value::V0,
+            (0, _) => Value::V1,
+            (_, 0) => Value::X,
+            _ => Value::Z,
+        }
+    }
+}
+
+/// The lowest 128 bits.
+pub(crate) fn lowest(words: &[u64]) -> u128 {
+    words.iter().take(2).rev().fold(0, |value, &word| value << 64 | u128::from(word))
+}
+
 /// A bit.
 #[inline]
 pub(crate) fn bit(words: &[u64], bit: u32) -> u64 {

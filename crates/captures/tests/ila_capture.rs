@@ -21,8 +21,8 @@ fn capture(setup: &Setup, text: &str, frames: u64) -> (Capture, Vec<Time>) {
 /// The values of a probe.
 fn values(capture: &Capture, name: &str) -> Vec<u64> {
     let probe = capture.probes.iter().position(|probe| probe.name == name).expect(name);
-    let (low, width) = (capture.places()[probe], capture.probes[probe].width as usize);
-    (0..capture.samples()).map(|s| capture.sample(s)[low..low + width].load_le()).collect()
+    let place = capture.places().nth(probe).unwrap();
+    (0..capture.samples()).map(|s| capture.sample(s)[place.clone()].load_le()).collect()
 }
 
 /// Samples at which a value is 1 and was not before.

@@ -60,9 +60,14 @@ fn assert_same(capture: &Capture, opened: &Opened, rows: &[CaptureRow], named: b
         assert_eq!(row.trigger, capture.triggers.contains(&sample));
         assert!(!row.gap && row.unknown.iter().all(|&word| word == 0));
         let words = &capture.words[sample * capture.stride..][..capture.stride];
-        for (column, low) in columns.clone().zip(capture.places()) {
+        for (column, place) in columns.clone().zip(capture.places()) {
             let found = bits(&row.value, column.word * 64, column.width);
-            assert_eq!(found, bits(words, low, column.width), "{} at {sample}", column.head());
+            assert_eq!(
+                found,
+                bits(words, place.start, column.width),
+                "{} at {sample}",
+                column.head()
+            );
         }
     }
 }

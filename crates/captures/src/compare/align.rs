@@ -5,7 +5,6 @@ mod correlation;
 mod edge;
 mod survey;
 mod trigger;
-mod windows;
 
 use tofsim::error::{Input, Result};
 
@@ -49,7 +48,7 @@ pub(super) fn alignment(plan: &Plan, align: &Align, time_from: Option<&str>) -> 
         Align::Trigger => trigger::alignment(plan, time_from),
         Align::Start | Align::Offset(_) if time_from.is_some() => {
             let offset = if let Align::Offset(samples) = align { *samples } else { 0 };
-            trigger::counted(plan, time_from.unwrap_or_default(), offset)
+            trigger::by_counter(plan, time_from.unwrap_or_default(), 0, offset)
         }
         _ if unsteady => {
             let expected = "expected trigger or, with --time-from, start or offset N: the samples \
@@ -59,7 +58,7 @@ pub(super) fn alignment(plan: &Plan, align: &Align, time_from: Option<&str>) -> 
         Align::Start => edge::start(plan),
         Align::Edge(signal) => edge::alignment(plan, signal),
         Align::Correlation(signals) => correlation::alignment(plan, signals),
-        Align::Windows(signals) => windows::alignment(plan, signals),
+        Align::Windows(signals) => correlation::windows(plan, signals),
         Align::Offset(samples) => Ok(Alignment::shifted(*samples, format!("offset {samples}"))),
         Align::Shift { .. } => {
             let expected = "expected samples, as `offset 3`, where samples are compared";

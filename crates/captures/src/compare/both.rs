@@ -3,23 +3,34 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use vcd::{IdCode, TimescaleUnit, Writer};
-
-use tofsim::error::{Input, Result};
+use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::{OutputFile, write_file};
+use tofsim::waves::side_by_side::{
+    BINARY, HEXADECIMAL, Layout, SIDES, Scope, Shown, SideBySide, View,
+};
+use tofsim::waves::zoom;
 
-use super::bits::Bits;
 use super::pair::Pair;
-use super::result::Comparison;
-use super::view::{SCOPES, TOP, View, flat};
+use super::result::{Compared, Comparison};
+use crate::words::Bits;
+
+/// The scopes: both sides, and what differs.
+const SCOPES: [&str; 3] = [SIDES[0], SIDES[1], "differs"];
+/// The scope around them, and in it the bit that is high while any pair differs.
+const TOP: [&str; 2] = ["compare", "any_differs"];
+
+/// Pairs that are shown at first.
+const SHOWN: usize = 32;
+/// Part of the waveform that is shown around the first difference.
+const PART: u64 = 16;
+/// Width that waves have in GTKWave's window [pixels].
+const PIXELS: u32 = 680;
+/// GTKWave's colours of the three scopes: green, yellow, red.
+const COLOURS: [u32; 3] = [4, 3, 1];
 
 /// The waveform, being written.
 pub(super) struct Both {
-    file: OutputFile,
-    /// For each pair its signals in the three scopes.
-    codes: Vec<[IdCode; 3]>,
-    /// High while any pair differs.
-    any: IdCode,
+    wave: SideBySide<OutputFile>,
     widths: Vec<u32>,
     wrong: Vec<bool>,
     /// Pairs that differ now, and whether the file says that some do.
@@ -36,43 +47,28 @@ impl Both {
             let expected = "expected a name that ends in .vcd";
             return Err(Input::new("--waves", expected).value(path.display()).into());
         }
-        let mut both = Both {
-            file: OutputFile::create(path)?,
-            codes: vec![[IdCode::FIRST; 3]; pairs.len()],
-            any: IdCode::FIRST,
+        let version = Some(concat!("tofsim ", env!("CARGO_PKG_VERSION")));
+        let layout = Layout { version, top: TOP[0], first: None, last: Some(TOP[1]) };
+        let scopes: [Scope; 3] = SCOPES.map(|scope| {
+            let width = |pair: &Pair| if scope == SCOPES[2] { 1 } else { pair.width };
+            (scope, pairs.iter().map(|pair| (flat(&pair.name), width(pair))).collect())
+        });
+        let file = OutputFile::create(path)?;
+        Ok(Both {
+            wave: SideBySide::begin(file, &layout, &scopes).map_err(Error::io(path, "write"))?,
             widths: pairs.iter().map(|pair| pair.width).collect(),
             wrong: vec![false; pairs.len()],
             count: 0,
             shown: None,
             first: None,
             last: None,
-        };
-        both.header(pairs).map_err(|error| both.file.fault(error))?;
-        Ok(both)
-    }
-
-    fn header(&mut self, pairs: &[Pair]) -> io::Result<()> {
-        let mut vcd = Writer::new(&mut self.file);
-        vcd.version(concat!("tofsim ", env!("CARGO_PKG_VERSION")))?;
-        vcd.timescale(1, TimescaleUnit::PS)?;
-        vcd.add_module(TOP)?;
-        for (scope, name) in SCOPES.iter().enumerate() {
-            vcd.add_module(name)?;
-            for (pair, codes) in pairs.iter().zip(&mut self.codes) {
-                let width = if scope == 2 { 1 } else { pair.width };
-                codes[scope] = vcd.add_wire(width, &flat(&pair.name))?;
-            }
-            vcd.upscope()?;
-        }
-        self.any = vcd.add_wire(1, "any_differs")?;
-        vcd.upscope()?;
-        vcd.enddefinitions()
+        })
     }
 
     /// Changes that follow are at this time [ps].
     pub(super) fn at(&mut self, ps: u128) -> Result<()> {
         let ps = u64::try_from(ps).unwrap_or(u64::MAX);
-        self.go_to(ps).map_err(|error| self.file.fault(error))
+        self.go_to(ps).map_err(|error| self.wave.out().fault(error))
     }
 
     fn go_to(&mut self, ps: u64) -> io::Result<()> {
@@ -82,7 +78,7 @@ impl Both {
         self.sum_up()?;
         self.first.get_or_insert(ps);
         self.last = Some(ps);
-        Writer::new(&mut self.file).timestamp(ps)
+        self.wave.time(ps)
     }
 
     /// Says whether any pair differs, as of the last time.
@@ -90,26 +86,28 @@ impl Both {
         let now = Some(self.count > 0);
         if self.last.is_some() && now != self.shown {
             self.shown = now;
-            Writer::new(&mut self.file).change_scalar(self.any, self.count > 0)?;
+            self.wave.bit(self.count > 0)?;
         }
         Ok(())
     }
 
     /// The values of a pair change.
-    pub(super) fn change(&mut self, pair: usize, sides: [&Bits; 2], differs: bool) -> Result<()> {
-        self.write(pair, sides, differs).map_err(|error| self.file.fault(error))
+    pub(super) fn change(&mut self, pair: usize, sides: &[Bits; 2], differs: bool) -> Result<()> {
+        self.write(pair, sides, differs).map_err(|error| self.wave.out().fault(error))
     }
 
-    fn write(&mut self, pair: usize, sides: [&Bits; 2], differs: bool) -> io::Result<()> {
-        let (codes, width) = (self.codes[pair], self.widths[pair]);
-        let mut vcd = Writer::new(&mut self.file);
-        for (bits, code) in sides.into_iter().zip(codes) {
+    fn write(&mut self, pair: usize, sides: &[Bits; 2], differs: bool) -> io::Result<()> {
+        let width = self.widths[pair];
+        for (side, bits) in sides.iter().enumerate() {
             match width {
-                1 => vcd.change_scalar(code, bits.level(0))?,
-                _ => vcd.change_vector(code, (0..width).rev().map(|bit| bits.level(bit)))?,
+                1 => self.wave.scalar(side, pair, bits.level(0))?,
+                _ => {
+                    let levels = (0..width).rev().map(|bit| bits.level(bit));
+                    self.wave.vector(side, pair, levels)?;
+                }
             }
         }
-        vcd.change_scalar(codes[2], differs)?;
+        self.wave.scalar(2, pair, differs.into())?;
         self.count += usize::from(differs);
         self.count -= usize::from(self.wrong[pair]);
         self.wrong[pair] = differs;
@@ -118,17 +116,56 @@ impl Both {
 
     /// Puts the waveform in place, with its set-ups beside it; their paths.
     pub(super) fn finish(mut self, result: &Comparison) -> Result<Vec<PathBuf>> {
-        self.sum_up().map_err(|error| self.file.fault(error))?;
-        let path = self.file.target().to_owned();
-        self.file.commit()?;
+        self.sum_up().map_err(|error| self.wave.out().fault(error))?;
+        let file = self.wave.into_out();
+        let path = file.target().to_owned();
+        file.commit()?;
         if !std::fs::metadata(&path).is_ok_and(|found| found.is_file()) {
             return Ok(vec![path]);
         }
         let (save, commands) = (path.with_extension("gtkw"), path.with_extension("sucl"));
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let view = View::new(result, (self.first.unwrap_or(0), self.last.unwrap_or(0)));
+        let view = view(result, self.first.unwrap_or(0), self.last.unwrap_or(0));
         write_file(&save, |file| file.write_all(view.gtkwave(&name).as_bytes()))?;
         write_file(&commands, |file| file.write_all(view.surfer().as_bytes()))?;
         Ok(vec![path, save, commands])
+    }
+}
+
+/// A name without dots, which would be scopes, or spaces.
+fn flat(name: &str) -> String {
+    name.replace('.', "/").replace(' ', "_").replace('\\', "")
+}
+
+/// What viewers show of a waveform with that begin and end [ps]: what differs first stands on top.
+fn view(result: &Comparison, begin: u64, end: u64) -> View<'static> {
+    let time = |at: u64| result.sides[0].axis.femtoseconds(at).map_or(at, |fs| (fs / 1000) as u64);
+    let firsts = result.pairs.iter().filter_map(|pair| pair.first.as_ref());
+    let first = firsts.map(|first| time(first.at[0])).min();
+    let whole = end.saturating_sub(begin).max(1);
+    let (from, span) = match first {
+        Some(first) => (first.saturating_sub(whole / PART / 2), (whole / PART).max(1)),
+        None => (begin, whole),
+    };
+    let show = |pair: &Compared| {
+        let (name, width) = (flat(&pair.name), pair.width);
+        [0, 1, 2].map(|k| Shown {
+            flags: if k == 2 || width == 1 { BINARY } else { HEXADECIMAL },
+            colour: Some(COLOURS[k]),
+            label: format!("{name} {}", SCOPES[k]),
+            scope: SCOPES[k],
+            name: name.clone(),
+            width: if k == 2 { 1 } else { width },
+        })
+    };
+    View {
+        top: TOP,
+        colour: Some(COLOURS[2]),
+        from,
+        zoom: format!("{:.6}", zoom(span, PIXELS)),
+        height: 800,
+        columns: Some([160, 420]),
+        marker: first,
+        signals: result.pairs.iter().take(SHOWN).flat_map(show).collect(),
     }
 }

@@ -1,31 +1,13 @@
 //! Compares two waveforms at every instant at which one of them changes.
 
-use tofsim::error::Result;
+use tofsim::error::{Input, Result};
 
 use crate::source::{Axis, Cursor, Tick};
 
+use super::align::{self, Align};
 use super::differences::{Differences, Spot};
 use super::plan::Plan;
-
-/// Where two waveforms are compared.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Span {
-    /// Time by which the second is late [fs]; less than 0: early.
-    pub(super) late_fs: i128,
-    /// Before this time of the first nothing is compared [fs].
-    pub(super) from_fs: u128,
-    /// From this time of the first on nothing is [fs].
-    pub(super) until_fs: u128,
-}
-
-/// What came of a pass over both waveforms.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Passed {
-    /// Instants compared.
-    pub(super) compared: u64,
-    /// Where each side ends, in its ticks, if one goes on after the other.
-    pub(super) ends: Option<[u64; 2]>,
-}
+use super::result::Comparison;
 
 /// One side, in the common unit of time.
 struct Side {
@@ -71,21 +53,31 @@ impl Side {
 ///
 /// The last instant of one counts only if both have changes there: a simulator may stop before it
 /// has written those of its last time step, and we write the end of a run without any.
-pub(super) fn compare(plan: &Plan, span: Span, differences: &mut Differences) -> Result<Passed> {
+pub(super) fn compare(
+    plan: &Plan,
+    align: &Align,
+    differences: &mut Differences,
+) -> Result<Comparison> {
+    if let Some(pair) = plan.matching.pairs.iter().find(|pair| pair.latency != 0) {
+        let expected = "a latency is in samples; say which clock they are taken by with --clock";
+        return Err(Input::new("map", expected).field(&pair.name).into());
+    }
+    let (late_fs, found) = align::shift(plan, align)?;
+    let mut result = Comparison::new(plan.sources, "changes", found);
     let ticks = plan.sources.map(|source| match source.axis {
         Axis::Time(tick) => tick,
         Axis::Samples => Tick::FEMTOSECOND,
     });
     let coarse = ticks[0].max(ticks[1]);
-    let late = |side: usize| if side == 0 { 0 } else { signed(coarse, span.late_fs) };
+    let late = |side: usize| if side == 0 { 0 } else { signed(coarse, late_fs) };
     let open = |side: usize| -> Result<Side> {
         let cursor = plan.sources[side].read(&plan.matching.slots[side].ids)?;
         let (tick, end) = (ticks[side], plan.sources[side].end);
         Ok(Side { cursor, tick, coarse, late: late(side), end, last: 0 })
     };
     let mut sides = [open(0)?, open(1)?];
-    let (mut passed, mut touched) = (Passed::default(), Vec::new());
-    let [from, until] = [span.from_fs, span.until_fs].map(|fs| coarse.count_up(fs) as i128);
+    let times = [plan.terms.after.fs() as u128, plan.terms.until_fs];
+    let [from, until] = times.map(|fs| coarse.count_up(fs) as i128);
     let mut begun = from == 0;
     loop {
         let next = [sides[0].peek()?, sides[1].peek()?];
@@ -109,7 +101,7 @@ pub(super) fn compare(plan: &Plan, span: Span, differences: &mut Differences) ->
             begun = true;
             differences.touch_all();
         }
-        differences.take_touched(&mut touched);
+        let touched = differences.take_touched();
         if touched.is_empty() {
             continue;
         }
@@ -118,26 +110,27 @@ pub(super) fn compare(plan: &Plan, span: Span, differences: &mut Differences) ->
             let common = (now + late(side)).max(0) as u64;
             coarse.convert(common, ticks[side])
         };
-        let spot = Spot { order: passed.compared, window: 0, at: [at(0), at(1)] };
+        let spot = Spot { order: result.compared, window: 0, at: [at(0), at(1)] };
         if let Some(both) = &mut differences.both {
             both.at(coarse.femtoseconds(now.max(0) as u64) / 1000)?;
         }
-        for &pair in &touched {
-            let pair = pair as usize;
+        for pair in touched {
             if plan.matching.pairs[pair].is_off(states[0]) {
                 continue;
             }
             differences.counts[pair].compared += 1;
-            let same = differences.is_same(pair, states);
-            if !same {
+            if differences.differs(pair, states)? {
                 differences.count(pair, spot, states);
             }
-            differences.show(pair, states, !same)?;
         }
-        passed.compared += 1;
+        result.compared += 1;
     }
-    passed.ends = ends(&mut sides, until)?;
-    Ok(passed)
+    if let Some([a, b]) = ends(&mut sides, until)? {
+        let [a, b] = [result.sides[0].place(a), result.sides[1].place(b)];
+        let text = format!("the first side ends at {a}, the second at {b} (--until ends earlier)");
+        result.differences.push(text);
+    }
+    Ok(result)
 }
 
 /// Where the sides end, if that is not the same and within what was to be compared.

@@ -6,9 +6,9 @@ use tofsim::error::Result;
 
 use crate::source::SourceState;
 
-use super::bits::Bits;
 use super::differences::{Differences, Spot};
 use super::plan::Plan;
+use crate::words::Bits;
 
 /// A pair of which one side is late, or that is compared only at times.
 pub(super) struct Delay {
@@ -42,42 +42,32 @@ impl Delay {
         &mut self,
         plan: &Plan,
         spot: Spot,
-        (states, gaps): ([&SourceState; 2], [bool; 2]),
+        states: [&SourceState; 2],
+        gaps: [bool; 2],
         differences: &mut Differences,
     ) -> Result<()> {
-        let differs = self.step(plan, spot, (states, gaps), differences);
-        differences.show(self.pair, states, differs)
-    }
-
-    /// Whether the pair differs at the sample that has both sides now.
-    fn step(
-        &mut self,
-        plan: &Plan,
-        spot: Spot,
-        (states, gaps): ([&SourceState; 2], [bool; 2]),
-        differences: &mut Differences,
-    ) -> bool {
         let pair = &plan.matching.pairs[self.pair];
         let mut values = [Bits::default(), Bits::default()];
         pair.gather_both(states, &mut values);
         let off = [gaps[0] || pair.is_off(states[0]), gaps[1]];
         let now = Entry { values, spot, off };
         self.early.push_back(now.clone());
-        if self.early.len() as u64 <= pair.latency.unsigned_abs() {
-            return false;
-        }
-        let Some(early) = self.early.pop_front() else { return false };
+        let has_come = self.early.len() as u64 > pair.latency.unsigned_abs();
+        let Some(early) = has_come.then(|| self.early.pop_front()).flatten() else {
+            return differences.show(self.pair, states, false);
+        };
         let [a, b] = if pair.latency >= 0 { [&early, &now] } else { [&now, &early] };
         if a.off[0] || b.off[1] {
-            return false;
+            return differences.show(self.pair, states, false);
         }
-        differences.counts[self.pair].compared += 1;
         let (expected, got) = (&a.values[0], &b.values[1]);
-        let differs = !pair.equal(expected, got, differences.unknowns());
+        let differs = !pair.equal(expected, got, differences.unknowns);
+        let count = &mut differences.counts[self.pair];
+        count.compared += 1;
         if differs {
             let at = [a.spot.at[0], b.spot.at[1]];
-            differences.count_values(self.pair, Spot { at, ..now.spot }, expected, got);
+            count.differs(pair, Spot { at, ..now.spot }, expected, got);
         }
-        differs
+        differences.show(self.pair, states, differs)
     }
 }

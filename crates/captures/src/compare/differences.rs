@@ -2,11 +2,11 @@
 
 use tofsim::error::Result;
 
-use crate::source::{Name, SourceState, shapes};
-use crate::words::bit;
+use crate::source::{Name, SHAPES, SourceState};
+use crate::words::{Bits, bit};
 
-use super::bits::Bits;
 use super::both::Both;
+use super::matching::Matching;
 use super::pair::{Pair, Unknowns};
 use super::result::{Compared, Difference};
 
@@ -33,32 +33,29 @@ pub(super) struct PairCount {
 /// What is counted of all pairs, and which of them are to be compared next.
 pub(super) struct Differences<'a> {
     pairs: &'a [Pair],
-    unknowns: Unknowns,
+    /// What an unknown bit is the same as.
+    pub(super) unknowns: Unknowns,
     pub(super) counts: Vec<PairCount>,
     /// Both sides as a waveform, if that is wanted.
     pub(super) both: Option<Both>,
     scratch: [Bits; 2],
     /// For each side and signal the pairs that look at it.
-    users: [Vec<Vec<u32>>; 2],
-    touched: Vec<u32>,
+    users: [Vec<Vec<usize>>; 2],
+    touched: Vec<usize>,
     is_touched: Vec<bool>,
 }
 
 impl<'a> Differences<'a> {
-    /// None yet; `signals` are the numbers of signals that each side reads.
-    pub(super) fn new(
-        pairs: &'a [Pair],
-        signals: [usize; 2],
-        unknowns: Unknowns,
-        both: Option<Both>,
-    ) -> Self {
-        let mut users = signals.map(|signals| vec![Vec::new(); signals]);
+    /// None yet.
+    pub(super) fn new(matching: &'a Matching, unknowns: Unknowns, both: Option<Both>) -> Self {
+        let Matching { pairs, slots, .. } = matching;
+        let mut users = slots.each_ref().map(|slots| vec![Vec::new(); slots.ids.len()]);
         for (k, pair) in pairs.iter().enumerate() {
             for (side, users) in users.iter_mut().enumerate() {
                 let signals = pair.sides[side].iter().map(|part| part.signal);
                 let valid = pair.valid.filter(|_| side == 0);
                 for signal in signals.chain(valid) {
-                    users[signal].push(k as u32);
+                    users[signal].push(k);
                 }
             }
         }
@@ -74,17 +71,11 @@ impl<'a> Differences<'a> {
         }
     }
 
-    /// What an unknown bit is the same as.
-    pub(super) fn unknowns(&self) -> Unknowns {
-        self.unknowns
-    }
-
     /// A signal of a side has changed.
     #[inline]
     pub(super) fn touch(&mut self, side: usize, signal: usize) {
         for &pair in &self.users[side][signal] {
-            if !self.is_touched[pair as usize] {
-                self.is_touched[pair as usize] = true;
+            if !std::mem::replace(&mut self.is_touched[pair], true) {
                 self.touched.push(pair);
             }
         }
@@ -92,21 +83,23 @@ impl<'a> Differences<'a> {
 
     /// All pairs are looked at next.
     pub(super) fn touch_all(&mut self) {
-        self.touched = (0..self.pairs.len() as u32).collect();
+        self.touched = (0..self.pairs.len()).collect();
         self.is_touched.fill(true);
     }
 
     /// Hands out the pairs touched since the last time.
-    pub(super) fn take_touched(&mut self, into: &mut Vec<u32>) {
-        into.clear();
-        std::mem::swap(into, &mut self.touched);
-        into.iter().for_each(|&pair| self.is_touched[pair as usize] = false);
+    pub(super) fn take_touched(&mut self) -> Vec<usize> {
+        let touched = std::mem::take(&mut self.touched);
+        touched.iter().for_each(|&pair| self.is_touched[pair] = false);
+        touched
     }
 
-    /// Whether the sides of a pair are the same.
+    /// Whether the sides of a pair differ, which the waveform shows.
     #[inline]
-    pub(super) fn is_same(&mut self, pair: usize, states: [&SourceState; 2]) -> bool {
-        self.pairs[pair].same(states, self.unknowns, &mut self.scratch)
+    pub(super) fn differs(&mut self, pair: usize, states: [&SourceState; 2]) -> Result<bool> {
+        let differs = !self.pairs[pair].same(states, self.unknowns, &mut self.scratch);
+        self.show(pair, states, differs)?;
+        Ok(differs)
     }
 
     /// Shows a pair in the waveform.
@@ -118,38 +111,25 @@ impl<'a> Differences<'a> {
     ) -> Result<()> {
         let Some(both) = &mut self.both else { return Ok(()) };
         self.pairs[pair].gather_both(states, &mut self.scratch);
-        let [a, b] = &self.scratch;
-        both.change(pair, [a, b], differs)
+        both.change(pair, &self.scratch, differs)
     }
 
     /// Counts a pair that differs at a place, with the values in the states.
     pub(super) fn count(&mut self, pair: usize, spot: Spot, states: [&SourceState; 2]) {
-        let count = &mut self.counts[pair];
-        if count.first.is_none() {
-            self.pairs[pair].gather_both(states, &mut self.scratch);
-            let [a, b] = &self.scratch;
-            count.first = Some(difference(&self.pairs[pair], spot, a, b));
-        }
-        count.differs(spot.order);
-    }
-
-    /// Counts a pair whose values are at hand.
-    pub(super) fn count_values(&mut self, pair: usize, spot: Spot, a: &Bits, b: &Bits) {
-        let count = &mut self.counts[pair];
-        count.first.get_or_insert_with(|| difference(&self.pairs[pair], spot, a, b));
-        count.differs(spot.order);
+        self.pairs[pair].gather_both(states, &mut self.scratch);
+        let [a, b] = &self.scratch;
+        self.counts[pair].differs(&self.pairs[pair], spot, a, b);
     }
 
     /// The result for each pair where so many places were compared, the first to differ first and
     /// in the order of data flow.
     pub(super) fn results(&self, compared: u64) -> Vec<Compared> {
-        let known = shapes();
         let flow = |name: &str| {
             let name = Name::new(name);
-            let place = known.iter().position(|(known, _)| {
+            let place = SHAPES.iter().position(|(known, _)| {
                 known.common(&name).is_some_and(|parts| parts >= 2 || parts == name.depth())
             });
-            place.unwrap_or(known.len())
+            place.unwrap_or(SHAPES.len())
         };
         let result = |(pair, count): (&Pair, &PairCount)| Compared {
             name: pair.name.clone(),
@@ -171,19 +151,19 @@ impl<'a> Differences<'a> {
     }
 }
 
-fn difference(pair: &Pair, spot: Spot, a: &Bits, b: &Bits) -> Difference {
-    let Spot { order, window, at } = spot;
-    let differs = |k: &u32| bit(&a.value, *k) != bit(&b.value, *k);
-    let known = a.is_known() && b.is_known();
-    let bits = if known { (0..pair.width).filter(differs).collect() } else { Vec::new() };
-    let (expected, got) = (pair.show.text(a, pair.width), pair.show.text(b, pair.width));
-    Difference { order, window, at, expected, got, bits }
-}
-
 impl PairCount {
-    fn differs(&mut self, order: u64) {
+    /// Counts a place at which the sides have those values.
+    pub(super) fn differs(&mut self, pair: &Pair, spot: Spot, a: &Bits, b: &Bits) {
+        let Spot { order, window, at } = spot;
         self.differing += 1;
         self.overview.mark(order);
+        self.first.get_or_insert_with(|| {
+            let differs = |k: &u32| bit(&a.value, *k) != bit(&b.value, *k);
+            let known = a.is_known() && b.is_known();
+            let bits = if known { (0..pair.width).filter(differs).collect() } else { Vec::new() };
+            let (expected, got) = (pair.show.text(a, pair.width), pair.show.text(b, pair.width));
+            Difference { order, window, at, expected, got, bits }
+        });
     }
 }
 

@@ -16,18 +16,18 @@ const OFFERED: usize = 4;
 /// When there is none, or several that are not the same signal.
 pub(super) fn signal(source: &Source, text: &str) -> Result<usize> {
     let wanted = Name::new(text);
-    let named = |(_, signal): &(usize, &Signal)| signal.name.is(&wanted);
-    let mut found: Vec<usize> =
-        source.signals.iter().enumerate().filter(named).map(|(k, _)| k).collect();
-    if found.is_empty() {
-        let ends = source.signals.iter().enumerate().filter_map(|(k, signal)| {
-            signal.name.common(&wanted).filter(|&common| common == wanted.depth()).map(|_| k)
-        });
-        found = ends.collect();
-        let depth = |&k: &usize| source.signals[k].name.depth();
-        let top = found.iter().map(depth).min();
-        found.retain(|k| Some(depth(k)) == top);
-    }
+    let rank = |signal: &Signal| match signal.name.is(&wanted) {
+        true => Some(0),
+        false => {
+            let is_end = signal.name.common(&wanted) == Some(wanted.depth());
+            is_end.then(|| signal.name.depth() + 1)
+        }
+    };
+    let ranked = source.signals.iter().enumerate();
+    let ranked: Vec<_> = ranked.filter_map(|(k, signal)| Some((rank(signal)?, k))).collect();
+    let best = ranked.iter().map(|(rank, _)| rank).min();
+    let found: Vec<usize> =
+        ranked.iter().filter(|(rank, _)| Some(rank) == best).map(|(_, k)| *k).collect();
     let id = |&k: &usize| source.signals[k].id;
     match found.first() {
         Some(&first) if found.iter().all(|k| id(k) == id(&first)) => Ok(first),
@@ -40,13 +40,15 @@ pub(super) fn signal(source: &Source, text: &str) -> Result<usize> {
         }
         None => {
             let names = source.signals.iter().map(|signal| signal.name.text.as_str());
-            let near = match nearest(text, names) {
-                Some(name) => format!("; near it: {name}"),
-                None => String::new(),
-            };
-            Err(Input::new(&source.name, format!("no such signal{near}")).field(text).into())
+            let expected = format!("no such signal{}", near(text, names));
+            Err(Input::new(&source.name, expected).field(text).into())
         }
     }
+}
+
+/// The name that was probably meant, for an error.
+pub(super) fn near<'a>(text: &str, names: impl Iterator<Item = &'a str>) -> String {
+    nearest(text, names).map(|name| format!("; near it: {name}")).unwrap_or_default()
 }
 
 /// The bits that `text` names: a signal, or a slice of one as `x[7:4]` or `x[3]`.

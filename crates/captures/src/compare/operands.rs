@@ -4,11 +4,12 @@ use tofsim::error::Result;
 use tofsim::kernel::signals::SignalFormat as Shape;
 
 use crate::condition::{Bound, Condition, Level, Place};
-use crate::source::{Name, Source, SourceState, known_shape, shapes};
+use crate::source::{Name, Source, SourceState, known_shape};
+use crate::words::{Bits, lowest};
 
 use super::find;
 use super::matching::Matching;
-use super::parts::Part;
+use super::parts::{Part, gather};
 
 /// A condition tied to one side.
 #[derive(Clone)]
@@ -33,14 +34,13 @@ impl SideCondition {
         condition: &Condition,
     ) -> Result<SideCondition> {
         let mut operands = Vec::new();
-        let known = shapes();
         let bound = condition.bind(&mut |text| {
             let index = operands.len();
             let pair = matching.pairs.iter().find(|pair| pair.name == text || pair.other == text);
             if let Some(pair) = pair {
                 let whole = pair.sides[side].iter().all(|part| part.whole);
                 let signed = pair.signed.unwrap_or_else(|| {
-                    whole && [&pair.name, &pair.other].iter().any(|name| is_signed(name, &known))
+                    whole && [&pair.name, &pair.other].iter().any(|name| is_signed(name))
                 });
                 operands.push(pair.sides[side].clone());
                 return Ok(Place { index, width: pair.width, signed });
@@ -48,7 +48,7 @@ impl SideCondition {
             let found = find::signal(source, text)?;
             let signal = &source.signals[found];
             operands.push(vec![Part::whole(&mut matching.slots[side], signal)]);
-            Ok(Place { index, width: signal.width, signed: is_signed(&signal.name.text, &known) })
+            Ok(Place { index, width: signal.width, signed: is_signed(&signal.name.text) })
         })?;
         Ok(SideCondition { bound, operands })
     }
@@ -65,39 +65,12 @@ impl SideCondition {
     }
 }
 
-fn is_signed(name: &str, known: &[(Name, Shape)]) -> bool {
-    matches!(known_shape(known, &[&Name::new(name)]), Some(Shape::Signed { .. }))
+fn is_signed(name: &str) -> bool {
+    matches!(known_shape(&[&Name::new(name)]), Some(Shape::Signed { .. }))
 }
 
 fn level(state: &SourceState, parts: &[Part]) -> Level {
-    let mut level = Level::default();
-    for part in parts {
-        let mask = u128::MAX >> (128 - part.width.clamp(1, 128));
-        let bits = |words: &[u64]| wide(words, part.low as usize) & mask;
-        let shift = |bits: u128| bits.checked_shl(part.width).unwrap_or(0);
-        level.value = shift(level.value) | bits(state.value(part.signal));
-        level.unknown = shift(level.unknown) | bits(state.unknown(part.signal));
-    }
-    level
-}
-
-/// 128 bits from bit `low` on.
-fn wide(words: &[u64], low: usize) -> u128 {
-    let word = |k: usize| words.get(k).copied().unwrap_or(0) as u128;
-    let (first, shift) = (low / 64, low % 64);
-    let lower = (word(first) | word(first + 1) << 64) >> shift;
-    if shift == 0 { lower } else { lower | word(first + 2) << (128 - shift) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn bits_are_taken_across_words() {
-        let words = [0x8000_0000_0000_0000, 0x3, 0x1];
-        assert_eq!(wide(&words, 0), 3 << 64 | 1 << 63);
-        assert_eq!(wide(&words, 63) & 0xf, 0b111);
-        assert_eq!(wide(&words, 65), 1 << 63 | 1);
-    }
+    let mut bits = Bits::default();
+    gather(parts, state, &mut bits);
+    Level { value: lowest(&bits.value), unknown: lowest(&bits.unknown) }
 }

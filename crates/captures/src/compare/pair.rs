@@ -1,10 +1,9 @@
 //! Two signals that are compared, and how.
 
 use crate::source::SourceState;
-use crate::words::{bit, extend, ones};
+use crate::words::{Bits, extend, ones};
 
-use super::bits::Bits;
-use super::parts::Part;
+use super::parts::{Part, gather};
 use super::show::Show;
 
 /// What an unknown bit is the same as.
@@ -94,24 +93,7 @@ impl Pair {
 
     /// Collects the value of one side, the second's as the first should have it.
     pub(super) fn gather(&self, side: usize, state: &SourceState, bits: &mut Bits) {
-        let words = (self.width as usize).div_ceil(64);
-        bits.value.clear();
-        bits.unknown.clear();
-        if let [part] = self.sides[side][..]
-            && part.whole
-        {
-            bits.value.extend_from_slice(state.value(part.signal));
-            bits.unknown.extend_from_slice(state.unknown(part.signal));
-        } else {
-            bits.value.resize(words, 0);
-            bits.unknown.resize(words, 0);
-            let mut low = self.width;
-            for part in &self.sides[side] {
-                low -= part.width;
-                put(&mut bits.value, low, state.value(part.signal), part);
-                put(&mut bits.unknown, low, state.unknown(part.signal), part);
-            }
-        }
+        gather(&self.sides[side], state, bits);
         if side == 1 && self.invert {
             for (k, word) in bits.value.iter_mut().enumerate() {
                 let all = ones(self.width, k);
@@ -175,14 +157,6 @@ impl Pair {
             false => a.abs_diff(b),
         };
         self.show != Show::Real && apart <= self.tolerance as u128
-    }
-}
-
-/// Puts the bits of `part` into `words` from bit `low` on.
-fn put(words: &mut [u64], low: u32, from: &[u64], part: &Part) {
-    for k in 0..part.width {
-        let target = low + k;
-        words[target as usize / 64] |= bit(from, part.low + k) << (target % 64);
     }
 }
 

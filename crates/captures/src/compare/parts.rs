@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use crate::source::Signal;
+use crate::source::{Signal, SourceState};
+use crate::words::{Bits, bit};
 
 /// The signals of a source that a comparison reads, each once.
 #[derive(Clone, Debug, Default)]
@@ -41,5 +42,30 @@ impl Part {
     /// All of a signal, which is read from now on.
     pub(super) fn whole(slots: &mut Slots, signal: &Signal) -> Self {
         Part { signal: slots.place(signal.id), low: 0, width: signal.width, whole: true }
+    }
+
+    /// Puts the bits of it into `words` from bit `low` on.
+    fn put(&self, words: &mut [u64], low: u32, from: &[u64]) {
+        for k in 0..self.width {
+            let target = low + k;
+            words[target as usize / 64] |= bit(from, self.low + k) << (target % 64);
+        }
+    }
+}
+
+/// Collects the value of some parts, the highest first.
+pub(super) fn gather(parts: &[Part], state: &SourceState, bits: &mut Bits) {
+    if let [Part { whole: true, signal, .. }] = *parts {
+        bits.clear(0);
+        bits.value.extend_from_slice(state.value(signal));
+        bits.unknown.extend_from_slice(state.unknown(signal));
+        return;
+    }
+    let mut low = parts.iter().map(|part| part.width).sum::<u32>();
+    bits.clear(low.div_ceil(64) as usize);
+    for part in parts {
+        low -= part.width;
+        part.put(&mut bits.value, low, state.value(part.signal));
+        part.put(&mut bits.unknown, low, state.unknown(part.signal));
     }
 }

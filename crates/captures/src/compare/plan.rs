@@ -4,109 +4,81 @@ use tofsim::error::Result;
 use tofsim::kernel::Time;
 
 use crate::condition::Condition;
-use crate::source::{Axis, Source};
+use crate::source::Source;
 
 use super::matching::{Matching, Unmatched, UnmatchedReason};
 use super::operands::SideCondition;
-use super::samples::{Sample, SampleClock, Samples};
+use super::parts::Part;
+use super::samples::{Clocking, Sample, SampleClock, Samples};
 
 /// Two sources with their signals matched, to be read as often as needed.
 pub(super) struct Plan<'a> {
     pub(super) sources: [&'a Source; 2],
     pub(super) matching: Matching,
-    /// Signals of each side that have no partner.
-    pub(super) unpaired: [Vec<Unpaired>; 2],
-    sampling: Option<SampleClock>,
-    clock: [Option<usize>; 2],
+    /// Signals of each side that have no partner, which are read to find one.
+    pub(super) unpaired: [Vec<(String, Part)>; 2],
+    clocking: [Clocking; 2],
     /// What a waveform triggers on.
     pub(super) trigger: [Option<SideCondition>; 2],
     /// Under which condition a logic analyser stored a sample.
     pub(super) qualifier: [Option<SideCondition>; 2],
-    /// Before this time a waveform is not looked at.
-    pub(super) after: Time,
-    /// Samples before that which a logic analyser's registers delay into it.
-    pub(super) stages: u64,
-}
-
-/// A signal without a partner, which is read to find one.
-pub(super) struct Unpaired {
-    pub(super) name: String,
-    pub(super) signal: usize,
-    pub(super) width: u32,
+    pub(super) terms: Terms,
 }
 
 /// Signals without a partner that are looked at.
 const UNPAIRED: usize = 64;
 
-/// Conditions and clock as they were given.
+/// Conditions, clock and times as they were given.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Terms {
     pub(super) sampling: Option<SampleClock>,
     pub(super) trigger: Option<Condition>,
     pub(super) qualifier: Option<Condition>,
+    /// Before this time a waveform is not looked at.
     pub(super) after: Time,
+    /// From this time on nothing is compared [fs].
+    pub(super) until_fs: u128,
+    /// Samples before `after` which a logic analyser's registers delay into it.
     pub(super) stages: u64,
 }
 
 impl<'a> Plan<'a> {
-    /// A plan to compare samples.
+    /// A plan to compare samples, or else changes.
     pub(super) fn new(
         sources: [&'a Source; 2],
         mut matching: Matching,
         terms: Terms,
+        sampled: bool,
     ) -> Result<Plan<'a>> {
-        let mut clock = [None, None];
+        let mut clocking = [0, 1].map(|_| Clocking::Rows { endless: false });
         let (mut trigger, mut qualifier) = ([None, None], [None, None]);
-        for side in 0..2 {
+        for (side, source) in sources.into_iter().enumerate().filter(|_| sampled) {
             let slots = &mut matching.slots[side];
-            let sampling = terms.sampling.as_ref();
-            clock[side] = Samples::clock_signal(sources[side], sampling, slots)?;
-            if sources[side].is_capture() {
+            clocking[side] = Clocking::new(source, terms.sampling.as_ref(), slots)?;
+            if source.is_capture() {
                 continue;
             }
-            let bind = |matching: &mut Matching, condition: &Option<Condition>| {
-                let bind = |condition: &Condition| {
-                    SideCondition::new(sources[side], side, matching, condition)
-                };
+            let mut bind = |condition: &Option<Condition>| {
+                let bind = |condition| SideCondition::new(source, side, &mut matching, condition);
                 condition.as_ref().map(bind).transpose()
             };
-            trigger[side] = bind(&mut matching, &terms.trigger)?;
-            qualifier[side] = bind(&mut matching, &terms.qualifier)?;
+            trigger[side] = bind(&terms.trigger)?;
+            qualifier[side] = bind(&terms.qualifier)?;
         }
         let unpaired = [0, 1].map(|side| unpaired(sources, side, &mut matching));
-        let Terms { sampling, after, stages, .. } = terms;
-        Ok(Plan { sources, matching, unpaired, sampling, clock, trigger, qualifier, after, stages })
-    }
-
-    /// A plan to compare changes.
-    pub(super) fn changes(sources: [&'a Source; 2], matching: Matching, after: Time) -> Plan<'a> {
-        let (clock, trigger, qualifier) = ([None, None], [None, None], [None, None]);
-        let unpaired = [Vec::new(), Vec::new()];
-        Plan {
-            sources,
-            matching,
-            unpaired,
-            sampling: None,
-            clock,
-            trigger,
-            qualifier,
-            after,
-            stages: 0,
-        }
+        Ok(Plan { sources, matching, unpaired, clocking, trigger, qualifier, terms })
     }
 
     /// The samples of a side from the first on.
     pub(super) fn samples(&self, side: usize) -> Result<Samples> {
         let slots = &self.matching.slots[side];
-        Samples::new(self.sources[side], slots, self.sampling.as_ref(), self.clock[side])
+        Samples::new(self.sources[side], slots, self.clocking[side].clone())
     }
 
     /// Whether a sample is late enough to be looked at.
     pub(super) fn is_looked_at(&self, side: usize, sample: Sample) -> bool {
-        match self.sources[side].axis {
-            Axis::Time(tick) => tick.femtoseconds(sample.at) >= self.after.fs() as u128,
-            Axis::Samples => true,
-        }
+        let time = self.sources[side].axis.femtoseconds(sample.at);
+        time.is_none_or(|fs| fs >= self.terms.after.fs() as u128)
     }
 
     /// The side that is a capture, where the other is none.
@@ -120,7 +92,7 @@ impl<'a> Plan<'a> {
 }
 
 /// Signals of a side without a partner, if the other side's could be one.
-fn unpaired(sources: [&Source; 2], side: usize, matching: &mut Matching) -> Vec<Unpaired> {
+fn unpaired(sources: [&Source; 2], side: usize, matching: &mut Matching) -> Vec<(String, Part)> {
     if !sources.iter().any(|source| source.is_capture()) {
         return Vec::new();
     }
@@ -130,8 +102,7 @@ fn unpaired(sources: [&Source; 2], side: usize, matching: &mut Matching) -> Vec<
     unpaired
         .map(|unmatched| {
             let signal = &sources[side].signals[unmatched.signal];
-            let (name, width) = (unmatched.name.clone(), signal.width);
-            Unpaired { name, signal: slots[side].place(signal.id), width }
+            (unmatched.name.clone(), Part::whole(&mut slots[side], signal))
         })
         .collect()
 }

@@ -29,7 +29,7 @@ pub(super) fn add(plan: &Plan, counts: &[PairCount], all: bool, result: &mut Com
     for unmatched in &plan.matching.unmatched {
         let source = &plan.sources[unmatched.side];
         if (all || source.is_capture()) && unmatched.reason != UnmatchedReason::Ignored {
-            let reason = unmatched.reason.text();
+            let reason = &unmatched.reason;
             differences
                 .push(format!("{}: {} is not compared: {reason}", source.name, unmatched.name));
         }

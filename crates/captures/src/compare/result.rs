@@ -66,22 +66,14 @@ impl Described {
 
     /// A place in it, for people.
     pub fn place(&self, at: u64) -> String {
-        match self.axis {
-            Axis::Samples => format!("sample {at}"),
-            Axis::Time(tick) => {
-                let fs = tick.femtoseconds(at);
-                let text = format!("{}.{:06}", fs / 1_000_000, fs % 1_000_000);
-                format!("{} ns", text.trim_end_matches('0').trim_end_matches('.'))
-            }
-        }
+        let Some(fs) = self.axis.femtoseconds(at) else { return format!("sample {at}") };
+        let text = format!("{}.{:06}", fs / 1_000_000, fs % 1_000_000);
+        format!("{} ns", text.trim_end_matches('0').trim_end_matches('.'))
     }
 
     /// A place in it: picoseconds, or a sample's number.
     pub fn number(&self, at: u64) -> f64 {
-        match self.axis {
-            Axis::Samples => at as f64,
-            Axis::Time(tick) => tick.femtoseconds(at) as f64 / 1e3,
-        }
+        self.axis.femtoseconds(at).map_or(at as f64, |fs| fs as f64 / 1e3)
     }
 }
 

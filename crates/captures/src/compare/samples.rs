@@ -6,11 +6,11 @@ use tofsim::error::{Input, Result};
 use tofsim::kernel::Time;
 use tofsim::kernel::clock::Clock;
 
-use crate::ila;
+use crate::ila::clock::{AnalyserClock, quantity};
 use crate::source::{Axis, Cursor, Marks, Source, SourceFormat, SourceState, Tick};
 
 use super::find;
-use super::parts::Slots;
+use super::parts::{Part, Slots};
 
 /// What a waveform is sampled by.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,7 +32,7 @@ impl FromStr for SampleClock {
     /// A signal, or as `125MHz` or `125MHz + 2ns` a frequency and the time of the first edge.
     fn from_str(text: &str) -> std::result::Result<Self, String> {
         Ok(match text.parse() {
-            Ok(ila::clock::AnalyserClock::Free { frequency_hz, phase }) => {
+            Ok(AnalyserClock::Free { frequency_hz, phase }) => {
                 SampleClock::Free { frequency_hz, phase }
             }
             Err(expected)
@@ -49,8 +49,7 @@ impl FromStr for SampleClock {
 pub fn time(text: &str) -> Option<Time> {
     const UNITS: [(&str, f64); 6] =
         [("fs", 1e-3), ("ps", 1.0), ("ns", 1e3), ("us", 1e6), ("ms", 1e9), ("s", 1e12)];
-    let (number, ps) = UNITS.iter().find_map(|(unit, ps)| Some((text.strip_suffix(unit)?, ps)))?;
-    let ps = number.trim().parse::<f64>().ok()? * ps;
+    let ps = quantity(text, &UNITS)?;
     (0.0..=1e16).contains(&ps).then(|| Time::from_ps_f64(ps))
 }
 
@@ -66,9 +65,11 @@ pub(super) struct Sample {
     pub(super) held: bool,
 }
 
-enum Clocking {
-    /// The rising edges of a signal of the cursor, and its level.
-    Rising(usize, Option<bool>),
+/// What makes samples of a source.
+#[derive(Clone)]
+pub(super) enum Clocking {
+    /// The rising edges of a signal of the cursor.
+    Rising(usize),
     Free {
         clock: Clock,
         tick: Tick,
@@ -79,77 +80,65 @@ enum Clocking {
     },
 }
 
+impl Clocking {
+    /// Of a source that is sampled so; a clock is read too.
+    pub(super) fn new(
+        source: &Source,
+        sampling: Option<&SampleClock>,
+        slots: &mut Slots,
+    ) -> Result<Clocking> {
+        let Axis::Time(tick) = source.axis else {
+            return Ok(Clocking::Rows { endless: source.format == SourceFormat::IlaVcd });
+        };
+        match sampling {
+            Some(SampleClock::Signal(name)) => match find::part(source, name, slots)? {
+                (_, Part { width: 1, signal, .. }) => Ok(Clocking::Rising(signal)),
+                (_, Part { width, .. }) => {
+                    let expected = format!("expected a clock of one bit, not {width}");
+                    Err(Input::new(&source.name, expected).field(name).into())
+                }
+            },
+            Some(&SampleClock::Free { frequency_hz, phase }) => {
+                Ok(Clocking::Free { clock: Clock::new(frequency_hz, 1, 1, phase), tick })
+            }
+            None => {
+                let expected = "a waveform has no samples; say which clock they are taken by \
+                    with --clock";
+                Err(Input::new(&source.name, expected).into())
+            }
+        }
+    }
+}
+
 /// A source as a sequence of samples.
 pub(super) struct Samples {
     cursor: Cursor,
     clocking: Clocking,
     /// Values at the sample.
-    state: SourceState,
+    pub(super) state: SourceState,
     /// Signals of which the cursor has newer values than the sample.
-    newer: Vec<u32>,
+    newer: Vec<usize>,
     /// Signals that have changed since they were last asked for.
-    changed: Vec<u32>,
+    changed: Vec<usize>,
     next: u64,
 }
 
 impl Samples {
-    /// Signal of the cursor that is the clock of this source, which is read too.
-    pub(super) fn clock_signal(
-        source: &Source,
-        sampling: Option<&SampleClock>,
-        slots: &mut Slots,
-    ) -> Result<Option<usize>> {
-        match (source.axis, sampling) {
-            (Axis::Time(_), Some(SampleClock::Signal(name))) => {
-                let (_, part) = find::part(source, name, slots)?;
-                if part.width != 1 {
-                    let expected = format!("expected a clock of one bit, not {}", part.width);
-                    return Err(Input::new(&source.name, expected).field(name).into());
-                }
-                Ok(Some(part.signal))
-            }
-            (Axis::Time(_), None) => {
-                let expected = "a waveform has no samples; say which clock they are taken by \
-                    with --clock";
-                Err(Input::new(&source.name, expected).into())
-            }
-            _ => Ok(None),
-        }
-    }
-
-    /// Begins to read the signals of `slots`; `clock` is what [`Samples::clock_signal`] found.
-    pub(super) fn new(
-        source: &Source,
-        slots: &Slots,
-        sampling: Option<&SampleClock>,
-        clock: Option<usize>,
-    ) -> Result<Samples> {
-        let clocking = match (source.axis, clock, sampling) {
-            (Axis::Time(_), Some(signal), _) => Clocking::Rising(signal, None),
-            (Axis::Time(tick), None, Some(&SampleClock::Free { frequency_hz, phase })) => {
-                Clocking::Free { clock: Clock::new(frequency_hz, 1, 1, phase), tick }
-            }
-            _ => Clocking::Rows { endless: source.format == SourceFormat::IlaVcd },
-        };
+    /// Begins to read the signals of `slots`.
+    pub(super) fn new(source: &Source, slots: &Slots, clocking: Clocking) -> Result<Samples> {
         let cursor = source.read(&slots.ids)?;
-        let state = cursor.state.clone();
-        let newer = Vec::new();
+        let (state, newer) = (cursor.state.clone(), Vec::new());
         Ok(Samples { cursor, clocking, state, newer, changed: Vec::new(), next: 0 })
     }
 
-    /// Values at the sample.
-    pub(super) fn state(&self) -> &SourceState {
-        &self.state
-    }
-
     /// Tells the signals that have changed since this was last asked; one may come twice.
-    pub(super) fn changes(&mut self, mut changed: impl FnMut(usize)) {
-        self.changed.drain(..).for_each(|signal| changed(signal as usize));
+    pub(super) fn changes(&mut self, changed: impl FnMut(usize)) {
+        self.changed.drain(..).for_each(changed);
     }
 
     fn catch_up(&mut self) {
         for &signal in &self.newer {
-            self.state.take(&self.cursor.state, signal as usize);
+            self.state.take(&self.cursor.state, signal);
         }
         self.changed.append(&mut self.newer);
     }
@@ -157,7 +146,7 @@ impl Samples {
     /// Takes the cursor's next instant into the sample.
     fn take(&mut self) -> Marks {
         let newer = &mut self.newer;
-        let marks = self.cursor.take(|signal| newer.push(signal as u32));
+        let marks = self.cursor.take(|signal| newer.push(signal));
         self.catch_up();
         marks
     }
@@ -166,8 +155,11 @@ impl Samples {
     pub(super) fn next(&mut self) -> Result<Option<Sample>> {
         self.catch_up();
         match self.clocking {
-            Clocking::Rising(signal, level) => self.next_edge(signal, level),
-            Clocking::Free { .. } => self.next_instant(),
+            Clocking::Rising(signal) => self.next_edge(signal),
+            Clocking::Free { ref clock, tick } => {
+                let skipped = u64::from(clock.rise(0) == Time::ZERO);
+                self.next_instant(clock.rise(self.next + skipped), tick)
+            }
             Clocking::Rows { endless } => self.next_row(endless),
         }
     }
@@ -178,35 +170,23 @@ impl Samples {
         Some(Sample { index, at, marks, held })
     }
 
-    fn next_edge(&mut self, clock: usize, mut level: Option<bool>) -> Result<Option<Sample>> {
+    fn next_edge(&mut self, clock: usize) -> Result<Option<Sample>> {
+        let level = |state: &SourceState| match state.unknown(clock)[0] {
+            0 => Some(state.value(clock)[0]),
+            _ => None,
+        };
         while let Some(at) = self.cursor.peek()? {
             let newer = &mut self.newer;
-            let mut ticks = false;
-            self.cursor.take(|signal| {
-                newer.push(signal as u32);
-                ticks |= signal == clock;
-            });
-            if ticks {
-                let state = &self.cursor.state;
-                let now = (state.unknown(clock)[0] == 0).then(|| state.value(clock)[0] == 1);
-                let rises = level == Some(false) && now == Some(true);
-                level = now;
-                self.clocking = Clocking::Rising(clock, level);
-                if rises {
-                    return Ok(self.sample(at, Marks::default(), false));
-                }
+            self.cursor.take(|signal| newer.push(signal));
+            if level(&self.state) == Some(0) && level(&self.cursor.state) == Some(1) {
+                return Ok(self.sample(at, Marks::default(), false));
             }
             self.catch_up();
         }
         Ok(None)
     }
 
-    fn next_instant(&mut self) -> Result<Option<Sample>> {
-        let Clocking::Free { clock, tick } = &self.clocking else { return Ok(None) };
-        let (mut edge, tick) = (clock.rise(self.next + 1), *tick);
-        if clock.rise(0) > Time::ZERO {
-            edge = clock.rise(self.next);
-        }
+    fn next_instant(&mut self, edge: Time, tick: Tick) -> Result<Option<Sample>> {
         while let Some(at) = self.cursor.peek()? {
             if tick.femtoseconds(at) >= edge.fs() as u128 {
                 return Ok(self.sample(tick.count(edge.fs() as u128), Marks::default(), false));

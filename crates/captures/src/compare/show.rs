@@ -3,10 +3,8 @@
 use tofsim::kernel::signals::SignalFormat as Shape;
 
 use crate::ila::Radix;
-use crate::source::{Name, Signal, SignalKind, known_shape};
-use crate::words::extend;
-
-use super::bits::Bits;
+use crate::source::{Signal, SignalKind, known_shape};
+use crate::words::{Bits, extend};
 
 /// How a signal's values are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,15 +28,14 @@ pub(super) enum Show {
 }
 
 impl Show {
-    /// As one of two signals says or, if none does, as the firmware's of their names; `known` are
-    /// those.
-    pub(super) fn of(a: &Signal, b: &Signal, known: &[(Name, Shape)]) -> Show {
+    /// As one of two signals says or, if none does, as the firmware's of their names.
+    pub(super) fn of(a: &Signal, b: &Signal) -> Show {
         if a.kind == SignalKind::Real {
             return Show::Real;
         }
         let shape = a.shape.or(b.shape).map(Show::shape);
         let shown = shape.or_else(|| a.radix.or(b.radix).map(Show::radix));
-        let known = || known_shape(known, &[&a.name, &b.name]).map(Show::shape);
+        let known = || known_shape(&[&a.name, &b.name]).map(Show::shape);
         shown.or_else(known).unwrap_or(Show::Bits)
     }
 

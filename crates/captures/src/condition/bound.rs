@@ -17,80 +17,45 @@ pub struct Bound {
 pub(super) struct Watched {
     index: usize,
     low: u32,
-    mask: u128,
-    check: Check,
+    width: u32,
+    signed: bool,
+    test: Test,
     before: Option<Level>,
-}
-
-#[derive(Clone, Debug)]
-enum Check {
-    /// The bits that matter are these, or are not.
-    Bits {
-        equal: bool,
-        value: u128,
-        care: u128,
-    },
-    /// In the order of whole numbers. The sign bit is added to both sides, which makes two's
-    /// complement run on from the lowest value.
-    Order {
-        relation: Relation,
-        value: u128,
-        sign: u128,
-    },
-    Rising,
-    Falling,
-    Changed,
 }
 
 impl Watched {
     pub(super) fn new(index: usize, low: u32, width: u32, signed: bool, test: &Test) -> Self {
-        let check = match test {
-            Test::High => Check::Bits { equal: true, value: 1, care: 1 },
-            Test::Rising => Check::Rising,
-            Test::Falling => Check::Falling,
-            Test::Changed => Check::Changed,
-            Test::Compare(relation, literal, _) => {
-                let (value, care) = literal.bits(width);
-                let sign = if signed { 1 << (width - 1) } else { 0 };
-                match relation {
-                    Relation::Equal => Check::Bits { equal: true, value, care },
-                    Relation::Unequal => Check::Bits { equal: false, value, care },
-                    &relation => Check::Order { relation, value: value ^ sign, sign },
-                }
-            }
-        };
-        Watched { index, low, mask: mask(width), check, before: None }
+        Watched { index, low, width, signed, test: test.clone(), before: None }
     }
 
     fn sample(&mut self, level: Level) -> Option<bool> {
-        let unknown = level.unknown >> self.low & self.mask;
-        let value = level.value >> self.low & self.mask & !unknown;
+        let mask = mask(self.width);
+        let unknown = level.unknown >> self.low & mask;
+        let value = level.value >> self.low & mask & !unknown;
         let before = self.before.replace(Level { value, unknown });
-        match self.check {
-            Check::Bits { equal, value: wanted, care } => {
-                if (value ^ wanted) & care & !unknown != 0 {
-                    Some(!equal)
-                } else {
-                    (unknown & care == 0).then_some(equal)
+        let equal = |wanted: u128, care: u128| match (value ^ wanted) & care & !unknown {
+            0 => (unknown & care == 0).then_some(true),
+            _ => Some(false),
+        };
+        match &self.test {
+            Test::High => equal(1, 1),
+            Test::Compare(relation, literal, _) => {
+                let (wanted, care) = literal.bits(self.width);
+                match relation {
+                    Relation::Equal(wish) => equal(wanted, care).map(|equal| equal == *wish),
+                    Relation::Order(order) => {
+                        // With the sign bit turned, two's complement runs on from the lowest value.
+                        let sign = u128::from(self.signed) << (self.width - 1);
+                        (unknown == 0).then(|| order(&(value ^ sign), &(wanted ^ sign)))
+                    }
                 }
             }
-            Check::Order { relation, value: wanted, sign } => {
-                let value = value ^ sign;
-                (unknown == 0).then_some(match relation {
-                    Relation::Equal => value == wanted,
-                    Relation::Unequal => value != wanted,
-                    Relation::Less => value < wanted,
-                    Relation::LessOrEqual => value <= wanted,
-                    Relation::Greater => value > wanted,
-                    Relation::GreaterOrEqual => value >= wanted,
-                })
-            }
-            Check::Changed => Some(before.is_some_and(|b| b != Level { value, unknown })),
-            Check::Rising | Check::Falling => match before {
+            Test::Changed => Some(before.is_some_and(|before| before != Level { value, unknown })),
+            Test::Rising | Test::Falling => match before {
                 None => Some(false),
                 Some(before) if before.unknown | unknown != 0 => None,
                 Some(before) => {
-                    let rising = matches!(self.check, Check::Rising);
+                    let rising = matches!(self.test, Test::Rising);
                     Some(before.value != value && (value == 1) == rising)
                 }
             },

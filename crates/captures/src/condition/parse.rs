@@ -16,12 +16,12 @@ const ALWAYS: &str = "always";
 const KEYWORDS: &[&str] = &["and", "or", "rising", "falling", "changed"];
 
 const RELATIONS: &[(&str, Relation)] = &[
-    ("==", Relation::Equal),
-    ("!=", Relation::Unequal),
-    ("<", Relation::Less),
-    ("<=", Relation::LessOrEqual),
-    (">", Relation::Greater),
-    (">=", Relation::GreaterOrEqual),
+    ("==", Relation::Equal(true)),
+    ("!=", Relation::Equal(false)),
+    ("<", Relation::Order(u128::lt)),
+    ("<=", Relation::Order(u128::le)),
+    (">", Relation::Order(u128::gt)),
+    (">=", Relation::Order(u128::ge)),
 ];
 
 /// The tests of a condition and how they are joined.
@@ -44,19 +44,25 @@ struct Parser<'a> {
 
 impl<'a> Parser<'a> {
     fn any(&mut self) -> Result<Node> {
-        let mut nodes = vec![self.all()?];
-        while self.take(&["||", "or"]) {
-            nodes.push(self.all()?);
-        }
-        Ok(joined(nodes, Node::Any))
+        self.joined(&["||", "or"], Self::all, Node::Any)
     }
 
     fn all(&mut self) -> Result<Node> {
-        let mut nodes = vec![self.test()?];
-        while self.take(&["&&", "and"]) {
-            nodes.push(self.test()?);
+        self.joined(&["&&", "and"], Self::test, Node::All)
+    }
+
+    /// Parts with one of those words between them.
+    fn joined(
+        &mut self,
+        words: &[&str],
+        part: fn(&mut Self) -> Result<Node>,
+        join: fn(Vec<Node>) -> Node,
+    ) -> Result<Node> {
+        let mut nodes = vec![part(self)?];
+        while self.take(words) {
+            nodes.push(part(self)?);
         }
-        Ok(joined(nodes, Node::All))
+        Ok(if nodes.len() == 1 { nodes.remove(0) } else { join(nodes) })
     }
 
     fn test(&mut self) -> Result<Node> {
@@ -132,8 +138,7 @@ impl<'a> Parser<'a> {
             _ if token.kind != TokenKind::Word => fault("expected a value"),
             Err(expected) => fault(expected),
             Ok(literal) => {
-                let exact = matches!(relation, Relation::Equal | Relation::Unequal);
-                if literal.has_any() && !exact {
+                if literal.has_any() && !matches!(relation, Relation::Equal(_)) {
                     return fault("expected all digits: x is for == and != only");
                 }
                 self.tokens = &self.tokens[1..];
@@ -161,12 +166,5 @@ impl<'a> Parser<'a> {
     fn fault(&self, token: Token, expected: &str) -> tofsim::error::Error {
         let value = if token.kind == TokenKind::End { "the end" } else { token.text };
         Input::new(self.source, expected).at(1, token.column).value(value).into()
-    }
-}
-
-fn joined(mut nodes: Vec<Node>, join: fn(Vec<Node>) -> Node) -> Node {
-    match nodes.len() {
-        1 => nodes.remove(0),
-        _ => join(nodes),
     }
 }

@@ -61,12 +61,11 @@ pub(super) enum Test {
     Changed,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// How a signal is compared with a value.
+#[derive(Clone, Copy, Debug)]
 pub(super) enum Relation {
-    Equal,
-    Unequal,
-    Less,
-    LessOrEqual,
-    Greater,
-    GreaterOrEqual,
+    /// The bits that matter are the same, or are not.
+    Equal(bool),
+    /// By their order as whole numbers.
+    Order(fn(&u128, &u128) -> bool),
 }

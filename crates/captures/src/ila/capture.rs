@@ -1,5 +1,7 @@
 //! A capture in memory: what a logic analyser's buffer holds.
 
+use std::ops::Range;
+
 use bitvec::prelude::*;
 
 /// How the digits of a value are written.
@@ -98,14 +100,12 @@ impl Capture {
         self.words[sample * self.stride..(sample + 1) * self.stride].view_bits()
     }
 
-    /// Lowest bit of each probe's place in a sample.
-    pub fn places(&self) -> Vec<usize> {
+    /// Each probe's place in a sample.
+    pub fn places(&self) -> impl Iterator<Item = Range<usize>> {
         let widths = self.probes.iter().map(|probe| probe.width as usize);
-        widths
-            .scan(0, |low, width| {
-                *low += width;
-                Some(*low - width)
-            })
-            .collect()
+        widths.scan(0, |low, width| {
+            *low += width;
+            Some(*low - width..*low)
+        })
     }
 }

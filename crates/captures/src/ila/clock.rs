@@ -65,13 +65,12 @@ impl FromStr for AnalyserClock {
     }
 }
 
-fn quantity(text: &str, units: &[(&str, f64)]) -> Option<f64> {
+/// A number with one of those units, times what the unit is.
+pub(crate) fn quantity(text: &str, units: &[(&str, f64)]) -> Option<f64> {
     let text = text.trim();
-    let (number, unit) = units.iter().find_map(|(unit, factor)| {
-        text.strip_suffix(unit).map(|number| (number.trim_end(), factor))
-    })?;
-    let number: f64 = number.parse().ok()?;
-    Some(number * unit)
+    let split = |(unit, factor): &(&str, f64)| Some((text.strip_suffix(unit)?, *factor));
+    let (number, factor) = units.iter().find_map(split)?;
+    Some(number.trim_end().parse::<f64>().ok()? * factor)
 }
 
 impl fmt::Display for AnalyserClock {
@@ -89,16 +88,15 @@ impl fmt::Display for AnalyserClock {
 
 /// The first edge at `time` or after.
 pub fn first_edge(clock: &Clock, time: Time) -> u64 {
-    let mut high = 1;
-    while clock.rise(high) < time {
-        high *= 2;
+    let mut range = 0..1;
+    while clock.rise(range.end) < time {
+        range.end *= 2;
     }
-    let mut low = 0;
-    while low < high {
-        let middle = (low + high) / 2;
-        if clock.rise(middle) < time { low = middle + 1 } else { high = middle }
+    while range.start < range.end {
+        let middle = range.start.midpoint(range.end);
+        if clock.rise(middle) < time { range.start = middle + 1 } else { range.end = middle }
     }
-    low
+    range.start
 }
 
 #[cfg(test)]

@@ -1,79 +1,148 @@
 //! The logic analyser's core: a ring buffer behind a trigger.
-//!
-//! [`Core::new`] stores rows of words, [`Core::numbers`] nothing but the numbers of the samples,
-//! which tells what a capture of some recorded waveform would hold.
 
 use super::capture::{Capture, Probe};
-use super::storing::{Shape, Storing};
+
+/// The shape of a capture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shape {
+    /// Samples of a window, at least 1.
+    pub depth: usize,
+    /// Windows, at least 1.
+    pub windows: usize,
+    /// Samples of a window before the one that triggers, less than `depth`.
+    pub position: usize,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    /// Stores what is to stand before a trigger, which is not looked for yet.
+    Filling,
+    /// Looks for a trigger.
+    Waiting,
+    /// Stores what stands behind the trigger.
+    Triggered,
+    /// All windows have their samples.
+    Full,
+}
 
 /// Stores samples of so many words.
+///
+/// A window first fills with `position` samples, then waits for a trigger while it keeps the last
+/// `position`, then stores until it has `depth`; the next begins with the very next sample. Only
+/// samples that qualify are stored, and the one that triggers.
 #[derive(Clone, Debug)]
 pub struct Core {
-    storing: Storing,
+    shape: Shape,
     /// Words of a row.
     stride: usize,
     /// The stored rows, one after the other.
     words: Vec<u64>,
+    state: State,
+    /// Samples stored in the present window before its trigger.
+    before: usize,
+    /// Place of the next of them.
+    next: usize,
+    /// Samples stored from the trigger on.
+    after: usize,
+    /// For each full window how far the samples before its trigger are out of turn: the place of the
+    /// oldest.
+    full: Vec<usize>,
     /// Number of the next sample.
     number: u64,
     /// Number of the sample that triggered each window.
     triggers: Vec<u64>,
 }
 
-/// Samples of a window, by their numbers from 0.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum KeptSamples {
-    /// All from one to before another.
-    Range(std::ops::Range<u64>),
-    /// Those that qualified, and the one that triggered.
-    List(Vec<u64>),
-}
-
 impl Core {
     /// An empty buffer for rows of `stride` words.
     pub fn new(shape: Shape, stride: usize) -> Self {
-        let (storing, words) = (Storing::new(shape), Vec::new());
-        Core { storing, stride, words, number: 0, triggers: Vec::new() }
+        let mut core = Core {
+            shape,
+            stride,
+            words: Vec::new(),
+            state: State::Waiting,
+            before: 0,
+            next: 0,
+            after: 0,
+            full: Vec::new(),
+            number: 0,
+            triggers: Vec::new(),
+        };
+        core.begin();
+        core
     }
 
-    /// A buffer that holds the numbers of samples only. Without qualification it keeps none but
-    /// those of the triggers.
-    pub fn numbers(shape: Shape, qualified: bool) -> Self {
-        Core::new(shape, usize::from(qualified))
-    }
-
-    /// Takes a sample into a buffer of numbers.
-    pub fn sample_number(&mut self, triggers: bool, qualifies: bool) {
-        let row = [self.number];
-        self.sample(&row[..self.stride], triggers, qualifies);
+    fn begin(&mut self) {
+        (self.before, self.next, self.after) = (0, 0, 0);
+        self.state = match self.shape.position {
+            _ if self.full.len() == self.shape.windows => State::Full,
+            0 => State::Waiting,
+            _ => State::Filling,
+        };
     }
 
     /// Takes a sample: its row, whether the trigger holds, and whether it may be stored.
     #[inline]
     pub fn sample(&mut self, row: &[u64], triggers: bool, qualifies: bool) {
-        if let Some(stored) = self.storing.sample(triggers, qualifies) {
-            let begin = stored.slot * self.stride;
+        let slot = match self.state {
+            State::Waiting if triggers => {
+                self.triggers.push(self.number);
+                Some(self.follow())
+            }
+            State::Triggered if qualifies => Some(self.follow()),
+            State::Filling | State::Waiting if qualifies && self.shape.position > 0 => {
+                Some(self.lead())
+            }
+            _ => None,
+        };
+        if let Some(slot) = slot {
+            let begin = slot * self.stride;
             match self.words.get_mut(begin..begin + self.stride) {
                 Some(words) => words.copy_from_slice(row),
                 None => self.words.extend_from_slice(row),
-            }
-            if stored.triggered {
-                self.triggers.push(self.number);
             }
         }
         self.number += 1;
     }
 
+    /// Where a sample before the trigger is stored: at the first free place or an older one's.
+    #[inline]
+    fn lead(&mut self) -> usize {
+        let slot = self.full.len() * self.shape.depth + self.next;
+        self.next = if self.next + 1 == self.shape.position { 0 } else { self.next + 1 };
+        if self.state == State::Filling {
+            self.before += 1;
+            if self.before == self.shape.position {
+                self.state = State::Waiting;
+            }
+        }
+        slot
+    }
+
+    /// Where the trigger's sample or one behind it is stored.
+    #[inline]
+    fn follow(&mut self) -> usize {
+        let Shape { depth, position, .. } = self.shape;
+        let slot = self.full.len() * depth + position + self.after;
+        self.state = State::Triggered;
+        self.after += 1;
+        if position + self.after == depth {
+            self.full.push(self.next);
+            self.begin();
+        }
+        slot
+    }
+
     /// Whether all windows have their samples.
     #[inline]
     pub fn is_full(&self) -> bool {
-        self.storing.is_full()
+        self.state == State::Full
     }
 
-    /// Whether a trigger, now or later, can still matter.
+    /// Whether a trigger, now or later, can still matter: not behind that of the last window.
     #[inline]
     pub fn looks_for_triggers(&self) -> bool {
-        self.storing.looks_for_triggers()
+        self.triggers.len() < self.shape.windows
     }
 
     /// Numbers of the samples that triggered, counted from 0.
@@ -86,40 +155,25 @@ impl Core {
         self.number
     }
 
-    /// What the buffer holds: the full windows and, stopped early, a last one that is not.
+    /// What the buffer holds: the full windows, then the one under way if it has a sample. Stopped
+    /// before its trigger, that one is what is there to stand before a trigger.
     pub fn finish(self, probes: Vec<Probe>) -> Capture {
-        let windows = self.storing.windows();
         let Core { stride, mut words, .. } = self;
-        let (mut begins, mut triggers, mut samples) = (Vec::new(), Vec::new(), 0);
-        for window in &windows {
-            let ring = window.begin * stride..(window.begin + window.before) * stride;
-            words[ring].rotate_left(window.turn * stride);
-            begins.push(samples);
-            if window.after > 0 {
-                triggers.push(samples + window.before);
+        let Shape { depth, position, .. } = self.shape;
+        let full = self.full.iter().map(|&turn| (position, turn, depth - position));
+        let turn = if self.state == State::Filling { 0 } else { self.next };
+        let partial = (self.before + self.after > 0).then_some((self.before, turn, self.after));
+        let (mut windows, mut triggers, mut samples) = (Vec::new(), Vec::new(), 0);
+        for (before, turn, after) in full.chain(partial) {
+            words[samples * stride..(samples + before) * stride].rotate_left(turn * stride);
+            windows.push(samples);
+            if after > 0 {
+                triggers.push(samples + before);
             }
-            samples += window.before + window.after;
+            samples += before + after;
         }
         words.truncate(samples * stride);
-        Capture { stride, words, windows: begins, triggers, ..Capture::new(probes) }
-    }
-
-    /// Samples that each window of a buffer of numbers holds, in order of time.
-    pub fn windows(&self) -> Vec<KeptSamples> {
-        let windows = self.storing.windows();
-        let numbered = windows.into_iter().enumerate();
-        numbered
-            .map(|(k, window)| match self.triggers.get(k) {
-                _ if self.stride > 0 => {
-                    KeptSamples::List(window.slots().map(|slot| self.words[slot]).collect())
-                }
-                Some(&trigger) => {
-                    let begin = trigger - window.before as u64;
-                    KeptSamples::Range(begin..trigger + window.after as u64)
-                }
-                None => KeptSamples::Range(self.number - window.before as u64..self.number),
-            })
-            .collect()
+        Capture { stride, words, windows, triggers, ..Capture::new(probes) }
     }
 }
 
@@ -127,26 +181,15 @@ impl Core {
 mod tests {
     use super::*;
 
-    /// Both cores over samples that trigger where there is a `t`, and do not qualify where the
-    /// letter is `-` or `T`; the row is the sample's number.
+    /// Samples that trigger where there is a `t`, and do not qualify where the letter is `-` or
+    /// `T`; the row is the sample's number.
     fn capture(depth: usize, windows: usize, position: usize, samples: &str) -> Capture {
-        let shape = Shape { depth, windows, position };
-        let qualified = samples.contains(['-', 'T']);
-        let (mut core, mut numbers) = (Core::new(shape, 1), Core::numbers(shape, qualified));
+        let mut core = Core::new(Shape { depth, windows, position }, 1);
         for (number, sample) in samples.chars().enumerate() {
-            let (triggers, qualifies) = ("tT".contains(sample), !"-T".contains(sample));
-            core.sample(&[number as u64], triggers, qualifies);
-            numbers.sample_number(triggers, qualifies);
+            core.sample(&[number as u64], "tT".contains(sample), !"-T".contains(sample));
         }
-        let triggers = numbers.triggers().to_vec();
+        let triggers = core.triggers().to_vec();
         let capture = core.finish(Vec::new());
-        let kept: Vec<u64> = (numbers.windows().into_iter())
-            .flat_map(|kept| match kept {
-                KeptSamples::Range(range) => range.collect(),
-                KeptSamples::List(list) => list,
-            })
-            .collect();
-        assert_eq!(kept, capture.words, "both cores keep the same");
         let triggered: Vec<_> = capture.triggers.iter().map(|&at| capture.words[at]).collect();
         assert_eq!(triggered, triggers);
         capture

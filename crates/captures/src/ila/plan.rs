@@ -10,9 +10,9 @@ use crate::condition::{Bound, Condition, Place};
 
 use super::capture::Probe;
 use super::clock::AnalyserClock;
+use super::core::Shape;
 use super::probes::{Bits, Design};
 use super::setup::AnalyserSetup;
-use super::storing::Shape;
 
 /// Most bits of a sample.
 pub const WIDEST: usize = 4096;

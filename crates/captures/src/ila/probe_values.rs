@@ -12,26 +12,16 @@ use crate::condition::WIDEST;
 
 use super::probes::Bits;
 
-/// Where some bits of a signal go.
-#[derive(Clone, Copy, Debug)]
-struct Insert {
-    /// Lowest bit in the signal.
-    low: u32,
-    width: u32,
-    /// Lowest bit among all words.
-    begin: usize,
-}
-
 /// Which bits of a word of the present are those of a signal.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 struct Place {
+    word: usize,
     /// Ones at those bits.
     mask: u64,
-    /// How far the signal is turned left to lie there.
-    turn: u32,
-    word: u32,
-    /// The signal's next place among the further ones, 0 if there is none.
-    next: u32,
+    /// Lowest of them.
+    begin: u32,
+    /// Lowest bit in the signal.
+    low: u32,
 }
 
 /// The present values of the probes and of what the conditions look at.
@@ -43,13 +33,8 @@ pub(super) struct ProbeValues {
 
 #[derive(Clone, Debug)]
 struct Packed {
-    /// The first place of each id, one of no bits if it has none.
-    places: Box<[Place; IDS]>,
-    /// All further places. The first of them is none.
-    further: Vec<Place>,
-    /// Inserts of id `k`: from `first[k]` to before `first[k + 1]`. Only taps need them.
-    first: Vec<u32>,
-    inserts: Vec<Insert>,
+    /// The places of each id.
+    places: Vec<Vec<Place>>,
     /// Tap at each place in the order of arrival.
     order: Vec<u16>,
     /// The row, then two words for each operand of the conditions.
@@ -63,30 +48,24 @@ struct Packed {
 impl ProbeValues {
     /// At probes that stand side by side in a row of `stride` words, and at operands.
     pub(super) fn new(probes: &[Bits], operands: &[Bits], stride: usize, order: &[u16]) -> Self {
-        let mut inserts: Vec<(usize, Insert)> = Vec::new();
-        let mut begin = 0;
-        for &Bits { id, low, width, .. } in probes {
-            inserts.push((id, Insert { low, width, begin }));
-            begin += width as usize;
-        }
-        for (operand, &Bits { id, low, width, .. }) in operands.iter().enumerate() {
-            let begin = 64 * (stride + 2 * operand);
-            inserts.push((id, Insert { low, width: width.min(WIDEST), begin }));
-        }
-        inserts.sort_by_key(|(id, _)| *id);
-        let first = (0..=IDS).map(|id| inserts.partition_point(|insert| insert.0 < id) as u32);
-        let (places, further) = places(&inserts);
-        let present = Packed {
-            places,
-            further,
-            first: first.collect(),
-            inserts: inserts.iter().map(|insert| insert.1).collect(),
+        let mut present = Packed {
+            places: vec![Vec::new(); IDS],
             order: order.to_vec(),
             words: vec![0; stride + 2 * operands.len()],
             stride,
             operands_changed: true,
         };
-        ProbeValues { part: Part::of(inserts.iter().map(|insert| insert.0)), present }
+        let mut begin = 0;
+        for &bits in probes {
+            present.insert(bits, begin);
+            begin += bits.width as usize;
+        }
+        for (operand, &bits) in operands.iter().enumerate() {
+            let bits = Bits { width: bits.width.min(WIDEST), ..bits };
+            present.insert(bits, 64 * (stride + 2 * operand));
+        }
+        let ids = probes.iter().chain(operands).map(|bits| bits.id);
+        ProbeValues { part: Part::of(ids), present }
     }
 
     /// Brings the values up to date.
@@ -116,51 +95,37 @@ impl ProbeValues {
     }
 }
 
-/// The first place of each id and all further ones. Of a signal wider than a word, whose inserts
-/// count instead, they mean nothing.
-fn places(inserts: &[(usize, Insert)]) -> (Box<[Place; IDS]>, Vec<Place>) {
-    let (mut places, mut further) = (Box::new([Place::default(); IDS]), vec![Place::default()]);
-    for &(id, Insert { low, width, begin }) in inserts {
+impl Packed {
+    /// Has some bits of a signal stand from bit `begin` on among all words.
+    fn insert(&mut self, Bits { id, mut low, width, .. }: Bits, begin: usize) {
         let end = begin + width as usize;
         for word in begin / 64..end.div_ceil(64) {
             let (from, to) = (begin.max(64 * word), end.min(64 * (word + 1)));
             let mask = u64::MAX >> (64 - (to - from)) << (from % 64);
-            let turn = (begin as u32).wrapping_sub(low) % 64;
-            let mut place = Place { mask, turn, word: word as u32, next: 0 };
-            if places[id].mask != 0 {
-                place.next = further.len() as u32;
-                further.push(places[id]);
-            }
-            places[id] = place;
+            self.places[id].push(Place { word, mask, begin: from as u32 % 64, low });
+            low += (to - from) as u32;
         }
     }
-    (places, further)
-}
 
-impl Packed {
+    /// Puts a signal's bits at its places.
     #[inline]
-    fn inserts(&self, id: usize) -> std::ops::Range<usize> {
-        self.first[id] as usize..self.first[id + 1] as usize
+    fn put(&mut self, id: usize, bits: impl Fn(&Place) -> u64) {
+        for place in &self.places[id] {
+            let word = &mut self.words[place.word];
+            *word = *word & !place.mask | bits(place) << place.begin & place.mask;
+            self.operands_changed |= place.word >= self.stride;
+        }
     }
 }
 
 impl Sink for Packed {
     #[inline]
     fn word(&mut self, id: usize, value: u64) {
-        let mut place = &self.places[id];
-        loop {
-            let word = &mut self.words[place.word as usize];
-            *word = *word & !place.mask | value.rotate_left(place.turn) & place.mask;
-            self.operands_changed |= place.word as usize >= self.stride;
-            if place.next == 0 {
-                return;
-            }
-            place = &self.further[place.next as usize];
-        }
+        self.put(id, |place| value >> place.low);
     }
 
     fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>) {
-        if self.inserts(id).is_empty() {
+        if self.places[id].is_empty() {
             return;
         }
         let (mut arrived, mut taps) = ([0u64; TAPS.div_ceil(64)], [0u64; TAPS.div_ceil(64)]);
@@ -169,13 +134,9 @@ impl Sink for Packed {
         for (&tap, level) in self.order.iter().zip(arrived.view_bits::<Lsb0>()) {
             taps.set(tap as usize, *level);
         }
-        for k in self.inserts(id) {
-            let Insert { low, width, begin, .. } = self.inserts[k];
-            let bits = &taps[low as usize..(low + width) as usize];
-            let words = self.words.view_bits_mut::<Lsb0>();
-            words[begin..begin + width as usize].copy_from_bitslice(bits);
-            self.operands_changed |= begin >= 64 * self.stride;
-        }
+        self.put(id, |&Place { mask, low, .. }| {
+            taps[low as usize..(low + mask.count_ones()) as usize].load_le()
+        });
     }
 }
 

@@ -3,11 +3,11 @@
 
 mod archive;
 mod csv;
-mod digits;
+pub(crate) mod digits;
 mod dump;
 mod heads;
 mod infer;
-mod lines;
+mod line;
 mod ltx;
 mod opened;
 mod order;

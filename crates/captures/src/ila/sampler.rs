@@ -16,7 +16,7 @@ use tofsim::sim::{Device, Outcome, Run, WindowedProbe};
 
 use crate::condition::{Bound, Level};
 
-use super::capture::{Capture, Probe};
+use super::capture::Capture;
 use super::clock::{AnalyserClock, first_edge};
 use super::core::Core;
 use super::plan::AnalyserPlan;
@@ -28,16 +28,14 @@ use super::probe_values::ProbeValues;
 /// zero where there was no such edge.
 #[derive(Clone, Debug)]
 pub struct Analyser {
+    plan: AnalyserPlan,
     look: ProbeValues,
     core: Core,
-    probes: Vec<Probe>,
-    trigger: LiveCondition,
-    qualifier: LiveCondition,
+    /// Whether trigger and qualifier hold at the present sample.
+    holds: [bool; 2],
     /// An operand changed at the sample before, so that an edge of it may end here.
     operands_changed: bool,
-    sampling: AnalyserClock,
     clock: Clock,
-    every_change: bool,
     begun: bool,
     /// Next edge of the sampling clock.
     edge: u64,
@@ -45,51 +43,34 @@ pub struct Analyser {
     first: u64,
     /// The edge that its first sample stands for.
     armed: u64,
-    stop_when_full: bool,
 }
 
-/// A condition, if there is one, and whether it holds at the present sample.
-#[derive(Clone, Debug)]
-struct LiveCondition {
-    condition: Option<Bound>,
-    holds: bool,
-}
-
-impl LiveCondition {
-    fn new(condition: Option<Bound>) -> Self {
-        LiveCondition { condition, holds: true }
-    }
-
-    fn ask(&mut self, look: &ProbeValues) {
-        if let Some(condition) = &mut self.condition {
-            self.holds = condition.sample(|operand| Level::known(look.operand(operand)));
-        }
-    }
+/// Whether a condition holds, if there is one.
+fn holds(condition: &mut Option<Bound>, look: &ProbeValues) -> bool {
+    condition
+        .as_mut()
+        .is_none_or(|condition| condition.sample(|operand| Level::known(look.operand(operand))))
 }
 
 impl Analyser {
     /// Set up as planned for runs of `setup`.
     pub fn new(plan: &AnalyserPlan, setup: &Setup) -> Self {
-        let capture = Capture::new(plan.probes.clone());
+        let stride = Capture::new(plan.probes.clone()).stride;
         let order = setup.params.tdc.delays.order();
         let clock = plan.sampling.clock(setup.pll());
         // At power-up itself there is nothing before the edge.
         let armed = first_edge(&clock, plan.arm_at.max(Time::from_fs(1)));
         let mut analyser = Analyser {
-            look: ProbeValues::new(&plan.bits, &plan.operands, capture.stride, order),
-            core: Core::new(plan.shape, capture.stride),
-            probes: capture.probes,
-            trigger: LiveCondition::new(plan.trigger.clone()),
-            qualifier: LiveCondition::new(plan.qualifier.clone()),
+            plan: plan.clone(),
+            look: ProbeValues::new(&plan.bits, &plan.operands, stride, order),
+            core: Core::new(plan.shape, stride),
+            holds: [true; 2],
             operands_changed: false,
-            every_change: plan.every_change,
-            sampling: plan.sampling.clone(),
             clock,
             begun: false,
             edge: 0,
             first: armed.saturating_sub(plan.input_stages),
             armed,
-            stop_when_full: plan.stop_when_full,
         };
         (armed..plan.input_stages).for_each(|_| analyser.take());
         analyser
@@ -113,7 +94,7 @@ impl Analyser {
 
     /// What it has stored.
     pub fn finish(self) -> Capture {
-        self.core.finish(self.probes)
+        self.core.finish(self.plan.probes)
     }
 
     /// Takes the present values as a sample.
@@ -122,18 +103,19 @@ impl Analyser {
         let changed = self.look.take_operands_changed();
         if changed || self.operands_changed {
             if self.core.looks_for_triggers() {
-                self.trigger.ask(&self.look);
+                self.holds[0] = holds(&mut self.plan.trigger, &self.look);
             }
-            self.qualifier.ask(&self.look);
+            self.holds[1] = holds(&mut self.plan.qualifier, &self.look);
         }
         self.operands_changed = changed;
-        self.core.sample(self.look.row(), self.trigger.holds, self.qualifier.holds);
+        let [triggers, qualifies] = self.holds;
+        self.core.sample(self.look.row(), triggers, qualifies);
     }
 
     /// Whether it samples at this edge of `clk_250`.
     #[inline]
     fn looks_before(&self, edge: Edge) -> bool {
-        edge == Edge::Both || self.sampling != AnalyserClock::Clk125
+        edge == Edge::Both || self.plan.sampling != AnalyserClock::Clk125
     }
 
     /// An edge of `clk_250`.
@@ -159,12 +141,12 @@ impl Analyser {
 
     /// Number of the sampling clock's first edge in a cycle of `clk_125`.
     fn first_of(&self, cycle: u64) -> u64 {
-        if self.sampling == AnalyserClock::Clk125 { cycle } else { 2 * cycle }
+        if self.plan.sampling == AnalyserClock::Clk125 { cycle } else { 2 * cycle }
     }
 
     /// Whether the clock is one whose edges the run shows.
     fn is_shown(&self) -> bool {
-        matches!(self.sampling, AnalyserClock::Clk125 | AnalyserClock::Clk250)
+        matches!(self.plan.sampling, AnalyserClock::Clk125 | AnalyserClock::Clk250)
     }
 }
 
@@ -178,56 +160,19 @@ pub fn capture(
     analyser: &mut Analyser,
     stop: Option<&AtomicBool>,
 ) -> Result<Outcome> {
-    match analyser.every_change {
-        true => run.traced(count, &mut EveryChange(analyser), stop),
-        false => run.traced(count, &mut ClockEdges(analyser), stop),
+    match analyser.plan.every_change {
+        true => run.traced(count, &mut Tap::<true>(analyser), stop),
+        false => run.traced(count, &mut Tap::<false>(analyser), stop),
     }
 }
 
-/// Looks at the edges of `clk_125` and `clk_250`.
-struct ClockEdges<'a>(&'a mut Analyser);
+/// Looks at every change, or else at the edges of `clk_125` and `clk_250`.
+struct Tap<'a, const EVERY: bool>(&'a mut Analyser);
 
-impl SignalProbe for ClockEdges<'_> {
-    const ON: bool = false;
-    const EDGES: bool = true;
-
-    fn sample(&mut self, _: Time, _: &TofTop) {}
-
-    #[inline(always)]
-    fn looks_before(&self, edge: Edge) -> bool {
-        self.0.looks_before(edge)
-    }
-
-    #[inline(always)]
-    fn before_edge(&mut self, edge: Edge, _: Time, top: &TofTop) {
-        self.0.edge(edge, top);
-    }
-}
-
-impl WindowedProbe for ClockEdges<'_> {
-    #[inline(always)]
-    fn is_wanted(&mut self, device: &mut Device, _: &Frames, _: &Params) -> Result<bool> {
-        let analyser = &mut *self.0;
-        if !analyser.begun {
-            let cycle = device.cycle();
-            analyser.begun = analyser.first_of(cycle + 1) > analyser.first;
-            analyser.edge = analyser.first_of(cycle);
-        }
-        Ok(analyser.begun && !analyser.is_full())
-    }
-
-    fn is_done(&self) -> bool {
-        self.0.stop_when_full && self.0.is_full()
-    }
-}
-
-/// Looks at every change.
-struct EveryChange<'a>(&'a mut Analyser);
-
-impl EveryChange<'_> {
+impl<const EVERY: bool> Tap<'_, EVERY> {
     /// Whether the first sample comes within the next two cycles; by then all clocks have turned.
     fn is_due(&self, device: &mut Device) -> bool {
-        self.0.clock.rise(self.0.first) <= device.coming_cycle().1 + CYCLE
+        EVERY && self.0.clock.rise(self.0.first) <= device.coming_cycle().1 + CYCLE
     }
 
     fn begin(&mut self, device: &mut Device, now: Time) {
@@ -242,26 +187,35 @@ impl EveryChange<'_> {
     }
 }
 
-impl SignalProbe for EveryChange<'_> {
-    const ON: bool = true;
+impl<const EVERY: bool> SignalProbe for Tap<'_, EVERY> {
+    const ON: bool = EVERY;
     const EDGES: bool = true;
 
     fn sample(&mut self, now: Time, top: &TofTop) {
+        if !EVERY {
+            return;
+        }
         if !self.0.is_shown() {
             self.0.catch_up(now);
         }
         self.0.look.follow(top);
     }
 
+    #[inline(always)]
+    fn looks_before(&self, edge: Edge) -> bool {
+        EVERY || self.0.looks_before(edge)
+    }
+
+    #[inline(always)]
     fn before_edge(&mut self, edge: Edge, now: Time, top: &TofTop) {
-        match self.0.is_shown() {
+        match !EVERY || self.0.is_shown() {
             true => self.0.edge(edge, top),
             false => self.sample(now.since(Time::from_fs(1)), top),
         }
     }
 }
 
-impl WindowedProbe for EveryChange<'_> {
+impl<const EVERY: bool> WindowedProbe for Tap<'_, EVERY> {
     fn begins_at_power_up(&mut self, device: &mut Device) -> bool {
         let due = self.is_due(device);
         if due {
@@ -270,15 +224,21 @@ impl WindowedProbe for EveryChange<'_> {
         due
     }
 
+    #[inline(always)]
     fn is_wanted(&mut self, device: &mut Device, _: &Frames, _: &Params) -> Result<bool> {
         if !self.0.begun && self.is_due(device) {
             let now = device.coming_cycle().0;
             self.begin(device, now);
+        } else if !EVERY && !self.0.begun {
+            let analyser = &mut *self.0;
+            let cycle = device.cycle();
+            analyser.begun = analyser.first_of(cycle + 1) > analyser.first;
+            analyser.edge = analyser.first_of(cycle);
         }
         Ok(self.0.begun && !self.0.is_full())
     }
 
     fn is_done(&self) -> bool {
-        self.0.stop_when_full && self.0.is_full()
+        self.0.plan.stop_when_full && self.0.is_full()
     }
 }

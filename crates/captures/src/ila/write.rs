@@ -4,11 +4,12 @@ mod archive;
 mod csv;
 mod dump;
 mod ltx;
+mod spill;
 mod vcd;
-mod words;
 
 pub use archive::archive;
 pub use csv::csv;
+pub(crate) use csv::write_cell;
 pub use dump::dump;
 pub use ltx::ltx;
 pub use vcd::vcd;

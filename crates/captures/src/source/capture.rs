@@ -56,7 +56,6 @@ impl signals::Origin for Origin {
         }
         Ok(Cursor::spawn(widths, move |feed| {
             let (mut row, mut before) = (CaptureRow::default(), CaptureRow::default());
-            let mut first = true;
             while opened.rows.next(&mut row)? {
                 if feed.at(row.sample).is_err() {
                     return Ok(());
@@ -68,15 +67,13 @@ impl signals::Origin for Origin {
                 });
                 for (signal, place) in places.iter().enumerate() {
                     let (value, unknown) = (&row.value[place.clone()], &row.unknown[place.clone()]);
-                    if first
-                        || value != &before.value[place.clone()]
-                        || unknown != &before.unknown[place.clone()]
-                    {
+                    let same = before.value.get(place.clone()) == Some(value)
+                        && before.unknown.get(place.clone()) == Some(unknown);
+                    if !same {
                         feed.change(signal, value, unknown);
                     }
                 }
                 std::mem::swap(&mut row, &mut before);
-                first = false;
             }
             Ok(())
         }))

@@ -4,28 +4,23 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-use wellen::{Hierarchy, LoadOptions, SignalRef};
+use wellen::viewers::HeaderResult;
+use wellen::{LoadOptions, SignalRef};
 
 use tofsim::error::{Error, Result};
 
+use crate::words::Bits;
+
 use super::counts::check;
-use super::library::{Words, fault};
-use super::signals::Source;
+use super::library::{fault, set};
 use super::stream::Feed;
 
-fn open(path: &Path) -> Result<wellen::viewers::HeaderResult<BufReader<File>>> {
+/// The head of the file.
+pub(super) fn open(path: &Path) -> Result<HeaderResult<BufReader<File>>> {
     let mut file = File::open(path).map_err(Error::io(path, "read"))?;
     check(&path.display().to_string(), &mut file).map_err(Error::io(path, "read"))??;
     let options = LoadOptions { multi_thread: false, remove_scopes_with_empty_name: true };
     wellen::viewers::read_header(BufReader::new(file), &options).map_err(|error| fault(path, error))
-}
-
-/// What `describe` makes of the file's signals.
-pub(super) fn hierarchy(
-    path: &Path,
-    describe: impl FnOnce(&Hierarchy) -> Result<Source>,
-) -> Result<Source> {
-    describe(&open(path)?.hierarchy)
 }
 
 /// Feeds the changes of `references`, in the order of time.
@@ -42,15 +37,15 @@ pub(super) fn feed(path: &Path, references: &[SignalRef], feed: &mut Feed) -> Re
         let found = loaded.iter().find(|signal| signal.signal_ref() == *reference);
         signals.extend(found.map(|signal| (place, signal.iter_changes().peekable())));
     }
-    let mut words = Words::default();
+    let mut bits = Bits::default();
     for (index, &at) in body.time_table.iter().enumerate() {
         for (place, changes) in &mut signals {
             while let Some((_, value)) = changes.next_if(|(time, _)| *time as usize == index) {
                 if feed.at(at).is_err() {
                     return Ok(());
                 }
-                words.set(value, feed.words(*place));
-                feed.change(*place, &words.value, &words.unknown);
+                set(&mut bits, value, feed.words(*place));
+                feed.change(*place, &bits.value, &bits.unknown);
             }
         }
     }

@@ -59,6 +59,16 @@ pub enum Axis {
     Samples,
 }
 
+impl Axis {
+    /// The time of a place [fs], if places are times.
+    pub fn femtoseconds(self, at: u64) -> Option<u128> {
+        match self {
+            Axis::Time(tick) => Some(tick.femtoseconds(at)),
+            Axis::Samples => None,
+        }
+    }
+}
+
 /// What the values of a signal are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SignalKind {

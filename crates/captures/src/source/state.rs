@@ -52,8 +52,6 @@ impl SourceState {
     /// Takes the values of `signal` from another state of the same signals.
     #[inline]
     pub fn take(&mut self, from: &SourceState, signal: usize) {
-        let range = self.range(signal);
-        self.value[range.clone()].copy_from_slice(&from.value[range.clone()]);
-        self.unknown[range.clone()].copy_from_slice(&from.unknown[range]);
+        self.set(signal, from.value(signal), from.unknown(signal));
     }
 }

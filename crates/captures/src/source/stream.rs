@@ -1,11 +1,11 @@
-//! Changes on their way from a reading thread to the comparison, in blocks that are used again.
+//! Changes on their way from a reading thread to the comparison, in blocks.
 
-use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
 use tofsim::error::Result;
 
-use super::guard::{READER, guarded};
+use super::guard::guarded;
 use super::state::SourceState;
 
 /// Words of a block beyond which it is sent.
@@ -42,18 +42,9 @@ struct Block {
     words: Vec<u64>,
 }
 
-impl Block {
-    fn clear(&mut self) {
-        self.instants.clear();
-        self.changes.clear();
-        self.words.clear();
-    }
-}
-
 /// The end that a reading thread puts changes into.
 pub struct Feed {
-    full: SyncSender<Result<Block>>,
-    used: Receiver<Block>,
+    blocks: SyncSender<Result<Block>>,
     block: Block,
     words: Vec<usize>,
     at: Option<(u64, Marks)>,
@@ -103,28 +94,23 @@ impl Feed {
         if self.block.words.len() + self.block.instants.len() < BLOCK {
             return Ok(());
         }
-        let mut next = self.used.try_recv().unwrap_or_default();
-        next.clear();
-        let full = std::mem::replace(&mut self.block, next);
-        self.full.send(Ok(full)).map_err(|_| Gone)
+        self.blocks.send(Ok(std::mem::take(&mut self.block))).map_err(|_| Gone)
     }
 
     fn finish(mut self, result: Result<()>) {
         // That nobody listens any more is no fault of the reader.
         if self.end().is_ok() {
-            let block = std::mem::take(&mut self.block);
-            let _ = self.full.send(Ok(block));
+            let _ = self.blocks.send(Ok(self.block));
         }
         if let Err(error) = result {
-            let _ = self.full.send(Err(error));
+            let _ = self.blocks.send(Err(error));
         }
     }
 }
 
 /// Follows the changes of a source from its begin to its end.
 pub struct Cursor {
-    full: Receiver<Result<Block>>,
-    used: Sender<Block>,
+    blocks: Receiver<Result<Block>>,
     block: Block,
     instant: usize,
     change: usize,
@@ -139,12 +125,11 @@ impl Cursor {
         widths: &[u32],
         read: impl FnOnce(&mut Feed) -> Result<()> + Send + 'static,
     ) -> Cursor {
-        let (full, receive_full) = sync_channel(DEPTH);
-        let (used, receive_used) = channel();
+        let (sender, blocks) = sync_channel(DEPTH);
         let words = widths.iter().map(|&width| (width as usize).div_ceil(64)).collect();
-        let mut feed = Feed { full, used: receive_used, block: Block::default(), words, at: None };
-        let failed = feed.full.clone();
-        let spawned = thread::Builder::new().name(READER.to_owned()).spawn(move || {
+        let mut feed = Feed { blocks: sender, block: Block::default(), words, at: None };
+        let failed = feed.blocks.clone();
+        let spawned = thread::Builder::new().spawn(move || {
             // A reader that panics must not look like one that has come to the end.
             let result = guarded("reader", || read(&mut feed));
             feed.finish(result);
@@ -153,16 +138,8 @@ impl Cursor {
             let error = tofsim::error::Error::io(std::path::Path::new("thread"), "create")(source);
             let _ = failed.try_send(Err(error));
         }
-        drop(failed);
-        Cursor {
-            full: receive_full,
-            used,
-            block: Block::default(),
-            instant: 0,
-            change: 0,
-            word: 0,
-            state: SourceState::new(widths),
-        }
+        let (block, state) = (Block::default(), SourceState::new(widths));
+        Cursor { blocks, block, instant: 0, change: 0, word: 0, state }
     }
 
     /// Place of the next instant, `None` at the end.
@@ -172,15 +149,9 @@ impl Cursor {
     #[inline]
     pub fn peek(&mut self) -> Result<Option<u64>> {
         while self.instant == self.block.instants.len() {
-            match self.full.recv() {
-                Ok(block) => {
-                    let used = std::mem::replace(&mut self.block, block?);
-                    // A reader that has ended needs no blocks.
-                    let _ = self.used.send(used);
-                    (self.instant, self.change, self.word) = (0, 0, 0);
-                }
-                Err(_) => return Ok(None),
-            }
+            let Ok(block) = self.blocks.recv() else { return Ok(None) };
+            self.block = block?;
+            (self.instant, self.change, self.word) = (0, 0, 0);
         }
         Ok(Some(self.block.instants[self.instant].at))
     }

@@ -3,17 +3,18 @@
 use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
-use std::thread;
+use std::sync::Arc;
 
 use wellen::stream::{Filter, StreamError, StreamingWaveform};
 use wellen::{FileFormat, Hierarchy, LoadOptions, SignalEncoding, SignalRef, SignalValueRef, Var};
 
 use tofsim::error::{Error, Input, Result};
 
+use crate::words::Bits;
+
 use super::end::end;
-use super::guard::{Fault, InOrder, READER, guarded};
-use super::library::{Words, fault};
+use super::guard::guarded;
+use super::library::{fault, set};
 use super::loaded;
 use super::locate::located;
 use super::marks::{Marking, Style};
@@ -24,8 +25,6 @@ use super::tick::Tick;
 
 /// Widest signal that is read [bits].
 const WIDEST: u32 = 1 << 20;
-/// Bytes read at once.
-const CHUNK: usize = 1 << 17;
 
 /// Where a waveform is.
 #[derive(Clone, Debug)]
@@ -38,48 +37,18 @@ struct Origin {
     marks: Option<Style>,
 }
 
-/// A waveform whose head has been read, and the fault found in it later.
-struct Opened {
-    wave: StreamingWaveform<BufReader<InOrder<File>>>,
-    fault: Arc<OnceLock<Fault>>,
-}
-
-fn open(path: &Path) -> Result<Opened> {
+fn open(path: &Path) -> Result<StreamingWaveform<BufReader<File>>> {
     let file = File::open(path).map_err(Error::io(path, "read"))?;
     let options = LoadOptions { multi_thread: false, remove_scopes_with_empty_name: true };
-    let found = Arc::new(OnceLock::new());
-    let guard = InOrder::new(file, Arc::clone(&found));
-    let guard = if format(path)? == FileFormat::Fst { guard.unwatched() } else { guard };
-    let input = BufReader::with_capacity(CHUNK, guard);
-    let wave = wellen::stream::read(input, &options);
-    let wave =
-        wave.map_err(|error| found.get().map_or_else(|| fault(path, error), |f| at(path, f)))?;
-    Ok(Opened { wave, fault: found })
-}
-
-fn at(path: &Path, fault: &Fault) -> Error {
-    Input::new(path.display(), &fault.text).at(fault.line, 1).into()
-}
-
-/// Does something in a thread whose panics are not shown.
-fn apart<T: Send>(path: &Path, work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
-    let source = path.display().to_string();
-    thread::scope(|scope| {
-        let work = || guarded(&source, work);
-        let thread = thread::Builder::new().name(READER.to_owned()).spawn_scoped(scope, work);
-        let thread = thread.map_err(Error::io(path, "read"))?;
-        thread.join().unwrap_or_else(|_| Err(Input::new(&source, "cannot be read").into()))
-    })
+    let wave = wellen::stream::read(BufReader::with_capacity(super::CHUNK, file), &options);
+    wave.map_err(|error| fault(path, error))
 }
 
 /// The source at `path`, of that format as far as the library tells.
 pub(super) fn source(path: &Path) -> Result<Source> {
-    apart(path, || {
-        if format(path)? == FileFormat::Ghw {
-            return loaded::hierarchy(path, |hierarchy| described(path, hierarchy));
-        }
-        let opened = open(path)?;
-        described(path, opened.wave.hierarchy())
+    guarded(&path.display().to_string(), || match format(path)? {
+        FileFormat::Ghw => described(path, &loaded::open(path)?.hierarchy),
+        _ => described(path, open(path)?.hierarchy()),
     })
 }
 
@@ -116,6 +85,7 @@ fn described(path: &Path, hierarchy: &Hierarchy) -> Result<Source> {
         Some(_) => Axis::Samples,
         None => Axis::Time(tick(&source, hierarchy)?),
     };
+    let end = end(path, format)?;
     if let Some(style) = &marks {
         style.hide(&mut signals);
     }
@@ -124,7 +94,7 @@ fn described(path: &Path, hierarchy: &Hierarchy) -> Result<Source> {
         format: if marks.is_some() { SourceFormat::IlaVcd } else { format },
         axis,
         signals,
-        end: if marks.is_some() { None } else { end(path, format)? },
+        end: end.filter(|_| marks.is_none()),
         radix_told: marks.is_none(),
         origin: Arc::new(Origin { path: path.to_owned(), format, references, marks }),
     })
@@ -174,62 +144,33 @@ impl signals::Origin for Origin {
 }
 
 fn stream(origin: &Origin, references: &[SignalRef], feed: &mut Feed) -> Result<()> {
-    let Opened { mut wave, fault: found } = open(&origin.path)?;
+    let mut wave = open(&origin.path)?;
     let mut marking = origin.marks.as_ref().map(|style| Marking::new(style, &origin.references));
     let mut wanted = references.to_vec();
     wanted.extend(marking.iter().flat_map(Marking::references));
     wanted.sort();
     wanted.dedup();
-    let mut places = Places::new(references);
-    let mut words = Words::default();
+    let last = wanted.iter().map(|reference| reference.index()).max().unwrap_or(0);
+    let mut places = vec![Vec::new(); last + 1];
+    for (signal, reference) in references.iter().enumerate() {
+        places[reference.index()].push(signal);
+    }
+    let mut bits = Bits::default();
     let result = wave.stream_changes(Filter::include_signals(&wanted), |at, reference, value| {
         feed.at(at)?;
         if let Some(marking) = &mut marking
-            && let SignalValueRef::BitVec(bits) = value
+            && let SignalValueRef::BitVec(level) = value
         {
-            marking.change(reference, at, u8::from(bits.get_bit(0)) == 1, feed);
+            marking.change(reference, at, u8::from(level.get_bit(0)) == 1, feed);
         }
-        for &signal in places.of(reference) {
-            words.set(value, feed.words(signal as usize));
-            feed.change(signal as usize, &words.value, &words.unknown);
+        for &signal in &places[reference.index()] {
+            set(&mut bits, value, feed.words(signal));
+            feed.change(signal, &bits.value, &bits.unknown);
         }
         Ok::<(), Gone>(())
     });
     match result {
         Ok(()) | Err(StreamError::Callback(Gone)) => Ok(()),
-        Err(StreamError::Wellen(error)) => {
-            Err(found.get().map_or_else(|| fault(&origin.path, error), |f| at(&origin.path, f)))
-        }
-    }
-}
-
-/// Signals of the cursor by reference.
-struct Places {
-    first: Vec<u32>,
-    signals: Vec<u32>,
-}
-
-impl Places {
-    fn new(references: &[SignalRef]) -> Self {
-        let count = references.iter().map(|reference| reference.index() + 1).max().unwrap_or(0);
-        let mut first = vec![0; count + 1];
-        for reference in references {
-            first[reference.index() + 1] += 1;
-        }
-        for index in 0..count {
-            first[index + 1] += first[index];
-        }
-        let mut order: Vec<u32> = (0..references.len() as u32).collect();
-        order.sort_by_key(|&signal| references[signal as usize].index());
-        Places { first, signals: order }
-    }
-
-    #[inline]
-    fn of(&mut self, reference: SignalRef) -> &[u32] {
-        let index = reference.index();
-        match self.first.get(index..index + 2) {
-            Some(bounds) => &self.signals[bounds[0] as usize..bounds[1] as usize],
-            None => &[],
-        }
+        Err(StreamError::Wellen(error)) => Err(fault(&origin.path, error)),
     }
 }

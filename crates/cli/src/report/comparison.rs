@@ -126,7 +126,7 @@ fn matched(result: &Comparison, verbose: bool, text: &mut String) -> std::fmt::R
             false => 0,
         };
         for unmatched in own(false).take(shown) {
-            writeln!(text, "            {}: {}", unmatched.name, unmatched.reason.text())?;
+            writeln!(text, "            {}: {}", unmatched.name, unmatched.reason)?;
         }
         if alone > shown {
             let more = if shown > 0 { "... and more" } else { "their names" };
@@ -191,7 +191,7 @@ pub fn json(result: &Comparison) -> Value {
         "unmatched": result.unmatched.iter().map(|unmatched| json!({
             "side": if unmatched.side == 0 { "a" } else { "b" },
             "name": unmatched.name,
-            "reason": unmatched.reason.text(),
+            "reason": unmatched.reason.to_string(),
         })).collect::<Vec<_>>(),
         "notes": result.notes,
     })

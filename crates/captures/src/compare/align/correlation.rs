@@ -10,11 +10,12 @@ use tofsim::error::{Input, Result};
 
 use crate::source::SourceState;
 
-use super::super::bits::Bits;
+use super::super::pair::Pair;
 use super::super::plan::Plan;
 use super::super::selection::{Piece, Selected};
 use super::alignment::Alignment;
 use super::survey::survey;
+use crate::words::Bits;
 
 /// Longest sequence that is looked for [samples].
 const LONGEST: u64 = 1 << 17;
@@ -27,13 +28,13 @@ const LISTED: usize = 4;
 
 /// An offset and how well it does.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Candidate {
+struct Candidate {
     /// Sample of the longer side at the shorter one's first.
-    pub(super) offset: i64,
+    offset: i64,
     /// Bits that differ.
-    pub(super) differing: u64,
+    differing: u64,
     /// Bits that could.
-    pub(super) compared: u64,
+    compared: u64,
 }
 
 impl Candidate {
@@ -47,27 +48,23 @@ impl Candidate {
     }
 }
 
-/// Columns of bits over time: 1, -1, or 0 where unknown.
-pub(super) struct Columns {
+/// The bits of some pairs over time: 1, -1, or 0 where unknown.
+struct Columns {
     bits: Vec<Vec<i8>>,
     length: usize,
 }
 
 impl Columns {
-    fn new(count: usize) -> Self {
-        Columns { bits: vec![Vec::new(); count], length: 0 }
-    }
-
-    fn push(&mut self, values: impl Iterator<Item = i8>) {
+    fn push(&mut self, values: impl IntoIterator<Item = i8>) {
         self.bits.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
         self.length += 1;
     }
 
     fn drop_first(&mut self, count: usize) {
         for column in &mut self.bits {
-            column.drain(..count.min(column.len()));
+            column.drain(..count);
         }
-        self.length -= count.min(self.length);
+        self.length -= count;
     }
 
     fn pad(&mut self, count: usize) {
@@ -78,29 +75,30 @@ impl Columns {
 
 /// The bits of some pairs, side by side.
 struct PairBits<'a> {
-    plan: &'a Plan<'a>,
-    pairs: Vec<usize>,
+    pairs: Vec<&'a Pair>,
     width: usize,
     scratch: Bits,
 }
 
 impl<'a> PairBits<'a> {
     fn new(plan: &'a Plan, signals: &[String]) -> Result<Self> {
-        let pairs = match signals {
-            [] => (0..plan.matching.pairs.len()).collect(),
-            _ => signals
-                .iter()
-                .map(|signal| plan.matching.pair(signal))
-                .collect::<Result<Vec<_>>>()?,
+        let matching = &plan.matching;
+        let named = |signal: &String| Ok(&matching.pairs[matching.pair(signal)?]);
+        let pairs: Vec<&Pair> = match signals {
+            [] => matching.pairs.iter().collect(),
+            _ => signals.iter().map(named).collect::<Result<_>>()?,
         };
-        let width = pairs.iter().map(|&pair| plan.matching.pairs[pair].width as usize).sum();
-        Ok(PairBits { plan, pairs, width: std::cmp::min(width, BITS), scratch: Bits::default() })
+        let width = pairs.iter().map(|pair| pair.width as usize).sum();
+        Ok(PairBits { pairs, width: BITS.min(width), scratch: Bits::default() })
+    }
+
+    fn columns(&self) -> Columns {
+        Columns { bits: vec![Vec::new(); self.width], length: 0 }
     }
 
     fn push(&mut self, side: usize, state: &SourceState, columns: &mut Columns) {
         let mut values = Vec::with_capacity(self.width);
-        for &pair in &self.pairs {
-            let pair = &self.plan.matching.pairs[pair];
+        for pair in &self.pairs {
             pair.gather(side, state, &mut self.scratch);
             values.extend((0..pair.width).map(|bit| match self.scratch.level(bit) {
                 Value::V0 => -1,
@@ -111,33 +109,33 @@ impl<'a> PairBits<'a> {
                 break;
             }
         }
-        columns.push(values.into_iter());
+        columns.push(values);
     }
 }
 
 /// What is looked for, and where.
-pub(super) struct Search {
+struct Search {
     /// Side with the shorter sequence.
-    pub(super) side: usize,
+    side: usize,
     /// The sequence.
-    pub(super) piece: Piece,
+    piece: Piece,
     /// Whether it may hang over the other's begin and end by up to half.
-    pub(super) overhangs: bool,
+    overhangs: bool,
     /// First sample of the other side that is looked at.
-    pub(super) from: u64,
+    from: u64,
 }
 
 /// The best offsets, the best first.
-pub(super) fn search(plan: &Plan, signals: &[String], search: &Search) -> Result<Vec<Candidate>> {
+fn search(plan: &Plan, signals: &[String], search: &Search) -> Result<Vec<Candidate>> {
     let mut probe = PairBits::new(plan, signals)?;
     let pieces = [search.piece.clone()];
-    let mut needle = Columns::new(probe.width);
+    let mut needle = probe.columns();
     let mut selected = Selected::new(plan.samples(search.side)?, &pieces);
     while let Some(place) = selected.next()? {
         if place.sample.held || needle.length as u64 == LONGEST {
             break;
         }
-        probe.push(search.side, selected.samples.state(), &mut needle);
+        probe.push(search.side, &selected.samples.state, &mut needle);
     }
     if needle.length < 2 {
         let source = &plan.sources[search.side].name;
@@ -146,7 +144,7 @@ pub(super) fn search(plan: &Plan, signals: &[String], search: &Search) -> Result
     let length = needle.length;
     let hang = if search.overhangs { length / 2 } else { 0 };
     let mut matcher = Matcher::new(needle);
-    let mut hay = Columns::new(probe.width);
+    let mut hay = probe.columns();
     hay.pad(hang);
     let other = 1 - search.side;
     let mut samples = plan.samples(other)?;
@@ -154,30 +152,26 @@ pub(super) fn search(plan: &Plan, signals: &[String], search: &Search) -> Result
     let mut best = Vec::new();
     let mut taken = 0u64;
     let mut first = None;
-    loop {
-        let sample = match samples.next()? {
-            Some(sample) if !sample.held => sample,
-            _ => break,
-        };
-        if sample.index < search.from || !plan.is_looked_at(other, sample) {
-            continue;
+    let mut goes_on = true;
+    while goes_on {
+        match samples.next()?.filter(|sample| !sample.held) {
+            Some(sample) if sample.index < search.from || !plan.is_looked_at(other, sample) => {}
+            Some(sample) => {
+                first.get_or_insert(sample.index);
+                taken += 1;
+                probe.push(other, &samples.state, &mut hay);
+            }
+            None => {
+                hay.pad(hang);
+                goes_on = false;
+            }
         }
-        first.get_or_insert(sample.index);
-        taken += 1;
-        probe.push(other, samples.state(), &mut hay);
-        if hay.length == matcher.size {
+        while hay.length >= if goes_on { matcher.size } else { length } {
             matcher.scan(&hay, base, &mut best);
-            let step = matcher.size - length + 1;
+            let step = (matcher.size - length + 1).min(hay.length);
             hay.drop_first(step);
             base += step as i64;
         }
-    }
-    hay.pad(hang);
-    while hay.length >= length {
-        matcher.scan(&hay, base, &mut best);
-        let step = (matcher.size - length + 1).min(hay.length);
-        hay.drop_first(step);
-        base += step as i64;
     }
     let first = first.unwrap_or(0) as i64;
     for candidate in &mut best {
@@ -245,11 +239,7 @@ impl Matcher {
 ///
 /// # Errors
 /// When there is none, or another does as well.
-pub(super) fn decide(
-    candidates: &[Candidate],
-    side: usize,
-    what: &str,
-) -> Result<(Candidate, String)> {
+fn decide(candidates: &[Candidate], side: usize, what: &str) -> Result<(Candidate, String)> {
     let Some(best) = candidates.first() else {
         return Err(Input::new("--align", format!("{what}: one side is too short")).into());
     };
@@ -280,23 +270,39 @@ pub(super) fn decide(
 /// One offset for all.
 pub(super) fn alignment(plan: &Plan, signals: &[String]) -> Result<Alignment> {
     let side = plan.capture().unwrap_or(0);
-    let piece = match plan.capture() {
-        Some(side) => {
-            let windows = survey(plan.sources[side])?.windows;
-            if windows.len() > 1 {
-                let expected = format!(
-                    "the time between the {} windows is not known; align each alone (windows)",
-                    windows.len()
-                );
-                return Err(Input::new("--align", expected).into());
-            }
-            Piece::Run(0, None)
-        }
-        None => Piece::Run(0, Some(LONGEST)),
-    };
+    let piece = Piece::Run(0, plan.capture().is_none().then_some(LONGEST));
+    let windows =
+        if plan.capture().is_some() { survey(plan.sources[side])?.windows.len() } else { 1 };
+    if windows > 1 {
+        let expected = format!(
+            "the time between the {windows} windows is not known; align each alone (windows)"
+        );
+        return Err(Input::new("--align", expected).into());
+    }
     let overhangs = plan.capture().is_none();
     let found = search(plan, signals, &Search { side, piece, overhangs, from: 0 })?;
     let what = if plan.capture().is_some() { "the capture" } else { "the first side" };
     let (best, text) = decide(&found, side, what)?;
     Ok(Alignment::shifted(best.later(side), text))
+}
+
+/// An offset for each window, in the order of time.
+pub(super) fn windows(plan: &Plan, signals: &[String]) -> Result<Alignment> {
+    let Some(side) = plan.capture() else {
+        let expected = "windows: expected a capture on one side and a waveform on the other";
+        return Err(Input::new("--align", expected).into());
+    };
+    let mut pieces = [Vec::new(), Vec::new()];
+    let (mut found, mut from) = (Vec::new(), 0);
+    for (k, window) in survey(plan.sources[side])?.windows.iter().enumerate() {
+        let piece = Piece::Run(window.first, window.count);
+        let look = Search { side, piece: piece.clone(), overhangs: false, from };
+        let (best, text) = decide(&search(plan, signals, &look)?, side, &format!("window {k}"))?;
+        found.push(format!("window {k}: {text}"));
+        let begin = best.offset.unsigned_abs();
+        from = begin + window.count.unwrap_or(1);
+        pieces[side].push(piece);
+        pieces[1 - side].push(Piece::Run(begin, window.count));
+    }
+    Ok(Alignment { pieces, found: found.join("\n"), offset: None, differences: Vec::new() })
 }

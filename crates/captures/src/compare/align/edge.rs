@@ -2,14 +2,14 @@
 
 use tofsim::error::{Input, Result};
 
-use crate::source::Axis;
+use crate::source::{Axis, Tick};
 
-use super::super::bits::Bits;
 use super::super::plan::Plan;
 use super::super::samples::Sample;
 use super::super::selection::Piece;
 use super::alignment::Alignment;
-use super::survey::survey;
+use super::survey::{counts_differ, survey};
+use crate::words::Bits;
 
 /// The first edges of a signal belong together.
 pub(super) fn alignment(plan: &Plan, signal: &str) -> Result<Alignment> {
@@ -36,7 +36,7 @@ pub(super) fn shift(plan: &Plan, signal: &str) -> Result<(i128, String)> {
             pair.gather(side, &cursor.state, &mut now);
             let changed = before.is_some_and(|before| before != now && before.is_known());
             let at_fs = tick.femtoseconds(at);
-            if changed && at_fs >= plan.after.fs() as u128 {
+            if changed && at_fs >= plan.terms.after.fs() as u128 {
                 break at_fs as i128;
             }
             before = Some(now.clone());
@@ -53,7 +53,7 @@ fn first(plan: &Plan, side: usize, pair: usize) -> Result<u64> {
         if sample.held {
             break;
         }
-        pair.gather(side, samples.state(), &mut now);
+        pair.gather(side, &samples.state, &mut now);
         if plan.is_looked_at(side, sample)
             && before.as_ref().is_some_and(|before| *before != now && before.is_known())
         {
@@ -69,42 +69,16 @@ fn first(plan: &Plan, side: usize, pair: usize) -> Result<u64> {
 pub(super) fn start(plan: &Plan) -> Result<Alignment> {
     let found = "from the first sample on".to_owned();
     match plan.sources.map(|source| source.axis) {
-        [Axis::Time(a), Axis::Time(b)] => {
-            let coarse = a.max(b);
-            let mut first = [None, None];
-            for (side, tick) in [(0, a), (1, b)] {
-                let sample = first_looked_at(plan, side)?;
-                first[side] = sample.map(|sample| (sample, tick.convert(sample.at, coarse)));
-            }
-            let [Some((sample_a, a)), Some((sample_b, b))] = first else {
-                let side = usize::from(first[0].is_some());
-                let expected = format!("the clock never rises after {}", plan.after);
-                return Err(Input::new(&plan.sources[side].name, expected).into());
-            };
-            let (side, at) = if a < b { (0, b) } else { (1, a) };
-            let late = same_time(plan, side, [plan.sources[side].axis, Axis::Time(coarse)], at)?;
-            let mut firsts = [sample_a.index, sample_b.index];
-            firsts[side] = late;
-            let pieces = firsts.map(|first| vec![Piece::Run(first, None)]);
-            let found = "samples of the same time".to_owned();
-            let offset = Some(firsts[1] as i64 - firsts[0] as i64);
-            Ok(Alignment { pieces, found, offset, differences: Vec::new() })
-        }
+        [Axis::Time(a), Axis::Time(b)] => same_time(plan, [a, b]),
         [Axis::Samples, Axis::Samples] => {
             let windows = [survey(plan.sources[0])?.windows, survey(plan.sources[1])?.windows];
             let mut differences = Vec::new();
-            let counts = [windows[0].len(), windows[1].len()];
-            if counts[0] != counts[1] {
-                let [a, b] = counts;
+            let [a, b] = [windows[0].len(), windows[1].len()];
+            if a != b {
                 differences.push(format!("the first has {a} windows, the second {b}"));
             }
             for (k, (a, b)) in windows[0].iter().zip(&windows[1]).enumerate() {
-                if let (Some(a), Some(b)) = (a.count, b.count)
-                    && a != b
-                {
-                    let text = format!("window {k}: {a} samples in the first, {b} in the second");
-                    differences.push(text);
-                }
+                differences.extend(counts_differ(k, a, b));
                 let marks = [a, b].map(|window| window.trigger.map(|at| at - window.first));
                 if marks[0] != marks[1] {
                     let [a, b] = marks.map(|at| at.map_or("none".to_owned(), |at| at.to_string()));
@@ -114,7 +88,7 @@ pub(super) fn start(plan: &Plan) -> Result<Alignment> {
                 }
             }
             let pieces = windows.map(|windows| {
-                let windows = windows.iter().take(counts[0].min(counts[1]));
+                let windows = windows.iter().take(a.min(b));
                 windows.map(|window| Piece::Run(window.first, window.count)).collect()
             });
             Ok(Alignment { pieces, found, offset: Some(0), differences })
@@ -123,30 +97,46 @@ pub(super) fn start(plan: &Plan) -> Result<Alignment> {
     }
 }
 
+/// From the first sample of each of two waveforms on that is not before the other's.
+fn same_time(plan: &Plan, ticks: [Tick; 2]) -> Result<Alignment> {
+    let coarse = ticks[0].max(ticks[1]);
+    let time = |side: usize, sample: Sample| ticks[side].convert(sample.at, coarse);
+    let mut firsts = [0, 0];
+    let mut times = [0, 0];
+    for side in 0..2 {
+        let Some(sample) = first_looked_at(plan, side)? else {
+            let expected = format!("the clock never rises after {}", plan.terms.after);
+            return Err(Input::new(&plan.sources[side].name, expected).into());
+        };
+        (firsts[side], times[side]) = (sample.index, time(side, sample));
+    }
+    let early = if times[0] < times[1] { 0 } else { 1 };
+    let begin = times[1 - early];
+    let first = find(plan, early, |sample| time(early, sample) >= begin)?;
+    let Some(first) = first.filter(|&sample| time(early, sample) == begin) else {
+        let expected =
+            "no edge of the clock is at the time of the other side's first; give --align";
+        return Err(Input::new(&plan.sources[early].name, expected).into());
+    };
+    firsts[early] = first.index;
+    let pieces = firsts.map(|first| vec![Piece::Run(first, None)]);
+    let offset = Some(firsts[1] as i64 - firsts[0] as i64);
+    let found = "samples of the same time".to_owned();
+    Ok(Alignment { pieces, found, offset, differences: Vec::new() })
+}
+
 /// The first sample that is looked at.
-fn first_looked_at(plan: &Plan, side: usize) -> Result<Option<Sample>> {
+pub(super) fn first_looked_at(plan: &Plan, side: usize) -> Result<Option<Sample>> {
+    find(plan, side, |sample| plan.is_looked_at(side, sample))
+}
+
+/// The first sample of a side that is as wanted.
+fn find(plan: &Plan, side: usize, wanted: impl Fn(Sample) -> bool) -> Result<Option<Sample>> {
     let mut samples = plan.samples(side)?;
     while let Some(sample) = samples.next()? {
-        if plan.is_looked_at(side, sample) {
+        if wanted(sample) {
             return Ok(Some(sample));
         }
     }
     Ok(None)
-}
-
-/// Number of the sample of a side at a time.
-fn same_time(plan: &Plan, side: usize, axes: [Axis; 2], at: u64) -> Result<u64> {
-    let [Axis::Time(tick), Axis::Time(coarse)] = axes else { return Ok(0) };
-    let mut samples = plan.samples(side)?;
-    while let Some(sample) = samples.next()? {
-        let now = tick.convert(sample.at, coarse);
-        if now == at {
-            return Ok(sample.index);
-        }
-        if now > at {
-            break;
-        }
-    }
-    let expected = "no edge of the clock is at the time of the other side's first; give --align";
-    Err(Input::new(&plan.sources[side].name, expected).into())
 }

@@ -64,3 +64,9 @@ pub fn survey(source: &Source) -> Result<Survey> {
     }
     Ok(survey)
 }
+
+/// That the windows of number `k` of both sides have not as many samples.
+pub(super) fn counts_differ(k: usize, a: &Window, b: &Window) -> Option<String> {
+    let (a, b) = (a.count?, b.count?);
+    (a != b).then(|| format!("window {k}: {a} samples in the first, {b} in the second"))
+}

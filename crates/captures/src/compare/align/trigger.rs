@@ -3,15 +3,15 @@
 
 use tofsim::error::{Input, Result};
 
-use crate::ila::core::{Core, KeptSamples};
-use crate::ila::storing::Shape;
+use crate::ila::core::{Core, Shape};
 
 use super::super::find;
 use super::super::operands::SideCondition;
 use super::super::plan::Plan;
 use super::super::selection::Piece;
 use super::alignment::Alignment;
-use super::survey::{Window, survey};
+use super::edge::first_looked_at;
+use super::survey::{Survey, counts_differ, survey};
 
 /// Brings the samples that triggered together.
 pub(super) fn alignment(plan: &Plan, time_from: Option<&str>) -> Result<Alignment> {
@@ -27,27 +27,31 @@ pub(super) fn alignment(plan: &Plan, time_from: Option<&str>) -> Result<Alignmen
     }
 }
 
-fn triggered(plan: &Plan, side: usize) -> Result<Vec<(Window, u64)>> {
+/// What a capture says of its windows that triggered, and the samples that did.
+fn triggered(plan: &Plan, side: usize) -> Result<(Survey, Vec<u64>)> {
     let source = plan.sources[side];
-    let windows = survey(source)?.windows;
-    let triggered: Vec<_> =
-        windows.iter().filter_map(|window| Some((*window, window.trigger?))).collect();
-    if triggered.is_empty() {
+    let mut survey = survey(source)?;
+    survey.windows.retain(|window| window.trigger.is_some());
+    let triggers: Vec<u64> = survey.windows.iter().filter_map(|window| window.trigger).collect();
+    if triggers.is_empty() {
         let expected = "no sample is marked as trigger; align by correlation or an offset";
         return Err(Input::new(&source.name, expected).into());
     }
-    Ok(triggered)
+    Ok((survey, triggers))
 }
 
 fn captures(plan: &Plan) -> Result<Alignment> {
-    let (a, b) = (triggered(plan, 0)?, triggered(plan, 1)?);
+    let ((a, triggers_a), (b, triggers_b)) = (triggered(plan, 0)?, triggered(plan, 1)?);
     let mut differences = Vec::new();
-    if a.len() != b.len() {
-        differences.push(format!("the first has {} windows, the second {}", a.len(), b.len()));
+    if triggers_a.len() != triggers_b.len() {
+        let [a, b] = [triggers_a.len(), triggers_b.len()];
+        differences.push(format!("the first has {a} windows, the second {b}"));
     }
     let mut pieces = [Vec::new(), Vec::new()];
     let mut offsets = Vec::new();
-    for (k, (&(window_a, at_a), &(window_b, at_b))) in a.iter().zip(&b).enumerate() {
+    let windows = a.windows.into_iter().zip(b.windows);
+    let triggers = triggers_a.into_iter().zip(triggers_b);
+    for (k, ((window_a, window_b), (at_a, at_b))) in windows.zip(triggers).enumerate() {
         let before = [at_a - window_a.first, at_b - window_b.first];
         let common = before[0].min(before[1]);
         if before[0] != before[1] {
@@ -56,11 +60,7 @@ fn captures(plan: &Plan) -> Result<Alignment> {
                 before[0], before[1]
             ));
         }
-        if let (Some(a), Some(b)) = (window_a.count, window_b.count)
-            && a != b
-        {
-            differences.push(format!("window {k}: {a} samples in the first, {b} in the second"));
-        }
+        differences.extend(counts_differ(k, &window_a, &window_b));
         for (side, window, at) in [(0, window_a, at_a), (1, window_b, at_b)] {
             let left = window.count.map(|count| count - (at - common - window.first));
             pieces[side].push(Piece::Run(at - common, left));
@@ -81,18 +81,16 @@ fn ordered(side: usize, capture: Vec<Piece>, waveform: Vec<Piece>) -> [Vec<Piece
 }
 
 fn one_capture(plan: &Plan, side: usize, time_from: Option<&str>) -> Result<Alignment> {
-    let windows = triggered(plan, side)?;
-    let (first, at) = windows[0];
+    let (Survey { windows, last, .. }, triggers) = triggered(plan, side)?;
+    let (first, at) = (windows[0], triggers[0]);
     if let Some(counter) = time_from {
         let at_waveform = self::first(plan, 1 - side)?;
         return by_counter(plan, counter, at, at_waveform as i64);
     }
-    let depth = first.count.map_or(usize::MAX / 2, |count| count as usize);
+    let depth = first.count.or(last.map(|last| last + 1)).unwrap_or(1) as usize;
     let shape = Shape { depth, windows: windows.len(), position: (at - first.first) as usize };
-    let Stored { pieces, leads } = stored(plan, 1 - side, shape)?;
-    let mut capture = Vec::new();
-    let mut waveform = Vec::new();
-    for ((window, _), (piece, lead)) in windows.iter().zip(pieces.into_iter().zip(leads)) {
+    let (mut capture, mut waveform) = (Vec::new(), Vec::new());
+    for (window, (piece, lead)) in windows.iter().zip(stored(plan, 1 - side, shape)?) {
         let count = window.count.map(|count| count.saturating_sub(lead));
         capture.push(Piece::Run(window.first + lead, count));
         waveform.push(piece.part(0, count.unwrap_or(u64::MAX)));
@@ -114,37 +112,33 @@ fn one_capture(plan: &Plan, side: usize, time_from: Option<&str>) -> Result<Alig
     Ok(Alignment { pieces, found, offset, differences: Vec::new() })
 }
 
-fn no_condition(plan: &Plan, side: usize) -> Input {
-    let expected = "expected a condition (--trigger, or in the map) that the waveform triggers on";
-    Input::new(&plan.sources[side].name, expected)
-}
-
 fn never(plan: &Plan, side: usize, found: usize, windows: usize) -> Input {
     let expected = match found {
-        0 => format!("the trigger never comes after {}", plan.after),
-        _ => format!("the trigger comes {found} times after {}, not {windows} times", plan.after),
+        0 => format!("the trigger never comes after {}", plan.terms.after),
+        _ => format!(
+            "the trigger comes {found} times after {}, not {windows} times",
+            plan.terms.after
+        ),
     };
     Input::new(&plan.sources[side].name, expected)
 }
 
-/// What a logic analyser would store of a waveform.
-struct Stored {
-    /// The samples of each window that the waveform has.
-    pieces: Vec<Piece>,
-    /// Samples of each window that are from before the waveform's first.
-    leads: Vec<u64>,
-}
-
-/// What a logic analyser of that shape would store of a waveform.
-fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
-    let mut trigger = plan.trigger[side].clone().ok_or_else(|| no_condition(plan, side))?;
+/// The samples of each window that a logic analyser of that shape would store of a waveform, and how
+/// many more of each window are from before the waveform's first.
+fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Vec<(Piece, u64)>> {
+    let Some(mut trigger) = plan.trigger[side].clone() else {
+        let expected =
+            "expected a condition (--trigger, or in the map) that the waveform triggers on";
+        return Err(Input::new(&plan.sources[side].name, expected).into());
+    };
     let mut qualifier = plan.qualifier[side].clone();
-    let mut core = Core::numbers(shape, qualifier.is_some());
-    let first = begin(plan, side)?;
-    let (skipped, missing) = (first.saturating_sub(plan.stages), plan.stages.saturating_sub(first));
-    for _ in 0..missing {
-        let triggers = trigger.sample_nothing();
-        core.sample_number(triggers, qualifier.as_mut().is_none_or(SideCondition::sample_nothing));
+    let first = first_looked_at(plan, side)?.map_or(u64::MAX, |sample| sample.index);
+    let stages = plan.terms.stages;
+    let (skipped, missing) = (first.saturating_sub(stages), stages.saturating_sub(first));
+    let mut core = Core::new(shape, 1);
+    for number in 0..missing {
+        let qualifies = qualifier.as_mut().is_none_or(SideCondition::sample_nothing);
+        core.sample(&[number], trigger.sample_nothing(), qualifies);
     }
     let mut samples = plan.samples(side)?;
     while !core.is_full()
@@ -153,71 +147,43 @@ fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
         if sample.index < skipped {
             continue;
         }
-        let triggers = trigger.sample(samples.state());
-        let qualifies = qualifier.as_mut().is_none_or(|term| term.sample(samples.state()));
-        core.sample_number(triggers, qualifies);
+        let triggers = trigger.sample(&samples.state);
+        let qualifies = qualifier.as_mut().is_none_or(|term| term.sample(&samples.state));
+        core.sample(&[sample.index - skipped + missing], triggers, qualifies);
     }
-    let found = core.triggers().len();
-    if found < shape.windows {
-        return Err(never(plan, side, found, shape.windows).into());
+    let capture = core.finish(Vec::new());
+    if capture.triggers.len() < shape.windows {
+        return Err(never(plan, side, capture.triggers.len(), shape.windows).into());
     }
-    let windows = core.windows();
-    let leads = windows.iter().map(|kept| lead(kept, missing)).collect();
-    let pieces = windows.into_iter().map(|kept| piece(kept, missing, skipped)).collect();
-    Ok(Stored { pieces, leads })
-}
-
-/// Samples of a window that are numbered below `missing`.
-fn lead(kept: &KeptSamples, missing: u64) -> u64 {
-    match kept {
-        KeptSamples::Range(range) => missing.min(range.end).saturating_sub(range.start),
-        KeptSamples::List(list) => list.iter().filter(|&&sample| sample < missing).count() as u64,
-    }
-}
-
-/// The other samples of a window, by their numbers in the waveform.
-fn piece(kept: KeptSamples, missing: u64, skipped: u64) -> Piece {
-    let number = |sample: u64| sample - missing + skipped;
-    match kept {
-        KeptSamples::Range(range) => {
-            let (start, end) = (range.start.max(missing), range.end.max(missing));
-            Piece::Run(number(start), Some(end - start))
-        }
-        KeptSamples::List(list) => {
-            Piece::Kept(list.into_iter().filter(|&sample| sample >= missing).map(number).collect())
-        }
-    }
-}
-
-/// The first sample that is looked at.
-fn begin(plan: &Plan, side: usize) -> Result<u64> {
-    let mut samples = plan.samples(side)?;
-    let mut first = 0;
-    while let Some(sample) = samples.next()? {
-        if plan.is_looked_at(side, sample) {
-            break;
-        }
-        first = sample.index + 1;
-    }
-    Ok(first)
+    let ends = capture.windows.iter().skip(1).copied().chain([capture.samples()]);
+    let windows = capture.windows.iter().zip(ends).map(|(&begin, end)| {
+        let numbers = &capture.words[begin..end];
+        let lead = numbers.partition_point(|&number| number < missing);
+        let kept = numbers[lead..].iter().map(|number| number - missing + skipped);
+        let piece = match (&qualifier, kept.clone().next()) {
+            (None, Some(first)) => Piece::Run(first, Some(kept.len() as u64)),
+            _ => Piece::Kept(kept.collect()),
+        };
+        (piece, lead as u64)
+    });
+    Ok(windows.collect())
 }
 
 /// The first sample of a waveform that triggers.
 fn first(plan: &Plan, side: usize) -> Result<u64> {
     let shape = Shape { depth: 1, windows: 1, position: 0 };
     let stored = stored(plan, side, shape)?;
-    let first = stored.pieces.first().and_then(|piece| piece.sample(0));
+    let first = stored.first().and_then(|(piece, _)| piece.sample(0));
     first.ok_or_else(|| never(plan, side, 0, 1).into())
 }
 
-/// The samples of a capture that has a column that counts the clock, the first of them `offset`
-/// samples after the waveform's.
-pub(super) fn counted(plan: &Plan, counter: &str, offset: i64) -> Result<Alignment> {
-    by_counter(plan, counter, 0, offset)
-}
-
-/// As the counter says, where sample `at` of the capture is sample `at_waveform` of the waveform.
-fn by_counter(plan: &Plan, counter: &str, at: u64, at_waveform: i64) -> Result<Alignment> {
+/// The samples of a capture that has a column that counts the clock, where sample `at` of the capture is sample `at_waveform` of the waveform.
+pub(super) fn by_counter(
+    plan: &Plan,
+    counter: &str,
+    at: u64,
+    at_waveform: i64,
+) -> Result<Alignment> {
     let Some(side) = plan.capture() else {
         return Err(Input::new("--time-from", "expected one capture").into());
     };

@@ -7,10 +7,11 @@ use tofsim::error::Result;
 use crate::source::SourceState;
 
 use super::super::align::Alignment;
-use super::super::bits::Bits;
+use super::super::parts::gather;
 use super::super::plan::Plan;
 use super::super::result::Comparison;
 use super::super::selection::Selected;
+use crate::words::Bits;
 
 /// Longest part of a window that is looked at [samples].
 const LONGEST: u64 = 1 << 17;
@@ -30,10 +31,8 @@ pub(super) struct Column {
 
 /// The values of a window.
 pub(super) struct Collected {
-    /// Number of the window.
-    pub(super) window: usize,
-    /// Whether a side has windows.
-    pub(super) in_windows: bool,
+    /// The window, for a sentence; nothing where there are none.
+    pub(super) window: String,
     /// Its first sample that is looked at.
     pub(super) first: u64,
     /// Both sides of the pairs that differ.
@@ -44,24 +43,13 @@ pub(super) struct Collected {
     pub(super) rows: [Vec<u64>; 2],
 }
 
-impl Collected {
-    /// The window, for a sentence; nothing where there are none.
-    pub(super) fn place(&self) -> String {
-        if self.in_windows { format!("window {}: ", self.window) } else { String::new() }
-    }
-}
-
 /// What stands for a value: itself, if it has 64 bits at most, all known.
 fn key(bits: &Bits) -> u64 {
-    match (&bits.value[..], bits.is_known()) {
-        ([value], true) => *value,
-        _ => hash(bits),
+    if let ([value], true) = (&bits.value[..], bits.is_known()) {
+        return *value;
     }
-}
-
-fn hash(value: &impl Hash) -> u64 {
     let mut hasher = DefaultHasher::new();
-    value.hash(&mut hasher);
+    bits.hash(&mut hasher);
     hasher.finish()
 }
 
@@ -90,7 +78,7 @@ pub(super) fn collect(
             break;
         }
         for (side, selected) in sides.iter().enumerate() {
-            push(plan, side, selected.samples.state(), &mut collected);
+            push(plan, side, &selected.samples.state, &mut collected);
         }
     }
     Ok(collected)
@@ -102,9 +90,9 @@ fn empty(plan: &Plan, result: &Comparison, window: usize) -> Collected {
     let pairs = pairs.filter(|(_, pair)| differing.contains(&pair.name.as_str())).take(COLUMNS);
     let column =
         |name: &String, pair, width| Column { name: name.clone(), pair, width, values: Vec::new() };
+    let in_windows = plan.sources.iter().any(|source| source.is_capture());
     Collected {
-        in_windows: plan.sources.iter().any(|source| source.is_capture()),
-        window,
+        window: if in_windows { format!("window {window}: ") } else { String::new() },
         first: 0,
         pairs: pairs
             .map(|(k, pair)| {
@@ -113,7 +101,7 @@ fn empty(plan: &Plan, result: &Comparison, window: usize) -> Collected {
             .collect(),
         unpaired: [0, 1].map(|side| {
             let unpaired = plan.unpaired[side].iter();
-            unpaired.map(|unpaired| column(&unpaired.name, None, unpaired.width)).collect()
+            unpaired.map(|(name, part)| column(name, None, part.width)).collect()
         }),
         rows: Default::default(),
     }
@@ -127,9 +115,8 @@ fn push(plan: &Plan, side: usize, state: &SourceState, collected: &mut Collected
             column[side].values.push(key(&bits));
         }
     }
-    for (column, unpaired) in collected.unpaired[side].iter_mut().zip(&plan.unpaired[side]) {
-        bits.value = state.value(unpaired.signal).to_vec();
-        bits.unknown = state.unknown(unpaired.signal).to_vec();
+    for (column, (_, part)) in collected.unpaired[side].iter_mut().zip(&plan.unpaired[side]) {
+        gather(&[*part], state, &mut bits);
         column.values.push(key(&bits));
     }
     let mut row = DefaultHasher::new();

@@ -1,7 +1,10 @@
 //! A column that was read in another radix than it was written in.
 
+use bitvec::prelude::*;
+
 use crate::ila::Radix;
-use crate::words::extend;
+use crate::ila::read::digits;
+use crate::ila::write::write_cell;
 
 use super::super::plan::Plan;
 use super::super::result::Finding;
@@ -45,25 +48,11 @@ fn radix(plan: &Plan, side: usize, column: &Column) -> Option<Radix> {
 
 /// The values as they would be if their digits were of another radix.
 fn reread(column: &Column, from: Radix, to: Radix) -> Option<Vec<u64>> {
-    let mask = u64::MAX >> (64 - column.width);
-    let values = column.values.iter().map(|&value| {
-        let signed = extend(value as u128, column.width);
-        let digits = match from {
-            Radix::Hex => format!("{value:x}"),
-            Radix::Signed => signed.to_string(),
-            Radix::Unsigned => value.to_string(),
-            Radix::Binary => format!("{value:b}"),
-            Radix::Octal => format!("{value:o}"),
-        };
-        let number = match to {
-            Radix::Hex => i128::from_str_radix(&digits, 16),
-            Radix::Binary => i128::from_str_radix(&digits, 2),
-            Radix::Octal => i128::from_str_radix(&digits, 8),
-            Radix::Signed | Radix::Unsigned => digits.parse(),
-        };
-        let number = number.ok()?;
-        let fits = number >= -(1i128 << (column.width - 1)) && number <= mask as i128;
-        fits.then_some(number as u64 & mask)
+    let values = column.values.iter().map(|value| {
+        let mut cell = Vec::new();
+        write_cell(&mut cell, from, &value.view_bits()[..column.width as usize]).ok()?;
+        let bits = digits::read(&cell, to, column.width).ok()?;
+        bits.number().map(|number| number as u64)
     });
     values.collect()
 }

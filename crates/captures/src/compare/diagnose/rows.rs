@@ -14,7 +14,7 @@ const FEWEST: usize = 16;
 pub(super) fn finding(collected: &Collected, rest: &[&Compared]) -> Option<Finding> {
     let [a, b] = &collected.rows;
     let names: Vec<&str> = rest.iter().map(|pair| pair.name.as_str()).collect();
-    let window = collected.place();
+    let window = &collected.window;
     let first = a.iter().zip(b).position(|(a, b)| a != b)?;
     let place = collected.first + first as u64;
     for shift in 1..=SHIFT.min(a.len() / 2) {

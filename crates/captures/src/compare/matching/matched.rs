@@ -1,9 +1,10 @@
 //! Which signals came together, and why others did not.
 
-use tofsim::error::{Input, Result, nearest};
+use tofsim::error::{Input, Result};
 
 use crate::source::Name;
 
+use super::super::find::near;
 use super::super::pair::Pair;
 use super::super::parts::Slots;
 
@@ -21,40 +22,26 @@ pub struct Unmatched {
 }
 
 /// Why a signal has no partner.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum UnmatchedReason {
     /// The other side has no signal of that name.
+    #[error("no signal of that name on the other side")]
     Alone,
     /// The other side has several.
+    #[error("several on the other side: {}", .0.join(", "))]
     Ambiguous(Vec<String>),
     /// The other side's has another width.
+    #[error("{0} bits here, {1} on the other side")]
     Width(u32, u32),
     /// The other side has slices of it, but not so many of its bits.
+    #[error("{0} of its bits are not on the other side")]
     Part(u32),
     /// It is text or an event.
+    #[error("text or events, which are not compared")]
     Text,
     /// It was asked not to be compared.
+    #[error("left out")]
     Ignored,
-}
-
-impl UnmatchedReason {
-    /// The reason in words.
-    pub fn text(&self) -> String {
-        match self {
-            UnmatchedReason::Alone => "no signal of that name on the other side".to_owned(),
-            UnmatchedReason::Ambiguous(names) => {
-                format!("several on the other side: {}", names.join(", "))
-            }
-            UnmatchedReason::Width(own, other) => {
-                format!("{own} bits here, {other} on the other side")
-            }
-            UnmatchedReason::Part(missing) => {
-                format!("{missing} of its bits are not on the other side")
-            }
-            UnmatchedReason::Text => "text or events, which are not compared".to_owned(),
-            UnmatchedReason::Ignored => "left out".to_owned(),
-        }
-    }
 }
 
 /// What came together, and what did not.
@@ -85,8 +72,7 @@ impl Matching {
             [pair] => Ok(pair),
             [] => {
                 let names = self.pairs.iter().map(|pair| pair.name.as_str());
-                let near = nearest(text, names).map(|name| format!("; near it: {name}"));
-                Err(fault(format!("no such signal{}", near.unwrap_or_default())).into())
+                Err(fault(format!("no such signal{}", near(text, names))).into())
             }
             _ => {
                 let names: Vec<_> =

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use crate::source::{Name, Source, shapes};
+use crate::source::{Name, Source};
 
 use super::super::pair::{MatchedBy, Pair};
 use super::super::parts::Part;
@@ -88,7 +88,6 @@ pub(super) fn by_name(
     let hung = scopes(names, candidates).map(|scopes| below(names, &scopes));
     let names = hung.as_ref().unwrap_or(names);
     let best = best(names, candidates);
-    let known = shapes();
     let mut pairs: HashMap<(usize, usize), usize> = HashMap::new();
     let mut joined = [HashSet::new(), HashSet::new()];
     let mut reasons: [HashMap<usize, UnmatchedReason>; 2] = Default::default();
@@ -131,7 +130,7 @@ pub(super) fn by_name(
             if a.name.is(&b.name) { MatchedBy::Name } else { MatchedBy::Suffix },
             a.width,
             [vec![Part::whole(left, a)], vec![Part::whole(right, b)]],
-            Show::of(a, b, &known),
+            Show::of(a, b),
         ));
     }
     for side in 0..2 {

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use tofsim::error::{Input, Result};
 
-use crate::source::{Source, shapes};
+use crate::source::Source;
 use crate::words::ones;
 
 use super::super::find;
@@ -61,7 +61,7 @@ pub(super) fn by_rule(
     }
     let [a, b] = [0, 1].map(|side| &sides[side].signals[first[side]]);
     let names = names.map(|parts| parts.join(" "));
-    let mut pair = Pair::new(names, MatchedBy::Map, width, parts, Show::of(a, b, &shapes()));
+    let mut pair = Pair::new(names, MatchedBy::Map, width, parts, Show::of(a, b));
     pair.follow(rule, sides, matching)?;
     Ok(pair)
 }

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::source::{Source, shapes};
+use crate::source::Source;
 
 use super::super::find;
 use super::super::pair::{MatchedBy, Pair};
@@ -15,7 +15,6 @@ use super::matched::{Matching, Unmatched, UnmatchedReason};
 /// A capture's columns may have the slices of one bus; the library that reads waveforms joins them.
 /// The bus has its partners then if the slices are all of it. Slices of what is left out are, too.
 pub(super) fn by_slice(sides: [&Source; 2], matching: &mut Matching) {
-    let known = shapes();
     let left_out = |left: &&Unmatched| left.reason == UnmatchedReason::Ignored;
     let ignored: HashSet<_> = matching.unmatched.iter().filter(left_out).map(key).collect();
     let mut parts: HashMap<(usize, usize), Vec<Part>> = HashMap::new();
@@ -44,7 +43,7 @@ pub(super) fn by_slice(sides: [&Source; 2], matching: &mut Matching) {
         if own == 1 {
             both.swap(0, 1);
         }
-        let (names, show) = ([0, 1].map(|_| left.name.clone()), Show::of(signal, signal, &known));
+        let (names, show) = ([0, 1].map(|_| left.name.clone()), Show::of(signal, signal));
         pairs.push(Pair::new(names, MatchedBy::Suffix, signal.width, both, show));
         false
     });

@@ -1,54 +1,56 @@
 //! `.ila` archives: the data from the dump, names from the CSV's head or from the list of probes.
 
 use std::fs::File;
-use std::io::{self, BufReader, Read, Seek};
+use std::io::{BufReader, Cursor, Read};
 
 use zip::ZipArchive;
+use zip::read::ZipFile;
 
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::{Input, Result};
 
 use super::super::capture::Radix;
 use super::dump::Dump;
 use super::heads::Heads;
-use super::lines::first_lines;
 use super::opened::{CaptureForm, Column, Opened, damaged};
+use super::table::first_lines;
 use super::{csv, ltx};
 
-/// Most bytes of an entry that is read in passing.
+/// Most bytes of an entry that are read.
 const LARGEST_ENTRY: u64 = 1 << 30;
-/// Most bytes of a list of probes, which is read whole.
+/// Most bytes of a list of probes.
 const LARGEST_LIST: u64 = 1 << 23;
 
 /// Opens an archive.
 pub(super) fn open(source: String, file: File, radix: Option<Radix>) -> Result<Opened> {
-    let mut archive = Archive::new(source, file)?;
+    let zip = ZipArchive::new(file)
+        .map_err(|error| Input::new(&source, format!("expected a whole ZIP archive: {error}")))?;
+    let mut archive = Archive { source, zip };
     let [csv, dump, list] = ["waveform.csv", "waveform.dmp", "probes.ltx"].map(|n| archive.find(n));
     let Some(dump) = dump else {
         let Some(csv) = csv else {
             let text = "expected an entry waveform.dmp or waveform.csv in the archive";
             return Err(Input::new(&archive.source, text).into());
         };
-        return archive.table(csv, radix);
+        let (source, entry) = archive.entry(csv)?;
+        let bytes = whole(&source, entry, LARGEST_ENTRY)?;
+        let opened = csv::open(source, Cursor::new(bytes), radix)?;
+        return Ok(Opened { form: CaptureForm::Archive, ..opened });
     };
-    let dump = archive
-        .entry(dump, LARGEST_ENTRY, |source, entry| Dump::read(source, BufReader::new(entry)))?;
-    let (heads, source) = match (csv, list) {
-        (Some(csv), _) => archive.entry(csv, LARGEST_ENTRY, |source, entry| {
-            let lines = first_lines(entry).map_err(|error| damaged(source, error))?;
-            Ok((Heads::read(source, &lines)?, source.to_owned()))
-        })?,
-        (None, Some(list)) => archive.entry(list, LARGEST_LIST, |source, entry| {
-            let mut text = Vec::new();
-            entry.read_to_end(&mut text).map_err(|error| damaged(source, error))?;
-            let text =
-                String::from_utf8(text).map_err(|_| Input::new(source, "expected UTF-8 text"))?;
-            let columns = ltx::columns(source, &text, &dump.core, dump.width)?;
-            Ok((Heads { columns, radix_row: false, gap: false }, source.to_owned()))
-        })?,
-        (None, None) => {
-            let text = "expected an entry waveform.csv or probes.ltx in the archive, for the names";
-            return Err(Input::new(&archive.source, text).into());
-        }
+    let (source, entry) = archive.entry(dump)?;
+    let dump = Dump::read(&source, BufReader::new(entry.take(LARGEST_ENTRY)))?;
+    let (heads, source) = if let Some(csv) = csv {
+        let (source, entry) = archive.entry(csv)?;
+        let lines = first_lines(entry).map_err(|error| damaged(&source, error))?;
+        (Heads::read(&source, &lines)?, source)
+    } else if let Some(list) = list {
+        let (source, entry) = archive.entry(list)?;
+        let text = String::from_utf8(whole(&source, entry, LARGEST_LIST)?)
+            .map_err(|_| Input::new(&source, "expected UTF-8 text"))?;
+        let columns = ltx::columns(&source, &text, &dump.core, dump.width)?;
+        (Heads { columns, radix_row: false, gap: false }, source)
+    } else {
+        let text = "expected an entry waveform.csv or probes.ltx in the archive, for the names";
+        return Err(Input::new(&archive.source, text).into());
     };
     let mut columns = heads.columns;
     let places = lay_out(&source, &mut columns, dump.width)?;
@@ -96,72 +98,31 @@ struct Archive {
 }
 
 impl Archive {
-    fn new(source: String, file: File) -> Result<Self> {
-        let zip = ZipArchive::new(file).map_err(|error| {
-            Input::new(&source, format!("expected a whole ZIP archive: {error}"))
-        })?;
-        Ok(Archive { source, zip })
-    }
-
     /// The entry of this name, in any directory.
     fn find(&self, name: &str) -> Option<usize> {
         let last = |path: &[u8]| path.rsplit(|&byte| byte == b'/').next() == Some(name.as_bytes());
         self.zip.file_names_raw().position(last)
     }
 
-    /// Reads an entry, of which at most `limit` bytes are let through.
-    fn entry<T>(
-        &mut self,
-        index: usize,
-        limit: u64,
-        read: impl FnOnce(&str, &mut dyn Read) -> Result<T>,
-    ) -> Result<T> {
+    /// An entry, and what it is called.
+    fn entry(&mut self, index: usize) -> Result<(String, ZipFile<'_, File>)> {
         let name = self.zip.file_names_raw().nth(index).unwrap_or_default();
         let source = format!("{}/{}", self.source, String::from_utf8_lossy(name));
-        let entry = self.zip.by_index(index);
-        let entry = entry.map_err(|error| Input::new(&source, format!("damaged: {error}")))?;
-        read(&source, &mut Limited { source: &source, entry, limit, left: limit })
-    }
-
-    /// An archive that has a CSV only: it is unpacked into a temporary file and read from there.
-    fn table(&mut self, csv: usize, radix: Option<Radix>) -> Result<Opened> {
-        let opened = self.entry(csv, LARGEST_ENTRY, |source, entry| {
-            let fault = |error| Error::io(&std::env::temp_dir(), "write")(error);
-            let mut file = tempfile::tempfile().map_err(fault)?;
-            let mut block = vec![0; 1 << 16];
-            loop {
-                let count = entry.read(&mut block).map_err(|error| damaged(source, error))?;
-                if count == 0 {
-                    break;
-                }
-                io::Write::write_all(&mut file, &block[..count]).map_err(fault)?;
-            }
-            file.rewind().map_err(fault)?;
-            csv::open(source.to_owned(), file, radix)
-        })?;
-        Ok(Opened { form: CaptureForm::Archive, ..opened })
-    }
-}
-
-/// An entry that may not be longer than a limit, whatever the archive says.
-struct Limited<'a, R> {
-    source: &'a str,
-    entry: R,
-    limit: u64,
-    left: u64,
-}
-
-impl<R: Read> Read for Limited<'_, R> {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let count = self.entry.read(buffer)?;
-        match self.left.checked_sub(count as u64) {
-            Some(left) => self.left = left,
-            None => {
-                let text = format!("unpacks to more than {} bytes", self.limit);
-                return Err(io::Error::other(Error::from(Input::new(self.source, text))));
-            }
+        match self.zip.by_index(index) {
+            Ok(entry) => Ok((source, entry)),
+            Err(error) => Err(Input::new(source, format!("damaged: {error}")).into()),
         }
-        Ok(count)
+    }
+}
+
+/// All of an entry, which may not be longer than a limit, whatever the archive says.
+fn whole(source: &str, entry: impl Read, limit: u64) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let mut entry = entry.take(limit + 1);
+    entry.read_to_end(&mut bytes).map_err(|error| damaged(source, error))?;
+    match bytes.len() as u64 > limit {
+        true => Err(Input::new(source, format!("unpacks to more than {limit} bytes")).into()),
+        false => Ok(bytes),
     }
 }
 
@@ -171,13 +132,9 @@ mod tests {
 
     #[test]
     fn an_entry_ends_in_an_error_at_its_limit() {
-        let limited = |limit| {
-            let entry = &b"12345"[..];
-            let mut text = String::new();
-            let mut limited = Limited { source: "a.ila/x", entry, limit, left: limit };
-            limited.read_to_string(&mut text).map_err(|error| damaged("a.ila/x", error).to_string())
-        };
-        assert_eq!(limited(5), Ok(5));
+        let limited =
+            |limit| whole("a.ila/x", &b"12345"[..], limit).map_err(|error| error.to_string());
+        assert_eq!(limited(5), Ok(b"12345".to_vec()));
         assert_eq!(limited(4), Err("a.ila/x: unpacks to more than 4 bytes".into()));
     }
 }

@@ -1,7 +1,6 @@
 //! CSV files, streamed.
 
-use std::fs::File;
-use std::io::Seek;
+use std::io::{Read, Seek};
 
 use tofsim::error::{Error, Result};
 
@@ -9,13 +8,16 @@ use super::super::capture::Radix;
 use super::digits;
 use super::heads::{FIXED, Heads};
 use super::infer::infer;
-use super::lines::first_lines;
 use super::opened::{CaptureForm, CaptureRow, CaptureRows, Opened};
 use super::order::Order;
-use super::table::Table;
+use super::table::{Table, first_lines};
 
 /// Opens a CSV. Without a row of radices it is read twice.
-pub(super) fn open(source: String, mut file: File, hint: Option<Radix>) -> Result<Opened> {
+pub(super) fn open<R: Read + Seek + Send + 'static>(
+    source: String,
+    mut file: R,
+    hint: Option<Radix>,
+) -> Result<Opened> {
     let fault = |error| Error::io(source.as_ref(), "read")(error);
     let lines = first_lines(&mut file).map_err(fault)?;
     file.rewind().map_err(fault)?;
@@ -40,49 +42,47 @@ pub(super) fn open(source: String, mut file: File, hint: Option<Radix>) -> Resul
 }
 
 /// The rows below the heads.
-struct CsvRows {
-    table: Table<File>,
+struct CsvRows<R> {
+    table: Table<R>,
     heads: Heads,
     words: usize,
     order: Order,
 }
 
-impl CaptureRows for CsvRows {
+impl<R: Read + Send> CaptureRows for CsvRows<R> {
     fn next(&mut self, row: &mut CaptureRow) -> Result<bool> {
         let CsvRows { table, heads, words, order } = self;
         let first = FIXED.len() + heads.gap as usize;
         if !table.advance_to(first + heads.columns.len())? {
             return Ok(false);
         }
-        let number = |index, most, expected: &str| match table.number(index) {
+        let cells = &table.row;
+        let number = |index, most, expected: &str| match cells.number(index) {
             Some(number) if number <= most => Ok(number),
-            _ => Err(table
-                .fault(index, expected, |_| false)
-                .field(FIXED.get(index).unwrap_or(&"GAP"))),
+            _ => Err(cells.fault(index, expected).field(FIXED.get(index).unwrap_or(&"GAP"))),
         };
         row.sample = number(0, u64::MAX, "expected a whole number")?;
         row.in_window = number(1, u64::MAX, "expected a whole number")?;
         row.trigger = number(2, 1, "expected 0 or 1")? == 1;
         row.gap = heads.gap && number(3, 1, "expected 0 or 1")? == 1;
-        row.window_start =
-            order.check(row.sample, row.in_window, row.trigger).map_err(|(index, expected)| {
-                table.fault(index, expected, |_| false).field(FIXED[index])
-            })?;
+        row.window_start = order
+            .check(row.sample, row.in_window, row.trigger)
+            .map_err(|(index, expected)| cells.fault(index, expected).field(FIXED[index]))?;
         row.clear(*words);
         for (index, column) in heads.columns.iter().enumerate() {
             let index = first + index;
-            let quoted = |field| heads.is_text(field);
             let Some(radix) = column.radix.filter(|_| !column.text) else {
-                table.text(index, quoted)?;
+                cells.text(index)?;
                 continue;
             };
             let place = column.word..column.word + column.words();
-            let (value, unknown) = (&mut row.value[place.clone()], &mut row.unknown[place]);
-            let read = digits::read(table.field(index), radix, column.width, value, unknown);
-            read.map_err(|fault| {
+            let read = digits::read(&cells.field(index), radix, column.width);
+            let bits = read.map_err(|fault| {
                 let expected = fault.say(radix, column.width);
-                table.fault(index, expected, quoted).field(column.head())
+                cells.fault(index, expected).field(column.head())
             })?;
+            row.value[place.clone()].copy_from_slice(&bits.value);
+            row.unknown[place].copy_from_slice(&bits.unknown);
         }
         Ok(true)
     }

@@ -1,12 +1,12 @@
 //! Digits of a cell, as bits.
 
-use crate::words::trim;
+use crate::words::{Bits, trim};
 
 use super::super::capture::Radix;
 
 /// What is wrong with a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Fault {
+pub(crate) enum Fault {
     /// There is nothing in it.
     Empty,
     /// A character that is no digit of the radix.
@@ -33,88 +33,59 @@ impl Fault {
     }
 }
 
-/// Reads a cell into the words of a probe, which have to be 0.
-pub(super) fn read(
-    cell: &[u8],
-    radix: Radix,
-    width: u32,
-    value: &mut [u64],
-    unknown: &mut [u64],
-) -> Result<(), Fault> {
+/// Reads a cell of a probe.
+pub(crate) fn read(cell: &[u8], radix: Radix, width: u32) -> Result<Bits, Fault> {
     if cell.is_empty() {
         return Err(Fault::Empty);
     }
+    let mut bits = Bits::default();
+    bits.clear(width.div_ceil(64) as usize);
     match radix {
-        Radix::Hex => grouped::<4>(cell, width, value, unknown),
-        Radix::Octal => grouped::<3>(cell, width, value, unknown),
-        Radix::Binary => grouped::<1>(cell, width, value, unknown),
+        Radix::Hex => grouped(cell, 4, width, &mut bits)?,
+        Radix::Octal => grouped(cell, 3, width, &mut bits)?,
+        Radix::Binary => grouped(cell, 1, width, &mut bits)?,
         Radix::Signed | Radix::Unsigned if is_unknown(cell) => {
-            unknown.fill(u64::MAX);
-            trim(unknown, width);
-            Ok(())
+            bits.unknown.fill(u64::MAX);
+            trim(&mut bits.unknown, width);
         }
-        Radix::Unsigned => decimal(cell, width, value),
-        Radix::Signed => signed(cell, width, value),
+        Radix::Unsigned => decimal(cell, width, &mut bits.value)?,
+        Radix::Signed => signed(cell, width, &mut bits.value)?,
     }
+    Ok(bits)
 }
 
 /// Whether a cell holds nothing but X.
 pub(super) fn is_unknown(cell: &[u8]) -> bool {
-    !cell.is_empty() && cell.iter().all(|byte| matches!(byte, b'x' | b'X'))
+    !cell.is_empty() && cell.iter().all(is_x)
 }
 
-/// Value of each hexadecimal digit; 16 for X, 255 for anything else.
-const DIGITS: [u8; 256] = {
-    let mut table = [255; 256];
-    let mut digit = 0;
-    while digit < 16 {
-        table[b"0123456789abcdef"[digit] as usize] = digit as u8;
-        table[b"0123456789ABCDEF"[digit] as usize] = digit as u8;
-        digit += 1;
-    }
-    table[b'x' as usize] = X;
-    table[b'X' as usize] = X;
-    table
-};
-const X: u8 = 16;
+fn is_x(byte: &u8) -> bool {
+    matches!(byte, b'x' | b'X')
+}
 
-/// Digits of `BITS` bits each, the lowest last.
-#[inline]
-fn grouped<const BITS: usize>(
-    cell: &[u8],
-    width: u32,
-    value: &mut [u64],
-    unknown: &mut [u64],
-) -> Result<(), Fault> {
-    let width = width as usize;
+/// Digits of so many bits each, the lowest last.
+fn grouped(cell: &[u8], size: u32, width: u32, bits: &mut Bits) -> Result<(), Fault> {
+    let digit = |byte: u8| char::from(byte).to_digit(1 << size);
+    if !cell.iter().all(|byte| is_x(byte) || digit(*byte).is_some()) {
+        return Err(Fault::Digit);
+    }
     for (place, &byte) in cell.iter().rev().enumerate() {
-        let low = place * BITS;
-        let digit = DIGITS[byte as usize];
-        if digit != X && digit >> BITS != 0 {
-            return Err(Fault::Digit);
-        }
-        let room = width.saturating_sub(low).min(BITS);
-        let all = (1 << room) - 1;
-        let (target, bits) = match digit {
+        let low = place as u32 * size;
+        let room = width.saturating_sub(low).min(size);
+        let (target, ones) = match digit(byte) {
+            Some(digit) => (&mut bits.value, digit),
             // A probe's top digit may have fewer bits than the others; its X stands for those.
-            X if room > 0 => (&mut *unknown, all),
-            0 => continue,
-            digit if (digit as u64) <= all => (&mut *value, digit as u64),
-            _ => return wide_or_wrong::<BITS>(&cell[..cell.len() - place]),
+            None if room > 0 => (&mut bits.unknown, (1 << room) - 1),
+            None => return Err(Fault::Wide),
         };
-        let (word, shift) = (low / 64, low % 64);
-        target[word] |= bits << shift;
-        if shift + room > 64 {
-            target[word + 1] |= bits >> (64 - shift);
+        if ones >> room != 0 {
+            return Err(Fault::Wide);
+        }
+        for bit in (0..room).filter(|bit| ones >> bit & 1 == 1).map(|bit| low + bit) {
+            target[bit as usize / 64] |= 1 << (bit % 64);
         }
     }
     Ok(())
-}
-
-/// Too wide, unless there is a character before that is no digit.
-fn wide_or_wrong<const BITS: usize>(cell: &[u8]) -> Result<(), Fault> {
-    let digit = |byte: &u8| DIGITS[*byte as usize] == X || DIGITS[*byte as usize] >> BITS == 0;
-    Err(if cell.iter().all(digit) { Fault::Wide } else { Fault::Digit })
 }
 
 fn signed(cell: &[u8], width: u32, value: &mut [u64]) -> Result<(), Fault> {
@@ -137,24 +108,15 @@ fn signed(cell: &[u8], width: u32, value: &mut [u64]) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Digits that are taken at a time, and ten to their number.
-const TAKEN: usize = 19;
-const TEN_TO_TAKEN: u64 = 10_000_000_000_000_000_000;
-
 fn decimal(cell: &[u8], width: u32, value: &mut [u64]) -> Result<(), Fault> {
     if cell.is_empty() || !cell.iter().all(u8::is_ascii_digit) {
         return Err(Fault::Digit);
     }
-    let zeros = cell.iter().position(|&digit| digit != b'0').unwrap_or(cell.len());
-    let (first, rest) = cell[zeros..].split_at((cell.len() - zeros) % TAKEN);
-    let number =
-        |digits: &[u8]| digits.iter().fold(0, |sum, digit| sum * 10 + (digit - b'0') as u64);
-    value[0] = number(first);
-    for part in rest.chunks_exact(TAKEN) {
-        let mut carry = number(part);
+    for digit in cell {
+        let mut carry = u128::from(digit - b'0');
         for word in value.iter_mut() {
-            let product = *word as u128 * TEN_TO_TAKEN as u128 + carry as u128;
-            (*word, carry) = (product as u64, (product >> 64) as u64);
+            let product = *word as u128 * 10 + carry;
+            (*word, carry) = (product as u64, product >> 64);
         }
         if carry != 0 {
             return Err(Fault::Wide);
@@ -169,10 +131,7 @@ mod tests {
     use super::*;
 
     fn value(cell: &str, radix: Radix, width: u32) -> Result<(Vec<u64>, Vec<u64>), Fault> {
-        let words = width.div_ceil(64) as usize;
-        let (mut value, mut unknown) = (vec![0; words], vec![0; words]);
-        read(cell.as_bytes(), radix, width, &mut value, &mut unknown)?;
-        Ok((value, unknown))
+        read(cell.as_bytes(), radix, width).map(|bits| (bits.value, bits.unknown))
     }
 
     fn known(cell: &str, radix: Radix, width: u32) -> Vec<u64> {

@@ -1,14 +1,11 @@
 //! `waveform.dmp`: a line of samples for each bit, held in memory as bits.
 
-mod reader;
-
 use std::io::BufRead;
-
-use reader::Reader;
 
 use tofsim::error::{Input, Result};
 
-use super::opened::{CaptureRow, CaptureRows, Column, LARGEST, WIDEST_SAMPLE};
+use super::line::Line;
+use super::opened::{CaptureRow, CaptureRows, Column, LARGEST, WIDEST_SAMPLE, damaged};
 
 /// What a dump holds.
 #[derive(Debug, Default)]
@@ -30,38 +27,40 @@ pub(super) struct Dump {
 
 impl Dump {
     /// Reads a dump to its end.
-    pub(super) fn read(source: &str, file: impl BufRead) -> Result<Self> {
-        let mut reader = Reader::new(source, file);
+    pub(super) fn read(source: &str, mut file: impl BufRead) -> Result<Self> {
         let (mut dump, mut bit) = (Dump::default(), 0);
         let (mut width, mut samples) = (None, None);
-        while let Some(key) = reader.key()? {
-            let column = key.len() + 2;
-            match key.as_str() {
-                "core_id" => dump.core = reader.text(column)?,
-                "data_width" => width = Some(reader.number(&key, column)?),
-                "sample_count" => samples = Some(reader.number(&key, column)?),
-                "window_marks" => dump.windows = reader.list(&key, column)?,
-                "trigger_marks" => dump.triggers = reader.list(&key, column)?,
-                "gaps" => dump.gaps = reader.list(&key, column)?,
-                _ if key.starts_with("ch[") => {
+        let (mut number, mut text) = (0, Vec::new());
+        while file.read_until(b'\n', &mut text).map_err(|error| damaged(source, error))? > 0 {
+            number += 1;
+            let text = std::mem::take(&mut text);
+            let Some(line) = Line::new(source, number, &text)? else { continue };
+            match line.key.as_str() {
+                "core_id" => dump.core = line.value(),
+                "data_width" => width = Some(line.number()?),
+                "sample_count" => samples = Some(line.number()?),
+                "window_marks" => dump.windows = line.list()?,
+                "trigger_marks" => dump.triggers = line.list()?,
+                "gaps" => dump.gaps = line.list()?,
+                key if key.starts_with("ch[") => {
                     if bit == 0 {
-                        dump.size(&reader, width, samples)?;
+                        dump.size(source, width, samples)?;
                     }
                     if key != format!("ch[{bit}]") || bit == dump.width {
                         let expected = match bit == dump.width {
                             true => format!("expected no more than {bit} channels (data_width)"),
                             false => format!("expected ch[{bit}] next"),
                         };
-                        return Err(reader.fault(1, expected).field(key).into());
+                        return Err(line.fault(1, expected).into());
                     }
-                    reader.channel(&key, dump.samples, &mut dump.bits)?;
+                    line.channel(dump.samples, &mut dump.bits)?;
                     bit += 1;
                 }
-                _ => reader.skip()?,
+                _ => {}
             }
         }
         if bit == 0 {
-            dump.size(&reader, width, samples)?;
+            dump.size(source, width, samples)?;
         }
         if bit != dump.width && dump.samples > 0 {
             let text = format!("ends after {bit} channels, expected {} (data_width)", dump.width);
@@ -71,17 +70,11 @@ impl Dump {
         Ok(dump)
     }
 
-    fn size<R>(
-        &mut self,
-        reader: &Reader<R>,
-        width: Option<u64>,
-        samples: Option<u64>,
-    ) -> Result<()> {
-        let fault = |text: String| Input::new(reader.source, text);
+    fn size(&mut self, source: &str, width: Option<u64>, samples: Option<u64>) -> Result<()> {
+        let fault = |text: String| Input::new(source, text);
         let (Some(width), Some(samples)) = (width, samples) else {
-            return Err(
-                fault("expected data_width and sample_count before the channels".into()).into()
-            );
+            let text = "expected data_width and sample_count before the channels";
+            return Err(fault(text.into()).into());
         };
         if !(1..=WIDEST_SAMPLE as u64).contains(&width) {
             let text = format!("expected 1 to {WIDEST_SAMPLE} bits");
@@ -137,8 +130,7 @@ impl Dump {
     /// The samples, laid out as `columns`; `places` are the lowest bits of those in the dump.
     pub(super) fn rows(self, columns: Vec<Column>, places: Vec<usize>) -> impl CaptureRows + use<> {
         let words = columns.iter().map(Column::words).sum();
-        let block = vec![0; if self.samples > 0 { self.width as usize } else { 0 }];
-        DumpRows { block, dump: self, columns, places, words, next: 0 }
+        DumpRows { dump: self, columns, places, words, next: 0 }
     }
 }
 
@@ -149,8 +141,6 @@ struct DumpRows {
     places: Vec<usize>,
     words: usize,
     next: u64,
-    /// 64 samples of each bit.
-    block: Vec<u64>,
 }
 
 impl CaptureRows for DumpRows {
@@ -160,10 +150,6 @@ impl CaptureRows for DumpRows {
             return Ok(false);
         }
         self.next += 1;
-        if sample.is_multiple_of(64) {
-            let words = dump.bits.iter().skip((sample / 64) as usize).step_by(dump.stride);
-            self.block.iter_mut().zip(words).for_each(|(place, &word)| *place = word);
-        }
         let windows = dump.windows.partition_point(|&window| window <= sample);
         let begin = windows.checked_sub(1).map_or(0, |window| dump.windows[window]);
         row.sample = sample;
@@ -176,7 +162,8 @@ impl CaptureRows for DumpRows {
         for (column, &low) in numbers.zip(&self.places) {
             let target = if row.gap { &mut row.unknown } else { &mut row.value };
             for bit in 0..column.width as usize {
-                let digit = row.gap as u64 | self.block[low + bit] >> (sample % 64) & 1;
+                let word = dump.bits[(low + bit) * dump.stride + (sample / 64) as usize];
+                let digit = row.gap as u64 | word >> (sample % 64) & 1;
                 target[column.word + bit / 64] |= digit << (bit % 64);
             }
         }

@@ -6,7 +6,7 @@ use tofsim::error::Result;
 
 use super::super::capture::Radix;
 use super::opened::{Column, WIDEST_PROBE, WIDEST_SAMPLE};
-use super::table::Table;
+use super::table::Row;
 
 /// The columns that every CSV begins with.
 pub(super) const FIXED: [&str; 3] = ["Sample in Buffer", "Sample in Window", "TRIGGER"];
@@ -27,22 +27,17 @@ pub(super) struct Heads {
 impl Heads {
     /// Reads the first lines of a file.
     pub(super) fn read(source: &str, [head, second, third]: &[Vec<u8>; 3]) -> Result<Self> {
-        let mut heads = Table::new(source, &head[..]);
-        heads.advance()?;
-        let quoted_head = |index| needs_quotes(heads.field(index));
-        for (index, name) in FIXED.into_iter().enumerate() {
-            if heads.field(index) != name.as_bytes() {
-                let expected = format!("expected a head that begins with `{}`", FIXED.join(","));
-                return Err(heads.fault(index, expected, quoted_head).into());
-            }
+        let mark = "\u{feff}".as_bytes();
+        let heads = Row::new(source, 1, head.strip_prefix(mark).unwrap_or(head));
+        if let Some(wrong) = FIXED.iter().enumerate().position(|(k, name)| !heads.is(k, name)) {
+            let expected = format!("expected a head that begins with `{}`", FIXED.join(","));
+            return Err(heads.fault(wrong, expected).into());
         }
         let radix_row = second.starts_with(MARK);
-        let mut radices = Table::new(source, &second[..]).starting_at(2);
-        radices.advance()?;
+        let radices = Row::new(source, 2, second);
         // chipscopy leaves GAP out of the radices; Vivado gives a net of that name one like HEX.
         let short = radices.len() + 1 == heads.len();
-        let gap =
-            radix_row && heads.field(3) == b"GAP" && (short || radices.field(3) == b"UNSIGNED");
+        let gap = radix_row && heads.is(3, "GAP") && (short || radices.is(3, "UNSIGNED"));
         let first = FIXED.len() + gap as usize;
         if radix_row {
             check_radices(&radices, heads.len() - (gap && short) as usize)?;
@@ -52,13 +47,13 @@ impl Heads {
             let text = format!("{found} probes, expected 1 to {most}");
             return Err(heads.row_fault(text).into());
         }
-        let quoted = quoted(if radix_row { third } else { second });
+        let sample = Row::new(source, 0, if radix_row { third } else { second });
         let mut columns = Vec::new();
         let (mut names, mut width, mut word) = (HashSet::new(), 0, 0);
         for index in first..heads.len() {
-            let fault = |text: String| heads.fault(index, text, quoted_head);
-            let head = heads.text(index, quoted_head)?;
-            let mut column = parse(head).map_err(fault)?;
+            let fault = |text: String| heads.fault(index, text);
+            let head = heads.text(index)?;
+            let mut column = parse(&head).map_err(fault)?;
             if !names.insert(head) {
                 return Err(fault("a second column of this name".into()).into());
             }
@@ -66,15 +61,14 @@ impl Heads {
             if width > WIDEST_SAMPLE {
                 return Err(fault(format!("more than {WIDEST_SAMPLE} bits in a sample")).into());
             }
-            column.text = quoted.get(index).copied().unwrap_or(false);
+            column.text = sample.is_quoted(index);
             if radix_row {
                 let index = index - (gap && short) as usize;
-                match radix(radices.field(index)) {
+                match radix(&radices.field(index)) {
                     Some(radix) => column.radix = radix,
                     None => {
                         let expected = "expected HEX, SIGNED, UNSIGNED, BINARY, OCTAL or ASCII";
-                        let fault = radices.fault(index, expected, |_| false);
-                        return Err(fault.field(column.head()).into());
+                        return Err(radices.fault(index, expected).field(column.head()).into());
                     }
                 }
                 column.text |= column.radix.is_none();
@@ -90,25 +84,17 @@ impl Heads {
     pub(super) fn rows(&self) -> usize {
         1 + self.radix_row as usize
     }
-
-    /// Whether a field of a row is text.
-    pub(super) fn is_text(&self, field: usize) -> bool {
-        let first = FIXED.len() + self.gap as usize;
-        let column = field.checked_sub(first).and_then(|column| self.columns.get(column));
-        column.is_some_and(|column| column.text)
-    }
 }
 
 /// That a row of radices has so many, and the right ones for the first columns.
-fn check_radices(radices: &Table<&[u8]>, expected: usize) -> Result<()> {
+fn check_radices(radices: &Row, expected: usize) -> Result<()> {
     if radices.len() != expected {
         let text = format!("{} radices, expected {expected}", radices.len());
         return Err(radices.row_fault(text).into());
     }
     for (index, word) in ["Radix - UNSIGNED", "UNSIGNED", "UNSIGNED"].iter().enumerate() {
-        if radices.field(index) != word.as_bytes() {
-            let text = format!("expected `{word}`");
-            return Err(radices.fault(index, text, |_| false).into());
+        if !radices.is(index, word) {
+            return Err(radices.fault(index, format!("expected `{word}`")).into());
         }
     }
     Ok(())
@@ -151,23 +137,6 @@ fn range(head: &str) -> Option<(&str, &str, &str)> {
     let (msb, lsb) = range.split_once(':')?;
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     (digits(msb) && digits(lsb)).then_some((name, msb, lsb))
-}
-
-fn needs_quotes(field: &[u8]) -> bool {
-    field.iter().any(|byte| matches!(byte, b',' | b'"'))
-}
-
-/// Which fields of a line stand in quotes.
-fn quoted(line: &[u8]) -> Vec<bool> {
-    let (mut fields, mut inside, mut start) = (Vec::new(), false, true);
-    for &byte in line {
-        if start {
-            fields.push(byte == b'"');
-        }
-        start = byte == b',' && !inside;
-        inside ^= byte == b'"';
-    }
-    fields
 }
 
 #[cfg(test)]
@@ -215,12 +184,6 @@ mod tests {
         let expected = "a.csv:1:18: Window: expected a head that begins with `Sample in Buffer,";
         assert!(heads(head).err().unwrap().starts_with(expected));
         assert!(heads(["", "", ""]).err().unwrap().contains("expected a head that begins with"));
-    }
-
-    #[test]
-    fn fields_in_quotes_are_found() {
-        let found = quoted(b"0,0,1,\"a,\"\"b\"\"\",ff,\"\",\"x\"");
-        assert_eq!(found, [false, false, false, true, false, true, true]);
     }
 
     #[test]

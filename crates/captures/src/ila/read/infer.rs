@@ -23,8 +23,6 @@ pub(super) fn infer(
     hint: Option<Radix>,
 ) -> Result<u64> {
     let fields = super::heads::FIXED.len() + heads.columns.len();
-    let words = heads.columns.iter().map(|column| column.width.div_ceil(64)).max().unwrap_or(0);
-    let mut scratch = [vec![0; words as usize], vec![0; words as usize]];
     let mut guesses = vec![Guess::new(hint); heads.columns.len()];
     for _ in 0..heads.rows() {
         table.advance()?;
@@ -36,9 +34,8 @@ pub(super) fn infer(
         for (index, (column, guess)) in columns.filter(|(_, (column, _))| !column.text) {
             let index = super::heads::FIXED.len() + index;
             let before = guess.left;
-            let quoted = |field| heads.is_text(field);
-            if guess.look(table.field(index), column.width, &mut scratch) {
-                guess.telling = Some(table.fault(index, "", quoted).field(column.head()));
+            if guess.look(&table.row.field(index), column.width) {
+                guess.telling = Some(table.row.fault(index, "").field(column.head()));
             }
             if guess.left == 0 {
                 let expected = match guess.seen {
@@ -48,7 +45,7 @@ pub(super) fn infer(
                     }
                     false => format!("expected a number of {} bits", column.width),
                 };
-                return Err(table.fault(index, expected, quoted).field(column.head()).into());
+                return Err(table.row.fault(index, expected).field(column.head()).into());
             }
             guess.seen = true;
         }
@@ -92,7 +89,7 @@ impl Guess {
 
     /// Drops the radices that a cell does not allow; true if it is the first one that has another
     /// value in each.
-    fn look(&mut self, cell: &[u8], width: u32, scratch: &mut [Vec<u64>; 2]) -> bool {
+    fn look(&mut self, cell: &[u8], width: u32) -> bool {
         if digits::is_unknown(cell) {
             return false;
         }
@@ -100,7 +97,6 @@ impl Guess {
         let bare = zeros == 0 || cell == b"0";
         self.padded &= cell.len() == width as usize;
         self.bare &= bare;
-        let words = width.div_ceil(64) as usize;
         for (bit, radix) in TRIED.into_iter().enumerate() {
             if self.left >> bit & 1 == 0 {
                 continue;
@@ -112,9 +108,7 @@ impl Guess {
                 Radix::Octal => cell.len() == width.div_ceil(3) as usize,
                 Radix::Binary => self.padded || self.bare,
             };
-            let [value, unknown] = scratch.each_mut().map(|place| &mut place[..words]);
-            value.fill(0);
-            if !spelled || digits::read(cell, radix, width, value, unknown).is_err() {
+            if !spelled || digits::read(cell, radix, width).is_err() {
                 self.left &= !(1 << bit);
             }
         }
@@ -147,9 +141,8 @@ mod tests {
 
     fn guess(width: u32, cells: &[&str]) -> String {
         let mut guess = Guess::new(None);
-        let mut scratch = [vec![0; 4], vec![0; 4]];
         for cell in cells {
-            if guess.look(cell.as_bytes(), width, &mut scratch) {
+            if guess.look(cell.as_bytes(), width) {
                 guess.telling = Some(Input::new("a.csv", "").value(cell));
             }
         }

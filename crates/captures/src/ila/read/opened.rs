@@ -109,10 +109,7 @@ pub struct Opened {
     pub rows: Box<dyn CaptureRows>,
 }
 
-/// An error of reading an entry; those of ours stay what they are.
+/// An error of reading an entry.
 pub(super) fn damaged(source: &str, error: io::Error) -> Error {
-    match error.downcast::<Error>() {
-        Ok(error) => error,
-        Err(error) => Input::new(source, format!("damaged: {error}")).into(),
-    }
+    Input::new(source, format!("damaged: {error}")).into()
 }

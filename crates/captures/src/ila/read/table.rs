@@ -1,94 +1,187 @@
-//! The rows of a CSV as fields, each with its place for errors.
+//! The lines of a CSV as fields, each with its place for errors.
+//!
+//! All lines end alike, none is without bound or empty but the last ones, and quotes end on theirs.
 
+use std::borrow::Cow;
 use std::fmt::Display;
-use std::io::Read;
-
-use ::csv::{ByteRecord, Error as CsvError, ErrorKind, Reader, ReaderBuilder};
+use std::io::{self, BufRead, BufReader, Read};
+use std::ops::Range;
+use std::path::Path;
 
 use tofsim::error::{Error, Input, Result};
 
-use super::lines::Lines;
+/// Longest line [bytes].
+const LONGEST: usize = 1 << 22;
 
-/// Bytes read at a time.
-const BLOCK: usize = 1 << 16;
-
-/// A CSV, row by row.
+/// A CSV, line by line.
 pub(super) struct Table<R> {
+    file: BufReader<R>,
+    /// The present line.
+    pub(super) row: Row,
+    /// Whether the first line ends with a carriage return too.
+    returns: Option<bool>,
+}
+
+/// A line, without its end, and its fields.
+#[derive(Default)]
+pub(super) struct Row {
     source: String,
-    reader: Reader<Lines<R>>,
-    record: ByteRecord,
     line: usize,
+    text: Vec<u8>,
+    fields: Vec<Range<usize>>,
 }
 
 impl<R: Read> Table<R> {
     pub(super) fn new(source: &str, file: R) -> Self {
-        let mut reader = ReaderBuilder::new();
-        reader.has_headers(false).flexible(true).buffer_capacity(BLOCK);
-        let reader = reader.from_reader(Lines::new(source.to_owned(), file));
-        Table { source: source.to_owned(), reader, record: ByteRecord::new(), line: 0 }
-    }
-
-    /// Counts lines from `line` on.
-    pub(super) fn starting_at(mut self, line: usize) -> Self {
-        self.line = line - 1;
-        self
+        let row = Row { source: source.to_owned(), ..Row::default() };
+        Table { file: BufReader::with_capacity(1 << 16, file), row, returns: None }
     }
 
     /// Goes to the next row; false at the end.
     pub(super) fn advance(&mut self) -> Result<bool> {
-        self.line += 1;
-        self.reader.read_byte_record(&mut self.record).map_err(|error| self.broken(error))
+        let mut empty = None;
+        while self.next_line()? {
+            match (self.row.text.is_empty(), empty) {
+                (true, _) => empty = empty.or(Some(self.row.line)),
+                (false, Some(line)) => {
+                    let expected = "an empty line, and more lines after it";
+                    return Err(Input::new(&self.row.source, expected).at(line, 1).into());
+                }
+                (false, None) => {
+                    self.row.split();
+                    return Ok(true);
+                }
+            }
+        }
+        Ok(false)
     }
 
     /// Goes to the next row, which has to have `fields` fields; false at the end.
     pub(super) fn advance_to(&mut self, fields: usize) -> Result<bool> {
         let more = self.advance()?;
-        if more && self.record.len() != fields {
-            let found = self.record.len();
+        let found = self.row.len();
+        if more && found != fields {
             let few = if found < fields { "few" } else { "many" };
             let text = format!("too {few} fields: {found}, expected {fields}");
-            return Err(Input::new(&self.source, text).at(self.line, 1).into());
+            return Err(self.row.row_fault(text).into());
         }
         Ok(more)
     }
 
-    /// A field of the row, empty if there is none.
-    pub(super) fn field(&self, index: usize) -> &[u8] {
-        self.record.get(index).unwrap_or_default()
+    /// Reads a line; false if there is none.
+    fn next_line(&mut self) -> Result<bool> {
+        let Row { source, line, text, .. } = &mut self.row;
+        text.clear();
+        *line += 1;
+        let mut limited = self.file.by_ref().take(LONGEST as u64 + 2);
+        limited.read_until(b'\n', text).map_err(Error::io(Path::new(source), "read"))?;
+        if text.is_empty() {
+            return Ok(false);
+        }
+        let ended = text.pop_if(|&mut byte| byte == b'\n').is_some();
+        let length = text.len();
+        let returns = text.pop_if(|&mut byte| byte == b'\r').is_some();
+        let fault = |column: usize, expected: String| {
+            Err(Input::new(&source, expected).at(*line, column.max(1)).into())
+        };
+        if text.len() > LONGEST {
+            return fault(1, format!("the line is longer than {LONGEST} bytes"));
+        }
+        if let Some(place) = text.iter().position(|&byte| byte == b'\r') {
+            return fault(place + 1, "expected a line feed after the carriage return".into());
+        }
+        if text.iter().filter(|&&byte| byte == b'"').count() % 2 == 1 {
+            let place = if ended { "on its line" } else { "at the end of the file" };
+            return fault(length, format!("a quote is not closed {place}"));
+        }
+        if ended && *self.returns.get_or_insert(returns) != returns {
+            let [found, first] = if returns { ["CRLF", "LF"] } else { ["LF", "CRLF"] };
+            let text = format!("the line ends with {found}, those before it with {first}");
+            return fault(length, text);
+        }
+        Ok(true)
     }
 
-    /// Number of fields of the row.
+    /// The file, read to some place.
+    pub(super) fn into_inner(self) -> R {
+        self.file.into_inner()
+    }
+}
+
+impl Row {
+    /// The line of that number.
+    pub(super) fn new(source: &str, line: usize, text: &[u8]) -> Self {
+        let (source, text) = (source.to_owned(), text.to_owned());
+        let mut row = Row { source, line, text, fields: Vec::new() };
+        row.split();
+        row
+    }
+
+    fn split(&mut self) {
+        let (mut begin, mut inside) = (0, false);
+        self.fields.clear();
+        for (place, &byte) in self.text.iter().enumerate() {
+            inside ^= byte == b'"';
+            if byte == b',' && !inside {
+                self.fields.push(begin..place);
+                begin = place + 1;
+            }
+        }
+        self.fields.push(begin..self.text.len());
+    }
+
+    /// Number of fields.
     pub(super) fn len(&self) -> usize {
-        self.record.len()
+        self.fields.len()
+    }
+
+    fn spelled(&self, index: usize) -> &[u8] {
+        self.fields.get(index).map_or(&[], |range| &self.text[range.clone()])
+    }
+
+    /// Whether a field stands in quotes.
+    pub(super) fn is_quoted(&self, index: usize) -> bool {
+        self.spelled(index).starts_with(b"\"")
+    }
+
+    /// A field without its quotes, empty if there is none.
+    pub(super) fn field(&self, index: usize) -> Cow<'_, [u8]> {
+        let spelled = self.spelled(index);
+        let Some(inside) = spelled.strip_prefix(b"\"") else { return spelled.into() };
+        let inside = inside.strip_suffix(b"\"").unwrap_or(inside);
+        // Of two quotes the second stands for itself.
+        let mut is_first = false;
+        let stands = |byte: &&u8| {
+            is_first = **byte == b'"' && !is_first;
+            !is_first
+        };
+        inside.iter().filter(stands).copied().collect()
+    }
+
+    /// Whether a field says just that.
+    pub(super) fn is(&self, index: usize, text: &str) -> bool {
+        *self.field(index) == *text.as_bytes()
     }
 
     /// A field as a number, if it is one.
     pub(super) fn number(&self, index: usize) -> Option<u64> {
         let digits = self.field(index);
-        let text = std::str::from_utf8(digits).ok().filter(|text| !text.starts_with('+'))?;
+        let text = std::str::from_utf8(&digits).ok().filter(|text| !text.starts_with('+'))?;
         text.parse().ok()
     }
 
-    /// A field as text. `quoted` tells which fields stand in quotes.
-    pub(super) fn text(&self, index: usize, quoted: impl Fn(usize) -> bool) -> Result<&str> {
-        std::str::from_utf8(self.field(index))
-            .map_err(|_| self.fault(index, "expected UTF-8 text", quoted).into())
+    /// A field as text.
+    pub(super) fn text(&self, index: usize) -> Result<String> {
+        String::from_utf8(self.field(index).into_owned())
+            .map_err(|_| self.fault(index, "expected UTF-8 text").into())
     }
 
-    /// A fault in a field of the row.
-    pub(super) fn fault(
-        &self,
-        index: usize,
-        expected: impl Display,
-        quoted: impl Fn(usize) -> bool,
-    ) -> Input {
-        let start = self.record.range(index).map_or(0, |range| range.start);
-        let before = String::from_utf8_lossy(&self.record.as_slice()[..start]);
-        let mut column = before.chars().count() + index + 1;
-        for field in (0..index).filter(|&field| quoted(field)) {
-            column += 2 + self.field(field).iter().filter(|&&byte| byte == b'"').count();
-        }
-        let value = String::from_utf8_lossy(self.field(index));
+    /// A fault in a field.
+    pub(super) fn fault(&self, index: usize, expected: impl Display) -> Input {
+        let begin = self.fields.get(index).map_or(0, |range| range.start);
+        let column = String::from_utf8_lossy(&self.text[..begin]).chars().count() + 1;
+        let value = self.field(index);
+        let value = String::from_utf8_lossy(&value);
         Input::new(&self.source, expected).at(self.line, column).value(value)
     }
 
@@ -96,20 +189,65 @@ impl<R: Read> Table<R> {
     pub(super) fn row_fault(&self, expected: impl Display) -> Input {
         Input::new(&self.source, expected).at(self.line, 1)
     }
+}
 
-    /// The file, read to some place.
-    pub(super) fn into_inner(self) -> R {
-        self.reader.into_inner().into_inner()
+/// The first lines of a file, without their ends.
+pub(super) fn first_lines<const N: usize>(file: impl Read) -> io::Result<[Vec<u8>; N]> {
+    let mut reader = BufReader::new(file);
+    let mut lines = [const { Vec::new() }; N];
+    for line in &mut lines {
+        reader.by_ref().take(LONGEST as u64 + 2).read_until(b'\n', line)?;
+        line.pop_if(|&mut byte| byte == b'\n');
+        line.pop_if(|&mut byte| byte == b'\r');
+    }
+    Ok(lines)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fault(text: &str) -> String {
+        let mut table = Table::new("a.csv", text.as_bytes());
+        loop {
+            match table.advance() {
+                Ok(true) => {}
+                Ok(false) => return "fine".to_owned(),
+                Err(error) => return error.to_string(),
+            }
+        }
     }
 
-    /// An error of reading; those of [`Lines`] are ours already.
-    fn broken(&self, error: CsvError) -> Error {
-        match error.into_kind() {
-            ErrorKind::Io(error) => match error.downcast::<Error>() {
-                Ok(error) => error,
-                Err(source) => Error::Io { path: (&self.source).into(), action: "read", source },
-            },
-            kind => self.row_fault(format!("{kind:?}")).into(),
+    #[test]
+    fn lines_that_end_alike_pass() {
+        for text in ["", "a\nb", "a\nb\n", "a\r\nb\r\n", "a\n\"b,\"\"c\"\n", "a\n\n\n", "a\r\n\r\n"]
+        {
+            assert_eq!(fault(text), "fine", "{text:?}");
         }
+    }
+
+    #[test]
+    fn the_first_line_that_ends_otherwise_is_named() {
+        assert!(fault("a\nb\nc\r\n").starts_with("a.csv:3:2: the line ends with CRLF, those"));
+        assert!(fault("a\r\nb\r\nc\n").starts_with("a.csv:3:1: the line ends with LF, those"));
+        assert!(fault("a\nb\rc\n").starts_with("a.csv:2:2: expected a line feed after"));
+    }
+
+    #[test]
+    fn quotes_empty_and_endless_lines_are_refused() {
+        assert!(fault("a\n\"b\nc\"\n").starts_with("a.csv:2:2: a quote is not closed on its line"));
+        assert!(fault("a\n\"b").starts_with("a.csv:2:2: a quote is not closed at the end"));
+        assert!(fault("a\n\nb\n").starts_with("a.csv:2:1: an empty line, and more"));
+        assert!(fault(&"a".repeat(LONGEST + 1)).contains("longer than 4194304 bytes"));
+        assert_eq!(fault(&"a".repeat(LONGEST)), "fine");
+    }
+
+    #[test]
+    fn fields_in_quotes_are_found() {
+        let row = Row::new("a.csv", 1, b"0,0,1,\"a,\"\"b\"\"\",ff,\"\",\"x\"");
+        let found: Vec<_> = (0..row.len()).map(|index| row.is_quoted(index)).collect();
+        assert_eq!(found, [false, false, false, true, false, true, true]);
+        let fields = [3, 5, 6].map(|index| row.text(index).unwrap());
+        assert_eq!(fields, ["a,\"b\"", "", "x"]);
     }
 }

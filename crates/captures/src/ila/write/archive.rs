@@ -11,6 +11,9 @@ use super::dump::dump;
 use super::ltx::ltx;
 use super::vcd::vcd;
 
+/// Writes one of the files in it.
+type Form = fn(&mut dyn Write, &Capture) -> io::Result<()>;
+
 /// Writes a capture as Vivado's archive. Its entries carry no date.
 pub fn archive(out: impl Write + Seek, capture: &Capture) -> io::Result<()> {
     let mut zip = ZipWriter::new(out);
@@ -18,14 +21,16 @@ pub fn archive(out: impl Write + Seek, capture: &Capture) -> io::Result<()> {
         .compression_method(CompressionMethod::Deflated)
         .last_modified_time(DateTime::default())
         .unix_permissions(0o644);
-    zip.start_file("waveform.csv", options)?;
-    csv(&mut zip, capture, true)?;
-    zip.start_file("waveform.vcd", options)?;
-    vcd(&mut zip, capture)?;
-    zip.start_file("waveform.dmp", options)?;
-    dump(&mut zip, capture)?;
-    zip.start_file("probes.ltx", options)?;
-    ltx(&mut zip, capture)?;
+    let forms: [(&str, Form); 4] = [
+        ("waveform.csv", |out, capture| csv(out, capture, true)),
+        ("waveform.vcd", vcd),
+        ("waveform.dmp", dump),
+        ("probes.ltx", ltx),
+    ];
+    for (name, form) in forms {
+        zip.start_file(name, options)?;
+        form(&mut zip, capture)?;
+    }
     zip.finish()?;
     Ok(())
 }

@@ -2,29 +2,28 @@
 
 use std::io::{self, Write};
 
+use bitvec::prelude::*;
+
 use crate::words::extend;
 
 use super::super::capture::{Capture, Probe, Radix};
-use super::words::{shown, spill, take};
+use super::spill::spill;
 
 /// Writes a capture as Vivado's CSV; `radix_row` leaves out or puts in the second row.
 pub fn csv(out: &mut dyn Write, capture: &Capture, radix_row: bool) -> io::Result<()> {
     head(out, capture, radix_row)?;
-    let places = capture.places();
-    let mut cells: Vec<_> = capture.probes.iter().zip(places).map(Cell::of).collect();
-    let mut text = Vec::new();
     let mut windows = capture.windows.iter().copied().peekable();
     let mut triggers = capture.triggers.iter().copied().peekable();
-    let mut begin = 0;
-    for (sample, words) in capture.words.chunks_exact(capture.stride).enumerate() {
+    let (mut begin, mut text) = (0, Vec::new());
+    for sample in 0..capture.samples() {
         while let Some(window) = windows.next_if(|&window| window <= sample) {
             begin = window;
         }
         let trigger = triggers.next_if_eq(&sample).is_some() as u8;
         write!(text, "{sample},{},{trigger}", sample - begin)?;
-        for cell in &mut cells {
+        for (probe, place) in capture.probes.iter().zip(capture.places()) {
             text.push(b',');
-            cell.push(words, &mut text)?;
+            write_cell(&mut text, shown(probe), &capture.sample(sample)[place])?;
         }
         text.push(b'\n');
         spill(out, &mut text)?;
@@ -44,48 +43,26 @@ fn head(out: &mut dyn Write, capture: &Capture, radix_row: bool) -> io::Result<(
     table.flush()
 }
 
-/// A column: where its bits are and how they are spelled.
-struct Cell {
-    low: usize,
-    width: usize,
-    radix: Radix,
-    value: Vec<u64>,
+/// The radix in which a probe's values are written: decimals end at 128 bits.
+fn shown(probe: &Probe) -> Radix {
+    match probe.radix {
+        Radix::Signed | Radix::Unsigned if probe.width > 128 => Radix::Hex,
+        radix => radix,
+    }
 }
 
-impl Cell {
-    fn of((probe, low): (&Probe, usize)) -> Self {
-        let width = probe.width as usize;
-        Cell { low, width, radix: shown(probe), value: vec![0; width.div_ceil(64)] }
-    }
-
-    fn push(&mut self, sample: &[u64], text: &mut Vec<u8>) -> io::Result<()> {
-        take(sample, self.low, self.width, &mut self.value);
-        match self.radix {
-            Radix::Hex => self.digits(4, text),
-            Radix::Octal => self.digits(3, text),
-            Radix::Binary => self.digits(1, text),
-            Radix::Unsigned => write!(text, "{}", self.number())?,
-            Radix::Signed => {
-                write!(text, "{}", extend(self.number(), self.width as u32))?;
-            }
-        }
-        Ok(())
-    }
-
-    /// All digits, of `bits` bits each.
-    fn digits(&self, bits: usize, text: &mut Vec<u8>) {
-        for place in (0..self.width.div_ceil(bits)).rev() {
-            let (word, shift) = (place * bits / 64, place * bits % 64);
-            let mut digit = self.value[word] >> shift;
-            if shift + bits > 64 {
-                digit |= self.value.get(word + 1).unwrap_or(&0) << (64 - shift);
-            }
-            text.push(b"0123456789abcdef"[digit as usize & ((1 << bits) - 1)]);
-        }
-    }
-
-    fn number(&self) -> u128 {
-        self.value.iter().rev().fold(0, |number, &word| number << 64 | word as u128)
+/// Writes the digits of a value.
+pub(crate) fn write_cell(out: &mut Vec<u8>, radix: Radix, cell: &BitSlice<u64>) -> io::Result<()> {
+    let digits = |bits| {
+        let digit = |digit: &BitSlice<u64>| b"0123456789abcdef"[digit.load_le::<usize>()];
+        cell.chunks(bits).rev().map(digit).collect::<Vec<u8>>()
+    };
+    match radix {
+        Radix::Hex => out.write_all(&digits(4)),
+        Radix::Octal => out.write_all(&digits(3)),
+        Radix::Binary => out.write_all(&digits(1)),
+        Radix::Unsigned => write!(out, "{}", cell.load_le::<u128>()),
+        Radix::Signed => write!(out, "{}", extend(cell.load_le(), cell.len() as u32)),
     }
 }
 

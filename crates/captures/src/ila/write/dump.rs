@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::super::capture::Capture;
-use super::words::spill;
+use super::spill::spill;
 
 /// Writes a capture as Vivado's `waveform.dmp`.
 pub fn dump(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
@@ -16,8 +16,8 @@ pub fn dump(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
     writeln!(out, "gaps:\ntimestamps:\ngap_timestamps:")?;
     let mut text = Vec::new();
     for bit in 0..capture.width() {
-        write!(text, "ch[{bit}]: ")?;
         let words = capture.words.iter().skip(bit / 64).step_by(capture.stride);
+        write!(text, "ch[{bit}]: ")?;
         text.extend(words.map(|word| b'0' + (word >> (bit % 64) & 1) as u8));
         text.push(b'\n');
         spill(out, &mut text)?;

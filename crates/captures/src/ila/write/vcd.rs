@@ -2,75 +2,67 @@
 
 use std::io::{self, Write};
 
+use bitvec::prelude::*;
+
 use tofsim::files::date;
 
-use super::super::capture::{Capture, Probe};
-use super::words::{spill, take};
+use super::super::capture::Capture;
+use super::spill::spill;
 
 /// Writes a capture as Vivado's VCD. `_TRIGGER` and `_WINDOW` turn over at every trigger and at
 /// every window but the first.
 pub fn vcd(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
-    let mut signals: Vec<_> =
-        capture.probes.iter().zip(capture.places()).map(VcdSignal::of).collect();
+    head(out, capture)?;
     let [trigger_id, window_id, gap_id] =
         [1, 2, 3].map(|after| identifier(capture.width() + after));
-    head(out, &signals, [&trigger_id, &window_id, &gap_id])?;
-
-    let mut text = Vec::new();
     let mut windows = capture.windows.iter().copied().filter(|&window| window > 0).peekable();
     let mut triggers = capture.triggers.iter().copied().peekable();
-    let (mut trigger, mut window) = (b'0', b'1');
-    for (sample, words) in capture.words.chunks_exact(capture.stride).enumerate() {
-        let begin = text.len();
-        writeln!(text, "#{sample}")?;
-        if sample == 0 {
-            text.extend_from_slice(b"$dumpvars\n");
+    let (mut trigger, mut window, mut text) = (0, 1, Vec::new());
+    for sample in 0..capture.samples() {
+        let (now, before) = (capture.sample(sample), capture.sample(sample.saturating_sub(1)));
+        let mut changes = String::new();
+        let places = capture.places().filter(|_| sample == 0 || now != before);
+        for place in
+            places.filter(|place| sample == 0 || now[place.clone()] != before[place.clone()])
+        {
+            changes += &change(&now[place.clone()], &identifier(place.start + 1));
         }
-        let empty = text.len();
-        let before = &capture.words[sample.saturating_sub(1) * capture.stride..][..words.len()];
-        if sample == 0 || before != words {
-            for signal in &mut signals {
-                signal.push(words, sample == 0, &mut text);
-            }
+        let triggers_now = triggers.next_if_eq(&sample).is_some();
+        let begins = windows.next_if_eq(&sample).is_some();
+        (trigger, window) = (trigger ^ u8::from(triggers_now), window ^ u8::from(begins));
+        if triggers_now || sample == 0 {
+            changes += &format!("{trigger}{trigger_id}\n");
         }
-        if triggers.next_if_eq(&sample).is_some() {
-            trigger ^= 1;
-            push_scalar(&mut text, trigger, &trigger_id);
-        } else if sample == 0 {
-            push_scalar(&mut text, trigger, &trigger_id);
+        if begins || sample == 0 {
+            changes += &format!("{window}{window_id}\n");
         }
-        if windows.next_if_eq(&sample).is_some() {
-            window ^= 1;
-            push_scalar(&mut text, window, &window_id);
-        } else if sample == 0 {
-            push_scalar(&mut text, window, &window_id);
-            push_scalar(&mut text, b'0', &gap_id);
-            text.extend_from_slice(b"$end\n");
-        }
-        if text.len() == empty {
-            text.truncate(begin);
+        match sample {
+            0 => write!(text, "#0\n$dumpvars\n{changes}0{gap_id}\n$end\n")?,
+            _ if changes.is_empty() => {}
+            _ => write!(text, "#{sample}\n{changes}")?,
         }
         spill(out, &mut text)?;
     }
     out.write_all(&text)
 }
 
-fn head(out: &mut dyn Write, signals: &[VcdSignal], marks: [&str; 3]) -> io::Result<()> {
+fn head(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
     if let Some(date) = date::fixed().map_err(io::Error::other)? {
         writeln!(out, "$date\n        {date}\n$end")?;
     }
     writeln!(out, "$version\n        tofsim {}\n$end", env!("CARGO_PKG_VERSION"))?;
     writeln!(out, "$timescale\n        1ps\n$end\n$scope module dut $end")?;
-    for VcdSignal { probe, identifier, .. } in signals {
+    for (probe, place) in capture.probes.iter().zip(capture.places()) {
         let escape = if probe.name.contains(['[', ']']) { "\\" } else { "" };
+        let identifier = identifier(place.start + 1);
         write!(out, "$var reg {} {identifier} {escape}{} ", probe.width, probe.name)?;
         if probe.vector {
             write!(out, "[{}:{}] ", probe.lsb + probe.width - 1, probe.lsb)?;
         }
         writeln!(out, "$end")?;
     }
-    for (identifier, name) in marks.iter().zip(["_TRIGGER", "_WINDOW", "_GAP"]) {
-        writeln!(out, "$var reg 1 {identifier} {name} $end")?;
+    for (after, name) in (1..).zip(["_TRIGGER", "_WINDOW", "_GAP"]) {
+        writeln!(out, "$var reg 1 {} {name} $end", identifier(capture.width() + after))?;
     }
     writeln!(out, "$upscope $end\n$enddefinitions $end")
 }
@@ -85,49 +77,13 @@ fn identifier(mut number: usize) -> String {
     identifier
 }
 
-fn push_scalar(text: &mut Vec<u8>, digit: u8, identifier: &str) {
-    text.push(digit);
-    text.extend_from_slice(identifier.as_bytes());
-    text.push(b'\n');
-}
-
-/// A probe and its last value.
-struct VcdSignal<'a> {
-    probe: &'a Probe,
-    low: usize,
-    identifier: String,
-    last: Vec<u64>,
-    value: Vec<u64>,
-}
-
-impl<'a> VcdSignal<'a> {
-    fn of((probe, low): (&'a Probe, usize)) -> Self {
-        let words = vec![0; probe.width.div_ceil(64) as usize];
-        VcdSignal { probe, low, identifier: identifier(low + 1), last: words.clone(), value: words }
-    }
-
-    /// Appends the value if it has changed, or in any case.
-    #[inline]
-    fn push(&mut self, sample: &[u64], always: bool, text: &mut Vec<u8>) {
-        take(sample, self.low, self.probe.width as usize, &mut self.value);
-        if !always && self.value == self.last {
-            return;
-        }
-        self.last.copy_from_slice(&self.value);
-        if self.probe.width == 1 {
-            push_scalar(text, b'0' + self.value[0] as u8, &self.identifier);
-            return;
-        }
-        text.push(b'b');
-        let top = self.value.iter().rposition(|&word| word != 0).unwrap_or(0);
-        let digits = (64 - self.value[top].leading_zeros()).max(1);
-        text.extend((0..digits).rev().map(|bit| b'0' + (self.value[top] >> bit & 1) as u8));
-        for &word in self.value[..top].iter().rev() {
-            text.extend((0..64).rev().map(|bit| b'0' + (word >> bit & 1) as u8));
-        }
-        text.push(b' ');
-        text.extend_from_slice(self.identifier.as_bytes());
-        text.push(b'\n');
+/// The line that says a value, of a vector without its leading zeros.
+fn change(value: &BitSlice<u64>, identifier: &str) -> String {
+    let digits = value[..value.last_one().map_or(1, |top| top + 1)].iter().by_vals().rev();
+    let digits: String = digits.map(|bit| if bit { '1' } else { '0' }).collect();
+    match value.len() {
+        1 => format!("{digits}{identifier}\n"),
+        _ => format!("b{digits} {identifier}\n"),
     }
 }
 
@@ -136,7 +92,7 @@ mod tests {
     use std::io::Cursor;
 
     use super::*;
-    use crate::ila::Radix;
+    use crate::ila::{Probe, Radix};
 
     fn probe(name: &str, width: u32, lsb: u32, vector: bool) -> Probe {
         Probe { name: name.to_owned(), width, lsb, vector, radix: Radix::Hex }
