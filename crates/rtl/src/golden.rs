@@ -5,12 +5,11 @@
 //! self-checking bench.
 
 pub mod bench;
-pub mod block;
 pub mod blocks;
-mod columns;
 pub mod cover;
 pub mod draw;
 mod estimations;
+mod lines;
 pub mod parameters;
 pub mod ports;
 mod prelude;

@@ -2,7 +2,7 @@
 //! on the boundaries of taps, before the shot and after its window, held over into the next; and a
 //! sweep through every number of taps that a hit can have.
 
-use tofsim::firmware::tdc::{In, Params};
+use tofsim::firmware::tdc::In;
 
 use crate::golden::prelude::*;
 
@@ -19,12 +19,12 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "tdc_stop", to: "tdc_valid", cycles: |_| 3 },
         Latency { from: "tdc_stop", to: "tdc_code", cycles: |_| 3 },
     ],
-    ..Spec::new("tdc", "tdc", record::<Tdc>)
+    ..Spec::new("tdc", "tdc", record)
 };
 
 signals! {
     /// Input ports; `tdc_stop` is no part of a line.
-    pub(super) struct Stimulus {
+    struct Stimulus {
         /// Synchronous reset.
         rst: bool,
         /// A shot begins.
@@ -32,36 +32,23 @@ signals! {
     }
 }
 
-struct Tdc {
-    params: Params,
-    light: Light,
-    /// Cycle of the last start, and of the next.
-    started: usize,
-    next: usize,
-    /// Cycle after a start in which the next reset comes.
-    reset: usize,
-    goals: Goals,
-}
-
-impl Block for Tdc {
-    type Stimulus = Stimulus;
-
-    fn new(setting: &Setting) -> Self {
-        let params = setting.setup.params.tdc.clone();
-        let light = Light::new(&params.delays);
-        let goals = Goals::new(&light.ages, &params);
-        Tdc { params, light, started: 0, next: 3, reset: LAST_RESET, goals }
-    }
-
-    fn stimulus(&mut self, cycle: usize, top: &TofTop, draw: &mut Draw) -> Stimulus {
-        let start = cycle == self.next;
-        let since = if start { 0 } else { cycle - self.started };
-        let rst = since == self.reset && draw.one_in(6);
-        if let Some(taps) = self.goals.see(cycle - self.started, start, rst, top) {
-            self.light.counted(taps);
+fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
+    let params = &setting.setup.params.tdc;
+    let mut light = Light::new(&params.delays);
+    let mut goals = Goals::new(&light.ages, params);
+    let mut run = Recorder::new(spec, setting, Stimulus::list());
+    // Cycle of the last start and of the next; cycle after a start in which the next reset comes.
+    let (mut started, mut next, mut reset) = (0, 3, LAST_RESET);
+    for cycle in 0..setting.cycles() {
+        let draw = &mut run.draw;
+        let start = cycle == next;
+        let since = if start { 0 } else { cycle - started };
+        let rst = since == reset && draw.one_in(6);
+        if let Some(taps) = goals.see(cycle - started, start, rst, &run.top) {
+            light.counted(taps);
         }
         if rst {
-            self.reset = (self.reset + 1) % (LAST_RESET + 1);
+            reset = (reset + 1) % (LAST_RESET + 1);
         }
         if start {
             let period = match draw.below(8) {
@@ -73,37 +60,20 @@ impl Block for Tdc {
                 5 => 9 + draw.below(6),
                 _ => 3 + draw.below(3),
             };
-            (self.started, self.next) = (cycle, cycle + period as usize);
+            (started, next) = (cycle, cycle + period as usize);
             let edge = |cycle: usize| Time::from_ns(8 * cycle as u64);
-            self.light.shoot(edge(self.started), edge(self.next), draw);
+            light.shoot(edge(started), edge(next), draw);
         }
-        Stimulus { rst, start }
-    }
-
-    fn cycle(
-        &mut self,
-        cycle: usize,
-        i: &Stimulus,
-        top: &mut TofTop,
-        sample: &mut dyn FnMut(&TofTop),
-    ) {
-        sample(top);
-        let (now, stops) = (stops::edge(cycle), &mut self.light.stops);
+        run.line(&Stimulus { rst, start });
+        let (now, stops) = (stops::edge(cycle), &mut light.stops);
         stops.advance(now);
-        let i = In { rst: i.rst, start: i.start, tdc_stop: stops.line.level() };
-        top.tdc.rise(&i, &self.params, &mut stops.line, now);
+        let i = In { rst, start, tdc_stop: stops.line.level() };
+        run.top.tdc.rise(&i, params, &mut stops.line, now);
     }
-
-    fn parameters(&self) -> Parameters {
-        let Params { delays, cal, .. } = &self.params;
-        files(["DelaysFile", "CalFile"], [roms::tap_delays(delays), mem::tdc_decoder(cal)])
-    }
-
-    fn stops(&self) -> &[Time] {
-        self.light.stops.times()
-    }
-
-    fn coverage(self) -> Vec<Cover> {
-        self.goals.coverage()
-    }
+    let memories = [roms::tap_delays(&params.delays), mem::tdc_decoder(&params.cal)];
+    Ok(Vectors {
+        parameters: files(["DelaysFile", "CalFile"], memories),
+        stops: light.stops.times().to_vec(),
+        ..run.vectors(goals.coverage())
+    })
 }

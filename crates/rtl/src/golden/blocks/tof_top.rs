@@ -3,7 +3,6 @@
 
 use tofsim::firmware::frame_ctrl::State;
 use tofsim::scenario::{Control, QuenchMode};
-use tofsim::sim::setup::Setup;
 
 use crate::golden::prelude::*;
 use crate::golden::top;
@@ -24,7 +23,7 @@ pub(super) const SPEC: Spec = Spec {
         "lvds_output.o",
         "lvds_output.ob",
     ],
-    ..Spec::new("tof_top", "", record_top)
+    ..Spec::new("tof_top", "", record)
 };
 
 /// A little more than Clear takes after a reset [ns].
@@ -37,17 +36,16 @@ const FRAME_NS: u64 = 5_000;
 /// Shots of a frame under random control.
 const SHOTS: u16 = 8;
 
-fn record_top(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
+fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     if setting.as_told {
-        return top::record(spec, &setting.setup, setting, &mut |_| ());
+        return top::record(spec, setting, &mut |_| ());
     }
-    let mut setup = setting.setup.clone();
-    setup.params.frame_ctrl.shots_per_frame = SHOTS;
-    let cycles = setting.cycles.unwrap_or(RANDOM + PLANTED);
-    let setting = Setting { cycles: Some(cycles), ..setting.clone() };
-    setup.scenario.control = control(&setup, &setting);
+    let mut setting = setting.clone();
+    setting.cycles = setting.cycles.or(Some(RANDOM + PLANTED));
+    setting.setup.params.frame_ctrl.shots_per_frame = SHOTS;
+    setting.setup.scenario.control = control(&setting);
     let mut covered = Covered::new();
-    let vectors = top::record(spec, &setup, &setting, &mut |top| covered.see(top))?;
+    let vectors = top::record(spec, &setting, &mut |top| covered.see(top))?;
     Ok(Vectors { coverage: covered.goals, ..vectors })
 }
 
@@ -57,10 +55,10 @@ const PLANTED: usize = 28_000;
 
 /// Control signals that change at random times; some frames are abandoned twice, the second time in
 /// Acquire.
-fn control(setup: &Setup, setting: &Setting) -> Vec<Control> {
+fn control(setting: &Setting) -> Vec<Control> {
     let mut draw = Draw::new(setting.seed, u64::MAX);
     let mut changes = Vec::new();
-    let first_us = setup.pll().locked_at.fs() as f64 * 1e-9;
+    let first_us = setting.setup.pll().locked_at.fs() as f64 * 1e-9;
     let (mut at_ns, end_ns) = (0, 8 * setting.cycles().min(RANDOM) as u64);
     let mut again = false;
     while at_ns < end_ns {
