@@ -9,7 +9,7 @@ use tofsim_captures::compare::{Compared, Comparison, Described, MatchedBy, Unmat
 use tofsim_captures::source::Axis;
 
 use crate::text::junit::{self, JunitCase};
-use crate::text::table::{counted, grouped, plain};
+use crate::text::table::{counted, grouped, table};
 
 /// Signals that are listed one by one.
 const LISTED: usize = 24;
@@ -66,20 +66,20 @@ fn first_line(result: &Comparison, pair: &Compared) -> String {
 }
 
 fn differing(result: &Comparison, text: &mut String) -> std::fmt::Result {
-    let mut table = plain();
-    table.set_header(["signal", "differs", "first", "expected", "got", "where"]);
-    for pair in result.differing().take(LISTED) {
-        let Some(first) = &pair.first else { continue };
-        table.add_row([
+    let row = |pair: &Compared| {
+        let first = pair.first.as_ref()?;
+        Some([
             pair.name.clone(),
             format!("{} of {}", grouped(pair.differing), grouped(pair.compared)),
             result.sides[0].place(first.at[0]),
             first.expected.clone(),
             first.got.clone(),
             pair.overview.clone(),
-        ]);
-    }
-    writeln!(text, "\n{}", table.trim_fmt())?;
+        ])
+    };
+    let header = ["signal", "differs", "first", "expected", "got", "where"];
+    let rows = result.differing().take(LISTED).filter_map(row);
+    writeln!(text, "\n{}", table(header, rows, ..0))?;
     let count = result.differing().count();
     if count > LISTED {
         writeln!(text, "... and {} more signals", count - LISTED)?;

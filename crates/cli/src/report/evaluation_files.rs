@@ -7,24 +7,10 @@ use tofsim::error::{Input, Result};
 use tofsim::files::output::{create_directory, write_file};
 use tofsim_learn::evaluation::{Figures, Group, thesis};
 
-use super::box_plot::BoxPlot;
+use super::box_plot;
 
-const HEADER: [&str; 14] = [
-    "estimator",
-    "by",
-    "value",
-    "estimates",
-    "failures",
-    "mean_mm",
-    "mean_error_mm",
-    "two_sd_mm",
-    "two_sd_error_mm",
-    "least_mm",
-    "lower_quartile_mm",
-    "median_mm",
-    "upper_quartile_mm",
-    "largest_mm",
-];
+const HEADER: &str = "estimator,by,value,estimates,failures,mean_mm,mean_error_mm,two_sd_mm,two_sd_error_mm,\
+    least_mm,lower_quartile_mm,median_mm,upper_quartile_mm,largest_mm";
 
 /// Puts them in a folder, which is made.
 pub fn write(folder: &Path, json: &str, figures: &[Figures]) -> Result<()> {
@@ -38,10 +24,9 @@ pub fn write(folder: &Path, json: &str, figures: &[Figures]) -> Result<()> {
                 (grouping.key == "distance_m").then_some(thesis::line_two_sd_mm);
             let line = beside_mm.map_or("", |_| "; red: 2 sd of the thesis's float network");
             let title = format!("{}: errors by {}{line}", one.name, grouping.quantity);
-            let (quantity, groups) = (grouping.quantity, grouping.groups);
-            let plot = BoxPlot { title, quantity, groups, beside_mm };
             let path = folder.join(format!("{}_by_{}.svg", one.name, grouping.key));
-            let svg = plot.svg().map_err(|why| Input::new(path.display(), why))?;
+            let svg = box_plot::svg(&title, grouping.quantity, grouping.groups, beside_mm);
+            let svg = svg.map_err(|why| Input::new(path.display(), why))?;
             put(&path, svg.as_bytes())?;
         }
     }
@@ -55,7 +40,7 @@ fn put(path: &Path, bytes: &[u8]) -> Result<()> {
 /// A row for each estimator and group.
 fn csv(figures: &[Figures]) -> csv::Result<Vec<u8>> {
     let mut table = csv::Writer::from_writer(Vec::new());
-    table.write_record(HEADER)?;
+    table.write_record(HEADER.split(','))?;
     for one in figures {
         for grouping in one.groupings() {
             for group in grouping.groups {

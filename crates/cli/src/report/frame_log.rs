@@ -4,16 +4,16 @@ use std::io::{self, Seek, Write};
 use std::path::Path;
 
 use serde::Serialize;
+use serde_json::{Value, json};
 use tempfile::SpooledTempFile;
 
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::{Error, Result};
 use tofsim::network::formats::Depth;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::{Panel, Reading};
 
-use super::frame_summary::FrameSummary;
-use super::pairs::PairLog;
+use super::pairs::{PairLog, PlaceInPair};
 
 /// Frames of which a table has rows.
 pub const ROWS: usize = 20;
@@ -76,10 +76,10 @@ impl FrameLog {
         let depth = i128::from(frame.depth.get());
         self.sums = (self.sums.0 + depth, self.sums.1 + depth * depth);
         if let Some(json) = &mut self.json {
-            let text = serde_json::to_string(&FrameSummary::new(setup, frame, paired, estimates))
-                .map_err(|error| Input::new("--json", error))?;
             let comma = if self.count > 0 { "," } else { "" };
-            write!(json, "{comma}{text}").map_err(temporary)?;
+            let object = object(setup, frame, paired, estimates);
+            write!(json, "{comma}{object}")
+                .map_err(Error::io(Path::new("temporary file"), "write"))?;
         }
         self.count += 1;
         Ok(())
@@ -117,6 +117,36 @@ impl DepthSpread {
     }
 }
 
-fn temporary(source: io::Error) -> Error {
-    Error::io(Path::new("temporary file"), "write")(source)
+/// The JSON object of a frame, with its place in a pair, where frames come in pairs, and what other
+/// estimators say of it.
+fn object(
+    setup: &Setup,
+    frame: &Frame,
+    paired: Option<PlaceInPair>,
+    estimates: Vec<Reading>,
+) -> Value {
+    let mut object = json!({
+        "index": frame.index,
+        // Null where no light was simulated.
+        "true_depth_m": setup.true_depth_m(),
+        "depth_m": frame.depth_m(),
+        "depth_raw": format!("{:09x}", frame.depth.bits()),
+        "shots": frame.shots,
+        "hits": frame.hits(),
+        // Hits that the TDC kept, with a code or without.
+        "tdc_hits": frame.tdc_hits,
+        "histogram": frame.histogram[..],
+        // From the edge that takes `algo_start`, and from the one that begins Clear, to the one that
+        // raises `algo_done`.
+        "estimator_cycles": frame.estimator_cycles,
+        "frame_cycles": frame.frame_cycles,
+    });
+    let paired = paired.map_or(Value::Null, |paired| json!(paired));
+    if let (Value::Object(object), Value::Object(paired)) = (&mut object, paired) {
+        object.extend(paired);
+    }
+    if !estimates.is_empty() {
+        object["estimates"] = json!(estimates);
+    }
+    object
 }

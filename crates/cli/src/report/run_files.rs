@@ -12,7 +12,7 @@ use super::causes::Causes;
 use super::events::Events;
 use super::frame_log::FrameLog;
 use super::histogram_csv;
-use super::histogram_svg::HistogramPlot;
+use super::histogram_svg;
 use super::pair_table;
 use super::summary::Summary;
 
@@ -106,15 +106,12 @@ impl<'a> RunFiles<'a> {
         if self.causes.is_empty() {
             self.causes.add_unknown(&frame.histogram);
         }
-        let plot = HistogramPlot {
-            title: format!("{}, seed {}, {} shots", setup.name, setup.scenario.seed, frame.shots),
-            causes: &self.causes,
-            true_depth_m: setup.true_depth_m(),
-            depth_m: match &log.pairs {
-                None => Some(frame.depth_m()),
-                Some(_) => log.readings[self.shown as usize].iter().find_map(|one| one.depth_m),
-            },
+        let title = format!("{}, seed {}, {} shots", setup.name, setup.scenario.seed, frame.shots);
+        let depth_m = match &log.pairs {
+            None => Some(frame.depth_m()),
+            Some(_) => log.readings[self.shown as usize].iter().find_map(|one| one.depth_m),
         };
+        let svg = histogram_svg::svg(&title, &self.causes, setup.true_depth_m(), depth_m);
         let path = folder.join(NAMES[0]);
         write_file(&path, |file| summary.write(log, file))?;
         written.push(path);
@@ -125,7 +122,7 @@ impl<'a> RunFiles<'a> {
             Ok::<_, Error>(())
         };
         write(NAMES[1], &histogram_csv::text(&frame.histogram))?;
-        let svg = plot.svg().map_err(|fault| Input::new("histogram.svg", fault))?;
+        let svg = svg.map_err(|fault| Input::new("histogram.svg", fault))?;
         write(NAMES[2], svg.as_bytes())?;
         if let ([dark, lit, ..], Some(_)) = (log.rows.as_slice(), &log.pairs) {
             write(NAMES[3], &pair_table::csv(dark, lit))?;

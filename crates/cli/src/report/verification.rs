@@ -7,23 +7,22 @@ use tofsim_rtl::verify::cycle_counts::{Count, Proof};
 use tofsim_rtl::verify::{BlockReport, Verdict};
 
 use crate::text::junit::{self, JunitCase};
-use crate::text::table::{grouped, plain};
+use crate::text::table::{grouped, table};
 
 /// A line for each block, and the cycles around each first mismatch.
 pub fn text(reports: &[BlockReport]) -> String {
-    let mut table = plain();
-    table.set_header(["block", "cycles", "mismatches", "stimulus goals", "verdict"]);
-    for report in reports {
+    let rows = reports.iter().map(|report| {
         let (met, goals) = report.coverage;
-        table.add_row([
+        [
             report.name.clone(),
             grouped(report.cycles as u64),
             grouped(report.mismatches() as u64),
             if goals == 0 { "-".to_owned() } else { format!("{met} of {goals}") },
             report.word().to_owned(),
-        ]);
-    }
-    let mut text = table.trim_fmt() + "\n";
+        ]
+    });
+    let header = ["block", "cycles", "mismatches", "stimulus goals", "verdict"];
+    let mut text = table(header, rows, ..0) + "\n";
     for report in reports.iter().filter(|report| !report.passed()) {
         text += &format!("\n{}: {}\n", report.name, report.fault());
         if !report.around.is_empty() {
@@ -39,10 +38,7 @@ pub fn text(reports: &[BlockReport]) -> String {
 /// The cycles around the first mismatch.
 fn around(report: &BlockReport) -> String {
     let [head, rows @ ..] = report.around.as_slice() else { return String::new() };
-    let mut table = plain();
-    table.set_header(head);
-    table.add_rows(rows);
-    table.trim_fmt()
+    table(head, rows, ..0)
 }
 
 /// One object, `tofsim.verify/1`.
@@ -87,11 +83,9 @@ pub fn junit(simulator: &str, reports: &[BlockReport]) -> Result<String, Seriali
 
 /// What, expected, counted twice, proven.
 pub fn counts_text(counts: &[Count]) -> String {
-    let mut table = plain();
-    table.set_header(["what", "expected", "unit", "Rust model", "RTL simulation", "proven"]);
     let number = |count: Option<u64>| count.map_or("never".to_owned(), |n| n.to_string());
-    for count in counts {
-        table.add_row([
+    let rows = counts.iter().map(|count| {
+        [
             count.what.clone(),
             count.expected.to_string(),
             count.unit.to_owned(),
@@ -101,9 +95,9 @@ pub fn counts_text(counts: &[Count]) -> String {
                 Proof::Proven => "yes".to_owned(),
                 Proof::NotProven(reason) => format!("no: {reason}"),
             },
-        ]);
-    }
-    table.trim_fmt() + "\n"
+        ]
+    });
+    table(["what", "expected", "unit", "Rust model", "RTL simulation", "proven"], rows, ..0) + "\n"
 }
 
 /// One object, `tofsim.cycle_counts/1`.

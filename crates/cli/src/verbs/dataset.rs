@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use serde::Serialize;
+use serde_json::json;
 
 use tofsim::error::{Error, Result};
 use tofsim::scenario;
@@ -16,7 +16,7 @@ use crate::text::table::{facts, grouped};
 
 use super::draws::Draws;
 use super::interrupt::stop_signal;
-use super::stdout::{json_line, print};
+use super::stdout::{print, print_json};
 use super::talk::Talk;
 
 /// Draw histograms of many scenes, for training and tests
@@ -48,15 +48,6 @@ pub struct Args {
     json: bool,
 }
 
-/// What `--json` prints.
-#[derive(Serialize)]
-struct Report<'a> {
-    #[serde(flatten)]
-    description: &'a DatasetDescription,
-    /// What was written.
-    files: Vec<String>,
-}
-
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let loaded = args.draws.load(&args.scenario)?;
@@ -73,9 +64,11 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     progress.finish_and_clear();
     written.iter().for_each(|path| talk.detail(format_args!("wrote {}", path.display())));
 
-    let files = written.iter().map(|path| path.display().to_string()).collect();
+    let files: Vec<_> = written.iter().map(|path| path.display().to_string()).collect();
     if args.json {
-        return print(&json_line(&Report { description: &description, files })?);
+        let mut report = json!(description);
+        report["files"] = json!(files);
+        return print_json(&report);
     }
     print(&table(&description, &files))
 }
@@ -112,5 +105,5 @@ fn table(description: &DatasetDescription, files: &[String]) -> String {
         ("seed", description.seed.to_string()),
     ];
     let files = files.iter().map(|file| ("file", file.clone()));
-    format!("{}\n", facts(rows.into_iter().chain(files)).trim_fmt())
+    format!("{}\n", facts(rows.into_iter().chain(files)))
 }

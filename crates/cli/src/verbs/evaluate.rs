@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
-use serde::Serialize;
+use serde_json::json;
 
 use tofsim::error::{Input, Result};
 use tofsim::network::Network;
@@ -25,7 +25,7 @@ use crate::report::{evaluation as report, evaluation_files};
 
 use super::draws::Draws;
 use super::interrupt::stop_signal;
-use super::stdout::{json_line, print};
+use super::stdout::{print, print_json};
 use super::talk::Talk;
 
 /// Light of the scenes that the cross-check takes: in the middle of the grid.
@@ -68,32 +68,6 @@ pub struct Args {
     json: bool,
 }
 
-/// What `--json` prints.
-#[derive(Serialize)]
-struct Report<'a> {
-    schema: &'static str,
-    version: &'static str,
-    network: &'a str,
-    scenario: &'a str,
-    profile: &'a str,
-    seed: u64,
-    rows: u64,
-    shots_per_frame: u16,
-    estimators: Vec<Figures>,
-    /// The Cramer-Rao bound at the thesis's distances, light unknown.
-    cramer_rao_two_sd_mm: Vec<Option<f64>>,
-    cross_check: Vec<CrossCheck>,
-    /// The thesis's float network, and its network in the hardware [mm].
-    thesis: Thesis,
-}
-
-#[derive(Serialize)]
-struct Thesis {
-    distances_m: [f64; 6],
-    float_two_sd_mm: [f64; 6],
-    fixed_two_sd_mm: [f64; 6],
-}
-
 /// Runs the verb; the status says whether the cross-check found both paths the same.
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let loaded = args.draws.load_with(&args.scenario, &args.network)?;
@@ -122,36 +96,45 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let stop = stop_signal();
     let evaluation = args.evaluate((&source, &rows, seed), &estimators, stop.as_deref(), talk)?;
     let cross_check = args.cross_check(&loaded, &source, stop.as_deref())?;
-    let agrees = cross_check.iter().all(CrossCheck::agrees);
-    let report = Report {
-        schema: "tofsim.evaluate/1",
-        version: env!("CARGO_PKG_VERSION"),
-        network: &network.name,
-        scenario: &loaded.name,
-        profile,
-        seed,
-        rows: rows.len(),
-        shots_per_frame: source.shots(),
-        estimators: evaluation.columns.iter().map(|c| Figures::new(&evaluation, c)).collect(),
-        cramer_rao_two_sd_mm: bound::two_sd_mm(
-            &source,
-            &needs.acquisition,
-            &Grid::test(),
-            &DISTANCES_M,
-        )?,
-        cross_check,
-        thesis: Thesis {
-            distances_m: DISTANCES_M,
-            float_two_sd_mm: thesis::FLOAT.two_sd_mm,
-            fixed_two_sd_mm: thesis::FIXED.two_sd_mm,
+    let figures: Vec<_> =
+        evaluation.columns.iter().map(|column| Figures::new(&evaluation, column)).collect();
+    let bound_mm = bound::two_sd_mm(&source, &needs.acquisition, &Grid::test(), &DISTANCES_M)?;
+    let json = json!({
+        "schema": "tofsim.evaluate/1",
+        "version": env!("CARGO_PKG_VERSION"),
+        "network": network.name,
+        "scenario": loaded.name,
+        "profile": profile,
+        "seed": seed,
+        "rows": rows.len(),
+        "shots_per_frame": source.shots(),
+        "estimators": figures,
+        // At the thesis's distances, light unknown.
+        "cramer_rao_two_sd_mm": bound_mm,
+        "cross_check": cross_check,
+        "thesis": {
+            "distances_m": DISTANCES_M,
+            "float_two_sd_mm": thesis::FLOAT.two_sd_mm,
+            "fixed_two_sd_mm": thesis::FIXED.two_sd_mm,
         },
-    };
-    let json = json_line(&report)?;
+    });
     if let Some(folder) = &args.output {
-        evaluation_files::write(folder, &json, &report.estimators)?;
+        evaluation_files::write(folder, &format!("{json}\n"), &figures)?;
         talk.detail(format_args!("wrote {}", folder.display()));
     }
-    print(&if args.json { json } else { report.text() })?;
+    if args.json {
+        print_json(&json)?;
+    } else {
+        let head = format!(
+            "network {}, chain {profile}, scenario {}, {} histograms of {} shots, seed {seed}\n\n",
+            network.name,
+            loaded.name,
+            rows.len(),
+            source.shots()
+        );
+        print(&(head + &text(&figures, &bound_mm, source.shots(), &cross_check)))?;
+    }
+    let agrees = cross_check.iter().all(CrossCheck::agrees);
     Ok(if agrees { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
@@ -194,31 +177,30 @@ fn file_name(profile: &str) -> &OsStr {
     Path::new(profile).file_name().unwrap_or(profile.as_ref())
 }
 
-impl Report<'_> {
-    fn text(&self) -> String {
-        let mut text = format!(
-            "network {}, chain {}, scenario {}, {} histograms of {} shots, seed {}\n\n",
-            self.network, self.profile, self.scenario, self.rows, self.shots_per_frame, self.seed
-        );
-        text += &report::tables(&self.estimators, &self.cramer_rao_two_sd_mm);
-        if self.estimators.iter().any(|one| one.name == subtraction::NAME) {
-            let shots = self.shots_per_frame / 2;
-            text += &format!("\n{}: {shots} dark and {shots} lit shots each\n", subtraction::NAME);
-        }
-        text += "\n";
-        for line in self.estimators.iter().filter_map(report::beside_the_line) {
-            text += &(line + "\n");
-        }
-        for check in &self.cross_check {
-            text += &format!(
-                "{} frames cycle by cycle at {} m: counts as drawn, p = {:.3}; other depths: {}{}\n",
-                check.frames,
-                check.distance_m,
-                check.p_value,
-                check.other_depths,
-                if check.agrees() { "" } else { "  DIFFERENT" },
-            );
-        }
-        text
+fn text(
+    figures: &[Figures],
+    bound_mm: &[Option<f64>],
+    shots: u16,
+    checks: &[CrossCheck],
+) -> String {
+    let mut text = report::tables(figures, bound_mm);
+    if figures.iter().any(|one| one.name == subtraction::NAME) {
+        let shots = shots / 2;
+        text += &format!("\n{}: {shots} dark and {shots} lit shots each\n", subtraction::NAME);
     }
+    text += "\n";
+    for line in figures.iter().filter_map(report::beside_the_line) {
+        text += &(line + "\n");
+    }
+    for check in checks {
+        text += &format!(
+            "{} frames cycle by cycle at {} m: counts as drawn, p = {:.3}; other depths: {}{}\n",
+            check.frames,
+            check.distance_m,
+            check.p_value,
+            check.other_depths,
+            if check.agrees() { "" } else { "  DIFFERENT" },
+        );
+    }
+    text
 }

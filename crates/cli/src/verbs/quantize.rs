@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+use serde_json::json;
 
 use tofsim::error::{Error, Result};
 use tofsim::files::output::{create_directory, write_file};
@@ -13,15 +14,15 @@ use tofsim::network::{Network, mem};
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::{Grid, HistogramSource};
-use tofsim_learn::evaluation::exploration::{ExploredDatapath, explore, sweep};
+use tofsim_learn::evaluation::exploration::{explore, sweep};
 use tofsim_learn::quantize::import;
 
 use crate::report::exploration;
-use crate::text::table::plain;
+use crate::text::table::table;
 
 use super::draws::Draws;
 use super::interrupt::stop_signal;
-use super::stdout::{json_line, print};
+use super::stdout::{print, print_json};
 use super::talk::Talk;
 
 /// Histograms of an exploration, if nothing else is said: 200 at each distance.
@@ -82,30 +83,8 @@ struct Task {
     explore: Option<String>,
 }
 
+/// Largest magnitude of a kind of weights, and what its word holds.
 #[derive(Serialize)]
-struct Report {
-    schema: &'static str,
-    from: String,
-    /// Weights that no word holds.
-    saturated: usize,
-    /// Largest magnitude of each kind of weight, and what its word holds.
-    largest: [Largest; 4],
-    /// What was written.
-    files: Vec<String>,
-}
-
-/// What `--explore --json` prints.
-#[derive(Serialize)]
-struct Exploration<'a> {
-    schema: &'static str,
-    network: &'a str,
-    profile: &'a str,
-    seed: u64,
-    rows: u64,
-    points: Vec<ExploredDatapath>,
-}
-
-#[derive(Clone, Copy, Serialize)]
 struct Largest {
     weights: &'static str,
     magnitude: f64,
@@ -131,7 +110,7 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
     let magnitude =
         |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |a, b| f64::max(a, b.abs()));
     let largest = |weights, magnitude, limit| Largest { weights, magnitude, limit };
-    let report_largest = [
+    let largest = [
         largest("w1", magnitude(&mut float.w1.iter().flatten().copied()), (-8f64).exp2()),
         largest("b1", magnitude(&mut float.b1.iter().copied()), 4.0),
         largest("w2", magnitude(&mut float.w2.iter().copied()), 2.0),
@@ -150,17 +129,23 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
         float: Some(float),
     };
     let files = args.write(&network)?;
-    let report = Report {
-        schema: "tofsim.quantize/1",
-        from,
-        saturated: rounded.saturated,
-        largest: report_largest,
-        files: files.iter().map(|path| path.display().to_string()).collect(),
-    };
+    let files: Vec<_> = files.iter().map(|path| path.display().to_string()).collect();
     if args.json {
-        return print(&json_line(&report)?);
+        return print_json(&json!({
+            "schema": "tofsim.quantize/1",
+            "from": from,
+            // Weights that no word holds.
+            "saturated": rounded.saturated,
+            "largest": largest,
+            "files": files,
+        }));
     }
-    print(&report.text())
+    let rows = largest.map(|Largest { weights, magnitude, limit }| {
+        [weights.to_owned(), format!("{magnitude:.6}"), format!("below {limit}")]
+    });
+    let table = table(["weights", "largest", "word holds"], rows, ..0);
+    let files: String = files.iter().map(|file| format!("wrote {file}\n")).collect();
+    print(&format!("{table}\nsaturated: {}\n{files}", rounded.saturated))
 }
 
 impl Args {
@@ -178,10 +163,14 @@ impl Args {
         progress.finish_and_clear();
         let (name, rows) = (&network.name, rows.len());
         if self.json {
-            let schema = "tofsim.exploration/1";
-            let report =
-                Exploration { schema, network: name, profile: &profile, seed, rows, points };
-            return print(&json_line(&report)?);
+            return print_json(&json!({
+                "schema": "tofsim.exploration/1",
+                "network": name,
+                "profile": profile,
+                "seed": seed,
+                "rows": rows,
+                "points": points,
+            }));
         }
         let head = format!("network {name}, chain {profile}, {rows} histograms, seed {seed}\n\n");
         print(&(head + &exploration::text(&points)))
@@ -204,23 +193,6 @@ impl Args {
             }
         }
         Ok(files)
-    }
-}
-
-impl Report {
-    fn text(&self) -> String {
-        let mut table = plain();
-        table.set_header(["weights", "largest", "word holds"]);
-        for one in self.largest {
-            let limit = format!("below {}", one.limit);
-            table.add_row([one.weights.to_owned(), format!("{:.6}", one.magnitude), limit]);
-        }
-        let mut text = format!("{}\n", table.trim_fmt());
-        text += &format!("saturated: {}\n", self.saturated);
-        for file in &self.files {
-            text += &format!("wrote {file}\n");
-        }
-        text
     }
 }
 

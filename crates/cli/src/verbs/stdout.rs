@@ -3,7 +3,7 @@
 use std::io::{self, BufWriter, StdoutLock, Write};
 use std::path::Path;
 
-use serde::Serialize;
+use serde_json::Value;
 
 use tofsim::error::{Error, Result};
 
@@ -12,10 +12,9 @@ pub fn print(text: &str) -> Result<()> {
     print_with(|out| out.write_all(text.as_bytes()))
 }
 
-/// An object as a line of JSON.
-pub fn json_line(object: &impl Serialize) -> Result<String> {
-    let text = serde_json::to_string(object).map_err(io::Error::from);
-    Ok(text.map_err(Error::io(Path::new("stdout"), "write"))? + "\n")
+/// Prints an object as a line of JSON.
+pub fn print_json(object: &Value) -> Result<()> {
+    print(&format!("{object}\n"))
 }
 
 /// Prints what `fill` writes; a closed pipe or a full disk is an error.

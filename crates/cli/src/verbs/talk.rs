@@ -4,9 +4,9 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// How much to say.
+/// The voice, and how much it says.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub struct Talk {
     /// Say nothing but errors
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     quiet: bool,
@@ -15,19 +15,7 @@ pub struct Args {
     verbose: bool,
 }
 
-/// The voice.
-#[derive(Debug)]
-pub struct Talk {
-    quiet: bool,
-    verbose: bool,
-}
-
 impl Talk {
-    /// As loud as the options say.
-    pub fn new(args: &Args) -> Self {
-        Talk { quiet: args.quiet, verbose: args.verbose }
-    }
-
     /// Something worth knowing.
     pub fn note(&self, text: impl std::fmt::Display) {
         if !self.quiet {

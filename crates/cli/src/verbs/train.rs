@@ -11,11 +11,11 @@ use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::tournament::Tournament;
 use tofsim_learn::training::{checkpoint, data};
 
-use crate::report::training::{self, TrainingReport};
+use crate::report::training;
 
 use super::draws::{from_here, use_threads};
 use super::interrupt::stop_signal;
-use super::stdout::{json_line, print};
+use super::stdout::{print, print_json};
 use super::talk::Talk;
 
 mod word_format;
@@ -136,10 +136,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let made = (chain, args.command(), args.seed);
     let (network, rows) = written::write(&args.output, &recipe, &tournament, made, talk)?;
     let line = &recipe.weighting;
-    print(&match args.json {
-        true => json_line(&TrainingReport::new(&rows, line, &network))?,
-        false => training::table(&rows, line),
-    })
+    match args.json {
+        true => print_json(&training::json(&rows, line, &network)),
+        false => print(&training::table(&rows, line)),
+    }
 }
 
 /// Says how far it is.

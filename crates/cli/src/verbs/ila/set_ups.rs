@@ -9,7 +9,7 @@ use tofsim_captures::ila::setup::AnalyserSetupFile;
 use tofsim_captures::ila::{AnalyserSetup, Overrides, builtin};
 
 use crate::text::table::plain;
-use crate::verbs::stdout::print;
+use crate::verbs::stdout::{print, print_json};
 
 /// Prints the built-in set-ups and what they show.
 pub fn list(as_json: bool) -> Result<()> {
@@ -19,13 +19,12 @@ pub fn list(as_json: bool) -> Result<()> {
     }
     if as_json {
         let object = |(name, file): &(&str, AnalyserSetupFile)| json!({ "name": name, "scenario": file.scenario, "description": file.description });
-        return print(&format!("{}\n", json!(rows.iter().map(object).collect::<Vec<_>>())));
+        return print_json(&rows.iter().map(object).collect());
     }
-    let mut table = plain();
-    for (name, file) in rows {
-        table.add_row([name.to_owned(), file.scenario, file.description]);
-    }
-    print(&format!("{}\n", table.trim_fmt()))
+    let cells = |(name, file): (&str, AnalyserSetupFile)| {
+        [name.to_owned(), file.scenario, file.description]
+    };
+    print(&format!("{}\n", plain(rows.into_iter().map(cells))))
 }
 
 /// Prints a set-up as a file to begin one's own with.
