@@ -3,7 +3,7 @@
 use quick_junit::SerializeError;
 use serde_json::{Value, json};
 
-use tofsim_rtl::verify::cycle_counts::{Count, Proof};
+use tofsim_rtl::verify::cycle_counts::Count;
 use tofsim_rtl::verify::{BlockReport, Verdict};
 
 use crate::text::junit::{self, JunitCase};
@@ -91,10 +91,7 @@ pub fn counts_text(counts: &[Count]) -> String {
             count.unit.to_owned(),
             number(count.model),
             number(count.rtl),
-            match &count.proven {
-                Proof::Proven => "yes".to_owned(),
-                Proof::NotProven(reason) => format!("no: {reason}"),
-            },
+            count.unproven.as_ref().map_or("yes".to_owned(), |reason| format!("no: {reason}")),
         ]
     });
     table(["what", "expected", "unit", "Rust model", "RTL simulation", "proven"], rows, ..0) + "\n"
@@ -103,18 +100,14 @@ pub fn counts_text(counts: &[Count]) -> String {
 /// One object, `tofsim.cycle_counts/1`.
 pub fn counts_json(rtl: &str, counts: &[Count]) -> Value {
     let row = |count: &Count| {
-        let reason = match &count.proven {
-            Proof::Proven => Value::Null,
-            Proof::NotProven(reason) => json!(reason),
-        };
         json!({
             "what": count.what,
             "expected": count.expected,
             "unit": count.unit,
             "model": count.model,
             "rtl": count.rtl,
-            "proven": count.proven == Proof::Proven,
-            "reason": reason,
+            "proven": count.unproven.is_none(),
+            "reason": count.unproven,
         })
     };
     json!({

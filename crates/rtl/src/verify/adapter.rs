@@ -59,12 +59,9 @@ impl BlockMap {
             }
         }
         let whole = COUNT * self.design.bins as u32;
-        let extra = [(&self.counts, true), (&self.vector, false)];
-        for (name, output) in extra {
-            if let Some(name) = name {
-                let name = name.clone();
-                wanted.push(Port { name, width: whole, output, meaning: "all counts" });
-            }
+        for (name, output) in [(&self.counts, true), (&self.vector, false)] {
+            let meaning = "all counts";
+            wanted.extend(name.clone().map(|name| Port { name, width: whole, output, meaning }));
         }
         wanted
     }
@@ -79,7 +76,7 @@ impl BlockMap {
         spec: &Spec,
         found: &Ports,
         folder: &Path,
-    ) -> Result<Vec<PathBuf>> {
+    ) -> Result<PathBuf> {
         bench.allowed = Allowances {
             delays: self.latency.clone(),
             ignored: self.ignore.iter().cloned().collect(),
@@ -96,7 +93,7 @@ impl BlockMap {
         let path = folder.join(format!("{}.v", bench.module));
         let text = self.text(bench, spec, found);
         write_file(&path, |file| file.write_all(text.as_bytes()))?;
-        Ok(vec![path])
+        Ok(path)
     }
 
     /// The adapter.
@@ -122,12 +119,21 @@ impl BlockMap {
                 connected.push(format!("        .{theirs}({signal})"));
             }
         }
+        let (whole, count) = (COUNT * self.design.bins as u32, COUNT);
+        let range = range(whole);
         if let Some(counts) = &self.counts {
-            lines += &self.counts_text();
+            // All counts side by side, read as if they were a RAM with one address.
+            lines += &format!(include_str!("adapter/counts.v"), range = range, count = count);
             connected.push(format!("        .{counts}(counts)"));
         }
         if let Some(vector) = &self.vector {
-            lines += &self.vector_text();
+            // Collects the histogram word by word, then starts the estimator.
+            lines += &format!(
+                include_str!("adapter/vector.v"),
+                range = range,
+                whole = whole,
+                count = count
+            );
             connected.push(format!("        .{vector}(vector)"));
         }
         format!(
@@ -157,34 +163,6 @@ impl BlockMap {
         let declared =
             format!("    wire {range}{theirs};\n    assign {name} = {inverted}{value};\n");
         (declared, theirs)
-    }
-
-    /// All counts side by side, read as if they were a RAM with one address.
-    fn counts_text(&self) -> String {
-        let bins = self.design.bins as u32;
-        format!(
-            "    wire {}counts;\n    \
-             wire [7:0] address = clear ? clear_addr : tdc_valid ? tdc_code : read_addr;\n    \
-             assign count = read_en ? counts[{COUNT} * address +: {COUNT}] : {COUNT}'d0;\n",
-            range(COUNT * bins),
-        )
-    }
-
-    /// Collects the histogram word by word, then starts the estimator.
-    fn vector_text(&self) -> String {
-        let whole = COUNT * self.design.bins as u32;
-        format!(
-            "    reg {range}vector = {whole}'d0;\n    reg [7:0] word = 8'd0;\n    \
-             reg collecting = 1'b0;\n    reg go = 1'b0;\n    \
-             assign read_en = collecting;\n    assign read_addr = word;\n    \
-             always @(posedge clk_125) begin\n        go <= collecting && word == 8'd255;\n        \
-             if (collecting) begin\n            vector[{COUNT} * word +: {COUNT}] <= count;\n            \
-             word <= word + 8'd1;\n            collecting <= word != 8'd255;\n        \
-             end else if (algo_start) collecting <= 1'b1;\n        if (rst) begin\n            \
-             word <= 8'd0;\n            collecting <= 1'b0;\n            go <= 1'b0;\n        \
-             end\n    end\n",
-            range = range(whole),
-        )
     }
 }
 

@@ -133,7 +133,7 @@ impl BlockCheck<'_> {
         let mut bench = Bench::new(&vectors);
         let mut sources = vec![work.join(vectors.bench_name())];
         if let Some(map) = self.map {
-            sources.extend(map.apply(&mut bench, spec, &found, work)?);
+            sources.push(map.apply(&mut bench, spec, &found, work)?);
         }
         vectors.write_with(work, &bench)?;
         let top = format!("tb_{}", spec.name);

@@ -24,8 +24,6 @@ use crate::golden::blocks::CENTROID;
 use super::process::Limits;
 use super::rtl::Rtl;
 
-pub use prove::Proof;
-
 /// One promise: a row of `tofsim verify --cycle-counts`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Count {
@@ -40,15 +38,15 @@ pub struct Count {
     pub model: Option<u64>,
     /// What Icarus Verilog shows, in the same way.
     pub rtl: Option<u64>,
-    /// What Yosys says of the Verilog.
-    pub proven: Proof,
+    /// Why Yosys does not prove it of the Verilog; `None` if it does.
+    pub unproven: Option<String>,
 }
 
 impl Count {
     /// Whether all three agree with the promise.
     pub fn holds(&self) -> bool {
         let expected = Some(self.expected);
-        self.model == expected && self.rtl == expected && self.proven == Proof::Proven
+        self.model == expected && self.rtl == expected && self.unproven.is_none()
     }
 }
 
@@ -75,10 +73,10 @@ fn count(promises: &[Promise], neurons: usize, rtl: &Rtl, limits: &Limits) -> Re
         Ok(Count {
             what: promise.what.clone(),
             expected,
-            unit: promise.unit,
+            unit: promise.properties.unit,
             model: modelled.count(&key, expected),
             rtl: simulated.count(&key, expected),
-            proven: prove::prove(promise, rtl, folder.path(), limits)?,
+            unproven: prove::prove(promise, rtl, folder.path(), limits)?,
         })
     };
     promises.iter().map(count).collect()

@@ -12,15 +12,6 @@ use crate::verify::rtl::Rtl;
 
 use super::promises::Promise;
 
-/// What came of a proof.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Proof {
-    /// The promise holds in every cycle, and no number next to it does.
-    Proven,
-    /// It may not hold; why.
-    NotProven(String),
-}
-
 /// What one run of Yosys says.
 enum Answer {
     /// It is proven.
@@ -31,31 +22,34 @@ enum Answer {
     Stuck(String),
 }
 
-/// Proves `promise` of `rtl`, and that the numbers next to it cannot be proven.
+/// Proves `promise` of `rtl`, and that the numbers next to it cannot be proven; why it may not hold, or
+/// `None` if it holds in every cycle and no number next to it does.
 ///
 /// # Errors
 /// When Yosys is missing, `folder` cannot be written, or the user stops.
-pub fn prove(promise: &Promise, rtl: &Rtl, folder: &Path, limits: &Limits) -> Result<Proof> {
+pub fn prove(
+    promise: &Promise,
+    rtl: &Rtl,
+    folder: &Path,
+    limits: &Limits,
+) -> Result<Option<String>> {
     let file = folder.join(promise.properties.module).with_extension("sv");
     write_file(&file, |file| file.write_all(promise.properties.text.as_bytes()))?;
     match ask(promise, promise.expected, rtl, folder, limits)? {
         Answer::Holds => {}
-        Answer::Fails(why) | Answer::Stuck(why) => return Ok(Proof::NotProven(why)),
+        Answer::Fails(why) | Answer::Stuck(why) => return Ok(Some(why)),
     }
     for mutant in mutants(promise.expected) {
-        match ask(promise, mutant, rtl, folder, limits)? {
-            Answer::Fails(_) => {}
+        let why = match ask(promise, mutant, rtl, folder, limits)? {
+            Answer::Fails(_) => continue,
             Answer::Holds => {
-                let why = format!("vacuous: {mutant} is proven as well as {}", promise.expected);
-                return Ok(Proof::NotProven(why));
+                format!("vacuous: {mutant} is proven as well as {}", promise.expected)
             }
-            Answer::Stuck(why) => {
-                let why = format!("perhaps vacuous: for {mutant} in its place, {why}");
-                return Ok(Proof::NotProven(why));
-            }
-        }
+            Answer::Stuck(why) => format!("perhaps vacuous: for {mutant} in its place, {why}"),
+        };
+        return Ok(Some(why));
     }
-    Ok(Proof::Proven)
+    Ok(None)
 }
 
 /// The numbers next to a number.
@@ -91,8 +85,8 @@ fn script(promise: &Promise, number: u64) -> String {
         "proc; flatten".to_owned(),
     ]);
     // Something has to drive each register.
-    let driven = |register| format!("select -assert-min 1 w:dut.{register} %ci* c:* %i");
-    lines.extend(promise.registers.iter().map(driven));
+    let driven = |register: &str| format!("select -assert-min 1 w:dut.{register} %ci* c:* %i");
+    lines.extend(promise.registers().map(driven));
     let options = "-tempinduct -prove-asserts -set-assumes -ignore_unknown_cells -seq 1";
     lines.extend([
         format!("{}; opt_clean", properties.step),
@@ -116,7 +110,8 @@ fn answer(promise: &Promise, finished: &Finished, limits: &Limits) -> Answer {
             promise.properties.steps
         ))
     } else if says("ERROR: Assertion failed: selection") {
-        Answer::Stuck(format!("the proof needs the registers {}", promise.registers.join(" and ")))
+        let registers: Vec<_> = promise.registers().collect();
+        Answer::Stuck(format!("the proof needs the registers {}", registers.join(" and ")))
     } else {
         let error = finished.output.lines().find(|line| line.contains("ERROR: "));
         Answer::Stuck(format!("Yosys: {}", error.unwrap_or("ended without an answer")))
