@@ -6,7 +6,6 @@ use tofsim::firmware::carry_chain::{CarryChain, Delays, TAPS};
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(0),
     latency: &[Latency { from: "tdc_stop", to: "taps", cycles: |_| 0 }],
     ..Spec::new("carry_chain", "tdc.carry_chain", record)
 };

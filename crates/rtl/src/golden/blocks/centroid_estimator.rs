@@ -14,7 +14,6 @@ mod histograms;
 use histograms::Case;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(22),
     reset: Some("rst"),
     latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |_| DONE }],
     glue: Some(histograms::GLUE),

@@ -5,7 +5,6 @@ use tofsim::firmware::coarse_counter::In;
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(1),
     reset: Some("rst"),
     latency: &[Latency { from: "start", to: "window", cycles: |_| 0 }],
     ..Spec::new("coarse_counter", "tdc.coarse_counter", record)

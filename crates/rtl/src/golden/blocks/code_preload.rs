@@ -11,7 +11,6 @@ const CODES: u64 = 37;
 const LONG: u64 = 2 * CODES + 10;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(2),
     reset: Some("rst"),
     latency: &[Latency { from: "start", to: "tdc_valid", cycles: |_| 1 }],
     ..Spec::new("code_preload", "code_preload", record)

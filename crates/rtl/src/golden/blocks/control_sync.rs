@@ -5,7 +5,6 @@ use tofsim::firmware::control_sync::In;
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(3),
     latency: &[
         Latency { from: "mode", to: "mode_sync", cycles: |_| 1 },
         Latency { from: "laser_freq", to: "laser_freq_sync", cycles: |_| 1 },

@@ -5,7 +5,6 @@ use tofsim::firmware::ddr_output::In;
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(4),
     timing: timing::CLK_250,
     fast: &["q"],
     latency: &[Latency { from: "d", to: "q", cycles: |_| 0 }],

@@ -12,7 +12,6 @@ use crate::golden::prelude::*;
 mod histograms;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(5),
     reset: Some("rst"),
     latency: &[Latency { from: "algo_start", to: "algo_done", cycles: done }],
     glue: Some(histograms::GLUE),

@@ -9,7 +9,6 @@ use crate::golden::prelude::*;
 const LAYERS: u64 = 254;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(6),
     reset: Some("rst"),
     latency: &[
         Latency { from: "algo_start", to: "read_en", cycles: |_| 0 },

@@ -13,7 +13,6 @@ const WRAP: i64 = 1 << 34;
 const PATIENCE: i64 = 1000;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(7),
     reset: Some("rst"),
     latency: &[
         Latency { from: "count", to: "l1_in_0", cycles: |_| 0 },

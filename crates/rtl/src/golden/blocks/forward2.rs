@@ -11,7 +11,6 @@ const STRETCH: usize = 512;
 const WRAP: i64 = 1 << 34;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(8),
     reset: Some("rst"),
     latency: &[Latency { from: "l1_out_0", to: "depth", cycles: |_| 0 }],
     ..Spec::new("forward2", "depth_estimator.forward2", record)

@@ -12,7 +12,6 @@ const SHOTS: u16 = 3;
 const DRAIN: u64 = 16;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(9),
     reset: Some("rst"),
     latency: &[
         Latency { from: "start", to: "acquire", cycles: |_| 0 },

@@ -13,7 +13,6 @@ const LINES: usize = MIXED + 67_500;
 const MANY: u64 = 2600;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(10),
     latency: &[
         Latency { from: "clear", to: "count", cycles: |_| 0 },
         Latency { from: "tdc_valid", to: "count", cycles: |_| 0 },

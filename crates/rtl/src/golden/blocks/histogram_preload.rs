@@ -6,7 +6,6 @@ use tofsim::firmware::histogram_preload::{self, In};
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(11),
     timing: timing::NONE,
     ..Spec::new("histogram_preload", "histogram_preload", record)
 };

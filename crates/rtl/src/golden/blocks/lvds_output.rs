@@ -5,7 +5,6 @@ use tofsim::firmware::lvds_output::{self, In};
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(12),
     timing: timing::NONE,
     ..Spec::new("lvds_output", "lvds_output", record)
 };

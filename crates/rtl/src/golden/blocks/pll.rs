@@ -5,7 +5,6 @@ use tofsim::kernel::clock::Clock;
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(13),
     timing: timing::OWN,
     fast: &["clk_125", "clk_250", "locked"],
     ..Spec::new("pll", "pll", record)

@@ -5,7 +5,6 @@ use tofsim::firmware::reset_sync::In;
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(14),
     timing: timing::CLK,
     latency: &[
         Latency { from: "rst", to: "rst_sync", cycles: |_| 1 },

@@ -6,7 +6,6 @@ use tofsim::firmware::spad_control::In;
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(15),
     reset: Some("rst"),
     latency: &[Latency { from: "pre_start", to: "spad_rst", cycles: |_| 0 }],
     ..Spec::new("spad_control", "spad_control", record)

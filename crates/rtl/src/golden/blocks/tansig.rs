@@ -16,7 +16,6 @@ const BEYOND: [i64; 4] =
     [-HALF * STEP - STEP / 2 - 1, HALF * STEP - STEP / 2, -(1 << 35), (1 << 35) - 1];
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(16),
     reset: Some("rst"),
     latency: &[Latency { from: "l1_in_0", to: "l1_out_0", cycles: |_| 0 }],
     ..Spec::new("tansig", "depth_estimator.tansig", record)

@@ -13,7 +13,6 @@ use goals::{Goals, LAST_RESET};
 use light::Light;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(17),
     reset: Some("rst"),
     latency: &[
         Latency { from: "tdc_stop", to: "tdc_valid", cycles: |_| 3 },

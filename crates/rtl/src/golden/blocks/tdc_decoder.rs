@@ -12,7 +12,6 @@ const ENDS: [i64; 4] = [-1, 0, 4095, 4096];
 const COARSE: u64 = 3;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(18),
     reset: Some("rst"),
     latency: &[
         Latency { from: "hit", to: "tdc_valid", cycles: |_| 1 },

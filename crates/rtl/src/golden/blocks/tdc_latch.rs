@@ -7,7 +7,6 @@ use tofsim::firmware::tdc_latch::In;
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(19),
     reset: Some("rst"),
     latency: &[
         Latency { from: "taps", to: "hit", cycles: |_| 0 },

@@ -5,7 +5,6 @@ use tofsim::firmware::vcsel_driver::{In, PERIODS};
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(21),
     timing: timing::BOTH,
     reset: Some("rst"),
     fast: &["laser_on", "laser_pulse", "ddr_output.q"],
