@@ -9,7 +9,6 @@ pub mod events;
 pub mod explanation;
 pub mod exploration;
 pub mod frame_log;
-pub mod histogram_csv;
 pub mod histogram_svg;
 pub mod learning_curve;
 pub mod pair_table;

@@ -1,10 +1,9 @@
 //! The files of an evaluation: its JSON, its figures as CSV, and box plots.
 
-use std::io::Write;
 use std::path::Path;
 
 use tofsim::error::{Input, Result};
-use tofsim::files::output::{create_directory, write_file};
+use tofsim::files::output::{create_directory, write_bytes};
 use tofsim_learn::evaluation::{Figures, Group, thesis};
 
 use super::box_plot;
@@ -15,9 +14,9 @@ const HEADER: &str = "estimator,by,value,estimates,failures,mean_mm,mean_error_m
 /// Puts them in a folder, which is made.
 pub fn write(folder: &Path, json: &str, figures: &[Figures]) -> Result<()> {
     create_directory(folder)?;
-    put(&folder.join("evaluation.json"), json.as_bytes())?;
+    write_bytes(&folder.join("evaluation.json"), json)?;
     let csv = csv(figures).map_err(|error| Input::new("evaluation.csv", error.to_string()))?;
-    put(&folder.join("evaluation.csv"), &csv)?;
+    write_bytes(&folder.join("evaluation.csv"), csv)?;
     for one in figures {
         for grouping in one.groupings() {
             let beside_mm: Option<fn(f64) -> f64> =
@@ -27,14 +26,10 @@ pub fn write(folder: &Path, json: &str, figures: &[Figures]) -> Result<()> {
             let path = folder.join(format!("{}_by_{}.svg", one.name, grouping.key));
             let svg = box_plot::svg(&title, grouping.quantity, grouping.groups, beside_mm);
             let svg = svg.map_err(|why| Input::new(path.display(), why))?;
-            put(&path, svg.as_bytes())?;
+            write_bytes(&path, svg)?;
         }
     }
     Ok(())
-}
-
-fn put(path: &Path, bytes: &[u8]) -> Result<()> {
-    write_file(path, |file| file.write_all(bytes))
 }
 
 /// A row for each estimator and group.

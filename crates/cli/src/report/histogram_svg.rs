@@ -9,7 +9,7 @@ use tofsim::optics::hazard::Cause;
 
 use crate::text::svg::{chart, picture};
 
-use super::causes::{CAUSES, Causes, name as cause_name};
+use super::causes::{CAUSES, Causes};
 
 /// Width of a bin [ns].
 const BIN_NS: f64 = 0.025;
@@ -28,8 +28,7 @@ pub fn svg(
 ) -> Result<String, String> {
     // Height of the first `layers` causes together, in each bin.
     let stack = |layers: usize| -> [u32; BINS] {
-        let layers = &CAUSES[..layers];
-        std::array::from_fn(|bin| layers.iter().map(|&cause| causes.of(cause)[bin]).sum())
+        std::array::from_fn(|bin| causes[..layers].iter().map(|counts| counts[bin]).sum())
     };
     picture(|canvas| {
         let top = stack(CAUSES.len());
@@ -50,8 +49,8 @@ pub fn svg(
             .draw()?;
         chart.configure_secondary_axes().x_desc("depth [m]").x_labels(10).draw()?;
 
-        for (layer, cause) in CAUSES.into_iter().enumerate() {
-            let total = causes.total(cause);
+        for (layer, (cause, name)) in CAUSES.into_iter().enumerate() {
+            let total: u32 = causes[layer].iter().sum();
             if total == 0 {
                 continue;
             }
@@ -64,7 +63,7 @@ pub fn svg(
             });
             chart
                 .draw_series(bars)?
-                .label(format!("{}: {total}", cause_name(cause)))
+                .label(format!("{name}: {total}"))
                 .legend(move |(x, y)| Rectangle::new([(x, y - 5), (x + 12, y + 5)], style));
         }
         let peak_ns = (peak as f64 + 0.5) * BIN_NS;

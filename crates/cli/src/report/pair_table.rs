@@ -97,10 +97,10 @@ fn range(difference: &[i32; BINS]) -> (i32, i32) {
 }
 
 /// A pair as CSV: `bin,dark,lit,difference`, 256 rows.
-pub fn csv(dark: &Frame, lit: &Frame) -> Vec<u8> {
+pub fn csv(dark: &Frame, lit: &Frame) -> String {
     let mut text = "bin,dark,lit,difference\n".to_owned();
     for (bin, hits) in difference(dark, lit).into_iter().enumerate() {
         text += &format!("{bin},{},{},{hits}\n", dark.histogram[bin], lit.histogram[bin]);
     }
-    text.into_bytes()
+    text
 }

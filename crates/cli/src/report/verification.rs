@@ -1,8 +1,10 @@
 //! The reports as a table, as JSON and as JUnit XML.
 
-use quick_junit::SerializeError;
+use std::path::Path;
+
 use serde_json::{Value, json};
 
+use tofsim::error::Result;
 use tofsim_rtl::verify::cycle_counts::Count;
 use tofsim_rtl::verify::{BlockReport, Verdict};
 
@@ -68,17 +70,17 @@ pub fn json(rtl: &str, simulator: &str, reports: &[BlockReport]) -> Value {
     })
 }
 
-/// A test suite with a case for each block.
+/// Writes a test suite with a case for each block.
 ///
 /// # Errors
-/// When it cannot be put into XML.
-pub fn junit(simulator: &str, reports: &[BlockReport]) -> Result<String, SerializeError> {
+/// When it cannot be put into XML, or the file cannot be written.
+pub fn write_junit(path: &Path, simulator: &str, reports: &[BlockReport]) -> Result<()> {
     let case = |report: &BlockReport| JunitCase {
         name: report.name.clone(),
         failure: (!report.passed()).then(|| (report.fault(), around(report))),
     };
     let suite = format!("tofsim verify {simulator}");
-    junit::junit("tofsim verify", suite, reports.iter().map(case))
+    junit::write(path, "tofsim verify", suite, reports.iter().map(case))
 }
 
 /// What, expected, counted twice, proven.

@@ -2,16 +2,13 @@
 
 mod values;
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use values::{latency, setting, time};
 
 use tofsim::error::{Error, Input, Result};
-use tofsim::files::output::write_file;
 use tofsim::kernel::Time;
-use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim_captures::compare::map::Rule;
 use tofsim_captures::compare::{
@@ -24,6 +21,7 @@ use tofsim_captures::source::Source;
 use crate::choice;
 use crate::report::comparison;
 
+use super::draws::load;
 use super::stdout::print;
 use super::talk::Talk;
 
@@ -175,9 +173,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let options = options(args)?;
     let result = compare(&a, &b, &options)?;
     if let Some(path) = &args.junit {
-        let fault = |error| Input::new(path.display(), format!("no XML: {error}"));
-        let text = comparison::junit(&result).map_err(fault)?;
-        write_file(path, |file| file.write_all(text.as_bytes()))?;
+        comparison::write_junit(path, &result)?;
     }
     if let Some(path) = &options.waves {
         talk.note(format_args!("waveform: {}", path.display()));
@@ -207,10 +203,7 @@ fn no_input_is_written(args: &Args) -> Result<()> {
 }
 
 fn simulation(name: &str, simulated: &Simulated) -> Result<Source> {
-    let mut loaded = scenario::load(name, &simulated.set)?;
-    if let Some(seed) = simulated.seed {
-        loaded.scenario.seed = seed;
-    }
+    let loaded = load(name, &simulated.set, simulated.seed)?;
     Ok(Source::simulation(Setup::new(loaded)?, simulated.frames))
 }
 

@@ -32,10 +32,7 @@ pub struct Draws {
 impl Draws {
     /// A scenario by name or path, with what the options say.
     pub fn load(&self, scenario: &str) -> Result<Loaded> {
-        let mut loaded = scenario::load(scenario, &self.set)?;
-        if let Some(seed) = self.seed {
-            loaded.scenario.seed = seed;
-        }
+        let mut loaded = load(scenario, &self.set, self.seed)?;
         if let Some(profile) = &self.profile {
             loaded.scenario.tdc.profile = from_here(profile, &loaded)?;
         }
@@ -67,6 +64,13 @@ impl Draws {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0).into());
         pool.build().map_err(|error| Input::new("--threads", error).into())
     }
+}
+
+/// A scenario by name or path, with keys set, and with a seed instead of its own if there is one.
+pub fn load(scenario: &str, set: &[String], seed: Option<u64>) -> Result<Loaded> {
+    let mut loaded = scenario::load(scenario, set)?;
+    loaded.scenario.seed = seed.unwrap_or(loaded.scenario.seed);
+    Ok(loaded)
 }
 
 /// Makes the pool of so many threads, if a number is asked for.

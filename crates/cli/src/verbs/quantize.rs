@@ -1,13 +1,12 @@
 //! `tofsim quantize`: a network that was trained elsewhere, in the words of the firmware.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use serde_json::json;
 
 use tofsim::error::{Error, Result};
-use tofsim::files::output::{create_directory, write_file};
+use tofsim::files::output::{create_directory, write_bytes};
 use tofsim::network::file::Training;
 use tofsim::network::formats::Overflow;
 use tofsim::network::{Network, mem};
@@ -179,7 +178,7 @@ impl Args {
     fn write(&self, network: &Network) -> Result<Vec<PathBuf>> {
         let mut files = Vec::new();
         let mut put = |path: PathBuf, text: &str| {
-            write_file(&path, |file| file.write_all(text.as_bytes()))?;
+            write_bytes(&path, text)?;
             files.push(path);
             Ok::<(), Error>(())
         };

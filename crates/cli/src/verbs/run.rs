@@ -10,7 +10,7 @@ use tofsim::scenario;
 use tofsim::scenario::window::Window;
 use tofsim::sim::fast::histogram::Histograms;
 use tofsim::sim::frames::Frame;
-use tofsim::sim::run::{Observers, Outcome};
+use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 use tofsim::sim::{Run, Stepping};
@@ -23,7 +23,7 @@ use crate::report::run_files::RunFiles;
 use crate::report::summary::Summary;
 use crate::report::table;
 
-use super::draws::use_threads;
+use super::draws::{load, use_threads};
 use super::interrupt::stop_signal;
 use super::stdout::{print, print_with};
 use super::talk::Talk;
@@ -86,15 +86,12 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let waves = args.waves_format()?;
-    let mut loaded = scenario::load(&args.scenario, &args.overrides())?;
-    if let Some(seed) = args.seed {
-        loaded.scenario.seed = seed;
-    }
-    let setup = Setup::new(loaded)?;
+    let setup = Setup::new(load(&args.scenario, &args.overrides(), args.seed)?)?;
     args.check_fidelity(&setup)?;
     args.check_pairs(&setup)?;
     let frames = args.frames * setup.frames_together();
-    let way = Way::new(args.fidelity, &setup)?;
+    let is_drawn = args.fidelity == Fidelity::Histogram;
+    let histograms = is_drawn.then(|| Histograms::new(&setup)).transpose()?;
     let plan = |format| WavePlan::new(args, format, &setup, frames);
     let plan = waves.map(plan).transpose()?;
     let (folder, events) = (args.output.as_deref(), args.events.as_deref());
@@ -120,7 +117,17 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         stop: stop.as_deref(),
     };
     let began = Instant::now();
-    let outcome = way.simulate(frames, watch, wants_all_shots)?;
+    let stepping = match args.fidelity {
+        Fidelity::Shot => Stepping::LeapShots,
+        _ => Stepping::SkipIdle,
+    };
+    let run = || Run::new(&setup).stepping(stepping);
+    // On several threads unless there is a waveform or every shot is wanted.
+    let outcome = match histograms {
+        Some(histograms) => histograms.many(frames, watch)?,
+        None if watch.waves.is_some() || wants_all_shots => run().observe(frames, watch)?,
+        None => run().many(frames, watch)?,
+    };
     let wall = began.elapsed();
     progress.finish_and_clear();
     outcome.notes.iter().chain(&setup.notes()).for_each(|note| talk.note(note));
@@ -140,33 +147,6 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         text += &table::tdc(results);
     }
     print(&text)
-}
-
-/// A way to simulate, at the fidelity that is asked for.
-enum Way<'a> {
-    /// Histogram by histogram.
-    Draw(Histograms<'a>),
-    /// Edge by edge or shot by shot.
-    Run(Box<Run<'a>>),
-}
-
-impl<'a> Way<'a> {
-    fn new(fidelity: Fidelity, setup: &'a Setup) -> Result<Self> {
-        Ok(match fidelity {
-            Fidelity::Cycle => Way::Run(Box::new(Run::new(setup).stepping(Stepping::SkipIdle))),
-            Fidelity::Shot => Way::Run(Box::new(Run::new(setup).stepping(Stepping::LeapShots))),
-            Fidelity::Histogram => Way::Draw(Histograms::new(setup)?),
-        })
-    }
-
-    /// Simulates frames, on several threads unless there is a waveform or every shot is wanted.
-    fn simulate(self, frames: u64, watch: Observers, wants_all_shots: bool) -> Result<Outcome> {
-        match self {
-            Way::Draw(histograms) => histograms.many(frames, watch),
-            Way::Run(run) if watch.waves.is_some() || wants_all_shots => run.observe(frames, watch),
-            Way::Run(run) => run.many(frames, watch),
-        }
-    }
 }
 
 impl Args {

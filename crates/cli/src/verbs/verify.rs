@@ -1,14 +1,12 @@
 //! `tofsim verify`: holds Verilog to the golden vectors.
 
-use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
 
 use rayon::prelude::*;
 
-use tofsim::error::{Error, Input, Result};
-use tofsim::files::output::write_file;
+use tofsim::error::{Error, Result};
 use tofsim_rtl::golden::blocks::CENTROID;
 use tofsim_rtl::golden::{BLOCKS, Setting, Spec};
 use tofsim_rtl::verify::cycle_counts::Count;
@@ -110,9 +108,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
 
     let simulator = args.simulator.name();
     if let Some(path) = &args.junit {
-        let fault = |error| Input::new(path.display(), format!("no XML: {error}"));
-        let text = report::junit(simulator, &reports).map_err(fault)?;
-        write_file(path, |file| file.write_all(text.as_bytes()))?;
+        report::write_junit(path, simulator, &reports)?;
     }
     match args.json {
         true => print(&format!("{:#}\n", report::json(&rtl.source, simulator, &reports)))?,

@@ -1,10 +1,9 @@
 //! The files that golden vectors become.
 
-use std::io::Write;
 use std::path::Path;
 
 use tofsim::error::Result;
-use tofsim::files::output::{create_directory, write_file};
+use tofsim::files::output::{create_directory, write_bytes, write_file};
 use tofsim::network::mem::lines;
 
 use super::bench::Bench;
@@ -31,9 +30,7 @@ impl Vectors {
     /// When one cannot be written.
     pub fn write_with(&self, folder: &Path, bench: &Bench) -> Result<()> {
         create_directory(folder)?;
-        let text = |name: &str, text: &str| {
-            write_file(&folder.join(name), |file| file.write_all(text.as_bytes()))
-        };
+        let text = |name: &str, text: &str| write_bytes(&folder.join(name), text);
         for memory in self.memories() {
             text(memory.name, &memory.text)?;
         }

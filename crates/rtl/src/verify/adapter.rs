@@ -1,10 +1,9 @@
 //! The Verilog between our bench and a user's module, from what the map says.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use tofsim::error::Result;
-use tofsim::files::output::write_file;
+use tofsim::files::output::write_bytes;
 
 use crate::golden::bench::Bench;
 use crate::golden::bench::allowances::Allowances;
@@ -92,7 +91,7 @@ impl BlockMap {
         bench.module = format!("{}_adapter", spec.name);
         let path = folder.join(format!("{}.v", bench.module));
         let text = self.text(bench, spec, found);
-        write_file(&path, |file| file.write_all(text.as_bytes()))?;
+        write_bytes(&path, text)?;
         Ok(path)
     }
 

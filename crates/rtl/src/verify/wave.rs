@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use tofsim::error::Result;
-use tofsim::files::output::write_file;
+use tofsim::files::output::{write_bytes, write_file};
 use tofsim::waves::side_by_side::{
     HEXADECIMAL, Layout, SIDES, Scope, Shown, SideBySide, Value, View, range,
 };
@@ -41,7 +41,7 @@ pub fn write(
     let wave = format!("{stem}.vcd");
     write_file(&folder.join(&wave), |file| body(file, vectors, observed, cycles))?;
     let save = save_file(&wave, vectors, observed, first);
-    write_file(&folder.join(format!("{stem}.gtkw")), |file| file.write_all(save.as_bytes()))
+    write_bytes(&folder.join(format!("{stem}.gtkw")), save)
 }
 
 /// The scope that has everything.

@@ -1,14 +1,12 @@
 //! `tofsim ila capture`: a simulation through a logic analyser, into Vivado's files.
 
-use std::io::Write;
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
 use tofsim::error::{Error, Input, Result};
-use tofsim::files::output::write_file;
+use tofsim::files::output::write_bytes;
 use tofsim::kernel::Time;
-use tofsim::scenario;
 use tofsim::sim::Run;
 use tofsim::sim::setup::Setup;
 use tofsim_captures::compare::SignalMap;
@@ -17,6 +15,7 @@ use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, Overr
 
 use crate::choice;
 use crate::text::table::facts;
+use crate::verbs::draws::load;
 use crate::verbs::interrupt::stop_signal;
 use crate::verbs::stdout::{print, print_json};
 use crate::verbs::talk::Talk;
@@ -148,18 +147,14 @@ fn simulated(args: &Args, set_up: &AnalyserSetup) -> Result<Setup> {
     let name = args.scenario.as_deref().unwrap_or(&set_up.file.scenario);
     // What the set-up sets is meant for its own scenario.
     let own = if args.scenario.is_none() { &set_up.file.set[..] } else { &[] };
-    let mut loaded = scenario::load(name, &[own, &args.set].concat())?;
-    if let Some(seed) = args.seed {
-        loaded.scenario.seed = seed;
-    }
-    Setup::new(loaded)
+    Setup::new(load(name, &[own, &args.set].concat(), args.seed)?)
 }
 
 /// The map by which `tofsim compare` lays the capture over a waveform.
 fn write_map(args: &Args, set_up: &AnalyserSetup) -> Result<PathBuf> {
     let path = args.output.join(format!("{}.map.toml", set_up.name));
     let text = SignalMap::of(set_up).to_toml();
-    write_file(&path, |file| file.write_all(text.as_bytes()))?;
+    write_bytes(&path, text)?;
     Ok(path)
 }
 

@@ -1,11 +1,10 @@
 //! Proves a promise of the Verilog with Yosys, and tries to prove what is next to it.
 
 use std::ffi::{OsStr, OsString};
-use std::io::Write;
 use std::path::Path;
 
 use tofsim::error::Result;
-use tofsim::files::output::write_file;
+use tofsim::files::output::write_bytes;
 
 use crate::verify::process::{Finished, Limits, YOSYS};
 use crate::verify::rtl::Rtl;
@@ -34,7 +33,7 @@ pub fn prove(
     limits: &Limits,
 ) -> Result<Option<String>> {
     let file = folder.join(promise.properties.module).with_extension("sv");
-    write_file(&file, |file| file.write_all(promise.properties.text.as_bytes()))?;
+    write_bytes(&file, promise.properties.text)?;
     match ask(promise, promise.expected, rtl, folder, limits)? {
         Answer::Holds => {}
         Answer::Fails(why) | Answer::Stuck(why) => return Ok(Some(why)),
