@@ -8,13 +8,11 @@ pub mod draws;
 pub mod estimate;
 pub mod evaluate;
 pub mod ila;
-pub mod interrupt;
 pub mod man;
 pub mod quantize;
 pub mod run;
 pub mod scenario;
-pub mod stdout;
-pub mod talk;
+pub mod terminal;
 pub mod train;
 pub mod vectors;
 pub mod verify;
@@ -22,7 +20,7 @@ pub mod verify;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
-use talk::Talk;
+use terminal::Talk;
 
 use tofsim::error::Result;
 

@@ -10,7 +10,7 @@ use tofsim::sim::setup::CYCLE;
 
 use crate::text::table::plain;
 
-use super::stdout::{print, print_json};
+use super::terminal::{print, print_json};
 
 /// Print the link budget: photons and avalanches that a shot can expect, and eye safety
 #[derive(Debug, clap::Args)]

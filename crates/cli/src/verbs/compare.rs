@@ -22,8 +22,7 @@ use crate::choice;
 use crate::report::comparison;
 
 use super::draws::load;
-use super::stdout::print;
-use super::talk::Talk;
+use super::terminal::{Talk, print};
 
 /// Compare two waveforms or captures: what A has is expected, what B has was got
 ///

@@ -15,9 +15,7 @@ use crate::choice;
 use crate::text::table::{facts, grouped};
 
 use super::draws::Draws;
-use super::interrupt::stop_signal;
-use super::stdout::{print, print_json};
-use super::talk::Talk;
+use super::terminal::{Talk, print, print_json, stop_signal};
 
 /// Draw histograms of many scenes, for training and tests
 #[derive(Debug, clap::Args)]
@@ -56,12 +54,11 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let rows = args.draws.rows(args.grid, seed);
     let description = DatasetDescription::new(&name, &args.draws.set, &source, &rows, seed);
     let files = DatasetFiles::create(&args.output, &args.format, &description)?;
-    let pool = args.draws.pool()?;
     let stop = stop_signal();
-    let progress = talk.progress(rows.len(), "rows");
     let blocks = source.blocks(&rows, seed, 0..rows.len());
-    let written = pool.install(|| write(files, blocks, stop.as_deref(), |n| progress.inc(n)))?;
-    progress.finish_and_clear();
+    let written = args
+        .draws
+        .on_threads(rows.len(), talk, |done| write(files, blocks, stop.as_deref(), done))?;
     written.iter().for_each(|path| talk.detail(format_args!("wrote {}", path.display())));
 
     let files: Vec<_> = written.iter().map(|path| path.display().to_string()).collect();
@@ -78,7 +75,7 @@ fn write(
     mut files: DatasetFiles,
     mut blocks: Blocks<'_>,
     stop: Option<&AtomicBool>,
-    done: impl Fn(u64),
+    done: &dyn Fn(u64),
 ) -> Result<Vec<PathBuf>> {
     let mut next = blocks.next();
     while let Some(block) = next {

@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
-use rayon::ThreadPool;
+use rayon::ThreadPoolBuilder;
 
 use tofsim::error::{Error, Input, Result};
 use tofsim::scenario::{self, Loaded, builtin};
 use tofsim_learn::dataset::{Grid, Rows, Subset};
+
+use super::terminal::Talk;
 
 /// Which histograms.
 #[derive(Debug, clap::Args)]
@@ -59,10 +61,20 @@ impl Draws {
         Rows::Subset(Subset::new(grid, self.rows.unwrap_or(default), seed))
     }
 
-    /// Threads to draw on.
-    pub fn pool(&self) -> Result<ThreadPool> {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0).into());
-        pool.build().map_err(|error| Input::new("--threads", error).into())
+    /// Does `work` for so many rows on as many threads as the options say, with a progress bar that it
+    /// tells of rows done.
+    pub fn on_threads<T: Send>(
+        &self,
+        rows: u64,
+        talk: &Talk,
+        work: impl FnOnce(&(dyn Fn(u64) + Sync)) -> Result<T> + Send,
+    ) -> Result<T> {
+        let pool = ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0).into());
+        let pool = pool.build().map_err(|error| Input::new("--threads", error))?;
+        let progress = talk.progress(rows, "rows");
+        let done = pool.install(|| work(&|rows| progress.inc(rows)));
+        progress.finish_and_clear();
+        done
     }
 }
 
@@ -76,7 +88,7 @@ pub fn load(scenario: &str, set: &[String], seed: Option<u64>) -> Result<Loaded>
 /// Makes the pool of so many threads, if a number is asked for.
 pub fn use_threads(threads: Option<u16>) -> Result<()> {
     let Some(threads) = threads else { return Ok(()) };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+    let pool = ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     pool.map_err(|error| Input::new("--threads", error).value(threads).into())
 }
 

@@ -13,7 +13,7 @@ use tofsim_learn::quantize::{Explanation, explain};
 use crate::report::explanation;
 use crate::text;
 
-use super::stdout::{print, print_json};
+use super::terminal::{print, print_json};
 
 /// Estimate depths of histograms, bit for bit as the firmware does
 #[derive(Debug, clap::Args)]

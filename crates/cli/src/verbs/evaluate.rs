@@ -11,10 +11,8 @@ use tofsim::error::{Input, Result};
 use tofsim::network::Network;
 use tofsim::scenario::{self, Loaded};
 use tofsim::sim::setup::Setup;
-use tofsim_learn::dataset::{Grid, HistogramSource, Rows, Scene};
-use tofsim_learn::estimation::{
-    Acquisition, Estimator, EstimatorInputs, EstimatorKind, subtraction,
-};
+use tofsim_learn::dataset::{Grid, HistogramSource, Scene};
+use tofsim_learn::estimation::{Acquisition, EstimatorInputs, EstimatorKind, subtraction};
 use tofsim_learn::evaluation::bound;
 use tofsim_learn::evaluation::cross_check::CrossCheck;
 use tofsim_learn::evaluation::thesis::{self, DISTANCES_M};
@@ -24,9 +22,7 @@ use crate::choice;
 use crate::report::{evaluation as report, evaluation_files};
 
 use super::draws::Draws;
-use super::interrupt::stop_signal;
-use super::stdout::{print, print_json};
-use super::talk::Talk;
+use super::terminal::{Talk, print, print_json, stop_signal};
 
 /// Light of the scenes that the cross-check takes: in the middle of the grid.
 const CHECK_REFLECTANCE: f64 = 0.34;
@@ -94,7 +90,9 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let estimators = estimators.collect::<std::result::Result<Vec<_>, Input>>()?;
     let rows = args.draws.rows(Grid::test(), seed);
     let stop = stop_signal();
-    let evaluation = args.evaluate((&source, &rows, seed), &estimators, stop.as_deref(), talk)?;
+    let evaluation = args.draws.on_threads(rows.len(), talk, |done| {
+        Evaluation::new(&source, &rows, seed, &estimators, stop.as_deref(), done)
+    })?;
     let cross_check = args.cross_check(&loaded, &source, stop.as_deref())?;
     let figures: Vec<_> =
         evaluation.columns.iter().map(|column| Figures::new(&evaluation, column)).collect();
@@ -139,22 +137,6 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
 }
 
 impl Args {
-    fn evaluate(
-        &self,
-        (source, rows, seed): (&HistogramSource, &Rows, u64),
-        estimators: &[Box<dyn Estimator>],
-        stop: Option<&AtomicBool>,
-        talk: &Talk,
-    ) -> Result<Evaluation> {
-        let pool = self.draws.pool()?;
-        let progress = talk.progress(rows.len(), "rows");
-        let done = |rows| progress.inc(rows);
-        let evaluation =
-            pool.install(|| Evaluation::new(source, rows, seed, estimators, stop, done));
-        progress.finish_and_clear();
-        evaluation
-    }
-
     fn cross_check(
         &self,
         loaded: &Loaded,

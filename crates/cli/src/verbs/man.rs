@@ -8,7 +8,7 @@ use clap_mangen::Man;
 use tofsim::error::{Error, Result};
 use tofsim::files::output::{create_directory, write_bytes};
 
-use super::stdout::print;
+use super::terminal::print;
 
 /// Print the manual page, or write one for each subcommand
 #[derive(Debug, clap::Args)]

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
 use serde_json::json;
 
 use tofsim::error::{Error, Result};
@@ -20,9 +19,7 @@ use crate::report::exploration;
 use crate::text::table::table;
 
 use super::draws::Draws;
-use super::interrupt::stop_signal;
-use super::stdout::{print, print_json};
-use super::talk::Talk;
+use super::terminal::{Talk, print, print_json, stop_signal};
 
 /// Histograms of an exploration, if nothing else is said: 200 at each distance.
 const EXPLORED: u64 = 10_200;
@@ -82,14 +79,6 @@ struct Task {
     explore: Option<String>,
 }
 
-/// Largest magnitude of a kind of weights, and what its word holds.
-#[derive(Serialize)]
-struct Largest {
-    weights: &'static str,
-    magnitude: f64,
-    limit: f64,
-}
-
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     match (&args.task.from, &args.task.explore) {
@@ -108,12 +97,12 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
     }
     let magnitude =
         |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |a, b| f64::max(a, b.abs()));
-    let largest = |weights, magnitude, limit| Largest { weights, magnitude, limit };
+    // Largest magnitude of each kind of weights, and what its word holds.
     let largest = [
-        largest("w1", magnitude(&mut float.w1.iter().flatten().copied()), (-8f64).exp2()),
-        largest("b1", magnitude(&mut float.b1.iter().copied()), 4.0),
-        largest("w2", magnitude(&mut float.w2.iter().copied()), 2.0),
-        largest("b2", float.b2.abs(), 0.25),
+        ("w1", magnitude(&mut float.w1.iter().flatten().copied()), (-8f64).exp2()),
+        ("b1", magnitude(&mut float.b1.iter().copied()), 4.0),
+        ("w2", magnitude(&mut float.w2.iter().copied()), 2.0),
+        ("b2", float.b2.abs(), 0.25),
     ];
     let network = Network {
         name: from.clone(),
@@ -135,11 +124,13 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
             "from": from,
             // Weights that no word holds.
             "saturated": rounded.saturated,
-            "largest": largest,
+            "largest": largest.map(|(weights, magnitude, limit)| {
+                json!({ "weights": weights, "magnitude": magnitude, "limit": limit })
+            }),
             "files": files,
         }));
     }
-    let rows = largest.map(|Largest { weights, magnitude, limit }| {
+    let rows = largest.map(|(weights, magnitude, limit)| {
         [weights.to_owned(), format!("{magnitude:.6}"), format!("below {limit}")]
     });
     let table = table(["weights", "largest", "word holds"], rows, ..0);
@@ -154,12 +145,10 @@ impl Args {
         let network = Network::find(network, None)?;
         let source = HistogramSource::new(&Setup::new(loaded)?)?;
         let rows = self.draws.some_rows(EXPLORED, Grid::test(), seed);
-        let (stop, progress) = (stop_signal(), talk.progress(rows.len(), "rows"));
-        let points = self.draws.pool()?.install(|| {
-            let data = (&source, &rows, seed);
-            explore(&network, &sweep(), data, stop.as_deref(), |rows| progress.inc(rows))
+        let (stop, data) = (stop_signal(), (&source, &rows, seed));
+        let points = self.draws.on_threads(rows.len(), talk, |done| {
+            explore(&network, &sweep(), data, stop.as_deref(), done)
         })?;
-        progress.finish_and_clear();
         let (name, rows) = (&network.name, rows.len());
         if self.json {
             return print_json(&json!({

@@ -24,9 +24,7 @@ use crate::report::summary::Summary;
 use crate::report::table;
 
 use super::draws::{load, use_threads};
-use super::interrupt::stop_signal;
-use super::stdout::{print, print_with};
-use super::talk::Talk;
+use super::terminal::{Talk, print, print_with, stop_signal};
 
 /// Simulate frames: photons to depth, with a waveform
 #[derive(Debug, clap::Args)]

@@ -9,7 +9,7 @@ use tofsim::sim::setup::Setup;
 
 use crate::text::table::facts;
 
-use super::stdout::{print, print_json};
+use super::terminal::{print, print_json};
 
 /// List, show and check scenarios
 #[derive(Debug, clap::Args)]

@@ -14,9 +14,7 @@ use tofsim_learn::training::{checkpoint, data};
 use crate::report::training;
 
 use super::draws::{from_here, use_threads};
-use super::interrupt::stop_signal;
-use super::stdout::{print, print_json};
-use super::talk::Talk;
+use super::terminal::{Talk, print, print_json, stop_signal};
 
 mod word_format;
 mod written;

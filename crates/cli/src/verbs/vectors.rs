@@ -7,7 +7,7 @@ use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim_rtl::golden::{BLOCKS, Setting, Spec, blocks};
 
-use super::talk::Talk;
+use super::terminal::Talk;
 
 /// Write golden vectors of a block with a self-checking Verilog bench
 ///

@@ -16,9 +16,7 @@ use tofsim_rtl::verify::{BlockCheck, BlockReport, Rtl, RtlMap, Simulator};
 use crate::choice;
 use crate::report::verification as report;
 
-use super::interrupt::stop_signal;
-use super::stdout::print;
-use super::talk::Talk;
+use super::terminal::{Talk, print, stop_signal};
 use super::vectors::{From, find};
 
 /// Run Verilog against the golden vectors

@@ -4,7 +4,6 @@
 //! next edge, so that nothing depends on the order in which a simulator takes simultaneous events.
 
 pub mod allowances;
-mod compare;
 
 use allowances::Allowances;
 
@@ -13,7 +12,7 @@ use super::ports::Port;
 use super::spec::Vectors;
 use super::table::Column;
 use super::timing::{Step, Timing};
-use super::verilog::{parameter_list, range};
+use super::verilog::{parameter_list, place, range};
 
 /// A bench, with what another implementation is allowed.
 #[derive(Clone, Debug)]
@@ -71,9 +70,9 @@ impl<'a> Bench<'a> {
             ports = connected.join(",\n"),
             line_in = range(vectors.stimulus.width().max(1) as u32),
             line_out = range(vectors.expected.width() as u32),
-            looks = compare::looks(vectors),
+            looks = looks(vectors),
             allowances = allowances.collect::<String>(),
-            show = compare::show(vectors),
+            show = show(vectors),
             before = before,
             steps = steps(&spec.timing, &inputs),
         )
@@ -158,4 +157,38 @@ fn edges(step: &Step, last: bool) -> String {
         [name] => format!("{first} {name} = 1'b{levels};\n"),
         _ => format!("{first} {{{}}} = {}'b{levels};\n", names.join(", "), names.len()),
     }
+}
+
+/// A task for each sample of a cycle, which takes what is compared there.
+fn looks(vectors: &Vectors) -> String {
+    let look = |sample: usize| {
+        let columns = vectors.expected.columns().iter().filter(|column| column.sample == sample);
+        let (inner, ports): (Vec<_>, Vec<_>) = columns.partition(|column| column.internal);
+        let take = |path: &str, columns: &[&Column]| -> String {
+            let line =
+                |column: &&Column| format!("    got[{}] = {path}{};\n", place(column), column.name);
+            columns.iter().map(line).collect()
+        };
+        let inner = match inner.as_slice() {
+            [] => String::new(),
+            inner => format!("`ifdef REGISTERS\n{}`endif\n", take("dut.", inner)),
+        };
+        let ports = take("", &ports);
+        format!("\n  task look_{sample};\n  begin\n{ports}{inner}  end\n  endtask\n")
+    };
+    (0..vectors.spec.timing.samples()).map(look).collect()
+}
+
+/// Lines that say which columns differ.
+fn show(vectors: &Vectors) -> String {
+    let show = |column: &Column| {
+        let (place, name) = (place(column), &column.name);
+        let before = vectors.spec.timing.before_edge_ps(column.sample) + 1;
+        format!(
+            "    if (got[{place}] !== want[{place}])\n      \
+             $display(\"mismatch: cycle %0d, time %0d ps, {name}: expected %h, got %h\",\n        \
+             cycle, FirstEdge + cycle * Period - 64'd{before}, want[{place}], got[{place}]);\n",
+        )
+    };
+    vectors.expected.columns().iter().map(show).collect()
 }

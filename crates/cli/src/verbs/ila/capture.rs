@@ -16,9 +16,7 @@ use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, Overr
 use crate::choice;
 use crate::text::table::facts;
 use crate::verbs::draws::load;
-use crate::verbs::interrupt::stop_signal;
-use crate::verbs::stdout::{print, print_json};
-use crate::verbs::talk::Talk;
+use crate::verbs::terminal::{Talk, print, print_json, stop_signal};
 
 /// Sample a simulation as a logic analyser on the board would, and write Vivado's files
 ///

@@ -11,7 +11,7 @@ use tofsim_captures::source::{SignalKind, Source, SourceFormat};
 
 use crate::choice;
 use crate::text::table::{facts, grouped, table};
-use crate::verbs::stdout::print;
+use crate::verbs::terminal::print;
 
 /// Say what a logic analyser's file holds
 ///

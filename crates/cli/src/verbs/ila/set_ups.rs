@@ -9,7 +9,7 @@ use tofsim_captures::ila::setup::AnalyserSetupFile;
 use tofsim_captures::ila::{AnalyserSetup, Overrides, builtin};
 
 use crate::text::table::plain;
-use crate::verbs::stdout::{print, print_json};
+use crate::verbs::terminal::{print, print_json};
 
 /// Prints the built-in set-ups and what they show.
 pub fn list(as_json: bool) -> Result<()> {

@@ -15,7 +15,7 @@ use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::tournament::Tournament;
 
 use crate::report::{learning_curve, training as report};
-use crate::verbs::talk::Talk;
+use crate::verbs::terminal::Talk;
 
 /// Rounds, tests and writes a network, made on a chain by a command with a seed; the network's file,
 /// and its errors.

@@ -11,8 +11,6 @@ use crate::golden::prelude::*;
 
 mod histograms;
 
-use histograms::Case;
-
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |_| DONE }],
@@ -40,17 +38,15 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let parts = [0..bins, bins..DIVIDE, DIVIDE..PLACE, PLACE..DONE];
     let all = histograms.len();
     let mut estimations = Estimations::new(parts, all, all as u64, setting);
-    let mut cases = Cover::new(
-        "nothing, peak in bin 0, in bin 255, window cut on the left, on the right, equal maxima",
-        Case::reachable(&params).map(|case| case as u64),
-    );
+    let reachable = histograms::reachable(&params).into_iter().zip(0..).filter(|(is, _)| *is);
+    let mut cases = Cover::new(histograms::CASES, reachable.map(|(_, case)| case));
     let mut run = Recorder::new(spec, setting, Stimulus::list());
     for _ in 0..setting.cycles() {
         let phase = run.top.centroid_estimator.registers.phase();
         if phase == Some(DONE) {
             let words = histograms[estimations.histogram as usize].map(|count| count.get() as u16);
-            let met = Case::of(&params, &words, &locate(&params, &words));
-            met.into_iter().for_each(|case| cases.see(case as u64));
+            let met = histograms::cases(&params, &words, &locate(&params, &words));
+            met.into_iter().zip(0..).for_each(|(met, case)| cases.see_if(met, case));
         }
         let (rst, algo_start) = estimations.next(phase, &mut run.draw);
         let i = Stimulus { rst, algo_start, histogram: U::new(estimations.histogram) };
