@@ -9,17 +9,12 @@ use crate::text::svg::{chart, picture};
 /// Whiskers reach so many heights of the box at most, and not past the last error.
 const WHISKER: f64 = 1.5;
 
-/// A box: whiskers, quartiles and median [mm].
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Box5([f64; 5]);
-
-impl Box5 {
-    fn of(group: &Group) -> Option<(f64, Self)> {
-        let [least, lower, median, upper, largest] = group.spread.quartiles_mm?;
-        let reach = WHISKER * (upper - lower);
-        let whiskers = [least.max(lower - reach), largest.min(upper + reach)];
-        Some((group.value, Box5([whiskers[0], lower, median, upper, whiskers[1]])))
-    }
+/// A group's value and its box: whiskers, quartiles and median [mm]; none without errors.
+fn five(group: &Group) -> Option<(f64, [f64; 5])> {
+    let [least, lower, median, upper, largest] = group.spread.quartiles_mm?;
+    let reach = WHISKER * (upper - lower);
+    let whiskers = [least.max(lower - reach), largest.min(upper + reach)];
+    Some((group.value, [whiskers[0], lower, median, upper, whiskers[1]]))
 }
 
 /// The picture as SVG text: a box for each group of a quantity, with its unit, and on both sides half of the
@@ -31,12 +26,12 @@ pub fn svg(
     groups: &[Group],
     beside_mm: Option<fn(f64) -> f64>,
 ) -> Result<String, String> {
-    let boxes: Vec<_> = groups.iter().filter_map(Box5::of).collect();
+    let boxes: Vec<_> = groups.iter().filter_map(five).collect();
     let values: Vec<_> = groups.iter().map(|group| group.value).collect();
     let (first, last) = (values.first().copied(), values.last().copied());
     let (first, last) = (first.unwrap_or(0.0), last.unwrap_or(1.0));
     let apart = if values.len() > 1 { (last - first) / (values.len() - 1) as f64 } else { 1.0 };
-    let whiskers = boxes.iter().flat_map(|(_, Box5(five))| [five[0].abs(), five[4].abs()]);
+    let whiskers = boxes.iter().flat_map(|(_, five)| [five[0].abs(), five[4].abs()]);
     let beside = values.iter().filter_map(|&value| Some(beside_mm?(value)));
     let highest = 1.1 * whiskers.chain(beside).fold(0.1, f64::max);
     picture(|canvas| {
@@ -56,7 +51,7 @@ pub fn svg(
         }
         let half = 0.3 * apart;
         let ink = BLUE.mix(0.8);
-        for (value, Box5([low, lower, median, upper, high])) in boxes {
+        for (value, [low, lower, median, upper, high]) in boxes {
             let line = |from, to| PathElement::new(vec![from, to], ink);
             chart.draw_series([
                 line((value, low), (value, lower)),
@@ -81,7 +76,7 @@ mod tests {
     fn whiskers_stop_at_one_and_a_half_boxes() {
         let errors = [-100.0, -1.0, 0.0, 1.0, 2.0];
         let spread = Spread::of(errors.map(|mm| Some(1e-3 * mm)));
-        let (value, Box5(five)) = Box5::of(&Group { value: 0.3, spread }).unwrap();
+        let (value, five) = super::five(&Group { value: 0.3, spread }).unwrap();
         assert_eq!(value, 0.3);
         for (found, expected) in five.into_iter().zip([-4.0, -1.0, 0.0, 1.0, 2.0]) {
             assert!((found - expected).abs() < 1e-9, "{five:?}");

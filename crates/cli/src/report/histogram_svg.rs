@@ -5,7 +5,6 @@ use std::ops::Range;
 use plotters::prelude::*;
 
 use tofsim::firmware::histogram_builder::BINS;
-use tofsim::optics::hazard::Cause;
 
 use crate::text::svg::{chart, picture};
 
@@ -49,13 +48,13 @@ pub fn svg(
             .draw()?;
         chart.configure_secondary_axes().x_desc("depth [m]").x_labels(10).draw()?;
 
-        for (layer, (cause, name)) in CAUSES.into_iter().enumerate() {
+        for (layer, (_, name, colour)) in CAUSES.into_iter().enumerate() {
             let total: u32 = causes[layer].iter().sum();
             if total == 0 {
                 continue;
             }
             let (below, above) = (stack(layer), stack(layer + 1));
-            let style = colour(cause).filled();
+            let style = colour.filled();
             let bars = (0..BINS).filter(|&bin| above[bin] > below[bin]).map(|bin| {
                 let left = bin as f64 * BIN_NS;
                 let corners = [(left, below[bin] as f64), (left + BIN_NS, above[bin] as f64)];
@@ -92,13 +91,4 @@ pub fn svg(
             .draw()?;
         Ok(())
     })
-}
-
-fn colour(cause: Option<Cause>) -> RGBColor {
-    match cause {
-        Some(Cause::Signal) => RGBColor(43, 108, 176),
-        Some(Cause::Ambient) => RGBColor(236, 180, 84),
-        Some(Cause::Dark) => RGBColor(80, 80, 80),
-        None => RGBColor(120, 150, 120),
-    }
 }

@@ -5,7 +5,7 @@ mod values;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use values::{latency, setting, time};
+use values::{latency, time, tolerance, valid};
 
 use tofsim::error::{Error, Input, Result};
 use tofsim::kernel::Time;
@@ -142,13 +142,13 @@ struct How {
     #[arg(long, value_parser = choice::unknowns(), default_value = "exact")]
     x: Unknowns,
     /// Largest difference of a number that is none, in its last place; may be repeated
-    #[arg(long, value_name = "SIGNAL=N", value_parser = setting::<u64>)]
+    #[arg(long, value_name = "SIGNAL=N", value_parser = tolerance)]
     tolerance: Vec<(String, u64)>,
     /// Samples that B has a signal later (less than 0: earlier); may be repeated
     #[arg(long, value_name = "SIGNAL=N", value_parser = latency, allow_hyphen_values = true)]
     latency: Vec<(String, i64)>,
     /// Compare a signal only where another is 1 in A; may be repeated
-    #[arg(long, value_name = "SIGNAL=VALID", value_parser = setting::<String>)]
+    #[arg(long, value_name = "SIGNAL=VALID", value_parser = valid)]
     valid: Vec<(String, String)>,
 }
 

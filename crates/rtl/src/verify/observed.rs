@@ -12,7 +12,8 @@ use super::verdict::Mismatch;
 /// The lines that a bench writes with `+got=`, and what it compared them with.
 #[derive(Clone, Debug)]
 pub struct Observed<'a> {
-    lines: Vec<String>,
+    /// In hexadecimal.
+    pub lines: Vec<String>,
     bench: &'a Bench<'a>,
 }
 
@@ -32,16 +33,6 @@ impl<'a> Observed<'a> {
             return Err(Input::new(path.display(), "the bench has written nothing").into());
         }
         Ok(Observed { lines: text.lines().map(str::to_owned).collect(), bench })
-    }
-
-    /// Lines.
-    pub fn len(&self) -> usize {
-        self.lines.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.lines.is_empty()
     }
 
     /// A value as binary digits, the highest first, with x and z.
@@ -83,7 +74,7 @@ impl<'a> Observed<'a> {
     pub fn around(&self, first: &Mismatch) -> Vec<Vec<String>> {
         let vectors = self.bench.vectors();
         let begin = first.cycle.saturating_sub(AROUND);
-        let cycles = begin..(first.cycle + AROUND + 1).min(self.len());
+        let cycles = begin..(first.cycle + AROUND + 1).min(self.lines.len());
         let row = |name: &str, side: &str, values: &dyn Fn(usize) -> String| {
             let head = [name.to_owned(), side.to_owned()];
             head.into_iter().chain(cycles.clone().map(values)).collect()

@@ -34,9 +34,10 @@ pub fn write(
     observed: &Observed,
     first: &Mismatch,
 ) -> Result<()> {
-    let cycles = match observed.len() > WHOLE {
-        true => first.cycle.saturating_sub(PART)..(first.cycle + PART).min(observed.len()),
-        false => 0..observed.len(),
+    let count = observed.lines.len();
+    let cycles = match count > WHOLE {
+        true => first.cycle.saturating_sub(PART)..(first.cycle + PART).min(count),
+        false => 0..count,
     };
     let wave = format!("{stem}.vcd");
     write_file(&folder.join(&wave), |file| body(file, vectors, observed, cycles))?;
