@@ -10,10 +10,11 @@ use super::frame_log::FrameLog;
 /// What each estimator says of the only frame or pair, with its error.
 pub fn rows(setup: &Setup, readings: &[Reading]) -> impl Iterator<Item = (&'static str, String)> {
     readings.iter().map(|reading| {
-        let error_mm = |depth_m| Some(1e3 * (depth_m - setup.true_depth_m()?));
-        let error =
-            |depth_m| error_mm(depth_m).map_or(String::new(), |mm| format!("  {mm:+.2} mm"));
-        let depth = |depth_m| format!("{depth_m:.6} m{}", error(depth_m));
+        let error = |depth_m: f64, truth| format!("  {:+.2} mm", 1e3 * (depth_m - truth));
+        let depth = |depth_m| {
+            let error = setup.true_depth_m().map_or(String::new(), |truth| error(depth_m, truth));
+            format!("{depth_m:.6} m{error}")
+        };
         (reading.estimator, said(reading, depth))
     })
 }

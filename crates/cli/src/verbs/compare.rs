@@ -100,7 +100,7 @@ struct Which {
     #[arg(long)]
     all: bool,
     /// Radix of the values in a CSV that does not say
-    #[arg(long, value_parser = choice::radix())]
+    #[arg(long, value_parser = choice::words(choice::RADIX))]
     radix: Option<Radix>,
 }
 
@@ -139,7 +139,7 @@ struct When {
 #[command(next_help_heading = "How exactly")]
 struct How {
     /// What an unknown bit is the same as
-    #[arg(long, value_parser = choice::unknowns(), default_value = "exact")]
+    #[arg(long, value_parser = choice::words(choice::UNKNOWNS), default_value = "exact")]
     x: Unknowns,
     /// Largest difference of a number that is none, in its last place; may be repeated
     #[arg(long, value_name = "SIGNAL=N", value_parser = tolerance)]
@@ -156,8 +156,12 @@ struct How {
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let radix = args.which.radix;
     let open = |path: &PathBuf| Source::file(path, radix);
-    let (a, b) = match (&args.simulated.scenario, &args.files[..]) {
-        (Some(scenario), [b]) => (simulation(scenario, &args.simulated)?, open(b)?),
+    let Simulated { scenario, set, seed, frames } = &args.simulated;
+    let (a, b) = match (scenario, &args.files[..]) {
+        (Some(scenario), [b]) => {
+            let setup = Setup::new(load(scenario, set, *seed)?)?;
+            (Source::simulation(setup, *frames), open(b)?)
+        }
         (None, [a, b]) => (open(a)?, open(b)?),
         (Some(_), _) => {
             let expected = "expected one file: the other side is the scenario's";
@@ -179,7 +183,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     }
     match args.json {
         true => print(&format!("{:#}\n", comparison::json(&result)))?,
-        false => print(&comparison::text(&result, talk.is_verbose()))?,
+        false => print(&comparison::text(&result, talk.verbose))?,
     }
     Ok(ExitCode::from(u8::from(!result.is_same())))
 }
@@ -199,11 +203,6 @@ fn no_input_is_written(args: &Args) -> Result<()> {
         }
     }
     Ok(())
-}
-
-fn simulation(name: &str, simulated: &Simulated) -> Result<Source> {
-    let loaded = load(name, &simulated.set, simulated.seed)?;
-    Ok(Source::simulation(Setup::new(loaded)?, simulated.frames))
 }
 
 fn options(args: &Args) -> Result<Options> {

@@ -33,10 +33,10 @@ pub struct Args {
     #[command(flatten)]
     draws: Draws,
     /// Which scenes
-    #[arg(long, value_parser = choice::grid(), default_value = "train")]
+    #[arg(long, value_parser = choice::words(choice::GRID), default_value = "train")]
     grid: Grid,
     /// What to write, separated by commas
-    #[arg(long, value_parser = choice::dataset_format(), value_delimiter = ',', default_value = "parquet")]
+    #[arg(long, value_parser = choice::words(choice::DATASET_FORMAT), value_delimiter = ',', default_value = "parquet")]
     format: Vec<DatasetFormat>,
     /// Write the files and dataset.json, their description, there
     #[arg(short, long, value_name = "DIR")]

@@ -44,7 +44,7 @@ pub struct Talk {
     quiet: bool,
     /// Say what is read and written
     #[arg(short, long, global = true)]
-    verbose: bool,
+    pub verbose: bool,
 }
 
 impl Talk {
@@ -60,11 +60,6 @@ impl Talk {
         if self.verbose {
             eprintln!("{text}");
         }
-    }
-
-    /// Whether more is to be said.
-    pub fn is_verbose(&self) -> bool {
-        self.verbose
     }
 
     /// A progress bar over `count` of `things`, visible on a terminal only.

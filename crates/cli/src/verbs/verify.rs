@@ -41,7 +41,7 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["block", "top", "map", "registers", "junit", "simulator"])]
     cycle_counts: bool,
     /// Simulator to run
-    #[arg(long, value_parser = choice::simulator(), default_value = "icarus")]
+    #[arg(long, value_parser = choice::words(choice::SIMULATOR), default_value = "icarus")]
     simulator: Simulator,
     /// How your design differs by intention: names, polarities, latencies, adapters (TOML)
     #[arg(long, value_name = "FILE")]

@@ -5,6 +5,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use tofsim::files::output::write_file;
+use tofsim_rtl::golden::bench::Bench;
 use tofsim_rtl::golden::{Setting, Vectors, blocks};
 use tofsim_rtl::verify::{Rtl, Simulator, Verdict};
 
@@ -84,7 +85,7 @@ pub fn compare(sources: &Sources) -> Verdict {
 
     let folder = common::empty();
     let work = folder.path();
-    vectors.write(work).unwrap();
+    Bench::new(&vectors).write(work).unwrap();
     let write = |name: &str, text: &str| {
         write_file(&work.join(name), |file| file.write_all(text.as_bytes())).unwrap();
         work.join(name)

@@ -5,10 +5,16 @@
 
 pub mod allowances;
 
+use std::path::Path;
+
 use allowances::Allowances;
 
+use tofsim::error::Result;
+use tofsim::files::output::{create_directory, write_bytes, write_file};
+use tofsim::network::mem::lines;
+
 use super::parameters::Parameter;
-use super::ports::Port;
+use super::ports::{self, Port};
 use super::spec::Vectors;
 use super::table::Column;
 use super::timing::{Step, Timing};
@@ -17,7 +23,8 @@ use super::verilog::{parameter_list, place, range};
 /// A bench, with what another implementation is allowed.
 #[derive(Clone, Debug)]
 pub struct Bench<'a> {
-    vectors: &'a Vectors,
+    /// What it runs.
+    pub vectors: &'a Vectors,
     /// Where it is not strict.
     pub allowed: Allowances,
     /// The module that is instantiated.
@@ -30,18 +37,36 @@ impl<'a> Bench<'a> {
         Bench { vectors, allowed: Allowances::default(), module: vectors.spec.name.to_owned() }
     }
 
-    /// What it runs.
-    pub fn vectors(&self) -> &Vectors {
-        self.vectors
-    }
-
     /// Names of the parameters that it sets.
     pub fn parameters(&self) -> impl Iterator<Item = &'static str> {
         self.vectors.parameters.iter().map(|(name, _)| *name)
     }
 
+    /// Writes it with all files that it needs into a folder, which is made if it is not there.
+    ///
+    /// # Errors
+    /// When one cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<()> {
+        create_directory(folder)?;
+        let text = |name: &str, text: &str| write_bytes(&folder.join(name), text);
+        let vectors = self.vectors;
+        for memory in vectors.memories() {
+            text(memory.name, &memory.text)?;
+        }
+        if !vectors.stops.is_empty() {
+            text("tdc_stop.mem", &lines(vectors.stops.iter().map(|at| at.fs().into()), 16))?;
+        }
+        for (name, table) in
+            [("stimulus.mem", &vectors.stimulus), ("expected.mem", &vectors.expected)]
+        {
+            write_file(&folder.join(name), |file| table.write(file))?;
+        }
+        text("ports.json", &format!("{:#}\n", ports::json(vectors)))?;
+        text(&vectors.bench_name(), &self.text())
+    }
+
     /// Its Verilog.
-    pub fn text(&self) -> String {
+    fn text(&self) -> String {
         let (vectors, spec) = (self.vectors, self.vectors.spec);
         let ports = spec.ports(vectors.neurons);
         let parameters: Vec<_> = vectors.parameters.iter().map(parameter).collect();

@@ -1,7 +1,6 @@
 //! What the file of a block's stimulus needs.
 
 pub use tofsim::error::Result;
-pub use tofsim::firmware::tof_top::TofTop;
 pub use tofsim::kernel::signals::Signals;
 pub use tofsim::kernel::{Clocked, S, Time, U};
 pub use tofsim::network::mem;
@@ -11,7 +10,6 @@ pub use super::cover::{Cover, bits};
 pub use super::draw::{Draw, MEMORIES};
 pub use super::parameters::{self, Parameter, files, with_neurons};
 pub use super::record::Recorder;
-pub use super::roms;
 pub use super::setting::Setting;
 pub use super::spec::{Glue, Latency, Spec, Vectors};
 pub use super::stops::{self, Stops};

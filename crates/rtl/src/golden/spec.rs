@@ -124,6 +124,11 @@ pub struct Vectors {
 }
 
 impl Vectors {
+    /// File name of their bench.
+    pub fn bench_name(&self) -> String {
+        format!("tb_{}.v", self.spec.name)
+    }
+
     /// Memories that the Verilog or the bench loads.
     pub fn memories(&self) -> impl Iterator<Item = &Mem> {
         memories(&self.parameters).chain(&self.bench_memory)

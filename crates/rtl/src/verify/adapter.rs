@@ -82,7 +82,7 @@ impl BlockMap {
             valid: self.valid.clone(),
             ..Allowances::default()
         };
-        for port in spec.ports(bench.vectors().neurons) {
+        for port in spec.ports(bench.vectors.neurons) {
             let width = self.width(spec, &port);
             if width < port.width {
                 bench.allowed.bits.insert(port.name, width as usize);
@@ -97,7 +97,7 @@ impl BlockMap {
 
     /// The adapter.
     fn text(&self, bench: &Bench, spec: &Spec, found: &Ports) -> String {
-        let ports = spec.ports(bench.vectors().neurons);
+        let ports = spec.ports(bench.vectors.neurons);
         let declare = |port: &Port| {
             let direction = if port.output { "output" } else { "input" };
             format!("    {direction} wire {}{}", range(port.width), port.name)

@@ -135,7 +135,7 @@ impl BlockCheck<'_> {
         if let Some(map) = self.map {
             sources.push(map.apply(&mut bench, spec, &found, work)?);
         }
-        vectors.write_with(work, &bench)?;
+        bench.write(work)?;
         let top = format!("tb_{}", spec.name);
         let compiled =
             self.simulator.compile(work, &top, &sources, self.rtl, self.registers, &self.limits)?;
@@ -174,7 +174,7 @@ impl BlockCheck<'_> {
         let observed = Observed::read(&work.join(GOT), bench)?;
         report.around = observed.around(first);
         create_directory(self.output)?;
-        wave::write(self.output, &report.name, bench.vectors(), &observed, first)?;
+        wave::write(self.output, &report.name, bench.vectors, &observed, first)?;
         report.wave = Some(self.output.join(format!("{}.vcd", report.name)));
         Ok(())
     }

@@ -54,7 +54,7 @@ impl<'a> Observed<'a> {
     /// What a value should have been, as binary digits, or x where nothing is expected: before an
     /// output that comes later has come, and of one that is not compared.
     pub fn wanted(&self, cycle: usize, column: &Column) -> String {
-        let expected = &self.bench.vectors().expected;
+        let expected = &self.bench.vectors.expected;
         let delay = self.bench.allowed.delay(&column.name);
         let row = usize::try_from(cycle as i64 - delay).ok().filter(|row| *row < expected.rows());
         match row.filter(|_| !self.bench.allowed.ignored.contains(&column.name)) {
@@ -72,7 +72,7 @@ impl<'a> Observed<'a> {
     /// The five cycles around the first mismatch, a row for each line of a table: inputs, and both
     /// sides of what differs there, below the numbers of the cycles.
     pub fn around(&self, first: &Mismatch) -> Vec<Vec<String>> {
-        let vectors = self.bench.vectors();
+        let vectors = self.bench.vectors;
         let begin = first.cycle.saturating_sub(AROUND);
         let cycles = begin..(first.cycle + AROUND + 1).min(self.lines.len());
         let row = |name: &str, side: &str, values: &dyn Fn(usize) -> String| {

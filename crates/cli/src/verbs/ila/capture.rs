@@ -49,7 +49,7 @@ pub struct Args {
     #[command(flatten)]
     instead: Instead,
     /// Format to write; may be repeated [default: all]
-    #[arg(long, value_parser = choice::capture_format())]
+    #[arg(long, value_parser = choice::words(choice::CAPTURE_FORMAT))]
     format: Vec<CaptureFormat>,
     /// Leave out the CSV's row of radices, as Vivado before 2019.1
     #[arg(long)]
@@ -122,7 +122,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     }
     let formats = if args.format.is_empty() { &CaptureFormat::ALL[..] } else { &args.format };
     let mut files = export(&capture, &args.output, &set_up.name, formats, !args.legacy_csv)?;
-    files.push(write_map(args, &set_up)?);
+    // The map by which `tofsim compare` lays the capture over a waveform.
+    let map = args.output.join(format!("{}.map.toml", set_up.name));
+    write_bytes(&map, SignalMap::of(&set_up).to_toml())?;
+    files.push(map);
     for file in &files {
         talk.detail(format_args!("wrote {}", file.display()));
     }
@@ -146,14 +149,6 @@ fn simulated(args: &Args, set_up: &AnalyserSetup) -> Result<Setup> {
     // What the set-up sets is meant for its own scenario.
     let own = if args.scenario.is_none() { &set_up.file.set[..] } else { &[] };
     Setup::new(load(name, &[own, &args.set].concat(), args.seed)?)
-}
-
-/// The map by which `tofsim compare` lays the capture over a waveform.
-fn write_map(args: &Args, set_up: &AnalyserSetup) -> Result<PathBuf> {
-    let path = args.output.join(format!("{}.map.toml", set_up.name));
-    let text = SignalMap::of(set_up).to_toml();
-    write_bytes(&path, text)?;
-    Ok(path)
 }
 
 /// That nothing triggered, and what would have had to.

@@ -22,7 +22,7 @@ pub struct Args {
     /// The file
     file: PathBuf,
     /// Radix of the values in a CSV that does not say
-    #[arg(long, value_parser = choice::radix())]
+    #[arg(long, value_parser = choice::words(choice::RADIX))]
     radix: Option<Radix>,
     /// Print one JSON object
     #[arg(long)]

@@ -31,7 +31,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let changes = (1..TAPS).filter(|&tap| taps.tap(tap) != taps.tap(tap - 1)).count();
         travelling.see(changes as u64);
     }
-    let parameters = files(["DelaysFile"], [roms::tap_delays(delays)]);
+    let parameters = files(["DelaysFile"], [parameters::tap_delays(delays)]);
     let stops = stops.times().to_vec();
     Ok(Vectors { parameters, stops, ..run.vectors([ones, travelling]) })
 }

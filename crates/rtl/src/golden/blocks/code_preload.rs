@@ -45,7 +45,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.code_preload = run.top.code_preload.next(&i, &rom);
     }
-    let codes = Parameter::Memory(roms::codes(&rom));
+    let codes = Parameter::Memory(parameters::codes(&rom));
     let parameters = vec![("Codes", Parameter::Number(CODES)), ("CodeFile", codes)];
     Ok(Vectors { parameters, ..run.vectors([words, resets, phases]) })
 }

@@ -26,6 +26,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.top.nets.count = histogram_preload::count(&i, &rom);
         run.line(&i);
     }
-    let parameters = files(["HistogramFile"], [roms::histogram(&rom)]);
+    let parameters = files(["HistogramFile"], [parameters::histogram(&rom)]);
     Ok(Vectors { parameters, ..run.vectors([words]) })
 }

@@ -3,14 +3,16 @@
 //! sweep through every number of taps that a hit can have.
 
 use tofsim::firmware::tdc::In;
+use tofsim::firmware::tdc_decoder::code;
 
 use crate::golden::prelude::*;
 
-mod goals;
 mod light;
 
-use goals::{Goals, LAST_RESET};
-use light::Light;
+use light::{Ages, Light};
+
+/// Last cycle after a start in which there is a reset.
+const LAST_RESET: usize = 11;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
@@ -34,7 +36,19 @@ signals! {
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let params = &setting.setup.params.tdc;
     let mut light = Light::new(&params.delays);
-    let mut goals = Goals::new(&light.ages, params);
+    let code_of = |ages: &Ages| {
+        Some(code(light::coarse(ages.first), ages.taps as usize, &params.cal)?.get())
+    };
+    let mut hits = Cover::new("taps of a hit", light.ages.iter().map(|ages| ages.taps));
+    let mut codes = Cover::new("codes", light.ages.iter().filter_map(code_of));
+    let mut coarses = Cover::new("coarse of a hit", 0..8);
+    let mut rises = Cover::new("edges from the one of start to the one that sees a rise", 0..10);
+    let mut resets = Cover::new("reset in cycle after start", 0..=LAST_RESET as u64);
+    let mut corners = Cover::new(
+        "level held over, second hit, hit kept with start, last edge, equal codes",
+        0..5,
+    );
+    let (tap_0, mut last_code) = (params.delays.tap_0_position(), None);
     let mut run = Recorder::new(spec, setting, Stimulus::list());
     // Cycle of the last start and of the next; cycle after a start in which the next reset comes.
     let (mut started, mut next, mut reset) = (0, 3, LAST_RESET);
@@ -43,7 +57,26 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let start = cycle == next;
         let since = if start { 0 } else { cycle - started };
         let rst = since == reset && draw.one_in(6);
-        if let Some(taps) = goals.see(cycle - started, start, rst, &run.top) {
+        let tdc = &run.top.tdc;
+        let (window, coarse) = (tdc.coarse_counter.window, tdc.coarse_counter.coarse);
+        let (used, before) = tdc.tdc_latch.before();
+        let high = tdc.carry_chain.taps.tap(tap_0);
+        let rise = high && !before && !rst;
+        rises.see_if(rise && cycle > started, (cycle - started).saturating_sub(1) as u64);
+        resets.see_if(rst, since as u64);
+        corners.see_if(start && high && before, 0);
+        corners.see_if(rise && window && used, 1);
+        corners.see_if(rise && window && !used && start, 2);
+        corners.see_if(rise && window && coarse == 7, 3);
+        if tdc.tdc_decoder.tdc_valid {
+            let code = tdc.tdc_decoder.tdc_code.get();
+            codes.see(code);
+            corners.see_if(last_code == Some(code), 4);
+            last_code = Some(code);
+        }
+        if let Some((taps, coarse)) = tdc.tdc_decoder.decoding().filter(|_| !rst) {
+            hits.see(taps);
+            coarses.see(coarse);
             light.counted(taps);
         }
         if rst {
@@ -69,10 +102,10 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let i = In { rst, start, tdc_stop: stops.line.level() };
         run.top.tdc.rise(&i, params, &mut stops.line, now);
     }
-    let memories = [roms::tap_delays(&params.delays), mem::tdc_decoder(&params.cal)];
+    let memories = [parameters::tap_delays(&params.delays), mem::tdc_decoder(&params.cal)];
     Ok(Vectors {
         parameters: files(["DelaysFile", "CalFile"], memories),
         stops: light.stops.times().to_vec(),
-        ..run.vectors(goals.coverage())
+        ..run.vectors([hits, codes, coarses, rises, resets, corners])
     })
 }
