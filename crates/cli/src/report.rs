@@ -4,7 +4,6 @@ pub mod box_plot;
 pub mod causes;
 pub mod comparison;
 pub mod evaluation;
-pub mod evaluation_files;
 pub mod events;
 pub mod explanation;
 pub mod exploration;

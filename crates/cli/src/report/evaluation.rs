@@ -1,9 +1,19 @@
-//! An evaluation as tables, beside the thesis's.
+//! An evaluation as tables, beside the thesis's, and as files: JSON, figures as CSV, and box plots.
 
+use std::path::Path;
+
+use tofsim::error::{Input, Result};
+use tofsim::files::output::{create_directory, write_bytes};
 use tofsim_learn::evaluation::thesis::{self, DISTANCES_M, Published};
-use tofsim_learn::evaluation::{Figures, Spread};
+use tofsim_learn::evaluation::{Figures, Group, Spread};
 
 use crate::text::table::{number_or_dash, table};
+
+use super::box_plot;
+
+/// The columns of `evaluation.csv`.
+const HEADER: &str = "estimator,by,value,estimates,failures,mean_mm,mean_error_mm,two_sd_mm,two_sd_error_mm,\
+    least_mm,lower_quartile_mm,median_mm,upper_quartile_mm,largest_mm";
 
 /// Twice the standard deviation, the mean and the failures at the thesis's distances, with its own
 /// rows; `bound_mm` is the Cramer-Rao bound there.
@@ -57,6 +67,48 @@ fn named(name: &str, cells: impl IntoIterator<Item = String>) -> Vec<String> {
 fn with_error(value_mm: Option<f64>, error_mm: Option<f64>) -> String {
     let error = error_mm.filter(|_| value_mm.is_some());
     number_or_dash(value_mm, 2) + &error.map_or(String::new(), |error| format!(" +-{error:.2}"))
+}
+
+/// Puts them in a folder, which is made.
+pub fn write(folder: &Path, json: &str, figures: &[Figures]) -> Result<()> {
+    create_directory(folder)?;
+    write_bytes(&folder.join("evaluation.json"), json)?;
+    write_bytes(&folder.join("evaluation.csv"), csv(figures))?;
+    for one in figures {
+        for grouping in one.groupings() {
+            let beside_mm: Option<fn(f64) -> f64> =
+                (grouping.key == "distance_m").then_some(thesis::line_two_sd_mm);
+            let line = beside_mm.map_or("", |_| "; red: 2 sd of the thesis's float network");
+            let title = format!("{}: errors by {}{line}", one.name, grouping.quantity);
+            let path = folder.join(format!("{}_by_{}.svg", one.name, grouping.key));
+            let svg = box_plot::svg(&title, grouping.quantity, grouping.groups, beside_mm);
+            let svg = svg.map_err(|why| Input::new(path.display(), why))?;
+            write_bytes(&path, svg)?;
+        }
+    }
+    Ok(())
+}
+
+/// A row for each estimator and group.
+fn csv(figures: &[Figures]) -> String {
+    let mut text = format!("{HEADER}\n");
+    for one in figures {
+        for grouping in one.groupings() {
+            for group in grouping.groups {
+                text += &format!("{},{},{}\n", one.name, grouping.key, numbers(group));
+            }
+        }
+    }
+    text
+}
+
+fn numbers(group: &Group) -> String {
+    let spread = &group.spread;
+    let number = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
+    let counts = [spread.estimates, spread.failures].map(|count| count.to_string());
+    let moments = [spread.mean_mm, spread.mean_error_mm, spread.two_sd_mm, spread.two_sd_error_mm];
+    let quartiles = [0, 1, 2, 3, 4].map(|k| number(spread.quartiles_mm.map(|five| five[k])));
+    [&[group.value.to_string()], &counts[..], &moments.map(number), &quartiles].concat().join(",")
 }
 
 #[cfg(test)]

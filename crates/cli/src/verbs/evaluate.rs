@@ -19,7 +19,7 @@ use tofsim_learn::evaluation::thesis::{self, DISTANCES_M};
 use tofsim_learn::evaluation::{Evaluation, Figures};
 
 use crate::choice;
-use crate::report::{evaluation as report, evaluation_files};
+use crate::report::evaluation as report;
 
 use super::draws::Draws;
 use super::terminal::{Talk, print, print_json, stop_signal};
@@ -117,7 +117,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         },
     });
     if let Some(folder) = &args.output {
-        evaluation_files::write(folder, &format!("{json}\n"), &figures)?;
+        report::write(folder, &format!("{json}\n"), &figures)?;
         talk.detail(format_args!("wrote {}", folder.display()));
     }
     if args.json {

@@ -57,7 +57,7 @@ impl<'a> Lines<'a> {
 
     /// The input of the cycle's line.
     pub(super) fn input(&mut self, i: &impl Signals) {
-        let order = self.setting.setup.params.tdc.delays.order();
+        let order = self.setting.order();
         i.changes(
             None,
             0,
@@ -67,8 +67,7 @@ impl<'a> Lines<'a> {
 
     /// Takes a sample, of which `show` reports the signals; the last one of a cycle ends the line.
     pub(super) fn sample(&mut self, show: impl FnOnce(&mut LineSink)) {
-        let (places, order) =
-            (&self.compared[self.sample], self.setting.setup.params.tdc.delays.order());
+        let (places, order) = (&self.compared[self.sample], self.setting.order());
         show(&mut LineSink { table: &mut self.expected, places, order });
         self.sample += 1;
         if self.sample == self.compared.len() {

@@ -86,10 +86,11 @@ fn run(setting: &Setting, device: &mut Device, sampler: &mut Sampler) -> Result<
             return Ok(());
         }
     }
-    match whole_frames {
-        true => Err(Input::new(format!("scenario {}", setup.name), "the frame never ends").into()),
-        false => Ok(()),
+    if whole_frames {
+        let source = format!("scenario {}", setup.name);
+        return Err(Input::new(source, "the frame never ends").into());
     }
+    Ok(())
 }
 
 /// What the Verilog's PLL and the bench's clocks cannot do.

@@ -118,21 +118,16 @@ impl BlockMap {
                 connected.push(format!("        .{theirs}({signal})"));
             }
         }
-        let (whole, count) = (COUNT * self.design.bins as u32, COUNT);
+        let whole = COUNT * self.design.bins as u32;
         let range = range(whole);
         if let Some(counts) = &self.counts {
             // All counts side by side, read as if they were a RAM with one address.
-            lines += &format!(include_str!("adapter/counts.v"), range = range, count = count);
+            lines += &format!(include_str!("adapter/counts.v"), range = range);
             connected.push(format!("        .{counts}(counts)"));
         }
         if let Some(vector) = &self.vector {
             // Collects the histogram word by word, then starts the estimator.
-            lines += &format!(
-                include_str!("adapter/vector.v"),
-                range = range,
-                whole = whole,
-                count = count
-            );
+            lines += &format!(include_str!("adapter/vector.v"), range = range, whole = whole);
             connected.push(format!("        .{vector}(vector)"));
         }
         format!(

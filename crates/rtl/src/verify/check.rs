@@ -146,7 +146,10 @@ impl BlockCheck<'_> {
             verdict,
             around: Vec::new(),
             wave: None,
-            coverage: coverage(&vectors),
+            coverage: vectors
+                .coverage
+                .iter()
+                .fold((0, 0), |(met, goals), cover| (met + cover.met(), goals + cover.cases())),
         };
         if let Verdict::Differs { first, .. } = report.verdict.clone() {
             self.look_again(&mut report, &compiled, &bench, &first, work)?;
@@ -178,12 +181,6 @@ impl BlockCheck<'_> {
         report.wave = Some(self.output.join(format!("{}.vcd", report.name)));
         Ok(())
     }
-}
-
-fn coverage(vectors: &Vectors) -> (usize, usize) {
-    let met = vectors.coverage.iter().map(|cover| cover.met()).sum();
-    let goals = vectors.coverage.iter().map(|cover| cover.cases()).sum();
-    (met, goals)
 }
 
 /// The parameter that ports depend on, by their name of it, if they have one.

@@ -17,6 +17,8 @@ mod tests;
 
 use promises::Promise;
 
+use serde::Serialize;
+
 use tofsim::error::{Error, Result};
 
 use crate::golden::blocks::CENTROID;
@@ -25,7 +27,7 @@ use super::process::Limits;
 use super::rtl::Rtl;
 
 /// One promise: a row of `tofsim verify --cycle-counts`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Count {
     /// What is counted, for people.
     pub what: String,
@@ -38,15 +40,17 @@ pub struct Count {
     pub model: Option<u64>,
     /// What Icarus Verilog shows, in the same way.
     pub rtl: Option<u64>,
-    /// Why Yosys does not prove it of the Verilog; `None` if it does.
-    pub unproven: Option<String>,
+    /// Whether Yosys proves it of the Verilog.
+    pub proven: bool,
+    /// Why not, if it does not.
+    pub reason: Option<String>,
 }
 
 impl Count {
     /// Whether all three agree with the promise.
     pub fn holds(&self) -> bool {
         let expected = Some(self.expected);
-        self.model == expected && self.rtl == expected && self.unproven.is_none()
+        self.model == expected && self.rtl == expected && self.proven
     }
 }
 
@@ -70,13 +74,15 @@ fn count(promises: &[Promise], neurons: usize, rtl: &Rtl, limits: &Limits) -> Re
     let modelled = model::measure(neurons);
     let count = |promise: &Promise| {
         let (key, expected) = (promise.key(), promise.expected);
+        let reason = prove::prove(promise, rtl, folder.path(), limits)?;
         Ok(Count {
             what: promise.what.clone(),
             expected,
             unit: promise.properties.unit,
             model: modelled.count(&key, expected),
             rtl: simulated.count(&key, expected),
-            unproven: prove::prove(promise, rtl, folder.path(), limits)?,
+            proven: reason.is_none(),
+            reason,
         })
     };
     promises.iter().map(count).collect()

@@ -15,16 +15,14 @@ use crate::verbs::terminal::{print, print_json};
 pub fn list(as_json: bool) -> Result<()> {
     let mut rows = Vec::new();
     for (name, _) in builtin::SET_UPS {
-        rows.push((*name, AnalyserSetup::load(name, Overrides::default())?.file));
+        let file = AnalyserSetup::load(name, Overrides::default())?.file;
+        rows.push([name.to_string(), file.scenario, file.description]);
     }
     if as_json {
-        let object = |(name, file): &(&str, AnalyserSetupFile)| json!({ "name": name, "scenario": file.scenario, "description": file.description });
+        let object = |[name, scenario, description]: &[String; 3]| json!({ "name": name, "scenario": scenario, "description": description });
         return print_json(&rows.iter().map(object).collect());
     }
-    let cells = |(name, file): (&str, AnalyserSetupFile)| {
-        [name.to_owned(), file.scenario, file.description]
-    };
-    print(&format!("{}\n", plain(rows.into_iter().map(cells))))
+    print(&format!("{}\n", plain(rows)))
 }
 
 /// Prints a set-up as a file to begin one's own with.

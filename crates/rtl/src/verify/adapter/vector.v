@@ -7,7 +7,7 @@
     always @(posedge clk_125) begin
         go <= collecting && word == 8'd255;
         if (collecting) begin
-            vector[{count} * word +: {count}] <= count;
+            vector[16 * word +: 16] <= count;
             word <= word + 8'd1;
             collecting <= word != 8'd255;
         end else if (algo_start) collecting <= 1'b1;

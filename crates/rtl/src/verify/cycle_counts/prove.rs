@@ -38,7 +38,7 @@ pub fn prove(
         Answer::Holds => {}
         Answer::Fails(why) | Answer::Stuck(why) => return Ok(Some(why)),
     }
-    for mutant in mutants(promise.expected) {
+    for mutant in promise.expected.checked_sub(1).into_iter().chain([promise.expected + 1]) {
         let why = match ask(promise, mutant, rtl, folder, limits)? {
             Answer::Fails(_) => continue,
             Answer::Holds => {
@@ -49,11 +49,6 @@ pub fn prove(
         return Ok(Some(why));
     }
     Ok(None)
-}
-
-/// The numbers next to a number.
-pub fn mutants(expected: u64) -> impl Iterator<Item = u64> {
-    expected.checked_sub(1).into_iter().chain([expected + 1])
 }
 
 fn ask(

@@ -70,7 +70,7 @@ fn a_property_that_holds_of_two_numbers_is_vacuous() {
     );
     assert_eq!(count.rtl, None);
     let why = "vacuous: 1 is proven as well as 2";
-    assert_eq!(count.unproven.as_deref(), Some(why));
+    assert_eq!(count.reason.as_deref(), Some(why));
 }
 
 #[test]
@@ -78,7 +78,7 @@ fn without_our_registers_the_estimator_is_counted_but_not_proven() {
     let count = with_fault("latency", &[["estimator_ctrl.v", "busy", "at_work"]]);
     assert_eq!(count.rtl, Some(267));
     let why = "the proof needs the registers estimator_ctrl.busy and estimator_ctrl.step";
-    assert_eq!(count.unproven.as_deref(), Some(why));
+    assert_eq!(count.reason.as_deref(), Some(why));
 }
 
 #[test]
