@@ -66,15 +66,15 @@ pub fn svg(
                 .legend(move |(x, y)| Rectangle::new([(x, y - 5), (x + 12, y + 5)], style));
         }
         let peak_ns = (peak as f64 + 0.5) * BIN_NS;
-        let mut lines =
-            vec![(peak_ns, BLACK.mix(0.45), format!("peak: bin {peak}, {peak_ns:.4} ns"))];
-        if let Some(depth_m) = depth_m {
-            lines.push((depth_m / M_PER_NS, RED.mix(0.9), format!("estimated: {depth_m:.4} m")));
-        }
-        if let Some(truth) = true_depth_m {
-            lines.push((truth / M_PER_NS, BLACK.mix(0.9), format!("true: {truth:.4} m")));
-        }
-        for (x, colour, label) in lines {
+        let peak_label = format!("peak: bin {peak}, {peak_ns:.4} ns");
+        let estimated = |m: f64| (m / M_PER_NS, RED.mix(0.9), format!("estimated: {m:.4} m"));
+        let truth = |m: f64| (m / M_PER_NS, BLACK.mix(0.9), format!("true: {m:.4} m"));
+        let lines = [
+            Some((peak_ns, BLACK.mix(0.45), peak_label)),
+            depth_m.map(estimated),
+            true_depth_m.map(truth),
+        ];
+        for (x, colour, label) in lines.into_iter().flatten() {
             let style = colour.stroke_width(2);
             let label_style = style;
             chart

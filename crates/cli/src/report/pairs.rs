@@ -51,7 +51,7 @@ pub struct PairStatistics {
 }
 
 /// Makes pairs of frames as they come.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct PairLog {
     /// First bin that lies right of the echo.
     right: Option<usize>,
@@ -90,8 +90,7 @@ impl Moments {
 impl PairLog {
     /// No pair of `setup` yet.
     pub fn new(setup: &Setup) -> Self {
-        let (depths, rights) = (Moments::default(), Moments::default());
-        PairLog { right: right_of_echo(setup), dark: None, count: 0, readings: 0, depths, rights }
+        PairLog { right: right_of_echo(setup), ..PairLog::default() }
     }
 
     /// Takes the next frame; returns its place and, if it ends a pair, what the estimators say of

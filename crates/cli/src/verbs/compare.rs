@@ -209,10 +209,7 @@ fn options(args: &Args) -> Result<Options> {
     let condition = |option: &str, text: &Option<String>| {
         text.as_ref().map(|text| Condition::parse(option, text)).transpose()
     };
-    let mut map = match &args.which.map {
-        Some(name) => map(name)?,
-        None => SignalMap::default(),
-    };
+    let mut map = args.which.map.as_deref().map(map).transpose()?.unwrap_or_default();
     map.signal.extend(rules(&args.how));
     let (when, which) = (&args.when, &args.which);
     Ok(Options {

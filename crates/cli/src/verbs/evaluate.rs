@@ -149,8 +149,8 @@ impl Args {
             reflectance: CHECK_REFLECTANCE,
             irradiance_w_m2_nm: CHECK_IRRADIANCE,
         };
-        let checks = distances.iter().map(scene);
-        checks.map(|scene| CrossCheck::new(loaded, source, &scene, self.check, stop)).collect()
+        let check = |scene| CrossCheck::new(loaded, source, &scene, self.check, stop);
+        distances.iter().map(scene).map(check).collect()
     }
 }
 

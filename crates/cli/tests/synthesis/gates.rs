@@ -96,7 +96,7 @@ pub fn compare(sources: &Sources) -> Verdict {
         files.push(write(&name, &sources[&name]));
     }
     let rtl = Rtl { files, source: "the netlist of tof_top".to_owned() };
-    let bench = [work.join(vectors.bench_name()), write("tof_top.v", &wrapper(&vectors))];
+    let bench = [work.join(vectors.bench_module() + ".v"), write("tof_top.v", &wrapper(&vectors))];
     let compiled = Simulator::Icarus
         .compile(work, "tb_tof_top", &bench, &rtl, false, &LIMITS)
         .unwrap_or_else(|error| panic!("{error}"));

@@ -62,7 +62,7 @@ impl<'a> Bench<'a> {
             write_file(&folder.join(name), |file| table.write(file))?;
         }
         text("ports.json", &format!("{:#}\n", ports::json(vectors)))?;
-        text(&vectors.bench_name(), &self.text())
+        text(&(vectors.bench_module() + ".v"), &self.text())
     }
 
     /// Its Verilog.

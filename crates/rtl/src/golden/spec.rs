@@ -124,9 +124,9 @@ pub struct Vectors {
 }
 
 impl Vectors {
-    /// File name of their bench.
-    pub fn bench_name(&self) -> String {
-        format!("tb_{}.v", self.spec.name)
+    /// Module of their bench, and the stem of its file.
+    pub fn bench_module(&self) -> String {
+        format!("tb_{}", self.spec.name)
     }
 
     /// Memories that the Verilog or the bench loads.

@@ -131,12 +131,12 @@ impl BlockCheck<'_> {
         interface::check(&self.rtl.source, module, &wanted, &found)?;
 
         let mut bench = Bench::new(&vectors);
-        let mut sources = vec![work.join(vectors.bench_name())];
+        let top = vectors.bench_module();
+        let mut sources = vec![work.join(&top).with_extension("v")];
         if let Some(map) = self.map {
             sources.push(map.apply(&mut bench, spec, &found, work)?);
         }
         bench.write(work)?;
-        let top = format!("tb_{}", spec.name);
         let compiled =
             self.simulator.compile(work, &top, &sources, self.rtl, self.registers, &self.limits)?;
         let verdict = self.verdict(&compiled, None)?;

@@ -45,11 +45,6 @@ pub fn write(
     write_bytes(&folder.join(format!("{stem}.gtkw")), save)
 }
 
-/// The scope that has everything.
-fn top(vectors: &Vectors) -> String {
-    format!("tb_{}", vectors.spec.name)
-}
-
 /// Columns of one signal, one for each sample of a cycle that it has.
 fn signals(columns: &[Column]) -> Vec<&[Column]> {
     columns.chunk_by(|a, b| a.name == b.name).collect()
@@ -64,7 +59,7 @@ fn body(
     let (timing, stimulus) = (&vectors.spec.timing, &vectors.stimulus);
     let [expected, inputs] = [&vectors.expected, stimulus].map(|table| signals(table.columns()));
     let sides = [(SIDES[0], &expected), (SIDES[1], &expected), (INPUT, &inputs)];
-    let top = top(vectors);
+    let top = vectors.bench_module();
     let layout = Layout { version: None, top: &top, first: Some(timing.clock), last: None };
     let signal = |columns: &&[Column]| (columns[0].name.clone(), columns[0].width as u32);
     let scopes: [Scope; 3] = sides.map(|(name, side)| (name, side.iter().map(signal).collect()));
@@ -138,7 +133,7 @@ fn save_file(wave: &str, vectors: &Vectors, observed: &Observed, first: &Mismatc
     }
     shown.extend(signals(vectors.stimulus.columns()).iter().map(|signal| show(INPUT, &signal[0])));
     let view = View {
-        top: [&top(vectors), timing.clock],
+        top: [&vectors.bench_module(), timing.clock],
         colour: None,
         from: first.time_ps.saturating_sub(8 * timing.period_ps()),
         zoom: "-14.0".to_owned(),
