@@ -18,7 +18,7 @@ use tofsim_captures::condition::Condition;
 use tofsim_captures::ila::{AnalyserSetup, Overrides, Radix};
 use tofsim_captures::source::Source;
 
-use crate::choice;
+use crate::choice::{self, words};
 use crate::report::comparison;
 
 use super::draws::load;
@@ -100,7 +100,7 @@ struct Which {
     #[arg(long)]
     all: bool,
     /// Radix of the values in a CSV that does not say
-    #[arg(long, value_parser = choice::words(choice::RADIX))]
+    #[arg(long, value_parser = words(choice::RADIX))]
     radix: Option<Radix>,
 }
 
@@ -139,7 +139,7 @@ struct When {
 #[command(next_help_heading = "How exactly")]
 struct How {
     /// What an unknown bit is the same as
-    #[arg(long, value_parser = choice::words(choice::UNKNOWNS), default_value = "exact")]
+    #[arg(long, value_parser = words(choice::UNKNOWNS), default_value = "exact")]
     x: Unknowns,
     /// Largest difference of a number that is none, in its last place; may be repeated
     #[arg(long, value_name = "SIGNAL=N", value_parser = tolerance)]

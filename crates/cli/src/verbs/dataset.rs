@@ -11,7 +11,7 @@ use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::files::{DatasetFiles, DatasetFormat};
 use tofsim_learn::dataset::{Blocks, DatasetDescription, Grid, HistogramSource};
 
-use crate::choice;
+use crate::choice::{self, words};
 use crate::text::table::{facts, grouped};
 
 use super::draws::Draws;
@@ -33,10 +33,10 @@ pub struct Args {
     #[command(flatten)]
     draws: Draws,
     /// Which scenes
-    #[arg(long, value_parser = choice::words(choice::GRID), default_value = "train")]
+    #[arg(long, value_parser = words(choice::GRID), default_value = "train")]
     grid: Grid,
     /// What to write, separated by commas
-    #[arg(long, value_parser = choice::words(choice::DATASET_FORMAT), value_delimiter = ',', default_value = "parquet")]
+    #[arg(long, value_parser = words(choice::DATASET_FORMAT), value_delimiter = ',', default_value = "parquet")]
     format: Vec<DatasetFormat>,
     /// Write the files and dataset.json, their description, there
     #[arg(short, long, value_name = "DIR")]

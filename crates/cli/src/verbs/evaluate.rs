@@ -18,7 +18,7 @@ use tofsim_learn::evaluation::cross_check::CrossCheck;
 use tofsim_learn::evaluation::thesis::{self, DISTANCES_M};
 use tofsim_learn::evaluation::{Evaluation, Figures};
 
-use crate::choice;
+use crate::choice::words;
 use crate::report::evaluation as report;
 
 use super::draws::Draws;
@@ -51,7 +51,7 @@ pub struct Args {
     #[command(flatten)]
     draws: Draws,
     /// Estimators, separated by commas
-    #[arg(long, value_parser = choice::words(&EstimatorKind::ALL), value_delimiter = ',', default_value = "network,network-float")]
+    #[arg(long, value_parser = words(&EstimatorKind::ALL), value_delimiter = ',', default_value = "network,network-float")]
     estimator: Vec<EstimatorKind>,
     /// Frames to simulate cycle by cycle at each of six distances, to be compared with the fast path
     #[arg(long, value_name = "N", default_value_t = 8, allow_hyphen_values = true)]

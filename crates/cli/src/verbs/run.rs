@@ -17,7 +17,7 @@ use tofsim::sim::{Run, Stepping};
 use tofsim::waves::{self, Marks, WaveFormat, Waves, write_views};
 use tofsim_learn::estimation::{EstimatorKind, Panel};
 
-use crate::choice::{self, Fidelity, WaveformChoice};
+use crate::choice::{self, Fidelity, WaveformChoice, words};
 use crate::report::frame_log::FrameLog;
 use crate::report::run_files::RunFiles;
 use crate::report::summary::Summary;
@@ -49,14 +49,14 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..))]
     frames: u64,
     /// How to simulate; cycle and shot give the same frames, histogram the same in distribution
-    #[arg(long, value_parser = choice::words(&Fidelity::ALL), default_value = "cycle")]
+    #[arg(long, value_parser = words(&Fidelity::ALL), default_value = "cycle")]
     fidelity: Fidelity,
     /// Threads for the frames of a run without waveform and events; the results are the same for
     /// any number [default: one a core]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     /// Format of the waveform [default: vcd; none for fidelities without signals]
-    #[arg(long, value_parser = choice::words(choice::WAVEFORM))]
+    #[arg(long, value_parser = words(choice::WAVEFORM))]
     waves: Option<WaveformChoice>,
     /// Part of the run that goes into the waveform: shot:0..8, 10us..12us or estimation; may be
     /// repeated [default: the scenario's, or shot:0..16 and estimation]
@@ -68,7 +68,7 @@ pub struct Args {
     signals: Vec<String>,
     /// Estimators that look at each frame's histogram beside the firmware's own, separated by commas;
     /// subtraction makes pairs of a dark and a lit frame (firmware.dark_frames), and all look at those
-    #[arg(long, value_parser = choice::words(&EstimatorKind::ALL), value_delimiter = ',')]
+    #[arg(long, value_parser = words(&EstimatorKind::ALL), value_delimiter = ',')]
     estimator: Vec<EstimatorKind>,
     /// Write a row for each shot, as .csv or .parquet
     #[arg(long, value_name = "FILE")]

@@ -13,7 +13,7 @@ use tofsim_rtl::verify::cycle_counts::Count;
 use tofsim_rtl::verify::process::Limits;
 use tofsim_rtl::verify::{BlockCheck, BlockReport, Rtl, RtlMap, Simulator};
 
-use crate::choice;
+use crate::choice::{self, words};
 use crate::report::verification as report;
 
 use super::terminal::{Talk, print, stop_signal};
@@ -41,7 +41,7 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["block", "top", "map", "registers", "junit", "simulator"])]
     cycle_counts: bool,
     /// Simulator to run
-    #[arg(long, value_parser = choice::words(choice::SIMULATOR), default_value = "icarus")]
+    #[arg(long, value_parser = words(choice::SIMULATOR), default_value = "icarus")]
     simulator: Simulator,
     /// How your design differs by intention: names, polarities, latencies, adapters (TOML)
     #[arg(long, value_name = "FILE")]

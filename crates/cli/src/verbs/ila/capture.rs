@@ -13,7 +13,7 @@ use tofsim_captures::compare::SignalMap;
 use tofsim_captures::ila::export::{CaptureFormat, export};
 use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, Overrides, capture};
 
-use crate::choice;
+use crate::choice::{self, words};
 use crate::text::table::facts;
 use crate::verbs::draws::load;
 use crate::verbs::terminal::{Talk, print, print_json, stop_signal};
@@ -49,7 +49,7 @@ pub struct Args {
     #[command(flatten)]
     instead: Instead,
     /// Format to write; may be repeated [default: all]
-    #[arg(long, value_parser = choice::words(choice::CAPTURE_FORMAT))]
+    #[arg(long, value_parser = words(choice::CAPTURE_FORMAT))]
     format: Vec<CaptureFormat>,
     /// Leave out the CSV's row of radices, as Vivado before 2019.1
     #[arg(long)]

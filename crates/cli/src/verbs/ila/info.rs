@@ -9,7 +9,7 @@ use tofsim_captures::compare::{Survey, survey};
 use tofsim_captures::ila::Radix;
 use tofsim_captures::source::{SignalKind, Source, SourceFormat};
 
-use crate::choice;
+use crate::choice::{self, words};
 use crate::text::table::{facts, grouped, table};
 use crate::verbs::terminal::print;
 
@@ -22,7 +22,7 @@ pub struct Args {
     /// The file
     file: PathBuf,
     /// Radix of the values in a CSV that does not say
-    #[arg(long, value_parser = choice::words(choice::RADIX))]
+    #[arg(long, value_parser = words(choice::RADIX))]
     radix: Option<Radix>,
     /// Print one JSON object
     #[arg(long)]

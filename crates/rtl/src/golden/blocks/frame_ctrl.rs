@@ -46,7 +46,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let params = Params { shots_per_frame: SHOTS, preloaded };
     let mut run = Recorder::new(spec, setting, In::list());
     // The state, cycles in it, whether this run is to be left at the exit of this turn, frames finished.
-    let (mut last, mut phase, mut leaves, mut turn, mut frames) = (State::Clear, 0, false, 0, 0);
+    let (mut last, mut phase, mut leaves, mut turn, mut frames) = (State::Clear, 0, false, 0, 0u64);
     for _ in 0..setting.cycles() {
         let (ctrl, draw) = (run.top.frame_ctrl, &mut run.draw);
         let state = ctrl.state();
@@ -64,7 +64,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let kind = if leave { turn as u64 % 3 + 1 } else { 0 };
         let held = leaves && exit == (State::Drain, DRAIN);
         let (start, dsp_en) = match state {
-            State::Estimate => (u64::is_multiple_of(frames, 2), frames % 4 < 2),
+            State::Estimate => (frames.is_multiple_of(2), frames % 4 < 2),
             State::Acquire => (draw.one_in(4), draw.one_in(2)),
             _ => (draw.one_in(2), draw.one_in(2)),
         };
