@@ -66,9 +66,12 @@ impl Events {
     pub fn write(&mut self, shot: &Shot) -> Result<()> {
         match &mut self.file {
             EventFile::Csv(file) => {
-                let mut fields = fields(shot).to_vec();
-                fields.extend(self.pairs.then(|| u8::from(shot.laser_en).to_string()));
-                let written = writeln!(file, "{}", fields.join(","));
+                let laser = match (self.pairs, shot.laser_en) {
+                    (false, _) => "",
+                    (true, false) => ",0",
+                    (true, true) => ",1",
+                };
+                let written = writeln!(file, "{}{laser}", fields(shot).join(","));
                 written.map_err(|error| fault(file.target(), error))
             }
             EventFile::Parquet(table, shots) => {
