@@ -51,7 +51,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let loaded = args.draws.load(&args.scenario)?;
     let (name, seed) = (loaded.name.clone(), loaded.scenario.seed);
     let source = HistogramSource::new(&Setup::new(loaded)?)?;
-    let rows = args.draws.rows(args.grid, seed);
+    let rows = args.draws.rows(None, args.grid, seed);
     let description = DatasetDescription::new(&name, &args.draws.set, &source, &rows, seed);
     let files = DatasetFiles::create(&args.output, &args.format, &description)?;
     let stop = stop_signal();

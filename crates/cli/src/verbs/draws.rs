@@ -48,17 +48,12 @@ impl Draws {
         Ok(loaded)
     }
 
-    /// Rows of a grid: as many random ones as the options say, or all.
-    pub fn rows(&self, grid: Grid, seed: u64) -> Rows {
-        match self.rows {
+    /// Rows of a grid: as many random ones as the options say, or else `default`, or all.
+    pub fn rows(&self, default: Option<u64>, grid: Grid, seed: u64) -> Rows {
+        match self.rows.or(default) {
             None => Rows::All(grid),
-            Some(_) => self.some_rows(0, grid, seed),
+            Some(rows) => Rows::Subset(Subset::new(grid, rows, seed)),
         }
-    }
-
-    /// Random rows of a grid, so many if the options do not say.
-    pub fn some_rows(&self, default: u64, grid: Grid, seed: u64) -> Rows {
-        Rows::Subset(Subset::new(grid, self.rows.unwrap_or(default), seed))
     }
 
     /// Does `work` for so many rows on as many threads as the options say, with a progress bar that it

@@ -88,7 +88,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     };
     let estimators = args.estimator.iter().map(|kind| kind.estimator(&needs));
     let estimators = estimators.collect::<std::result::Result<Vec<_>, Input>>()?;
-    let rows = args.draws.rows(Grid::test(), seed);
+    let rows = args.draws.rows(None, Grid::test(), seed);
     let stop = stop_signal();
     let evaluation = args.draws.on_threads(rows.len(), talk, |done| {
         Evaluation::new(&source, &rows, seed, &estimators, stop.as_deref(), done)

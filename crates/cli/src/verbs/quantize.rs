@@ -144,7 +144,7 @@ impl Args {
         let (seed, profile) = (loaded.scenario.seed, loaded.scenario.tdc.profile.clone());
         let network = Network::find(network, None)?;
         let source = HistogramSource::new(&Setup::new(loaded)?)?;
-        let rows = self.draws.some_rows(EXPLORED, Grid::test(), seed);
+        let rows = self.draws.rows(Some(EXPLORED), Grid::test(), seed);
         let (stop, data) = (stop_signal(), (&source, &rows, seed));
         let points = self.draws.on_threads(rows.len(), talk, |done| {
             explore(&network, &sweep(), data, stop.as_deref(), done)

@@ -112,8 +112,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         true => print(&format!("{:#}\n", report::json(&rtl.source, simulator, &reports)))?,
         false => print(&report::text(&reports))?,
     }
-    let passed = reports.iter().all(BlockReport::passed);
-    Ok(ExitCode::from(u8::from(!passed)))
+    Ok(ExitCode::from(u8::from(!reports.iter().all(BlockReport::passed))))
 }
 
 fn cycle_counts(args: &Args, rtl: &Rtl, limits: &Limits) -> Result<ExitCode> {
@@ -123,8 +122,7 @@ fn cycle_counts(args: &Args, rtl: &Rtl, limits: &Limits) -> Result<ExitCode> {
         true => print(&format!("{:#}\n", report::counts_json(&rtl.source, &counts)))?,
         false => print(&report::counts_text(&counts))?,
     }
-    let holds = counts.iter().all(Count::holds);
-    Ok(ExitCode::from(u8::from(!holds)))
+    Ok(ExitCode::from(u8::from(!counts.iter().all(Count::holds))))
 }
 
 /// The blocks that are asked for, then the whole.

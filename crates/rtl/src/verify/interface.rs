@@ -84,13 +84,11 @@ pub fn check(source: &str, module: &str, wanted: &[Port], found: &Ports) -> Resu
         };
         let direction = |output| if output { "an output" } else { "an input" };
         if real.output != port.output {
-            let what =
-                format!("is {}, expected {}", direction(real.output), direction(port.output));
-            return fault(what);
+            let [is, expected] = [real.output, port.output].map(direction);
+            return fault(format!("is {is}, expected {expected}"));
         }
         if real.width != port.width {
-            let what = format!("has {} bits, expected {}", real.width, port.width);
-            return fault(what);
+            return fault(format!("has {} bits, expected {}", real.width, port.width));
         }
     }
     Ok(())
