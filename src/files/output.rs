@@ -123,6 +123,11 @@ pub fn write_file(
     file.commit()
 }
 
+/// Writes a whole file.
+pub fn write_bytes(target: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
+    write_file(target, |file| file.write_all(bytes.as_ref()))
+}
+
 /// Makes a directory and those above it.
 pub fn create_directory(path: &Path) -> Result<()> {
     fs::create_dir_all(path).map_err(Error::io(path, "create"))

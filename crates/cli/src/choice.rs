@@ -8,14 +8,13 @@ use tofsim_captures::ila::Radix;
 use tofsim_captures::ila::export::CaptureFormat;
 use tofsim_learn::dataset::Grid;
 use tofsim_learn::dataset::files::DatasetFormat;
-use tofsim_learn::estimation::EstimatorKind;
 use tofsim_rtl::verify::Simulator;
 
 /// A word, what it stands for, and what the help says of it.
-type Choice<T> = (&'static str, T, &'static str);
+pub type Choice<T> = (&'static str, T, &'static str);
 
 /// A parser that takes those words.
-fn words<T: Copy + Send + Sync + 'static>(
+pub fn words<T: Copy + Send + Sync + 'static>(
     choices: &'static [Choice<T>],
 ) -> impl TypedValueParser<Value = T> {
     let values = choices.iter().map(|(word, _, help)| PossibleValue::new(*word).help(*help));
@@ -26,58 +25,45 @@ fn words<T: Copy + Send + Sync + 'static>(
 }
 
 /// How the digits of a value are written.
-pub fn radix() -> impl TypedValueParser<Value = Radix> {
-    words(&[
-        ("hex", Radix::Hex, "Hexadecimal, lower case, all digits"),
-        ("signed", Radix::Signed, "Two's complement, decimal"),
-        ("unsigned", Radix::Unsigned, "Decimal"),
-        ("binary", Radix::Binary, "Bit by bit, all digits"),
-        ("octal", Radix::Octal, "Three bits to a digit, all digits"),
-    ])
-}
+pub const RADIX: &[Choice<Radix>] = &[
+    ("hex", Radix::Hex, "Hexadecimal, lower case, all digits"),
+    ("signed", Radix::Signed, "Two's complement, decimal"),
+    ("unsigned", Radix::Unsigned, "Decimal"),
+    ("binary", Radix::Binary, "Bit by bit, all digits"),
+    ("octal", Radix::Octal, "Three bits to a digit, all digits"),
+];
 
 /// What a capture is written as.
-pub fn capture_format() -> impl TypedValueParser<Value = CaptureFormat> {
-    words(&[
-        ("csv", CaptureFormat::Csv, "A row for each sample"),
-        ("vcd", CaptureFormat::Vcd, "Value change dump, its time the number of the sample"),
-        ("ila", CaptureFormat::Ila, "Vivado's own archive"),
-    ])
-}
+pub const CAPTURE_FORMAT: &[Choice<CaptureFormat>] = &[
+    ("csv", CaptureFormat::Csv, "A row for each sample"),
+    ("vcd", CaptureFormat::Vcd, "Value change dump, its time the number of the sample"),
+    ("ila", CaptureFormat::Ila, "Vivado's own archive"),
+];
 
 /// What an unknown bit is the same as.
-pub fn unknowns() -> impl TypedValueParser<Value = Unknowns> {
-    words(&[
-        ("exact", Unknowns::Exact, "x only is x"),
-        ("any", Unknowns::Any, "x is anything"),
-        ("none", Unknowns::None, "x is nothing, not even x"),
-    ])
-}
+pub const UNKNOWNS: &[Choice<Unknowns>] = &[
+    ("exact", Unknowns::Exact, "x only is x"),
+    ("any", Unknowns::Any, "x is anything"),
+    ("none", Unknowns::None, "x is nothing, not even x"),
+];
 
 /// Which simulator runs the Verilog.
-pub fn simulator() -> impl TypedValueParser<Value = Simulator> {
-    words(&[
-        ("icarus", Simulator::Icarus, "Icarus Verilog: compiles at once"),
-        ("verilator", Simulator::Verilator, "Verilator: compiles for seconds, then runs fast"),
-    ])
-}
+pub const SIMULATOR: &[Choice<Simulator>] = &[
+    ("icarus", Simulator::Icarus, "Icarus Verilog: compiles at once"),
+    ("verilator", Simulator::Verilator, "Verilator: compiles for seconds, then runs fast"),
+];
 
 /// What a data set is written as.
-pub fn dataset_format() -> impl TypedValueParser<Value = DatasetFormat> {
-    words(&[
-        ("parquet", DatasetFormat::Parquet, "One table, dataset.parquet"),
-        ("npy", DatasetFormat::Npy, "Arrays: histograms.npy, truth.npy and rows.npy"),
-    ])
-}
+pub const DATASET_FORMAT: &[Choice<DatasetFormat>] = &[
+    ("parquet", DatasetFormat::Parquet, "One table, dataset.parquet"),
+    ("npy", DatasetFormat::Npy, "Arrays: histograms.npy, truth.npy and rows.npy"),
+];
 
 /// The scenes of a data set.
-pub fn grid() -> impl TypedValueParser<Value = Grid> {
-    const GRIDS: [Choice<Grid>; 2] = [
-        ("train", Grid::training(), "201 distances, every 2.5 mm"),
-        ("test", Grid::test(), "51 distances, every 10 mm"),
-    ];
-    words(&GRIDS)
-}
+pub const GRID: &[Choice<Grid>] = &[
+    ("train", Grid::training(), "201 distances, every 2.5 mm"),
+    ("test", Grid::test(), "51 distances, every 10 mm"),
+];
 
 /// How a run is simulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,7 +74,7 @@ pub enum Fidelity {
 }
 
 impl Fidelity {
-    const ALL: [Choice<Fidelity>; 3] = [
+    pub const ALL: [Choice<Fidelity>; 3] = [
         ("cycle", Fidelity::Cycle, "Every register at every edge that changes one"),
         ("shot", Fidelity::Shot, "A draw, a code and a count for each shot; no signals to look at"),
         (
@@ -104,24 +90,12 @@ impl Fidelity {
     }
 }
 
-/// How a run is simulated.
-pub fn fidelity() -> impl TypedValueParser<Value = Fidelity> {
-    words(&Fidelity::ALL)
-}
-
 /// The format of a waveform, if there is to be one.
 pub type WaveformChoice = Option<WaveFormat>;
 
 /// What a waveform is written as.
-pub fn waveform() -> impl TypedValueParser<Value = WaveformChoice> {
-    words(&[
-        ("vcd", Some(WaveFormat::Vcd), "Value change dump"),
-        ("fst", Some(WaveFormat::Fst), "GTKWave's compressed format"),
-        ("none", None, "No waveform"),
-    ])
-}
-
-/// An estimator.
-pub fn estimator() -> impl TypedValueParser<Value = EstimatorKind> {
-    words(&EstimatorKind::ALL)
-}
+pub const WAVEFORM: &[Choice<WaveformChoice>] = &[
+    ("vcd", Some(WaveFormat::Vcd), "Value change dump"),
+    ("fst", Some(WaveFormat::Fst), "GTKWave's compressed format"),
+    ("none", None, "No waveform"),
+];

@@ -8,13 +8,11 @@ pub mod draws;
 pub mod estimate;
 pub mod evaluate;
 pub mod ila;
-pub mod interrupt;
 pub mod man;
 pub mod quantize;
 pub mod run;
 pub mod scenario;
-pub mod stdout;
-pub mod talk;
+pub mod terminal;
 pub mod train;
 pub mod vectors;
 pub mod verify;
@@ -22,7 +20,7 @@ pub mod verify;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
-use talk::Talk;
+use terminal::Talk;
 
 use tofsim::error::Result;
 
@@ -36,7 +34,7 @@ pub struct Cli {
     #[command(subcommand)]
     verb: Verb,
     #[command(flatten)]
-    talk: talk::Args,
+    talk: Talk,
 }
 
 #[derive(Debug, Subcommand)]
@@ -60,19 +58,19 @@ enum Verb {
 impl Cli {
     /// Does what the command line asks for; the status says whether all was the same or fine.
     pub fn run(&self) -> Result<ExitCode> {
-        let talk = Talk::new(&self.talk);
+        let talk = &self.talk;
         match &self.verb {
-            Verb::Run(args) => run::run(args, &talk),
+            Verb::Run(args) => run::run(args, talk),
             Verb::Budget(args) => budget::run(args),
             Verb::Estimate(args) => estimate::run(args),
-            Verb::Evaluate(args) => return evaluate::run(args, &talk),
-            Verb::Quantize(args) => quantize::run(args, &talk),
-            Verb::Vectors(args) => vectors::run(args, &talk),
-            Verb::Verify(args) => return verify::run(args, &talk),
-            Verb::Ila(args) => ila::run(args, &talk),
-            Verb::Compare(args) => return compare::run(args, &talk),
-            Verb::Dataset(args) => dataset::run(args, &talk),
-            Verb::Train(args) => train::run(args, &talk),
+            Verb::Evaluate(args) => return evaluate::run(args, talk),
+            Verb::Quantize(args) => quantize::run(args, talk),
+            Verb::Vectors(args) => vectors::run(args, talk),
+            Verb::Verify(args) => return verify::run(args, talk),
+            Verb::Ila(args) => ila::run(args, talk),
+            Verb::Compare(args) => return compare::run(args, talk),
+            Verb::Dataset(args) => dataset::run(args, talk),
+            Verb::Train(args) => train::run(args, talk),
             Verb::Scenario(args) => scenario::run(args),
             Verb::Completions(args) => completions::run(args, &mut Cli::command()),
             Verb::Man(args) => man::run(args, Cli::command()),

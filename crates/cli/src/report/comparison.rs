@@ -1,15 +1,15 @@
 //! A comparison as text, as JSON and as JUnit XML.
 
-use std::fmt::Write;
+use std::path::Path;
 
-use quick_junit::SerializeError;
 use serde_json::{Value, json};
 
+use tofsim::error::Result;
 use tofsim_captures::compare::{Compared, Comparison, Described, MatchedBy, UnmatchedReason};
 use tofsim_captures::source::Axis;
 
 use crate::text::junit::{self, JunitCase};
-use crate::text::table::{counted, grouped, plain};
+use crate::text::table::{counted, grouped, table};
 
 /// Signals that are listed one by one.
 const LISTED: usize = 24;
@@ -19,43 +19,35 @@ const UNMATCHED: usize = 8;
 /// The verdict, what differs first, a line for each pair that differs, and what came together.
 pub fn text(result: &Comparison, verbose: bool) -> String {
     let mut text = String::new();
-    // Writing to a string cannot fail.
-    let _ = compose(result, verbose, &mut text);
-    text
-}
-
-fn compose(result: &Comparison, verbose: bool, text: &mut String) -> std::fmt::Result {
     let names = ["expected", "got"];
     for (side, name) in result.sides.iter().zip(names) {
-        writeln!(text, "{name:<9} {} ({})", side.name, side.format)?;
+        text += &format!("{name:<9} {} ({})\n", side.name, side.format);
     }
     for (k, line) in result.alignment.lines().enumerate() {
-        writeln!(text, "{:<9} {line}", if k == 0 { "aligned" } else { "" })?;
+        text += &format!("{:<9} {line}\n", if k == 0 { "aligned" } else { "" });
     }
-    let places = match result.unit {
-        "samples" => "samples",
-        _ => "instants",
-    };
+    let places = if result.unit == "samples" { "samples" } else { "instants" };
     let pairs = counted(result.pairs.len() as u64, "signals");
-    writeln!(text, "compared  {pairs} at {}", counted(result.compared, places))?;
-    matched(result, verbose, text)?;
+    text += &format!("compared  {pairs} at {}\n", counted(result.compared, places));
+    text += &matched(result, verbose);
     for note in &result.notes {
-        writeln!(text, "note      {note}")?;
+        text += &format!("note      {note}\n");
     }
-    writeln!(text)?;
+    text += "\n";
     if result.is_same() {
-        return writeln!(text, "same");
+        return text + "same\n";
     }
-    writeln!(text, "different")?;
+    text += "different\n";
     for difference in &result.differences {
-        writeln!(text, "  {difference}")?;
+        text += &format!("  {difference}\n");
     }
     for finding in &result.findings {
-        writeln!(text, "  {}: {}", finding.kind, finding.text)?;
+        text += &format!("  {}: {}\n", finding.kind, finding.text);
     }
-    let Some(first) = result.differing().next() else { return Ok(()) };
-    writeln!(text, "\nfirst     {}", first_line(result, first))?;
-    differing(result, text)
+    if let Some(first) = result.differing().next() {
+        text += &format!("\nfirst     {}\n{}", first_line(result, first), differing(result));
+    }
+    text
 }
 
 fn first_line(result: &Comparison, pair: &Compared) -> String {
@@ -65,50 +57,44 @@ fn first_line(result: &Comparison, pair: &Compared) -> String {
     format!("{} at {place}: expected {}, got {}", pair.name, first.expected, first.got)
 }
 
-fn differing(result: &Comparison, text: &mut String) -> std::fmt::Result {
-    let mut table = plain();
-    table.set_header(["signal", "differs", "first", "expected", "got", "where"]);
-    for pair in result.differing().take(LISTED) {
-        let Some(first) = &pair.first else { continue };
-        table.add_row([
+fn differing(result: &Comparison) -> String {
+    let row = |pair: &Compared| {
+        let first = pair.first.as_ref()?;
+        Some([
             pair.name.clone(),
             format!("{} of {}", grouped(pair.differing), grouped(pair.compared)),
             result.sides[0].place(first.at[0]),
             first.expected.clone(),
             first.got.clone(),
             pair.overview.clone(),
-        ]);
-    }
-    writeln!(text, "\n{}", table.trim_fmt())?;
-    let count = result.differing().count();
-    if count > LISTED {
-        writeln!(text, "... and {} more signals", count - LISTED)?;
-    }
-    Ok(())
+        ])
+    };
+    let header = ["signal", "differs", "first", "expected", "got", "where"];
+    let rows = result.differing().take(LISTED).filter_map(row);
+    let more = match result.differing().count().checked_sub(LISTED) {
+        None | Some(0) => String::new(),
+        Some(more) => format!("... and {more} more signals\n"),
+    };
+    format!("\n{}\n{more}", table(header, rows, ..0))
 }
 
 /// What came together and what did not.
-fn matched(result: &Comparison, verbose: bool, text: &mut String) -> std::fmt::Result {
+fn matched(result: &Comparison, verbose: bool) -> String {
     let count = |how: MatchedBy| result.pairs.iter().filter(|pair| pair.how == how).count();
     let aliases: usize = result.pairs.iter().map(|pair| pair.aliases).sum();
-    let mut parts = Vec::new();
-    for (how, words) in [
-        (MatchedBy::Name, "by name"),
-        (MatchedBy::Suffix, "by the end of the name"),
-        (MatchedBy::Map, "by the map"),
-    ] {
-        if count(how) > 0 {
-            parts.push(format!("{} {words}", count(how)));
-        }
-    }
-    if aliases > 0 {
-        parts.push(format!("{aliases} more names of the same"));
-    }
-    writeln!(text, "matched   {}", parts.join(", "))?;
+    let parts = [
+        (count(MatchedBy::Name), "by name"),
+        (count(MatchedBy::Suffix), "by the end of the name"),
+        (count(MatchedBy::Map), "by the map"),
+        (aliases, "more names of the same"),
+    ];
+    let parts = parts.iter().filter(|(count, _)| *count > 0);
+    let parts: Vec<_> = parts.map(|(count, words)| format!("{count} {words}")).collect();
+    let mut text = format!("matched   {}\n", parts.join(", "));
     if verbose {
         for pair in &result.pairs {
             let other = if pair.other == pair.name { "" } else { &pair.other };
-            writeln!(text, "            {:<6} {} {other}", pair.how.word(), pair.name)?;
+            text += &format!("            {:<6} {} {other}\n", pair.how.word(), pair.name);
         }
     }
     for (side, which) in ["first", "second"].iter().enumerate() {
@@ -118,7 +104,7 @@ fn matched(result: &Comparison, verbose: bool, text: &mut String) -> std::fmt::R
         };
         let (alone, ignored) = (own(false).count(), own(true).count());
         if alone > 0 {
-            writeln!(text, "unmatched {alone} of the {which} side")?;
+            text += &format!("unmatched {alone} of the {which} side\n");
         }
         let shown = match result.lists_unmatched(side) {
             _ if verbose => usize::MAX,
@@ -126,17 +112,17 @@ fn matched(result: &Comparison, verbose: bool, text: &mut String) -> std::fmt::R
             false => 0,
         };
         for unmatched in own(false).take(shown) {
-            writeln!(text, "            {}: {}", unmatched.name, unmatched.reason)?;
+            text += &format!("            {}: {}\n", unmatched.name, unmatched.reason);
         }
         if alone > shown {
             let more = if shown > 0 { "... and more" } else { "their names" };
-            writeln!(text, "            {more} with -v")?;
+            text += &format!("            {more} with -v\n");
         }
         if ignored > 0 {
-            writeln!(text, "left out  {ignored} of the {which} side")?;
+            text += &format!("left out  {ignored} of the {which} side\n");
         }
     }
-    Ok(())
+    text
 }
 
 /// One object, `tofsim.compare/1`.
@@ -197,11 +183,11 @@ pub fn json(result: &Comparison) -> Value {
     })
 }
 
-/// A test suite with a case for each pair, and one for what is not of a signal's values.
+/// Writes a test suite with a case for each pair, and one for what is not of a signal's values.
 ///
 /// # Errors
-/// When it cannot be put into XML.
-pub fn junit(result: &Comparison) -> Result<String, SerializeError> {
+/// When it cannot be put into XML, or the file cannot be written.
+pub fn write_junit(path: &Path, result: &Comparison) -> Result<()> {
     let [a, b] = [&result.sides[0].name, &result.sides[1].name];
     let pair = |pair: &Compared| {
         let failure = (pair.differing > 0).then(|| {
@@ -216,5 +202,5 @@ pub fn junit(result: &Comparison) -> Result<String, SerializeError> {
     let failure = differs.then(|| (result.differences.join("; "), findings.join("\n")));
     let structure = JunitCase { name: "structure".to_owned(), failure };
     let cases = result.pairs.iter().map(pair).chain([structure]);
-    junit::junit("tofsim compare", format!("tofsim compare {a} {b}"), cases)
+    junit::write(path, "tofsim compare", format!("tofsim compare {a} {b}"), cases)
 }

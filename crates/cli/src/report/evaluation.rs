@@ -1,36 +1,48 @@
-//! An evaluation as tables, beside the thesis's.
+//! An evaluation as tables, beside the thesis's, and as files: JSON, figures as CSV, and box plots.
 
-use comfy_table::Table;
+use std::path::Path;
 
-use tofsim_learn::evaluation::thesis::{self, DISTANCES_M};
-use tofsim_learn::evaluation::{Figures, Spread};
+use tofsim::error::{Input, Result};
+use tofsim::files::output::{create_directory, write_bytes};
+use tofsim_learn::evaluation::thesis::{self, DISTANCES_M, Published};
+use tofsim_learn::evaluation::{Figures, Group, Spread};
 
-use crate::text::table::{align_right, number_or_dash, plain};
+use crate::text::table::{number_or_dash, table};
+
+use super::box_plot;
+
+/// The columns of `evaluation.csv`.
+const HEADER: &str = "estimator,by,value,estimates,failures,mean_mm,mean_error_mm,two_sd_mm,two_sd_error_mm,\
+    least_mm,lower_quartile_mm,median_mm,upper_quartile_mm,largest_mm";
 
 /// Twice the standard deviation, the mean and the failures at the thesis's distances, with its own
 /// rows; `bound_mm` is the Cramer-Rao bound there.
 pub fn tables(figures: &[Figures], bound_mm: &[Option<f64>]) -> String {
-    let mut spreads = table("2 sd [mm]");
-    let mut means = table("mean error [mm]");
-    let mut failures = table("failures");
-    for published in [&thesis::FLOAT, &thesis::FIXED, &thesis::PEAK] {
-        add(&mut spreads, published.name, published.two_sd_mm.map(|mm| format!("{mm:.1}")));
-        add(&mut means, published.name, published.mean_mm.map(|mm| format!("{mm:.1}")));
-    }
-    for one in figures {
-        row(&mut spreads, one, |spread| with_error(spread.two_sd_mm, spread.two_sd_error_mm));
-        row(&mut means, one, |spread| with_error(spread.mean_mm, spread.mean_error_mm));
-        row(&mut failures, one, |spread| {
-            let histograms = spread.estimates + spread.failures;
-            format!("{} of {histograms}", spread.failures)
-        });
-    }
-    add(&mut spreads, "Cramer-Rao bound", bound_mm.iter().map(|mm| number_or_dash(*mm, 2)));
+    let published = |of: fn(&Published) -> [f64; 6]| {
+        let row = |row: &Published| named(row.name, of(row).map(|mm| format!("{mm:.1}")));
+        [&thesis::FLOAT, &thesis::FIXED, &thesis::PEAK].map(row).to_vec()
+    };
+    let measured = |cell: fn(&Spread) -> String| -> Vec<_> {
+        let at = |one: &Figures, m| one.at(m).map_or("-".to_owned(), cell);
+        figures.iter().map(|one| named(one.name, DISTANCES_M.map(|m| at(one, m)))).collect()
+    };
+    let two_sd = measured(|spread| with_error(spread.two_sd_mm, spread.two_sd_error_mm));
+    let bound = named("Cramer-Rao bound", bound_mm.iter().map(|mm| number_or_dash(*mm, 2)));
+    let mean = measured(|spread| with_error(spread.mean_mm, spread.mean_error_mm));
+    let failed =
+        measured(|spread| format!("{} of {}", spread.failures, spread.estimates + spread.failures));
     let trials = thesis::PEAK_TRIALS;
-    let cells = thesis::PEAK_FAILURES.map(|failures| format!("{failures} of {trials}"));
-    add(&mut failures, "thesis, peak detection (Table 4.3)", cells);
-    let tables = [spreads, means, failures].map(|table| format!("{}\n", table.trim_fmt()));
-    tables.join("\n")
+    let peak = thesis::PEAK_FAILURES.map(|failures| format!("{failures} of {trials}"));
+    let tables = [
+        ("2 sd [mm]", [published(|row| row.two_sd_mm), two_sd, vec![bound]]),
+        ("mean error [mm]", [published(|row| row.mean_mm), mean, Vec::new()]),
+        ("failures", [failed, vec![named("thesis, peak detection (Table 4.3)", peak)], Vec::new()]),
+    ];
+    let text = |(title, rows): (&str, [Vec<Vec<String>>; 3])| {
+        let header = named(title, DISTANCES_M.map(|distance_m| format!("{distance_m} m")));
+        table(header, rows.concat(), 1..) + "\n"
+    };
+    tables.map(text).join("\n")
 }
 
 /// How far an estimator's spread is from the line between those of the thesis's float network, over
@@ -47,27 +59,56 @@ pub fn beside_the_line(figures: &Figures) -> Option<String> {
     ))
 }
 
-fn table(title: &str) -> Table {
-    let mut table = plain();
-    let distances = DISTANCES_M.map(|distance_m| format!("{distance_m} m"));
-    table.set_header([title.to_owned()].into_iter().chain(distances));
-    align_right(&mut table, 1..);
-    table
-}
-
-/// Adds a row with a name.
-fn add(table: &mut Table, name: &str, cells: impl IntoIterator<Item = String>) {
-    table.add_row([name.to_owned()].into_iter().chain(cells));
-}
-
-fn row(table: &mut Table, figures: &Figures, cell: impl Fn(&Spread) -> String) {
-    let at = |distance_m| figures.at(distance_m).map_or("-".to_owned(), &cell);
-    add(table, figures.name, DISTANCES_M.map(at));
+/// The cells of a row that begins with a name.
+fn named(name: &str, cells: impl IntoIterator<Item = String>) -> Vec<String> {
+    [name.to_owned()].into_iter().chain(cells).collect()
 }
 
 fn with_error(value_mm: Option<f64>, error_mm: Option<f64>) -> String {
     let error = error_mm.filter(|_| value_mm.is_some());
     number_or_dash(value_mm, 2) + &error.map_or(String::new(), |error| format!(" +-{error:.2}"))
+}
+
+/// Puts them in a folder, which is made.
+pub fn write(folder: &Path, json: &str, figures: &[Figures]) -> Result<()> {
+    create_directory(folder)?;
+    write_bytes(&folder.join("evaluation.json"), json)?;
+    write_bytes(&folder.join("evaluation.csv"), csv(figures))?;
+    for one in figures {
+        for grouping in one.groupings() {
+            let beside_mm: Option<fn(f64) -> f64> =
+                (grouping.key == "distance_m").then_some(thesis::line_two_sd_mm);
+            let line = beside_mm.map_or("", |_| "; red: 2 sd of the thesis's float network");
+            let title = format!("{}: errors by {}{line}", one.name, grouping.quantity);
+            let path = folder.join(format!("{}_by_{}.svg", one.name, grouping.key));
+            let svg = box_plot::svg(&title, grouping.quantity, grouping.groups, beside_mm);
+            let svg = svg.map_err(|why| Input::new(path.display(), why))?;
+            write_bytes(&path, svg)?;
+        }
+    }
+    Ok(())
+}
+
+/// A row for each estimator and group.
+fn csv(figures: &[Figures]) -> String {
+    let mut text = format!("{HEADER}\n");
+    for one in figures {
+        for grouping in one.groupings() {
+            for group in grouping.groups {
+                text += &format!("{},{},{}\n", one.name, grouping.key, numbers(group));
+            }
+        }
+    }
+    text
+}
+
+fn numbers(group: &Group) -> String {
+    let spread = &group.spread;
+    let number = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
+    let counts = [spread.estimates, spread.failures].map(|count| count.to_string());
+    let moments = [spread.mean_mm, spread.mean_error_mm, spread.two_sd_mm, spread.two_sd_error_mm];
+    let quartiles = [0, 1, 2, 3, 4].map(|k| number(spread.quartiles_mm.map(|five| five[k])));
+    [&[group.value.to_string()], &counts[..], &moments.map(number), &quartiles].concat().join(",")
 }
 
 #[cfg(test)]

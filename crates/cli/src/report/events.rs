@@ -4,6 +4,7 @@
 //! count), `coarse`, `code`, `bin`; where frames come in pairs also `laser_en` (1 in lit frames). What
 //! a shot does not have is empty (CSV) or null (Parquet). A photon that is given has no cause.
 
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int32Type, Int64Type};
@@ -15,7 +16,7 @@ use tofsim_learn::dataset::parquet_table::{GROUP, ParquetTable};
 
 use super::causes;
 
-const COLUMNS: [&str; 8] = ["frame", "shot", "arrival_ps", "cause", "n", "coarse", "code", "bin"];
+const COLUMNS: &str = "frame,shot,arrival_ps,cause,n,coarse,code,bin";
 
 /// The column of runs whose frames come in pairs.
 const LASER: &str = "laser_en";
@@ -32,7 +33,7 @@ pub struct Events {
 }
 
 enum EventFile {
-    Csv(Box<csv::Writer<OutputFile>>),
+    Csv(OutputFile),
     /// The file, and rows gathered for its next group.
     Parquet(Box<ParquetTable>, Vec<Shot>),
 }
@@ -47,17 +48,16 @@ impl Events {
             let expected = "expected a name that ends in .csv or .parquet";
             return Err(Input::new("--events", expected).value(path.display()).into());
         }
-        let file = OutputFile::create(path)?;
+        let mut file = OutputFile::create(path)?;
         let file = if ending == "parquet" {
             let laser = if pairs { format!("required boolean {LASER};") } else { String::new() };
             let schema = format!("message shots {{ {SCHEMA} {laser} }}");
             let table = ParquetTable::create(file, &schema, "provenance", provenance.join("\n"))?;
             EventFile::Parquet(Box::new(table), Vec::with_capacity(GROUP))
         } else {
-            let mut writer = csv::Writer::from_writer(file);
-            let columns = COLUMNS.into_iter().chain(pairs.then_some(LASER));
-            writer.write_record(columns).map_err(|error| fault(path, error))?;
-            EventFile::Csv(Box::new(writer))
+            let laser = if pairs { format!(",{LASER}") } else { String::new() };
+            writeln!(file, "{COLUMNS}{laser}").map_err(|error| fault(path, error))?;
+            EventFile::Csv(file)
         };
         Ok(Events { file, pairs })
     }
@@ -65,10 +65,14 @@ impl Events {
     /// Adds a row.
     pub fn write(&mut self, shot: &Shot) -> Result<()> {
         match &mut self.file {
-            EventFile::Csv(writer) => {
-                let laser = self.pairs.then(|| u8::from(shot.laser_en).to_string());
-                let written = writer.write_record(fields(shot).into_iter().chain(laser));
-                written.map_err(|error| fault(writer.get_ref().target(), error))
+            EventFile::Csv(file) => {
+                let laser = match (self.pairs, shot.laser_en) {
+                    (false, _) => "",
+                    (true, false) => ",0",
+                    (true, true) => ",1",
+                };
+                let written = writeln!(file, "{}{laser}", fields(shot).join(","));
+                written.map_err(|error| fault(file.target(), error))
             }
             EventFile::Parquet(table, shots) => {
                 shots.push(*shot);
@@ -83,10 +87,7 @@ impl Events {
     /// Puts the file in place, and returns its path.
     pub fn finish(self) -> Result<PathBuf> {
         let file = match self.file {
-            EventFile::Csv(writer) => {
-                let target = writer.get_ref().target().to_owned();
-                writer.into_inner().map_err(|error| fault(&target, error.error()))?
-            }
+            EventFile::Csv(file) => file,
             EventFile::Parquet(mut table, shots) => {
                 if !shots.is_empty() {
                     write_group(&mut table, &shots, self.pairs)?;
@@ -139,8 +140,8 @@ fn picoseconds(fs: i64) -> String {
     format!("{}{}.{:03}", if fs < 0 { "-" } else { "" }, fs.abs() / 1000, fs.abs() % 1000)
 }
 
-fn fault(path: &Path, error: impl std::fmt::Display) -> Error {
-    Error::io(path, "write")(std::io::Error::other(error.to_string()))
+fn fault(path: &Path, error: io::Error) -> Error {
+    Error::io(path, "write")(io::Error::other(error.to_string()))
 }
 
 #[cfg(test)]

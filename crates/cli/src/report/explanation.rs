@@ -1,75 +1,59 @@
 //! The values of an estimation as tables: fixed point beside double precision.
 
-use comfy_table::Table;
-
 use tofsim_learn::quantize::Explanation;
 use tofsim_learn::quantize::explain::{ErrorBudget, ExplainedNeuron, WordAndTwin};
 
-use crate::text::table::{align_right, plain};
+use crate::text::table::table;
 
 /// The tables, with a line about what saturates and where the two first part.
 pub fn text(explained: &Explanation) -> String {
-    let mut table = plain();
-    table.set_header(["value", "neuron", "word", "fixed", "float", "LSB", "mm", ""]);
-    layer(&mut table, "l1_in", explained, |neuron| (neuron.l1_in, String::new()));
-    layer(&mut table, "l1_out", explained, |neuron| {
-        let note = if neuron.saturated { ", saturated" } else { "" };
-        (neuron.l1_out, format!("address {}{note}", neuron.address))
-    });
-    layer(&mut table, "product", explained, |neuron| (neuron.product, String::new()));
-    row(&mut table, "bias", "", &explained.bias, String::new());
-    row(&mut table, "depth", "", &explained.depth, String::new());
-    align_right(&mut table, 1..7);
+    let layer = |name: &'static str, of: fn(&ExplainedNeuron) -> (WordAndTwin, String)| {
+        explained.neurons.iter().enumerate().map(move |(k, neuron)| {
+            let (pair, note) = of(neuron);
+            row(name, k.to_string(), &pair, note)
+        })
+    };
+    let rows = layer("l1_in", |neuron| (neuron.l1_in, String::new()))
+        .chain(layer("l1_out", |neuron| {
+            let note = if neuron.saturated { ", saturated" } else { "" };
+            (neuron.l1_out, format!("address {}{note}", neuron.address))
+        }))
+        .chain(layer("product", |neuron| (neuron.product, String::new())))
+        .chain([row("bias", String::new(), &explained.bias, String::new())])
+        .chain([row("depth", String::new(), &explained.depth, String::new())]);
     format!(
         "{}\n\n{}\n\n{}\nsaturated: {} of {} neurons\n",
-        table.trim_fmt(),
-        budget(&explained.budget).trim_fmt(),
+        table(["value", "neuron", "word", "fixed", "float", "LSB", "mm", ""], rows, 1..7),
+        budget(&explained.budget),
         parting(explained),
         explained.saturated,
         explained.neurons.len()
     )
 }
 
-/// A row for each neuron: a value, and a note.
-fn layer(
-    table: &mut Table,
-    name: &str,
-    explained: &Explanation,
-    of: impl Fn(&ExplainedNeuron) -> (WordAndTwin, String),
-) {
-    for (k, neuron) in explained.neurons.iter().enumerate() {
-        let (pair, note) = of(neuron);
-        row(table, name, &k.to_string(), &pair, note);
-    }
-}
-
-fn row(table: &mut Table, layer: &str, neuron: &str, pair: &WordAndTwin, note: String) {
-    table.add_row([
+fn row(layer: &str, neuron: String, pair: &WordAndTwin, note: String) -> [String; 8] {
+    [
         layer.to_owned(),
-        neuron.to_owned(),
+        neuron,
         pair.word.to_string(),
         format!("{:.8}", pair.fixed),
         format!("{:.8}", pair.float),
         format!("{:+.2}", pair.difference_lsb),
         format!("{:+.4}", pair.difference_mm),
         note,
-    ]);
+    ]
 }
 
-fn budget(budget: &ErrorBudget) -> Table {
-    let mut table = plain();
-    table.set_header(["what rounding adds to the depth", "mm"]);
-    for (part, mm) in [
+fn budget(budget: &ErrorBudget) -> String {
+    let parts = [
         ("W1 and B1 to their words", budget.hidden_weights_mm),
         ("the sum to an address of the table", budget.address_mm),
         ("the table's entries", budget.table_mm),
         ("W2 and B2 to their words", budget.output_weights_mm),
         ("all", budget.total_mm),
-    ] {
-        table.add_row([part.to_owned(), format!("{mm:+.4}")]);
-    }
-    align_right(&mut table, 1..);
-    table
+    ];
+    let rows = parts.map(|(part, mm)| [part.to_owned(), format!("{mm:+.4}")]);
+    table(["what rounding adds to the depth", "mm"], rows, 1..)
 }
 
 fn parting(explained: &Explanation) -> String {

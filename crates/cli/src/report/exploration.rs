@@ -3,19 +3,15 @@
 use tofsim_learn::evaluation::exploration::ExploredDatapath;
 use tofsim_learn::evaluation::thesis::DISTANCES_M;
 
-use crate::text::table::{align_right, number_or_dash, plain};
+use crate::text::table::{number_or_dash, table};
 
 /// A row for each datapath.
 pub fn text(points: &[ExploredDatapath]) -> String {
-    let mut table = plain();
-    let mut header = vec!["datapath".to_owned()];
-    header.extend(DISTANCES_M.map(|distance_m| format!("2 sd {distance_m} m")));
-    header.extend(
-        ["rms to float", "largest", "weights cut", "sums past table", "bits", "RAMB36", "DSP48"]
-            .map(str::to_owned),
-    );
-    table.set_header(header);
-    for point in points {
+    let distances = DISTANCES_M.map(|distance_m| format!("2 sd {distance_m} m"));
+    let costs =
+        ["rms to float", "largest", "weights cut", "sums past table", "bits", "RAMB36", "DSP48"];
+    let header = [&["datapath".to_owned()], &distances[..], &costs.map(str::to_owned)].concat();
+    let rows = points.iter().map(|point| {
         let mut cells = vec![point.variant.clone()];
         cells.extend(point.two_sd_mm.iter().map(|mm| number_or_dash(*mm, 2)));
         let [hidden, depth] = point.sum_bits;
@@ -28,12 +24,9 @@ pub fn text(points: &[ExploredDatapath]) -> String {
             point.cost.ramb36.to_string(),
             point.cost.dsp48.to_string(),
         ]);
-        table.add_row(cells);
-    }
-    align_right(&mut table, 1..);
-    format!(
-        "{}\n\n2 sd and differences in mm; weights that no word holds are cut to the nearest; sums past \
-         the table of each histogram's 8;\nbits of the sums of the hidden layer and of the depth\n",
-        table.trim_fmt()
-    )
+        cells
+    });
+    table(header, rows, 1..)
+        + "\n\n2 sd and differences in mm; weights that no word holds are cut to the nearest; sums past \
+         the table of each histogram's 8;\nbits of the sums of the hidden layer and of the depth\n"
 }

@@ -12,8 +12,7 @@ use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::{Panel, Reading};
 
-use super::frame_summary::FrameSummary;
-use super::pairs::PairLog;
+use super::pairs::{PairLog, PlaceInPair};
 
 /// Frames of which a table has rows.
 pub const ROWS: usize = 20;
@@ -76,10 +75,25 @@ impl FrameLog {
         let depth = i128::from(frame.depth.get());
         self.sums = (self.sums.0 + depth, self.sums.1 + depth * depth);
         if let Some(json) = &mut self.json {
-            let text = serde_json::to_string(&FrameSummary::new(setup, frame, paired, estimates))
-                .map_err(|error| Input::new("--json", error))?;
+            let summary = FrameSummary {
+                index: frame.index,
+                true_depth_m: setup.true_depth_m(),
+                depth_m: frame.depth_m(),
+                depth_raw: format!("{:09x}", frame.depth.bits()),
+                shots: frame.shots,
+                hits: frame.hits(),
+                tdc_hits: frame.tdc_hits,
+                histogram: &frame.histogram,
+                estimator_cycles: frame.estimator_cycles,
+                frame_cycles: frame.frame_cycles,
+                paired,
+                estimates,
+            };
             let comma = if self.count > 0 { "," } else { "" };
-            write!(json, "{comma}{text}").map_err(temporary)?;
+            let text =
+                serde_json::to_string(&summary).map_err(|fault| Input::new("--json", fault))?;
+            let written = write!(json, "{comma}{text}");
+            written.map_err(Error::io(Path::new("temporary file"), "write"))?;
         }
         self.count += 1;
         Ok(())
@@ -117,6 +131,28 @@ impl DepthSpread {
     }
 }
 
-fn temporary(source: io::Error) -> Error {
-    Error::io(Path::new("temporary file"), "write")(source)
+/// The JSON object of a frame.
+#[derive(Serialize)]
+struct FrameSummary<'a> {
+    index: u64,
+    /// Null where no light was simulated.
+    true_depth_m: Option<f64>,
+    depth_m: f64,
+    /// The 36 bits of the depth word in hexadecimal.
+    depth_raw: String,
+    shots: u64,
+    hits: u64,
+    /// Hits that the TDC kept, with a code or without.
+    tdc_hits: u64,
+    histogram: &'a [u16],
+    /// From the edge that takes `algo_start` to the one that raises `algo_done` [cycles].
+    estimator_cycles: u64,
+    /// From the edge that begins Clear to the one that raises `algo_done` [cycles].
+    frame_cycles: u64,
+    /// The frame's place in a pair, where frames come in pairs.
+    #[serde(flatten)]
+    paired: Option<PlaceInPair>,
+    /// What other estimators say of the histogram.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    estimates: Vec<Reading>,
 }

@@ -5,11 +5,10 @@ use std::ops::Range;
 use plotters::prelude::*;
 
 use tofsim::firmware::histogram_builder::BINS;
-use tofsim::optics::hazard::Cause;
 
-use crate::text::svg::{Canvas, DrawingFault, chart, picture};
+use crate::text::svg::{chart, picture};
 
-use super::causes::{self, CAUSES, Causes};
+use super::causes::{CAUSES, Causes};
 
 /// Width of a bin [ns].
 const BIN_NS: f64 = 0.025;
@@ -18,31 +17,24 @@ const RANGE_NS: f64 = BIN_NS * BINS as f64;
 /// Depth for a time of flight, half the speed of light [m/ns].
 const M_PER_NS: f64 = 0.149_896_229;
 
-/// What is drawn.
-#[derive(Debug)]
-pub struct HistogramPlot<'a> {
-    /// Words above the picture.
-    pub title: String,
-    /// Counts by cause.
-    pub causes: &'a Causes,
-    /// Distance of the target [m].
-    pub true_depth_m: Option<f64>,
-    /// Estimated depth, if there is one [m].
-    pub depth_m: Option<f64>,
-}
-
-impl HistogramPlot<'_> {
-    /// The picture as SVG text; an error only if the plotting library fails.
-    pub fn svg(&self) -> Result<String, String> {
-        picture(|canvas| self.draw(canvas))
-    }
-
-    fn draw<'a>(&self, canvas: &Canvas<'a>) -> Result<(), DrawingFault<'a>> {
-        let top = self.stack(CAUSES.len());
+/// The picture as SVG text, with the true and the estimated depth where there are such; an error only if
+/// the plotting library fails.
+pub fn svg(
+    title: &str,
+    causes: &Causes,
+    true_depth_m: Option<f64>,
+    depth_m: Option<f64>,
+) -> Result<String, String> {
+    // Height of the first `layers` causes together, in each bin.
+    let stack = |layers: usize| -> [u32; BINS] {
+        std::array::from_fn(|bin| causes[..layers].iter().map(|counts| counts[bin]).sum())
+    };
+    picture(|canvas| {
+        let top = stack(CAUSES.len());
         let peak = (0..BINS).max_by_key(|&bin| (top[bin], BINS - bin)).unwrap_or(0);
         let highest = (top[peak] as f64 * 1.12).max(1.0);
         let depth: Range<f64> = 0.0..RANGE_NS * M_PER_NS;
-        let mut chart = chart(canvas, &self.title)
+        let mut chart = chart(canvas, title)
             .top_x_label_area_size(40)
             .build_cartesian_2d(0.0..RANGE_NS, 0.0..highest)?
             .set_secondary_coord(depth, 0.0..highest);
@@ -56,13 +48,13 @@ impl HistogramPlot<'_> {
             .draw()?;
         chart.configure_secondary_axes().x_desc("depth [m]").x_labels(10).draw()?;
 
-        for (layer, cause) in CAUSES.into_iter().enumerate() {
-            let total = self.causes.total(cause);
+        for (layer, (_, name, colour)) in CAUSES.into_iter().enumerate() {
+            let total: u32 = causes[layer].iter().sum();
             if total == 0 {
                 continue;
             }
-            let (below, above) = (self.stack(layer), self.stack(layer + 1));
-            let style = colour(cause).filled();
+            let (below, above) = (stack(layer), stack(layer + 1));
+            let style = colour.filled();
             let bars = (0..BINS).filter(|&bin| above[bin] > below[bin]).map(|bin| {
                 let left = bin as f64 * BIN_NS;
                 let corners = [(left, below[bin] as f64), (left + BIN_NS, above[bin] as f64)];
@@ -70,19 +62,19 @@ impl HistogramPlot<'_> {
             });
             chart
                 .draw_series(bars)?
-                .label(format!("{}: {total}", causes::name(cause)))
+                .label(format!("{name}: {total}"))
                 .legend(move |(x, y)| Rectangle::new([(x, y - 5), (x + 12, y + 5)], style));
         }
         let peak_ns = (peak as f64 + 0.5) * BIN_NS;
-        let mut lines =
-            vec![(peak_ns, BLACK.mix(0.45), format!("peak: bin {peak}, {peak_ns:.4} ns"))];
-        if let Some(depth_m) = self.depth_m {
-            lines.push((depth_m / M_PER_NS, RED.mix(0.9), format!("estimated: {depth_m:.4} m")));
-        }
-        if let Some(truth) = self.true_depth_m {
-            lines.push((truth / M_PER_NS, BLACK.mix(0.9), format!("true: {truth:.4} m")));
-        }
-        for (x, colour, label) in lines {
+        let peak_label = format!("peak: bin {peak}, {peak_ns:.4} ns");
+        let estimated = |m: f64| (m / M_PER_NS, RED.mix(0.9), format!("estimated: {m:.4} m"));
+        let truth = |m: f64| (m / M_PER_NS, BLACK.mix(0.9), format!("true: {m:.4} m"));
+        let lines = [
+            Some((peak_ns, BLACK.mix(0.45), peak_label)),
+            depth_m.map(estimated),
+            true_depth_m.map(truth),
+        ];
+        for (x, colour, label) in lines.into_iter().flatten() {
             let style = colour.stroke_width(2);
             let label_style = style;
             chart
@@ -98,20 +90,5 @@ impl HistogramPlot<'_> {
             .label_font(("sans-serif", 14))
             .draw()?;
         Ok(())
-    }
-
-    /// Height of the first `layers` causes together, in each bin.
-    fn stack(&self, layers: usize) -> [u32; BINS] {
-        let layers = &CAUSES[..layers];
-        std::array::from_fn(|bin| layers.iter().map(|&cause| self.causes.of(cause)[bin]).sum())
-    }
-}
-
-fn colour(cause: Option<Cause>) -> RGBColor {
-    match cause {
-        Some(Cause::Signal) => RGBColor(43, 108, 176),
-        Some(Cause::Ambient) => RGBColor(236, 180, 84),
-        Some(Cause::Dark) => RGBColor(80, 80, 80),
-        None => RGBColor(120, 150, 120),
-    }
+    })
 }

@@ -6,7 +6,7 @@ use plotters::prelude::*;
 
 use tofsim_learn::training::state::CurvePoint;
 
-use crate::text::svg::{Canvas, DrawingFault, chart, picture};
+use crate::text::svg::{chart, picture};
 
 /// The curve as CSV, a row for each network at each checkpoint.
 pub fn csv(points: &[CurvePoint]) -> String {
@@ -21,10 +21,6 @@ pub fn csv(points: &[CurvePoint]) -> String {
 
 /// The curve as SVG text, a line for each start; an error only if the plotting library fails.
 pub fn svg(points: &[CurvePoint]) -> Result<String, String> {
-    picture(|canvas| draw(points, canvas))
-}
-
-fn draw<'a>(points: &[CurvePoint], canvas: &Canvas<'a>) -> Result<(), DrawingFault<'a>> {
     let mut lines: BTreeMap<usize, Vec<(f64, f64)>> = BTreeMap::new();
     for point in points.iter().filter(|point| point.cost.is_finite() && point.cost > 0.0) {
         lines.entry(point.start).or_default().push((point.epochs as f64, point.cost));
@@ -33,25 +29,27 @@ fn draw<'a>(points: &[CurvePoint], canvas: &Canvas<'a>) -> Result<(), DrawingFau
     let last = all().map(|point| point.0).fold(1.0, f64::max);
     let least = all().map(|point| point.1).fold(1.0, f64::min) / 1.5;
     let most = all().map(|point| point.1).fold(1.0, f64::max) * 1.5;
-    let mut chart = chart(canvas, "Cost of every start; 1 is the spread to stay below")
-        .build_cartesian_2d(0.0..last, (least..most).log_scale())?;
-    chart
-        .configure_mesh()
-        .x_desc("epochs")
-        .y_desc("weighted mean square error")
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(BLACK.mix(0.08))
-        .draw()?;
     // The line that goes on longest was the best.
     let longest = lines.values().map(Vec::len).max().unwrap_or(0);
-    for line in lines.into_values() {
-        let style = match line.len() == longest {
-            true => RGBColor(43, 108, 176).stroke_width(2),
-            false => BLACK.mix(0.3).stroke_width(1),
-        };
-        chart.draw_series(LineSeries::new(line, style))?;
-    }
-    Ok(())
+    picture(|canvas| {
+        let mut chart = chart(canvas, "Cost of every start; 1 is the spread to stay below")
+            .build_cartesian_2d(0.0..last, (least..most).log_scale())?;
+        chart
+            .configure_mesh()
+            .x_desc("epochs")
+            .y_desc("weighted mean square error")
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(BLACK.mix(0.08))
+            .draw()?;
+        for line in lines.into_values() {
+            let style = match line.len() == longest {
+                true => RGBColor(43, 108, 176).stroke_width(2),
+                false => BLACK.mix(0.3).stroke_width(1),
+            };
+            chart.draw_series(LineSeries::new(line, style))?;
+        }
+        Ok(())
+    })
 }
 
 #[cfg(test)]

@@ -1,7 +1,5 @@
 //! Pairs of a dark and a lit frame as a table and as CSV.
 
-use comfy_table::Table;
-
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::{CYCLE, Setup};
@@ -15,14 +13,14 @@ use super::pairs::{PairStatistics, mean, right_of_echo};
 use super::readings;
 
 /// The table of a run in pairs.
-pub fn table(setup: &Setup, log: &FrameLog) -> Table {
+pub fn table(setup: &Setup, log: &FrameLog) -> String {
     match (log.rows.as_slice(), log.readings.as_slice()) {
         ([dark, lit], [_, readings]) => one_pair(setup, dark, lit, readings),
         _ => many_pairs(log),
     }
 }
 
-fn one_pair(setup: &Setup, dark: &Frame, lit: &Frame, readings: &[Reading]) -> Table {
+fn one_pair(setup: &Setup, dark: &Frame, lit: &Frame, readings: &[Reading]) -> String {
     let mut rows = Vec::new();
     if let Some(truth) = setup.true_depth_m() {
         rows.push(("true depth", format!("{truth:.6} m")));
@@ -55,7 +53,7 @@ fn one_pair(setup: &Setup, dark: &Frame, lit: &Frame, readings: &[Reading]) -> T
     facts(rows)
 }
 
-fn many_pairs(log: &FrameLog) -> Table {
+fn many_pairs(log: &FrameLog) -> String {
     let shown = log.rows.chunks_exact(2).zip(log.readings.chunks_exact(2));
     let rows = shown.enumerate().map(|(index, (frames, readings))| {
         let (least, most) = range(&difference(&frames[0], &frames[1]));
@@ -65,7 +63,13 @@ fn many_pairs(log: &FrameLog) -> Table {
     });
     let count = log.pairs.as_ref().map_or(0, |pairs| pairs.statistics().count);
     let left = count.saturating_sub(log.rows.len() as u64 / 2);
-    readings::many(&["pair", "codes dark", "codes lit", "least", "most"], log, rows, left)
+    readings::many(
+        &["pair", "codes dark", "codes lit", "least", "most"],
+        log,
+        rows,
+        left,
+        Vec::new(),
+    )
 }
 
 /// What many pairs came to, a line each.
@@ -93,10 +97,10 @@ fn range(difference: &[i32; BINS]) -> (i32, i32) {
 }
 
 /// A pair as CSV: `bin,dark,lit,difference`, 256 rows.
-pub fn csv(dark: &Frame, lit: &Frame) -> Vec<u8> {
+pub fn csv(dark: &Frame, lit: &Frame) -> String {
     let mut text = "bin,dark,lit,difference\n".to_owned();
     for (bin, hits) in difference(dark, lit).into_iter().enumerate() {
         text += &format!("{bin},{},{},{hits}\n", dark.histogram[bin], lit.histogram[bin]);
     }
-    text.into_bytes()
+    text
 }

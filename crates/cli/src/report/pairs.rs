@@ -1,6 +1,6 @@
 //! Pairs of a dark and a lit frame, as they come, and what JSON tells of them.
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::network::Histogram;
@@ -29,8 +29,7 @@ pub struct PlaceInPair {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Difference {
     /// Counts, which may be negative [hits].
-    #[serde(serialize_with = "as_sequence")]
-    pub difference: [i32; BINS],
+    pub difference: Vec<i32>,
     /// Their mean over the bins right of the echo; none where no light was simulated, or no bin is
     /// left [hits].
     pub right_of_echo: Option<f64>,
@@ -52,7 +51,7 @@ pub struct PairStatistics {
 }
 
 /// Makes pairs of frames as they come.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct PairLog {
     /// First bin that lies right of the echo.
     right: Option<usize>,
@@ -91,8 +90,7 @@ impl Moments {
 impl PairLog {
     /// No pair of `setup` yet.
     pub fn new(setup: &Setup) -> Self {
-        let (depths, rights) = (Moments::default(), Moments::default());
-        PairLog { right: right_of_echo(setup), dark: None, count: 0, readings: 0, depths, rights }
+        PairLog { right: right_of_echo(setup), ..PairLog::default() }
     }
 
     /// Takes the next frame; returns its place and, if it ends a pair, what the estimators say of
@@ -108,7 +106,7 @@ impl PairLog {
         let pair = HistogramPair { dark, lit: frame.histogram };
         let difference = pair.difference();
         let right_of_echo = self.right.map(|bin| mean(&difference[bin..]));
-        paired.difference = Some(Difference { difference, right_of_echo });
+        paired.difference = Some(Difference { difference: difference.to_vec(), right_of_echo });
         let readings = panel.read_pair(&pair);
         self.count += 1;
         right_of_echo.into_iter().for_each(|hits| self.rights.add(hits));
@@ -143,14 +141,6 @@ pub(super) fn right_of_echo(setup: &Setup) -> Option<usize> {
 /// Mean of counts, signed [hits].
 pub(super) fn mean(counts: &[i32]) -> f64 {
     counts.iter().map(|&count| i64::from(count)).sum::<i64>() as f64 / counts.len() as f64
-}
-
-/// Writes an array that is longer than those which `serde` knows.
-pub(super) fn as_sequence<T: Serialize, S: Serializer>(
-    counts: &[T; BINS],
-    serializer: S,
-) -> std::result::Result<S::Ok, S::Error> {
-    serializer.collect_seq(counts)
 }
 
 #[cfg(test)]

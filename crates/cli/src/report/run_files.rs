@@ -1,18 +1,17 @@
 //! The files that a run leaves beside its waveform.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use tofsim::error::{Error, Input, Result};
-use tofsim::files::output::{create_directory, write_file};
+use tofsim::error::{Input, Result};
+use tofsim::files::output::{create_directory, write_bytes, write_file};
+use tofsim::firmware::histogram_builder::BINS;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 
-use super::causes::Causes;
+use super::causes::{self, CAUSES, Causes};
 use super::events::Events;
 use super::frame_log::FrameLog;
-use super::histogram_csv;
-use super::histogram_svg::HistogramPlot;
+use super::histogram_svg;
 use super::pair_table;
 use super::summary::Summary;
 
@@ -58,7 +57,7 @@ impl<'a> RunFiles<'a> {
         let create = |path| Events::create(path, setup.has_pairs(), provenance);
         let events = events.map(create).transpose()?;
         let (shown, wants_tdc) = (setup.frames_together() - 1, setup.scenario.report.tdc);
-        let causes = Causes::default();
+        let causes = [[0; BINS]; CAUSES.len()];
         Ok(RunFiles { folder, events, causes, shown, tdc: Vec::new(), wants_tdc })
     }
 
@@ -80,7 +79,7 @@ impl<'a> RunFiles<'a> {
     /// Takes a shot.
     pub fn shot(&mut self, shot: &Shot) -> Result<()> {
         if shot.frame == self.shown {
-            self.causes.add(shot);
+            causes::count(&mut self.causes, shot);
         }
         if self.wants_tdc {
             self.tdc.push(*shot);
@@ -103,33 +102,30 @@ impl<'a> RunFiles<'a> {
         else {
             return Ok(written);
         };
-        if self.causes.is_empty() {
-            self.causes.add_unknown(&frame.histogram);
+        if self.causes.as_flattened().iter().all(|&count| count == 0) {
+            self.causes[CAUSES.len() - 1] = frame.histogram.map(u32::from);
         }
-        let plot = HistogramPlot {
-            title: format!("{}, seed {}, {} shots", setup.name, setup.scenario.seed, frame.shots),
-            causes: &self.causes,
-            true_depth_m: setup.true_depth_m(),
-            depth_m: match &log.pairs {
-                None => Some(frame.depth_m()),
-                Some(_) => log.readings[self.shown as usize].iter().find_map(|one| one.depth_m),
-            },
+        let title = format!("{}, seed {}, {} shots", setup.name, setup.scenario.seed, frame.shots);
+        let depth_m = match &log.pairs {
+            None => Some(frame.depth_m()),
+            Some(_) => log.readings[self.shown as usize].iter().find_map(|one| one.depth_m),
         };
-        let path = folder.join(NAMES[0]);
-        write_file(&path, |file| summary.write(log, file))?;
-        written.push(path);
-        let mut write = |name: &str, text: &[u8]| {
-            let path = folder.join(name);
-            write_file(&path, |file| file.write_all(text))?;
-            written.push(path);
-            Ok::<_, Error>(())
-        };
-        write(NAMES[1], &histogram_csv::text(&frame.histogram))?;
-        let svg = plot.svg().map_err(|fault| Input::new("histogram.svg", fault))?;
-        write(NAMES[2], svg.as_bytes())?;
-        if let ([dark, lit, ..], Some(_)) = (log.rows.as_slice(), &log.pairs) {
-            write(NAMES[3], &pair_table::csv(dark, lit))?;
+        let svg = histogram_svg::svg(&title, &self.causes, setup.true_depth_m(), depth_m);
+        write_file(&folder.join(NAMES[0]), |file| summary.write(log, file))?;
+        write_bytes(&folder.join(NAMES[1]), histogram_csv(&frame.histogram))?;
+        let svg = svg.map_err(|fault| Input::new("histogram.svg", fault))?;
+        write_bytes(&folder.join(NAMES[2]), svg)?;
+        if log.pairs.is_some() {
+            write_bytes(&folder.join(NAMES[3]), pair_table::csv(&log.rows[0], &log.rows[1]))?;
         }
+        let names = &NAMES[..if log.pairs.is_some() { 4 } else { 3 }];
+        written.extend(names.iter().map(|name| folder.join(name)));
         Ok(written)
     }
+}
+
+/// A histogram as CSV: `bin,count`, 256 rows.
+fn histogram_csv(histogram: &[u16; BINS]) -> String {
+    let rows = histogram.iter().enumerate().map(|(bin, count)| format!("{bin},{count}\n"));
+    "bin,count\n".to_owned() + &rows.collect::<String>()
 }

@@ -3,44 +3,20 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
+use serde_json::{Value, json};
 
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 
-use super::frame_log::{DepthSpread, FrameLog};
-use super::pairs::{PairLog, PairStatistics};
+use super::frame_log::FrameLog;
 
 /// What `run --json` prints and `summary.json` holds, but for the frames.
 #[derive(Clone, Debug)]
 pub struct Summary {
-    head: Head,
+    /// What stands before the frames.
+    head: Value,
     /// Results of the TDC, where the scenario asks for them.
     pub tdc: Option<Vec<TdcSummary>>,
-}
-
-/// What stands before the frames.
-#[derive(Clone, Debug, Serialize)]
-struct Head {
-    /// `tofsim.run/1`.
-    schema: &'static str,
-    /// Version of the program.
-    version: &'static str,
-    /// Scenario's name.
-    scenario: String,
-    /// Seed of every random stream.
-    seed: u64,
-    /// How the run was simulated.
-    fidelity: &'static str,
-    /// The waveform.
-    waves: Option<String>,
-    /// Mean and spread, where there is more than one frame.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    depth: Option<DepthSpread>,
-    /// How many pairs, and what subtraction made of them.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pairs: Option<PairStatistics>,
-    /// The frames, which are written in between.
-    frames: [(); 0],
 }
 
 /// One result of the TDC, in the words of thesis Table 6.3.
@@ -56,11 +32,8 @@ pub struct TdcSummary {
     pub valid: bool,
 }
 
-/// How the frames begin in the text of a [`Head`], and end it.
-const NO_FRAMES: &str = "[]}";
-
 impl Summary {
-    /// Of a run of `setup`.
+    /// Of a run of `setup`, simulated in that way, with a waveform in the file `waves`.
     pub fn new(
         setup: &Setup,
         fidelity: &'static str,
@@ -68,17 +41,20 @@ impl Summary {
         log: &FrameLog,
         shots: &[Shot],
     ) -> Self {
-        let head = Head {
-            schema: "tofsim.run/1",
-            version: env!("CARGO_PKG_VERSION"),
-            scenario: setup.name.clone(),
-            seed: setup.scenario.seed,
-            fidelity,
-            waves,
-            depth: log.spread(),
-            pairs: log.pairs.as_ref().map(PairLog::statistics),
-            frames: [],
-        };
+        let mut head = json!({
+            "schema": "tofsim.run/1",
+            "version": env!("CARGO_PKG_VERSION"),
+            "scenario": setup.name,
+            "seed": setup.scenario.seed,
+            "fidelity": fidelity,
+            "waves": waves,
+        });
+        if let Some(depth) = log.spread() {
+            head["depth"] = json!(depth);
+        }
+        if let Some(pairs) = &log.pairs {
+            head["pairs"] = json!(pairs.statistics());
+        }
         let tdc = setup.scenario.report.tdc.then(|| shots.iter().map(TdcSummary::new).collect());
         Summary { head, tdc }
     }
@@ -88,12 +64,10 @@ impl Summary {
     /// # Errors
     /// When the frames cannot be read back, or nothing be written to `out`.
     pub fn write(&self, log: &mut FrameLog, out: &mut impl Write) -> io::Result<()> {
-        let mut head = serde_json::to_string(&self.head)?;
-        head.truncate(head.len() - NO_FRAMES.len() + 1);
-        let tdc = self.tdc.as_ref().map(serde_json::to_string).transpose()?;
-        let tdc = tdc.map_or(String::new(), |tdc| format!(",\"tdc\":{tdc}"));
-        out.write_all(head.as_bytes())?;
+        let head = self.head.to_string();
+        write!(out, "{},\"frames\":[", &head[..head.len() - 1])?;
         log.copy_json(out)?;
+        let tdc = self.tdc.as_ref().map_or(String::new(), |tdc| format!(",\"tdc\":{}", json!(tdc)));
         writeln!(out, "]{tdc}}}")
     }
 }

@@ -2,13 +2,11 @@
 
 use std::time::Duration;
 
-use comfy_table::Table;
-
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::{CYCLE, Setup};
 use tofsim_learn::estimation::Reading;
 
-use crate::text::table::{align_right, facts, grouped, number_or_dash, plain};
+use crate::text::table::{facts, grouped, number_or_dash, table};
 
 use super::frame_log::{DepthSpread, FrameLog};
 use super::summary::TdcSummary;
@@ -18,9 +16,9 @@ use super::{pair_table, readings};
 pub fn run(setup: &Setup, log: &FrameLog, cycles: u64, wall: Duration) -> String {
     let mut text = format!("{}: {}\n\n", setup.name, setup.scenario.description);
     match log.rows.as_slice() {
-        _ if log.pairs.is_some() => text += &pair_table::table(setup, log).trim_fmt(),
-        [frame] => text += &one_frame(setup, frame, &log.readings[0]).trim_fmt(),
-        _ => text += &many_frames(log).trim_fmt(),
+        _ if log.pairs.is_some() => text += &pair_table::table(setup, log),
+        [frame] => text += &one_frame(setup, frame, &log.readings[0]),
+        _ => text += &many_frames(log),
     }
     if let (Some(pairs), 3..) = (&log.pairs, log.count) {
         text += &format!("\n\n{}", pair_table::lines(&pairs.statistics()).trim_end());
@@ -35,7 +33,7 @@ pub fn run(setup: &Setup, log: &FrameLog, cycles: u64, wall: Duration) -> String
     text
 }
 
-fn one_frame(setup: &Setup, frame: &Frame, readings: &[Reading]) -> Table {
+fn one_frame(setup: &Setup, frame: &Frame, readings: &[Reading]) -> String {
     let mut rows = Vec::new();
     let mut estimated = format!("{:.6} m  {:09x}", frame.depth_m(), frame.depth.bits());
     if let Some(truth) = setup.true_depth_m() {
@@ -56,7 +54,7 @@ fn one_frame(setup: &Setup, frame: &Frame, readings: &[Reading]) -> Table {
     facts(rows)
 }
 
-fn many_frames(log: &FrameLog) -> Table {
+fn many_frames(log: &FrameLog) -> String {
     let header = ["frame", "depth [m]", "word", "TDC hits", "codes", "estimator", "cycles"];
     let rows = log.rows.iter().zip(&log.readings).map(|(frame, readings)| {
         let cells = vec![
@@ -70,27 +68,23 @@ fn many_frames(log: &FrameLog) -> Table {
         ];
         (cells, readings)
     });
-    let mut table = readings::many(&header, log, rows, log.count - log.rows.len() as u64);
-    if let Some(DepthSpread { mean_m, two_sd_m }) = log.spread() {
-        table.add_row(["mean".to_owned(), format!("{mean_m:.6}")]);
-        table.add_row(["2 sd".to_owned(), format!("{two_sd_m:.6}")]);
-    }
-    table
+    let spread = log.spread().map(|DepthSpread { mean_m, two_sd_m }| {
+        [("mean", mean_m), ("2 sd", two_sd_m)].map(|(n, m)| vec![n.to_owned(), format!("{m:.6}")])
+    });
+    let below = spread.into_iter().flatten().collect();
+    readings::many(&header, log, rows, log.count - log.rows.len() as u64, below)
 }
 
 /// Thesis Table 6.3.
 pub fn tdc(results: &[TdcSummary]) -> String {
-    let mut table = plain();
-    table.set_header(["T2 [ps]", "N", "T1 [ns]", "code"]);
-    for result in results {
-        let number = |value: Option<u64>| value.map_or("-".to_owned(), |value| value.to_string());
-        table.add_row([
+    let number = |value: Option<u64>| value.map_or("-".to_owned(), |value| value.to_string());
+    let rows = results.iter().map(|result| {
+        [
             number_or_dash(result.t2_ps, 3),
             number(result.n),
             number(result.t1_ns),
             if result.valid { "valid" } else { "none" }.to_owned(),
-        ]);
-    }
-    align_right(&mut table, ..);
-    format!("\n{}\n", table.trim_fmt())
+        ]
+    });
+    format!("\n{}\n", table(["T2 [ps]", "N", "T1 [ns]", "code"], rows, ..))
 }

@@ -3,42 +3,27 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use serde::Serialize;
+use serde_json::{Value, json};
 
 use tofsim_learn::training::accuracy::{DistanceErrors, worst_ratio};
 use tofsim_learn::training::weighting::Weighting;
 
-use crate::text::table::{align_right, plain};
+use crate::text::table::table as text_table;
 
-/// What `--json` prints.
-#[derive(Serialize)]
-pub struct TrainingReport {
-    schema: &'static str,
-    network: String,
-    /// Largest ratio of a spread to the line.
-    worst_ratio: f64,
-    distances_m: Vec<f64>,
-    /// Mean of depth minus distance.
-    mean_mm: Vec<f64>,
-    /// Twice the standard deviation of the depth, in fixed point.
-    two_sd_mm: Vec<f64>,
-    /// What to stay below; Table 5.5 of the thesis, unless the recipe says otherwise.
-    line_mm: Vec<f64>,
-}
-
-impl TrainingReport {
-    /// All distances; `network` is the file that was written.
-    pub fn new(rows: &[DistanceErrors], line: &Weighting, network: &Path) -> Self {
-        TrainingReport {
-            schema: "tofsim.train/1",
-            network: network.display().to_string(),
-            worst_ratio: worst_ratio(rows, line),
-            distances_m: rows.iter().map(|row| row.distance_m).collect(),
-            mean_mm: rows.iter().map(|row| row.mean_mm).collect(),
-            two_sd_mm: rows.iter().map(|row| row.two_sd_mm).collect(),
-            line_mm: rows.iter().map(|row| line.line_mm(row.distance_m)).collect(),
-        }
-    }
+/// What `--json` prints, of all distances; `network` is the file that was written.
+pub fn json(rows: &[DistanceErrors], line: &Weighting, network: &Path) -> Value {
+    let each = |of: &dyn Fn(&DistanceErrors) -> f64| rows.iter().map(of).collect::<Vec<_>>();
+    json!({
+        "schema": "tofsim.train/1",
+        "network": network.display().to_string(),
+        // Largest ratio of a spread, twice the standard deviation in fixed point, to the line.
+        "worst_ratio": worst_ratio(rows, line),
+        "distances_m": each(&|row| row.distance_m),
+        "mean_mm": each(&|row| row.mean_mm),
+        "two_sd_mm": each(&|row| row.two_sd_mm),
+        // What to stay below; Table 5.5 of the thesis, unless the recipe says otherwise.
+        "line_mm": each(&|row| line.line_mm(row.distance_m)),
+    })
 }
 
 /// Rounded to hundredths, as files have it.
@@ -58,21 +43,20 @@ pub fn csv(rows: &[DistanceErrors]) -> String {
 
 /// The line's distances, and the worst of all, for people.
 pub fn table(rows: &[DistanceErrors], line: &Weighting) -> String {
-    let mut table = plain();
-    table.set_header(["distance_m", "mean_mm", "two_sd_mm", "to stay below"]);
-    for row in rows.iter().filter(|row| line.distances_m.contains(&row.distance_m)) {
+    let shown = rows.iter().filter(|row| line.distances_m.contains(&row.distance_m));
+    let shown = shown.map(|row| {
         let below = format!("{:.2}", line.line_mm(row.distance_m));
         let [mean, spread] = [row.mean_mm, row.two_sd_mm].map(|value| format!("{value:.2}"));
-        table.add_row([row.distance_m.to_string(), mean, spread, below]);
-    }
-    align_right(&mut table, ..);
+        [row.distance_m.to_string(), mean, spread, below]
+    });
+    let table = text_table(["distance_m", "mean_mm", "two_sd_mm", "to stay below"], shown, ..);
     let ratio = |row: &DistanceErrors| row.two_sd_mm / line.line_mm(row.distance_m);
     let worst = rows.iter().max_by(|a, b| ratio(a).total_cmp(&ratio(b)));
     let worst = worst.map_or(String::new(), |row| {
         let (ratio, distance) = (ratio(row), row.distance_m);
         format!("fixed point; over all distances at most {ratio:.2} of that, at {distance} m\n")
     });
-    format!("{}\n{worst}", table.trim_fmt())
+    format!("{table}\n{worst}")
 }
 
 #[cfg(test)]
@@ -97,7 +81,7 @@ mod tests {
         let csv = csv(&rows);
         assert!(csv.ends_with("0.1,3,-0.25,1.5,1.0\n0.15,3,-0.25,2.5,1.0\n"), "{csv}");
         let path = Path::new("a/network.toml");
-        let json = serde_json::json!(TrainingReport::new(&rows, &Weighting::default(), path));
+        let json = json(&rows, &Weighting::default(), path);
         assert_eq!(json["two_sd_mm"][1], 2.5);
         assert_eq!(json["line_mm"][0], 1.6);
         assert_eq!(json["network"], "a/network.toml");

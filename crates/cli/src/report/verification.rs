@@ -1,29 +1,30 @@
 //! The reports as a table, as JSON and as JUnit XML.
 
-use quick_junit::SerializeError;
+use std::path::Path;
+
 use serde_json::{Value, json};
 
-use tofsim_rtl::verify::cycle_counts::{Count, Proof};
+use tofsim::error::Result;
+use tofsim_rtl::verify::cycle_counts::Count;
 use tofsim_rtl::verify::{BlockReport, Verdict};
 
 use crate::text::junit::{self, JunitCase};
-use crate::text::table::{grouped, plain};
+use crate::text::table::{grouped, table};
 
 /// A line for each block, and the cycles around each first mismatch.
 pub fn text(reports: &[BlockReport]) -> String {
-    let mut table = plain();
-    table.set_header(["block", "cycles", "mismatches", "stimulus goals", "verdict"]);
-    for report in reports {
+    let rows = reports.iter().map(|report| {
         let (met, goals) = report.coverage;
-        table.add_row([
+        [
             report.name.clone(),
             grouped(report.cycles as u64),
             grouped(report.mismatches() as u64),
             if goals == 0 { "-".to_owned() } else { format!("{met} of {goals}") },
             report.word().to_owned(),
-        ]);
-    }
-    let mut text = table.trim_fmt() + "\n";
+        ]
+    });
+    let header = ["block", "cycles", "mismatches", "stimulus goals", "verdict"];
+    let mut text = table(header, rows, ..0) + "\n";
     for report in reports.iter().filter(|report| !report.passed()) {
         text += &format!("\n{}: {}\n", report.name, report.fault());
         if !report.around.is_empty() {
@@ -39,10 +40,7 @@ pub fn text(reports: &[BlockReport]) -> String {
 /// The cycles around the first mismatch.
 fn around(report: &BlockReport) -> String {
     let [head, rows @ ..] = report.around.as_slice() else { return String::new() };
-    let mut table = plain();
-    table.set_header(head);
-    table.add_rows(rows);
-    table.trim_fmt()
+    table(head, rows, ..0)
 }
 
 /// One object, `tofsim.verify/1`.
@@ -72,61 +70,41 @@ pub fn json(rtl: &str, simulator: &str, reports: &[BlockReport]) -> Value {
     })
 }
 
-/// A test suite with a case for each block.
+/// Writes a test suite with a case for each block.
 ///
 /// # Errors
-/// When it cannot be put into XML.
-pub fn junit(simulator: &str, reports: &[BlockReport]) -> Result<String, SerializeError> {
+/// When it cannot be put into XML, or the file cannot be written.
+pub fn write_junit(path: &Path, simulator: &str, reports: &[BlockReport]) -> Result<()> {
     let case = |report: &BlockReport| JunitCase {
         name: report.name.clone(),
         failure: (!report.passed()).then(|| (report.fault(), around(report))),
     };
     let suite = format!("tofsim verify {simulator}");
-    junit::junit("tofsim verify", suite, reports.iter().map(case))
+    junit::write(path, "tofsim verify", suite, reports.iter().map(case))
 }
 
 /// What, expected, counted twice, proven.
 pub fn counts_text(counts: &[Count]) -> String {
-    let mut table = plain();
-    table.set_header(["what", "expected", "unit", "Rust model", "RTL simulation", "proven"]);
     let number = |count: Option<u64>| count.map_or("never".to_owned(), |n| n.to_string());
-    for count in counts {
-        table.add_row([
+    let rows = counts.iter().map(|count| {
+        [
             count.what.clone(),
             count.expected.to_string(),
             count.unit.to_owned(),
             number(count.model),
             number(count.rtl),
-            match &count.proven {
-                Proof::Proven => "yes".to_owned(),
-                Proof::NotProven(reason) => format!("no: {reason}"),
-            },
-        ]);
-    }
-    table.trim_fmt() + "\n"
+            count.reason.as_ref().map_or("yes".to_owned(), |reason| format!("no: {reason}")),
+        ]
+    });
+    table(["what", "expected", "unit", "Rust model", "RTL simulation", "proven"], rows, ..0) + "\n"
 }
 
 /// One object, `tofsim.cycle_counts/1`.
 pub fn counts_json(rtl: &str, counts: &[Count]) -> Value {
-    let row = |count: &Count| {
-        let reason = match &count.proven {
-            Proof::Proven => Value::Null,
-            Proof::NotProven(reason) => json!(reason),
-        };
-        json!({
-            "what": count.what,
-            "expected": count.expected,
-            "unit": count.unit,
-            "model": count.model,
-            "rtl": count.rtl,
-            "proven": count.proven == Proof::Proven,
-            "reason": reason,
-        })
-    };
     json!({
         "schema": "tofsim.cycle_counts/1",
         "rtl": rtl,
         "passed": counts.iter().all(Count::holds),
-        "counts": counts.iter().map(row).collect::<Vec<_>>(),
+        "counts": counts,
     })
 }

@@ -1,6 +1,11 @@
 //! JUnit XML, as continuous integration reads it.
 
-use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStatus, TestSuite};
+use std::path::Path;
+
+use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
+
+use tofsim::error::{Input, Result};
+use tofsim::files::output::write_bytes;
 
 /// A case of a suite.
 pub struct JunitCase {
@@ -10,15 +15,16 @@ pub struct JunitCase {
     pub failure: Option<(String, String)>,
 }
 
-/// One suite as a document of its own.
+/// Writes one suite as a document of its own.
 ///
 /// # Errors
-/// When it cannot be put into XML.
-pub fn junit(
+/// When it cannot be put into XML, or the file cannot be written.
+pub fn write(
+    path: &Path,
     report: &str,
     suite: String,
     cases: impl IntoIterator<Item = JunitCase>,
-) -> Result<String, SerializeError> {
+) -> Result<()> {
     let mut suite = TestSuite::new(suite);
     for JunitCase { name, failure } in cases {
         let status = match failure {
@@ -33,5 +39,6 @@ pub fn junit(
     }
     let mut report = Report::new(report);
     report.add_test_suite(suite);
-    report.to_string()
+    let fault = |error| Input::new(path.display(), format!("no XML: {error}"));
+    write_bytes(path, report.to_string().map_err(fault)?)
 }

@@ -1,5 +1,7 @@
 //! Pictures as SVG text.
 
+use std::io;
+
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -8,8 +10,6 @@ const SIZE: (u32, u32) = (1000, 520);
 
 /// Where a picture is drawn.
 pub type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-/// What goes wrong there.
-pub type DrawingFault<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
 
 /// A chart with words above it and room for its axes.
 pub fn chart<'a, 'b, 'c>(
@@ -24,7 +24,7 @@ pub fn chart<'a, 'b, 'c>(
 
 /// The text of what `draw` draws on white; an error only if the plotting library fails.
 pub fn picture(
-    draw: impl for<'a> FnOnce(&Canvas<'a>) -> Result<(), DrawingFault<'a>>,
+    draw: impl FnOnce(&Canvas) -> Result<(), DrawingAreaErrorKind<io::Error>>,
 ) -> Result<String, String> {
     let mut text = String::new();
     let canvas = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();

@@ -3,28 +3,30 @@
 use std::ops::RangeBounds;
 
 use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
+use comfy_table::{CellAlignment, Row, Table};
 
-/// An empty table without borders.
-pub fn plain() -> Table {
+/// A table without borders; columns of `right`, counted from 0, are flush right.
+pub fn table<R: Into<Row>>(
+    header: impl Into<Row>,
+    rows: impl IntoIterator<Item = R>,
+    right: impl RangeBounds<usize>,
+) -> String {
     let mut table = Table::new();
-    table.load_style(NOTHING);
-    table
-}
-
-/// A table of names and what they stand for.
-pub fn facts(rows: impl IntoIterator<Item = (&'static str, String)>) -> Table {
-    let mut table = plain();
-    table.add_rows(rows.into_iter().map(|(name, value)| [name.to_owned(), value]));
-    table
-}
-
-/// Sets columns flush right, counted from 0.
-pub fn align_right(table: &mut Table, columns: impl RangeBounds<usize>) {
-    let columns = table.column_iter_mut().enumerate().filter(|(k, _)| columns.contains(k));
-    columns.for_each(|(_, column)| {
+    table.load_style(NOTHING).set_header(header).add_rows(rows);
+    for (_, column) in table.column_iter_mut().enumerate().filter(|(k, _)| right.contains(k)) {
         column.set_cell_alignment(CellAlignment::Right);
-    });
+    }
+    table.trim_fmt()
+}
+
+/// Rows without a header.
+pub fn plain<R: Into<Row>>(rows: impl IntoIterator<Item = R>) -> String {
+    Table::new().load_style(NOTHING).add_rows(rows).trim_fmt()
+}
+
+/// Names and what they stand for.
+pub fn facts<N: Into<String>>(rows: impl IntoIterator<Item = (N, String)>) -> String {
+    plain(rows.into_iter().map(|(name, value)| [name.into(), value]))
 }
 
 /// A number with so many decimals, or a dash.
@@ -35,14 +37,8 @@ pub fn number_or_dash(value: Option<f64>, decimals: usize) -> String {
 /// A number with its thousands apart.
 pub fn grouped(number: u64) -> String {
     let digits = number.to_string();
-    let mut text = String::new();
-    for (k, digit) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
+    let groups = digits.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy);
+    groups.collect::<Vec<_>>().join(",")
 }
 
 /// A number of things, of which one is called so without its last letter.

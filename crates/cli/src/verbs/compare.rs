@@ -2,16 +2,13 @@
 
 mod values;
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use values::{latency, setting, time};
+use values::{latency, time, tolerance, valid};
 
 use tofsim::error::{Error, Input, Result};
-use tofsim::files::output::write_file;
 use tofsim::kernel::Time;
-use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim_captures::compare::map::Rule;
 use tofsim_captures::compare::{
@@ -21,11 +18,11 @@ use tofsim_captures::condition::Condition;
 use tofsim_captures::ila::{AnalyserSetup, Overrides, Radix};
 use tofsim_captures::source::Source;
 
-use crate::choice;
+use crate::choice::{self, words};
 use crate::report::comparison;
 
-use super::stdout::print;
-use super::talk::Talk;
+use super::draws::load;
+use super::terminal::{Talk, print};
 
 /// Compare two waveforms or captures: what A has is expected, what B has was got
 ///
@@ -103,7 +100,7 @@ struct Which {
     #[arg(long)]
     all: bool,
     /// Radix of the values in a CSV that does not say
-    #[arg(long, value_parser = choice::radix())]
+    #[arg(long, value_parser = words(choice::RADIX))]
     radix: Option<Radix>,
 }
 
@@ -142,16 +139,16 @@ struct When {
 #[command(next_help_heading = "How exactly")]
 struct How {
     /// What an unknown bit is the same as
-    #[arg(long, value_parser = choice::unknowns(), default_value = "exact")]
+    #[arg(long, value_parser = words(choice::UNKNOWNS), default_value = "exact")]
     x: Unknowns,
     /// Largest difference of a number that is none, in its last place; may be repeated
-    #[arg(long, value_name = "SIGNAL=N", value_parser = setting::<u64>)]
+    #[arg(long, value_name = "SIGNAL=N", value_parser = tolerance)]
     tolerance: Vec<(String, u64)>,
     /// Samples that B has a signal later (less than 0: earlier); may be repeated
     #[arg(long, value_name = "SIGNAL=N", value_parser = latency, allow_hyphen_values = true)]
     latency: Vec<(String, i64)>,
     /// Compare a signal only where another is 1 in A; may be repeated
-    #[arg(long, value_name = "SIGNAL=VALID", value_parser = setting::<String>)]
+    #[arg(long, value_name = "SIGNAL=VALID", value_parser = valid)]
     valid: Vec<(String, String)>,
 }
 
@@ -159,8 +156,12 @@ struct How {
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let radix = args.which.radix;
     let open = |path: &PathBuf| Source::file(path, radix);
-    let (a, b) = match (&args.simulated.scenario, &args.files[..]) {
-        (Some(scenario), [b]) => (simulation(scenario, &args.simulated)?, open(b)?),
+    let Simulated { scenario, set, seed, frames } = &args.simulated;
+    let (a, b) = match (scenario, &args.files[..]) {
+        (Some(scenario), [b]) => {
+            let setup = Setup::new(load(scenario, set, *seed)?)?;
+            (Source::simulation(setup, *frames), open(b)?)
+        }
         (None, [a, b]) => (open(a)?, open(b)?),
         (Some(_), _) => {
             let expected = "expected one file: the other side is the scenario's";
@@ -175,16 +176,14 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let options = options(args)?;
     let result = compare(&a, &b, &options)?;
     if let Some(path) = &args.junit {
-        let fault = |error| Input::new(path.display(), format!("no XML: {error}"));
-        let text = comparison::junit(&result).map_err(fault)?;
-        write_file(path, |file| file.write_all(text.as_bytes()))?;
+        comparison::write_junit(path, &result)?;
     }
     if let Some(path) = &options.waves {
         talk.note(format_args!("waveform: {}", path.display()));
     }
     match args.json {
         true => print(&format!("{:#}\n", comparison::json(&result)))?,
-        false => print(&comparison::text(&result, talk.is_verbose()))?,
+        false => print(&comparison::text(&result, talk.verbose))?,
     }
     Ok(ExitCode::from(u8::from(!result.is_same())))
 }
@@ -206,22 +205,11 @@ fn no_input_is_written(args: &Args) -> Result<()> {
     Ok(())
 }
 
-fn simulation(name: &str, simulated: &Simulated) -> Result<Source> {
-    let mut loaded = scenario::load(name, &simulated.set)?;
-    if let Some(seed) = simulated.seed {
-        loaded.scenario.seed = seed;
-    }
-    Ok(Source::simulation(Setup::new(loaded)?, simulated.frames))
-}
-
 fn options(args: &Args) -> Result<Options> {
     let condition = |option: &str, text: &Option<String>| {
         text.as_ref().map(|text| Condition::parse(option, text)).transpose()
     };
-    let mut map = match &args.which.map {
-        Some(name) => map(name)?,
-        None => SignalMap::default(),
-    };
+    let mut map = args.which.map.as_deref().map(map).transpose()?.unwrap_or_default();
     map.signal.extend(rules(&args.how));
     let (when, which) = (&args.when, &args.which);
     Ok(Options {

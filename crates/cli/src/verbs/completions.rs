@@ -5,7 +5,7 @@ use clap_complete::{Shell, generate};
 
 use tofsim::error::Result;
 
-use super::stdout::print;
+use super::terminal::print;
 
 /// Print a completion script for a shell
 #[derive(Debug, clap::Args)]

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use serde::Serialize;
+use serde_json::json;
 
 use tofsim::error::{Error, Result};
 use tofsim::scenario;
@@ -11,13 +11,11 @@ use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::files::{DatasetFiles, DatasetFormat};
 use tofsim_learn::dataset::{Blocks, DatasetDescription, Grid, HistogramSource};
 
-use crate::choice;
+use crate::choice::{self, words};
 use crate::text::table::{facts, grouped};
 
 use super::draws::Draws;
-use super::interrupt::stop_signal;
-use super::stdout::{json_line, print};
-use super::talk::Talk;
+use super::terminal::{Talk, print, print_json, stop_signal};
 
 /// Draw histograms of many scenes, for training and tests
 #[derive(Debug, clap::Args)]
@@ -35,10 +33,10 @@ pub struct Args {
     #[command(flatten)]
     draws: Draws,
     /// Which scenes
-    #[arg(long, value_parser = choice::grid(), default_value = "train")]
+    #[arg(long, value_parser = words(choice::GRID), default_value = "train")]
     grid: Grid,
     /// What to write, separated by commas
-    #[arg(long, value_parser = choice::dataset_format(), value_delimiter = ',', default_value = "parquet")]
+    #[arg(long, value_parser = words(choice::DATASET_FORMAT), value_delimiter = ',', default_value = "parquet")]
     format: Vec<DatasetFormat>,
     /// Write the files and dataset.json, their description, there
     #[arg(short, long, value_name = "DIR")]
@@ -48,34 +46,26 @@ pub struct Args {
     json: bool,
 }
 
-/// What `--json` prints.
-#[derive(Serialize)]
-struct Report<'a> {
-    #[serde(flatten)]
-    description: &'a DatasetDescription,
-    /// What was written.
-    files: Vec<String>,
-}
-
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let loaded = args.draws.load(&args.scenario)?;
     let (name, seed) = (loaded.name.clone(), loaded.scenario.seed);
     let source = HistogramSource::new(&Setup::new(loaded)?)?;
-    let rows = args.draws.rows(args.grid, seed);
+    let rows = args.draws.rows(None, args.grid, seed);
     let description = DatasetDescription::new(&name, &args.draws.set, &source, &rows, seed);
     let files = DatasetFiles::create(&args.output, &args.format, &description)?;
-    let pool = args.draws.pool()?;
     let stop = stop_signal();
-    let progress = talk.progress(rows.len(), "rows");
     let blocks = source.blocks(&rows, seed, 0..rows.len());
-    let written = pool.install(|| write(files, blocks, stop.as_deref(), |n| progress.inc(n)))?;
-    progress.finish_and_clear();
+    let written = args
+        .draws
+        .on_threads(rows.len(), talk, |done| write(files, blocks, stop.as_deref(), done))?;
     written.iter().for_each(|path| talk.detail(format_args!("wrote {}", path.display())));
 
-    let files = written.iter().map(|path| path.display().to_string()).collect();
+    let files: Vec<_> = written.iter().map(|path| path.display().to_string()).collect();
     if args.json {
-        return print(&json_line(&Report { description: &description, files })?);
+        let mut report = json!(description);
+        report["files"] = json!(files);
+        return print_json(&report);
     }
     print(&table(&description, &files))
 }
@@ -85,7 +75,7 @@ fn write(
     mut files: DatasetFiles,
     mut blocks: Blocks<'_>,
     stop: Option<&AtomicBool>,
-    done: impl Fn(u64),
+    done: &dyn Fn(u64),
 ) -> Result<Vec<PathBuf>> {
     let mut next = blocks.next();
     while let Some(block) = next {
@@ -112,5 +102,5 @@ fn table(description: &DatasetDescription, files: &[String]) -> String {
         ("seed", description.seed.to_string()),
     ];
     let files = files.iter().map(|file| ("file", file.clone()));
-    format!("{}\n", facts(rows.into_iter().chain(files)).trim_fmt())
+    format!("{}\n", facts(rows.into_iter().chain(files)))
 }

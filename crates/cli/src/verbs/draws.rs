@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
-use rayon::ThreadPool;
+use rayon::ThreadPoolBuilder;
 
 use tofsim::error::{Error, Input, Result};
 use tofsim::scenario::{self, Loaded, builtin};
 use tofsim_learn::dataset::{Grid, Rows, Subset};
+
+use super::terminal::Talk;
 
 /// Which histograms.
 #[derive(Debug, clap::Args)]
@@ -32,10 +34,7 @@ pub struct Draws {
 impl Draws {
     /// A scenario by name or path, with what the options say.
     pub fn load(&self, scenario: &str) -> Result<Loaded> {
-        let mut loaded = scenario::load(scenario, &self.set)?;
-        if let Some(seed) = self.seed {
-            loaded.scenario.seed = seed;
-        }
+        let mut loaded = load(scenario, &self.set, self.seed)?;
         if let Some(profile) = &self.profile {
             loaded.scenario.tdc.profile = from_here(profile, &loaded)?;
         }
@@ -49,30 +48,42 @@ impl Draws {
         Ok(loaded)
     }
 
-    /// Rows of a grid: as many random ones as the options say, or all.
-    pub fn rows(&self, grid: Grid, seed: u64) -> Rows {
-        match self.rows {
+    /// Rows of a grid: as many random ones as the options say, or else `default`, or all.
+    pub fn rows(&self, default: Option<u64>, grid: Grid, seed: u64) -> Rows {
+        match self.rows.or(default) {
             None => Rows::All(grid),
-            Some(_) => self.some_rows(0, grid, seed),
+            Some(rows) => Rows::Subset(Subset::new(grid, rows, seed)),
         }
     }
 
-    /// Random rows of a grid, so many if the options do not say.
-    pub fn some_rows(&self, default: u64, grid: Grid, seed: u64) -> Rows {
-        Rows::Subset(Subset::new(grid, self.rows.unwrap_or(default), seed))
+    /// Does `work` for so many rows on as many threads as the options say, with a progress bar that it
+    /// tells of rows done.
+    pub fn on_threads<T: Send>(
+        &self,
+        rows: u64,
+        talk: &Talk,
+        work: impl FnOnce(&(dyn Fn(u64) + Sync)) -> Result<T> + Send,
+    ) -> Result<T> {
+        let pool = ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0).into());
+        let pool = pool.build().map_err(|error| Input::new("--threads", error))?;
+        let progress = talk.progress(rows, "rows");
+        let done = pool.install(|| work(&|rows| progress.inc(rows)));
+        progress.finish_and_clear();
+        done
     }
+}
 
-    /// Threads to draw on.
-    pub fn pool(&self) -> Result<ThreadPool> {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0).into());
-        pool.build().map_err(|error| Input::new("--threads", error).into())
-    }
+/// A scenario by name or path, with keys set, and with a seed instead of its own if there is one.
+pub fn load(scenario: &str, set: &[String], seed: Option<u64>) -> Result<Loaded> {
+    let mut loaded = scenario::load(scenario, set)?;
+    loaded.scenario.seed = seed.unwrap_or(loaded.scenario.seed);
+    Ok(loaded)
 }
 
 /// Makes the pool of so many threads, if a number is asked for.
 pub fn use_threads(threads: Option<u16>) -> Result<()> {
     let Some(threads) = threads else { return Ok(()) };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+    let pool = ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     pool.map_err(|error| Input::new("--threads", error).value(threads).into())
 }
 

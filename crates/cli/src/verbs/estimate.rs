@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use serde::Serialize;
+use serde_json::json;
 
 use tofsim::error::Result;
 use tofsim::network::histogram_file;
@@ -10,9 +11,9 @@ use tofsim::network::{Estimate, Network, estimate};
 use tofsim_learn::quantize::{Explanation, explain};
 
 use crate::report::explanation;
-use crate::text::table::{align_right, plain};
+use crate::text;
 
-use super::stdout::{json_line, print};
+use super::terminal::{print, print_json};
 
 /// Estimate depths of histograms, bit for bit as the firmware does
 #[derive(Debug, clap::Args)]
@@ -44,23 +45,13 @@ struct Row<'a> {
     explanation: Option<Explanation>,
 }
 
-#[derive(Clone, Serialize)]
+#[derive(Serialize)]
 struct Numbers {
     /// The 36-bit word in hexadecimal.
     depth_raw: String,
     depth_m: f64,
     /// Sums of the hidden neurons as integers, 23 fraction bits.
     l1_in: Vec<i64>,
-}
-
-#[derive(Serialize)]
-struct Report<'a> {
-    schema: &'static str,
-    network: &'a str,
-    /// The same again for scripts, if there is just one histogram.
-    #[serde(flatten)]
-    only: Option<Numbers>,
-    histograms: &'a [Row<'a>],
 }
 
 /// Runs the verb.
@@ -85,10 +76,13 @@ pub fn run(args: &Args) -> Result<()> {
             &rows.chunks(TABLE).map(|rows| table(rows, names.len() > 1)).collect::<String>(),
         );
     }
-    let only = if let [row] = &rows[..] { Some(row.numbers.clone()) } else { None };
-    let schema = "tofsim.estimate/1";
-    let report = Report { schema, network: &network.name, only, histograms: &rows };
-    print(&json_line(&report)?)
+    let mut report = json!({ "schema": "tofsim.estimate/1", "network": network.name });
+    // The same again for scripts, if there is just one histogram.
+    if let ([row], Some(report)) = (&rows[..], report.as_object_mut()) {
+        report.extend(json!(row.numbers).as_object().cloned().unwrap_or_default());
+    }
+    report["histograms"] = json!(rows);
+    print_json(&report)
 }
 
 impl Numbers {
@@ -112,17 +106,14 @@ fn explained(row: &Row) -> String {
 const TABLE: usize = 10_000;
 
 fn table(rows: &[Row], several: bool) -> String {
-    let mut table = plain();
     let mut header = vec!["index", "depth_raw", "depth_m", "l1_in (23 fraction bits)"];
     header.extend(several.then_some("file"));
-    table.set_header(header);
-    for Row { index, file, numbers, .. } in rows {
+    let rows = rows.iter().map(|Row { index, file, numbers, .. }| {
         let sums = numbers.l1_in.iter().map(i64::to_string).collect::<Vec<_>>().join(" ");
         let depth_m = format!("{:.6}", numbers.depth_m);
         let mut cells = vec![index.to_string(), numbers.depth_raw.clone(), depth_m, sums];
         cells.extend(several.then(|| file.to_string()));
-        table.add_row(cells);
-    }
-    align_right(&mut table, ..3);
-    format!("{}\n", table.trim_fmt())
+        cells
+    });
+    text::table::table(header, rows, ..3) + "\n"
 }

@@ -5,28 +5,24 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
-use serde::Serialize;
+use serde_json::json;
 
 use tofsim::error::{Input, Result};
 use tofsim::network::Network;
 use tofsim::scenario::{self, Loaded};
 use tofsim::sim::setup::Setup;
-use tofsim_learn::dataset::{Grid, HistogramSource, Rows, Scene};
-use tofsim_learn::estimation::{
-    Acquisition, Estimator, EstimatorInputs, EstimatorKind, subtraction,
-};
+use tofsim_learn::dataset::{Grid, HistogramSource, Scene};
+use tofsim_learn::estimation::{Acquisition, EstimatorInputs, EstimatorKind, subtraction};
 use tofsim_learn::evaluation::bound;
 use tofsim_learn::evaluation::cross_check::CrossCheck;
 use tofsim_learn::evaluation::thesis::{self, DISTANCES_M};
 use tofsim_learn::evaluation::{Evaluation, Figures};
 
-use crate::choice;
-use crate::report::{evaluation as report, evaluation_files};
+use crate::choice::words;
+use crate::report::evaluation as report;
 
 use super::draws::Draws;
-use super::interrupt::stop_signal;
-use super::stdout::{json_line, print};
-use super::talk::Talk;
+use super::terminal::{Talk, print, print_json, stop_signal};
 
 /// Light of the scenes that the cross-check takes: in the middle of the grid.
 const CHECK_REFLECTANCE: f64 = 0.34;
@@ -55,7 +51,7 @@ pub struct Args {
     #[command(flatten)]
     draws: Draws,
     /// Estimators, separated by commas
-    #[arg(long, value_parser = choice::estimator(), value_delimiter = ',', default_value = "network,network-float")]
+    #[arg(long, value_parser = words(&EstimatorKind::ALL), value_delimiter = ',', default_value = "network,network-float")]
     estimator: Vec<EstimatorKind>,
     /// Frames to simulate cycle by cycle at each of six distances, to be compared with the fast path
     #[arg(long, value_name = "N", default_value_t = 8, allow_hyphen_values = true)]
@@ -66,32 +62,6 @@ pub struct Args {
     /// Print one JSON object instead of tables
     #[arg(long)]
     json: bool,
-}
-
-/// What `--json` prints.
-#[derive(Serialize)]
-struct Report<'a> {
-    schema: &'static str,
-    version: &'static str,
-    network: &'a str,
-    scenario: &'a str,
-    profile: &'a str,
-    seed: u64,
-    rows: u64,
-    shots_per_frame: u16,
-    estimators: Vec<Figures>,
-    /// The Cramer-Rao bound at the thesis's distances, light unknown.
-    cramer_rao_two_sd_mm: Vec<Option<f64>>,
-    cross_check: Vec<CrossCheck>,
-    /// The thesis's float network, and its network in the hardware [mm].
-    thesis: Thesis,
-}
-
-#[derive(Serialize)]
-struct Thesis {
-    distances_m: [f64; 6],
-    float_two_sd_mm: [f64; 6],
-    fixed_two_sd_mm: [f64; 6],
 }
 
 /// Runs the verb; the status says whether the cross-check found both paths the same.
@@ -118,60 +88,55 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     };
     let estimators = args.estimator.iter().map(|kind| kind.estimator(&needs));
     let estimators = estimators.collect::<std::result::Result<Vec<_>, Input>>()?;
-    let rows = args.draws.rows(Grid::test(), seed);
+    let rows = args.draws.rows(None, Grid::test(), seed);
     let stop = stop_signal();
-    let evaluation = args.evaluate((&source, &rows, seed), &estimators, stop.as_deref(), talk)?;
+    let evaluation = args.draws.on_threads(rows.len(), talk, |done| {
+        Evaluation::new(&source, &rows, seed, &estimators, stop.as_deref(), done)
+    })?;
     let cross_check = args.cross_check(&loaded, &source, stop.as_deref())?;
-    let agrees = cross_check.iter().all(CrossCheck::agrees);
-    let report = Report {
-        schema: "tofsim.evaluate/1",
-        version: env!("CARGO_PKG_VERSION"),
-        network: &network.name,
-        scenario: &loaded.name,
-        profile,
-        seed,
-        rows: rows.len(),
-        shots_per_frame: source.shots(),
-        estimators: evaluation.columns.iter().map(|c| Figures::new(&evaluation, c)).collect(),
-        cramer_rao_two_sd_mm: bound::two_sd_mm(
-            &source,
-            &needs.acquisition,
-            &Grid::test(),
-            &DISTANCES_M,
-        )?,
-        cross_check,
-        thesis: Thesis {
-            distances_m: DISTANCES_M,
-            float_two_sd_mm: thesis::FLOAT.two_sd_mm,
-            fixed_two_sd_mm: thesis::FIXED.two_sd_mm,
+    let figures: Vec<_> =
+        evaluation.columns.iter().map(|column| Figures::new(&evaluation, column)).collect();
+    let bound_mm = bound::two_sd_mm(&source, &needs.acquisition, &Grid::test(), &DISTANCES_M)?;
+    let json = json!({
+        "schema": "tofsim.evaluate/1",
+        "version": env!("CARGO_PKG_VERSION"),
+        "network": network.name,
+        "scenario": loaded.name,
+        "profile": profile,
+        "seed": seed,
+        "rows": rows.len(),
+        "shots_per_frame": source.shots(),
+        "estimators": figures,
+        // At the thesis's distances, light unknown.
+        "cramer_rao_two_sd_mm": bound_mm,
+        "cross_check": cross_check,
+        "thesis": {
+            "distances_m": DISTANCES_M,
+            "float_two_sd_mm": thesis::FLOAT.two_sd_mm,
+            "fixed_two_sd_mm": thesis::FIXED.two_sd_mm,
         },
-    };
-    let json = json_line(&report)?;
+    });
     if let Some(folder) = &args.output {
-        evaluation_files::write(folder, &json, &report.estimators)?;
+        report::write(folder, &format!("{json}\n"), &figures)?;
         talk.detail(format_args!("wrote {}", folder.display()));
     }
-    print(&if args.json { json } else { report.text() })?;
+    if args.json {
+        print_json(&json)?;
+    } else {
+        let head = format!(
+            "network {}, chain {profile}, scenario {}, {} histograms of {} shots, seed {seed}\n\n",
+            network.name,
+            loaded.name,
+            rows.len(),
+            source.shots()
+        );
+        print(&(head + &text(&figures, &bound_mm, source.shots(), &cross_check)))?;
+    }
+    let agrees = cross_check.iter().all(CrossCheck::agrees);
     Ok(if agrees { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 impl Args {
-    fn evaluate(
-        &self,
-        (source, rows, seed): (&HistogramSource, &Rows, u64),
-        estimators: &[Box<dyn Estimator>],
-        stop: Option<&AtomicBool>,
-        talk: &Talk,
-    ) -> Result<Evaluation> {
-        let pool = self.draws.pool()?;
-        let progress = talk.progress(rows.len(), "rows");
-        let done = |rows| progress.inc(rows);
-        let evaluation =
-            pool.install(|| Evaluation::new(source, rows, seed, estimators, stop, done));
-        progress.finish_and_clear();
-        evaluation
-    }
-
     fn cross_check(
         &self,
         loaded: &Loaded,
@@ -184,8 +149,8 @@ impl Args {
             reflectance: CHECK_REFLECTANCE,
             irradiance_w_m2_nm: CHECK_IRRADIANCE,
         };
-        let checks = distances.iter().map(scene);
-        checks.map(|scene| CrossCheck::new(loaded, source, &scene, self.check, stop)).collect()
+        let check = |scene| CrossCheck::new(loaded, source, &scene, self.check, stop);
+        distances.iter().map(scene).map(check).collect()
     }
 }
 
@@ -194,31 +159,30 @@ fn file_name(profile: &str) -> &OsStr {
     Path::new(profile).file_name().unwrap_or(profile.as_ref())
 }
 
-impl Report<'_> {
-    fn text(&self) -> String {
-        let mut text = format!(
-            "network {}, chain {}, scenario {}, {} histograms of {} shots, seed {}\n\n",
-            self.network, self.profile, self.scenario, self.rows, self.shots_per_frame, self.seed
-        );
-        text += &report::tables(&self.estimators, &self.cramer_rao_two_sd_mm);
-        if self.estimators.iter().any(|one| one.name == subtraction::NAME) {
-            let shots = self.shots_per_frame / 2;
-            text += &format!("\n{}: {shots} dark and {shots} lit shots each\n", subtraction::NAME);
-        }
-        text += "\n";
-        for line in self.estimators.iter().filter_map(report::beside_the_line) {
-            text += &(line + "\n");
-        }
-        for check in &self.cross_check {
-            text += &format!(
-                "{} frames cycle by cycle at {} m: counts as drawn, p = {:.3}; other depths: {}{}\n",
-                check.frames,
-                check.distance_m,
-                check.p_value,
-                check.other_depths,
-                if check.agrees() { "" } else { "  DIFFERENT" },
-            );
-        }
-        text
+fn text(
+    figures: &[Figures],
+    bound_mm: &[Option<f64>],
+    shots: u16,
+    checks: &[CrossCheck],
+) -> String {
+    let mut text = report::tables(figures, bound_mm);
+    if figures.iter().any(|one| one.name == subtraction::NAME) {
+        let shots = shots / 2;
+        text += &format!("\n{}: {shots} dark and {shots} lit shots each\n", subtraction::NAME);
     }
+    text += "\n";
+    for line in figures.iter().filter_map(report::beside_the_line) {
+        text += &(line + "\n");
+    }
+    for check in checks {
+        text += &format!(
+            "{} frames cycle by cycle at {} m: counts as drawn, p = {:.3}; other depths: {}{}\n",
+            check.frames,
+            check.distance_m,
+            check.p_value,
+            check.other_depths,
+            if check.agrees() { "" } else { "  DIFFERENT" },
+        );
+    }
+    text
 }

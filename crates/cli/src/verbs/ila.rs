@@ -8,7 +8,7 @@ use clap::Subcommand;
 
 use tofsim::error::Result;
 
-use super::talk::Talk;
+use super::terminal::Talk;
 
 /// The logic analyser: capture a simulation as Vivado's captures the board, and read its files
 #[derive(Debug, clap::Args)]

@@ -1,15 +1,14 @@
 //! `tofsim man`: manual pages.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Command;
 use clap_mangen::Man;
 
 use tofsim::error::{Error, Result};
-use tofsim::files::output::{create_directory, write_file};
+use tofsim::files::output::{create_directory, write_bytes};
 
-use super::stdout::print;
+use super::terminal::print;
 
 /// Print the manual page, or write one for each subcommand
 #[derive(Debug, clap::Args)]
@@ -31,7 +30,7 @@ pub fn run(args: &Args, mut command: Command) -> Result<()> {
 
 fn pages(command: &Command, name: String, folder: &Path) -> Result<()> {
     let text = page(command.clone())?;
-    write_file(&folder.join(format!("{name}.1")), |file| file.write_all(&text))?;
+    write_bytes(&folder.join(format!("{name}.1")), text)?;
     let below = command.get_subcommands();
     below.into_iter().try_for_each(|sub| pages(sub, format!("{name}-{}", sub.get_name()), folder))
 }

@@ -1,28 +1,25 @@
 //! `tofsim quantize`: a network that was trained elsewhere, in the words of the firmware.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
+use serde_json::json;
 
 use tofsim::error::{Error, Result};
-use tofsim::files::output::{create_directory, write_file};
+use tofsim::files::output::{create_directory, write_bytes};
 use tofsim::network::file::Training;
 use tofsim::network::formats::Overflow;
 use tofsim::network::{Network, mem};
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::{Grid, HistogramSource};
-use tofsim_learn::evaluation::exploration::{ExploredDatapath, explore, sweep};
+use tofsim_learn::evaluation::exploration::{explore, sweep};
 use tofsim_learn::quantize::import;
 
 use crate::report::exploration;
-use crate::text::table::plain;
+use crate::text::table::table;
 
 use super::draws::Draws;
-use super::interrupt::stop_signal;
-use super::stdout::{json_line, print};
-use super::talk::Talk;
+use super::terminal::{Talk, print, print_json, stop_signal};
 
 /// Histograms of an exploration, if nothing else is said: 200 at each distance.
 const EXPLORED: u64 = 10_200;
@@ -82,36 +79,6 @@ struct Task {
     explore: Option<String>,
 }
 
-#[derive(Serialize)]
-struct Report {
-    schema: &'static str,
-    from: String,
-    /// Weights that no word holds.
-    saturated: usize,
-    /// Largest magnitude of each kind of weight, and what its word holds.
-    largest: [Largest; 4],
-    /// What was written.
-    files: Vec<String>,
-}
-
-/// What `--explore --json` prints.
-#[derive(Serialize)]
-struct Exploration<'a> {
-    schema: &'static str,
-    network: &'a str,
-    profile: &'a str,
-    seed: u64,
-    rows: u64,
-    points: Vec<ExploredDatapath>,
-}
-
-#[derive(Clone, Copy, Serialize)]
-struct Largest {
-    weights: &'static str,
-    magnitude: f64,
-    limit: f64,
-}
-
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     match (&args.task.from, &args.task.explore) {
@@ -130,12 +97,12 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
     }
     let magnitude =
         |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |a, b| f64::max(a, b.abs()));
-    let largest = |weights, magnitude, limit| Largest { weights, magnitude, limit };
-    let report_largest = [
-        largest("w1", magnitude(&mut float.w1.iter().flatten().copied()), (-8f64).exp2()),
-        largest("b1", magnitude(&mut float.b1.iter().copied()), 4.0),
-        largest("w2", magnitude(&mut float.w2.iter().copied()), 2.0),
-        largest("b2", float.b2.abs(), 0.25),
+    // Largest magnitude of each kind of weights, and what its word holds.
+    let largest = [
+        ("w1", magnitude(&mut float.w1.iter().flatten().copied()), (-8f64).exp2()),
+        ("b1", magnitude(&mut float.b1.iter().copied()), 4.0),
+        ("w2", magnitude(&mut float.w2.iter().copied()), 2.0),
+        ("b2", float.b2.abs(), 0.25),
     ];
     let network = Network {
         name: from.clone(),
@@ -150,17 +117,25 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
         float: Some(float),
     };
     let files = args.write(&network)?;
-    let report = Report {
-        schema: "tofsim.quantize/1",
-        from,
-        saturated: rounded.saturated,
-        largest: report_largest,
-        files: files.iter().map(|path| path.display().to_string()).collect(),
-    };
+    let files: Vec<_> = files.iter().map(|path| path.display().to_string()).collect();
     if args.json {
-        return print(&json_line(&report)?);
+        return print_json(&json!({
+            "schema": "tofsim.quantize/1",
+            "from": from,
+            // Weights that no word holds.
+            "saturated": rounded.saturated,
+            "largest": largest.map(|(weights, magnitude, limit)| {
+                json!({ "weights": weights, "magnitude": magnitude, "limit": limit })
+            }),
+            "files": files,
+        }));
     }
-    print(&report.text())
+    let rows = largest.map(|(weights, magnitude, limit)| {
+        [weights.to_owned(), format!("{magnitude:.6}"), format!("below {limit}")]
+    });
+    let table = table(["weights", "largest", "word holds"], rows, ..0);
+    let files: String = files.iter().map(|file| format!("wrote {file}\n")).collect();
+    print(&format!("{table}\nsaturated: {}\n{files}", rounded.saturated))
 }
 
 impl Args {
@@ -169,19 +144,21 @@ impl Args {
         let (seed, profile) = (loaded.scenario.seed, loaded.scenario.tdc.profile.clone());
         let network = Network::find(network, None)?;
         let source = HistogramSource::new(&Setup::new(loaded)?)?;
-        let rows = self.draws.some_rows(EXPLORED, Grid::test(), seed);
-        let (stop, progress) = (stop_signal(), talk.progress(rows.len(), "rows"));
-        let points = self.draws.pool()?.install(|| {
-            let data = (&source, &rows, seed);
-            explore(&network, &sweep(), data, stop.as_deref(), |rows| progress.inc(rows))
+        let rows = self.draws.rows(Some(EXPLORED), Grid::test(), seed);
+        let (stop, data) = (stop_signal(), (&source, &rows, seed));
+        let points = self.draws.on_threads(rows.len(), talk, |done| {
+            explore(&network, &sweep(), data, stop.as_deref(), done)
         })?;
-        progress.finish_and_clear();
         let (name, rows) = (&network.name, rows.len());
         if self.json {
-            let schema = "tofsim.exploration/1";
-            let report =
-                Exploration { schema, network: name, profile: &profile, seed, rows, points };
-            return print(&json_line(&report)?);
+            return print_json(&json!({
+                "schema": "tofsim.exploration/1",
+                "network": name,
+                "profile": profile,
+                "seed": seed,
+                "rows": rows,
+                "points": points,
+            }));
         }
         let head = format!("network {name}, chain {profile}, {rows} histograms, seed {seed}\n\n");
         print(&(head + &exploration::text(&points)))
@@ -190,7 +167,7 @@ impl Args {
     fn write(&self, network: &Network) -> Result<Vec<PathBuf>> {
         let mut files = Vec::new();
         let mut put = |path: PathBuf, text: &str| {
-            write_file(&path, |file| file.write_all(text.as_bytes()))?;
+            write_bytes(&path, text)?;
             files.push(path);
             Ok::<(), Error>(())
         };
@@ -204,23 +181,6 @@ impl Args {
             }
         }
         Ok(files)
-    }
-}
-
-impl Report {
-    fn text(&self) -> String {
-        let mut table = plain();
-        table.set_header(["weights", "largest", "word holds"]);
-        for one in self.largest {
-            let limit = format!("below {}", one.limit);
-            table.add_row([one.weights.to_owned(), format!("{:.6}", one.magnitude), limit]);
-        }
-        let mut text = format!("{}\n", table.trim_fmt());
-        text += &format!("saturated: {}\n", self.saturated);
-        for file in &self.files {
-            text += &format!("wrote {file}\n");
-        }
-        text
     }
 }
 

@@ -10,23 +10,21 @@ use tofsim::scenario;
 use tofsim::scenario::window::Window;
 use tofsim::sim::fast::histogram::Histograms;
 use tofsim::sim::frames::Frame;
-use tofsim::sim::run::{Observers, Outcome};
+use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 use tofsim::sim::{Run, Stepping};
 use tofsim::waves::{self, Marks, WaveFormat, Waves, write_views};
 use tofsim_learn::estimation::{EstimatorKind, Panel};
 
-use crate::choice::{self, Fidelity, WaveformChoice};
+use crate::choice::{self, Fidelity, WaveformChoice, words};
 use crate::report::frame_log::FrameLog;
 use crate::report::run_files::RunFiles;
 use crate::report::summary::Summary;
 use crate::report::table;
 
-use super::draws::use_threads;
-use super::interrupt::stop_signal;
-use super::stdout::{print, print_with};
-use super::talk::Talk;
+use super::draws::{load, use_threads};
+use super::terminal::{Talk, print, print_with, stop_signal};
 
 /// Simulate frames: photons to depth, with a waveform
 #[derive(Debug, clap::Args)]
@@ -51,14 +49,14 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = 1, allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..))]
     frames: u64,
     /// How to simulate; cycle and shot give the same frames, histogram the same in distribution
-    #[arg(long, value_parser = choice::fidelity(), default_value = "cycle")]
+    #[arg(long, value_parser = words(&Fidelity::ALL), default_value = "cycle")]
     fidelity: Fidelity,
     /// Threads for the frames of a run without waveform and events; the results are the same for
     /// any number [default: one a core]
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     /// Format of the waveform [default: vcd; none for fidelities without signals]
-    #[arg(long, value_parser = choice::waveform())]
+    #[arg(long, value_parser = words(choice::WAVEFORM))]
     waves: Option<WaveformChoice>,
     /// Part of the run that goes into the waveform: shot:0..8, 10us..12us or estimation; may be
     /// repeated [default: the scenario's, or shot:0..16 and estimation]
@@ -70,7 +68,7 @@ pub struct Args {
     signals: Vec<String>,
     /// Estimators that look at each frame's histogram beside the firmware's own, separated by commas;
     /// subtraction makes pairs of a dark and a lit frame (firmware.dark_frames), and all look at those
-    #[arg(long, value_parser = choice::estimator(), value_delimiter = ',')]
+    #[arg(long, value_parser = words(&EstimatorKind::ALL), value_delimiter = ',')]
     estimator: Vec<EstimatorKind>,
     /// Write a row for each shot, as .csv or .parquet
     #[arg(long, value_name = "FILE")]
@@ -86,15 +84,12 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let waves = args.waves_format()?;
-    let mut loaded = scenario::load(&args.scenario, &args.overrides())?;
-    if let Some(seed) = args.seed {
-        loaded.scenario.seed = seed;
-    }
-    let setup = Setup::new(loaded)?;
+    let setup = Setup::new(load(&args.scenario, &args.overrides(), args.seed)?)?;
     args.check_fidelity(&setup)?;
     args.check_pairs(&setup)?;
     let frames = args.frames * setup.frames_together();
-    let way = Way::new(args.fidelity, &setup)?;
+    let is_drawn = args.fidelity == Fidelity::Histogram;
+    let histograms = is_drawn.then(|| Histograms::new(&setup)).transpose()?;
     let plan = |format| WavePlan::new(args, format, &setup, frames);
     let plan = waves.map(plan).transpose()?;
     let (folder, events) = (args.output.as_deref(), args.events.as_deref());
@@ -120,7 +115,17 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         stop: stop.as_deref(),
     };
     let began = Instant::now();
-    let outcome = way.simulate(frames, watch, wants_all_shots)?;
+    let stepping = match args.fidelity {
+        Fidelity::Shot => Stepping::LeapShots,
+        _ => Stepping::SkipIdle,
+    };
+    let run = || Run::new(&setup).stepping(stepping);
+    // On several threads unless there is a waveform or every shot is wanted.
+    let outcome = match histograms {
+        Some(histograms) => histograms.many(frames, watch)?,
+        None if watch.waves.is_some() || wants_all_shots => run().observe(frames, watch)?,
+        None => run().many(frames, watch)?,
+    };
     let wall = began.elapsed();
     progress.finish_and_clear();
     outcome.notes.iter().chain(&setup.notes()).for_each(|note| talk.note(note));
@@ -140,33 +145,6 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         text += &table::tdc(results);
     }
     print(&text)
-}
-
-/// A way to simulate, at the fidelity that is asked for.
-enum Way<'a> {
-    /// Histogram by histogram.
-    Draw(Histograms<'a>),
-    /// Edge by edge or shot by shot.
-    Run(Box<Run<'a>>),
-}
-
-impl<'a> Way<'a> {
-    fn new(fidelity: Fidelity, setup: &'a Setup) -> Result<Self> {
-        Ok(match fidelity {
-            Fidelity::Cycle => Way::Run(Box::new(Run::new(setup).stepping(Stepping::SkipIdle))),
-            Fidelity::Shot => Way::Run(Box::new(Run::new(setup).stepping(Stepping::LeapShots))),
-            Fidelity::Histogram => Way::Draw(Histograms::new(setup)?),
-        })
-    }
-
-    /// Simulates frames, on several threads unless there is a waveform or every shot is wanted.
-    fn simulate(self, frames: u64, watch: Observers, wants_all_shots: bool) -> Result<Outcome> {
-        match self {
-            Way::Draw(histograms) => histograms.many(frames, watch),
-            Way::Run(run) if watch.waves.is_some() || wants_all_shots => run.observe(frames, watch),
-            Way::Run(run) => run.many(frames, watch),
-        }
-    }
 }
 
 impl Args {

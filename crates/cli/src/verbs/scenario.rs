@@ -7,9 +7,9 @@ use tofsim::error::Result;
 use tofsim::scenario::{self, builtin, show};
 use tofsim::sim::setup::Setup;
 
-use crate::text::table::plain;
+use crate::text::table::facts;
 
-use super::stdout::print;
+use super::terminal::{print, print_json};
 
 /// List, show and check scenarios
 #[derive(Debug, clap::Args)]
@@ -71,7 +71,7 @@ pub fn run(args: &Args) -> Result<()> {
             let setup = Setup::new(scenario::load(&which.scenario, &which.set)?)?;
             setup.windows(&[], 1)?;
             match json {
-                true => print(&format!("{}\n", json!({ "scenario": setup.name, "ok": true }))),
+                true => print_json(&json!({ "scenario": setup.name, "ok": true })),
                 false => print(&format!("{}: ok\n", setup.name)),
             }
         }
@@ -86,11 +86,7 @@ fn list(as_json: bool) -> Result<()> {
     }
     if as_json {
         let object = |(name, description): &(&str, String)| json!({ "name": name, "description": description });
-        return print(&format!("{}\n", json!(rows.iter().map(object).collect::<Vec<_>>())));
+        return print_json(&rows.iter().map(object).collect());
     }
-    let mut table = plain();
-    for (name, description) in rows {
-        table.add_row([name.to_owned(), description]);
-    }
-    print(&format!("{}\n", table.trim_fmt()))
+    print(&format!("{}\n", facts(rows)))
 }

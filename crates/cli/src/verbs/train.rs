@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use tofsim::error::{Input, Result, read_text};
 use tofsim::files::output::create_directory;
+use tofsim::network::formats::WordFormat;
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::HistogramSource;
@@ -11,17 +12,15 @@ use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::tournament::Tournament;
 use tofsim_learn::training::{checkpoint, data};
 
-use crate::report::training::{self, TrainingReport};
+use crate::report::training;
 
 use super::draws::{from_here, use_threads};
-use super::interrupt::stop_signal;
-use super::stdout::{json_line, print};
-use super::talk::Talk;
+use super::terminal::{Talk, print, print_json, stop_signal};
 
 mod word_format;
 mod written;
 
-use word_format::FormatOption;
+use word_format::{FormatOption, word_format};
 
 /// Train a depth network on simulated histograms, within the firmware's number formats or others
 #[derive(Debug, clap::Args)]
@@ -62,7 +61,7 @@ pub struct Args {
     lut_bits: Option<u32>,
     /// Width and fraction bits of w1, b1, w2, b2 or l1_out (activations), such as w1=16.23; may be
     /// repeated [default: those of the thesis's Table 6.4]
-    #[arg(long = "format", value_name = "WORD=WIDTH.FRACTION")]
+    #[arg(long = "format", value_name = "WORD=WIDTH.FRACTION", value_parser = word_format)]
     formats: Vec<FormatOption>,
     /// Starts that take part in the first stage
     #[arg(long, value_name = "N")]
@@ -136,10 +135,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let made = (chain, args.command(), args.seed);
     let (network, rows) = written::write(&args.output, &recipe, &tournament, made, talk)?;
     let line = &recipe.weighting;
-    print(&match args.json {
-        true => json_line(&TrainingReport::new(&rows, line, &network))?,
-        false => training::table(&rows, line),
-    })
+    match args.json {
+        true => print_json(&training::json(&rows, line, &network)),
+        false => print(&training::table(&rows, line)),
+    }
 }
 
 /// Says how far it is.
@@ -167,7 +166,9 @@ impl Args {
         let mut recipe = Recipe::parse(&text, &base, &self.with, &name)?;
         recipe.neurons = self.neurons.unwrap_or(recipe.neurons);
         recipe.formats.address_bits = self.lut_bits.unwrap_or(recipe.formats.address_bits);
-        self.formats.iter().for_each(|format| format.set(&mut recipe.formats));
+        for (word, format) in &self.formats {
+            recipe.formats.word(word).into_iter().for_each(|of_word| *of_word = *format);
+        }
         if let (Some(starts), Some(first)) = (self.starts, recipe.stages.first_mut()) {
             first.candidates = starts;
             for stage in &mut recipe.stages {
@@ -204,7 +205,9 @@ impl Args {
         self.with.iter().for_each(|with| add("--with ", with));
         self.neurons.iter().for_each(|neurons| add("--neurons ", neurons));
         self.lut_bits.iter().for_each(|bits| add("--lut-bits ", bits));
-        self.formats.iter().for_each(|format| add("--format ", format));
+        for (word, WordFormat { width, fraction }) in &self.formats {
+            add("--format ", &format_args!("{word}={width}.{fraction}"));
+        }
         self.starts.iter().for_each(|starts| add("--starts ", starts));
         command
     }

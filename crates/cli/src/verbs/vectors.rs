@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use tofsim::error::{Input, Result, nearest};
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
+use tofsim_rtl::golden::bench::Bench;
 use tofsim_rtl::golden::{BLOCKS, Setting, Spec, blocks};
 
-use super::talk::Talk;
+use super::terminal::Talk;
 
 /// Write golden vectors of a block with a self-checking Verilog bench
 ///
@@ -76,7 +77,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     for spec in blocks {
         let vectors = (spec.record)(spec, &setting)?;
         let folder = args.output.join(spec.name);
-        vectors.write(&folder)?;
+        Bench::new(&vectors).write(&folder)?;
         talk.detail(format_args!("{}: {} cycles", folder.display(), vectors.stimulus.rows()));
     }
     Ok(())

@@ -1,26 +1,22 @@
 //! `tofsim verify`: holds Verilog to the golden vectors.
 
-use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
 
 use rayon::prelude::*;
 
-use tofsim::error::{Error, Input, Result};
-use tofsim::files::output::write_file;
+use tofsim::error::{Error, Result};
 use tofsim_rtl::golden::blocks::CENTROID;
 use tofsim_rtl::golden::{BLOCKS, Setting, Spec};
 use tofsim_rtl::verify::cycle_counts::Count;
 use tofsim_rtl::verify::process::Limits;
 use tofsim_rtl::verify::{BlockCheck, BlockReport, Rtl, RtlMap, Simulator};
 
-use crate::choice;
+use crate::choice::{self, words};
 use crate::report::verification as report;
 
-use super::interrupt::stop_signal;
-use super::stdout::print;
-use super::talk::Talk;
+use super::terminal::{Talk, print, stop_signal};
 use super::vectors::{From, find};
 
 /// Run Verilog against the golden vectors
@@ -45,7 +41,7 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["block", "top", "map", "registers", "junit", "simulator"])]
     cycle_counts: bool,
     /// Simulator to run
-    #[arg(long, value_parser = choice::simulator(), default_value = "icarus")]
+    #[arg(long, value_parser = words(choice::SIMULATOR), default_value = "icarus")]
     simulator: Simulator,
     /// How your design differs by intention: names, polarities, latencies, adapters (TOML)
     #[arg(long, value_name = "FILE")]
@@ -110,16 +106,13 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
 
     let simulator = args.simulator.name();
     if let Some(path) = &args.junit {
-        let fault = |error| Input::new(path.display(), format!("no XML: {error}"));
-        let text = report::junit(simulator, &reports).map_err(fault)?;
-        write_file(path, |file| file.write_all(text.as_bytes()))?;
+        report::write_junit(path, simulator, &reports)?;
     }
     match args.json {
         true => print(&format!("{:#}\n", report::json(&rtl.source, simulator, &reports)))?,
         false => print(&report::text(&reports))?,
     }
-    let passed = reports.iter().all(BlockReport::passed);
-    Ok(ExitCode::from(u8::from(!passed)))
+    Ok(ExitCode::from(u8::from(!reports.iter().all(BlockReport::passed))))
 }
 
 fn cycle_counts(args: &Args, rtl: &Rtl, limits: &Limits) -> Result<ExitCode> {
@@ -129,8 +122,7 @@ fn cycle_counts(args: &Args, rtl: &Rtl, limits: &Limits) -> Result<ExitCode> {
         true => print(&format!("{:#}\n", report::counts_json(&rtl.source, &counts)))?,
         false => print(&report::counts_text(&counts))?,
     }
-    let holds = counts.iter().all(Count::holds);
-    Ok(ExitCode::from(u8::from(!holds)))
+    Ok(ExitCode::from(u8::from(!counts.iter().all(Count::holds))))
 }
 
 /// The blocks that are asked for, then the whole.

@@ -5,6 +5,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use tofsim::files::output::write_file;
+use tofsim_rtl::golden::bench::Bench;
 use tofsim_rtl::golden::{Setting, Vectors, blocks};
 use tofsim_rtl::verify::{Rtl, Simulator, Verdict};
 
@@ -84,7 +85,7 @@ pub fn compare(sources: &Sources) -> Verdict {
 
     let folder = common::empty();
     let work = folder.path();
-    vectors.write(work).unwrap();
+    Bench::new(&vectors).write(work).unwrap();
     let write = |name: &str, text: &str| {
         write_file(&work.join(name), |file| file.write_all(text.as_bytes())).unwrap();
         work.join(name)
@@ -95,7 +96,7 @@ pub fn compare(sources: &Sources) -> Verdict {
         files.push(write(&name, &sources[&name]));
     }
     let rtl = Rtl { files, source: "the netlist of tof_top".to_owned() };
-    let bench = [work.join(vectors.bench_name()), write("tof_top.v", &wrapper(&vectors))];
+    let bench = [work.join(vectors.bench_module() + ".v"), write("tof_top.v", &wrapper(&vectors))];
     let compiled = Simulator::Icarus
         .compile(work, "tb_tof_top", &bench, &rtl, false, &LIMITS)
         .unwrap_or_else(|error| panic!("{error}"));

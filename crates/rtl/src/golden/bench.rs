@@ -4,21 +4,27 @@
 //! next edge, so that nothing depends on the order in which a simulator takes simultaneous events.
 
 pub mod allowances;
-mod compare;
+
+use std::path::Path;
 
 use allowances::Allowances;
 
+use tofsim::error::Result;
+use tofsim::files::output::{create_directory, write_bytes, write_file};
+use tofsim::network::mem::lines;
+
 use super::parameters::Parameter;
-use super::ports::Port;
+use super::ports::{self, Port};
 use super::spec::Vectors;
 use super::table::Column;
 use super::timing::{Step, Timing};
-use super::verilog::{parameter_list, range};
+use super::verilog::{parameter_list, place, range};
 
 /// A bench, with what another implementation is allowed.
 #[derive(Clone, Debug)]
 pub struct Bench<'a> {
-    vectors: &'a Vectors,
+    /// What it runs.
+    pub vectors: &'a Vectors,
     /// Where it is not strict.
     pub allowed: Allowances,
     /// The module that is instantiated.
@@ -31,18 +37,36 @@ impl<'a> Bench<'a> {
         Bench { vectors, allowed: Allowances::default(), module: vectors.spec.name.to_owned() }
     }
 
-    /// What it runs.
-    pub fn vectors(&self) -> &Vectors {
-        self.vectors
-    }
-
     /// Names of the parameters that it sets.
     pub fn parameters(&self) -> impl Iterator<Item = &'static str> {
         self.vectors.parameters.iter().map(|(name, _)| *name)
     }
 
+    /// Writes it with all files that it needs into a folder, which is made if it is not there.
+    ///
+    /// # Errors
+    /// When one cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<()> {
+        create_directory(folder)?;
+        let text = |name: &str, text: &str| write_bytes(&folder.join(name), text);
+        let vectors = self.vectors;
+        for memory in vectors.memories() {
+            text(memory.name, &memory.text)?;
+        }
+        if !vectors.stops.is_empty() {
+            text("tdc_stop.mem", &lines(vectors.stops.iter().map(|at| at.fs().into()), 16))?;
+        }
+        for (name, table) in
+            [("stimulus.mem", &vectors.stimulus), ("expected.mem", &vectors.expected)]
+        {
+            write_file(&folder.join(name), |file| table.write(file))?;
+        }
+        text("ports.json", &format!("{:#}\n", ports::json(vectors)))?;
+        text(&(vectors.bench_module() + ".v"), &self.text())
+    }
+
     /// Its Verilog.
-    pub fn text(&self) -> String {
+    fn text(&self) -> String {
         let (vectors, spec) = (self.vectors, self.vectors.spec);
         let ports = spec.ports(vectors.neurons);
         let parameters: Vec<_> = vectors.parameters.iter().map(parameter).collect();
@@ -71,9 +95,9 @@ impl<'a> Bench<'a> {
             ports = connected.join(",\n"),
             line_in = range(vectors.stimulus.width().max(1) as u32),
             line_out = range(vectors.expected.width() as u32),
-            looks = compare::looks(vectors),
+            looks = looks(vectors),
             allowances = allowances.collect::<String>(),
-            show = compare::show(vectors),
+            show = show(vectors),
             before = before,
             steps = steps(&spec.timing, &inputs),
         )
@@ -158,4 +182,38 @@ fn edges(step: &Step, last: bool) -> String {
         [name] => format!("{first} {name} = 1'b{levels};\n"),
         _ => format!("{first} {{{}}} = {}'b{levels};\n", names.join(", "), names.len()),
     }
+}
+
+/// A task for each sample of a cycle, which takes what is compared there.
+fn looks(vectors: &Vectors) -> String {
+    let look = |sample: usize| {
+        let columns = vectors.expected.columns().iter().filter(|column| column.sample == sample);
+        let (inner, ports): (Vec<_>, Vec<_>) = columns.partition(|column| column.internal);
+        let take = |path: &str, columns: &[&Column]| -> String {
+            let line =
+                |column: &&Column| format!("    got[{}] = {path}{};\n", place(column), column.name);
+            columns.iter().map(line).collect()
+        };
+        let inner = match inner.as_slice() {
+            [] => String::new(),
+            inner => format!("`ifdef REGISTERS\n{}`endif\n", take("dut.", inner)),
+        };
+        let ports = take("", &ports);
+        format!("\n  task look_{sample};\n  begin\n{ports}{inner}  end\n  endtask\n")
+    };
+    (0..vectors.spec.timing.samples()).map(look).collect()
+}
+
+/// Lines that say which columns differ.
+fn show(vectors: &Vectors) -> String {
+    let show = |column: &Column| {
+        let (place, name) = (place(column), &column.name);
+        let before = vectors.spec.timing.before_edge_ps(column.sample) + 1;
+        format!(
+            "    if (got[{place}] !== want[{place}])\n      \
+             $display(\"mismatch: cycle %0d, time %0d ps, {name}: expected %h, got %h\",\n        \
+             cycle, FirstEdge + cycle * Period - 64'd{before}, want[{place}], got[{place}]);\n",
+        )
+    };
+    vectors.expected.columns().iter().map(show).collect()
 }

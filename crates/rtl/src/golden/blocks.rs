@@ -89,9 +89,9 @@ mod tests {
 
     #[test]
     fn each_block_has_a_stream_of_its_own_by_number_or_by_name() {
-        let named = |name| Spec { name, stream: None, ..tdc::SPEC }.stream();
+        let named = |name| Spec { name, ..tdc::SPEC }.stream();
         let mut streams: Vec<_> = BLOCKS.iter().map(Spec::stream).collect();
-        streams.extend([MEMORIES, u64::MAX, named("tdc"), named("tdc_2")]);
+        streams.extend([MEMORIES, u64::MAX, named("tdc_2"), named("tdc_3")]);
         streams.sort_unstable();
         assert!(streams.is_sorted_by(|a, b| a < b));
     }

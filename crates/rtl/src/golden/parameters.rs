@@ -1,13 +1,12 @@
 //! Verilog parameters that the benches set, and the memories that some of them name.
 
+use tofsim::firmware::carry_chain::Delays;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::firmware::tof_top::{CodeSource, Estimator, HistogramSource};
 use tofsim::firmware::{centroid_estimator, depth_estimator, forward2};
 use tofsim::kernel::U;
-use tofsim::network::mem::{self, Mem};
+use tofsim::network::mem::{self, Mem, lines};
 use tofsim::sim::setup::Setup;
-
-use super::roms;
 
 /// A parameter's value.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,27 +77,46 @@ pub fn tof_top(setup: &Setup) -> Parameters {
     list.extend(depth_estimator(&params.depth_estimator));
     list.extend([
         ("CalFile", Memory(mem::tdc_decoder(&params.tdc.cal))),
-        ("DelaysFile", Memory(roms::tap_delays(&params.tdc.delays))),
+        ("DelaysFile", Memory(tap_delays(&params.tdc.delays))),
     ]);
     list.extend(neurons(params.depth_estimator.neurons()));
-    let (preloads_codes, codes) = match &params.code_source {
+    let (preloads_codes, rom) = match &params.code_source {
         CodeSource::Tdc => (false, &[U::new(0)][..]),
         CodeSource::Preload(rom) => (true, &rom[..]),
     };
-    let (preloads_histogram, histogram) = match &params.histogram_source {
+    let (preloads_histogram, words) = match &params.histogram_source {
         HistogramSource::Builder => (false, &[U::new(0); BINS][..]),
         HistogramSource::Preload(rom) => (true, &rom[..]),
     };
     list.extend([
         ("CodeSource", Number(preloads_codes.into())),
-        ("Codes", Number(codes.len() as u64)),
-        ("CodeFile", Memory(roms::codes(codes))),
+        ("Codes", Number(rom.len() as u64)),
+        ("CodeFile", Memory(codes(rom))),
         ("HistogramSource", Number(preloads_histogram.into())),
-        ("HistogramFile", Memory(roms::histogram(histogram))),
+        ("HistogramFile", Memory(histogram(words))),
     ]);
     if params.estimator == Estimator::Centroid {
         list.push(("Estimator", Number(1)));
         list.extend(centroid_estimator(&params.centroid_estimator));
     }
     list
+}
+
+/// When each tap is reached after a change of `tdc_stop`, in the order of the taps [fs].
+pub fn tap_delays(delays: &Delays) -> Mem {
+    let mut arrivals = vec![0; delays.order().len()];
+    for (&tap, at) in delays.order().iter().zip(delays.arrivals()) {
+        arrivals[tap as usize] = u128::from(at.fs());
+    }
+    Mem { name: "tap_delays.mem", text: lines(arrivals, 8) }
+}
+
+/// The ROM of `code_preload`.
+pub fn codes(rom: &[U<8>]) -> Mem {
+    Mem { name: "codes.mem", text: lines(rom.iter().map(|code| code.get().into()), 2) }
+}
+
+/// The ROM of `histogram_preload`.
+pub fn histogram(rom: &[U<16>]) -> Mem {
+    Mem { name: "histogram.mem", text: lines(rom.iter().map(|count| count.get().into()), 4) }
 }

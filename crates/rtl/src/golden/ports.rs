@@ -68,11 +68,11 @@ pub fn json(vectors: &Vectors) -> Value {
             "direction": if port.output { "output" } else { "input" },
             "meaning": port.meaning,
         })).collect::<Vec<_>>(),
-        "stimulus": columns(&vectors.stimulus, |_| Value::Null),
-        "expected": columns(&vectors.expected, |column| json!({
-            "before_edge_ps": timing.before_edge_ps(column.sample) + 1,
-            "register": column.internal,
-        })),
+        "stimulus": columns(&vectors.stimulus, |_, _| ()),
+        "expected": columns(&vectors.expected, |column, value| {
+            value["before_edge_ps"] = json!(timing.before_edge_ps(column.sample) + 1);
+            value["register"] = json!(column.internal);
+        }),
         "roms": vectors.memories().map(|memory| memory.name).collect::<Vec<_>>(),
     })
 }
@@ -86,12 +86,10 @@ fn parameters(parameters: &Parameters) -> Value {
 }
 
 /// The columns, first to last, top bits first.
-fn columns(table: &Table, more: impl Fn(&Column) -> Value) -> Vec<Value> {
+fn columns(table: &Table, more: impl Fn(&Column, &mut Value)) -> Vec<Value> {
     let describe = |column: &Column| {
         let mut value = json!({"name": column.name, "width": column.width, "low_bit": column.low});
-        if let (Some(value), Value::Object(more)) = (value.as_object_mut(), more(column)) {
-            value.extend(more);
-        }
+        more(column, &mut value);
         value
     };
     table.columns().iter().map(describe).collect()

@@ -1,17 +1,15 @@
 //! What the file of a block's stimulus needs.
 
 pub use tofsim::error::Result;
-pub use tofsim::firmware::tof_top::TofTop;
+pub use tofsim::kernel::signals::Signals;
 pub use tofsim::kernel::{Clocked, S, Time, U};
-pub use tofsim::network::mem::{self, Mem};
+pub use tofsim::network::mem;
 pub use tofsim::signals;
 
-pub use super::block::{Block, Nothing};
 pub use super::cover::{Cover, bits};
 pub use super::draw::{Draw, MEMORIES};
-pub use super::parameters::{self, Parameter, Parameters, files};
-pub use super::record::record;
-pub use super::roms;
+pub use super::parameters::{self, Parameter, files, with_neurons};
+pub use super::record::Recorder;
 pub use super::setting::Setting;
 pub use super::spec::{Glue, Latency, Spec, Vectors};
 pub use super::stops::{self, Stops};

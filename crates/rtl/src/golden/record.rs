@@ -1,63 +1,50 @@
-//! Steps a block and keeps what goes in and what comes out.
+//! Steps a block alone, and keeps what goes in and what comes out.
 
-use tofsim::error::Result;
 use tofsim::firmware::tof_top::{Pins, TofTop};
-use tofsim::hierarchy::{self, fitted};
+use tofsim::hierarchy;
 use tofsim::kernel::signals::{Signal, Signals};
 
-use super::block::Block;
-use super::columns::{Compared, inputs};
+use super::cover::Cover;
 use super::draw::Draw;
+use super::lines::Lines;
 use super::setting::Setting;
 use super::spec::{Spec, Vectors};
-use super::table::{LineSink, Table};
 
-/// The vectors of a block that is stepped alone.
-///
-/// # Errors
-/// None: it is a [`Record`](super::spec::Record), as is that of the whole firmware, which may fail.
-pub fn record<B: Block>(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let mut block = B::new(setting);
-    let neurons = setting.neurons();
-    let entries = hierarchy::every_entry_of(neurons);
-    let Compared { columns, places } = Compared::new(spec, &entries, |_| true);
-    let mut expected = Table::new(columns);
-    let signals: Vec<_> =
-        B::Stimulus::list().into_iter().map(|signal| fitted(signal, neurons)).collect();
-    let mut next = 0..;
-    let column = |signal: &Option<Signal>| signal.iter().zip(&mut next).map(|(_, n)| n).collect();
-    let own_places: Vec<Vec<usize>> = signals.iter().map(column).collect();
-    let signals: Vec<_> = signals.into_iter().flatten().collect();
-    let mut stimulus = Table::new(inputs(&signals));
-    let order = setting.setup.params.tdc.delays.order();
+/// A block under way.
+pub struct Recorder<'a> {
+    /// The block, inside an otherwise idle top.
+    pub top: TofTop,
+    /// Draws for its stimulus.
+    pub draw: Draw,
+    lines: Lines<'a>,
+}
 
-    let mut draw = Draw::new(setting.seed, spec.stream());
-    let mut top = TofTop::new(Pins::default());
-    for cycle in 0..setting.cycles() {
-        let i = block.stimulus(cycle, &top, &mut draw);
-        let mut fill = LineSink { table: &mut stimulus, places: &own_places, order };
-        i.changes(None, 0, &mut fill);
-        stimulus.push();
-        let mut samples = places.iter();
-        block.cycle(cycle, &i, &mut top, &mut |top| {
-            if let Some(places) = samples.next() {
-                let mut fill = LineSink { table: &mut expected, places, order };
-                hierarchy::changes(top, None, &mut fill);
-            }
-        });
-        expected.push();
+impl<'a> Recorder<'a> {
+    /// The block before the first edge. A line of the stimulus has `inputs`: its input ports, or what
+    /// the bench makes them from.
+    pub fn new(spec: &'static Spec, setting: &'a Setting, inputs: Vec<Signal>) -> Self {
+        let entries = hierarchy::every_entry_of(setting.neurons());
+        Recorder {
+            top: TofTop::new(Pins::default()),
+            draw: Draw::new(setting.seed, spec.stream()),
+            lines: Lines::new(spec, setting, inputs, &entries, |_| true),
+        }
     }
-    Ok(Vectors {
-        spec,
-        seed: setting.seed,
-        source: setting.setup.name.clone(),
-        neurons,
-        parameters: block.parameters(),
-        stimulus,
-        expected,
-        first_edge_ps: spec.timing.period_ps(),
-        stops: block.stops().to_vec(),
-        bench_memory: block.bench_memory(),
-        coverage: block.coverage(),
-    })
+
+    /// The input of the edge that ends the cycle, and the cycle's first sample.
+    pub fn line(&mut self, i: &impl Signals) {
+        self.lines.input(i);
+        self.sample();
+    }
+
+    /// The next sample that the bench takes of the cycle.
+    pub fn sample(&mut self) {
+        let top = &self.top;
+        self.lines.sample(|sink| hierarchy::changes(top, None, sink));
+    }
+
+    /// What has been recorded, with what the stimulus has reached.
+    pub fn vectors(self, coverage: impl Into<Vec<Cover>>) -> Vectors {
+        Vectors { coverage: coverage.into(), ..self.lines.vectors() }
+    }
 }

@@ -30,6 +30,11 @@ impl Setting {
     /// Lines of each block unless told otherwise [clock cycles].
     const CYCLES: usize = 20_000;
 
+    /// Tap at each place in the order of arrival.
+    pub fn order(&self) -> &[u16] {
+        self.setup.params.tdc.delays.order()
+    }
+
     /// Hidden neurons.
     pub fn neurons(&self) -> usize {
         self.setup.params.depth_estimator.neurons()
@@ -44,9 +49,8 @@ impl Setting {
 
     /// How many taps may be high, in the order of arrival, but tap 0 always.
     pub fn places(&self) -> usize {
-        let delays = &self.setup.params.tdc.delays;
-        let allowed = delays.order().iter().take_while(|&&tap| (tap as usize) < self.taps).count();
-        allowed.max(delays.tap_0_position() + 1)
+        let allowed = self.order().iter().take_while(|&&tap| (tap as usize) < self.taps).count();
+        allowed.max(self.setup.params.tdc.delays.tap_0_position() + 1)
     }
 
     /// Lines of a block [clock cycles].

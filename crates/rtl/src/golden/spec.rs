@@ -35,6 +35,12 @@ pub struct Glue {
 /// Makes a block's vectors.
 pub type Record = fn(&'static Spec, &Setting) -> Result<Vectors>;
 
+/// Blocks whose random streams have numbers, in the order of these; all others have streams that belong to
+/// their names. This list stays as it is.
+const NUMBERED: &str = "carry_chain coarse_counter code_preload control_sync ddr_output depth_estimator \
+    estimator_ctrl forward1 forward2 frame_ctrl histogram_builder histogram_preload lvds_output pll \
+    reset_sync spad_control tansig tdc tdc_decoder tdc_latch tof_top vcsel_driver centroid_estimator";
+
 /// What a block is, beside its ports.
 #[derive(Debug)]
 pub struct Spec {
@@ -42,9 +48,6 @@ pub struct Spec {
     pub name: &'static str,
     /// One place of it in the hierarchy, below the top.
     pub scope: &'static str,
-    /// Number of the random stream that its stimulus has always had; a block without one has a stream
-    /// that belongs to its name.
-    pub stream: Option<u64>,
     /// When its clocks move and when it is looked at.
     pub timing: Timing,
     /// Its synchronous reset, active high.
@@ -61,12 +64,11 @@ pub struct Spec {
 
 impl Spec {
     /// A block of that name and place which `record` steps: what it is unless its file says otherwise.
-    /// Plain registers of `clk_125`, no reset, a random stream that belongs to its name.
+    /// Plain registers of `clk_125`, no reset.
     pub const fn new(name: &'static str, scope: &'static str, record: Record) -> Self {
         Spec {
             name,
             scope,
-            stream: None,
             timing: CLK_125,
             reset: None,
             fast: &[],
@@ -78,10 +80,11 @@ impl Spec {
 
     /// Number of the random stream of its stimulus: whatever other blocks there are, it stays.
     pub fn stream(&self) -> u64 {
-        // FNV-1a of the name, above all numbers that are given by hand.
+        // FNV-1a of the name, above all numbers.
         let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         let of_name = || self.name.bytes().fold(0xcbf2_9ce4_8422_2325, step) | 1 << 63;
-        self.stream.unwrap_or_else(of_name)
+        let number = NUMBERED.split_whitespace().position(|name| name == self.name);
+        number.map_or_else(of_name, |number| number as u64)
     }
 
     /// Dotted path of the block in the hierarchy.
@@ -121,6 +124,11 @@ pub struct Vectors {
 }
 
 impl Vectors {
+    /// Module of their bench, and the stem of its file.
+    pub fn bench_module(&self) -> String {
+        format!("tb_{}", self.spec.name)
+    }
+
     /// Memories that the Verilog or the bench loads.
     pub fn memories(&self) -> impl Iterator<Item = &Mem> {
         memories(&self.parameters).chain(&self.bench_memory)

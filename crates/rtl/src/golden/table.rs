@@ -23,6 +23,13 @@ pub struct Column {
     pub internal: bool,
 }
 
+impl Column {
+    /// A port that is seen in the first sample of a cycle; [`Table::new`] gives it its place.
+    pub fn new(name: impl Into<String>, width: u32) -> Self {
+        Column { name: name.into(), width: width as usize, low: 0, sample: 0, internal: false }
+    }
+}
+
 /// Lines of equal columns; the first column is in the top bits.
 #[derive(Clone, Debug)]
 pub struct Table {
@@ -145,13 +152,10 @@ impl Sink for LineSink<'_> {
 mod tests {
     use super::*;
 
-    fn column(name: &str, width: usize) -> Column {
-        Column { name: name.to_owned(), width, low: 0, sample: 0, internal: false }
-    }
-
     #[test]
     fn the_first_column_is_on_top_and_a_line_begins_with_the_last_one_s_values() {
-        let mut table = Table::new(vec![column("a", 1), column("b", 8), column("c", 36)]);
+        let mut table =
+            Table::new([("a", 1), ("b", 8), ("c", 36)].map(|(a, b)| Column::new(a, b)).into());
         table.set(0, 1);
         table.set(1, 0xa5);
         table.set(2, 0xf_0000_0001);
@@ -166,7 +170,7 @@ mod tests {
 
     #[test]
     fn taps_stand_in_their_own_order() {
-        let mut table = Table::new(vec![column("taps", TAPS)]);
+        let mut table = Table::new(vec![Column::new("taps", TAPS as u32)]);
         let mut order: Vec<u16> = (0..TAPS as u16).collect();
         order.swap(1, 2);
         table.set_taps(0, &Thermometer::<TAPS>::new(true, [2]), &order);

@@ -56,67 +56,56 @@ const fn step(length_ps: u64, sample: bool, edges: &'static [(&'static str, bool
     Step { length_ps, sample, edges, late: None }
 }
 
+/// A cycle of a clock that the bench makes.
+const fn cycle(clock: &'static str, steps: &'static [Step]) -> Timing {
+    Timing { clock, steps, oscillator: false }
+}
+
 /// One clock of 125 MHz.
-pub const CLK_125: Timing = Timing {
-    clock: "clk_125",
-    steps: &[step(4000, false, &[("clk_125", false)]), step(4000, true, &[("clk_125", true)])],
-    oscillator: false,
-};
+pub const CLK_125: Timing = cycle(
+    "clk_125",
+    &[step(4000, false, &[("clk_125", false)]), step(4000, true, &[("clk_125", true)])],
+);
 
 /// One clock of 125 MHz in a module that serves any domain.
-pub const CLK: Timing = Timing {
-    clock: "clk",
-    steps: &[step(4000, false, &[("clk", false)]), step(4000, true, &[("clk", true)])],
-    oscillator: false,
-};
+pub const CLK: Timing =
+    cycle("clk", &[step(4000, false, &[("clk", false)]), step(4000, true, &[("clk", true)])]);
 
 /// One clock of 250 MHz, looked at in both halves.
-pub const CLK_250: Timing = Timing {
-    clock: "clk_250",
-    steps: &[step(2000, true, &[("clk_250", false)]), step(2000, true, &[("clk_250", true)])],
-    oscillator: false,
-};
+pub const CLK_250: Timing = cycle(
+    "clk_250",
+    &[step(2000, true, &[("clk_250", false)]), step(2000, true, &[("clk_250", true)])],
+);
 
 /// Both clocks, looked at in each half of `clk_250`.
-pub const BOTH: Timing = Timing {
-    clock: "clk_125",
-    steps: &[
+pub const BOTH: Timing = cycle(
+    "clk_125",
+    &[
         step(2000, true, &[("clk_250", false)]),
         step(2000, true, &[("clk_125", false), ("clk_250", true)]),
         step(2000, true, &[("clk_250", false)]),
         step(2000, true, &[("clk_125", true), ("clk_250", true)]),
     ],
-    oscillator: false,
-};
+);
 
 /// The same cycle, with the clocks made by the block's own PLL.
-pub const OWN: Timing = Timing {
-    clock: "clk_125",
-    steps: &[
-        step(2000, true, &[]),
-        step(2000, true, &[]),
-        step(2000, true, &[]),
-        step(2000, true, &[]),
-    ],
-    oscillator: true,
-};
+pub const OWN: Timing =
+    Timing { oscillator: true, ..cycle("clk_125", &[step(2000, true, &[]); 4]) };
 
 /// The same with a reset that the edge in the middle of the cycle sees too: it may change after it.
 pub const OWN_WITH_RESET: Timing = Timing {
-    clock: "clk_125",
     steps: &[
         step(2000, true, &[]),
         step(2000, true, &[]),
-        Step { length_ps: 1, sample: false, edges: &[], late: Some(("rst", "rst_late")) },
+        Step { late: Some(("rst", "rst_late")), ..step(1, false, &[]) },
         step(1999, true, &[]),
         step(2000, true, &[]),
     ],
-    oscillator: true,
+    ..OWN
 };
 
 /// No clock: a look every 8 ns.
-pub const NONE: Timing =
-    Timing { clock: "none", steps: &[step(8000, true, &[])], oscillator: false };
+pub const NONE: Timing = cycle("none", &[step(8000, true, &[])]);
 
 #[cfg(test)]
 mod tests {

@@ -1,20 +1,20 @@
 //! The whole firmware as a scenario runs it, sampled where the bench looks.
 
 use tofsim::error::{Input, Result};
-use tofsim::firmware::tof_top::{Params, Pins, TofTop};
+use tofsim::firmware::tof_top::{Pins, TofTop};
 use tofsim::hierarchy::{self, Entry, IDS, Part};
 use tofsim::kernel::signals::Signals;
 use tofsim::kernel::{Time, U};
 use tofsim::signals;
+use tofsim::sim::Device;
 use tofsim::sim::device::{Off, SignalProbe};
 use tofsim::sim::frames::Frames;
 use tofsim::sim::setup::Setup;
 
-use super::columns::{Compared, inputs};
+use super::lines::Lines;
 use super::parameters;
 use super::setting::Setting;
 use super::spec::{Spec, Vectors};
-use super::table::{LineSink, Table};
 
 signals! {
     /// The pins of a line: all but `tdc_stop`, which changes at any time.
@@ -42,61 +42,55 @@ pub(super) type EveryCycle<'a> = &'a mut dyn FnMut(&TofTop);
 /// The vectors of a run: its frames, or so many cycles. `every_cycle` sees each of them.
 pub(super) fn record(
     spec: &'static Spec,
-    setup: &Setup,
     setting: &Setting,
     every_cycle: EveryCycle,
 ) -> Result<Vectors> {
+    let setup = &setting.setup;
     check(setup)?;
-    let params = &setup.params;
-    let entries = hierarchy::entries(params);
+    let entries = hierarchy::entries(&setup.params);
     // Runs that may be long compare what a logic analyser on the board would see.
     let is_own = |entry: &Entry| entry.scope == hierarchy::TOP;
     let wanted = |entry: &Entry| !setting.as_told || is_own(entry) || entry.signal.view.probe;
+    let samples = spec.timing.samples();
+    let spacing = Time::from_fs(1000 * spec.timing.period_ps() / samples as u64);
+    let mut sampler = Sampler {
+        lines: Lines::new(spec, setting, Stimulus::list(), &entries, wanted),
+        current: TofTop::new(Pins::default()),
+        sampled: vec![Part::of(0..IDS); samples],
+        next: setup.pll().locked_at + spacing,
+        spacing,
+        early_rst: false,
+        stops: Vec::new(),
+        every_cycle,
+    };
     let mut device = setup.device();
-    let (begin, first_edge) = (setup.pll().locked_at, device.next_edge());
-    let sampler =
-        Sampler::new(spec, begin, params, Compared::new(spec, &entries, wanted), every_cycle);
-    let sampler = run(setup, setting, &mut device, sampler)?;
-    Ok(Vectors {
-        spec,
-        seed: setting.seed,
-        source: setup.name.clone(),
-        neurons: params.depth_estimator.neurons(),
-        parameters: parameters::tof_top(setup),
-        bench_memory: None,
-        stimulus: sampler.stimulus,
-        expected: sampler.expected,
-        first_edge_ps: first_edge.ps(),
-        stops: sampler.stops,
-        coverage: Vec::new(),
-    })
+    let first_edge_ps = device.next_edge().ps();
+    run(setting, &mut device, &mut sampler)?;
+    let Sampler { lines, stops, .. } = sampler;
+    Ok(Vectors { parameters: parameters::tof_top(setup), first_edge_ps, stops, ..lines.vectors() })
 }
 
-fn run<'a>(
-    setup: &'a Setup,
-    setting: &Setting,
-    device: &mut tofsim::sim::Device,
-    mut sampler: Sampler<'a>,
-) -> Result<Sampler<'a>> {
-    let (params, mut frames) = (&setup.params, Frames::default());
+fn run(setting: &Setting, device: &mut Device, sampler: &mut Sampler) -> Result<()> {
+    let (setup, mut frames) = (&setting.setup, Frames::default());
     let whole_frames = setting.as_told && setting.cycles.is_none();
     let limit = match whole_frames {
         true => setup.longest_run(setting.frames),
         false => setting.cycles() as u64,
     };
-    device.power_up(&mut sampler, &mut Off);
+    device.power_up(sampler, &mut Off);
     while device.cycle() < limit {
-        device.step(params, &mut sampler, &mut Off);
-        frames.edge(device.cycle() - 1, &device.top, params);
+        device.step(&setup.params, sampler, &mut Off);
+        frames.edge(device.cycle() - 1, &device.top, &setup.params);
         if whole_frames && frames.done() == setting.frames && device.top.frame_ctrl.frame_done {
-            device.step(params, &mut sampler, &mut Off);
-            return Ok(sampler);
+            device.step(&setup.params, sampler, &mut Off);
+            return Ok(());
         }
     }
-    match whole_frames {
-        true => Err(Input::new(format!("scenario {}", setup.name), "the frame never ends").into()),
-        false => Ok(sampler),
+    if whole_frames {
+        let source = format!("scenario {}", setup.name);
+        return Err(Input::new(source, "the frame never ends").into());
     }
+    Ok(())
 }
 
 /// What the Verilog's PLL and the bench's clocks cannot do.
@@ -123,17 +117,13 @@ fn check(setup: &Setup) -> Result<()> {
 
 /// Keeps what the bench would see.
 struct Sampler<'a> {
-    stimulus: Table,
-    expected: Table,
-    places: Vec<Vec<Vec<usize>>>,
-    order: &'a [u16],
+    lines: Lines<'a>,
     /// The firmware since the last instant at which something changed.
     current: TofTop,
     /// What the samples of each kind have shown.
     sampled: Vec<Part>,
-    /// Next sample: its instant, and which of the cycle it is.
+    /// Instant of the next sample.
     next: Time,
-    sample: usize,
     spacing: Time,
     /// The reset at the edge in the middle of the cycle.
     early_rst: bool,
@@ -141,59 +131,22 @@ struct Sampler<'a> {
     every_cycle: EveryCycle<'a>,
 }
 
-impl<'a> Sampler<'a> {
-    fn new(
-        spec: &'static Spec,
-        begin: Time,
-        params: &'a Params,
-        compared: Compared,
-        every_cycle: EveryCycle<'a>,
-    ) -> Self {
-        let samples = spec.timing.samples();
-        let spacing = Time::from_fs(1000 * spec.timing.period_ps() / samples as u64);
-        Sampler {
-            stimulus: Table::new(inputs(&Stimulus::list())),
-            expected: Table::new(compared.columns),
-            places: compared.places,
-            order: params.tdc.delays.order(),
-            current: TofTop::new(Pins::default()),
-            sampled: vec![Part::of(0..IDS); samples],
-            next: begin + spacing,
-            sample: 0,
-            spacing,
-            early_rst: false,
-            stops: Vec::new(),
-            every_cycle,
-        }
-    }
-
+impl Sampler<'_> {
     /// Takes the sample that falls due.
     fn take(&mut self, pins: &Pins) {
-        let places = &self.places[self.sample];
-        let mut fill = LineSink { table: &mut self.expected, places, order: self.order };
-        self.sampled[self.sample].follow(&self.current, &mut fill);
-        self.sample += 1;
-        self.next += self.spacing;
-        if 2 * self.sample == self.places.len() {
+        let (sample, samples) = (self.lines.sample, self.sampled.len());
+        if 2 * (sample + 1) == samples {
             self.early_rst = pins.rst;
         }
-        if self.sample == self.places.len() {
-            self.sample = 0;
-            self.line(pins);
+        if sample + 1 == samples {
+            (self.every_cycle)(&self.current);
+            let rst = self.early_rst;
+            let Pins { rst: rst_late, mode, laser_freq, laser_en, dsp_en, dsp_rst, .. } = *pins;
+            let line = Stimulus { rst, rst_late, mode, laser_freq, laser_en, dsp_en, dsp_rst };
+            self.lines.input(&line);
         }
-    }
-
-    /// Ends the line of a cycle.
-    fn line(&mut self, pins: &Pins) {
-        (self.every_cycle)(&self.current);
-        let rst = self.early_rst;
-        let Pins { rst: rst_late, mode, laser_freq, laser_en, dsp_en, dsp_rst, .. } = *pins;
-        let line = Stimulus { rst, rst_late, mode, laser_freq, laser_en, dsp_en, dsp_rst };
-        let places: Vec<_> = (0..Stimulus::COUNT).map(|column| vec![column]).collect();
-        let mut fill = LineSink { table: &mut self.stimulus, places: &places, order: &[] };
-        line.changes(None, 0, &mut fill);
-        self.stimulus.push();
-        self.expected.push();
+        self.lines.sample(|sink| self.sampled[sample].follow(&self.current, sink));
+        self.next += self.spacing;
     }
 }
 

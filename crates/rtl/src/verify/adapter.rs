@@ -1,10 +1,9 @@
 //! The Verilog between our bench and a user's module, from what the map says.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use tofsim::error::Result;
-use tofsim::files::output::write_file;
+use tofsim::files::output::write_bytes;
 
 use crate::golden::bench::Bench;
 use crate::golden::bench::allowances::Allowances;
@@ -59,12 +58,9 @@ impl BlockMap {
             }
         }
         let whole = COUNT * self.design.bins as u32;
-        let extra = [(&self.counts, true), (&self.vector, false)];
-        for (name, output) in extra {
-            if let Some(name) = name {
-                let name = name.clone();
-                wanted.push(Port { name, width: whole, output, meaning: "all counts" });
-            }
+        for (name, output) in [(&self.counts, true), (&self.vector, false)] {
+            let meaning = "all counts";
+            wanted.extend(name.clone().map(|name| Port { name, width: whole, output, meaning }));
         }
         wanted
     }
@@ -79,14 +75,14 @@ impl BlockMap {
         spec: &Spec,
         found: &Ports,
         folder: &Path,
-    ) -> Result<Vec<PathBuf>> {
+    ) -> Result<PathBuf> {
         bench.allowed = Allowances {
             delays: self.latency.clone(),
             ignored: self.ignore.iter().cloned().collect(),
             valid: self.valid.clone(),
             ..Allowances::default()
         };
-        for port in spec.ports(bench.vectors().neurons) {
+        for port in spec.ports(bench.vectors.neurons) {
             let width = self.width(spec, &port);
             if width < port.width {
                 bench.allowed.bits.insert(port.name, width as usize);
@@ -95,13 +91,13 @@ impl BlockMap {
         bench.module = format!("{}_adapter", spec.name);
         let path = folder.join(format!("{}.v", bench.module));
         let text = self.text(bench, spec, found);
-        write_file(&path, |file| file.write_all(text.as_bytes()))?;
-        Ok(vec![path])
+        write_bytes(&path, text)?;
+        Ok(path)
     }
 
     /// The adapter.
     fn text(&self, bench: &Bench, spec: &Spec, found: &Ports) -> String {
-        let ports = spec.ports(bench.vectors().neurons);
+        let ports = spec.ports(bench.vectors.neurons);
         let declare = |port: &Port| {
             let direction = if port.output { "output" } else { "input" };
             format!("    {direction} wire {}{}", range(port.width), port.name)
@@ -122,12 +118,16 @@ impl BlockMap {
                 connected.push(format!("        .{theirs}({signal})"));
             }
         }
+        let whole = COUNT * self.design.bins as u32;
+        let range = range(whole);
         if let Some(counts) = &self.counts {
-            lines += &self.counts_text();
+            // All counts side by side, read as if they were a RAM with one address.
+            lines += &format!(include_str!("adapter/counts.v"), range = range);
             connected.push(format!("        .{counts}(counts)"));
         }
         if let Some(vector) = &self.vector {
-            lines += &self.vector_text();
+            // Collects the histogram word by word, then starts the estimator.
+            lines += &format!(include_str!("adapter/vector.v"), range = range, whole = whole);
             connected.push(format!("        .{vector}(vector)"));
         }
         format!(
@@ -157,34 +157,6 @@ impl BlockMap {
         let declared =
             format!("    wire {range}{theirs};\n    assign {name} = {inverted}{value};\n");
         (declared, theirs)
-    }
-
-    /// All counts side by side, read as if they were a RAM with one address.
-    fn counts_text(&self) -> String {
-        let bins = self.design.bins as u32;
-        format!(
-            "    wire {}counts;\n    \
-             wire [7:0] address = clear ? clear_addr : tdc_valid ? tdc_code : read_addr;\n    \
-             assign count = read_en ? counts[{COUNT} * address +: {COUNT}] : {COUNT}'d0;\n",
-            range(COUNT * bins),
-        )
-    }
-
-    /// Collects the histogram word by word, then starts the estimator.
-    fn vector_text(&self) -> String {
-        let whole = COUNT * self.design.bins as u32;
-        format!(
-            "    reg {range}vector = {whole}'d0;\n    reg [7:0] word = 8'd0;\n    \
-             reg collecting = 1'b0;\n    reg go = 1'b0;\n    \
-             assign read_en = collecting;\n    assign read_addr = word;\n    \
-             always @(posedge clk_125) begin\n        go <= collecting && word == 8'd255;\n        \
-             if (collecting) begin\n            vector[{COUNT} * word +: {COUNT}] <= count;\n            \
-             word <= word + 8'd1;\n            collecting <= word != 8'd255;\n        \
-             end else if (algo_start) collecting <= 1'b1;\n        if (rst) begin\n            \
-             word <= 8'd0;\n            collecting <= 1'b0;\n            go <= 1'b0;\n        \
-             end\n    end\n",
-            range = range(whole),
-        )
     }
 }
 

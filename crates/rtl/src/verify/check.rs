@@ -131,12 +131,12 @@ impl BlockCheck<'_> {
         interface::check(&self.rtl.source, module, &wanted, &found)?;
 
         let mut bench = Bench::new(&vectors);
-        let mut sources = vec![work.join(vectors.bench_name())];
+        let top = vectors.bench_module();
+        let mut sources = vec![work.join(&top).with_extension("v")];
         if let Some(map) = self.map {
-            sources.extend(map.apply(&mut bench, spec, &found, work)?);
+            sources.push(map.apply(&mut bench, spec, &found, work)?);
         }
-        vectors.write_with(work, &bench)?;
-        let top = format!("tb_{}", spec.name);
+        bench.write(work)?;
         let compiled =
             self.simulator.compile(work, &top, &sources, self.rtl, self.registers, &self.limits)?;
         let verdict = self.verdict(&compiled, None)?;
@@ -146,7 +146,10 @@ impl BlockCheck<'_> {
             verdict,
             around: Vec::new(),
             wave: None,
-            coverage: coverage(&vectors),
+            coverage: vectors
+                .coverage
+                .iter()
+                .fold((0, 0), |(met, goals), cover| (met + cover.met(), goals + cover.cases())),
         };
         if let Verdict::Differs { first, .. } = report.verdict.clone() {
             self.look_again(&mut report, &compiled, &bench, &first, work)?;
@@ -174,16 +177,10 @@ impl BlockCheck<'_> {
         let observed = Observed::read(&work.join(GOT), bench)?;
         report.around = observed.around(first);
         create_directory(self.output)?;
-        wave::write(self.output, &report.name, bench.vectors(), &observed, first)?;
+        wave::write(self.output, &report.name, bench.vectors, &observed, first)?;
         report.wave = Some(self.output.join(format!("{}.vcd", report.name)));
         Ok(())
     }
-}
-
-fn coverage(vectors: &Vectors) -> (usize, usize) {
-    let met = vectors.coverage.iter().map(|cover| cover.met()).sum();
-    let goals = vectors.coverage.iter().map(|cover| cover.cases()).sum();
-    (met, goals)
 }
 
 /// The parameter that ports depend on, by their name of it, if they have one.

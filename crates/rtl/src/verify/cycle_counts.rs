@@ -17,6 +17,8 @@ mod tests;
 
 use promises::Promise;
 
+use serde::Serialize;
+
 use tofsim::error::{Error, Result};
 
 use crate::golden::blocks::CENTROID;
@@ -24,10 +26,8 @@ use crate::golden::blocks::CENTROID;
 use super::process::Limits;
 use super::rtl::Rtl;
 
-pub use prove::Proof;
-
 /// One promise: a row of `tofsim verify --cycle-counts`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Count {
     /// What is counted, for people.
     pub what: String,
@@ -40,15 +40,17 @@ pub struct Count {
     pub model: Option<u64>,
     /// What Icarus Verilog shows, in the same way.
     pub rtl: Option<u64>,
-    /// What Yosys says of the Verilog.
-    pub proven: Proof,
+    /// Whether Yosys proves it of the Verilog.
+    pub proven: bool,
+    /// Why not, if it does not.
+    pub reason: Option<String>,
 }
 
 impl Count {
     /// Whether all three agree with the promise.
     pub fn holds(&self) -> bool {
         let expected = Some(self.expected);
-        self.model == expected && self.rtl == expected && self.proven == Proof::Proven
+        self.model == expected && self.rtl == expected && self.proven
     }
 }
 
@@ -72,13 +74,15 @@ fn count(promises: &[Promise], neurons: usize, rtl: &Rtl, limits: &Limits) -> Re
     let modelled = model::measure(neurons);
     let count = |promise: &Promise| {
         let (key, expected) = (promise.key(), promise.expected);
+        let reason = prove::prove(promise, rtl, folder.path(), limits)?;
         Ok(Count {
             what: promise.what.clone(),
             expected,
-            unit: promise.unit,
+            unit: promise.properties.unit,
             model: modelled.count(&key, expected),
             rtl: simulated.count(&key, expected),
-            proven: prove::prove(promise, rtl, folder.path(), limits)?,
+            proven: reason.is_none(),
+            reason,
         })
     };
     promises.iter().map(count).collect()

@@ -61,6 +61,13 @@ pub(super) fn of_verilator(text: &str, module: &str) -> Result<Ports> {
     Ok(found.children().filter_map(port).collect())
 }
 
+/// The name that was probably meant, as words after what is wrong, and all known names.
+pub(super) fn hint<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> (String, String) {
+    let known: Vec<_> = known.collect();
+    let meant = nearest(name, known.iter().copied());
+    (meant.map_or(String::new(), |name| format!(" (`{name}`?)")), known.join(", "))
+}
+
 /// Whether `module` has the ports that are wanted of it.
 ///
 /// # Errors
@@ -72,21 +79,16 @@ pub fn check(source: &str, module: &str, wanted: &[Port], found: &Ports) -> Resu
             Err(Input::new(source, what).field(field).into())
         };
         let Some(real) = found.get(&port.name) else {
-            let names: Vec<_> = found.keys().map(String::as_str).collect();
-            let hint = nearest(&port.name, names.iter().copied());
-            let hint = hint.map_or(String::new(), |name| format!(" (`{name}`?)"));
-            let what = format!("no such port{hint}; it has {}", names.join(", "));
-            return fault(what);
+            let (hint, names) = hint(&port.name, found.keys().map(String::as_str));
+            return fault(format!("no such port{hint}; it has {names}"));
         };
         let direction = |output| if output { "an output" } else { "an input" };
         if real.output != port.output {
-            let what =
-                format!("is {}, expected {}", direction(real.output), direction(port.output));
-            return fault(what);
+            let [is, expected] = [real.output, port.output].map(direction);
+            return fault(format!("is {is}, expected {expected}"));
         }
         if real.width != port.width {
-            let what = format!("has {} bits, expected {}", real.width, port.width);
-            return fault(what);
+            return fault(format!("has {} bits, expected {}", real.width, port.width));
         }
     }
     Ok(())

@@ -6,7 +6,7 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use tofsim::error::{Input, Result, nearest, read_text};
+use tofsim::error::{Input, Result, read_text};
 use tofsim::files::toml::Checked;
 use tofsim::firmware::carry_chain::TAPS;
 use tofsim::firmware::forward2::MOST_NEURONS;
@@ -15,6 +15,8 @@ use tofsim::firmware::histogram_builder::BINS;
 use crate::golden::blocks::{self, BLOCKS};
 use crate::golden::setting::Setting;
 use crate::golden::spec::Spec;
+
+use super::interface::hint;
 
 /// A map file.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
@@ -113,10 +115,8 @@ impl RtlMap {
 }
 
 fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> String {
-    let known: Vec<_> = known.collect();
-    let hint = nearest(name, known.iter().copied());
-    let hint = hint.map_or(String::new(), |name| format!(" (`{name}`?)"));
-    format!("unknown {what}{hint}; expected one of {}", known.join(", "))
+    let (hint, known) = hint(name, known);
+    format!("unknown {what}{hint}; expected one of {known}")
 }
 
 impl BlockMap {

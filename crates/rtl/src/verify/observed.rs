@@ -12,7 +12,8 @@ use super::verdict::Mismatch;
 /// The lines that a bench writes with `+got=`, and what it compared them with.
 #[derive(Clone, Debug)]
 pub struct Observed<'a> {
-    lines: Vec<String>,
+    /// In hexadecimal.
+    pub lines: Vec<String>,
     bench: &'a Bench<'a>,
 }
 
@@ -34,16 +35,6 @@ impl<'a> Observed<'a> {
         Ok(Observed { lines: text.lines().map(str::to_owned).collect(), bench })
     }
 
-    /// Lines.
-    pub fn len(&self) -> usize {
-        self.lines.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.lines.is_empty()
-    }
-
     /// A value as binary digits, the highest first, with x and z.
     pub fn bits(&self, row: usize, column: &Column) -> String {
         let digits = self.lines.get(row).map_or("", String::as_str).trim();
@@ -63,7 +54,7 @@ impl<'a> Observed<'a> {
     /// What a value should have been, as binary digits, or x where nothing is expected: before an
     /// output that comes later has come, and of one that is not compared.
     pub fn wanted(&self, cycle: usize, column: &Column) -> String {
-        let expected = &self.bench.vectors().expected;
+        let expected = &self.bench.vectors.expected;
         let delay = self.bench.allowed.delay(&column.name);
         let row = usize::try_from(cycle as i64 - delay).ok().filter(|row| *row < expected.rows());
         match row.filter(|_| !self.bench.allowed.ignored.contains(&column.name)) {
@@ -81,9 +72,9 @@ impl<'a> Observed<'a> {
     /// The five cycles around the first mismatch, a row for each line of a table: inputs, and both
     /// sides of what differs there, below the numbers of the cycles.
     pub fn around(&self, first: &Mismatch) -> Vec<Vec<String>> {
-        let vectors = self.bench.vectors();
+        let vectors = self.bench.vectors;
         let begin = first.cycle.saturating_sub(AROUND);
-        let cycles = begin..(first.cycle + AROUND + 1).min(self.len());
+        let cycles = begin..(first.cycle + AROUND + 1).min(self.lines.len());
         let row = |name: &str, side: &str, values: &dyn Fn(usize) -> String| {
             let head = [name.to_owned(), side.to_owned()];
             head.into_iter().chain(cycles.clone().map(values)).collect()

@@ -1,11 +1,10 @@
 //! The Verilog under test: a folder of the user's, or our own, which is in the program.
 
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use tofsim::error::{Error, Input, Result};
-use tofsim::files::output::write_file;
+use tofsim::files::output::write_bytes;
 
 use crate::golden::blocks::VERILOG;
 
@@ -72,7 +71,7 @@ impl Rtl {
         let mut files = Vec::new();
         for (name, text) in VERILOG {
             let path = folder.join(name);
-            write_file(&path, |file| file.write_all(text.as_bytes()))?;
+            write_bytes(&path, text)?;
             files.push(path);
         }
         Ok(Rtl { files, source: "rtl_ref".to_owned() })

@@ -50,23 +50,19 @@ impl Simulator {
         registers: bool,
         limits: &Limits,
     ) -> Result<Compiled> {
-        let (tool, program, mut args) = match self {
+        let (program, mut args) = match self {
             Simulator::Icarus => {
                 let program = folder.join("bench.vvp");
-                (IVERILOG, program.clone(), icarus(rtl, top, &program))
+                (program.clone(), icarus(rtl, top, &program))
             }
             Simulator::Verilator => {
-                let program = folder.join("obj_dir").join("bench");
-                let more = ["-Mdir", "obj_dir", "-o", "bench"];
-                (VERILATOR, program, verilator("--binary", top, more))
+                let more = ["-Mdir", "obj_dir", "-o", "bench"].map(OsString::from);
+                (folder.join("obj_dir/bench"), verilator("--binary", top, more))
             }
         };
         args.extend(registers.then(|| "-DREGISTERS".into()));
-        args.extend(bench.iter().chain(&rtl.files).map(OsString::from));
-        let finished = tool.run(folder, args, limits)?;
-        if !finished.success {
-            return Err(refused(rtl, &finished).into());
-        }
+        args.extend(bench.iter().map(OsString::from));
+        self.make(folder, top, args, rtl, limits)?;
         Ok(Compiled { simulator: self, folder: folder.to_owned(), program })
     }
 
@@ -82,35 +78,48 @@ impl Simulator {
         rtl: &Rtl,
         limits: &Limits,
     ) -> Result<Ports> {
-        let (tool, output, mut args, set) = match self {
+        let (output, mut args, set) = match self {
             Simulator::Icarus => {
                 let output = folder.join("ports.vvp");
-                (IVERILOG, output.clone(), icarus(rtl, module, &output), format!("-P{module}."))
+                (output.clone(), icarus(rtl, module, &output), format!("-P{module}."))
             }
             Simulator::Verilator => {
                 let output = folder.join("ports.xml");
-                let more = [OsString::from("--xml-output"), output.clone().into()];
-                (VERILATOR, output, verilator("--xml-only", module, more), "-G".to_owned())
+                let more = ["--xml-output".into(), output.clone().into()];
+                (output, verilator("--xml-only", module, more), "-G".to_owned())
             }
         };
         args.extend(parameters.iter().map(|(name, value)| format!("{set}{name}={value}").into()));
-        args.extend(rtl.files.iter().map(OsString::from));
-        let finished = tool.run(folder, args, limits)?;
-        let says = ["Unable to find the root module", "was not found in design"];
-        let missing = says.iter().any(|text| finished.output.contains(text));
-        if missing {
-            let fault = Input::new(&rtl.source, "no such module in it").field("module");
-            return Err(fault.value(module).into());
-        }
-        if !finished.success {
-            return Err(refused(rtl, &finished).into());
-        }
+        self.make(folder, module, args, rtl, limits)?;
         let bytes = std::fs::read(&output).map_err(Error::io(&output, "read"))?;
         let text = String::from_utf8_lossy(&bytes);
         match self {
             Simulator::Icarus => Ok(of_icarus(&text)),
             Simulator::Verilator => of_verilator(&text, module),
         }
+    }
+
+    /// Compiles the design's files with those arguments, of which `top` is one.
+    fn make(
+        self,
+        folder: &Path,
+        top: &str,
+        args: Vec<OsString>,
+        rtl: &Rtl,
+        limits: &Limits,
+    ) -> Result<()> {
+        let tool = match self {
+            Simulator::Icarus => IVERILOG,
+            Simulator::Verilator => VERILATOR,
+        };
+        let args = args.into_iter().chain(rtl.files.iter().map(OsString::from));
+        let finished = tool.run(folder, args, limits)?;
+        let says = ["Unable to find the root module", "was not found in design"];
+        if says.iter().any(|text| finished.output.contains(text)) {
+            let fault = Input::new(&rtl.source, "no such module in it").field("module");
+            return Err(fault.value(top).into());
+        }
+        if finished.success { Ok(()) } else { Err(refused(rtl, &finished).into()) }
     }
 }
 
@@ -142,13 +151,9 @@ fn icarus(rtl: &Rtl, top: &str, output: &Path) -> Vec<OsString> {
 }
 
 /// Verilator's arguments to do something with `top`, but for the sources.
-fn verilator<A: Into<OsString>>(
-    action: &str,
-    top: &str,
-    more: impl IntoIterator<Item = A>,
-) -> Vec<OsString> {
+fn verilator<const N: usize>(action: &str, top: &str, more: [OsString; N]) -> Vec<OsString> {
     let args = [action, "--timing", "-Wno-fatal", "-Wno-lint", "-Wno-style", "--top-module", top];
-    args.map(OsString::from).into_iter().chain(more.into_iter().map(Into::into)).collect()
+    args.map(OsString::from).into_iter().chain(more).collect()
 }
 
 /// The language: Verilog-2005 unless there is SystemVerilog.

@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use tofsim::error::Result;
-use tofsim::files::output::write_file;
+use tofsim::files::output::{write_bytes, write_file};
 use tofsim::waves::side_by_side::{
     HEXADECIMAL, Layout, SIDES, Scope, Shown, SideBySide, Value, View, range,
 };
@@ -34,19 +34,15 @@ pub fn write(
     observed: &Observed,
     first: &Mismatch,
 ) -> Result<()> {
-    let cycles = match observed.len() > WHOLE {
-        true => first.cycle.saturating_sub(PART)..(first.cycle + PART).min(observed.len()),
-        false => 0..observed.len(),
+    let count = observed.lines.len();
+    let cycles = match count > WHOLE {
+        true => first.cycle.saturating_sub(PART)..(first.cycle + PART).min(count),
+        false => 0..count,
     };
     let wave = format!("{stem}.vcd");
     write_file(&folder.join(&wave), |file| body(file, vectors, observed, cycles))?;
     let save = save_file(&wave, vectors, observed, first);
-    write_file(&folder.join(format!("{stem}.gtkw")), |file| file.write_all(save.as_bytes()))
-}
-
-/// The scope that has everything.
-fn top(vectors: &Vectors) -> String {
-    format!("tb_{}", vectors.spec.name)
+    write_bytes(&folder.join(format!("{stem}.gtkw")), save)
 }
 
 /// Columns of one signal, one for each sample of a cycle that it has.
@@ -63,7 +59,7 @@ fn body(
     let (timing, stimulus) = (&vectors.spec.timing, &vectors.stimulus);
     let [expected, inputs] = [&vectors.expected, stimulus].map(|table| signals(table.columns()));
     let sides = [(SIDES[0], &expected), (SIDES[1], &expected), (INPUT, &inputs)];
-    let top = top(vectors);
+    let top = vectors.bench_module();
     let layout = Layout { version: None, top: &top, first: Some(timing.clock), last: None };
     let signal = |columns: &&[Column]| (columns[0].name.clone(), columns[0].width as u32);
     let scopes: [Scope; 3] = sides.map(|(name, side)| (name, side.iter().map(signal).collect()));
@@ -137,7 +133,7 @@ fn save_file(wave: &str, vectors: &Vectors, observed: &Observed, first: &Mismatc
     }
     shown.extend(signals(vectors.stimulus.columns()).iter().map(|signal| show(INPUT, &signal[0])));
     let view = View {
-        top: [&top(vectors), timing.clock],
+        top: [&vectors.bench_module(), timing.clock],
         colour: None,
         from: first.time_ps.saturating_sub(8 * timing.period_ps()),
         zoom: "-14.0".to_owned(),

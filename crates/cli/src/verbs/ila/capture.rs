@@ -1,26 +1,22 @@
 //! `tofsim ila capture`: a simulation through a logic analyser, into Vivado's files.
 
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use comfy_table::CellAlignment;
-use serde::Serialize;
+use serde_json::{Value, json};
 
 use tofsim::error::{Error, Input, Result};
-use tofsim::files::output::write_file;
+use tofsim::files::output::write_bytes;
 use tofsim::kernel::Time;
-use tofsim::scenario;
+use tofsim::sim::Run;
 use tofsim::sim::setup::Setup;
-use tofsim::sim::{Outcome, Run};
 use tofsim_captures::compare::SignalMap;
 use tofsim_captures::ila::export::{CaptureFormat, export};
 use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, Overrides, capture};
 
-use crate::choice;
-use crate::text::table::plain;
-use crate::verbs::interrupt::stop_signal;
-use crate::verbs::stdout::print;
-use crate::verbs::talk::Talk;
+use crate::choice::{self, words};
+use crate::text::table::facts;
+use crate::verbs::draws::load;
+use crate::verbs::terminal::{Talk, print, print_json, stop_signal};
 
 /// Sample a simulation as a logic analyser on the board would, and write Vivado's files
 ///
@@ -53,7 +49,7 @@ pub struct Args {
     #[command(flatten)]
     instead: Instead,
     /// Format to write; may be repeated [default: all]
-    #[arg(long, value_parser = choice::capture_format())]
+    #[arg(long, value_parser = words(choice::CAPTURE_FORMAT))]
     format: Vec<CaptureFormat>,
     /// Leave out the CSV's row of radices, as Vivado before 2019.1
     #[arg(long)]
@@ -104,38 +100,6 @@ impl Instead {
     }
 }
 
-/// The capture, as `--json` prints it.
-#[derive(Serialize)]
-struct Report {
-    schema: &'static str,
-    name: String,
-    scenario: String,
-    seed: u64,
-    clock: String,
-    probes: Vec<ProbeReport>,
-    samples: usize,
-    /// Samples of a full window.
-    window_depth: usize,
-    /// Windows that have triggered.
-    windows: usize,
-    windows_wanted: usize,
-    position: usize,
-    /// When each window triggered, from power-up.
-    trigger_times_us: Vec<f64>,
-    /// Whether every window has all its samples.
-    full: bool,
-    /// When the simulation ended.
-    end_us: f64,
-    files: Vec<String>,
-}
-
-#[derive(Serialize)]
-struct ProbeReport {
-    name: String,
-    signal: String,
-    width: u32,
-}
-
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let set_up = AnalyserSetup::load(&args.probes, args.instead.overrides())?;
@@ -158,31 +122,33 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     }
     let formats = if args.format.is_empty() { &CaptureFormat::ALL[..] } else { &args.format };
     let mut files = export(&capture, &args.output, &set_up.name, formats, !args.legacy_csv)?;
-    files.push(write_map(args, &set_up)?);
+    // The map by which `tofsim compare` lays the capture over a waveform.
+    let map = args.output.join(format!("{}.map.toml", set_up.name));
+    write_bytes(&map, SignalMap::of(&set_up).to_toml())?;
+    files.push(map);
     for file in &files {
         talk.detail(format_args!("wrote {}", file.display()));
     }
-    let report = report(&set_up, &setup, &plan, &capture, (&triggers, full), &outcome, &files);
-    print(&if args.json { json(&report)? } else { text(&set_up, &report) })
+    let files = files.iter().map(|file| file.display().to_string()).collect();
+    let report = Report {
+        set_up: &set_up,
+        scenario: (&setup.name, setup.scenario.seed),
+        plan: &plan,
+        capture: &capture,
+        trigger_times_us: triggers.into_iter().map(microseconds).collect(),
+        files,
+    };
+    match args.json {
+        true => print_json(&report.json(full, outcome.end)),
+        false => print(&report.text()),
+    }
 }
 
 fn simulated(args: &Args, set_up: &AnalyserSetup) -> Result<Setup> {
     let name = args.scenario.as_deref().unwrap_or(&set_up.file.scenario);
     // What the set-up sets is meant for its own scenario.
     let own = if args.scenario.is_none() { &set_up.file.set[..] } else { &[] };
-    let mut loaded = scenario::load(name, &[own, &args.set].concat())?;
-    if let Some(seed) = args.seed {
-        loaded.scenario.seed = seed;
-    }
-    Setup::new(loaded)
-}
-
-/// The map by which `tofsim compare` lays the capture over a waveform.
-fn write_map(args: &Args, set_up: &AnalyserSetup) -> Result<PathBuf> {
-    let path = args.output.join(format!("{}.map.toml", set_up.name));
-    let text = SignalMap::of(set_up).to_toml();
-    write_file(&path, |file| file.write_all(text.as_bytes()))?;
-    Ok(path)
+    Setup::new(load(name, &[own, &args.set].concat(), args.seed)?)
 }
 
 /// That nothing triggered, and what would have had to.
@@ -209,80 +175,75 @@ fn missing(plan: &AnalyserPlan, capture: &Capture) -> String {
     format!("{full} of {windows} windows of {depth} samples, and a last one of {partial}")
 }
 
-fn report(
-    set_up: &AnalyserSetup,
-    setup: &Setup,
-    plan: &AnalyserPlan,
-    capture: &Capture,
-    (triggers, full): (&[Time], bool),
-    outcome: &Outcome,
-    files: &[PathBuf],
-) -> Report {
-    let probes = capture.probes.iter().zip(&set_up.file.probe);
-    let probes = probes.map(|(probe, entry)| ProbeReport {
-        name: probe.head(),
-        signal: entry.signal.clone(),
-        width: probe.width,
-    });
-    Report {
-        schema: "tofsim.ila_capture/1",
-        name: set_up.name.clone(),
-        scenario: setup.name.clone(),
-        seed: setup.scenario.seed,
-        clock: plan.sampling.to_string(),
-        probes: probes.collect(),
-        samples: capture.samples(),
-        window_depth: plan.shape.depth,
-        windows: triggers.len(),
-        windows_wanted: plan.shape.windows,
-        position: plan.shape.position,
-        trigger_times_us: triggers.iter().map(|&time| microseconds(time)).collect(),
-        full,
-        end_us: microseconds(outcome.end),
-        files: files.iter().map(|file| file.display().to_string()).collect(),
-    }
-}
-
 fn microseconds(time: Time) -> f64 {
     time.fs() as f64 / 1e9
 }
 
-fn json(report: &Report) -> Result<String> {
-    let text = serde_json::to_string(report).map_err(io::Error::from);
-    Ok(text.map_err(Error::io(Path::new("stdout"), "write"))? + "\n")
+/// What came of a capture.
+struct Report<'a> {
+    set_up: &'a AnalyserSetup,
+    /// Its name and seed.
+    scenario: (&'a str, u64),
+    plan: &'a AnalyserPlan,
+    capture: &'a Capture,
+    /// When each window triggered, from power-up.
+    trigger_times_us: Vec<f64>,
+    files: Vec<String>,
 }
 
 /// Trigger times that are shown.
 const SHOWN: usize = 8;
 
-fn text(set_up: &AnalyserSetup, report: &Report) -> String {
-    let mut table = plain();
-    let mut row = |name: &str, value: String| {
-        table.add_row([name.to_owned(), value]);
-    };
-    let bits: u32 = report.probes.iter().map(|probe| probe.width).sum();
-    row("scenario", format!("{}, seed {}", report.scenario, report.seed));
-    row("clock", report.clock.clone());
-    row("probes", format!("{}, {bits} bits", report.probes.len()));
-    row("samples", report.samples.to_string());
-    let Report { windows, windows_wanted, window_depth, position, .. } = report;
-    row(
-        "windows",
-        format!(
-            "{windows} of {windows_wanted}, {window_depth} samples, {position} before the trigger"
-        ),
-    );
-    let times = report.trigger_times_us.iter().take(SHOWN).map(|time| format!("{time} us"));
-    let mut times = times.collect::<Vec<_>>().join(", ");
-    if report.trigger_times_us.len() > SHOWN {
-        times += ", ...";
+impl Report<'_> {
+    /// As `--json` prints it; `full` if every window has all its samples.
+    fn json(&self, full: bool, end: Time) -> Value {
+        let (shape, capture) = (&self.plan.shape, self.capture);
+        let probes = capture.probes.iter().zip(&self.set_up.file.probe);
+        let probes = probes.map(|(probe, entry)| {
+            json!({ "name": probe.head(), "signal": entry.signal, "width": probe.width })
+        });
+        json!({
+            "schema": "tofsim.ila_capture/1",
+            "name": self.set_up.name,
+            "scenario": self.scenario.0,
+            "seed": self.scenario.1,
+            "clock": self.plan.sampling.to_string(),
+            "probes": probes.collect::<Vec<_>>(),
+            "samples": capture.samples(),
+            "window_depth": shape.depth,
+            "windows": self.trigger_times_us.len(),
+            "windows_wanted": shape.windows,
+            "position": shape.position,
+            "trigger_times_us": self.trigger_times_us,
+            "full": full,
+            "end_us": microseconds(end),
+            "files": self.files,
+        })
     }
-    row("triggered", times);
-    for (k, file) in report.files.iter().enumerate() {
-        row(if k == 0 { "files" } else { "" }, file.clone());
+
+    fn text(&self) -> String {
+        let (shape, capture, times) = (&self.plan.shape, self.capture, &self.trigger_times_us);
+        let bits: u32 = capture.probes.iter().map(|probe| probe.width).sum();
+        let windows = format!(
+            "{} of {}, {} samples, {} before the trigger",
+            times.len(),
+            shape.windows,
+            shape.depth,
+            shape.position
+        );
+        let shown: Vec<_> = times.iter().take(SHOWN).map(|time| format!("{time} us")).collect();
+        let more = if times.len() > SHOWN { ", ..." } else { "" };
+        let (scenario, seed) = self.scenario;
+        let rows = [
+            ("scenario", format!("{scenario}, seed {seed}")),
+            ("clock", self.plan.sampling.to_string()),
+            ("probes", format!("{}, {bits} bits", capture.probes.len())),
+            ("samples", capture.samples().to_string()),
+            ("windows", windows),
+            ("triggered", shown.join(", ") + more),
+        ];
+        let names = ["files"].into_iter().chain(std::iter::repeat(""));
+        let rows = rows.into_iter().chain(names.zip(self.files.iter().cloned()));
+        format!("{}: {}\n\n{}\n", self.set_up.name, self.set_up.file.description, facts(rows))
     }
-    if let Some(names) = table.column_mut(0) {
-        names.set_cell_alignment(CellAlignment::Left);
-    }
-    format!("{}: {}\n\n{}\n", report.name, set_up.file.description, table.trim_fmt())
 }

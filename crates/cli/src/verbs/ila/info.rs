@@ -9,9 +9,9 @@ use tofsim_captures::compare::{Survey, survey};
 use tofsim_captures::ila::Radix;
 use tofsim_captures::source::{SignalKind, Source, SourceFormat};
 
-use crate::choice;
-use crate::text::table::{grouped, plain};
-use crate::verbs::stdout::print;
+use crate::choice::{self, words};
+use crate::text::table::{facts, grouped, table};
+use crate::verbs::terminal::print;
 
 /// Say what a logic analyser's file holds
 ///
@@ -22,7 +22,7 @@ pub struct Args {
     /// The file
     file: PathBuf,
     /// Radix of the values in a CSV that does not say
-    #[arg(long, value_parser = choice::radix())]
+    #[arg(long, value_parser = words(choice::RADIX))]
     radix: Option<Radix>,
     /// Print one JSON object
     #[arg(long)]
@@ -92,48 +92,43 @@ fn as_json(source: &Source, survey: &Survey) -> serde_json::Value {
 const LISTED: usize = 12;
 
 fn as_text(source: &Source, survey: &Survey) -> String {
-    let mut text = format!("{}: {}\n\n", source.name, source.format.name());
-    let mut table = plain();
-    let mut row = |name: &str, value: String| {
-        table.add_row([name.to_owned(), value]);
+    let samples = match (survey.samples, survey.last) {
+        (Some(samples), _) => grouped(samples),
+        (None, Some(last)) => format!("at least {}", grouped(last + 1)),
+        (None, None) => "not known".to_owned(),
     };
-    row(
-        "samples",
-        match (survey.samples, survey.last) {
-            (Some(samples), _) => grouped(samples),
-            (None, Some(last)) => format!("at least {}", grouped(last + 1)),
-            (None, None) => "not known".to_owned(),
-        },
-    );
-    row("windows", survey.windows.len().to_string());
+    let count = survey.windows.len();
+    let mut rows = vec![("samples".to_owned(), samples), ("windows".to_owned(), count.to_string())];
     for (k, window) in survey.windows.iter().take(LISTED).enumerate() {
         let count = window.count.map_or("?".to_owned(), grouped);
         let trigger = match window.trigger {
             Some(trigger) => format!("trigger at {} ({} in it)", trigger, trigger - window.first),
             None => "no trigger".to_owned(),
         };
-        row(&format!("window {k}"), format!("from {}, {count} samples, {trigger}", window.first));
+        let text = format!("from {}, {count} samples, {trigger}", window.first);
+        rows.push((format!("window {k}"), text));
     }
-    if survey.windows.len() > LISTED {
-        row("", format!("... {} more", survey.windows.len() - LISTED));
+    if count > LISTED {
+        rows.push((String::new(), format!("... {} more", count - LISTED)));
     }
     if survey.gaps > 0 {
-        row("gaps", format!("{} samples", grouped(survey.gaps)));
+        rows.push(("gaps".to_owned(), format!("{} samples", grouped(survey.gaps))));
     }
-    text += &format!("{}\n\n", table.trim_fmt());
-    let mut table = plain();
-    table.set_header(["probe", "width", "radix"]);
-    for signal in &source.signals {
+    let probes = source.signals.iter().map(|signal| {
         let radix = match (signal.kind, signal.radix) {
             (SignalKind::Other, _) => "text",
             (_, Some(radix)) => radix.word(),
             (_, None) => "-",
         };
-        table.add_row([signal.name.text.clone(), signal.width.to_string(), radix.to_owned()]);
-    }
-    text += &format!("{}\n\nNot in this file:\n", table.trim_fmt());
-    for unsaid in unsaid(source, survey) {
-        text += &format!("  {unsaid}\n");
-    }
-    text
+        [signal.name.text.clone(), signal.width.to_string(), radix.to_owned()]
+    });
+    let unsaid = unsaid(source, survey).into_iter().map(|unsaid| format!("  {unsaid}\n"));
+    format!(
+        "{}: {}\n\n{}\n\n{}\n\nNot in this file:\n{}",
+        source.name,
+        source.format.name(),
+        facts(rows),
+        table(["probe", "width", "radix"], probes, ..0),
+        unsaid.collect::<String>()
+    )
 }

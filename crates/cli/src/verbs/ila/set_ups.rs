@@ -9,23 +9,20 @@ use tofsim_captures::ila::setup::AnalyserSetupFile;
 use tofsim_captures::ila::{AnalyserSetup, Overrides, builtin};
 
 use crate::text::table::plain;
-use crate::verbs::stdout::print;
+use crate::verbs::terminal::{print, print_json};
 
 /// Prints the built-in set-ups and what they show.
 pub fn list(as_json: bool) -> Result<()> {
     let mut rows = Vec::new();
     for (name, _) in builtin::SET_UPS {
-        rows.push((*name, AnalyserSetup::load(name, Overrides::default())?.file));
+        let file = AnalyserSetup::load(name, Overrides::default())?.file;
+        rows.push([name.to_string(), file.scenario, file.description]);
     }
     if as_json {
-        let object = |(name, file): &(&str, AnalyserSetupFile)| json!({ "name": name, "scenario": file.scenario, "description": file.description });
-        return print(&format!("{}\n", json!(rows.iter().map(object).collect::<Vec<_>>())));
+        let object = |[name, scenario, description]: &[String; 3]| json!({ "name": name, "scenario": scenario, "description": description });
+        return print_json(&rows.iter().map(object).collect());
     }
-    let mut table = plain();
-    for (name, file) in rows {
-        table.add_row([name.to_owned(), file.scenario, file.description]);
-    }
-    print(&format!("{}\n", table.trim_fmt()))
+    print(&format!("{}\n", plain(rows)))
 }
 
 /// Prints a set-up as a file to begin one's own with.

@@ -1,10 +1,10 @@
 //! What a training leaves in its folder.
 
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use tofsim::error::{Error, Input, Result};
-use tofsim::files::output::write_file;
+use tofsim::files::output::write_bytes;
 use tofsim::network::Network;
 use tofsim::network::file::{Accuracy, Training};
 use tofsim::network::float::Float;
@@ -15,7 +15,7 @@ use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::tournament::Tournament;
 
 use crate::report::{learning_curve, training as report};
-use crate::verbs::talk::Talk;
+use crate::verbs::terminal::Talk;
 
 /// Rounds, tests and writes a network, made on a chain by a command with a seed; the network's file,
 /// and its errors.
@@ -28,7 +28,7 @@ pub fn write(
 ) -> Result<(PathBuf, Vec<DistanceErrors>)> {
     let write = |name: &str, text: &str| -> Result<PathBuf> {
         let path = folder.join(name);
-        write_file(&path, |file| file.write_all(text.as_bytes()))?;
+        write_bytes(&path, text)?;
         talk.detail(format_args!("wrote {}", path.display()));
         Ok(path)
     };

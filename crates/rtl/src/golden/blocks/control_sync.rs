@@ -5,7 +5,6 @@ use tofsim::firmware::control_sync::In;
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(3),
     latency: &[
         Latency { from: "mode", to: "mode_sync", cycles: |_| 1 },
         Latency { from: "laser_freq", to: "laser_freq_sync", cycles: |_| 1 },
@@ -13,57 +12,35 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "dsp_en", to: "dsp_en_sync", cycles: |_| 1 },
         Latency { from: "dsp_rst", to: "dsp_rst_sync", cycles: |_| 1 },
     ],
-    ..Spec::new("control_sync", "control_sync", record::<ControlSync>)
+    ..Spec::new("control_sync", "control_sync", record)
 };
 
-struct ControlSync {
-    i: In,
-    levels: Cover,
-    rates: Cover,
-    alone: Cover,
-}
-
-fn levels(i: &In) -> u64 {
-    bits([i.mode, i.laser_en, i.dsp_en, i.dsp_rst])
-}
-
-impl Block for ControlSync {
-    type Stimulus = In;
-
-    fn new(_: &Setting) -> Self {
-        ControlSync {
-            i: In::default(),
-            levels: Cover::new("mode, laser_en, dsp_en, dsp_rst as bits, from x 16 + to", 0..256),
-            rates: Cover::new("laser_freq from x 4 + to", 0..16),
-            alone: Cover::new("one signal, 0 to 4, changes alone", 0..5),
-        }
-    }
-
-    fn stimulus(&mut self, _: usize, _: &TofTop, draw: &mut Draw) -> In {
-        let (before, i) = (self.i, &mut self.i);
-        let which = draw.below(12);
-        let turn = |level: bool, one: u64, draw: &mut Draw| match which {
-            5..8 => draw.one_in(2),
+fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
+    let mut pairs = Cover::new("mode, laser_en, dsp_en, dsp_rst as bits, from x 16 + to", 0..256);
+    let mut rates = Cover::new("laser_freq from x 4 + to", 0..16);
+    let mut alone = Cover::new("one signal, 0 to 4, changes alone", 0..5);
+    let levels = |i: &In| bits([i.mode, i.laser_en, i.dsp_en, i.dsp_rst]);
+    let mut run = Recorder::new(spec, setting, In::list());
+    let mut i = In::default();
+    for _ in 0..setting.cycles() {
+        let before = i;
+        let which = run.draw.below(12);
+        let mut turn = |level: bool, one: u64| match which {
+            5..8 => run.draw.one_in(2),
             _ => level ^ (which == one),
         };
-        i.mode = turn(i.mode, 0, draw);
-        i.laser_en = turn(i.laser_en, 1, draw);
-        i.dsp_en = turn(i.dsp_en, 2, draw);
-        i.dsp_rst = turn(i.dsp_rst, 3, draw);
+        i.mode = turn(i.mode, 0);
+        i.laser_en = turn(i.laser_en, 1);
+        i.dsp_en = turn(i.dsp_en, 2);
+        i.dsp_rst = turn(i.dsp_rst, 3);
         if (4..8).contains(&which) {
-            i.laser_freq = draw.word();
+            i.laser_freq = run.draw.word();
         }
-        self.levels.see(levels(&before) * 16 + levels(i));
-        self.rates.see(before.laser_freq.get() * 4 + i.laser_freq.get());
-        self.alone.see_if(before != *i, which);
-        *i
+        pairs.see(levels(&before) * 16 + levels(&i));
+        rates.see(before.laser_freq.get() * 4 + i.laser_freq.get());
+        alone.see_if(before != i, which);
+        run.line(&i);
+        run.top.control_sync = run.top.control_sync.next(&i, &());
     }
-
-    fn edge(&mut self, i: &In, top: &mut TofTop) {
-        top.control_sync = top.control_sync.next(i, &());
-    }
-
-    fn coverage(self) -> Vec<Cover> {
-        vec![self.levels, self.rates, self.alone]
-    }
+    Ok(run.vectors([pairs, rates, alone]))
 }

@@ -13,31 +13,12 @@ const LINES: usize = MIXED + 67_500;
 const MANY: u64 = 2600;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(10),
     latency: &[
         Latency { from: "clear", to: "count", cycles: |_| 0 },
         Latency { from: "tdc_valid", to: "count", cycles: |_| 0 },
     ],
-    ..Spec::new("histogram_builder", "histogram_builder", record_lines)
+    ..Spec::new("histogram_builder", "histogram_builder", record)
 };
-
-fn record_lines(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let cycles = setting.cycles.or(Some(LINES));
-    record::<HistogramBuilder>(spec, &Setting { cycles, ..setting.clone() })
-}
-
-struct HistogramBuilder {
-    bins: u64,
-    /// The word that counts on.
-    hot: u64,
-    /// It has been seen close to its highest count.
-    full: bool,
-    cleared: Cover,
-    hit: Cover,
-    shown: Cover,
-    overlaps: Cover,
-    sizes: Cover,
-}
 
 /// Which of the three addresses are equal: none, two of them, all.
 fn equal(i: &In) -> u64 {
@@ -51,29 +32,23 @@ fn equal(i: &In) -> u64 {
     }
 }
 
-impl Block for HistogramBuilder {
-    type Stimulus = In;
-
-    fn new(setting: &Setting) -> Self {
-        let words = 0..setting.bins;
-        HistogramBuilder {
-            bins: setting.bins,
-            hot: setting.seed % setting.bins,
-            full: false,
-            cleared: Cover::new("words cleared that were not 0", words.clone()),
-            hit: Cover::new("words hit", words.clone()),
-            shown: Cover::new("words shown that are not 0", words),
-            overlaps: Cover::new("clear, tdc_valid, read_en as bits x 5 + equal addresses", 0..40),
-            sizes: Cover::new("bits of a count shown, or wrapped (17)", 1..=17),
-        }
-    }
-
-    fn stimulus(&mut self, cycle: usize, top: &TofTop, draw: &mut Draw) -> In {
-        let histogram = &top.histogram_builder;
-        let (round, word) = (cycle as u64 / self.bins, cycle as u64 % self.bins);
-        let near = draw.below(self.bins);
-        let any =
-            |draw: &mut Draw| U::new(if draw.one_in(2) { near } else { draw.below(self.bins) });
+fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
+    let cycles = setting.cycles.unwrap_or(LINES);
+    let (bins, words) = (setting.bins, 0..setting.bins);
+    let mut cleared = Cover::new("words cleared that were not 0", words.clone());
+    let mut hits = Cover::new("words hit", words.clone());
+    let mut seen = Cover::new("words shown that are not 0", words);
+    let mut overlaps =
+        Cover::new("clear, tdc_valid, read_en as bits x 5 + equal addresses", 0..40);
+    let mut sizes = Cover::new("bits of a count shown, or wrapped (17)", 1..=17);
+    let mut run = Recorder::new(spec, setting, In::list());
+    // The word that counts on, and whether it has been seen close to its highest count.
+    let (hot, mut full) = (setting.seed % bins, false);
+    for cycle in 0..cycles {
+        let (histogram, draw) = (&mut run.top.histogram_builder, &mut run.draw);
+        let (round, word) = (cycle as u64 / bins, cycle as u64 % bins);
+        let near = draw.below(bins);
+        let any = |draw: &mut Draw| U::new(if draw.one_in(2) { near } else { draw.below(bins) });
         let mut i = In {
             clear_addr: any(draw),
             tdc_code: any(draw),
@@ -84,45 +59,36 @@ impl Block for HistogramBuilder {
         };
         let hammers = cycle >= MIXED && !draw.one_in(64);
         match round % 5 {
-            _ if hammers => (i.clear, i.tdc_valid, i.tdc_code) = (false, true, U::new(self.hot)),
+            _ if hammers => (i.clear, i.tdc_valid, i.tdc_code) = (false, true, U::new(hot)),
             0 => (i.clear, i.clear_addr) = (true, U::new(word)),
             1 | 2 => {
-                let code = if round % 5 == 1 { word } else { self.hot };
+                let code = if round % 5 == 1 { word } else { hot };
                 (i.clear, i.tdc_valid, i.tdc_code) = (false, !draw.one_in(8), U::new(code));
             }
             3 => {
-                (i.clear, i.tdc_valid) = (false, word != self.hot && draw.one_in(4));
+                (i.clear, i.tdc_valid) = (false, word != hot && draw.one_in(4));
                 (i.read_en, i.read_addr) = (true, U::new(word));
             }
             _ => {}
         }
         // The word that counts on is not cleared before it has many hits.
         let count = |address: U<8>| histogram.ram[address.index()].get();
-        let may_clear = cycle < MIXED && count(U::new(self.hot)) >= MANY;
-        i.clear &= i.clear_addr != self.hot || may_clear;
+        let may_clear = cycle < MIXED && count(U::new(hot)) >= MANY;
+        i.clear &= i.clear_addr != hot || may_clear;
 
         let [clear, hit] = [i.clear, i.tdc_valid && !i.clear];
         let shown = histogram.count(&i).get();
-        self.cleared.see_if(clear && count(i.clear_addr) > 0, i.clear_addr.get());
-        self.hit.see_if(hit, i.tdc_code.get());
-        self.shown.see_if(shown > 0 && !clear && !hit, i.read_addr.get());
-        self.sizes.see(64 - u64::from(shown.leading_zeros()));
-        let is_hot = hit && i.tdc_code == self.hot && i.read_en;
-        self.sizes.see_if(self.full && is_hot && shown < 64, 17);
-        self.full |= shown >= 65_472;
-        self.overlaps.see(bits([i.clear, i.tdc_valid, i.read_en]) * 5 + equal(&i));
-        i
+        cleared.see_if(clear && count(i.clear_addr) > 0, i.clear_addr.get());
+        hits.see_if(hit, i.tdc_code.get());
+        seen.see_if(shown > 0 && !clear && !hit, i.read_addr.get());
+        sizes.see(64 - u64::from(shown.leading_zeros()));
+        let is_hot = hit && i.tdc_code == hot && i.read_en;
+        sizes.see_if(full && is_hot && shown < 64, 17);
+        full |= shown >= 65_472;
+        overlaps.see(bits([i.clear, i.tdc_valid, i.read_en]) * 5 + equal(&i));
+        run.top.nets.count = U::new(shown);
+        run.line(&i);
+        run.top.histogram_builder.tick(&i);
     }
-
-    fn settle(&mut self, i: &In, top: &mut TofTop) {
-        top.nets.count = top.histogram_builder.count(i);
-    }
-
-    fn edge(&mut self, i: &In, top: &mut TofTop) {
-        top.histogram_builder.tick(i);
-    }
-
-    fn coverage(self) -> Vec<Cover> {
-        vec![self.cleared, self.hit, self.shown, self.overlaps, self.sizes]
-    }
+    Ok(run.vectors([cleared, hits, seen, overlaps, sizes]))
 }

@@ -2,29 +2,30 @@
 //! on the boundaries of taps, before the shot and after its window, held over into the next; and a
 //! sweep through every number of taps that a hit can have.
 
-use tofsim::firmware::tdc::{In, Params};
+use tofsim::firmware::tdc::In;
+use tofsim::firmware::tdc_decoder::code;
 
 use crate::golden::prelude::*;
 
-mod goals;
 mod light;
 
-use goals::{Goals, LAST_RESET};
-use light::Light;
+use light::{Ages, Light};
+
+/// Last cycle after a start in which there is a reset.
+const LAST_RESET: usize = 11;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(17),
     reset: Some("rst"),
     latency: &[
         Latency { from: "tdc_stop", to: "tdc_valid", cycles: |_| 3 },
         Latency { from: "tdc_stop", to: "tdc_code", cycles: |_| 3 },
     ],
-    ..Spec::new("tdc", "tdc", record::<Tdc>)
+    ..Spec::new("tdc", "tdc", record)
 };
 
 signals! {
     /// Input ports; `tdc_stop` is no part of a line.
-    pub(super) struct Stimulus {
+    struct Stimulus {
         /// Synchronous reset.
         rst: bool,
         /// A shot begins.
@@ -32,36 +33,54 @@ signals! {
     }
 }
 
-struct Tdc {
-    params: Params,
-    light: Light,
-    /// Cycle of the last start, and of the next.
-    started: usize,
-    next: usize,
-    /// Cycle after a start in which the next reset comes.
-    reset: usize,
-    goals: Goals,
-}
-
-impl Block for Tdc {
-    type Stimulus = Stimulus;
-
-    fn new(setting: &Setting) -> Self {
-        let params = setting.setup.params.tdc.clone();
-        let light = Light::new(&params.delays);
-        let goals = Goals::new(&light.ages, &params);
-        Tdc { params, light, started: 0, next: 3, reset: LAST_RESET, goals }
-    }
-
-    fn stimulus(&mut self, cycle: usize, top: &TofTop, draw: &mut Draw) -> Stimulus {
-        let start = cycle == self.next;
-        let since = if start { 0 } else { cycle - self.started };
-        let rst = since == self.reset && draw.one_in(6);
-        if let Some(taps) = self.goals.see(cycle - self.started, start, rst, top) {
-            self.light.counted(taps);
+fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
+    let params = &setting.setup.params.tdc;
+    let mut light = Light::new(&params.delays);
+    let code_of = |ages: &Ages| {
+        Some(code(light::coarse(ages.first), ages.taps as usize, &params.cal)?.get())
+    };
+    let mut hits = Cover::new("taps of a hit", light.ages.iter().map(|ages| ages.taps));
+    let mut codes = Cover::new("codes", light.ages.iter().filter_map(code_of));
+    let mut coarses = Cover::new("coarse of a hit", 0..8);
+    let mut rises = Cover::new("edges from the one of start to the one that sees a rise", 0..10);
+    let mut resets = Cover::new("reset in cycle after start", 0..=LAST_RESET as u64);
+    let mut corners = Cover::new(
+        "level held over, second hit, hit kept with start, last edge, equal codes",
+        0..5,
+    );
+    let (tap_0, mut last_code) = (params.delays.tap_0_position(), None);
+    let mut run = Recorder::new(spec, setting, Stimulus::list());
+    // Cycle of the last start and of the next; cycle after a start in which the next reset comes.
+    let (mut started, mut next, mut reset) = (0, 3, LAST_RESET);
+    for cycle in 0..setting.cycles() {
+        let draw = &mut run.draw;
+        let start = cycle == next;
+        let since = if start { 0 } else { cycle - started };
+        let rst = since == reset && draw.one_in(6);
+        let tdc = &run.top.tdc;
+        let (window, coarse) = (tdc.coarse_counter.window, tdc.coarse_counter.coarse);
+        let (used, before) = tdc.tdc_latch.before();
+        let high = tdc.carry_chain.taps.tap(tap_0);
+        let rise = high && !before && !rst;
+        rises.see_if(rise && cycle > started, (cycle - started).saturating_sub(1) as u64);
+        resets.see_if(rst, since as u64);
+        corners.see_if(start && high && before, 0);
+        corners.see_if(rise && window && used, 1);
+        corners.see_if(rise && window && !used && start, 2);
+        corners.see_if(rise && window && coarse == 7, 3);
+        if tdc.tdc_decoder.tdc_valid {
+            let code = tdc.tdc_decoder.tdc_code.get();
+            codes.see(code);
+            corners.see_if(last_code == Some(code), 4);
+            last_code = Some(code);
+        }
+        if let Some((taps, coarse)) = tdc.tdc_decoder.decoding().filter(|_| !rst) {
+            hits.see(taps);
+            coarses.see(coarse);
+            light.counted(taps);
         }
         if rst {
-            self.reset = (self.reset + 1) % (LAST_RESET + 1);
+            reset = (reset + 1) % (LAST_RESET + 1);
         }
         if start {
             let period = match draw.below(8) {
@@ -73,37 +92,20 @@ impl Block for Tdc {
                 5 => 9 + draw.below(6),
                 _ => 3 + draw.below(3),
             };
-            (self.started, self.next) = (cycle, cycle + period as usize);
+            (started, next) = (cycle, cycle + period as usize);
             let edge = |cycle: usize| Time::from_ns(8 * cycle as u64);
-            self.light.shoot(edge(self.started), edge(self.next), draw);
+            light.shoot(edge(started), edge(next), draw);
         }
-        Stimulus { rst, start }
-    }
-
-    fn cycle(
-        &mut self,
-        cycle: usize,
-        i: &Stimulus,
-        top: &mut TofTop,
-        sample: &mut dyn FnMut(&TofTop),
-    ) {
-        sample(top);
-        let (now, stops) = (stops::edge(cycle), &mut self.light.stops);
+        run.line(&Stimulus { rst, start });
+        let (now, stops) = (stops::edge(cycle), &mut light.stops);
         stops.advance(now);
-        let i = In { rst: i.rst, start: i.start, tdc_stop: stops.line.level() };
-        top.tdc.rise(&i, &self.params, &mut stops.line, now);
+        let i = In { rst, start, tdc_stop: stops.line.level() };
+        run.top.tdc.rise(&i, params, &mut stops.line, now);
     }
-
-    fn parameters(&self) -> Parameters {
-        let Params { delays, cal, .. } = &self.params;
-        files(["DelaysFile", "CalFile"], [roms::tap_delays(delays), mem::tdc_decoder(cal)])
-    }
-
-    fn stops(&self) -> &[Time] {
-        self.light.stops.times()
-    }
-
-    fn coverage(self) -> Vec<Cover> {
-        self.goals.coverage()
-    }
+    let memories = [parameters::tap_delays(&params.delays), mem::tdc_decoder(&params.cal)];
+    Ok(Vectors {
+        parameters: files(["DelaysFile", "CalFile"], memories),
+        stops: light.stops.times().to_vec(),
+        ..run.vectors([hits, codes, coarses, rises, resets, corners])
+    })
 }

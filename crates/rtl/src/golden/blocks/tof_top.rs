@@ -1,15 +1,12 @@
 //! The whole firmware: a scenario as it is, or short frames under control signals that change at
 //! random, also in the middle of a frame, and abandon some.
 
-use tofsim::firmware::frame_ctrl::State;
 use tofsim::scenario::{Control, QuenchMode};
-use tofsim::sim::setup::Setup;
 
 use crate::golden::prelude::*;
 use crate::golden::top;
 
 pub(super) const SPEC: Spec = Spec {
-    stream: Some(20),
     timing: timing::OWN_WITH_RESET,
     fast: &[
         "laser_on_lvds_p",
@@ -24,7 +21,7 @@ pub(super) const SPEC: Spec = Spec {
         "lvds_output.o",
         "lvds_output.ob",
     ],
-    ..Spec::new("tof_top", "", record_top)
+    ..Spec::new("tof_top", "", record)
 };
 
 /// A little more than Clear takes after a reset [ns].
@@ -37,18 +34,35 @@ const FRAME_NS: u64 = 5_000;
 /// Shots of a frame under random control.
 const SHOTS: u16 = 8;
 
-fn record_top(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
+fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     if setting.as_told {
-        return top::record(spec, &setting.setup, setting, &mut |_| ());
+        return top::record(spec, setting, &mut |_| ());
     }
-    let mut setup = setting.setup.clone();
-    setup.params.frame_ctrl.shots_per_frame = SHOTS;
-    let cycles = setting.cycles.unwrap_or(RANDOM + PLANTED);
-    let setting = Setting { cycles: Some(cycles), ..setting.clone() };
-    setup.scenario.control = control(&setup, &setting);
-    let mut covered = Covered::new();
-    let vectors = top::record(spec, &setup, &setting, &mut |top| covered.see(top))?;
-    Ok(Vectors { coverage: covered.goals, ..vectors })
+    let mut setting = setting.clone();
+    setting.cycles = setting.cycles.or(Some(RANDOM + PLANTED));
+    setting.setup.params.frame_ctrl.shots_per_frame = SHOTS;
+    setting.setup.scenario.control = control(&setting);
+    let transitions = [(0, 1), (1, 2), (2, 3), (3, 0), (1, 0)].map(|(from, to)| from * 4 + to);
+    let mut states = Cover::new("states, from x 4 + to", transitions);
+    let mut rates = Cover::new("laser_freq in force, from x 4 + to", 0..16);
+    let mut coarse = Cover::new("coarse", 0..8);
+    let mut resets = Cover::new("dsp_rst in state", [0, 1, 3]);
+    let mut modes = Cover::new("mode of a hit", 0..2);
+    let mut before = None;
+    let vectors = top::record(spec, &setting, &mut |top| {
+        let state = top.frame_ctrl.state();
+        let rate = top.vcsel_driver.registers.place().map_or(0, |place| place.0);
+        if let Some((last, last_rate)) = before {
+            states.see_if(last != state, last as u64 * 4 + state as u64);
+            rates.see(last_rate * 4 + rate);
+        }
+        let counter = &top.tdc.coarse_counter;
+        coarse.see_if(counter.window, counter.coarse.get());
+        resets.see_if(top.control_sync.dsp_rst_sync, state as u64);
+        modes.see_if(top.tdc.tdc_latch.hit, top.control_sync.mode_sync as u64);
+        before = Some((state, rate));
+    })?;
+    Ok(Vectors { coverage: vec![states, rates, coarse, resets, modes], ..vectors })
 }
 
 /// Cycles under random control, and then under pulses planted in the first shots of a frame.
@@ -57,10 +71,10 @@ const PLANTED: usize = 28_000;
 
 /// Control signals that change at random times; some frames are abandoned twice, the second time in
 /// Acquire.
-fn control(setup: &Setup, setting: &Setting) -> Vec<Control> {
+fn control(setting: &Setting) -> Vec<Control> {
     let mut draw = Draw::new(setting.seed, u64::MAX);
     let mut changes = Vec::new();
-    let first_us = setup.pll().locked_at.fs() as f64 * 1e-9;
+    let first_us = setting.setup.pll().locked_at.fs() as f64 * 1e-9;
     let (mut at_ns, end_ns) = (0, 8 * setting.cycles().min(RANDOM) as u64);
     let mut again = false;
     while at_ns < end_ns {
@@ -129,37 +143,4 @@ fn planted(draw: &mut Draw) -> [(u64, Control); 4] {
     // After another dsp_rst the frame is seen to its end.
     let rest_ns = if (4..6).contains(&kind) { FRAME_NS } else { 400 + draw.below(300) };
     [(24, begin), (wait_ns, go), (span_ns, change), (rest_ns, end)]
-}
-
-struct Covered {
-    goals: Vec<Cover>,
-    before: Option<(State, u64)>,
-}
-
-impl Covered {
-    fn new() -> Self {
-        let transitions = [(0, 1), (1, 2), (2, 3), (3, 0), (1, 0)];
-        let goals = vec![
-            Cover::new("states, from x 4 + to", transitions.map(|(from, to)| from * 4 + to)),
-            Cover::new("laser_freq in force, from x 4 + to", 0..16),
-            Cover::new("coarse", 0..8),
-            Cover::new("dsp_rst in state", [0, 1, 3]),
-            Cover::new("mode of a hit", 0..2),
-        ];
-        Covered { goals, before: None }
-    }
-
-    fn see(&mut self, top: &TofTop) {
-        let state = top.frame_ctrl.state();
-        let rate = top.vcsel_driver.registers.place().map_or(0, |place| place.0);
-        if let Some((last, last_rate)) = self.before {
-            self.goals[0].see_if(last != state, last as u64 * 4 + state as u64);
-            self.goals[1].see(last_rate * 4 + rate);
-        }
-        let counter = &top.tdc.coarse_counter;
-        self.goals[2].see_if(counter.window, counter.coarse.get());
-        self.goals[3].see_if(top.control_sync.dsp_rst_sync, state as u64);
-        self.goals[4].see_if(top.tdc.tdc_latch.hit, top.control_sync.mode_sync as u64);
-        self.before = Some((state, rate));
-    }
 }

@@ -9,44 +9,47 @@ pub struct Properties {
     pub module: &'static str,
     /// The file.
     pub text: &'static str,
+    /// Unit of the numbers.
+    pub unit: &'static str,
     /// Modules that are left open: nothing proven depends on what they do.
     pub open: &'static [&'static str],
+    /// Registers without which there is no proof, by their paths in its `dut`.
+    pub registers: &'static [&'static str],
     /// Yosys's pass that makes one step of the proof of a clock cycle.
     pub step: &'static str,
     /// Longest induction.
     pub steps: u32,
 }
 
+impl Properties {
+    const fn new(module: &'static str, text: &'static str) -> Self {
+        let (unit, step, steps) = ("cycles of clk_125", "async2sync", 4);
+        Properties { module, text, unit, open: &[], registers: &[], step, steps }
+    }
+}
+
 static ESTIMATOR: Properties = Properties {
-    module: "check_estimator",
-    text: include_str!("check_estimator.sv"),
     open: &["forward1", "forward2", "tansig"],
-    step: "async2sync",
-    steps: 4,
+    registers: &["estimator_ctrl.busy", "estimator_ctrl.step"],
+    ..Properties::new("check_estimator", include_str!("check_estimator.sv"))
 };
 
 static CENTROID: Properties = Properties {
-    module: "check_centroid",
-    text: include_str!("check_centroid.sv"),
-    open: &[],
-    step: "async2sync",
-    steps: 4,
+    registers: &["busy", "step"],
+    ..Properties::new("check_centroid", include_str!("check_centroid.sv"))
 };
 
 static SHOT: Properties = Properties {
-    module: "check_shot",
-    text: include_str!("check_shot.sv"),
     open: &["ddr_output"],
-    step: "async2sync",
     steps: 40,
+    ..Properties::new("check_shot", include_str!("check_shot.sv"))
 };
 
 static PULSE: Properties = Properties {
-    module: "check_pulse",
-    text: include_str!("check_pulse.sv"),
-    open: &[],
+    unit: "ps",
     step: "clk2fflogic",
     steps: 40,
+    ..Properties::new("check_pulse", include_str!("check_pulse.sv"))
 };
 
 /// A promise.
@@ -56,8 +59,6 @@ pub struct Promise {
     pub what: String,
     /// The number.
     pub expected: u64,
-    /// Its unit.
-    pub unit: &'static str,
     /// Where its property stands.
     pub properties: &'static Properties,
     /// The property: a wire in that module.
@@ -68,8 +69,8 @@ pub struct Promise {
     pub code: Option<usize>,
     /// Macro to set.
     pub define: Option<[String; 2]>,
-    /// Registers without which there is no proof, by their paths in that module's `dut`.
-    pub registers: &'static [&'static str],
+    /// Another register without which there is no proof.
+    pub register: Option<String>,
 }
 
 impl Promise {
@@ -79,25 +80,20 @@ impl Promise {
         expected: u64,
         what: impl Into<String>,
     ) -> Self {
-        Promise {
-            what: what.into(),
-            expected,
-            unit: "cycles of clk_125",
-            properties,
-            property,
-            parameter: "Expected",
-            code: None,
-            define: None,
-            registers: &[],
-        }
+        let (what, parameter) = (what.into(), "Expected");
+        let (code, define, register) = (None, None, None);
+        Promise { what, expected, properties, property, parameter, code, define, register }
     }
 
     /// Its name where things are counted.
     pub fn key(&self) -> String {
-        match self.code {
-            Some(code) => format!("{}_{code}", self.property),
-            None => self.property.to_owned(),
-        }
+        let code = self.code.map_or(String::new(), |code| format!("_{code}"));
+        format!("{}{code}", self.property)
+    }
+
+    /// Registers without which there is no proof, by their paths in the module's `dut`.
+    pub fn registers(&self) -> impl Iterator<Item = &str> {
+        self.properties.registers.iter().copied().chain(self.register.as_deref())
     }
 }
 
@@ -109,68 +105,44 @@ pub fn define(neurons: usize) -> Option<[String; 2]> {
 
 /// What is promised of the estimator that a design may leave out.
 pub fn centroid() -> Promise {
-    Promise {
-        parameter: "Latency",
-        registers: &["busy", "step"],
-        ..Promise::new(
-            &CENTROID,
-            "centroid_latency",
-            308,
-            "centroid estimator: algo_start taken to algo_done",
-        )
-    }
+    let what = "centroid estimator: algo_start taken to algo_done";
+    Promise { parameter: "Latency", ..Promise::new(&CENTROID, "centroid_latency", 308, what) }
 }
 
 /// Everything else that is promised of a design whose estimator has so many neurons.
 pub fn promises(neurons: usize) -> Vec<Promise> {
-    let estimator = |property, expected, parameter, registers, what| Promise {
+    let estimator = |property, parameter, expected, what| Promise {
         parameter,
-        registers,
         define: define(neurons),
-        ..Promise::new(&ESTIMATOR, property, expected, what)
+        ..Promise::new(&ESTIMATOR, property, expected, format!("estimator: {what}"))
     };
-    let shot = |property, expected, what| Promise::new(&SHOT, property, expected, what);
-    let pulse = |property, expected, what| Promise {
-        unit: "ps",
-        ..Promise::new(&PULSE, property, expected, what)
+    let layer = |property, parameter, expected, enable, more| Promise {
+        register: Some(format!("estimator_ctrl.{enable}")),
+        ..estimator(property, parameter, expected, format!("{enable} high{more}"))
     };
-    let forward1 = &["estimator_ctrl.busy", "estimator_ctrl.step", "estimator_ctrl.forward1_en"];
-    let tansig = &["estimator_ctrl.busy", "estimator_ctrl.step", "estimator_ctrl.tansig_en"];
-    let forward2 = &["estimator_ctrl.busy", "estimator_ctrl.step", "estimator_ctrl.forward2_en"];
+    let latency = "algo_start taken to algo_done".to_owned();
+    let neurons = neurons as u64;
     let mut promises = vec![
-        estimator(
-            "latency",
-            259 + neurons as u64,
-            "Latency",
-            &["estimator_ctrl.busy", "estimator_ctrl.step"],
-            "estimator: algo_start taken to algo_done",
-        ),
-        estimator("forward1_cycles", 257, "Forward1", forward1, "estimator: forward1_en high"),
-        estimator("tansig_cycles", 1, "Tansig", tansig, "estimator: tansig_en high"),
-        estimator(
-            "forward2_cycles",
-            2 + neurons as u64,
-            "Forward2",
-            forward2,
-            "estimator: forward2_en high, to algo_done",
-        ),
+        estimator("latency", "Latency", 259 + neurons, latency),
+        layer("forward1_cycles", "Forward1", 257, "forward1_en", ""),
+        layer("tansig_cycles", "Tansig", 1, "tansig_en", ""),
+        layer("forward2_cycles", "Forward2", 2 + neurons, "forward2_en", ", to algo_done"),
     ];
     for (property, span) in
         [("laser_period", "start to start"), ("first_shot", "acquire to the first start")]
     {
-        for (code, period) in [25, 13, 8, 6].into_iter().enumerate() {
+        promises.extend([25, 13, 8, 6].into_iter().enumerate().map(|(code, period)| {
             let what = format!("laser_freq {code}: {span}");
-            promises
-                .push(Promise { code: Some(code), ..Promise::new(&SHOT, property, period, what) });
-        }
+            Promise { code: Some(code), ..Promise::new(&SHOT, property, period, what) }
+        }));
     }
     promises.extend([
-        shot("pre_start_lead", 2, "pre_start to start"),
-        shot("spad_rst_lead", 1, "MODE 0: spad_rst to start"),
-        shot("spad_rst_width", 1, "MODE 0: spad_rst high, each shot"),
-        shot("spad_rst_mode_1", 0, "MODE 1: spad_rst high, each shot"),
-        pulse("laser_on_lag", 0, "start to laser_on"),
-        pulse("laser_on_width", 2000, "laser_on high"),
+        Promise::new(&SHOT, "pre_start_lead", 2, "pre_start to start"),
+        Promise::new(&SHOT, "spad_rst_lead", 1, "MODE 0: spad_rst to start"),
+        Promise::new(&SHOT, "spad_rst_width", 1, "MODE 0: spad_rst high, each shot"),
+        Promise::new(&SHOT, "spad_rst_mode_1", 0, "MODE 1: spad_rst high, each shot"),
+        Promise::new(&PULSE, "laser_on_lag", 0, "start to laser_on"),
+        Promise::new(&PULSE, "laser_on_width", 2000, "laser_on high"),
     ]);
     promises
 }

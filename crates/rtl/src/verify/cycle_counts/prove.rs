@@ -1,25 +1,15 @@
 //! Proves a promise of the Verilog with Yosys, and tries to prove what is next to it.
 
 use std::ffi::{OsStr, OsString};
-use std::io::Write;
 use std::path::Path;
 
 use tofsim::error::Result;
-use tofsim::files::output::write_file;
+use tofsim::files::output::write_bytes;
 
 use crate::verify::process::{Finished, Limits, YOSYS};
 use crate::verify::rtl::Rtl;
 
 use super::promises::Promise;
-
-/// What came of a proof.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Proof {
-    /// The promise holds in every cycle, and no number next to it does.
-    Proven,
-    /// It may not hold; why.
-    NotProven(String),
-}
 
 /// What one run of Yosys says.
 enum Answer {
@@ -31,36 +21,34 @@ enum Answer {
     Stuck(String),
 }
 
-/// Proves `promise` of `rtl`, and that the numbers next to it cannot be proven.
+/// Proves `promise` of `rtl`, and that the numbers next to it cannot be proven; why it may not hold, or
+/// `None` if it holds in every cycle and no number next to it does.
 ///
 /// # Errors
 /// When Yosys is missing, `folder` cannot be written, or the user stops.
-pub fn prove(promise: &Promise, rtl: &Rtl, folder: &Path, limits: &Limits) -> Result<Proof> {
+pub fn prove(
+    promise: &Promise,
+    rtl: &Rtl,
+    folder: &Path,
+    limits: &Limits,
+) -> Result<Option<String>> {
     let file = folder.join(promise.properties.module).with_extension("sv");
-    write_file(&file, |file| file.write_all(promise.properties.text.as_bytes()))?;
+    write_bytes(&file, promise.properties.text)?;
     match ask(promise, promise.expected, rtl, folder, limits)? {
         Answer::Holds => {}
-        Answer::Fails(why) | Answer::Stuck(why) => return Ok(Proof::NotProven(why)),
+        Answer::Fails(why) | Answer::Stuck(why) => return Ok(Some(why)),
     }
-    for mutant in mutants(promise.expected) {
-        match ask(promise, mutant, rtl, folder, limits)? {
-            Answer::Fails(_) => {}
+    for mutant in promise.expected.checked_sub(1).into_iter().chain([promise.expected + 1]) {
+        let why = match ask(promise, mutant, rtl, folder, limits)? {
+            Answer::Fails(_) => continue,
             Answer::Holds => {
-                let why = format!("vacuous: {mutant} is proven as well as {}", promise.expected);
-                return Ok(Proof::NotProven(why));
+                format!("vacuous: {mutant} is proven as well as {}", promise.expected)
             }
-            Answer::Stuck(why) => {
-                let why = format!("perhaps vacuous: for {mutant} in its place, {why}");
-                return Ok(Proof::NotProven(why));
-            }
-        }
+            Answer::Stuck(why) => format!("perhaps vacuous: for {mutant} in its place, {why}"),
+        };
+        return Ok(Some(why));
     }
-    Ok(Proof::Proven)
-}
-
-/// The numbers next to a number.
-pub fn mutants(expected: u64) -> impl Iterator<Item = u64> {
-    expected.checked_sub(1).into_iter().chain([expected + 1])
+    Ok(None)
 }
 
 fn ask(
@@ -91,8 +79,8 @@ fn script(promise: &Promise, number: u64) -> String {
         "proc; flatten".to_owned(),
     ]);
     // Something has to drive each register.
-    let driven = |register| format!("select -assert-min 1 w:dut.{register} %ci* c:* %i");
-    lines.extend(promise.registers.iter().map(driven));
+    let driven = |register: &str| format!("select -assert-min 1 w:dut.{register} %ci* c:* %i");
+    lines.extend(promise.registers().map(driven));
     let options = "-tempinduct -prove-asserts -set-assumes -ignore_unknown_cells -seq 1";
     lines.extend([
         format!("{}; opt_clean", properties.step),
@@ -116,7 +104,8 @@ fn answer(promise: &Promise, finished: &Finished, limits: &Limits) -> Answer {
             promise.properties.steps
         ))
     } else if says("ERROR: Assertion failed: selection") {
-        Answer::Stuck(format!("the proof needs the registers {}", promise.registers.join(" and ")))
+        let registers: Vec<_> = promise.registers().collect();
+        Answer::Stuck(format!("the proof needs the registers {}", registers.join(" and ")))
     } else {
         let error = finished.output.lines().find(|line| line.contains("ERROR: "));
         Answer::Stuck(format!("Yosys: {}", error.unwrap_or("ended without an answer")))

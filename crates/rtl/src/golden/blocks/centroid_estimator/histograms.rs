@@ -22,51 +22,27 @@ pub(super) const GLUE: Glue = Glue {
                   wire [15:0] count = histograms[{histogram, read_addr}];\n",
 };
 
-/// What an estimation meets at the limits of its range.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Case {
-    /// Nothing stands out.
-    Nothing,
-    /// The maximum is the first word.
-    First,
-    /// The maximum is the last word.
-    Last,
-    /// The window begins before the first word.
-    CutLeft,
-    /// The window ends after the last word.
-    CutRight,
-    /// A later bin is as high.
-    Equal,
+/// What [`cases`] are of.
+pub(super) const CASES: &str =
+    "nothing, peak in bin 0, in bin 255, window cut on the left, on the right, equal maxima";
+
+/// Which of the cases those parameters allow: bin 0 does not stand above itself.
+pub(super) fn reachable(p: &Params) -> [bool; 6] {
+    [true, !p.background, true, !p.background || p.half_width > 1, true, true]
 }
 
-impl Case {
-    /// All that those parameters allow: bin 0 does not stand above itself.
-    pub(super) fn reachable(p: &Params) -> impl Iterator<Item = Self> {
-        let first = (!p.background).then_some(Self::First);
-        let cut_left = (!p.background || p.half_width > 1).then_some(Self::CutLeft);
-        let others = [Self::Nothing, Self::Last, Self::CutRight, Self::Equal];
-        others.into_iter().chain(first).chain(cut_left)
+/// Which limits of its range an estimation met: nothing stands out; the maximum is the first word, or
+/// the last; the window begins before the first word, or ends after the last; a later bin is as high.
+pub(super) fn cases(p: &Params, histogram: &[u16; BINS], found: &Found) -> [bool; 6] {
+    if found.best == 0 {
+        return [true, false, false, false, false, false];
     }
-
-    /// Those that an estimation met.
-    pub(super) fn of(p: &Params, histogram: &[u16; BINS], found: &Found) -> Vec<Self> {
-        if found.best == 0 {
-            return vec![Self::Nothing];
-        }
-        let (peak, w) = (found.peak, p.half_width as usize);
-        let word = histogram[peak];
-        // Alone above nothing, so that equal words are equal heights.
-        let alone = |bin: usize| histogram[bin.saturating_sub(w)] == 0;
-        let again = |bin| alone(peak) && alone(bin) && histogram[bin] == word;
-        let cases = [
-            (Self::First, peak == 0),
-            (Self::Last, peak == LAST),
-            (Self::CutLeft, peak < w),
-            (Self::CutRight, peak + w > LAST),
-            (Self::Equal, (peak + 1..BINS).any(again)),
-        ];
-        cases.into_iter().filter(|(_, met)| *met).map(|(case, _)| case).collect()
-    }
+    let (peak, w) = (found.peak, p.half_width as usize);
+    // Alone above nothing, so that equal words are equal heights.
+    let alone = |bin: usize| histogram[bin.saturating_sub(w)] == 0;
+    let again = |bin| alone(peak) && alone(bin) && histogram[bin] == histogram[peak];
+    let equal = (peak + 1..BINS).any(again);
+    [false, peak == 0, peak == LAST, peak < w, peak + w > LAST, equal]
 }
 
 /// Those of every kind.
