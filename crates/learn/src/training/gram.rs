@@ -128,7 +128,7 @@ fn multiply(of: &[Tile], lane: usize, by: &[Tile], weights: &[[f32; GROUP]; BLOC
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::training::features::{COLUMNS, Features, Scaling};
+    use crate::training::features::{COLUMNS, Scaling, blocks};
 
     #[test]
     fn sums_are_those_of_a_loop_over_the_samples() {
@@ -137,15 +137,15 @@ mod tests {
         };
         let counts: Vec<_> = (0..BLOCK).map(histogram).collect();
         let scaling = Scaling::of(&counts);
-        let features = Features::new(&counts, &scaling);
+        let block = &blocks(&counts, &scaling)[0];
         let weight = |s: usize, w: usize| ((s * 5 + w * 3) % 17) as f32 - 8.0;
         let mut weights = vec![[[0.0; GROUP]; BLOCK]; groups(14)];
         for (s, w) in (0..BLOCK).flat_map(|s| (0..14).map(move |w| (s, w))) {
             weights[w / GROUP][s][w % GROUP] = weight(s, w);
         }
         let (mut gram, mut moments) = (Gram::zeros(14), Moments::zeros(14));
-        gram.add_block(&features.blocks()[0], &weights);
-        moments.add_block(&features.blocks()[0], &weights);
+        gram.add_block(block, &weights);
+        moments.add_block(block, &weights);
         let once = gram.clone();
         gram.add(&once);
         let rows: Vec<_> = counts.iter().map(|counts| scaling.apply(counts)).collect();
