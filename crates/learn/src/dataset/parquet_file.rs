@@ -19,8 +19,9 @@ pub const KEY: &str = "tofsim.dataset";
 /// Name of the file in a dataset's folder.
 pub const NAME: &str = "dataset.parquet";
 /// Columns before the bins.
-pub(super) const HEAD: [&str; 5] =
-    ["row", "seed", "distance_m", "reflectance", "irradiance_w_m2_nm"];
+const HEAD: &str =
+    "required int64 row (INTEGER(64,false)); required int64 seed (INTEGER(64,false));
+    required double distance_m; required double reflectance; required double irradiance_w_m2_nm;";
 
 /// A Parquet file under construction; nothing is left of it unless it is finished and put in place.
 pub struct ParquetFile {
@@ -75,17 +76,7 @@ impl ParquetFile {
     }
 }
 
-/// Name of a bin's column.
-pub(super) fn bin_name(bin: usize) -> String {
-    format!("b{bin}")
-}
-
 fn schema() -> String {
-    let [row, seed, reals @ ..] = HEAD;
-    let mut text = format!("message dataset {{ required int64 {row} (INTEGER(64,false)); ");
-    text += &format!("required int64 {seed} (INTEGER(64,false)); ");
-    text.extend(reals.map(|name| format!("required double {name}; ")));
-    let bins = (0..BINS).map(bin_name);
-    text.extend(bins.map(|name| format!("required int32 {name} (INTEGER(16,false)); ")));
-    text + "}"
+    let bin = |bin| format!("required int32 b{bin} (INTEGER(16,false)); ");
+    format!("message dataset {{ {HEAD} {} }}", (0..BINS).map(bin).collect::<String>())
 }
