@@ -18,7 +18,7 @@ pub mod scene;
 pub mod source;
 pub mod subset;
 
-pub use blocks::{BLOCK, Blocks, Sample};
+pub use blocks::{BLOCK, Sample};
 pub use description::DatasetDescription;
 pub use grid::{Grid, Steps};
 pub use pairs::Pairs;

@@ -9,7 +9,7 @@ use tofsim::error::{Error, Result};
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::files::{DatasetFiles, DatasetFormat};
-use tofsim_learn::dataset::{Blocks, DatasetDescription, Grid, HistogramSource};
+use tofsim_learn::dataset::{DatasetDescription, Grid, HistogramSource, Sample};
 
 use crate::choice;
 use crate::text::table::{facts, grouped};
@@ -83,7 +83,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
 /// Writes a block while the next one is drawn.
 fn write(
     mut files: DatasetFiles,
-    mut blocks: Blocks<'_>,
+    mut blocks: impl Iterator<Item = Vec<Sample>> + Send,
     stop: Option<&AtomicBool>,
     done: impl Fn(u64),
 ) -> Result<Vec<PathBuf>> {

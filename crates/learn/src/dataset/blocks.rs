@@ -28,21 +28,23 @@ pub struct Sample {
     pub histogram: Histogram,
 }
 
-/// Rows in order, [`BLOCK`] at a time and fewer at the end, drawn on all threads of the current pool.
-#[derive(Clone, Debug)]
-pub struct Blocks<'a> {
-    source: &'a HistogramSource,
-    rows: &'a Rows,
-    seed: u64,
-    left: Range<u64>,
-}
-
 impl HistogramSource {
-    /// Draws the rows whose indices are in `range`, without those beyond the last. The same for any
-    /// number of threads; memory is that of a block.
-    pub fn blocks<'a>(&'a self, rows: &'a Rows, seed: u64, range: Range<u64>) -> Blocks<'a> {
-        let end = range.end.min(rows.len());
-        Blocks { source: self, rows, seed, left: range.start.min(end)..end }
+    /// Draws the rows whose indices are in `range`, without those beyond the last, in order, [`BLOCK`] at
+    /// a time and fewer at the end, on all threads of the current pool. The same for any number of
+    /// threads; memory is that of a block.
+    pub fn blocks<'a>(
+        &'a self,
+        rows: &'a Rows,
+        seed: u64,
+        range: Range<u64>,
+    ) -> impl Iterator<Item = Vec<Sample>> + Send + 'a {
+        let last = range.end.min(rows.len());
+        (range.start..last).step_by(BLOCK as usize).map(move |begin| {
+            let end = last.min(begin + BLOCK);
+            let runs: Vec<_> = (begin..end).step_by(RUN as usize).collect();
+            let draw = |&from: &u64| self.run(rows, seed, from..end.min(from + RUN));
+            runs.par_iter().flat_map(draw).collect()
+        })
     }
 
     /// Draws neighbouring rows; those of one distance or scene share what they have in common.
@@ -75,21 +77,6 @@ impl<K: PartialEq, V> Last<K, V> {
     }
 }
 
-impl Iterator for Blocks<'_> {
-    type Item = Vec<Sample>;
-
-    fn next(&mut self) -> Option<Vec<Sample>> {
-        let (begin, end) = (self.left.start, self.left.end.min(self.left.start + BLOCK));
-        if begin == end {
-            return None;
-        }
-        self.left.start = end;
-        let runs: Vec<_> = (begin..end).step_by(RUN as usize).collect();
-        let draw = |&from: &u64| self.source.run(self.rows, self.seed, from..end.min(from + RUN));
-        Some(runs.par_iter().flat_map(draw).collect())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -111,7 +98,7 @@ mod tests {
         assert_eq!(blocks.iter().map(Vec::len).collect::<Vec<_>>(), [BLOCK as usize, 93]);
         for (index, sample) in range.zip(blocks.concat()) {
             let row = rows.row(index);
-            let histogram = source.draw(&row.scene, 3, row.number);
+            let histogram = source.draw_from(&source.probabilities(&row.scene), 3, row.number);
             assert_eq!(sample, Sample { seed: 3, row: row.number, scene: row.scene, histogram });
         }
     }

@@ -21,12 +21,6 @@ impl Steps {
     pub fn value(&self, k: u64) -> f64 {
         (u64::from(self.first) + k * u64::from(self.step)) as f64 / f64::from(self.per_unit)
     }
-
-    /// All values, in order, in the unit.
-    pub fn values(&self) -> impl Iterator<Item = f64> + use<> {
-        let steps = *self;
-        (0..steps.count).map(move |k| steps.value(k))
-    }
 }
 
 /// A grid of scenes, each repeated.
@@ -140,7 +134,7 @@ mod tests {
     #[test]
     fn every_value_is_the_decimal_that_a_user_would_type() {
         let check = |steps: Steps, decimals: usize| {
-            for value in steps.values() {
+            for value in (0..steps.count).map(|k| steps.value(k)) {
                 let typed: f64 = format!("{value:.decimals$}").parse().unwrap();
                 assert_eq!(value, typed);
             }

@@ -36,11 +36,6 @@ impl<'a> Pairs<'a> {
         Ok(Pairs { source, shots })
     }
 
-    /// Shots of each histogram of a pair.
-    pub fn shots(&self) -> u64 {
-        self.shots
-    }
-
     /// Pairs for the rows of `samples`, on all threads of the current pool. Each row's comes from a
     /// stream of its own.
     pub fn draw(&self, samples: &[Sample]) -> Vec<HistogramPair> {

@@ -79,11 +79,6 @@ impl HistogramSource {
         BinProbabilities::new(&hazard, &self.bins)
     }
 
-    /// The histogram of a scene in a row.
-    pub fn draw(&self, scene: &Scene, seed: u64, row: u64) -> Histogram {
-        self.draw_from(&self.probabilities(scene), seed, row)
-    }
-
     /// The histogram of a row whose probabilities are known.
     pub fn draw_from(&self, codes: &BinProbabilities, seed: u64, row: u64) -> Histogram {
         let mut random = stream(seed, streams::Source::Dataset, row);
@@ -201,7 +196,7 @@ mod tests {
     fn a_histogram_never_has_more_counts_than_shots() {
         let source = source(&["firmware.shots_per_frame=65535", "spad.pdp=1"]).unwrap();
         let near = Scene { distance_m: 0.001, reflectance: 1.0, irradiance_w_m2_nm: 100.0 };
-        let histogram = source.draw(&near, 1, 0);
+        let histogram = source.draw_from(&source.probabilities(&near), 1, 0);
         assert_eq!(histogram.iter().map(|&count| u64::from(count)).sum::<u64>(), 65_535);
         assert_eq!(histogram[0], 65_535);
     }

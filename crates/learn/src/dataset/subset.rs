@@ -117,7 +117,7 @@ mod tests {
         let mut counts = [[0.0; 53]; 9];
         for scene in (0..len).map(|index| Subset::new(grid, len, 3).scene(index)) {
             let of = |steps: super::super::grid::Steps, value| {
-                steps.values().position(|known| known == value).unwrap()
+                (0..steps.count).position(|k| steps.value(k) == value).unwrap()
             };
             let irradiance = of(grid.irradiances_w_m2_nm, scene.irradiance_w_m2_nm);
             counts[irradiance][of(grid.reflectances, scene.reflectance)] += 1.0;

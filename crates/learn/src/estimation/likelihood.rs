@@ -61,11 +61,6 @@ impl Likelihood {
         Ok(Likelihood { model, start })
     }
 
-    /// The model that is fitted.
-    pub fn model(&self) -> &Model {
-        &self.model
-    }
-
     /// The most likely scene of a histogram.
     ///
     /// # Errors
