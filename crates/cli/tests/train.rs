@@ -6,7 +6,7 @@ use std::path::Path;
 use tofsim::network::Network;
 use tofsim_learn::quantize::Datapath;
 use tofsim_learn::training::features::{self, Scaling};
-use tofsim_learn::training::limits::WordLimits;
+use tofsim_learn::training::limits::{Hinges, WordLimits};
 use tofsim_learn::training::lm::{Lm, LmSettings};
 use tofsim_learn::training::network_problem::NetworkProblem;
 use tofsim_learn::training::recipe::Recipe;
@@ -280,7 +280,7 @@ fn bins_that_never_count_do_no_harm() {
         weights: &weights,
         neurons: 2,
         table_noise: 0.0,
-        hinges: WordLimits::default().hinges(&Datapath::default()),
+        hinges: Hinges { limits: WordLimits::default(), words: Datapath::default() },
         held_out: None,
     };
     let mut lm = Lm::new(start(&recipe.start, 2, 1, 0), &LmSettings::default());

@@ -54,7 +54,8 @@ impl HistogramSource {
         let sample = |index| {
             let NumberedScene { number: row, scene } = rows.row(index);
             let white = white.or(scene.distance_m, |&distance_m| self.white(distance_m));
-            let codes = codes.or(scene, |scene| self.probabilities_of(white, scene));
+            let codes =
+                codes.or(scene, |scene| self.probabilities_with(white, scene, self.is_lit()));
             let histogram = self.draw_from(codes, seed, row);
             Sample { seed, row, scene, histogram }
         };

@@ -9,7 +9,8 @@ use tofsim::files::output::{OutputFile, create_directory};
 use super::blocks::Sample;
 use super::description::DatasetDescription;
 use super::npy::{self, NpyFiles};
-use super::parquet_file::{self, ParquetFile};
+use super::parquet_file;
+use super::parquet_table::ParquetTable;
 
 /// The file with the description alone.
 pub const DESCRIPTION: &str = "dataset.json";
@@ -26,7 +27,7 @@ pub enum DatasetFormat {
 /// The files under construction.
 pub struct DatasetFiles {
     json: OutputFile,
-    parquet: Option<ParquetFile>,
+    parquet: Option<ParquetTable<Sample>>,
     npy: NpyFiles,
 }
 
@@ -43,7 +44,7 @@ impl DatasetFiles {
         let text = text.map_err(|error| json.fault(error))?;
         writeln!(json, "{text}").map_err(|error| json.fault(error))?;
         let wants = |format| formats.contains(&format);
-        let parquet = || ParquetFile::create(&folder.join(parquet_file::NAME), &text);
+        let parquet = || parquet_file::create(&folder.join(parquet_file::NAME), &text);
         let npy = || npy::create(folder, description.rows);
         Ok(DatasetFiles {
             json,
@@ -61,7 +62,7 @@ impl DatasetFiles {
     /// Puts the files in place and returns their paths.
     pub fn finish(self) -> Result<Vec<PathBuf>> {
         let mut files = self.npy;
-        files.extend(self.parquet.map(ParquetFile::finish).transpose()?);
+        files.extend(self.parquet.map(ParquetTable::finish).transpose()?);
         files.push(self.json);
         let paths = files.iter().map(|file| file.target().to_owned()).collect();
         for file in &mut files {

@@ -28,7 +28,7 @@ impl<'a> Pairs<'a> {
     /// When they have no half, or the laser never fires.
     pub fn new(source: &'a HistogramSource) -> Result<Self, Input> {
         let shots = half(source.shots().into())?;
-        if !source.scenario().firmware.laser_en {
+        if !source.is_lit() {
             let expected = "expected true: a lit histogram needs the laser";
             let fault = Input::new("subtraction", expected).field("firmware.laser_en");
             return Err(fault.value(false));

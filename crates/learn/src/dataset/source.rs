@@ -47,6 +47,11 @@ impl HistogramSource {
         &self.scenario
     }
 
+    /// Whether the laser is on.
+    pub fn is_lit(&self) -> bool {
+        self.scenario.firmware.laser_en
+    }
+
     /// The bins of the scenario's chain.
     pub fn bins(&self) -> &Bins {
         &self.bins
@@ -64,15 +69,11 @@ impl HistogramSource {
 
     /// Probability of each code in one shot.
     pub fn probabilities(&self, scene: &Scene) -> BinProbabilities {
-        self.probabilities_of(&self.white(scene.distance_m), scene)
+        self.probabilities_with(&self.white(scene.distance_m), scene, self.is_lit())
     }
 
-    /// The same where the [white target's budget](HistogramSource::white) at the scene's distance is known.
-    pub fn probabilities_of(&self, white: &Budget, scene: &Scene) -> BinProbabilities {
-        self.probabilities_with(white, scene, self.scenario.firmware.laser_en)
-    }
-
-    /// The same with the laser on or off, whatever the scenario says.
+    /// The same where the [white target's budget](HistogramSource::white) at the scene's distance is known,
+    /// with the laser on or off, whatever the scenario says.
     pub fn probabilities_with(&self, white: &Budget, scene: &Scene, lit: bool) -> BinProbabilities {
         let budget = scaled(white, scene);
         let hazard = if lit { Hazard::new(&budget) } else { Hazard::dark(&budget) };

@@ -5,6 +5,7 @@ use tofsim::network::Histogram;
 use crate::dataset::{Grid, HistogramSource, Rows, Subset};
 
 use super::features::{FeatureBlock, Scaling, blocks};
+use super::limits::Hinges;
 use super::network_problem::NetworkProblem;
 use super::recipe::Recipe;
 use super::start::derived;
@@ -108,7 +109,7 @@ impl StageData {
             weights,
             neurons: recipe.neurons,
             table_noise: recipe.table_noise * recipe.formats.step(),
-            hinges: recipe.limits.hinges(&recipe.formats),
+            hinges: Hinges { limits: recipe.limits, words: recipe.formats },
             held_out,
         }
     }

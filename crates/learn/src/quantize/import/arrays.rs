@@ -5,19 +5,7 @@ use std::collections::BTreeMap;
 use tofsim::error::{Error, Input, Result, nearest};
 
 /// Names that mean something.
-const NAMES: [&str; 11] = [
-    "IW",
-    "LW",
-    "b1",
-    "b2",
-    "x_xoffset",
-    "x_gain",
-    "x_ymin",
-    "x_keep",
-    "y_xoffset",
-    "y_gain",
-    "y_ymin",
-];
+const NAMES: &str = "IW, LW, b1, b2, x_xoffset, x_gain, x_ymin, x_keep, y_xoffset, y_gain, y_ymin";
 
 /// Numbers in the order of C, the last index fastest.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,9 +53,9 @@ impl Arrays {
     /// Refuses those that nobody took.
     pub(super) fn finish(&self) -> Result<()> {
         let Some(name) = self.arrays.keys().next() else { return Ok(()) };
-        let hint = match nearest(name, NAMES) {
+        let hint = match nearest(name, NAMES.split(", ")) {
             Some(near) => format!("did you mean {near}?"),
-            None => format!("expected {}", NAMES.join(", ")),
+            None => format!("expected {NAMES}"),
         };
         Err(self.fault(name, &format!("unknown; {hint}")).into())
     }

@@ -2,7 +2,7 @@ use tofsim::network::Histogram;
 
 use crate::quantize::datapath::Datapath;
 use crate::training::features::blocks;
-use crate::training::limits::WordLimits;
+use crate::training::limits::{Hinges, WordLimits};
 use crate::training::sums::parameters;
 
 use super::*;
@@ -29,7 +29,7 @@ fn with_problem<T>(neurons: usize, check: impl FnOnce(&NetworkProblem, &[f64]) -
         neurons,
         // Much, so that a fault in its derivatives shows.
         table_noise: 0.5,
-        hinges: WordLimits::default().hinges(&Datapath::default()),
+        hinges: Hinges { limits: WordLimits::default(), words: Datapath::default() },
         held_out: None,
     };
     let x: Vec<f64> = (0..parameters(neurons)).map(|k| (k as f64).sin() * 0.1).collect();
