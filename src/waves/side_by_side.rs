@@ -80,14 +80,6 @@ impl<W: Write> SideBySide<W> {
         Writer::new(&mut self.out).change_scalar(self.bit, level)
     }
 
-    /// A signal of one bit changes.
-    ///
-    /// # Errors
-    /// See [`begin`](Self::begin).
-    pub fn scalar(&mut self, scope: usize, signal: usize, level: Value) -> io::Result<()> {
-        Writer::new(&mut self.out).change_scalar(self.codes[scope][signal], level)
-    }
-
     /// A signal changes; its bits, the highest first.
     ///
     /// # Errors
@@ -99,16 +91,6 @@ impl<W: Write> SideBySide<W> {
         bits: impl IntoIterator<Item = Value>,
     ) -> io::Result<()> {
         Writer::new(&mut self.out).change_vector(self.codes[scope][signal], bits)
-    }
-
-    /// What it writes to.
-    pub fn out(&self) -> &W {
-        &self.out
-    }
-
-    /// The same, at the end.
-    pub fn into_out(self) -> W {
-        self.out
     }
 }
 
@@ -181,19 +163,6 @@ impl View<'_> {
         }
         text
     }
-
-    /// Surfer's command file.
-    pub fn surfer(&self) -> String {
-        let [top, bit] = self.top;
-        let mut text = format!("variable_add {top}.{bit}\n");
-        for Shown { scope, name, .. } in &self.signals {
-            let _ = writeln!(text, "variable_add {top}.{scope}.{name}");
-        }
-        if let Some(at) = self.marker {
-            let _ = write!(text, "marker_set first {at}\ncursor_set {at}\n");
-        }
-        text
-    }
 }
 
 #[cfg(test)]
@@ -204,11 +173,12 @@ mod tests {
     fn both_sides_stand_under_one_top_with_the_bit_that_goes_with_them() {
         let layout = Layout { version: None, top: "pair", first: None, last: Some("any") };
         let scopes = SIDES.map(|side| (side, vec![("depth".to_owned(), 2)]));
-        let mut wave = SideBySide::begin(Vec::new(), &layout, &scopes).unwrap();
+        let mut out = Vec::new();
+        let mut wave = SideBySide::begin(&mut out, &layout, &scopes).unwrap();
         wave.time(8).unwrap();
         wave.vector(1, 0, [Value::V1, Value::X]).unwrap();
         wave.bit(true).unwrap();
-        let text = String::from_utf8(wave.into_out()).unwrap();
+        let text = String::from_utf8(out).unwrap();
         let expected = "$timescale 1 ps $end\n$scope module pair $end\n\
             $scope module expected $end\n$var wire 2 ! depth $end\n$upscope $end\n\
             $scope module got $end\n$var wire 2 \" depth $end\n$upscope $end\n\
@@ -239,8 +209,5 @@ mod tests {
         let save = "[dumpfile] \"a.vcd\"\n[timestart] 8\n[size] 1400 700\n*-14.0 16\n@28\npair.any\n\
             @22\n[color] 4\n+{depth got} pair.got.depth[35:0]\n";
         assert_eq!(view.gtkwave("a.vcd"), save);
-        let commands = "variable_add pair.any\nvariable_add pair.got.depth\n\
-            marker_set first 16\ncursor_set 16\n";
-        assert_eq!(view.surfer(), commands);
     }
 }

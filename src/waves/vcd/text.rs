@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::super::digits::{EIGHT, THREE};
+use super::super::digits::{eight, three};
 
 /// Bytes gathered before they go to the file.
 const BLOCK: usize = 1 << 16;
@@ -103,8 +103,8 @@ impl Text {
         let line = &mut self.bytes[self.len..][..32];
         let place = self.lead_len % 16;
         put(line, 0, &self.lead);
-        put(line, place, &THREE[thousands as usize]);
-        put(line, place + 3, &THREE[units as usize]);
+        put(line, place, &three(thousands));
+        put(line, place + 3, &three(units));
         self.len += place + 7;
     }
 
@@ -172,7 +172,7 @@ fn put_number(bytes: &mut [u8], at: usize, value: u64) -> usize {
     let (mut digits, mut place) = (value << (u64::BITS - width), at + 1);
     let end = place + width as usize;
     while place < end {
-        put(bytes, place, &EIGHT[(digits >> 56) as usize]);
+        put(bytes, place, &eight((digits >> 56) as u8));
         (digits, place) = (digits << 8, place + 8);
     }
     end
@@ -184,8 +184,8 @@ fn put_word(bytes: &mut [u8], at: usize, word: u64) {
     if word == 0 || word == u64::MAX {
         put(bytes, at, &[b'0' | (word & 1) as u8; 64]);
     } else {
-        for (eight, byte) in word.to_be_bytes().into_iter().enumerate() {
-            put(bytes, at + 8 * eight, &EIGHT[byte as usize]);
+        for (place, byte) in word.to_be_bytes().into_iter().enumerate() {
+            put(bytes, at + 8 * place, &eight(byte));
         }
     }
 }
