@@ -18,7 +18,6 @@ pub(crate) mod marks;
 mod readback;
 mod scopes;
 mod select;
-pub mod side_by_side;
 mod spool;
 mod surfer;
 #[cfg(test)]

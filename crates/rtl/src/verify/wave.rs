@@ -4,11 +4,10 @@ use std::io::{self, Write};
 use std::ops::Range;
 use std::path::Path;
 
+use vcd::{TimescaleUnit, Value};
+
 use tofsim::error::Result;
 use tofsim::files::output::write_file;
-use tofsim::waves::side_by_side::{
-    HEXADECIMAL, Layout, SIDES, Scope, Shown, SideBySide, Value, View, range,
-};
 
 use crate::golden::spec::Vectors;
 use crate::golden::table::Column;
@@ -20,6 +19,8 @@ use super::verdict::Mismatch;
 const WHOLE: usize = 50_000;
 /// Of a longer one, so many before and after the first mismatch [cycles].
 const PART: usize = 5_000;
+/// The scopes of the two sides.
+const SIDES: [&str; 2] = ["expected", "got"];
 /// The scope of the inputs, after those of the sides.
 const INPUT: &str = "input";
 
@@ -63,22 +64,30 @@ fn body(
     let (timing, stimulus) = (&vectors.spec.timing, &vectors.stimulus);
     let [expected, inputs] = [&vectors.expected, stimulus].map(|table| signals(table.columns()));
     let sides = [(SIDES[0], &expected), (SIDES[1], &expected), (INPUT, &inputs)];
-    let top = top(vectors);
-    let layout = Layout { version: None, top: &top, first: Some(timing.clock), last: None };
-    let signal = |columns: &&[Column]| (columns[0].name.clone(), columns[0].width as u32);
-    let scopes: [Scope; 3] = sides.map(|(name, side)| (name, side.iter().map(signal).collect()));
-    let mut wave = SideBySide::begin(file, &layout, &scopes)?;
+    let mut vcd = vcd::Writer::new(file);
+    vcd.timescale(1, TimescaleUnit::PS)?;
+    vcd.add_module(&top(vectors))?;
+    let clock = vcd.add_wire(1, timing.clock)?;
+    let mut codes = Vec::new();
+    for (name, side) in sides {
+        vcd.add_module(name)?;
+        let wires = side.iter().map(|signal| vcd.add_wire(signal[0].width as u32, &signal[0].name));
+        codes.push(wires.collect::<io::Result<Vec<_>>>()?);
+        vcd.upscope()?;
+    }
+    vcd.upscope()?;
+    vcd.enddefinitions()?;
 
     let slot = timing.period_ps() / timing.samples() as u64;
     let mut last = sides.map(|(_, side)| vec![String::new(); side.len()]);
     for cycle in cycles {
         let end = vectors.first_edge_ps + cycle as u64 * timing.period_ps();
         for sample in 0..timing.samples() {
-            wave.time(end - timing.before_edge_ps(sample) - slot)?;
+            vcd.timestamp(end - timing.before_edge_ps(sample) - slot)?;
             if sample == 0 {
-                wave.bit(cycle > 0)?;
+                vcd.change_scalar(clock, cycle > 0)?;
             } else if 2 * sample == timing.samples() {
-                wave.bit(false)?;
+                vcd.change_scalar(clock, false)?;
             }
             for (scope, (_, side)) in sides.into_iter().enumerate() {
                 for (n, columns) in side.iter().enumerate() {
@@ -89,15 +98,15 @@ fn body(
                         _ => binary(stimulus, cycle, column),
                     };
                     if bits != last[scope][n] {
-                        wave.vector(scope, n, bits.chars().map(value))?;
+                        vcd.change_vector(codes[scope][n], bits.chars().map(value))?;
                         last[scope][n] = bits;
                     }
                 }
             }
         }
         if timing.samples() == 1 {
-            wave.time(end - timing.period_ps() / 2)?;
-            wave.bit(false)?;
+            vcd.timestamp(end - timing.period_ps() / 2)?;
+            vcd.change_scalar(clock, false)?;
         }
     }
     Ok(())
@@ -123,28 +132,22 @@ fn value(digit: char) -> Value {
 
 /// GTKWave's save file: what differs at first, the inputs, and a marker there.
 fn save_file(wave: &str, vectors: &Vectors, observed: &Observed, first: &Mismatch) -> String {
-    let show = |scope: &'static str, column: &Column| {
-        let (name, width) = (column.name.clone(), column.width as u32);
-        let label = format!("{name}{} {scope}", range(width));
-        Shown { flags: HEXADECIMAL, colour: None, label, scope, name, width }
+    let (timing, top) = (&vectors.spec.timing, top(vectors));
+    let (from, at) = (first.time_ps.saturating_sub(8 * timing.period_ps()), first.time_ps);
+    let mut text = format!(
+        "[dumpfile] \"{wave}\"\n[timestart] {from}\n[size] 1400 700\n*-14.0 {at}\n\
+         @28\n{top}.{}\n",
+        timing.clock
+    );
+    let mut show = |scope: &str, Column { name, width, .. }: &Column| {
+        let range = if *width == 1 { String::new() } else { format!("[{}:0]", width - 1) };
+        text += &format!("@22\n+{{{name}{range} {scope}}} {top}.{scope}.{name}{range}\n");
     };
-    let timing = &vectors.spec.timing;
-    let mut shown = Vec::new();
     for signal in signals(vectors.expected.columns()) {
         if signal.iter().any(|column| observed.differs(first.cycle, column)) {
-            shown.extend(SIDES.map(|side| show(side, &signal[0])));
+            SIDES.iter().for_each(|side| show(side, &signal[0]));
         }
     }
-    shown.extend(signals(vectors.stimulus.columns()).iter().map(|signal| show(INPUT, &signal[0])));
-    let view = View {
-        top: [&top(vectors), timing.clock],
-        colour: None,
-        from: first.time_ps.saturating_sub(8 * timing.period_ps()),
-        zoom: "-14.0".to_owned(),
-        height: 700,
-        columns: None,
-        marker: Some(first.time_ps),
-        signals: shown,
-    };
-    view.gtkwave(wave)
+    signals(vectors.stimulus.columns()).iter().for_each(|signal| show(INPUT, &signal[0]));
+    text
 }
