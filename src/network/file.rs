@@ -44,7 +44,7 @@ pub struct Training {
 }
 
 /// Spread of the fixed-point depth over a test set.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Accuracy {
     /// Distances tested [m].
