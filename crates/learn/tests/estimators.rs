@@ -23,7 +23,7 @@ const DISTANCES_M: [f64; 6] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
 const SHOTS: u64 = 30_000;
 
 fn bins(profile: &str) -> Bins {
-    let (delays, period) = (chain::load(profile, &Place::working_directory()).unwrap(), 8);
+    let (delays, period) = (chain::load(profile, &Place::Folder("".into())).unwrap(), 8);
     let period = Time::from_ns(period);
     Bins::of_chain(&delays, &delays.calibration(period), period)
 }
