@@ -21,16 +21,6 @@ pub enum WaveFormat {
     Fst,
 }
 
-impl WaveFormat {
-    /// The ending of its files, without the dot.
-    pub const fn extension(self) -> &'static str {
-        match self {
-            WaveFormat::Vcd => "vcd",
-            WaveFormat::Fst => "fst",
-        }
-    }
-}
-
 /// A waveform file being written. Dropped before its run has ended, it leaves no trace.
 pub struct Waves {
     path: PathBuf,
