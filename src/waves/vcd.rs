@@ -83,11 +83,11 @@ impl Sink for Vcd {
 impl Body for Vcd {
     #[inline(always)]
     fn step(&mut self, at: u64, step: Step, fill: impl FnOnce(&mut Self)) -> io::Result<()> {
-        let begin = self.text.len();
+        let begin = self.text.len;
         if self.stamped != at {
             self.text.stamp(at);
         }
-        let empty = self.text.len();
+        let empty = self.text.len;
         let word: &[u8] = match step {
             Step::Start => b"$dumpvars\n",
             Step::Open => b"$dumpon\n",
@@ -99,8 +99,8 @@ impl Body for Vcd {
         if !word.is_empty() {
             self.text.push(b"$end\n");
         }
-        if self.text.len() == empty {
-            self.text.truncate(begin);
+        if self.text.len == empty {
+            self.text.len = begin;
             return Ok(());
         }
         self.stamped = at;

@@ -16,7 +16,7 @@ const LEAD: u64 = 1_000_000;
 pub(super) struct Text {
     /// The text, and room for the longest step after [`BLOCK`] bytes.
     bytes: Box<[u8]>,
-    len: usize,
+    pub(super) len: usize,
     /// The last time's first digits, after a `#`.
     lead: [u8; 16],
     lead_len: usize,
@@ -61,18 +61,6 @@ impl Text {
     pub(super) fn new(longest: usize) -> Self {
         let bytes = vec![0; BLOCK + longest + SPARE].into_boxed_slice();
         Text { bytes, len: 0, lead: [0; 16], lead_len: 0, lead_at: 0 }
-    }
-
-    /// How much there is [bytes].
-    #[inline]
-    pub(super) fn len(&self) -> usize {
-        self.len
-    }
-
-    /// Takes back what came after the first `len` bytes.
-    #[inline]
-    pub(super) fn truncate(&mut self, len: usize) {
-        self.len = len;
     }
 
     /// Whether there is enough of it for a write.
