@@ -14,15 +14,11 @@ pub mod pairs;
 mod parquet_file;
 pub mod parquet_table;
 pub mod rows;
-pub mod scene;
 pub mod source;
-pub mod subset;
 
 pub use blocks::{BLOCK, Sample};
 pub use description::DatasetDescription;
-pub use grid::{Grid, Steps};
+pub use grid::{Grid, Scene, Steps};
 pub use pairs::Pairs;
-pub use rows::{NumberedScene, Rows};
-pub use scene::Scene;
+pub use rows::{NumberedScene, Rows, Subset};
 pub use source::HistogramSource;
-pub use subset::Subset;

@@ -130,7 +130,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         scenario: &loaded.name,
         profile,
         seed,
-        rows: rows.len(),
+        rows: rows.count(),
         shots_per_frame: source.shots(),
         estimators: evaluation.columns.iter().map(|c| Figures::new(&evaluation, c)).collect(),
         cramer_rao_two_sd_mm: bound::two_sd_mm(
@@ -164,7 +164,7 @@ impl Args {
         talk: &Talk,
     ) -> Result<Evaluation> {
         let pool = self.draws.pool()?;
-        let progress = talk.progress(rows.len(), "rows");
+        let progress = talk.progress(rows.count(), "rows");
         let done = |rows| progress.inc(rows);
         let evaluation =
             pool.install(|| Evaluation::new(source, rows, seed, estimators, stop, done));

@@ -170,13 +170,13 @@ impl Args {
         let network = Network::find(network, None)?;
         let source = HistogramSource::new(&Setup::new(loaded)?)?;
         let rows = self.draws.some_rows(EXPLORED, Grid::test(), seed);
-        let (stop, progress) = (stop_signal(), talk.progress(rows.len(), "rows"));
+        let (stop, progress) = (stop_signal(), talk.progress(rows.count(), "rows"));
         let points = self.draws.pool()?.install(|| {
             let data = (&source, &rows, seed);
             explore(&network, &sweep(), data, stop.as_deref(), |rows| progress.inc(rows))
         })?;
         progress.finish_and_clear();
-        let (name, rows) = (&network.name, rows.len());
+        let (name, rows) = (&network.name, rows.count());
         if self.json {
             let schema = "tofsim.exploration/1";
             let report =

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use tofsim::network::Histogram;
 
+use super::grid::Scene;
 use super::rows::{NumberedScene, Rows};
-use super::scene::Scene;
 use super::source::HistogramSource;
 
 /// Rows of a block: 1 MB of histograms.
@@ -38,7 +38,7 @@ impl HistogramSource {
         seed: u64,
         range: Range<u64>,
     ) -> impl Iterator<Item = Vec<Sample>> + Send + 'a {
-        let last = range.end.min(rows.len());
+        let last = range.end.min(rows.count());
         (range.start..last).step_by(BLOCK as usize).map(move |begin| {
             let end = last.min(begin + BLOCK);
             let runs: Vec<_> = (begin..end).step_by(RUN as usize).collect();
@@ -120,7 +120,7 @@ mod tests {
     fn a_range_beyond_the_last_row_is_empty() {
         let source = source();
         let rows = Rows::All(Grid::test());
-        assert!(source.blocks(&rows, 1, rows.len()..rows.len() + 5).next().is_none());
+        assert!(source.blocks(&rows, 1, rows.count()..rows.count() + 5).next().is_none());
         assert!(source.blocks(&rows, 1, 9..9).next().is_none());
     }
 }

@@ -10,7 +10,7 @@ use crate::estimation::HistogramPair;
 use crate::estimation::subtraction::half;
 
 use super::blocks::{Last, RUN, Sample};
-use super::scene::Scene;
+use super::grid::Scene;
 use super::source::HistogramSource;
 
 /// Draws pairs of any scene, all else being as a source has it.

@@ -11,7 +11,7 @@ use tofsim::sensor::streams::{self, stream};
 use tofsim::sim::fast::histogram::independent_shots;
 use tofsim::sim::setup::{CYCLE, Setup};
 
-use super::scene::Scene;
+use super::grid::Scene;
 
 /// Draws histograms of any scene, all else being as a scenario has it.
 #[derive(Clone, Debug)]
