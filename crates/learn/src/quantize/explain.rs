@@ -142,16 +142,13 @@ fn first_parting(
     neurons: &[ExplainedNeuron],
     depth: &WordAndTwin,
 ) -> Option<(&'static str, Option<usize>)> {
-    let values: [(&str, fn(&ExplainedNeuron) -> &WordAndTwin); 3] = [
-        ("l1_in", |neuron| &neuron.l1_in),
-        ("l1_out", |neuron| &neuron.l1_out),
-        ("product", |neuron| &neuron.product),
-    ];
-    let in_layer = values.into_iter().find_map(|(name, value)| {
-        let neuron = neurons.iter().position(|neuron| value(neuron).parts())?;
-        Some((name, Some(neuron)))
-    });
-    in_layer.or_else(|| depth.parts().then_some(("depth", None)))
+    let layer = |name, parts: &dyn Fn(&ExplainedNeuron) -> bool| {
+        neurons.iter().position(parts).map(|neuron| (name, Some(neuron)))
+    };
+    layer("l1_in", &|neuron| neuron.l1_in.parts())
+        .or_else(|| layer("l1_out", &|neuron| neuron.l1_out.parts()))
+        .or_else(|| layer("product", &|neuron| neuron.product.parts()))
+        .or_else(|| depth.parts().then_some(("depth", None)))
 }
 
 /// The depth after each step from float to fixed point.

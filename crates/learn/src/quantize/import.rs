@@ -127,7 +127,7 @@ mod tests {
 
     /// A network as MATLAB evaluates it.
     fn by_matlab(arrays: &Arrays, histogram: &Histogram) -> f64 {
-        let get = |name: &str| arrays.get(name).unwrap().values.clone();
+        let get = |name: &str| arrays.arrays[name].values.clone();
         let (iw, lw, b1, b2) = (get("IW"), get("LW"), get("b1"), get("b2"));
         let (xo, xg, xm) = (get("x_xoffset"), get("x_gain"), get("x_ymin")[0]);
         let (yo, yg, ym) = (get("y_xoffset")[0], get("y_gain")[0], get("y_ymin")[0]);

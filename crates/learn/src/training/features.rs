@@ -19,7 +19,7 @@ pub const BLOCK: usize = 256;
 pub type Tile = [f32; LANES];
 
 /// How counts at knots become inputs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scaling {
     /// Mean at each knot [hits].

@@ -58,7 +58,7 @@ pub struct CurvePoint {
 }
 
 /// All that decides how a tournament goes on.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TournamentState {
     /// Stage that is going on; the end is the last.
@@ -87,16 +87,8 @@ impl TournamentState {
             lm: Lm::new(start(&recipe.start, recipe.neurons, seed, number), &recipe.optimiser),
             factors: Vec::new(),
         };
-        TournamentState {
-            stage: 0,
-            block: 0,
-            epochs: 0,
-            data: String::new(),
-            scaling,
-            candidates: (0..recipe.stages[0].candidates).map(candidate).collect(),
-            best: None,
-            curve: Vec::new(),
-        }
+        let candidates = (0..recipe.stages[0].candidates).map(candidate).collect();
+        TournamentState { scaling, candidates, ..TournamentState::default() }
     }
 
     /// Adds samples to the digest of the data.

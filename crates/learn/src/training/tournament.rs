@@ -139,16 +139,9 @@ impl<'a> Tournament<'a> {
             {
                 lm.stop = lm.stop.or(Some(Stop::Gain));
             }
-            self.state.curve.push(CurvePoint {
-                stage,
-                block,
-                start,
-                epochs,
-                cost,
-                mu,
-                validation,
-                ratio: None,
-            });
+            let point =
+                CurvePoint { stage, block, start, epochs, cost, mu, validation, ratio: None };
+            self.state.curve.push(point);
         }
     }
 

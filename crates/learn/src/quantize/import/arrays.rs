@@ -20,7 +20,7 @@ pub(super) struct Array {
 pub(super) struct Arrays {
     /// The file's name in messages.
     pub(super) name: String,
-    arrays: BTreeMap<String, Array>,
+    pub(super) arrays: BTreeMap<String, Array>,
 }
 
 impl Arrays {
@@ -33,11 +33,6 @@ impl Arrays {
     pub(super) fn put(&mut self, name: &str, shape: Vec<usize>, values: Vec<f64>) {
         let array = Array { name: name.to_owned(), shape, values };
         self.arrays.insert(name.to_owned(), array);
-    }
-
-    #[cfg(test)]
-    pub(super) fn get(&self, name: &str) -> Option<&Array> {
-        self.arrays.get(name)
     }
 
     /// Takes one that may be absent.
