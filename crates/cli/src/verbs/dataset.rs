@@ -68,7 +68,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let pool = args.draws.pool()?;
     let stop = stop_signal();
     let progress = talk.progress(rows.count(), "rows");
-    let blocks = source.blocks(&rows, seed, 0..rows.count());
+    let blocks = source.blocks(&rows, seed);
     let written = pool.install(|| write(files, blocks, stop.as_deref(), |n| progress.inc(n)))?;
     progress.finish_and_clear();
     written.iter().for_each(|path| talk.detail(format_args!("wrote {}", path.display())));

@@ -80,7 +80,7 @@ mod tests {
         let source = source(&["firmware.shots_per_frame=600"]);
         let pairs = Pairs::new(&source).unwrap();
         let rows = Rows::Subset(Subset::new(Grid::test(), 204, 1));
-        let samples: Vec<_> = source.blocks(&rows, 1, 0..u64::MAX).flatten().collect();
+        let samples: Vec<_> = source.blocks(&rows, 1).flatten().collect();
         let drawn = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| pairs.draw(&samples))

@@ -50,7 +50,7 @@ impl Evaluation {
         let mut columns: Vec<EstimatorErrors> = columns.collect();
         let needs_dark = estimators.iter().any(|one| one.needs_dark());
         let pairs = needs_dark.then(|| Pairs::new(source)).transpose()?;
-        for block in source.blocks(rows, seed, 0..rows.count()) {
+        for block in source.blocks(rows, seed) {
             if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
                 return Err(Error::Interrupted);
             }

@@ -65,7 +65,7 @@ pub fn draw(recipe: &Recipe, source: &HistogramSource, seed: u64, purpose: Purpo
     let seed = derived(seed, place);
     let rows = Rows::Subset(Subset::new(grid, len, seed));
     let mut samples = Samples::default();
-    for sample in source.blocks(&rows, seed, 0..len).flatten() {
+    for sample in source.blocks(&rows, seed).flatten() {
         samples.counts.push(sample.histogram);
         samples.distances_m.push(sample.scene.distance_m);
     }
