@@ -79,12 +79,12 @@ impl Panel {
         &self,
         estimate: impl Fn(&dyn Estimator) -> std::result::Result<f64, Failure>,
     ) -> Vec<Reading> {
-        let reading = |one: &Box<dyn Estimator>| {
-            let found = estimate(one.as_ref());
+        let reading = |one: &dyn Estimator| {
+            let found = estimate(one);
             let failure = found.as_ref().err().map(ToString::to_string);
             Reading { estimator: one.name(), failure, depth_m: found.ok() }
         };
-        self.estimators.iter().map(reading).collect()
+        self.estimators.iter().map(|one| reading(one.as_ref())).collect()
     }
 }
 
