@@ -57,13 +57,6 @@ impl Clocked for Forward1 {
     type Params = Rom;
 
     #[inline]
-    fn next(&self, i: &In, rom: &Rom) -> Self {
-        let mut d = *self;
-        d.tick(i, rom);
-        d
-    }
-
-    #[inline]
     fn tick(&mut self, i: &In, rom: &Rom) {
         let weight = rom[i.rom_addr.index().min(BIAS_ROW)];
         let operand = if i.read_en { i.count.get() as i64 } else { BIAS_FACTOR };

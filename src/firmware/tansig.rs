@@ -53,13 +53,6 @@ impl Clocked for Tansig {
     type Params = Rom;
 
     #[inline]
-    fn next(&self, i: &In, rom: &Rom) -> Self {
-        let mut d = *self;
-        d.tick(i, rom);
-        d
-    }
-
-    #[inline]
     fn tick(&mut self, i: &In, rom: &Rom) {
         if i.tansig_en {
             self.l1_out = i.l1_in.map(|l1_in| rom[address(l1_in)]);

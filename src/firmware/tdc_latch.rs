@@ -56,13 +56,6 @@ impl Clocked for TdcLatch {
     type Params = usize;
 
     #[inline(always)]
-    fn next(&self, i: &In, tap_0: &usize) -> Self {
-        let mut d = *self;
-        d.tick(i, tap_0);
-        d
-    }
-
-    #[inline(always)]
     fn tick(&mut self, i: &In, tap_0: &usize) {
         let tap_0 = i.taps.tap(*tap_0);
         let hit = tap_0 && !self.tap_0_last && i.window && !self.used;

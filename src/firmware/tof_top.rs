@@ -276,10 +276,27 @@ impl TofTop {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::module::{Instance, Module, Visitor};
+    use crate::kernel::signals::Signals;
+
+    /// Which pin each port of each module is connected to: module, port, source.
+    #[derive(Default)]
+    struct Connections(Vec<[&'static str; 3]>);
+
+    impl Visitor for Connections {
+        fn signals<S: Signals>(&mut self, _: &'static str, _: &S, _: Option<&mut S>) {}
+
+        fn module<M: Module>(&mut self, instance: &'static Instance, _: &M, _: Option<&mut M>) {
+            let sources = instance.sources.iter();
+            self.0.extend(sources.map(|&(port, source)| [instance.name, port, source]));
+        }
+    }
 
     #[test]
     fn an_asynchronous_pin_reaches_only_the_module_that_synchronises_it() {
-        for &(module, port, source) in Wires::CONNECTIONS {
+        let mut connections = Connections::default();
+        TofTop::default().visit(None, &mut connections);
+        for [module, port, source] in connections.0 {
             let Some(pin) = source.strip_prefix("this.pins.") else { continue };
             let expected: &[&str] = match pin {
                 "rst" => &["reset_sync_125", "reset_sync_250"],

@@ -37,6 +37,18 @@ impl Entry {
     pub fn path(&self) -> String {
         format!("{}.{}", self.scope, self.signal.name)
     }
+
+    /// Its path below the top.
+    pub fn below_top(&self) -> String {
+        let path = self.path();
+        let below = path.strip_prefix(TOP).and_then(|rest| rest.strip_prefix('.'));
+        below.map_or(path.clone(), str::to_owned)
+    }
+
+    /// Whether it is a word of the histogram's RAM.
+    pub fn in_ram(&self) -> bool {
+        self.id >= RAM
+    }
 }
 
 /// First id of the RAM's words, after those of all registers and wires.

@@ -11,11 +11,15 @@ pub trait Clocked: Copy + PartialEq + std::fmt::Debug {
     /// What elaboration fixes: Verilog parameters and ROM contents. `()` for most modules.
     type Params: ?Sized;
 
-    /// The registers after the next rising edge.
-    fn next(&self, i: &Self::In, p: &Self::Params) -> Self;
+    /// The registers after the next rising edge. A module has this or [`Clocked::tick`].
+    #[inline(always)]
+    fn next(&self, i: &Self::In, p: &Self::Params) -> Self {
+        let mut d = *self;
+        d.tick(i, p);
+        d
+    }
 
-    /// The rising edge. A module whose registers are too wide to copy at every edge has this in place,
-    /// and [`Clocked::next`] by it.
+    /// The rising edge. A module whose registers are too wide to copy at every edge has this in place.
     #[inline(always)]
     fn tick(&mut self, i: &Self::In, p: &Self::Params) {
         *self = self.next(i, p);

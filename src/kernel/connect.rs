@@ -1,8 +1,5 @@
 //! Port connections, stated once: for the simulation and for the waveform.
 
-/// Where an input port comes from: `(module, port, source)`, each a dotted path inside the parent.
-pub type Connection = (&'static str, &'static str, &'static str);
-
 /// Joins the modules inside a container: their clocks, their input ports to their sources, and what of
 /// theirs the container shows under names of its own.
 ///
@@ -32,15 +29,6 @@ macro_rules! connect {
         $vis struct $Wires;
 
         impl $Wires {
-            /// Every connection.
-            $vis const CONNECTIONS: &[$crate::kernel::connect::Connection] = &[
-                $($((
-                    stringify!($module),
-                    stringify!($port),
-                    concat!(stringify!($root) $(, ".", stringify!($field))+),
-                ),)*)*
-            ];
-
             /// The modules that only watch.
             $vis const WATCHERS: &[&str] =
                 &[$($($crate::connect!(@watcher $mark $module),)?)*];

@@ -10,12 +10,7 @@ pub type Float = Weights<f64, f64, f64, f64>;
 impl Float {
     /// Values of the rounded weights.
     pub fn from_fixed(fixed: &Fixed) -> Float {
-        Float {
-            w1: fixed.w1.iter().map(|row| row.map(f64::from)).collect(),
-            b1: fixed.b1.iter().copied().map(f64::from).collect(),
-            w2: fixed.w2.iter().copied().map(f64::from).collect(),
-            b2: f64::from(fixed.b2),
-        }
+        fixed.map(f64::from, f64::from, f64::from, f64::from)
     }
 
     /// Depth of a histogram [m].

@@ -75,24 +75,14 @@ impl WordFormat {
         (f64::from(self.width) - 1.0 - f64::from(self.fraction)).exp2()
     }
 
-    /// Whether the word can hold that integer.
-    pub fn holds(self, integer: i64) -> bool {
-        (self.min()..=self.max()).contains(&integer)
-    }
-
-    /// The nearest integer that the word can hold.
-    pub fn saturate(self, integer: i64) -> i64 {
-        integer.clamp(self.min(), self.max())
-    }
-
     /// The integer that stands for `value`, halves rounded away from zero. There is none for what
     /// is not a number.
     pub fn round(self, value: f64, overflow: Overflow) -> Option<i64> {
         let scaled = value * (1u64 << self.fraction) as f64;
         let nearest = (!scaled.is_nan()).then(|| scaled.round() as i64)?;
         match overflow {
-            Overflow::Saturate => Some(self.saturate(nearest)),
-            Overflow::Refuse => self.holds(nearest).then_some(nearest),
+            Overflow::Saturate => Some(nearest.clamp(self.min(), self.max())),
+            Overflow::Refuse => (self.min()..=self.max()).contains(&nearest).then_some(nearest),
         }
     }
 }

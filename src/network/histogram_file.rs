@@ -2,11 +2,12 @@
 //!
 //! One histogram is in memory at a time, however many the file has.
 
+use std::fmt::Display;
 use std::fs::File;
 use std::io::{self, BufReader, Chain, Cursor, Read};
 use std::path::Path;
 
-use npyz::{DType, NpyFile, NpyHeader, Order, TypeChar};
+use npyz::{DType, Deserialize, NpyFile, NpyHeader, Order, TypeChar};
 
 use crate::error::{Error, Input, Result, line_and_column};
 use crate::files::csv::CsvInput;
@@ -26,26 +27,13 @@ const COUNT: &str = "expected a whole number from 0 to 65535";
 
 /// A file, its first bytes put back.
 type Reader = BufReader<Chain<Cursor<Vec<u8>>, File>>;
-/// Elements of an array; whole numbers are exact.
-type Elements = Box<dyn Iterator<Item = io::Result<Element>>>;
+/// A count, or what stands in its place.
+type Count = std::result::Result<u16, String>;
+/// Elements of an array.
+type Elements = Box<dyn Iterator<Item = io::Result<Count>>>;
 
-/// The histograms of a file, one after another.
-pub struct Histograms {
-    path: String,
-    left: Left,
-}
-
-enum Left {
-    Csv(Reader),
-    Npy { elements: Elements, next: u64, rows: u64 },
-    Nothing,
-}
-
-#[derive(Clone, Copy)]
-enum Element {
-    Whole(i128),
-    Real(f64),
-}
+/// The histograms of a file, one after another; after an error there is no sense in going on.
+pub type Histograms = Box<dyn Iterator<Item = Result<Histogram>>>;
 
 /// Opens a file of histograms.
 pub fn open(path: &Path) -> Result<Histograms> {
@@ -56,41 +44,11 @@ pub fn open(path: &Path) -> Result<Histograms> {
     let is_npy = first == MAGIC;
     let reader = BufReader::with_capacity(1 << 16, Cursor::new(first).chain(file));
     let name = path.display().to_string();
-    let left = if is_npy { array(reader, &name)? } else { Left::Csv(reader) };
-    Ok(Histograms { path: name, left })
-}
-
-/// The histogram of a file that has just one.
-pub fn single(path: &Path) -> Result<Histogram> {
-    let mut histograms = open(path)?;
-    match (histograms.next(), histograms.next()) {
-        (Some(one), None) => one,
-        (Some(Err(error)), _) => Err(error),
-        (first, _) => {
-            let found = if first.is_some() { "several histograms" } else { "no histogram" };
-            Err(Input::new(path.display(), format!("{found}, expected one")).into())
-        }
+    if !is_npy {
+        return Ok(Box::new(std::iter::once(csv(reader, &name))));
     }
-}
-
-impl Iterator for Histograms {
-    type Item = Result<Histogram>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let result = match std::mem::replace(&mut self.left, Left::Nothing) {
-            Left::Nothing => return None,
-            Left::Csv(reader) => csv(reader, &self.path),
-            Left::Npy { next, rows, .. } if next == rows => return None,
-            Left::Npy { mut elements, next, rows } => {
-                let row = row(&mut elements, next, rows, &self.path);
-                if row.is_ok() {
-                    self.left = Left::Npy { elements, next: next + 1, rows };
-                }
-                row
-            }
-        };
-        Some(result)
-    }
+    let (mut elements, rows) = array(reader, &name)?;
+    Ok(Box::new((0..rows).map(move |number| row(&mut elements, number, rows, &name))))
 }
 
 /// A total that the estimator's words bear.
@@ -146,7 +104,7 @@ fn csv(reader: Reader, path: &str) -> Result<Histogram> {
 }
 
 /// Reads the header of an `.npy` file.
-fn array(mut reader: Reader, path: &str) -> Result<Left> {
+fn array(mut reader: Reader, path: &str) -> Result<(Elements, u64)> {
     let fault = |expected: String| Error::from(Input::new(path, expected));
     let header =
         npy::header(&mut reader).map_err(|error| fault(format!("unreadable .npy: {error}")))?;
@@ -168,7 +126,7 @@ fn array(mut reader: Reader, path: &str) -> Result<Left> {
         let expected = "expected integers or floats of 8 bytes";
         Input::new(path, expected).field("dtype").value(dtype)
     })?;
-    Ok(Left::Npy { elements, next: 0, rows })
+    Ok((elements, rows))
 }
 
 /// The elements after the header; in error, the type that is none of ours.
@@ -176,23 +134,39 @@ fn elements(header: NpyHeader, reader: Reader) -> std::result::Result<Elements, 
     let dtype = header.dtype();
     let DType::Plain(plain) = &dtype else { return Err(dtype.descr()) };
     let file = NpyFile::with_header(header, reader);
-    macro_rules! read {
-        ($ty:ty, $element:expr) => {
-            Box::new(file.data::<$ty>().map_err(|_| dtype.descr())?.map(|x| x.map($element)))
-        };
-    }
-    Ok(match (plain.type_char(), plain.size_field()) {
-        (TypeChar::Uint, 1) => read!(u8, |x| Element::Whole(x.into())),
-        (TypeChar::Uint, 2) => read!(u16, |x| Element::Whole(x.into())),
-        (TypeChar::Uint, 4) => read!(u32, |x| Element::Whole(x.into())),
-        (TypeChar::Uint, 8) => read!(u64, |x| Element::Whole(x.into())),
-        (TypeChar::Int, 1) => read!(i8, |x| Element::Whole(x.into())),
-        (TypeChar::Int, 2) => read!(i16, |x| Element::Whole(x.into())),
-        (TypeChar::Int, 4) => read!(i32, |x| Element::Whole(x.into())),
-        (TypeChar::Int, 8) => read!(i64, |x| Element::Whole(x.into())),
-        (TypeChar::Float, 8) => read!(f64, Element::Real),
-        _ => return Err(dtype.descr()),
-    })
+    let real = |x: f64| match x as u16 {
+        count if f64::from(count) == x => Ok(count),
+        _ => Err(x.to_string()),
+    };
+    let found = match (plain.type_char(), plain.size_field()) {
+        (TypeChar::Uint, 1) => whole::<u8>(file),
+        (TypeChar::Uint, 2) => whole::<u16>(file),
+        (TypeChar::Uint, 4) => whole::<u32>(file),
+        (TypeChar::Uint, 8) => whole::<u64>(file),
+        (TypeChar::Int, 1) => whole::<i8>(file),
+        (TypeChar::Int, 2) => whole::<i16>(file),
+        (TypeChar::Int, 4) => whole::<i32>(file),
+        (TypeChar::Int, 8) => whole::<i64>(file),
+        (TypeChar::Float, 8) => counts(file, real),
+        _ => None,
+    };
+    found.ok_or_else(|| dtype.descr())
+}
+
+/// Whole numbers of a type as counts.
+fn whole<T>(file: NpyFile<Reader>) -> Option<Elements>
+where
+    T: Deserialize + TryInto<u16> + Display + Copy + 'static,
+{
+    counts(file, |x: T| x.try_into().map_err(|_| x.to_string()))
+}
+
+/// Numbers of a type as counts; `None` if the file has them otherwise.
+fn counts<T: Deserialize + 'static>(
+    file: NpyFile<Reader>,
+    count: impl Fn(T) -> Count + 'static,
+) -> Option<Elements> {
+    Some(Box::new(file.data::<T>().ok()?.map(move |x| x.map(&count))))
 }
 
 /// The histogram of a row.
@@ -200,8 +174,11 @@ fn row(elements: &mut Elements, row: u64, rows: u64, path: &str) -> Result<Histo
     let mut histogram = [0; BINS];
     for (bin, count) in histogram.iter_mut().enumerate() {
         let field = || format!("histogram {row}, bin {bin}");
-        let element = match elements.next() {
-            Some(Ok(element)) => element,
+        *count = match elements.next() {
+            Some(Ok(Ok(count))) => count,
+            Some(Ok(Err(value))) => {
+                return Err(Input::new(path, COUNT).field(field()).value(value).into());
+            }
             Some(Err(error)) if error.kind() != io::ErrorKind::UnexpectedEof => {
                 return Err(Error::io(Path::new(path), "read")(error));
             }
@@ -210,26 +187,6 @@ fn row(elements: &mut Elements, row: u64, rows: u64, path: &str) -> Result<Histo
                 return Err(Input::new(path, expected).field(field()).into());
             }
         };
-        *count =
-            element.count().ok_or_else(|| Input::new(path, COUNT).field(field()).value(element))?;
     }
     checked(histogram, path, format!("total of histogram {row}"))
-}
-
-impl Element {
-    fn count(self) -> Option<u16> {
-        match self {
-            Element::Whole(whole) => whole.try_into().ok(),
-            Element::Real(real) => (f64::from(real as u16) == real).then_some(real as u16),
-        }
-    }
-}
-
-impl std::fmt::Display for Element {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Element::Whole(whole) => whole.fmt(f),
-            Element::Real(real) => real.fmt(f),
-        }
-    }
 }

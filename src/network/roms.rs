@@ -12,17 +12,11 @@ use crate::kernel::S;
 use super::file::Network;
 use super::formats::{Fixed, L1_OUT, Overflow, TANSIG_RANGE};
 
-impl Fixed {
-    /// The estimator's ROMs.
-    pub fn params(&self) -> Params {
-        Params { forward1: Arc::new(hidden(self)), tansig: tansig_table(), forward2: output(self) }
-    }
-}
-
 impl Network {
     /// The estimator's ROMs.
     pub fn params(&self) -> Params {
-        self.fixed.params()
+        let (hidden, output) = (hidden(&self.fixed), output(&self.fixed));
+        Params { forward1: Arc::new(hidden), tansig: tansig_table(), forward2: output }
     }
 }
 

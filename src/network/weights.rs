@@ -16,8 +16,24 @@ pub struct Weights<W1, B1, W2, B2> {
     pub b2: B2,
 }
 
-impl<W1, B1, W2, B2> Weights<W1, B1, W2, B2> {
+impl<W1: Copy, B1: Copy, W2: Copy, B2: Copy> Weights<W1, B1, W2, B2> {
     pub fn neurons(&self) -> usize {
         self.w2.len()
+    }
+
+    /// The same in other formats.
+    pub fn map<V1, C1, V2, C2>(
+        &self,
+        w1: impl Fn(W1) -> V1,
+        b1: impl Fn(B1) -> C1,
+        w2: impl Fn(W2) -> V2,
+        b2: impl Fn(B2) -> C2,
+    ) -> Weights<V1, C1, V2, C2> {
+        Weights {
+            w1: self.w1.iter().map(|row| row.map(&w1)).collect(),
+            b1: self.b1.iter().copied().map(b1).collect(),
+            w2: self.w2.iter().copied().map(w2).collect(),
+            b2: b2(self.b2),
+        }
     }
 }

@@ -1,12 +1,13 @@
 //! The text of a network file, laid out so that a change of a few weights is a change of few lines.
 
-use std::fmt::{Display, Write};
+use serde::Serialize;
 
 use crate::firmware::tansig::ADDRESS_BITS;
 
 use super::file::Network;
-use super::formats::TANSIG_RANGE;
+use super::formats::{TANSIG_RANGE, WordFormat};
 use super::schema::{FORMATS, SCALING, SCHEMA};
+use super::weights::Weights;
 
 /// Weights on a line.
 const INTEGERS_A_LINE: usize = 16;
@@ -15,110 +16,63 @@ const FLOATS_A_LINE: usize = 4;
 impl Network {
     /// The network's file.
     pub fn to_toml(&self) -> String {
-        let mut text = String::new();
-        // Writing to a string does not fail.
-        let _ = self.write(&mut text);
+        let description = toml::Value::from(self.description.as_str());
+        let mut text =
+            format!("schema = \"{SCHEMA}\"\ndescription = {description}\n\n[training]\n");
+        text += &keys(&self.training);
+        if let Some(accuracy) = &self.accuracy {
+            text +=
+                "\n# Fixed point: twice the standard deviation of the depth, and its mean error.\n";
+            text += "[accuracy]\n";
+            text += &keys(accuracy);
+        }
+        text +=
+            "\n# Raw counts in, metres out; the normalisation is part of w1 and b1.\n[scaling]\n";
+        text.extend(SCALING.map(|(key, word)| format!("{key} = \"{word}\"\n")));
+        text +=
+            "\n# Signed words: width and how many of its bits, or more, are fraction.\n[formats]\n";
+        let word = |(key, WordFormat { width, fraction })| {
+            format!("{key} = {{ width = {width}, fraction = {fraction} }}\n")
+        };
+        text.extend(FORMATS.map(word));
+        text += &format!(
+            "tansig = {{ address_bits = {ADDRESS_BITS}, range = {TANSIG_RANGE} }}\n\n\
+             # What the ROMs hold: w1[neuron][bin].\n[integers]\n"
+        );
+        let bits = |word: i32| word.to_string();
+        let integers = self.fixed.map(
+            |w1| bits(w1.to_bits()),
+            |b1| bits(b1.to_bits().into()),
+            |w2| bits(w2.to_bits().into()),
+            |b2| bits(b2.to_bits()),
+        );
+        text += &weights(&integers, INTEGERS_A_LINE);
+        if let Some(float) = &self.float {
+            let exact = |weight: f64| format!("{weight:?}");
+            text += "\n# The weights before rounding.\n[float]\n";
+            text += &weights(&float.map(exact, exact, exact, exact), FLOATS_A_LINE);
+        }
         text
     }
-
-    fn write(&self, out: &mut String) -> std::fmt::Result {
-        writeln!(out, "schema = \"{SCHEMA}\"")?;
-        writeln!(out, "description = {}", quoted(&self.description))?;
-        writeln!(out, "\n[training]")?;
-        writeln!(out, "origin = {}", quoted(&self.training.origin))?;
-        writeln!(out, "chain = {}", quoted(&self.training.chain))?;
-        if let Some(command) = &self.training.command {
-            writeln!(out, "command = {}", quoted(command))?;
-        }
-        if let Some(seed) = self.training.seed {
-            writeln!(out, "seed = {seed}")?;
-        }
-        if let Some(data) = &self.training.data {
-            writeln!(out, "data = {}", quoted(data))?;
-        }
-        if let Some(accuracy) = &self.accuracy {
-            writeln!(
-                out,
-                "\n# Fixed point: twice the standard deviation of the depth, and its mean error."
-            )?;
-            writeln!(out, "[accuracy]")?;
-            writeln!(out, "distances_m = {:?}", accuracy.distances_m)?;
-            writeln!(out, "two_sd_mm = {:?}", accuracy.two_sd_mm)?;
-            if let Some(mean_mm) = &accuracy.mean_mm {
-                writeln!(out, "mean_mm = {mean_mm:?}")?;
-            }
-        }
-        writeln!(out, "\n# Raw counts in, metres out; the normalisation is part of w1 and b1.")?;
-        writeln!(out, "[scaling]")?;
-        for (key, word) in SCALING {
-            writeln!(out, "{key} = \"{word}\"")?;
-        }
-        writeln!(out, "\n# Signed words: width and how many of its bits, or more, are fraction.")?;
-        writeln!(out, "[formats]")?;
-        for (key, format) in FORMATS {
-            let (width, fraction) = (format.width, format.fraction);
-            writeln!(out, "{key} = {{ width = {width}, fraction = {fraction} }}")?;
-        }
-        writeln!(out, "tansig = {{ address_bits = {ADDRESS_BITS}, range = {TANSIG_RANGE} }}")?;
-        self.write_weights(out)
-    }
-
-    fn write_weights(&self, out: &mut String) -> std::fmt::Result {
-        let fixed = &self.fixed;
-        writeln!(out, "\n# What the ROMs hold: w1[neuron][bin].\n[integers]")?;
-        let rows = fixed.w1.iter().map(|row| row.map(|weight| weight.to_bits()));
-        matrix(out, "w1", rows, INTEGERS_A_LINE)?;
-        let b1: Vec<_> = fixed.b1.iter().map(|bias| bias.to_bits()).collect();
-        list(out, "b1 = ", &b1, INTEGERS_A_LINE, "")?;
-        let w2: Vec<_> = fixed.w2.iter().map(|weight| weight.to_bits()).collect();
-        list(out, "w2 = ", &w2, INTEGERS_A_LINE, "")?;
-        writeln!(out, "b2 = {}", fixed.b2.to_bits())?;
-        if let Some(float) = &self.float {
-            let exact = |number: f64| format!("{number:?}");
-            writeln!(out, "\n# The weights before rounding.\n[float]")?;
-            let rows = float.w1.iter().map(|row| row.map(exact));
-            matrix(out, "w1", rows, FLOATS_A_LINE)?;
-            let all = |values: &[f64]| values.iter().copied().map(exact).collect::<Vec<_>>();
-            list(out, "b1 = ", &all(&float.b1), FLOATS_A_LINE, "")?;
-            list(out, "w2 = ", &all(&float.w2), FLOATS_A_LINE, "")?;
-            writeln!(out, "b2 = {:?}", float.b2)?;
-        }
-        Ok(())
-    }
 }
 
-fn matrix<T: Display>(
-    out: &mut String,
-    key: &str,
-    rows: impl Iterator<Item = [T; 256]>,
-    a_line: usize,
-) -> std::fmt::Result {
-    writeln!(out, "{key} = [")?;
-    for row in rows {
-        list(out, "  ", &row, a_line, ",")?;
-    }
-    writeln!(out, "]")
+/// The keys of a table, of which all can be written.
+fn keys(table: &impl Serialize) -> String {
+    toml::to_string(table).unwrap_or_default()
 }
 
-fn list<T: Display>(
-    out: &mut String,
-    before: &str,
-    items: &[T],
-    a_line: usize,
-    after: &str,
-) -> std::fmt::Result {
-    writeln!(out, "{before}[")?;
-    for line in items.chunks(a_line) {
-        let line: Vec<String> = line.iter().map(T::to_string).collect();
-        writeln!(out, "    {},", line.join(", "))?;
-    }
-    let indent = if before.trim().is_empty() { before } else { "" };
-    writeln!(out, "{indent}]{after}")
+fn weights(weights: &Weights<String, String, String, String>, a_line: usize) -> String {
+    let Weights { w1, b1, w2, b2 } = weights;
+    let rows: String = w1.iter().map(|row| list("  ", "  ", row, a_line, ",")).collect();
+    let [b1, w2] =
+        [("b1 = ", b1), ("w2 = ", w2)].map(|(key, values)| list(key, "", values, a_line, ""));
+    format!("w1 = [\n{rows}]\n{b1}{w2}b2 = {b2}\n")
 }
 
-/// A basic string of TOML.
-fn quoted(text: &str) -> String {
-    toml::Value::from(text).to_string()
+/// A list, so many items on a line; `before` it, before its end and `after` it.
+fn list(before: &str, indent: &str, items: &[String], a_line: usize, after: &str) -> String {
+    let lines = items.chunks(a_line).map(|line| format!("    {},\n", line.join(", ")));
+    format!("{before}[\n{}{indent}]{after}\n", lines.collect::<String>())
 }
 
 #[cfg(test)]

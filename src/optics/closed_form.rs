@@ -168,9 +168,9 @@ mod tests {
         line.toggle(t);
         for coarse in 0..COARSE {
             let edge = Time::from_fs((coarse + 1) * PERIOD.fs());
-            if edge >= t && line.rise_seen_at(edge, delays).is_some() {
-                let n = line.sample(edge, delays).ones();
-                return tdc_decoder::code(coarse, n, cal).map(|code| code.get() as u8);
+            let taps = line.sample(edge.max(t), delays);
+            if edge >= t && taps.tap(delays.tap_0_position()) {
+                return tdc_decoder::code(coarse, taps.ones(), cal).map(|code| code.get() as u8);
             }
         }
         None

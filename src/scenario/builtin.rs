@@ -53,11 +53,6 @@ pub enum Source {
 }
 
 impl Source {
-    /// The folder that the program runs in.
-    pub fn working_directory() -> Self {
-        Source::Folder(PathBuf::new())
-    }
-
     /// The full name and the text of the file called `name`.
     pub fn read(&self, name: &str) -> Result<(String, String)> {
         let folder = match self {

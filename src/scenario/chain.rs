@@ -6,7 +6,6 @@ use serde::Deserialize;
 use crate::error::{Input, Result, nearest};
 use crate::files::toml::Checked;
 use crate::firmware::carry_chain::{Delays, TAPS};
-use crate::firmware::tdc_decoder::Calibration;
 use crate::kernel::Time;
 
 use super::builtin::{self, Source};
@@ -63,12 +62,6 @@ pub fn load(name: &str, base: &Source) -> Result<Delays> {
     parse(&source, &text)
 }
 
-/// The decoder's ROM for the chain called `name`.
-pub fn calibration(name: &str) -> Result<Box<Calibration>> {
-    let delays = load(name, &Source::working_directory())?;
-    Ok(Box::new(delays.calibration(Time::from_ns(8))))
-}
-
 fn parse(source: &str, text: &str) -> Result<Delays> {
     let checked = Checked::parse::<Chain>(source, text)?;
     let chain: Chain = checked.read()?;
@@ -106,11 +99,13 @@ fn parse(source: &str, text: &str) -> Result<Delays> {
 
 #[cfg(test)]
 mod tests {
+    use std::path::PathBuf;
+
     use super::*;
 
     #[test]
     fn table_6_3_is_reproduced() {
-        let delays = load("table6_3", &Source::working_directory()).unwrap();
+        let delays = load("table6_3", &Source::Folder(PathBuf::new())).unwrap();
         assert_eq!(delays.rank(Time::from_ns(8 - 2)), 328);
         assert_eq!(delays.rank(Time::from_ns(8 - 4)), 154);
         assert_eq!(delays.rank(Time::from_ns(16 - 8)), 492);
@@ -135,7 +130,7 @@ mod tests {
 
     #[test]
     fn an_unknown_profile_lists_the_known_ones() {
-        let error = load("unifrom", &Source::working_directory()).unwrap_err().to_string();
+        let error = load("unifrom", &Source::Folder(PathBuf::new())).unwrap_err().to_string();
         assert!(error.contains("uniform, table6_3, ideal"), "{error}");
     }
 }

@@ -2,8 +2,6 @@
 
 use std::fmt::Write;
 
-use schemars::JsonSchema;
-use serde::Serialize;
 use serde_json::Value as Json;
 
 use super::model::Scenario;
@@ -15,12 +13,8 @@ pub fn schema() -> Json {
 
 /// The resolved scenario as TOML, with the schema's words as comments.
 pub fn show(scenario: &Scenario) -> String {
-    commented(scenario)
-}
-
-fn commented<T: Serialize + JsonSchema>(value: &T) -> String {
-    let schema = schemars::schema_for!(T).to_value();
-    let values = serde_json::to_value(value).unwrap_or(Json::Null);
+    let schema = schema();
+    let values = serde_json::to_value(scenario).unwrap_or(Json::Null);
     let mut text = String::new();
     table(&mut text, &schema, &schema, &values, "");
     text.trim_start().to_owned()

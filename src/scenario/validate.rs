@@ -1,11 +1,13 @@
 //! What the scenario's keys must be to one another.
 
+use std::fmt::Display;
+
 use toml_edit::{Item, Table};
 
 use crate::error::Result;
 use crate::files::toml::Checked;
 
-use super::model::Scenario;
+use super::model::{Firmware, Pll, Scenario, Stimulus};
 use super::window::Window;
 
 /// Frequency of the whole-cycle clock that the firmware is built for [Hz].
@@ -21,44 +23,38 @@ pub fn validate(scenario: &Scenario, checked: &Checked) -> Result<()> {
     dark_frames(scenario, checked)
 }
 
+fn ensure(holds: bool, checked: &Checked, key: &str, expected: impl Display) -> Result<()> {
+    if holds { Ok(()) } else { Err(checked.fault(key, expected).into()) }
+}
+
 fn clocks(scenario: &Scenario, checked: &Checked) -> Result<()> {
-    let pll = &scenario.pll;
-    let vco = pll.input_hz * pll.multiply / pll.divide;
-    if !VCO_HZ.contains(&vco) {
-        let expected = format!("the VCO would run at {vco} Hz, expected 800 to 1866 MHz");
-        return Err(checked.fault("pll.multiply", expected).into());
-    }
-    if pll.input_hz * pll.multiply != CLK_125_HZ * pll.divide * pll.output_divide {
-        let expected = format!(
-            "clk_125 would run at {} Hz, expected exactly {CLK_125_HZ}",
-            vco as f64 / pll.output_divide as f64
-        );
-        return Err(checked.fault("pll.output_divide", expected).into());
-    }
-    if !pll.output_divide.is_multiple_of(2) {
-        let expected = "expected an even number: clk_250 has half of it";
-        return Err(checked.fault("pll.output_divide", expected).into());
-    }
-    Ok(())
+    let Pll { input_hz, multiply, divide, output_divide, .. } = scenario.pll;
+    let vco = input_hz * multiply / divide;
+    let expected = format!("the VCO would run at {vco} Hz, expected 800 to 1866 MHz");
+    ensure(VCO_HZ.contains(&vco), checked, "pll.multiply", expected)?;
+    let is_exact = input_hz * multiply == CLK_125_HZ * divide * output_divide;
+    let found_hz = vco as f64 / output_divide as f64;
+    let expected = format!("clk_125 would run at {found_hz} Hz, expected exactly {CLK_125_HZ}");
+    ensure(is_exact, checked, "pll.output_divide", expected)?;
+    let expected = "expected an even number: clk_250 has half of it";
+    ensure(output_divide.is_multiple_of(2), checked, "pll.output_divide", expected)
 }
 
 fn stimulus(scenario: &Scenario, checked: &Checked) -> Result<()> {
-    let stimulus = &scenario.stimulus;
+    let Stimulus { photons, codes, histogram } = &scenario.stimulus;
     let given = [
-        ("stimulus.photons", &stimulus.photons),
-        ("stimulus.codes", &stimulus.codes),
-        ("stimulus.histogram", &stimulus.histogram),
+        ("stimulus.photons", photons),
+        ("stimulus.codes", codes),
+        ("stimulus.histogram", histogram),
     ];
     let mut given = given.iter().filter(|(_, file)| file.is_some());
     if let (Some((first, _)), Some((second, _))) = (given.next(), given.next()) {
         let expected = format!("expected one stimulus only, {first} is given too");
         return Err(checked.fault(second, expected).into());
     }
-    if scenario.report.tdc && (stimulus.codes.is_some() || stimulus.histogram.is_some()) {
-        let expected = "the TDC takes no part with preloaded codes or a preloaded histogram";
-        return Err(checked.fault("report.tdc", expected).into());
-    }
-    Ok(())
+    let tdc_takes_part = codes.is_none() && histogram.is_none();
+    let expected = "the TDC takes no part with preloaded codes or a preloaded histogram";
+    ensure(!scenario.report.tdc || tdc_takes_part, checked, "report.tdc", expected)
 }
 
 /// Checks the texts that stand for windows in a table of values, before they are read.
@@ -73,48 +69,38 @@ pub fn windows(values: &Table, checked: &Checked) -> Result<()> {
 
 fn control(scenario: &Scenario, checked: &Checked) -> Result<()> {
     for (k, pair) in scenario.control.windows(2).enumerate() {
-        if pair[1].at_us < pair[0].at_us {
-            let expected = format!("expected {} or later: changes in order", pair[0].at_us);
-            return Err(checked.fault(&format!("control.{}.at_us", k + 1), expected).into());
-        }
+        let expected = format!("expected {} or later: changes in order", pair[0].at_us);
+        let key = format!("control.{}.at_us", k + 1);
+        ensure(pair[1].at_us >= pair[0].at_us, checked, &key, expected)?;
     }
     Ok(())
 }
 
 /// What pairs of a dark and a lit frame cannot be made of.
 fn dark_frames(scenario: &Scenario, checked: &Checked) -> Result<()> {
-    let (firmware, stimulus) = (&scenario.firmware, &scenario.stimulus);
-    if !firmware.dark_frames {
+    let (Firmware { shots_per_frame, laser_en, .. }, stimulus) =
+        (&scenario.firmware, &scenario.stimulus);
+    if !scenario.firmware.dark_frames {
         return Ok(());
     }
-    let fault = |key: &str, value: &dyn std::fmt::Display, expected: &str| {
+    let fault = |key: &str, value: &dyn Display, expected: &str| {
         let expected = format!("{expected} with firmware.dark_frames (--estimator subtraction)");
         Err(checked.fault(key, expected).value(value).into())
     };
-    if !firmware.shots_per_frame.is_multiple_of(2) {
+    if !shots_per_frame.is_multiple_of(2) {
         let expected = "expected an even number, half of it for the dark frame,";
-        return fault("firmware.shots_per_frame", &firmware.shots_per_frame, expected);
+        return fault("firmware.shots_per_frame", shots_per_frame, expected);
     }
-    if !firmware.laser_en {
-        let expected = "expected true, for the lit frames,";
-        return fault("firmware.laser_en", &firmware.laser_en, expected);
+    if !laser_en {
+        return fault("firmware.laser_en", laser_en, "expected true, for the lit frames,");
     }
-    let replaced = [
-        (
-            "stimulus.codes",
-            &stimulus.codes,
-            "expected light or photons, codes come without a laser,",
-        ),
-        (
-            "stimulus.histogram",
-            &stimulus.histogram,
-            "expected light or photons, it has one frame only,",
-        ),
-    ];
-    for (key, file, expected) in replaced {
-        if let Some(file) = file {
-            return fault(key, file, expected);
-        }
+    if let Some(file) = &stimulus.codes {
+        let expected = "expected light or photons, codes come without a laser,";
+        return fault("stimulus.codes", file, expected);
+    }
+    if let Some(file) = &stimulus.histogram {
+        let expected = "expected light or photons, it has one frame only,";
+        return fault("stimulus.histogram", file, expected);
     }
     for (k, change) in scenario.control.iter().enumerate() {
         if let Some(laser_en) = change.laser_en {

@@ -93,12 +93,9 @@ impl FromStr for Window {
         if text == "estimation" {
             return Ok(Window::Estimation);
         }
-        let (shots, range) = match text.strip_prefix("shot:") {
-            Some(range) => (true, range),
-            None => (false, text),
-        };
-        let Some((from, to)) = range.split_once("..") else { return Err(expected.to_owned()) };
-        if shots {
+        let shots = text.strip_prefix("shot:");
+        let (from, to) = shots.unwrap_or(text).split_once("..").ok_or(expected)?;
+        if shots.is_some() {
             let number = |text: &str| text.trim().parse::<u64>().map_err(|_| expected.to_owned());
             let (from, to) = (number(from)?, number(to)?);
             return if from < to { Ok(Window::Shots { from, to }) } else { reversed(&from, &to) };

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::kernel::signals::Sink;
 
 /// What a time step is.
@@ -14,6 +14,8 @@ pub(super) enum Step {
     Open,
     /// Some signals change.
     Change,
+    /// Levels of clocks change, and nothing else.
+    Clocks,
     /// A window ends: every signal is unknown.
     Close,
 }
@@ -26,6 +28,4 @@ pub(super) trait Body: Sink {
     fn unknown(&mut self);
     /// Puts the finished file, which ends at `at`, in place [ps].
     fn finish(self, at: u64) -> Result<()>;
-    /// Turns an error of writing here into one that names the file.
-    fn fault(&self, source: io::Error) -> Error;
 }

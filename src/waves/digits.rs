@@ -4,36 +4,21 @@ use bitvec::prelude::*;
 
 use crate::kernel::Thermometer;
 
-/// The eight binary digits of each byte.
-pub(super) static EIGHT: [[u8; 8]; 256] = {
-    let mut table = [[b'0'; 8]; 256];
-    let mut byte = 0;
-    while byte < 256 {
-        let mut place = 0;
-        while place < 8 {
-            table[byte][place] += (byte >> (7 - place)) as u8 & 1;
-            place += 1;
-        }
-        byte += 1;
-    }
-    table
-};
+/// The binary digits of a byte, the highest first.
+#[inline(always)]
+pub(super) fn eight(byte: u8) -> [u8; 8] {
+    // Nine apart, eight copies of the byte do not meet; bit 7 of place k is the byte's bit 7 - k.
+    let copies = u64::from(byte).wrapping_mul(0x8040_2010_0804_0201);
+    (copies >> 7 & 0x0101_0101_0101_0101 | 0x3030_3030_3030_3030).to_le_bytes()
+}
 
-/// The three decimal digits of each number below 1000, and the end of a line.
-pub(super) static THREE: [[u8; 4]; 1000] = {
-    let mut table = [[b'\n'; 4]; 1000];
-    let mut number = 0;
-    while number < 1000 {
-        let digits = [number / 100, number / 10 % 10, number % 10];
-        let mut place = 0;
-        while place < 3 {
-            table[number][place] = b'0' + digits[place] as u8;
-            place += 1;
-        }
-        number += 1;
-    }
-    table
-};
+/// The three decimal digits of a number below 1000, and a line end.
+#[inline(always)]
+pub(super) fn three(number: u64) -> [u8; 4] {
+    let [hundreds, tens, ones] =
+        [number / 100, number / 10 % 10, number % 10].map(|digit| b'0' + digit as u8);
+    [hundreds, tens, ones, b'\n']
+}
 
 /// The taps of a delay line in their physical places.
 #[derive(Debug)]

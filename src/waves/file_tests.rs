@@ -13,7 +13,7 @@ use crate::hierarchy::{entries, ram_entries};
 use crate::kernel::Time;
 
 use super::bench::{Bench, params};
-use super::readback::{FORMATS, FRAME, at, contents, create, record};
+use super::readback::{FORMATS, FRAME, at, contents, create, extension, record};
 use super::writer::WaveFormat;
 
 #[test]
@@ -116,7 +116,7 @@ fn an_unfinished_waveform_leaves_nothing_behind() {
     let directory = tempfile::tempdir().unwrap();
     let params = params();
     for format in FORMATS {
-        let path = directory.path().join("run").with_extension(format.extension());
+        let path = directory.path().join("run").with_extension(extension(format));
         let mut waves = create(&path, format, &entries(&params), &params);
         waves.begin(Time::ZERO, &TofTop::new(Pins::default()));
         drop(waves);
@@ -165,7 +165,7 @@ fn a_single_instant_and_the_end_of_the_run_are_kept() {
     let params = params();
     for format in FORMATS {
         for end in [0, 9] {
-            let path = directory.path().join("run").with_extension(format.extension());
+            let path = directory.path().join("run").with_extension(extension(format));
             let mut waves = create(&path, format, &entries(&params), &params);
             let pins = Pins { rst: true, ..Pins::default() };
             waves.begin(Time::ZERO, &TofTop::new(pins));
@@ -183,7 +183,7 @@ fn a_file_with_a_gap_is_not_put_in_place() {
     let directory = tempfile::tempdir().unwrap();
     let params = params();
     for format in FORMATS {
-        let path = directory.path().join("run").with_extension(format.extension());
+        let path = directory.path().join("run").with_extension(extension(format));
         let mut waves = create(&path, format, &entries(&params), &params);
         waves.begin(Time::ZERO, &TofTop::new(Pins::default()));
         waves.failed = Some(io::Error::new(io::ErrorKind::StorageFull, "no space then"));

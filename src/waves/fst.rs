@@ -121,8 +121,4 @@ impl Body for Fst {
         let done = self.changes.finish(at.max(1));
         done.map_err(|error| Error::io(&self.path, "write")(error))?.commit()
     }
-
-    fn fault(&self, source: io::Error) -> Error {
-        Error::io(&self.path, "write")(source)
-    }
 }

@@ -80,32 +80,26 @@ impl Lines<'_> {
     }
 
     fn header(&mut self, wave: &str, marks: &Marks) {
-        self.line(format_args!("[dumpfile] \"{wave}\""));
         // With its own name in it, the paths in a save file count from where it is.
-        let stem = self.stem;
-        self.line(format_args!("[savefile] \"{stem}.gtkw\""));
-        self.line(format_args!("[timestart] {}", marks.from.ps()));
-        self.line(format_args!("[size] {} {}", SIZE.0, SIZE.1));
-        self.line("[pos] -1 -1");
+        let (stem, from) = (self.stem, marks.from.ps());
+        self.line(format_args!("[dumpfile] \"{wave}\"\n[savefile] \"{stem}.gtkw\""));
+        let ((width, height), (tree, names)) = (SIZE, COLUMNS);
+        self.line(format_args!("[timestart] {from}\n[size] {width} {height}\n[pos] -1 -1"));
         let named = marks.named();
         let mut places: Vec<String> = named.iter().map(|(_, at)| at.ps().to_string()).collect();
         places.resize(MARKERS, "-1".into());
         let primary = marks.laser_edge.map_or("-1".into(), |at| at.ps().to_string());
-        let pixels = SIZE.0 - COLUMNS.0 - COLUMNS.1 - FRAMES;
-        let zoom = zoom(marks.to.since(marks.from).ps(), pixels);
+        let zoom = zoom(marks.to.since(marks.from).ps(), width - tree - names - FRAMES);
         self.line(format_args!("*{zoom:.6} {primary} {}", places.join(" ")));
         for ((name, _), letter) in named.iter().zip('A'..) {
             self.line(format_args!("[markername] {letter}{name}"));
         }
-        self.line("[treeopen] tof_top.");
-        self.line(format_args!("[sst_width] {}", COLUMNS.0));
-        self.line(format_args!("[signals_width] {}", COLUMNS.1));
-        self.line("[sst_expanded] 1");
+        self.line(format_args!("[treeopen] tof_top.\n[sst_width] {tree}"));
+        self.line(format_args!("[signals_width] {names}\n[sst_expanded] 1"));
     }
 
     fn label(&mut self, flags: u64, name: &str) {
-        self.line(format_args!("@{flags:x}"));
-        self.line(format_args!("-{name}"));
+        self.line(format_args!("@{flags:x}\n-{name}"));
     }
 
     fn row(&mut self, row: &ShownSignal<'_>) {
@@ -136,10 +130,7 @@ impl Lines<'_> {
             let curve = radix | flag::RIGHT | flag::STEPS | flag::FULL_SCALE;
             self.line(format_args!("@{curve:x}"));
             self.named(row, " (curve)");
-            self.line(format_args!("@{:x}", flag::STRETCH));
-            for _ in 0..CURVE_ROWS {
-                self.line("-");
-            }
+            self.line(format_args!("@{:x}{}", flag::STRETCH, "\n-".repeat(CURVE_ROWS)));
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::hierarchy::{Entry, TOP};
+use crate::hierarchy::Entry;
 
 /// Signals under one heading.
 pub(super) struct Group<'a> {
@@ -63,7 +63,7 @@ pub(super) fn groups(entries: &[Entry]) -> Vec<Group<'_>> {
         let mut rows = Vec::new();
         for pattern in patterns {
             for entry in entries {
-                let (below, view) = (below_top(entry), entry.signal.view);
+                let (below, view) = (entry.below_top(), entry.signal.view);
                 let is_meant = match *pattern {
                     VIEWED => view.heading == name,
                     _ => matches(&below, pattern),
@@ -83,12 +83,6 @@ pub(super) fn groups(entries: &[Entry]) -> Vec<Group<'_>> {
         }
     }
     groups
-}
-
-fn below_top(entry: &Entry) -> String {
-    let path = entry.path();
-    let below = path.strip_prefix(TOP).and_then(|rest| rest.strip_prefix('.'));
-    below.map_or(path.clone(), str::to_owned)
 }
 
 fn matches(name: &str, pattern: &str) -> bool {
@@ -121,7 +115,7 @@ mod tests {
         let is_name = |pattern: &&&str| **pattern != VIEWED;
         let patterns = FLOW.iter().flat_map(|(_, patterns)| *patterns).chain(&CURVES);
         for pattern in patterns.filter(is_name) {
-            assert!(all.iter().any(|entry| matches(&below_top(entry), pattern)), "{pattern}");
+            assert!(all.iter().any(|entry| matches(&entry.below_top(), pattern)), "{pattern}");
         }
     }
 

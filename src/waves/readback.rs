@@ -15,6 +15,13 @@ pub(super) const FORMATS: [WaveFormat; 2] = [WaveFormat::Vcd, WaveFormat::Fst];
 /// A frame and a little more [cycles of clk_125].
 pub(super) const FRAME: u64 = 256 + 6 * SHOTS as u64 + 16 + 268 + 20;
 
+pub(super) fn extension(format: WaveFormat) -> &'static str {
+    match format {
+        WaveFormat::Vcd => "vcd",
+        WaveFormat::Fst => "fst",
+    }
+}
+
 /// Begins a file with some provenance.
 pub(super) fn create(path: &Path, format: WaveFormat, entries: &[Entry], params: &Params) -> Waves {
     let provenance = ["scenario kc705".to_owned(), "seed 1".to_owned()];
@@ -24,7 +31,7 @@ pub(super) fn create(path: &Path, format: WaveFormat, entries: &[Entry], params:
 /// The run that most tests look at: from 0 on, or only two windows of it.
 pub(super) fn record(directory: &Path, windows: bool, params: Params) -> Vec<PathBuf> {
     let entries = [entries(&params), ram_entries()].concat();
-    let paths = FORMATS.map(|format| directory.join("run").with_extension(format.extension()));
+    let paths = FORMATS.map(|format| directory.join("run").with_extension(extension(format)));
     let mut waves: Vec<_> = FORMATS
         .iter()
         .zip(&paths)

@@ -3,7 +3,7 @@
 use globset::{Glob, GlobMatcher};
 
 use crate::error::{Input, Result};
-use crate::hierarchy::{Entry, TOP};
+use crate::hierarchy::Entry;
 
 /// The option that gives the globs.
 const OPTION: &str = "--signals";
@@ -22,11 +22,12 @@ pub fn select(entries: Vec<Entry>, ram: Vec<Entry>, globs: &[String]) -> Result<
     let candidates = with_ram(entries, ram);
     let mut chosen = vec![false; candidates.len()];
     for glob in globs {
-        let matcher = compile(glob)?;
+        let (matcher, last) = (compile(glob)?, glob.rsplit('.').next().unwrap_or_default());
+        let asks_for_ram = last.starts_with("ram");
         let mut found = false;
         for (candidate, chosen) in candidates.iter().zip(&mut chosen) {
-            let matches = (!candidate.in_ram || asks_for_ram(glob))
-                && names(&candidate.entry).iter().any(|name| matcher.is_match(name));
+            let matches = (asks_for_ram || !candidate.in_ram())
+                && names(candidate).iter().any(|name| matcher.is_match(name));
             found |= matches;
             *chosen |= matches;
         }
@@ -37,32 +38,16 @@ pub fn select(entries: Vec<Entry>, ram: Vec<Entry>, globs: &[String]) -> Result<
         }
     }
     let pairs = candidates.into_iter().zip(chosen);
-    Ok(pairs.filter(|(_, chosen)| *chosen).map(|(candidate, _)| candidate.entry).collect())
-}
-
-fn asks_for_ram(glob: &str) -> bool {
-    glob.rsplit('.').next().is_some_and(|name| name.starts_with("ram"))
-}
-
-struct Candidate {
-    entry: Entry,
-    in_ram: bool,
+    Ok(pairs.filter(|(_, chosen)| *chosen).map(|(candidate, _)| candidate).collect())
 }
 
 /// All entries, the RAM's words at the end of their scope, or nowhere if that is absent.
-fn with_ram(entries: Vec<Entry>, ram: Vec<Entry>) -> Vec<Candidate> {
-    let home = ram.first().map(|word| word.scope.clone());
-    let last = entries.iter().rposition(|entry| Some(&entry.scope) == home.as_ref());
-    let mut ram = Some(ram);
-    let mut candidates = Vec::new();
-    for (place, entry) in entries.into_iter().enumerate() {
-        candidates.push(Candidate { entry, in_ram: false });
-        if Some(place) == last {
-            let words = ram.take().unwrap_or_default().into_iter();
-            candidates.extend(words.map(|entry| Candidate { entry, in_ram: true }));
-        }
+fn with_ram(mut entries: Vec<Entry>, ram: Vec<Entry>) -> Vec<Entry> {
+    let home = ram.first().map(|word| &word.scope);
+    if let Some(last) = entries.iter().rposition(|entry| Some(&entry.scope) == home) {
+        entries.splice(last + 1..last + 1, ram);
     }
-    candidates
+    entries
 }
 
 fn compile(glob: &str) -> Result<GlobMatcher> {
@@ -75,23 +60,19 @@ fn compile(glob: &str) -> Result<GlobMatcher> {
 
 /// What a user may call a signal: its path, the path below the top, its bare name.
 fn names(entry: &Entry) -> [String; 3] {
-    let path = entry.path();
-    let below = path.strip_prefix(TOP).and_then(|rest| rest.strip_prefix('.'));
-    let below = below.unwrap_or(&path).to_owned();
-    [path, below, entry.signal.name.clone()]
+    [entry.path(), entry.below_top(), entry.signal.name.clone()]
 }
 
 /// The paths below the top most like `glob`.
-fn nearest(glob: &str, candidates: &[Candidate]) -> String {
+fn nearest(glob: &str, candidates: &[Entry]) -> String {
     let plain: String = glob.chars().filter(|c| !"*?[]{}".contains(*c)).collect();
-    let mut scored: Vec<(f64, String)> = (candidates.iter().filter(|candidate| !candidate.in_ram))
-        .map(|candidate| {
-            let [path, below, name] = names(&candidate.entry);
-            let likeness = [&path, &below, &name]
-                .map(|name| strsim::normalized_damerau_levenshtein(&plain.to_lowercase(), name));
-            (likeness.into_iter().fold(0.0, f64::max), below)
-        })
-        .collect();
+    let score = |candidate: &Entry| {
+        let likeness = names(candidate)
+            .map(|name| strsim::normalized_damerau_levenshtein(&plain.to_lowercase(), &name));
+        (likeness.into_iter().fold(0.0, f64::max), candidate.below_top())
+    };
+    let outside = candidates.iter().filter(|candidate| !candidate.in_ram());
+    let mut scored: Vec<(f64, String)> = outside.map(score).collect();
     scored.sort_by(|a, b| b.0.total_cmp(&a.0));
     let bare = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
     let mut offered: Vec<String> = Vec::new();

@@ -1,4 +1,4 @@
-//! A file that can seek and knows where it is, whatever stands at its path.
+//! A file that can seek, whatever stands at its path.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
@@ -12,7 +12,6 @@ use crate::files::output::OutputFile;
 pub(super) struct Spool {
     file: OutputFile,
     kept: Option<BufWriter<File>>,
-    at: u64,
 }
 
 impl Spool {
@@ -25,12 +24,19 @@ impl Spool {
             }
             _ => None,
         };
-        Ok(Spool { file, kept, at: 0 })
+        Ok(Spool { file, kept })
+    }
+
+    fn out(&mut self) -> &mut dyn WriteSeek {
+        match &mut self.kept {
+            Some(kept) => kept,
+            None => &mut self.file,
+        }
     }
 
     /// Puts the finished file in place.
     pub(super) fn commit(self) -> Result<()> {
-        let Spool { mut file, kept, .. } = self;
+        let Spool { mut file, kept } = self;
         if let Some(kept) = kept {
             let copied =
                 kept.into_inner().map_err(|error| error.into_error()).and_then(|mut all| {
@@ -45,37 +51,20 @@ impl Spool {
 
 impl Write for Spool {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let written = match &mut self.kept {
-            Some(kept) => kept.write(bytes)?,
-            None => self.file.write(bytes)?,
-        };
-        self.at += written as u64;
-        Ok(written)
+        self.out().write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        match &mut self.kept {
-            Some(kept) => kept.flush(),
-            None => self.file.flush(),
-        }
+        self.out().flush()
     }
 }
 
 impl Seek for Spool {
-    /// Asking for the place, or going there, does not empty the buffer.
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        let target = match to {
-            SeekFrom::Start(place) => Some(place),
-            SeekFrom::Current(step) => self.at.checked_add_signed(step),
-            SeekFrom::End(_) => None,
-        };
-        if target != Some(self.at) {
-            let to = target.map_or(to, SeekFrom::Start);
-            self.at = match &mut self.kept {
-                Some(kept) => kept.seek(to)?,
-                None => self.file.seek(to)?,
-            };
-        }
-        Ok(self.at)
+        self.out().seek(to)
     }
 }
+
+trait WriteSeek: Write + Seek {}
+
+impl<W: Write + Seek> WriteSeek for W {}

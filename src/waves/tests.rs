@@ -13,7 +13,9 @@ use crate::kernel::Thermometer;
 use crate::kernel::Time;
 
 use super::bench::{Bench, SHOTS, params, with_delays};
-use super::readback::{DerefIn, FORMATS, FRAME, assert_same, at, contents, create, record};
+use super::readback::{
+    DerefIn, FORMATS, FRAME, assert_same, at, contents, create, extension, record,
+};
 use super::writer::WaveFormat;
 
 #[test]
@@ -111,7 +113,7 @@ fn a_file_of_many_blocks_is_read_back_whole() {
     let params = params();
     let all = [entries(&params), ram_entries()].concat();
     let paths =
-        FORMATS.map(|format| directory.path().join("run").with_extension(format.extension()));
+        FORMATS.map(|format| directory.path().join("run").with_extension(extension(format)));
     let mut waves: Vec<_> = FORMATS
         .iter()
         .zip(&paths)

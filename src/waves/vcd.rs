@@ -8,7 +8,7 @@ use std::path::Path;
 
 use vcd::{IdCode, ReferenceIndex, TimescaleUnit, VarType};
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::files::date;
 use crate::files::output::OutputFile;
 use crate::hierarchy::{Entry, IDS, Kind};
@@ -83,23 +83,24 @@ impl Sink for Vcd {
 impl Body for Vcd {
     #[inline(always)]
     fn step(&mut self, at: u64, step: Step, fill: impl FnOnce(&mut Self)) -> io::Result<()> {
-        let begin = self.text.len();
+        let begin = self.text.len;
         if self.stamped != at {
             self.text.stamp(at);
         }
-        let empty = self.text.len();
-        match step {
-            Step::Start => self.text.push(b"$dumpvars\n"),
-            Step::Open => self.text.push(b"$dumpon\n"),
-            Step::Close => self.text.push(b"$dumpoff\n"),
-            Step::Change => {}
-        }
+        let empty = self.text.len;
+        let word: &[u8] = match step {
+            Step::Start => b"$dumpvars\n",
+            Step::Open => b"$dumpon\n",
+            Step::Close => b"$dumpoff\n",
+            Step::Change | Step::Clocks => b"",
+        };
+        self.text.push(word);
         fill(self);
-        if step != Step::Change {
+        if !word.is_empty() {
             self.text.push(b"$end\n");
         }
-        if self.text.len() == empty {
-            self.text.truncate(begin);
+        if self.text.len == empty {
+            self.text.len = begin;
             return Ok(());
         }
         self.stamped = at;
@@ -118,10 +119,6 @@ impl Body for Vcd {
         }
         self.text.write(&mut self.file).map_err(|error| self.file.fault(error))?;
         self.file.commit()
-    }
-
-    fn fault(&self, source: io::Error) -> Error {
-        self.file.fault(source)
     }
 }
 

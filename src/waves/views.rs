@@ -70,12 +70,13 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::super::bench::params;
+    use super::super::readback::extension;
     use super::*;
     use crate::hierarchy::{entries, ram_entries};
     use crate::kernel::Time;
 
     fn written(folder: &Path, format: WaveFormat, entries: &[Entry]) -> Vec<(String, String)> {
-        let wave = folder.join("run").with_extension(format.extension());
+        let wave = folder.join("run").with_extension(extension(format));
         fs::write(&wave, "").unwrap();
         let marks = Marks {
             laser_edge: Some(Time::from_ns(2104)),

@@ -1,7 +1,7 @@
 //! A waveform file being written, in windows.
 
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
 use crate::firmware::TofTop;
@@ -21,18 +21,9 @@ pub enum WaveFormat {
     Fst,
 }
 
-impl WaveFormat {
-    /// The ending of its files, without the dot.
-    pub const fn extension(self) -> &'static str {
-        match self {
-            WaveFormat::Vcd => "vcd",
-            WaveFormat::Fst => "fst",
-        }
-    }
-}
-
 /// A waveform file being written. Dropped before its run has ended, it leaves no trace.
 pub struct Waves {
+    path: PathBuf,
     writer: Writer,
     state: State,
     /// What the file shows, since the first window.
@@ -79,7 +70,8 @@ impl Waves {
             }
         };
         let shown = Box::new(Part::of(entries.iter().map(|entry| entry.id)));
-        Ok(Waves { writer, state: State::Blank, shown, last: 0, failed: None })
+        let (path, state) = (path.to_owned(), State::Blank);
+        Ok(Waves { path, writer, state, shown, last: 0, failed: None })
     }
 
     /// A window begins: every signal is shown as it is now. Within a window, only what has changed.
@@ -93,48 +85,32 @@ impl Waves {
                 self.state = State::Open;
                 return self.sample(now, top);
             }
-            State::Ended(end) => self.unknown(end, Step::Close),
-            State::Blank if at > 0 => self.unknown(0, Step::Start),
+            State::Ended(end) => self.write(end, Step::Close, None),
+            State::Blank if at > 0 => self.write(0, Step::Start, None),
             State::Blank => {}
         }
         let step = if at > 0 { Step::Open } else { Step::Start };
         self.state = State::Open;
-        let result = match &mut self.writer {
-            Writer::Vcd(file) => file.step(at, step, |file| self.shown.show(top, file)),
-            Writer::Fst(file) => file.step(at, step, |file| self.shown.show(top, file)),
-        };
-        self.keep(result);
+        self.write(at, step, Some(top));
     }
 
     /// Shows what has changed since the last call; outside windows nothing. Within a window this
     /// has to be called at every edge of `clk_250` and at every change between them.
     #[inline]
     pub(crate) fn sample(&mut self, now: Time, top: &TofTop) {
-        if self.state != State::Open {
-            return;
+        if self.state == State::Open {
+            let at = self.at(now);
+            self.write(at, Step::Change, Some(top));
         }
-        let at = self.at(now);
-        let (shown, step) = (&mut self.shown, Step::Change);
-        let result = match &mut self.writer {
-            Writer::Vcd(file) => file.step(at, step, |file| shown.follow(top, file)),
-            Writer::Fst(file) => file.step(at, step, |file| shown.follow(top, file)),
-        };
-        self.keep(result);
     }
 
     /// The same where only levels of clocks have changed.
     #[inline]
     pub(crate) fn tick(&mut self, now: Time, top: &TofTop) {
-        if self.state != State::Open {
-            return;
+        if self.state == State::Open {
+            let at = self.at(now);
+            self.write(at, Step::Clocks, Some(top));
         }
-        let at = self.at(now);
-        let (shown, step) = (&mut self.shown, Step::Change);
-        let result = match &mut self.writer {
-            Writer::Vcd(file) => file.step(at, step, |file| shown.tick(top, file)),
-            Writer::Fst(file) => file.step(at, step, |file| shown.tick(top, file)),
-        };
-        self.keep(result);
     }
 
     /// A window ends: from now on every signal is unknown.
@@ -148,18 +124,17 @@ impl Waves {
     /// The first error of writing so far.
     #[inline]
     pub(crate) fn check(&self) -> Result<()> {
-        match &self.failed {
-            None => Ok(()),
-            Some(error) => Err(self.fault(error)),
-        }
+        let Some(error) = &self.failed else { return Ok(()) };
+        let error = io::Error::new(error.kind(), error.to_string());
+        Err(Error::io(&self.path, "write")(error))
     }
 
     /// The run has ended: puts the file in place.
     pub(crate) fn finish(mut self, end: Time) -> Result<()> {
         let at = self.at(end);
         match self.state {
-            State::Blank => self.unknown(0, Step::Start),
-            State::Ended(end) if end < at => self.unknown(end, Step::Close),
+            State::Blank => self.write(0, Step::Start, None),
+            State::Ended(end) if end < at => self.write(end, Step::Close, None),
             State::Ended(_) | State::Open => {}
         }
         self.check()?;
@@ -169,14 +144,6 @@ impl Waves {
         }
     }
 
-    fn unknown(&mut self, at: u64, step: Step) {
-        let result = match &mut self.writer {
-            Writer::Vcd(file) => file.step(at, step, Body::unknown),
-            Writer::Fst(file) => file.step(at, step, Body::unknown),
-        };
-        self.keep(result);
-    }
-
     /// Time as the file has it, which never goes back [ps].
     #[inline(always)]
     fn at(&mut self, now: Time) -> u64 {
@@ -184,25 +151,27 @@ impl Waves {
         self.last
     }
 
+    /// Writes a step; without a top everything is unknown.
     #[inline(always)]
-    fn keep(&mut self, result: io::Result<()>) {
-        if let Err(error) = result {
-            self.fail(error);
+    fn write(&mut self, at: u64, step: Step, top: Option<&TofTop>) {
+        let shown = &mut self.shown;
+        let written = match &mut self.writer {
+            Writer::Vcd(file) => file.step(at, step, |file| fill(file, shown, step, top)),
+            Writer::Fst(file) => file.step(at, step, |file| fill(file, shown, step, top)),
+        };
+        if let Err(error) = written {
+            self.failed.get_or_insert(error);
         }
     }
+}
 
-    #[cold]
-    #[inline(never)]
-    fn fail(&mut self, error: io::Error) {
-        self.failed.get_or_insert(error);
-    }
-
-    #[cold]
-    fn fault(&self, error: &io::Error) -> Error {
-        let source = io::Error::new(error.kind(), error.to_string());
-        match &self.writer {
-            Writer::Vcd(file) => file.fault(source),
-            Writer::Fst(file) => file.fault(source),
-        }
+/// Gives a file what a step shows.
+#[inline(always)]
+fn fill(file: &mut impl Body, shown: &mut Part, step: Step, top: Option<&TofTop>) {
+    match (step, top) {
+        (_, None) => file.unknown(),
+        (Step::Change, Some(top)) => shown.follow(top, file),
+        (Step::Clocks, Some(top)) => shown.tick(top, file),
+        (_, Some(top)) => shown.show(top, file),
     }
 }

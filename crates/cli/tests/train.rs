@@ -5,8 +5,8 @@ use std::path::Path;
 
 use tofsim::network::Network;
 use tofsim_learn::quantize::Datapath;
-use tofsim_learn::training::features::{Features, Scaling};
-use tofsim_learn::training::limits::WordLimits;
+use tofsim_learn::training::features::{self, Scaling};
+use tofsim_learn::training::limits::{Hinges, WordLimits};
 use tofsim_learn::training::lm::{Lm, LmSettings};
 use tofsim_learn::training::network_problem::NetworkProblem;
 use tofsim_learn::training::recipe::Recipe;
@@ -274,16 +274,16 @@ fn bins_that_never_count_do_no_harm() {
         counts.iter().map(|counts| 0.1 + f64::from(counts[60]) / 100.0).collect();
     let scaling = Scaling::of(&counts);
     assert!(scaling.inverse_sd.contains(&0.0));
-    let features = Features::new(&counts, &scaling);
+    let blocks = features::blocks(&counts, &scaling);
     let (recipe, weights) = (Recipe::default(), vec![1000.0; 400]);
     let problem = NetworkProblem {
-        features: &features,
+        blocks: &blocks,
         scaling: &scaling,
         distances_m: &distances_m,
         weights: &weights,
         neurons: 2,
         table_noise: 0.0,
-        hinges: WordLimits::default().hinges(&Datapath::default()),
+        hinges: Hinges { limits: WordLimits::default(), words: Datapath::default() },
         held_out: None,
     };
     let mut lm = Lm::new(start(&recipe.start, 2, 1, 0), &LmSettings::default());

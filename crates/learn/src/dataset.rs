@@ -3,31 +3,22 @@
 //! A [`Grid`] or a [`Subset`] of one says which scene each row has; a [`HistogramSource`] draws the row's
 //! histogram as `run --fidelity histogram` draws a frame, in one step. A row has random numbers of
 //! its own, found by seed and row number, so that any one can be made again without the others. [`files`]
-//! writes them, as `tofsim dataset` does, and [`read`] reads them.
+//! writes them, as `tofsim dataset` does.
 
 pub mod blocks;
-mod checks;
 pub mod description;
 pub mod files;
 pub mod grid;
-pub mod npy;
-mod npy_read;
+mod npy;
 pub mod pairs;
-pub mod parquet_file;
-mod parquet_read;
+mod parquet_file;
 pub mod parquet_table;
-mod read;
 pub mod rows;
-pub mod scene;
 pub mod source;
-pub mod subset;
 
-pub use blocks::{BLOCK, Blocks, Sample};
+pub use blocks::{BLOCK, Sample};
 pub use description::DatasetDescription;
-pub use grid::{Grid, Steps};
+pub use grid::{Grid, Scene, Steps};
 pub use pairs::Pairs;
-pub use read::read;
-pub use rows::{NumberedScene, Rows};
-pub use scene::Scene;
+pub use rows::{NumberedScene, Rows, Subset};
 pub use source::HistogramSource;
-pub use subset::Subset;

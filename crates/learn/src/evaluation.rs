@@ -9,11 +9,9 @@ pub mod cross_check;
 pub mod errors;
 pub mod exploration;
 pub mod figures;
-pub mod groups;
 pub mod spread;
 pub mod thesis;
 
 pub use errors::{EstimatorErrors, Evaluation};
 pub use figures::Figures;
-pub use groups::Group;
-pub use spread::Spread;
+pub use spread::{Group, Spread};

@@ -17,7 +17,6 @@ pub mod limits;
 pub mod lm;
 pub mod network_problem;
 pub mod recipe;
-pub mod samples;
 pub mod start;
 pub mod state;
 pub mod sums;

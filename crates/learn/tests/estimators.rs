@@ -13,7 +13,7 @@ use tofsim::sensor::streams::{Source, stream};
 use tofsim_learn::estimation::Acquisition;
 use tofsim_learn::estimation::Estimator;
 use tofsim_learn::estimation::acquisition::Echo;
-use tofsim_learn::estimation::likelihood::Likelihood;
+use tofsim_learn::estimation::likelihood::{Likelihood, Model};
 use tofsim_learn::estimation::matched_filter::MatchedFilter;
 use tofsim_learn::estimation::peak_detection::PeakDetection;
 
@@ -23,7 +23,7 @@ const DISTANCES_M: [f64; 6] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
 const SHOTS: u64 = 30_000;
 
 fn bins(profile: &str) -> Bins {
-    let (delays, period) = (chain::load(profile, &Place::working_directory()).unwrap(), 8);
+    let (delays, period) = (chain::load(profile, &Place::Folder("".into())).unwrap(), 8);
     let period = Time::from_ns(period);
     Bins::of_chain(&delays, &delays.calibration(period), period)
 }
@@ -107,12 +107,14 @@ fn peak_detection_errs_as_in_table_5_2() {
 /// within 1.8 times. One repeat: 300 histograms, so that a deviation is known to 4 %.
 fn against_the_bound(profile: &str) {
     let bins = bins(profile);
-    let likelihood = Likelihood::new(&acquisition(&bins)).unwrap();
+    let (model, likelihood) =
+        (Model::new(&acquisition(&bins)), Likelihood::new(&acquisition(&bins)));
+    let (model, likelihood) = (model.unwrap(), likelihood.unwrap());
     let filter = MatchedFilter::new(&acquisition(&bins)).unwrap();
     for distance_m in DISTANCES_M {
         let (mut variance, mut likely, mut matched) = (0.0, Vec::new(), Vec::new());
         grid(distance_m, &bins, 1, |budget, histograms| {
-            let bound_m = likelihood.model().cramer_rao_m(&Echo::from(budget)).unwrap();
+            let bound_m = model.cramer_rao_m(&Echo::from(budget)).unwrap();
             variance += bound_m * bound_m / 300.0;
             for histogram in histograms {
                 likely.push(likelihood.estimate(&histogram).unwrap() - distance_m);

@@ -42,18 +42,6 @@ impl StopLine {
         self.recent[(self.newest + nth) % MAX_TRANSITIONS]
     }
 
-    /// When the transition happened that reached physical tap 0 at or before `now`, raising it.
-    pub fn rise_seen_at(&self, now: Time, delays: &Delays) -> Option<Time> {
-        let mut level = self.level;
-        for at in (0..self.travelling).map(|nth| self.at(nth)) {
-            if level && at + delays.tap_0() <= now {
-                return Some(at);
-            }
-            level = !level;
-        }
-        None
-    }
-
     /// Whether the taps of the last edge are those of every edge to come, until the level changes.
     #[inline(always)]
     pub fn is_shown_by(&self, taps: &Taps) -> bool {

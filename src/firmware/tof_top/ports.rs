@@ -37,14 +37,6 @@ signals! {
     }
 }
 
-impl Clocks {
-    /// The levels, in order of declaration.
-    #[inline(always)]
-    pub fn levels(&self) -> [bool; 3] {
-        [self.clk_200, self.clk_125, self.clk_250]
-    }
-}
-
 signals! {
     /// Wires of the top that are no register of a module.
     pub struct Nets {

@@ -44,10 +44,10 @@ impl<W: Write + Seek> Changes<W> {
         if at <= self.at {
             return Ok(());
         }
-        if self.size + self.times.size() > GATHERED {
+        if self.size + self.times.steps.len() > GATHERED {
             self.write_section()?;
         }
-        if self.times.is_empty() {
+        if self.times.steps.is_empty() {
             self.streams.iter().for_each(|stream| stream.spell(&mut self.frame));
         }
         self.times.push(at, self.at);
@@ -58,7 +58,7 @@ impl<W: Write + Seek> Changes<W> {
     /// A signal changes to a value of up to 64 bits.
     #[inline]
     pub(super) fn word(&mut self, signal: usize, value: u64) {
-        let width = self.streams[signal].width();
+        let width = self.streams[signal].width;
         let bytes = width.div_ceil(8);
         let aligned = value << (8 * bytes - width);
         self.change(signal, &aligned.to_be_bytes()[8 - bytes..]);
@@ -70,18 +70,18 @@ impl<W: Write + Seek> Changes<W> {
         let stream = &mut self.streams[signal];
         stream.set(value);
         // The values of the first time step are the frame.
-        if !self.times.is_empty() {
-            self.size += stream.note(self.times.last(), value);
+        if !self.times.steps.is_empty() {
+            self.size += stream.note(self.times.last, value);
         }
     }
 
     /// All signals become unknown.
     pub(super) fn unknown(&mut self) {
         for stream in &mut self.streams {
-            stream.clear();
-            if !self.times.is_empty() {
-                stream.note_unknown(self.times.last());
-                self.size += 2 + stream.width();
+            stream.value = None;
+            if !self.times.steps.is_empty() {
+                stream.note_unknown(self.times.last);
+                self.size += 2 + stream.width;
             }
         }
     }
@@ -126,7 +126,7 @@ impl<W: Write + Seek> Changes<W> {
         body.push(LZ4);
         let mut places = Vec::new();
         for stream in &mut self.streams {
-            if stream.is_empty() {
+            if stream.data.is_empty() {
                 empty += 1;
                 continue;
             }

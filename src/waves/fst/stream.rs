@@ -11,24 +11,18 @@ const SHORT: usize = 32;
 /// One signal.
 pub(super) struct Stream {
     /// [bits].
-    width: usize,
-    data: Vec<u8>,
+    pub(super) width: usize,
+    pub(super) data: Vec<u8>,
     /// Number of the time of the last change, from 0 in each section.
     time: u64,
     /// The value, its highest bit the highest of the first byte; `None` is unknown.
-    value: Option<Box<[u8]>>,
+    pub(super) value: Option<Box<[u8]>>,
 }
 
 impl Stream {
     /// A signal of so many bits, unknown.
     pub(super) fn new(width: usize) -> Self {
         Stream { width, data: Vec::new(), time: 0, value: None }
-    }
-
-    /// Width [bits].
-    #[inline]
-    pub(super) fn width(&self) -> usize {
-        self.width
     }
 
     /// The signal has that value from now on.
@@ -38,11 +32,6 @@ impl Stream {
             Some(kept) => kept.copy_from_slice(value),
             kept => *kept = Some(value.into()),
         }
-    }
-
-    /// The signal is unknown from now on.
-    pub(super) fn clear(&mut self) {
-        self.value = None;
     }
 
     /// Notes that it has changed to `value` at the time of that number; how many bytes that took.
@@ -105,11 +94,6 @@ impl Stream {
         *time = 0;
         length
     }
-
-    /// Whether nothing was noted.
-    pub(super) fn is_empty(&self) -> bool {
-        self.data.is_empty()
-    }
 }
 
 #[cfg(test)]
@@ -123,7 +107,7 @@ mod tests {
         let mut text = Vec::new();
         stream.spell(&mut text);
         assert_eq!(text, b"101000001");
-        stream.clear();
+        stream.value = None;
         stream.spell(&mut text);
         assert_eq!(text, b"101000001xxxxxxxxx");
     }

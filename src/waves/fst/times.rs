@@ -9,37 +9,20 @@ const ZLIB: u8 = 3;
 #[derive(Default)]
 pub(super) struct Times {
     /// The first one, then each as what it is more than the one before it.
-    steps: Vec<u8>,
+    pub(super) steps: Vec<u8>,
     /// Number of the last one, from 0.
-    last: u64,
+    pub(super) last: u64,
 }
 
 impl Times {
     /// Takes the next time, which comes after `before` [ps].
     pub(super) fn push(&mut self, at: u64, before: u64) {
-        if self.is_empty() {
+        if self.steps.is_empty() {
             number(&mut self.steps, at);
         } else {
             self.last += 1;
             number(&mut self.steps, at - before);
         }
-    }
-
-    /// Number of the last time, from 0.
-    #[inline]
-    pub(super) fn last(&self) -> u64 {
-        self.last
-    }
-
-    /// Whether there is none.
-    #[inline]
-    pub(super) fn is_empty(&self) -> bool {
-        self.steps.is_empty()
-    }
-
-    /// What they take before compression [bytes].
-    pub(super) fn size(&self) -> usize {
-        self.steps.len()
     }
 
     /// Appends them, compressed if that makes them shorter, and begins anew.

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::super::digits::{EIGHT, THREE};
+use super::super::digits::{eight, three};
 
 /// Bytes gathered before they go to the file.
 const BLOCK: usize = 1 << 16;
@@ -16,7 +16,7 @@ const LEAD: u64 = 1_000_000;
 pub(super) struct Text {
     /// The text, and room for the longest step after [`BLOCK`] bytes.
     bytes: Box<[u8]>,
-    len: usize,
+    pub(super) len: usize,
     /// The last time's first digits, after a `#`.
     lead: [u8; 16],
     lead_len: usize,
@@ -63,18 +63,6 @@ impl Text {
         Text { bytes, len: 0, lead: [0; 16], lead_len: 0, lead_at: 0 }
     }
 
-    /// How much there is [bytes].
-    #[inline]
-    pub(super) fn len(&self) -> usize {
-        self.len
-    }
-
-    /// Takes back what came after the first `len` bytes.
-    #[inline]
-    pub(super) fn truncate(&mut self, len: usize) {
-        self.len = len;
-    }
-
     /// Whether there is enough of it for a write.
     #[inline]
     pub(super) fn is_full(&self) -> bool {
@@ -103,8 +91,8 @@ impl Text {
         let line = &mut self.bytes[self.len..][..32];
         let place = self.lead_len % 16;
         put(line, 0, &self.lead);
-        put(line, place, &THREE[thousands as usize]);
-        put(line, place + 3, &THREE[units as usize]);
+        put(line, place, &three(thousands));
+        put(line, place + 3, &three(units));
         self.len += place + 7;
     }
 
@@ -172,7 +160,7 @@ fn put_number(bytes: &mut [u8], at: usize, value: u64) -> usize {
     let (mut digits, mut place) = (value << (u64::BITS - width), at + 1);
     let end = place + width as usize;
     while place < end {
-        put(bytes, place, &EIGHT[(digits >> 56) as usize]);
+        put(bytes, place, &eight((digits >> 56) as u8));
         (digits, place) = (digits << 8, place + 8);
     }
     end
@@ -184,8 +172,8 @@ fn put_word(bytes: &mut [u8], at: usize, word: u64) {
     if word == 0 || word == u64::MAX {
         put(bytes, at, &[b'0' | (word & 1) as u8; 64]);
     } else {
-        for (eight, byte) in word.to_be_bytes().into_iter().enumerate() {
-            put(bytes, at + 8 * eight, &EIGHT[byte as usize]);
+        for (place, byte) in word.to_be_bytes().into_iter().enumerate() {
+            put(bytes, at + 8 * place, &eight(byte));
         }
     }
 }

@@ -12,7 +12,7 @@ use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int32Ty
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::OutputFile;
 use tofsim::sim::shot_recorder::Shot;
-use tofsim_learn::dataset::parquet_table::{GROUP, ParquetTable};
+use tofsim_learn::dataset::parquet_table::{ParquetTable, RowGroup};
 
 use super::causes;
 
@@ -34,8 +34,7 @@ pub struct Events {
 
 enum EventFile {
     Csv(OutputFile),
-    /// The file, and rows gathered for its next group.
-    Parquet(Box<ParquetTable>, Vec<Shot>),
+    Parquet(Box<ParquetTable<Shot>>),
 }
 
 impl Events {
@@ -52,8 +51,9 @@ impl Events {
         let file = if ending == "parquet" {
             let laser = if pairs { format!("required boolean {LASER};") } else { String::new() };
             let schema = format!("message shots {{ {SCHEMA} {laser} }}");
-            let table = ParquetTable::create(file, &schema, "provenance", provenance.join("\n"))?;
-            EventFile::Parquet(Box::new(table), Vec::with_capacity(GROUP))
+            let provenance = ("provenance", provenance.join("\n"));
+            let fill = move |group: &mut RowGroup, shots: &[Shot]| columns(group, shots, pairs);
+            EventFile::Parquet(Box::new(ParquetTable::create(file, &schema, provenance, fill)?))
         } else {
             let laser = if pairs { format!(",{LASER}") } else { String::new() };
             writeln!(file, "{COLUMNS}{laser}").map_err(|error| fault(path, error))?;
@@ -74,13 +74,7 @@ impl Events {
                 let written = writeln!(file, "{}{laser}", fields(shot).join(","));
                 written.map_err(|error| fault(file.target(), error))
             }
-            EventFile::Parquet(table, shots) => {
-                shots.push(*shot);
-                if shots.len() < GROUP {
-                    return Ok(());
-                }
-                write_group(table, &std::mem::take(shots), self.pairs)
-            }
+            EventFile::Parquet(table) => table.write(&[*shot]),
         }
     }
 
@@ -88,37 +82,31 @@ impl Events {
     pub fn finish(self) -> Result<PathBuf> {
         let file = match self.file {
             EventFile::Csv(file) => file,
-            EventFile::Parquet(mut table, shots) => {
-                if !shots.is_empty() {
-                    write_group(&mut table, &shots, self.pairs)?;
-                }
-                table.finish()?
-            }
+            EventFile::Parquet(table) => table.finish()?,
         };
         let target = file.target().to_owned();
         file.commit().map(|()| target)
     }
 }
 
-fn write_group(table: &mut ParquetTable, shots: &[Shot], pairs: bool) -> Result<()> {
+/// Writes the columns of shots.
+fn columns(group: &mut RowGroup, shots: &[Shot], pairs: bool) -> parquet::errors::Result<()> {
     let cause = |shot: &Shot| shot.cause.map(|cause| ByteArray::from(causes::name(Some(cause))));
     let whole = |value: u64| value as i32;
-    table.write_group(|group| {
-        let shots = || shots.iter();
-        group.required::<Int64Type>(shots().map(|shot| shot.frame as i64))?;
-        group.required::<Int64Type>(shots().map(|shot| shot.shot as i64))?;
-        let arrivals_ps = shots().map(|shot| shot.arrival_fs.map(|fs| fs as f64 / 1e3));
-        group.optional::<DoubleType>(arrivals_ps)?;
-        group.optional::<ByteArrayType>(shots().map(cause))?;
-        group.optional::<Int32Type>(shots().map(|shot| shot.n.map(whole)))?;
-        group.optional::<Int32Type>(shots().map(|shot| shot.coarse.map(whole)))?;
-        group.optional::<Int32Type>(shots().map(|shot| shot.code.map(whole)))?;
-        group.optional::<Int32Type>(shots().map(|shot| shot.code.map(whole)))?;
-        match pairs {
-            true => group.required::<BoolType>(shots().map(|shot| shot.laser_en)),
-            false => Ok(()),
-        }
-    })
+    let shots = || shots.iter();
+    group.required::<Int64Type>(shots().map(|shot| shot.frame as i64))?;
+    group.required::<Int64Type>(shots().map(|shot| shot.shot as i64))?;
+    let arrivals_ps = shots().map(|shot| shot.arrival_fs.map(|fs| fs as f64 / 1e3));
+    group.optional::<DoubleType>(arrivals_ps)?;
+    group.optional::<ByteArrayType>(shots().map(cause))?;
+    group.optional::<Int32Type>(shots().map(|shot| shot.n.map(whole)))?;
+    group.optional::<Int32Type>(shots().map(|shot| shot.coarse.map(whole)))?;
+    group.optional::<Int32Type>(shots().map(|shot| shot.code.map(whole)))?;
+    group.optional::<Int32Type>(shots().map(|shot| shot.code.map(whole)))?;
+    match pairs {
+        true => group.required::<BoolType>(shots().map(|shot| shot.laser_en)),
+        false => Ok(()),
+    }
 }
 
 fn fields(shot: &Shot) -> [String; 8] {

@@ -9,7 +9,7 @@ use tofsim::error::{Error, Result};
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::files::{DatasetFiles, DatasetFormat};
-use tofsim_learn::dataset::{Blocks, DatasetDescription, Grid, HistogramSource};
+use tofsim_learn::dataset::{DatasetDescription, Grid, HistogramSource, Sample};
 
 use crate::choice::{self, words};
 use crate::text::table::{facts, grouped};
@@ -55,10 +55,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let description = DatasetDescription::new(&name, &args.draws.set, &source, &rows, seed);
     let files = DatasetFiles::create(&args.output, &args.format, &description)?;
     let stop = stop_signal();
-    let blocks = source.blocks(&rows, seed, 0..rows.len());
+    let blocks = source.blocks(&rows, seed);
     let written = args
         .draws
-        .on_threads(rows.len(), talk, |done| write(files, blocks, stop.as_deref(), done))?;
+        .on_threads(rows.count(), talk, |done| write(files, blocks, stop.as_deref(), done))?;
     written.iter().for_each(|path| talk.detail(format_args!("wrote {}", path.display())));
 
     let files: Vec<_> = written.iter().map(|path| path.display().to_string()).collect();
@@ -73,7 +73,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
 /// Writes a block while the next one is drawn.
 fn write(
     mut files: DatasetFiles,
-    mut blocks: Blocks<'_>,
+    mut blocks: impl Iterator<Item = Vec<Sample>> + Send,
     stop: Option<&AtomicBool>,
     done: &dyn Fn(u64),
 ) -> Result<Vec<PathBuf>> {

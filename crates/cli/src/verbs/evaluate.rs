@@ -90,7 +90,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let estimators = estimators.collect::<std::result::Result<Vec<_>, Input>>()?;
     let rows = args.draws.rows(None, Grid::test(), seed);
     let stop = stop_signal();
-    let evaluation = args.draws.on_threads(rows.len(), talk, |done| {
+    let evaluation = args.draws.on_threads(rows.count(), talk, |done| {
         Evaluation::new(&source, &rows, seed, &estimators, stop.as_deref(), done)
     })?;
     let cross_check = args.cross_check(&loaded, &source, stop.as_deref())?;
@@ -104,7 +104,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         "scenario": loaded.name,
         "profile": profile,
         "seed": seed,
-        "rows": rows.len(),
+        "rows": rows.count(),
         "shots_per_frame": source.shots(),
         "estimators": figures,
         // At the thesis's distances, light unknown.
@@ -127,7 +127,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             "network {}, chain {profile}, scenario {}, {} histograms of {} shots, seed {seed}\n\n",
             network.name,
             loaded.name,
-            rows.len(),
+            rows.count(),
             source.shots()
         );
         print(&(head + &text(&figures, &bound_mm, source.shots(), &cross_check)))?;

@@ -146,10 +146,10 @@ impl Args {
         let source = HistogramSource::new(&Setup::new(loaded)?)?;
         let rows = self.draws.rows(Some(EXPLORED), Grid::test(), seed);
         let (stop, data) = (stop_signal(), (&source, &rows, seed));
-        let points = self.draws.on_threads(rows.len(), talk, |done| {
+        let points = self.draws.on_threads(rows.count(), talk, |done| {
             explore(&network, &sweep(), data, stop.as_deref(), done)
         })?;
-        let (name, rows) = (&network.name, rows.len());
+        let (name, rows) = (&network.name, rows.count());
         if self.json {
             return print_json(&json!({
                 "schema": "tofsim.exploration/1",

@@ -108,10 +108,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let state = args.resume.then(|| checkpoint::load(&path, &settings, &recipe)).transpose()?;
     create_directory(&args.output)?;
     use_threads(args.threads)?;
-    let mut tournament = match state {
-        Some(state) => Tournament::resume(&recipe, &source, args.seed, state),
-        None => Tournament::new(&recipe, &source, args.seed),
-    };
+    let mut tournament = Tournament::new(&recipe, &source, args.seed, state);
     let stop = stop_signal();
     let (done, all) = tournament.progress();
     let progress = talk.progress(all, "histograms times epochs");

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use tofsim::network::Histogram;
 
+use super::grid::Scene;
 use super::rows::{NumberedScene, Rows};
-use super::scene::Scene;
 use super::source::HistogramSource;
 
 /// Rows of a block: 1 MB of histograms.
@@ -28,21 +28,17 @@ pub struct Sample {
     pub histogram: Histogram,
 }
 
-/// Rows in order, [`BLOCK`] at a time and fewer at the end, drawn on all threads of the current pool.
-#[derive(Clone, Debug)]
-pub struct Blocks<'a> {
-    source: &'a HistogramSource,
-    rows: &'a Rows,
-    seed: u64,
-    left: Range<u64>,
-}
-
 impl HistogramSource {
-    /// Draws the rows whose indices are in `range`, without those beyond the last. The same for any
-    /// number of threads; memory is that of a block.
-    pub fn blocks<'a>(&'a self, rows: &'a Rows, seed: u64, range: Range<u64>) -> Blocks<'a> {
-        let end = range.end.min(rows.len());
-        Blocks { source: self, rows, seed, left: range.start.min(end)..end }
+    /// Draws the rows in order, [`BLOCK`] at a time and fewer at the end, on all threads of the current
+    /// pool. The same for any number of threads; memory is that of a block.
+    pub fn blocks(&self, rows: &Rows, seed: u64) -> impl Iterator<Item = Vec<Sample>> + Send {
+        let last = rows.count();
+        (0..last).step_by(BLOCK as usize).map(move |begin| {
+            let end = last.min(begin + BLOCK);
+            let runs: Vec<_> = (begin..end).step_by(RUN as usize).collect();
+            let draw = |&from: &u64| self.run(rows, seed, from..end.min(from + RUN));
+            runs.par_iter().flat_map(draw).collect()
+        })
     }
 
     /// Draws neighbouring rows; those of one distance or scene share what they have in common.
@@ -52,7 +48,8 @@ impl HistogramSource {
         let sample = |index| {
             let NumberedScene { number: row, scene } = rows.row(index);
             let white = white.or(scene.distance_m, |&distance_m| self.white(distance_m));
-            let codes = codes.or(scene, |scene| self.probabilities_of(white, scene));
+            let codes =
+                codes.or(scene, |scene| self.probabilities_with(white, scene, self.is_lit()));
             let histogram = self.draw_from(codes, seed, row);
             Sample { seed, row, scene, histogram }
         };
@@ -75,21 +72,6 @@ impl<K: PartialEq, V> Last<K, V> {
     }
 }
 
-impl Iterator for Blocks<'_> {
-    type Item = Vec<Sample>;
-
-    fn next(&mut self) -> Option<Vec<Sample>> {
-        let (begin, end) = (self.left.start, self.left.end.min(self.left.start + BLOCK));
-        if begin == end {
-            return None;
-        }
-        self.left.start = end;
-        let runs: Vec<_> = (begin..end).step_by(RUN as usize).collect();
-        let draw = |&from: &u64| self.source.run(self.rows, self.seed, from..end.min(from + RUN));
-        Some(runs.par_iter().flat_map(draw).collect())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -105,13 +87,12 @@ mod tests {
     #[test]
     fn blocks_are_the_rows_one_by_one() {
         let source = source();
-        let rows = Rows::All(Grid::test());
-        let range = 7..BLOCK + 100;
-        let blocks: Vec<_> = source.blocks(&rows, 3, range.clone()).collect();
+        let rows = Rows::Subset(Subset::new(Grid::test(), BLOCK + 93, 1));
+        let blocks: Vec<_> = source.blocks(&rows, 3).collect();
         assert_eq!(blocks.iter().map(Vec::len).collect::<Vec<_>>(), [BLOCK as usize, 93]);
-        for (index, sample) in range.zip(blocks.concat()) {
+        for (index, sample) in (0..).zip(blocks.concat()) {
             let row = rows.row(index);
-            let histogram = source.draw(&row.scene, 3, row.number);
+            let histogram = source.draw_from(&source.probabilities(&row.scene), 3, row.number);
             assert_eq!(sample, Sample { seed: 3, row: row.number, scene: row.scene, histogram });
         }
     }
@@ -122,17 +103,9 @@ mod tests {
         let rows = Rows::Subset(Subset::new(Grid::training(), 700, 1));
         let drawn = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| source.blocks(&rows, 1, 0..u64::MAX).flatten().collect::<Vec<_>>())
+            pool.install(|| source.blocks(&rows, 1).flatten().collect::<Vec<_>>())
         };
         assert_eq!(drawn(1), drawn(3));
         assert_eq!(drawn(1).len(), 700);
-    }
-
-    #[test]
-    fn a_range_beyond_the_last_row_is_empty() {
-        let source = source();
-        let rows = Rows::All(Grid::test());
-        assert!(source.blocks(&rows, 1, rows.len()..rows.len() + 5).next().is_none());
-        assert!(source.blocks(&rows, 1, 9..9).next().is_none());
     }
 }

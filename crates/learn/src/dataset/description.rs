@@ -52,7 +52,7 @@ impl DatasetDescription {
             profile: settings.tdc.profile.clone(),
             grid: rows.grid().name,
             subset: matches!(rows, Rows::Subset(_)),
-            rows: rows.len(),
+            rows: rows.count(),
             seed,
             shots_per_frame: source.shots(),
             settings: Scenario { seed, ..settings },

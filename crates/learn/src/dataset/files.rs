@@ -8,8 +8,9 @@ use tofsim::files::output::{OutputFile, create_directory};
 
 use super::blocks::Sample;
 use super::description::DatasetDescription;
-use super::npy::NpyFiles;
-use super::parquet_file::{self, ParquetFile};
+use super::npy::{self, NpyFiles};
+use super::parquet_file;
+use super::parquet_table::ParquetTable;
 
 /// The file with the description alone.
 pub const DESCRIPTION: &str = "dataset.json";
@@ -26,8 +27,8 @@ pub enum DatasetFormat {
 /// The files under construction.
 pub struct DatasetFiles {
     json: OutputFile,
-    parquet: Option<ParquetFile>,
-    npy: Option<NpyFiles>,
+    parquet: Option<ParquetTable<Sample>>,
+    npy: NpyFiles,
 }
 
 impl DatasetFiles {
@@ -43,25 +44,25 @@ impl DatasetFiles {
         let text = text.map_err(|error| json.fault(error))?;
         writeln!(json, "{text}").map_err(|error| json.fault(error))?;
         let wants = |format| formats.contains(&format);
-        let parquet = || ParquetFile::create(&folder.join(parquet_file::NAME), &text);
-        let npy = || NpyFiles::create(folder, description.rows);
+        let parquet = || parquet_file::create(&folder.join(parquet_file::NAME), &text);
+        let npy = || npy::create(folder, description.rows);
         Ok(DatasetFiles {
             json,
             parquet: wants(DatasetFormat::Parquet).then(parquet).transpose()?,
-            npy: wants(DatasetFormat::Npy).then(npy).transpose()?,
+            npy: wants(DatasetFormat::Npy).then(npy).transpose()?.unwrap_or_default(),
         })
     }
 
     /// Adds rows.
     pub fn write(&mut self, samples: &[Sample]) -> Result<()> {
         self.parquet.as_mut().map_or(Ok(()), |parquet| parquet.write(samples))?;
-        self.npy.as_mut().map_or(Ok(()), |npy| npy.write(samples))
+        npy::write(&mut self.npy, samples)
     }
 
     /// Puts the files in place and returns their paths.
     pub fn finish(self) -> Result<Vec<PathBuf>> {
-        let mut files: Vec<_> = self.npy.map(NpyFiles::finish).into_iter().flatten().collect();
-        files.extend(self.parquet.map(ParquetFile::finish).transpose()?);
+        let mut files = self.npy;
+        files.extend(self.parquet.map(ParquetTable::finish).transpose()?);
         files.push(self.json);
         let paths = files.iter().map(|file| file.target().to_owned()).collect();
         for file in &mut files {

@@ -1,6 +1,15 @@
 //! The thesis's grids of scenes (section 5.4): every distance with every irradiance and reflectance.
 
-use super::scene::Scene;
+/// What the sensor looks at; all else is the scenario's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scene {
+    /// Distance of the target, what an estimator is to find (`target.distance_m`) [m].
+    pub distance_m: f64,
+    /// Reflectance of the target (`target.reflectance`) [1].
+    pub reflectance: f64,
+    /// Spectral irradiance of the target (`ambient.irradiance_w_m2_nm`) [W/m^2/nm].
+    pub irradiance_w_m2_nm: f64,
+}
 
 /// Equally spaced decimals: `(first + k step) / per_unit` for `k` below `count`, each the `f64`
 /// nearest to the decimal.
@@ -20,12 +29,6 @@ impl Steps {
     /// Value `k`, from 0, in the unit.
     pub fn value(&self, k: u64) -> f64 {
         (u64::from(self.first) + k * u64::from(self.step)) as f64 / f64::from(self.per_unit)
-    }
-
-    /// All values, in order, in the unit.
-    pub fn values(&self) -> impl Iterator<Item = f64> + use<> {
-        let steps = *self;
-        (0..steps.count).map(move |k| steps.value(k))
     }
 }
 
@@ -85,13 +88,8 @@ impl Grid {
     }
 
     /// Number of rows.
-    pub fn len(&self) -> u64 {
+    pub fn rows(&self) -> u64 {
         self.distances_m.count * self.lights() * self.repeats
-    }
-
-    /// Whether there is no row.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 
     /// Number of scenes at a distance.
@@ -99,7 +97,7 @@ impl Grid {
         self.irradiances_w_m2_nm.count * self.reflectances.count
     }
 
-    /// Scene of a row; `index` counts from 0 and is below [`Grid::len`].
+    /// Scene of a row; `index` counts from 0 and is below [`Grid::rows`].
     pub fn scene(&self, index: u64) -> Scene {
         let scene = index / self.repeats;
         self.scene_at(scene / self.lights(), scene % self.lights())
@@ -123,15 +121,15 @@ mod tests {
 
     #[test]
     fn the_grids_are_those_of_the_thesis() {
-        assert_eq!(Grid::training().len(), 479_385);
-        assert_eq!(Grid::test().len(), 121_635);
+        assert_eq!(Grid::training().rows(), 479_385);
+        assert_eq!(Grid::test().rows(), 121_635);
         for grid in [Grid::training(), Grid::test()] {
             let scene = |d, r, e| Scene { distance_m: d, reflectance: r, irradiance_w_m2_nm: e };
             assert_eq!(grid.scene(0), scene(0.1, 0.08, 0.0));
             assert_eq!(grid.scene(4), grid.scene(0));
             assert_eq!(grid.scene(5), scene(0.1, 0.09, 0.0));
             assert_eq!(grid.scene(53 * 5), scene(0.1, 0.08, 0.05));
-            assert_eq!(grid.scene(grid.len() - 1), scene(0.6, 0.6, 0.4));
+            assert_eq!(grid.scene(grid.rows() - 1), scene(0.6, 0.6, 0.4));
         }
         assert_eq!(Grid::training().scene(53 * 9 * 5).distance_m, 0.1025);
         assert_eq!(Grid::test().scene(53 * 9 * 5).distance_m, 0.11);
@@ -140,7 +138,7 @@ mod tests {
     #[test]
     fn every_value_is_the_decimal_that_a_user_would_type() {
         let check = |steps: Steps, decimals: usize| {
-            for value in steps.values() {
+            for value in (0..steps.count).map(|k| steps.value(k)) {
                 let typed: f64 = format!("{value:.decimals$}").parse().unwrap();
                 assert_eq!(value, typed);
             }

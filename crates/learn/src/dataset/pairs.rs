@@ -10,7 +10,7 @@ use crate::estimation::HistogramPair;
 use crate::estimation::subtraction::half;
 
 use super::blocks::{Last, RUN, Sample};
-use super::scene::Scene;
+use super::grid::Scene;
 use super::source::HistogramSource;
 
 /// Draws pairs of any scene, all else being as a source has it.
@@ -28,17 +28,12 @@ impl<'a> Pairs<'a> {
     /// When they have no half, or the laser never fires.
     pub fn new(source: &'a HistogramSource) -> Result<Self, Input> {
         let shots = half(source.shots().into())?;
-        if !source.scenario().firmware.laser_en {
+        if !source.is_lit() {
             let expected = "expected true: a lit histogram needs the laser";
             let fault = Input::new("subtraction", expected).field("firmware.laser_en");
             return Err(fault.value(false));
         }
         Ok(Pairs { source, shots })
-    }
-
-    /// Shots of each histogram of a pair.
-    pub fn shots(&self) -> u64 {
-        self.shots
     }
 
     /// Pairs for the rows of `samples`, on all threads of the current pool. Each row's comes from a
@@ -85,7 +80,7 @@ mod tests {
         let source = source(&["firmware.shots_per_frame=600"]);
         let pairs = Pairs::new(&source).unwrap();
         let rows = Rows::Subset(Subset::new(Grid::test(), 204, 1));
-        let samples: Vec<_> = source.blocks(&rows, 1, 0..u64::MAX).flatten().collect();
+        let samples: Vec<_> = source.blocks(&rows, 1).flatten().collect();
         let drawn = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| pairs.draw(&samples))

@@ -12,80 +12,32 @@ use tofsim::files::output::OutputFile;
 use tofsim::firmware::histogram_builder::BINS;
 
 use super::blocks::Sample;
-use super::parquet_table::{GROUP, ParquetTable};
+use super::parquet_table::ParquetTable;
 
 /// Key of the description in the file's metadata.
-pub const KEY: &str = "tofsim.dataset";
+const KEY: &str = "tofsim.dataset";
 /// Name of the file in a dataset's folder.
-pub const NAME: &str = "dataset.parquet";
+pub(super) const NAME: &str = "dataset.parquet";
 /// Columns before the bins.
-pub(super) const HEAD: [&str; 5] =
-    ["row", "seed", "distance_m", "reflectance", "irradiance_w_m2_nm"];
+const HEAD: &str =
+    "required int64 row (INTEGER(64,false)); required int64 seed (INTEGER(64,false));
+    required double distance_m; required double reflectance; required double irradiance_w_m2_nm;";
 
-/// A Parquet file under construction; nothing is left of it unless it is finished and put in place.
-pub struct ParquetFile {
-    table: ParquetTable,
-    /// Rows gathered for the next group.
-    samples: Vec<Sample>,
-}
-
-impl ParquetFile {
-    /// Begins the file; `description` goes into its metadata.
-    pub fn create(path: &Path, description: &str) -> Result<Self> {
-        let file = OutputFile::create(path)?;
-        let table = ParquetTable::create(file, &schema(), KEY, description.to_owned())?;
-        Ok(ParquetFile { table, samples: Vec::with_capacity(GROUP) })
-    }
-
-    /// Adds rows.
-    pub fn write(&mut self, mut samples: &[Sample]) -> Result<()> {
-        while !samples.is_empty() {
-            let (now, later) = samples.split_at(samples.len().min(GROUP - self.samples.len()));
-            self.samples.extend_from_slice(now);
-            samples = later;
-            if self.samples.len() == GROUP {
-                self.flush()?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Completes the file, which is then to be put in place.
-    pub fn finish(mut self) -> Result<OutputFile> {
-        if !self.samples.is_empty() {
-            self.flush()?;
-        }
-        self.table.finish()
-    }
-
-    fn flush(&mut self) -> Result<()> {
-        let rows = || self.samples.iter();
-        self.table.write_group(|group| {
-            group.required::<Int64Type>(rows().map(|sample| sample.row as i64))?;
-            group.required::<Int64Type>(rows().map(|sample| sample.seed as i64))?;
-            group.required::<DoubleType>(rows().map(|sample| sample.scene.distance_m))?;
-            group.required::<DoubleType>(rows().map(|sample| sample.scene.reflectance))?;
-            group.required::<DoubleType>(rows().map(|sample| sample.scene.irradiance_w_m2_nm))?;
-            (0..BINS).try_for_each(|bin| {
-                group.required::<Int32Type>(rows().map(|sample| sample.histogram[bin].into()))
-            })
-        })?;
-        self.samples.clear();
-        Ok(())
-    }
-}
-
-/// Name of a bin's column.
-pub(super) fn bin_name(bin: usize) -> String {
-    format!("b{bin}")
-}
-
-fn schema() -> String {
-    let [row, seed, reals @ ..] = HEAD;
-    let mut text = format!("message dataset {{ required int64 {row} (INTEGER(64,false)); ");
-    text += &format!("required int64 {seed} (INTEGER(64,false)); ");
-    text.extend(reals.map(|name| format!("required double {name}; ")));
-    let bins = (0..BINS).map(bin_name);
-    text.extend(bins.map(|name| format!("required int32 {name} (INTEGER(16,false)); ")));
-    text + "}"
+/// Begins the file; `description` goes into its metadata.
+pub(super) fn create(path: &Path, description: &str) -> Result<ParquetTable<Sample>> {
+    let bin = |bin| format!("required int32 b{bin} (INTEGER(16,false)); ");
+    let bins: String = (0..BINS).map(bin).collect();
+    let schema = format!("message dataset {{ {HEAD} {bins} }}");
+    let file = OutputFile::create(path)?;
+    ParquetTable::create(file, &schema, (KEY, description.to_owned()), |group, rows: &[Sample]| {
+        let rows = || rows.iter();
+        group.required::<Int64Type>(rows().map(|sample| sample.row as i64))?;
+        group.required::<Int64Type>(rows().map(|sample| sample.seed as i64))?;
+        group.required::<DoubleType>(rows().map(|sample| sample.scene.distance_m))?;
+        group.required::<DoubleType>(rows().map(|sample| sample.scene.reflectance))?;
+        group.required::<DoubleType>(rows().map(|sample| sample.scene.irradiance_w_m2_nm))?;
+        (0..BINS).try_for_each(|bin| {
+            group.required::<Int32Type>(rows().map(|sample| sample.histogram[bin].into()))
+        })
+    })
 }

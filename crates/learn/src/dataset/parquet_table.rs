@@ -16,19 +16,31 @@ use tofsim::error::{Error, Result};
 use tofsim::files::output::OutputFile;
 
 /// Rows of a group.
-pub const GROUP: usize = 1 << 14;
+const GROUP: usize = 1 << 14;
+
+/// Writes the columns of rows, in order.
+type Fill<R> = dyn Fn(&mut RowGroup, &[R]) -> Written<()> + Send;
 
 /// The file; nothing is left of it unless it is finished and put in place.
-pub struct ParquetTable {
+pub struct ParquetTable<R> {
     writer: SerializedFileWriter<OutputFile>,
+    fill: Box<Fill<R>>,
+    /// Rows gathered for the next group.
+    rows: Vec<R>,
 }
 
 /// A group of rows, to be filled column by column.
 pub struct RowGroup<'a>(SerializedRowGroupWriter<'a, OutputFile>);
 
-impl ParquetTable {
-    /// Begins the file with the columns of `schema`, and a key and its value in the metadata.
-    pub fn create(file: OutputFile, schema: &str, key: &str, value: String) -> Result<Self> {
+impl<R: Copy> ParquetTable<R> {
+    /// Begins the file with the columns of `schema`, a key and its value in the metadata, and what
+    /// writes the columns of some rows in order.
+    pub fn create(
+        file: OutputFile,
+        schema: &str,
+        (key, value): (&str, String),
+        fill: impl Fn(&mut RowGroup, &[R]) -> Written<()> + Send + 'static,
+    ) -> Result<Self> {
         let path = file.target().to_owned();
         let metadata = KeyValue::new(key.to_owned(), value);
         let properties = WriterProperties::builder()
@@ -37,22 +49,38 @@ impl ParquetTable {
             .build();
         let schema = parse_message_type(schema).map_err(|error| fault(&path, error))?;
         let writer = SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties));
-        Ok(ParquetTable { writer: writer.map_err(|error| fault(&path, error))? })
+        let writer = writer.map_err(|error| fault(&path, error))?;
+        Ok(ParquetTable { writer, fill: Box::new(fill), rows: Vec::with_capacity(GROUP) })
     }
 
-    /// Adds rows, whose columns `fill` writes in order.
-    pub fn write_group(&mut self, fill: impl FnOnce(&mut RowGroup) -> Written<()>) -> Result<()> {
+    /// Adds rows.
+    pub fn write(&mut self, rows: &[R]) -> Result<()> {
+        for row in rows {
+            self.rows.push(*row);
+            if self.rows.len() == GROUP {
+                self.write_group()?;
+            }
+        }
+        Ok(())
+    }
+
+    fn write_group(&mut self) -> Result<()> {
         let path = self.writer.inner().target().to_owned();
-        let write = || {
+        let mut write = || {
             let mut group = RowGroup(self.writer.next_row_group()?);
-            fill(&mut group)?;
+            (self.fill)(&mut group, &self.rows)?;
             group.0.close().map(drop)
         };
-        write().map_err(|error| fault(&path, error))
+        write().map_err(|error| fault(&path, error))?;
+        self.rows.clear();
+        Ok(())
     }
 
     /// Completes the file, which is then to be put in place.
-    pub fn finish(self) -> Result<OutputFile> {
+    pub fn finish(mut self) -> Result<OutputFile> {
+        if !self.rows.is_empty() {
+            self.write_group()?;
+        }
         let path = self.writer.inner().target().to_owned();
         self.writer.into_inner().map_err(|error| fault(&path, error))
     }

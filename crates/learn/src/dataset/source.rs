@@ -11,7 +11,7 @@ use tofsim::sensor::streams::{self, stream};
 use tofsim::sim::fast::histogram::independent_shots;
 use tofsim::sim::setup::{CYCLE, Setup};
 
-use super::scene::Scene;
+use super::grid::Scene;
 
 /// Draws histograms of any scene, all else being as a scenario has it.
 #[derive(Clone, Debug)]
@@ -47,6 +47,11 @@ impl HistogramSource {
         &self.scenario
     }
 
+    /// Whether the laser is on.
+    pub fn is_lit(&self) -> bool {
+        self.scenario.firmware.laser_en
+    }
+
     /// The bins of the scenario's chain.
     pub fn bins(&self) -> &Bins {
         &self.bins
@@ -64,24 +69,15 @@ impl HistogramSource {
 
     /// Probability of each code in one shot.
     pub fn probabilities(&self, scene: &Scene) -> BinProbabilities {
-        self.probabilities_of(&self.white(scene.distance_m), scene)
+        self.probabilities_with(&self.white(scene.distance_m), scene, self.is_lit())
     }
 
-    /// The same where the [white target's budget](HistogramSource::white) at the scene's distance is known.
-    pub fn probabilities_of(&self, white: &Budget, scene: &Scene) -> BinProbabilities {
-        self.probabilities_with(white, scene, self.scenario.firmware.laser_en)
-    }
-
-    /// The same with the laser on or off, whatever the scenario says.
+    /// The same where the [white target's budget](HistogramSource::white) at the scene's distance is known,
+    /// with the laser on or off, whatever the scenario says.
     pub fn probabilities_with(&self, white: &Budget, scene: &Scene, lit: bool) -> BinProbabilities {
         let budget = scaled(white, scene);
         let hazard = if lit { Hazard::new(&budget) } else { Hazard::dark(&budget) };
         BinProbabilities::new(&hazard, &self.bins)
-    }
-
-    /// The histogram of a scene in a row.
-    pub fn draw(&self, scene: &Scene, seed: u64, row: u64) -> Histogram {
-        self.draw_from(&self.probabilities(scene), seed, row)
     }
 
     /// The histogram of a row whose probabilities are known.
@@ -201,7 +197,7 @@ mod tests {
     fn a_histogram_never_has_more_counts_than_shots() {
         let source = source(&["firmware.shots_per_frame=65535", "spad.pdp=1"]).unwrap();
         let near = Scene { distance_m: 0.001, reflectance: 1.0, irradiance_w_m2_nm: 100.0 };
-        let histogram = source.draw(&near, 1, 0);
+        let histogram = source.draw_from(&source.probabilities(&near), 1, 0);
         assert_eq!(histogram.iter().map(|&count| u64::from(count)).sum::<u64>(), 65_535);
         assert_eq!(histogram[0], 65_535);
     }

@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn every_estimator_answers_to_its_name() {
-        let delays = chain::load("ideal", &Source::working_directory()).unwrap();
+        let delays = chain::load("ideal", &Source::Folder("".into())).unwrap();
         let period = Time::from_ns(8);
         let bins = &Bins::of_chain(&delays, &delays.calibration(period), period);
         let network = &Network::builtin("ideal").unwrap().unwrap();

@@ -1,7 +1,5 @@
 //! What finds the distance of a target from a histogram, and why there may be none.
 
-use std::fmt;
-
 use tofsim::network::Histogram;
 
 /// A dark and a lit histogram of equally many shots.
@@ -47,11 +45,13 @@ pub trait Estimator: Send + Sync {
 }
 
 /// Why there is no distance.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum Failure {
     /// The histogram is empty.
+    #[error("no hits")]
     NoHits,
     /// It holds more hits than it can have [hits].
+    #[error("{hits} hits, expected {most} at most")]
     TooManyHits {
         /// Sum over the bins.
         hits: u32,
@@ -59,31 +59,18 @@ pub enum Failure {
         most: u32,
     },
     /// Nothing stands out of the background.
+    #[error("no peak")]
     NoPeak,
     /// So many peaks stand out, and nothing tells which is the echo.
+    #[error("{0} peaks")]
     SeveralPeaks(usize),
     /// There is no dark histogram to subtract.
+    #[error("no dark frame")]
     NoDarkFrame,
     /// The iterations did not settle.
+    #[error("no convergence")]
     NoConvergence,
 }
-
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Failure::NoHits => write!(f, "no hits"),
-            Failure::TooManyHits { hits, most } => {
-                write!(f, "{hits} hits, expected {most} at most")
-            }
-            Failure::NoPeak => write!(f, "no peak"),
-            Failure::SeveralPeaks(peaks) => write!(f, "{peaks} peaks"),
-            Failure::NoDarkFrame => write!(f, "no dark frame"),
-            Failure::NoConvergence => write!(f, "no convergence"),
-        }
-    }
-}
-
-impl std::error::Error for Failure {}
 
 /// Sum of a histogram, which has to be 1 to `most` [hits].
 pub(super) fn hits(histogram: &Histogram, most: u32) -> Result<u32, Failure> {

@@ -61,17 +61,12 @@ impl Likelihood {
         Ok(Likelihood { model, start })
     }
 
-    /// The model that is fitted.
-    pub fn model(&self) -> &Model {
-        &self.model
-    }
-
     /// The most likely scene of a histogram.
     ///
     /// # Errors
     /// When there is no echo, or the climb does not end.
     pub fn fit(&self, histogram: &Histogram) -> Result<Fit, Failure> {
-        hits(histogram, self.model.shots() as u32)?;
+        hits(histogram, self.model.shots as u32)?;
         let start = self.start.best(histogram).ok_or(Failure::NoPeak)?;
         self.climb(histogram, start.echo)
     }
@@ -128,12 +123,12 @@ impl Likelihood {
     ) -> Result<Fit, Failure> {
         let variances = inverse_diagonal(information, held).ok_or(Failure::NoConvergence)?;
         let echo = self.model.echo(at);
-        let within = -self.model.sigma_ps()..=self.model.end_ps() + self.model.sigma_ps();
+        let within = -self.model.sigma_ps..=self.model.end_ps + self.model.sigma_ps;
         // The deviation of ln S is that of S by S.
         if variances[1].sqrt() * SIGNIFICANCE > 1.0 || !within.contains(&echo.arrival_ps) {
             return Err(Failure::NoPeak);
         }
-        let arrival_deviation_ps = variances[0].sqrt() * self.model.sigma_ps();
+        let arrival_deviation_ps = variances[0].sqrt() * self.model.sigma_ps;
         Ok(Fit { echo, arrival_deviation_ps })
     }
 }

@@ -23,8 +23,10 @@ impl<P: Fn(&Histogram) -> f64 + Send + Sync> Estimator for NetworkEstimator<P> {
     }
 
     fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure> {
-        bearable(histogram)?;
-        Ok((self.depth_m)(histogram))
+        match hits(histogram, MAX_HITS) {
+            Err(failure @ Failure::TooManyHits { .. }) => Err(failure),
+            _ => Ok((self.depth_m)(histogram)),
+        }
     }
 }
 
@@ -40,14 +42,6 @@ pub fn fixed(network: &Network) -> impl Estimator + use<> {
 pub fn float(network: &Network) -> impl Estimator + use<> {
     let weights = network.twin();
     NetworkEstimator::new("network-float", move |histogram: &Histogram| weights.forward(histogram))
-}
-
-/// Fails for more hits than the datapath's words bear.
-fn bearable(histogram: &Histogram) -> Result<(), Failure> {
-    match hits(histogram, MAX_HITS) {
-        Ok(_) | Err(Failure::NoHits) => Ok(()),
-        Err(failure) => Err(failure),
-    }
 }
 
 #[cfg(test)]

@@ -79,13 +79,12 @@ impl Panel {
         &self,
         estimate: impl Fn(&dyn Estimator) -> std::result::Result<f64, Failure>,
     ) -> Vec<Reading> {
-        let reading = |name, estimate: std::result::Result<f64, Failure>| Reading {
-            estimator: name,
-            failure: estimate.as_ref().err().map(ToString::to_string),
-            depth_m: estimate.ok(),
+        let reading = |one: &dyn Estimator| {
+            let found = estimate(one);
+            let failure = found.as_ref().err().map(ToString::to_string);
+            Reading { estimator: one.name(), failure, depth_m: found.ok() }
         };
-        let estimators = self.estimators.iter();
-        estimators.map(|one| reading(one.name(), estimate(one.as_ref()))).collect()
+        self.estimators.iter().map(|one| reading(one.as_ref())).collect()
     }
 }
 

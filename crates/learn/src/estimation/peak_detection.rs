@@ -13,7 +13,6 @@
 //! (7,355 of 15,000 at 0.2 to 0.6 m, chain `uniform`). [`PeakDetection::of_bins`] puts every bin where
 //! it is and scales its count to 25 ps, and so fails about as often as on even bins.
 
-use tofsim::error::Input;
 use tofsim::network::Histogram;
 use tofsim::optics::Bins;
 
@@ -88,11 +87,8 @@ impl PeakDetection {
     }
 
     /// Listing 5.1: abscissas [ps] and ordinates [hits] of the smoothed curve. `counts` are by code
-    /// and may be negative.
-    ///
-    /// # Errors
-    /// For less than two bins, or counts that are not finite.
-    pub fn curve(&self, counts: &[f64; 256]) -> Result<(Vec<f64>, Vec<f64>), Input> {
+    /// and may be negative; `None` for less than two bins, or counts that are not finite.
+    pub fn curve(&self, counts: &[f64; 256]) -> Option<(Vec<f64>, Vec<f64>)> {
         let centres: Vec<_> = self.bins.iter().map(|bin| bin.centre_ps).collect();
         let counts = self.bins.iter().map(|bin| counts[bin.code as usize] * bin.scale);
         let spline = Spline::new(&centres, &counts.collect::<Vec<_>>())?;
@@ -102,17 +98,14 @@ impl PeakDetection {
         let place = |k| if k == steps { last } else { first + k as f64 * step };
         let x: Vec<_> = (0..self.points).map(place).collect();
         let y = x.iter().map(|&x| spline.at(x)).collect();
-        Ok((x, y))
+        Some((x, y))
     }
 
     /// Listing 5.2: the peaks of a histogram; locations and widths are in ps.
-    ///
-    /// # Errors
-    /// As [`PeakDetection::curve`].
-    pub fn peaks(&self, counts: &[f64; 256]) -> Result<Vec<Peak>, Input> {
-        let (x, y) = self.curve(counts)?;
+    pub fn peaks(&self, counts: &[f64; 256]) -> Vec<Peak> {
+        let (x, y) = self.curve(counts).unwrap_or_default();
         let min_prominence = self.prominence * self.shots as f64;
-        Ok(findpeaks(&x, &y, &Criteria { min_prominence, max_width: self.max_width_ps }))
+        findpeaks(&x, &y, &Criteria { min_prominence, max_width: self.max_width_ps })
     }
 
     /// Eq. 5.1 and 5.2: distance of a peak at `location_ps` [m].
@@ -125,7 +118,7 @@ impl PeakDetection {
     /// # Errors
     /// When there is not exactly one.
     pub fn detect(&self, counts: &[f64; 256]) -> Result<f64, Failure> {
-        match self.peaks(counts).unwrap_or_default()[..] {
+        match self.peaks(counts)[..] {
             [] => Err(Failure::NoPeak),
             [peak] => Ok(self.distance_m(peak.location)),
             ref peaks => Err(Failure::SeveralPeaks(peaks.len())),
@@ -175,7 +168,7 @@ mod tests {
         let detection = PeakDetection::of_bins(30_000, &bins);
         assert!(detection.bins.len() < 256);
         assert!(detection.bins.windows(2).all(|pair| pair[0].centre_ps < pair[1].centre_ps));
-        assert!(detection.curve(&[1.0; 256]).is_ok());
+        assert!(detection.curve(&[1.0; 256]).is_some());
     }
 
     /// A triangle of `height` around `centre`, 6 bins to either side, on `floor`.

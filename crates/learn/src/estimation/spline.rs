@@ -4,8 +4,6 @@
 //! and at the last but one (de Boor, A Practical Guide to Splines, ch. IV). Two knots make a straight
 //! line, three a parabola.
 
-use tofsim::error::Input;
-
 /// A spline through given points.
 #[derive(Clone, Debug)]
 pub struct Spline {
@@ -16,28 +14,16 @@ pub struct Spline {
 }
 
 impl Spline {
-    /// Through the points (`knots[k]`, `values[k]`).
-    ///
-    /// # Errors
-    /// For less than two points, unequal numbers of knots and values, numbers that are not finite, or
-    /// knots that do not rise.
-    pub fn new(knots: &[f64], values: &[f64]) -> Result<Self, Input> {
-        let fault = |expected: &str| Input::new("spline", expected);
-        if knots.len() < 2 {
-            return Err(fault("expected two points at least").field("points").value(knots.len()));
-        }
-        if knots.len() != values.len() {
-            let expected = format!("expected one for each of {} knots", knots.len());
-            return Err(fault(&expected).field("values").value(values.len()));
-        }
-        if let Some(value) = knots.iter().chain(values).find(|value| !value.is_finite()) {
-            return Err(fault("expected finite numbers").value(value));
-        }
-        if let Some(pair) = knots.windows(2).find(|pair| pair[0] >= pair[1]) {
-            return Err(fault("expected rising knots").field("knot").value(pair[1]));
+    /// Through the points (`knots[k]`, `values[k]`); `None` for less than two points, unequal numbers of
+    /// knots and values, numbers that are not finite, or knots that do not rise.
+    pub fn new(knots: &[f64], values: &[f64]) -> Option<Self> {
+        let is_finite = knots.iter().chain(values).all(|value| value.is_finite());
+        let is_rising = knots.is_sorted_by(|a, b| a < b);
+        if knots.len() < 2 || knots.len() != values.len() || !is_finite || !is_rising {
+            return None;
         }
         let slopes = slopes(knots, values);
-        Ok(Spline { knots: knots.to_vec(), values: values.to_vec(), slopes })
+        Some(Spline { knots: knots.to_vec(), values: values.to_vec(), slopes })
     }
 
     /// Value at `x`; outside the knots the first or last cubic goes on.
@@ -130,11 +116,10 @@ mod tests {
     }
 
     #[test]
-    fn a_fault_names_what_is_wrong() {
-        let fault = |x: &[f64], y: &[f64]| Spline::new(x, y).unwrap_err().to_string();
-        assert_eq!(fault(&[1.0], &[1.0]), "spline: points = 1: expected two points at least");
-        assert!(fault(&[1.0, 2.0], &[1.0]).contains("values = 1: expected one for each of 2"));
-        assert!(fault(&[1.0, f64::NAN], &[1.0, 2.0]).contains("finite"));
-        assert!(fault(&[1.0, 1.0], &[1.0, 2.0]).contains("knot = 1: expected rising"));
+    fn what_has_no_spline_is_refused() {
+        assert!(Spline::new(&[1.0], &[1.0]).is_none());
+        assert!(Spline::new(&[1.0, 2.0], &[1.0]).is_none());
+        assert!(Spline::new(&[1.0, f64::NAN], &[1.0, 2.0]).is_none());
+        assert!(Spline::new(&[1.0, 1.0], &[1.0, 2.0]).is_none());
     }
 }

@@ -9,7 +9,7 @@ use tofsim::error::{Error, Result};
 use crate::dataset::{HistogramSource, Pairs, Rows, Scene};
 use crate::estimation::Estimator;
 
-use super::groups::{self, Group};
+use super::spread::{self, Group};
 
 /// Errors of estimators, row by row.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,14 +43,14 @@ impl Evaluation {
         stop: Option<&AtomicBool>,
         mut done: impl FnMut(u64),
     ) -> Result<Self> {
-        let mut scenes = Vec::with_capacity(rows.len() as usize);
-        let empty = || Vec::with_capacity(rows.len() as usize);
+        let mut scenes = Vec::with_capacity(rows.count() as usize);
+        let empty = || Vec::with_capacity(rows.count() as usize);
         let columns = estimators.iter();
         let columns = columns.map(|one| EstimatorErrors { name: one.name(), errors_m: empty() });
         let mut columns: Vec<EstimatorErrors> = columns.collect();
         let needs_dark = estimators.iter().any(|one| one.needs_dark());
         let pairs = needs_dark.then(|| Pairs::new(source)).transpose()?;
-        for block in source.blocks(rows, seed, 0..rows.len()) {
+        for block in source.blocks(rows, seed) {
             if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
                 return Err(Error::Interrupted);
             }
@@ -73,7 +73,7 @@ impl Evaluation {
 
     /// The errors of a column by what `key` is of the row's scene, in rising order of it.
     pub fn by(&self, column: &EstimatorErrors, key: impl Fn(&Scene) -> f64) -> Vec<Group> {
-        groups::by(self.scenes.iter().map(key), &column.errors_m)
+        spread::by(self.scenes.iter().map(key), &column.errors_m)
     }
 }
 

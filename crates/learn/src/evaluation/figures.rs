@@ -3,8 +3,7 @@
 use serde::Serialize;
 
 use super::errors::{EstimatorErrors, Evaluation};
-use super::groups::Group;
-use super::spread::Spread;
+use super::spread::{Group, Spread};
 use super::thesis;
 
 /// Errors of one estimator, all and in groups.

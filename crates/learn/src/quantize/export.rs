@@ -9,13 +9,7 @@ use tofsim::network::float::Float;
 pub fn json(float: &Float, training: &Training) -> String {
     let rows: Vec<Value> = float.w1.iter().map(|row| row.to_vec().into()).collect();
     let network = json!({
-        "training": {
-            "origin": training.origin,
-            "chain": training.chain,
-            "command": training.command,
-            "seed": training.seed,
-            "data": training.data,
-        },
+        "training": training,
         "IW": rows,
         "LW": float.w2,
         "b": [json!(float.b1), json!([float.b2])],

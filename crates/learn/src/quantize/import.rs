@@ -55,8 +55,8 @@ fn fold(mut arrays: Arrays) -> Result<Float> {
     let hidden = arrays.required("IW")?.shaped(&arrays, &[neurons, columns])?;
     let output = arrays.required("LW")?.shaped(&arrays, &[neurons])?;
     let b2 = arrays.required("b2")?.shaped(&arrays, &[1])?[0];
-    let x = MapMinMax::take(&mut arrays, "x", columns)?;
-    let y = MapMinMax::take(&mut arrays, "y", 1)?;
+    let x = MapMinMax::take(&mut arrays, ["x_xoffset", "x_gain", "x_ymin"], columns)?;
+    let y = MapMinMax::take(&mut arrays, ["y_xoffset", "y_gain", "y_ymin"], 1)?;
     arrays.finish()?;
     if y.gain[0] == 0.0 {
         let expected = "expected a gain other than 0";
@@ -88,22 +88,19 @@ struct MapMinMax {
 }
 
 impl MapMinMax {
-    fn take(arrays: &mut Arrays, side: &'static str, len: usize) -> Result<Self> {
-        let [xoffset, gain, ymin] = match side {
-            "x" => ["x_xoffset", "x_gain", "x_ymin"],
-            _ => ["y_xoffset", "y_gain", "y_ymin"],
-        };
-        let found = [xoffset, gain, ymin].map(|name| arrays.optional(name));
-        if found.iter().all(Option::is_none) {
+    /// Takes what has those names; without any of them nothing is changed.
+    fn take(arrays: &mut Arrays, names: [&str; 3], len: usize) -> Result<Self> {
+        let found = names.map(|name| (name, arrays.optional(name)));
+        if found.iter().all(|(_, array)| array.is_none()) {
             return Ok(MapMinMax { xoffset: vec![0.0; len], gain: vec![1.0; len], ymin: 0.0 });
         }
-        let [offsets, gains, least] = found;
-        let missing = |name| arrays.fault(name, "missing, while others of mapminmax are there");
-        Ok(MapMinMax {
-            xoffset: offsets.ok_or_else(|| missing(xoffset))?.shaped(arrays, &[len])?,
-            gain: gains.ok_or_else(|| missing(gain))?.shaped(arrays, &[len])?,
-            ymin: least.ok_or_else(|| missing(ymin))?.shaped(arrays, &[1])?[0],
-        })
+        let shaped = |(name, array): (&str, Option<Array>), len| {
+            let missing = || arrays.fault(name, "missing, while others of mapminmax are there");
+            array.ok_or_else(missing)?.shaped(arrays, &[len])
+        };
+        let [xoffset, gain, ymin] = found;
+        let (xoffset, gain) = (shaped(xoffset, len)?, shaped(gain, len)?);
+        Ok(MapMinMax { xoffset, gain, ymin: shaped(ymin, 1)?[0] })
     }
 }
 
@@ -130,7 +127,7 @@ mod tests {
 
     /// A network as MATLAB evaluates it.
     fn by_matlab(arrays: &Arrays, histogram: &Histogram) -> f64 {
-        let get = |name: &str| arrays.get(name).unwrap().values.clone();
+        let get = |name: &str| arrays.arrays[name].values.clone();
         let (iw, lw, b1, b2) = (get("IW"), get("LW"), get("b1"), get("b2"));
         let (xo, xg, xm) = (get("x_xoffset"), get("x_gain"), get("x_ymin")[0]);
         let (yo, yg, ym) = (get("y_xoffset")[0], get("y_gain")[0], get("y_ymin")[0]);

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use tofsim::network::Histogram;
 
-use super::samples::Samples;
+use super::data::Samples;
 use super::weighting::Weighting;
 
 /// Errors at a distance.

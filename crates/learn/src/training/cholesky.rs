@@ -1,54 +1,39 @@
 //! Symmetric systems of equations, solved by Cholesky's factors.
 //!
-//! Every sum has one order, whatever the processor: panels of eight columns are vectors across, so
-//! that wider registers change the speed and not a bit of the result.
+//! Every sum has one order, whatever the processor: columns are vectors, so that wider registers
+//! change the speed and not a bit of the result.
 
-/// Columns of a panel.
-pub const PANEL: usize = 8;
-
-/// The lower half of a symmetric matrix; panel `p` has the columns `8 p ..` of rows `8 p ..`.
+/// The lower half of a symmetric matrix: each column from the diagonal down.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Symmetric {
-    size: usize,
-    panels: Vec<Vec<[f64; PANEL]>>,
+    columns: Vec<Vec<f64>>,
 }
 
 impl Symmetric {
     /// A matrix of zeros with `size` rows.
     pub fn zeros(size: usize) -> Self {
-        let rows = size.next_multiple_of(PANEL);
-        let panel = |p| vec![[0.0; PANEL]; rows - p * PANEL];
-        Symmetric { size, panels: (0..rows / PANEL).map(panel).collect() }
-    }
-
-    /// Number of rows.
-    pub fn size(&self) -> usize {
-        self.size
+        Symmetric { columns: (0..size).map(|column| vec![0.0; size - column]).collect() }
     }
 
     /// The element of a row and a column, in either order.
     pub fn at(&self, row: usize, column: usize) -> f64 {
-        let (row, column) = (row.max(column), row.min(column));
-        self.panels[column / PANEL][row - column / PANEL * PANEL][column % PANEL]
+        self.columns[row.min(column)][row.abs_diff(column)]
     }
 
     /// Adds to the element of a row and a column, which is also that of the column and the row.
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
-        let (row, column) = (row.max(column), row.min(column));
-        self.panels[column / PANEL][row - column / PANEL * PANEL][column % PANEL] += value;
+        self.columns[row.min(column)][row.abs_diff(column)] += value;
     }
 
     /// Multiplies every element.
     pub fn scale(&mut self, factor: f64) {
-        self.panels.iter_mut().flatten().flatten().for_each(|element| *element *= factor);
+        self.columns.iter_mut().flatten().for_each(|element| *element *= factor);
     }
 
     /// Solves `(self + damping I) x = right`; `None` unless that matrix is positive definite.
     pub fn solve(&self, damping: f64, right: &[f64]) -> Option<Vec<f64>> {
         let mut factor = self.clone();
-        for row in 0..factor.panels.len() * PANEL {
-            factor.add(row, row, if row < self.size { damping } else { 1.0 });
-        }
+        factor.columns.iter_mut().for_each(|column| column[0] += damping);
         // With the widest vectors that the processor has.
         pulp::Arch::new().dispatch(
             #[inline(always)]
@@ -60,23 +45,22 @@ impl Symmetric {
     /// Turns the matrix into its factor L, column by column.
     #[inline(always)]
     fn factorise(&mut self) -> Option<()> {
-        for p in 0..self.panels.len() {
-            let (before, rest) = self.panels.split_at_mut(p);
+        for k in 0..self.columns.len() {
+            let (before, rest) = self.columns.split_at_mut(k);
             let target = &mut rest[0];
-            for (q, panel) in before.iter().enumerate() {
-                let rows = &panel[(p - q) * PANEL..];
-                // Transposed, so that its rows are vectors.
-                let top: [[f64; PANEL]; PANEL] =
-                    std::array::from_fn(|k| std::array::from_fn(|column| rows[column][k]));
-                for (target, row) in target.iter_mut().zip(rows) {
-                    for k in 0..PANEL {
-                        for column in 0..PANEL {
-                            target[column] -= row[k] * top[k][column];
-                        }
-                    }
-                }
+            for (place, column) in before.iter().enumerate() {
+                let column = &column[k - place..];
+                let factor = column[0];
+                target.iter_mut().zip(column).for_each(|(target, row)| *target -= row * factor);
             }
-            factorise_panel(target)?;
+            let square = target[0];
+            // Neither a negative nor a non-number has a root to divide by.
+            if square.is_nan() || square <= 0.0 || square.is_infinite() {
+                return None;
+            }
+            target[0] = square.sqrt();
+            let root = target[0];
+            target[1..].iter_mut().for_each(|row| *row /= root);
         }
         Some(())
     }
@@ -84,47 +68,17 @@ impl Symmetric {
     /// Forward through L, and back through its transpose.
     fn substitute(&self, right: &[f64]) -> Vec<f64> {
         let mut x = right.to_vec();
-        x.resize(self.panels.len() * PANEL, 0.0);
-        for (p, panel) in self.panels.iter().enumerate() {
-            for k in 0..PANEL {
-                let (pivot, first) = (p * PANEL + k, p * PANEL);
-                x[pivot] /= panel[k][k];
-                let value = x[pivot];
-                for (place, row) in x[first..].iter_mut().zip(panel).skip(k + 1) {
-                    *place -= row[k] * value;
-                }
-            }
+        for (k, column) in self.columns.iter().enumerate() {
+            x[k] /= column[0];
+            let value = x[k];
+            x[k..].iter_mut().zip(column).skip(1).for_each(|(x, row)| *x -= row * value);
         }
-        for (p, panel) in self.panels.iter().enumerate().rev() {
-            for k in (0..PANEL).rev() {
-                let (below, first) = (&panel[k + 1..], p * PANEL + k + 1);
-                let known: f64 = below.iter().zip(&x[first..]).map(|(row, x)| row[k] * x).sum();
-                x[first - 1] = (x[first - 1] - known) / panel[k][k];
-            }
+        for (k, column) in self.columns.iter().enumerate().rev() {
+            let known: f64 = column.iter().zip(&x[k..]).skip(1).map(|(row, x)| row * x).sum();
+            x[k] = (x[k] - known) / column[0];
         }
-        x.truncate(self.size);
         x
     }
-}
-
-/// The last steps for the eight columns of a panel, among themselves.
-#[inline(always)]
-fn factorise_panel(panel: &mut [[f64; PANEL]]) -> Option<()> {
-    for k in 0..PANEL {
-        let square = panel[k][k];
-        // Neither a negative nor a non-number has a root to divide by.
-        if square.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) || square.is_infinite() {
-            return None;
-        }
-        let root = square.sqrt();
-        panel[k][k] = root;
-        panel[k + 1..].iter_mut().for_each(|row| row[k] /= root);
-        for column in k + 1..PANEL {
-            let factor = panel[column][k];
-            panel[column..].iter_mut().for_each(|row| row[column] -= row[k] * factor);
-        }
-    }
-    Some(())
 }
 
 #[cfg(test)]

@@ -19,7 +19,7 @@ pub const BLOCK: usize = 256;
 pub type Tile = [f32; LANES];
 
 /// How counts at knots become inputs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scaling {
     /// Mean at each knot [hits].
@@ -59,40 +59,21 @@ impl Scaling {
     }
 }
 
-/// Inputs of all samples, in blocks: `block[tile][sample]`. The last block ends in zeros.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Features {
-    blocks: Vec<FeatureBlock>,
-    samples: usize,
-}
-
-/// Inputs of 256 samples, a tile after the other.
+/// Inputs of 256 samples, a tile after the other: `block[tile][sample]`.
 pub type FeatureBlock = Vec<Tile>;
 
-impl Features {
-    /// Of histograms.
-    pub fn new(counts: &[Histogram], scaling: &Scaling) -> Self {
-        let block = |counts: &[Histogram]| {
-            let mut block = vec![[0.0; LANES]; TILES * BLOCK];
-            for (sample, histogram) in counts.iter().enumerate() {
-                for (tile, columns) in scaling.apply(histogram).chunks(LANES).enumerate() {
-                    block[tile * BLOCK + sample].copy_from_slice(columns);
-                }
+/// Inputs of histograms, in blocks, of which the last ends in zeros.
+pub fn blocks(counts: &[Histogram], scaling: &Scaling) -> Vec<FeatureBlock> {
+    let block = |counts: &[Histogram]| {
+        let mut block = vec![[0.0; LANES]; TILES * BLOCK];
+        for (sample, histogram) in counts.iter().enumerate() {
+            for (tile, columns) in scaling.apply(histogram).chunks(LANES).enumerate() {
+                block[tile * BLOCK + sample].copy_from_slice(columns);
             }
-            block
-        };
-        Features { blocks: counts.chunks(BLOCK).map(block).collect(), samples: counts.len() }
-    }
-
-    /// Number of samples.
-    pub fn samples(&self) -> usize {
-        self.samples
-    }
-
-    /// The blocks, each of 256 samples but the last.
-    pub fn blocks(&self) -> &[FeatureBlock] {
-        &self.blocks
-    }
+        }
+        block
+    };
+    counts.chunks(BLOCK).map(block).collect()
 }
 
 /// The samples of a tile in a block.
@@ -132,9 +113,9 @@ mod tests {
     #[test]
     fn the_last_block_ends_in_zeros() {
         let counts = vec![[1; 256]; BLOCK + 2];
-        let features = Features::new(&counts, &Scaling::of(&counts));
-        assert_eq!((features.samples(), features.blocks().len()), (BLOCK + 2, 2));
-        let last = tile(&features.blocks()[1], TILES - 1);
+        let blocks = blocks(&counts, &Scaling::of(&counts));
+        assert_eq!(blocks.len(), 2);
+        let last = tile(&blocks[1], TILES - 1);
         assert_eq!(last[1][LANES - 1], 1.0);
         assert!(last[2..].iter().all(|columns| *columns == [0.0; LANES]));
     }

@@ -11,7 +11,7 @@ use super::features::{BLOCK, FeatureBlock, LANES, TILES, Tile, tile};
 /// Weights that are worked on together.
 pub const GROUP: usize = 12;
 /// Pairs of a column and a tile, each pair of columns at least once.
-const PLACES: usize = LANES * TILES * (TILES + 1) / 2;
+const PAIRS: usize = LANES * TILES * (TILES + 1) / 2;
 /// Column of the constant 1, in the last tile.
 const ONE: usize = LANES - 1;
 
@@ -26,23 +26,37 @@ pub fn groups(count: usize) -> usize {
     count.div_ceil(GROUP)
 }
 
-/// Sums of weight times input times input, for many weights.
+/// Sums of weights times products of two inputs, so many products for each group of weights.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Gram {
+pub struct Products<const PLACES: usize> {
     /// `[group][place]`.
     sums: Vec<Sums>,
 }
 
-impl Gram {
+/// Sums of weight times input times input, for many weights.
+pub type Gram = Products<PAIRS>;
+/// Sums of weight times input, for many weights; a place is a tile.
+pub type Moments = Products<TILES>;
+
+impl<const PLACES: usize> Products<PLACES> {
     /// Zeros for `count` weights.
     pub fn zeros(count: usize) -> Self {
-        Gram { sums: vec![[[0.0; LANES]; GROUP]; groups(count) * PLACES] }
+        Products { sums: vec![[[0.0; LANES]; GROUP]; groups(count) * PLACES] }
     }
 
+    /// Adds other sums.
+    pub fn add(&mut self, other: &Self) {
+        let sums = self.sums.as_flattened_mut().as_flattened_mut().iter_mut();
+        let others = other.sums.as_flattened().as_flattened();
+        sums.zip(others).for_each(|(sum, other)| *sum += other);
+    }
+}
+
+impl Gram {
     /// Adds a block.
     #[inline(always)]
     pub fn add_block(&mut self, block: &FeatureBlock, weights: &BlockWeights) {
-        for (weights, sums) in weights.iter().zip(self.sums.chunks_mut(PLACES)) {
+        for (weights, sums) in weights.iter().zip(self.sums.chunks_mut(PAIRS)) {
             let mut places = sums.iter_mut();
             for t in 0..TILES {
                 for column in 0..(t + 1) * LANES {
@@ -54,33 +68,16 @@ impl Gram {
         }
     }
 
-    /// Adds other sums.
-    pub fn add(&mut self, other: &Gram) {
-        add(&mut self.sums, &other.sums);
-    }
-
     /// The sum for a weight and two columns.
     pub fn at(&self, weight: usize, row: usize, column: usize) -> f64 {
         let (row, column) = (row.max(column), row.min(column));
         let t = row / LANES;
         let place = LANES * t * (t + 1) / 2 + column;
-        self.sums[weight / GROUP * PLACES + place][weight % GROUP][row % LANES]
+        self.sums[weight / GROUP * PAIRS + place][weight % GROUP][row % LANES]
     }
-}
-
-/// Sums of weight times input, for many weights.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Moments {
-    /// `[group][tile]`.
-    sums: Vec<Sums>,
 }
 
 impl Moments {
-    /// Zeros for `count` weights.
-    pub fn zeros(count: usize) -> Self {
-        Moments { sums: vec![[[0.0; LANES]; GROUP]; groups(count) * TILES] }
-    }
-
     /// Adds a block.
     #[inline(always)]
     pub fn add_block(&mut self, block: &FeatureBlock, weights: &BlockWeights) {
@@ -91,20 +88,10 @@ impl Moments {
         }
     }
 
-    /// Adds other sums.
-    pub fn add(&mut self, other: &Moments) {
-        add(&mut self.sums, &other.sums);
-    }
-
     /// The sum for a weight and a column.
     pub fn at(&self, weight: usize, column: usize) -> f64 {
         self.sums[weight / GROUP * TILES + column / LANES][weight % GROUP][column % LANES]
     }
-}
-
-fn add(sums: &mut [Sums], others: &[Sums]) {
-    let sums = sums.as_flattened_mut().as_flattened_mut().iter_mut();
-    sums.zip(others.as_flattened().as_flattened()).for_each(|(sum, other)| *sum += other);
 }
 
 /// Adds the sums over a block of twelve weights times a column times eight columns.
@@ -128,7 +115,7 @@ fn multiply(of: &[Tile], lane: usize, by: &[Tile], weights: &[[f32; GROUP]; BLOC
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::training::features::{COLUMNS, Features, Scaling};
+    use crate::training::features::{COLUMNS, Scaling, blocks};
 
     #[test]
     fn sums_are_those_of_a_loop_over_the_samples() {
@@ -137,15 +124,15 @@ mod tests {
         };
         let counts: Vec<_> = (0..BLOCK).map(histogram).collect();
         let scaling = Scaling::of(&counts);
-        let features = Features::new(&counts, &scaling);
+        let block = &blocks(&counts, &scaling)[0];
         let weight = |s: usize, w: usize| ((s * 5 + w * 3) % 17) as f32 - 8.0;
         let mut weights = vec![[[0.0; GROUP]; BLOCK]; groups(14)];
         for (s, w) in (0..BLOCK).flat_map(|s| (0..14).map(move |w| (s, w))) {
             weights[w / GROUP][s][w % GROUP] = weight(s, w);
         }
         let (mut gram, mut moments) = (Gram::zeros(14), Moments::zeros(14));
-        gram.add_block(&features.blocks()[0], &weights);
-        moments.add_block(&features.blocks()[0], &weights);
+        gram.add_block(block, &weights);
+        moments.add_block(block, &weights);
         let once = gram.clone();
         gram.add(&once);
         let rows: Vec<_> = counts.iter().map(|counts| scaling.apply(counts)).collect();

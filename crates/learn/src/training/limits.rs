@@ -42,18 +42,13 @@ impl Default for WordLimits {
     }
 }
 
-impl WordLimits {
-    /// The penalties for words.
-    pub fn hinges(&self, words: &Datapath) -> Hinges {
-        Hinges { limits: *self, words: *words }
-    }
-}
-
 /// The penalties of a network for certain words.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hinges {
-    limits: WordLimits,
-    words: Datapath,
+    /// Where they begin.
+    pub limits: WordLimits,
+    /// The words.
+    pub words: Datapath,
 }
 
 /// A parameter and the derivative of a hinge with respect to it.
@@ -139,7 +134,8 @@ mod tests {
         x[KNOTS] = 9.0;
         x[COLUMNS + KNOTS] = -9.0;
         x.extend([2.1, -2.2, -0.3]);
-        let (limits, size) = (WordLimits::default().hinges(&Datapath::default()), x.len());
+        let (limits, size) =
+            (Hinges { limits: WordLimits::default(), words: Datapath::default() }, x.len());
         let zeros = Symmetric::zeros(size);
         let mut linear = NormalEquations { cost: 0.0, matrix: zeros, gradient: vec![0.0; size] };
         limits.add(&x, 2, &scaling, &mut linear);
@@ -160,7 +156,7 @@ mod tests {
     fn a_network_well_inside_costs_nothing() {
         let scaling = Scaling { mean: vec![10.0; KNOTS], inverse_sd: vec![0.1; KNOTS] };
         let x = vec![0.001; 8 * COLUMNS + 9];
-        let hinges = |words: Datapath| WordLimits::default().hinges(&words);
+        let hinges = |words: Datapath| Hinges { limits: WordLimits::default(), words };
         assert_eq!(hinges(Datapath::default()).cost(&x, 8, &scaling), 0.0);
         // A word that ends at 6e-5, and a weight of 1e-4 for raw counts.
         let short = Datapath { w1: WordFormat { width: 2, fraction: 15 }, ..Datapath::default() };

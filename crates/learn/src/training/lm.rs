@@ -80,7 +80,7 @@ pub enum Stop {
 }
 
 /// Where the method is.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Lm {
     /// The parameters.
     pub x: Vec<f64>,
@@ -103,16 +103,7 @@ pub struct Lm {
 impl Lm {
     /// At the start.
     pub fn new(x: Vec<f64>, settings: &LmSettings) -> Self {
-        Lm {
-            x,
-            cost: f64::INFINITY,
-            mu: settings.mu,
-            epochs: 0,
-            validation: None,
-            least: None,
-            failures: 0,
-            stop: None,
-        }
+        Lm { x, cost: f64::INFINITY, mu: settings.mu, ..Lm::default() }
     }
 
     /// Goes on from the same parameters on another problem.

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::features::{BLOCK, COLUMNS, FeatureBlock, Features, LANES, Scaling, TILES, tile};
+use super::features::{BLOCK, COLUMNS, FeatureBlock, LANES, Scaling, TILES, tile};
 use super::gram::{BlockWeights, GROUP, groups};
 use super::limits::Hinges;
 use super::lm::{NormalEquations, Problem};
@@ -22,7 +22,7 @@ const RUN: usize = 8;
 #[derive(Debug)]
 pub struct NetworkProblem<'a> {
     /// Inputs.
-    pub features: &'a Features,
+    pub blocks: &'a [FeatureBlock],
     /// How the inputs were made.
     pub scaling: &'a Scaling,
     /// True distances [m].
@@ -75,6 +75,11 @@ impl NetworkProblem<'_> {
         sums.iter().sum()
     }
 
+    /// Samples of a block.
+    fn samples(&self, index: usize) -> Range<usize> {
+        index * BLOCK..self.distances_m.len().min((index + 1) * BLOCK)
+    }
+
     /// Depth of a sample; leaves the neurons' outputs in `activations` [m].
     #[inline(always)]
     fn depth(
@@ -96,10 +101,9 @@ impl NetworkProblem<'_> {
     /// Squares of a block's residuals.
     #[inline(always)]
     fn block_cost(&self, x: &[f64], index: usize, activations: &mut [f64]) -> f64 {
-        let (block, w2) = (&self.features.blocks()[index], &x[self.neurons * COLUMNS..]);
-        let samples = index * BLOCK..self.features.samples().min((index + 1) * BLOCK);
+        let (block, w2) = (&self.blocks[index], &x[self.neurons * COLUMNS..]);
         let mut cost = 0.0;
-        for (place, sample) in samples.enumerate() {
+        for (place, sample) in self.samples(index).enumerate() {
             let error = self.depth(x, block, place, activations) - self.distances_m[sample];
             let u = self.weights[sample];
             cost += (u * error) * (u * error);
@@ -115,8 +119,8 @@ impl NetworkProblem<'_> {
     #[inline(always)]
     fn add_block(&self, x: &[f64], index: usize, scratch: &mut Scratch, sums: &mut Sums) {
         let n = self.neurons;
-        let (block, w2) = (&self.features.blocks()[index], &x[n * COLUMNS..]);
-        let samples = index * BLOCK..self.features.samples().min((index + 1) * BLOCK);
+        let (block, w2) = (&self.blocks[index], &x[n * COLUMNS..]);
+        let samples = self.samples(index);
         let used = samples.len();
         for weights in scratch.pairs.iter_mut().chain(&mut scratch.cross) {
             weights[used..].fill([0.0; GROUP]);
@@ -172,24 +176,44 @@ impl NetworkProblem<'_> {
         sums.cross.add_block(block, &scratch.cross);
     }
 
-    /// Squares of the residuals of neighbouring blocks, with vectors as wide as `arch` has them.
-    fn squares(&self, arch: pulp::Arch, x: &[f64], run: Range<usize>) -> f64 {
-        arch.dispatch(
+    /// What `add_up` makes of each run of neighbouring blocks, in order, with vectors as wide as
+    /// `arch` has them; threads share the runs.
+    fn each_run<T: Send>(
+        &self,
+        arch: pulp::Arch,
+        add_up: impl Fn(Range<usize>) -> T + Sync,
+    ) -> Vec<T> {
+        let blocks = self.blocks.len();
+        let run = |place: usize| {
+            let run = place * RUN..blocks.min((place + 1) * RUN);
+            arch.dispatch(
+                #[inline(always)]
+                || add_up(run),
+            )
+        };
+        (0..blocks.div_ceil(RUN)).into_par_iter().map(run).collect()
+    }
+
+    /// Squares of the residuals, run by run.
+    fn squares(&self, arch: pulp::Arch, x: &[f64]) -> Vec<f64> {
+        self.each_run(
+            arch,
             #[inline(always)]
-            || {
+            |run| {
                 let mut activations = vec![0.0; self.neurons];
                 run.fold(0.0, |cost, index| cost + self.block_cost(x, index, &mut activations))
             },
         )
     }
 
-    /// The same of their sums.
-    fn sums(&self, arch: pulp::Arch, x: &[f64], run: Range<usize>) -> Sums {
-        arch.dispatch(
+    /// What is summed up over the samples, run by run.
+    fn sums(&self, arch: pulp::Arch, x: &[f64]) -> Vec<Sums> {
+        self.each_run(
+            arch,
             #[inline(always)]
-            || {
-                let (mut scratch, mut sums) =
-                    (Scratch::new(self.neurons), Sums::zeros(self.neurons));
+            |run| {
+                let mut scratch = Scratch::new(self.neurons);
+                let mut sums = Sums::zeros(self.neurons);
                 run.for_each(|index| self.add_block(x, index, &mut scratch, &mut sums));
                 sums
             },
@@ -198,27 +222,18 @@ impl NetworkProblem<'_> {
 
     /// Mean square of the residuals, without penalties.
     fn mean_square(&self, x: &[f64]) -> f64 {
-        let arch = pulp::Arch::new();
-        let costs = self.runs().into_par_iter().map(|run| self.squares(arch, x, run));
-        let costs: Vec<f64> = costs.collect();
-        let sum: f64 = costs.iter().sum();
-        sum / self.features.samples() as f64
+        let squares = self.squares(pulp::Arch::new(), x);
+        squares.iter().sum::<f64>() / self.distances_m.len() as f64
     }
 
     /// Depth minus distance of each sample [m].
     pub fn errors(&self, x: &[f64]) -> Vec<f64> {
-        let error = |sample: usize| {
-            let (block, mut activations) = (sample / BLOCK, vec![0.0; self.neurons]);
-            let block = &self.features.blocks()[block];
-            self.depth(x, block, sample % BLOCK, &mut activations) - self.distances_m[sample]
+        let error = |(sample, distance_m): (usize, &f64)| {
+            let mut activations = vec![0.0; self.neurons];
+            let block = &self.blocks[sample / BLOCK];
+            self.depth(x, block, sample % BLOCK, &mut activations) - distance_m
         };
-        (0..self.features.samples()).into_par_iter().map(error).collect()
-    }
-
-    /// Runs of neighbouring blocks, for the threads.
-    fn runs(&self) -> Vec<Range<usize>> {
-        let blocks = self.features.blocks().len();
-        (0..blocks).step_by(RUN).map(|first| first..blocks.min(first + RUN)).collect()
+        self.distances_m.par_iter().enumerate().map(error).collect()
     }
 }
 
@@ -232,11 +247,9 @@ impl Problem for NetworkProblem<'_> {
     }
 
     fn linearise(&self, x: &[f64]) -> NormalEquations {
-        let arch = pulp::Arch::new();
-        let parts = self.runs().into_par_iter().map(|run| self.sums(arch, x, run));
-        let parts: Vec<Sums> = parts.collect();
+        let parts = self.sums(pulp::Arch::new(), x);
         let sums = parts.iter().fold(Sums::zeros(self.neurons), Sums::with);
-        let mut linear = sums.assemble(self.neurons, self.features.samples());
+        let mut linear = sums.assemble(self.neurons, self.distances_m.len());
         self.hinges.add(x, self.neurons, self.scaling, &mut linear);
         linear
     }

@@ -2,8 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::data::{Samples, digest};
 use super::features::Scaling;
 use super::lm::Lm;
+use super::recipe::Recipe;
+use super::start::start;
 
 /// A network that takes part.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -55,7 +58,7 @@ pub struct CurvePoint {
 }
 
 /// All that decides how a tournament goes on.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TournamentState {
     /// Stage that is going on; the end is the last.
@@ -74,4 +77,25 @@ pub struct TournamentState {
     pub best: Option<BestBlock>,
     /// How the costs fell.
     pub curve: Vec<CurvePoint>,
+}
+
+impl TournamentState {
+    /// At the beginning.
+    pub(super) fn new(recipe: &Recipe, seed: u64, scaling: Scaling) -> Self {
+        let candidate = |number| Candidate {
+            start: number,
+            lm: Lm::new(start(&recipe.start, recipe.neurons, seed, number), &recipe.optimiser),
+            factors: Vec::new(),
+        };
+        let candidates = (0..recipe.stages[0].candidates).map(candidate).collect();
+        TournamentState { scaling, candidates, ..TournamentState::default() }
+    }
+
+    /// Adds samples to the digest of the data.
+    pub(super) fn saw(&mut self, samples: &Samples) {
+        let own = samples.digest();
+        let first = self.data.is_empty();
+        let both = if first { own } else { digest(own, self.data.as_bytes()) };
+        self.data = format!("{both:016x}");
+    }
 }

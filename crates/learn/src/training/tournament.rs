@@ -11,19 +11,17 @@ use rayon::prelude::*;
 use tofsim::error::{Error, Result};
 use tofsim::network::float::Float;
 
-use crate::dataset::{Grid, HistogramSource};
+use crate::dataset::HistogramSource;
 use crate::quantize::Circuit;
 
 use super::accuracy::{DistanceErrors, by_distance, worst};
-use super::data::{self, StageData};
+use super::data::{Purpose, Samples, StageData, draw};
 use super::equalise::{follow, ratios};
 use super::features::Scaling;
 use super::fold::fold;
 use super::lm::{Lm, Problem, Stop};
 use super::recipe::{Recipe, Stage};
-use super::samples::{Samples, digest};
-use super::start::{Purpose, start};
-use super::state::{BestBlock, Candidate, CurvePoint, TournamentState};
+use super::state::{BestBlock, CurvePoint, TournamentState};
 
 /// A tournament and its data.
 #[derive(Debug)]
@@ -39,57 +37,34 @@ pub struct Tournament<'a> {
 }
 
 impl<'a> Tournament<'a> {
-    /// At the beginning.
-    pub fn new(recipe: &'a Recipe, source: &'a HistogramSource, seed: u64) -> Self {
-        let samples = data::stage_samples(recipe, source, seed, 0);
-        let candidates = (0..recipe.stages[0].candidates).map(|number| Candidate {
-            start: number,
-            lm: Lm::new(start(&recipe.start, recipe.neurons, seed, number), &recipe.optimiser),
-            factors: Vec::new(),
+    /// At the beginning, or where another left off.
+    pub fn new(
+        recipe: &'a Recipe,
+        source: &'a HistogramSource,
+        seed: u64,
+        resumed: Option<TournamentState>,
+    ) -> Self {
+        let draw = |purpose| draw(recipe, source, seed, purpose);
+        let stage = resumed.as_ref().map_or(0, |state| state.stage);
+        let samples = draw(Purpose::Stage(stage));
+        let held_out = (recipe.validation > 0).then(|| draw(Purpose::Validation));
+        let state = resumed.unwrap_or_else(|| {
+            let mut state = TournamentState::new(recipe, seed, Scaling::of(&samples.counts));
+            [Some(&samples), held_out.as_ref()]
+                .into_iter()
+                .flatten()
+                .for_each(|one| state.saw(one));
+            state
         });
-        let state = TournamentState {
-            stage: 0,
-            block: 0,
-            epochs: 0,
-            data: String::new(),
-            scaling: Scaling::of(&samples.counts),
-            candidates: candidates.collect(),
-            best: None,
-            curve: Vec::new(),
-        };
-        let mut tournament = Tournament::with(recipe, source, seed, state, &samples);
-        let mut used = format!("{:016x}", tournament.data.digest);
-        if let Some(held_out) = &tournament.held_out {
-            used = format!("{:016x}", digest(held_out.digest, used.as_bytes()));
+        Tournament {
+            data: StageData::new(samples, &state.scaling),
+            held_out: held_out.map(|samples| StageData::new(samples, &state.scaling)),
+            choice: draw(Purpose::Choice),
+            recipe,
+            source,
+            seed,
+            state,
         }
-        tournament.state.data = used;
-        tournament
-    }
-
-    /// Where another left off.
-    pub fn resume(
-        recipe: &'a Recipe,
-        source: &'a HistogramSource,
-        seed: u64,
-        state: TournamentState,
-    ) -> Self {
-        let samples = data::stage_samples(recipe, source, seed, state.stage);
-        Tournament::with(recipe, source, seed, state, &samples)
-    }
-
-    /// In a state, with the samples of its stage.
-    fn with(
-        recipe: &'a Recipe,
-        source: &'a HistogramSource,
-        seed: u64,
-        state: TournamentState,
-        samples: &Samples,
-    ) -> Self {
-        let stage_data = |samples: &Samples| StageData::new(samples, &state.scaling);
-        let data = stage_data(samples);
-        let held_out = data::held_out(recipe, source, seed).as_ref().map(stage_data);
-        let choice = data::choice_samples(recipe, source, seed);
-        Tournament { recipe, source, seed, state, data, held_out, choice }
     }
 
     /// Whether all is done.
@@ -164,16 +139,9 @@ impl<'a> Tournament<'a> {
             {
                 lm.stop = lm.stop.or(Some(Stop::Gain));
             }
-            self.state.curve.push(CurvePoint {
-                stage,
-                block,
-                start,
-                epochs,
-                cost,
-                mu,
-                validation,
-                ratio: None,
-            });
+            let point =
+                CurvePoint { stage, block, start, epochs, cost, mu, validation, ratio: None };
+            self.state.curve.push(point);
         }
     }
 
@@ -207,10 +175,9 @@ impl<'a> Tournament<'a> {
             .sort_by(|a, b| a.lm.cost.total_cmp(&b.lm.cost).then(a.start.cmp(&b.start)));
         state.candidates.truncate(self.recipe.stage(state.stage).candidates);
         state.candidates.iter_mut().for_each(|one| one.lm.restart(&self.recipe.optimiser));
-        let samples = data::stage_samples(self.recipe, self.source, self.seed, state.stage);
-        self.data = StageData::new(&samples, &state.scaling);
-        let both = digest(self.data.digest, state.data.as_bytes());
-        state.data = format!("{both:016x}");
+        let samples = draw(self.recipe, self.source, self.seed, Purpose::Stage(state.stage));
+        state.saw(&samples);
+        self.data = StageData::new(samples, &state.scaling);
     }
 
     /// Gives more weight to distances where the error is larger than the line has it.
@@ -254,9 +221,7 @@ impl<'a> Tournament<'a> {
 
     /// Errors of a network on histograms that neither training nor choice has seen, one a scene.
     pub fn test(&self, circuit: &Circuit) -> Vec<DistanceErrors> {
-        let grid = Grid::test();
-        let len = grid.distances_m.count * grid.lights();
-        let samples = data::draw(self.source, grid, len, self.seed, Purpose::Test);
+        let samples = draw(self.recipe, self.source, self.seed, Purpose::Test);
         errors(circuit, &samples)
     }
 }

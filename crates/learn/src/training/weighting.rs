@@ -41,24 +41,26 @@ impl Default for Weighting {
 impl Weighting {
     /// That there is a line, above zero.
     pub(super) fn check(&self) -> Result<()> {
-        let fault = |field: &str, expected: &str| {
-            Err(Input::new("recipe", expected).field(format!("weighting.{field}")).into())
-        };
-        if self.distances_m.is_empty() || !self.distances_m.is_sorted_by(|a, b| a < b) {
-            return fault("distances_m", "expected ascending distances, one at least");
-        }
-        if self.two_sd_mm.len() != self.distances_m.len() {
-            return fault("two_sd_mm", "expected one a distance");
-        }
-        let extra = [self.near, self.far];
-        let above_0 = |x: &f64| *x > 0.0 && x.is_finite();
-        if !self.two_sd_mm.iter().all(above_0) || ![self.reach_m, self.mean_mm].iter().all(above_0)
-        {
-            return fault("two_sd_mm", "expected numbers above 0, and so for reach_m and mean_mm");
-        }
-        match extra.iter().all(|extra| *extra >= 0.0 && extra.is_finite()) {
-            true => Ok(()),
-            false => fault("near", "expected 0 or more, and so for far"),
+        let (distances_m, two_sd_mm) = (&self.distances_m, &self.two_sd_mm);
+        let rises = !distances_m.is_empty() && distances_m.is_sorted_by(|a, b| a < b);
+        let above_0 = |values: &[f64]| values.iter().all(|x| *x > 0.0 && x.is_finite());
+        let are_above_0 = above_0(two_sd_mm) && above_0(&[self.reach_m, self.mean_mm]);
+        let is_extra = |extra: f64| extra >= 0.0 && extra.is_finite();
+        let checks = [
+            ("distances_m", rises, "expected ascending distances, one at least"),
+            ("two_sd_mm", two_sd_mm.len() == distances_m.len(), "expected one a distance"),
+            ("two_sd_mm", are_above_0, "expected numbers above 0, and so for reach_m and mean_mm"),
+            (
+                "near",
+                is_extra(self.near) && is_extra(self.far),
+                "expected 0 or more, and so for far",
+            ),
+        ];
+        match checks.into_iter().find(|(_, holds, _)| !holds) {
+            None => Ok(()),
+            Some((field, _, expected)) => {
+                Err(Input::new("recipe", expected).field(format!("weighting.{field}")).into())
+            }
         }
     }
 

@@ -31,9 +31,12 @@ const IMPROBABLE: f64 = 1e-250;
 pub struct Model {
     /// Ends of stretches in order of time, from 0 on [ps], and the cell of each [code or 256].
     stretches: Vec<(f64, usize)>,
-    shots: u64,
-    sigma_ps: f64,
-    end_ps: f64,
+    /// Shots of the histogram [shots].
+    pub(super) shots: u64,
+    /// Standard deviation of the pulse [ps].
+    pub(super) sigma_ps: f64,
+    /// End of the last bin [ps].
+    pub(super) end_ps: f64,
 }
 
 /// Probabilities of the cells and their derivatives by the coordinates.
@@ -60,21 +63,6 @@ impl Model {
         }
         let (shots, sigma_ps) = (acquisition.shots, acquisition.pulse_sigma_ps);
         Ok(Model { stretches, shots, sigma_ps, end_ps })
-    }
-
-    /// Shots of the histogram [shots].
-    pub fn shots(&self) -> u64 {
-        self.shots
-    }
-
-    /// Standard deviation of the pulse [ps].
-    pub fn sigma_ps(&self) -> f64 {
-        self.sigma_ps
-    }
-
-    /// End of the last bin [ps].
-    pub fn end_ps(&self) -> f64 {
-        self.end_ps
     }
 
     /// Lower limit of the third coordinate.

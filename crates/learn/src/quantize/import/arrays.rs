@@ -5,19 +5,7 @@ use std::collections::BTreeMap;
 use tofsim::error::{Error, Input, Result, nearest};
 
 /// Names that mean something.
-const NAMES: [&str; 11] = [
-    "IW",
-    "LW",
-    "b1",
-    "b2",
-    "x_xoffset",
-    "x_gain",
-    "x_ymin",
-    "x_keep",
-    "y_xoffset",
-    "y_gain",
-    "y_ymin",
-];
+const NAMES: &str = "IW, LW, b1, b2, x_xoffset, x_gain, x_ymin, x_keep, y_xoffset, y_gain, y_ymin";
 
 /// Numbers in the order of C, the last index fastest.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +20,7 @@ pub(super) struct Array {
 pub(super) struct Arrays {
     /// The file's name in messages.
     pub(super) name: String,
-    arrays: BTreeMap<String, Array>,
+    pub(super) arrays: BTreeMap<String, Array>,
 }
 
 impl Arrays {
@@ -45,11 +33,6 @@ impl Arrays {
     pub(super) fn put(&mut self, name: &str, shape: Vec<usize>, values: Vec<f64>) {
         let array = Array { name: name.to_owned(), shape, values };
         self.arrays.insert(name.to_owned(), array);
-    }
-
-    #[cfg(test)]
-    pub(super) fn get(&self, name: &str) -> Option<&Array> {
-        self.arrays.get(name)
     }
 
     /// Takes one that may be absent.
@@ -65,9 +48,9 @@ impl Arrays {
     /// Refuses those that nobody took.
     pub(super) fn finish(&self) -> Result<()> {
         let Some(name) = self.arrays.keys().next() else { return Ok(()) };
-        let hint = match nearest(name, NAMES) {
+        let hint = match nearest(name, NAMES.split(", ")) {
             Some(near) => format!("did you mean {near}?"),
-            None => format!("expected {}", NAMES.join(", ")),
+            None => format!("expected {NAMES}"),
         };
         Err(self.fault(name, &format!("unknown; {hint}")).into())
     }

@@ -45,34 +45,20 @@ fn parse(text: &str, name: &str) -> Result<Arrays> {
 
 /// Adds a number, or nested lists of numbers of one length each.
 fn put(arrays: &mut Arrays, name: &str, value: &Value) -> Result<()> {
-    let (mut shape, mut values) = (Vec::new(), Vec::new());
-    let mut level = value;
-    while let Value::Array(items) = level {
-        shape.push(items.len());
-        match items.first() {
-            Some(first) => level = first,
-            None => break,
-        }
-    }
-    if !flatten(value, &shape, &mut values) {
-        return Err(arrays.fault(name, "expected numbers, in lists of one length").into());
-    }
+    let expected = "expected numbers, in lists of one length";
+    let (shape, values) = numbers(value).ok_or_else(|| arrays.fault(name, expected))?;
     arrays.put(name, shape, values);
     Ok(())
 }
 
-/// Appends the numbers; whether they have that shape.
-fn flatten(value: &Value, shape: &[usize], values: &mut Vec<f64>) -> bool {
-    match (value, shape) {
-        (Value::Array(items), [len, rest @ ..]) => {
-            items.len() == *len && items.iter().all(|item| flatten(item, rest, values))
-        }
-        (Value::Number(number), []) => {
-            values.extend(number.as_f64());
-            true
-        }
-        _ => false,
-    }
+/// Lengths of nested lists, outermost first, and their numbers.
+fn numbers(value: &Value) -> Option<(Vec<usize>, Vec<f64>)> {
+    let Value::Array(items) = value else { return Some((Vec::new(), vec![value.as_f64()?])) };
+    let (shapes, values): (Vec<_>, Vec<_>) =
+        items.iter().map(numbers).collect::<Option<Vec<_>>>()?.into_iter().unzip();
+    let inner = shapes.first().cloned().unwrap_or_default();
+    let shape = [&[items.len()], &inner[..]].concat();
+    shapes.iter().all(|other| *other == inner).then(|| (shape, values.concat()))
 }
 
 #[cfg(test)]

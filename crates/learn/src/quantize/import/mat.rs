@@ -19,9 +19,8 @@ pub(super) fn read(path: &Path) -> Result<Arrays> {
     })?;
     let mut arrays = Arrays::new(path.display());
     for array in mat.arrays() {
-        let Some(columns_first) = numbers(array.data()) else { continue };
-        let (shape, values) = rows_first(array.size(), &columns_first);
-        arrays.put(array.name(), shape, values);
+        let Some(values) = numbers(array.data()) else { continue };
+        arrays.put(array.name(), array.size().to_vec(), rows_first(array.size(), values));
     }
     Ok(arrays)
 }
@@ -40,14 +39,13 @@ fn numbers(data: &NumericData) -> Option<Vec<f64>> {
 }
 
 /// MATLAB has the first index fastest.
-fn rows_first(size: &[usize], values: &[f64]) -> (Vec<usize>, Vec<f64>) {
-    let shape = size.to_vec();
+fn rows_first(size: &[usize], values: Vec<f64>) -> Vec<f64> {
     match *size {
         [rows, columns] if values.len() == rows * columns => {
             let at = |place: usize| values[place % columns * rows + place / columns];
-            (shape, (0..values.len()).map(at).collect())
+            (0..values.len()).map(at).collect()
         }
-        _ => (shape, values.to_vec()),
+        _ => values,
     }
 }
 
@@ -57,7 +55,7 @@ mod tests {
 
     #[test]
     fn columns_become_rows() {
-        let (shape, values) = rows_first(&[2, 3], &[1.0, 4.0, 2.0, 5.0, 3.0, 6.0]);
-        assert_eq!((shape, values), (vec![2, 3], vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
+        let values = rows_first(&[2, 3], vec![1.0, 4.0, 2.0, 5.0, 3.0, 6.0]);
+        assert_eq!(values, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
     }
 }

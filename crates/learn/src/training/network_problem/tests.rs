@@ -1,7 +1,8 @@
 use tofsim::network::Histogram;
 
 use crate::quantize::datapath::Datapath;
-use crate::training::limits::WordLimits;
+use crate::training::features::blocks;
+use crate::training::limits::{Hinges, WordLimits};
 use crate::training::sums::parameters;
 
 use super::*;
@@ -17,18 +18,18 @@ fn counts() -> Vec<Histogram> {
 fn with_problem<T>(neurons: usize, check: impl FnOnce(&NetworkProblem, &[f64]) -> T) -> T {
     let counts = counts();
     let scaling = Scaling::of(&counts);
-    let features = Features::new(&counts, &scaling);
+    let blocks = blocks(&counts, &scaling);
     let distances_m: Vec<f64> = (0..300).map(|s| 0.1 + s as f64 / 600.0).collect();
     let weights: Vec<f64> = (0..300).map(|s| 500.0 + s as f64).collect();
     let problem = NetworkProblem {
-        features: &features,
+        blocks: &blocks,
         scaling: &scaling,
         distances_m: &distances_m,
         weights: &weights,
         neurons,
         // Much, so that a fault in its derivatives shows.
         table_noise: 0.5,
-        hinges: WordLimits::default().hinges(&Datapath::default()),
+        hinges: Hinges { limits: WordLimits::default(), words: Datapath::default() },
         held_out: None,
     };
     let x: Vec<f64> = (0..parameters(neurons)).map(|k| (k as f64).sin() * 0.1).collect();
@@ -41,7 +42,7 @@ fn residuals(problem: &NetworkProblem, x: &[f64]) -> Vec<f64> {
     let w2 = &x[problem.neurons * COLUMNS..];
     let mut residuals = Vec::new();
     for sample in 0..300 {
-        let block = &problem.features.blocks()[sample / BLOCK];
+        let block = &problem.blocks[sample / BLOCK];
         let depth = problem.depth(x, block, sample % BLOCK, &mut activations);
         let u = problem.weights[sample];
         residuals.push(u * (depth - problem.distances_m[sample]));
@@ -113,9 +114,9 @@ fn errors_are_depth_minus_distance() {
 fn wider_vectors_change_no_bit() {
     with_problem(3, |problem, x| {
         let (narrow, wide) = (pulp::Arch::Scalar, pulp::Arch::new());
-        let sums = |arch: pulp::Arch| problem.sums(arch, x, 0..2);
+        let sums = |arch: pulp::Arch| problem.sums(arch, x);
         assert!(sums(narrow) == sums(wide));
-        let cost = |arch: pulp::Arch| problem.squares(arch, x, 0..2).to_bits();
+        let cost = |arch: pulp::Arch| problem.squares(arch, x);
         assert_eq!(cost(narrow), cost(wide));
     });
 }

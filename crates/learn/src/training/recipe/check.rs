@@ -1,9 +1,11 @@
 //! Whether the numbers of a recipe make sense.
 
+use std::fmt::Display;
+
 use tofsim::error::{Error, Input};
 use tofsim::firmware::forward2::MOST_NEURONS;
 
-use super::Recipe;
+use super::{Recipe, Stage};
 
 /// Histograms of a scene that the test grid has (thesis section 4.1).
 const MOST_CHOICE: u64 = 5;
@@ -16,92 +18,78 @@ impl Recipe {
     /// # Errors
     /// Naming the first that does not.
     pub fn check(&self) -> Result<(), Error> {
-        at_least("neurons", self.neurons as u64, 1)?;
-        if self.neurons > MOST_NEURONS {
-            let expected =
-                format!("expected {MOST_NEURONS} at most, as the firmware has ports for");
-            return Err(fault("neurons", self.neurons, expected).into());
-        }
+        let Recipe { neurons, validation, start, stages, finish, optimiser, limits, .. } = self;
+        at_least("neurons", *neurons as u64, 1)?;
+        let most = format!("expected {MOST_NEURONS} at most, as the firmware has ports for");
+        ensure(*neurons <= MOST_NEURONS, "neurons", neurons, most)?;
         at_least("checkpoint_epochs", self.checkpoint_epochs, 1)?;
-        if self.validation > 0 {
-            at_least("validation", self.validation, LEAST_SAMPLES)?;
-            at_least("optimiser.max_fail", self.optimiser.max_fail.into(), 1)?;
+        if *validation > 0 {
+            at_least("validation", *validation, LEAST_SAMPLES)?;
+            at_least("optimiser.max_fail", optimiser.max_fail.into(), 1)?;
         }
-        if self.stages.is_empty() {
-            return Err(fault("stages", 0, "expected one stage or more").into());
-        }
-        if self.start.lengths.is_empty() {
-            return Err(fault("start.lengths", "[]", "expected one length or more").into());
-        }
+        ensure(!stages.is_empty(), "stages", 0, "expected one stage or more")?;
+        ensure(!start.lengths.is_empty(), "start.lengths", "[]", "expected one length or more")?;
         self.check_stages()?;
-        let finish = &self.finish;
         at_least("finish.blocks", finish.blocks as u64, 1)?;
-        if !(1..=MOST_CHOICE).contains(&finish.choice) {
-            let expected = format!("expected 1 to {MOST_CHOICE}");
-            return Err(fault("finish.choice", finish.choice, expected).into());
-        }
+        let is_choice = (1..=MOST_CHOICE).contains(&finish.choice);
+        let expected = format!("expected 1 to {MOST_CHOICE}");
+        ensure(is_choice, "finish.choice", finish.choice, expected)?;
         for (field, value) in [
             ("finish.least", finish.least),
             ("finish.most", finish.most),
-            ("optimiser.mu", self.optimiser.mu),
-            ("optimiser.mu_max", self.optimiser.mu_max),
-            ("optimiser.mu_dec", self.optimiser.mu_dec),
-            ("limits.w1_share", self.limits.w1_share),
-            ("limits.b1_share", self.limits.b1_share),
-            ("limits.w2_share", self.limits.w2_share),
-            ("limits.b2_share", self.limits.b2_share),
+            ("optimiser.mu", optimiser.mu),
+            ("optimiser.mu_max", optimiser.mu_max),
+            ("optimiser.mu_dec", optimiser.mu_dec),
+            ("limits.w1_share", limits.w1_share),
+            ("limits.b1_share", limits.b1_share),
+            ("limits.w2_share", limits.w2_share),
+            ("limits.b2_share", limits.b2_share),
         ] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(fault(field, value, "expected a number above 0").into());
-            }
+            let is_above_0 = value > 0.0 && value.is_finite();
+            ensure(is_above_0, field, value, "expected a number above 0")?;
         }
-        if self.optimiser.mu_inc <= 1.0 || !self.optimiser.mu_inc.is_finite() {
-            return Err(fault("optimiser.mu_inc", self.optimiser.mu_inc, "expected above 1").into());
-        }
+        let mu_inc = optimiser.mu_inc;
+        ensure(mu_inc > 1.0 && mu_inc.is_finite(), "optimiser.mu_inc", mu_inc, "expected above 1")?;
         for (field, value) in [("finish.power", finish.power), ("finish.keep", finish.keep)] {
-            if !(0.0..=1.0).contains(&value) {
-                return Err(fault(field, value, "expected 0 to 1").into());
-            }
+            ensure((0.0..=1.0).contains(&value), field, value, "expected 0 to 1")?;
         }
-        if finish.least > finish.most {
-            let expected = format!("expected finish.most = {} at most", finish.most);
-            return Err(fault("finish.least", finish.least, expected).into());
-        }
+        let expected = format!("expected finish.most = {} at most", finish.most);
+        ensure(finish.least <= finish.most, "finish.least", finish.least, expected)?;
         self.formats.check()?;
         self.weighting.check()
     }
 
     /// That no stage has more candidates than the one before, and all have enough of everything.
-    fn check_stages(&self) -> Result<(), Error> {
+    fn check_stages(&self) -> Result<(), Input> {
         let mut before = usize::MAX;
         for place in 0..=self.stages.len() {
-            let (stage, name) = match self.stages.get(place) {
-                Some(stage) => (*stage, format!("stages[{place}]")),
-                None => (self.stage(place), "finish".to_owned()),
-            };
+            let is_finish = place == self.stages.len();
+            let name = if is_finish { "finish".to_owned() } else { format!("stages[{place}]") };
+            let Stage { candidates, epochs, samples } = self.stage(place);
             let field = format!("{name}.candidates");
-            at_least(&field, stage.candidates as u64, 1)?;
-            at_least(&format!("{name}.epochs"), stage.epochs, 1)?;
-            at_least(&format!("{name}.samples"), stage.samples, LEAST_SAMPLES)?;
-            if stage.candidates > before {
-                let expected = format!("expected {before} at most, as in the stage before");
-                return Err(fault(&field, stage.candidates, expected).into());
-            }
-            before = stage.candidates;
+            at_least(&field, candidates as u64, 1)?;
+            at_least(&format!("{name}.epochs"), epochs, 1)?;
+            at_least(&format!("{name}.samples"), samples, LEAST_SAMPLES)?;
+            let expected = format!("expected {before} at most, as in the stage before");
+            ensure(candidates <= before, &field, candidates, expected)?;
+            before = candidates;
         }
         Ok(())
     }
 }
 
 fn at_least(field: &str, value: u64, least: u64) -> Result<(), Input> {
-    match value >= least {
-        true => Ok(()),
-        false => Err(fault(field, value, format!("expected {least} or more"))),
-    }
+    ensure(value >= least, field, value, format!("expected {least} or more"))
 }
 
-fn fault(field: &str, value: impl std::fmt::Display, expected: impl std::fmt::Display) -> Input {
-    Input::new("recipe", expected).field(field).value(value)
+fn ensure(
+    holds: bool,
+    field: &str,
+    value: impl Display,
+    expected: impl Display,
+) -> Result<(), Input> {
+    let fault = || Input::new("recipe", expected).field(field).value(value);
+    if holds { Ok(()) } else { Err(fault()) }
 }
 
 #[cfg(test)]
