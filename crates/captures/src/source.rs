@@ -33,9 +33,6 @@ pub use state::SourceState;
 pub use stream::{Cursor, Feed, Gone, Marks};
 pub use tick::Tick;
 
-/// Bytes of a waveform that are read at once.
-const CHUNK: usize = 1 << 17;
-
 impl Source {
     /// Looks at a file; what it holds decides its format. `radix` is that of values in a file that
     /// does not say.

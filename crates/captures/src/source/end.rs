@@ -8,6 +8,8 @@ use tofsim::error::{Error, Input, Result};
 
 use super::signals::SourceFormat;
 
+/// Bytes of a waveform that are read at once.
+pub(super) const CHUNK: usize = 1 << 17;
 /// Where an FST file's header has its end: after the block's type and length and the begin.
 const FST_END: u64 = 1 + 8 + 8;
 
@@ -19,7 +21,7 @@ pub(super) fn end(path: &Path, format: SourceFormat) -> Result<Option<u64>> {
     let file = File::open(path).map_err(Error::io(path, "read"))?;
     match format {
         SourceFormat::Fst => fst(file).map_err(Error::io(path, "read")),
-        SourceFormat::Vcd => vcd(path, BufReader::with_capacity(super::CHUNK, file)),
+        SourceFormat::Vcd => vcd(path, BufReader::with_capacity(CHUNK, file)),
         _ => Ok(None),
     }
 }

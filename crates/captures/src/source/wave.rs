@@ -12,7 +12,7 @@ use tofsim::error::{Error, Input, Result};
 
 use crate::words::Bits;
 
-use super::end::end;
+use super::end::{CHUNK, end};
 use super::guard::guarded;
 use super::library::{fault, set};
 use super::loaded;
@@ -40,7 +40,7 @@ struct Origin {
 fn open(path: &Path) -> Result<StreamingWaveform<BufReader<File>>> {
     let file = File::open(path).map_err(Error::io(path, "read"))?;
     let options = LoadOptions { multi_thread: false, remove_scopes_with_empty_name: true };
-    let wave = wellen::stream::read(BufReader::with_capacity(super::CHUNK, file), &options);
+    let wave = wellen::stream::read(BufReader::with_capacity(CHUNK, file), &options);
     wave.map_err(|error| fault(path, error))
 }
 
