@@ -39,11 +39,13 @@ impl Part {
     }
 
     /// Reports every signal that differs from what it was; at first, every one. This has to be called
-    /// in every cycle of `clk_125`.
+    /// in every cycle of `clk_125`, and not only while that is high: from high to high or low, no
+    /// register of it has moved.
     #[inline]
     pub fn follow(&mut self, top: &TofTop, sink: &mut impl Sink) {
         let Some(kept) = &mut self.kept else { return self.show(top, sink) };
-        top.visit(Some(kept), &mut Look { wanted: Some(&*self.wanted), id: 0, sink });
+        let between = kept.clocks.clk_125;
+        top.visit(Some(kept), &mut Look { wanted: Some(&*self.wanted), between, id: 0, sink });
         let writes = top.nets.tdc_valid || top.frame_ctrl.clear;
         if std::mem::replace(&mut self.writes, writes) {
             let (now, then) = (&top.histogram_builder.ram, &mut kept.histogram_builder.ram);
@@ -69,7 +71,7 @@ impl Part {
 /// Reports every signal that differs from `before`, or every one.
 pub fn changes(top: &TofTop, before: Option<&TofTop>, sink: &mut impl Sink) {
     let mut then = before.cloned();
-    top.visit(then.as_mut(), &mut Look { wanted: None, id: 0, sink });
+    top.visit(then.as_mut(), &mut Look { wanted: None, between: false, id: 0, sink });
     for (bin, now) in top.histogram_builder.ram.iter().enumerate() {
         if before.is_none_or(|before| before.histogram_builder.ram[bin] != *now) {
             sink.word(RAM + bin, now.get());
@@ -87,6 +89,8 @@ pub fn copy(from: &TofTop, to: &mut TofTop) {
 struct Look<'a, S> {
     /// Ids to look at, if not all.
     wanted: Option<&'a [bool; IDS]>,
+    /// Whether modules that have no other clock than `clk_125` are left out.
+    between: bool,
     /// The coming signal.
     id: usize,
     sink: &'a mut S,
@@ -99,20 +103,22 @@ impl<K: Sink> Visitor for Look<'_, K> {
         self.id = ids.end;
         match then {
             None => now.changes(None, ids.start, self.sink),
-            Some(then) => {
-                let is_wanted =
-                    self.wanted.is_none_or(|wanted| wanted[ids.clone()].contains(&true));
-                if is_wanted && then != now {
+            Some(then) if then != now => {
+                if self.wanted.is_none_or(|wanted| wanted[ids.clone()].contains(&true)) {
                     now.changes(Some(&*then), ids.start, self.sink);
-                    *then = *now;
                 }
+                *then = *now;
             }
+            Some(_) => {}
         }
     }
 
     #[inline(always)]
-    fn module<M: Module>(&mut self, _: &'static Instance, now: &M, then: Option<&mut M>) {
-        now.visit(then, self);
+    fn module<M: Module>(&mut self, instance: &'static Instance, now: &M, then: Option<&mut M>) {
+        match instance.clocks {
+            [("clk_125", _)] if self.between => self.id += M::COUNT,
+            _ => now.visit(then, self),
+        }
     }
 }
 

@@ -22,8 +22,12 @@ pub(super) enum Step {
 
 /// A file format, given the values of one time step after the other.
 pub(super) trait Body: Sink {
-    /// Writes a step; `at` is never earlier than the step before [ps].
-    fn step(&mut self, at: u64, step: Step, fill: impl FnOnce(&mut Self)) -> io::Result<()>;
+    /// What the end of a step has to know of its begin.
+    type Begun;
+    /// Begins a step; `at` is never earlier than the step before [ps]. Its values come next.
+    fn begin(&mut self, at: u64, step: Step) -> Self::Begun;
+    /// Ends a step, which is left out if nothing came.
+    fn end(&mut self, begun: Self::Begun) -> io::Result<()>;
     /// All signals unknown; for use in a step.
     fn unknown(&mut self);
     /// Puts the finished file, which ends at `at`, in place [ps].

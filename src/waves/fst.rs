@@ -71,7 +71,7 @@ impl Fst {
 
     /// Something changes.
     #[inline]
-    fn begin(&mut self) {
+    fn time_step(&mut self) {
         if let Some(at) = self.pending.take()
             && let Err(error) = self.changes.begin(at)
         {
@@ -84,13 +84,13 @@ impl Sink for Fst {
     #[inline]
     fn word(&mut self, id: usize, value: u64) {
         let Some(signal) = self.signals[id] else { return };
-        self.begin();
+        self.time_step();
         self.changes.word(signal, value);
     }
 
     fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>) {
         let Some(signal) = self.signals[id] else { return };
-        self.begin();
+        self.time_step();
         self.bytes.clear();
         let (words, shift) = (self.taps.words(value), N.next_multiple_of(8) - N);
         for (place, &word) in words.iter().enumerate().rev() {
@@ -104,15 +104,20 @@ impl Sink for Fst {
 }
 
 impl Body for Fst {
+    type Begun = ();
+
     #[inline]
-    fn step(&mut self, at: u64, _: Step, fill: impl FnOnce(&mut Self)) -> io::Result<()> {
+    fn begin(&mut self, at: u64, _: Step) {
         self.pending = Some(at);
-        fill(self);
+    }
+
+    #[inline]
+    fn end(&mut self, (): ()) -> io::Result<()> {
         self.fault.take().map_or(Ok(()), Err)
     }
 
     fn unknown(&mut self) {
-        self.begin();
+        self.time_step();
         self.changes.unknown();
     }
 

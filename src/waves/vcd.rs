@@ -81,26 +81,32 @@ impl Sink for Vcd {
 }
 
 impl Body for Vcd {
+    /// The text's length before the step and before its values, and when it is.
+    type Begun = (usize, usize, u64, Step);
+
     #[inline(always)]
-    fn step(&mut self, at: u64, step: Step, fill: impl FnOnce(&mut Self)) -> io::Result<()> {
-        let begin = self.text.len;
+    fn begin(&mut self, at: u64, step: Step) -> Self::Begun {
+        let before = self.text.len;
         if self.stamped != at {
             self.text.stamp(at);
         }
         let empty = self.text.len;
-        let word: &[u8] = match step {
-            Step::Start => b"$dumpvars\n",
-            Step::Open => b"$dumpon\n",
-            Step::Close => b"$dumpoff\n",
-            Step::Change | Step::Clocks => b"",
-        };
-        self.text.push(word);
-        fill(self);
-        if !word.is_empty() {
+        match step {
+            Step::Start => self.text.push(b"$dumpvars\n"),
+            Step::Open => self.text.push(b"$dumpon\n"),
+            Step::Close => self.text.push(b"$dumpoff\n"),
+            Step::Change | Step::Clocks => {}
+        }
+        (before, empty, at, step)
+    }
+
+    #[inline(always)]
+    fn end(&mut self, (before, empty, at, step): Self::Begun) -> io::Result<()> {
+        if !matches!(step, Step::Change | Step::Clocks) {
             self.text.push(b"$end\n");
         }
         if self.text.len == empty {
-            self.text.len = begin;
+            self.text.len = before;
             return Ok(());
         }
         self.stamped = at;

@@ -85,13 +85,13 @@ impl Waves {
                 self.state = State::Open;
                 return self.sample(now, top);
             }
-            State::Ended(end) => self.write(end, Step::Close, None),
-            State::Blank if at > 0 => self.write(0, Step::Start, None),
+            State::Ended(end) => self.mark(end, Step::Close, None),
+            State::Blank if at > 0 => self.mark(0, Step::Start, None),
             State::Blank => {}
         }
         let step = if at > 0 { Step::Open } else { Step::Start };
         self.state = State::Open;
-        self.write(at, step, Some(top));
+        self.mark(at, step, Some(top));
     }
 
     /// Shows what has changed since the last call; outside windows nothing. Within a window this
@@ -133,8 +133,8 @@ impl Waves {
     pub(crate) fn finish(mut self, end: Time) -> Result<()> {
         let at = self.at(end);
         match self.state {
-            State::Blank => self.write(0, Step::Start, None),
-            State::Ended(end) if end < at => self.write(end, Step::Close, None),
+            State::Blank => self.mark(0, Step::Start, None),
+            State::Ended(end) if end < at => self.mark(end, Step::Close, None),
             State::Ended(_) | State::Open => {}
         }
         self.check()?;
@@ -152,12 +152,19 @@ impl Waves {
     }
 
     /// Writes a step; without a top everything is unknown.
+    /// A step that comes once or twice a window.
+    #[cold]
+    #[inline(never)]
+    fn mark(&mut self, at: u64, step: Step, top: Option<&TofTop>) {
+        self.write(at, step, top);
+    }
+
     #[inline(always)]
     fn write(&mut self, at: u64, step: Step, top: Option<&TofTop>) {
         let shown = &mut self.shown;
         let written = match &mut self.writer {
-            Writer::Vcd(file) => file.step(at, step, |file| fill(file, shown, step, top)),
-            Writer::Fst(file) => file.step(at, step, |file| fill(file, shown, step, top)),
+            Writer::Vcd(file) => write(&mut **file, at, step, shown, top),
+            Writer::Fst(file) => write(&mut **file, at, step, shown, top),
         };
         if let Err(error) = written {
             self.failed.get_or_insert(error);
@@ -165,13 +172,21 @@ impl Waves {
     }
 }
 
-/// Gives a file what a step shows.
+/// A step of a file: the signals of `top` that belong to it, or none that are known.
 #[inline(always)]
-fn fill(file: &mut impl Body, shown: &mut Part, step: Step, top: Option<&TofTop>) {
+fn write(
+    file: &mut impl Body,
+    at: u64,
+    step: Step,
+    shown: &mut Part,
+    top: Option<&TofTop>,
+) -> io::Result<()> {
+    let begun = file.begin(at, step);
     match (step, top) {
         (_, None) => file.unknown(),
         (Step::Change, Some(top)) => shown.follow(top, file),
         (Step::Clocks, Some(top)) => shown.tick(top, file),
         (_, Some(top)) => shown.show(top, file),
     }
+    file.end(begun)
 }
