@@ -8,7 +8,7 @@ use super::super::plan::Plan;
 use super::super::samples::Sample;
 use super::super::selection::Piece;
 use super::alignment::Alignment;
-use super::survey::{counts_differ, survey};
+use super::survey::{counts_differ, survey, triggers_differ, windows_differ};
 use crate::words::Bits;
 
 /// The first edges of a signal belong together.
@@ -72,23 +72,14 @@ pub(super) fn start(plan: &Plan) -> Result<Alignment> {
         [Axis::Time(a), Axis::Time(b)] => same_time(plan, [a, b]),
         [Axis::Samples, Axis::Samples] => {
             let windows = [survey(plan.sources[0])?.windows, survey(plan.sources[1])?.windows];
-            let mut differences = Vec::new();
-            let [a, b] = [windows[0].len(), windows[1].len()];
-            if a != b {
-                differences.push(format!("the first has {a} windows, the second {b}"));
-            }
+            let mut differences = Vec::from_iter(windows_differ(&windows[0], &windows[1]));
             for (k, (a, b)) in windows[0].iter().zip(&windows[1]).enumerate() {
                 differences.extend(counts_differ(k, a, b));
-                let marks = [a, b].map(|window| window.trigger.map(|at| at - window.first));
-                if marks[0] != marks[1] {
-                    let [a, b] = marks.map(|at| at.map_or("none".to_owned(), |at| at.to_string()));
-                    differences.push(format!(
-                        "window {k}: trigger at sample {a} of the first, {b} of the second"
-                    ));
-                }
+                differences.extend(triggers_differ(k, a, b));
             }
+            let count = windows[0].len().min(windows[1].len());
             let pieces = windows.map(|windows| {
-                let windows = windows.iter().take(a.min(b));
+                let windows = windows.iter().take(count);
                 windows.map(|window| Piece::Run(window.first, window.count)).collect()
             });
             Ok(Alignment { pieces, found, offset: Some(0), differences })

@@ -65,6 +65,20 @@ pub fn survey(source: &Source) -> Result<Survey> {
     Ok(survey)
 }
 
+/// That the sides have not as many windows.
+pub(super) fn windows_differ(a: &[Window], b: &[Window]) -> Option<String> {
+    let (a, b) = (a.len(), b.len());
+    (a != b).then(|| format!("the first has {a} windows, the second {b}"))
+}
+
+/// That the windows of number `k` of both sides have not their triggers at the same place.
+pub(super) fn triggers_differ(k: usize, a: &Window, b: &Window) -> Option<String> {
+    let [a, b] = [a, b].map(|window| window.trigger.map(|at| at - window.first));
+    let tell = |at: Option<u64>| at.map_or("none".to_owned(), |at| at.to_string());
+    let places = || format!("at sample {} of the first, {} of the second", tell(a), tell(b));
+    (a != b).then(|| format!("window {k}: trigger {}", places()))
+}
+
 /// That the windows of number `k` of both sides have not as many samples.
 pub(super) fn counts_differ(k: usize, a: &Window, b: &Window) -> Option<String> {
     let (a, b) = (a.count?, b.count?);
