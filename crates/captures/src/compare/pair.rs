@@ -19,9 +19,10 @@ pub enum Unknowns {
 }
 
 /// How two signals came together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MatchedBy {
     /// The names are the same.
+    #[default]
     Name,
     /// One name is the end of the other.
     Suffix,
@@ -30,7 +31,7 @@ pub enum MatchedBy {
 }
 
 /// Two signals that are compared.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Pair {
     /// Name that it is shown by: the first side's.
     pub(super) name: String,
@@ -63,21 +64,7 @@ impl Pair {
         show: Show,
     ) -> Self {
         let [name, other] = names;
-        Pair {
-            name,
-            other,
-            aliases: 0,
-            how,
-            width,
-            sides,
-            show,
-            signed: None,
-            mask: Vec::new(),
-            invert: false,
-            latency: 0,
-            tolerance: 0,
-            valid: None,
-        }
+        Pair { name, other, how, width, sides, show, ..Pair::default() }
     }
 
     /// Whether it is compared by the bits at one place alone.

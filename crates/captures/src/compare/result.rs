@@ -6,7 +6,7 @@ use super::matching::Unmatched;
 use super::pair::MatchedBy;
 
 /// What a comparison has found.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Comparison {
     /// Names and formats of the two sides.
     pub sides: [Described; 2],
@@ -48,7 +48,7 @@ impl Finding {
 }
 
 /// A side, for people.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Described {
     /// Path or scenario.
     pub name: String,
@@ -120,18 +120,8 @@ pub struct Difference {
 impl Comparison {
     /// Of two sources, with nothing found yet.
     pub(super) fn new(sources: [&Source; 2], unit: &'static str, alignment: String) -> Self {
-        Comparison {
-            sides: sources.map(Described::new),
-            unit,
-            alignment,
-            offset: None,
-            compared: 0,
-            pairs: Vec::new(),
-            unmatched: Vec::new(),
-            differences: Vec::new(),
-            findings: Vec::new(),
-            notes: Vec::new(),
-        }
+        let sides = sources.map(Described::new);
+        Comparison { sides, unit, alignment, ..Comparison::default() }
     }
 
     /// Whether the sides are the same.

@@ -7,9 +7,10 @@ use crate::source::{Signal, SignalKind, known_shape};
 use crate::words::{Bits, extend};
 
 /// How a signal's values are shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Show {
     /// Bits: one digit, or hexadecimal.
+    #[default]
     Bits,
     /// All binary digits.
     Binary,
