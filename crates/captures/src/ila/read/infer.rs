@@ -15,21 +15,18 @@ use super::table::Table;
 /// What is tried, first what is taken if all give the same values.
 const TRIED: [Radix; 5] = [Radix::Hex, Radix::Unsigned, Radix::Signed, Radix::Binary, Radix::Octal];
 
-/// Looks through all rows of `table`, sets the radices and returns the number of rows. `hint`
-/// decides where several radices are left.
+/// Looks through all rows of `table` and sets the radices. `hint` decides where several are left.
 pub(super) fn infer(
     table: &mut Table<impl Read>,
     heads: &mut Heads,
     hint: Option<Radix>,
-) -> Result<u64> {
+) -> Result<()> {
     let fields = super::heads::FIXED.len() + heads.columns.len();
     let mut guesses = vec![Guess::new(hint); heads.columns.len()];
     for _ in 0..heads.rows() {
         table.advance()?;
     }
-    let mut rows = 0;
     while table.advance_to(fields)? {
-        rows += 1;
         let columns = heads.columns.iter().zip(&mut guesses).enumerate();
         for (index, (column, guess)) in columns.filter(|(_, (column, _))| !column.text) {
             let index = super::heads::FIXED.len() + index;
@@ -55,7 +52,7 @@ pub(super) fn infer(
             column.radix = Some(guess.decide(hint)?);
         }
     }
-    Ok(rows)
+    Ok(())
 }
 
 /// What a column may be.
