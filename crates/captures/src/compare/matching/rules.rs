@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use tofsim::error::{Input, Result};
+use tofsim::kernel::signals::SignalFormat as Shape;
 
 use crate::source::Source;
 use crate::words::ones;
@@ -84,9 +85,11 @@ impl Pair {
         }
         self.signed = rule.signed.or(self.signed);
         match (rule.signed, rule.fraction) {
-            (Some(true), fraction) => self.show = Show::Signed(fraction.unwrap_or(0)),
+            (Some(true), fraction) => {
+                self.show = Show::Shape(Shape::Signed { fraction: fraction.unwrap_or(0) });
+            }
             (_, Some(fraction)) => self.show = Show::Fixed(fraction),
-            (Some(false), None) => self.show = Show::Unsigned,
+            (Some(false), None) => self.show = Show::Shape(Shape::Unsigned),
             (None, None) => {}
         }
         if let Some(text) = &rule.dont_care {
