@@ -30,7 +30,7 @@ pub enum MatchedBy {
     Map,
 }
 
-/// Two signals that are compared.
+/// Two signals that are compared, by default at every place and bit for bit.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pair {
     /// Name that it is shown by: the first side's.
@@ -55,18 +55,6 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    /// Two signals of so many bits that are compared at every place, bit for bit.
-    pub(super) fn new(
-        names: [String; 2],
-        how: MatchedBy,
-        width: u32,
-        sides: [Vec<Part>; 2],
-        show: Show,
-    ) -> Self {
-        let [name, other] = names;
-        Pair { name, other, how, width, sides, show, ..Pair::default() }
-    }
-
     /// Whether it is compared by the bits at one place alone.
     pub(super) fn is_plain(&self) -> bool {
         self.latency == 0 && self.valid.is_none()

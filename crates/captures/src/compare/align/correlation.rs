@@ -246,19 +246,19 @@ fn decide(candidates: &[Candidate], side: usize, what: &str) -> Result<(Candidat
 
 /// One offset for all.
 pub(super) fn alignment(plan: &Plan, signals: &[String]) -> Result<Alignment> {
-    let side = plan.capture().unwrap_or(0);
-    let piece = Piece::Run(0, plan.capture().is_none().then_some(LONGEST));
-    let windows =
-        if plan.capture().is_some() { survey(plan.sources[side])?.windows.len() } else { 1 };
+    let (side, overhangs) = (plan.capture().unwrap_or(0), plan.capture().is_none());
+    let (windows, longest, what) = match overhangs {
+        true => (1, Some(LONGEST), "the first side"),
+        false => (survey(plan.sources[side])?.windows.len(), None, "the capture"),
+    };
     if windows > 1 {
         let expected = format!(
             "the time between the {windows} windows is not known; align each alone (windows)"
         );
         return Err(Input::new("--align", expected).into());
     }
-    let overhangs = plan.capture().is_none();
+    let piece = Piece::Run(0, longest);
     let found = search(plan, signals, &Search { side, piece, overhangs, from: 0 })?;
-    let what = if plan.capture().is_some() { "the capture" } else { "the first side" };
     let (best, text) = decide(&found, side, what)?;
     Ok(Alignment::shifted(best.later(side), text))
 }

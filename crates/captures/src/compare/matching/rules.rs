@@ -61,8 +61,9 @@ pub(super) fn by_rule(
         return Err(Input::new("map", expected).field(names[0].join(" ")).into());
     }
     let [a, b] = [0, 1].map(|side| &sides[side].signals[first[side]]);
-    let names = names.map(|parts| parts.join(" "));
-    let mut pair = Pair::new(names, MatchedBy::Map, width, parts, Show::of(a, b));
+    let [name, other] = names.map(|parts| parts.join(" "));
+    let (how, show) = (MatchedBy::Map, Show::of(a, b));
+    let mut pair = Pair { name, other, how, width, sides: parts, show, ..Pair::default() };
     pair.follow(rule, sides, matching)?;
     Ok(pair)
 }
