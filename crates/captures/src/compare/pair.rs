@@ -1,5 +1,7 @@
 //! Two signals that are compared, and how.
 
+use serde::Serialize;
+
 use crate::source::SourceState;
 use crate::words::{Bits, extend, ones};
 
@@ -19,7 +21,8 @@ pub enum Unknowns {
 }
 
 /// How two signals came together.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum MatchedBy {
     /// The names are the same.
     #[default]

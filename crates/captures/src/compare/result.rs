@@ -1,5 +1,7 @@
 //! What a comparison has found.
 
+use serde::Serialize;
+
 use crate::source::{Axis, Source};
 
 use super::matching::Unmatched;
@@ -31,7 +33,7 @@ pub struct Comparison {
 }
 
 /// What some differences look like.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Finding {
     /// A word for it.
     pub kind: &'static str,
@@ -78,13 +80,14 @@ impl Described {
 }
 
 /// The result for one pair.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Compared {
     /// Name on the first side.
     pub name: String,
     /// Name on the second side.
     pub other: String,
     /// How they came together.
+    #[serde(rename = "matched_by")]
     pub how: MatchedBy,
     /// Further names of the same signals.
     pub aliases: usize,
@@ -97,13 +100,15 @@ pub struct Compared {
     /// The first of them.
     pub first: Option<Difference>,
     /// Where they lie: `#` in the parts of the range that have some.
+    #[serde(rename = "where")]
     pub overview: String,
 }
 
 /// A place at which the sides differ.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Difference {
     /// Number of the comparison, from 0.
+    #[serde(skip)]
     pub order: u64,
     /// Window.
     pub window: usize,
