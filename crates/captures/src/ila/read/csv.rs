@@ -23,20 +23,26 @@ pub(super) fn open<R: Read + Seek + Send + 'static>(
     file.rewind().map_err(fault)?;
     let mut heads = Heads::read(&source, &lines)?;
     if !heads.radix_row {
-        let mut table = Table::new(&source, file);
+        let mut table = below(&source, file, &heads)?;
         infer(&mut table, &mut heads, hint)?;
         file = table.into_inner();
         file.rewind().map_err(fault)?;
     }
-    let mut table = Table::new(&source, file);
-    for _ in 0..heads.rows() {
-        table.advance()?;
-    }
+    let table = below(&source, file, &heads)?;
     let form = if heads.radix_row { CaptureForm::Csv } else { CaptureForm::LegacyCsv };
     let columns = heads.columns.clone();
     let radix_told = heads.radix_row;
     let rows = Box::new(CsvRows { table, heads, order: Order::default() });
     Ok(Opened { form, columns, radix_told, rows })
+}
+
+/// The table from the first row below the heads on.
+fn below<R: Read>(source: &str, file: R, heads: &Heads) -> Result<Table<R>> {
+    let mut table = Table::new(source, file);
+    for _ in 0..1 + usize::from(heads.radix_row) {
+        table.advance()?;
+    }
+    Ok(table)
 }
 
 /// The rows below the heads.

@@ -15,7 +15,7 @@ use super::table::Table;
 /// What is tried, first what is taken if all give the same values.
 const TRIED: [Radix; 5] = [Radix::Hex, Radix::Unsigned, Radix::Signed, Radix::Binary, Radix::Octal];
 
-/// Looks through all rows of `table` and sets the radices. `hint` decides where several are left.
+/// Looks through the rest of `table` and sets the radices. `hint` decides where several are left.
 pub(super) fn infer(
     table: &mut Table<impl Read>,
     heads: &mut Heads,
@@ -23,9 +23,6 @@ pub(super) fn infer(
 ) -> Result<()> {
     let fields = super::heads::FIXED.len() + heads.columns.len();
     let mut guesses = vec![Guess::new(hint); heads.columns.len()];
-    for _ in 0..heads.rows() {
-        table.advance()?;
-    }
     while table.advance_to(fields)? {
         let columns = heads.columns.iter().zip(&mut guesses).enumerate();
         for (index, (column, guess)) in columns.filter(|(_, (column, _))| !column.text) {
