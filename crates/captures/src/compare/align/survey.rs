@@ -35,7 +35,8 @@ pub struct Survey {
 pub fn survey(source: &Source) -> Result<Survey> {
     let mut survey = Survey::default();
     // Of a VCD, only the changes of all signals tell how far it goes.
-    let count = if source.format == SourceFormat::IlaVcd { usize::MAX } else { 1 };
+    let is_vcd = source.format == SourceFormat::IlaVcd;
+    let count = if is_vcd { usize::MAX } else { 1 };
     let ids: Vec<usize> = source.signals.iter().take(count).map(|signal| signal.id).collect();
     let mut cursor = source.read(&ids)?;
     while let Some(at) = cursor.peek()? {
@@ -51,16 +52,11 @@ pub fn survey(source: &Source) -> Result<Survey> {
             window.trigger = Some(at);
         }
     }
-    survey.samples = match source.format {
-        SourceFormat::IlaVcd => None,
-        _ => Some(survey.last.map_or(0, |last| last + 1)),
-    };
-    for k in 0..survey.windows.len() {
-        let first = survey.windows[k].first;
-        survey.windows[k].count = match survey.windows.get(k + 1) {
-            Some(next) => Some(next.first - first),
-            None => survey.samples.map(|samples| samples - first),
-        };
+    survey.samples = (!is_vcd).then(|| survey.last.map_or(0, |last| last + 1));
+    let mut end = survey.samples;
+    for window in survey.windows.iter_mut().rev() {
+        window.count = end.map(|end| end - window.first);
+        end = Some(window.first);
     }
     Ok(survey)
 }
