@@ -13,7 +13,7 @@ use tofsim::scenario;
 use tofsim::sim::Run;
 use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
-use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Overrides, capture};
+use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, capture};
 
 /// Modules, and their signals that are probed.
 const PROBES: &[(&str, &str)] = &[
@@ -52,8 +52,7 @@ fn set_up(arm_at_us: u64) -> AnalyserSetup {
             text += &format!("[[probe]]\nsignal = \"{path}\"\n");
         }
     }
-    AnalyserSetup::parse("bench", "bench.toml", &text, Overrides::default())
-        .expect("the set-up is right")
+    AnalyserSetup::parse("bench", "bench.toml", &text).expect("the set-up is right")
 }
 
 /// A frame without an analyser and one with it.

@@ -80,11 +80,13 @@ pub struct Options {
 /// When they cannot be read, nothing belongs together, or it is not clear which samples do.
 pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> {
     let sources = [a, b];
+    let nothing = |expected: &str| {
+        Input::new("compare", expected).value(format_args!("{} and {}", a.name, b.name))
+    };
     let matching = matching(sources, &options.map, &options.choice)?;
     if matching.pairs.is_empty() {
         let expected = "no signal of one has a partner in the other; give a map (--map)";
-        let value = format!("{} and {}", a.name, b.name);
-        return Err(Input::new("compare", expected).value(value).into());
+        return Err(nothing(expected).into());
     }
     if sources.iter().all(|source| source.is_capture())
         && (options.until.is_some() || options.after.is_some())
@@ -118,8 +120,7 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
     };
     if result.compared == 0 && result.is_same() {
         let expected = "nothing to compare: there is no place that both sides have";
-        let value = format!("{} and {}", a.name, b.name);
-        return Err(Input::new("compare", expected).value(value).into());
+        return Err(nothing(expected).into());
     }
     if let Some(both) = differences.both.take() {
         both.finish(&result)?;

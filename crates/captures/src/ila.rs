@@ -17,4 +17,4 @@ pub mod write;
 pub use capture::{Capture, Probe, Radix};
 pub use plan::AnalyserPlan;
 pub use sampler::{Analyser, capture};
-pub use setup::{AnalyserSetup, Overrides};
+pub use setup::AnalyserSetup;

@@ -63,11 +63,7 @@ pub(crate) fn ones(width: u32, k: usize) -> u64 {
 /// Clears what is above the width in the words of a value.
 #[inline]
 pub(crate) fn trim(words: &mut [u64], width: u32) {
-    if let Some(top) = words.last_mut()
-        && !width.is_multiple_of(64)
-    {
-        *top &= (1 << (width % 64)) - 1;
-    }
+    words.iter_mut().enumerate().for_each(|(k, word)| *word &= ones(width, k));
 }
 
 /// A two's complement number of `width` bits.

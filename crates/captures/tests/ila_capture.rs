@@ -5,13 +5,13 @@ use bitvec::prelude::*;
 use tofsim::kernel::Time;
 use tofsim::sim::Run;
 use tofsim::sim::setup::Setup;
-use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, Overrides, sampler};
+use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, sampler};
 
 use crate::common::{self, empty, setup};
 
 /// What an analyser has after so many frames, and when it triggered.
 fn capture(setup: &Setup, text: &str, frames: u64) -> (Capture, Vec<Time>) {
-    let set_up = AnalyserSetup::parse("t", "t.toml", text, Overrides::default()).unwrap();
+    let set_up = AnalyserSetup::parse("t", "t.toml", text).unwrap();
     let mut analyser = Analyser::new(&AnalyserPlan::new(&set_up, setup).unwrap(), setup);
     sampler::capture(Run::new(setup), frames, &mut analyser, None).unwrap();
     let triggers = analyser.triggers();
@@ -31,7 +31,7 @@ fn rises(values: &[u64]) -> Vec<usize> {
 }
 
 fn built_in(name: &str) -> (Capture, Vec<Time>) {
-    let set_up = AnalyserSetup::load(name, Overrides::default()).unwrap();
+    let set_up = AnalyserSetup::load(name).unwrap();
     let setup = setup(&set_up.file.scenario, &[]);
     let mut analyser = Analyser::new(&AnalyserPlan::new(&set_up, &setup).unwrap(), &setup);
     sampler::capture(Run::new(&setup), set_up.file.frames, &mut analyser, None).unwrap();

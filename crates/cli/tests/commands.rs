@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use tofsim_captures::compare::SignalMap;
-use tofsim_captures::ila::{AnalyserPlan, AnalyserSetup, Overrides};
+use tofsim_captures::ila::{AnalyserPlan, AnalyserSetup};
 
 use crate::common;
 
@@ -92,8 +92,7 @@ fn the_set_up_and_the_map_on_the_page_are_read() {
         .map(|block| block.split("```").next().unwrap().to_owned())
         .collect();
     let [set_up, map] = &blocks[..] else { panic!("{} blocks", blocks.len()) };
-    let set_up =
-        AnalyserSetup::parse("example", "example.toml", set_up, Overrides::default()).unwrap();
+    let set_up = AnalyserSetup::parse("example", "example.toml", set_up).unwrap();
     let plan = AnalyserPlan::new(&set_up, &common::setup(&set_up.file.scenario, &[])).unwrap();
     assert_eq!((plan.probes.len(), plan.shape.depth, plan.shape.windows), (2, 512, 2));
     let map = SignalMap::parse("map.toml", map).unwrap();

@@ -1,6 +1,6 @@
 //! `tofsim ila capture` as users and scripts meet it.
 
-use tofsim_captures::ila::{AnalyserPlan, AnalyserSetup, Overrides};
+use tofsim_captures::ila::{AnalyserPlan, AnalyserSetup};
 
 use crate::common::{self, empty, files, json, refused, setup, stdout};
 
@@ -90,7 +90,7 @@ fn faults_of_options_name_them() {
 #[test]
 fn faults_of_a_set_up_have_their_place() {
     let of = |scenario: &str, text: &str| {
-        let set_up = AnalyserSetup::parse("t", "t.toml", text, Overrides::default());
+        let set_up = AnalyserSetup::parse("t", "t.toml", text);
         let setup = setup(scenario, &[]);
         set_up.and_then(|set_up| AnalyserPlan::new(&set_up, &setup)).unwrap_err().to_string()
     };
@@ -130,8 +130,8 @@ fn faults_of_a_set_up_have_their_place() {
 
 #[test]
 fn a_position_on_the_command_line_goes_before_the_set_up_s() {
-    let overrides = Overrides { position: Some(2), ..Overrides::default() };
-    let set_up = AnalyserSetup::parse("t", "t.toml", "position = 9", overrides).unwrap();
+    let mut set_up = AnalyserSetup::parse("t", "t.toml", "position = 9").unwrap();
+    set_up.override_with("position", "--position", Some(2u64), |file| &mut file.position);
     assert_eq!(set_up.file.position, Some(2));
 }
 

@@ -1,10 +1,10 @@
 //! Both sides and what differs in one waveform, with set-ups for GTKWave and Surfer.
 
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::io;
+use std::path::Path;
 
 use tofsim::error::{Error, Input, Result};
-use tofsim::files::output::{OutputFile, write_file};
+use tofsim::files::output::{OutputFile, write_bytes};
 use tofsim::waves::side_by_side::{
     BINARY, HEXADECIMAL, Layout, SIDES, Scope, Shown, SideBySide, View,
 };
@@ -114,21 +114,19 @@ impl Both {
         Ok(())
     }
 
-    /// Puts the waveform in place, with its set-ups beside it; their paths.
-    pub(super) fn finish(mut self, result: &Comparison) -> Result<Vec<PathBuf>> {
+    /// Puts the waveform in place, with its set-ups beside it.
+    pub(super) fn finish(mut self, result: &Comparison) -> Result<()> {
         self.sum_up().map_err(|error| self.wave.out().fault(error))?;
         let file = self.wave.into_out();
         let path = file.target().to_owned();
         file.commit()?;
         if !std::fs::metadata(&path).is_ok_and(|found| found.is_file()) {
-            return Ok(vec![path]);
+            return Ok(());
         }
-        let (save, commands) = (path.with_extension("gtkw"), path.with_extension("sucl"));
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let view = view(result, self.first.unwrap_or(0), self.last.unwrap_or(0));
-        write_file(&save, |file| file.write_all(view.gtkwave(&name).as_bytes()))?;
-        write_file(&commands, |file| file.write_all(view.surfer().as_bytes()))?;
-        Ok(vec![path, save, commands])
+        write_bytes(&path.with_extension("gtkw"), view.gtkwave(&name))?;
+        write_bytes(&path.with_extension("sucl"), view.surfer())
     }
 }
 

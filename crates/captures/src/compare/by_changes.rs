@@ -47,6 +47,17 @@ impl Side {
         let last = if self.cursor.peek()?.is_none() { Some(self.last) } else { None };
         Ok(self.end.map(|end| end.max(self.last)).or(last).map(|end| self.common(end)))
     }
+
+    /// Its end in ticks; without one that it says, the rest of it is read.
+    fn whole(&mut self) -> Result<u64> {
+        while self.end.is_none()
+            && let Some(at) = self.cursor.peek()?
+        {
+            self.last = at;
+            self.cursor.take(|_| ());
+        }
+        Ok(self.end.unwrap_or(0).max(self.last))
+    }
 }
 
 /// Compares until one side ends.
@@ -125,29 +136,13 @@ pub(super) fn compare(
         }
         result.compared += 1;
     }
-    if let Some([a, b]) = ends(&mut sides, until)? {
+    let [a, b] = [sides[0].whole()?, sides[1].whole()?];
+    if sides[0].common(a).min(until) != sides[1].common(b).min(until) {
         let [a, b] = [result.sides[0].place(a), result.sides[1].place(b)];
         let text = format!("the first side ends at {a}, the second at {b} (--until ends earlier)");
         result.differences.push(text);
     }
     Ok(result)
-}
-
-/// Where the sides end, if that is not the same and within what was to be compared.
-fn ends(sides: &mut [Side; 2], until: i128) -> Result<Option<[u64; 2]>> {
-    let mut ends = [0; 2];
-    let mut common = [0; 2];
-    for (side, (end, common)) in sides.iter_mut().zip(ends.iter_mut().zip(&mut common)) {
-        if side.end.is_none() {
-            while let Some(at) = side.cursor.peek()? {
-                side.last = at;
-                side.cursor.take(|_| ());
-            }
-        }
-        *end = side.end.unwrap_or(0).max(side.last);
-        *common = side.common(*end).min(until);
-    }
-    Ok((common[0] != common[1]).then_some(ends))
 }
 
 /// A time in units of `coarse`, rounded towards the past.

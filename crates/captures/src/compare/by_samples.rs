@@ -93,8 +93,7 @@ fn is_over(plan: &Plan, a: Place, b: Place) -> bool {
 
 /// Whether the end of what is compared is reached on the first side that has times.
 fn is_late(plan: &Plan, places: [Place; 2]) -> bool {
-    let late = (0..2).find_map(|side| is_reached(plan, side, places[side]));
-    late.unwrap_or(false)
+    (0..2).find_map(|side| is_reached(plan, side, places[side])) == Some(true)
 }
 
 /// Whether the end of what is compared is reached, on a side that has times.

@@ -12,6 +12,7 @@ use tofsim::files::toml::Checked;
 use tofsim::hierarchy::TOP;
 
 use crate::ila::AnalyserSetup;
+use crate::ila::probes::below;
 use crate::ila::setup::ProbeEntry;
 
 /// A map file. Where it names sides, `a` and `b` are those of `tofsim compare A B`, or the other way
@@ -172,7 +173,7 @@ impl SignalMap {
             false => file.clock.clone(),
         };
         let probes = file.probe.iter().map(|probe| Rule {
-            a: vec![format!("{TOP}.{}", below_top(probe))],
+            a: vec![format!("{TOP}.{}", below(&probe.signal.replace('/', ".")))],
             b: vec![shown(probe)],
             ..Rule::default()
         });
@@ -195,16 +196,9 @@ impl SignalMap {
     }
 }
 
-/// Path of a probe's signal below the top.
-fn below_top(probe: &ProbeEntry) -> String {
-    let path = probe.signal.replace('/', ".");
-    let below = path.strip_prefix(TOP).and_then(|rest| rest.strip_prefix('.'));
-    below.unwrap_or(&path).to_owned()
-}
-
 /// Name of a probe in a capture.
 fn shown(probe: &ProbeEntry) -> String {
-    let below = below_top(probe).replace('.', "/");
+    let below = below(&probe.signal).replace('.', "/");
     let single = below.strip_suffix(']').and_then(|text| {
         let (high, low) = text.rsplit_once('[')?.1.split_once(':')?;
         (high == low).then(|| text.replace(&format!("[{high}:{low}"), &format!("[{low}]")))

@@ -1,5 +1,7 @@
 //! Two signals that are compared, and how.
 
+use serde::Serialize;
+
 use crate::source::SourceState;
 use crate::words::{Bits, extend, ones};
 
@@ -19,9 +21,11 @@ pub enum Unknowns {
 }
 
 /// How two signals came together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum MatchedBy {
     /// The names are the same.
+    #[default]
     Name,
     /// One name is the end of the other.
     Suffix,
@@ -29,8 +33,8 @@ pub enum MatchedBy {
     Map,
 }
 
-/// Two signals that are compared.
-#[derive(Clone, Debug)]
+/// Two signals that are compared, by default at every place and bit for bit.
+#[derive(Clone, Debug, Default)]
 pub(super) struct Pair {
     /// Name that it is shown by: the first side's.
     pub(super) name: String,
@@ -54,32 +58,6 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    /// Two signals of so many bits that are compared at every place, bit for bit.
-    pub(super) fn new(
-        names: [String; 2],
-        how: MatchedBy,
-        width: u32,
-        sides: [Vec<Part>; 2],
-        show: Show,
-    ) -> Self {
-        let [name, other] = names;
-        Pair {
-            name,
-            other,
-            aliases: 0,
-            how,
-            width,
-            sides,
-            show,
-            signed: None,
-            mask: Vec::new(),
-            invert: false,
-            latency: 0,
-            tolerance: 0,
-            valid: None,
-        }
-    }
-
     /// Whether it is compared by the bits at one place alone.
     pub(super) fn is_plain(&self) -> bool {
         self.latency == 0 && self.valid.is_none()

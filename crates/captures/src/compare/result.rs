@@ -1,12 +1,14 @@
 //! What a comparison has found.
 
+use serde::Serialize;
+
 use crate::source::{Axis, Source};
 
 use super::matching::Unmatched;
 use super::pair::MatchedBy;
 
 /// What a comparison has found.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Comparison {
     /// Names and formats of the two sides.
     pub sides: [Described; 2],
@@ -31,7 +33,7 @@ pub struct Comparison {
 }
 
 /// What some differences look like.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Finding {
     /// A word for it.
     pub kind: &'static str,
@@ -48,7 +50,7 @@ impl Finding {
 }
 
 /// A side, for people.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Described {
     /// Path or scenario.
     pub name: String,
@@ -78,13 +80,14 @@ impl Described {
 }
 
 /// The result for one pair.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Compared {
     /// Name on the first side.
     pub name: String,
     /// Name on the second side.
     pub other: String,
     /// How they came together.
+    #[serde(rename = "matched_by")]
     pub how: MatchedBy,
     /// Further names of the same signals.
     pub aliases: usize,
@@ -97,13 +100,15 @@ pub struct Compared {
     /// The first of them.
     pub first: Option<Difference>,
     /// Where they lie: `#` in the parts of the range that have some.
+    #[serde(rename = "where")]
     pub overview: String,
 }
 
 /// A place at which the sides differ.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Difference {
     /// Number of the comparison, from 0.
+    #[serde(skip)]
     pub order: u64,
     /// Window.
     pub window: usize,
@@ -120,18 +125,8 @@ pub struct Difference {
 impl Comparison {
     /// Of two sources, with nothing found yet.
     pub(super) fn new(sources: [&Source; 2], unit: &'static str, alignment: String) -> Self {
-        Comparison {
-            sides: sources.map(Described::new),
-            unit,
-            alignment,
-            offset: None,
-            compared: 0,
-            pairs: Vec::new(),
-            unmatched: Vec::new(),
-            differences: Vec::new(),
-            findings: Vec::new(),
-            notes: Vec::new(),
-        }
+        let sides = sources.map(Described::new);
+        Comparison { sides, unit, alignment, ..Comparison::default() }
     }
 
     /// Whether the sides are the same.

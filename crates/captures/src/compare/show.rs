@@ -7,22 +7,15 @@ use crate::source::{Signal, SignalKind, known_shape};
 use crate::words::{Bits, extend};
 
 /// How a signal's values are shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Show {
-    /// Bits: one digit, or hexadecimal.
-    Bits,
+    /// As the firmware shows a signal; bits are one digit, or hexadecimal.
+    Shape(Shape),
     /// All binary digits.
+    #[default]
     Binary,
-    /// A count.
-    Unsigned,
-    /// Two's complement with so many bits after the point.
-    Signed(u32),
     /// A count with so many bits after the point.
     Fixed(u32),
-    /// A state of that machine.
-    State(&'static [&'static str]),
-    /// The taps of a delay line.
-    Taps,
     /// Floating point.
     Real,
 }
@@ -33,36 +26,25 @@ impl Show {
         if a.kind == SignalKind::Real {
             return Show::Real;
         }
-        let shape = a.shape.or(b.shape).map(Show::shape);
+        let shape = a.shape.or(b.shape).map(Show::Shape);
         let shown = shape.or_else(|| a.radix.or(b.radix).map(Show::radix));
-        let known = || known_shape(&[&a.name, &b.name]).map(Show::shape);
-        shown.or_else(known).unwrap_or(Show::Bits)
-    }
-
-    /// As the firmware's signal of that shape.
-    pub(super) fn shape(shape: Shape) -> Show {
-        match shape {
-            Shape::Bits => Show::Bits,
-            Shape::Unsigned => Show::Unsigned,
-            Shape::Signed { fraction } => Show::Signed(fraction),
-            Shape::State(states) => Show::State(states),
-            Shape::Taps => Show::Taps,
-        }
+        let known = || known_shape(&[&a.name, &b.name]).map(Show::Shape);
+        shown.or_else(known).unwrap_or(Show::Shape(Shape::Bits))
     }
 
     /// As a column of that radix.
     pub(super) fn radix(radix: Radix) -> Show {
         match radix {
-            Radix::Hex | Radix::Octal => Show::Bits,
-            Radix::Signed => Show::Signed(0),
-            Radix::Unsigned => Show::Unsigned,
+            Radix::Hex | Radix::Octal => Show::Shape(Shape::Bits),
+            Radix::Signed => Show::Shape(Shape::Signed { fraction: 0 }),
+            Radix::Unsigned => Show::Shape(Shape::Unsigned),
             Radix::Binary => Show::Binary,
         }
     }
 
     /// Whether values are two's complement.
     pub(super) fn is_signed(self) -> bool {
-        matches!(self, Show::Signed(_))
+        matches!(self, Show::Shape(Shape::Signed { .. }))
     }
 
     /// The value as text.
@@ -70,7 +52,7 @@ impl Show {
         let digits = digits(bits, width);
         let Some(number) = bits.number() else {
             return match self {
-                Show::Taps if bits.is_known() => {
+                Show::Shape(Shape::Taps) if bits.is_known() => {
                     let ones: u32 = bits.value.iter().map(|word| word.count_ones()).sum();
                     format!("{ones} of {width} taps high")
                 }
@@ -78,20 +60,20 @@ impl Show {
             };
         };
         match self {
-            Show::Bits => digits,
+            Show::Shape(Shape::Bits) => digits,
             Show::Binary => format!("0b{number:0width$b}", width = width as usize),
-            Show::Unsigned if width == 1 => digits,
-            Show::Unsigned => number.to_string(),
-            Show::Signed(0) => extend(number, width).to_string(),
-            Show::Signed(fraction) => {
+            Show::Shape(Shape::Unsigned) if width == 1 => digits,
+            Show::Shape(Shape::Unsigned) => number.to_string(),
+            Show::Shape(Shape::Signed { fraction: 0 }) => extend(number, width).to_string(),
+            Show::Shape(Shape::Signed { fraction }) => {
                 format!("{} ({digits})", scaled(extend(number, width) as f64, fraction))
             }
             Show::Fixed(fraction) => format!("{} ({digits})", scaled(number as f64, fraction)),
-            Show::State(states) => match states.get(number as usize) {
+            Show::Shape(Shape::State(states)) => match states.get(number as usize) {
                 Some(state) => format!("{state} ({number})"),
                 None => format!("no state ({number})"),
             },
-            Show::Taps => format!("{} of {width} taps high", number.count_ones()),
+            Show::Shape(Shape::Taps) => format!("{} of {width} taps high", number.count_ones()),
             Show::Real => f64::from_bits(number as u64).to_string(),
         }
     }
@@ -139,22 +121,28 @@ mod tests {
 
     #[test]
     fn values_are_shown_as_what_they_are() {
-        assert_eq!(Show::Bits.text(&known(0xa5), 12), "0x0a5");
-        assert_eq!(Show::Bits.text(&known(1), 1), "1");
+        assert_eq!(Show::Shape(Shape::Bits).text(&known(0xa5), 12), "0x0a5");
+        assert_eq!(Show::Shape(Shape::Bits).text(&known(1), 1), "1");
         assert_eq!(Show::Binary.text(&known(5), 4), "0b0101");
-        assert_eq!(Show::Signed(0).text(&known(0xff), 8), "-1");
-        assert_eq!(Show::Signed(4).text(&known(0xf8), 8), "-0.5 (0xf8)");
-        assert_eq!(Show::State(&["Clear", "Acquire"]).text(&known(1), 2), "Acquire (1)");
-        assert_eq!(Show::State(&["Clear"]).text(&known(3), 2), "no state (3)");
+        assert_eq!(Show::Shape(Shape::Signed { fraction: 0 }).text(&known(0xff), 8), "-1");
+        assert_eq!(Show::Shape(Shape::Signed { fraction: 4 }).text(&known(0xf8), 8), "-0.5 (0xf8)");
+        assert_eq!(
+            Show::Shape(Shape::State(&["Clear", "Acquire"])).text(&known(1), 2),
+            "Acquire (1)"
+        );
+        assert_eq!(Show::Shape(Shape::State(&["Clear"])).text(&known(3), 2), "no state (3)");
         assert_eq!(Show::Real.text(&known(1.5f64.to_bits()), 64), "1.5");
     }
 
     #[test]
     fn unknown_bits_are_shown_as_such() {
         let bits = Bits { value: vec![0b100], unknown: vec![0b110] };
-        assert_eq!(Show::Unsigned.text(&bits, 4), "0b0zx0");
-        assert_eq!(Show::Unsigned.text(&Bits { value: vec![0], unknown: vec![0xf] }, 4), "x");
+        assert_eq!(Show::Shape(Shape::Unsigned).text(&bits, 4), "0b0zx0");
+        assert_eq!(
+            Show::Shape(Shape::Unsigned).text(&Bits { value: vec![0], unknown: vec![0xf] }, 4),
+            "x"
+        );
         let taps = Bits { value: vec![u64::MAX, 1, 0], unknown: vec![0; 3] };
-        assert_eq!(Show::Taps.text(&taps, 190), "65 of 190 taps high");
+        assert_eq!(Show::Shape(Shape::Taps).text(&taps, 190), "65 of 190 taps high");
     }
 }

@@ -57,9 +57,8 @@ impl AnalyserPlan {
         let design = Design::new(&setup.params);
         let (probes, bits) = probes(set_up, &design)?;
         let file = &set_up.file;
-        let fault = |key, value: String, expected| set_up.fault(key, value, expected);
-        let sampling = file.clock.parse();
-        let sampling = sampling.map_err(|expected| fault("clock", file.clock.clone(), expected))?;
+        let fault = |expected| set_up.fault("clock", &file.clock, expected);
+        let sampling = file.clock.parse::<AnalyserClock>().map_err(fault)?;
         let mut operands = Vec::new();
         let mut bind = |key, text: &Option<String>| {
             let text = text.as_deref();
@@ -69,12 +68,11 @@ impl AnalyserPlan {
         let trigger = bind("trigger", &file.trigger)?;
         let qualifier = bind("capture", &file.capture)?;
         if !(0.0..=1e9).contains(&file.arm_at_us) {
-            let value = file.arm_at_us.to_string();
-            return Err(fault("arm_at_us", value, "expected a number from 0 to 1e9 [us]"));
+            let expected = "expected a number from 0 to 1e9 [us]";
+            return Err(set_up.fault("arm_at_us", file.arm_at_us, expected));
         }
         if file.input_stages > 6 {
-            let value = file.input_stages.to_string();
-            return Err(fault("input_stages", value, "expected 0 to 6 [edges]"));
+            return Err(set_up.fault("input_stages", file.input_stages, "expected 0 to 6 [edges]"));
         }
         let oscillator = design.signal("clk_200").map(|bits| bits.id);
         let at_edges = matches!(sampling, AnalyserClock::Clk125 | AnalyserClock::Clk250)

@@ -114,7 +114,8 @@ impl Design {
     }
 }
 
-fn below(path: &str) -> String {
+/// A path below the top, whether the top stands before it or not.
+pub(crate) fn below(path: &str) -> String {
     let below = path.strip_prefix(TOP).and_then(|rest| rest.strip_prefix(['.', '/']));
     below.unwrap_or(path).to_owned()
 }

@@ -123,27 +123,6 @@ impl RadixWord {
     }
 }
 
-/// What goes before the keys of a set-up file.
-#[derive(Clone, Debug, Default)]
-pub struct Overrides {
-    /// Instead of `clock`.
-    pub clock: Option<String>,
-    /// Instead of `depth` [samples].
-    pub depth: Option<u64>,
-    /// Instead of `windows`.
-    pub windows: Option<u64>,
-    /// Instead of `position` [samples].
-    pub position: Option<u64>,
-    /// Instead of `trigger`.
-    pub trigger: Option<String>,
-    /// Instead of `capture`.
-    pub capture: Option<String>,
-    /// Instead of `arm_at_us` [us].
-    pub arm_at_us: Option<f64>,
-    /// Instead of `input_stages` [edges].
-    pub input_stages: Option<u64>,
-}
-
 /// A set-up, with the places of its keys for what may yet be found wrong.
 pub struct AnalyserSetup {
     /// Name of the capture and of its files.
@@ -155,13 +134,13 @@ pub struct AnalyserSetup {
 }
 
 impl AnalyserSetup {
-    /// Loads a built-in set-up by name or a file by path, and lays `overrides` over it.
+    /// Loads a built-in set-up by name or a file by path.
     ///
     /// # Errors
     /// When there is none, or it has keys or values that it may not have; with the place.
-    pub fn load(name: &str, overrides: Overrides) -> Result<Self> {
+    pub fn load(name: &str) -> Result<Self> {
         if let Some(text) = builtin::set_up(name) {
-            return Self::parse(name, &format!("set-up {name}"), text, overrides);
+            return Self::parse(name, &format!("set-up {name}"), text);
         }
         let path = Path::new(name);
         if !path.exists() && !name.contains(['/', '.']) {
@@ -174,19 +153,18 @@ impl AnalyserSetup {
         }
         let text = read_text(path)?;
         let stem = path.file_stem().map_or(name.into(), |stem| stem.to_string_lossy());
-        Self::parse(&stem, name, &text, overrides)
+        Self::parse(&stem, name, &text)
     }
 
     /// Reads a set-up from text; `source` is its file and `stem` its name, if it gives none.
     ///
     /// # Errors
     /// As [`AnalyserSetup::load`].
-    pub fn parse(stem: &str, source: &str, text: &str, overrides: Overrides) -> Result<Self> {
+    pub fn parse(stem: &str, source: &str, text: &str) -> Result<Self> {
         let checked = Checked::parse::<AnalyserSetupFile>(source, text)?;
-        let mut file: AnalyserSetupFile = checked.read()?;
-        let overridden = lay_over(&mut file, overrides);
+        let file: AnalyserSetupFile = checked.read()?;
         let name = file.name.clone().unwrap_or_else(|| stem.to_owned());
-        let set_up = AnalyserSetup { name, file, checked, overridden };
+        let set_up = AnalyserSetup { name, file, checked, overridden: Vec::new() };
         let known = |c: char| c.is_alphanumeric() || "_-.".contains(c);
         if set_up.name.is_empty() || set_up.name.starts_with('.') || !set_up.name.chars().all(known)
         {
@@ -194,6 +172,19 @@ impl AnalyserSetup {
             return Err(set_up.fault("name", &set_up.name, expected));
         }
         Ok(set_up)
+    }
+
+    /// Has a value given with `option` go before that of a key, which is at `place`.
+    pub fn override_with<T: Into<U>, U>(
+        &mut self,
+        key: &'static str,
+        option: &'static str,
+        value: Option<T>,
+        place: impl FnOnce(&mut AnalyserSetupFile) -> &mut U,
+    ) {
+        let Some(value) = value else { return };
+        *place(&mut self.file) = value.into();
+        self.overridden.push((key, option));
     }
 
     /// A fault of a key, at its place in the file or in the option that was given instead.
@@ -233,24 +224,4 @@ impl AnalyserSetup {
     fn option(&self, key: &str) -> Option<&'static str> {
         self.overridden.iter().find(|(known, _)| *known == key).map(|(_, option)| *option)
     }
-}
-
-/// Takes the overrides that are there; returns their keys and options.
-fn lay_over(
-    file: &mut AnalyserSetupFile,
-    overrides: Overrides,
-) -> Vec<(&'static str, &'static str)> {
-    let mut taken = Vec::new();
-    macro_rules! lay {
-        ($($key:ident by $option:literal),*) => {
-            $(if let Some(value) = overrides.$key {
-                file.$key = value.into();
-                taken.push((stringify!($key), $option));
-            })*
-        };
-    }
-    lay!(clock by "--clock", depth by "--depth", windows by "--windows");
-    lay!(position by "--position", trigger by "--trigger", capture by "--capture");
-    lay!(arm_at_us by "--arm-at-us", input_stages by "--stages");
-    taken
 }

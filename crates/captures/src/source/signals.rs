@@ -51,11 +51,12 @@ impl SourceFormat {
 }
 
 /// What the places in a source are counted in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Axis {
     /// Time, in ticks of that length.
     Time(Tick),
     /// Samples of a clock that the source does not have.
+    #[default]
     Samples,
 }
 

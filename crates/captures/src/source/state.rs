@@ -1,6 +1,6 @@
 //! The values of signals at one place.
 
-use crate::words::trim;
+use crate::words::ones;
 
 /// The values of all signals of a stream at one place; each begins at a word of its own.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,9 +16,7 @@ impl SourceState {
         let mut first = vec![0];
         let mut unknown = Vec::new();
         for &width in widths {
-            let words = (width as usize).div_ceil(64);
-            unknown.resize(unknown.len() + words, u64::MAX);
-            trim(&mut unknown, width);
+            unknown.extend((0..width.div_ceil(64)).map(|k| ones(width, k as usize)));
             first.push(unknown.len() as u32);
         }
         SourceState { first, value: vec![0; unknown.len()], unknown }

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::sample::select;
 use proptest::test_runner::TestCaseError;
 
-use tofsim_captures::ila::read::WIDEST_SAMPLE;
+use tofsim_captures::ila::read::{Column, WIDEST_SAMPLE};
 
 use crate::ila;
 use crate::ila::fixtures;
@@ -55,10 +55,11 @@ const PIECES: [&str; 34] = [
 fn drive(bytes: &[u8], size: usize) -> Result<(), TestCaseError> {
     match ila::read_bytes(bytes, None) {
         Ok((opened, rows)) => {
+            let words: usize = opened.columns.iter().map(Column::words).sum();
             // The shortest head of a probe of 64 words is `a[4095:0],`.
-            prop_assert!(opened.words <= WIDEST_SAMPLE as usize && opened.words <= 8 * size);
+            prop_assert!(words <= WIDEST_SAMPLE as usize && words <= 8 * size);
             prop_assert!(opened.columns.len() <= size && rows.len() <= size);
-            prop_assert!(rows.iter().all(|row| row.value.len() == opened.words));
+            prop_assert!(rows.iter().all(|row| row.value.len() == words));
         }
         Err(error) => prop_assert!(error.starts_with("capture"), "{}", error),
     }

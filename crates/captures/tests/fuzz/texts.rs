@@ -5,7 +5,7 @@ use proptest::sample::select;
 
 use tofsim_captures::compare::SignalMap;
 use tofsim_captures::condition::{Condition, Level, Place};
-use tofsim_captures::ila::{AnalyserSetup, Overrides};
+use tofsim_captures::ila::AnalyserSetup;
 
 use super::edit::{edited, edits};
 use super::fuzz;
@@ -79,7 +79,7 @@ fn maps_that_are_nearly_right() {
 fn set_ups_that_are_nearly_right() {
     fuzz(edits(&TOML), |edits| {
         let text = String::from_utf8_lossy(&edited(SET_UP.into(), &edits)).into_owned();
-        if let Err(error) = AnalyserSetup::parse("t", "t.toml", &text, Overrides::default()) {
+        if let Err(error) = AnalyserSetup::parse("t", "t.toml", &text) {
             let error = error.to_string();
             prop_assert!(error.starts_with("t.toml"), "{}", error);
         }

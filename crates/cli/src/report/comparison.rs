@@ -128,27 +128,12 @@ fn matched(result: &Comparison, verbose: bool) -> String {
 /// One object, `tofsim.compare/1`.
 pub fn json(result: &Comparison) -> Value {
     let pair = |pair: &Compared| {
-        let first = pair.first.as_ref().map(|first| {
-            let at: Vec<_> = (0..2).map(|side| result.sides[side].number(first.at[side])).collect();
-            json!({
-                "window": first.window,
-                "at": at,
-                "expected": first.expected,
-                "got": first.got,
-                "bits": first.bits,
-            })
-        });
-        json!({
-            "name": pair.name,
-            "other": pair.other,
-            "matched_by": pair.how.word(),
-            "aliases": pair.aliases,
-            "width": pair.width,
-            "compared": pair.compared,
-            "differing": pair.differing,
-            "first": first,
-            "where": pair.overview,
-        })
+        let mut value = json!(pair);
+        if let Some(first) = &pair.first {
+            let number = |side: usize| result.sides[side].number(first.at[side]);
+            value["first"]["at"] = json!([0, 1].map(number));
+        }
+        value
     };
     let unit = |side: &Described| match side.axis {
         Axis::Samples => "sample",
@@ -167,11 +152,7 @@ pub fn json(result: &Comparison) -> Value {
         "offset": result.offset,
         "compared": result.compared,
         "differences": result.differences,
-        "findings": result.findings.iter().map(|finding| json!({
-            "kind": finding.kind,
-            "text": finding.text,
-            "signals": finding.signals,
-        })).collect::<Vec<_>>(),
+        "findings": result.findings,
         "first": result.differing().next().map(pair),
         "signals": result.pairs.iter().map(pair).collect::<Vec<_>>(),
         "unmatched": result.unmatched.iter().map(|unmatched| json!({

@@ -15,7 +15,7 @@ use tofsim_captures::compare::{
     Align, Options, SampleClock, SignalChoice, SignalMap, Unknowns, compare,
 };
 use tofsim_captures::condition::Condition;
-use tofsim_captures::ila::{AnalyserSetup, Overrides, Radix};
+use tofsim_captures::ila::{AnalyserSetup, Radix};
 use tofsim_captures::source::Source;
 
 use crate::choice::{self, words};
@@ -234,7 +234,7 @@ fn map(name: &str) -> Result<SignalMap> {
     let is_set_up =
         |path: &Path| std::fs::read_to_string(path).is_ok_and(|text| text.contains("[[probe]]"));
     if built_in || is_set_up(Path::new(name)) {
-        let set_up = AnalyserSetup::load(name, Overrides::default());
+        let set_up = AnalyserSetup::load(name);
         return Ok(SignalMap::of(&set_up.map_err(as_map)?));
     }
     SignalMap::read(Path::new(name))

@@ -48,30 +48,8 @@ impl Candidate {
     }
 }
 
-/// The bits of some pairs over time: 1, -1, or 0 where unknown.
-struct Columns {
-    bits: Vec<Vec<i8>>,
-    length: usize,
-}
-
-impl Columns {
-    fn push(&mut self, values: impl IntoIterator<Item = i8>) {
-        self.bits.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
-        self.length += 1;
-    }
-
-    fn drop_first(&mut self, count: usize) {
-        for column in &mut self.bits {
-            column.drain(..count);
-        }
-        self.length -= count;
-    }
-
-    fn pad(&mut self, count: usize) {
-        self.bits.iter_mut().for_each(|column| column.resize(column.len() + count, 0));
-        self.length += count;
-    }
-}
+/// The bits of some pairs at each of some samples: 1, -1, or 0 where unknown.
+type Rows = Vec<Vec<i8>>;
 
 /// The bits of some pairs, side by side.
 struct PairBits<'a> {
@@ -92,24 +70,21 @@ impl<'a> PairBits<'a> {
         Ok(PairBits { pairs, width: BITS.min(width), scratch: Bits::default() })
     }
 
-    fn columns(&self) -> Columns {
-        Columns { bits: vec![Vec::new(); self.width], length: 0 }
-    }
-
-    fn push(&mut self, side: usize, state: &SourceState, columns: &mut Columns) {
-        let mut values = Vec::with_capacity(self.width);
+    fn row(&mut self, side: usize, state: &SourceState) -> Vec<i8> {
+        let mut row = Vec::with_capacity(self.width);
         for pair in &self.pairs {
             pair.gather(side, state, &mut self.scratch);
-            values.extend((0..pair.width).map(|bit| match self.scratch.level(bit) {
+            row.extend((0..pair.width).map(|bit| match self.scratch.level(bit) {
                 Value::V0 => -1,
                 Value::V1 => 1,
                 _ => 0,
             }));
-            if values.len() >= self.width {
+            if row.len() >= self.width {
                 break;
             }
         }
-        columns.push(values);
+        row.truncate(self.width);
+        row
     }
 }
 
@@ -129,23 +104,23 @@ struct Search {
 fn search(plan: &Plan, signals: &[String], search: &Search) -> Result<Vec<Candidate>> {
     let mut probe = PairBits::new(plan, signals)?;
     let pieces = [search.piece.clone()];
-    let mut needle = probe.columns();
+    let mut needle = Rows::new();
     let mut selected = Selected::new(plan.samples(search.side)?, &pieces);
     while let Some(place) = selected.next()? {
-        if place.sample.held || needle.length as u64 == LONGEST {
+        if place.sample.held || needle.len() as u64 == LONGEST {
             break;
         }
-        probe.push(search.side, &selected.samples.state, &mut needle);
+        needle.push(probe.row(search.side, &selected.samples.state));
     }
-    if needle.length < 2 {
+    if needle.len() < 2 {
         let source = &plan.sources[search.side].name;
         return Err(Input::new(source, "expected at least two samples to align by").into());
     }
-    let length = needle.length;
+    let length = needle.len();
     let hang = if search.overhangs { length / 2 } else { 0 };
-    let mut matcher = Matcher::new(needle);
-    let mut hay = probe.columns();
-    hay.pad(hang);
+    let mut matcher = Matcher::new(needle, probe.width);
+    let unknown = vec![0; probe.width];
+    let mut hay = vec![unknown.clone(); hang];
     let other = 1 - search.side;
     let mut samples = plan.samples(other)?;
     let mut base = -(hang as i64);
@@ -159,17 +134,17 @@ fn search(plan: &Plan, signals: &[String], search: &Search) -> Result<Vec<Candid
             Some(sample) => {
                 first.get_or_insert(sample.index);
                 taken += 1;
-                probe.push(other, &samples.state, &mut hay);
+                hay.push(probe.row(other, &samples.state));
             }
             None => {
-                hay.pad(hang);
+                hay.resize(hay.len() + hang, unknown.clone());
                 goes_on = false;
             }
         }
-        while hay.length >= if goes_on { matcher.size } else { length } {
+        while hay.len() >= if goes_on { matcher.size } else { length } {
             matcher.scan(&hay, base, &mut best);
-            let step = (matcher.size - length + 1).min(hay.length);
-            hay.drop_first(step);
+            let step = (matcher.size - length + 1).min(hay.len());
+            hay.drain(..step);
             base += step as i64;
         }
     }
@@ -188,29 +163,31 @@ fn search(plan: &Plan, signals: &[String], search: &Search) -> Result<Vec<Candid
 
 /// Finds a sequence in chunks of another.
 struct Matcher {
-    needle: Columns,
+    needle: Rows,
+    /// Bits of a row.
+    width: usize,
     size: usize,
     forward: Arc<dyn Fft<f64>>,
     inverse: Arc<dyn Fft<f64>>,
 }
 
 impl Matcher {
-    fn new(needle: Columns) -> Self {
-        let size = (4 * needle.length).next_power_of_two();
+    fn new(needle: Rows, width: usize) -> Self {
+        let size = (4 * needle.len()).next_power_of_two();
         let mut planner = FftPlanner::new();
         let (forward, inverse) = (planner.plan_fft_forward(size), planner.plan_fft_inverse(size));
-        Matcher { needle, size, forward, inverse }
+        Matcher { needle, width, size, forward, inverse }
     }
 
     /// Ranks the offsets at which the sequence lies within a chunk that begins at `base`.
-    fn scan(&mut self, hay: &Columns, base: i64, best: &mut Vec<Candidate>) {
+    fn scan(&mut self, hay: &Rows, base: i64, best: &mut Vec<Candidate>) {
         let zero = Complex::new(0.0, 0.0);
         let mut product = vec![zero; self.size];
         let mut both = vec![zero; self.size];
-        for (needle, hay) in self.needle.bits.iter().zip(&hay.bits) {
+        for bit in 0..self.width {
             both.fill(zero);
-            both.iter_mut().zip(needle).for_each(|(z, &bit)| z.re = f64::from(bit));
-            both.iter_mut().zip(hay).for_each(|(z, &bit)| z.im = f64::from(bit));
+            both.iter_mut().zip(&self.needle).for_each(|(z, row)| z.re = f64::from(row[bit]));
+            both.iter_mut().zip(hay).for_each(|(z, row)| z.im = f64::from(row[bit]));
             self.forward.process(&mut both);
             for k in 0..self.size {
                 let (z, mirror) = (both[k], both[(self.size - k) % self.size].conj());
@@ -219,8 +196,8 @@ impl Matcher {
             }
         }
         self.inverse.process(&mut product);
-        let all = (self.needle.length * self.needle.bits.len()) as f64;
-        let offsets = (hay.length.min(self.size) + 1).saturating_sub(self.needle.length);
+        let all = (self.needle.len() * self.width) as f64;
+        let offsets = (hay.len().min(self.size) + 1).saturating_sub(self.needle.len());
         for (k, score) in product.iter().enumerate().take(offsets) {
             let differing = ((all - score.re / self.size as f64) / 2.0).round().max(0.0) as u64;
             let worst = best.last().map_or(u64::MAX, |worst| worst.differing);
@@ -269,19 +246,19 @@ fn decide(candidates: &[Candidate], side: usize, what: &str) -> Result<(Candidat
 
 /// One offset for all.
 pub(super) fn alignment(plan: &Plan, signals: &[String]) -> Result<Alignment> {
-    let side = plan.capture().unwrap_or(0);
-    let piece = Piece::Run(0, plan.capture().is_none().then_some(LONGEST));
-    let windows =
-        if plan.capture().is_some() { survey(plan.sources[side])?.windows.len() } else { 1 };
+    let (side, overhangs) = (plan.capture().unwrap_or(0), plan.capture().is_none());
+    let (windows, longest, what) = match overhangs {
+        true => (1, Some(LONGEST), "the first side"),
+        false => (survey(plan.sources[side])?.windows.len(), None, "the capture"),
+    };
     if windows > 1 {
         let expected = format!(
             "the time between the {windows} windows is not known; align each alone (windows)"
         );
         return Err(Input::new("--align", expected).into());
     }
-    let overhangs = plan.capture().is_none();
+    let piece = Piece::Run(0, longest);
     let found = search(plan, signals, &Search { side, piece, overhangs, from: 0 })?;
-    let what = if plan.capture().is_some() { "the capture" } else { "the first side" };
     let (best, text) = decide(&found, side, what)?;
     Ok(Alignment::shifted(best.later(side), text))
 }

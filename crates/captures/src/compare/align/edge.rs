@@ -2,13 +2,14 @@
 
 use tofsim::error::{Input, Result};
 
-use crate::source::{Axis, Tick};
+use crate::source::{Axis, SourceState, Tick};
 
+use super::super::pair::Pair;
 use super::super::plan::Plan;
 use super::super::samples::Sample;
 use super::super::selection::Piece;
 use super::alignment::Alignment;
-use super::survey::{counts_differ, survey};
+use super::survey::{counts_differ, survey, triggers_differ, windows_differ};
 use crate::words::Bits;
 
 /// The first edges of a signal belong together.
@@ -27,19 +28,16 @@ pub(super) fn shift(plan: &Plan, signal: &str) -> Result<(i128, String)> {
         let source = plan.sources[side];
         let Axis::Time(tick) = source.axis else { continue };
         let mut cursor = source.read(&plan.matching.slots[side].ids)?;
-        let (mut before, mut now) = (None::<Bits>, Bits::default());
+        let mut changes = changes(pair, side);
         *edge = loop {
             let Some(at) = cursor.peek()? else {
                 return Err(Input::new(&source.name, "never changes").field(&pair.name).into());
             };
             cursor.take(|_| ());
-            pair.gather(side, &cursor.state, &mut now);
-            let changed = before.is_some_and(|before| before != now && before.is_known());
             let at_fs = tick.femtoseconds(at);
-            if changed && at_fs >= plan.terms.after.fs() as u128 {
+            if changes(&cursor.state) && at_fs >= plan.terms.after.fs() as u128 {
                 break at_fs as i128;
             }
-            before = Some(now.clone());
         };
     }
     let found = edges.map(|edge| format!("{} ns", edge as f64 / 1e6)).join(" and ");
@@ -47,22 +45,26 @@ pub(super) fn shift(plan: &Plan, signal: &str) -> Result<(i128, String)> {
 }
 
 fn first(plan: &Plan, side: usize, pair: usize) -> Result<u64> {
-    let (mut samples, pair) = (plan.samples(side)?, &plan.matching.pairs[pair]);
-    let (mut before, mut now) = (None::<Bits>, Bits::default());
-    while let Some(sample) = samples.next()? {
-        if sample.held {
-            break;
-        }
-        pair.gather(side, &samples.state, &mut now);
-        if plan.is_looked_at(side, sample)
-            && before.as_ref().is_some_and(|before| *before != now && before.is_known())
-        {
-            return Ok(sample.index);
-        }
-        before = Some(now.clone());
+    let pair = &plan.matching.pairs[pair];
+    let mut changes = changes(pair, side);
+    let edge = find(plan, side, |sample, state| {
+        let changed = changes(state);
+        changed && plan.is_looked_at(side, sample)
+    })?;
+    let never = || Input::new(&plan.sources[side].name, "never changes").field(&pair.name);
+    Ok(edge.ok_or_else(never)?.index)
+}
+
+/// Tells, value by value, whether a pair has changed on a side from one that was known.
+fn changes(pair: &Pair, side: usize) -> impl FnMut(&SourceState) -> bool {
+    let mut before = None::<Bits>;
+    move |state| {
+        let mut now = Bits::default();
+        pair.gather(side, state, &mut now);
+        let changed = before.as_ref().is_some_and(|before| *before != now && before.is_known());
+        before = Some(now);
+        changed
     }
-    let source = &plan.sources[side].name;
-    Err(Input::new(source, "never changes").field(&pair.name).into())
 }
 
 /// The first samples belong together, window by window; of waveforms those of the same time.
@@ -72,23 +74,14 @@ pub(super) fn start(plan: &Plan) -> Result<Alignment> {
         [Axis::Time(a), Axis::Time(b)] => same_time(plan, [a, b]),
         [Axis::Samples, Axis::Samples] => {
             let windows = [survey(plan.sources[0])?.windows, survey(plan.sources[1])?.windows];
-            let mut differences = Vec::new();
-            let [a, b] = [windows[0].len(), windows[1].len()];
-            if a != b {
-                differences.push(format!("the first has {a} windows, the second {b}"));
-            }
+            let mut differences = Vec::from_iter(windows_differ(&windows[0], &windows[1]));
             for (k, (a, b)) in windows[0].iter().zip(&windows[1]).enumerate() {
                 differences.extend(counts_differ(k, a, b));
-                let marks = [a, b].map(|window| window.trigger.map(|at| at - window.first));
-                if marks[0] != marks[1] {
-                    let [a, b] = marks.map(|at| at.map_or("none".to_owned(), |at| at.to_string()));
-                    differences.push(format!(
-                        "window {k}: trigger at sample {a} of the first, {b} of the second"
-                    ));
-                }
+                differences.extend(triggers_differ(k, a, b));
             }
+            let count = windows[0].len().min(windows[1].len());
             let pieces = windows.map(|windows| {
-                let windows = windows.iter().take(a.min(b));
+                let windows = windows.iter().take(count);
                 windows.map(|window| Piece::Run(window.first, window.count)).collect()
             });
             Ok(Alignment { pieces, found, offset: Some(0), differences })
@@ -112,7 +105,7 @@ fn same_time(plan: &Plan, ticks: [Tick; 2]) -> Result<Alignment> {
     }
     let early = if times[0] < times[1] { 0 } else { 1 };
     let begin = times[1 - early];
-    let first = find(plan, early, |sample| time(early, sample) >= begin)?;
+    let first = find(plan, early, |sample, _| time(early, sample) >= begin)?;
     let Some(first) = first.filter(|&sample| time(early, sample) == begin) else {
         let expected =
             "no edge of the clock is at the time of the other side's first; give --align";
@@ -127,14 +120,18 @@ fn same_time(plan: &Plan, ticks: [Tick; 2]) -> Result<Alignment> {
 
 /// The first sample that is looked at.
 pub(super) fn first_looked_at(plan: &Plan, side: usize) -> Result<Option<Sample>> {
-    find(plan, side, |sample| plan.is_looked_at(side, sample))
+    find(plan, side, |sample, _| plan.is_looked_at(side, sample))
 }
 
 /// The first sample of a side that is as wanted.
-fn find(plan: &Plan, side: usize, wanted: impl Fn(Sample) -> bool) -> Result<Option<Sample>> {
+fn find(
+    plan: &Plan,
+    side: usize,
+    mut wanted: impl FnMut(Sample, &SourceState) -> bool,
+) -> Result<Option<Sample>> {
     let mut samples = plan.samples(side)?;
-    while let Some(sample) = samples.next()? {
-        if wanted(sample) {
+    while let Some(sample) = samples.next()?.filter(|sample| !sample.held) {
+        if wanted(sample, &samples.state) {
             return Ok(Some(sample));
         }
     }

@@ -35,7 +35,8 @@ pub struct Survey {
 pub fn survey(source: &Source) -> Result<Survey> {
     let mut survey = Survey::default();
     // Of a VCD, only the changes of all signals tell how far it goes.
-    let count = if source.format == SourceFormat::IlaVcd { usize::MAX } else { 1 };
+    let is_vcd = source.format == SourceFormat::IlaVcd;
+    let count = if is_vcd { usize::MAX } else { 1 };
     let ids: Vec<usize> = source.signals.iter().take(count).map(|signal| signal.id).collect();
     let mut cursor = source.read(&ids)?;
     while let Some(at) = cursor.peek()? {
@@ -51,18 +52,27 @@ pub fn survey(source: &Source) -> Result<Survey> {
             window.trigger = Some(at);
         }
     }
-    survey.samples = match source.format {
-        SourceFormat::IlaVcd => None,
-        _ => Some(survey.last.map_or(0, |last| last + 1)),
-    };
-    for k in 0..survey.windows.len() {
-        let first = survey.windows[k].first;
-        survey.windows[k].count = match survey.windows.get(k + 1) {
-            Some(next) => Some(next.first - first),
-            None => survey.samples.map(|samples| samples - first),
-        };
+    survey.samples = (!is_vcd).then(|| survey.last.map_or(0, |last| last + 1));
+    let mut end = survey.samples;
+    for window in survey.windows.iter_mut().rev() {
+        window.count = end.map(|end| end - window.first);
+        end = Some(window.first);
     }
     Ok(survey)
+}
+
+/// That the sides have not as many windows.
+pub(super) fn windows_differ(a: &[Window], b: &[Window]) -> Option<String> {
+    let (a, b) = (a.len(), b.len());
+    (a != b).then(|| format!("the first has {a} windows, the second {b}"))
+}
+
+/// That the windows of number `k` of both sides have not their triggers at the same place.
+pub(super) fn triggers_differ(k: usize, a: &Window, b: &Window) -> Option<String> {
+    let [a, b] = [a, b].map(|window| window.trigger.map(|at| at - window.first));
+    let tell = |at: Option<u64>| at.map_or("none".to_owned(), |at| at.to_string());
+    let places = || format!("at sample {} of the first, {} of the second", tell(a), tell(b));
+    (a != b).then(|| format!("window {k}: trigger {}", places()))
 }
 
 /// That the windows of number `k` of both sides have not as many samples.

@@ -11,7 +11,7 @@ use super::super::plan::Plan;
 use super::super::selection::Piece;
 use super::alignment::Alignment;
 use super::edge::first_looked_at;
-use super::survey::{Survey, counts_differ, survey};
+use super::survey::{Survey, counts_differ, survey, triggers_differ, windows_differ};
 
 /// Brings the samples that triggered together.
 pub(super) fn alignment(plan: &Plan, time_from: Option<&str>) -> Result<Alignment> {
@@ -42,24 +42,14 @@ fn triggered(plan: &Plan, side: usize) -> Result<(Survey, Vec<u64>)> {
 
 fn captures(plan: &Plan) -> Result<Alignment> {
     let ((a, triggers_a), (b, triggers_b)) = (triggered(plan, 0)?, triggered(plan, 1)?);
-    let mut differences = Vec::new();
-    if triggers_a.len() != triggers_b.len() {
-        let [a, b] = [triggers_a.len(), triggers_b.len()];
-        differences.push(format!("the first has {a} windows, the second {b}"));
-    }
+    let mut differences = Vec::from_iter(windows_differ(&a.windows, &b.windows));
     let mut pieces = [Vec::new(), Vec::new()];
     let mut offsets = Vec::new();
     let windows = a.windows.into_iter().zip(b.windows);
     let triggers = triggers_a.into_iter().zip(triggers_b);
     for (k, ((window_a, window_b), (at_a, at_b))) in windows.zip(triggers).enumerate() {
-        let before = [at_a - window_a.first, at_b - window_b.first];
-        let common = before[0].min(before[1]);
-        if before[0] != before[1] {
-            differences.push(format!(
-                "window {k}: trigger at sample {} of the first, {} of the second",
-                before[0], before[1]
-            ));
-        }
+        let common = (at_a - window_a.first).min(at_b - window_b.first);
+        differences.extend(triggers_differ(k, &window_a, &window_b));
         differences.extend(counts_differ(k, &window_a, &window_b));
         for (side, window, at) in [(0, window_a, at_a), (1, window_b, at_b)] {
             let left = window.count.map(|count| count - (at - common - window.first));

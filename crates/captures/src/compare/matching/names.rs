@@ -125,13 +125,15 @@ pub(super) fn by_name(
         }
         pairs.insert((a.id, b.id), matching.pairs.len());
         let [left, right] = &mut matching.slots;
-        matching.pairs.push(Pair::new(
-            [a.name.text.clone(), b.name.text.clone()],
-            if a.name.is(&b.name) { MatchedBy::Name } else { MatchedBy::Suffix },
-            a.width,
-            [vec![Part::whole(left, a)], vec![Part::whole(right, b)]],
-            Show::of(a, b),
-        ));
+        matching.pairs.push(Pair {
+            name: a.name.text.clone(),
+            other: b.name.text.clone(),
+            how: if a.name.is(&b.name) { MatchedBy::Name } else { MatchedBy::Suffix },
+            width: a.width,
+            sides: [vec![Part::whole(left, a)], vec![Part::whole(right, b)]],
+            show: Show::of(a, b),
+            ..Pair::default()
+        });
     }
     for side in 0..2 {
         for &k in &candidates[side] {

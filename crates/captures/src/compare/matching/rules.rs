@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use tofsim::error::{Input, Result};
+use tofsim::kernel::signals::SignalFormat as Shape;
 
 use crate::source::Source;
 use crate::words::ones;
@@ -60,8 +61,9 @@ pub(super) fn by_rule(
         return Err(Input::new("map", expected).field(names[0].join(" ")).into());
     }
     let [a, b] = [0, 1].map(|side| &sides[side].signals[first[side]]);
-    let names = names.map(|parts| parts.join(" "));
-    let mut pair = Pair::new(names, MatchedBy::Map, width, parts, Show::of(a, b));
+    let [name, other] = names.map(|parts| parts.join(" "));
+    let (how, show) = (MatchedBy::Map, Show::of(a, b));
+    let mut pair = Pair { name, other, how, width, sides: parts, show, ..Pair::default() };
     pair.follow(rule, sides, matching)?;
     Ok(pair)
 }
@@ -84,9 +86,11 @@ impl Pair {
         }
         self.signed = rule.signed.or(self.signed);
         match (rule.signed, rule.fraction) {
-            (Some(true), fraction) => self.show = Show::Signed(fraction.unwrap_or(0)),
+            (Some(true), fraction) => {
+                self.show = Show::Shape(Shape::Signed { fraction: fraction.unwrap_or(0) });
+            }
             (_, Some(fraction)) => self.show = Show::Fixed(fraction),
-            (Some(false), None) => self.show = Show::Unsigned,
+            (Some(false), None) => self.show = Show::Shape(Shape::Unsigned),
             (None, None) => {}
         }
         if let Some(text) = &rule.dont_care {

@@ -39,12 +39,13 @@ pub(super) fn by_slice(sides: [&Source; 2], matching: &mut Matching) {
             return true;
         }
         parts.entry((other, bus)).or_default().push(part);
-        let mut both = [vec![Part::whole(&mut slots[own], signal)], vec![part]];
+        let mut sides = [vec![Part::whole(&mut slots[own], signal)], vec![part]];
         if own == 1 {
-            both.swap(0, 1);
+            sides.swap(0, 1);
         }
-        let (names, show) = ([0, 1].map(|_| left.name.clone()), Show::of(signal, signal));
-        pairs.push(Pair::new(names, MatchedBy::Suffix, signal.width, both, show));
+        let [name, other] = [0, 1].map(|_| left.name.clone());
+        let (how, width, show) = (MatchedBy::Suffix, signal.width, Show::of(signal, signal));
+        pairs.push(Pair { name, other, how, width, sides, show, ..Pair::default() });
         false
     });
     unmatched.retain_mut(|left| {

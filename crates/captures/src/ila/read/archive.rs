@@ -57,11 +57,9 @@ pub(super) fn open(source: String, file: File, radix: Option<Radix>) -> Result<O
     for column in columns.iter_mut().filter(|column| !column.text && column.radix.is_none()) {
         column.radix = radix;
     }
-    let words = columns.iter().map(Column::words).sum();
-    let samples = Some(dump.samples);
     let rows = Box::new(dump.rows(columns.clone(), places));
     let radix_told = heads.radix_row;
-    Ok(Opened { form: CaptureForm::Archive, columns, words, samples, radix_told, rows })
+    Ok(Opened { form: CaptureForm::Archive, columns, radix_told, rows })
 }
 
 /// Places the columns in a row, and tells the lowest bit in the dump of each that is not text.

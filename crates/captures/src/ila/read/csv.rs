@@ -22,36 +22,39 @@ pub(super) fn open<R: Read + Seek + Send + 'static>(
     let lines = first_lines(&mut file).map_err(fault)?;
     file.rewind().map_err(fault)?;
     let mut heads = Heads::read(&source, &lines)?;
-    let mut samples = None;
     if !heads.radix_row {
-        let mut table = Table::new(&source, file);
-        samples = Some(infer(&mut table, &mut heads, hint)?);
+        let mut table = below(&source, file, &heads)?;
+        infer(&mut table, &mut heads, hint)?;
         file = table.into_inner();
         file.rewind().map_err(fault)?;
     }
-    let mut table = Table::new(&source, file);
-    for _ in 0..heads.rows() {
-        table.advance()?;
-    }
+    let table = below(&source, file, &heads)?;
     let form = if heads.radix_row { CaptureForm::Csv } else { CaptureForm::LegacyCsv };
     let columns = heads.columns.clone();
-    let words = columns.iter().map(|column| column.words()).sum();
     let radix_told = heads.radix_row;
-    let rows = Box::new(CsvRows { table, heads, words, order: Order::default() });
-    Ok(Opened { form, columns, words, samples, radix_told, rows })
+    let rows = Box::new(CsvRows { table, heads, order: Order::default() });
+    Ok(Opened { form, columns, radix_told, rows })
+}
+
+/// The table from the first row below the heads on.
+fn below<R: Read>(source: &str, file: R, heads: &Heads) -> Result<Table<R>> {
+    let mut table = Table::new(source, file);
+    for _ in 0..1 + usize::from(heads.radix_row) {
+        table.advance()?;
+    }
+    Ok(table)
 }
 
 /// The rows below the heads.
 struct CsvRows<R> {
     table: Table<R>,
     heads: Heads,
-    words: usize,
     order: Order,
 }
 
 impl<R: Read + Send> CaptureRows for CsvRows<R> {
     fn next(&mut self, row: &mut CaptureRow) -> Result<bool> {
-        let CsvRows { table, heads, words, order } = self;
+        let CsvRows { table, heads, order } = self;
         let first = FIXED.len() + heads.gap as usize;
         if !table.advance_to(first + heads.columns.len())? {
             return Ok(false);
@@ -68,7 +71,7 @@ impl<R: Read + Send> CaptureRows for CsvRows<R> {
         row.window_start = order
             .check(row.sample, row.in_window, row.trigger)
             .map_err(|(index, expected)| cells.fault(index, expected).field(FIXED[index]))?;
-        row.clear(*words);
+        row.clear(&heads.columns);
         for (index, column) in heads.columns.iter().enumerate() {
             let index = first + index;
             let Some(radix) = column.radix.filter(|_| !column.text) else {

@@ -129,8 +129,7 @@ impl Dump {
 
     /// The samples, laid out as `columns`; `places` are the lowest bits of those in the dump.
     pub(super) fn rows(self, columns: Vec<Column>, places: Vec<usize>) -> impl CaptureRows + use<> {
-        let words = columns.iter().map(Column::words).sum();
-        DumpRows { dump: self, columns, places, words, next: 0 }
+        DumpRows { dump: self, columns, places, next: 0 }
     }
 }
 
@@ -139,7 +138,6 @@ struct DumpRows {
     dump: Dump,
     columns: Vec<Column>,
     places: Vec<usize>,
-    words: usize,
     next: u64,
 }
 
@@ -157,7 +155,7 @@ impl CaptureRows for DumpRows {
         row.window_start = sample == begin;
         row.trigger = dump.triggers.binary_search(&sample).is_ok();
         row.gap = dump.gaps.binary_search(&sample).is_ok();
-        row.clear(self.words);
+        row.clear(&self.columns);
         let numbers = self.columns.iter().filter(|column| !column.text);
         for (column, &low) in numbers.zip(&self.places) {
             let target = if row.gap { &mut row.unknown } else { &mut row.value };

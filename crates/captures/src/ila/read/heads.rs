@@ -79,11 +79,6 @@ impl Heads {
         }
         Ok(Heads { columns, radix_row, gap })
     }
-
-    /// Rows before the samples.
-    pub(super) fn rows(&self) -> usize {
-        1 + self.radix_row as usize
-    }
 }
 
 /// That a row of radices has so many, and the right ones for the first columns.

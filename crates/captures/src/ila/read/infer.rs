@@ -15,29 +15,23 @@ use super::table::Table;
 /// What is tried, first what is taken if all give the same values.
 const TRIED: [Radix; 5] = [Radix::Hex, Radix::Unsigned, Radix::Signed, Radix::Binary, Radix::Octal];
 
-/// Looks through all rows of `table`, sets the radices and returns the number of rows. `hint`
-/// decides where several radices are left.
+/// Looks through the rest of `table` and sets the radices. `hint` decides where several are left.
 pub(super) fn infer(
     table: &mut Table<impl Read>,
     heads: &mut Heads,
     hint: Option<Radix>,
-) -> Result<u64> {
+) -> Result<()> {
     let fields = super::heads::FIXED.len() + heads.columns.len();
     let mut guesses = vec![Guess::new(hint); heads.columns.len()];
-    for _ in 0..heads.rows() {
-        table.advance()?;
-    }
-    let mut rows = 0;
     while table.advance_to(fields)? {
-        rows += 1;
         let columns = heads.columns.iter().zip(&mut guesses).enumerate();
         for (index, (column, guess)) in columns.filter(|(_, (column, _))| !column.text) {
             let index = super::heads::FIXED.len() + index;
-            let before = guess.left;
+            let before = guess.left.clone();
             if guess.look(&table.row.field(index), column.width) {
                 guess.telling = Some(table.row.fault(index, "").field(column.head()));
             }
-            if guess.left == 0 {
+            if guess.left.is_empty() {
                 let expected = match guess.seen {
                     true => {
                         guess.left = before;
@@ -55,14 +49,14 @@ pub(super) fn infer(
             column.radix = Some(guess.decide(hint)?);
         }
     }
-    Ok(rows)
+    Ok(())
 }
 
 /// What a column may be.
 #[derive(Clone)]
 struct Guess {
-    /// A bit for each of [`TRIED`].
-    left: u8,
+    /// Radices of [`TRIED`].
+    left: Vec<Radix>,
     /// Whether binary numbers may still be of all digits, and of as few as they need.
     padded: bool,
     bare: bool,
@@ -73,17 +67,13 @@ struct Guess {
 
 impl Guess {
     fn new(hint: Option<Radix>) -> Self {
-        let left = if hint == Some(Radix::Octal) { 0b11111 } else { 0b01111 };
+        let octal = hint == Some(Radix::Octal);
+        let left = TRIED.into_iter().filter(|&radix| octal || radix != Radix::Octal).collect();
         Guess { left, padded: true, bare: true, seen: false, telling: None }
     }
 
-    fn radices(&self) -> impl Iterator<Item = Radix> {
-        let left = self.left;
-        TRIED.into_iter().enumerate().filter(move |(bit, _)| left >> bit & 1 == 1).map(|(_, r)| r)
-    }
-
     fn names(&self) -> String {
-        let names: Vec<_> = self.radices().map(Radix::word).collect();
+        let names: Vec<_> = self.left.iter().map(|radix| radix.word()).collect();
         names.join(" or ")
     }
 
@@ -97,32 +87,28 @@ impl Guess {
         let bare = zeros == 0 || cell == b"0";
         self.padded &= cell.len() == width as usize;
         self.bare &= bare;
-        for (bit, radix) in TRIED.into_iter().enumerate() {
-            if self.left >> bit & 1 == 0 {
-                continue;
-            }
+        let binary = self.padded || self.bare;
+        self.left.retain(|&radix| {
             let spelled = match radix {
                 Radix::Hex => cell.len() == width.div_ceil(4) as usize,
                 Radix::Unsigned => bare,
                 Radix::Signed => bare && !cell.starts_with(b"-0"),
                 Radix::Octal => cell.len() == width.div_ceil(3) as usize,
-                Radix::Binary => self.padded || self.bare,
+                Radix::Binary => binary,
             };
-            if !spelled || digits::read(cell, radix, width).is_err() {
-                self.left &= !(1 << bit);
-            }
-        }
+            spelled && digits::read(cell, radix, width).is_ok()
+        });
         self.telling.is_none() && cell.len() - zeros > 1
     }
 
     /// The radix of the column.
     fn decide(&self, hint: Option<Radix>) -> Result<Radix> {
-        if let Some(hint) = hint.filter(|&hint| self.radices().any(|radix| radix == hint)) {
+        if let Some(hint) = hint.filter(|hint| self.left.contains(hint)) {
             return Ok(hint);
         }
         // Signed and unsigned are the same bits wherever both are possible.
         let decimal = |radix| matches!(radix, Radix::Unsigned | Radix::Signed);
-        let mut different: Vec<_> = self.radices().collect();
+        let mut different = self.left.clone();
         different.dedup_by(|radix, before| decimal(*radix) && decimal(*before));
         match &self.telling {
             Some(cell) if different.len() > 1 => {
@@ -146,9 +132,9 @@ mod tests {
                 guess.telling = Some(Input::new("a.csv", "").value(cell));
             }
         }
-        match guess.left {
-            0 => "none".to_owned(),
-            _ => match guess.decide(None) {
+        match guess.left.is_empty() {
+            true => "none".to_owned(),
+            false => match guess.decide(None) {
                 Ok(radix) => radix.word().to_owned(),
                 Err(error) => error.to_string(),
             },

@@ -67,8 +67,9 @@ pub struct CaptureRow {
 }
 
 impl CaptureRow {
-    /// Makes room for `words` words, all 0.
-    pub(super) fn clear(&mut self, words: usize) {
+    /// Makes room for the values of those columns, all 0.
+    pub(super) fn clear(&mut self, columns: &[Column]) {
+        let words = columns.last().map_or(0, |last| last.word + last.words());
         for place in [&mut self.value, &mut self.unknown] {
             place.clear();
             place.resize(words, 0);
@@ -99,10 +100,6 @@ pub struct Opened {
     pub form: CaptureForm,
     /// Its columns.
     pub columns: Vec<Column>,
-    /// Words of a row.
-    pub words: usize,
-    /// Number of samples, where it is known beforehand.
-    pub samples: Option<u64>,
     /// Whether the file tells the radices; otherwise they were inferred, or there are none.
     pub radix_told: bool,
     /// The samples.

@@ -67,11 +67,9 @@ impl Order {
         match self.depth {
             _ if goes_on || begins => Ok(begins),
             None => Err((1, format!("expected {following}, or 0 where a window begins"))),
-            Some(depth) if ends => {
-                Err((1, format!("expected 0: windows have {depth} samples here")))
-            }
             Some(depth) => {
-                Err((1, format!("expected {following}: windows have {depth} samples here")))
+                let next = if ends { 0 } else { following };
+                Err((1, format!("expected {next}: windows have {depth} samples here")))
             }
         }
     }

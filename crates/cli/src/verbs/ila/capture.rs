@@ -11,7 +11,7 @@ use tofsim::sim::Run;
 use tofsim::sim::setup::Setup;
 use tofsim_captures::compare::SignalMap;
 use tofsim_captures::ila::export::{CaptureFormat, export};
-use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, Overrides, capture};
+use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, capture};
 
 use crate::choice::{self, words};
 use crate::text::table::facts;
@@ -92,17 +92,24 @@ struct Instead {
 }
 
 impl Instead {
-    fn overrides(&self) -> Overrides {
-        let Instead { clock, trigger, capture, .. } = self.clone();
-        let &Instead { depth, windows, position, arm_at_us, stages, .. } = self;
-        let input_stages = stages;
-        Overrides { clock, depth, windows, position, trigger, capture, arm_at_us, input_stages }
+    fn lay_over(&self, set_up: &mut AnalyserSetup) {
+        let Instead { clock, depth, windows, position, .. } = self.clone();
+        let Instead { trigger, capture, arm_at_us, stages, .. } = self.clone();
+        set_up.override_with("clock", "--clock", clock, |file| &mut file.clock);
+        set_up.override_with("depth", "--depth", depth, |file| &mut file.depth);
+        set_up.override_with("windows", "--windows", windows, |file| &mut file.windows);
+        set_up.override_with("position", "--position", position, |file| &mut file.position);
+        set_up.override_with("trigger", "--trigger", trigger, |file| &mut file.trigger);
+        set_up.override_with("capture", "--capture", capture, |file| &mut file.capture);
+        set_up.override_with("arm_at_us", "--arm-at-us", arm_at_us, |file| &mut file.arm_at_us);
+        set_up.override_with("input_stages", "--stages", stages, |file| &mut file.input_stages);
     }
 }
 
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
-    let set_up = AnalyserSetup::load(&args.probes, args.instead.overrides())?;
+    let mut set_up = AnalyserSetup::load(&args.probes)?;
+    args.instead.lay_over(&mut set_up);
     let setup = simulated(args, &set_up)?;
     let mut plan = AnalyserPlan::new(&set_up, &setup)?;
     plan.stop_when_full = args.stop_when_full;

@@ -6,7 +6,7 @@ use serde_json::json;
 use tofsim::error::Result;
 use tofsim_captures::compare::SignalMap;
 use tofsim_captures::ila::setup::AnalyserSetupFile;
-use tofsim_captures::ila::{AnalyserSetup, Overrides, builtin};
+use tofsim_captures::ila::{AnalyserSetup, builtin};
 
 use crate::text::table::plain;
 use crate::verbs::terminal::{print, print_json};
@@ -15,7 +15,7 @@ use crate::verbs::terminal::{print, print_json};
 pub fn list(as_json: bool) -> Result<()> {
     let mut rows = Vec::new();
     for (name, _) in builtin::SET_UPS {
-        let file = AnalyserSetup::load(name, Overrides::default())?.file;
+        let file = AnalyserSetup::load(name)?.file;
         rows.push([name.to_string(), file.scenario, file.description]);
     }
     if as_json {
@@ -29,7 +29,7 @@ pub fn list(as_json: bool) -> Result<()> {
 pub fn show(name: &str) -> Result<()> {
     match builtin::set_up(name) {
         Some(text) => print(text),
-        None => AnalyserSetup::load(name, Overrides::default())
+        None => AnalyserSetup::load(name)
             .and_then(|_| tofsim::error::read_text(std::path::Path::new(name)))
             .and_then(|text| print(&text)),
     }
