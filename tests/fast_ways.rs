@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 
 use tofsim::firmware::tof_top::{Params, TofTop, Wires};
 use tofsim::firmware::{tdc, vcsel_driver};
-use tofsim::hierarchy::{self, Entry, Kind};
+use tofsim::hierarchy::{self, Entry, IDS, Kind, Part};
 use tofsim::kernel::signals::Sink;
 use tofsim::kernel::{Clocked, Thermometer, Time};
 use tofsim::scenario::QuenchMode::{EachShot, FreeRunning};
@@ -42,8 +42,10 @@ fn assert_same(found: &Device, expected: &Device, what: &str) {
         device.settle(before_edge, &mut Off, &mut Off);
         device
     });
+    let mut part = Part::of(0..IDS);
+    part.show(&expected.top, &mut Differences::default());
     let mut differences = Differences::default();
-    hierarchy::changes(&found.top, Some(&expected.top), &mut differences);
+    part.follow(&found.top, &mut differences);
     if !differences.0.is_empty() {
         let mut entries = hierarchy::every_entry();
         entries.retain(|entry| differences.0.contains(&entry.id) && !watches(&entry.path()));

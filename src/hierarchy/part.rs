@@ -30,7 +30,7 @@ impl Part {
 
     /// Reports every signal, as if for the first time, whichever ids were asked for.
     pub fn show(&mut self, top: &TofTop, sink: &mut impl Sink) {
-        changes(top, None, sink);
+        changes(top, sink);
         match &mut self.kept {
             Some(kept) => copy(top, kept),
             None => self.kept = Some(top.clone()),
@@ -43,7 +43,7 @@ impl Part {
     #[inline]
     pub fn follow(&mut self, top: &TofTop, sink: &mut impl Sink) {
         let Some(kept) = &mut self.kept else { return self.show(top, sink) };
-        top.visit(Some(kept), &mut Look { wanted: Some(&*self.wanted), id: 0, sink });
+        top.visit(Some(kept), &mut Look { wanted: &self.wanted, id: 0, sink });
         let writes = top.nets.tdc_valid || top.frame_ctrl.clear;
         if std::mem::replace(&mut self.writes, writes) {
             let (now, then) = (&top.histogram_builder.ram, &mut kept.histogram_builder.ram);
@@ -66,15 +66,11 @@ impl Part {
     }
 }
 
-/// Reports every signal that differs from `before`, or every one.
-pub fn changes(top: &TofTop, before: Option<&TofTop>, sink: &mut impl Sink) {
-    let mut then = before.cloned();
-    top.visit(then.as_mut(), &mut Look { wanted: None, id: 0, sink });
-    for (bin, now) in top.histogram_builder.ram.iter().enumerate() {
-        if before.is_none_or(|before| before.histogram_builder.ram[bin] != *now) {
-            sink.word(RAM + bin, now.get());
-        }
-    }
+/// Reports every signal.
+pub fn changes(top: &TofTop, sink: &mut impl Sink) {
+    top.visit(None, &mut Look { wanted: &[true; IDS], id: 0, sink });
+    let ram = top.histogram_builder.ram.iter();
+    ram.enumerate().for_each(|(bin, word)| sink.word(RAM + bin, word.get()));
 }
 
 /// Makes all that [`changes`] looks at in `to` what it is in `from`, without allocating.
@@ -85,8 +81,8 @@ pub fn copy(from: &TofTop, to: &mut TofTop) {
 
 /// Reports what differs and keeps it.
 struct Look<'a, S> {
-    /// Ids to look at, if not all.
-    wanted: Option<&'a [bool; IDS]>,
+    /// Ids to look at.
+    wanted: &'a [bool; IDS],
     /// The coming signal.
     id: usize,
     sink: &'a mut S,
@@ -100,9 +96,7 @@ impl<K: Sink> Visitor for Look<'_, K> {
         match then {
             None => now.changes(None, ids.start, self.sink),
             Some(then) => {
-                let is_wanted =
-                    self.wanted.is_none_or(|wanted| wanted[ids.clone()].contains(&true));
-                if is_wanted && then != now {
+                if self.wanted[ids.clone()].contains(&true) && then != now {
                     now.changes(Some(&*then), ids.start, self.sink);
                     *then = *now;
                 }
@@ -186,7 +180,7 @@ mod tests {
 
         fn compare(&mut self, now: Time, top: &TofTop) {
             let mut every = Values(vec![0; IDS]);
-            changes(top, None, &mut every);
+            changes(top, &mut every);
             assert!(self.followed == every, "at {now}");
             self.looks += 1;
             self.resets += usize::from(top.nets.rst_dsp);

@@ -10,8 +10,9 @@
 use tofsim::error::Input;
 use tofsim::network::Histogram;
 use tofsim::optics::Bins;
+use tofsim::optics::hazard::normal_cdf;
 
-use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, BIN_PS, Echo, normal_cdf, spans_ps};
+use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, BIN_PS, Echo, spans_ps};
 use super::coates::{Corrected, correct};
 use super::estimator::{Estimator, Failure, hits};
 
