@@ -20,6 +20,8 @@ use super::estimator::{Estimator, Failure, hits};
 const REACH: f64 = 5.0;
 /// A pulse of which less than this part is weighed, by its square, is not tried [1].
 const FAINTEST: f64 = 1e-9;
+/// Signal that counts as one, in its own standard deviations [1].
+const SIGNIFICANCE: f64 = 4.0;
 
 /// The matched filter of one pulse and one chain.
 #[derive(Clone, Debug)]
@@ -34,8 +36,6 @@ pub struct MatchedFilter {
     range_ps: f64,
     /// For each arrival on the grid, every 25 ps from 0.
     pulses: Vec<Pulse>,
-    /// Signal that counts as one, in its own standard deviations [1].
-    pub significance: f64,
 }
 
 /// A bin, which a chain may give in several pieces.
@@ -114,7 +114,6 @@ impl MatchedFilter {
             widths: pieces.iter().map(|bin| bin.width_ps() / range_ps).collect(),
             range_ps,
             pulses: (0..=(end_ps / BIN_PS) as usize).map(pulse).collect(),
-            significance: 4.0,
         })
     }
 
@@ -220,7 +219,7 @@ impl Estimator for MatchedFilter {
     fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure> {
         hits(histogram, self.shots as u32)?;
         match self.best(histogram) {
-            Some(found) if found.significance >= self.significance => {
+            Some(found) if found.significance >= SIGNIFICANCE => {
                 Ok(found.echo.arrival_ps / ARRIVAL_PS_PER_M)
             }
             _ => Err(Failure::NoPeak),
