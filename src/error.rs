@@ -146,6 +146,13 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     (best.0 > 0.75).then_some(best.1)
 }
 
+/// The name that was probably meant, as words after what is wrong, and all known names.
+pub fn hint<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> (String, String) {
+    let known: Vec<_> = known.into_iter().collect();
+    let meant = nearest(name, known.iter().copied());
+    (meant.map_or(String::new(), |name| format!(" (`{name}`?)")), known.join(", "))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -15,7 +15,7 @@ mod part;
 
 use build::Build;
 use entry::RAM;
-pub use entry::{Entry, IDS, Kind, TOP};
+pub use entry::{Entry, IDS, Kind, TOP, below_top};
 pub use part::{Part, changes, copy};
 
 /// Every name in every scope that those parameters have, without the RAM's words.

@@ -19,7 +19,6 @@ mod readback;
 mod scopes;
 mod select;
 pub mod side_by_side;
-mod spool;
 mod surfer;
 #[cfg(test)]
 mod tests;

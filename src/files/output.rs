@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, TempPath};
 
 use crate::error::{Error, Result};
 
@@ -14,13 +14,19 @@ use crate::error::{Error, Result};
 #[derive(Debug)]
 pub struct OutputFile {
     target: PathBuf,
-    sink: Sink,
+    file: BufWriter<File>,
+    place: Place,
 }
 
+/// Where the bytes go at first.
 #[derive(Debug)]
-enum Sink {
-    Beside(Box<BufWriter<NamedTempFile>>),
-    InPlace(Box<BufWriter<File>>),
+enum Place {
+    /// A file beside the target, which takes its name in the end.
+    Beside(TempPath),
+    /// The target itself.
+    Target,
+    /// A file without a name, whose bytes go to this target when they are all there.
+    Nameless(BufWriter<File>),
 }
 
 /// Bytes gathered before they go to the system.
@@ -29,19 +35,33 @@ const BUFFER: usize = 1 << 16;
 impl OutputFile {
     /// Begins a file; a symbolic link is followed, so that its target is what is replaced.
     pub fn create(target: &Path) -> Result<Self> {
-        let sink = match fs::metadata(target) {
+        let (file, place) = match fs::metadata(target) {
             Ok(found) if found.is_dir() => {
                 let source = io::Error::from(io::ErrorKind::IsADirectory);
                 return Err(Error::Io { path: target.to_owned(), action: "write", source });
             }
             Ok(found) if !found.is_file() => {
                 let file = File::options().write(true).open(target);
-                let file = file.map_err(Error::io(target, "write"))?;
-                Sink::InPlace(Box::new(BufWriter::with_capacity(BUFFER, file)))
+                (file.map_err(Error::io(target, "write"))?, Place::Target)
             }
-            _ => Sink::Beside(Box::new(BufWriter::with_capacity(BUFFER, beside(target)?))),
+            _ => {
+                let (file, path) = beside(target)?.into_parts();
+                (file, Place::Beside(path))
+            }
         };
-        Ok(OutputFile { target: target.to_owned(), sink })
+        let file = BufWriter::with_capacity(BUFFER, file);
+        Ok(OutputFile { target: target.to_owned(), file, place })
+    }
+
+    /// Begins a file that can seek, whatever stands at its path.
+    pub(crate) fn create_seekable(target: &Path) -> Result<Self> {
+        let mut output = OutputFile::create(target)?;
+        if let Place::Target = output.place {
+            let nameless = tempfile::tempfile().map_err(Error::io(target, "write"))?;
+            let device = std::mem::replace(&mut output.file, BufWriter::new(nameless));
+            output.place = Place::Nameless(device);
+        }
+        Ok(output)
     }
 
     /// The file's final path.
@@ -56,42 +76,39 @@ impl OutputFile {
 
     /// Puts the finished file in place.
     pub fn commit(self) -> Result<()> {
-        let OutputFile { target, sink } = self;
-        let fault = Error::io(&target, "write");
-        match sink {
-            Sink::InPlace(mut file) => file.flush().map_err(fault),
-            Sink::Beside(file) => {
-                let file = file.into_inner().map_err(|error| error.into_error()).map_err(fault)?;
-                let target = fs::canonicalize(&target).unwrap_or(target);
-                let renamed = file.persist(&target);
-                renamed.map(drop).map_err(|error| Error::io(&target, "write")(error.error))
+        let OutputFile { target, file, place } = self;
+        let finish = || {
+            let mut file = file.into_inner().map_err(|error| error.into_error())?;
+            match place {
+                Place::Target => Ok(()),
+                Place::Beside(path) => {
+                    let target = fs::canonicalize(&target).unwrap_or(target.clone());
+                    path.persist(target).map_err(|error| error.error)
+                }
+                Place::Nameless(mut device) => {
+                    file.rewind()?;
+                    io::copy(&mut file, &mut device)?;
+                    device.flush()
+                }
             }
-        }
+        };
+        finish().map_err(Error::io(&target, "write"))
     }
 }
 
 impl Write for OutputFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match &mut self.sink {
-            Sink::Beside(file) => file.write(bytes),
-            Sink::InPlace(file) => file.write(bytes),
-        }
+        self.file.write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        match &mut self.sink {
-            Sink::Beside(file) => file.flush(),
-            Sink::InPlace(file) => file.flush(),
-        }
+        self.file.flush()
     }
 }
 
 impl Seek for OutputFile {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        match &mut self.sink {
-            Sink::Beside(file) => file.seek(to),
-            Sink::InPlace(file) => file.seek(to),
-        }
+        self.file.seek(to)
     }
 }
 

@@ -40,9 +40,7 @@ impl Entry {
 
     /// Its path below the top.
     pub fn below_top(&self) -> String {
-        let path = self.path();
-        let below = path.strip_prefix(TOP).and_then(|rest| rest.strip_prefix('.'));
-        below.map_or(path.clone(), str::to_owned)
+        below_top(&self.path()).to_owned()
     }
 
     /// Whether it is a word of the histogram's RAM.
@@ -56,3 +54,8 @@ pub(super) const RAM: usize = TofTop::COUNT;
 
 /// Number of ids.
 pub const IDS: usize = RAM + BINS;
+
+/// A path without the top.
+pub fn below_top(path: &str) -> &str {
+    path.strip_prefix(TOP).and_then(|rest| rest.strip_prefix('.')).unwrap_or(path)
+}

@@ -1,7 +1,5 @@
 //! The ROMs as texts for Verilog's `$readmemh`: one word a line, in hexadecimal.
 
-use std::fmt::Write;
-
 use crate::firmware::depth_estimator::Params;
 use crate::firmware::forward1::{BIAS_ROW, Rom, Weight};
 use crate::firmware::forward2;
@@ -27,14 +25,14 @@ pub fn forward1(rom: &Rom, neurons: usize) -> [Mem; 2] {
 
 /// MEM2: line k is address k as an unsigned word.
 pub fn tansig(rom: &tansig::Rom) -> Mem {
-    Mem { name: "tansig.mem", text: lines(rom.iter().map(|entry| entry.bits().into()), 4) }
+    Mem { name: "tansig.mem", text: lines(rom.iter().map(|entry| entry.bits()), 4) }
 }
 
 /// MEM3: the weights, a line with the last neuron in the top 16 bits, and the bias.
 pub fn forward2(rom: &forward2::Rom) -> [Mem; 2] {
     [
         Mem { name: "w2.mem", text: words(&rom.w2[..rom.neurons]) },
-        Mem { name: "b2.mem", text: lines([rom.b2.bits().into()], 4) },
+        Mem { name: "b2.mem", text: lines([rom.b2.bits()], 4) },
     ]
 }
 
@@ -47,8 +45,7 @@ pub fn depth_estimator(params: &Params) -> Vec<Mem> {
 
 /// The decoder's calibration: line N is the time for N ones [25/16 ps].
 pub fn tdc_decoder(calibration: &Calibration) -> Mem {
-    let words = calibration.iter().map(|time| time.get().into());
-    Mem { name: "tdc_cal.mem", text: lines(words, 4) }
+    Mem { name: "tdc_cal.mem", text: lines(calibration.iter().map(|time| time.get()), 4) }
 }
 
 /// Words side by side on a line, the first in the low bits.
@@ -58,13 +55,8 @@ fn words(row: &[Weight]) -> String {
 }
 
 /// Words as lines of that many hexadecimal digits.
-pub fn lines(words: impl IntoIterator<Item = u128>, digits: usize) -> String {
-    let mut text = String::new();
-    for word in words {
-        // Writing to a string does not fail.
-        let _ = writeln!(text, "{word:0digits$x}");
-    }
-    text
+pub fn lines(words: impl IntoIterator<Item = u64>, digits: usize) -> String {
+    words.into_iter().map(|word| format!("{word:0digits$x}\n")).collect()
 }
 
 #[cfg(test)]

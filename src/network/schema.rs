@@ -76,22 +76,12 @@ struct Arrays<T> {
     b2: T,
 }
 
-impl<T: Copy + Default> Arrays<T> {
-    /// The weights in types of their own.
-    fn weights<W1, B1, W2, B2>(
-        self,
-        w1: impl Fn(T) -> W1,
-        b1: impl Fn(T) -> B1,
-        w2: impl Fn(T) -> W2,
-        b2: impl Fn(T) -> B2,
-    ) -> Weights<W1, B1, W2, B2> {
-        let row = |row: &Vec<T>| std::array::from_fn(|bin| w1(row[bin]));
-        Weights {
-            w1: self.w1.iter().map(row).collect(),
-            b1: self.b1.into_iter().map(b1).collect(),
-            w2: self.w2.into_iter().map(w2).collect(),
-            b2: b2(self.b2),
-        }
+impl<T: Copy> Arrays<T> {
+    /// The weights, whose rows have the right length by now.
+    fn weights(self) -> Weights<T, T, T, T> {
+        let row = |row: &Vec<T>| std::array::from_fn(|bin| row[bin]);
+        let Arrays { w1, b1, w2, b2 } = self;
+        Weights { w1: w1.iter().map(row).collect(), b1, w2, b2 }
     }
 
     /// That there is one of each for each of so many neurons.
@@ -117,20 +107,19 @@ impl Network {
         let file: File = checked.read()?;
         file.check(&checked)?;
         let word = i32::from;
-        let fixed: Fixed = file.integers.weights(
+        let fixed: Fixed = file.integers.weights().map(
             |w1| HiddenWeight::from_bits(word(w1)),
             HiddenBias::from_bits,
             OutputWeight::from_bits,
             |b2| OutputBias::from_bits(word(b2)),
         );
-        let same = |value: f64| value;
         Ok(Network {
             name: source.to_owned(),
             description: file.description,
             training: file.training,
             accuracy: file.accuracy,
             fixed,
-            float: file.float.map(|float| float.weights(same, same, same, same)),
+            float: file.float.map(Arrays::weights),
         })
     }
 }

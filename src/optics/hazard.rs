@@ -244,7 +244,7 @@ impl Hazard {
 }
 
 /// Standard normal distribution function.
-fn normal_cdf(z: f64) -> f64 {
+pub fn normal_cdf(z: f64) -> f64 {
     0.5 * libm::erfc(-z * std::f64::consts::FRAC_1_SQRT_2)
 }
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::error::{Input, Result, nearest};
+use crate::error::{Input, Result, hint};
 use crate::files::toml::Checked;
 use crate::firmware::carry_chain::{Delays, TAPS};
 use crate::kernel::Time;
@@ -52,10 +52,8 @@ pub fn load(name: &str, base: &Source) -> Result<Delays> {
         return parse(&format!("chain {name}"), text);
     }
     if !name.contains(['/', '.']) {
-        let known = builtin::CHAINS.iter().map(|(name, _)| *name);
-        let hint = nearest(name, known.clone()).map_or(String::new(), |n| format!(" (`{n}`?)"));
-        let known: Vec<_> = known.collect();
-        let expected = format!("expected {} or a chain file{hint}", known.join(", "));
+        let (hint, known) = hint(name, builtin::CHAINS.iter().map(|(name, _)| *name));
+        let expected = format!("expected {known} or a chain file{hint}");
         return Err(Input::new("tdc.profile", expected).value(name).into());
     }
     let (source, text) = base.read(name)?;

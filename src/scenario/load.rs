@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::error::{Input, Result, nearest, read_text};
+use crate::error::{Input, Result, hint, read_text};
 use crate::files::toml::{Checked, assign, read};
 
 use super::builtin::{self, Source};
@@ -30,8 +30,7 @@ pub fn load(name: &str, overrides: &[String]) -> Result<Loaded> {
     }
     let path = Path::new(name);
     if !path.exists() && !name.contains(['/', '.']) {
-        let known = builtin::SCENARIOS.iter().map(|(name, _)| *name);
-        let hint = nearest(name, known).map_or(String::new(), |known| format!(" (`{known}`?)"));
+        let (hint, _) = hint(name, builtin::SCENARIOS.iter().map(|(name, _)| *name));
         let expected = format!("no such file or built-in scenario{hint}; see `scenario list`");
         return Err(Input::new("scenario", expected).value(name).into());
     }

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::error::{Input, Result, nearest};
 use crate::firmware::tof_top::{Params, TofTop};
-use crate::hierarchy::{self, Entry, IDS, Part, TOP};
+use crate::hierarchy::{self, Entry, IDS, Part, below_top};
 use crate::kernel::signals::{SignalFormat, Sink};
 use crate::kernel::{Thermometer, Time};
 
@@ -65,19 +65,15 @@ fn entries(params: &Params) -> Vec<Entry> {
 
 /// The signal of that path, with the top or without.
 fn find<'a>(entries: &'a [Entry], name: &str) -> Result<&'a Entry> {
-    let below = |path: &str| match path.strip_prefix(TOP).and_then(|rest| rest.strip_prefix('.')) {
-        Some(rest) => rest.to_owned(),
-        None => path.to_owned(),
-    };
-    let wanted = below(name);
-    let paths: Vec<_> = entries.iter().map(|entry| below(&entry.path())).collect();
-    if let Some(place) = paths.iter().position(|path| *path == wanted) {
+    let wanted = below_top(name);
+    let paths: Vec<_> = entries.iter().map(Entry::below_top).collect();
+    if let Some(place) = paths.iter().position(|path| path == wanted) {
         return Ok(&entries[place]);
     }
     let bare = wanted.rsplit('.').next().unwrap_or_default();
     let same_name = entries.iter().position(|entry| entry.signal.name == bare);
     let near = same_name.map(|place| &*paths[place]);
-    let near = near.or_else(|| nearest(&wanted, paths.iter().map(String::as_str)));
+    let near = near.or_else(|| nearest(wanted, paths.iter().map(String::as_str)));
     let hint = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
     Err(Input::new("signal", format!("there is none of that name{hint}")).value(name).into())
 }

@@ -39,10 +39,10 @@ pub struct ShotRecorder {
     /// Shots whose result may still come, oldest first.
     open: VecDeque<Shot>,
     /// Shots that are complete, oldest first.
-    complete: Vec<Shot>,
+    pub(super) complete: Vec<Shot>,
     avalanches: VecDeque<(Time, Option<Cause>)>,
     shot: u64,
-    frame: u64,
+    pub(super) frame: u64,
     /// The driver's `enable`, as the coming shot takes it.
     laser_en: bool,
     last_edge: Time,
@@ -95,16 +95,6 @@ impl ShotRecorder {
             self.shot = 0;
         }
         self.last_edge = now;
-    }
-
-    /// A new frame begins.
-    pub fn begin_frame(&mut self, frame: u64) {
-        self.frame = frame;
-    }
-
-    /// The shots that have been completed since the last call.
-    pub fn take(&mut self) -> std::vec::Drain<'_, Shot> {
-        self.complete.drain(..)
     }
 
     fn follow_tdc(&mut self, cycle: u64, top: &TofTop, p: &Params) {

@@ -46,10 +46,10 @@ impl OptionalRecorder for ShotRecorder {
         self.edge(cycle, now, &device.top, p);
     }
     fn begin_frame(&mut self, frame: u64) {
-        ShotRecorder::begin_frame(self, frame);
+        self.frame = frame;
     }
     fn pass_on(&mut self, sinks: &mut Sinks) -> Result<()> {
         let take = sinks.shots.as_mut();
-        take.map_or(Ok(()), |take| self.take().try_for_each(|shot| take(&shot)))
+        take.map_or(Ok(()), |take| self.complete.drain(..).try_for_each(|shot| take(&shot)))
     }
 }

@@ -23,29 +23,19 @@ pub(super) fn three(number: u64) -> [u8; 4] {
 /// The taps of a delay line in their physical places.
 #[derive(Debug)]
 pub struct TapDigits {
-    /// For each place in the order of arrival, the physical taps from there on; none if that is the
-    /// same order.
-    later: Vec<Vec<u64>>,
+    /// The physical tap at each place in the order of arrival; none if that is the same order.
+    order: Vec<u16>,
     /// In the order of arrival.
     arrived: BitVec<u64>,
     /// In their physical places, if those are others.
-    taps: Vec<u64>,
+    taps: BitVec<u64>,
 }
 
 impl TapDigits {
     /// For lines whose taps are reached in `order`.
     pub fn new(order: &[u16]) -> Self {
-        let sorted = order.iter().enumerate().all(|(place, &tap)| place == tap as usize);
-        let mut later = Vec::new();
-        let mut taps = vec![0; order.len().div_ceil(64)];
-        if !sorted {
-            for &tap in order.iter().rev() {
-                taps[tap as usize / 64] |= 1 << (tap % 64);
-                later.push(taps.clone());
-            }
-            later.reverse();
-        }
-        TapDigits { later, arrived: BitVec::new(), taps }
+        let order = if order.is_sorted() { Vec::new() } else { order.to_vec() };
+        TapDigits { taps: bitvec![u64, Lsb0; 0; order.len()], order, arrived: BitVec::new() }
     }
 
     /// The `N` bits in words, physical tap 0 the lowest.
@@ -55,24 +45,13 @@ impl TapDigits {
             self.arrived.set_uninitialized(false);
         }
         value.expand(&mut self.arrived);
-        let arrived = self.arrived.as_raw_slice();
-        if self.later.is_empty() {
-            return arrived;
+        if self.order.is_empty() {
+            return self.arrived.as_raw_slice();
         }
-        self.taps.fill(0);
-        // Each place at which the level changes turns all taps from there on.
-        let mut before = 0;
-        for (word, &levels) in arrived.iter().enumerate() {
-            let mut changes = levels ^ (levels << 1 | before);
-            before = levels >> 63;
-            while changes != 0 {
-                let place = 64 * word + changes.trailing_zeros() as usize;
-                let later = self.later.get(place).into_iter().flatten();
-                self.taps.iter_mut().zip(later).for_each(|(taps, later)| *taps ^= later);
-                changes &= changes - 1;
-            }
+        for (&tap, level) in self.order.iter().zip(&self.arrived) {
+            self.taps.set(tap.into(), *level);
         }
-        &self.taps
+        self.taps.as_raw_slice()
     }
 }
 

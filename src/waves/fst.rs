@@ -7,13 +7,13 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
+use crate::files::output::OutputFile;
 use crate::hierarchy::Entry;
 use crate::kernel::Thermometer;
 use crate::kernel::signals::Sink;
 
 use super::body::{Body, Step};
 use super::digits::TapDigits;
-use super::spool::Spool;
 
 mod blocks;
 mod changes;
@@ -29,7 +29,7 @@ use hierarchy::Hierarchy;
 /// An FST file being written.
 pub(super) struct Fst {
     path: PathBuf,
-    changes: Changes<Spool>,
+    changes: Changes<OutputFile>,
     /// Place in the file's order by id; what is not selected is `None`.
     signals: Vec<Option<usize>>,
     taps: TapDigits,
@@ -55,7 +55,7 @@ impl Fst {
             signals: hierarchy.widths.len() as u64,
             ..Header::new(provenance)?
         };
-        let mut file = Spool::create(path)?;
+        let mut file = OutputFile::create_seekable(path)?;
         let begun = header.write(&mut file).and_then(|()| hierarchy.write(&mut file));
         begun.map_err(Error::io(path, "write"))?;
         Ok(Fst {

@@ -2,8 +2,6 @@
 //!
 //! Surfer takes state names from a VCD itself; for an FST file they are in a mapping beside it.
 
-use std::fmt::Write;
-
 use crate::kernel::signals::SignalFormat;
 
 use super::layout::{Group, ShownSignal};
@@ -19,23 +17,21 @@ pub(super) fn commands(format: WaveFormat, groups: &[Group<'_>], marks: &Marks) 
     let mut place = 0;
     for group in groups.iter().filter(|group| !group.closed) {
         let heading: Vec<_> = group.name.split(|c: char| !c.is_alphanumeric()).collect();
-        line(&mut text, format_args!("divider_add {}", heading.join("_")));
+        text += &format!("divider_add {}\n", heading.join("_"));
         place += 1;
         for row in &group.rows {
-            line(&mut text, format_args!("variable_add {}", row.entry.path()));
+            text += &format!("variable_add {}\n", row.entry.path());
             if let Some(shown) = shown_as(format, row) {
-                line(&mut text, format_args!("item_focus {}", letters(place)));
-                line(&mut text, format_args!("item_set_format {shown}"));
-                line(&mut text, "item_unfocus");
+                text += &format!("item_focus {}\n", letters(place));
+                text += &format!("item_set_format {shown}\nitem_unfocus\n");
             }
             place += 1;
         }
     }
     for (name, at) in marks.named() {
-        line(&mut text, format_args!("marker_set {name} {}", at.ps()));
+        text += &format!("marker_set {name} {}\n", at.ps());
     }
-    line(&mut text, format_args!("cursor_set {}", marks.laser_edge.unwrap_or(marks.from).ps()));
-    text
+    text + &format!("cursor_set {}\n", marks.laser_edge.unwrap_or(marks.from).ps())
 }
 
 /// Name of the mapping for the states of `row`, and of its file.
@@ -44,13 +40,9 @@ pub(super) fn mapping_name(row: &ShownSignal<'_>) -> String {
 }
 
 pub(super) fn mapping(states: &[&str], row: &ShownSignal<'_>) -> String {
-    let mut text = String::new();
-    line(&mut text, format_args!("Name = {}", mapping_name(row)));
-    line(&mut text, format_args!("Bits = {}", row.entry.signal.width));
-    for (code, state) in states.iter().enumerate() {
-        line(&mut text, format_args!("{code} {state}"));
-    }
-    text
+    let codes = states.iter().enumerate().map(|(code, state)| format!("{code} {state}\n"));
+    let (name, bits) = (mapping_name(row), row.entry.signal.width);
+    format!("Name = {name}\nBits = {bits}\n{}", codes.collect::<String>())
 }
 
 fn shown_as(format: WaveFormat, row: &ShownSignal<'_>) -> Option<String> {
@@ -67,11 +59,6 @@ fn shown_as(format: WaveFormat, row: &ShownSignal<'_>) -> Option<String> {
 fn letters(place: usize) -> String {
     let digit = |c: char| c.to_digit(16).map_or('a', |value| (b'a' + value as u8) as char);
     format!("{place:x}").chars().map(digit).collect()
-}
-
-fn line(text: &mut String, line: impl std::fmt::Display) {
-    // Writing to a string cannot fail.
-    let _ = writeln!(text, "{line}");
 }
 
 #[cfg(test)]

@@ -75,9 +75,9 @@ fn both_formats_hold_the_rows_that_the_library_draws() {
     let rows = Rows::Subset(Subset::new(Grid::training(), 300, 9));
     assert_eq!(table.len(), 300);
     for (index, sample) in table.iter().enumerate() {
-        let row = rows.row(index as u64);
-        let histogram = source.draw_from(&source.probabilities(&row.scene), 9, row.number);
-        assert_eq!(*sample, Sample { seed: 9, row: row.number, scene: row.scene, histogram });
+        let (row, scene) = rows.row(index as u64);
+        let histogram = source.draw_from(&source.probabilities(&scene), 9, row);
+        assert_eq!(*sample, Sample { seed: 9, row, scene, histogram });
     }
 }
 

@@ -20,5 +20,5 @@ pub use blocks::{BLOCK, Sample};
 pub use description::DatasetDescription;
 pub use grid::{Grid, Scene, Steps};
 pub use pairs::Pairs;
-pub use rows::{NumberedScene, Rows, Subset};
+pub use rows::{Rows, Subset};
 pub use source::HistogramSource;

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use tofsim::error::nearest;
+use tofsim::error::hint;
 use tofsim::firmware::tof_top::Params;
 use tofsim::hierarchy::{self, TOP};
 use tofsim::kernel::signals::{Signal, SignalFormat};
@@ -108,8 +108,7 @@ impl Design {
         if self.left_out.contains(&path) {
             return Err("the scenario's design leaves this module out".to_owned());
         }
-        let hint = nearest(&path, self.signals.keys().map(String::as_str));
-        let hint = hint.map_or(String::new(), |name| format!(" (`{name}`?)"));
+        let (hint, _) = hint(&path, self.signals.keys().map(String::as_str));
         Err(format!("no such signal{hint}; expected a path below {TOP}"))
     }
 }

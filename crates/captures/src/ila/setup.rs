@@ -6,7 +6,7 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use tofsim::error::{Error, Input, Result, nearest, read_text};
+use tofsim::error::{Error, Input, Result, hint, read_text};
 use tofsim::files::toml::Checked;
 
 use super::builtin;
@@ -144,9 +144,7 @@ impl AnalyserSetup {
         }
         let path = Path::new(name);
         if !path.exists() && !name.contains(['/', '.']) {
-            let known = || builtin::SET_UPS.iter().map(|(name, _)| *name);
-            let hint = nearest(name, known()).map_or(String::new(), |name| format!(" (`{name}`?)"));
-            let names = known().collect::<Vec<_>>().join(", ");
+            let (hint, names) = hint(name, builtin::SET_UPS.iter().map(|(name, _)| *name));
             let expected =
                 format!("no such file or built-in set-up{hint}; expected a path or one of {names}");
             return Err(Input::new("--probes", expected).value(name).into());

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use tofsim::network::Histogram;
 
 use super::grid::Scene;
-use super::rows::{NumberedScene, Rows};
+use super::rows::Rows;
 use super::source::HistogramSource;
 
 /// Rows of a block: 1 MB of histograms.
@@ -46,7 +46,7 @@ impl HistogramSource {
         let mut white = Last(None);
         let mut codes = Last(None);
         let sample = |index| {
-            let NumberedScene { number: row, scene } = rows.row(index);
+            let (row, scene) = rows.row(index);
             let white = white.or(scene.distance_m, |&distance_m| self.white(distance_m));
             let codes =
                 codes.or(scene, |scene| self.probabilities_with(white, scene, self.is_lit()));
@@ -91,9 +91,9 @@ mod tests {
         let blocks: Vec<_> = source.blocks(&rows, 3).collect();
         assert_eq!(blocks.iter().map(Vec::len).collect::<Vec<_>>(), [BLOCK as usize, 93]);
         for (index, sample) in (0..).zip(blocks.concat()) {
-            let row = rows.row(index);
-            let histogram = source.draw_from(&source.probabilities(&row.scene), 3, row.number);
-            assert_eq!(sample, Sample { seed: 3, row: row.number, scene: row.scene, histogram });
+            let (row, scene) = rows.row(index);
+            let histogram = source.draw_from(&source.probabilities(&scene), 3, row);
+            assert_eq!(sample, Sample { seed: 3, row, scene, histogram });
         }
     }
 

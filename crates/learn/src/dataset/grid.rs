@@ -55,36 +55,24 @@ pub struct Grid {
 /// Row numbers that a grid or a subset has for itself.
 pub(super) const ROWS: u64 = 1 << 40;
 
-/// Irradiances from 0 to 0.4.
-const IRRADIANCES: Steps = Steps { first: 0, step: 5, count: 9, per_unit: 100 };
-/// Reflectances from 0.08 to 0.60.
-const REFLECTANCES: Steps = Steps { first: 8, step: 1, count: 53, per_unit: 100 };
-/// Histograms of each scene.
-const REPEATS: u64 = 5;
-
 impl Grid {
     /// For training: 201 distances, 479,385 rows.
     pub const fn training() -> Self {
-        let distances_m = Steps { first: 1000, step: 25, count: 201, per_unit: 10_000 };
-        Grid::new("train", distances_m, 0)
+        Grid {
+            name: "train",
+            distances_m: Steps { first: 1000, step: 25, count: 201, per_unit: 10_000 },
+            irradiances_w_m2_nm: Steps { first: 0, step: 5, count: 9, per_unit: 100 },
+            reflectances: Steps { first: 8, step: 1, count: 53, per_unit: 100 },
+            repeats: 5,
+            first_row: 0,
+        }
     }
 
     /// For tests: 51 distances, 121,635 rows. Its scenes are among those of training, its draws are
     /// not.
     pub const fn test() -> Self {
         let distances_m = Steps { first: 10, step: 1, count: 51, per_unit: 100 };
-        Grid::new("test", distances_m, 2 * ROWS)
-    }
-
-    const fn new(name: &'static str, distances_m: Steps, first_row: u64) -> Self {
-        Grid {
-            name,
-            distances_m,
-            irradiances_w_m2_nm: IRRADIANCES,
-            reflectances: REFLECTANCES,
-            repeats: REPEATS,
-            first_row,
-        }
+        Grid { name: "test", distances_m, first_row: 2 * ROWS, ..Grid::training() }
     }
 
     /// Number of rows.
@@ -145,7 +133,7 @@ mod tests {
         };
         check(Grid::training().distances_m, 4);
         check(Grid::test().distances_m, 2);
-        check(IRRADIANCES, 2);
-        check(REFLECTANCES, 2);
+        check(Grid::test().irradiances_w_m2_nm, 2);
+        check(Grid::test().reflectances, 2);
     }
 }

@@ -7,15 +7,6 @@ use tofsim::sensor::streams::{self, stream};
 
 use super::grid::{Grid, ROWS, Scene};
 
-/// A row: what its histogram is drawn for, and where its random numbers are.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NumberedScene {
-    /// Row number; with the seed it decides the random numbers.
-    pub number: u64,
-    /// The scene.
-    pub scene: Scene,
-}
-
 /// The rows of a dataset, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rows {
@@ -42,13 +33,13 @@ impl Rows {
         }
     }
 
-    /// The row at `index`, from 0 and below [`Rows::count`].
-    pub fn row(&self, index: u64) -> NumberedScene {
-        let (first, scene) = match self {
-            Rows::All(grid) => (grid.first_row, grid.scene(index)),
-            Rows::Subset(subset) => (subset.first_row(), subset.scene(index)),
-        };
-        NumberedScene { number: first + index, scene }
+    /// The row at `index`, from 0 and below [`Rows::count`]: its number, which decides the random
+    /// numbers with the seed, and the scene that its histogram is drawn for.
+    pub fn row(&self, index: u64) -> (u64, Scene) {
+        match self {
+            Rows::All(grid) => (grid.first_row + index, grid.scene(index)),
+            Rows::Subset(subset) => (subset.first_row() + index, subset.scene(index)),
+        }
     }
 }
 
@@ -177,7 +168,7 @@ mod tests {
         let (train, test) = (Grid::training(), Grid::test());
         let subset = |grid| Rows::Subset(Subset::new(grid, 1_000_000, 1));
         let sets = [Rows::All(train), subset(train), Rows::All(test), subset(test)];
-        let numbers = sets.map(|rows| (rows.row(0).number, rows.row(rows.count() - 1).number));
+        let numbers = sets.map(|rows| (rows.row(0).0, rows.row(rows.count() - 1).0));
         assert!(numbers.windows(2).all(|pair| pair[0].1 < pair[1].0), "{numbers:?}");
         assert!(numbers[3].1 < 1 << 56, "beyond what a stream can hold");
     }

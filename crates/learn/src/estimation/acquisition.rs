@@ -1,7 +1,5 @@
 //! How histograms come about, as far as estimators know it.
 
-use std::f64::consts::FRAC_1_SQRT_2;
-
 use tofsim::error::Input;
 use tofsim::kernel::Time;
 use tofsim::optics::budget::LIGHT_M_S;
@@ -69,9 +67,4 @@ impl From<&Budget> for Echo {
 pub fn spans_ps(bins: &Bins) -> impl Iterator<Item = (u8, f64, f64)> {
     let ps = |time: Time| time.fs() as f64 * 1e-3;
     bins.spans().iter().map(move |span| (span.code, ps(span.from), ps(span.until)))
-}
-
-/// Standard normal distribution function.
-pub fn normal_cdf(z: f64) -> f64 {
-    0.5 * libm::erfc(-z * FRAC_1_SQRT_2)
 }

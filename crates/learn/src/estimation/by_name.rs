@@ -76,7 +76,7 @@ impl EstimatorKind {
         Ok(match self {
             EstimatorKind::Network => Box::new(fixed(network)),
             EstimatorKind::NetworkFloat => Box::new(float(network)),
-            EstimatorKind::Centroid => Box::new(Centroid::new(centroid)),
+            EstimatorKind::Centroid => Box::new(Centroid(**centroid)),
             EstimatorKind::Peak => Box::new(PeakDetection::of_bins(shots, bins)),
             EstimatorKind::Subtraction => Box::new(Subtraction::of_bins(shots, bins)?),
             EstimatorKind::Likelihood => Box::new(Likelihood::new(acquisition)?),

@@ -6,18 +6,9 @@ use tofsim::sim::fast::centroid::{Found, locate};
 
 use super::estimator::{Estimator, Failure, hits};
 
-/// The estimator; a histogram in which nothing stands out has no distance.
+/// The estimator, with its window and scale; a histogram in which nothing stands out has no distance.
 #[derive(Clone, Copy, Debug)]
-pub struct Centroid {
-    params: Params,
-}
-
-impl Centroid {
-    /// With that window and scale.
-    pub fn new(params: &Params) -> Self {
-        Centroid { params: *params }
-    }
-}
+pub struct Centroid(pub Params);
 
 impl Estimator for Centroid {
     fn name(&self) -> &'static str {
@@ -26,7 +17,7 @@ impl Estimator for Centroid {
 
     fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure> {
         hits(histogram, u32::MAX)?;
-        match locate(&self.params, histogram) {
+        match locate(&self.0, histogram) {
             Found { best: 0, .. } => Err(Failure::NoPeak),
             found => Ok(found.depth.to_f64()),
         }
@@ -39,7 +30,7 @@ mod tests {
 
     #[test]
     fn what_has_no_peak_has_no_distance() {
-        let centroid = Centroid::new(&Params::default());
+        let centroid = Centroid(Params::default());
         assert_eq!(centroid.estimate(&[0; 256]), Err(Failure::NoHits));
         assert_eq!(centroid.estimate(&[100; 256]), Err(Failure::NoPeak));
     }

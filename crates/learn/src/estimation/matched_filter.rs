@@ -10,8 +10,9 @@
 use tofsim::error::Input;
 use tofsim::network::Histogram;
 use tofsim::optics::Bins;
+use tofsim::optics::hazard::normal_cdf;
 
-use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, BIN_PS, Echo, normal_cdf, spans_ps};
+use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, BIN_PS, Echo, spans_ps};
 use super::coates::{Corrected, correct};
 use super::estimator::{Estimator, Failure, hits};
 
@@ -19,6 +20,8 @@ use super::estimator::{Estimator, Failure, hits};
 const REACH: f64 = 5.0;
 /// A pulse of which less than this part is weighed, by its square, is not tried [1].
 const FAINTEST: f64 = 1e-9;
+/// Signal that counts as one, in its own standard deviations [1].
+const SIGNIFICANCE: f64 = 4.0;
 
 /// The matched filter of one pulse and one chain.
 #[derive(Clone, Debug)]
@@ -33,8 +36,6 @@ pub struct MatchedFilter {
     range_ps: f64,
     /// For each arrival on the grid, every 25 ps from 0.
     pulses: Vec<Pulse>,
-    /// Signal that counts as one, in its own standard deviations [1].
-    pub significance: f64,
 }
 
 /// A bin, which a chain may give in several pieces.
@@ -113,7 +114,6 @@ impl MatchedFilter {
             widths: pieces.iter().map(|bin| bin.width_ps() / range_ps).collect(),
             range_ps,
             pulses: (0..=(end_ps / BIN_PS) as usize).map(pulse).collect(),
-            significance: 4.0,
         })
     }
 
@@ -219,7 +219,7 @@ impl Estimator for MatchedFilter {
     fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure> {
         hits(histogram, self.shots as u32)?;
         match self.best(histogram) {
-            Some(found) if found.significance >= self.significance => {
+            Some(found) if found.significance >= SIGNIFICANCE => {
                 Ok(found.echo.arrival_ps / ARRIVAL_PS_PER_M)
             }
             _ => Err(Failure::NoPeak),

@@ -54,7 +54,7 @@ impl<'a> Bench<'a> {
             text(memory.name, &memory.text)?;
         }
         if !vectors.stops.is_empty() {
-            text("tdc_stop.mem", &lines(vectors.stops.iter().map(|at| at.fs().into()), 16))?;
+            text("tdc_stop.mem", &lines(vectors.stops.iter().map(|at| at.fs()), 16))?;
         }
         for (name, table) in
             [("stimulus.mem", &vectors.stimulus), ("expected.mem", &vectors.expected)]

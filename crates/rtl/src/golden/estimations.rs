@@ -15,7 +15,7 @@ pub type Histogram = [U<16>; BINS];
 
 /// The memory from which the bench reads histograms, one after the other.
 pub fn memory(histograms: &[Histogram]) -> Mem {
-    let words = histograms.iter().flatten().map(|count| count.get().into());
+    let words = histograms.iter().flatten().map(|count| count.get());
     Mem { name: "histograms.mem", text: lines(words, 4) }
 }
 

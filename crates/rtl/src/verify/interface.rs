@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use tofsim::error::{Input, Result, nearest};
+use tofsim::error::{Input, Result, hint};
 
 use crate::golden::ports::Port;
 
@@ -59,13 +59,6 @@ pub(super) fn of_verilator(text: &str, module: &str) -> Result<Ports> {
         Some((node.attribute("name")?.to_owned(), PortShape { output, width }))
     };
     Ok(found.children().filter_map(port).collect())
-}
-
-/// The name that was probably meant, as words after what is wrong, and all known names.
-pub(super) fn hint<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> (String, String) {
-    let known: Vec<_> = known.collect();
-    let meant = nearest(name, known.iter().copied());
-    (meant.map_or(String::new(), |name| format!(" (`{name}`?)")), known.join(", "))
 }
 
 /// Whether `module` has the ports that are wanted of it.

@@ -6,7 +6,7 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use tofsim::error::{Input, Result, read_text};
+use tofsim::error::{Input, Result, hint, read_text};
 use tofsim::files::toml::Checked;
 use tofsim::firmware::carry_chain::TAPS;
 use tofsim::firmware::forward2::MOST_NEURONS;
@@ -15,8 +15,6 @@ use tofsim::firmware::histogram_builder::BINS;
 use crate::golden::blocks::{self, BLOCKS};
 use crate::golden::setting::Setting;
 use crate::golden::spec::Spec;
-
-use super::interface::hint;
 
 /// A map file.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]

@@ -12,8 +12,9 @@ use std::f64::consts::PI;
 
 use tofsim::error::Input;
 use tofsim::network::Histogram;
+use tofsim::optics::hazard::normal_cdf;
 
-use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo, normal_cdf, spans_ps};
+use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo, spans_ps};
 
 use super::solve::{Matrix, inverse_diagonal};
 

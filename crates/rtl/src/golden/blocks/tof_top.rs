@@ -81,7 +81,7 @@ fn control(setting: &Setting) -> Vec<Control> {
         let mut change = Control {
             at_us: first_us + at_ns as f64 * 1e-3,
             laser_freq: draw.one_in(2).then(|| draw.below(4)),
-            mode: draw.one_in(8).then(|| quench_mode(draw.below(2))),
+            mode: draw.one_in(8).then(|| draw.below(2)).and_then(|code| code.try_into().ok()),
             laser_en: draw.one_in(8).then(|| !draw.one_in(4)),
             dsp_en: draw.one_in(4).then(|| !draw.one_in(4)),
             dsp_rst: (again || draw.one_in(20)).then_some(true),
@@ -107,10 +107,6 @@ fn control(setting: &Setting) -> Vec<Control> {
         }
     }
     changes
-}
-
-fn quench_mode(code: u64) -> QuenchMode {
-    if code == 0 { QuenchMode::EachShot } else { QuenchMode::FreeRunning }
 }
 
 /// A frame begun anew, and in it a short reset, another mode or a hold, in some cycle of the shots or
