@@ -94,8 +94,32 @@ impl Checked {
 /// # Errors
 /// When the values do not make one.
 pub fn read<T: DeserializeOwned>(source: &str, table: &Table) -> Result<T> {
-    let read = toml_edit::de::from_document(DocumentMut::from(table.clone()));
-    read.map_err(|error| Input::new(source, error.message()).into())
+    let values = toml::Value::Table(values(table));
+    values.try_into().map_err(|error| Input::new(source, error.message()).into())
+}
+
+/// The values of a table without their places.
+fn values(table: &dyn TableLike) -> toml::Table {
+    let of_item = |item: &Item| match (item.as_table_like(), item.as_array_of_tables()) {
+        (Some(table), _) => Some(values(table).into()),
+        (_, Some(tables)) => {
+            Some(tables.iter().map(|table| values(table)).collect::<Vec<_>>().into())
+        }
+        _ => item.as_value().map(value),
+    };
+    table.iter().filter_map(|(key, item)| Some((key.to_owned(), of_item(item)?))).collect()
+}
+
+fn value(with_place: &Value) -> toml::Value {
+    match with_place {
+        Value::String(text) => text.value().as_str().into(),
+        Value::Integer(number) => (*number.value()).into(),
+        Value::Float(number) => (*number.value()).into(),
+        Value::Boolean(truth) => (*truth.value()).into(),
+        Value::Datetime(moment) => (*moment.value()).into(),
+        Value::Array(list) => toml::Value::Array(list.iter().map(value).collect()),
+        Value::InlineTable(table) => values(table).into(),
+    }
 }
 
 /// Sets one dotted key of a table that is to be a `T`, as `option` of the command line has it:
