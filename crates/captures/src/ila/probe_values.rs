@@ -185,7 +185,7 @@ mod tests {
             device.step(&setup.params, &mut Off, &mut Off);
             look.follow(&device.top);
             let mut collect = Collect(vec![BitVec::new(); IDS], order);
-            hierarchy::changes(&device.top, &mut collect);
+            hierarchy::changes(&device.top, None, &mut collect);
             let (row, mut begin) = (look.row().view_bits::<Lsb0>(), 0);
             let value = |b: &Bits| &collect.0[b.id][b.low as usize..(b.low + b.width) as usize];
             for bits in &bits {

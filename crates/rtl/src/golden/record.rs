@@ -40,7 +40,7 @@ impl<'a> Recorder<'a> {
     /// The next sample that the bench takes of the cycle.
     pub fn sample(&mut self) {
         let top = &self.top;
-        self.lines.sample(|sink| hierarchy::changes(top, sink));
+        self.lines.sample(|sink| hierarchy::changes(top, None, sink));
     }
 
     /// What has been recorded, with what the stimulus has reached.
