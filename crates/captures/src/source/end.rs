@@ -4,6 +4,8 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
+use memchr::memchr2;
+
 use tofsim::error::{Error, Input, Result};
 
 use super::signals::SourceFormat;
@@ -44,7 +46,7 @@ fn vcd(path: &Path, mut file: impl BufRead) -> Result<Option<u64>> {
     while file.read_until(b'\n', &mut text).map_err(Error::io(path, "read"))? > 0 {
         line += 1;
         // Most lines change a value.
-        let may_tell = in_command || is_name || text.iter().any(|byte| b"#$".contains(byte));
+        let may_tell = in_command || is_name || memchr2(b'#', b'$', &text).is_some();
         let words = if may_tell { &text[..] } else { &[] };
         for word in words.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()) {
             match word[0] {
