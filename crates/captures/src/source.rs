@@ -1,6 +1,7 @@
 //! What can be compared: waveforms, captures of logic analysers and simulations, each read as a
 //! stream of changes in bounded memory.
 
+mod bytes;
 mod capture;
 mod counts;
 mod detect;

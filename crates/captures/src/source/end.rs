@@ -1,17 +1,14 @@
 //! How far a waveform goes, which its last change does not tell.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
+use std::io::{BufRead, Read, Seek, SeekFrom};
 use std::path::Path;
-
-use memchr::memchr2;
 
 use tofsim::error::{Error, Input, Result};
 
+use super::bytes::Bytes;
 use super::signals::SourceFormat;
 
-/// Bytes of a waveform that are read at once.
-pub(super) const CHUNK: usize = 1 << 17;
 /// Where an FST file's header has its end: after the block's type and length and the begin.
 const FST_END: u64 = 1 + 8 + 8;
 
@@ -23,7 +20,7 @@ pub(super) fn end(path: &Path, format: SourceFormat) -> Result<Option<u64>> {
     let file = File::open(path).map_err(Error::io(path, "read"))?;
     match format {
         SourceFormat::Fst => fst(file).map_err(Error::io(path, "read")),
-        SourceFormat::Vcd => vcd(path, BufReader::with_capacity(CHUNK, file)),
+        SourceFormat::Vcd => vcd(path, Bytes::new(file)),
         _ => Ok(None),
     }
 }
@@ -39,36 +36,113 @@ fn fst(mut file: File) -> std::io::Result<Option<u64>> {
 /// The library that reads the values takes the order of time for granted: where it goes back, it
 /// prints a line on standard output and leaves changes out.
 fn vcd(path: &Path, mut file: impl BufRead) -> Result<Option<u64>> {
-    let (mut line, mut text) = (0, Vec::new());
-    // Whether the words are those of a command, and the next is a signal's name.
-    let (mut in_command, mut is_name) = (false, false);
-    let mut last = None;
-    while file.read_until(b'\n', &mut text).map_err(Error::io(path, "read"))? > 0 {
-        line += 1;
-        // Most lines change a value.
-        let may_tell = in_command || is_name || memchr2(b'#', b'$', &text).is_some();
-        let words = if may_tell { &text[..] } else { &[] };
-        for word in words.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()) {
-            match word[0] {
-                _ if std::mem::take(&mut is_name) => {}
-                b'$' if word == b"$end" => in_command = false,
-                b'$' => in_command |= !word.starts_with(b"$dump"),
-                _ if in_command => {}
-                b'b' | b'B' | b'r' | b'R' | b's' | b'S' => is_name = true,
-                b'#' => {
-                    let fault = |expected| Input::new(path.display(), expected).at(line, 1);
-                    let stamp = stamp(&word[1..]).map_err(|expected| fault(expected.to_owned()))?;
-                    if let Some(last) = last.filter(|&last| stamp < last) {
-                        return Err(fault(format!("time goes back from {last} to {stamp}")).into());
-                    }
-                    last = Some(stamp);
-                }
-                _ => {}
+    let mut words = Words { line: 1, ..Words::default() };
+    let fault = |(line, expected)| Input::new(path.display(), expected).at(line, 1);
+    loop {
+        let block = file.fill_buf().map_err(|error| Error::io(path, "read")(error))?;
+        if block.is_empty() {
+            // The last word may have no blank behind it.
+            words.take(b"\n").map_err(fault)?;
+            return Ok(words.last);
+        }
+        words.take(block).map_err(fault)?;
+        let length = block.len();
+        file.consume(length);
+    }
+}
+
+/// A fault in a VCD, with its line.
+type Fault = (usize, String);
+
+/// The words of a VCD, which come in blocks of any length.
+#[derive(Debug, Default)]
+struct Words {
+    /// Counted from 1.
+    line: usize,
+    word: Word,
+    /// Whether the words are those of a command.
+    in_command: bool,
+    /// Whether the next word is a signal's name.
+    is_name: bool,
+    last: Option<u64>,
+}
+
+/// The word under way.
+#[derive(Debug, Default, PartialEq, Eq)]
+enum Word {
+    /// There is none.
+    #[default]
+    None,
+    /// Neither time stamp nor command.
+    Other,
+    /// A time stamp or a command, as far as it has come.
+    Telling(Vec<u8>),
+}
+
+impl Words {
+    fn take(&mut self, block: &[u8]) -> std::result::Result<(), Fault> {
+        let mut rest = block;
+        loop {
+            if self.word == Word::None {
+                let Some(begin) = rest.iter().position(|&byte| self.begins(byte)) else {
+                    return Ok(());
+                };
+                rest = &rest[begin..];
+                self.word = self.kind(rest[0]);
+            }
+            let end = rest.iter().position(u8::is_ascii_whitespace);
+            let (word, behind) = rest.split_at(end.unwrap_or(rest.len()));
+            if let Word::Telling(text) = &mut self.word {
+                text.extend_from_slice(word);
+            }
+            if end.is_none() {
+                return Ok(());
+            }
+            if let Word::Telling(text) = std::mem::take(&mut self.word) {
+                self.told(&text)?;
+            }
+            rest = behind;
+        }
+    }
+
+    /// Whether a word begins with that byte; an end of line is counted.
+    #[inline]
+    fn begins(&mut self, byte: u8) -> bool {
+        self.line += usize::from(byte == b'\n');
+        !byte.is_ascii_whitespace()
+    }
+
+    /// What the word that begins with that byte is.
+    #[inline]
+    fn kind(&mut self, first: u8) -> Word {
+        let is_name = std::mem::take(&mut self.is_name);
+        match first {
+            _ if is_name => Word::Other,
+            b'$' => Word::Telling(Vec::new()),
+            _ if self.in_command => Word::Other,
+            b'#' => Word::Telling(Vec::new()),
+            _ => {
+                self.is_name = matches!(first, b'b' | b'B' | b'r' | b'R' | b's' | b'S');
+                Word::Other
             }
         }
-        text.clear();
     }
-    Ok(last)
+
+    fn told(&mut self, word: &[u8]) -> std::result::Result<(), Fault> {
+        match word {
+            b"$end" => self.in_command = false,
+            [b'$', ..] => self.in_command |= !word.starts_with(b"$dump"),
+            _ => {
+                let time =
+                    stamp(&word[1..]).map_err(|expected| (self.line, expected.to_owned()))?;
+                if let Some(last) = self.last.filter(|&last| time < last) {
+                    return Err((self.line, format!("time goes back from {last} to {time}")));
+                }
+                self.last = Some(time);
+            }
+        }
+        Ok(())
+    }
 }
 
 /// The time behind a `#`, or what was expected.
@@ -82,10 +156,18 @@ fn stamp(digits: &[u8]) -> std::result::Result<u64, &'static str> {
 
 #[cfg(test)]
 mod tests {
+    use std::io::BufReader;
+
     use super::*;
 
     fn last(text: &str) -> std::result::Result<Option<u64>, String> {
-        vcd(Path::new("a.vcd"), text.as_bytes()).map_err(|error| error.to_string())
+        let read = |block| {
+            let file = BufReader::with_capacity(block, text.as_bytes());
+            vcd(Path::new("a.vcd"), file).map_err(|error| error.to_string())
+        };
+        let whole = read(text.len());
+        (1..20).for_each(|block| assert_eq!(read(block), whole, "{block} bytes at once"));
+        whole
     }
 
     #[test]

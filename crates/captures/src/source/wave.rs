@@ -12,7 +12,8 @@ use tofsim::error::{Error, Input, Result};
 
 use crate::words::Bits;
 
-use super::end::{CHUNK, end};
+use super::bytes::Bytes;
+use super::end::end;
 use super::guard::guarded;
 use super::library::{fault, set};
 use super::loaded;
@@ -37,10 +38,10 @@ struct Origin {
     marks: Option<Style>,
 }
 
-fn open(path: &Path) -> Result<StreamingWaveform<BufReader<File>>> {
+fn open(path: &Path) -> Result<StreamingWaveform<Bytes>> {
     let file = File::open(path).map_err(Error::io(path, "read"))?;
     let options = LoadOptions { multi_thread: false, remove_scopes_with_empty_name: true };
-    let wave = wellen::stream::read(BufReader::with_capacity(CHUNK, file), &options);
+    let wave = wellen::stream::read(Bytes::new(file), &options);
     wave.map_err(|error| fault(path, error))
 }
 
