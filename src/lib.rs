@@ -103,6 +103,8 @@ pub mod kernel;
 #[doc(hidden)]
 pub mod network;
 #[doc(hidden)]
+pub mod note;
+#[doc(hidden)]
 pub mod optics;
 pub mod scenario;
 #[doc(hidden)]
@@ -116,6 +118,7 @@ pub use error::{Error, Input, Result};
 pub use kernel::time::Time;
 pub use network::file::Network;
 pub use network::histogram::Histogram;
+pub use note::{Note, NoteCode, NoteValue};
 pub use optics::budget::Budget;
 pub use scenario::Scenario;
 pub use scenario::window::Window;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// The modules of the simulator, the lowest layer first; those of one layer do not know each other.
 const LAYERS: [&[&str]; 7] = [
-    &["error", "kernel"],
+    &["error", "kernel", "note"],
     &["files"],
     &["firmware"],
     &["hierarchy", "network", "scenario"],

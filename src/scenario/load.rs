@@ -19,6 +19,8 @@ pub struct Loaded {
     pub name: String,
     /// The checked values.
     pub scenario: Scenario,
+    /// The `key=value` overrides that are in them, as given.
+    pub set: Vec<String>,
     /// Where the files are that it names.
     pub files: Source,
 }
@@ -55,7 +57,7 @@ fn parse(
     validate::windows(&table, &checked)?;
     let scenario: Scenario = read(source, &table)?;
     validate::validate(&scenario, &checked)?;
-    Ok(Loaded { name: name.to_owned(), scenario, files })
+    Ok(Loaded { name: name.to_owned(), scenario, set: overrides.to_vec(), files })
 }
 
 #[cfg(test)]

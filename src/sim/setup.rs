@@ -1,5 +1,6 @@
 //! From a scenario to a device: what elaboration, optics and stimuli come to.
 
+mod notes;
 mod stimulus;
 
 use std::path::Path;
@@ -46,6 +47,8 @@ pub struct Setup {
     pub name: String,
     /// The scenario's values.
     pub scenario: Scenario,
+    /// The `key=value` overrides that are in them, as given.
+    pub set: Vec<String>,
     /// The link budget.
     pub budget: Budget,
     /// What elaboration fixes in the firmware.
@@ -75,7 +78,7 @@ impl Setup {
     /// # Errors
     /// When one of the files cannot be read or used.
     pub fn new(loaded: Loaded) -> Result<Self> {
-        let Loaded { name, scenario, files } = loaded;
+        let Loaded { name, scenario, set, files } = loaded;
         let network = network(&scenario, &files)?;
         let pll_params = pll_params(&scenario);
         let delays = chain::load(&scenario.tdc.profile, &files)?;
@@ -102,7 +105,7 @@ impl Setup {
             histogram_source,
         };
         let (pll, pins) = (Pll::new(&pll_params), pins_at_power_up(&scenario.firmware));
-        Ok(Setup { name, scenario, budget, params, network, pll, light, pins })
+        Ok(Setup { name, scenario, set, budget, params, network, pll, light, pins })
     }
 
     /// The clocks.
@@ -145,15 +148,6 @@ impl Setup {
             Estimator::Network => estimate(&p.depth_estimator, histogram).depth,
             Estimator::Centroid => locate(&p.centroid_estimator, histogram).depth,
         }
-    }
-
-    /// What a user may not expect of the scenario, a line each.
-    pub fn notes(&self) -> Vec<String> {
-        let (trained, chain) = (&self.network.training.chain, &self.scenario.tdc.profile);
-        let is_used = self.params.estimator == Estimator::Network;
-        let differ = is_used && trained != chain && self.true_depth_m().is_some();
-        let note = || format!("note: the network was trained on chain {trained}, not on {chain}");
-        differ.then(note).into_iter().collect()
     }
 
     /// Whether frames come in pairs, the first of each a dark one.

@@ -87,6 +87,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let setup = Setup::new(load(&args.scenario, &args.overrides(), args.seed)?)?;
     args.check_fidelity(&setup)?;
     args.check_pairs(&setup)?;
+    let notes = setup.notes();
+    talk.heed(&notes)?;
     let frames = args.frames * setup.frames_together();
     let is_drawn = args.fidelity == Fidelity::Histogram;
     let histograms = is_drawn.then(|| Histograms::new(&setup)).transpose()?;
@@ -128,7 +130,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     };
     let wall = began.elapsed();
     progress.finish_and_clear();
-    outcome.notes.iter().chain(&setup.notes()).for_each(|note| talk.note(note));
+    outcome.notes.iter().for_each(|note| talk.note(note));
 
     plan.as_ref().map_or(Ok(()), |plan| plan.finish(&outcome.marks, talk))?;
     let waves = plan.map(|plan| plan.path.display().to_string());

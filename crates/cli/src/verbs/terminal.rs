@@ -9,7 +9,8 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::Value;
 
-use tofsim::error::{Error, Result};
+use tofsim::Note;
+use tofsim::error::{Error, Input, Result};
 
 /// Prints `text` as it is; a closed pipe or a full disk is an error.
 pub fn print(text: &str) -> Result<()> {
@@ -45,6 +46,9 @@ pub struct Talk {
     /// Say what is read and written
     #[arg(short, long, global = true)]
     pub verbose: bool,
+    /// Take a note on what a result is outside of for an error
+    #[arg(long, global = true)]
+    strict: bool,
 }
 
 impl Talk {
@@ -52,6 +56,20 @@ impl Talk {
     pub fn note(&self, text: impl std::fmt::Display) {
         if !self.quiet {
             eprintln!("{text}");
+        }
+    }
+
+    /// What results lie outside of, a line each.
+    ///
+    /// # Errors
+    /// With `--strict`, if there is any.
+    pub fn heed(&self, notes: &[Note]) -> Result<()> {
+        notes.iter().for_each(|note| self.note(note));
+        match notes {
+            [first, ..] if self.strict => {
+                Err(Input::new("--strict", format!("expected no notes, found {first}")).into())
+            }
+            _ => Ok(()),
         }
     }
 
