@@ -6,8 +6,9 @@ use tofsim::error::{Input, Result, read_text};
 use tofsim::files::output::create_directory;
 use tofsim::network::formats::WordFormat;
 use tofsim::scenario;
+use tofsim::sim::domain;
 use tofsim::sim::setup::Setup;
-use tofsim_learn::dataset::HistogramSource;
+use tofsim_learn::dataset::{Grid, HistogramSource};
 use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::tournament::Tournament;
 use tofsim_learn::training::{checkpoint, data};
@@ -21,6 +22,7 @@ mod word_format;
 mod written;
 
 use word_format::{FormatOption, word_format};
+use written::TrainingOrigin;
 
 /// Train a depth network on simulated histograms, within the firmware's number formats or others
 #[derive(Debug, clap::Args)]
@@ -129,7 +131,11 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     }
     progress.finish_and_clear();
     let chain = args.profile.clone().unwrap_or_else(|| setup.scenario.tdc.profile.clone());
-    let made = (chain, args.command(), args.seed);
+    let (command, seed) = (args.command(), args.seed);
+    let mut trained_for = setup.scenario.clone();
+    trained_for.tdc.profile.clone_from(&chain);
+    let domain = Some(domain::of(&trained_for, &Grid::training().ranges())?);
+    let made = TrainingOrigin { chain, command, seed, domain };
     let (network, rows) = written::write(&args.output, &recipe, &tournament, made, talk)?;
     let line = &recipe.weighting;
     match args.json {

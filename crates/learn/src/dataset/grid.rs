@@ -75,6 +75,16 @@ impl Grid {
         Grid { name: "test", distances_m, first_row: 2 * ROWS, ..Grid::training() }
     }
 
+    /// The least and the largest value of each key of the scenario.
+    pub fn ranges(&self) -> [(&'static str, [f64; 2]); 3] {
+        let range = |steps: &Steps| [0, steps.count - 1].map(|k| steps.value(k));
+        [
+            ("target.distance_m", range(&self.distances_m)),
+            ("target.reflectance", range(&self.reflectances)),
+            ("ambient.irradiance_w_m2_nm", range(&self.irradiances_w_m2_nm)),
+        ]
+    }
+
     /// Number of rows.
     pub fn rows(&self) -> u64 {
         self.distances_m.count * self.lights() * self.repeats
