@@ -2,6 +2,7 @@
 
 pub mod csv;
 pub mod date;
+pub mod digest;
 pub mod npy;
 pub mod output;
 pub mod toml;

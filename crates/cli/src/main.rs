@@ -1,13 +1,13 @@
 //! The command `tofsim`.
 
 mod choice;
+mod record;
 mod report;
 mod text;
 mod verbs;
 
 use std::process::ExitCode;
 
-use clap::Parser;
 use verbs::Cli;
 
 use tofsim::error::Error;
@@ -18,7 +18,7 @@ const INTERRUPTED: u8 = 130;
 const FAULT: u8 = 2;
 
 fn main() -> ExitCode {
-    match Cli::parse().run() {
+    match Cli::given().run() {
         Ok(status) => status,
         Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
         Err(Error::Interrupted) => {

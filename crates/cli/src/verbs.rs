@@ -10,6 +10,7 @@ pub mod evaluate;
 pub mod ila;
 pub mod man;
 pub mod quantize;
+pub mod rerun;
 pub mod run;
 pub mod scenario;
 pub mod terminal;
@@ -19,10 +20,12 @@ pub mod verify;
 
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use terminal::Talk;
 
 use tofsim::error::Result;
+
+use crate::record::command_line;
 
 /// Cycle-accurate simulator of the FPGA firmware of a time-of-flight rangefinder
 #[derive(Debug, Parser)]
@@ -40,6 +43,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Verb {
     Run(run::Args),
+    Rerun(rerun::Args),
     Budget(budget::Args),
     Estimate(estimate::Args),
     Evaluate(Box<evaluate::Args>),
@@ -56,11 +60,21 @@ enum Verb {
 }
 
 impl Cli {
+    /// What the command line says; without a right one the program ends.
+    pub fn given() -> Self {
+        let mut command = Cli::command();
+        let matches = command.get_matches_mut();
+        let mut cli = Cli::from_arg_matches(&matches).unwrap_or_else(|fault| fault.exit());
+        cli.talk.command = command_line(&command, &matches);
+        cli
+    }
+
     /// Does what the command line asks for; the status says whether all was the same or fine.
     pub fn run(&self) -> Result<ExitCode> {
         let talk = &self.talk;
         match &self.verb {
             Verb::Run(args) => run::run(args, talk),
+            Verb::Rerun(args) => return rerun::run(args, talk),
             Verb::Budget(args) => budget::run(args),
             Verb::Estimate(args) => estimate::run(args),
             Verb::Evaluate(args) => return evaluate::run(args, talk),

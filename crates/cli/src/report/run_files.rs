@@ -8,6 +8,8 @@ use tofsim::firmware::histogram_builder::BINS;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 
+use crate::record::Record;
+
 use super::causes::{self, CAUSES, Causes};
 use super::events::Events;
 use super::frame_log::FrameLog;
@@ -30,6 +32,7 @@ fn is_same(a: &Path, b: &Path) -> bool {
 /// Files under construction, and what they are made from.
 pub struct RunFiles<'a> {
     folder: Option<&'a Path>,
+    record: Record,
     events: Option<Events>,
     causes: Causes,
     /// The frame that is shown: the first, or the first lit one of pairs.
@@ -44,7 +47,7 @@ impl<'a> RunFiles<'a> {
     pub fn new(
         folder: Option<&'a Path>,
         events: Option<&Path>,
-        provenance: &[String],
+        record: &Record,
         setup: &Setup,
     ) -> Result<Self> {
         folder.map_or(Ok(()), create_directory)?;
@@ -54,11 +57,12 @@ impl<'a> RunFiles<'a> {
             let expected = "expected another name: the run writes a file of its own there";
             return Err(Input::new("--events", expected).value(events.display()).into());
         }
-        let create = |path| Events::create(path, setup.has_pairs(), provenance);
+        let create = |path| Events::create(path, setup.has_pairs(), &record.line());
         let events = events.map(create).transpose()?;
         let (shown, wants_tdc) = (setup.frames_together() - 1, setup.scenario.report.tdc);
         let causes = [[0; BINS]; CAUSES.len()];
-        Ok(RunFiles { folder, events, causes, shown, tdc: Vec::new(), wants_tdc })
+        let record = record.clone();
+        Ok(RunFiles { folder, record, events, causes, shown, tdc: Vec::new(), wants_tdc })
     }
 
     /// Whether [`RunFiles::shot`] has to be told of shots.
@@ -112,11 +116,13 @@ impl<'a> RunFiles<'a> {
         };
         let svg = histogram_svg::svg(&title, &self.causes, setup.true_depth_m(), depth_m);
         write_file(&folder.join(NAMES[0]), |file| summary.write(log, file))?;
-        write_bytes(&folder.join(NAMES[1]), histogram_csv(&frame.histogram))?;
+        let csv = |text: String| self.record.csv_line() + &text;
+        write_bytes(&folder.join(NAMES[1]), csv(histogram_csv(&frame.histogram)))?;
         let svg = svg.map_err(|fault| Input::new("histogram.svg", fault))?;
-        write_bytes(&folder.join(NAMES[2]), svg)?;
+        write_bytes(&folder.join(NAMES[2]), self.record.in_svg(&svg))?;
         if log.pairs.is_some() {
-            write_bytes(&folder.join(NAMES[3]), pair_table::csv(&log.rows[0], &log.rows[1]))?;
+            let difference = pair_table::csv(&log.rows[0], &log.rows[1]);
+            write_bytes(&folder.join(NAMES[3]), csv(difference))?;
         }
         let names = &NAMES[..if log.pairs.is_some() { 4 } else { 3 }];
         written.extend(names.iter().map(|name| folder.join(name)));

@@ -18,6 +18,7 @@ use tofsim::waves::{self, Marks, WaveFormat, Waves, write_views};
 use tofsim_learn::estimation::{EstimatorKind, Panel};
 
 use crate::choice::{self, Fidelity, WaveformChoice, words};
+use crate::record::Record;
 use crate::report::frame_log::FrameLog;
 use crate::report::run_files::RunFiles;
 use crate::report::summary::Summary;
@@ -95,8 +96,9 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let plan = |format| WavePlan::new(args, format, &setup, frames);
     let plan = waves.map(plan).transpose()?;
     let (folder, events) = (args.output.as_deref(), args.events.as_deref());
-    let mut files = RunFiles::new(folder, events, &provenance(args, &setup), &setup)?;
-    let waves = plan.as_ref().map(|plan| plan.open(args, &setup)).transpose()?;
+    let record = Record::new(&setup, &talk.command);
+    let mut files = RunFiles::new(folder, events, &record, &setup)?;
+    let waves = plan.as_ref().map(|plan| plan.open(&record, &setup)).transpose()?;
     use_threads(args.threads)?;
 
     let stop = stop_signal();
@@ -135,7 +137,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     plan.as_ref().map_or(Ok(()), |plan| plan.finish(&outcome.marks, talk))?;
     let waves = plan.map(|plan| plan.path.display().to_string());
     let fidelity = args.fidelity.name();
-    let summary = Summary::new(&setup, fidelity, waves, &log, files.tdc());
+    let about = (&record, &notes[..]);
+    let summary = Summary::new(&setup, fidelity, waves, &log, files.tdc(), about);
     for path in files.finish(&setup, &mut log, &summary)? {
         talk.detail(format_args!("wrote {}", path.display()));
     }
@@ -234,8 +237,8 @@ impl WavePlan {
         Ok(WavePlan { path, format, entries, windows })
     }
 
-    fn open(&self, args: &Args, setup: &Setup) -> Result<(Waves, Vec<Window>)> {
-        let (order, provenance) = (setup.params.tdc.delays.order(), provenance(args, setup));
+    fn open(&self, record: &Record, setup: &Setup) -> Result<(Waves, Vec<Window>)> {
+        let (order, provenance) = (setup.params.tdc.delays.order(), record.lines(setup));
         let waves = Waves::create(&self.path, self.format, &self.entries, order, &provenance)?;
         Ok((waves, self.windows.clone()))
     }
@@ -248,11 +251,4 @@ impl WavePlan {
         talk.note(format_args!("waveform: {}", self.path.display()));
         Ok(())
     }
-}
-
-/// Who made a file, from what.
-fn provenance(args: &Args, setup: &Setup) -> Vec<String> {
-    let mut lines = setup.provenance();
-    lines.extend(args.set.iter().map(|set| format!("set {set}")));
-    lines
 }

@@ -49,6 +49,9 @@ pub struct Talk {
     /// Take a note on what a result is outside of for an error
     #[arg(long, global = true)]
     strict: bool,
+    /// The verb and its options, for the record in outputs.
+    #[arg(skip)]
+    pub command: Vec<String>,
 }
 
 impl Talk {
@@ -65,12 +68,9 @@ impl Talk {
     /// With `--strict`, if there is any.
     pub fn heed(&self, notes: &[Note]) -> Result<()> {
         notes.iter().for_each(|note| self.note(note));
-        match notes {
-            [first, ..] if self.strict => {
-                Err(Input::new("--strict", format!("expected no notes, found {first}")).into())
-            }
-            _ => Ok(()),
-        }
+        let Some(first) = notes.first().filter(|_| self.strict) else { return Ok(()) };
+        let expected = format!("expected what no note [{}] has to be said of", first.code);
+        Err(Input::new("--strict", expected).field(&first.key).value(&first.value).into())
     }
 
     /// Something for who asked for it.

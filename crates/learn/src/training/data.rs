@@ -1,5 +1,6 @@
 //! Histograms with their true distances: what a network is trained and judged on.
 
+use tofsim::files::digest::digest;
 use tofsim::network::Histogram;
 
 use crate::dataset::{Grid, HistogramSource, Rows, Subset};
@@ -29,14 +30,6 @@ impl Samples {
         }
         value
     }
-}
-
-/// FNV-1a of 64 bits, going on from `before`.
-pub(super) fn digest(before: u64, bytes: &[u8]) -> u64 {
-    let start = before ^ 0xcbf2_9ce4_8422_2325;
-    bytes
-        .iter()
-        .fold(start, |value, &byte| (value ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 /// What histograms are drawn for.

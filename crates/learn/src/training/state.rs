@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::data::{Samples, digest};
+use tofsim::files::digest::digest;
+
+use super::data::Samples;
 use super::features::Scaling;
 use super::lm::Lm;
 use super::recipe::Recipe;
