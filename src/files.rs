@@ -3,6 +3,7 @@
 pub mod csv;
 pub mod date;
 pub mod digest;
+pub mod folder;
 pub mod npy;
 pub mod output;
 pub mod toml;

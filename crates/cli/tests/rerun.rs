@@ -70,6 +70,29 @@ fn what_has_no_record_is_refused() {
 }
 
 #[test]
+fn a_folder_holds_the_files_of_one_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let own = path.join("out/own.txt");
+    stdout(path, &[&["run", "-o", "out"], &SHORT[..]].concat());
+    fs::write(&own, "mine").unwrap();
+    let args = [&["run", "-o", "out", "--waves", "fst"], &SHORT[..]].concat();
+    let said = output(path, &args);
+    let said = String::from_utf8_lossy(&said.stderr).into_owned();
+    assert!(said.contains("removed out/kc705.vcd: it was an older run's"), "{said}");
+    let summary = fs::read(path.join("out/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
+    let mut listed: Vec<_> =
+        summary["files"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
+    listed.extend([".surfer", "own.txt"]);
+    let mut found: Vec<_> =
+        fs::read_dir(path.join("out")).unwrap().map(|file| file.unwrap().file_name()).collect();
+    listed.sort();
+    found.sort();
+    assert_eq!(found, listed);
+}
+
+#[test]
 fn a_run_says_what_it_was_made_of() {
     let folder = tempfile::tempdir().unwrap();
     let args = ["run", "--json", "--waves", "none", "-s", "target.distance_m=0.3"];

@@ -65,6 +65,11 @@ impl Summary {
         Summary { head, tdc }
     }
 
+    /// Names the files that belong to the run.
+    pub fn list(&mut self, names: Vec<String>) {
+        self.head["files"] = json!(names);
+    }
+
     /// Writes the run as one line of JSON, with the frames in it.
     ///
     /// # Errors

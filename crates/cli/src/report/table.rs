@@ -14,7 +14,11 @@ use super::{pair_table, readings};
 
 /// What came of a run, in a dozen lines.
 pub fn run(setup: &Setup, log: &FrameLog, cycles: u64, wall: Duration) -> String {
-    let mut text = format!("{}: {}\n\n", setup.name, setup.scenario.description);
+    // A description is of the scenario as its file has it.
+    let mut text = match &setup.set[..] {
+        [] => format!("{}: {}\n\n", setup.name, setup.scenario.description),
+        set => format!("{} with {}\n\n", setup.name, set.join(", ")),
+    };
     match log.rows.as_slice() {
         _ if log.pairs.is_some() => text += &pair_table::table(setup, log),
         [frame] => text += &one_frame(setup, frame, &log.readings[0]),

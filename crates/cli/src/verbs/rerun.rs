@@ -106,10 +106,7 @@ fn again(file: &Path, given: &[u8], record: &Record, folder: &Path) -> Result<Ve
     let path = folder.join(name);
     let program = std::env::current_exe().map_err(Error::io(Path::new("tofsim"), "find"))?;
     let mut command = Command::new(program);
-    command.args(&record.command).arg("--quiet");
-    if verb == "run" && is_events(given, name) {
-        command.arg("--events").arg(&path);
-    }
+    command.args(record.command.iter().map(|word| with_events_in(folder, word))).arg("--quiet");
     if !PRINTING.contains(&verb.as_str()) {
         command.arg("--output").arg(folder);
     }
@@ -147,11 +144,10 @@ fn without_folder(bytes: Vec<u8>) -> Vec<u8> {
     }
 }
 
-/// Whether a file holds the shots of a run, which it writes where it is told.
-fn is_events(bytes: &[u8], name: &std::ffi::OsStr) -> bool {
-    let is_parquet = bytes.starts_with(b"PAR1");
-    let name = name.to_string_lossy();
-    is_parquet || (name.ends_with(".csv") && name != "histogram.csv" && name != "difference.csv")
+/// A word of a command; the shots of a run, which it writes where it is told, go into a folder.
+fn with_events_in(folder: &Path, word: &str) -> String {
+    let name = word.strip_prefix("--events=").and_then(|path| Path::new(path).file_name());
+    name.map_or(word.to_owned(), |name| format!("--events={}", folder.join(name).display()))
 }
 
 /// What differs, in words: the record first, then the first byte.

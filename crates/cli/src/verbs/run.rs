@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use tofsim::error::{Error, Input, Result};
-use tofsim::files::output::create_directory;
+use tofsim::files::folder::FolderLock;
 use tofsim::hierarchy;
 use tofsim::scenario;
 use tofsim::scenario::window::Window;
@@ -20,7 +20,7 @@ use tofsim_learn::estimation::{EstimatorKind, Panel};
 use crate::choice::{self, Fidelity, WaveformChoice, words};
 use crate::record::Record;
 use crate::report::frame_log::FrameLog;
-use crate::report::run_files::RunFiles;
+use crate::report::run_files::{RunFiles, Written};
 use crate::report::summary::Summary;
 use crate::report::table;
 
@@ -95,6 +95,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let histograms = is_drawn.then(|| Histograms::new(&setup)).transpose()?;
     let plan = |format| WavePlan::new(args, format, &setup, frames);
     let plan = waves.map(plan).transpose()?;
+    let home = plan.as_ref().and_then(|plan| plan.path.parent()).or(args.output.as_deref());
+    let _held = home.map(FolderLock::take).transpose()?;
     let (folder, events) = (args.output.as_deref(), args.events.as_deref());
     let record = Record::new(&setup, &talk.command);
     let mut files = RunFiles::new(folder, events, &record, &setup)?;
@@ -134,13 +136,18 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     progress.finish_and_clear();
     outcome.notes.iter().for_each(|note| talk.note(note));
 
-    plan.as_ref().map_or(Ok(()), |plan| plan.finish(&outcome.marks, talk))?;
+    let finish = |plan: &WavePlan| plan.finish(&outcome.marks, talk);
+    let written = plan.as_ref().map_or(Ok(Vec::new()), finish)?;
     let waves = plan.map(|plan| plan.path.display().to_string());
     let fidelity = args.fidelity.name();
     let about = (&record, &notes[..]);
-    let summary = Summary::new(&setup, fidelity, waves, &log, files.tdc(), about);
-    for path in files.finish(&setup, &mut log, &summary)? {
+    let mut summary = Summary::new(&setup, fidelity, waves, &log, files.tdc(), about);
+    let Written { files, removed } = files.finish(&setup, &mut log, &mut summary, written)?;
+    for path in files {
         talk.detail(format_args!("wrote {}", path.display()));
+    }
+    for path in removed {
+        talk.note(format_args!("removed {}: it was an older run's", path.display()));
     }
     if args.json {
         return print_with(|out| summary.write(&mut log, out));
@@ -232,7 +239,6 @@ impl WavePlan {
         let entries = waves::select(entries, hierarchy::ram_entries(), &args.signals)?;
         let windows = setup.windows(&args.window, frames)?;
         let folder = args.output.as_deref().unwrap_or(Path::new("waves"));
-        create_directory(folder)?;
         let path = folder.join(format!("{}.{ending}", setup.name));
         Ok(WavePlan { path, format, entries, windows })
     }
@@ -243,12 +249,10 @@ impl WavePlan {
         Ok((waves, self.windows.clone()))
     }
 
-    /// Writes what viewers need beside the waveform, and says where it is.
-    fn finish(&self, marks: &Marks, talk: &Talk) -> Result<()> {
-        for view in write_views(&self.path, self.format, &self.entries, marks)? {
-            talk.detail(format_args!("wrote {}", view.display()));
-        }
+    /// Writes what viewers need beside the waveform, and says where it is; all their paths.
+    fn finish(&self, marks: &Marks, talk: &Talk) -> Result<Vec<PathBuf>> {
+        let views = write_views(&self.path, self.format, &self.entries, marks)?;
         talk.note(format_args!("waveform: {}", self.path.display()));
-        Ok(())
+        Ok([self.path.clone()].into_iter().chain(views).collect())
     }
 }
