@@ -61,7 +61,7 @@ impl Cli {
         let talk = &self.talk;
         match &self.verb {
             Verb::Run(args) => run::run(args, talk),
-            Verb::Budget(args) => budget::run(args),
+            Verb::Budget(args) => budget::run(args, talk),
             Verb::Estimate(args) => estimate::run(args),
             Verb::Evaluate(args) => return evaluate::run(args, talk),
             Verb::Quantize(args) => quantize::run(args, talk),
