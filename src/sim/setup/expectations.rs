@@ -69,7 +69,7 @@ impl Setup {
         };
         let Some(limit_w) = limit_w else {
             let (key, value) = ("laser.repetition_rate_hz", laser.repetition_rate_hz);
-            let expected = format!("{:.3e} or more", self.pulses() / LONGEST_S);
+            let expected = format!("{} or more", (self.pulses() / LONGEST_S).ceil());
             let text = format!(
                 "{what}: no Class 1 limit to tell, an exposure of {length} is outside Table 3.1"
             );
@@ -84,9 +84,18 @@ impl Setup {
             average_w * 1e3,
             limit_w * 1e3,
         );
-        let (key, expected) = ("laser.average_power_w", format!("{largest:.2e} or less"));
+        let (key, expected) =
+            ("laser.average_power_w", format!("{:e} or less", rounded_down(largest)));
         Some(Note::new(NoteCode::EyeSafety, key, laser.average_power_w, expected, text))
     }
+}
+
+/// A positive number with three digits, and no larger than it is.
+fn rounded_down(number: f64) -> f64 {
+    let unit = 10f64.powi(2 - number.log10().floor() as i32);
+    // Through its decimals, so that it is the nearest number to what it shows as.
+    let digits = format!("{}e{}", (number * unit).floor(), number.log10().floor() as i32 - 2);
+    digits.parse().unwrap_or(number)
 }
 
 #[cfg(test)]
@@ -109,7 +118,7 @@ mod tests {
         assert!((frames.limit_w.unwrap() - 1.189e-3).abs() < 1e-6, "{frames:?}");
         let note = setup.eye_safety_note("ten seconds of frames", &frames).unwrap();
         assert_eq!((note.code, &*note.key), (NoteCode::EyeSafety, "laser.average_power_w"));
-        assert_eq!(note.expected, "2.29e-3 or less");
+        assert_eq!(note.expected, "2.28e-3 or less");
     }
 
     #[test]
@@ -122,7 +131,7 @@ mod tests {
                 let watts = part * largest.parse::<f64>().unwrap();
                 setup(&[&format!("laser.average_power_w={watts}")])
             };
-            let (below, above) = (power(0.99), power(1.01));
+            let (below, above) = (power(1.0), power(1.01));
             assert_eq!(below.eye_safety_note("it", &exposure(&below)), None);
             assert!(above.eye_safety_note("it", &exposure(&above)).is_some());
         }
@@ -143,7 +152,7 @@ mod tests {
     fn an_exposure_past_the_table_has_a_note_of_its_own() {
         let slow = setup(&["laser.repetition_rate_hz=1000"]);
         let note = slow.eye_safety_note("it", &slow.exposure_at_the_optics_rate()).unwrap();
-        assert_eq!((&*note.key, &*note.expected), ("laser.repetition_rate_hz", "3.000e3 or more"));
+        assert_eq!((&*note.key, &*note.expected), ("laser.repetition_rate_hz", "3000 or more"));
     }
 
     #[test]

@@ -17,6 +17,7 @@ pub(super) fn table(findings: &Findings) -> String {
         row("ambient", format!("{:.4e} /s", budget.ambient_rate_hz), "avalanches"),
         row("dark", format!("{:.4e} /s", budget.dark_rate_hz), "avalanches"),
     ];
+    let average = format!("{:.2} mW", findings.a_frame.average_w * 1e3);
     let rate_mhz = 1e-6 / setup.laser_period_s();
     let laser = [
         row("pulse energy", format!("{:.1} pJ", budget.pulse_energy_j * 1e12), ""),
@@ -41,7 +42,7 @@ fn flight(findings: &Findings) -> String {
 /// What a shot can expect.
 fn shot(findings: &Findings) -> Vec<Row> {
     let Some(chances) = &findings.chances else {
-        return vec![row("any hit", "-", "shots depend on each other, or not on light: see `run`")];
+        return vec![row("any hit", "-", "told where a shot's first avalanche alone decides")];
     };
     let shots = f64::from(findings.setup.params.frame_ctrl.shots_per_frame);
     let counted = grouped((chances.counted * shots).round() as u64);
@@ -60,30 +61,29 @@ fn shot(findings: &Findings) -> Vec<Row> {
 }
 
 /// The verdict for one frame, for frames that repeat, and by eq. 3.3.
-fn eye_safety(findings: &Findings) -> [Row; 3] {
+fn eye_safety(findings: &Findings) -> Vec<Row> {
     let verdict = |name: &str, exposure: &Exposure, what: String| {
         let verdict = match exposure.is_within() {
-            Some(true) => "within Class 1",
-            Some(false) => "above Class 1",
-            None => "not in Table 3.1",
+            Some(true) => "within",
+            Some(false) => "above",
+            None => "no limit",
         };
-        let (average, limit) = (milliwatts(exposure.average_w), exposure.limit_w.map(milliwatts));
-        row(name, verdict, format!("{average} of {}, {what}", limit.unwrap_or("-".into())))
+        let (average, limit) =
+            (exposure.average_w * 1e3, exposure.limit_w.map(|limit| limit * 1e3));
+        let limit = number_or_dash(limit, 2);
+        row(name, verdict, format!("{average:.2} of {limit} mW, Class 1 {what}"))
     };
     let (design, a_frame, frames) =
         (&findings.at_the_optics_rate, &findings.a_frame, &findings.frames);
-    let ms = |exposure: &Exposure| format!("{:.3} ms", exposure.exposure_s * 1e3);
-    let longest = match (frames.is_within(), findings.longest_s()) {
-        (Some(false), Some(longest_s)) => format!(" (within for {:.1} ms)", longest_s * 1e3),
-        _ => String::new(),
-    };
-    [
-        verdict("eye safety", a_frame, format!("one frame, {}", ms(a_frame))),
-        verdict("", frames, format!("frames repeated for {} s{longest}", frames.exposure_s)),
-        verdict("", design, format!("eq. 3.3, {} at the optics' rate", ms(design))),
-    ]
-}
-
-fn milliwatts(watts: f64) -> String {
-    format!("{:.2} mW", watts * 1e3)
+    let ms = |seconds: f64| format!("{:.3} ms", seconds * 1e3);
+    let mut rows = vec![
+        verdict("eye safety", a_frame, format!("for one frame, {}", ms(a_frame.exposure_s))),
+        verdict("", frames, format!("for {} s of frames", frames.exposure_s)),
+    ];
+    if let (Some(false), Some(longest_s)) = (frames.is_within(), findings.longest_s()) {
+        rows.push(row("", "within", format!("for {} of frames", ms(longest_s))));
+    }
+    let by_the_thesis = format!("by eq. 3.3, {} at the optics' rate", ms(design.exposure_s));
+    rows.push(verdict("", design, by_the_thesis));
+    rows
 }
