@@ -1,5 +1,6 @@
 //! From a scenario to a device: what elaboration, optics and stimuli come to.
 
+mod expectations;
 mod notes;
 mod stimulus;
 

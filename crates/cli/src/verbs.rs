@@ -75,7 +75,7 @@ impl Cli {
         match &self.verb {
             Verb::Run(args) => run::run(args, talk),
             Verb::Rerun(args) => return rerun::run(args, talk),
-            Verb::Budget(args) => budget::run(args),
+            Verb::Budget(args) => budget::run(args, talk),
             Verb::Estimate(args) => estimate::run(args),
             Verb::Evaluate(args) => return evaluate::run(args, talk),
             Verb::Quantize(args) => quantize::run(args, talk),

@@ -2,6 +2,7 @@
 
 mod adding_a_block;
 mod bad_input;
+mod budget;
 mod centroid;
 mod cli;
 mod commands;
