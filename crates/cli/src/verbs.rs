@@ -12,6 +12,7 @@ pub mod man;
 pub mod quantize;
 pub mod run;
 pub mod scenario;
+mod scenes;
 pub mod terminal;
 pub mod train;
 pub mod vectors;

@@ -13,6 +13,7 @@ mod estimate;
 mod evaluate;
 mod fidelities;
 mod golden;
+mod grid;
 mod ila_command;
 mod lockstep;
 mod quantize;

@@ -55,7 +55,7 @@ pub enum Purpose {
 /// Draws what a training has for a purpose, equally many histograms at each distance.
 pub fn draw(recipe: &Recipe, source: &HistogramSource, seed: u64, purpose: Purpose) -> Samples {
     let (training, test) = (Grid::training(), Grid::test());
-    let scenes = test.distances_m.count * test.lights();
+    let scenes = test.scenes();
     let (place, grid, len) = match purpose {
         Purpose::Choice => (2, test, recipe.finish.choice * scenes),
         Purpose::Test => (3, test, scenes),
