@@ -1,5 +1,6 @@
 //! The depth network: its file, its passes in fixed and floating point, and its ROMs.
 
+pub mod domain;
 pub mod estimate;
 pub mod file;
 pub mod float;
@@ -14,6 +15,7 @@ mod schema;
 mod weights;
 mod write;
 
+pub use domain::Domain;
 pub use estimate::{Estimate, estimate};
 pub use file::Network;
 pub use histogram::{Histogram, MAX_HITS};

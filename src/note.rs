@@ -13,8 +13,6 @@ pub enum NoteCode {
     OutsideTraining,
     /// The echo arrives after the last bin.
     EchoPastHistogram,
-    /// The echo arrives after the next pulse.
-    EchoPastPeriod,
     /// No light of the laser comes back, or none is simulated.
     NoLight,
     /// An estimator takes for granted what the scenario does not have.

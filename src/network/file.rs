@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Input, Result, read_text};
 
+use super::domain::Domain;
 use super::float::Float;
 use super::formats::Fixed;
 
@@ -19,6 +20,8 @@ pub struct Network {
     pub description: String,
     /// How it came about.
     pub training: Training,
+    /// What it was trained for, if the file says.
+    pub domain: Option<Domain>,
     /// Errors measured, if any were.
     pub accuracy: Option<Accuracy>,
     /// The weights of the firmware.

@@ -9,6 +9,7 @@ use crate::firmware::forward2::MOST_NEURONS;
 use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tansig::ADDRESS_BITS;
 
+use super::domain::Domain;
 use super::file::{Accuracy, Network, Training};
 use super::formats::{
     B1, B2, Fixed, HiddenBias, HiddenWeight, L1_OUT, OutputBias, OutputWeight, TANSIG_RANGE, W1,
@@ -32,6 +33,7 @@ struct File {
     schema: String,
     description: String,
     training: Training,
+    domain: Option<Domain>,
     accuracy: Option<Accuracy>,
     scaling: Scaling,
     formats: Formats,
@@ -117,6 +119,7 @@ impl Network {
             name: source.to_owned(),
             description: file.description,
             training: file.training,
+            domain: file.domain,
             accuracy: file.accuracy,
             fixed,
             float: file.float.map(Arrays::weights),

@@ -20,6 +20,11 @@ impl Network {
         let mut text =
             format!("schema = \"{SCHEMA}\"\ndescription = {description}\n\n[training]\n");
         text += &keys(&self.training);
+        if let Some(domain) = &self.domain {
+            text += "\n# What it was trained for, by keys of the scenario: least and largest value, and words.\n";
+            text += &format!("[domain.ranges]\n{}", keys(&domain.ranges));
+            text += &format!("\n[domain.words]\n{}", keys(&domain.words));
+        }
         if let Some(accuracy) = &self.accuracy {
             text +=
                 "\n# Fixed point: twice the standard deviation of the depth, and its mean error.\n";

@@ -17,7 +17,7 @@ use crate::network::{Histogram, Network};
 use crate::optics::{Budget, Hazard};
 use crate::scenario::builtin::Source;
 use crate::scenario::window::Window;
-use crate::scenario::{self, EstimatorKind, Firmware, Loaded, Scenario, chain};
+use crate::scenario::{self, EstimatorKind, Loaded, Scenario, chain};
 use crate::sensor::light::{Light, Optics};
 use crate::waves::{self, WaveFormat, Waves};
 
@@ -91,7 +91,7 @@ impl Setup {
         });
         let params = Params {
             frame_ctrl: frame_ctrl::Params {
-                shots_per_frame: shots_per_frame(&scenario.firmware),
+                shots_per_frame: scenario.firmware.shots_of_a_frame() as u16,
                 preloaded: matches!(histogram_source, HistogramSource::Preload(_)),
             },
             tdc: tdc::Params::new(delays, cal),
@@ -239,17 +239,6 @@ impl Setup {
         let begun = frames.saturating_add(changes.len() as u64 + 1);
         begun.saturating_mul(longest_frame).saturating_add((last_us * 125.0) as u64)
     }
-
-    /// Distance of the target, where light and not a list or a ROM decides the depth [m].
-    pub fn true_depth_m(&self) -> Option<f64> {
-        matches!(self.light, Light::Optics(_)).then_some(self.scenario.target.distance_m)
-    }
-}
-
-/// Shots that the firmware counts in a frame.
-fn shots_per_frame(firmware: &Firmware) -> u16 {
-    let shots = firmware.shots_per_frame as u16;
-    if firmware.dark_frames { shots / 2 } else { shots }
 }
 
 fn network(scenario: &Scenario, files: &Source) -> Result<Network> {

@@ -102,6 +102,13 @@ table! {
     }
 }
 
+impl Firmware {
+    /// Shots that the firmware counts in a frame: with dark frames half of those of a pair.
+    pub fn shots_of_a_frame(&self) -> u64 {
+        if self.dark_frames { self.shots_per_frame / 2 } else { self.shots_per_frame }
+    }
+}
+
 /// What is in the estimator's socket.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

@@ -57,6 +57,8 @@ pub struct Args {
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let load = |set: &[String]| args.draws.load(&args.scenario, set);
     let scenes = Scenes::new(&args.grid, &args.draws.set, GridPurpose::Training, load)?;
+    let notes = scenes.notes()?;
+    talk.heed(&notes)?;
     let (source, loaded) = (&scenes.source, &scenes.loaded[0]);
     let (name, seed) = (&loaded.name, loaded.scenario.seed);
     let grid = Grid { repeats: args.repeats, ..scenes.grid };
@@ -74,6 +76,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     if args.json {
         let mut report = json!(description);
         report["files"] = json!(files);
+        report["notes"] = json!(notes);
         return print_json(&report);
     }
     print(&table(&description, &files))

@@ -1,15 +1,16 @@
 //! `tofsim evaluate`: how exactly estimators find the distance, beside the thesis.
 
-use std::ffi::OsStr;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
 use serde_json::json;
 
+use tofsim::Note;
 use tofsim::error::{Input, Result};
 use tofsim::network::Network;
 use tofsim::scenario;
+use tofsim::sim::domain;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::axis::thinned;
 use tofsim_learn::dataset::{Grid, GridPurpose, Scene};
@@ -84,12 +85,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let network = Network::find(&args.network, None)?;
     let loaded = &scenes.loaded[0];
     let (seed, profile) = (loaded.scenario.seed, &loaded.scenario.tdc.profile);
-    if file_name(&network.training.chain) != file_name(profile) {
-        talk.note(format_args!(
-            "note: {} was trained on the bins of chain {}, these are of {profile}",
-            network.name, network.training.chain
-        ));
-    }
+    let notes = args.notes(&scenes, &network)?;
+    talk.heed(&notes)?;
     let estimators = args.estimators(&scenes, &network)?;
     let rows = args.draws.rows(None, &grid, seed)?;
     let stop = stop_signal();
@@ -112,6 +109,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         "version": env!("CARGO_PKG_VERSION"),
         "network": network.name,
         "scenario": loaded.name,
+        "set": loaded.set,
         "profile": profile,
         "seed": seed,
         "rows": rows.count(),
@@ -120,6 +118,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         // At the thesis's distances, or those of one's own grid; light unknown.
         "cramer_rao_two_sd_mm": bound_mm,
         "cross_check": cross_check,
+        "notes": notes,
     });
     match grid.is_thesis() {
         true => {
@@ -170,6 +169,20 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
 }
 
 impl Args {
+    /// What the depths of some scenes lie outside of: of what the network was trained for, if it is
+    /// measured, and of what can be found.
+    fn notes(&self, scenes: &Scenes, network: &Network) -> Result<Vec<Note>> {
+        let mut notes = scenes.notes()?;
+        let is_network = |kind: &EstimatorKind| {
+            matches!(kind, EstimatorKind::Network | EstimatorKind::NetworkFloat)
+        };
+        if self.estimator.iter().any(is_network) {
+            let scenario = &scenes.loaded[0].scenario;
+            notes.extend(domain::notes(network, scenario, &scenes.grid.ranges())?);
+        }
+        Ok(notes)
+    }
+
     /// The estimators for the histograms of each setting.
     fn estimators(&self, scenes: &Scenes, network: &Network) -> Result<Vec<Estimators>> {
         let of_setting = |(k, setup): (usize, &Setup)| {
@@ -214,11 +227,6 @@ fn figures(evaluation: &Evaluation, grid: &Grid) -> (Vec<Figures>, Vec<Vec<KeyGr
         (figures, by_setting(evaluation, column, grid))
     };
     evaluation.columns.iter().map(of).unzip()
-}
-
-/// A chain's name, wherever its file is.
-fn file_name(profile: &str) -> &OsStr {
-    Path::new(profile).file_name().unwrap_or(profile.as_ref())
 }
 
 fn text(figures: &[Figures], shots: Option<u16>, checks: &[CrossCheck]) -> String {

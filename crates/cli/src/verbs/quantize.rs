@@ -112,6 +112,7 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
             chain: args.chain.clone(),
             ..Training::default()
         },
+        domain: None,
         accuracy: None,
         fixed: rounded.fixed,
         float: Some(float),

@@ -87,7 +87,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let setup = Setup::new(load(&args.scenario, &args.overrides(), args.seed)?)?;
     args.check_fidelity(&setup)?;
     args.check_pairs(&setup)?;
-    let notes = setup.notes();
+    let notes = setup.notes()?;
     talk.heed(&notes)?;
     let frames = args.frames * setup.frames_together();
     let is_drawn = args.fidelity == Fidelity::Histogram;

@@ -1,5 +1,6 @@
 //! The scenes of verbs that draw histograms over a grid.
 
+use tofsim::Note;
 use tofsim::error::{Error, Input, Result};
 use tofsim::scenario::Loaded;
 use tofsim::sim::setup::Setup;
@@ -7,6 +8,8 @@ use tofsim_learn::dataset::{Grid, GridOption, GridPurpose, HistogramSource};
 
 /// A grid, and what its histograms are drawn from.
 pub struct Scenes {
+    /// What the command line says of the grid.
+    pub option: GridOption,
     /// The grid.
     pub grid: Grid,
     /// The scenario of each setting of the grid's other keys, with the overrides of the command line.
@@ -44,7 +47,39 @@ impl Scenes {
         };
         let setups = loaded.iter().cloned().map(Setup::new).collect::<Result<Vec<_>>>()?;
         let source = HistogramSource::of_settings(&setups)?;
-        Ok(Scenes { grid, loaded, setups, source })
+        Ok(Scenes { option, grid, loaded, setups, source })
+    }
+
+    /// The grid for another purpose.
+    ///
+    /// # Errors
+    /// When it is too large.
+    pub fn grid_for(&self, purpose: GridPurpose) -> Result<Grid> {
+        self.option.grid(&self.loaded[0].scenario, purpose)
+    }
+
+    /// What makes depths of some scenes impossible: an echo past the last bin, or none, where the target
+    /// is farthest and darkest. Each cause once.
+    ///
+    /// # Errors
+    /// When a scenario has no such scene.
+    pub fn notes(&self) -> Result<Vec<Note>> {
+        let mut notes: Vec<Note> = Vec::new();
+        for loaded in &self.loaded {
+            let mut loaded = loaded.clone();
+            loaded.scenario.target.distance_m = self.grid.distances_m.range()[1];
+            loaded.scenario.target.reflectance = self.grid.reflectances.range()[0];
+            let setup = Setup::new(loaded)?;
+            if setup.true_depth_m().is_some() {
+                continue;
+            }
+            for note in setup.notes()? {
+                if notes.iter().all(|known| known.key != note.key) {
+                    notes.push(note);
+                }
+            }
+        }
+        Ok(notes)
     }
 }
 

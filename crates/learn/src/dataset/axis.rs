@@ -1,5 +1,7 @@
 //! The values that a grid gives to a key of the scenario.
 
+use std::fmt;
+
 use serde::Serialize;
 use toml_edit::Table;
 
@@ -122,6 +124,13 @@ pub fn thinned(values: &[f64], most: usize) -> Vec<f64> {
     let even = (most.div_ceil(2)..=most).rev().find(|&parts| gaps.is_multiple_of(parts));
     let parts = even.unwrap_or(most);
     (0..=parts).map(|k| values[(k * gaps + parts / 2) / parts]).collect()
+}
+
+/// As the option has it.
+impl fmt::Display for Axis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}={}", self.key, self.text)
+    }
 }
 
 /// That the scenario has such a key and value.

@@ -154,7 +154,8 @@ mod tests {
 
     #[test]
     fn a_network_well_inside_costs_nothing() {
-        let scaling = Scaling { mean: vec![10.0; KNOTS], inverse_sd: vec![0.1; KNOTS], ..Scaling::default() };
+        let scaling =
+            Scaling { mean: vec![10.0; KNOTS], inverse_sd: vec![0.1; KNOTS], ..Scaling::default() };
         let x = vec![0.001; 8 * COLUMNS + 9];
         let hinges = |words: Datapath| Hinges { limits: WordLimits::default(), words };
         assert_eq!(hinges(Datapath::default()).cost(&x, 8, &scaling), 0.0);

@@ -62,7 +62,10 @@ impl Weighting {
             let Some(bound_mm) = bound_mm.filter(|mm| mm.is_finite() && *mm > 0.0) else {
                 let expected = "a scene there tells nothing of its distance, as without signal or with \
                     an echo past the last bin";
-                return Err(Input::new("--grid", expected).field(DISTANCE).value(distance_m).into());
+                return Err(Input::new("--grid", expected)
+                    .field(DISTANCE)
+                    .value(distance_m)
+                    .into());
             };
             two_sd_mm.push(LINE_OVER_BOUND * bound_mm);
         }

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::write_bytes;
-use tofsim::network::Network;
 use tofsim::network::file::{Accuracy, Training};
 use tofsim::network::float::Float;
 use tofsim::network::formats::{Fixed, Overflow};
+use tofsim::network::{Domain, Network};
 use tofsim_learn::quantize::{Circuit, Datapath, export};
 use tofsim_learn::training::accuracy::DistanceErrors;
 use tofsim_learn::training::recipe::Recipe;
@@ -17,13 +17,24 @@ use tofsim_learn::training::tournament::Tournament;
 use crate::report::{learning_curve, training as report};
 use crate::verbs::terminal::Talk;
 
-/// Rounds, tests and writes a network, made on a chain by a command with a seed; the network's file,
-/// and its errors.
+/// What a network comes from.
+pub struct TrainingOrigin {
+    /// Chain on whose bins it was trained.
+    pub chain: String,
+    /// Command that trains it again.
+    pub command: String,
+    /// Seed of data and starts.
+    pub seed: u64,
+    /// What it was trained for.
+    pub domain: Option<Domain>,
+}
+
+/// Rounds, tests and writes a network; the network's file, and its errors.
 pub fn write(
     folder: &Path,
     recipe: &Recipe,
     tournament: &Tournament,
-    (chain, command, seed): (String, String, u64),
+    made: TrainingOrigin,
     talk: &Talk,
 ) -> Result<(PathBuf, Vec<DistanceErrors>)> {
     let write = |name: &str, text: &str| -> Result<PathBuf> {
@@ -54,13 +65,16 @@ pub fn write(
         .map_or(String::new(), |best| format!(", start {} after block {}", best.start, best.block));
     let training = Training {
         origin: format!("Levenberg-Marquardt on simulated histograms{block}"),
-        chain,
-        command: Some(command),
-        seed: Some(seed),
+        chain: made.chain,
+        command: Some(made.command),
+        seed: Some(made.seed),
         data: Some(tournament.state.data.clone()),
     };
     let path = match fixed {
-        Some(fixed) => write("network.toml", &network(fixed, float, training, &rows, recipe))?,
+        Some(fixed) => {
+            let network = network(fixed, float, training, &rows, recipe);
+            write("network.toml", &Network { domain: made.domain, ..network }.to_toml())?
+        }
         None => write("network.json", &export::json(&float, &training))?,
     };
     Ok((path, rows))
@@ -73,7 +87,7 @@ fn network(
     training: Training,
     rows: &[DistanceErrors],
     recipe: &Recipe,
-) -> String {
+) -> Network {
     let line = &recipe.weighting.distances_m;
     let rows: Vec<&DistanceErrors> =
         rows.iter().filter(|row| line.contains(&row.distance_m)).collect();
@@ -83,13 +97,13 @@ fn network(
         mean_mm: Some(rows.iter().map(|row| report::hundredths(row.mean_mm)).collect()),
     };
     let (neurons, chain) = (recipe.neurons, &training.chain);
-    let network = Network {
+    Network {
         name: String::new(),
         description: format!("256-{neurons}-1 depth network for the bins of chain {chain}"),
         fixed,
         training,
+        domain: None,
         accuracy: Some(accuracy),
         float: Some(float),
-    };
-    network.to_toml()
+    }
 }
