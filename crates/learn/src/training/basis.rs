@@ -36,33 +36,41 @@ struct Mix {
 }
 
 /// Places of the knots for echoes from one bin to another: as dense as the thesis's range of distances
-/// has them, in parts of the range.
+/// has them, in parts of the range. Where the range ends near the last bin, no knots are left for what
+/// comes behind it.
 pub fn knots_between([first, last]: [f64; 2]) -> [f64; KNOTS] {
-    let thesis = knots();
     // The range of the dense knots, and by how much it reaches beyond the echoes of 0.1 to 0.6 m.
-    let (begin, end) = (SPACINGS[0].0, SPACINGS[3].0);
+    let ((begin, _), (end, spacing)) = (SPACINGS[0], SPACINGS[3]);
     let (before, behind) = (ECHOES[0] - begin, end - ECHOES[1]);
     let end_of_bins = BINS as f64 - 0.5;
-    let (from, until) = ((first - before).max(0.0), (last + behind).min(end_of_bins));
-    let scale = (until - from) / (end - begin);
-    let place = |knot: f64| match knot {
-        _ if knot <= begin => from * knot / begin,
-        _ if knot <= end => from + scale * (knot - begin),
-        _ => until + (knot - end) / (thesis[KNOTS - 1] - end) * (end_of_bins - until).max(1.0),
+    let from = (first - before).clamp(LEAST_HEAD, end_of_bins - LEAST_TAIL);
+    let until = (last + behind).min(end_of_bins);
+    let has_tail = until <= end_of_bins - LEAST_TAIL;
+    let mut knots = knots();
+    let tail = knots.partition_point(|&knot| knot <= end);
+    let (until, last_dense) = match has_tail {
+        true => (until, end),
+        false => {
+            for k in tail..KNOTS {
+                knots[k] = knots[k - 1] + spacing;
+            }
+            (end_of_bins, knots[KNOTS - 1])
+        }
     };
-    let mut knots = thesis.map(place);
-    // Each has a place of its own, and the last one lies behind the last bin.
-    for k in 1..KNOTS {
-        knots[k] = knots[k].max(knots[k - 1] + LEAST_SPACING);
-    }
-    knots[KNOTS - 1] = knots[KNOTS - 1].max(end_of_bins);
-    knots
+    let behind = (end_of_bins - until) / (knots[KNOTS - 1] - last_dense).max(1.0);
+    knots.map(|knot| match knot {
+        _ if knot <= begin => from * knot / begin,
+        _ if knot <= last_dense => from + (until - from) * (knot - begin) / (last_dense - begin),
+        _ => until + (knot - last_dense) * behind,
+    })
 }
 
+/// Least stretch for the knots before and behind the dense ones [bins].
+const LEAST_HEAD: f64 = 2.0;
+/// See [`LEAST_HEAD`].
+const LEAST_TAIL: f64 = 12.0;
 /// Bins of the echoes of 0.1 and 0.6 m.
 const ECHOES: [f64; 2] = [26.7, 160.1];
-/// Least distance of two knots [bins].
-const LEAST_SPACING: f64 = 0.01;
 
 /// The matrix of bins and knots; each row has two elements.
 #[derive(Clone, Debug)]
@@ -130,8 +138,8 @@ mod tests {
             let knots = knots_between(range);
             assert!(knots.is_sorted_by(|a, b| a < b), "{range:?}");
             assert!(knots[0] == 0.0 && knots[KNOTS - 1] >= 255.0, "{range:?} {}", knots[KNOTS - 1]);
-            let inside = knots.iter().filter(|k| **k > range[0] - 9.0 && **k < range[1] + 24.0);
-            assert!(inside.count() > 55, "{range:?}");
+            let inside = knots.iter().filter(|k| **k > range[0] - 24.0 && **k < range[1] + 24.0);
+            assert!(inside.count() > 55, "{range:?} {knots:?}");
         }
     }
 
