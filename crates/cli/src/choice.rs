@@ -6,7 +6,6 @@ use tofsim::waves::WaveFormat;
 use tofsim_captures::compare::Unknowns;
 use tofsim_captures::ila::Radix;
 use tofsim_captures::ila::export::CaptureFormat;
-use tofsim_learn::dataset::Grid;
 use tofsim_learn::dataset::files::DatasetFormat;
 use tofsim_rtl::verify::Simulator;
 
@@ -57,12 +56,6 @@ pub const SIMULATOR: &[Choice<Simulator>] = &[
 pub const DATASET_FORMAT: &[Choice<DatasetFormat>] = &[
     ("parquet", DatasetFormat::Parquet, "One table, dataset.parquet"),
     ("npy", DatasetFormat::Npy, "Arrays: histograms.npy, truth.npy and rows.npy"),
-];
-
-/// The scenes of a data set.
-pub const GRID: &[Choice<Grid>] = &[
-    ("train", Grid::training(), "201 distances, every 2.5 mm"),
-    ("test", Grid::test(), "51 distances, every 10 mm"),
 ];
 
 /// How a run is simulated.

@@ -13,6 +13,7 @@ pub mod quantize;
 pub mod rerun;
 pub mod run;
 pub mod scenario;
+mod scenes;
 pub mod terminal;
 pub mod train;
 pub mod vectors;

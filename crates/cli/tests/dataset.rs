@@ -56,7 +56,7 @@ fn arrays(folder: &Path) -> Vec<Sample> {
 
 fn scene(truth: &[f64]) -> Scene {
     let &[distance_m, reflectance, irradiance_w_m2_nm] = truth else { panic!("{truth:?}") };
-    Scene { distance_m, reflectance, irradiance_w_m2_nm }
+    Scene { distance_m, reflectance, irradiance_w_m2_nm, setting: 0 }
 }
 
 #[test]
@@ -76,7 +76,7 @@ fn both_formats_hold_the_rows_that_the_library_draws() {
     assert_eq!(table.len(), 300);
     for (index, sample) in table.iter().enumerate() {
         let (row, scene) = rows.row(index as u64);
-        let histogram = source.draw_from(&source.probabilities(&scene), 9, row);
+        let histogram = source.draw_from(&source.probabilities(&scene), &scene, 9, row);
         assert_eq!(*sample, Sample { seed: 9, row, scene, histogram });
     }
 }
@@ -148,6 +148,6 @@ fn what_cannot_be_drawn_is_refused_and_leaves_nothing() {
     assert!(refused(&["tdc_validation"]).contains("stimulus"));
     assert!(refused(&["--profile", "unifrom"]).contains("uniform, table6_3, ideal"));
     assert!(refused(&["--rows", "0"]).contains("--rows"));
-    assert!(refused(&["--grid", "tset"]).contains("possible values: train, test"));
+    assert!(refused(&["--grid", "tset"]).contains("expected thesis, train, test, KEY="));
     assert!(refused(&["--format", "parquet,csv"]).contains("possible values: parquet, npy"));
 }

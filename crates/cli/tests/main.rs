@@ -14,6 +14,7 @@ mod estimate;
 mod evaluate;
 mod fidelities;
 mod golden;
+mod grid;
 mod ila_command;
 mod limits;
 mod lockstep;

@@ -272,7 +272,7 @@ fn bins_that_never_count_do_no_harm() {
     let counts: Vec<_> = (0..400).map(histogram).collect();
     let distances_m: Vec<f64> =
         counts.iter().map(|counts| 0.1 + f64::from(counts[60]) / 100.0).collect();
-    let scaling = Scaling::of(&counts);
+    let scaling = Scaling::of(&counts, &[]);
     assert!(scaling.inverse_sd.contains(&0.0));
     let blocks = features::blocks(&counts, &scaling);
     let (recipe, weights) = (Recipe::default(), vec![1000.0; 400]);

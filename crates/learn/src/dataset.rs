@@ -5,10 +5,13 @@
 //! its own, found by seed and row number, so that any one can be made again without the others. [`files`]
 //! writes them, as `tofsim dataset` does.
 
+pub mod axis;
 pub mod blocks;
+mod decimal;
 pub mod description;
 pub mod files;
 pub mod grid;
+pub mod grid_option;
 mod npy;
 pub mod pairs;
 mod parquet_file;
@@ -16,9 +19,11 @@ pub mod parquet_table;
 pub mod rows;
 pub mod source;
 
+pub use axis::Axis;
 pub use blocks::{BLOCK, Sample};
 pub use description::DatasetDescription;
-pub use grid::{Grid, Scene, Steps};
+pub use grid::{Grid, GridPurpose, Scene};
+pub use grid_option::GridOption;
 pub use pairs::Pairs;
 pub use rows::{Rows, Subset};
 pub use source::HistogramSource;

@@ -5,6 +5,7 @@
 //! Errors are kept row by row, so that any grouping of them is exact: by distance, as the thesis has it, by reflectance, by irradiance.
 
 pub mod bound;
+pub mod by_setting;
 pub mod cross_check;
 pub mod errors;
 pub mod exploration;
@@ -12,6 +13,7 @@ pub mod figures;
 pub mod spread;
 pub mod thesis;
 
+pub use by_setting::{KeyGroups, by_setting};
 pub use errors::{EstimatorErrors, Evaluation};
 pub use figures::Figures;
 pub use spread::{Group, Spread};

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use tofsim::error::{Input, Result};
 use tofsim::files::output::{create_directory, write_bytes};
-use tofsim_learn::evaluation::thesis::{self, DISTANCES_M, Published};
-use tofsim_learn::evaluation::{Figures, Group, Spread};
+use tofsim_learn::evaluation::thesis::{self, Published};
+use tofsim_learn::evaluation::{Figures, Group, KeyGroups, Spread};
 
 use crate::text::table::{number_or_dash, table};
 
@@ -15,16 +15,27 @@ use super::box_plot;
 const HEADER: &str = "estimator,by,value,estimates,failures,mean_mm,mean_error_mm,two_sd_mm,two_sd_error_mm,\
     least_mm,lower_quartile_mm,median_mm,upper_quartile_mm,largest_mm";
 
-/// Twice the standard deviation, the mean and the failures at the thesis's distances, with its own
-/// rows; `bound_mm` is the Cramer-Rao bound there.
-pub fn tables(figures: &[Figures], bound_mm: &[Option<f64>]) -> String {
+/// What figures lie beside.
+pub struct Beside<'a> {
+    /// Distances to show; the thesis's own where its rows are shown too [m].
+    pub distances_m: &'a [f64],
+    /// The Cramer-Rao bound there [mm].
+    pub bound_mm: &'a [Option<f64>],
+    /// Whether the grid is the thesis's, so that its figures and its line are shown.
+    pub thesis: bool,
+}
+
+/// Twice the standard deviation, the mean and the failures at some distances, with the thesis's rows.
+pub fn tables(figures: &[Figures], beside: &Beside) -> String {
+    let Beside { distances_m, bound_mm, thesis } = beside;
     let published = |of: fn(&Published) -> [f64; 6]| {
         let row = |row: &Published| named(row.name, of(row).map(|mm| format!("{mm:.1}")));
-        [&thesis::FLOAT, &thesis::FIXED, &thesis::PEAK].map(row).to_vec()
+        let rows = [&thesis::FLOAT, &thesis::FIXED, &thesis::PEAK].map(row).to_vec();
+        if *thesis { rows } else { Vec::new() }
     };
     let measured = |cell: fn(&Spread) -> String| -> Vec<_> {
-        let at = |one: &Figures, m| one.at(m).map_or("-".to_owned(), cell);
-        figures.iter().map(|one| named(one.name, DISTANCES_M.map(|m| at(one, m)))).collect()
+        let at = |one: &Figures, m: &f64| one.at(*m).map_or("-".to_owned(), cell);
+        figures.iter().map(|one| named(one.name, distances_m.iter().map(|m| at(one, m)))).collect()
     };
     let two_sd = measured(|spread| with_error(spread.two_sd_mm, spread.two_sd_error_mm));
     let bound = named("Cramer-Rao bound", bound_mm.iter().map(|mm| number_or_dash(*mm, 2)));
@@ -33,13 +44,14 @@ pub fn tables(figures: &[Figures], bound_mm: &[Option<f64>]) -> String {
         measured(|spread| format!("{} of {}", spread.failures, spread.estimates + spread.failures));
     let trials = thesis::PEAK_TRIALS;
     let peak = thesis::PEAK_FAILURES.map(|failures| format!("{failures} of {trials}"));
+    let peak = thesis.then(|| named("thesis, peak detection (Table 4.3)", peak));
     let tables = [
         ("2 sd [mm]", [published(|row| row.two_sd_mm), two_sd, vec![bound]]),
         ("mean error [mm]", [published(|row| row.mean_mm), mean, Vec::new()]),
-        ("failures", [failed, vec![named("thesis, peak detection (Table 4.3)", peak)], Vec::new()]),
+        ("failures", [failed, peak.into_iter().collect(), Vec::new()]),
     ];
     let text = |(title, rows): (&str, [Vec<Vec<String>>; 3])| {
-        let header = named(title, DISTANCES_M.map(|distance_m| format!("{distance_m} m")));
+        let header = named(title, distances_m.iter().map(|distance_m| format!("{distance_m} m")));
         table(header, rows.concat(), 1..) + "\n"
     };
     tables.map(text).join("\n")
@@ -69,15 +81,22 @@ fn with_error(value_mm: Option<f64>, error_mm: Option<f64>) -> String {
     number_or_dash(value_mm, 2) + &error.map_or(String::new(), |error| format!(" +-{error:.2}"))
 }
 
-/// Puts them in a folder, which is made.
-pub fn write(folder: &Path, json: &str, figures: &[Figures]) -> Result<()> {
+/// Puts them in a folder, which is made, with the thesis's line where the grid is the thesis's;
+/// `by_setting` has the errors of each by the grid's other keys.
+pub fn write(
+    folder: &Path,
+    json: &str,
+    figures: &[Figures],
+    by_setting: &[Vec<KeyGroups>],
+    thesis: bool,
+) -> Result<()> {
     create_directory(folder)?;
     write_bytes(&folder.join("evaluation.json"), json)?;
-    write_bytes(&folder.join("evaluation.csv"), csv(figures))?;
+    write_bytes(&folder.join("evaluation.csv"), csv(figures, by_setting))?;
     for one in figures {
         for grouping in one.groupings() {
             let beside_mm: Option<fn(f64) -> f64> =
-                (grouping.key == "distance_m").then_some(thesis::line_two_sd_mm);
+                (thesis && grouping.key == "distance_m").then_some(thesis::line_two_sd_mm);
             let line = beside_mm.map_or("", |_| "; red: 2 sd of the thesis's float network");
             let title = format!("{}: errors by {}{line}", one.name, grouping.quantity);
             let path = folder.join(format!("{}_by_{}.svg", one.name, grouping.key));
@@ -90,7 +109,7 @@ pub fn write(folder: &Path, json: &str, figures: &[Figures]) -> Result<()> {
 }
 
 /// A row for each estimator and group.
-fn csv(figures: &[Figures]) -> String {
+fn csv(figures: &[Figures], by_setting: &[Vec<KeyGroups>]) -> String {
     let mut text = format!("{HEADER}\n");
     for one in figures {
         for grouping in one.groupings() {
@@ -99,7 +118,35 @@ fn csv(figures: &[Figures]) -> String {
             }
         }
     }
+    for (one, keys) in figures.iter().zip(by_setting) {
+        for KeyGroups { key, groups } in keys {
+            for group in groups {
+                text += &format!("{},{key},{}\n", one.name, numbers(group));
+            }
+        }
+    }
     text
+}
+
+/// Errors by the grid's other keys, a table each.
+pub fn setting_tables(figures: &[Figures], by_setting: &[Vec<KeyGroups>]) -> String {
+    let first = by_setting.first().map_or(&[][..], |keys| keys);
+    let text = |(k, KeyGroups { key, .. }): (usize, &KeyGroups)| {
+        let rows = figures.iter().zip(by_setting).flat_map(|(one, keys)| {
+            keys[k].groups.iter().map(move |Group { value, spread }| {
+                [
+                    one.name.to_owned(),
+                    value.to_string(),
+                    with_error(spread.two_sd_mm, spread.two_sd_error_mm),
+                    with_error(spread.mean_mm, spread.mean_error_mm),
+                    format!("{} of {}", spread.failures, spread.estimates + spread.failures),
+                ]
+            })
+        });
+        let header = ["estimator", key, "2 sd [mm]", "mean error [mm]", "failures"];
+        format!("\n{}\n", table(header, rows, 1..))
+    };
+    first.iter().enumerate().map(text).collect()
 }
 
 fn numbers(group: &Group) -> String {
@@ -115,16 +162,18 @@ fn numbers(group: &Group) -> String {
 mod tests {
     use super::*;
     use tofsim_learn::dataset::Scene;
+    use tofsim_learn::evaluation::thesis::DISTANCES_M;
     use tofsim_learn::evaluation::{EstimatorErrors, Evaluation};
 
     #[test]
     fn a_distance_that_was_not_drawn_has_no_figure() {
-        let scene = Scene { distance_m: 0.2, reflectance: 0.3, irradiance_w_m2_nm: 0.0 };
+        let scene = Scene { distance_m: 0.2, reflectance: 0.3, ..Scene::default() };
         let errors_m = [-1.0, 1.0].map(|sign| Some(sign / 1e3 / 2f64.sqrt())).to_vec();
         let column = EstimatorErrors { name: "network", errors_m };
         let evaluation = Evaluation { scenes: vec![scene; 2], columns: vec![column.clone()] };
         let figures = Figures::new(&evaluation, &column);
-        let text = tables(std::slice::from_ref(&figures), &[Some(0.5); 6]);
+        let beside = Beside { distances_m: &DISTANCES_M, bound_mm: &[Some(0.5); 6], thesis: true };
+        let text = tables(std::slice::from_ref(&figures), &beside);
         let row = text.lines().find(|line| line.trim_start().starts_with("network")).unwrap();
         assert_eq!(row.split_whitespace().collect::<Vec<_>>()[1..3], ["-", "2.00"]);
         assert!(text.contains("Table 6.5") && text.contains("2584 of 30000"));

@@ -7,34 +7,41 @@ use serde_json::json;
 
 use tofsim::error::{Error, Result};
 use tofsim::scenario;
-use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::files::{DatasetFiles, DatasetFormat};
-use tofsim_learn::dataset::{DatasetDescription, Grid, HistogramSource, Sample};
+use tofsim_learn::dataset::{Axis, DatasetDescription, Grid, GridPurpose, Sample};
 
 use crate::choice::{self, words};
 use crate::text::table::{facts, grouped};
 
 use super::draws::Draws;
+use super::scenes::Scenes;
 use super::terminal::{Talk, print, print_json, stop_signal};
 
 /// Draw histograms of many scenes, for training and tests
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Scenes are those of the thesis: irradiance 0 to 0.4 W/m^2/nm in 9 steps, \
     reflectance 0.08 to 0.60\nin 53, distance 0.1 to 0.6 m in 201 (train) or 51 (test), each 5 \
-    times. All else is the scenario's.\n\nExamples:\n  \
+    times. All else is the scenario's.\nWith --grid KEY=... scenes are those of one's own, and what no \
+    --grid has is the scenario's.\n\nExamples:\n  \
     tofsim dataset -o train                          479,385 histograms as Parquet\n  \
     tofsim dataset --grid test --seed 2 -o test      121,635 of them\n  \
     tofsim dataset --rows 24000 --format npy -o few  random scenes, equally many a distance\n  \
-    tofsim dataset --profile my-chain.toml -o own    for a chain that was measured")]
+    tofsim dataset --profile my-chain.toml -o own    for a chain that was measured\n  \
+    tofsim dataset --grid target.distance_m=0.05..0.9:0.05 --grid target.reflectance=0.1,0.5 -o far")]
 pub struct Args {
     /// Built-in scenario, or the path of a scenario file (see `scenario list`)
     #[arg(default_value = scenario::DEFAULT)]
     scenario: String,
     #[command(flatten)]
     draws: Draws,
-    /// Which scenes
-    #[arg(long, value_parser = words(choice::GRID), default_value = "train")]
-    grid: Grid,
+    /// Which scenes: thesis or train (201 distances, every 2.5 mm), test (51, every 10 mm), KEY=FROM..TO:STEP
+    /// or KEY=A,B,C of any numeric key of the scenario (may be repeated), or a TOML file of those
+    /// [default: thesis]
+    #[arg(long, value_name = "GRID")]
+    grid: Vec<String>,
+    /// Histograms of each scene, where all are drawn
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..))]
+    repeats: u64,
     /// What to write, separated by commas
     #[arg(long, value_parser = words(choice::DATASET_FORMAT), value_delimiter = ',', default_value = "parquet")]
     format: Vec<DatasetFormat>,
@@ -48,12 +55,16 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
-    let loaded = args.draws.load(&args.scenario)?;
-    let (name, seed) = (loaded.name.clone(), loaded.scenario.seed);
-    let source = HistogramSource::new(&Setup::new(loaded)?)?;
-    let rows = args.draws.rows(None, args.grid, seed);
-    let description = DatasetDescription::new(&name, &args.draws.set, &source, &rows, seed);
-    let files = DatasetFiles::create(&args.output, &args.format, &description)?;
+    let load = |set: &[String]| args.draws.load(&args.scenario, set);
+    let scenes = Scenes::new(&args.grid, &args.draws.set, GridPurpose::Training, load)?;
+    let notes = scenes.notes()?;
+    talk.heed(&notes)?;
+    let (source, loaded) = (&scenes.source, &scenes.loaded[0]);
+    let (name, seed) = (&loaded.name, loaded.scenario.seed);
+    let grid = Grid { repeats: args.repeats, ..scenes.grid };
+    let rows = args.draws.rows(None, &grid, seed)?;
+    let description = DatasetDescription::new(name, &args.draws.set, source, &rows, seed);
+    let files = DatasetFiles::create(&args.output, &args.format, &description, &grid)?;
     let stop = stop_signal();
     let blocks = source.blocks(&rows, seed);
     let written = args
@@ -65,6 +76,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     if args.json {
         let mut report = json!(description);
         report["files"] = json!(files);
+        report["notes"] = json!(notes);
         return print_json(&report);
     }
     print(&table(&description, &files))
@@ -92,15 +104,21 @@ fn write(
 
 fn table(description: &DatasetDescription, files: &[String]) -> String {
     let choice = if description.subset { "random scenes of " } else { "" };
-    let shots = grouped(description.shots_per_frame.into());
+    let shots = description.shots_per_frame.map(|shots| format!("{} each", grouped(shots.into())));
     let rows = [
         ("scenario", description.scenario.clone()),
         ("chain", description.profile.clone()),
         ("grid", format!("{choice}{}", description.grid)),
         ("histograms", grouped(description.rows)),
-        ("shots", format!("{shots} each")),
+        ("shots", shots.unwrap_or("as in the grid".to_owned())),
         ("seed", description.seed.to_string()),
     ];
+    let axes = description.axes.iter().flatten();
+    let axes = axes.map(|Axis { key, text, .. }| ("", format!("{key} = {text}")));
     let files = files.iter().map(|file| ("file", file.clone()));
-    format!("{}\n", facts(rows.into_iter().chain(files)))
+    let (head, tail) = rows.split_at(3);
+    format!(
+        "{}\n",
+        facts(head.iter().cloned().chain(axes).chain(tail.iter().cloned()).chain(files))
+    )
 }

@@ -6,6 +6,7 @@ use rayon::ThreadPoolBuilder;
 
 use tofsim::error::{Error, Input, Result};
 use tofsim::scenario::{self, Loaded, builtin};
+use tofsim_learn::dataset::grid::MOST_ROWS;
 use tofsim_learn::dataset::{Grid, Rows, Subset};
 
 use super::terminal::Talk;
@@ -21,7 +22,7 @@ pub struct Draws {
     #[arg(long, value_name = "P")]
     profile: Option<String>,
     /// Draw so many random scenes, equally many at each distance, instead of all
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..1 << 40))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u64).range(1..=MOST_ROWS))]
     rows: Option<u64>,
     /// Seed of every random stream, instead of the scenario's
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
@@ -32,28 +33,32 @@ pub struct Draws {
 }
 
 impl Draws {
-    /// A scenario by name or path, with what the options say.
-    pub fn load(&self, scenario: &str) -> Result<Loaded> {
-        let mut loaded = load(scenario, &self.set, self.seed)?;
+    /// A scenario by name or path, with keys set, and with what the other options say.
+    pub fn load(&self, scenario: &str, set: &[String]) -> Result<Loaded> {
+        let mut loaded = load(scenario, set, self.seed)?;
         if let Some(profile) = &self.profile {
             loaded.scenario.tdc.profile = from_here(profile, &loaded)?;
         }
         Ok(loaded)
     }
 
-    /// The same with a network in it, by name or path.
-    pub fn load_with(&self, scenario: &str, network: &str) -> Result<Loaded> {
-        let mut loaded = self.load(scenario)?;
+    /// A scenario with keys set, and with a network in it, by name or path.
+    pub fn load_with(&self, scenario: &str, network: &str, set: &[String]) -> Result<Loaded> {
+        let mut loaded = self.load(scenario, set)?;
         loaded.scenario.estimator.network = from_here(network, &loaded)?;
         Ok(loaded)
     }
 
-    /// Rows of a grid: as many random ones as the options say, or else `default`, or all.
-    pub fn rows(&self, default: Option<u64>, grid: Grid, seed: u64) -> Rows {
-        match self.rows.or(default) {
-            None => Rows::All(grid),
-            Some(rows) => Rows::Subset(Subset::new(grid, rows, seed)),
-        }
+    /// Rows of a grid with so many of each scene: as many random ones as the options say, or else
+    /// `default`, or all.
+    ///
+    /// # Errors
+    /// When all are too many.
+    pub fn rows(&self, default: Option<u64>, grid: &Grid, seed: u64) -> Result<Rows> {
+        Ok(match self.rows.or(default) {
+            None => Rows::All(grid.clone().repeated(grid.repeats)?),
+            Some(rows) => Rows::Subset(Subset::new(grid.clone(), rows, seed)),
+        })
     }
 
     /// Does `work` for so many rows on as many threads as the options say, with a progress bar that it

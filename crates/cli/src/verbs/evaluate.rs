@@ -1,45 +1,51 @@
 //! `tofsim evaluate`: how exactly estimators find the distance, beside the thesis.
 
-use std::ffi::OsStr;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
 use serde_json::json;
 
+use tofsim::Note;
 use tofsim::error::{Input, Result};
 use tofsim::network::Network;
-use tofsim::scenario::{self, Loaded};
+use tofsim::scenario;
+use tofsim::sim::domain;
 use tofsim::sim::setup::Setup;
-use tofsim_learn::dataset::{Grid, HistogramSource, Scene};
-use tofsim_learn::estimation::{Acquisition, EstimatorInputs, EstimatorKind, subtraction};
+use tofsim_learn::dataset::axis::thinned;
+use tofsim_learn::dataset::{Grid, GridPurpose, Scene};
+use tofsim_learn::estimation::{Estimator, EstimatorInputs, EstimatorKind, subtraction};
 use tofsim_learn::evaluation::bound;
 use tofsim_learn::evaluation::cross_check::CrossCheck;
 use tofsim_learn::evaluation::thesis::{self, DISTANCES_M};
-use tofsim_learn::evaluation::{Evaluation, Figures};
+use tofsim_learn::evaluation::{EstimatorErrors, Evaluation, Figures, KeyGroups, by_setting};
 
 use crate::choice::words;
 use crate::report::evaluation as report;
 
 use super::draws::Draws;
+use super::scenes::Scenes;
 use super::terminal::{Talk, print, print_json, stop_signal};
 
-/// Light of the scenes that the cross-check takes: in the middle of the grid.
-const CHECK_REFLECTANCE: f64 = 0.34;
-/// See [`CHECK_REFLECTANCE`] [W/m^2/nm].
-const CHECK_IRRADIANCE: f64 = 0.2;
+/// Those of one setting.
+type Estimators = Vec<Box<dyn Estimator>>;
+
+/// Distances of the tables, where the grid is not the thesis's.
+const SHOWN: usize = 6;
 
 /// Measure how exactly the network and other estimators find the distance
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Histograms are drawn afresh over the thesis's test grid: 51 distances from 0.1 \
     to 0.6 m, 9 irradiances,\n53 reflectances, 5 of each scene. All estimators see the same ones,\nbut for \
-    subtraction: a dark and a lit one of half the shots each.\n\n\
+    subtraction: a dark and a lit one of half the shots each.\nWith --grid KEY=... scenes are those of \
+    one's own, and what no --grid has is the scenario's.\n\n\
     Examples:\n  \
     tofsim evaluate                                 the default network on its chain's bins\n  \
     tofsim evaluate ideal --profile ideal -o out    with box plots and tables as CSV\n  \
     tofsim evaluate --estimator network,peak,matched,likelihood --rows 12000\n  \
-    tofsim evaluate --estimator peak,subtraction    does a dark histogram help the detector?"
+    tofsim evaluate --estimator peak,subtraction    does a dark histogram help the detector?\n  \
+    tofsim evaluate --grid target.distance_m=0.1..0.9:0.05 --grid laser.pulse_sigma_ps=100,137,200"
 )]
 pub struct Args {
     /// Built-in network (uniform, uniform-16, ideal) or network file
@@ -53,6 +59,13 @@ pub struct Args {
     /// Estimators, separated by commas
     #[arg(long, value_parser = words(&EstimatorKind::ALL), value_delimiter = ',', default_value = "network,network-float")]
     estimator: Vec<EstimatorKind>,
+    /// Which scenes: thesis or test (51 distances, every 10 mm), train (201), KEY=FROM..TO:STEP or KEY=A,B,C
+    /// of any numeric key of the scenario (may be repeated), or a TOML file of those [default: thesis]
+    #[arg(long, value_name = "GRID")]
+    grid: Vec<String>,
+    /// Histograms of each scene, where all are drawn
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..))]
+    repeats: u64,
     /// Frames to simulate cycle by cycle at each of six distances, to be compared with the fast path
     #[arg(long, value_name = "N", default_value_t = 8, allow_hyphen_values = true)]
     check: u64,
@@ -66,108 +79,160 @@ pub struct Args {
 
 /// Runs the verb; the status says whether the cross-check found both paths the same.
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
-    let loaded = args.draws.load_with(&args.scenario, &args.network)?;
+    let load = |set: &[String]| args.draws.load_with(&args.scenario, &args.network, set);
+    let scenes = Scenes::new(&args.grid, &args.draws.set, GridPurpose::Test, load)?;
+    let (grid, source) = (Grid { repeats: args.repeats, ..scenes.grid.clone() }, &scenes.source);
     let network = Network::find(&args.network, None)?;
-    let setup = Setup::new(loaded.clone())?;
-    let source = HistogramSource::new(&setup)?;
+    let loaded = &scenes.loaded[0];
     let (seed, profile) = (loaded.scenario.seed, &loaded.scenario.tdc.profile);
-    if file_name(&network.training.chain) != file_name(profile) {
-        talk.note(format_args!(
-            "note: {} was trained on the bins of chain {}, these are of {profile}",
-            network.name, network.training.chain
-        ));
-    }
-    let needs = EstimatorInputs {
-        acquisition: Acquisition {
-            bins: source.bins(),
-            shots: source.shots().into(),
-            pulse_sigma_ps: loaded.scenario.laser.pulse_sigma_ps,
-        },
-        network: &network,
-        centroid: &setup.params.centroid_estimator,
-    };
-    let estimators = args.estimator.iter().map(|kind| kind.estimator(&needs));
-    let estimators = estimators.collect::<std::result::Result<Vec<_>, Input>>()?;
-    let rows = args.draws.rows(None, Grid::test(), seed);
+    let notes = args.notes(&scenes, &network)?;
+    talk.heed(&notes)?;
+    let estimators = args.estimators(&scenes, &network)?;
+    let rows = args.draws.rows(None, &grid, seed)?;
     let stop = stop_signal();
     let evaluation = args.draws.on_threads(rows.count(), talk, |done| {
-        Evaluation::new(&source, &rows, seed, &estimators, stop.as_deref(), done)
+        let of = |scene: &Scene| &estimators[scene.setting][..];
+        Evaluation::with(source, &rows, seed, of, stop.as_deref(), done)
     })?;
-    let cross_check = args.cross_check(&loaded, &source, stop.as_deref())?;
-    let figures: Vec<_> =
-        evaluation.columns.iter().map(|column| Figures::new(&evaluation, column)).collect();
-    let bound_mm = bound::two_sd_mm(&source, &needs.acquisition, &Grid::test(), &DISTANCES_M)?;
-    let json = json!({
+    let (figures, by_setting) = figures(&evaluation, &grid);
+    let drawn = figures.first().map_or(&[][..], |one| &one.by_distance_m);
+    let drawn: Vec<f64> = drawn.iter().map(|group| group.value).collect();
+    let shown = match grid.is_thesis() {
+        true => DISTANCES_M.to_vec(),
+        false => thinned(&drawn, SHOWN),
+    };
+    let cross_check = args.cross_check(&scenes, &shown, stop.as_deref())?;
+    let bound_at = if grid.is_thesis() { &shown } else { &drawn };
+    let bound_mm = bound::two_sd_mm(source, &grid, bound_at)?;
+    let mut json = json!({
         "schema": "tofsim.evaluate/1",
         "version": env!("CARGO_PKG_VERSION"),
         "network": network.name,
         "scenario": loaded.name,
+        "set": loaded.set,
         "profile": profile,
         "seed": seed,
         "rows": rows.count(),
-        "shots_per_frame": source.shots(),
+        "shots_per_frame": source.shots_of_all(),
         "estimators": figures,
-        // At the thesis's distances, light unknown.
+        // At the thesis's distances, or those of one's own grid; light unknown.
         "cramer_rao_two_sd_mm": bound_mm,
         "cross_check": cross_check,
-        "thesis": {
-            "distances_m": DISTANCES_M,
-            "float_two_sd_mm": thesis::FLOAT.two_sd_mm,
-            "fixed_two_sd_mm": thesis::FIXED.two_sd_mm,
-        },
+        "notes": notes,
     });
+    match grid.is_thesis() {
+        true => {
+            json["thesis"] = json!({
+                "distances_m": DISTANCES_M,
+                "float_two_sd_mm": thesis::FLOAT.two_sd_mm,
+                "fixed_two_sd_mm": thesis::FIXED.two_sd_mm,
+            });
+        }
+        false => {
+            json["grid"] =
+                json!({ "axes": grid.axes().collect::<Vec<_>>(), "repeats": grid.repeats });
+            json["distances_m"] = json!(drawn);
+            for (one, keys) in by_setting.iter().enumerate() {
+                json["estimators"][one]["by_key"] = json!(keys);
+            }
+        }
+    }
     if let Some(folder) = &args.output {
-        report::write(folder, &format!("{json}\n"), &figures)?;
+        let json = format!("{json}\n");
+        report::write(folder, &json, &figures, &by_setting, grid.is_thesis())?;
         talk.detail(format_args!("wrote {}", folder.display()));
     }
     if args.json {
         print_json(&json)?;
     } else {
+        let shots = source.shots_of_all().map(|shots| format!(" of {shots} shots"));
+        let shots = shots.unwrap_or_default();
         let head = format!(
-            "network {}, chain {profile}, scenario {}, {} histograms of {} shots, seed {seed}\n\n",
+            "network {}, chain {profile}, scenario {}, {} histograms{shots}, seed {seed}\n\n",
             network.name,
             loaded.name,
             rows.count(),
-            source.shots()
         );
-        print(&(head + &text(&figures, &bound_mm, source.shots(), &cross_check)))?;
+        let at = |m: &f64| {
+            let place = bound_at.iter().position(|known| known == m);
+            place.and_then(|place| bound_mm[place])
+        };
+        let bound_mm: Vec<_> = shown.iter().map(at).collect();
+        let thesis = grid.is_thesis();
+        let beside = report::Beside { distances_m: &shown, bound_mm: &bound_mm, thesis };
+        let tables = report::tables(&figures, &beside);
+        let tables = tables + &report::setting_tables(&figures, &by_setting);
+        print(&(head + &tables + &text(&figures, source.shots_of_all(), &cross_check)))?;
     }
     let agrees = cross_check.iter().all(CrossCheck::agrees);
     Ok(if agrees { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 impl Args {
+    /// What the depths of some scenes lie outside of: of what the network was trained for, if it is
+    /// measured, and of what can be found.
+    fn notes(&self, scenes: &Scenes, network: &Network) -> Result<Vec<Note>> {
+        let mut notes = scenes.notes()?;
+        let is_network = |kind: &EstimatorKind| {
+            matches!(kind, EstimatorKind::Network | EstimatorKind::NetworkFloat)
+        };
+        if self.estimator.iter().any(is_network) {
+            let scenario = &scenes.loaded[0].scenario;
+            notes.extend(domain::notes(network, scenario, &scenes.grid.ranges())?);
+        }
+        Ok(notes)
+    }
+
+    /// The estimators for the histograms of each setting.
+    fn estimators(&self, scenes: &Scenes, network: &Network) -> Result<Vec<Estimators>> {
+        let of_setting = |(k, setup): (usize, &Setup)| {
+            let centroid = &setup.params.centroid_estimator;
+            let needs =
+                EstimatorInputs { acquisition: scenes.source.acquisition(k), network, centroid };
+            let estimators = self.estimator.iter().map(|kind| kind.estimator(&needs));
+            Ok(estimators.collect::<std::result::Result<Vec<_>, Input>>()?)
+        };
+        scenes.setups.iter().enumerate().map(of_setting).collect()
+    }
+
+    /// In the light and the setting in the middle of the grid.
     fn cross_check(
         &self,
-        loaded: &Loaded,
-        source: &HistogramSource,
+        scenes: &Scenes,
+        distances_m: &[f64],
         stop: Option<&AtomicBool>,
     ) -> Result<Vec<CrossCheck>> {
-        let distances: &[f64] = if self.check > 0 { &DISTANCES_M } else { &[] };
+        let distances_m: &[f64] = if self.check > 0 { distances_m } else { &[] };
+        let (grid, setting) = (&scenes.grid, scenes.loaded.len() / 2);
         let scene = |&distance_m| Scene {
             distance_m,
-            reflectance: CHECK_REFLECTANCE,
-            irradiance_w_m2_nm: CHECK_IRRADIANCE,
+            reflectance: grid.reflectances.middle(),
+            irradiance_w_m2_nm: grid.irradiances_w_m2_nm.middle(),
+            setting,
         };
+        let (loaded, source) = (&scenes.loaded[setting], &scenes.source);
         let check = |scene| CrossCheck::new(loaded, source, &scene, self.check, stop);
-        distances.iter().map(scene).map(check).collect()
+        distances_m.iter().map(scene).map(check).collect()
     }
 }
 
-/// A chain's name, wherever its file is.
-fn file_name(profile: &str) -> &OsStr {
-    Path::new(profile).file_name().unwrap_or(profile.as_ref())
+/// The figures of each estimator, and its errors by the grid's other keys; beside the thesis's line where
+/// the grid is the thesis's.
+fn figures(evaluation: &Evaluation, grid: &Grid) -> (Vec<Figures>, Vec<Vec<KeyGroups>>) {
+    let of = |column: &EstimatorErrors| {
+        let mut figures = Figures::new(evaluation, column);
+        if !grid.is_thesis() {
+            (figures.worst_ratio_to_thesis, figures.worst_distance_m) = (None, None);
+        }
+        (figures, by_setting(evaluation, column, grid))
+    };
+    evaluation.columns.iter().map(of).unzip()
 }
 
-fn text(
-    figures: &[Figures],
-    bound_mm: &[Option<f64>],
-    shots: u16,
-    checks: &[CrossCheck],
-) -> String {
-    let mut text = report::tables(figures, bound_mm);
+fn text(figures: &[Figures], shots: Option<u16>, checks: &[CrossCheck]) -> String {
+    let mut text = String::new();
     if figures.iter().any(|one| one.name == subtraction::NAME) {
-        let shots = shots / 2;
+        let shots = shots.map_or("half the".to_owned(), |shots| (shots / 2).to_string());
         text += &format!("\n{}: {shots} dark and {shots} lit shots each\n", subtraction::NAME);
     }
     text += "\n";

@@ -11,7 +11,7 @@ use tofsim::network::formats::Overflow;
 use tofsim::network::{Network, mem};
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
-use tofsim_learn::dataset::{Grid, HistogramSource};
+use tofsim_learn::dataset::{Grid, GridOption, HistogramSource};
 use tofsim_learn::evaluation::exploration::{explore, sweep};
 use tofsim_learn::quantize::import;
 
@@ -141,11 +141,12 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
 
 impl Args {
     fn explore(&self, network: &str, talk: &Talk) -> Result<()> {
-        let loaded = self.draws.load_with(&self.scenario, network)?;
+        GridOption::Thesis.check_overrides(&self.draws.set)?;
+        let loaded = self.draws.load_with(&self.scenario, network, &self.draws.set)?;
         let (seed, profile) = (loaded.scenario.seed, loaded.scenario.tdc.profile.clone());
         let network = Network::find(network, None)?;
         let source = HistogramSource::new(&Setup::new(loaded)?)?;
-        let rows = self.draws.rows(Some(EXPLORED), Grid::test(), seed);
+        let rows = self.draws.rows(Some(EXPLORED), &Grid::test(), seed)?;
         let (stop, data) = (stop_signal(), (&source, &rows, seed));
         let points = self.draws.on_threads(rows.count(), talk, |done| {
             explore(&network, &sweep(), data, stop.as_deref(), done)

@@ -2,20 +2,24 @@
 
 use std::path::PathBuf;
 
+use serde_json::json;
+
 use tofsim::error::{Input, Result, read_text};
 use tofsim::files::output::create_directory;
 use tofsim::network::formats::WordFormat;
 use tofsim::scenario;
 use tofsim::sim::domain;
-use tofsim::sim::setup::Setup;
-use tofsim_learn::dataset::{Grid, HistogramSource};
+use tofsim_learn::dataset::{GridOption, GridPurpose};
+use tofsim_learn::training::checkpoint;
+use tofsim_learn::training::data::{self, TrainingScenes};
 use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::tournament::Tournament;
-use tofsim_learn::training::{checkpoint, data};
+use tofsim_learn::training::weighting::Weighting;
 
-use crate::report::training;
+use crate::report::training as report;
 
 use super::draws::{from_here, use_threads};
+use super::scenes::Scenes;
 use super::terminal::{Talk, print, print_json, stop_signal};
 
 mod word_format;
@@ -31,6 +35,7 @@ use written::TrainingOrigin;
     tofsim train --profile chain.toml -o mine       on one's own chain\n  \
     tofsim train --resume -o mine                   go on where it was stopped\n  \
     tofsim train --with finish.blocks=10 -o mine    with a number of the recipe changed\n  \
+    tofsim train --grid target.distance_m=0.05..0.9:0.0025 --grid target.reflectance=0.05..0.9:0.05 -o far\n  \
     tofsim train --lut-bits 10 --format w1=12.19    for a datapath that is not the firmware's\n  \
     tofsim run -s estimator.network=mine/network.toml")]
 pub struct Args {
@@ -46,6 +51,10 @@ pub struct Args {
     /// Seed of data and starts
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+    /// Scenes to train for: thesis, KEY=FROM..TO:STEP or KEY=A,B,C of any numeric key of the scenario (may be
+    /// repeated; what none has is the scenario's), or a TOML file of those [default: thesis]
+    #[arg(long, value_name = "GRID")]
+    grid: Vec<String>,
     /// A training of seconds, whose network is poor
     #[arg(long)]
     quick: bool,
@@ -91,26 +100,38 @@ pub struct Args {
 
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
-    let recipe = args.recipe()?;
+    let recipe = args.recipe(None)?;
+    if args.print_recipe && args.grid.is_empty() {
+        return print_recipe(&recipe);
+    }
+    let scenes = args.scenes()?;
+    let training = args.training_scenes(&scenes)?;
+    let recipe = match scenes.grid.is_thesis() {
+        true => recipe,
+        false => {
+            let (grid, test) = (&training.training, &training.test);
+            args.recipe(Some(Weighting::of_scenes(&scenes.source, grid, test)?))?
+        }
+    };
     if args.print_recipe {
-        let text = toml::to_string(&recipe).map_err(|error| Input::new("recipe", error))?;
-        return print(&text);
+        return print_recipe(&recipe);
     }
-    let mut loaded = scenario::load(&args.scenario, &args.set)?;
-    if let Some(profile) = &args.profile {
-        loaded.scenario.tdc.profile = from_here(profile, &loaded)?;
-    }
-    let setup = Setup::new(loaded)?;
-    let source = HistogramSource::new(&setup)?;
+    training.check(&recipe)?;
+    let notes = scenes.notes()?;
+    talk.heed(&notes)?;
     let mut settings: checkpoint::CheckpointSettings = recipe.settings()?.into_iter().collect();
     settings.insert("seed".to_owned(), args.seed.to_string());
-    settings.insert("scenario".to_owned(), data::fingerprint(&source));
+    settings.insert("scenario".to_owned(), data::fingerprint(&scenes.source));
+    if !scenes.grid.is_thesis() {
+        let axes: Vec<_> = scenes.grid.axes().map(ToString::to_string).collect();
+        settings.insert("grid".to_owned(), axes.join(" "));
+    }
 
     let path = args.output.join("checkpoint");
     let state = args.resume.then(|| checkpoint::load(&path, &settings, &recipe)).transpose()?;
     create_directory(&args.output)?;
     use_threads(args.threads)?;
-    let mut tournament = Tournament::new(&recipe, &source, args.seed, state);
+    let mut tournament = Tournament::new(&recipe, &training, args.seed, state);
     let stop = stop_signal();
     let (done, all) = tournament.progress();
     let progress = talk.progress(all, "histograms times epochs");
@@ -130,18 +151,30 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         }
     }
     progress.finish_and_clear();
-    let chain = args.profile.clone().unwrap_or_else(|| setup.scenario.tdc.profile.clone());
+    let scenario = &scenes.loaded[0].scenario;
+    let chain = args.profile.clone().unwrap_or_else(|| scenario.tdc.profile.clone());
     let (command, seed) = (args.command(), args.seed);
-    let mut trained_for = setup.scenario.clone();
+    let mut trained_for = scenario.clone();
     trained_for.tdc.profile.clone_from(&chain);
-    let domain = Some(domain::of(&trained_for, &Grid::training().ranges())?);
+    let domain = Some(domain::of(&trained_for, &scenes.grid.ranges())?);
     let made = TrainingOrigin { chain, command, seed, domain };
     let (network, rows) = written::write(&args.output, &recipe, &tournament, made, talk)?;
     let line = &recipe.weighting;
     match args.json {
-        true => print_json(&training::json(&rows, line, &network)),
-        false => print(&training::table(&rows, line)),
+        true => {
+            let mut report = report::json(&rows, line, &network);
+            report["set"] = json!(args.set);
+            report["notes"] = json!(notes);
+            print_json(&report)
+        }
+        false => print(&report::table(&rows, line)),
     }
+}
+
+/// Prints a recipe as TOML.
+fn print_recipe(recipe: &Recipe) -> Result<()> {
+    let text = toml::to_string(recipe).map_err(|error| Input::new("recipe", error))?;
+    print(&text)
 }
 
 /// Says how far it is.
@@ -159,9 +192,37 @@ fn say(talk: &Talk, tournament: &Tournament, before: usize) {
 }
 
 impl Args {
-    /// The recipe with all that the options say.
-    fn recipe(&self) -> Result<Recipe> {
+    /// The grid and the scenario.
+    fn scenes(&self) -> Result<Scenes> {
+        let load = |set: &[String]| {
+            let mut loaded = scenario::load(&self.scenario, set)?;
+            if let Some(profile) = &self.profile {
+                loaded.scenario.tdc.profile = from_here(profile, &loaded)?;
+            }
+            Ok(loaded)
+        };
+        let scenes = Scenes::new(&self.grid, &self.set, GridPurpose::Training, load)?;
+        match scenes.option {
+            GridOption::ThesisOf(_) => {
+                let expected =
+                    "expected thesis, which has a grid for training and one for tests, or KEY=...";
+                Err(Input::new("--grid", expected).value(self.grid.join(" ")).into())
+            }
+            _ => Ok(scenes),
+        }
+    }
+
+    /// What to draw for training and for tests.
+    fn training_scenes<'a>(&self, scenes: &'a Scenes) -> Result<TrainingScenes<'a>> {
+        let test = scenes.grid_for(GridPurpose::Test)?;
+        Ok(TrainingScenes::of_grids(&scenes.source, scenes.grid.clone(), test))
+    }
+
+    /// The recipe with all that the options say, over one with this weighting or the thesis's.
+    fn recipe(&self, weighting: Option<Weighting>) -> Result<Recipe> {
         let base = if self.quick { Recipe::quick() } else { Recipe::default() };
+        let weighting = weighting.unwrap_or_else(|| base.weighting.clone());
+        let base = Recipe { weighting, ..base };
         let (text, name) = match &self.recipe {
             Some(path) => (read_text(path)?, path.display().to_string()),
             None => (String::new(), "recipe".to_owned()),
@@ -200,6 +261,7 @@ impl Args {
         }
         self.set.iter().for_each(|set| add("-s ", set));
         self.profile.iter().for_each(|profile| add("--profile ", profile));
+        self.grid.iter().for_each(|grid| add("--grid ", grid));
         add("--seed ", &self.seed);
         if self.quick {
             add("--quick", &"");

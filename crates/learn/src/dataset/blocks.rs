@@ -47,10 +47,10 @@ impl HistogramSource {
         let mut codes = Last(None);
         let sample = |index| {
             let (row, scene) = rows.row(index);
-            let white = white.or(scene.distance_m, |&distance_m| self.white(distance_m));
-            let codes =
-                codes.or(scene, |scene| self.probabilities_with(white, scene, self.is_lit()));
-            let histogram = self.draw_from(codes, seed, row);
+            let white = white.or((scene.distance_m, scene.setting), |_| self.white(&scene));
+            let is_lit = self.is_lit_in(&scene);
+            let codes = codes.or(scene, |scene| self.probabilities_with(white, scene, is_lit));
+            let histogram = self.draw_from(codes, &scene, seed, row);
             Sample { seed, row, scene, histogram }
         };
         range.map(sample).collect()
@@ -58,11 +58,11 @@ impl HistogramSource {
 }
 
 /// What was last asked for, and what it came to.
-pub(super) struct Last<K, V>(pub(super) Option<(K, V)>);
+pub(crate) struct Last<K, V>(pub(crate) Option<(K, V)>);
 
 impl<K: PartialEq, V> Last<K, V> {
     /// What `key` comes to; it is made where the last key was another.
-    pub(super) fn or(&mut self, key: K, make: impl FnOnce(&K) -> V) -> &V {
+    pub(crate) fn or(&mut self, key: K, make: impl FnOnce(&K) -> V) -> &V {
         let known = self.0.take().filter(|(last, _)| *last == key);
         let pair = known.unwrap_or_else(|| {
             let value = make(&key);
@@ -92,7 +92,7 @@ mod tests {
         assert_eq!(blocks.iter().map(Vec::len).collect::<Vec<_>>(), [BLOCK as usize, 93]);
         for (index, sample) in (0..).zip(blocks.concat()) {
             let (row, scene) = rows.row(index);
-            let histogram = source.draw_from(&source.probabilities(&scene), 3, row);
+            let histogram = source.draw_from(&source.probabilities(&scene), &scene, 3, row);
             assert_eq!(sample, Sample { seed: 3, row, scene, histogram });
         }
     }

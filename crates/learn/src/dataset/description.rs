@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use tofsim::scenario::Scenario;
 
+use super::axis::Axis;
 use super::rows::Rows;
 use super::source::HistogramSource;
 
@@ -20,17 +21,24 @@ pub struct DatasetDescription {
     pub set: Vec<String>,
     /// Carry chain whose bins these are.
     pub profile: String,
-    /// The grid: `train` or `test`.
+    /// The grid: the thesis's `train` or `test`, or `own`.
     pub grid: &'static str,
+    /// The axes of a grid of one's own, distance, irradiance, reflectance and then other keys, the last
+    /// one changing fastest but for repeats.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axes: Option<Vec<Axis>>,
+    /// Histograms of each scene, where that is not five.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repeats: Option<u64>,
     /// Whether the scenes are a random choice from the grid, or all of it.
     pub subset: bool,
     /// Number of histograms.
     pub rows: u64,
     /// Seed of every random stream.
     pub seed: u64,
-    /// Shots of a histogram.
-    pub shots_per_frame: u16,
-    /// All keys of the scenario; distance, reflectance and irradiance are not used.
+    /// Shots of a histogram; none where the grid has several numbers of them.
+    pub shots_per_frame: Option<u16>,
+    /// All keys of the scenario; those of the grid are not used.
     pub settings: Scenario,
 }
 
@@ -43,18 +51,20 @@ impl DatasetDescription {
         rows: &Rows,
         seed: u64,
     ) -> Self {
-        let settings = source.scenario().clone();
+        let (settings, grid) = (source.scenario().clone(), rows.grid());
         DatasetDescription {
             schema: "tofsim.dataset/1",
             version: env!("CARGO_PKG_VERSION"),
             scenario: scenario.to_owned(),
             set: set.to_vec(),
             profile: settings.tdc.profile.clone(),
-            grid: rows.grid().name,
+            grid: grid.name,
+            axes: (!grid.is_thesis()).then(|| grid.axes().cloned().collect()),
+            repeats: (grid.repeats != 5).then_some(grid.repeats),
             subset: matches!(rows, Rows::Subset(_)),
             rows: rows.count(),
             seed,
-            shots_per_frame: source.shots(),
+            shots_per_frame: source.shots_of_all(),
             settings: Scenario { seed, ..settings },
         }
     }

@@ -8,6 +8,7 @@ use tofsim::files::output::{OutputFile, create_directory};
 
 use super::blocks::Sample;
 use super::description::DatasetDescription;
+use super::grid::Grid;
 use super::npy::{self, NpyFiles};
 use super::parquet_file;
 use super::parquet_table::ParquetTable;
@@ -29,14 +30,16 @@ pub struct DatasetFiles {
     json: OutputFile,
     parquet: Option<ParquetTable<Sample>>,
     npy: NpyFiles,
+    grid: Grid,
 }
 
 impl DatasetFiles {
-    /// Begins the files of a dataset in a folder, which is made.
+    /// Begins the files of a dataset of a grid in a folder, which is made.
     pub fn create(
         folder: &Path,
         formats: &[DatasetFormat],
         description: &DatasetDescription,
+        grid: &Grid,
     ) -> Result<Self> {
         create_directory(folder)?;
         let mut json = OutputFile::create(&folder.join(DESCRIPTION))?;
@@ -44,19 +47,20 @@ impl DatasetFiles {
         let text = text.map_err(|error| json.fault(error))?;
         writeln!(json, "{text}").map_err(|error| json.fault(error))?;
         let wants = |format| formats.contains(&format);
-        let parquet = || parquet_file::create(&folder.join(parquet_file::NAME), &text);
-        let npy = || npy::create(folder, description.rows);
+        let parquet = || parquet_file::create(&folder.join(parquet_file::NAME), &text, grid);
+        let npy = || npy::create(folder, description.rows, grid);
         Ok(DatasetFiles {
             json,
             parquet: wants(DatasetFormat::Parquet).then(parquet).transpose()?,
             npy: wants(DatasetFormat::Npy).then(npy).transpose()?.unwrap_or_default(),
+            grid: grid.clone(),
         })
     }
 
     /// Adds rows.
     pub fn write(&mut self, samples: &[Sample]) -> Result<()> {
         self.parquet.as_mut().map_or(Ok(()), |parquet| parquet.write(samples))?;
-        npy::write(&mut self.npy, samples)
+        npy::write(&mut self.npy, samples, &self.grid)
     }
 
     /// Puts the files in place and returns their paths.

@@ -1,7 +1,20 @@
-//! The thesis's grids of scenes (section 5.4): every distance with every irradiance and reflectance.
+//! Grids of scenes: every distance with every irradiance and reflectance, and with every value of any
+//! other key. The thesis's (section 5.4) are two of them.
+
+use tofsim::error::{Input, Result};
+use tofsim::scenario::Scenario;
+
+use super::axis::Axis;
+
+/// Key of the distance, what an estimator is to find [m].
+pub const DISTANCE: &str = "target.distance_m";
+/// Key of the reflectance [1].
+pub const REFLECTANCE: &str = "target.reflectance";
+/// Key of the ambient light [W/m^2/nm].
+pub const IRRADIANCE: &str = "ambient.irradiance_w_m2_nm";
 
 /// What the sensor looks at; all else is the scenario's.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Scene {
     /// Distance of the target, what an estimator is to find (`target.distance_m`) [m].
     pub distance_m: f64,
@@ -9,43 +22,35 @@ pub struct Scene {
     pub reflectance: f64,
     /// Spectral irradiance of the target (`ambient.irradiance_w_m2_nm`) [W/m^2/nm].
     pub irradiance_w_m2_nm: f64,
+    /// Which values the other keys of the grid have, from 0 ([`Grid::setting`]).
+    pub setting: usize,
 }
 
-/// Equally spaced decimals: `(first + k step) / per_unit` for `k` below `count`, each the `f64`
-/// nearest to the decimal.
+/// What a grid of one's own is for: draws for one are none of the other's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Steps {
-    /// First value, in parts of a unit.
-    pub first: u32,
-    /// From one value to the next, in parts of a unit.
-    pub step: u32,
-    /// Number of values [1].
-    pub count: u64,
-    /// Parts of a unit [1].
-    pub per_unit: u32,
-}
-
-impl Steps {
-    /// Value `k`, from 0, in the unit.
-    pub fn value(&self, k: u64) -> f64 {
-        (u64::from(self.first) + k * u64::from(self.step)) as f64 / f64::from(self.per_unit)
-    }
+pub enum GridPurpose {
+    /// Training, and datasets.
+    Training,
+    /// Tests.
+    Test,
 }
 
 /// A grid of scenes, each repeated.
 ///
-/// The index counts repeats first, then reflectances, irradiances and distances: rows of one scene
-/// are neighbours, and those of one distance are together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The index counts repeats first, then reflectances, irradiances, the other keys and distances: rows
+/// of one scene are neighbours, and those of one distance are together.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
-    /// What the grid is for: `train` or `test`.
+    /// The thesis's `train` or `test`, or `own`.
     pub name: &'static str,
     /// Distances of the target [m].
-    pub distances_m: Steps,
+    pub distances_m: Axis,
     /// Spectral irradiances of the target [W/m^2/nm].
-    pub irradiances_w_m2_nm: Steps,
+    pub irradiances_w_m2_nm: Axis,
     /// Reflectances of the target [1].
-    pub reflectances: Steps,
+    pub reflectances: Axis,
+    /// Other keys of the scenario, the last one changing fastest.
+    pub others: Vec<Axis>,
     /// Histograms of each scene [1].
     pub repeats: u64,
     /// Row number of index 0; no two grids share row numbers.
@@ -54,45 +59,145 @@ pub struct Grid {
 
 /// Row numbers that a grid or a subset has for itself.
 pub(super) const ROWS: u64 = 1 << 40;
+/// Most rows of a grid, 51 GB of histograms.
+pub const MOST_ROWS: u64 = 100_000_000;
+/// Most combinations of values that the other keys have.
+const MOST_SETTINGS: u64 = 4096;
+/// Name of a grid that is not the thesis's.
+const OWN: &str = "own";
 
 impl Grid {
-    /// For training: 201 distances, 479,385 rows.
-    pub const fn training() -> Self {
+    /// The thesis's for training: 201 distances, 479,385 rows.
+    pub fn training() -> Self {
         Grid {
             name: "train",
-            distances_m: Steps { first: 1000, step: 25, count: 201, per_unit: 10_000 },
-            irradiances_w_m2_nm: Steps { first: 0, step: 5, count: 9, per_unit: 100 },
-            reflectances: Steps { first: 8, step: 1, count: 53, per_unit: 100 },
+            distances_m: Axis::steps(DISTANCE, 1000, 25, 201, 10_000),
+            irradiances_w_m2_nm: Axis::steps(IRRADIANCE, 0, 5, 9, 100),
+            reflectances: Axis::steps(REFLECTANCE, 8, 1, 53, 100),
+            others: Vec::new(),
             repeats: 5,
             first_row: 0,
         }
     }
 
-    /// For tests: 51 distances, 121,635 rows. Its scenes are among those of training, its draws are
-    /// not.
-    pub const fn test() -> Self {
-        let distances_m = Steps { first: 10, step: 1, count: 51, per_unit: 100 };
+    /// The thesis's for tests: 51 distances, 121,635 rows. Its scenes are among those of training, its
+    /// draws are not.
+    pub fn test() -> Self {
+        let distances_m = Axis::steps(DISTANCE, 10, 1, 51, 100);
         Grid { name: "test", distances_m, first_row: 2 * ROWS, ..Grid::training() }
     }
 
+    /// Of axes of one's own; distance, reflectance and irradiance are the scenario's where no axis has
+    /// them.
+    ///
+    /// # Errors
+    /// When two axes have the same key, or there are too many rows.
+    pub fn own(axes: &[Axis], scenario: &Scenario, purpose: GridPurpose) -> Result<Self> {
+        let same = |(k, axis): (usize, &Axis)| axes[..k].iter().any(|one| one.key == axis.key);
+        if let Some(k) = axes.iter().enumerate().position(same) {
+            return Err(Input::new("--grid", "expected each key once").field(&axes[k].key).into());
+        }
+        let axis = |key, value| {
+            let own = axes.iter().find(|axis| axis.key == key);
+            own.cloned().unwrap_or_else(|| Axis::single(key, value))
+        };
+        let Scenario { target, ambient, .. } = scenario;
+        let others =
+            axes.iter().filter(|axis| ![DISTANCE, REFLECTANCE, IRRADIANCE].contains(&&*axis.key));
+        let grid = Grid {
+            name: OWN,
+            distances_m: axis(DISTANCE, target.distance_m),
+            irradiances_w_m2_nm: axis(IRRADIANCE, ambient.irradiance_w_m2_nm),
+            reflectances: axis(REFLECTANCE, target.reflectance),
+            others: others.cloned().collect(),
+            repeats: 5,
+            first_row: match purpose {
+                GridPurpose::Training => 4 * ROWS,
+                GridPurpose::Test => 6 * ROWS,
+            },
+        };
+        let most = [("settings of other keys", grid.settings(), MOST_SETTINGS)];
+        let all = [("scenes", grid.scenes(), MOST_ROWS)];
+        for (what, count, most) in most.into_iter().chain(all) {
+            if count > most {
+                let expected = format!("{count} {what}, expected {most} at most");
+                return Err(Input::new("--grid", expected).into());
+            }
+        }
+        Ok(grid)
+    }
+
+    /// With so many histograms of each scene.
+    ///
+    /// # Errors
+    /// When there are too many rows.
+    pub fn repeated(self, repeats: u64) -> Result<Self> {
+        let grid = Grid { repeats, ..self };
+        let rows = grid.rows();
+        if rows > MOST_ROWS {
+            let expected = format!("{rows} histograms, expected {MOST_ROWS} at most; see --rows");
+            return Err(Input::new("--grid", expected).into());
+        }
+        Ok(grid)
+    }
+
+    /// The same with `most` distances at most.
+    pub fn with_distances(&self, most: usize) -> Self {
+        Grid { distances_m: self.distances_m.thinned(most), ..self.clone() }
+    }
+
+    /// Whether it is one of the thesis's.
+    pub fn is_thesis(&self) -> bool {
+        self.name != OWN
+    }
+
+    /// All axes, those of a scene first.
+    pub fn axes(&self) -> impl Iterator<Item = &Axis> {
+        let scene = [&self.distances_m, &self.irradiances_w_m2_nm, &self.reflectances];
+        scene.into_iter().chain(&self.others)
+    }
+
     /// The least and the largest value of each key of the scenario.
-    pub fn ranges(&self) -> [(&'static str, [f64; 2]); 3] {
-        let range = |steps: &Steps| [0, steps.count - 1].map(|k| steps.value(k));
-        [
-            ("target.distance_m", range(&self.distances_m)),
-            ("target.reflectance", range(&self.reflectances)),
-            ("ambient.irradiance_w_m2_nm", range(&self.irradiances_w_m2_nm)),
-        ]
+    pub fn ranges(&self) -> Vec<(&str, [f64; 2])> {
+        self.axes().map(|axis| (&*axis.key, axis.range())).collect()
     }
 
     /// Number of rows.
     pub fn rows(&self) -> u64 {
-        self.distances_m.count * self.lights() * self.repeats
+        self.scenes().saturating_mul(self.repeats)
+    }
+
+    /// Number of scenes.
+    pub fn scenes(&self) -> u64 {
+        self.distances_m.count().saturating_mul(self.lights())
     }
 
     /// Number of scenes at a distance.
     pub fn lights(&self) -> u64 {
-        self.irradiances_w_m2_nm.count * self.reflectances.count
+        self.settings().saturating_mul(self.lights_of_a_setting())
+    }
+
+    fn lights_of_a_setting(&self) -> u64 {
+        self.irradiances_w_m2_nm.count().saturating_mul(self.reflectances.count())
+    }
+
+    /// Number of settings: combinations of the other keys' values.
+    pub fn settings(&self) -> u64 {
+        self.others.iter().map(Axis::count).fold(1, u64::saturating_mul)
+    }
+
+    /// Keys and values of a setting; `setting` counts from 0.
+    pub fn setting(&self, setting: usize) -> Vec<(&str, f64)> {
+        let mut left = setting as u64;
+        let value = |axis: &Axis, left: &mut u64| {
+            let place = *left % axis.count();
+            *left /= axis.count();
+            axis.values[place as usize]
+        };
+        let backwards = self.others.iter().rev().map(|axis| (&*axis.key, value(axis, &mut left)));
+        let mut values: Vec<_> = backwards.collect();
+        values.reverse();
+        values
     }
 
     /// Scene of a row; `index` counts from 0 and is below [`Grid::rows`].
@@ -101,49 +206,20 @@ impl Grid {
         self.scene_at(scene / self.lights(), scene % self.lights())
     }
 
-    /// A scene by the place of its distance and of its light, irradiance and reflectance, both from
-    /// 0.
+    /// A scene by the place of its distance and of its light, setting, irradiance and reflectance,
+    /// both from 0.
     pub fn scene_at(&self, distance: u64, light: u64) -> Scene {
-        let reflectances = &self.reflectances;
+        let (setting, light) =
+            (light / self.lights_of_a_setting(), light % self.lights_of_a_setting());
+        let reflectances = self.reflectances.count();
         Scene {
-            distance_m: self.distances_m.value(distance),
-            reflectance: reflectances.value(light % reflectances.count),
-            irradiance_w_m2_nm: self.irradiances_w_m2_nm.value(light / reflectances.count),
+            distance_m: self.distances_m.values[distance as usize],
+            reflectance: self.reflectances.values[(light % reflectances) as usize],
+            irradiance_w_m2_nm: self.irradiances_w_m2_nm.values[(light / reflectances) as usize],
+            setting: setting as usize,
         }
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_grids_are_those_of_the_thesis() {
-        assert_eq!(Grid::training().rows(), 479_385);
-        assert_eq!(Grid::test().rows(), 121_635);
-        for grid in [Grid::training(), Grid::test()] {
-            let scene = |d, r, e| Scene { distance_m: d, reflectance: r, irradiance_w_m2_nm: e };
-            assert_eq!(grid.scene(0), scene(0.1, 0.08, 0.0));
-            assert_eq!(grid.scene(4), grid.scene(0));
-            assert_eq!(grid.scene(5), scene(0.1, 0.09, 0.0));
-            assert_eq!(grid.scene(53 * 5), scene(0.1, 0.08, 0.05));
-            assert_eq!(grid.scene(grid.rows() - 1), scene(0.6, 0.6, 0.4));
-        }
-        assert_eq!(Grid::training().scene(53 * 9 * 5).distance_m, 0.1025);
-        assert_eq!(Grid::test().scene(53 * 9 * 5).distance_m, 0.11);
-    }
-
-    #[test]
-    fn every_value_is_the_decimal_that_a_user_would_type() {
-        let check = |steps: Steps, decimals: usize| {
-            for value in (0..steps.count).map(|k| steps.value(k)) {
-                let typed: f64 = format!("{value:.decimals$}").parse().unwrap();
-                assert_eq!(value, typed);
-            }
-        };
-        check(Grid::training().distances_m, 4);
-        check(Grid::test().distances_m, 2);
-        check(Grid::test().irradiances_w_m2_nm, 2);
-        check(Grid::test().reflectances, 2);
-    }
-}
+mod tests;

@@ -17,8 +17,6 @@ use super::source::HistogramSource;
 #[derive(Clone, Copy, Debug)]
 pub struct Pairs<'a> {
     source: &'a HistogramSource,
-    /// Of each histogram [shots].
-    shots: u64,
 }
 
 impl<'a> Pairs<'a> {
@@ -27,13 +25,15 @@ impl<'a> Pairs<'a> {
     /// # Errors
     /// When they have no half, or the laser never fires.
     pub fn new(source: &'a HistogramSource) -> Result<Self, Input> {
-        let shots = half(source.shots().into())?;
-        if !source.is_lit() {
+        for scenario in source.scenarios() {
+            half(scenario.firmware.shots_per_frame)?;
+        }
+        if source.scenarios().any(|scenario| !scenario.firmware.laser_en) {
             let expected = "expected true: a lit histogram needs the laser";
             let fault = Input::new("subtraction", expected).field("firmware.laser_en");
             return Err(fault.value(false));
         }
-        Ok(Pairs { source, shots })
+        Ok(Pairs { source })
     }
 
     /// Pairs for the rows of `samples`, on all threads of the current pool. Each row's comes from a
@@ -47,14 +47,15 @@ impl<'a> Pairs<'a> {
         let (mut white, mut codes) = (Last(None), Last(None));
         let pair = |sample: &Sample| {
             let scene = sample.scene;
-            let white = white.or(scene.distance_m, |&distance_m| self.source.white(distance_m));
+            let white = white.or((scene.distance_m, scene.setting), |_| self.source.white(&scene));
             let of = |scene: &Scene| {
                 [false, true].map(|lit| self.source.probabilities_with(white, scene, lit))
             };
             let codes: &[BinProbabilities; 2] = codes.or(scene, of);
             let mut random = stream(sample.seed, streams::Source::DatasetPair, sample.row);
             let [dark, lit] = [0, 1].map(|kind| {
-                let counts = codes[kind].draw(self.shots, &mut random);
+                let shots = u64::from(self.source.shots_of(&scene)) / 2;
+                let counts = codes[kind].draw(shots, &mut random);
                 counts.map(|count| count as u16)
             });
             HistogramPair { dark, lit }
@@ -93,11 +94,12 @@ mod tests {
     fn dark_and_lit_have_the_means_of_their_probabilities() {
         let source = source(&[]);
         let pairs = Pairs::new(&source).unwrap();
-        let scene = Scene { distance_m: 0.5, reflectance: 0.34, irradiance_w_m2_nm: 0.2 };
+        let scene =
+            Scene { distance_m: 0.5, reflectance: 0.34, irradiance_w_m2_nm: 0.2, setting: 0 };
         let rows = 400;
         let sample = |row| Sample { seed: 1, row, scene, histogram: [0; 256] };
         let drawn = pairs.draw(&(0..rows).map(sample).collect::<Vec<_>>());
-        let white = source.white(scene.distance_m);
+        let white = source.white(&scene);
         for lit in [false, true] {
             let codes = source.probabilities_with(&white, &scene, lit);
             let of = |pair: &HistogramPair| if lit { pair.lit } else { pair.dark };

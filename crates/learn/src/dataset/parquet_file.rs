@@ -1,7 +1,7 @@
 //! A dataset as Parquet: a column for each bin, as data frames have it.
 //!
-//! Columns: `row`, `seed`, `distance_m`, `reflectance`, `irradiance_w_m2_nm`, `b0` .. `b255`. What
-//! the file is about stands in its metadata under [`KEY`], as JSON.
+//! Columns: `row`, `seed`, `distance_m`, `reflectance`, `irradiance_w_m2_nm`, the other keys of the grid,
+//! `b0` .. `b255`. What the file is about stands in its metadata under [`KEY`], as JSON.
 
 use std::path::Path;
 
@@ -11,7 +11,9 @@ use tofsim::error::Result;
 use tofsim::files::output::OutputFile;
 use tofsim::firmware::histogram_builder::BINS;
 
+use super::axis::Axis;
 use super::blocks::Sample;
+use super::grid::Grid;
 use super::parquet_table::ParquetTable;
 
 /// Key of the description in the file's metadata.
@@ -23,21 +25,33 @@ const HEAD: &str =
     "required int64 row (INTEGER(64,false)); required int64 seed (INTEGER(64,false));
     required double distance_m; required double reflectance; required double irradiance_w_m2_nm;";
 
-/// Begins the file; `description` goes into its metadata.
-pub(super) fn create(path: &Path, description: &str) -> Result<ParquetTable<Sample>> {
+/// Begins the file; `description` goes into its metadata, `grid` has the other keys.
+pub(super) fn create(path: &Path, description: &str, grid: &Grid) -> Result<ParquetTable<Sample>> {
+    let other = |axis: &Axis| format!("required double {}; ", axis.key);
+    let others: String = grid.others.iter().map(other).collect();
+    let grid = grid.clone();
     let bin = |bin| format!("required int32 b{bin} (INTEGER(16,false)); ");
     let bins: String = (0..BINS).map(bin).collect();
-    let schema = format!("message dataset {{ {HEAD} {bins} }}");
+    let schema = format!("message dataset {{ {HEAD} {others} {bins} }}");
     let file = OutputFile::create(path)?;
-    ParquetTable::create(file, &schema, (KEY, description.to_owned()), |group, rows: &[Sample]| {
-        let rows = || rows.iter();
-        group.required::<Int64Type>(rows().map(|sample| sample.row as i64))?;
-        group.required::<Int64Type>(rows().map(|sample| sample.seed as i64))?;
-        group.required::<DoubleType>(rows().map(|sample| sample.scene.distance_m))?;
-        group.required::<DoubleType>(rows().map(|sample| sample.scene.reflectance))?;
-        group.required::<DoubleType>(rows().map(|sample| sample.scene.irradiance_w_m2_nm))?;
-        (0..BINS).try_for_each(|bin| {
-            group.required::<Int32Type>(rows().map(|sample| sample.histogram[bin].into()))
-        })
-    })
+    ParquetTable::create(
+        file,
+        &schema,
+        (KEY, description.to_owned()),
+        move |group, rows: &[Sample]| {
+            let rows = || rows.iter();
+            group.required::<Int64Type>(rows().map(|sample| sample.row as i64))?;
+            group.required::<Int64Type>(rows().map(|sample| sample.seed as i64))?;
+            group.required::<DoubleType>(rows().map(|sample| sample.scene.distance_m))?;
+            group.required::<DoubleType>(rows().map(|sample| sample.scene.reflectance))?;
+            group.required::<DoubleType>(rows().map(|sample| sample.scene.irradiance_w_m2_nm))?;
+            (0..grid.others.len()).try_for_each(|k| {
+                let of = |sample: &Sample| grid.setting(sample.scene.setting)[k].1;
+                group.required::<DoubleType>(rows().map(of))
+            })?;
+            (0..BINS).try_for_each(|bin| {
+                group.required::<Int32Type>(rows().map(|sample| sample.histogram[bin].into()))
+            })
+        },
+    )
 }

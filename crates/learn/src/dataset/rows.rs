@@ -8,7 +8,7 @@ use tofsim::sensor::streams::{self, stream};
 use super::grid::{Grid, ROWS, Scene};
 
 /// The rows of a dataset, in order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Rows {
     /// All of a grid.
     All(Grid),
@@ -46,9 +46,9 @@ impl Rows {
 /// So many rows of a grid, in order of distance.
 ///
 /// The numbers of rows at any two distances differ by 1 at most. At a distance, lights are drawn
-/// without putting back, and anew when all have been drawn. Row numbers are none of the grid's, so
-/// that draws are fresh even with the grid's seed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// without putting back, and anew when all have been drawn; of more than [`MOST_LEFT`] lights, with
+/// putting back. Row numbers are none of the grid's, so that draws are fresh even with the grid's seed.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Subset {
     /// What the scenes are taken from.
     pub grid: Grid,
@@ -71,18 +71,26 @@ impl Subset {
 
     /// Scene of a row; `index` counts from 0 and is below `len`.
     pub fn scene(&self, index: u64) -> Scene {
-        let (distances, lights) = (self.grid.distances_m.count, self.grid.lights());
+        let (distances, lights) = (self.grid.distances_m.count(), self.grid.lights());
         // Exact for any number of rows.
         let (index, len) = (u128::from(index), u128::from(self.len.max(1)));
         let distance = index * u128::from(distances) / len;
         let first = (distance * len).div_ceil(u128::from(distances));
         let (distance, place) = (distance as u64, (index - first) as u64);
+        if lights > MOST_LEFT {
+            let mut random =
+                stream(self.seed, streams::Source::Scene, self.first_row() + index as u64);
+            return self.grid.scene_at(distance, random.random_range(0..lights));
+        }
         let round = place / lights;
         let numbers = self.first_row() + (round * distances + distance);
         let mut random = stream(self.seed, streams::Source::Scene, numbers);
         self.grid.scene_at(distance, drawn(lights, place % lights, &mut random))
     }
 }
+
+/// Lights that are drawn without putting back: each draw looks at all of them.
+const MOST_LEFT: u64 = 4096;
 
 /// What is drawn after `before` others from `0..count`, without putting back.
 fn drawn(count: u64, before: u64, random: &mut ChaCha8Rng) -> u64 {
@@ -127,9 +135,9 @@ mod tests {
     #[test]
     fn no_scene_comes_again_before_all_have_come() {
         let grid = Grid::test();
-        let once = chosen(&Subset::new(grid, 51 * 100, 1));
+        let once = chosen(&Subset::new(grid.clone(), 51 * 100, 1));
         assert!(once.values().all(|&count| count == 1));
-        let often = chosen(&Subset::new(grid, 51 * 500, 1));
+        let often = chosen(&Subset::new(grid.clone(), 51 * 500, 1));
         assert_eq!(often.len() as u64, 51 * grid.lights());
         assert!(often.values().all(|count| (1..=2).contains(count)));
     }
@@ -150,12 +158,13 @@ mod tests {
         let grid = Grid::training();
         let len = 201 * 50;
         let mut counts = [[0.0; 53]; 9];
-        for scene in (0..len).map(|index| Subset::new(grid, len, 3).scene(index)) {
-            let of = |steps: crate::dataset::Steps, value| {
-                (0..steps.count).position(|k| steps.value(k) == value).unwrap()
+        let subset = Subset::new(grid.clone(), len, 3);
+        for scene in (0..len).map(|index| subset.scene(index)) {
+            let of = |axis: &crate::dataset::Axis, value| {
+                axis.values.iter().position(|known| *known == value).unwrap()
             };
-            let irradiance = of(grid.irradiances_w_m2_nm, scene.irradiance_w_m2_nm);
-            counts[irradiance][of(grid.reflectances, scene.reflectance)] += 1.0;
+            let irradiance = of(&grid.irradiances_w_m2_nm, scene.irradiance_w_m2_nm);
+            counts[irradiance][of(&grid.reflectances, scene.reflectance)] += 1.0;
         }
         let mean = len as f64 / 477.0;
         let chi2: f64 = counts.iter().flatten().map(|n| (n - mean) * (n - mean) / mean).sum();
@@ -164,11 +173,24 @@ mod tests {
     }
 
     #[test]
+    fn of_very_many_lights_each_is_drawn_at_once() {
+        let axis = |option| crate::dataset::Axis::parse("--grid", option).unwrap();
+        let axes = [axis("target.distance_m=0.1,0.2"), axis("target.reflectance=0.1..0.9:0.00001")];
+        let purpose = crate::dataset::GridPurpose::Training;
+        let grid = Grid::own(&axes, &Default::default(), purpose).unwrap();
+        let subset = Subset::new(grid, 20_000, 1);
+        let mean = (0..20_000).map(|index| subset.scene(index).reflectance).sum::<f64>() / 2e4;
+        assert!((mean - 0.5).abs() < 0.01, "{mean}");
+        assert_eq!([0, 19_999].map(|index| subset.scene(index).distance_m), [0.1, 0.2]);
+    }
+
+    #[test]
     fn no_two_sets_share_a_row_number() {
         let (train, test) = (Grid::training(), Grid::test());
-        let subset = |grid| Rows::Subset(Subset::new(grid, 1_000_000, 1));
-        let sets = [Rows::All(train), subset(train), Rows::All(test), subset(test)];
-        let numbers = sets.map(|rows| (rows.row(0).0, rows.row(rows.count() - 1).0));
+        let subset = |grid: &Grid| Rows::Subset(Subset::new(grid.clone(), 1_000_000, 1));
+        let (few, some) = (subset(&train), subset(&test));
+        let numbers = [Rows::All(train), few, Rows::All(test), some]
+            .map(|rows| (rows.row(0).0, rows.row(rows.count() - 1).0));
         assert!(numbers.windows(2).all(|pair| pair[0].1 < pair[1].0), "{numbers:?}");
         assert!(numbers[3].1 < 1 << 56, "beyond what a stream can hold");
     }

@@ -11,11 +11,19 @@ use tofsim::sensor::streams::{self, stream};
 use tofsim::sim::fast::histogram::independent_shots;
 use tofsim::sim::setup::{CYCLE, Setup};
 
+use crate::estimation::Acquisition;
+
 use super::grid::Scene;
 
-/// Draws histograms of any scene, all else being as a scenario has it.
+/// Draws histograms of any scene, all else being as a scenario has it, or as one of several has it.
 #[derive(Clone, Debug)]
 pub struct HistogramSource {
+    settings: Vec<Setting>,
+}
+
+/// A scenario, whose scene does not matter, and its chain.
+#[derive(Clone, Debug)]
+struct Setting {
     scenario: Scenario,
     bins: Bins,
 }
@@ -26,6 +34,112 @@ impl HistogramSource {
     /// # Errors
     /// When its histograms have no closed form: see [`independent_shots`].
     pub fn new(setup: &Setup) -> Result<Self> {
+        Ok(HistogramSource { settings: vec![Setting::new(setup)?] })
+    }
+
+    /// The same for each setting of a grid's other keys, in their order; one at least.
+    ///
+    /// # Errors
+    /// When the histograms of one have no closed form.
+    pub fn of_settings(setups: &[Setup]) -> Result<Self> {
+        let settings = setups.iter().map(Setting::new).collect::<Result<Vec<_>>>()?;
+        match settings.is_empty() {
+            true => Err(Input::new("grid", "expected one setting at least").into()),
+            false => Ok(HistogramSource { settings }),
+        }
+    }
+
+    fn setting(&self, scene: &Scene) -> &Setting {
+        &self.settings[scene.setting]
+    }
+
+    /// Shots of a histogram, 65,535 at most; of the first setting.
+    pub fn shots(&self) -> u16 {
+        self.settings[0].shots()
+    }
+
+    /// Shots of a histogram, where all settings have equally many.
+    pub fn shots_of_all(&self) -> Option<u16> {
+        let same = self.settings.iter().all(|setting| setting.shots() == self.shots());
+        same.then(|| self.shots())
+    }
+
+    /// Shots of a scene's histogram, 65,535 at most.
+    pub fn shots_of(&self, scene: &Scene) -> u16 {
+        self.setting(scene).shots()
+    }
+
+    /// The scenario, with the scene that was not asked for; of the first setting.
+    pub fn scenario(&self) -> &Scenario {
+        &self.settings[0].scenario
+    }
+
+    /// The scenarios of all settings.
+    pub fn scenarios(&self) -> impl Iterator<Item = &Scenario> {
+        self.settings.iter().map(|setting| &setting.scenario)
+    }
+
+    /// Whether the laser is on; in the first setting.
+    pub fn is_lit(&self) -> bool {
+        self.scenario().firmware.laser_en
+    }
+
+    /// Whether the laser is on in a scene's setting.
+    pub fn is_lit_in(&self, scene: &Scene) -> bool {
+        self.setting(scene).scenario.firmware.laser_en
+    }
+
+    /// The bins of the scenario's chain; of the first setting.
+    pub fn bins(&self) -> &Bins {
+        &self.settings[0].bins
+    }
+
+    /// How the histograms of a setting come about.
+    pub fn acquisition(&self, setting: usize) -> Acquisition<'_> {
+        let Setting { scenario, bins } = &self.settings[setting];
+        let shots = scenario.firmware.shots_per_frame;
+        Acquisition { bins, shots, pulse_sigma_ps: scenario.laser.pulse_sigma_ps }
+    }
+
+    /// Budget of a white target at a scene's distance, in an irradiance of 1 W/m^2/nm: what all scenes at
+    /// that distance have in common, and what takes longest to find.
+    pub fn white(&self, scene: &Scene) -> Budget {
+        let mut scenario = self.setting(scene).scenario.clone();
+        scenario.target.distance_m = scene.distance_m;
+        scenario.target.reflectance = 1.0;
+        scenario.ambient.irradiance_w_m2_nm = 1.0;
+        Budget::new(&scenario)
+    }
+
+    /// Probability of each code in one shot.
+    pub fn probabilities(&self, scene: &Scene) -> BinProbabilities {
+        self.probabilities_with(&self.white(scene), scene, self.is_lit_in(scene))
+    }
+
+    /// The same where the [white target's budget](HistogramSource::white) at the scene's distance is known,
+    /// with the laser on or off, whatever the scenario says.
+    pub fn probabilities_with(&self, white: &Budget, scene: &Scene, lit: bool) -> BinProbabilities {
+        let budget = scaled(white, scene);
+        let hazard = if lit { Hazard::new(&budget) } else { Hazard::dark(&budget) };
+        BinProbabilities::new(&hazard, &self.setting(scene).bins)
+    }
+
+    /// The histogram of a scene's row, where the probabilities are known.
+    pub fn draw_from(
+        &self,
+        codes: &BinProbabilities,
+        scene: &Scene,
+        seed: u64,
+        row: u64,
+    ) -> Histogram {
+        let mut random = stream(seed, streams::Source::Dataset, row);
+        // A count is at most the number of shots, which 16 bits hold.
+        codes.draw(self.shots_of(scene).into(), &mut random).map(|count| count as u16)
+    }
+}
+
+impl Setting {
+    fn new(setup: &Setup) -> Result<Self> {
         independent_shots(setup, "a dataset")?;
         if setup.has_pairs() {
             let expected = "expected false: a dataset's histograms are drawn one by one";
@@ -34,57 +148,11 @@ impl HistogramSource {
         }
         let tdc = &setup.params.tdc;
         let bins = Bins::of_chain(&tdc.delays, &tdc.cal, CYCLE);
-        Ok(HistogramSource { scenario: setup.scenario.clone(), bins })
+        Ok(Setting { scenario: setup.scenario.clone(), bins })
     }
 
-    /// Shots of a histogram, 65,535 at most.
-    pub fn shots(&self) -> u16 {
+    fn shots(&self) -> u16 {
         self.scenario.firmware.shots_per_frame as u16
-    }
-
-    /// The scenario, with the scene that was not asked for.
-    pub fn scenario(&self) -> &Scenario {
-        &self.scenario
-    }
-
-    /// Whether the laser is on.
-    pub fn is_lit(&self) -> bool {
-        self.scenario.firmware.laser_en
-    }
-
-    /// The bins of the scenario's chain.
-    pub fn bins(&self) -> &Bins {
-        &self.bins
-    }
-
-    /// Budget of a white target at a distance, in an irradiance of 1 W/m^2/nm: what all scenes at that
-    /// distance have in common, and what takes longest to find.
-    pub fn white(&self, distance_m: f64) -> Budget {
-        let mut scenario = self.scenario.clone();
-        scenario.target.distance_m = distance_m;
-        scenario.target.reflectance = 1.0;
-        scenario.ambient.irradiance_w_m2_nm = 1.0;
-        Budget::new(&scenario)
-    }
-
-    /// Probability of each code in one shot.
-    pub fn probabilities(&self, scene: &Scene) -> BinProbabilities {
-        self.probabilities_with(&self.white(scene.distance_m), scene, self.is_lit())
-    }
-
-    /// The same where the [white target's budget](HistogramSource::white) at the scene's distance is known,
-    /// with the laser on or off, whatever the scenario says.
-    pub fn probabilities_with(&self, white: &Budget, scene: &Scene, lit: bool) -> BinProbabilities {
-        let budget = scaled(white, scene);
-        let hazard = if lit { Hazard::new(&budget) } else { Hazard::dark(&budget) };
-        BinProbabilities::new(&hazard, &self.bins)
-    }
-
-    /// The histogram of a row whose probabilities are known.
-    pub fn draw_from(&self, codes: &BinProbabilities, seed: u64, row: u64) -> Histogram {
-        let mut random = stream(seed, streams::Source::Dataset, row);
-        // A count is at most the number of shots, which 16 bits hold.
-        codes.draw(self.shots().into(), &mut random).map(|count| count as u16)
     }
 }
 
@@ -110,7 +178,8 @@ mod tests {
         HistogramSource::new(&Setup::new(scenario::load("kc705", &overrides)?)?)
     }
 
-    const SCENE: Scene = Scene { distance_m: 0.3, reflectance: 0.34, irradiance_w_m2_nm: 0.2 };
+    const SCENE: Scene =
+        Scene { distance_m: 0.3, reflectance: 0.34, irradiance_w_m2_nm: 0.2, setting: 0 };
 
     #[test]
     fn the_bins_of_the_ideal_chain_are_those_of_the_thesis() {
@@ -131,7 +200,7 @@ mod tests {
         let rows = 400;
         let mut sums = [0u64; 256];
         for row in 0..rows {
-            let histogram = source.draw_from(&codes, 5, row);
+            let histogram = source.draw_from(&codes, &SCENE, 5, row);
             sums.iter_mut().zip(histogram).for_each(|(sum, count)| *sum += u64::from(count));
         }
         let shots = f64::from(source.shots()) * rows as f64;
@@ -152,7 +221,8 @@ mod tests {
         let codes = source.probabilities(&SCENE);
         let (mut chi2, mut freedom) = (0.0, 0.0);
         for row in 0..200 {
-            for (&count, p) in source.draw_from(&codes, 1, row).iter().zip(codes.of_code()) {
+            for (&count, p) in source.draw_from(&codes, &SCENE, 1, row).iter().zip(codes.of_code())
+            {
                 let expected = 5000.0 * p;
                 if expected >= 5.0 {
                     chi2 += (f64::from(count) - expected).powi(2) / (expected * (1.0 - p));
@@ -177,14 +247,16 @@ mod tests {
     #[test]
     fn the_budget_is_that_of_the_scenario_in_either_ambient_model() {
         for model in ["fitted", "physical"] {
-            let mut scenario = source(&[&format!("ambient.model={model}")]).unwrap().scenario;
+            let mut scenario =
+                source(&[&format!("ambient.model={model}")]).unwrap().scenario().clone();
             scenario.target.distance_m = 0.6;
             scenario.target.reflectance = 0.37;
             scenario.ambient.irradiance_w_m2_nm = 0.35;
             let expected = Budget::new(&scenario);
-            let scene = Scene { distance_m: 0.6, reflectance: 0.37, irradiance_w_m2_nm: 0.35 };
+            let scene =
+                Scene { distance_m: 0.6, reflectance: 0.37, irradiance_w_m2_nm: 0.35, setting: 0 };
             let source = source(&[&format!("ambient.model={model}")]).unwrap();
-            let found = scaled(&source.white(0.6), &scene);
+            let found = scaled(&source.white(&scene), &scene);
             let close = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-14;
             assert!(close(found.signal_per_shot, expected.signal_per_shot), "{found:?}");
             assert!(close(found.ambient_rate_hz, expected.ambient_rate_hz), "{found:?}");
@@ -196,10 +268,30 @@ mod tests {
     #[test]
     fn a_histogram_never_has_more_counts_than_shots() {
         let source = source(&["firmware.shots_per_frame=65535", "spad.pdp=1"]).unwrap();
-        let near = Scene { distance_m: 0.001, reflectance: 1.0, irradiance_w_m2_nm: 100.0 };
-        let histogram = source.draw_from(&source.probabilities(&near), 1, 0);
+        let near =
+            Scene { distance_m: 0.001, reflectance: 1.0, irradiance_w_m2_nm: 100.0, setting: 0 };
+        let histogram = source.draw_from(&source.probabilities(&near), &near, 1, 0);
         assert_eq!(histogram.iter().map(|&count| u64::from(count)).sum::<u64>(), 65_535);
         assert_eq!(histogram[0], 65_535);
+    }
+
+    #[test]
+    fn each_setting_has_its_own_optics_chain_and_shots() {
+        let of = |keys: &[&str]| {
+            let keys: Vec<_> = keys.iter().map(|&key| key.to_owned()).collect();
+            Setup::new(scenario::load("kc705", &keys).unwrap()).unwrap()
+        };
+        let wide =
+            ["laser.pulse_sigma_ps=200", "tdc.profile=ideal", "firmware.shots_per_frame=500"];
+        let both = HistogramSource::of_settings(&[of(&[]), of(&wide)]).unwrap();
+        for (setting, keys) in [&[][..], &wide].into_iter().enumerate() {
+            let (alone, scene) = (source(keys).unwrap(), Scene { setting, ..SCENE });
+            let codes = both.probabilities(&scene);
+            assert_eq!(codes, alone.probabilities(&SCENE));
+            let drawn = both.draw_from(&codes, &scene, 1, 7);
+            assert_eq!(drawn, alone.draw_from(&codes, &SCENE, 1, 7));
+        }
+        assert!(HistogramSource::of_settings(&[]).is_err());
     }
 
     #[test]

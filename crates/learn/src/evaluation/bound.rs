@@ -4,33 +4,42 @@ use rayon::prelude::*;
 
 use tofsim::error::Input;
 
+use crate::dataset::blocks::Last;
 use crate::dataset::source::scaled;
-use crate::dataset::{Grid, HistogramSource};
-use crate::estimation::Acquisition;
+use crate::dataset::{Grid, HistogramSource, Scene};
 use crate::estimation::likelihood::Model;
+
+/// Lights at a distance that the mean is over; of more, every so many one.
+const MOST_LIGHTS: u64 = 1024;
 
 /// Twice the root mean square of the bound over the grid's lights at each distance; `None` where a
 /// scene tells nothing, as without a laser [mm].
 ///
 /// # Errors
-/// When the acquisition makes no sense.
+/// When the acquisition of a setting makes no sense.
 pub fn two_sd_mm(
     source: &HistogramSource,
-    acquisition: &Acquisition,
     grid: &Grid,
     distances_m: &[f64],
 ) -> Result<Vec<Option<f64>>, Input> {
-    let model = Model::new(acquisition)?;
+    let settings = 0..grid.settings() as usize;
+    let models = settings.map(|setting| Model::new(&source.acquisition(setting)));
+    let models = models.collect::<Result<Vec<_>, Input>>()?;
+    let apart = grid.lights().div_ceil(MOST_LIGHTS).max(1);
     let bound = |&distance_m: &f64| {
-        let white = source.white(distance_m);
+        let mut white = Last(None);
         let variance = |light: u64| {
-            let scene = crate::dataset::Scene { distance_m, ..grid.scene_at(0, light) };
-            let budget = scaled(&white, &scene);
+            let scene = Scene { distance_m, ..grid.scene_at(0, light) };
+            let white = white.or(scene.setting, |_| source.white(&scene));
+            let budget = scaled(white, &scene);
+            let model = &models[scene.setting];
             let standard_deviation = model.cramer_rao_m(&(&budget).into())?;
             Some(standard_deviation * standard_deviation)
         };
-        let variances: Option<Vec<f64>> = (0..grid.lights()).map(variance).collect();
-        let mean = variances?.iter().sum::<f64>() / grid.lights() as f64;
+        let lights = (0..grid.lights()).step_by(apart as usize);
+        let variances: Option<Vec<f64>> = lights.map(variance).collect();
+        let variances = variances?;
+        let mean = variances.iter().sum::<f64>() / variances.len() as f64;
         Some(2e3 * mean.sqrt())
     };
     Ok(distances_m.par_iter().map(bound).collect())
@@ -47,9 +56,8 @@ mod tests {
         let ideal = ["tdc.profile=ideal".to_owned()];
         let setup = Setup::new(scenario::load("kc705", &ideal).unwrap()).unwrap();
         let source = HistogramSource::new(&setup).unwrap();
-        let acquisition = Acquisition { bins: source.bins(), shots: 30_000, pulse_sigma_ps: 137.0 };
         let distances_m = [0.1, 0.3, 0.6];
-        let bound = two_sd_mm(&source, &acquisition, &Grid::test(), &distances_m).unwrap();
+        let bound = two_sd_mm(&source, &Grid::test(), &distances_m).unwrap();
         // Prototype: 0.5, 0.4 and 1.0 mm, to one decimal.
         for (found, expected) in bound.into_iter().zip([0.5, 0.4, 1.0]) {
             assert!((found.unwrap() - expected).abs() < 0.06, "{found:?}");

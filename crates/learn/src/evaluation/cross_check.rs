@@ -42,7 +42,8 @@ impl CrossCheck {
         self.other_depths == 0 && self.p_value > LEVEL
     }
 
-    /// Simulates frames of a scene, all else being as in `loaded`, of which `source` is.
+    /// Simulates frames of a scene, all else being as in `loaded`, of which `source` has the scene's
+    /// setting.
     ///
     /// # Errors
     /// When the scenario does not run, or it is stopped.
@@ -69,7 +70,7 @@ impl CrossCheck {
         };
         Run::new(&setup)
             .observe(frames, Observers { frames: Some(&mut take), stop, ..Observers::default() })?;
-        let shots = (frames * u64::from(source.shots())) as f64;
+        let shots = (frames * u64::from(source.shots_of(scene))) as f64;
         let p_value = p_value(&sums, source.probabilities(scene).of_code(), shots);
         Ok(CrossCheck { distance_m: scene.distance_m, frames, other_depths, p_value })
     }

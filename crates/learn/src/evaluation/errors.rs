@@ -41,22 +41,41 @@ impl Evaluation {
         seed: u64,
         estimators: &[Box<dyn Estimator + '_>],
         stop: Option<&AtomicBool>,
+        done: impl FnMut(u64),
+    ) -> Result<Self> {
+        let of_all = |_: &Scene| estimators;
+        Evaluation::with(source, rows, seed, of_all, stop, done)
+    }
+
+    /// The same where each setting of the grid has estimators of its own, equally many with the same
+    /// names.
+    ///
+    /// # Errors
+    /// As [`Evaluation::new`].
+    pub fn with<'a>(
+        source: &HistogramSource,
+        rows: &Rows,
+        seed: u64,
+        estimators: impl Fn(&Scene) -> &'a [Box<dyn Estimator + 'a>] + Sync,
+        stop: Option<&AtomicBool>,
         mut done: impl FnMut(u64),
     ) -> Result<Self> {
-        let mut scenes = Vec::with_capacity(rows.count() as usize);
+        let first = estimators(&Scene::default());
         let empty = || Vec::with_capacity(rows.count() as usize);
-        let columns = estimators.iter();
+        let columns = first.iter();
         let columns = columns.map(|one| EstimatorErrors { name: one.name(), errors_m: empty() });
         let mut columns: Vec<EstimatorErrors> = columns.collect();
-        let needs_dark = estimators.iter().any(|one| one.needs_dark());
+        let mut scenes = Vec::with_capacity(rows.count() as usize);
+        let needs_dark = first.iter().any(|one| one.needs_dark());
         let pairs = needs_dark.then(|| Pairs::new(source)).transpose()?;
         for block in source.blocks(rows, seed) {
             if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
                 return Err(Error::Interrupted);
             }
             let drawn = pairs.map_or(Vec::new(), |pairs| pairs.draw(&block));
-            for (estimator, column) in estimators.iter().zip(&mut columns) {
+            for (place, column) in columns.iter_mut().enumerate() {
                 let errors = block.par_iter().enumerate().map(|(k, sample)| {
+                    let estimator = &estimators(&sample.scene)[place];
                     let found = match estimator.needs_dark() {
                         true => estimator.estimate_pair(&drawn[k]),
                         false => estimator.estimate(&sample.histogram),

@@ -95,7 +95,7 @@ mod tests {
         let (mut scenes, mut errors_m) = (Vec::new(), Vec::new());
         for (distance_m, two_sd_mm) in [(0.1, 1.7), (0.35, 3.0), (0.6, 5.0)] {
             for sign in [-1.0, 1.0] {
-                scenes.push(Scene { distance_m, reflectance: 0.3, irradiance_w_m2_nm: 0.0 });
+                scenes.push(Scene { distance_m, reflectance: 0.3, ..Scene::default() });
                 errors_m.push(Some(sign * two_sd_mm / 2e3 / 2f64.sqrt()));
             }
         }

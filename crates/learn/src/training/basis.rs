@@ -35,32 +35,85 @@ struct Mix {
     shares: [f64; 2],
 }
 
+/// Places of the knots for echoes from one bin to another: as dense as the thesis's range of distances
+/// has them, in parts of the range. Where the range ends near the last bin, no knots are left for what
+/// comes behind it.
+pub fn knots_between([first, last]: [f64; 2]) -> [f64; KNOTS] {
+    // The range of the dense knots, and by how much it reaches beyond the echoes of 0.1 to 0.6 m.
+    let ((begin, _), (end, spacing)) = (SPACINGS[0], SPACINGS[3]);
+    let (before, behind) = (ECHOES[0] - begin, end - ECHOES[1]);
+    let end_of_bins = BINS as f64 - 0.5;
+    let from = (first - before).clamp(LEAST_HEAD, end_of_bins - LEAST_TAIL);
+    let until = (last + behind).min(end_of_bins);
+    let has_tail = until <= end_of_bins - LEAST_TAIL;
+    let mut knots = knots();
+    let tail = knots.partition_point(|&knot| knot <= end);
+    let (until, last_dense) = match has_tail {
+        true => (until, end),
+        false => {
+            for k in tail..KNOTS {
+                knots[k] = knots[k - 1] + spacing;
+            }
+            (end_of_bins, knots[KNOTS - 1])
+        }
+    };
+    let behind = (end_of_bins - until) / (knots[KNOTS - 1] - last_dense).max(1.0);
+    knots.map(|knot| match knot {
+        _ if knot <= begin => from * knot / begin,
+        _ if knot <= last_dense => from + (until - from) * (knot - begin) / (last_dense - begin),
+        _ => until + (knot - last_dense) * behind,
+    })
+}
+
+/// Least stretch for the knots before and behind the dense ones [bins].
+const LEAST_HEAD: f64 = 2.0;
+/// See [`LEAST_HEAD`].
+const LEAST_TAIL: f64 = 12.0;
+/// Bins of the echoes of 0.1 and 0.6 m.
+const ECHOES: [f64; 2] = [26.7, 160.1];
+
 /// The matrix of bins and knots; each row has two elements.
-static MIXES: LazyLock<[Mix; BINS]> = LazyLock::new(|| {
-    let knots = knots();
-    std::array::from_fn(|bin| {
+#[derive(Clone, Debug)]
+pub struct Basis(Vec<Mix>);
+
+impl Basis {
+    /// Of knots in rising order; of none, of the thesis's.
+    pub fn new(knots: &[f64]) -> Self {
+        match <[f64; KNOTS]>::try_from(knots) {
+            Ok(knots) => Basis(mixes(&knots)),
+            Err(_) => THESIS.clone(),
+        }
+    }
+
+    /// Weights of all bins from those at the knots.
+    pub fn expand(&self, weights: &[f64]) -> [f64; BINS] {
+        let at =
+            |mix: &Mix| mix.shares[0] * weights[mix.knot] + mix.shares[1] * weights[mix.knot + 1];
+        std::array::from_fn(|bin| at(&self.0[bin]))
+    }
+
+    /// Counts gathered at the knots, so that weights at knots times these are weights of bins times
+    /// counts.
+    pub fn gather(&self, counts: &Histogram) -> [f64; KNOTS] {
+        let mut knots = [0.0; KNOTS];
+        for (mix, &count) in self.0.iter().zip(counts) {
+            knots[mix.knot] += mix.shares[0] * f64::from(count);
+            knots[mix.knot + 1] += mix.shares[1] * f64::from(count);
+        }
+        knots
+    }
+}
+
+static THESIS: LazyLock<Basis> = LazyLock::new(|| Basis(mixes(&knots())));
+
+fn mixes(knots: &[f64; KNOTS]) -> Vec<Mix> {
+    let mix = |bin| {
         let at = bin as f64;
         let knot = knots.partition_point(|&knot| knot <= at).clamp(1, KNOTS - 1) - 1;
         let share = (at - knots[knot]) / (knots[knot + 1] - knots[knot]);
         Mix { knot, shares: [1.0 - share, share] }
-    })
-});
-
-/// Weights of all bins from those at the knots.
-pub fn expand(weights: &[f64]) -> [f64; BINS] {
-    let at = |mix: &Mix| mix.shares[0] * weights[mix.knot] + mix.shares[1] * weights[mix.knot + 1];
-    std::array::from_fn(|bin| at(&MIXES[bin]))
-}
-
-/// Counts gathered at the knots, so that weights at knots times these are weights of bins times
-/// counts.
-pub fn gather(counts: &Histogram) -> [f64; KNOTS] {
-    let mut knots = [0.0; KNOTS];
-    for (mix, &count) in MIXES.iter().zip(counts) {
-        knots[mix.knot] += mix.shares[0] * f64::from(count);
-        knots[mix.knot + 1] += mix.shares[1] * f64::from(count);
-    }
-    knots
+    };
+    (0..BINS).map(mix).collect()
 }
 
 #[cfg(test)]
@@ -77,9 +130,23 @@ mod tests {
     }
 
     #[test]
+    fn knots_for_another_range_are_dense_there_and_hold_all_bins() {
+        let thesis = knots_between(ECHOES);
+        let apart = thesis.iter().zip(knots()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(apart < 1e-9, "{apart}");
+        for range in [[13.3, 240.2], [1.0, 20.0], [100.0, 100.0], [0.0, 300.0], [250.0, 255.0]] {
+            let knots = knots_between(range);
+            assert!(knots.is_sorted_by(|a, b| a < b), "{range:?}");
+            assert!(knots[0] == 0.0 && knots[KNOTS - 1] >= 255.0, "{range:?} {}", knots[KNOTS - 1]);
+            let inside = knots.iter().filter(|k| **k > range[0] - 24.0 && **k < range[1] + 24.0);
+            assert!(inside.count() > 55, "{range:?} {knots:?}");
+        }
+    }
+
+    #[test]
     fn a_straight_line_stays_one() {
         let line = knots().map(|knot| 3.0 - 0.5 * knot);
-        for (bin, weight) in expand(&line).into_iter().enumerate() {
+        for (bin, weight) in Basis::new(&[]).expand(&line).into_iter().enumerate() {
             assert!((weight - (3.0 - 0.5 * bin as f64)).abs() < 1e-12, "{bin}");
         }
     }
@@ -88,8 +155,9 @@ mod tests {
     fn weights_of_knots_and_of_bins_give_the_same_sums() {
         let weights: [f64; KNOTS] = std::array::from_fn(|k| (k as f64 * 0.9).sin());
         let counts: Histogram = std::array::from_fn(|bin| (bin * bin % 997) as u16);
-        let bins = expand(&weights).into_iter().zip(counts).map(|(w, c)| w * f64::from(c));
-        let knots = gather(&counts).iter().zip(weights).map(|(c, w)| c * w).sum::<f64>();
+        let basis = Basis::new(&knots_between([10.0, 240.0]));
+        let bins = basis.expand(&weights).into_iter().zip(counts).map(|(w, c)| w * f64::from(c));
+        let knots = basis.gather(&counts).iter().zip(weights).map(|(c, w)| c * w).sum::<f64>();
         assert!((bins.sum::<f64>() - knots).abs() < 1e-9);
     }
 }

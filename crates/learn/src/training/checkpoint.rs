@@ -98,6 +98,7 @@ fn check(state: &TournamentState, recipe: &Recipe) -> std::result::Result<(), &'
         ("block", state.block <= blocks),
         ("epochs", state.epochs < stage.epochs),
         ("scaling", scaling.iter().all(|s| s.len() == KNOTS && s.iter().all(|x| x.is_finite()))),
+        ("scaling.knots", state.scaling.knots.is_empty() || are_knots(&state.scaling.knots)),
         ("candidates", state.candidates.len() == stage.candidates),
         ("candidates.lm.x", state.candidates.iter().all(|candidate| fits(&candidate.lm.x))),
         ("candidates.lm.least", least.all(|(_, x)| fits(x))),
@@ -107,6 +108,13 @@ fn check(state: &TournamentState, recipe: &Recipe) -> std::result::Result<(), &'
         Some((field, _)) => Err(field),
         None => Ok(()),
     }
+}
+
+/// Whether these can be the knots of a basis.
+fn are_knots(knots: &[f64]) -> bool {
+    let ends = (knots.first(), knots.last());
+    let holds_all = matches!(ends, (Some(&first), Some(&last)) if first == 0.0 && last >= 255.0);
+    knots.len() == KNOTS && holds_all && knots.is_sorted_by(|a, b| a < b)
 }
 
 #[cfg(test)]
@@ -130,7 +138,11 @@ mod tests {
             block: 0,
             epochs: 3,
             data: "0123456789abcdef".to_owned(),
-            scaling: Scaling { mean: vec![0.1; KNOTS], inverse_sd: vec![1.0 / 3.0; KNOTS] },
+            scaling: Scaling {
+                mean: vec![0.1; KNOTS],
+                inverse_sd: vec![1.0 / 3.0; KNOTS],
+                knots: Vec::new(),
+            },
             candidates: (0..recipe.stages[0].candidates).map(candidate).collect(),
             best: Some(BestBlock { start: 1, block: 2, ratio: f64::INFINITY, x: x.clone() }),
             curve: Vec::new(),

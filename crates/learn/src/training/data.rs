@@ -1,10 +1,14 @@
 //! Histograms with their true distances: what a network is trained and judged on.
 
+use tofsim::error::Input;
 use tofsim::files::digest::digest;
 use tofsim::network::Histogram;
 
+use crate::dataset::grid::DISTANCE;
 use crate::dataset::{Grid, HistogramSource, Rows, Subset};
+use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, BIN_PS};
 
+use super::basis::knots_between;
 use super::features::{FeatureBlock, Scaling, blocks};
 use super::limits::Hinges;
 use super::network_problem::NetworkProblem;
@@ -45,30 +49,101 @@ pub enum Purpose {
     Stage(usize),
 }
 
-/// Draws what a training has for a purpose, equally many histograms at each distance.
-pub fn draw(recipe: &Recipe, source: &HistogramSource, seed: u64, purpose: Purpose) -> Samples {
-    let (training, test) = (Grid::training(), Grid::test());
-    let scenes = test.distances_m.count * test.lights();
-    let (place, grid, len) = match purpose {
-        Purpose::Choice => (2, test, recipe.finish.choice * scenes),
-        Purpose::Test => (3, test, scenes),
-        Purpose::Validation => (4, training, recipe.validation),
-        Purpose::Stage(stage) => (16 + stage as u64, training, recipe.stage(stage).samples),
-    };
-    let seed = derived(seed, place);
-    let rows = Rows::Subset(Subset::new(grid, len, seed));
-    let mut samples = Samples::default();
-    for sample in source.blocks(&rows, seed).flatten() {
-        samples.counts.push(sample.histogram);
-        samples.distances_m.push(sample.scene.distance_m);
-    }
-    samples
+/// Scenes of the thesis's test grid: as many as are drawn for a test or a choice at most.
+const MOST_SCENES: u64 = 51 * 477;
+/// Distances of the thesis's test grid: as many as another one has at most.
+const TEST_DISTANCES: usize = 51;
+
+/// Where the histograms of a training come from.
+#[derive(Clone, Debug)]
+pub struct TrainingScenes<'a> {
+    source: &'a HistogramSource,
+    /// For training and its validation.
+    pub training: Grid,
+    /// For the test and the choice.
+    pub test: Grid,
 }
 
-/// A number that changes with the chain's bins and anything in the scenario.
+impl<'a> TrainingScenes<'a> {
+    /// The thesis's grids.
+    pub fn thesis(source: &'a HistogramSource) -> Self {
+        TrainingScenes { source, training: Grid::training(), test: Grid::test() }
+    }
+
+    /// The same scenes for training and for tests, with other draws, and fewer distances for tests. The
+    /// thesis's training grid so comes to its test grid.
+    pub fn of_grids(source: &'a HistogramSource, training: Grid, test: Grid) -> Self {
+        TrainingScenes { source, training, test: test.with_distances(TEST_DISTANCES) }
+    }
+
+    /// Draws what a training has for a purpose, equally many histograms at each distance.
+    pub fn draw(&self, recipe: &Recipe, seed: u64, purpose: Purpose) -> Samples {
+        let TrainingScenes { source, training, test } = self;
+        let scenes = test.scenes().min(MOST_SCENES);
+        let (place, grid, len) = match purpose {
+            Purpose::Choice => (2, test, recipe.finish.choice * scenes),
+            Purpose::Test => (3, test, scenes),
+            Purpose::Validation => (4, training, recipe.validation),
+            Purpose::Stage(stage) => (16 + stage as u64, training, recipe.stage(stage).samples),
+        };
+        let seed = derived(seed, place);
+        let rows = Rows::Subset(Subset::new(grid.clone(), len, seed));
+        let mut samples = Samples::default();
+        for sample in source.blocks(&rows, seed).flatten() {
+            samples.counts.push(sample.histogram);
+            samples.distances_m.push(sample.scene.distance_m);
+        }
+        samples
+    }
+
+    /// Places of the knots for these distances; none are the thesis's.
+    pub fn knots(&self) -> Vec<f64> {
+        if self.training.is_thesis() {
+            return Vec::new();
+        }
+        let bins = self.training.distances_m.range().map(|m| m * ARRIVAL_PS_PER_M / BIN_PS);
+        knots_between(bins).to_vec()
+    }
+
+    /// That there are several distances, and histograms for each in every stage.
+    ///
+    /// # Errors
+    /// Naming what is too few.
+    pub fn check(&self, recipe: &Recipe) -> Result<(), Input> {
+        let distances = self.training.distances_m.count();
+        let fault = |field: &str, value: u64, expected: String| {
+            Err(Input::new("recipe", expected).field(field).value(value))
+        };
+        if distances < 2 {
+            let expected = "one value, expected two distances at least to train a network for";
+            return Err(Input::new("--grid", expected).field(DISTANCE));
+        }
+        let expected = || format!("expected {distances} or more, the grid's distances");
+        for place in 0..=recipe.stages.len() {
+            let samples = recipe.stage(place).samples;
+            let is_finish = place == recipe.stages.len();
+            let name = if is_finish { "finish".to_owned() } else { format!("stages[{place}]") };
+            if samples < distances {
+                return fault(&format!("{name}.samples"), samples, expected());
+            }
+        }
+        match recipe.validation {
+            validation if validation > 0 && validation < distances => {
+                fault("validation", validation, expected())
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// A number that changes with the chain's bins and anything in the scenario, or in one of a grid's.
 pub fn fingerprint(source: &HistogramSource) -> String {
-    let text = format!("{:?} {:?}", source.scenario(), source.bins());
-    format!("{:016x}", digest(0, text.as_bytes()))
+    let mut value = 0;
+    for (setting, scenario) in source.scenarios().enumerate() {
+        let text = format!("{:?} {:?}", scenario, source.acquisition(setting).bins);
+        value = digest(value, text.as_bytes());
+    }
+    format!("{value:016x}")
 }
 
 /// The data of a stage as the optimiser wants them.
@@ -123,6 +198,59 @@ impl StageData {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dataset::{Axis, GridPurpose};
+    use tofsim::scenario;
+    use tofsim::sim::setup::Setup;
+
+    fn scenes<'a>(source: &'a HistogramSource, option: &str) -> TrainingScenes<'a> {
+        let axes = [Axis::parse("--grid", option).unwrap()];
+        let grid = |purpose| Grid::own(&axes, source.scenario(), purpose).unwrap();
+        let [training, test] = [GridPurpose::Training, GridPurpose::Test].map(grid);
+        TrainingScenes::of_grids(source, training, test)
+    }
+
+    fn source() -> HistogramSource {
+        let few = ["firmware.shots_per_frame=300".to_owned()];
+        HistogramSource::new(&Setup::new(scenario::load("kc705", &few).unwrap()).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn an_own_grid_is_trained_tested_and_chosen_on_with_draws_of_their_own() {
+        let source = source();
+        let scenes = scenes(&source, "target.distance_m=0.05..0.9:0.0025");
+        assert_eq!((scenes.training.scenes(), scenes.test.scenes()), (341, 35));
+        let recipe = Recipe::quick();
+        let [test, choice, stage] = [Purpose::Test, Purpose::Choice, Purpose::Stage(0)]
+            .map(|purpose| scenes.draw(&recipe, 1, purpose));
+        assert_eq!((test.counts.len(), choice.counts.len(), stage.counts.len()), (35, 35, 603));
+        assert_eq!((test.distances_m[0], test.distances_m[34]), (0.05, 0.9));
+        assert!(test.distances_m.iter().all(|d| stage.distances_m.contains(d)));
+        let shared = |a: &Samples, b: &Samples| a.counts.iter().any(|one| b.counts.contains(one));
+        assert!(!shared(&test, &stage) && !shared(&test, &choice) && !shared(&choice, &stage));
+        assert!(scenes.knots()[60] > 200.0);
+    }
+
+    #[test]
+    fn the_thesis_s_grids_are_as_they_were() {
+        let source = source();
+        let thesis = TrainingScenes::thesis(&source);
+        let of = TrainingScenes::of_grids(&source, Grid::training(), Grid::test());
+        assert_eq!((of.training, of.test), (thesis.training.clone(), thesis.test.clone()));
+        assert!(thesis.knots().is_empty());
+    }
+
+    #[test]
+    fn too_few_distances_or_histograms_are_refused() {
+        let source = source();
+        let check = |option: &str, recipe: &Recipe| {
+            scenes(&source, option).check(recipe).err().map(|error| error.to_string())
+        };
+        assert_eq!(check("target.distance_m=0.1..0.6:0.0025", &Recipe::quick()), None);
+        let one = check("target.reflectance=0.1,0.2", &Recipe::quick()).unwrap();
+        assert!(one.contains("target.distance_m: one value, expected two"), "{one}");
+        let many = check("target.distance_m=0.1..0.9:0.001", &Recipe::quick()).unwrap();
+        assert!(many.contains("stages[0].samples = 603: expected 801 or more"), "{many}");
+    }
 
     #[test]
     fn the_digest_sees_every_count_and_distance() {

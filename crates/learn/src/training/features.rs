@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use tofsim::network::Histogram;
 
-use super::basis::{KNOTS, gather};
+use super::basis::{Basis, KNOTS};
 
 /// Columns that are worked on together.
 pub const LANES: usize = 8;
@@ -27,16 +27,20 @@ pub struct Scaling {
     /// One over the standard deviation at each knot; 0 where nothing varies, so that the input is
     /// 0 as well [1/hits].
     pub inverse_sd: Vec<f64>,
+    /// Places of the knots; none are the thesis's [bins].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub knots: Vec<f64>,
 }
 
 impl Scaling {
-    /// Of the histograms given.
-    pub fn of(counts: &[Histogram]) -> Self {
+    /// Of the histograms given, with knots at these places, or at the thesis's.
+    pub fn of(counts: &[Histogram], knots: &[f64]) -> Self {
+        let basis = Basis::new(knots);
         let n = counts.len().max(1) as f64;
         let mut mean = vec![0.0; KNOTS];
         let add = |sums: &mut [f64], term: &dyn Fn(usize, f64) -> f64| {
             for histogram in counts {
-                let knots = gather(histogram);
+                let knots = basis.gather(histogram);
                 sums.iter_mut().enumerate().for_each(|(k, sum)| *sum += term(k, knots[k]) / n);
             }
         };
@@ -48,12 +52,17 @@ impl Scaling {
             if *variance > 1e-20 * (1.0 + mean * mean) { 1.0 / variance.sqrt() } else { 0.0 }
         };
         let inverse_sd = variance.iter().zip(&mean).map(inverse).collect();
-        Scaling { mean, inverse_sd }
+        Scaling { mean, inverse_sd, knots: knots.to_vec() }
     }
 
     /// Inputs of a histogram, and a 1.
     pub fn apply(&self, counts: &Histogram) -> [f32; COLUMNS] {
-        let knots = gather(counts);
+        self.apply_on(&Basis::new(&self.knots), counts)
+    }
+
+    /// The same where the basis of its knots is known.
+    fn apply_on(&self, basis: &Basis, counts: &Histogram) -> [f32; COLUMNS] {
+        let knots = basis.gather(counts);
         let input = |k: usize| ((knots[k] - self.mean[k]) * self.inverse_sd[k]) as f32;
         std::array::from_fn(|k| if k < KNOTS { input(k) } else { 1.0 })
     }
@@ -64,10 +73,11 @@ pub type FeatureBlock = Vec<Tile>;
 
 /// Inputs of histograms, in blocks, of which the last ends in zeros.
 pub fn blocks(counts: &[Histogram], scaling: &Scaling) -> Vec<FeatureBlock> {
+    let basis = Basis::new(&scaling.knots);
     let block = |counts: &[Histogram]| {
         let mut block = vec![[0.0; LANES]; TILES * BLOCK];
         for (sample, histogram) in counts.iter().enumerate() {
-            for (tile, columns) in scaling.apply(histogram).chunks(LANES).enumerate() {
+            for (tile, columns) in scaling.apply_on(&basis, histogram).chunks(LANES).enumerate() {
                 block[tile * BLOCK + sample].copy_from_slice(columns);
             }
         }
@@ -92,7 +102,7 @@ mod tests {
             std::array::from_fn(|bin| ((s * 37 + bin * s) % 101) as u16)
         };
         let counts: Vec<_> = (0..300).map(histogram).collect();
-        let scaling = Scaling::of(&counts);
+        let scaling = Scaling::of(&counts, &[]);
         for k in 1..KNOTS {
             let inputs = counts.iter().map(|counts| f64::from(scaling.apply(counts)[k]));
             let (sum, squares) = inputs.fold((0.0, 0.0), |(sum, sq), x| (sum + x, sq + x * x));
@@ -104,7 +114,7 @@ mod tests {
     #[test]
     fn a_constant_bin_gives_0() {
         let counts = vec![[1234; 256]; 3];
-        let scaling = Scaling::of(&counts);
+        let scaling = Scaling::of(&counts, &[]);
         assert_eq!(scaling.inverse_sd, vec![0.0; KNOTS]);
         assert_eq!(scaling.apply(&counts[0])[..KNOTS], [0.0; KNOTS]);
         assert_eq!(scaling.apply(&[7; 256])[KNOTS], 1.0);
@@ -113,7 +123,7 @@ mod tests {
     #[test]
     fn the_last_block_ends_in_zeros() {
         let counts = vec![[1; 256]; BLOCK + 2];
-        let blocks = blocks(&counts, &Scaling::of(&counts));
+        let blocks = blocks(&counts, &Scaling::of(&counts, &[]));
         assert_eq!(blocks.len(), 2);
         let last = tile(&blocks[1], TILES - 1);
         assert_eq!(last[1][LANES - 1], 1.0);

@@ -123,7 +123,7 @@ mod tests {
             std::array::from_fn(|bin| ((s * 37 + bin * s) % 101) as u16)
         };
         let counts: Vec<_> = (0..BLOCK).map(histogram).collect();
-        let scaling = Scaling::of(&counts);
+        let scaling = Scaling::of(&counts, &[]);
         let block = &blocks(&counts, &scaling)[0];
         let weight = |s: usize, w: usize| ((s * 5 + w * 3) % 17) as f32 - 8.0;
         let mut weights = vec![[[0.0; GROUP]; BLOCK]; groups(14)];

@@ -128,7 +128,7 @@ mod tests {
     #[test]
     fn the_penalties_derivatives_are_their_differences() {
         let mean = (0..KNOTS).map(|k| k as f64).collect();
-        let scaling = Scaling { mean, inverse_sd: vec![0.004; KNOTS] };
+        let scaling = Scaling { mean, inverse_sd: vec![0.004; KNOTS], ..Scaling::default() };
         // Two neurons; every kind of hinge is above zero.
         let mut x: Vec<f64> = (0..2 * COLUMNS).map(|k| (k as f64 * 0.37).sin() * 1.5).collect();
         x[KNOTS] = 9.0;
@@ -154,7 +154,8 @@ mod tests {
 
     #[test]
     fn a_network_well_inside_costs_nothing() {
-        let scaling = Scaling { mean: vec![10.0; KNOTS], inverse_sd: vec![0.1; KNOTS] };
+        let scaling =
+            Scaling { mean: vec![10.0; KNOTS], inverse_sd: vec![0.1; KNOTS], ..Scaling::default() };
         let x = vec![0.001; 8 * COLUMNS + 9];
         let hinges = |words: Datapath| Hinges { limits: WordLimits::default(), words };
         assert_eq!(hinges(Datapath::default()).cost(&x, 8, &scaling), 0.0);

@@ -4,7 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use tofsim::error::{Input, Result};
 
-use crate::evaluation::thesis;
+use crate::dataset::grid::DISTANCE;
+use crate::dataset::{Grid, HistogramSource};
+use crate::evaluation::{bound, thesis};
 
 /// The line, and more weight at both ends of the range, where there are no neighbours to learn from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -38,7 +40,42 @@ impl Default for Weighting {
     }
 }
 
+/// The line over the Cramer-Rao bound, where the line is not the thesis's: its own is 2.9 to 7.3 times
+/// the bound at its distances, 5.0 in the geometric mean [1].
+const LINE_OVER_BOUND: f64 = 5.0;
+/// The limit of the mean error over the line's mean; the thesis's line has 1 mm over 3.17 mm [1].
+const MEAN_OVER_LINE: f64 = 1.0 / 3.17;
+/// Length of the extra weight at the ends, in distances of the training grid; 6 mm over 2.5 mm [1].
+const REACH: f64 = 2.4;
+
 impl Weighting {
+    /// For scenes of one's own: the line is in proportion to the bound at each distance of the tests, the
+    /// rest is to the line and to the training's distances as the thesis's is.
+    ///
+    /// # Errors
+    /// When a scene tells nothing of its distance, as without signal.
+    pub fn of_scenes(source: &HistogramSource, training: &Grid, test: &Grid) -> Result<Self> {
+        let distances_m = test.distances_m.values.clone();
+        let bound = bound::two_sd_mm(source, test, &distances_m)?;
+        let mut two_sd_mm = Vec::with_capacity(bound.len());
+        for (distance_m, bound_mm) in distances_m.iter().zip(bound) {
+            let Some(bound_mm) = bound_mm.filter(|mm| mm.is_finite() && *mm > 0.0) else {
+                let expected = "a scene there tells nothing of its distance, as without signal or with \
+                    an echo past the last bin";
+                return Err(Input::new("--grid", expected)
+                    .field(DISTANCE)
+                    .value(distance_m)
+                    .into());
+            };
+            two_sd_mm.push(LINE_OVER_BOUND * bound_mm);
+        }
+        let [first, last] = training.distances_m.range();
+        let gaps = (training.distances_m.count() - 1).max(1) as f64;
+        let mean_mm = MEAN_OVER_LINE * two_sd_mm.iter().sum::<f64>() / two_sd_mm.len() as f64;
+        let reach_m = if last > first { REACH * (last - first) / gaps } else { 0.006 };
+        Ok(Weighting { distances_m, two_sd_mm, mean_mm, reach_m, ..Weighting::default() })
+    }
+
     /// That there is a line, above zero.
     pub(super) fn check(&self) -> Result<()> {
         let (distances_m, two_sd_mm) = (&self.distances_m, &self.two_sd_mm);
@@ -90,6 +127,8 @@ impl Weighting {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tofsim::scenario;
+    use tofsim::sim::setup::Setup;
 
     #[test]
     fn the_weight_is_one_over_the_line_s_standard_deviation_and_more_at_the_ends() {
@@ -99,6 +138,29 @@ mod tests {
         assert!((weighting.weight(0.1) - 1.5 / 0.8e-3).abs() < 1e-9);
         assert!((weighting.weight(0.6) - 3.5 / 2.45e-3).abs() < 1e-9);
         assert_eq!((weighting.line_mm(0.0), weighting.line_mm(1.0)), (1.6, 4.9));
+    }
+
+    #[test]
+    fn the_line_for_other_scenes_is_in_proportion_to_the_bound() {
+        let source = |keys: &[&str]| {
+            let keys: Vec<_> = keys.iter().map(|&key| key.to_owned()).collect();
+            let setup = Setup::new(scenario::load("kc705", &keys).unwrap()).unwrap();
+            HistogramSource::new(&setup).unwrap()
+        };
+        let (own, thesis) = (Grid::test(), Weighting::default());
+        let line = Weighting::of_scenes(&source(&[]), &Grid::training(), &own).unwrap();
+        assert_eq!(line.distances_m.len(), 51);
+        // Near the thesis's own line, over the thesis's own scenes.
+        let ratio = |d: &f64| line.line_mm(*d) / thesis.line_mm(*d);
+        assert!(thesis.distances_m.iter().all(|d| (0.6..1.8).contains(&ratio(d))));
+        assert!((line.reach_m - 0.006).abs() < 1e-12 && (0.5..1.5).contains(&line.mean_mm));
+        // Half the shots: the bound is larger by the root of 2.
+        let fewer = source(&["firmware.shots_per_frame=15000"]);
+        let wider = Weighting::of_scenes(&fewer, &Grid::training(), &own).unwrap();
+        assert!((wider.line_mm(0.3) / line.line_mm(0.3) - 2f64.sqrt()).abs() < 0.01);
+        let dark = source(&["laser.average_power_w=0"]);
+        let error = Weighting::of_scenes(&dark, &Grid::training(), &own).unwrap_err().to_string();
+        assert!(error.contains("target.distance_m = 0.1: a scene there tells nothing"), "{error}");
     }
 
     #[test]

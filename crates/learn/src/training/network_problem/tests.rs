@@ -17,7 +17,7 @@ fn counts() -> Vec<Histogram> {
 
 fn with_problem<T>(neurons: usize, check: impl FnOnce(&NetworkProblem, &[f64]) -> T) -> T {
     let counts = counts();
-    let scaling = Scaling::of(&counts);
+    let scaling = Scaling::of(&counts, &[]);
     let blocks = blocks(&counts, &scaling);
     let distances_m: Vec<f64> = (0..300).map(|s| 0.1 + s as f64 / 600.0).collect();
     let weights: Vec<f64> = (0..300).map(|s| 500.0 + s as f64).collect();
