@@ -88,7 +88,9 @@ impl Record {
             let object: Map<String, Value> = serde_json::from_slice(bytes).ok()?;
             return serde_json::from_value(Value::Object(object)).ok();
         }
-        let begin = memmem(bytes, MARK.as_bytes())? + MARK.len();
+        // A dataset's description is an object in the Parquet file's metadata.
+        let marked = memmem(bytes, MARK.as_bytes()).map(|place| place + MARK.len());
+        let begin = marked.or_else(|| memmem(bytes, br#"{"schema":"tofsim."#))?;
         serde_json::Deserializer::from_slice(&bytes[begin..]).into_iter().next()?.ok()
     }
 }

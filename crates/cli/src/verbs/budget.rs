@@ -10,6 +10,8 @@ use tofsim::optics::eye_safety::{Exposure, longest_exposure_s};
 use tofsim::scenario;
 use tofsim::{Note, Setup};
 
+use crate::record::Record;
+
 use super::terminal::{Talk, print, print_json};
 
 /// Print the link budget: photons and avalanches that a shot can expect, and eye safety
@@ -51,7 +53,11 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     };
     let notes = findings.notes();
     match args.json {
-        true => print_json(&findings.json(&notes))?,
+        true => {
+            let mut object = findings.json();
+            Record::new(&findings.setup, &talk.command).put_into(&mut object, &notes);
+            print_json(&object)?;
+        }
         false => print(&format!("{}\n", table::table(&findings)))?,
     }
     talk.heed(&notes)
@@ -78,7 +84,7 @@ impl Findings {
             .filter(|longest_s| *longest_s >= self.a_frame.exposure_s)
     }
 
-    fn json(&self, notes: &[Note]) -> Value {
+    fn json(&self) -> Value {
         let (setup, budget) = (&self.setup, &self.setup.budget);
         let mut eye_safety = verdict(&self.a_frame);
         eye_safety["at_optics_rate"] = verdict(&self.at_the_optics_rate);
@@ -88,7 +94,6 @@ impl Findings {
         json!({
             "schema": "tofsim.budget/1",
             "scenario": setup.name,
-            "set": setup.set,
             "distance_m": setup.scenario.target.distance_m,
             "reflectance": setup.scenario.target.reflectance,
             "time_of_flight_ps": budget.mean_arrival.fs() as f64 / 1e3,
@@ -108,7 +113,6 @@ impl Findings {
             "eye_safety_exposure_s": self.at_the_optics_rate.exposure_s,
             "eye_safety_limit_at_laser_rate_w": self.a_frame.limit_w,
             "eye_safety_exposure_at_laser_rate_s": self.a_frame.exposure_s,
-            "notes": notes,
         })
     }
 }

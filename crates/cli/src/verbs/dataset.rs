@@ -7,6 +7,7 @@ use serde_json::json;
 
 use tofsim::error::{Error, Result};
 use tofsim::scenario;
+use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::files::{DatasetFiles, DatasetFormat};
 use tofsim_learn::dataset::{Axis, DatasetDescription, Grid, GridPurpose, Sample};
 
@@ -60,10 +61,11 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let notes = scenes.notes()?;
     talk.heed(&notes)?;
     let (source, loaded) = (&scenes.source, &scenes.loaded[0]);
-    let (name, seed) = (&loaded.name, loaded.scenario.seed);
+    let seed = loaded.scenario.seed;
+    let setup = Setup::new(loaded.clone())?;
     let grid = Grid { repeats: args.repeats, ..scenes.grid };
     let rows = args.draws.rows(None, &grid, seed)?;
-    let description = DatasetDescription::new(name, &args.draws.set, source, &rows, seed);
+    let description = DatasetDescription::new(&setup, &talk.command, source, &rows, seed);
     let files = DatasetFiles::create(&args.output, &args.format, &description, &grid)?;
     let stop = stop_signal();
     let blocks = source.blocks(&rows, seed);
