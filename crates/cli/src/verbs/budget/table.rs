@@ -21,11 +21,7 @@ pub(super) fn table(findings: &Findings) -> String {
     let rate_mhz = 1e-6 / setup.laser_period_s();
     let laser = [
         row("pulse energy", format!("{:.1} pJ", budget.pulse_energy_j * 1e12), ""),
-        row(
-            "average power",
-            milliwatts(findings.a_frame.average_w),
-            format!("at {rate_mhz:.3} MHz"),
-        ),
+        row("average power", average, format!("at {rate_mhz:.3} MHz")),
     ];
     let rows = light.into_iter().chain(shot(findings)).chain(laser).chain(eye_safety(findings));
     plain(rows)
