@@ -52,7 +52,7 @@ fn shot(findings: &Findings) -> Vec<Row> {
             four(chances.counted),
             format!("hits per shot with a code, {counted} a frame"),
         ),
-        row("signal to noise", ratio, "of these, laser photons' hits to one of the others"),
+        row("signal to noise", ratio, "of these, laser photons' to one other"),
     ]
 }
 
@@ -79,7 +79,7 @@ fn eye_safety(findings: &Findings) -> Vec<Row> {
     if let (Some(false), Some(longest_s)) = (frames.is_within(), findings.longest_s()) {
         rows.push(row("", "within", format!("for {} of frames", ms(longest_s))));
     }
-    let by_the_thesis = format!("by eq. 3.3, {} at the optics' rate", ms(design.exposure_s));
+    let by_the_thesis = format!("for {} (eq. 3.3)", ms(design.exposure_s));
     rows.push(verdict("", design, by_the_thesis));
     rows
 }
