@@ -16,6 +16,7 @@ mod golden;
 mod grid;
 mod ila_command;
 mod lockstep;
+mod measured;
 mod quantize;
 mod subtraction;
 mod synthesis;
