@@ -123,7 +123,7 @@ fn array(mut reader: Reader, path: &str) -> Result<(Elements, u64)> {
         return Err(fault(expected.to_owned()));
     }
     let elements = elements(header, reader).map_err(|dtype| {
-        let expected = "expected integers or floats of 8 bytes";
+        let expected = "expected integers or floats of 4 or 8 bytes";
         Input::new(path, expected).field("dtype").value(dtype)
     })?;
     Ok((elements, rows))
@@ -147,6 +147,7 @@ fn elements(header: NpyHeader, reader: Reader) -> std::result::Result<Elements, 
         (TypeChar::Int, 2) => whole::<i16>(file),
         (TypeChar::Int, 4) => whole::<i32>(file),
         (TypeChar::Int, 8) => whole::<i64>(file),
+        (TypeChar::Float, 4) => counts(file, move |x: f32| real(x.into())),
         (TypeChar::Float, 8) => counts(file, real),
         _ => None,
     };

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use tofsim::network::{Histogram, Network, estimate};
 
-use crate::common::{csv, npy};
+use crate::common::{csv, empty, json, npy, refused, stdout};
 
 /// A small generator of random words (SplitMix64).
 struct Random(u64);
@@ -253,4 +253,61 @@ fn a_network_file_that_is_not_there_or_no_text_is_an_error() {
     assert!(fault(&path).ends_with("latin.toml:2:3: expected UTF-8 text"));
     assert!(fault(directory.path()).contains("cannot read: Is a directory"));
     assert!(fault(&directory.path().join("none.toml")).contains("cannot read: No such file"));
+}
+
+#[test]
+fn every_estimator_answers_on_csv_npy_and_parquet_alike() {
+    let folder = empty();
+    let folder = folder.path();
+    let shape =
+        ["--grid", "target.distance_m=0.2,0.5", "--repeats", "1", "--format", "npy,parquet"];
+    stdout(folder, &[&["dataset", "-o", "d"], &shape[..]].concat());
+    let all = ["--estimator", "network,network-float,centroid,peak,likelihood,matched,subtraction"];
+    let of = |file: &str| {
+        let report = json(folder, &[&["estimate", file, "--json"], &all[..]].concat());
+        report["histograms"].as_array().unwrap().clone()
+    };
+    let (npy, parquet) = (of("d/histograms.npy"), of("d/dataset.parquet"));
+    assert_eq!(npy.len(), 2);
+    for (place, distance_m) in [0.2, 0.5].into_iter().enumerate() {
+        assert_eq!(npy[place]["estimates"], parquet[place]["estimates"]);
+        assert_eq!(npy[place]["depth_raw"], parquet[place]["depth_raw"]);
+        let estimates = npy[place]["estimates"].as_array().unwrap();
+        assert_eq!(estimates[0]["depth_m"], npy[place]["depth_m"]);
+        let likelihood = &estimates[4];
+        assert_eq!(likelihood["estimator"], "likelihood");
+        assert!((likelihood["depth_m"].as_f64().unwrap() - distance_m).abs() < 0.002);
+        assert_eq!(estimates[6]["failure"], "no dark frame");
+    }
+    // The chain decides what the likelihood makes of the same counts.
+    let text = stdout(folder, &[&["estimate", "d/dataset.parquet"], &all[..]].concat());
+    assert!(text.contains("likelihood") && text.contains("no dark frame"), "{text}");
+    let file = ["estimate", "d/histograms.npy", "--json", "--estimator", "likelihood"];
+    let other = json(folder, &[&file[..], &["-s", "tdc.profile=ideal"]].concat());
+    assert_ne!(other["histograms"][1]["estimates"][0], npy[1]["estimates"][4]);
+}
+
+#[test]
+fn floats_of_four_bytes_are_counts_where_they_are_whole() {
+    let folder = empty();
+    let write = |value: f32| {
+        let mut counts = [7f32; 512];
+        counts[300] = value;
+        let header = "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 256), }\n";
+        let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+        bytes.extend((header.len() as u16).to_le_bytes());
+        bytes.extend(header.bytes());
+        bytes.extend(counts.iter().flat_map(|count| count.to_le_bytes()));
+        std::fs::write(folder.path().join("f4.npy"), bytes).unwrap();
+    };
+    write(9.0);
+    let report = json(folder.path(), &["estimate", "f4.npy", "--json"]);
+    assert_eq!(report["histograms"].as_array().unwrap().len(), 2);
+    for (value, shown) in [(0.5, "0.5"), (-1.0, "-1"), (65_536.0, "65536"), (f32::NAN, "NaN")] {
+        write(value);
+        let error = refused(folder.path(), &["estimate", "f4.npy"]);
+        let expected =
+            format!("histogram 1, bin 44 = {shown}: expected a whole number from 0 to 65535");
+        assert!(error.contains(&expected), "{error}");
+    }
 }

@@ -112,7 +112,7 @@ fn an_evaluation_follows_the_grid() {
     assert!(!fs::read_to_string(picture).unwrap().contains("thesis"));
     assert_eq!(files(&folder.path().join("out")).len(), 2 + 2 * 3);
 
-    let text = stdout(folder.path(), &[&args[..5], &["--check", "0"], &grid[..2]].concat());
+    let text = stdout(folder.path(), &[&args[..5], &grid[..2]].concat());
     assert!(!text.contains("thesis") && text.contains("Cramer-Rao") && text.contains("0.9 m"));
 }
 

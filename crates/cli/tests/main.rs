@@ -18,6 +18,7 @@ mod grid;
 mod ila_command;
 mod limits;
 mod lockstep;
+mod measured;
 mod quantize;
 mod rerun;
 mod subtraction;

@@ -3,7 +3,7 @@
 //! A [`Grid`] or a [`Subset`] of one says which scene each row has; a [`HistogramSource`] draws the row's
 //! histogram as `run --fidelity histogram` draws a frame, in one step. A row has random numbers of
 //! its own, found by seed and row number, so that any one can be made again without the others. [`files`]
-//! writes them, as `tofsim dataset` does.
+//! writes them, as `tofsim dataset` does. [`Labelled`] reads those of one's own, measured or drawn.
 
 pub mod axis;
 pub mod blocks;
@@ -12,8 +12,10 @@ pub mod description;
 pub mod files;
 pub mod grid;
 pub mod grid_option;
+pub mod labelled;
 mod npy;
 pub mod pairs;
+mod parquet_columns;
 mod parquet_file;
 pub mod parquet_table;
 pub mod rows;
@@ -24,6 +26,7 @@ pub use blocks::{BLOCK, Sample};
 pub use description::DatasetDescription;
 pub use grid::{Grid, GridPurpose, Scene};
 pub use grid_option::GridOption;
+pub use labelled::Labelled;
 pub use pairs::Pairs;
 pub use rows::{Rows, Subset};
 pub use source::HistogramSource;

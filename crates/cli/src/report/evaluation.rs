@@ -39,6 +39,7 @@ pub fn tables(figures: &[Figures], beside: &Beside) -> String {
     };
     let two_sd = measured(|spread| with_error(spread.two_sd_mm, spread.two_sd_error_mm));
     let bound = named("Cramer-Rao bound", bound_mm.iter().map(|mm| number_or_dash(*mm, 2)));
+    let bound = if bound_mm.is_empty() { Vec::new() } else { vec![bound] };
     let mean = measured(|spread| with_error(spread.mean_mm, spread.mean_error_mm));
     let failed =
         measured(|spread| format!("{} of {}", spread.failures, spread.estimates + spread.failures));
@@ -46,7 +47,7 @@ pub fn tables(figures: &[Figures], beside: &Beside) -> String {
     let peak = thesis::PEAK_FAILURES.map(|failures| format!("{failures} of {trials}"));
     let peak = thesis.then(|| named("thesis, peak detection (Table 4.3)", peak));
     let tables = [
-        ("2 sd [mm]", [published(|row| row.two_sd_mm), two_sd, vec![bound]]),
+        ("2 sd [mm]", [published(|row| row.two_sd_mm), two_sd, bound]),
         ("mean error [mm]", [published(|row| row.mean_mm), mean, Vec::new()]),
         ("failures", [failed, peak.into_iter().collect(), Vec::new()]),
     ];

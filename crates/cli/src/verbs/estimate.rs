@@ -1,4 +1,5 @@
-//! `tofsim estimate`: depths of histograms from files, bit for bit as the firmware computes them.
+//! `tofsim estimate`: depths of histograms from files, bit for bit as the firmware computes them, and
+//! what other estimators say.
 
 use std::path::PathBuf;
 
@@ -6,24 +7,39 @@ use serde::Serialize;
 use serde_json::json;
 
 use tofsim::error::Result;
-use tofsim::network::histogram_file;
 use tofsim::network::{Estimate, Network, estimate};
+use tofsim::scenario;
+use tofsim::sim::setup::Setup;
+use tofsim_learn::dataset::labelled::histograms;
+use tofsim_learn::estimation::{EstimatorKind, Panel, Reading};
 use tofsim_learn::quantize::{Explanation, explain};
 
+use crate::choice::words;
 use crate::report::explanation;
 use crate::text;
 
+use super::draws::from_here;
 use super::terminal::{print, print_json};
 
 /// Estimate depths of histograms, bit for bit as the firmware does
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// CSV with header bin,count and 256 rows, or .npy of 256 or n x 256 whole numbers
+    /// CSV with header bin,count and 256 rows, .npy of 256 or n x 256 whole numbers, or Parquet with columns
+    /// b0 to b255
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Built-in network (uniform, uniform-16, ideal) or network file
     #[arg(long, value_name = "NAME|FILE", default_value = Network::DEFAULT)]
     network: String,
+    /// Estimators that see the same histograms too, separated by commas
+    #[arg(long, value_parser = words(&EstimatorKind::ALL), value_delimiter = ',')]
+    estimator: Vec<EstimatorKind>,
+    /// Built-in scenario, or the path of a scenario file: what estimators know of shots, pulse and chain
+    #[arg(long, default_value = scenario::DEFAULT)]
+    scenario: String,
+    /// Set a key of that, such as tdc.profile=chain.toml; may be repeated
+    #[arg(short, long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
     /// Show every value of the datapath beside its twin in double precision, where they part, and
     /// what each rounding adds to the depth
     #[arg(long)]
@@ -41,6 +57,9 @@ struct Row<'a> {
     file: &'a str,
     #[serde(flatten)]
     numbers: Numbers,
+    /// What the other estimators say.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    estimates: Vec<Reading>,
     #[serde(skip_serializing_if = "Option::is_none")]
     explanation: Option<Explanation>,
 }
@@ -58,14 +77,16 @@ struct Numbers {
 pub fn run(args: &Args) -> Result<()> {
     let network = Network::find(&args.network, None)?;
     let params = network.params();
+    let panel = args.panel()?;
     let names: Vec<String> = args.files.iter().map(|file| file.display().to_string()).collect();
     let mut rows = Vec::new();
     for (path, file) in args.files.iter().zip(&names) {
-        for histogram in histogram_file::open(path)? {
+        for histogram in histograms(path)? {
             let histogram = histogram?;
             let numbers = Numbers::of(&estimate(&params, &histogram), params.neurons());
             let explanation = args.explain.then(|| explain(&network, &histogram));
-            rows.push(Row { index: rows.len(), file, numbers, explanation });
+            let estimates = panel.read(&histogram);
+            rows.push(Row { index: rows.len(), file, numbers, estimates, explanation });
         }
     }
     if !args.json && args.explain {
@@ -83,6 +104,18 @@ pub fn run(args: &Args) -> Result<()> {
     }
     report["histograms"] = json!(rows);
     print_json(&report)
+}
+
+impl Args {
+    /// The other estimators.
+    fn panel(&self) -> Result<Panel> {
+        if self.estimator.is_empty() && self.set.is_empty() {
+            return Ok(Panel::default());
+        }
+        let mut loaded = scenario::load(&self.scenario, &self.set)?;
+        loaded.scenario.estimator.network = from_here(&self.network, &loaded)?;
+        Panel::new(&self.estimator, &Setup::new(loaded)?)
+    }
 }
 
 impl Numbers {
@@ -107,11 +140,18 @@ const TABLE: usize = 10_000;
 
 fn table(rows: &[Row], several: bool) -> String {
     let mut header = vec!["index", "depth_raw", "depth_m", "l1_in (23 fraction bits)"];
+    let others = rows.first().map_or(&[][..], |row| &row.estimates);
+    header.extend(others.iter().map(|reading| reading.estimator));
     header.extend(several.then_some("file"));
-    let rows = rows.iter().map(|Row { index, file, numbers, .. }| {
+    let rows = rows.iter().map(|Row { index, file, numbers, estimates, .. }| {
         let sums = numbers.l1_in.iter().map(i64::to_string).collect::<Vec<_>>().join(" ");
         let depth_m = format!("{:.6}", numbers.depth_m);
         let mut cells = vec![index.to_string(), numbers.depth_raw.clone(), depth_m, sums];
+        let found = |reading: &Reading| match (reading.depth_m, &reading.failure) {
+            (Some(depth_m), _) => format!("{depth_m:.6}"),
+            (None, why) => why.clone().unwrap_or_default(),
+        };
+        cells.extend(estimates.iter().map(found));
         cells.extend(several.then(|| file.to_string()));
         cells
     });

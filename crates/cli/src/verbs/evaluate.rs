@@ -27,6 +27,8 @@ use super::draws::Draws;
 use super::scenes::Scenes;
 use super::terminal::{Talk, print, print_json, stop_signal};
 
+mod measured;
+
 /// Those of one setting.
 type Estimators = Vec<Box<dyn Estimator>>;
 
@@ -45,6 +47,7 @@ const SHOWN: usize = 6;
     tofsim evaluate ideal --profile ideal -o out    with box plots and tables as CSV\n  \
     tofsim evaluate --estimator network,peak,matched,likelihood --rows 12000\n  \
     tofsim evaluate --estimator peak,subtraction    does a dark histogram help the detector?\n  \
+    tofsim evaluate --data measured --profile chain.toml    on histograms of one's own\n  \
     tofsim evaluate --grid target.distance_m=0.1..0.9:0.05 --grid laser.pulse_sigma_ps=100,137,200"
 )]
 pub struct Args {
@@ -66,6 +69,13 @@ pub struct Args {
     /// Histograms of each scene, where all are drawn
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..))]
     repeats: u64,
+    /// Histograms of known distances instead of drawn ones: the folder of a dataset, a Parquet file with
+    /// columns b0 to b255 and distance_m, or an .npy file with --truth
+    #[arg(long, value_name = "PATH", conflicts_with_all = ["grid", "repeats", "rows"])]
+    data: Option<PathBuf>,
+    /// The true distances of --data [m]: an .npy file of n or n x k floats, distances first
+    #[arg(long, value_name = "FILE", requires = "data")]
+    truth: Option<PathBuf>,
     /// Frames to simulate cycle by cycle at each of six distances, to be compared with the fast path
     #[arg(long, value_name = "N", default_value_t = 8, allow_hyphen_values = true)]
     check: u64,
@@ -79,6 +89,10 @@ pub struct Args {
 
 /// Runs the verb; the status says whether the cross-check found both paths the same.
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+    if let Some(data) = &args.data {
+        measured::run(args, data, talk)?;
+        return Ok(ExitCode::SUCCESS);
+    }
     let load = |set: &[String]| args.draws.load_with(&args.scenario, &args.network, set);
     let scenes = Scenes::new(&args.grid, &args.draws.set, GridPurpose::Test, load)?;
     let (grid, source) = (Grid { repeats: args.repeats, ..scenes.grid.clone() }, &scenes.source);
@@ -173,14 +187,18 @@ impl Args {
     /// measured, and of what can be found.
     fn notes(&self, scenes: &Scenes, network: &Network) -> Result<Vec<Note>> {
         let mut notes = scenes.notes()?;
-        let is_network = |kind: &EstimatorKind| {
-            matches!(kind, EstimatorKind::Network | EstimatorKind::NetworkFloat)
-        };
-        if self.estimator.iter().any(is_network) {
+        if self.measures_a_network() {
             let scenario = &scenes.loaded[0].scenario;
             notes.extend(domain::notes(network, scenario, &scenes.grid.ranges())?);
         }
         Ok(notes)
+    }
+
+    fn measures_a_network(&self) -> bool {
+        let is_one = |kind: &EstimatorKind| {
+            matches!(kind, EstimatorKind::Network | EstimatorKind::NetworkFloat)
+        };
+        self.estimator.iter().any(is_one)
     }
 
     /// The estimators for the histograms of each setting.

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::prelude::*;
 
 use tofsim::error::{Error, Result};
+use tofsim::network::Histogram;
 
 use crate::dataset::{HistogramSource, Pairs, Rows, Scene};
 use crate::estimation::Estimator;
@@ -90,6 +91,24 @@ impl Evaluation {
         Ok(Evaluation { scenes, columns })
     }
 
+    /// Lets every estimator see histograms whose scenes are known, on all threads of the current pool;
+    /// none of them can need dark ones.
+    pub fn of_histograms(
+        histograms: &[Histogram],
+        scenes: Vec<Scene>,
+        estimators: &[Box<dyn Estimator + '_>],
+    ) -> Self {
+        let column = |estimator: &Box<dyn Estimator + '_>| {
+            let pairs = histograms.par_iter().zip(&scenes);
+            let error = |(histogram, scene): (&Histogram, &Scene)| {
+                Some(estimator.estimate(histogram).ok()? - scene.distance_m)
+            };
+            EstimatorErrors { name: estimator.name(), errors_m: pairs.map(error).collect() }
+        };
+        let columns = estimators.iter().map(column).collect();
+        Evaluation { scenes, columns }
+    }
+
     /// The errors of a column by what `key` is of the row's scene, in rising order of it.
     pub fn by(&self, column: &EstimatorErrors, key: impl Fn(&Scene) -> f64) -> Vec<Group> {
         spread::by(self.scenes.iter().map(key), &column.errors_m)
@@ -101,7 +120,6 @@ mod tests {
     use super::*;
     use crate::dataset::{Grid, Subset};
     use crate::estimation::Failure;
-    use tofsim::network::Histogram;
     use tofsim::scenario;
     use tofsim::sim::setup::Setup;
 

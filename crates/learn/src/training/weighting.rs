@@ -43,6 +43,8 @@ impl Default for Weighting {
 /// The line over the Cramer-Rao bound, where the line is not the thesis's: its own is 2.9 to 7.3 times
 /// the bound at its distances, 5.0 in the geometric mean [1].
 const LINE_OVER_BOUND: f64 = 5.0;
+/// A bound that tells nothing: about what the histogram reaches over [mm].
+const NOTHING_MM: f64 = 1000.0;
 /// The limit of the mean error over the line's mean; the thesis's line has 1 mm over 3.17 mm [1].
 const MEAN_OVER_LINE: f64 = 1.0 / 3.17;
 /// Length of the extra weight at the ends, in distances of the training grid; 6 mm over 2.5 mm [1].
@@ -59,7 +61,7 @@ impl Weighting {
         let bound = bound::two_sd_mm(source, test, &distances_m)?;
         let mut two_sd_mm = Vec::with_capacity(bound.len());
         for (distance_m, bound_mm) in distances_m.iter().zip(bound) {
-            let Some(bound_mm) = bound_mm.filter(|mm| mm.is_finite() && *mm > 0.0) else {
+            let Some(bound_mm) = bound_mm.filter(|mm| *mm > 0.0 && *mm < NOTHING_MM) else {
                 let expected = "a scene there tells nothing of its distance, as without signal or with \
                     an echo past the last bin";
                 return Err(Input::new("--grid", expected)

@@ -1,0 +1,111 @@
+//! An evaluation on histograms from files, whose distances are known.
+
+use std::path::Path;
+
+use serde_json::json;
+
+use tofsim::Note;
+use tofsim::error::{Input, Result};
+use tofsim::sim::domain;
+use tofsim::sim::setup::Setup;
+use tofsim_learn::dataset::Labelled;
+use tofsim_learn::dataset::axis::thinned;
+use tofsim_learn::estimation::{EstimatorKind, Panel};
+use tofsim_learn::evaluation::{EstimatorErrors, Evaluation, Figures};
+
+use crate::report::evaluation as report;
+use crate::verbs::terminal::{Talk, print, print_json};
+
+use super::{Args, SHOWN};
+
+/// Evaluates what is in `data`.
+pub fn run(args: &Args, data: &Path, talk: &Talk) -> Result<()> {
+    let labelled = Labelled::read(data, args.truth.as_deref())?;
+    let setup = args.setup(data, &labelled)?;
+    let notes = args.notes_on(&setup, &labelled)?;
+    talk.heed(&notes)?;
+    if args.estimator.contains(&EstimatorKind::Subtraction) {
+        let expected = "expected estimators of one histogram, it needs a dark one beside each";
+        return Err(Input::new("--estimator", expected).value("subtraction").into());
+    }
+    let estimators = Panel::new(&args.estimator, &setup)?.into_estimators();
+    let count = labelled.histograms.len() as u64;
+    let (histograms, scenes) = (&labelled.histograms, labelled.scenes.clone());
+    let evaluation = args.draws.on_threads(count, talk, |done| {
+        let evaluation = Evaluation::of_histograms(histograms, scenes, &estimators);
+        done(count);
+        Ok(evaluation)
+    })?;
+    let of = |column: &EstimatorErrors| figures(&evaluation, column, labelled.knows_light);
+    let figures: Vec<_> = evaluation.columns.iter().map(of).collect();
+    let (profile, network) = (&setup.scenario.tdc.profile, &setup.network.name);
+    let json = json!({
+        "schema": "tofsim.evaluate/1",
+        "version": env!("CARGO_PKG_VERSION"),
+        "network": network,
+        "scenario": setup.name,
+        "set": setup.set,
+        "profile": profile,
+        "data": data.display().to_string(),
+        "rows": count,
+        "estimators": figures,
+        "notes": notes,
+    });
+    if let Some(folder) = &args.output {
+        report::write(folder, &format!("{json}\n"), &figures, &[], false)?;
+        talk.detail(format_args!("wrote {}", folder.display()));
+    }
+    if args.json {
+        return print_json(&json);
+    }
+    let data = data.display();
+    let head = format!("network {network}, chain {profile}, {count} histograms of {data}\n\n");
+    let distances: Vec<_> =
+        figures.first().map_or(&[][..], |one| &one.by_distance_m).iter().collect();
+    let distances: Vec<f64> = distances.iter().map(|group| group.value).collect();
+    let shown = thinned(&distances, SHOWN);
+    let beside = report::Beside { distances_m: &shown, bound_mm: &[], thesis: false };
+    print(&(head + &report::tables(&figures, &beside)))
+}
+
+/// The figures of an estimator; the thesis's line is for its own scenes.
+fn figures(evaluation: &Evaluation, column: &EstimatorErrors, knows_light: bool) -> Figures {
+    let mut figures = Figures::new(evaluation, column);
+    (figures.worst_ratio_to_thesis, figures.worst_distance_m) = (None, None);
+    if !knows_light {
+        figures.by_reflectance.clear();
+        figures.by_irradiance_w_m2_nm.clear();
+    }
+    figures
+}
+
+impl Args {
+    /// What estimators know of the histograms, which has to be what the files say of them.
+    fn setup(&self, data: &Path, labelled: &Labelled) -> Result<Setup> {
+        let loaded = self.draws.load_with(&self.scenario, &self.network, &self.draws.set)?;
+        let fault = |field: &str, value: &str, expected: String| {
+            let expected =
+                format!("expected {expected}, as the scenario has it; see --profile and -s");
+            Err(Input::new(data.display(), expected).field(field).value(value).into())
+        };
+        let (own, shots) = (&loaded.scenario.tdc.profile, loaded.scenario.firmware.shots_per_frame);
+        let name = |profile: &str| Path::new(profile).file_name().map(ToOwned::to_owned);
+        match (&labelled.profile, labelled.shots) {
+            (Some(profile), _) if name(profile) != name(own) => {
+                fault("profile", profile, own.clone())
+            }
+            (_, Some(count)) if count != shots => {
+                fault("shots_per_frame", &count.to_string(), shots.to_string())
+            }
+            _ => Setup::new(loaded),
+        }
+    }
+
+    /// Where the histograms lie outside of what the network was trained for.
+    fn notes_on(&self, setup: &Setup, labelled: &Labelled) -> Result<Vec<Note>> {
+        match self.measures_a_network() {
+            true => domain::notes(&setup.network, &setup.scenario, &labelled.ranges()),
+            false => Ok(Vec::new()),
+        }
+    }
+}

@@ -1,0 +1,277 @@
+//! Histograms from files, measured ones or those that `tofsim dataset` wrote, with what is known of each.
+//!
+//! CSV and `.npy` are read by [`histogram_file`]; here are Parquet files and folders with both.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use npyz::{NpyFile, TypeChar};
+
+use tofsim::error::{Error, Input, Result, read_text};
+use tofsim::files::npy;
+use tofsim::firmware::histogram_builder::BINS;
+use tofsim::network::{Histogram, MAX_HITS, histogram_file};
+
+use super::files::DESCRIPTION;
+use super::grid::Scene;
+use super::parquet_columns::{MAGIC, ParquetColumns};
+
+/// What a count has to be.
+const COUNT: &str = "expected a whole number from 0 to 65535";
+/// Table, histograms and truth in the folder of a dataset.
+const FILES: [&str; 3] = ["dataset.parquet", "histograms.npy", "truth.npy"];
+/// Columns of the truth, the first one necessary.
+const TRUTH: [&str; 3] = ["distance_m", "reflectance", "irradiance_w_m2_nm"];
+/// Key of the description in the metadata of a Parquet file.
+const KEY: &str = "tofsim.dataset";
+
+/// Histograms of known distances.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Labelled {
+    /// Counts by bin [hits].
+    pub histograms: Vec<Histogram>,
+    /// What each looked at; reflectance and irradiance are 0 where they are not known.
+    pub scenes: Vec<Scene>,
+    /// Whether reflectance and irradiance are known.
+    pub knows_light: bool,
+    /// Carry chain, if the file says so.
+    pub profile: Option<String>,
+    /// Shots of a histogram, if the file says so.
+    pub shots: Option<u64>,
+}
+
+/// The histograms of a file: CSV, `.npy` or Parquet, told apart by content.
+///
+/// # Errors
+/// When the file cannot be read, or a count is none.
+pub fn histograms(path: &Path) -> Result<histogram_file::Histograms> {
+    if !is_parquet(path)? {
+        return histogram_file::open(path);
+    }
+    let all = ParquetColumns::with(path, |columns| counts(path, columns))?;
+    Ok(Box::new(all.into_iter().map(Ok)))
+}
+
+impl Labelled {
+    /// Of a Parquet file with columns `b0` to `b255` and `distance_m`, of the folder of a dataset, or of an
+    /// `.npy` file with the true distances in another.
+    ///
+    /// # Errors
+    /// When a file cannot be read, a column is missing or a number makes no sense, or there are not as
+    /// many distances as histograms.
+    pub fn read(path: &Path, truth: Option<&Path>) -> Result<Self> {
+        let [table, arrays, own_truth] = FILES.map(|name| path.join(name));
+        if path.is_dir() {
+            let labelled = match (table.exists(), arrays.exists(), truth) {
+                (true, _, None) => parquet(&table)?,
+                (_, true, _) => of_arrays(&arrays, truth.unwrap_or(&own_truth))?,
+                _ => {
+                    let expected =
+                        format!("expected {}, or {} and {} in it", FILES[0], FILES[1], FILES[2]);
+                    return Err(Input::new(path.display(), expected).into());
+                }
+            };
+            let description = path.join(DESCRIPTION);
+            return match description.exists() {
+                true => Ok(labelled.described(&read_text(&description)?)),
+                false => Ok(labelled),
+            };
+        }
+        match (is_parquet(path)?, truth) {
+            (true, None) => parquet(path),
+            (false, Some(truth)) => of_arrays(path, truth),
+            (true, Some(_)) => {
+                let expected = "expected none: a Parquet file has its column distance_m";
+                Err(Input::new("--truth", expected).into())
+            }
+            (false, None) => {
+                let expected =
+                    "expected the folder of a dataset, a Parquet file, or --truth FILE.npy";
+                Err(Input::new(path.display(), expected).into())
+            }
+        }
+    }
+
+    /// With what a description says of chain and shots.
+    fn described(mut self, json: &str) -> Self {
+        let description: serde_json::Value = serde_json::from_str(json).unwrap_or_default();
+        let profile = description["profile"].as_str().map(str::to_owned);
+        self.profile = profile.or(self.profile);
+        self.shots = description["shots_per_frame"].as_u64().or(self.shots);
+        self
+    }
+
+    /// Least and largest value of what is known of the scenes, by key of the scenario.
+    pub fn ranges(&self) -> Vec<(&'static str, [f64; 2])> {
+        let range = |of: fn(&Scene) -> f64| {
+            let values = || self.scenes.iter().map(of);
+            [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]
+        };
+        let mut ranges = vec![("target.distance_m", range(|scene| scene.distance_m))];
+        if self.knows_light {
+            ranges.push(("target.reflectance", range(|scene| scene.reflectance)));
+            ranges.push(("ambient.irradiance_w_m2_nm", range(|scene| scene.irradiance_w_m2_nm)));
+        }
+        ranges
+    }
+}
+
+fn is_parquet(path: &Path) -> Result<bool> {
+    let mut first = Vec::new();
+    let file = File::open(path).map_err(Error::io(path, "read"))?;
+    file.take(MAGIC.len() as u64).read_to_end(&mut first).map_err(Error::io(path, "read"))?;
+    Ok(first == MAGIC)
+}
+
+/// The counts of a table.
+fn counts(path: &Path, columns: &ParquetColumns) -> Result<Vec<Histogram>> {
+    let mut histograms: Vec<Histogram> = Vec::new();
+    for bin in 0..BINS {
+        let name = format!("b{bin}");
+        let rows = columns.each(&name, |row, value| {
+            let count = value as u16;
+            if f64::from(count) != value {
+                let field = format!("row {row}, column {name}");
+                return Err(Input::new(path.display(), COUNT).field(field).value(value).into());
+            }
+            if bin == 0 {
+                histograms.push([0; BINS]);
+            }
+            match histograms.get_mut(row) {
+                Some(histogram) => histogram[bin] = count,
+                None => return Err(lengths(path)),
+            }
+            Ok(())
+        })?;
+        if rows != histograms.len() {
+            return Err(lengths(path));
+        }
+    }
+    for (row, histogram) in histograms.iter().enumerate() {
+        let total: u32 = histogram.iter().map(|&count| u32::from(count)).sum();
+        if total > MAX_HITS {
+            let expected = format!("the estimator's bit widths allow {MAX_HITS} hits in all");
+            let fault = Input::new(path.display(), expected);
+            return Err(fault.field(format!("total of row {row}")).value(total).into());
+        }
+    }
+    Ok(histograms)
+}
+
+/// A table with its truth.
+fn parquet(path: &Path) -> Result<Labelled> {
+    ParquetColumns::with(path, |columns| {
+        let histograms = counts(path, columns)?;
+        let names = columns.names();
+        let knows_light = TRUTH[1..].iter().all(|name| names.iter().any(|known| known == name));
+        let mut truth = vec![[0.0; 3]; histograms.len()];
+        for (place, name) in TRUTH.iter().enumerate().take(if knows_light { 3 } else { 1 }) {
+            let rows = columns.each(name, |row, value| match truth.get_mut(row) {
+                Some(numbers) => {
+                    numbers[place] = value;
+                    Ok(())
+                }
+                None => Err(lengths(path)),
+            })?;
+            if rows != truth.len() {
+                return Err(lengths(path));
+            }
+        }
+        let labelled = labelled(path, histograms, &truth, knows_light)?;
+        Ok(labelled.described(columns.metadata(KEY).unwrap_or_default()))
+    })
+}
+
+/// Arrays of histograms, and of true distances alone or with reflectances and irradiances.
+fn of_arrays(path: &Path, truth: &Path) -> Result<Labelled> {
+    let histograms = histogram_file::open(path)?.collect::<Result<Vec<_>>>()?;
+    let (width, numbers) = numbers(truth)?;
+    let rows: Vec<[f64; 3]> = numbers
+        .chunks(width)
+        .map(|row| std::array::from_fn(|k| if width > 2 { row[k] } else { [row[0], 0.0, 0.0][k] }))
+        .collect();
+    if rows.len() != histograms.len() {
+        let expected =
+            format!("{} rows, expected {} as in {}", rows.len(), histograms.len(), path.display());
+        return Err(Input::new(truth.display(), expected).into());
+    }
+    labelled(truth, histograms, &rows, width > 2)
+}
+
+/// Histograms with a truth that makes sense.
+fn labelled(
+    path: &Path,
+    histograms: Vec<Histogram>,
+    truth: &[[f64; 3]],
+    knows_light: bool,
+) -> Result<Labelled> {
+    if histograms.is_empty() {
+        return Err(Input::new(path.display(), "expected one histogram at least").into());
+    }
+    for (row, numbers) in truth.iter().enumerate() {
+        if let Some((name, value)) =
+            TRUTH.iter().zip(numbers).find(|(_, value)| !(0.0..=f64::MAX).contains(*value))
+        {
+            let field = format!("row {row}, column {name}");
+            return Err(Input::new(path.display(), "expected a number from 0")
+                .field(field)
+                .value(value)
+                .into());
+        }
+    }
+    let scene = |&[distance_m, reflectance, irradiance_w_m2_nm]: &[f64; 3]| Scene {
+        distance_m,
+        reflectance,
+        irradiance_w_m2_nm,
+        setting: 0,
+    };
+    let scenes = truth.iter().map(scene).collect();
+    Ok(Labelled { histograms, scenes, knows_light, ..Labelled::default() })
+}
+
+/// The floats of an array of one or two dimensions, and how many there are in a row.
+fn numbers(path: &Path) -> Result<(usize, Vec<f64>)> {
+    let fault = |expected: String| Error::from(Input::new(path.display(), expected));
+    let mut file = std::io::BufReader::new(File::open(path).map_err(Error::io(path, "read"))?);
+    let header =
+        npy::header(&mut file).map_err(|error| fault(format!("unreadable .npy: {error}")))?;
+    let width = match *header.shape() {
+        [_] => 1,
+        [_, width] if (1..=64).contains(&width) => width as usize,
+        _ => {
+            return Err(fault(
+                "expected an array (n) or (n, k), distances in metres first".to_owned(),
+            ));
+        }
+    };
+    if header.order() == npyz::Order::Fortran && width > 1 {
+        return Err(fault("expected rows together (numpy.ascontiguousarray)".to_owned()));
+    }
+    let size = match header.dtype() {
+        npyz::DType::Plain(plain) if plain.type_char() == TypeChar::Float => plain.size_field(),
+        _ => 0,
+    };
+    let file = NpyFile::with_header(header, file);
+    // One by one: a header may promise more than there is.
+    let unreadable = |error: String| fault(format!("unreadable .npy: {error}"));
+    let mut all = Vec::new();
+    match size {
+        8 => {
+            for value in file.data::<f64>().map_err(|error| unreadable(error.to_string()))? {
+                all.push(value.map_err(|error| unreadable(error.to_string()))?);
+            }
+        }
+        4 => {
+            for value in file.data::<f32>().map_err(|error| unreadable(error.to_string()))? {
+                all.push(value.map_err(|error| unreadable(error.to_string()))?.into());
+            }
+        }
+        _ => return Err(fault("expected floats of 4 or 8 bytes".to_owned())),
+    }
+    Ok((width, all))
+}
+
+fn lengths(path: &Path) -> Error {
+    Input::new(path.display(), "unreadable Parquet: columns of different lengths").into()
+}
