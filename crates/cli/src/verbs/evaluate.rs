@@ -78,14 +78,12 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         ));
     }
     let needs = EstimatorInputs {
-        acquisition: Acquisition {
-            bins: source.bins(),
-            shots: source.shots().into(),
-            pulse_sigma_ps: loaded.scenario.laser.pulse_sigma_ps,
-        },
+        acquisition: Acquisition::of(&setup, source.bins(), source.shots().into()),
         network: &network,
         centroid: &setup.params.centroid_estimator,
     };
+    let notes: Vec<_> = args.estimator.iter().flat_map(|kind| kind.notes(&setup)).collect();
+    talk.heed(&notes)?;
     let estimators = args.estimator.iter().map(|kind| kind.estimator(&needs));
     let estimators = estimators.collect::<std::result::Result<Vec<_>, Input>>()?;
     let rows = args.draws.rows(None, Grid::test(), seed);
@@ -106,6 +104,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         "seed": seed,
         "rows": rows.count(),
         "shots_per_frame": source.shots(),
+        "notes": notes,
         "estimators": figures,
         // At the thesis's distances, light unknown.
         "cramer_rao_two_sd_mm": bound_mm,

@@ -87,7 +87,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let setup = Setup::new(load(&args.scenario, &args.overrides(), args.seed)?)?;
     args.check_fidelity(&setup)?;
     args.check_pairs(&setup)?;
-    let notes = setup.notes();
+    let mut notes = setup.notes();
+    notes.extend(args.estimator.iter().flat_map(|kind| kind.notes_of_scene(&setup)));
     talk.heed(&notes)?;
     let frames = args.frames * setup.frames_together();
     let is_drawn = args.fidelity == Fidelity::Histogram;

@@ -47,7 +47,7 @@ mod tests {
         let ideal = ["tdc.profile=ideal".to_owned()];
         let setup = Setup::new(scenario::load("kc705", &ideal).unwrap()).unwrap();
         let source = HistogramSource::new(&setup).unwrap();
-        let acquisition = Acquisition { bins: source.bins(), shots: 30_000, pulse_sigma_ps: 137.0 };
+        let acquisition = Acquisition::new(source.bins(), 30_000, 137.0);
         let distances_m = [0.1, 0.3, 0.6];
         let bound = two_sd_mm(&source, &acquisition, &Grid::test(), &distances_m).unwrap();
         // Prototype: 0.5, 0.4 and 1.0 mm, to one decimal.
