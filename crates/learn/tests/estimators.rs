@@ -1,6 +1,7 @@
 //! The estimators against scipy, the thesis's tables and the Cramér-Rao bound, under fixed seeds.
 
 mod any_histogram;
+mod detector;
 mod scipy;
 mod subtraction;
 

@@ -56,6 +56,9 @@ pub struct Args {
     /// Frames to simulate cycle by cycle at each of six distances, to be compared with the fast path
     #[arg(long, value_name = "N", default_value_t = 8, allow_hyphen_values = true)]
     check: u64,
+    /// Count an estimate as an outlier that is further than this from the truth
+    #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = crate::choice::millimetres)]
+    outlier_limit_mm: f64,
     /// Write evaluation.json, evaluation.csv and box plots of the errors there
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -92,8 +95,9 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         Evaluation::new(&source, &rows, seed, &estimators, stop.as_deref(), done)
     })?;
     let cross_check = args.cross_check(&loaded, &source, stop.as_deref())?;
-    let figures: Vec<_> =
-        evaluation.columns.iter().map(|column| Figures::new(&evaluation, column)).collect();
+    let limit_m = 1e-3 * args.outlier_limit_mm;
+    let figures = |column| Figures::new(&evaluation, column, limit_m);
+    let figures: Vec<_> = evaluation.columns.iter().map(figures).collect();
     let bound_mm = bound::two_sd_mm(&source, &needs.acquisition, &Grid::test(), &DISTANCES_M)?;
     let json = json!({
         "schema": "tofsim.evaluate/1",
@@ -105,6 +109,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         "rows": rows.count(),
         "shots_per_frame": source.shots(),
         "notes": notes,
+        "outlier_limit_mm": args.outlier_limit_mm,
         "estimators": figures,
         // At the thesis's distances, light unknown.
         "cramer_rao_two_sd_mm": bound_mm,

@@ -70,6 +70,9 @@ pub struct Args {
     /// subtraction makes pairs of a dark and a lit frame (firmware.dark_frames), and all look at those
     #[arg(long, value_parser = words(&EstimatorKind::ALL), value_delimiter = ',')]
     estimator: Vec<EstimatorKind>,
+    /// Count a depth as an outlier that is further than this from the truth
+    #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = choice::millimetres)]
+    outlier_limit_mm: f64,
     /// Write a row for each shot, as .csv or .parquet
     #[arg(long, value_name = "FILE")]
     events: Option<PathBuf>,
@@ -103,7 +106,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let stop = stop_signal();
     let progress = talk.progress(frames, "frames");
     let panel = Panel::new(&args.estimator, &setup)?;
-    let mut log = FrameLog::new(&setup, args.json || folder.is_some(), panel);
+    let limit_m = 1e-3 * args.outlier_limit_mm;
+    let mut log = FrameLog::new(&setup, args.json || folder.is_some(), panel, limit_m);
     let mut take_frame = |frame: &Frame| {
         progress.inc(1);
         log.push(&setup, frame)
@@ -143,7 +147,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     if args.json {
         return print_with(|out| summary.write(&mut log, out));
     }
-    let mut text = table::run(&setup, &log, outcome.cycles, wall);
+    let mut text = table::run(&setup, &log, (!is_drawn).then_some(outcome.cycles), wall);
     if let Some(results) = &summary.tdc {
         text += &table::tdc(results);
     }

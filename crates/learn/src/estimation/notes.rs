@@ -254,6 +254,9 @@ mod tests {
         let notes = EstimatorKind::Centroid.notes_of_scene(&setup);
         let text = notes[0].text.as_str();
         assert!(text.starts_with("centroid: in the histogram that is to be expected"), "{text}");
-        assert!(text.contains("it is -15.6 mm off") && text.ends_with("pile-up makes it early"), "{text}");
+        assert!(
+            text.contains("it is -15.6 mm off") && text.ends_with("pile-up makes it early"),
+            "{text}"
+        );
     }
 }
