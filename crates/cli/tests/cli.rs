@@ -158,6 +158,10 @@ fn many_frames_give_mean_and_spread() {
     let sd = (depths.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / 4.0).sqrt();
     assert!((run["depth"]["mean_m"].as_f64().unwrap() - mean).abs() < 1e-12);
     assert!((run["depth"]["two_sd_m"].as_f64().unwrap() - 2.0 * sd).abs() < 1e-12);
+    assert_eq!(run["depth"]["true_depth_m"], 0.5);
+    let error_m = run["depth"]["mean_error_m"].as_f64().unwrap();
+    assert!((error_m - (mean - 0.5)).abs() < 1e-12);
+    assert_eq!(run["depth"]["outliers"], 0);
     let first = json(folder.path(), &["run", "--json", "--waves", "none"]);
     assert_eq!(run["frames"][0], first["frames"][0], "a frame does not depend on how many follow");
 }

@@ -219,6 +219,18 @@ fn histogram_prints_the_same_whatever_the_threads() {
 }
 
 #[test]
+fn frames_drawn_at_once_have_no_cycles_per_second() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |fidelity| {
+        let args = ["run", "--waves", "none", "--frames", "3", "--fidelity", fidelity];
+        stdout(folder.path(), &args)
+    };
+    let drawn = run("histogram");
+    assert!(drawn.contains("3 frames drawn in ") && !drawn.contains("per second"), "{drawn}");
+    assert!(run("shot").contains("million cycles per second"));
+}
+
+#[test]
 fn what_a_fidelity_cannot_show_is_refused_by_name() {
     let folder = tempfile::tempdir().unwrap();
     let refused = |args: &[&str]| refused(folder.path(), &[&["run"], args].concat());

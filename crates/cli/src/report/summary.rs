@@ -58,6 +58,10 @@ impl Summary {
         if let Some(depth) = log.spread() {
             head["depth"] = json!(depth);
         }
+        let estimators = log.estimators();
+        if !estimators.is_empty() {
+            head["estimators"] = json!(estimators);
+        }
         if let Some(pairs) = &log.pairs {
             head["pairs"] = json!(pairs.statistics());
         }

@@ -79,6 +79,9 @@ pub struct Args {
     /// Frames to simulate cycle by cycle at each of six distances, to be compared with the fast path
     #[arg(long, value_name = "N", default_value_t = 8, allow_hyphen_values = true)]
     check: u64,
+    /// Count an estimate as an outlier that is further than this from the truth
+    #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = crate::choice::millimetres)]
+    outlier_limit_mm: f64,
     /// Write evaluation.json, evaluation.csv and box plots of the errors there
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -99,7 +102,9 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let network = Network::find(&args.network, None)?;
     let loaded = &scenes.loaded[0];
     let (seed, profile) = (loaded.scenario.seed, &loaded.scenario.tdc.profile);
-    let notes = args.notes(&scenes, &network)?;
+    let mut notes = args.notes(&scenes, &network)?;
+    let middle = &scenes.setups[scenes.setups.len() / 2];
+    notes.extend(args.estimator.iter().flat_map(|kind| kind.notes(middle)));
     talk.heed(&notes)?;
     let estimators = args.estimators(&scenes, &network)?;
     let rows = args.draws.rows(None, &grid, seed)?;
@@ -108,7 +113,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         let of = |scene: &Scene| &estimators[scene.setting][..];
         Evaluation::with(source, &rows, seed, of, stop.as_deref(), done)
     })?;
-    let (figures, by_setting) = figures(&evaluation, &grid);
+    let (figures, by_setting) = figures(&evaluation, &grid, 1e-3 * args.outlier_limit_mm);
     let drawn = figures.first().map_or(&[][..], |one| &one.by_distance_m);
     let drawn: Vec<f64> = drawn.iter().map(|group| group.value).collect();
     let shown = match grid.is_thesis() {
@@ -128,6 +133,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         "seed": seed,
         "rows": rows.count(),
         "shots_per_frame": source.shots_of_all(),
+        "outlier_limit_mm": args.outlier_limit_mm,
         "estimators": figures,
         // At the thesis's distances, or those of one's own grid; light unknown.
         "cramer_rao_two_sd_mm": bound_mm,
@@ -236,13 +242,17 @@ impl Args {
 
 /// The figures of each estimator, and its errors by the grid's other keys; beside the thesis's line where
 /// the grid is the thesis's.
-fn figures(evaluation: &Evaluation, grid: &Grid) -> (Vec<Figures>, Vec<Vec<KeyGroups>>) {
+fn figures(
+    evaluation: &Evaluation,
+    grid: &Grid,
+    limit_m: f64,
+) -> (Vec<Figures>, Vec<Vec<KeyGroups>>) {
     let of = |column: &EstimatorErrors| {
-        let mut figures = Figures::new(evaluation, column);
+        let mut figures = Figures::new(evaluation, column, limit_m);
         if !grid.is_thesis() {
             (figures.worst_ratio_to_thesis, figures.worst_distance_m) = (None, None);
         }
-        (figures, by_setting(evaluation, column, grid))
+        (figures, by_setting(evaluation, column, grid, limit_m))
     };
     evaluation.columns.iter().map(of).unzip()
 }

@@ -71,6 +71,9 @@ pub struct Args {
     /// subtraction makes pairs of a dark and a lit frame (firmware.dark_frames), and all look at those
     #[arg(long, value_parser = words(&EstimatorKind::ALL), value_delimiter = ',')]
     estimator: Vec<EstimatorKind>,
+    /// Count a depth as an outlier that is further than this from the truth
+    #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = choice::millimetres)]
+    outlier_limit_mm: f64,
     /// Write a row for each shot, as .csv or .parquet
     #[arg(long, value_name = "FILE")]
     events: Option<PathBuf>,
@@ -88,7 +91,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let setup = Setup::new(load(&args.scenario, &args.overrides(), args.seed)?)?;
     args.check_fidelity(&setup)?;
     args.check_pairs(&setup)?;
-    let notes = setup.notes()?;
+    let mut notes = setup.notes()?;
+    notes.extend(args.estimator.iter().flat_map(|kind| kind.notes_of_scene(&setup)));
     talk.heed(&notes)?;
     let frames = args.frames * setup.frames_together();
     let is_drawn = args.fidelity == Fidelity::Histogram;
@@ -106,7 +110,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let stop = stop_signal();
     let progress = talk.progress(frames, "frames");
     let panel = Panel::new(&args.estimator, &setup)?;
-    let mut log = FrameLog::new(&setup, args.json || folder.is_some(), panel);
+    let limit_m = 1e-3 * args.outlier_limit_mm;
+    let mut log = FrameLog::new(&setup, args.json || folder.is_some(), panel, limit_m);
     let mut take_frame = |frame: &Frame| {
         progress.inc(1);
         log.push(&setup, frame)
@@ -152,7 +157,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     if args.json {
         return print_with(|out| summary.write(&mut log, out));
     }
-    let mut text = table::run(&setup, &log, outcome.cycles, wall);
+    let mut text = table::run(&setup, &log, (!is_drawn).then_some(outcome.cycles), wall);
     if let Some(results) = &summary.tdc {
         text += &table::tdc(results);
     }
