@@ -4,4 +4,6 @@ pub mod csv;
 pub mod date;
 pub mod npy;
 pub mod output;
+pub mod staged;
 pub mod toml;
+pub mod unfinished;

@@ -10,7 +10,7 @@ use tofsim::sim::setup::CYCLE;
 
 use crate::text::table::plain;
 
-use super::terminal::{print, print_json};
+use super::terminal::{Talk, print_json};
 
 /// Print the link budget: photons and avalanches that a shot can expect, and eye safety
 #[derive(Debug, clap::Args)]
@@ -27,7 +27,7 @@ pub struct Args {
 }
 
 /// Runs the command.
-pub fn run(args: &Args) -> Result<()> {
+pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let loaded = scenario::load(&args.scenario, &args.set)?;
     let scenario = &loaded.scenario;
     let budget = Budget::new(scenario);
@@ -78,5 +78,5 @@ pub fn run(args: &Args) -> Result<()> {
         row("eye safety", milliwatts(limit_w), note),
         row("", milliwatts(own_limit_w), own_note),
     ];
-    print(&format!("{}\n", plain(rows)))
+    talk.report(&format!("{}\n", plain(rows)))
 }

@@ -8,6 +8,7 @@ use std::sync::atomic::AtomicBool;
 use serde_json::json;
 
 use tofsim::error::{Input, Result};
+use tofsim::files::output::create_directory_for;
 use tofsim::network::Network;
 use tofsim::scenario::{self, Loaded};
 use tofsim::sim::setup::Setup;
@@ -22,7 +23,7 @@ use crate::choice::words;
 use crate::report::evaluation as report;
 
 use super::draws::Draws;
-use super::terminal::{Talk, print, print_json, stop_signal};
+use super::terminal::{Talk, print_json, stop_signal};
 
 /// Light of the scenes that the cross-check takes: in the middle of the grid.
 const CHECK_REFLECTANCE: f64 = 0.34;
@@ -89,6 +90,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let estimators = args.estimator.iter().map(|kind| kind.estimator(&needs));
     let estimators = estimators.collect::<std::result::Result<Vec<_>, Input>>()?;
     let rows = args.draws.rows(None, Grid::test(), seed);
+    let look = |folder: &PathBuf| create_directory_for(folder, report::JSON);
+    args.output.as_ref().map_or(Ok(()), look)?;
     let stop = stop_signal();
     let evaluation = args.draws.on_threads(rows.count(), talk, |done| {
         Evaluation::new(&source, &rows, seed, &estimators, stop.as_deref(), done)
@@ -117,8 +120,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         },
     });
     if let Some(folder) = &args.output {
-        report::write(folder, &format!("{json}\n"), &figures)?;
-        talk.detail(format_args!("wrote {}", folder.display()));
+        let written = report::write(folder, &format!("{json}\n"), &figures)?;
+        written.iter().for_each(|path| talk.wrote(path));
     }
     if args.json {
         print_json(&json)?;
@@ -130,7 +133,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             rows.count(),
             source.shots()
         );
-        print(&(head + &text(&figures, &bound_mm, source.shots(), &cross_check)))?;
+        talk.report(&(head + &text(&figures, &bound_mm, source.shots(), &cross_check)))?;
     }
     let agrees = cross_check.iter().all(CrossCheck::agrees);
     Ok(if agrees { ExitCode::SUCCESS } else { ExitCode::FAILURE })

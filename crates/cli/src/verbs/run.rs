@@ -24,7 +24,8 @@ use crate::report::summary::Summary;
 use crate::report::table;
 
 use super::draws::{load, use_threads};
-use super::terminal::{Talk, print, print_with, stop_signal};
+use super::frames;
+use super::terminal::{Talk, print_with, stop_signal};
 
 /// Simulate frames: photons to depth, with a waveform
 #[derive(Debug, clap::Args)]
@@ -137,7 +138,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let fidelity = args.fidelity.name();
     let summary = Summary::new(&setup, fidelity, waves, &log, files.tdc());
     for path in files.finish(&setup, &mut log, &summary)? {
-        talk.detail(format_args!("wrote {}", path.display()));
+        talk.wrote(&path);
     }
     if args.json {
         return print_with(|out| summary.write(&mut log, out));
@@ -146,7 +147,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     if let Some(results) = &summary.tdc {
         text += &table::tdc(results);
     }
-    print(&text)
+    talk.report(&text)
 }
 
 impl Args {
@@ -179,9 +180,9 @@ impl Args {
                 .value(false)
                 .into());
         }
-        match self.frames.checked_mul(setup.frames_together()) {
-            Some(_) => Ok(()),
-            None => Err(Input::new("--frames", "expected fewer pairs").value(self.frames).into()),
+        match self.fidelity {
+            Fidelity::Histogram => frames::check_streams("--frames", self.frames, setup),
+            _ => frames::check("--frames", self.frames, setup),
         }
     }
 
@@ -243,9 +244,9 @@ impl WavePlan {
     /// Writes what viewers need beside the waveform, and says where it is.
     fn finish(&self, marks: &Marks, talk: &Talk) -> Result<()> {
         for view in write_views(&self.path, self.format, &self.entries, marks)? {
-            talk.detail(format_args!("wrote {}", view.display()));
+            talk.wrote(&view);
         }
-        talk.note(format_args!("waveform: {}", self.path.display()));
+        talk.wrote(&self.path);
         Ok(())
     }
 }
