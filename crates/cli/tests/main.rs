@@ -18,6 +18,7 @@ mod lockstep;
 mod quantize;
 mod subtraction;
 mod synthesis;
+mod terminal;
 mod three_ways;
 mod train;
 mod vectors;

@@ -270,3 +270,6 @@ impl<'a> Tournament<'a> {
 fn errors(circuit: &Circuit, samples: &Samples) -> Vec<DistanceErrors> {
     by_distance(samples, |histogram| circuit.depth_m(histogram))
 }
+
+#[cfg(test)]
+mod tests;
