@@ -6,4 +6,6 @@ pub mod digest;
 pub mod folder;
 pub mod npy;
 pub mod output;
+pub mod staged;
 pub mod toml;
+pub mod unfinished;

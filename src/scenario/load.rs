@@ -98,6 +98,20 @@ mod tests {
     }
 
     #[test]
+    fn a_number_needs_no_digit_on_either_side_of_its_point() {
+        let scenario = from_text("", &["target.reflectance=.9", "target.distance_m=1."]).unwrap();
+        assert_eq!((scenario.target.reflectance, scenario.target.distance_m), (0.9, 1.0));
+        // A text stays one.
+        assert_eq!(from_text("", &["tdc.profile=007"]).unwrap().tdc.profile, "007");
+        let error = from_text("", &["target.distance_m=-.5"]).unwrap_err();
+        assert!(
+            error.ends_with("target.distance_m = -0.5: expected a number from 0.001 to 6.9 [m]")
+        );
+        let error = from_text("", &["firmware.shots_per_frame=.5"]).unwrap_err();
+        assert!(error.contains("= 0.5: expected a whole number"), "{error}");
+    }
+
+    #[test]
     fn faults_have_line_and_column() {
         let error = |text| from_text(text, &[]).unwrap_err();
         assert_eq!(

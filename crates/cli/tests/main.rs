@@ -23,6 +23,7 @@ mod quantize;
 mod rerun;
 mod subtraction;
 mod synthesis;
+mod terminal;
 mod three_ways;
 mod train;
 mod vectors;

@@ -1,6 +1,6 @@
 //! An evaluation as tables, beside the thesis's, and as files: JSON, figures as CSV, and box plots.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use tofsim::error::{Input, Result};
 use tofsim::files::output::{create_directory, write_bytes};
@@ -84,18 +84,22 @@ fn with_error(value_mm: Option<f64>, error_mm: Option<f64>) -> String {
     number_or_dash(value_mm, 2) + &error.map_or(String::new(), |error| format!(" +-{error:.2}"))
 }
 
+/// The file that is always written.
+pub const JSON: &str = "evaluation.json";
+
 /// Puts them in a folder, which is made, with the thesis's line where the grid is the thesis's;
-/// `by_setting` has the errors of each by the grid's other keys.
+/// `by_setting` has the errors of each by the grid's other keys. Their paths.
 pub fn write(
     folder: &Path,
     json: &str,
     figures: &[Figures],
     by_setting: &[Vec<KeyGroups>],
     thesis: bool,
-) -> Result<()> {
+) -> Result<Vec<PathBuf>> {
     create_directory(folder)?;
-    write_bytes(&folder.join("evaluation.json"), json)?;
-    write_bytes(&folder.join("evaluation.csv"), csv(figures, by_setting))?;
+    let mut paths = vec![folder.join(JSON), folder.join("evaluation.csv")];
+    write_bytes(&paths[0], json)?;
+    write_bytes(&paths[1], csv(figures, by_setting))?;
     for one in figures {
         for grouping in one.groupings() {
             let beside_mm: Option<fn(f64) -> f64> =
@@ -106,9 +110,10 @@ pub fn write(
             let svg = box_plot::svg(&title, grouping.quantity, grouping.groups, beside_mm);
             let svg = svg.map_err(|why| Input::new(path.display(), why))?;
             write_bytes(&path, svg)?;
+            paths.push(path);
         }
     }
-    Ok(())
+    Ok(paths)
 }
 
 /// A row for each estimator and group.

@@ -12,7 +12,7 @@ use tofsim::{Note, Setup};
 
 use crate::record::Record;
 
-use super::terminal::{Talk, print, print_json};
+use super::terminal::{Talk, print_json};
 
 /// Print the link budget: photons and avalanches that a shot can expect, and eye safety
 #[derive(Debug, clap::Args)]
@@ -58,7 +58,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
             Record::new(&findings.setup, &talk.command).put_into(&mut object, &notes);
             print_json(&object)?;
         }
-        false => print(&format!("{}\n", table::table(&findings)))?,
+        false => talk.report(&format!("{}\n", table::table(&findings)))?,
     }
     talk.heed(&notes)
 }

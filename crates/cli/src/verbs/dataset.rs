@@ -16,7 +16,7 @@ use crate::text::table::{facts, grouped};
 
 use super::draws::Draws;
 use super::scenes::Scenes;
-use super::terminal::{Talk, print, print_json, stop_signal};
+use super::terminal::{Talk, print_json, stop_signal};
 
 /// Draw histograms of many scenes, for training and tests
 #[derive(Debug, clap::Args)]
@@ -72,7 +72,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let written = args
         .draws
         .on_threads(rows.count(), talk, |done| write(files, blocks, stop.as_deref(), done))?;
-    written.iter().for_each(|path| talk.detail(format_args!("wrote {}", path.display())));
+    written.iter().for_each(|path| talk.wrote(path));
 
     let files: Vec<_> = written.iter().map(|path| path.display().to_string()).collect();
     if args.json {
@@ -81,7 +81,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         report["notes"] = json!(notes);
         return print_json(&report);
     }
-    print(&table(&description, &files))
+    talk.report(&table(&description, &files))
 }
 
 /// Writes a block while the next one is drawn.

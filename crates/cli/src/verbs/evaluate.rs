@@ -8,6 +8,7 @@ use serde_json::json;
 
 use tofsim::Note;
 use tofsim::error::{Input, Result};
+use tofsim::files::output::create_directory_for;
 use tofsim::network::Network;
 use tofsim::scenario;
 use tofsim::sim::domain;
@@ -25,7 +26,7 @@ use crate::report::evaluation as report;
 
 use super::draws::Draws;
 use super::scenes::Scenes;
-use super::terminal::{Talk, print, print_json, stop_signal};
+use super::terminal::{Talk, print_json, stop_signal};
 
 mod measured;
 
@@ -108,6 +109,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     talk.heed(&notes)?;
     let estimators = args.estimators(&scenes, &network)?;
     let rows = args.draws.rows(None, &grid, seed)?;
+    let look = |folder: &PathBuf| create_directory_for(folder, report::JSON);
+    args.output.as_ref().map_or(Ok(()), look)?;
     let stop = stop_signal();
     let evaluation = args.draws.on_threads(rows.count(), talk, |done| {
         let of = |scene: &Scene| &estimators[scene.setting][..];
@@ -159,8 +162,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     }
     if let Some(folder) = &args.output {
         let json = format!("{json}\n");
-        report::write(folder, &json, &figures, &by_setting, grid.is_thesis())?;
-        talk.detail(format_args!("wrote {}", folder.display()));
+        let written = report::write(folder, &json, &figures, &by_setting, grid.is_thesis())?;
+        written.iter().for_each(|path| talk.wrote(path));
     }
     if args.json {
         print_json(&json)?;
@@ -182,7 +185,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         let beside = report::Beside { distances_m: &shown, bound_mm: &bound_mm, thesis };
         let tables = report::tables(&figures, &beside);
         let tables = tables + &report::setting_tables(&figures, &by_setting);
-        print(&(head + &tables + &text(&figures, source.shots_of_all(), &cross_check)))?;
+        talk.report(&(head + &tables + &text(&figures, source.shots_of_all(), &cross_check)))?;
     }
     let agrees = cross_check.iter().all(CrossCheck::agrees);
     Ok(if agrees { ExitCode::SUCCESS } else { ExitCode::FAILURE })

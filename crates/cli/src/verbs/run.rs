@@ -25,7 +25,8 @@ use crate::report::summary::Summary;
 use crate::report::table;
 
 use super::draws::{load, use_threads};
-use super::terminal::{Talk, print, print_with, stop_signal};
+use super::frames;
+use super::terminal::{Talk, print_with, stop_signal};
 
 /// Simulate frames: photons to depth, with a waveform
 #[derive(Debug, clap::Args)]
@@ -141,7 +142,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     progress.finish_and_clear();
     outcome.notes.iter().for_each(|note| talk.note(note));
 
-    let finish = |plan: &WavePlan| plan.finish(&outcome.marks, talk);
+    let finish = |plan: &WavePlan| plan.finish(&outcome.marks);
     let written = plan.as_ref().map_or(Ok(Vec::new()), finish)?;
     let waves = plan.map(|plan| plan.path.display().to_string());
     let fidelity = args.fidelity.name();
@@ -149,7 +150,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let mut summary = Summary::new(&setup, fidelity, waves, &log, files.tdc(), about);
     let Written { files, removed } = files.finish(&setup, &mut log, &mut summary, written)?;
     for path in files {
-        talk.detail(format_args!("wrote {}", path.display()));
+        talk.wrote(&path);
     }
     for path in removed {
         talk.note(format_args!("removed {}: it was an older run's", path.display()));
@@ -161,7 +162,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     if let Some(results) = &summary.tdc {
         text += &table::tdc(results);
     }
-    print(&text)
+    talk.report(&text)
 }
 
 impl Args {
@@ -194,9 +195,9 @@ impl Args {
                 .value(false)
                 .into());
         }
-        match self.frames.checked_mul(setup.frames_together()) {
-            Some(_) => Ok(()),
-            None => Err(Input::new("--frames", "expected fewer pairs").value(self.frames).into()),
+        match self.fidelity {
+            Fidelity::Histogram => frames::check_streams("--frames", self.frames, setup),
+            _ => frames::check("--frames", self.frames, setup),
         }
     }
 
@@ -254,10 +255,9 @@ impl WavePlan {
         Ok((waves, self.windows.clone()))
     }
 
-    /// Writes what viewers need beside the waveform, and says where it is; all their paths.
-    fn finish(&self, marks: &Marks, talk: &Talk) -> Result<Vec<PathBuf>> {
+    /// Writes what viewers need beside the waveform; all their paths.
+    fn finish(&self, marks: &Marks) -> Result<Vec<PathBuf>> {
         let views = write_views(&self.path, self.format, &self.entries, marks)?;
-        talk.note(format_args!("waveform: {}", self.path.display()));
         Ok([self.path.clone()].into_iter().chain(views).collect())
     }
 }
