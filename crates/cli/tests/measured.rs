@@ -160,3 +160,32 @@ fn a_truth_that_does_not_fit_is_refused() {
     let pair = ["evaluate", "--data", "d", "--estimator", "subtraction"];
     assert!(refused(folder, &pair).contains("a dark one beside each"));
 }
+
+#[test]
+fn a_network_is_trained_on_histograms_of_one_s_own() {
+    let folder = empty();
+    let folder = folder.path();
+    stdout(folder, &[&DRAWN[..], &["-o", "d"]].concat());
+    let train = ["train", "--quick", "--with", "limits.penalty=50", "--data", "d", "-o", "n"];
+    let report = json(folder, &[&train[..], &["--json"]].concat());
+    assert_eq!(values(&report["distances_m"]), [0.2, 0.3, 0.5]);
+    let network = tofsim::network::Network::load(&folder.join("n/network.toml")).unwrap();
+    assert!(network.training.command.unwrap().contains("--data d"));
+    let domain = network.domain.unwrap();
+    assert_eq!(domain.ranges["target.distance_m"], [0.2, 0.5]);
+    assert_eq!(domain.ranges["target.reflectance"], [0.1, 0.5]);
+    let found = evaluate(folder, &["n/network.toml", "--data", "d"]);
+    assert_eq!(found["notes"].as_array().unwrap().len(), 0);
+    let two_sd = found["estimators"][0]["all"]["two_sd_mm"].as_f64().unwrap();
+    assert!(two_sd < 60.0, "{two_sd}");
+    let again = [&train[..], &["--resume", "--seed", "2"]].concat();
+    assert!(refused(folder, &again).contains("of another training"));
+    let few = ["dataset", "--grid", "target.distance_m=0.2,0.3", "--repeats", "3", "-o", "few"];
+    stdout(folder, &few);
+    let error = refused(folder, &["train", "--quick", "--data", "few"]);
+    assert!(error.contains("histograms at 0.2 m, expected 10 or more"), "{error}");
+}
+
+fn values(list: &Value) -> Vec<f64> {
+    list.as_array().unwrap().iter().map(|value| value.as_f64().unwrap()).collect()
+}

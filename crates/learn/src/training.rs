@@ -15,6 +15,7 @@ pub mod fold;
 pub mod gram;
 pub mod limits;
 pub mod lm;
+pub mod measured;
 pub mod network_problem;
 pub mod recipe;
 pub mod start;

@@ -10,23 +10,22 @@ use tofsim::files::output::create_directory;
 use tofsim::network::formats::WordFormat;
 use tofsim::scenario;
 use tofsim::sim::domain;
-use tofsim_learn::dataset::{GridOption, GridPurpose};
 use tofsim_learn::training::checkpoint;
-use tofsim_learn::training::data::{self, TrainingScenes};
 use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::tournament::{Tournament, Watch};
 use tofsim_learn::training::weighting::Weighting;
 
 use crate::report::training as report;
 
-use super::draws::{from_here, use_threads};
+use super::draws::use_threads;
 use super::progress::Progress;
-use super::scenes::Scenes;
 use super::terminal::{Talk, print, print_json, stop_signal};
 
+mod origin;
 mod word_format;
 mod written;
 
+use origin::Origin;
 use word_format::{FormatOption, word_format};
 use written::TrainingOrigin;
 
@@ -38,6 +37,7 @@ use written::TrainingOrigin;
     tofsim train --resume -o mine                   go on where it was stopped\n  \
     tofsim train --with finish.blocks=10 -o mine    with a number of the recipe changed\n  \
     tofsim train --grid target.distance_m=0.05..0.9:0.0025 --grid target.reflectance=0.05..0.9:0.05 -o far\n  \
+    tofsim train --data measured --profile chain.toml -o mine   on histograms of one's own\n  \
     tofsim train --lut-bits 10 --format w1=12.19    for a datapath that is not the firmware's\n  \
     tofsim run -s estimator.network=mine/network.toml")]
 pub struct Args {
@@ -57,6 +57,13 @@ pub struct Args {
     /// repeated; what none has is the scenario's), or a TOML file of those [default: thesis]
     #[arg(long, value_name = "GRID")]
     grid: Vec<String>,
+    /// Histograms of known distances instead of drawn ones: the folder of a dataset, a Parquet file with
+    /// columns b0 to b255 and distance_m, or an .npy file with --truth
+    #[arg(long, value_name = "PATH", conflicts_with = "grid")]
+    data: Option<PathBuf>,
+    /// The true distances of --data [m]: an .npy file of n or n x k floats, distances first
+    #[arg(long, value_name = "FILE", requires = "data")]
+    truth: Option<PathBuf>,
     /// A training of seconds, whose network is poor
     #[arg(long)]
     quick: bool,
@@ -103,48 +110,41 @@ pub struct Args {
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let recipe = args.recipe(None)?;
-    if args.print_recipe && args.grid.is_empty() {
+    if args.print_recipe && args.grid.is_empty() && args.data.is_none() {
         return print_recipe(&recipe);
     }
-    let scenes = args.scenes()?;
-    let training = args.training_scenes(&scenes)?;
-    let recipe = match scenes.grid.is_thesis() {
-        true => recipe,
-        false => {
-            let (grid, test) = (&training.training, &training.test);
-            args.recipe(Some(Weighting::of_scenes(&scenes.source, grid, test)?))?
-        }
+    let origin = Origin::new(args)?;
+    let material = origin.material()?;
+    let recipe = match origin.weighting()? {
+        None => recipe,
+        own => args.recipe(own)?,
     };
     if args.print_recipe {
         return print_recipe(&recipe);
     }
-    training.check(&recipe)?;
-    let notes = scenes.notes()?;
+    material.check(&recipe)?;
+    let notes = origin.notes()?;
     talk.heed(&notes)?;
     let mut settings: checkpoint::CheckpointSettings = recipe.settings()?.into_iter().collect();
     settings.insert("seed".to_owned(), args.seed.to_string());
-    settings.insert("scenario".to_owned(), data::fingerprint(&scenes.source));
-    if !scenes.grid.is_thesis() {
-        let axes: Vec<_> = scenes.grid.axes().map(ToString::to_string).collect();
-        settings.insert("grid".to_owned(), axes.join(" "));
-    }
+    settings.extend(origin.settings());
     let of = checkpoint::CheckpointOf { settings, options: args.options() };
 
     let path = args.output.join("checkpoint");
     let state = args.resume.then(|| checkpoint::load(&path, &of, &recipe)).transpose()?;
     create_directory(&args.output)?;
     use_threads(args.threads)?;
-    let mut tournament = Tournament::new(&recipe, &training, args.seed, state);
+    let mut tournament = Tournament::new(&recipe, &*material, args.seed, state);
     if !args.train(&mut tournament, &path, &of, talk)? {
         talk.note(format_args!("stopped; {} has the state", path.display()));
         return Ok(());
     }
-    let scenario = &scenes.loaded[0].scenario;
+    let scenario = origin.scenario();
     let chain = args.profile.clone().unwrap_or_else(|| scenario.tdc.profile.clone());
     let (command, seed) = (args.command(), args.seed);
     let mut trained_for = scenario.clone();
     trained_for.tdc.profile.clone_from(&chain);
-    let domain = Some(domain::of(&trained_for, &scenes.grid.ranges())?);
+    let domain = Some(domain::of(&trained_for, &origin.ranges())?);
     let made = TrainingOrigin { chain, command, seed, domain };
     let (network, rows) = written::write(&args.output, &recipe, &tournament, made, talk)?;
     let line = &recipe.weighting;
@@ -182,32 +182,6 @@ fn say(talk: &Talk, progress: &Progress, tournament: &Tournament, before: usize)
 }
 
 impl Args {
-    /// The grid and the scenario.
-    fn scenes(&self) -> Result<Scenes> {
-        let load = |set: &[String]| {
-            let mut loaded = scenario::load(&self.scenario, set)?;
-            if let Some(profile) = &self.profile {
-                loaded.scenario.tdc.profile = from_here(profile, &loaded)?;
-            }
-            Ok(loaded)
-        };
-        let scenes = Scenes::new(&self.grid, &self.set, GridPurpose::Training, load)?;
-        match scenes.option {
-            GridOption::ThesisOf(_) => {
-                let expected =
-                    "expected thesis, which has a grid for training and one for tests, or KEY=...";
-                Err(Input::new("--grid", expected).value(self.grid.join(" ")).into())
-            }
-            _ => Ok(scenes),
-        }
-    }
-
-    /// What to draw for training and for tests.
-    fn training_scenes<'a>(&self, scenes: &'a Scenes) -> Result<TrainingScenes<'a>> {
-        let test = scenes.grid_for(GridPurpose::Test)?;
-        Ok(TrainingScenes::of_grids(&scenes.source, scenes.grid.clone(), test))
-    }
-
     /// Trains until all is done or there are as many checkpoints as wanted, and saves the state on the
     /// way; whether all is done.
     fn train(
@@ -294,6 +268,8 @@ impl Args {
         self.set.iter().for_each(|set| add("-s ", set));
         self.profile.iter().for_each(|profile| add("--profile ", profile));
         self.grid.iter().for_each(|grid| add("--grid ", grid));
+        self.data.iter().for_each(|path| add("--data ", &path.display()));
+        self.truth.iter().for_each(|path| add("--truth ", &path.display()));
         add("--seed ", &self.seed);
         if self.quick {
             add("--quick", &"");

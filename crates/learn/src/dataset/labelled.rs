@@ -6,15 +6,14 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use npyz::{NpyFile, TypeChar};
-
 use tofsim::error::{Error, Input, Result, read_text};
-use tofsim::files::npy;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::network::{Histogram, MAX_HITS, histogram_file};
+use tofsim::scenario::Scenario;
 
 use super::files::DESCRIPTION;
 use super::grid::Scene;
+use super::npy::numbers;
 use super::parquet_columns::{MAGIC, ParquetColumns};
 
 /// What a count has to be.
@@ -100,6 +99,29 @@ impl Labelled {
         self.profile = profile.or(self.profile);
         self.shots = description["shots_per_frame"].as_u64().or(self.shots);
         self
+    }
+
+    /// That what the files say of chain and shots is what a scenario has; `source` is where they are.
+    ///
+    /// # Errors
+    /// Naming what is not.
+    pub fn check(&self, source: &Path, scenario: &Scenario) -> Result<()> {
+        let fault = |field: &str, value: &str, expected: String| {
+            let expected =
+                format!("expected {expected}, as the scenario has it; see --profile and -s");
+            Err(Input::new(source.display(), expected).field(field).value(value).into())
+        };
+        let (own, shots) = (&scenario.tdc.profile, scenario.firmware.shots_per_frame);
+        let name = |profile: &str| Path::new(profile).file_name().map(ToOwned::to_owned);
+        match (&self.profile, self.shots) {
+            (Some(profile), _) if name(profile) != name(own) => {
+                fault("profile", profile, own.clone())
+            }
+            (_, Some(count)) if count != shots => {
+                fault("shots_per_frame", &count.to_string(), shots.to_string())
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Least and largest value of what is known of the scenes, by key of the scenario.
@@ -228,48 +250,6 @@ fn labelled(
     };
     let scenes = truth.iter().map(scene).collect();
     Ok(Labelled { histograms, scenes, knows_light, ..Labelled::default() })
-}
-
-/// The floats of an array of one or two dimensions, and how many there are in a row.
-fn numbers(path: &Path) -> Result<(usize, Vec<f64>)> {
-    let fault = |expected: String| Error::from(Input::new(path.display(), expected));
-    let mut file = std::io::BufReader::new(File::open(path).map_err(Error::io(path, "read"))?);
-    let header =
-        npy::header(&mut file).map_err(|error| fault(format!("unreadable .npy: {error}")))?;
-    let width = match *header.shape() {
-        [_] => 1,
-        [_, width] if (1..=64).contains(&width) => width as usize,
-        _ => {
-            return Err(fault(
-                "expected an array (n) or (n, k), distances in metres first".to_owned(),
-            ));
-        }
-    };
-    if header.order() == npyz::Order::Fortran && width > 1 {
-        return Err(fault("expected rows together (numpy.ascontiguousarray)".to_owned()));
-    }
-    let size = match header.dtype() {
-        npyz::DType::Plain(plain) if plain.type_char() == TypeChar::Float => plain.size_field(),
-        _ => 0,
-    };
-    let file = NpyFile::with_header(header, file);
-    // One by one: a header may promise more than there is.
-    let unreadable = |error: String| fault(format!("unreadable .npy: {error}"));
-    let mut all = Vec::new();
-    match size {
-        8 => {
-            for value in file.data::<f64>().map_err(|error| unreadable(error.to_string()))? {
-                all.push(value.map_err(|error| unreadable(error.to_string()))?);
-            }
-        }
-        4 => {
-            for value in file.data::<f32>().map_err(|error| unreadable(error.to_string()))? {
-                all.push(value.map_err(|error| unreadable(error.to_string()))?.into());
-            }
-        }
-        _ => return Err(fault("expected floats of 4 or 8 bytes".to_owned())),
-    }
-    Ok((width, all))
 }
 
 fn lengths(path: &Path) -> Error {

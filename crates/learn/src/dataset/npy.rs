@@ -2,12 +2,14 @@
 //! (n x 3 `f64`: distance [m], reflectance, irradiance [W/m^2/nm], and a column more for each other key of
 //! the grid) and `rows.npy` (n x 2 `u64`: row number and seed).
 
+use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
 
-use npyz::{DType, WriteOptions, WriterBuilder};
+use npyz::{DType, NpyFile, Order, TypeChar, WriteOptions, WriterBuilder};
 
-use tofsim::error::Result;
+use tofsim::error::{Error, Input, Result};
+use tofsim::files::npy;
 use tofsim::files::output::OutputFile;
 use tofsim::firmware::histogram_builder::BINS;
 
@@ -56,4 +58,46 @@ fn header(file: &mut OutputFile, kind: &str, rows: u64, width: usize) -> io::Res
     let kind = kind.parse().map_err(io::Error::other)?;
     let options = WriteOptions::new_header_only().dtype(DType::new_scalar(kind));
     options.shape(&[rows, width as u64]).writer(file).write_header_only().map(drop)
+}
+
+/// The floats of an array of one or two dimensions, and how many there are in a row.
+pub(super) fn numbers(path: &Path) -> Result<(usize, Vec<f64>)> {
+    let fault = |expected: String| Error::from(Input::new(path.display(), expected));
+    let mut file = std::io::BufReader::new(File::open(path).map_err(Error::io(path, "read"))?);
+    let header =
+        npy::header(&mut file).map_err(|error| fault(format!("unreadable .npy: {error}")))?;
+    let width = match *header.shape() {
+        [_] => 1,
+        [_, width] if (1..=64).contains(&width) => width as usize,
+        _ => {
+            return Err(fault(
+                "expected an array (n) or (n, k), distances in metres first".to_owned(),
+            ));
+        }
+    };
+    if header.order() == Order::Fortran && width > 1 {
+        return Err(fault("expected rows together (numpy.ascontiguousarray)".to_owned()));
+    }
+    let size = match header.dtype() {
+        DType::Plain(plain) if plain.type_char() == TypeChar::Float => plain.size_field(),
+        _ => 0,
+    };
+    let file = NpyFile::with_header(header, file);
+    // One by one: a header may promise more than there is.
+    let unreadable = |error: String| fault(format!("unreadable .npy: {error}"));
+    let mut all = Vec::new();
+    match size {
+        8 => {
+            for value in file.data::<f64>().map_err(|error| unreadable(error.to_string()))? {
+                all.push(value.map_err(|error| unreadable(error.to_string()))?);
+            }
+        }
+        4 => {
+            for value in file.data::<f32>().map_err(|error| unreadable(error.to_string()))? {
+                all.push(value.map_err(|error| unreadable(error.to_string()))?.into());
+            }
+        }
+        _ => return Err(fault("expected floats of 4 or 8 bytes".to_owned())),
+    }
+    Ok((width, all))
 }

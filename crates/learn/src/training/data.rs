@@ -1,5 +1,7 @@
 //! Histograms with their true distances: what a network is trained and judged on.
 
+use std::fmt;
+
 use tofsim::error::Input;
 use tofsim::files::digest::digest;
 use tofsim::network::Histogram;
@@ -55,6 +57,46 @@ const MOST_SCENES: u64 = 51 * 477;
 const TEST_DISTANCES: usize = 51;
 
 /// Where the histograms of a training come from.
+pub trait TrainingMaterial: fmt::Debug + Sync {
+    /// What a training has for a purpose, in order of distance.
+    fn draw(&self, recipe: &Recipe, seed: u64, purpose: Purpose) -> Samples;
+
+    /// Distances of the training, in rising order [m].
+    fn distances_m(&self) -> &[f64];
+
+    /// Places of the knots for these distances; none are the thesis's.
+    fn knots(&self) -> Vec<f64> {
+        knots_of(self.distances_m())
+    }
+
+    /// That there are several distances, and histograms for each in every stage.
+    ///
+    /// # Errors
+    /// Naming what is too few.
+    fn check(&self, recipe: &Recipe) -> Result<(), Input> {
+        let distances = self.distances_m().len() as u64;
+        if distances < 2 {
+            let expected = "one value, expected two distances at least to train a network for";
+            return Err(Input::new("--grid", expected).field(DISTANCE));
+        }
+        let stages = (0..=recipe.stages.len()).map(|place| {
+            let is_finish = place == recipe.stages.len();
+            let name = if is_finish { "finish".to_owned() } else { format!("stages[{place}]") };
+            (format!("{name}.samples"), recipe.stage(place).samples)
+        });
+        let validation =
+            (recipe.validation > 0).then_some(("validation".to_owned(), recipe.validation));
+        match stages.chain(validation).find(|(_, samples)| *samples < distances) {
+            None => Ok(()),
+            Some((field, samples)) => {
+                let expected = format!("expected {distances} or more, the number of distances");
+                Err(Input::new("recipe", expected).field(field).value(samples))
+            }
+        }
+    }
+}
+
+/// Scenes on grids, whose histograms are drawn.
 #[derive(Clone, Debug)]
 pub struct TrainingScenes<'a> {
     source: &'a HistogramSource,
@@ -75,9 +117,22 @@ impl<'a> TrainingScenes<'a> {
     pub fn of_grids(source: &'a HistogramSource, training: Grid, test: Grid) -> Self {
         TrainingScenes { source, training, test: test.with_distances(TEST_DISTANCES) }
     }
+}
 
-    /// Draws what a training has for a purpose, equally many histograms at each distance.
-    pub fn draw(&self, recipe: &Recipe, seed: u64, purpose: Purpose) -> Samples {
+impl TrainingMaterial for TrainingScenes<'_> {
+    fn distances_m(&self) -> &[f64] {
+        &self.training.distances_m.values
+    }
+
+    fn knots(&self) -> Vec<f64> {
+        match self.training.is_thesis() {
+            true => Vec::new(),
+            false => knots_of(self.distances_m()),
+        }
+    }
+
+    /// Equally many histograms at each distance.
+    fn draw(&self, recipe: &Recipe, seed: u64, purpose: Purpose) -> Samples {
         let TrainingScenes { source, training, test } = self;
         let scenes = test.scenes().min(MOST_SCENES);
         let (place, grid, len) = match purpose {
@@ -95,45 +150,13 @@ impl<'a> TrainingScenes<'a> {
         }
         samples
     }
+}
 
-    /// Places of the knots for these distances; none are the thesis's.
-    pub fn knots(&self) -> Vec<f64> {
-        if self.training.is_thesis() {
-            return Vec::new();
-        }
-        let bins = self.training.distances_m.range().map(|m| m * ARRIVAL_PS_PER_M / BIN_PS);
-        knots_between(bins).to_vec()
-    }
-
-    /// That there are several distances, and histograms for each in every stage.
-    ///
-    /// # Errors
-    /// Naming what is too few.
-    pub fn check(&self, recipe: &Recipe) -> Result<(), Input> {
-        let distances = self.training.distances_m.count();
-        let fault = |field: &str, value: u64, expected: String| {
-            Err(Input::new("recipe", expected).field(field).value(value))
-        };
-        if distances < 2 {
-            let expected = "one value, expected two distances at least to train a network for";
-            return Err(Input::new("--grid", expected).field(DISTANCE));
-        }
-        let expected = || format!("expected {distances} or more, the grid's distances");
-        for place in 0..=recipe.stages.len() {
-            let samples = recipe.stage(place).samples;
-            let is_finish = place == recipe.stages.len();
-            let name = if is_finish { "finish".to_owned() } else { format!("stages[{place}]") };
-            if samples < distances {
-                return fault(&format!("{name}.samples"), samples, expected());
-            }
-        }
-        match recipe.validation {
-            validation if validation > 0 && validation < distances => {
-                fault("validation", validation, expected())
-            }
-            _ => Ok(()),
-        }
-    }
+/// Places of the knots for distances in rising order.
+fn knots_of(distances_m: &[f64]) -> Vec<f64> {
+    let ends = [distances_m.first(), distances_m.last()];
+    let bins = ends.map(|m| m.copied().unwrap_or_default() * ARRIVAL_PS_PER_M / BIN_PS);
+    knots_between(bins).to_vec()
 }
 
 /// A number that changes with the chain's bins and anything in the scenario, or in one of a grid's.
@@ -196,71 +219,4 @@ impl StageData {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::dataset::{Axis, GridPurpose};
-    use tofsim::scenario;
-    use tofsim::sim::setup::Setup;
-
-    fn scenes<'a>(source: &'a HistogramSource, option: &str) -> TrainingScenes<'a> {
-        let axes = [Axis::parse("--grid", option).unwrap()];
-        let grid = |purpose| Grid::own(&axes, source.scenario(), purpose).unwrap();
-        let [training, test] = [GridPurpose::Training, GridPurpose::Test].map(grid);
-        TrainingScenes::of_grids(source, training, test)
-    }
-
-    fn source() -> HistogramSource {
-        let few = ["firmware.shots_per_frame=300".to_owned()];
-        HistogramSource::new(&Setup::new(scenario::load("kc705", &few).unwrap()).unwrap()).unwrap()
-    }
-
-    #[test]
-    fn an_own_grid_is_trained_tested_and_chosen_on_with_draws_of_their_own() {
-        let source = source();
-        let scenes = scenes(&source, "target.distance_m=0.05..0.9:0.0025");
-        assert_eq!((scenes.training.scenes(), scenes.test.scenes()), (341, 35));
-        let recipe = Recipe::quick();
-        let [test, choice, stage] = [Purpose::Test, Purpose::Choice, Purpose::Stage(0)]
-            .map(|purpose| scenes.draw(&recipe, 1, purpose));
-        assert_eq!((test.counts.len(), choice.counts.len(), stage.counts.len()), (35, 35, 603));
-        assert_eq!((test.distances_m[0], test.distances_m[34]), (0.05, 0.9));
-        assert!(test.distances_m.iter().all(|d| stage.distances_m.contains(d)));
-        let shared = |a: &Samples, b: &Samples| a.counts.iter().any(|one| b.counts.contains(one));
-        assert!(!shared(&test, &stage) && !shared(&test, &choice) && !shared(&choice, &stage));
-        assert!(scenes.knots()[60] > 200.0);
-    }
-
-    #[test]
-    fn the_thesis_s_grids_are_as_they_were() {
-        let source = source();
-        let thesis = TrainingScenes::thesis(&source);
-        let of = TrainingScenes::of_grids(&source, Grid::training(), Grid::test());
-        assert_eq!((of.training, of.test), (thesis.training.clone(), thesis.test.clone()));
-        assert!(thesis.knots().is_empty());
-    }
-
-    #[test]
-    fn too_few_distances_or_histograms_are_refused() {
-        let source = source();
-        let check = |option: &str, recipe: &Recipe| {
-            scenes(&source, option).check(recipe).err().map(|error| error.to_string())
-        };
-        assert_eq!(check("target.distance_m=0.1..0.6:0.0025", &Recipe::quick()), None);
-        let one = check("target.reflectance=0.1,0.2", &Recipe::quick()).unwrap();
-        assert!(one.contains("target.distance_m: one value, expected two"), "{one}");
-        let many = check("target.distance_m=0.1..0.9:0.001", &Recipe::quick()).unwrap();
-        assert!(many.contains("stages[0].samples = 603: expected 801 or more"), "{many}");
-    }
-
-    #[test]
-    fn the_digest_sees_every_count_and_distance() {
-        let samples = Samples { counts: vec![[7; 256]; 2], distances_m: vec![0.1, 0.2] };
-        let mut other = samples.clone();
-        other.counts[1][255] += 1;
-        assert_ne!(samples.digest(), other.digest());
-        let mut other = samples.clone();
-        other.distances_m[0] = 0.1f64.next_up();
-        assert_ne!(samples.digest(), other.digest());
-        assert_eq!(samples.digest(), samples.clone().digest());
-    }
-}
+mod tests;

@@ -16,7 +16,7 @@ use tofsim::network::float::Float;
 use crate::quantize::Circuit;
 
 use super::accuracy::{DistanceErrors, by_distance, worst};
-use super::data::{Purpose, Samples, StageData, TrainingScenes};
+use super::data::{Purpose, Samples, StageData, TrainingMaterial};
 use super::equalise::{follow, ratios};
 use super::features::Scaling;
 use super::fold::fold;
@@ -39,7 +39,7 @@ pub struct Watch<'a> {
 #[derive(Debug)]
 pub struct Tournament<'a> {
     recipe: &'a Recipe,
-    scenes: &'a TrainingScenes<'a>,
+    material: &'a dyn TrainingMaterial,
     seed: u64,
     /// What decides how it goes on.
     pub state: TournamentState,
@@ -52,16 +52,16 @@ impl<'a> Tournament<'a> {
     /// At the beginning, or where another left off.
     pub fn new(
         recipe: &'a Recipe,
-        scenes: &'a TrainingScenes<'a>,
+        material: &'a dyn TrainingMaterial,
         seed: u64,
         resumed: Option<TournamentState>,
     ) -> Self {
-        let draw = |purpose| scenes.draw(recipe, seed, purpose);
+        let draw = |purpose| material.draw(recipe, seed, purpose);
         let stage = resumed.as_ref().map_or(0, |state| state.stage);
         let samples = draw(Purpose::Stage(stage));
         let held_out = (recipe.validation > 0).then(|| draw(Purpose::Validation));
         let state = resumed.unwrap_or_else(|| {
-            let scaling = Scaling::of(&samples.counts, &scenes.knots());
+            let scaling = Scaling::of(&samples.counts, &material.knots());
             let mut state = TournamentState::new(recipe, seed, scaling);
             [Some(&samples), held_out.as_ref()]
                 .into_iter()
@@ -74,7 +74,7 @@ impl<'a> Tournament<'a> {
             held_out: held_out.map(|samples| StageData::new(samples, &state.scaling)),
             choice: OnceLock::new(),
             recipe,
-            scenes,
+            material,
             seed,
             state,
         }
@@ -213,7 +213,7 @@ impl<'a> Tournament<'a> {
             .sort_by(|a, b| a.lm.cost.total_cmp(&b.lm.cost).then(a.start.cmp(&b.start)));
         state.candidates.truncate(self.recipe.stage(state.stage).candidates);
         state.candidates.iter_mut().for_each(|one| one.lm.restart(&self.recipe.optimiser));
-        let samples = self.scenes.draw(self.recipe, self.seed, Purpose::Stage(state.stage));
+        let samples = self.material.draw(self.recipe, self.seed, Purpose::Stage(state.stage));
         state.saw(&samples);
         self.data = StageData::new(samples, &state.scaling);
     }
@@ -232,7 +232,7 @@ impl<'a> Tournament<'a> {
 
     /// Keeps the block if none was better at its worst distance, in fixed point.
     fn judge(&mut self) -> Result<()> {
-        let drawn = || self.scenes.draw(self.recipe, self.seed, Purpose::Choice);
+        let drawn = || self.material.draw(self.recipe, self.seed, Purpose::Choice);
         let choice = self.choice.get_or_init(drawn);
         for candidate in &self.state.candidates {
             let (start, block) = (candidate.start, self.state.block + 1);
@@ -261,7 +261,7 @@ impl<'a> Tournament<'a> {
 
     /// Errors of a network on histograms that neither training nor choice has seen, one a scene.
     pub fn test(&self, circuit: &Circuit) -> Vec<DistanceErrors> {
-        let samples = self.scenes.draw(self.recipe, self.seed, Purpose::Test);
+        let samples = self.material.draw(self.recipe, self.seed, Purpose::Test);
         errors(circuit, &samples)
     }
 }

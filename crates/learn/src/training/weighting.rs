@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use tofsim::error::{Input, Result};
 
+use crate::dataset::axis::thinned;
 use crate::dataset::grid::DISTANCE;
 use crate::dataset::{Grid, HistogramSource};
 use crate::evaluation::{bound, thesis};
@@ -50,6 +51,17 @@ const MEAN_OVER_LINE: f64 = 1.0 / 3.17;
 /// Length of the extra weight at the ends, in distances of the training grid; 6 mm over 2.5 mm [1].
 const REACH: f64 = 2.4;
 
+/// The line where there is no bound [mm].
+const FLAT_MM: f64 = 5.0;
+
+/// Length of the extra weight at the ends of distances that rise [m].
+fn reach_m(distances_m: &[f64]) -> f64 {
+    match distances_m {
+        [first, .., last] => REACH * (last - first) / (distances_m.len() - 1) as f64,
+        _ => Weighting::default().reach_m,
+    }
+}
+
 impl Weighting {
     /// For scenes of one's own: the line is in proportion to the bound at each distance of the tests, the
     /// rest is to the line and to the training's distances as the thesis's is.
@@ -71,11 +83,18 @@ impl Weighting {
             };
             two_sd_mm.push(LINE_OVER_BOUND * bound_mm);
         }
-        let [first, last] = training.distances_m.range();
-        let gaps = (training.distances_m.count() - 1).max(1) as f64;
         let mean_mm = MEAN_OVER_LINE * two_sd_mm.iter().sum::<f64>() / two_sd_mm.len() as f64;
-        let reach_m = if last > first { REACH * (last - first) / gaps } else { 0.006 };
+        let reach_m = reach_m(&training.distances_m.values);
         Ok(Weighting { distances_m, two_sd_mm, mean_mm, reach_m, ..Weighting::default() })
+    }
+
+    /// For histograms whose light is not known: the same line at all distances, which rise.
+    pub fn flat(distances_m: &[f64]) -> Self {
+        let corners = thinned(distances_m, 51);
+        let (two_sd_mm, mean_mm) = (vec![FLAT_MM; corners.len()], MEAN_OVER_LINE * FLAT_MM);
+        let weighting =
+            Weighting { distances_m: corners, two_sd_mm, mean_mm, ..Weighting::default() };
+        Weighting { reach_m: reach_m(distances_m), ..weighting }
     }
 
     /// That there is a line, above zero.

@@ -89,22 +89,8 @@ impl Args {
     /// What estimators know of the histograms, which has to be what the files say of them.
     fn setup(&self, data: &Path, labelled: &Labelled) -> Result<Setup> {
         let loaded = self.draws.load_with(&self.scenario, &self.network, &self.draws.set)?;
-        let fault = |field: &str, value: &str, expected: String| {
-            let expected =
-                format!("expected {expected}, as the scenario has it; see --profile and -s");
-            Err(Input::new(data.display(), expected).field(field).value(value).into())
-        };
-        let (own, shots) = (&loaded.scenario.tdc.profile, loaded.scenario.firmware.shots_per_frame);
-        let name = |profile: &str| Path::new(profile).file_name().map(ToOwned::to_owned);
-        match (&labelled.profile, labelled.shots) {
-            (Some(profile), _) if name(profile) != name(own) => {
-                fault("profile", profile, own.clone())
-            }
-            (_, Some(count)) if count != shots => {
-                fault("shots_per_frame", &count.to_string(), shots.to_string())
-            }
-            _ => Setup::new(loaded),
-        }
+        labelled.check(data, &loaded.scenario)?;
+        Setup::new(loaded)
     }
 
     /// Where the histograms lie outside of what the network was trained for.
