@@ -2,6 +2,10 @@
 
 pub mod csv;
 pub mod date;
+pub mod digest;
+pub mod folder;
 pub mod npy;
 pub mod output;
+pub mod staged;
 pub mod toml;
+pub mod unfinished;

@@ -1,11 +1,13 @@
 //! From the scene to photons: link budget, eye safety and the statistics of the first avalanche.
 
 pub mod budget;
+pub mod chances;
 pub(crate) mod closed_form;
 pub mod eye_safety;
 mod geometry;
 pub mod hazard;
 
 pub use budget::Budget;
+pub use chances::Chances;
 pub use closed_form::{BinProbabilities, Bins};
 pub use hazard::{Cause, Hazard};

@@ -4,6 +4,7 @@
 pub mod builtin;
 #[doc(hidden)]
 pub mod chain;
+mod illuminance;
 mod load;
 mod model;
 #[doc(hidden)]

@@ -4,8 +4,9 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::{NamedTempFile, TempPath};
+use tempfile::TempPath;
 
+use super::unfinished::Unfinished;
 use crate::error::{Error, Result};
 
 /// A file under construction. Dropped without [`OutputFile::commit`], it leaves no trace.
@@ -22,7 +23,7 @@ pub struct OutputFile {
 #[derive(Debug)]
 enum Place {
     /// A file beside the target, which takes its name in the end.
-    Beside(TempPath),
+    Beside(Unfinished<TempPath>),
     /// The target itself.
     Target,
     /// A file without a name, whose bytes go to this target when they are all there.
@@ -45,7 +46,7 @@ impl OutputFile {
                 (file.map_err(Error::io(target, "write"))?, Place::Target)
             }
             _ => {
-                let (file, path) = beside(target)?.into_parts();
+                let (file, path) = beside(target)?;
                 (file, Place::Beside(path))
             }
         };
@@ -83,7 +84,7 @@ impl OutputFile {
                 Place::Target => Ok(()),
                 Place::Beside(path) => {
                     let target = fs::canonicalize(&target).unwrap_or(target.clone());
-                    path.persist(target).map_err(|error| error.error)
+                    path.persist(&target)
                 }
                 Place::Nameless(mut device) => {
                     file.rewind()?;
@@ -112,22 +113,13 @@ impl Seek for OutputFile {
     }
 }
 
-fn beside(target: &Path) -> Result<NamedTempFile> {
+fn beside(target: &Path) -> Result<(File, Unfinished<TempPath>)> {
     let target = fs::canonicalize(target).unwrap_or_else(|_| target.to_owned());
     let directory = match target.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".tofsim-").suffix(".part");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    // The crate's error names the temporary file, which says nothing to a user.
-    let made = builder.tempfile_in(directory).map_err(|error| io::Error::from(error.kind()));
-    made.map_err(Error::io(&target, "write"))
+    Unfinished::file(directory).map_err(Error::io(&target, "write"))
 }
 
 /// Writes a whole file from what `fill` produces.
@@ -148,6 +140,15 @@ pub fn write_bytes(target: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
 /// Makes a directory and those above it.
 pub fn create_directory(path: &Path) -> Result<()> {
     fs::create_dir_all(path).map_err(Error::io(path, "create"))
+}
+
+/// Makes a directory and those above it, and sees that it takes the file `name`.
+///
+/// # Errors
+/// When not.
+pub fn create_directory_for(path: &Path, name: &str) -> Result<()> {
+    create_directory(path)?;
+    OutputFile::create(&path.join(name)).map(drop)
 }
 
 #[cfg(all(test, unix))]

@@ -13,6 +13,10 @@ use toml_edit::{Document, DocumentMut, Item, Table, TableLike, Value};
 
 use crate::error::{Error, Input, Result, line_and_column, nearest};
 
+mod number;
+
+use number::number;
+
 /// A TOML document with the places of its keys.
 pub struct Checked {
     source: String,
@@ -136,13 +140,19 @@ pub fn assign<T: JsonSchema>(table: &mut Table, option: &str, assignment: &str) 
         return Err(Input::new(option, "expected one key=value, on one line").value(key).into());
     }
     let (key, value) = (key.trim(), value.trim());
+    let text = format!("{key} = {}", Value::from(value));
     let as_toml = format!("{key} = {value}");
-    let text = match as_toml.parse::<DocumentMut>() {
-        Ok(_) => as_toml,
-        Err(_) => format!("{key} = {}", Value::from(value)),
+    let checked = match (as_toml.parse::<DocumentMut>(), number(value)) {
+        (Ok(_), _) => Checked::part::<T>(&source, &as_toml),
+        // The key says whether it is to be a number or a text.
+        (_, Some(number)) => {
+            let number = Checked::part::<T>(&source, &format!("{key} = {number}"));
+            number.or_else(|fault| Checked::part::<T>(&source, &text).map_err(|_| fault))
+        }
+        _ => Checked::part::<T>(&source, &text),
     };
     // A place inside an option of the command line says nothing.
-    let checked = Checked::part::<T>(&source, &text).map_err(|error| match error {
+    let checked = checked.map_err(|error| match error {
         Error::Input(input) => Input { place: None, ..*input }.into(),
         other => other,
     })?;

@@ -3,12 +3,12 @@
 //! One histogram is in memory at a time, however many the file has.
 
 use std::fmt::Display;
-use std::fs::File;
 use std::io::{self, BufReader, Chain, Cursor, Read};
 use std::path::Path;
 
 use npyz::{DType, Deserialize, NpyFile, NpyHeader, Order, TypeChar};
 
+use crate::error::open::{self, Opened};
 use crate::error::{Error, Input, Result, line_and_column};
 use crate::files::csv::CsvInput;
 use crate::files::npy;
@@ -26,7 +26,7 @@ const CSV: u64 = 1 << 20;
 const COUNT: &str = "expected a whole number from 0 to 65535";
 
 /// A file, its first bytes put back.
-type Reader = BufReader<Chain<Cursor<Vec<u8>>, File>>;
+type Reader = BufReader<Chain<Cursor<Vec<u8>>, Opened>>;
 /// A count, or what stands in its place.
 type Count = std::result::Result<u16, String>;
 /// Elements of an array.
@@ -37,7 +37,7 @@ pub type Histograms = Box<dyn Iterator<Item = Result<Histogram>>>;
 
 /// Opens a file of histograms.
 pub fn open(path: &Path) -> Result<Histograms> {
-    let mut file = File::open(path).map_err(Error::io(path, "read"))?;
+    let mut file = open::open(path)?;
     let mut first = Vec::with_capacity(MAGIC.len());
     let begin = (&mut file).take(MAGIC.len() as u64).read_to_end(&mut first);
     begin.map_err(Error::io(path, "read"))?;

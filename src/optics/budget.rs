@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::kernel::Time;
-use crate::scenario::{AmbientModel, Scenario};
+use crate::scenario::{AmbientModel, Filter, Scenario};
 
 use super::geometry;
 
@@ -13,6 +13,8 @@ pub const PLANCK_J_S: f64 = 6.626_070_15e-34;
 pub const LIGHT_M_S: f64 = 299_792_458.0;
 /// Detection efficiency at which the fitted ambient rate is stated [1].
 const FITTED_EFFICIENCY: f64 = 0.003;
+/// Largest distance of Table 4.3, to which the fitted ambient rate belongs [m].
+const FARTHEST_FITTED_M: f64 = 0.6;
 
 /// What one SPAD can expect of the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -65,63 +67,71 @@ fn signal_per_shot(scenario: &Scenario) -> f64 {
     lens_energy_j * scenario.filter.efficiency * avalanches_per_joule(scenario)
 }
 
-/// N_r proportional to irradiance and reflectance, with the constant fitted to Table 4.3.
+/// N_r proportional to irradiance and reflectance, with the constant fitted to Table 4.3, and to what
+/// the optics make of ambient light, against the optics that the constant is stated for.
 fn fitted_ambient_rate_hz(scenario: &Scenario) -> f64 {
     let ambient = &scenario.ambient;
-    ambient.fitted_rate_hz_per_w_m2_nm * ambient.irradiance_w_m2_nm * scenario.target.reflectance
+    let of_the_thesis_optics = ambient.fitted_rate_hz_per_w_m2_nm
+        * ambient.irradiance_w_m2_nm
+        * scenario.target.reflectance
         / FITTED_EFFICIENCY
-        * scenario.spad.detection_efficiency()
+        * scenario.spad.detection_efficiency();
+    of_the_thesis_optics * against_the_thesis_optics(scenario)
+}
+
+/// Ambient photons of a scenario's optics against those of the thesis's: exactly 1 for its own, at its
+/// own distances, because both sides are the same sum [1].
+///
+/// The thesis's optics look at their own target from the same distance, because Table 4.3 has one rate for
+/// all of its distances, although that target does not fill the view from 0.47 m on. Beyond the last of
+/// them nothing was fitted, and the reference stays there: the rate falls with the target's solid angle,
+/// and a wall that fills the view has the same rate from everywhere.
+fn against_the_thesis_optics(scenario: &Scenario) -> f64 {
+    let mut thesis = Scenario::default();
+    thesis.target.distance_m = scenario.target.distance_m.min(FARTHEST_FITTED_M);
+    thesis.target.cells = scenario.target.cells;
+    ambient_photons_hz(scenario) / ambient_photons_hz(&thesis)
+}
+
+/// Ambient photons on one SPAD, of a white target in an irradiance of 1 W/m^2/nm [1/s].
+fn ambient_photons_hz(scenario: &Scenario) -> f64 {
+    passband_nm(&scenario.filter) / PI
+        * scenario.lens.area_m2
+        * seen_sr(scenario)
+        * photons_per_joule(scenario)
 }
 
 /// N_r of eq. 3.20, with what eq. 3.19 lacks: the factor pi of a diffuse reflector and the solid angle.
 fn physical_ambient_rate_hz(scenario: &Scenario) -> f64 {
-    let (target, filter) = (&scenario.target, &scenario.filter);
-    let passband_nm = filter.efficiency * (2.0 * PI).sqrt() * filter.sigma_nm;
-    let radiance_w_m2_sr =
-        scenario.ambient.irradiance_w_m2_nm * passband_nm * target.reflectance / PI;
-    let seen_sr = geometry::projected_solid_angle(target, scenario.spad.field_of_view_deg);
-    radiance_w_m2_sr * scenario.lens.area_m2 * seen_sr * avalanches_per_joule(scenario)
+    let radiance_w_m2_sr = scenario.ambient.irradiance_w_m2_nm
+        * passband_nm(&scenario.filter)
+        * scenario.target.reflectance
+        / PI;
+    radiance_w_m2_sr * scenario.lens.area_m2 * seen_sr(scenario) * avalanches_per_joule(scenario)
 }
 
-/// Avalanches of one SPAD per joule on the lens: eq. 3.14 after the filter. The factor 2 / pi is the
-/// square array inside the lens's round image [1/J].
+/// Integral of the filter's transmission, eq. 3.17 [nm].
+fn passband_nm(filter: &Filter) -> f64 {
+    filter.efficiency * (2.0 * PI).sqrt() * filter.sigma_nm
+}
+
+/// Projected solid angle of the part of the target that is seen [sr].
+fn seen_sr(scenario: &Scenario) -> f64 {
+    geometry::projected_solid_angle(&scenario.target, scenario.spad.field_of_view_deg)
+}
+
+/// Avalanches of one SPAD per joule on the lens: eq. 3.14 after the filter [1/J].
 fn avalanches_per_joule(scenario: &Scenario) -> f64 {
+    photons_per_joule(scenario) * scenario.spad.detection_efficiency()
+}
+
+/// Photons on one SPAD per joule on the lens. The factor 2 / pi is the square array inside the lens's
+/// round image [1/J].
+fn photons_per_joule(scenario: &Scenario) -> f64 {
     let photon_j = PLANCK_J_S * LIGHT_M_S / (scenario.laser.wavelength_nm * 1e-9);
     let share = 2.0 / (PI * scenario.spad.count as f64);
-    scenario.lens.efficiency * share / photon_j * scenario.spad.detection_efficiency()
+    scenario.lens.efficiency * share / photon_j
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_default_pulse_has_184_pj_and_returns_after_3_3_ns() {
-        let budget = Budget::new(&Scenario::default());
-        assert!((budget.pulse_energy_j - 184e-12).abs() < 1e-18);
-        assert_eq!(budget.mean_arrival.fs(), 3_335_641);
-        assert_eq!(budget.background_rate_hz() - budget.ambient_rate_hz, 100.0);
-    }
-
-    #[test]
-    fn a_black_target_returns_nothing() {
-        let mut scenario = Scenario::default();
-        scenario.target.reflectance = 0.0;
-        for model in [AmbientModel::Fitted, AmbientModel::Physical] {
-            scenario.ambient.model = model;
-            let budget = Budget::new(&scenario);
-            assert_eq!((budget.signal_per_shot, budget.ambient_rate_hz), (0.0, 0.0));
-        }
-    }
-
-    #[test]
-    fn light_outside_the_field_of_view_is_not_seen() {
-        let mut scenario = Scenario::default();
-        let whole = Budget::new(&scenario).signal_per_shot;
-        scenario.spad.field_of_view_deg = 10.5;
-        let half = Budget::new(&scenario).signal_per_shot / whole;
-        let cos4 = |deg: f64| deg.to_radians().cos().powi(4);
-        let expected = (1.0 - cos4(5.25)) / (1.0 - cos4(10.5));
-        assert!((half / expected - 1.0).abs() < 2e-4, "{half} {expected}");
-    }
-}
+mod tests;

@@ -1,5 +1,8 @@
 //! Class 1 limits of IEC 60825-1:2014 as the thesis has them (Table 3.1).
 
+/// Where Table 3.1 ends [s].
+pub const LONGEST_S: f64 = 10.0;
+
 /// Accessible emission limit of a pulse or exposure of that length: Table 3.1 [J].
 ///
 /// C4 multiplies: the exponent -1 printed at it is the mark of the table's footnote, and only so
@@ -10,7 +13,7 @@ pub fn accessible_emission_limit_j(exposure_s: f64, wavelength_nm: f64) -> Optio
     match exposure_s {
         t if (1e-13..1e-11).contains(&t) => Some(3.8e-8),
         t if (1e-11..5e-6).contains(&t) => Some(7.7e-8 * c4),
-        t if (5e-6..=10.0).contains(&t) => Some(7e-4 * libm::pow(t, 0.75) * c4),
+        t if (5e-6..=LONGEST_S).contains(&t) => Some(7e-4 * libm::pow(t, 0.75) * c4),
         _ => None,
     }
 }
@@ -18,6 +21,40 @@ pub fn accessible_emission_limit_j(exposure_s: f64, wavelength_nm: f64) -> Optio
 /// Highest average power over an exposure: eq. 3.2 [W].
 pub fn maximum_average_power_w(exposure_s: f64, wavelength_nm: f64) -> Option<f64> {
     Some(accessible_emission_limit_j(exposure_s, wavelength_nm)? / exposure_s)
+}
+
+/// Longest exposure to that average power within Class 1: eq. 3.2 with the last row of Table 3.1, which
+/// ends at 10 s [s].
+///
+/// `None` if it would begin before that row, and where there is no limit to tell.
+pub fn longest_exposure_s(average_w: f64, wavelength_nm: f64) -> Option<f64> {
+    let at_one_second_w = maximum_average_power_w(1.0, wavelength_nm)?;
+    let longest_s = (at_one_second_w / average_w).powi(4).min(LONGEST_S);
+    (longest_s >= 5e-6).then_some(longest_s)
+}
+
+/// An exposure of an eye to the laser, beside what Class 1 allows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exposure {
+    /// How long it is [s].
+    pub exposure_s: f64,
+    /// Average power over it [W].
+    pub average_w: f64,
+    /// Highest average power over it; `None` where there is none to tell [W].
+    pub limit_w: Option<f64>,
+}
+
+impl Exposure {
+    /// To that power on average, for so long.
+    pub fn new(exposure_s: f64, average_w: f64, wavelength_nm: f64) -> Self {
+        let limit_w = maximum_average_power_w(exposure_s, wavelength_nm);
+        Exposure { exposure_s, average_w, limit_w }
+    }
+
+    /// Whether it is within the limit, where there is one.
+    pub fn is_within(&self) -> Option<bool> {
+        self.limit_w.map(|limit_w| self.average_w <= limit_w)
+    }
 }
 
 /// C4 of IEC 60825-1: 3.02 at 940 nm.
@@ -49,6 +86,22 @@ mod tests {
         assert_eq!(at_700(1e-11), Some(7.7e-8));
         assert!(at_700(5e-6).unwrap() < 7.5e-8, "the table steps down by 4 %");
         assert!(at_700(10.0).is_some());
+    }
+
+    #[test]
+    fn a_power_is_within_up_to_the_exposure_where_it_is_the_limit() {
+        for average_w in [3.82e-3, 20e-3] {
+            let longest_s = longest_exposure_s(average_w, 940.0).unwrap();
+            let limit_w = maximum_average_power_w(longest_s, 940.0).unwrap();
+            assert!((limit_w / average_w - 1.0).abs() < 1e-9, "{longest_s}");
+            let within = |part: f64| Exposure::new(part * longest_s, average_w, 940.0).is_within();
+            assert_eq!((within(0.999), within(1.001)), (Some(true), Some(false)));
+        }
+        assert_eq!(longest_exposure_s(1e-6, 940.0), Some(LONGEST_S));
+        assert_eq!(longest_exposure_s(0.0, 940.0), Some(LONGEST_S));
+        assert_eq!(longest_exposure_s(1.0, 940.0), None, "0.02 ns");
+        assert_eq!(longest_exposure_s(1e-3, 1100.0), None);
+        assert_eq!(Exposure::new(11.0, 0.0, 940.0).is_within(), None);
     }
 
     #[test]

@@ -18,6 +18,8 @@ use crate::kernel::Time;
 
 use super::budget::Budget;
 
+mod signal_first;
+
 /// Pieces of the broken line to a sigma [1].
 const PER_SIGMA: usize = 64;
 /// Where the broken line ends, either side [sigma].

@@ -46,6 +46,13 @@ pub struct Extra {
 /// laser edge samples the next rise, and `cal` has 14 bits [ns].
 const LONGEST_NS: u64 = 16;
 
+/// The shortest chain, from tap 0 to the end of the last tap: a period of `clk_125` [ns].
+///
+/// A hit is seen at the first edge after it reaches tap 0, at an age of up to a period more than tap 0's.
+/// What is older then than the chain is long has run through all taps, and the edge does not tell by how
+/// much.
+const SHORTEST_NS: u64 = 8;
+
 /// The chain called `name`: a built-in profile, or a file whose path is taken from `base`.
 pub fn load(name: &str, base: &Source) -> Result<Delays> {
     if let Some(text) = builtin::chain(name) {
@@ -63,6 +70,7 @@ pub fn load(name: &str, base: &Source) -> Result<Delays> {
 fn parse(source: &str, text: &str) -> Result<Delays> {
     let checked = Checked::parse::<Chain>(source, text)?;
     let chain: Chain = checked.read()?;
+    let taps_key = if chain.tap_ps.is_some() { "tap_ps" } else { "tap_delays_ps" };
     let mut taps_ps = match (chain.tap_ps, chain.tap_delays_ps) {
         (Some(tap_ps), None) => vec![tap_ps; TAPS],
         (None, Some(taps_ps)) if taps_ps.len() == TAPS => taps_ps,
@@ -92,7 +100,20 @@ fn parse(source: &str, text: &str) -> Result<Delays> {
         );
         return Err(checked.fault("offset_ps", expected).into());
     }
+    let (span, shortest) = (delays.span(), Time::from_ns(SHORTEST_NS));
+    if span < shortest {
+        let (span_ps, missing_ps) = (in_ps(span), in_ps(shortest - span));
+        let expected = format!(
+            "the {TAPS} taps take {span_ps} ps, expected {SHORTEST_NS} ns or more, a period of clk_125: \
+             hits of the other {missing_ps} ps would all have the same time"
+        );
+        return Err(checked.fault(taps_key, expected).into());
+    }
     Ok(delays)
+}
+
+fn in_ps(time: Time) -> f64 {
+    time.fs() as f64 / 1e3
 }
 
 #[cfg(test)]
@@ -124,6 +145,32 @@ mod tests {
         assert!(
             message("offset_ps = 10\ntap_ps = 11\n[[extra]]\ntap=0\nps=-100").contains("before")
         );
+    }
+
+    #[test]
+    fn a_chain_shorter_than_a_clock_period_is_refused_by_how_much() {
+        let message = |text: &str| parse("c.toml", text).map(drop).map_err(|e| e.to_string());
+        assert_eq!(
+            message("offset_ps = 2230\ntap_ps = 5").unwrap_err(),
+            "c.toml:2:10: tap_ps = 5: the 800 taps take 4000 ps, expected 8 ns or more, a period of \
+             clk_125: hits of the other 4000 ps would all have the same time"
+        );
+        assert_eq!(message("offset_ps = 2230\ntap_ps = 10"), Ok(()), "800 taps of 10 ps are 8 ns");
+        let error = message("offset_ps = 7000\ntap_ps = 9.999").unwrap_err();
+        assert!(error.contains("the other 0.8 ps"), "the offset is no tap: {error}");
+        let one_by_one = format!("offset_ps = 2000\ntap_delays_ps = [{}]", "9.5, ".repeat(TAPS));
+        let error = message(&one_by_one).unwrap_err();
+        assert!(error.contains("tap_delays_ps = a list of 800: the 800 taps take 7600"), "{error}");
+        let longer = format!("{one_by_one}\n[[extra]]\ntap = 400\nps = 400");
+        assert_eq!(message(&longer), Ok(()), "an extra delay is part of the chain");
+    }
+
+    #[test]
+    fn every_built_in_chain_covers_a_clock_period() {
+        for (name, _) in builtin::CHAINS {
+            let delays = load(name, &Source::BuiltIn).unwrap();
+            assert!(delays.span() > Time::from_ns(SHORTEST_NS), "{name}");
+        }
     }
 
     #[test]

@@ -2,10 +2,13 @@
 
 use std::path::Path;
 
+use toml_edit::Table;
+
 use crate::error::{Input, Result, hint, read_text};
-use crate::files::toml::{Checked, assign, read};
+use crate::files::toml::{Checked, assign, merge, read};
 
 use super::builtin::{self, Source};
+use super::illuminance;
 use super::model::Scenario;
 use super::validate;
 
@@ -50,18 +53,23 @@ fn parse(
     overrides: &[String],
 ) -> Result<Loaded> {
     let checked = Checked::parse::<Scenario>(source, text)?;
-    let mut table = checked.table().clone();
+    let (mut table, mut over) = (checked.table().clone(), Table::new());
     for assignment in overrides {
-        assign::<Scenario>(&mut table, "-s", assignment)?;
+        assign::<Scenario>(&mut over, "-s", assignment)?;
     }
+    illuminance::settle_overrides(&checked, &mut table, &over)?;
+    merge(&mut table, &over);
     validate::windows(&table, &checked)?;
-    let scenario: Scenario = read(source, &table)?;
+    let mut scenario: Scenario = read(source, &table)?;
+    illuminance::settle(&mut scenario);
     validate::validate(&scenario, &checked)?;
     Ok(Loaded { name: name.to_owned(), scenario, set: overrides.to_vec(), files })
 }
 
 #[cfg(test)]
 mod tests {
+    use crate::scenario::AmbientModel;
+
     use super::*;
 
     fn from_text(text: &str, overrides: &[&str]) -> std::result::Result<Scenario, String> {
@@ -90,6 +98,20 @@ mod tests {
     }
 
     #[test]
+    fn a_number_needs_no_digit_on_either_side_of_its_point() {
+        let scenario = from_text("", &["target.reflectance=.9", "target.distance_m=1."]).unwrap();
+        assert_eq!((scenario.target.reflectance, scenario.target.distance_m), (0.9, 1.0));
+        // A text stays one.
+        assert_eq!(from_text("", &["tdc.profile=007"]).unwrap().tdc.profile, "007");
+        let error = from_text("", &["target.distance_m=-.5"]).unwrap_err();
+        assert!(
+            error.ends_with("target.distance_m = -0.5: expected a number from 0.001 to 6.9 [m]")
+        );
+        let error = from_text("", &["firmware.shots_per_frame=.5"]).unwrap_err();
+        assert!(error.contains("= 0.5: expected a whole number"), "{error}");
+    }
+
+    #[test]
     fn faults_have_line_and_column() {
         let error = |text| from_text(text, &[]).unwrap_err();
         assert_eq!(
@@ -106,6 +128,56 @@ mod tests {
         assert!(error("a = [1,\n2").starts_with("t.toml:2:"));
         assert!(error("[ambient]\nmodel = \"fited\"").contains("`fitted`, `physical`"));
         assert!(error("[[control]]\nat_us = 1\nlaser_frequ = 1").contains("`laser_freq`"));
+    }
+
+    #[test]
+    fn ambient_light_may_be_stated_in_klux() {
+        let irradiance = |text, overrides: &[&str]| {
+            from_text(text, overrides).unwrap().ambient.irradiance_w_m2_nm
+        };
+        let of_14_klux = irradiance("", &["ambient.illuminance_klux=14"]);
+        assert!((of_14_klux - 0.582).abs() < 1e-3, "{of_14_klux}, and not the default");
+        let in_file = "[ambient]\nilluminance_klux = 14";
+        assert_eq!(irradiance(in_file, &[]), of_14_klux);
+        assert_eq!(irradiance(in_file, &["target.distance_m=0.3"]), of_14_klux);
+        assert_eq!(irradiance("", &["ambient.illuminance_klux=0"]), 0.0);
+        let red = ["ambient.illuminance_klux=14", "laser.wavelength_nm=700"];
+        assert!(irradiance("", &red) < 0.7 * of_14_klux, "a black body has less there");
+    }
+
+    #[test]
+    fn an_override_states_ambient_light_in_place_of_the_file() {
+        let ambient = |text, over| from_text(text, &[over]).unwrap().ambient;
+        let watts = "[ambient]\nirradiance_w_m2_nm = 0.1";
+        let found = ambient(watts, "ambient.illuminance_klux=14").irradiance_w_m2_nm;
+        assert!((found - 0.582).abs() < 1e-3, "{found}");
+        let klux = "ambient = { illuminance_klux = 14, model = \"physical\" }";
+        let found = ambient(klux, "ambient.irradiance_w_m2_nm=0.1");
+        assert_eq!((found.irradiance_w_m2_nm, found.model), (0.1, AmbientModel::Physical));
+    }
+
+    #[test]
+    fn ambient_light_stated_twice_is_refused() {
+        let both = "[ambient]\nirradiance_w_m2_nm = 0.2\nilluminance_klux = 14";
+        for overrides in [&[][..], &["ambient.illuminance_klux=3"]] {
+            assert_eq!(
+                from_text(both, overrides).unwrap_err(),
+                "t.toml:3:20: ambient.illuminance_klux = 14: expected one statement of the ambient \
+                 light, ambient.irradiance_w_m2_nm is given too"
+            );
+        }
+        for over in [
+            &["ambient.illuminance_klux=3", "ambient.irradiance_w_m2_nm=0.1"][..],
+            &["ambient={irradiance_w_m2_nm=0.1, illuminance_klux=3}"],
+        ] {
+            assert_eq!(
+                from_text("", over).unwrap_err(),
+                "-s ambient.illuminance_klux: expected one statement of the ambient light, \
+                 -s ambient.irradiance_w_m2_nm is given too"
+            );
+        }
+        let error = from_text("[ambient]\nilluminance_klux = -1", &[]).unwrap_err();
+        assert!(error.contains("expected a number from 0.0 to 1000.0 [klux]"), "{error}");
     }
 
     #[test]

@@ -11,16 +11,17 @@ pub fn schema() -> Json {
     schemars::schema_for!(Scenario).to_value()
 }
 
-/// The resolved scenario as TOML, with the schema's words as comments.
+/// The resolved scenario as TOML, with the schema's words as comments; what may be given and is not is a
+/// comment too.
 pub fn show(scenario: &Scenario) -> String {
     let schema = schema();
     let values = serde_json::to_value(scenario).unwrap_or(Json::Null);
     let mut text = String::new();
-    table(&mut text, &schema, &schema, &values, "");
+    table(&mut text, &schema, &schema, &values, "", false);
     text.trim_start().to_owned()
 }
 
-fn table(text: &mut String, root: &Json, schema: &Json, values: &Json, path: &str) {
+fn table(text: &mut String, root: &Json, schema: &Json, values: &Json, path: &str, in_list: bool) {
     let empty = serde_json::Map::new();
     let keys = schema["properties"].as_object().unwrap_or(&empty);
     let resolve = |schema: &Json| match schema["$ref"].as_str() {
@@ -31,12 +32,15 @@ fn table(text: &mut String, root: &Json, schema: &Json, values: &Json, path: &st
     for (key, schema) in keys.iter().filter(|(key, _)| !is_table(key)) {
         let (schema, value) = (with_description(schema, resolve(schema)), &values[key.as_str()]);
         match value {
-            Json::Null => {}
+            Json::Null if in_list => {}
+            Json::Null => {
+                let _ = writeln!(text, "# {}\n# {key} is not given", comment(&schema));
+            }
             Json::Array(elements) if elements.iter().all(Json::is_object) => {
                 for element in elements {
                     let _ = write!(text, "\n[[{path}{key}]]\n");
                     let item = resolve(&schema["items"]);
-                    table(text, root, &item, element, &format!("{path}{key}."));
+                    table(text, root, &item, element, &format!("{path}{key}."), true);
                 }
             }
             value => {
@@ -47,7 +51,8 @@ fn table(text: &mut String, root: &Json, schema: &Json, values: &Json, path: &st
     for (key, schema) in keys.iter().filter(|(key, _)| is_table(key)) {
         let description = schema["description"].as_str().unwrap_or_default();
         let _ = write!(text, "\n# {description}\n[{path}{key}]\n");
-        table(text, root, &resolve(schema), &values[key.as_str()], &format!("{path}{key}."));
+        let path = format!("{path}{key}.");
+        table(text, root, &resolve(schema), &values[key.as_str()], &path, false);
     }
 }
 
@@ -100,6 +105,17 @@ mod tests {
         let text = show(&scenario);
         let again: Scenario = toml::from_str(&text).unwrap();
         assert_eq!(again, scenario);
+    }
+
+    #[test]
+    fn a_key_that_is_not_given_is_shown_with_its_meaning() {
+        let text = show(&Scenario::default());
+        assert!(text.contains("# illuminance_klux is not given"), "{text}");
+        assert!(text.contains("[klux] 0.0 .. 1000.0 (eq. 3.15 to 3.18; Table 3.2: 14)"), "{text}");
+        let in_klux = load("kc705", &["ambient.illuminance_klux=14".to_owned()]).unwrap().scenario;
+        let text = show(&in_klux);
+        assert!(text.contains("irradiance_w_m2_nm = 0.582"), "{text}");
+        assert_eq!(toml::from_str::<Scenario>(&text).unwrap(), in_klux);
     }
 
     #[test]

@@ -1,11 +1,13 @@
 //! From a scenario to a device: what elaboration, optics and stimuli come to.
 
+mod expectations;
 mod notes;
 mod stimulus;
 
 use std::path::Path;
 
 use crate::error::{Input, Result};
+use crate::files::digest::digest_of;
 use crate::firmware::forward2::Depth;
 use crate::firmware::pll::{self, Pll};
 use crate::firmware::tof_top::{Estimator, HistogramSource, Params, Pins};
@@ -223,11 +225,25 @@ impl Setup {
 
     /// What a file that comes of it says of where it comes from, a line each.
     pub fn provenance(&self) -> Vec<String> {
-        vec![
+        let mut lines = vec![
             format!("tofsim {}", env!("CARGO_PKG_VERSION")),
             format!("scenario {}", self.name),
             format!("seed {}", self.scenario.seed),
-        ]
+        ];
+        lines.extend(self.set.iter().map(|set| format!("set {set}")));
+        lines.push(format!("hash {}", self.hash()));
+        lines
+    }
+
+    /// A number, in hexadecimal, that changes with any key of the scenario and with what is in the files
+    /// that it names.
+    pub fn hash(&self) -> String {
+        let (scenario, params) = (&self.scenario, &self.params);
+        let given = match &self.light {
+            Light::List(list) => Some(list),
+            Light::Optics(_) | Light::None => None,
+        };
+        format!("{:016x}", digest_of(format_args!("{scenario:?} {params:?} {given:?}")))
     }
 
     /// A number of cycles that no run of `frames` frames reaches unless its control signals keep

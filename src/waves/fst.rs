@@ -1,9 +1,10 @@
 //! FST files, as GTKWave's `block_format.txt` describes them.
 //!
-//! They have no place for comments, so the provenance is in the version string, as far as it fits;
-//! nor for state names, which a file beside the waveform gives (see [`super::write_views`]).
+//! They have no place for comments, so the provenance is in the version string, as far as it fits, and
+//! as a whole in a block at the end that readers pass over; nor for state names, which a file beside
+//! the waveform gives (see [`super::write_views`]).
 
-use std::io;
+use std::io::{self, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
@@ -22,6 +23,7 @@ mod hierarchy;
 mod stream;
 mod times;
 
+use blocks::Block;
 use changes::Changes;
 use header::Header;
 use hierarchy::Hierarchy;
@@ -29,6 +31,7 @@ use hierarchy::Hierarchy;
 /// An FST file being written.
 pub(super) struct Fst {
     path: PathBuf,
+    provenance: String,
     changes: Changes<OutputFile>,
     /// Place in the file's order by id; what is not selected is `None`.
     signals: Vec<Option<usize>>,
@@ -60,6 +63,7 @@ impl Fst {
         begun.map_err(Error::io(path, "write"))?;
         Ok(Fst {
             path: path.to_owned(),
+            provenance: provenance.join("\n"),
             changes: Changes::new(file, header, &hierarchy.widths),
             signals: hierarchy.signals,
             taps: TapDigits::new(order),
@@ -123,7 +127,11 @@ impl Body for Fst {
 
     fn finish(self, at: u64) -> Result<()> {
         // Readers take the values of the first time step only if there is a second one.
-        let done = self.changes.finish(at.max(1));
+        let done = self.changes.finish(at.max(1)).and_then(|mut file| {
+            file.seek(SeekFrom::End(0))?;
+            Block::Skipped.write(&mut file, &[self.provenance.as_bytes()])?;
+            Ok(file)
+        });
         done.map_err(|error| Error::io(&self.path, "write")(error))?.commit()
     }
 }

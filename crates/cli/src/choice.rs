@@ -23,6 +23,12 @@ pub fn words<T: Copy + Send + Sync + 'static>(
     })
 }
 
+/// A length above zero [mm].
+pub fn millimetres(given: &str) -> Result<f64, &'static str> {
+    let length: Option<f64> = given.parse().ok().filter(|mm: &f64| mm.is_finite() && *mm > 0.0);
+    length.ok_or("expected a number above 0, in mm")
+}
+
 /// How the digits of a value are written.
 pub const RADIX: &[Choice<Radix>] = &[
     ("hex", Radix::Hex, "Hexadecimal, lower case, all digits"),

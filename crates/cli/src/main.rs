@@ -1,29 +1,29 @@
 //! The command `tofsim`.
 
 mod choice;
+mod record;
 mod report;
 mod text;
 mod verbs;
 
 use std::process::ExitCode;
 
-use clap::Parser;
-use verbs::Cli;
+use verbs::{Cli, interrupt};
 
 use tofsim::error::Error;
 
-/// Interrupted by the user, as shells have it.
-const INTERRUPTED: u8 = 130;
 /// Usage or input error.
 const FAULT: u8 = 2;
 
 fn main() -> ExitCode {
-    match Cli::parse().run() {
+    let cli = Cli::read();
+    interrupt::listen();
+    match cli.run() {
         Ok(status) => status,
         Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
         Err(Error::Interrupted) => {
-            eprintln!("tofsim: interrupted");
-            ExitCode::from(INTERRUPTED)
+            interrupt::say();
+            ExitCode::from(interrupt::INTERRUPTED)
         }
         Err(error) => {
             eprintln!("tofsim: {error}");

@@ -14,6 +14,7 @@ pub mod pair_table;
 pub mod pairs;
 pub mod readings;
 pub mod run_files;
+pub mod statistics;
 pub mod summary;
 pub mod table;
 pub mod training;

@@ -7,27 +7,34 @@ pub mod dataset;
 pub mod draws;
 pub mod estimate;
 pub mod evaluate;
+mod frames;
 pub mod ila;
+pub mod interrupt;
 pub mod man;
+mod progress;
 pub mod quantize;
+pub mod rerun;
 pub mod run;
 pub mod scenario;
 mod scenes;
 pub mod terminal;
 pub mod train;
+mod usage;
 pub mod vectors;
 pub mod verify;
 
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 use terminal::Talk;
 
 use tofsim::error::Result;
 
+use crate::record::command_line;
+
 /// Cycle-accurate simulator of the FPGA firmware of a time-of-flight rangefinder
 #[derive(Debug, Parser)]
-#[command(name = "tofsim", version, propagate_version = true, disable_help_subcommand = true)]
+#[command(name = "tofsim", version, propagate_version = true)]
 #[command(after_help = "Data goes to standard output, talk to standard error.\n\
     Exit status: 0 fine or same, 1 differences found or a check failed, \
     2 usage or input error, 130 interrupted.")]
@@ -41,6 +48,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Verb {
     Run(run::Args),
+    Rerun(rerun::Args),
     Budget(budget::Args),
     Estimate(estimate::Args),
     Evaluate(Box<evaluate::Args>),
@@ -57,13 +65,30 @@ enum Verb {
 }
 
 impl Cli {
+    /// The command line of this process; a fault in it ends the process.
+    pub fn read() -> Cli {
+        let mut command = Cli::command();
+        let given = command.try_get_matches_from_mut(std::env::args_os()).and_then(|matches| {
+            let mut cli = Cli::from_arg_matches(&matches)?;
+            cli.talk.command = command_line(&command, &matches);
+            Ok(cli)
+        });
+        given.unwrap_or_else(|fault| usage::shortened(fault).exit())
+    }
+
+    /// The command without `help`, which has a page for each command that there is anyway.
+    fn without_help() -> Command {
+        Cli::command().disable_help_subcommand(true)
+    }
+
     /// Does what the command line asks for; the status says whether all was the same or fine.
     pub fn run(&self) -> Result<ExitCode> {
         let talk = &self.talk;
         match &self.verb {
             Verb::Run(args) => run::run(args, talk),
-            Verb::Budget(args) => budget::run(args),
-            Verb::Estimate(args) => estimate::run(args),
+            Verb::Rerun(args) => return rerun::run(args, talk),
+            Verb::Budget(args) => budget::run(args, talk),
+            Verb::Estimate(args) => estimate::run(args, talk),
             Verb::Evaluate(args) => return evaluate::run(args, talk),
             Verb::Quantize(args) => quantize::run(args, talk),
             Verb::Vectors(args) => vectors::run(args, talk),
@@ -72,9 +97,9 @@ impl Cli {
             Verb::Compare(args) => return compare::run(args, talk),
             Verb::Dataset(args) => dataset::run(args, talk),
             Verb::Train(args) => train::run(args, talk),
-            Verb::Scenario(args) => scenario::run(args),
-            Verb::Completions(args) => completions::run(args, &mut Cli::command()),
-            Verb::Man(args) => man::run(args, Cli::command()),
+            Verb::Scenario(args) => scenario::run(args, talk),
+            Verb::Completions(args) => completions::run(args, &mut Cli::without_help()),
+            Verb::Man(args) => man::run(args, Cli::without_help(), talk),
         }?;
         Ok(ExitCode::SUCCESS)
     }

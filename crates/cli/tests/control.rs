@@ -126,7 +126,7 @@ fn events(list: &str, more: &[&str]) -> Vec<String> {
     let args = ["run", "list.toml", "--waves", "none", "--events", "events.csv"];
     stdout(folder.path(), &[&args[..], more].concat());
     let rows = fs::read_to_string(folder.path().join("events.csv")).unwrap();
-    rows.lines().skip(1).map(str::to_owned).collect()
+    rows.lines().skip(2).map(str::to_owned).collect()
 }
 
 #[test]

@@ -129,3 +129,81 @@ fn a_run_shows_what_other_estimators_say_of_its_frames() {
     let plain = json(folder.path(), &["run", "--waves", "none", "--json"]);
     assert!(plain["frames"][0].get("estimates").is_none());
 }
+
+#[test]
+fn several_frames_give_each_estimator_mean_error_spread_outliers_and_failures() {
+    let folder = empty();
+    let run = |more: &[&str]| {
+        let fixed = ["run", "--fidelity", "shot", "--frames", "6", "--estimator", "matched,peak"];
+        stdout(folder.path(), &[&fixed[..], more].concat())
+    };
+    let far = ["-s", "target.distance_m=0.6", "-s", "target.reflectance=0.02", "--json"];
+    let text = run(&[&far[..], &["--threads", "1"]].concat());
+    assert_eq!(text, run(&[&far[..], &["--threads", "3"]].concat()));
+    let report: Value = serde_json::from_str(&text).unwrap();
+    let depths = |k: usize| {
+        let frames = report["frames"].as_array().unwrap();
+        frames.iter().filter_map(|f| f["estimates"][k]["depth_m"].as_f64()).collect::<Vec<_>>()
+    };
+    for (k, name) in ["matched", "peak"].into_iter().enumerate() {
+        let (found, depths) = (&report["estimators"][k], depths(k));
+        assert_eq!(found["estimator"], name);
+        assert_eq!(found["failures"], 6 - depths.len());
+        let far = depths.iter().filter(|depth| (*depth - 0.6).abs() > 0.1).count();
+        assert_eq!(found["outliers"], far);
+        if !depths.is_empty() {
+            let mean = depths.iter().sum::<f64>() / depths.len() as f64;
+            assert!((found["mean_m"].as_f64().unwrap() - mean).abs() < 1e-12);
+            assert!((found["mean_error_m"].as_f64().unwrap() - (mean - 0.6)).abs() < 1e-12);
+        }
+    }
+    let table = run(&["--outlier-limit-mm", "0.001"]);
+    let row = |name: &str| {
+        let line = table.lines().find(|line| line.trim_start().starts_with(name)).unwrap();
+        line.split_whitespace().map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(row("truth"), ["truth", "0.500000"]);
+    assert_eq!(row("outliers"), ["outliers", "6", "6", "6"], "{table}");
+    assert_eq!(row("failures"), ["failures", "-", "0", "0"], "{table}");
+    assert_eq!(row("mean").len() + row("2 sd").len() + row("error").len(), 4 + 5 + 5);
+}
+
+#[test]
+fn an_evaluation_counts_outliers_by_the_stated_limit() {
+    let folder = empty();
+    let report = |more: &[&str]| {
+        let some = ["--estimator", "centroid,likelihood", "--json", "--check", "0"];
+        json(folder.path(), &with(&[&some[..], more].concat()))
+    };
+    let (usual, strict) = (report(&[]), report(&["--outlier-limit-mm", "5"]));
+    let all = |report: &Value, k: usize| report["estimators"][k]["all"].clone();
+    assert_eq!(all(&usual, 0)["outliers"], 0);
+    assert_eq!(strict["outlier_limit_mm"], 5.0);
+    assert!(all(&strict, 0)["outliers"].as_u64().unwrap() > 1000, "{}", all(&strict, 0));
+    assert_eq!(all(&strict, 1)["outliers"], 0);
+    let group = at(&strict, "centroid", 0.1);
+    assert_eq!(group["outliers"], group["estimates"]);
+    assert!(group["mean_se_mm"].is_number() && group["two_sd_se_mm"].is_number());
+    let text = refused(folder.path(), &with(&["--outlier-limit-mm", "0"]));
+    assert!(text.contains("--outlier-limit-mm") && text.contains("above 0"), "{text}");
+}
+
+#[test]
+fn an_estimator_says_what_it_does_not_know() {
+    let folder = empty();
+    let told = |args: &[&str]| {
+        let out = output(folder.path(), args);
+        (out.status.code(), String::from_utf8(out.stderr).unwrap())
+    };
+    let run = ["run", "--waves", "none", "-s", "firmware.mode=1", "--estimator"];
+    let (_, text) = told(&[&run[..], &["matched"]].concat());
+    assert!(text.contains("note: firmware.mode = 1: matched: "), "{text}");
+    assert!(text.contains("[estimator-outside-model]"), "{text}");
+    let (_, text) = told(&[&run[..], &["likelihood"]].concat());
+    assert!(!text.contains("likelihood: "), "{text}");
+    let wide = ["--estimator", "peak", "-s", "laser.pulse_sigma_ps=200", "--check", "0"];
+    let (_, text) = told(&with(&wide));
+    assert!(text.contains("note: laser.pulse_sigma_ps = 200: peak: "), "{text}");
+    let (status, _) = told(&with(&[&wide[..], &["--strict"]].concat()));
+    assert_eq!(status, Some(2));
+}

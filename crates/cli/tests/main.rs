@@ -2,6 +2,7 @@
 
 mod adding_a_block;
 mod bad_input;
+mod budget;
 mod centroid;
 mod cli;
 mod commands;
@@ -15,11 +16,14 @@ mod fidelities;
 mod golden;
 mod grid;
 mod ila_command;
+mod limits;
 mod lockstep;
 mod measured;
 mod quantize;
+mod rerun;
 mod subtraction;
 mod synthesis;
+mod terminal;
 mod three_ways;
 mod train;
 mod vectors;

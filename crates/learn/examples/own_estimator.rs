@@ -51,7 +51,7 @@ fn main() -> Result<()> {
     let evaluation = Evaluation::new(&source, &rows, 1, &estimators, None, |_| ())?;
     println!("\nestimator  mean error [mm]  2 sd [mm]  failures");
     for errors in &evaluation.columns {
-        let all = Figures::new(&evaluation, errors).all;
+        let all = Figures::new(&evaluation, errors, 0.1).all;
         let [mean, two_sd] = [all.mean_mm, all.two_sd_mm].map(Option::unwrap_or_default);
         println!("{:<9}  {mean:15.2}  {two_sd:9.2}  {:8}", errors.name, all.failures);
     }

@@ -33,6 +33,7 @@ pub mod findpeaks;
 pub mod likelihood;
 pub mod matched_filter;
 pub mod network;
+pub mod notes;
 pub mod panel;
 pub mod peak_detection;
 pub mod spline;

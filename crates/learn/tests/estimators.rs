@@ -1,6 +1,7 @@
 //! The estimators against scipy, the thesis's tables and the Cramér-Rao bound, under fixed seeds.
 
 mod any_histogram;
+mod detector;
 mod scipy;
 mod subtraction;
 
@@ -29,7 +30,7 @@ fn bins(profile: &str) -> Bins {
 }
 
 fn acquisition(bins: &Bins) -> Acquisition<'_> {
-    Acquisition { bins, shots: SHOTS, pulse_sigma_ps: 137.0 }
+    Acquisition::new(bins, SHOTS, 137.0)
 }
 
 /// Calls `take` with the budget and `repeats` histograms of each scene: 15 irradiances from 0 to

@@ -9,6 +9,7 @@ pub mod observed;
 pub mod process;
 pub mod rtl;
 pub mod simulator;
+pub mod strays;
 pub mod verdict;
 mod wave;
 

@@ -93,6 +93,11 @@ impl Delays {
         self.longest
     }
 
+    /// From physical tap 0 until a transition has left the last tap: the ages that the ranks tell apart.
+    pub fn span(&self) -> Time {
+        self.end.since(self.tap_0())
+    }
+
     /// Age at which a transition reaches physical tap 0, where hits are detected.
     pub fn tap_0(&self) -> Time {
         self.arrivals[self.tap_0_position()]

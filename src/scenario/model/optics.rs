@@ -28,7 +28,8 @@ table! {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum AmbientModel {
-    /// Proportional to irradiance and reflectance, fitted to Table 4.3.
+    /// Proportional to irradiance and reflectance, fitted to Table 4.3; other optics than the thesis's move
+    /// it as they move `physical`.
     #[default]
     Fitted,
     /// From the optics (eq. 3.19 and 3.20 with their missing factors); pi times more.
@@ -43,7 +44,12 @@ table! {
         /// Spectral irradiance of the target at the laser's wavelength; 0 switches it off.
         #[schemars(range(min = 0.0, max = 100.0), extend("unit" = "W/m^2/nm", "source" = "section 4.2: 0 .. 0.4"))]
         pub irradiance_w_m2_nm: f64 = 0.2,
-        /// Rate of the fitted model at reflectance 1 and a detection efficiency of 0.003.
+        /// Illuminance of the target by halogen light (a black body of 2800 K, 14.92 lm/W), in place of
+        /// `irradiance_w_m2_nm`, which it sets to the mean over the filter's passband: 14 klux are 0.58
+        /// W/m^2/nm at 940 nm.
+        #[schemars(range(min = 0.0, max = 1000.0), extend("unit" = "klux", "source" = "eq. 3.15 to 3.18; Table 3.2: 14"))]
+        pub illuminance_klux: Option<f64> = None,
+        /// Rate of the fitted model with the thesis's optics, at reflectance 1 and a detection efficiency of 0.003.
         #[schemars(range(min = 0.0, max = 1e12), extend("unit" = "1/s per W/m^2/nm", "source" = "fitted to Table 4.3"))]
         pub fitted_rate_hz_per_w_m2_nm: f64 = 3.968e9,
     }

@@ -16,6 +16,8 @@ pub(super) enum Block {
     Hierarchy = 6,
     /// A section of value changes.
     Changes = 8,
+    /// Passed over by readers.
+    Skipped = 255,
 }
 
 impl Block {

@@ -1,5 +1,6 @@
 //! A comparison as text, as JSON and as JUnit XML.
 
+use std::io::stdout;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -8,6 +9,7 @@ use tofsim::error::Result;
 use tofsim_captures::compare::{Compared, Comparison, Described, MatchedBy, UnmatchedReason};
 use tofsim_captures::source::Axis;
 
+use crate::text::colour::coloured;
 use crate::text::junit::{self, JunitCase};
 use crate::text::table::{counted, grouped, table};
 
@@ -35,9 +37,9 @@ pub fn text(result: &Comparison, verbose: bool) -> String {
     }
     text += "\n";
     if result.is_same() {
-        return text + "same\n";
+        return text + &coloured("same", true, &stdout()) + "\n";
     }
-    text += "different\n";
+    text += &(coloured("different", false, &stdout()) + "\n");
     for difference in &result.differences {
         text += &format!("  {difference}\n");
     }

@@ -1,6 +1,6 @@
 //! An evaluation as tables, beside the thesis's, and as files: JSON, figures as CSV, and box plots.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use tofsim::error::{Input, Result};
 use tofsim::files::output::{create_directory, write_bytes};
@@ -12,7 +12,7 @@ use crate::text::table::{number_or_dash, table};
 use super::box_plot;
 
 /// The columns of `evaluation.csv`.
-const HEADER: &str = "estimator,by,value,estimates,failures,mean_mm,mean_error_mm,two_sd_mm,two_sd_error_mm,\
+const HEADER: &str = "estimator,by,value,estimates,failures,outliers,mean_mm,mean_se_mm,two_sd_mm,two_sd_se_mm,\
     least_mm,lower_quartile_mm,median_mm,upper_quartile_mm,largest_mm";
 
 /// What figures lie beside.
@@ -25,7 +25,7 @@ pub struct Beside<'a> {
     pub thesis: bool,
 }
 
-/// Twice the standard deviation, the mean and the failures at some distances, with the thesis's rows.
+/// Twice the standard deviation, the mean, the outliers and the failures at some distances, with the thesis's rows.
 pub fn tables(figures: &[Figures], beside: &Beside) -> String {
     let Beside { distances_m, bound_mm, thesis } = beside;
     let published = |of: fn(&Published) -> [f64; 6]| {
@@ -37,18 +37,20 @@ pub fn tables(figures: &[Figures], beside: &Beside) -> String {
         let at = |one: &Figures, m: &f64| one.at(*m).map_or("-".to_owned(), cell);
         figures.iter().map(|one| named(one.name, distances_m.iter().map(|m| at(one, m)))).collect()
     };
-    let two_sd = measured(|spread| with_error(spread.two_sd_mm, spread.two_sd_error_mm));
+    let two_sd = measured(|spread| with_error(spread.two_sd_mm, spread.two_sd_se_mm));
     let bound = named("Cramer-Rao bound", bound_mm.iter().map(|mm| number_or_dash(*mm, 2)));
     let bound = if bound_mm.is_empty() { Vec::new() } else { vec![bound] };
-    let mean = measured(|spread| with_error(spread.mean_mm, spread.mean_error_mm));
+    let mean = measured(|spread| with_error(spread.mean_mm, spread.mean_se_mm));
     let failed =
         measured(|spread| format!("{} of {}", spread.failures, spread.estimates + spread.failures));
+    let far = measured(|spread| format!("{} of {}", spread.outliers, spread.estimates));
     let trials = thesis::PEAK_TRIALS;
     let peak = thesis::PEAK_FAILURES.map(|failures| format!("{failures} of {trials}"));
     let peak = thesis.then(|| named("thesis, peak detection (Table 4.3)", peak));
     let tables = [
         ("2 sd [mm]", [published(|row| row.two_sd_mm), two_sd, bound]),
         ("mean error [mm]", [published(|row| row.mean_mm), mean, Vec::new()]),
+        ("outliers", [far, Vec::new(), Vec::new()]),
         ("failures", [failed, peak.into_iter().collect(), Vec::new()]),
     ];
     let text = |(title, rows): (&str, [Vec<Vec<String>>; 3])| {
@@ -82,18 +84,22 @@ fn with_error(value_mm: Option<f64>, error_mm: Option<f64>) -> String {
     number_or_dash(value_mm, 2) + &error.map_or(String::new(), |error| format!(" +-{error:.2}"))
 }
 
+/// The file that is always written.
+pub const JSON: &str = "evaluation.json";
+
 /// Puts them in a folder, which is made, with the thesis's line where the grid is the thesis's;
-/// `by_setting` has the errors of each by the grid's other keys.
+/// `by_setting` has the errors of each by the grid's other keys. Their paths.
 pub fn write(
     folder: &Path,
     json: &str,
     figures: &[Figures],
     by_setting: &[Vec<KeyGroups>],
     thesis: bool,
-) -> Result<()> {
+) -> Result<Vec<PathBuf>> {
     create_directory(folder)?;
-    write_bytes(&folder.join("evaluation.json"), json)?;
-    write_bytes(&folder.join("evaluation.csv"), csv(figures, by_setting))?;
+    let mut paths = vec![folder.join(JSON), folder.join("evaluation.csv")];
+    write_bytes(&paths[0], json)?;
+    write_bytes(&paths[1], csv(figures, by_setting))?;
     for one in figures {
         for grouping in one.groupings() {
             let beside_mm: Option<fn(f64) -> f64> =
@@ -104,9 +110,10 @@ pub fn write(
             let svg = box_plot::svg(&title, grouping.quantity, grouping.groups, beside_mm);
             let svg = svg.map_err(|why| Input::new(path.display(), why))?;
             write_bytes(&path, svg)?;
+            paths.push(path);
         }
     }
-    Ok(())
+    Ok(paths)
 }
 
 /// A row for each estimator and group.
@@ -138,8 +145,8 @@ pub fn setting_tables(figures: &[Figures], by_setting: &[Vec<KeyGroups>]) -> Str
                 [
                     one.name.to_owned(),
                     value.to_string(),
-                    with_error(spread.two_sd_mm, spread.two_sd_error_mm),
-                    with_error(spread.mean_mm, spread.mean_error_mm),
+                    with_error(spread.two_sd_mm, spread.two_sd_se_mm),
+                    with_error(spread.mean_mm, spread.mean_se_mm),
                     format!("{} of {}", spread.failures, spread.estimates + spread.failures),
                 ]
             })
@@ -153,8 +160,9 @@ pub fn setting_tables(figures: &[Figures], by_setting: &[Vec<KeyGroups>]) -> Str
 fn numbers(group: &Group) -> String {
     let spread = &group.spread;
     let number = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
-    let counts = [spread.estimates, spread.failures].map(|count| count.to_string());
-    let moments = [spread.mean_mm, spread.mean_error_mm, spread.two_sd_mm, spread.two_sd_error_mm];
+    let counts =
+        [spread.estimates, spread.failures, spread.outliers].map(|count| count.to_string());
+    let moments = [spread.mean_mm, spread.mean_se_mm, spread.two_sd_mm, spread.two_sd_se_mm];
     let quartiles = [0, 1, 2, 3, 4].map(|k| number(spread.quartiles_mm.map(|five| five[k])));
     [&[group.value.to_string()], &counts[..], &moments.map(number), &quartiles].concat().join(",")
 }
@@ -172,7 +180,7 @@ mod tests {
         let errors_m = [-1.0, 1.0].map(|sign| Some(sign / 1e3 / 2f64.sqrt())).to_vec();
         let column = EstimatorErrors { name: "network", errors_m };
         let evaluation = Evaluation { scenes: vec![scene; 2], columns: vec![column.clone()] };
-        let figures = Figures::new(&evaluation, &column);
+        let figures = Figures::new(&evaluation, &column, 0.1);
         let beside = Beside { distances_m: &DISTANCES_M, bound_mm: &[Some(0.5); 6], thesis: true };
         let text = tables(std::slice::from_ref(&figures), &beside);
         let row = text.lines().find(|line| line.trim_start().starts_with("network")).unwrap();

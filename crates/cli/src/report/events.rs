@@ -39,8 +39,9 @@ enum EventFile {
 
 impl Events {
     /// Begins the file; its ending decides the format. With `pairs` it says of each shot whether the
-    /// laser was on. `provenance` goes into Parquet's metadata.
-    pub fn create(path: &Path, pairs: bool, provenance: &[String]) -> Result<Self> {
+    /// laser was on. `record` goes into the first line of a CSV
+    /// and into Parquet's metadata.
+    pub fn create(path: &Path, pairs: bool, record: &str) -> Result<Self> {
         let ending = path.extension().unwrap_or_default().to_string_lossy().into_owned();
         let device = std::fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
         if !device && ending != "csv" && ending != "parquet" {
@@ -51,12 +52,12 @@ impl Events {
         let file = if ending == "parquet" {
             let laser = if pairs { format!("required boolean {LASER};") } else { String::new() };
             let schema = format!("message shots {{ {SCHEMA} {laser} }}");
-            let provenance = ("provenance", provenance.join("\n"));
+            let provenance = ("provenance", record.to_owned());
             let fill = move |group: &mut RowGroup, shots: &[Shot]| columns(group, shots, pairs);
             EventFile::Parquet(Box::new(ParquetTable::create(file, &schema, provenance, fill)?))
         } else {
             let laser = if pairs { format!(",{LASER}") } else { String::new() };
-            writeln!(file, "{COLUMNS}{laser}").map_err(|error| fault(path, error))?;
+            writeln!(file, "# {record}\n{COLUMNS}{laser}").map_err(|error| fault(path, error))?;
             EventFile::Csv(file)
         };
         Ok(Events { file, pairs })

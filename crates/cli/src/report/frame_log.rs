@@ -13,6 +13,7 @@ use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::{Panel, Reading};
 
 use super::pairs::{PairLog, PlaceInPair};
+use super::statistics::{EstimatorStatistics, Judge, Tally};
 
 /// Frames of which a table has rows.
 pub const ROWS: usize = 20;
@@ -27,6 +28,12 @@ pub struct DepthSpread {
     pub mean_m: f64,
     /// Two standard deviations, with n - 1 [m].
     pub two_sd_m: f64,
+    /// True distance; none where no light was simulated [m].
+    pub true_depth_m: Option<f64>,
+    /// Mean less the true distance [m].
+    pub mean_error_m: Option<f64>,
+    /// Depths that are further off than the limit, or negative.
+    pub outliers: u64,
 }
 
 /// The frames of a run so far.
@@ -40,6 +47,9 @@ pub struct FrameLog {
     /// The pairs that the frames make, if they make pairs.
     pub pairs: Option<PairLog>,
     panel: Panel,
+    judge: Judge,
+    outliers: u64,
+    tally: Tally,
     /// Sums of the depth words and of their squares, which no order of summing changes.
     sums: (i128, i128),
     /// The frames as elements of a JSON array, if they are wanted.
@@ -48,12 +58,15 @@ pub struct FrameLog {
 
 impl FrameLog {
     /// Without frames of `setup`; `json` if [`FrameLog::copy_json`] will be called. The estimators of
-    /// `panel` look at every frame of which there will be a report, and at every pair.
-    pub fn new(setup: &Setup, json: bool, panel: Panel) -> Self {
+    /// `panel` look at every frame or pair; a depth is an outlier that is further off than `limit_m`
+    /// [m].
+    pub fn new(setup: &Setup, json: bool, panel: Panel, limit_m: f64) -> Self {
         let json = json.then(|| SpooledTempFile::new(KEPT));
         let (rows, readings) = (Vec::new(), Vec::new());
         let pairs = setup.has_pairs().then(|| PairLog::new(setup));
-        FrameLog { rows, readings, count: 0, pairs, panel, sums: (0, 0), json }
+        let (judge, tally) = (Judge { truth_m: setup.true_depth_m(), limit_m }, Tally::default());
+        let (count, outliers, sums) = (0, 0, (0, 0));
+        FrameLog { rows, readings, count, pairs, panel, judge, outliers, tally, sums, json }
     }
 
     /// Takes the next frame.
@@ -62,12 +75,12 @@ impl FrameLog {
     /// When the temporary file cannot be written.
     pub fn push(&mut self, setup: &Setup, frame: &Frame) -> Result<()> {
         let has_row = self.rows.len() < ROWS;
-        let is_reported = has_row || self.json.is_some();
         let (paired, estimates) = match &mut self.pairs {
             Some(pairs) => pairs.take(frame, &self.panel),
-            None if is_reported => (None, self.panel.read(&frame.histogram)),
-            None => (None, Vec::new()),
+            None => (None, self.panel.read(&frame.histogram)),
         };
+        self.outliers += u64::from(self.judge.is_outlier(frame.depth_m()));
+        self.tally.add(&estimates, &self.judge);
         if has_row {
             self.rows.push(frame.clone());
             self.readings.push(estimates.clone());
@@ -102,7 +115,20 @@ impl FrameLog {
     /// Mean and spread of the depths of two frames or more; those of pairs are in
     /// [`FrameLog::pairs`].
     pub fn spread(&self) -> Option<DepthSpread> {
-        DepthSpread::of(self.count, self.sums).filter(|_| self.pairs.is_none())
+        let (mean_m, two_sd_m) = moments_m(self.count, self.sums)?;
+        let spread = DepthSpread {
+            mean_m,
+            two_sd_m,
+            true_depth_m: self.judge.truth_m,
+            mean_error_m: self.judge.error_m(mean_m),
+            outliers: self.outliers,
+        };
+        self.pairs.is_none().then_some(spread)
+    }
+
+    /// What other estimators made of two frames or pairs or more.
+    pub fn estimators(&self) -> Vec<EstimatorStatistics> {
+        self.tally.statistics(&self.judge)
     }
 
     /// Copies what has been written of the frames, between commas.
@@ -116,19 +142,17 @@ impl FrameLog {
     }
 }
 
-impl DepthSpread {
-    /// From the number of frames and the sums of their depth words and of the squares of those;
-    /// `None` for fewer than two frames. All exact but the last divisions.
-    pub fn of(count: u64, (sum, squares): (i128, i128)) -> Option<Self> {
-        if count < 2 {
-            return None;
-        }
-        let lsb_m = 1.0 / (1u64 << Depth::FRAC_NBITS) as f64;
-        let n = i128::from(count);
-        let variance = (n * squares - sum * sum) as f64 / (n as f64 * (n - 1) as f64);
-        let mean_m = sum as f64 / count as f64 * lsb_m;
-        Some(DepthSpread { mean_m, two_sd_m: 2.0 * variance.sqrt() * lsb_m })
+/// Mean and two standard deviations, from the number of frames and the sums of their depth words and
+/// of the squares of those; `None` for fewer than two frames. All exact but the last divisions [m].
+fn moments_m(count: u64, (sum, squares): (i128, i128)) -> Option<(f64, f64)> {
+    if count < 2 {
+        return None;
     }
+    let lsb_m = 1.0 / (1u64 << Depth::FRAC_NBITS) as f64;
+    let n = i128::from(count);
+    let variance = (n * squares - sum * sum) as f64 / (n as f64 * (n - 1) as f64);
+    let mean_m = sum as f64 / count as f64 * lsb_m;
+    Some((mean_m, 2.0 * variance.sqrt() * lsb_m))
 }
 
 /// The JSON object of a frame.

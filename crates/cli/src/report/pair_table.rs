@@ -63,13 +63,8 @@ fn many_pairs(log: &FrameLog) -> String {
     });
     let count = log.pairs.as_ref().map_or(0, |pairs| pairs.statistics().count);
     let left = count.saturating_sub(log.rows.len() as u64 / 2);
-    readings::many(
-        &["pair", "codes dark", "codes lit", "least", "most"],
-        log,
-        rows,
-        left,
-        Vec::new(),
-    )
+    let header = ["pair", "codes dark", "codes lit", "least", "most"];
+    readings::many(&header, log, rows, left, readings::below_pairs(log, header.len()))
 }
 
 /// What many pairs came to, a line each.

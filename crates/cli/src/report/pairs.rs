@@ -10,6 +10,8 @@ use tofsim_learn::estimation::acquisition::BIN_PS;
 use tofsim_learn::estimation::subtraction::NAME;
 use tofsim_learn::estimation::{HistogramPair, Panel, Reading};
 
+use super::statistics::Moments;
+
 /// How far behind its mean the echo is over [sigma].
 const REACH: f64 = 4.0;
 
@@ -60,31 +62,6 @@ pub struct PairLog {
     readings: u64,
     depths: Moments,
     rights: Moments,
-}
-
-/// Mean and squares of deviations of numbers as they come (Welford).
-#[derive(Clone, Copy, Debug, Default)]
-struct Moments {
-    count: u64,
-    mean: f64,
-    squares: f64,
-}
-
-impl Moments {
-    fn add(&mut self, value: f64) {
-        self.count += 1;
-        let off = value - self.mean;
-        self.mean += off / self.count as f64;
-        self.squares += off * (value - self.mean);
-    }
-
-    fn mean(&self) -> Option<f64> {
-        (self.count > 0).then_some(self.mean)
-    }
-
-    fn two_sd(&self) -> Option<f64> {
-        (self.count > 1).then(|| 2.0 * (self.squares / (self.count - 1) as f64).sqrt())
-    }
 }
 
 impl PairLog {
@@ -182,14 +159,5 @@ mod tests {
         // 2 d / c is 3335.64 ps, 4 sigma are 548 ps, and 3883.64 / 25 is 155.3.
         assert_eq!(right_of_echo(&setup(&[])), Some(156));
         assert_eq!(right_of_echo(&setup(&["target.distance_m=0.9"])), None);
-    }
-
-    #[test]
-    fn moments_are_those_of_the_numbers() {
-        let mut moments = Moments::default();
-        assert_eq!((moments.mean(), moments.two_sd()), (None, None));
-        [1.0, 2.0, 3.0, 4.0, 5.0].into_iter().for_each(|value| moments.add(value));
-        assert_eq!(moments.mean(), Some(3.0));
-        assert!((moments.two_sd().unwrap() - 2.0 * 2.5f64.sqrt()).abs() < 1e-12);
     }
 }

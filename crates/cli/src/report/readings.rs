@@ -3,9 +3,10 @@
 use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::Reading;
 
-use crate::text::table::table;
+use crate::text::table::{number_or_dash, table};
 
 use super::frame_log::FrameLog;
+use super::statistics::EstimatorStatistics;
 
 /// What each estimator says of the only frame or pair, with its error.
 pub fn rows(setup: &Setup, readings: &[Reading]) -> impl Iterator<Item = (&'static str, String)> {
@@ -38,6 +39,37 @@ pub fn many<'a>(
     let left = (left > 0).then(|| vec![format!("... {left} more")]);
     let header: Vec<_> = header.iter().copied().chain(names).collect();
     table(header, rows.chain(left).chain(below), ..)
+}
+
+/// Of each estimator over all frames or pairs: mean, 2 sd, mean error [mm], outliers, failures.
+pub fn below(log: &FrameLog) -> Vec<[String; 5]> {
+    let metres = |m: Option<f64>| number_or_dash(m, 6);
+    let cells = |one: EstimatorStatistics| {
+        let error = one.mean_error_m.map_or("-".to_owned(), |m| format!("{:+.3}", 1e3 * m));
+        let counts = [one.outliers, one.failures].map(|count| count.to_string());
+        let [outliers, failures] = counts;
+        [metres(one.mean_m), metres(one.two_sd_m), error, outliers, failures]
+    };
+    log.estimators().into_iter().map(cells).collect()
+}
+
+/// Rows of the same below pairs, of so many cells before the estimators'.
+pub fn below_pairs(log: &FrameLog, cells: usize) -> Vec<Vec<String>> {
+    let others = below(log);
+    if others.is_empty() {
+        return Vec::new();
+    }
+    let row = |(k, name): (usize, &str)| {
+        let mut row = vec![name.to_owned()];
+        row.resize(cells, String::new());
+        row.extend(others.iter().map(|five| five[k].clone()));
+        row
+    };
+    ["mean", "2 sd", "error [mm]", "outliers", "failures"]
+        .into_iter()
+        .enumerate()
+        .map(row)
+        .collect()
 }
 
 /// A depth, or why there is none.

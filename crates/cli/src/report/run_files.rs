@@ -1,12 +1,17 @@
 //! The files that a run leaves beside its waveform.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
+use serde_json::Value;
+
 use tofsim::error::{Input, Result};
-use tofsim::files::output::{create_directory, write_bytes, write_file};
+use tofsim::files::output::{write_bytes, write_file};
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
+
+use crate::record::Record;
 
 use super::causes::{self, CAUSES, Causes};
 use super::events::Events;
@@ -30,6 +35,7 @@ fn is_same(a: &Path, b: &Path) -> bool {
 /// Files under construction, and what they are made from.
 pub struct RunFiles<'a> {
     folder: Option<&'a Path>,
+    record: Record,
     events: Option<Events>,
     causes: Causes,
     /// The frame that is shown: the first, or the first lit one of pairs.
@@ -44,21 +50,21 @@ impl<'a> RunFiles<'a> {
     pub fn new(
         folder: Option<&'a Path>,
         events: Option<&Path>,
-        provenance: &[String],
+        record: &Record,
         setup: &Setup,
     ) -> Result<Self> {
-        folder.map_or(Ok(()), create_directory)?;
         if let (Some(folder), Some(events)) = (folder, events)
             && NAMES.iter().any(|name| is_same(&folder.join(name), events))
         {
             let expected = "expected another name: the run writes a file of its own there";
             return Err(Input::new("--events", expected).value(events.display()).into());
         }
-        let create = |path| Events::create(path, setup.has_pairs(), provenance);
+        let create = |path| Events::create(path, setup.has_pairs(), &record.line());
         let events = events.map(create).transpose()?;
         let (shown, wants_tdc) = (setup.frames_together() - 1, setup.scenario.report.tdc);
         let causes = [[0; BINS]; CAUSES.len()];
-        Ok(RunFiles { folder, events, causes, shown, tdc: Vec::new(), wants_tdc })
+        let record = record.clone();
+        Ok(RunFiles { folder, record, events, causes, shown, tdc: Vec::new(), wants_tdc })
     }
 
     /// Whether [`RunFiles::shot`] has to be told of shots.
@@ -87,21 +93,28 @@ impl<'a> RunFiles<'a> {
         self.events.as_mut().map_or(Ok(()), |events| events.write(shot))
     }
 
-    /// Puts the files in place. Returns their paths.
+    /// Puts the files in place, beside those that are `written` already, and lists all of them in the
+    /// summary. What an older summary lists and this one does not is removed.
     pub fn finish(
         &mut self,
         setup: &Setup,
         log: &mut FrameLog,
-        summary: &Summary,
-    ) -> Result<Vec<PathBuf>> {
-        let mut written = Vec::new();
+        summary: &mut Summary,
+        mut written: Vec<PathBuf>,
+    ) -> Result<Written> {
         if let Some(events) = self.events.take() {
             written.push(events.finish()?);
         }
         let (Some(folder), Some(frame)) = (self.folder, log.rows.get(self.shown as usize).cloned())
         else {
-            return Ok(written);
+            return Ok(Written { files: written, removed: Vec::new() });
         };
+        let names = &NAMES[..if log.pairs.is_some() { 4 } else { 3 }];
+        written.extend(names.iter().map(|name| folder.join(name)));
+        let name = |path: &PathBuf| Some(path.file_name()?.to_string_lossy().into_owned());
+        let names: Vec<String> = written.iter().filter_map(name).collect();
+        let older = older_files(folder, &names);
+        summary.list(names);
         if self.causes.as_flattened().iter().all(|&count| count == 0) {
             self.causes[CAUSES.len() - 1] = frame.histogram.map(u32::from);
         }
@@ -112,16 +125,36 @@ impl<'a> RunFiles<'a> {
         };
         let svg = histogram_svg::svg(&title, &self.causes, setup.true_depth_m(), depth_m);
         write_file(&folder.join(NAMES[0]), |file| summary.write(log, file))?;
-        write_bytes(&folder.join(NAMES[1]), histogram_csv(&frame.histogram))?;
+        let csv = |text: String| self.record.csv_line() + &text;
+        write_bytes(&folder.join(NAMES[1]), csv(histogram_csv(&frame.histogram)))?;
         let svg = svg.map_err(|fault| Input::new("histogram.svg", fault))?;
-        write_bytes(&folder.join(NAMES[2]), svg)?;
+        write_bytes(&folder.join(NAMES[2]), self.record.in_svg(&svg))?;
         if log.pairs.is_some() {
-            write_bytes(&folder.join(NAMES[3]), pair_table::csv(&log.rows[0], &log.rows[1]))?;
+            let difference = pair_table::csv(&log.rows[0], &log.rows[1]);
+            write_bytes(&folder.join(NAMES[3]), csv(difference))?;
         }
-        let names = &NAMES[..if log.pairs.is_some() { 4 } else { 3 }];
-        written.extend(names.iter().map(|name| folder.join(name)));
-        Ok(written)
+        // What cannot be removed is not there any more, or not ours.
+        let removed = older.into_iter().filter(|path| std::fs::remove_file(path).is_ok());
+        Ok(Written { files: written, removed: removed.collect() })
     }
+}
+
+/// The files of a run.
+pub struct Written {
+    /// Those that it wrote.
+    pub files: Vec<PathBuf>,
+    /// Those that it removed, because an older run had written them.
+    pub removed: Vec<PathBuf>,
+}
+
+/// Files that the summary in a folder lists, but for those of some names.
+fn older_files(folder: &Path, names: &[String]) -> Vec<PathBuf> {
+    let summary = std::fs::read(folder.join(NAMES[0])).unwrap_or_default();
+    let summary: Value = serde_json::from_slice(&summary).unwrap_or_default();
+    let listed = summary["files"].as_array().into_iter().flatten().filter_map(Value::as_str);
+    let is_plain = |name: &&str| Path::new(name).file_name() == Some(OsStr::new(name));
+    let older = listed.filter(is_plain).filter(|name| names.iter().all(|own| own != name));
+    older.map(|name| folder.join(name)).collect()
 }
 
 /// A histogram as CSV: `bin,count`, 256 rows.

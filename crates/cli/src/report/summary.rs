@@ -5,8 +5,11 @@ use std::io::{self, Write};
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use tofsim::Note;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
+
+use crate::record::Record;
 
 use super::frame_log::FrameLog;
 
@@ -33,30 +36,42 @@ pub struct TdcSummary {
 }
 
 impl Summary {
-    /// Of a run of `setup`, simulated in that way, with a waveform in the file `waves`.
+    /// Of a run of `setup`, simulated in that way, with a waveform in the file `waves`; its record, and
+    /// what it lies outside of.
     pub fn new(
         setup: &Setup,
         fidelity: &'static str,
         waves: Option<String>,
         log: &FrameLog,
         shots: &[Shot],
+        (record, notes): (&Record, &[Note]),
     ) -> Self {
         let mut head = json!({
             "schema": "tofsim.run/1",
-            "version": env!("CARGO_PKG_VERSION"),
-            "scenario": setup.name,
-            "seed": setup.scenario.seed,
+            "version": record.version,
+            "scenario": record.scenario,
+            "seed": record.seed,
             "fidelity": fidelity,
             "waves": waves,
         });
+        record.put_into(&mut head, notes);
         if let Some(depth) = log.spread() {
             head["depth"] = json!(depth);
+        }
+        let estimators = log.estimators();
+        if !estimators.is_empty() {
+            head["estimators"] = json!(estimators);
         }
         if let Some(pairs) = &log.pairs {
             head["pairs"] = json!(pairs.statistics());
         }
         let tdc = setup.scenario.report.tdc.then(|| shots.iter().map(TdcSummary::new).collect());
         Summary { head, tdc }
+    }
+
+    /// Names the files that belong to the run.
+    pub fn list(&mut self, names: Vec<String>) {
+        self.head["files"] = json!(names);
     }
 
     /// Writes the run as one line of JSON, with the frames in it.

@@ -13,8 +13,14 @@ use super::summary::TdcSummary;
 use super::{pair_table, readings};
 
 /// What came of a run, in a dozen lines.
-pub fn run(setup: &Setup, log: &FrameLog, cycles: u64, wall: Duration) -> String {
-    let mut text = format!("{}: {}\n\n", setup.name, setup.scenario.description);
+///
+/// `cycles` is what was simulated in the time `wall`; none for frames that were drawn at once.
+pub fn run(setup: &Setup, log: &FrameLog, cycles: Option<u64>, wall: Duration) -> String {
+    // A description is of the scenario as its file has it.
+    let mut text = match &setup.set[..] {
+        [] => format!("{}: {}\n\n", setup.name, setup.scenario.description),
+        set => format!("{} with {}\n\n", setup.name, set.join(", ")),
+    };
     match log.rows.as_slice() {
         _ if log.pairs.is_some() => text += &pair_table::table(setup, log),
         [frame] => text += &one_frame(setup, frame, &log.readings[0]),
@@ -23,13 +29,18 @@ pub fn run(setup: &Setup, log: &FrameLog, cycles: u64, wall: Duration) -> String
     if let (Some(pairs), 3..) = (&log.pairs, log.count) {
         text += &format!("\n\n{}", pair_table::lines(&pairs.statistics()).trim_end());
     }
-    let rate = cycles as f64 / wall.as_secs_f64();
-    text += &format!(
-        "\n\n{} cycles in {:.1} ms: {:.1} million cycles per second\n",
-        grouped(cycles),
-        wall.as_secs_f64() * 1e3,
-        rate / 1e6,
-    );
+    let wall_ms = wall.as_secs_f64() * 1e3;
+    text += &match cycles {
+        Some(cycles) => format!(
+            "\n\n{} cycles in {wall_ms:.1} ms: {:.1} million cycles per second\n",
+            grouped(cycles),
+            cycles as f64 / wall.as_secs_f64() / 1e6,
+        ),
+        None => {
+            let things = if log.count == 1 { "frame" } else { "frames" };
+            format!("\n\n{} {things} drawn in {wall_ms:.1} ms\n", grouped(log.count))
+        }
+    };
     text
 }
 
@@ -68,11 +79,33 @@ fn many_frames(log: &FrameLog) -> String {
         ];
         (cells, readings)
     });
-    let spread = log.spread().map(|DepthSpread { mean_m, two_sd_m }| {
-        [("mean", mean_m), ("2 sd", two_sd_m)].map(|(n, m)| vec![n.to_owned(), format!("{m:.6}")])
-    });
-    let below = spread.into_iter().flatten().collect();
+    let below = log.spread().map_or(Vec::new(), |spread| below(&spread, header.len(), log));
     readings::many(&header, log, rows, log.count - log.rows.len() as u64, below)
+}
+
+/// What the frames come to: rows of so many cells, and what the other estimators come to.
+fn below(own: &DepthSpread, cells: usize, log: &FrameLog) -> Vec<Vec<String>> {
+    let metres = |m: f64| format!("{m:.6}");
+    let mm = |m: Option<f64>| m.map_or("-".to_owned(), |m| format!("{:+.3}", 1e3 * m));
+    let others = readings::below(log);
+    let mut rows = vec![
+        ("mean", metres(own.mean_m)),
+        ("2 sd", metres(own.two_sd_m)),
+        ("error [mm]", mm(own.mean_error_m)),
+        ("outliers", own.outliers.to_string()),
+        ("failures", "-".to_owned()),
+    ];
+    if others.is_empty() {
+        rows.pop();
+    }
+    let truth = own.true_depth_m.map(|m| vec!["truth".to_owned(), metres(m)]);
+    let row = |(k, (name, cell)): (usize, (&str, String))| {
+        let mut row = vec![name.to_owned(), cell];
+        row.resize(cells, String::new());
+        row.extend(others.iter().map(|five| five[k].clone()));
+        row
+    };
+    truth.into_iter().chain(rows.into_iter().enumerate().map(row)).collect()
 }
 
 /// Thesis Table 6.3.

@@ -1,5 +1,6 @@
 //! The reports as a table, as JSON and as JUnit XML.
 
+use std::io::stdout;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -8,6 +9,7 @@ use tofsim::error::Result;
 use tofsim_rtl::verify::cycle_counts::Count;
 use tofsim_rtl::verify::{BlockReport, Verdict};
 
+use crate::text::colour::coloured_ends;
 use crate::text::junit::{self, JunitCase};
 use crate::text::table::{grouped, table};
 
@@ -24,7 +26,9 @@ pub fn text(reports: &[BlockReport]) -> String {
         ]
     });
     let header = ["block", "cycles", "mismatches", "stimulus goals", "verdict"];
-    let mut text = table(header, rows, ..0) + "\n";
+    let table_of_all = table(header, rows, ..0);
+    let verdicts: Vec<_> = reports.iter().map(|report| (report.word(), report.passed())).collect();
+    let mut text = coloured_ends(&table_of_all, &verdicts, &stdout()) + "\n";
     for report in reports.iter().filter(|report| !report.passed()) {
         text += &format!("\n{}: {}\n", report.name, report.fault());
         if !report.around.is_empty() {
@@ -96,7 +100,9 @@ pub fn counts_text(counts: &[Count]) -> String {
             count.reason.as_ref().map_or("yes".to_owned(), |reason| format!("no: {reason}")),
         ]
     });
-    table(["what", "expected", "unit", "Rust model", "RTL simulation", "proven"], rows, ..0) + "\n"
+    let header = ["what", "expected", "unit", "Rust model", "RTL simulation", "proven"];
+    let proofs: Vec<_> = counts.iter().map(|count| ("yes", count.proven)).collect();
+    coloured_ends(&table(header, rows, ..0), &proofs, &stdout()) + "\n"
 }
 
 /// One object, `tofsim.cycle_counts/1`.

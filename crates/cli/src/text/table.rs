@@ -19,6 +19,34 @@ pub fn table<R: Into<Row>>(
     table.trim_fmt()
 }
 
+/// Columns of standard output: of its terminal, or 80 where it is none.
+pub fn width() -> usize {
+    const ELSEWHERE: usize = 80;
+    let size = terminal_size::terminal_size_of(std::io::stdout());
+    size.map_or(ELSEWHERE, |(width, _)| usize::from(width.0)).max(20)
+}
+
+/// A table, or several below each other that each begin with the first column, so that no line is
+/// longer than `width` as long as two columns fit into it; all columns but the first are flush right.
+pub fn fitted(header: &[String], rows: &[Vec<String>], width: usize) -> String {
+    let mut tables = Vec::new();
+    let mut shown = 1;
+    while shown < header.len().max(2) {
+        let of = |end: usize| {
+            let cells = |row: &[String]| {
+                let part = row.get(shown..end.min(row.len())).unwrap_or_default();
+                row.iter().take(1).chain(part).cloned().collect::<Vec<_>>()
+            };
+            table(cells(header), rows.iter().map(|row| cells(row)), 1..)
+        };
+        let fits = |end: &usize| of(*end).lines().all(|line| line.chars().count() <= width);
+        let end = (shown + 2..=header.len()).take_while(fits).last().unwrap_or(shown + 1);
+        tables.push(of(end));
+        shown = end;
+    }
+    tables.join("\n\n")
+}
+
 /// Rows without a header.
 pub fn plain<R: Into<Row>>(rows: impl IntoIterator<Item = R>) -> String {
     Table::new().load_style(NOTHING).add_rows(rows).trim_fmt()
@@ -50,6 +78,26 @@ pub fn counted(count: u64, things: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_table_that_is_too_wide_is_several() {
+        let cells = |texts: &[&str]| texts.iter().map(|text| text.to_string()).collect::<Vec<_>>();
+        let header = cells(&["name", "first", "second", "third"]);
+        let rows = [cells(&["a", "1", "2", "3"]), cells(&["b", "10", "20", "30"])];
+        let one = fitted(&header, &rows, 80);
+        assert_eq!(one.lines().count(), 3);
+        assert_eq!(one.lines().last().unwrap().split_whitespace().count(), 4);
+        let longest = one.lines().map(|line| line.chars().count()).max().unwrap();
+        assert_eq!(fitted(&header, &rows, longest), one);
+        let several = fitted(&header, &rows, longest - 1);
+        assert!(several.lines().all(|line| line.chars().count() < longest), "{several}");
+        let tables: Vec<_> = several.split("\n\n").collect();
+        assert_eq!(tables.len(), 2, "{several}");
+        assert!(tables[1].trim_start().starts_with("name") && tables[1].contains("third"));
+        // What never fits is shown all the same.
+        assert_eq!(fitted(&header, &rows, 3).split("\n\n").count(), 3);
+        assert!(fitted(&header[..1], &rows, 80).contains('b'));
+    }
 
     #[test]
     fn thousands_are_set_apart() {

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use values::{latency, time, tolerance, valid};
 
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::{Error, Input, Result, read_text};
 use tofsim::kernel::Time;
 use tofsim::sim::setup::Setup;
 use tofsim_captures::compare::map::Rule;
@@ -160,6 +160,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let (a, b) = match (scenario, &args.files[..]) {
         (Some(scenario), [b]) => {
             let setup = Setup::new(load(scenario, set, *seed)?)?;
+            super::frames::check("--frames", *frames, &setup)?;
             (Source::simulation(setup, *frames), open(b)?)
         }
         (None, [a, b]) => (open(a)?, open(b)?),
@@ -177,13 +178,12 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let result = compare(&a, &b, &options)?;
     if let Some(path) = &args.junit {
         comparison::write_junit(path, &result)?;
+        talk.wrote(path);
     }
-    if let Some(path) = &options.waves {
-        talk.note(format_args!("waveform: {}", path.display()));
-    }
+    options.waves.iter().for_each(|path| talk.wrote_wave(path));
     match args.json {
         true => print(&format!("{:#}\n", comparison::json(&result)))?,
-        false => print(&comparison::text(&result, talk.verbose))?,
+        false => talk.report(&comparison::text(&result, talk.verbose))?,
     }
     Ok(ExitCode::from(u8::from(!result.is_same())))
 }
@@ -231,8 +231,10 @@ fn options(args: &Args) -> Result<Options> {
 /// A map file, or the map of a set-up.
 fn map(name: &str) -> Result<SignalMap> {
     let built_in = !name.contains(['/', '.']);
-    let is_set_up =
-        |path: &Path| std::fs::read_to_string(path).is_ok_and(|text| text.contains("[[probe]]"));
+    let is_set_up = |path: &Path| {
+        // A pipe can be read once only.
+        path.is_file() && read_text(path).is_ok_and(|text| text.contains("[[probe]]"))
+    };
     if built_in || is_set_up(Path::new(name)) {
         let set_up = AnalyserSetup::load(name);
         return Ok(SignalMap::of(&set_up.map_err(as_map)?));

@@ -7,6 +7,7 @@ use serde_json::json;
 
 use tofsim::error::{Error, Result};
 use tofsim::scenario;
+use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::files::{DatasetFiles, DatasetFormat};
 use tofsim_learn::dataset::{Axis, DatasetDescription, Grid, GridPurpose, Sample};
 
@@ -15,7 +16,7 @@ use crate::text::table::{facts, grouped};
 
 use super::draws::Draws;
 use super::scenes::Scenes;
-use super::terminal::{Talk, print, print_json, stop_signal};
+use super::terminal::{Talk, print_json, stop_signal};
 
 /// Draw histograms of many scenes, for training and tests
 #[derive(Debug, clap::Args)]
@@ -60,17 +61,18 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let notes = scenes.notes()?;
     talk.heed(&notes)?;
     let (source, loaded) = (&scenes.source, &scenes.loaded[0]);
-    let (name, seed) = (&loaded.name, loaded.scenario.seed);
+    let seed = loaded.scenario.seed;
+    let setup = Setup::new(loaded.clone())?;
     let grid = Grid { repeats: args.repeats, ..scenes.grid };
     let rows = args.draws.rows(None, &grid, seed)?;
-    let description = DatasetDescription::new(name, &args.draws.set, source, &rows, seed);
+    let description = DatasetDescription::new(&setup, &talk.command, source, &rows, seed);
     let files = DatasetFiles::create(&args.output, &args.format, &description, &grid)?;
     let stop = stop_signal();
     let blocks = source.blocks(&rows, seed);
     let written = args
         .draws
         .on_threads(rows.count(), talk, |done| write(files, blocks, stop.as_deref(), done))?;
-    written.iter().for_each(|path| talk.detail(format_args!("wrote {}", path.display())));
+    written.iter().for_each(|path| talk.wrote(path));
 
     let files: Vec<_> = written.iter().map(|path| path.display().to_string()).collect();
     if args.json {
@@ -79,7 +81,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         report["notes"] = json!(notes);
         return print_json(&report);
     }
-    print(&table(&description, &files))
+    talk.report(&table(&description, &files))
 }
 
 /// Writes a block while the next one is drawn.

@@ -19,7 +19,7 @@ use crate::report::explanation;
 use crate::text;
 
 use super::draws::from_here;
-use super::terminal::{print, print_json};
+use super::terminal::{Talk, print_json};
 
 /// Estimate depths of histograms, bit for bit as the firmware does
 #[derive(Debug, clap::Args)]
@@ -74,7 +74,7 @@ struct Numbers {
 }
 
 /// Runs the verb.
-pub fn run(args: &Args) -> Result<()> {
+pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let network = Network::find(&args.network, None)?;
     let params = network.params();
     let panel = args.panel()?;
@@ -90,10 +90,10 @@ pub fn run(args: &Args) -> Result<()> {
         }
     }
     if !args.json && args.explain {
-        return print(&rows.iter().map(explained).collect::<Vec<_>>().join("\n"));
+        return talk.report(&rows.iter().map(explained).collect::<Vec<_>>().join("\n"));
     }
     if !args.json {
-        return print(
+        return talk.report(
             &rows.chunks(TABLE).map(|rows| table(rows, names.len() > 1)).collect::<String>(),
         );
     }

@@ -8,6 +8,7 @@ use serde_json::json;
 
 use tofsim::Note;
 use tofsim::error::{Input, Result};
+use tofsim::files::output::create_directory_for;
 use tofsim::network::Network;
 use tofsim::scenario;
 use tofsim::sim::domain;
@@ -25,7 +26,7 @@ use crate::report::evaluation as report;
 
 use super::draws::Draws;
 use super::scenes::Scenes;
-use super::terminal::{Talk, print, print_json, stop_signal};
+use super::terminal::{Talk, print_json, stop_signal};
 
 mod measured;
 
@@ -79,6 +80,9 @@ pub struct Args {
     /// Frames to simulate cycle by cycle at each of six distances, to be compared with the fast path
     #[arg(long, value_name = "N", default_value_t = 8, allow_hyphen_values = true)]
     check: u64,
+    /// Count an estimate as an outlier that is further than this from the truth
+    #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = crate::choice::millimetres)]
+    outlier_limit_mm: f64,
     /// Write evaluation.json, evaluation.csv and box plots of the errors there
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -99,16 +103,20 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let network = Network::find(&args.network, None)?;
     let loaded = &scenes.loaded[0];
     let (seed, profile) = (loaded.scenario.seed, &loaded.scenario.tdc.profile);
-    let notes = args.notes(&scenes, &network)?;
+    let mut notes = args.notes(&scenes, &network)?;
+    let middle = &scenes.setups[scenes.setups.len() / 2];
+    notes.extend(args.estimator.iter().flat_map(|kind| kind.notes(middle)));
     talk.heed(&notes)?;
     let estimators = args.estimators(&scenes, &network)?;
     let rows = args.draws.rows(None, &grid, seed)?;
+    let look = |folder: &PathBuf| create_directory_for(folder, report::JSON);
+    args.output.as_ref().map_or(Ok(()), look)?;
     let stop = stop_signal();
     let evaluation = args.draws.on_threads(rows.count(), talk, |done| {
         let of = |scene: &Scene| &estimators[scene.setting][..];
         Evaluation::with(source, &rows, seed, of, stop.as_deref(), done)
     })?;
-    let (figures, by_setting) = figures(&evaluation, &grid);
+    let (figures, by_setting) = figures(&evaluation, &grid, 1e-3 * args.outlier_limit_mm);
     let drawn = figures.first().map_or(&[][..], |one| &one.by_distance_m);
     let drawn: Vec<f64> = drawn.iter().map(|group| group.value).collect();
     let shown = match grid.is_thesis() {
@@ -128,6 +136,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         "seed": seed,
         "rows": rows.count(),
         "shots_per_frame": source.shots_of_all(),
+        "outlier_limit_mm": args.outlier_limit_mm,
         "estimators": figures,
         // At the thesis's distances, or those of one's own grid; light unknown.
         "cramer_rao_two_sd_mm": bound_mm,
@@ -153,8 +162,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     }
     if let Some(folder) = &args.output {
         let json = format!("{json}\n");
-        report::write(folder, &json, &figures, &by_setting, grid.is_thesis())?;
-        talk.detail(format_args!("wrote {}", folder.display()));
+        let written = report::write(folder, &json, &figures, &by_setting, grid.is_thesis())?;
+        written.iter().for_each(|path| talk.wrote(path));
     }
     if args.json {
         print_json(&json)?;
@@ -176,7 +185,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         let beside = report::Beside { distances_m: &shown, bound_mm: &bound_mm, thesis };
         let tables = report::tables(&figures, &beside);
         let tables = tables + &report::setting_tables(&figures, &by_setting);
-        print(&(head + &tables + &text(&figures, source.shots_of_all(), &cross_check)))?;
+        talk.report(&(head + &tables + &text(&figures, source.shots_of_all(), &cross_check)))?;
     }
     let agrees = cross_check.iter().all(CrossCheck::agrees);
     Ok(if agrees { ExitCode::SUCCESS } else { ExitCode::FAILURE })
@@ -236,13 +245,17 @@ impl Args {
 
 /// The figures of each estimator, and its errors by the grid's other keys; beside the thesis's line where
 /// the grid is the thesis's.
-fn figures(evaluation: &Evaluation, grid: &Grid) -> (Vec<Figures>, Vec<Vec<KeyGroups>>) {
+fn figures(
+    evaluation: &Evaluation,
+    grid: &Grid,
+    limit_m: f64,
+) -> (Vec<Figures>, Vec<Vec<KeyGroups>>) {
     let of = |column: &EstimatorErrors| {
-        let mut figures = Figures::new(evaluation, column);
+        let mut figures = Figures::new(evaluation, column, limit_m);
         if !grid.is_thesis() {
             (figures.worst_ratio_to_thesis, figures.worst_distance_m) = (None, None);
         }
-        (figures, by_setting(evaluation, column, grid))
+        (figures, by_setting(evaluation, column, grid, limit_m))
     };
     evaluation.columns.iter().map(of).unzip()
 }

@@ -44,7 +44,7 @@ enum Verb {
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     match &args.verb {
         Verb::Capture(args) => capture::run(args, talk),
-        Verb::Info(args) => info::run(args),
+        Verb::Info(args) => info::run(args, talk),
         Verb::List { json } => set_ups::list(*json),
         Verb::Show { set_up } => set_ups::show(set_up),
         Verb::Schema { map } => set_ups::schema(*map),

@@ -16,10 +16,10 @@ use tofsim_learn::evaluation::exploration::{explore, sweep};
 use tofsim_learn::quantize::import;
 
 use crate::report::exploration;
-use crate::text::table::table;
+use crate::text::table::{self, table};
 
 use super::draws::Draws;
-use super::terminal::{Talk, print, print_json, stop_signal};
+use super::terminal::{Talk, print_json, stop_signal};
 
 /// Histograms of an exploration, if nothing else is said: 200 at each distance.
 const EXPLORED: u64 = 10_200;
@@ -118,6 +118,7 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
         float: Some(float),
     };
     let files = args.write(&network)?;
+    files.iter().for_each(|path| talk.wrote(path));
     let files: Vec<_> = files.iter().map(|path| path.display().to_string()).collect();
     if args.json {
         return print_json(&json!({
@@ -135,8 +136,7 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
         [weights.to_owned(), format!("{magnitude:.6}"), format!("below {limit}")]
     });
     let table = table(["weights", "largest", "word holds"], rows, ..0);
-    let files: String = files.iter().map(|file| format!("wrote {file}\n")).collect();
-    print(&format!("{table}\nsaturated: {}\n{files}", rounded.saturated))
+    talk.report(&format!("{table}\nsaturated: {}\n", rounded.saturated))
 }
 
 impl Args {
@@ -163,7 +163,7 @@ impl Args {
             }));
         }
         let head = format!("network {name}, chain {profile}, {rows} histograms, seed {seed}\n\n");
-        print(&(head + &exploration::text(&points)))
+        talk.report(&(head + &exploration::text(&points, table::width())))
     }
 
     fn write(&self, network: &Network) -> Result<Vec<PathBuf>> {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use tofsim::error::{Error, Input, Result};
-use tofsim::files::output::create_directory;
+use tofsim::files::folder::FolderLock;
 use tofsim::hierarchy;
 use tofsim::scenario;
 use tofsim::scenario::window::Window;
@@ -18,13 +18,15 @@ use tofsim::waves::{self, Marks, WaveFormat, Waves, write_views};
 use tofsim_learn::estimation::{EstimatorKind, Panel};
 
 use crate::choice::{self, Fidelity, WaveformChoice, words};
+use crate::record::Record;
 use crate::report::frame_log::FrameLog;
-use crate::report::run_files::RunFiles;
+use crate::report::run_files::{RunFiles, Written};
 use crate::report::summary::Summary;
 use crate::report::table;
 
 use super::draws::{load, use_threads};
-use super::terminal::{Talk, print, print_with, stop_signal};
+use super::frames;
+use super::terminal::{Talk, print_with, stop_signal};
 
 /// Simulate frames: photons to depth, with a waveform
 #[derive(Debug, clap::Args)]
@@ -70,6 +72,9 @@ pub struct Args {
     /// subtraction makes pairs of a dark and a lit frame (firmware.dark_frames), and all look at those
     #[arg(long, value_parser = words(&EstimatorKind::ALL), value_delimiter = ',')]
     estimator: Vec<EstimatorKind>,
+    /// Count a depth as an outlier that is further than this from the truth
+    #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = choice::millimetres)]
+    outlier_limit_mm: f64,
     /// Write a row for each shot, as .csv or .parquet
     #[arg(long, value_name = "FILE")]
     events: Option<PathBuf>,
@@ -87,22 +92,27 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let setup = Setup::new(load(&args.scenario, &args.overrides(), args.seed)?)?;
     args.check_fidelity(&setup)?;
     args.check_pairs(&setup)?;
-    let notes = setup.notes()?;
+    let mut notes = setup.notes()?;
+    notes.extend(args.estimator.iter().flat_map(|kind| kind.notes_of_scene(&setup)));
     talk.heed(&notes)?;
     let frames = args.frames * setup.frames_together();
     let is_drawn = args.fidelity == Fidelity::Histogram;
     let histograms = is_drawn.then(|| Histograms::new(&setup)).transpose()?;
     let plan = |format| WavePlan::new(args, format, &setup, frames);
     let plan = waves.map(plan).transpose()?;
+    let home = plan.as_ref().and_then(|plan| plan.path.parent()).or(args.output.as_deref());
+    let _held = home.map(FolderLock::take).transpose()?;
     let (folder, events) = (args.output.as_deref(), args.events.as_deref());
-    let mut files = RunFiles::new(folder, events, &provenance(args, &setup), &setup)?;
-    let waves = plan.as_ref().map(|plan| plan.open(args, &setup)).transpose()?;
+    let record = Record::new(&setup, &talk.command);
+    let mut files = RunFiles::new(folder, events, &record, &setup)?;
+    let waves = plan.as_ref().map(|plan| plan.open(&record, &setup)).transpose()?;
     use_threads(args.threads)?;
 
     let stop = stop_signal();
     let progress = talk.progress(frames, "frames");
     let panel = Panel::new(&args.estimator, &setup)?;
-    let mut log = FrameLog::new(&setup, args.json || folder.is_some(), panel);
+    let limit_m = 1e-3 * args.outlier_limit_mm;
+    let mut log = FrameLog::new(&setup, args.json || folder.is_some(), panel, limit_m);
     let mut take_frame = |frame: &Frame| {
         progress.inc(1);
         log.push(&setup, frame)
@@ -132,21 +142,27 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     progress.finish_and_clear();
     outcome.notes.iter().for_each(|note| talk.note(note));
 
-    plan.as_ref().map_or(Ok(()), |plan| plan.finish(&outcome.marks, talk))?;
+    let finish = |plan: &WavePlan| plan.finish(&outcome.marks);
+    let written = plan.as_ref().map_or(Ok(Vec::new()), finish)?;
     let waves = plan.map(|plan| plan.path.display().to_string());
     let fidelity = args.fidelity.name();
-    let summary = Summary::new(&setup, fidelity, waves, &log, files.tdc());
-    for path in files.finish(&setup, &mut log, &summary)? {
-        talk.detail(format_args!("wrote {}", path.display()));
+    let about = (&record, &notes[..]);
+    let mut summary = Summary::new(&setup, fidelity, waves, &log, files.tdc(), about);
+    let Written { files, removed } = files.finish(&setup, &mut log, &mut summary, written)?;
+    for path in files {
+        talk.wrote(&path);
+    }
+    for path in removed {
+        talk.note(format_args!("removed {}: it was an older run's", path.display()));
     }
     if args.json {
         return print_with(|out| summary.write(&mut log, out));
     }
-    let mut text = table::run(&setup, &log, outcome.cycles, wall);
+    let mut text = table::run(&setup, &log, (!is_drawn).then_some(outcome.cycles), wall);
     if let Some(results) = &summary.tdc {
         text += &table::tdc(results);
     }
-    print(&text)
+    talk.report(&text)
 }
 
 impl Args {
@@ -179,9 +195,9 @@ impl Args {
                 .value(false)
                 .into());
         }
-        match self.frames.checked_mul(setup.frames_together()) {
-            Some(_) => Ok(()),
-            None => Err(Input::new("--frames", "expected fewer pairs").value(self.frames).into()),
+        match self.fidelity {
+            Fidelity::Histogram => frames::check_streams("--frames", self.frames, setup),
+            _ => frames::check("--frames", self.frames, setup),
         }
     }
 
@@ -229,30 +245,19 @@ impl WavePlan {
         let entries = waves::select(entries, hierarchy::ram_entries(), &args.signals)?;
         let windows = setup.windows(&args.window, frames)?;
         let folder = args.output.as_deref().unwrap_or(Path::new("waves"));
-        create_directory(folder)?;
         let path = folder.join(format!("{}.{ending}", setup.name));
         Ok(WavePlan { path, format, entries, windows })
     }
 
-    fn open(&self, args: &Args, setup: &Setup) -> Result<(Waves, Vec<Window>)> {
-        let (order, provenance) = (setup.params.tdc.delays.order(), provenance(args, setup));
+    fn open(&self, record: &Record, setup: &Setup) -> Result<(Waves, Vec<Window>)> {
+        let (order, provenance) = (setup.params.tdc.delays.order(), record.lines(setup));
         let waves = Waves::create(&self.path, self.format, &self.entries, order, &provenance)?;
         Ok((waves, self.windows.clone()))
     }
 
-    /// Writes what viewers need beside the waveform, and says where it is.
-    fn finish(&self, marks: &Marks, talk: &Talk) -> Result<()> {
-        for view in write_views(&self.path, self.format, &self.entries, marks)? {
-            talk.detail(format_args!("wrote {}", view.display()));
-        }
-        talk.note(format_args!("waveform: {}", self.path.display()));
-        Ok(())
+    /// Writes what viewers need beside the waveform; all their paths.
+    fn finish(&self, marks: &Marks) -> Result<Vec<PathBuf>> {
+        let views = write_views(&self.path, self.format, &self.entries, marks)?;
+        Ok([self.path.clone()].into_iter().chain(views).collect())
     }
-}
-
-/// Who made a file, from what.
-fn provenance(args: &Args, setup: &Setup) -> Vec<String> {
-    let mut lines = setup.provenance();
-    lines.extend(args.set.iter().map(|set| format!("set {set}")));
-    lines
 }

@@ -9,7 +9,7 @@ use tofsim::sim::setup::Setup;
 
 use crate::text::table::facts;
 
-use super::terminal::{print, print_json};
+use super::terminal::{Talk, print, print_json};
 
 /// List, show and check scenarios
 #[derive(Debug, clap::Args)]
@@ -57,7 +57,7 @@ struct Which {
 }
 
 /// Runs the command.
-pub fn run(args: &Args) -> Result<()> {
+pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     match &args.what {
         What::List { json } => list(*json),
         What::Show { which, json } => {
@@ -72,7 +72,7 @@ pub fn run(args: &Args) -> Result<()> {
             setup.windows(&[], 1)?;
             match json {
                 true => print_json(&json!({ "scenario": setup.name, "ok": true })),
-                false => print(&format!("{}: ok\n", setup.name)),
+                false => talk.report(&format!("{}: ok\n", setup.name)),
             }
         }
         What::Schema => print(&format!("{:#}\n", show::schema())),

@@ -1,16 +1,15 @@
-//! What the program prints, what it says while it works, and how it hears that the user interrupts.
+//! What the program prints, and what it says while it works.
 
 use std::io::{self, BufWriter, StdoutLock, Write};
 use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::Value;
 
 use tofsim::Note;
 use tofsim::error::{Error, Input, Result};
+
+pub use super::interrupt::stop_signal;
+use super::progress::Progress;
 
 /// Prints `text` as it is; a closed pipe or a full disk is an error.
 pub fn print(text: &str) -> Result<()> {
@@ -29,26 +28,21 @@ pub fn print_with(fill: impl FnOnce(&mut BufWriter<StdoutLock>) -> io::Result<()
     written.map_err(Error::io(Path::new("stdout"), "write"))
 }
 
-/// Set when the user interrupts. `None` if the system offers no way to hear of it.
-pub fn stop_signal() -> Option<Arc<AtomicBool>> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let heard = Arc::clone(&stop);
-    ctrlc::set_handler(move || heard.store(true, Ordering::Relaxed)).ok()?;
-    Some(stop)
-}
-
 /// The voice, and how much it says.
 #[derive(Debug, clap::Args)]
 pub struct Talk {
-    /// Say nothing but errors
+    /// Print nothing but errors, and what --json asks for
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     quiet: bool,
-    /// Say what is read and written
+    /// Say more
     #[arg(short, long, global = true)]
     pub verbose: bool,
     /// Take a note on what a result is outside of for an error
     #[arg(long, global = true)]
     strict: bool,
+    /// The verb and its options, for the record in outputs.
+    #[arg(skip)]
+    pub command: Vec<String>,
 }
 
 impl Talk {
@@ -65,12 +59,29 @@ impl Talk {
     /// With `--strict`, if there is any.
     pub fn heed(&self, notes: &[Note]) -> Result<()> {
         notes.iter().for_each(|note| self.note(note));
-        match notes {
-            [first, ..] if self.strict => {
-                Err(Input::new("--strict", format!("expected no notes, found {first}")).into())
-            }
-            _ => Ok(()),
-        }
+        let Some(first) = notes.first().filter(|_| self.strict) else { return Ok(()) };
+        let expected = format!("expected what no note [{}] has to be said of", first.code);
+        Err(Input::new("--strict", expected).field(&first.key).value(&first.value).into())
+    }
+
+    /// That a file was written.
+    pub fn wrote(&self, path: &Path) {
+        self.note(format_args!("wrote {}", path.display()));
+    }
+
+    /// That a waveform was written, with what viewers need beside it.
+    pub fn wrote_wave(&self, path: &Path) {
+        self.wrote(path);
+        let views = ["gtkw", "sucl"].map(|ending| path.with_extension(ending));
+        views
+            .iter()
+            .filter(|view| path.is_file() && view.is_file())
+            .for_each(|view| self.wrote(view));
+    }
+
+    /// Prints what came out, for people; what is for programs is [printed](print_json) in any case.
+    pub fn report(&self, text: &str) -> Result<()> {
+        if self.quiet { Ok(()) } else { print(text) }
     }
 
     /// Something for who asked for it.
@@ -80,18 +91,8 @@ impl Talk {
         }
     }
 
-    /// A progress bar over `count` of `things`, visible on a terminal only.
-    pub fn progress(&self, count: u64, things: &str) -> ProgressBar {
-        let target = match self.quiet || count < 2 {
-            true => ProgressDrawTarget::hidden(),
-            false => ProgressDrawTarget::stderr(),
-        };
-        let bar = ProgressBar::with_draw_target(Some(count), target);
-        let template = format!("{{bar:40}} {{pos}}/{{len}} {things}, {{eta}} to go");
-        if let Ok(style) = ProgressStyle::with_template(&template) {
-            bar.set_style(style);
-        }
-        bar.enable_steady_tick(Duration::from_millis(200));
-        bar
+    /// How far it is with `count` of `things`.
+    pub fn progress(&self, count: u64, things: &'static str) -> Progress {
+        Progress::new(count, things, self.quiet)
     }
 }

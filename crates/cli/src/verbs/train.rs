@@ -1,22 +1,24 @@
 //! `tofsim train`: a depth network from simulated histograms.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use serde_json::json;
 
-use tofsim::error::{Input, Result, read_text};
+use tofsim::error::{Error, Input, Result, read_text};
 use tofsim::files::output::create_directory;
 use tofsim::network::formats::WordFormat;
 use tofsim::scenario;
 use tofsim::sim::domain;
 use tofsim_learn::training::checkpoint;
 use tofsim_learn::training::recipe::Recipe;
-use tofsim_learn::training::tournament::Tournament;
+use tofsim_learn::training::tournament::{Tournament, Watch};
 use tofsim_learn::training::weighting::Weighting;
 
 use crate::report::training as report;
 
 use super::draws::use_threads;
+use super::progress::Progress;
 use super::terminal::{Talk, print, print_json, stop_signal};
 
 mod origin;
@@ -126,31 +128,17 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let mut settings: checkpoint::CheckpointSettings = recipe.settings()?.into_iter().collect();
     settings.insert("seed".to_owned(), args.seed.to_string());
     settings.extend(origin.settings());
+    let of = checkpoint::CheckpointOf { settings, options: args.options() };
 
     let path = args.output.join("checkpoint");
-    let state = args.resume.then(|| checkpoint::load(&path, &settings, &recipe)).transpose()?;
+    let state = args.resume.then(|| checkpoint::load(&path, &of, &recipe)).transpose()?;
     create_directory(&args.output)?;
     use_threads(args.threads)?;
     let mut tournament = Tournament::new(&recipe, &*material, args.seed, state);
-    let stop = stop_signal();
-    let (done, all) = tournament.progress();
-    let progress = talk.progress(all, "histograms times epochs");
-    progress.set_position(done);
-    progress.reset_eta();
-    let mut saved = 0;
-    while !tournament.is_over() {
-        let before = tournament.state.stage;
-        tournament.advance(stop.as_deref())?;
-        checkpoint::save(&path, &settings, &tournament.state)?;
-        progress.set_position(tournament.progress().0);
-        progress.suspend(|| say(talk, &tournament, before));
-        saved += 1;
-        if args.checkpoints == Some(saved) && !tournament.is_over() {
-            talk.note(format_args!("stopped; {} has the state", path.display()));
-            return Ok(());
-        }
+    if !args.train(&mut tournament, &path, &of, talk)? {
+        talk.note(format_args!("stopped; {} has the state", path.display()));
+        return Ok(());
     }
-    progress.finish_and_clear();
     let scenario = origin.scenario();
     let chain = args.profile.clone().unwrap_or_else(|| scenario.tdc.profile.clone());
     let (command, seed) = (args.command(), args.seed);
@@ -167,7 +155,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
             report["notes"] = json!(notes);
             print_json(&report)
         }
-        false => print(&report::table(&rows, line)),
+        false => talk.report(&report::table(&rows, line)),
     }
 }
 
@@ -176,22 +164,61 @@ fn print_recipe(recipe: &Recipe) -> Result<()> {
     let text = toml::to_string(recipe).map_err(|error| Input::new("recipe", error))?;
     print(&text)
 }
+/// Time after which the state is saved, wherever the training is.
+const BETWEEN: Duration = Duration::from_secs(15);
 
 /// Says how far it is.
-fn say(talk: &Talk, tournament: &Tournament, before: usize) {
+fn say(talk: &Talk, progress: &Progress, tournament: &Tournament, before: usize) {
     let state = &tournament.state;
     let (done, all) = tournament.progress();
     let percent = 100.0 * done as f64 / all as f64;
     let last = state.curve.iter().rev().take_while(|point| point.stage == before);
     let least = last.map(|point| point.cost).fold(f64::INFINITY, f64::min);
     let text = format!("{percent:5.1} %  stage {before}  least cost {least:.3}");
-    match before != state.stage || state.epochs == 0 {
+    progress.suspend(|| match before != state.stage || state.epochs == 0 {
         true => talk.note(text),
         false => talk.detail(text),
-    }
+    });
 }
 
 impl Args {
+    /// Trains until all is done or there are as many checkpoints as wanted, and saves the state on the
+    /// way; whether all is done.
+    fn train(
+        &self,
+        tournament: &mut Tournament,
+        path: &Path,
+        of: &checkpoint::CheckpointOf,
+        talk: &Talk,
+    ) -> Result<bool> {
+        let stop = stop_signal();
+        let (done, all) = tournament.progress();
+        let progress = talk.progress(all, "");
+        progress.set_position(done);
+        progress.reset_eta();
+        let mut checkpoints = 0;
+        while !tournament.is_over() && self.checkpoints != Some(checkpoints) {
+            let before = tournament.state.stage;
+            let until = Some(Instant::now() + BETWEEN);
+            let watch = Watch { stop: stop.as_deref(), done: &|work| progress.inc(work), until };
+            let advanced = tournament.advance(&watch);
+            if advanced.is_ok() || tournament.is_between() {
+                checkpoint::save(path, of, &tournament.state)?;
+            }
+            if let Err(Error::Interrupted) = advanced {
+                progress.finish_and_clear();
+                talk.note(format_args!("{} has the state, for --resume", path.display()));
+            }
+            if advanced? {
+                checkpoints += 1;
+                say(talk, &progress, tournament, before);
+            }
+            progress.set_position(tournament.progress().0);
+        }
+        progress.finish_and_clear();
+        Ok(tournament.is_over())
+    }
+
     /// The recipe with all that the options say, over one with this weighting or the thesis's.
     fn recipe(&self, weighting: Option<Weighting>) -> Result<Recipe> {
         let base = if self.quick { Recipe::quick() } else { Recipe::default() };
@@ -220,7 +247,12 @@ impl Args {
 
     /// The command that trains the same network again.
     fn command(&self) -> String {
-        let mut command = String::from("tofsim train");
+        ["tofsim train".to_owned()].into_iter().chain(self.options()).collect::<Vec<_>>().join(" ")
+    }
+
+    /// The options that decide what comes out.
+    fn options(&self) -> Vec<String> {
+        let mut options = Vec::new();
         let mut add = |option: &str, value: &dyn std::fmt::Display| {
             let value = value.to_string();
             let plain = |c: char| c.is_ascii_alphanumeric() || "._-/=+,:".contains(c);
@@ -228,7 +260,7 @@ impl Args {
                 true => value,
                 false => format!("'{}'", value.replace('\'', r"'\''")),
             };
-            command += &format!(" {option}{quoted}");
+            options.push(format!("{option}{quoted}"));
         };
         if self.scenario != scenario::DEFAULT {
             add("", &self.scenario);
@@ -250,6 +282,6 @@ impl Args {
             add("--format ", &format_args!("{word}={width}.{fraction}"));
         }
         self.starts.iter().for_each(|starts| add("--starts ", starts));
-        command
+        options
     }
 }

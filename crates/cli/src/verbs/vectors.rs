@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use tofsim::error::{Input, Result, nearest};
+use tofsim::files::staged::StagedFolder;
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim_rtl::golden::bench::Bench;
@@ -74,12 +75,13 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         name => vec![find(name, "BLOCK")?],
     };
     let setting = args.from.setting()?;
+    let stage = StagedFolder::new(&args.output)?;
     for spec in blocks {
         let vectors = (spec.record)(spec, &setting)?;
-        let folder = args.output.join(spec.name);
-        Bench::new(&vectors).write(&folder)?;
-        talk.detail(format_args!("{}: {} cycles", folder.display(), vectors.stimulus.rows()));
+        Bench::new(&vectors).write(&stage.path().join(spec.name))?;
+        talk.detail(format_args!("{}: {} cycles", spec.name, vectors.stimulus.rows()));
     }
+    stage.commit()?.iter().for_each(|path| talk.wrote(path));
     Ok(())
 }
 

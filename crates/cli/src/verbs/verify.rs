@@ -6,15 +6,17 @@ use std::time::Duration;
 
 use rayon::prelude::*;
 
-use tofsim::error::{Error, Result};
+use tofsim::error::Result;
+use tofsim::files::staged::ScratchFolder;
 use tofsim_rtl::golden::blocks::CENTROID;
 use tofsim_rtl::golden::{BLOCKS, Setting, Spec};
-use tofsim_rtl::verify::cycle_counts::Count;
+use tofsim_rtl::verify::cycle_counts::{self as count, Count};
 use tofsim_rtl::verify::process::Limits;
-use tofsim_rtl::verify::{BlockCheck, BlockReport, Rtl, RtlMap, Simulator};
+use tofsim_rtl::verify::{BlockCheck, BlockReport, Rtl, RtlMap, Simulator, strays};
 
 use crate::choice::{self, words};
 use crate::report::verification as report;
+use crate::text::colour::coloured;
 
 use super::terminal::{Talk, print, stop_signal};
 use super::vectors::{From, find};
@@ -76,7 +78,8 @@ struct Task {
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let map = args.map.as_deref().map(RtlMap::read).transpose()?;
-    let work = tempfile::tempdir().map_err(Error::io(&std::env::temp_dir(), "write"))?;
+    strays::end();
+    let work = ScratchFolder::new()?;
     let rtl = match &args.rtl {
         Some(folder) => Rtl::folder(folder)?,
         None => Rtl::own(work.path())?,
@@ -84,7 +87,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let stop = stop_signal();
     let limits = Limits { time: Duration::from_secs(args.time_limit), stop: stop.as_deref() };
     if args.cycle_counts {
-        return cycle_counts(args, &rtl, &limits);
+        return cycle_counts(args, &rtl, &limits, talk);
     }
     let tasks = tasks(args, map.as_ref(), &rtl, talk)?;
     let check = |task: &Task| {
@@ -97,7 +100,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             output: &args.output,
         };
         let report = check.run(&task.name, task.spec, &task.setting, &work.path().join(&task.name));
-        talk.detail(format_args!("{}: done", task.name));
+        if let Ok(report) = &report {
+            let word = coloured(report.word(), report.passed(), &std::io::stderr());
+            talk.note(format_args!("{}: {word}", task.name));
+        }
         report
     };
     let reports: Vec<_> = tasks.par_iter().map(check).collect();
@@ -107,20 +113,28 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let simulator = args.simulator.name();
     if let Some(path) = &args.junit {
         report::write_junit(path, simulator, &reports)?;
+        talk.wrote(path);
+    }
+    for wave in reports.iter().filter_map(|report| report.wave.as_ref()) {
+        talk.wrote_wave(wave);
     }
     match args.json {
         true => print(&format!("{:#}\n", report::json(&rtl.source, simulator, &reports)))?,
-        false => print(&report::text(&reports))?,
+        false => talk.report(&report::text(&reports))?,
     }
     Ok(ExitCode::from(u8::from(!reports.iter().all(BlockReport::passed))))
 }
 
-fn cycle_counts(args: &Args, rtl: &Rtl, limits: &Limits) -> Result<ExitCode> {
+fn cycle_counts(args: &Args, rtl: &Rtl, limits: &Limits, talk: &Talk) -> Result<ExitCode> {
     let neurons = args.from.setting()?.neurons();
-    let counts = tofsim_rtl::verify::cycle_counts::cycle_counts(rtl, neurons, limits)?;
+    let counts = count::cycle_counts(rtl, neurons, limits, |count: &Count| {
+        let word = if count.holds() { "holds" } else { "fails" };
+        let word = coloured(word, count.holds(), &std::io::stderr());
+        talk.note(format_args!("{}: {word}", count.what));
+    })?;
     match args.json {
         true => print(&format!("{:#}\n", report::counts_json(&rtl.source, &counts)))?,
-        false => print(&report::counts_text(&counts))?,
+        false => talk.report(&report::counts_text(&counts))?,
     }
     Ok(ExitCode::from(u8::from(!counts.iter().all(Count::holds))))
 }

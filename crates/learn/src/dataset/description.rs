@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use tofsim::scenario::Scenario;
+use tofsim::sim::setup::Setup;
 
 use super::axis::Axis;
 use super::rows::Rows;
@@ -19,6 +20,10 @@ pub struct DatasetDescription {
     pub scenario: String,
     /// Keys of the scenario that were set otherwise.
     pub set: Vec<String>,
+    /// Hash of the resolved scenario.
+    pub hash: String,
+    /// The verb and the options that made it, but for those that only say where it goes.
+    pub command: Vec<String>,
     /// Carry chain whose bins these are.
     pub profile: String,
     /// The grid: the thesis's `train` or `test`, or `own`.
@@ -43,10 +48,10 @@ pub struct DatasetDescription {
 }
 
 impl DatasetDescription {
-    /// Of the rows that a source draws with a seed. `scenario` is its name.
+    /// Of the rows that a source, made of `setup`, draws with a seed for a command.
     pub fn new(
-        scenario: &str,
-        set: &[String],
+        setup: &Setup,
+        command: &[String],
         source: &HistogramSource,
         rows: &Rows,
         seed: u64,
@@ -55,8 +60,10 @@ impl DatasetDescription {
         DatasetDescription {
             schema: "tofsim.dataset/1",
             version: env!("CARGO_PKG_VERSION"),
-            scenario: scenario.to_owned(),
-            set: set.to_vec(),
+            scenario: setup.name.clone(),
+            set: setup.set.clone(),
+            hash: setup.hash(),
+            command: command.to_vec(),
             profile: settings.tdc.profile.clone(),
             grid: grid.name,
             axes: (!grid.is_thesis()).then(|| grid.axes().cloned().collect()),

@@ -98,7 +98,7 @@ impl HistogramSource {
     pub fn acquisition(&self, setting: usize) -> Acquisition<'_> {
         let Setting { scenario, bins } = &self.settings[setting];
         let shots = scenario.firmware.shots_per_frame;
-        Acquisition { bins, shots, pulse_sigma_ps: scenario.laser.pulse_sigma_ps }
+        Acquisition::new(bins, shots, scenario.laser.pulse_sigma_ps)
     }
 
     /// Budget of a white target at a scene's distance, in an irradiance of 1 W/m^2/nm: what all scenes at

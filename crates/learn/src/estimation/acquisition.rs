@@ -1,10 +1,18 @@
 //! How histograms come about, as far as estimators know it.
 
+use std::f64::consts::SQRT_2;
+
 use tofsim::error::Input;
+use tofsim::firmware::vcsel_driver::PERIODS;
 use tofsim::kernel::Time;
+use tofsim::network::Histogram;
 use tofsim::optics::budget::LIGHT_M_S;
 use tofsim::optics::{Bins, Budget};
+use tofsim::scenario::QuenchMode;
+use tofsim::sim::setup::{CYCLE, Setup};
 
+/// Codes of the TDC [codes].
+const CODES: usize = 256;
 /// Width of a bin as the decoder's codes count it [ps].
 pub const BIN_PS: f64 = 25.0;
 /// Mean arrival of an echo for each metre of distance, 2 / c (eq. 3.23) [ps/m].
@@ -19,9 +27,72 @@ pub struct Acquisition<'a> {
     pub shots: u64,
     /// Standard deviation of the pulse as the detector times it [ps].
     pub pulse_sigma_ps: f64,
+    /// Standard deviation that jitter gives to a time from the laser edge to the edge that samples
+    /// it, both of which are early or late by themselves [ps].
+    pub jitter_ps: f64,
+    /// How the diode comes back, where it is not armed anew for each shot (MODE 1).
+    pub free_running: Option<FreeRunning>,
 }
 
-impl Acquisition<'_> {
+/// A diode that comes back by itself, and the chain that an old pulse may still travel in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FreeRunning {
+    /// From one laser edge to the next [ps].
+    pub period_ps: f64,
+    /// From an avalanche to the next possible one, and as long `tdc_stop` stays high [ps].
+    pub dead_ps: f64,
+    /// From one sampling edge to the next [ps].
+    pub cycle_ps: f64,
+    /// Age at which an edge of `tdc_stop` reaches tap 0 [ps].
+    pub tap_0_ps: f64,
+    /// Age at which it has left the chain [ps].
+    pub chain_ps: f64,
+}
+
+impl FreeRunning {
+    /// How long before the laser edge a pulse has to end, so that the first edge after it finds
+    /// nothing of it in the chain [ps].
+    pub fn empty_ps(&self) -> f64 {
+        (self.chain_ps - self.cycle_ps).max(self.tap_0_ps)
+    }
+
+    /// Until when codes are those of avalanches that the first edge sees: later ones may be of hits
+    /// that the second edge sees with an old pulse in the chain [ps].
+    pub fn first_edge_ps(&self) -> f64 {
+        self.cycle_ps - self.empty_ps()
+    }
+
+    /// Of a scenario in MODE 1.
+    pub fn of(setup: &Setup) -> Option<Self> {
+        let firmware = &setup.scenario.firmware;
+        let delays = &setup.params.tdc.delays;
+        let cycles = PERIODS[firmware.laser_freq as usize] as f64;
+        (firmware.mode == QuenchMode::FreeRunning).then(|| FreeRunning {
+            period_ps: cycles * ps(CYCLE),
+            dead_ps: setup.scenario.spad.dead_time_ns * 1e3,
+            cycle_ps: ps(CYCLE),
+            tap_0_ps: ps(delays.tap_0()),
+            chain_ps: ps(delays.longest()),
+        })
+    }
+}
+
+impl<'a> Acquisition<'a> {
+    /// Of steady clocks and a diode that is armed for each shot.
+    pub fn new(bins: &'a Bins, shots: u64, pulse_sigma_ps: f64) -> Self {
+        Acquisition { bins, shots, pulse_sigma_ps, jitter_ps: 0.0, free_running: None }
+    }
+
+    /// Of a scenario, with the bins of its chain.
+    pub fn of(setup: &Setup, bins: &'a Bins, shots: u64) -> Self {
+        let scenario = &setup.scenario;
+        Acquisition {
+            jitter_ps: SQRT_2 * scenario.pll.jitter_rms_ps,
+            free_running: FreeRunning::of(setup),
+            ..Acquisition::new(bins, shots, scenario.laser.pulse_sigma_ps)
+        }
+    }
+
     /// Whether there is anything to estimate from.
     ///
     /// # Errors
@@ -65,6 +136,21 @@ impl From<&Budget> for Echo {
 
 /// Code, begin and end of each stretch of time that has a code, in order of time [code, ps, ps].
 pub fn spans_ps(bins: &Bins) -> impl Iterator<Item = (u8, f64, f64)> {
-    let ps = |time: Time| time.fs() as f64 * 1e-3;
-    bins.spans().iter().map(move |span| (span.code, ps(span.from), ps(span.until)))
+    bins.spans().iter().map(|span| (span.code, ps(span.from), ps(span.until)))
+}
+
+/// The histogram that codes of those probabilities make on average, to whole hits: what one bin loses
+/// by rounding the next one gets.
+pub fn most_probable(probabilities: &[f64; CODES], shots: u64) -> Histogram {
+    let mut owed = 0.0;
+    probabilities.map(|p| {
+        owed += shots as f64 * p;
+        let count = f64::round(owed);
+        owed -= count;
+        count as u16
+    })
+}
+
+fn ps(time: Time) -> f64 {
+    time.fs() as f64 * 1e-3
 }

@@ -65,6 +65,11 @@ pub struct EstimatorInputs<'a> {
 }
 
 impl EstimatorKind {
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(_, kind, _)| *kind == self).map_or("", |(name, ..)| name)
+    }
+
     /// The estimator of that name.
     ///
     /// # Errors
@@ -98,7 +103,7 @@ mod tests {
         let period = Time::from_ns(8);
         let bins = &Bins::of_chain(&delays, &delays.calibration(period), period);
         let network = &Network::builtin("ideal").unwrap().unwrap();
-        let acquisition = Acquisition { bins, shots: 30_000, pulse_sigma_ps: 137.0 };
+        let acquisition = Acquisition::new(bins, 30_000, 137.0);
         let centroid = &centroid_estimator::Params::default();
         let needs = EstimatorInputs { acquisition, network, centroid };
         for (name, kind, _) in EstimatorKind::ALL {
@@ -107,7 +112,7 @@ mod tests {
         for (shots, pulse_sigma_ps, field) in
             [(0, 137.0, "shots = 0"), (65_536, 137.0, "shots"), (1, f64::NAN, "sigma_ps = NaN")]
         {
-            let acquisition = Acquisition { bins, shots, pulse_sigma_ps };
+            let acquisition = Acquisition::new(bins, shots, pulse_sigma_ps);
             let needs = EstimatorInputs { acquisition, network, centroid };
             let fault = EstimatorKind::Peak.estimator(&needs).err().unwrap().to_string();
             assert!(fault.contains(field), "{fault}");

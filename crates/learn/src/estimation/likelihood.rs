@@ -2,15 +2,23 @@
 //!
 //! Pile-up is in the model ([`model`]), so that nothing has to be corrected. All three are free, and
 //! Fisher scoring (Newton's method with the expected curvature) climbs from the matched filter's
-//! place; a step that gains nothing is damped as Levenberg and Marquardt do.
+//! place; a step that gains nothing is damped as Levenberg and Marquardt do. In MODE 1 the
+//! matched filter cannot tell signal and background, and the climb begins at the best of several of
+//! both.
 
+mod arming;
 pub mod model;
 mod solve;
+mod stretches;
+
+use std::f64::consts::{LN_2, SQRT_2};
+
+use statrs::function::erf::erfc_inv;
 
 use tofsim::error::Input;
 use tofsim::network::Histogram;
 
-use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo};
+use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, BIN_PS, Echo};
 use super::estimator::{Estimator, Failure, hits};
 use super::matched_filter::MatchedFilter;
 
@@ -33,6 +41,12 @@ const MOST_ITERATIONS: usize = 200;
 const TOLERANCE: f64 = 1e-5;
 /// Signal that counts as one, in its own standard deviations [1].
 const SIGNIFICANCE: f64 = 4.0;
+/// Starts from which it is climbed in MODE 1.
+const CLIMBS: usize = 3;
+/// Signals to begin with in MODE 1 [1].
+const SIGNALS: [f64; 6] = [0.05, 0.3, 1.0, 4.0, 16.0, 64.0];
+/// Backgrounds to begin with there [1/ps].
+const BACKGROUNDS: [f64; 6] = [1e-6, 3e-5, 1e-4, 2.5e-4, 6e-4, 1.5e-3];
 
 /// The maximum-likelihood estimator of one pulse and one chain.
 #[derive(Clone, Debug)]
@@ -67,70 +81,114 @@ impl Likelihood {
     /// When there is no echo, or the climb does not end.
     pub fn fit(&self, histogram: &Histogram) -> Result<Fit, Failure> {
         hits(histogram, self.model.shots as u32)?;
-        let start = self.start.best(histogram).ok_or(Failure::NoPeak)?;
-        self.climb(histogram, start.echo)
+        let start = self.start.best(histogram).ok_or(Failure::NoPeak)?.echo;
+        match self.model.free_running {
+            None => climb(&self.model, histogram, start),
+            Some(_) => self.free_fit(histogram, start.arrival_ps),
+        }
     }
 
-    /// The top that is reached from `start`.
-    fn climb(&self, histogram: &Histogram, start: Echo) -> Result<Fit, Failure> {
-        let mut at = self.model.coordinates(&start);
-        let mut value = self.model.log_likelihood(&at, histogram);
-        let mut damping = 0.0f64;
-        let mut slope = self.model.slope(&at, histogram);
-        for _ in 0..MOST_ITERATIONS {
-            let (gradient, information) = &slope;
-            // At its lowest the background stays, unless it is to rise.
-            let held = at[2] <= self.model.least_background() && gradient[2] <= 0.0;
-            let step = solve(information, gradient, damping, held);
-            let gain = step.map(|step| (0..3).map(|k| step[k] * gradient[k]).sum::<f64>());
-            if damping == 0.0 && gain.is_some_and(|gain| gain < TOLERANCE) {
-                return self.accept(&at, information, held);
-            }
-            let tried = step.map(|step| self.go(&at, &step));
-            let reached = tried.map(|to| (to, self.model.log_likelihood(&to, histogram)));
-            match reached.filter(|(_, reached)| *reached >= value) {
-                Some((to, reached)) => {
-                    (at, value) = (to, reached);
-                    damping = if damping > 1e-4 { damping * 0.1 } else { 0.0 };
-                    slope = self.model.slope(&at, histogram);
-                }
-                None if damping == 0.0 && gain.is_some_and(|gain| gain < NOTHING) => {
-                    return self.accept(&at, information, held);
-                }
-                None => damping = (damping * 10.0).max(1e-3),
-            }
-            if damping > STUCK || at[1].abs() > RUNAWAY {
-                break;
+    /// In MODE 1: the highest of the tops that are reached from the best starts.
+    fn free_fit(&self, histogram: &Histogram, seen_ps: f64) -> Result<Fit, Failure> {
+        let mut starts = self.free_starts(histogram, seen_ps);
+        starts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut best = Err(Failure::NoPeak);
+        let mut most = f64::NEG_INFINITY;
+        for (_, start) in starts.into_iter().take(CLIMBS) {
+            let Ok(fit) = climb(&self.model, histogram, start) else { continue };
+            let value = self.model.log_likelihood(&self.model.coordinates(&fit.echo), histogram);
+            if value > most {
+                (most, best) = (value, Ok(fit));
             }
         }
-        Err(Failure::NoConvergence)
+        best
     }
 
-    /// The end of a step, which is shortened so that no coordinate goes too far.
-    fn go(&self, at: &[f64; 3], step: &[f64; 3]) -> [f64; 3] {
-        let longest = step[0].abs().max(step[1].abs()).max(LONGEST);
-        let [place, signal, background] = [0, 1, 2].map(|k| at[k] + step[k] * LONGEST / longest);
-        let least = (at[2] * FALL).max(self.model.least_background());
-        [place, signal, background.max(least)]
+    /// Where climbs may begin in MODE 1, and how likely that is: for each signal the best of some
+    /// scenes whose first photons come where the matched filter saw them, or in the fullest bin.
+    fn free_starts(&self, histogram: &Histogram, seen_ps: f64) -> Vec<(f64, Echo)> {
+        let fullest = (0..histogram.len()).max_by_key(|&code| histogram[code]).unwrap_or(0);
+        let places_ps = [seen_ps, (fullest as f64 + 0.5) * BIN_PS];
+        let best = |signal: f64| {
+            // Half of the shots have had a photon where S Phi is ln 2.
+            let early = if signal > 2.0 * LN_2 { early_sigma(LN_2 / signal) } else { 0.0 };
+            let echo = |(first_ps, background_per_ps): (f64, f64)| {
+                let arrival_ps = first_ps + early * self.model.sigma_ps;
+                let echo = Echo { arrival_ps, signal, background_per_ps };
+                let at = self.model.coordinates(&echo);
+                (self.model.log_likelihood(&at, histogram), echo)
+            };
+            let all = places_ps.into_iter().flat_map(|ps| BACKGROUNDS.map(|rate| (ps, rate)));
+            all.map(echo).max_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        SIGNALS.into_iter().filter_map(best).collect()
     }
+}
 
-    /// The top as a scene, if its signal is one.
-    fn accept(
-        &self,
-        at: &[f64; 3],
-        information: &[[f64; 3]; 3],
-        held: bool,
-    ) -> Result<Fit, Failure> {
-        let variances = inverse_diagonal(information, held).ok_or(Failure::NoConvergence)?;
-        let echo = self.model.echo(at);
-        let within = -self.model.sigma_ps..=self.model.end_ps + self.model.sigma_ps;
-        // The deviation of ln S is that of S by S.
-        if variances[1].sqrt() * SIGNIFICANCE > 1.0 || !within.contains(&echo.arrival_ps) {
-            return Err(Failure::NoPeak);
+/// How far before its mean a part of a pulse has come [sigma].
+fn early_sigma(part: f64) -> f64 {
+    SQRT_2 * erfc_inv(2.0 * part)
+}
+
+/// The top that is reached from `start`.
+fn climb(model: &Model, histogram: &Histogram, start: Echo) -> Result<Fit, Failure> {
+    let mut at = model.coordinates(&start);
+    let mut value = model.log_likelihood(&at, histogram);
+    let mut damping = 0.0f64;
+    let mut slope = model.slope(&at, histogram);
+    for _ in 0..MOST_ITERATIONS {
+        let (gradient, information) = &slope;
+        // At its lowest the background stays, unless it is to rise.
+        let held = at[2] <= model.least_background() && gradient[2] <= 0.0;
+        let step = solve(information, gradient, damping, held);
+        let gain = step.map(|step| (0..3).map(|k| step[k] * gradient[k]).sum::<f64>());
+        if damping == 0.0 && gain.is_some_and(|gain| gain < TOLERANCE) {
+            return accept(model, &at, information, held);
         }
-        let arrival_deviation_ps = variances[0].sqrt() * self.model.sigma_ps;
-        Ok(Fit { echo, arrival_deviation_ps })
+        let tried = step.map(|step| go(model, &at, &step));
+        let reached = tried.map(|to| (to, model.log_likelihood(&to, histogram)));
+        match reached.filter(|(_, reached)| *reached >= value) {
+            Some((to, reached)) => {
+                (at, value) = (to, reached);
+                damping = if damping > 1e-4 { damping * 0.1 } else { 0.0 };
+                slope = model.slope(&at, histogram);
+            }
+            None if damping == 0.0 && gain.is_some_and(|gain| gain < NOTHING) => {
+                return accept(model, &at, information, held);
+            }
+            None => damping = (damping * 10.0).max(1e-3),
+        }
+        if damping > STUCK || at[1].abs() > RUNAWAY {
+            break;
+        }
     }
+    Err(Failure::NoConvergence)
+}
+
+/// The end of a step, which is shortened so that no coordinate goes too far.
+fn go(model: &Model, at: &[f64; 3], step: &[f64; 3]) -> [f64; 3] {
+    let longest = step[0].abs().max(step[1].abs()).max(LONGEST);
+    let [place, signal, background] = [0, 1, 2].map(|k| at[k] + step[k] * LONGEST / longest);
+    let least = (at[2] * FALL).max(model.least_background());
+    [place, signal, background.max(least)]
+}
+
+/// The top as a scene, if its signal is one.
+fn accept(
+    model: &Model,
+    at: &[f64; 3],
+    information: &[[f64; 3]; 3],
+    held: bool,
+) -> Result<Fit, Failure> {
+    let variances = inverse_diagonal(information, held).ok_or(Failure::NoConvergence)?;
+    let echo = model.echo(at);
+    let within = -model.sigma_ps..=model.end_ps + model.sigma_ps;
+    // The deviation of ln S is that of S by S.
+    if variances[1].sqrt() * SIGNIFICANCE > 1.0 || !within.contains(&echo.arrival_ps) {
+        return Err(Failure::NoPeak);
+    }
+    let arrival_deviation_ps = variances[0].sqrt() * model.sigma_ps;
+    Ok(Fit { echo, arrival_deviation_ps })
 }
 
 impl Estimator for Likelihood {

@@ -107,7 +107,9 @@ impl MatchedFilter {
         let pieces = pieces(acquisition.bins);
         let range_ps: f64 = pieces.iter().map(Pieces::width_ps).sum();
         let end_ps = spans_ps(acquisition.bins).map(|(.., until)| until).fold(0.0, f64::max);
-        let pulse = |place| Pulse::new(&pieces, place as f64 * BIN_PS, acquisition.pulse_sigma_ps);
+        // Exact for a faint pulse only: pile-up comes before jitter.
+        let sigma_ps = acquisition.pulse_sigma_ps.hypot(acquisition.jitter_ps);
+        let pulse = |place| Pulse::new(&pieces, place as f64 * BIN_PS, sigma_ps);
         Ok(MatchedFilter {
             shots: acquisition.shots,
             codes: pieces.iter().map(|bin| bin.code).collect(),

@@ -37,13 +37,12 @@ impl Panel {
     pub fn new(kinds: &[EstimatorKind], setup: &Setup) -> Result<Self> {
         let tdc = &setup.params.tdc;
         let bins = &Bins::of_chain(&tdc.delays, &tdc.cal, CYCLE);
-        let pulse_sigma_ps = setup.scenario.laser.pulse_sigma_ps;
         let estimator = |kind: &EstimatorKind| {
             let shots = match kind {
                 EstimatorKind::Subtraction => setup.scenario.firmware.shots_per_frame,
                 _ => setup.params.frame_ctrl.shots_per_frame.into(),
             };
-            let acquisition = Acquisition { bins, shots, pulse_sigma_ps };
+            let acquisition = Acquisition::of(setup, bins, shots);
             let centroid = &setup.params.centroid_estimator;
             Ok(kind.estimator(&EstimatorInputs {
                 acquisition,

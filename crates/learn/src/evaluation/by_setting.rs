@@ -16,15 +16,17 @@ pub struct KeyGroups {
     pub groups: Vec<Group>,
 }
 
-/// The errors of a column by each of the grid's other keys.
+/// The errors of a column by each of the grid's other keys; what is further off than `limit_m` is an
+/// outlier [m].
 pub fn by_setting(
     evaluation: &Evaluation,
     column: &EstimatorErrors,
     grid: &Grid,
+    limit_m: f64,
 ) -> Vec<KeyGroups> {
     let settings: Vec<_> = (0..grid.settings() as usize).map(|k| grid.setting(k)).collect();
     let of_key = |(place, axis): (usize, &crate::dataset::Axis)| {
-        let mut groups = evaluation.by(column, |scene| settings[scene.setting][place].1);
+        let mut groups = evaluation.by(column, |scene| settings[scene.setting][place].1, limit_m);
         groups.sort_by(|a, b| a.value.total_cmp(&b.value));
         KeyGroups { key: axis.key.clone(), groups }
     };
@@ -45,7 +47,7 @@ mod tests {
         let errors_m = (0..6).map(|k| Some(1e-3 * f64::from(k))).collect();
         let column = EstimatorErrors { name: "network", errors_m };
         let evaluation = Evaluation { scenes, columns: vec![column.clone()] };
-        let keys = by_setting(&evaluation, &column, &grid);
+        let keys = by_setting(&evaluation, &column, &grid, 0.1);
         let means = |k: usize| {
             let groups = keys[k].groups.iter();
             groups.map(|group| (group.value, group.spread.mean_mm.unwrap())).collect::<Vec<_>>()

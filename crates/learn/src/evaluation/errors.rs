@@ -10,7 +10,7 @@ use tofsim::network::Histogram;
 use crate::dataset::{HistogramSource, Pairs, Rows, Scene};
 use crate::estimation::Estimator;
 
-use super::spread::{self, Group};
+use super::spread::{self, Group, Spread};
 
 /// Errors of estimators, row by row.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,20 +98,37 @@ impl Evaluation {
         scenes: Vec<Scene>,
         estimators: &[Box<dyn Estimator + '_>],
     ) -> Self {
-        let column = |estimator: &Box<dyn Estimator + '_>| {
+        let column = |estimator: &dyn Estimator| {
             let pairs = histograms.par_iter().zip(&scenes);
             let error = |(histogram, scene): (&Histogram, &Scene)| {
                 Some(estimator.estimate(histogram).ok()? - scene.distance_m)
             };
             EstimatorErrors { name: estimator.name(), errors_m: pairs.map(error).collect() }
         };
-        let columns = estimators.iter().map(column).collect();
+        let columns = estimators.iter().map(|one| column(&**one)).collect();
         Evaluation { scenes, columns }
     }
 
-    /// The errors of a column by what `key` is of the row's scene, in rising order of it.
-    pub fn by(&self, column: &EstimatorErrors, key: impl Fn(&Scene) -> f64) -> Vec<Group> {
-        spread::by(self.scenes.iter().map(key), &column.errors_m)
+    /// The errors of a column by what `key` is of the row's scene, in rising order of it; what is
+    /// further off than `limit_m` is an outlier [m].
+    pub fn by(
+        &self,
+        column: &EstimatorErrors,
+        key: impl Fn(&Scene) -> f64,
+        limit_m: f64,
+    ) -> Vec<Group> {
+        spread::by(self.scenes.iter().map(key), self.judged(column), limit_m)
+    }
+
+    /// All errors of a column; as in [`Evaluation::by`].
+    pub fn all(&self, column: &EstimatorErrors, limit_m: f64) -> Spread {
+        Spread::judged(self.judged(column), limit_m)
+    }
+
+    /// Errors of a column and the true distances [m, m].
+    fn judged(&self, column: &EstimatorErrors) -> impl Iterator<Item = (Option<f64>, f64)> {
+        let truths = self.scenes.iter().map(|scene| scene.distance_m);
+        column.errors_m.iter().copied().zip(truths)
     }
 }
 
@@ -157,7 +174,7 @@ mod tests {
         }
         let failed = some.errors_m.iter().filter(|error| error.is_none()).count();
         assert!((100..450).contains(&failed), "{failed}");
-        let by_distance = evaluation.by(some, |scene| scene.distance_m);
+        let by_distance = evaluation.by(some, |scene| scene.distance_m, 0.1);
         assert_eq!(by_distance.len(), 51);
         assert_eq!(
             by_distance.iter().map(|group| group.spread.failures).sum::<u64>(),

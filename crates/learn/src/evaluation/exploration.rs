@@ -17,6 +17,7 @@ use crate::quantize::datapath::{Cost, Datapath};
 
 use super::errors::Evaluation;
 use super::figures::Figures;
+use super::spread::OUTLIER_M;
 use super::thesis::DISTANCES_M;
 
 /// A datapath and what it does to the depth.
@@ -94,7 +95,7 @@ pub fn explore(
     let exact = &evaluation.columns[0];
     let variants = circuits.iter().zip(&evaluation.columns[1..]);
     let points = datapaths.iter().zip(variants).map(|((name, datapath), (circuit, column))| {
-        let figures = Figures::new(&evaluation, column);
+        let figures = Figures::new(&evaluation, column, OUTLIER_M);
         let two_sd = |distance_m: &f64| figures.at(*distance_m)?.two_sd_mm;
         let pairs = exact.errors_m.iter().zip(&column.errors_m);
         let apart = pairs.filter_map(|(exact, fixed)| Some(1e3 * ((*fixed)? - (*exact)?)));
@@ -138,7 +139,7 @@ mod tests {
             let ratio = table(bits) / table(bits + 1);
             assert!((1.6..2.4).contains(&ratio), "{bits}: {ratio}");
         }
-        assert_eq!(points[0].cost, Cost { ramb36: 10, dsp48: 9 });
+        assert_eq!(points[0].cost, Cost { ramb36: 10, ramb18: 0, dsp48: 9 });
         assert_eq!(rms("the firmware's"), rms("table of 12 address bits over +-4"));
         assert!(points[0].saturated_sums > 0.5 && points[0].sum_bits[0] <= 36);
         assert!(rms("w1 and b1 of 10 bits") > 3.0 * rms("w1 and b1 of 14 bits"));

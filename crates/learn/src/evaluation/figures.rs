@@ -37,15 +37,15 @@ pub struct Grouping<'a> {
 }
 
 impl Figures {
-    /// Of a column of an evaluation.
-    pub fn new(evaluation: &Evaluation, column: &EstimatorErrors) -> Self {
-        let by_distance_m = evaluation.by(column, |scene| scene.distance_m);
+    /// Of a column of an evaluation; what is further off than `limit_m` is an outlier [m].
+    pub fn new(evaluation: &Evaluation, column: &EstimatorErrors, limit_m: f64) -> Self {
+        let by_distance_m = evaluation.by(column, |scene| scene.distance_m, limit_m);
         let worst = worst(&by_distance_m);
         Figures {
             name: column.name,
-            all: Spread::of(column.errors_m.iter().copied()),
-            by_reflectance: evaluation.by(column, |scene| scene.reflectance),
-            by_irradiance_w_m2_nm: evaluation.by(column, |scene| scene.irradiance_w_m2_nm),
+            all: evaluation.all(column, limit_m),
+            by_reflectance: evaluation.by(column, |scene| scene.reflectance, limit_m),
+            by_irradiance_w_m2_nm: evaluation.by(column, |scene| scene.irradiance_w_m2_nm, limit_m),
             worst_ratio_to_thesis: worst.map(|(_, ratio)| ratio),
             worst_distance_m: worst.map(|(distance_m, _)| distance_m),
             by_distance_m,
@@ -101,7 +101,7 @@ mod tests {
         }
         let column = EstimatorErrors { name: "network", errors_m };
         let evaluation = Evaluation { scenes, columns: vec![column.clone()] };
-        let figures = Figures::new(&evaluation, &column);
+        let figures = Figures::new(&evaluation, &column, 0.1);
         assert_eq!(figures.worst_distance_m, Some(0.1));
         assert!((figures.worst_ratio_to_thesis.unwrap() - 1.7 / 1.6).abs() < 1e-9);
         assert_eq!(figures.distances_above_the_line(), 2);

@@ -4,6 +4,15 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+/// An estimate further from the truth than that is an outlier, unless another limit is stated [m].
+pub const OUTLIER_M: f64 = 0.1;
+
+/// Whether an estimate is far off: further than `limit_m` from the truth, negative, or no number.
+pub fn is_outlier(depth_m: f64, truth_m: f64, limit_m: f64) -> bool {
+    let off_m = (depth_m - truth_m).abs();
+    off_m.is_nan() || off_m > limit_m || depth_m < 0.0
+}
+
 /// Where errors lie; all but the counts are `None` without an estimate, spreads without two.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Spread {
@@ -11,30 +20,44 @@ pub struct Spread {
     pub estimates: u64,
     /// Histograms without.
     pub failures: u64,
+    /// Estimates that are far off ([`is_outlier`]); all but those that are no number count in what
+    /// follows.
+    pub outliers: u64,
     /// Mean error [mm].
     pub mean_mm: Option<f64>,
     /// Standard error of that [mm].
-    pub mean_error_mm: Option<f64>,
+    pub mean_se_mm: Option<f64>,
     /// Twice the standard deviation of the errors [mm].
     pub two_sd_mm: Option<f64>,
     /// Standard error of that, by the fourth moment [mm].
-    pub two_sd_error_mm: Option<f64>,
+    pub two_sd_se_mm: Option<f64>,
     /// Least error, the quartiles and the largest error [mm].
     pub quartiles_mm: Option<[f64; 5]>,
 }
 
 impl Spread {
-    /// Of errors in metres, those of failures missing.
+    /// Of errors in metres, those of failures missing, at distances that do not matter.
     pub fn of(errors_m: impl IntoIterator<Item = Option<f64>>) -> Self {
-        let (mut errors_mm, mut failures) = (Vec::new(), 0);
-        for error in errors_m {
-            match error {
-                Some(error_m) => errors_mm.push(1e3 * error_m),
-                None => failures += 1,
+        Spread::judged(errors_m.into_iter().map(|error_m| (error_m, f64::INFINITY)), OUTLIER_M)
+    }
+
+    /// Of errors, those of failures missing, and the true distances; what is further off than
+    /// `limit_m` is an outlier [m, m].
+    pub fn judged(errors_m: impl IntoIterator<Item = (Option<f64>, f64)>, limit_m: f64) -> Self {
+        let mut errors_mm = Vec::new();
+        let mut spread = Spread::default();
+        for (error, truth_m) in errors_m {
+            let Some(error_m) = error else {
+                spread.failures += 1;
+                continue;
+            };
+            spread.estimates += 1;
+            let is_negative = truth_m + error_m < 0.0;
+            spread.outliers += u64::from(is_negative || is_outlier(0.0, error_m, limit_m));
+            if error_m.is_finite() {
+                errors_mm.push(1e3 * error_m);
             }
         }
-        let mut spread =
-            Spread { estimates: errors_mm.len() as u64, failures, ..Spread::default() };
         if errors_mm.is_empty() {
             return spread;
         }
@@ -48,12 +71,11 @@ impl Spread {
                 |power| errors_mm.iter().map(|error| (error - mean).powi(power)).sum::<f64>();
             let variance = moment(2) / (n - 1.0);
             let excess = (moment(4) / n - variance * variance).max(0.0);
-            spread.mean_error_mm = Some((variance / n).sqrt());
+            spread.mean_se_mm = Some((variance / n).sqrt());
             spread.two_sd_mm = Some(2.0 * variance.sqrt());
             let of_variance = (excess / n).sqrt();
             let has_width = variance > 0.0;
-            spread.two_sd_error_mm =
-                Some(if has_width { of_variance / variance.sqrt() } else { 0.0 });
+            spread.two_sd_se_mm = Some(if has_width { of_variance / variance.sqrt() } else { 0.0 });
         }
         spread
     }
@@ -77,15 +99,22 @@ pub struct Group {
     pub spread: Spread,
 }
 
-/// Errors by value, none of which is negative or no number, in rising order of it.
-pub(super) fn by(values: impl Iterator<Item = f64>, errors_m: &[Option<f64>]) -> Vec<Group> {
+/// Errors with true distances by value, none of which is negative or no number, in rising order of it;
+/// see [`Spread::judged`].
+pub(super) fn by(
+    values: impl Iterator<Item = f64>,
+    errors_m: impl Iterator<Item = (Option<f64>, f64)>,
+    limit_m: f64,
+) -> Vec<Group> {
     // The bits of numbers from 0 on are in the order of the numbers.
-    let mut groups: BTreeMap<u64, Vec<Option<f64>>> = BTreeMap::new();
-    for (value, &error_m) in values.zip(errors_m) {
+    let mut groups: BTreeMap<u64, Vec<(Option<f64>, f64)>> = BTreeMap::new();
+    for (value, error_m) in values.zip(errors_m) {
         groups.entry(value.to_bits()).or_default().push(error_m);
     }
-    let group =
-        |(bits, errors_m)| Group { value: f64::from_bits(bits), spread: Spread::of(errors_m) };
+    let group = |(bits, errors_m): (u64, Vec<_>)| Group {
+        value: f64::from_bits(bits),
+        spread: Spread::judged(errors_m, limit_m),
+    };
     groups.into_iter().map(group).collect()
 }
 
@@ -97,7 +126,8 @@ mod tests {
     fn groups_are_in_order_and_hold_their_errors() {
         let values = [0.3, 0.0, 0.3, 0.1];
         let errors = [Some(0.001), Some(0.002), None, Some(0.004)];
-        let groups = by(values.into_iter(), &errors);
+        let errors = errors.into_iter().map(|error| (error, 0.3));
+        let groups = by(values.into_iter(), errors, OUTLIER_M);
         let found: Vec<_> =
             groups.iter().map(|g| (g.value, g.spread.mean_mm, g.spread.failures)).collect();
         assert_eq!(found, [(0.0, Some(2.0), 0), (0.1, Some(4.0), 0), (0.3, Some(1.0), 1)]);
@@ -110,7 +140,7 @@ mod tests {
         let near = |found: Option<f64>, expected: f64| (found.unwrap() - expected).abs() < 1e-12;
         assert!(near(spread.mean_mm, 3.0));
         assert!(near(spread.two_sd_mm, 2.0 * 2.5f64.sqrt()));
-        assert!(near(spread.mean_error_mm, 0.5f64.sqrt()));
+        assert!(near(spread.mean_se_mm, 0.5f64.sqrt()));
         for (found, expected) in
             spread.quartiles_mm.unwrap().into_iter().zip([1.0, 2.0, 3.0, 4.0, 5.0])
         {
@@ -128,6 +158,17 @@ mod tests {
     }
 
     #[test]
+    fn what_is_far_off_negative_or_no_number_is_an_outlier_and_the_last_has_no_part_in_the_mean() {
+        let errors = [Some(0.001), Some(0.2), Some(-0.06), Some(f64::NAN), None, Some(0.099)];
+        let spread = Spread::judged(errors.map(|error| (error, 0.05)), OUTLIER_M);
+        assert_eq!((spread.estimates, spread.failures, spread.outliers), (5, 1, 3));
+        assert!((spread.mean_mm.unwrap() - 60.0).abs() < 1e-9, "{spread:?}");
+        let strict = Spread::judged([(Some(0.002), 0.3), (Some(-0.0005), 0.3)], 1e-3);
+        assert_eq!(strict.outliers, 1);
+        assert!(is_outlier(-0.001, 0.05, 0.1) && !is_outlier(0.0, 0.05, 0.1));
+    }
+
+    #[test]
     fn the_standard_error_of_a_normal_spread_is_known() {
         // Quantiles of a normal distribution: its kurtosis is 3, so that the standard error of
         // 2 sd is 2 sd / sqrt(2 n).
@@ -138,6 +179,6 @@ mod tests {
         };
         let spread = Spread::of((0..n).map(|k| Some(normal(k))));
         let expected = 2000.0 / (2.0 * n as f64).sqrt();
-        assert!((spread.two_sd_error_mm.unwrap() / expected - 1.0).abs() < 0.01);
+        assert!((spread.two_sd_se_mm.unwrap() / expected - 1.0).abs() < 0.01);
     }
 }

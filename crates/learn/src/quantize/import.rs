@@ -9,6 +9,7 @@ mod arrays;
 mod json;
 mod mat;
 mod npy;
+mod unpack;
 
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 //! to.
 
 use std::collections::BTreeMap;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -19,13 +19,24 @@ use super::sums::parameters;
 /// Value of the key `schema`.
 const SCHEMA: &str = "tofsim.checkpoint/1";
 
-/// CheckpointSettings by name; a checkpoint is for these alone.
+/// Settings by name; a checkpoint is for these alone.
 pub type CheckpointSettings = BTreeMap<String, String>;
+
+/// Which training a checkpoint belongs to.
+#[derive(Clone, Debug, Default)]
+pub struct CheckpointOf {
+    /// All that decides what comes out.
+    pub settings: CheckpointSettings,
+    /// The options that say so, for people: `--seed 2`.
+    pub options: Vec<String>,
+}
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Checkpoint {
     schema: String,
+    /// `None` if an older tofsim wrote it.
+    options: Option<Vec<String>>,
     settings: CheckpointSettings,
     state: TournamentState,
 }
@@ -34,9 +45,10 @@ struct Checkpoint {
 ///
 /// # Errors
 /// When the file cannot be written.
-pub fn save(path: &Path, settings: &CheckpointSettings, state: &TournamentState) -> Result<()> {
-    let (schema, settings, state) = (SCHEMA.to_owned(), settings.clone(), state.clone());
-    let text = toml::to_string(&Checkpoint { schema, settings, state });
+pub fn save(path: &Path, of: &CheckpointOf, state: &TournamentState) -> Result<()> {
+    let CheckpointOf { settings, options } = of.clone();
+    let (schema, state) = (SCHEMA.to_owned(), state.clone());
+    let text = toml::to_string(&Checkpoint { schema, options: Some(options), settings, state });
     let text = text.map_err(|error| Input::new(path.display(), error))?;
     write_file(path, |file| file.write_all(text.as_bytes()))
 }
@@ -46,11 +58,12 @@ pub fn save(path: &Path, settings: &CheckpointSettings, state: &TournamentState)
 /// # Errors
 /// When the file cannot be read or is no checkpoint, is one of another version or of other
 /// settings, or does not fit the recipe.
-pub fn load(
-    path: &Path,
-    settings: &CheckpointSettings,
-    recipe: &Recipe,
-) -> Result<TournamentState> {
+pub fn load(path: &Path, of: &CheckpointOf, recipe: &Recipe) -> Result<TournamentState> {
+    if std::fs::metadata(path).is_err_and(|error| error.kind() == ErrorKind::NotFound) {
+        let expected = "no checkpoint there; expected the folder (-o) of a training that was begun \
+            without --resume";
+        return Err(Input::new(path.display(), expected).into());
+    }
     let text = read_text(path)?;
     let name = path.display();
     let no_checkpoint = |error: Error| match error {
@@ -68,12 +81,16 @@ pub fn load(
         return Err(fault.value(schema.unwrap_or_default()).into());
     }
     let checkpoint: Checkpoint = checked.read().map_err(no_checkpoint)?;
-    for key in settings.keys().chain(checkpoint.settings.keys()) {
-        let (found, expected) = (checkpoint.settings.get(key), settings.get(key));
+    for key in of.settings.keys().chain(checkpoint.settings.keys()) {
+        let (found, expected) = (checkpoint.settings.get(key), of.settings.get(key));
         if found != expected {
             let none = "none".to_owned();
-            let expected =
-                format!("of another training: this one has {}", expected.unwrap_or(&none));
+            let options = checkpoint.options.as_ref();
+            let expected = format!(
+                "of another training: this one has {}{}",
+                expected.unwrap_or(&none),
+                options.map_or(String::new(), |options| differing(options, &of.options))
+            );
             let field = format!("settings.{key}");
             let found = found.unwrap_or(&none);
             return Err(Input::new(&name, expected).field(field).value(found).into());
@@ -83,6 +100,22 @@ pub fn load(
         Input::new(&name, "does not fit the recipe").field(format!("state.{field}"))
     })?;
     Ok(checkpoint.state)
+}
+
+/// Which options a training was begun with and which it is gone on with, as far as they differ.
+fn differing(begun: &[String], now: &[String]) -> String {
+    let less = |these: &[String], those: &[String]| {
+        let these = these.iter().filter(|option| !those.contains(option));
+        these.map(String::as_str).collect::<Vec<_>>().join(" ")
+    };
+    match (less(begun, now).as_str(), less(now, begun).as_str()) {
+        ("", "") => {
+            "; its options are the same, so a file that they name has changed, or tofsim has".into()
+        }
+        (begun, "") => format!("; it was begun with {begun}, which is missing here"),
+        ("", now) => format!("; it was begun without {now}"),
+        (begun, now) => format!("; it was begun with {begun}, here it is {now}"),
+    }
 }
 
 /// That a state is one of the recipe's; or else which field is not.
@@ -97,6 +130,7 @@ fn check(state: &TournamentState, recipe: &Recipe) -> std::result::Result<(), &'
         ("stage", state.stage <= stages),
         ("block", state.block <= blocks),
         ("epochs", state.epochs < stage.epochs),
+        ("candidates.made", state.candidates.iter().all(|one| one.made <= stage.epochs)),
         ("scaling", scaling.iter().all(|s| s.len() == KNOTS && s.iter().all(|x| x.is_finite()))),
         ("scaling.knots", state.scaling.knots.is_empty() || are_knots(&state.scaling.knots)),
         ("candidates", state.candidates.len() == stage.candidates),
@@ -130,6 +164,7 @@ mod tests {
         let x: Vec<f64> = (0..parameters(recipe.neurons)).map(number).collect();
         let candidate = |start| Candidate {
             start,
+            made: 2,
             lm: Lm::new(x.iter().map(|x| x * (start as f64 - 1.5)).collect(), &recipe.optimiser),
             factors: vec![-0.0, f64::MIN_POSITIVE / 3.0],
         };
@@ -149,18 +184,19 @@ mod tests {
         }
     }
 
-    fn settings(seed: &str) -> CheckpointSettings {
-        [("seed", seed), ("finish.blocks", "2")]
+    fn of(seed: &str) -> CheckpointOf {
+        let settings = [("seed", seed), ("finish.blocks", "2")]
             .map(|(key, value)| (key.to_owned(), value.to_owned()))
-            .into()
+            .into();
+        CheckpointOf { settings, options: vec!["--quick".to_owned(), format!("--seed {seed}")] }
     }
 
     #[test]
     fn every_bit_comes_back() {
         let (recipe, folder) = (Recipe::quick(), tempfile::tempdir().unwrap());
         let (path, state) = (folder.path().join("checkpoint"), state(&recipe));
-        save(&path, &settings("1"), &state).unwrap();
-        let loaded = load(&path, &settings("1"), &recipe).unwrap();
+        save(&path, &of("1"), &state).unwrap();
+        let loaded = load(&path, &of("1"), &recipe).unwrap();
         assert_eq!(loaded, state);
         let bits = |state: &TournamentState| -> Vec<u64> {
             let numbers = state.candidates.iter().flat_map(|c| c.lm.x.iter().chain(&c.factors));
@@ -173,11 +209,14 @@ mod tests {
     fn what_is_no_checkpoint_of_this_training_is_refused_by_name() {
         let (recipe, folder) = (Recipe::quick(), tempfile::tempdir().unwrap());
         let path = folder.path().join("checkpoint");
-        let fault = |seed: &str| load(&path, &settings(seed), &recipe).unwrap_err().to_string();
-        save(&path, &settings("1"), &state(&recipe)).unwrap();
+        let fault = |seed: &str| load(&path, &of(seed), &recipe).unwrap_err().to_string();
+        save(&path, &of("1"), &state(&recipe)).unwrap();
         let error = fault("2");
         assert!(
-            error.contains("settings.seed = 1: of another training: this one has 2"),
+            error.ends_with(
+                "settings.seed = 1: of another training: this one has 2; \
+                 it was begun with --seed 1, here it is --seed 2"
+            ),
             "{error}"
         );
         let text = std::fs::read_to_string(&path).unwrap();
@@ -187,11 +226,26 @@ mod tests {
         assert!(fault("1").contains("state.epochs: does not fit the recipe"));
         std::fs::write(&path, text.replacen("start = 0", "start = x", 1)).unwrap();
         assert!(fault("1").contains("no checkpoint"));
+        std::fs::write(&path, text.replacen("made = 2", "made = 99", 1)).unwrap();
+        assert!(fault("1").contains("state.candidates.made: does not fit the recipe"));
         let mut short = state(&recipe);
         short.candidates[1].lm.least = Some((0.5, vec![0.1]));
-        save(&path, &settings("1"), &short).unwrap();
+        save(&path, &of("1"), &short).unwrap();
         assert!(fault("1").contains("state.candidates.lm.least: does not fit the recipe"));
         std::fs::write(&path, "").unwrap();
         assert!(fault("1").contains("schema"));
+        std::fs::remove_file(&path).unwrap();
+        assert!(fault("1").contains("no checkpoint there; expected the folder (-o)"));
+    }
+
+    #[test]
+    fn options_that_differ_are_named_on_their_side() {
+        let list =
+            |options: &str| options.split_terminator(',').map(str::to_owned).collect::<Vec<_>>();
+        let differing = |begun, now| differing(&list(begun), &list(now));
+        let with = differing("--quick,--seed 1", "--seed 1");
+        assert_eq!(with, "; it was begun with --quick, which is missing here");
+        assert_eq!(differing("", "-s a=1,-s b=2"), "; it was begun without -s a=1 -s b=2");
+        assert!(differing("--seed 1", "--seed 1").contains("a file that they name has changed"));
     }
 }

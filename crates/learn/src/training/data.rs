@@ -3,6 +3,7 @@
 use std::fmt;
 
 use tofsim::error::Input;
+use tofsim::files::digest::digest;
 use tofsim::network::Histogram;
 
 use crate::dataset::grid::DISTANCE;
@@ -35,14 +36,6 @@ impl Samples {
         }
         value
     }
-}
-
-/// FNV-1a of 64 bits, going on from `before`.
-pub(super) fn digest(before: u64, bytes: &[u8]) -> u64 {
-    let start = before ^ 0xcbf2_9ce4_8422_2325;
-    bytes
-        .iter()
-        .fold(start, |value, &byte| (value ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 /// What histograms are drawn for.

@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::data::{Samples, digest};
+use tofsim::files::digest::digest;
+
+use super::data::Samples;
 use super::features::Scaling;
 use super::lm::Lm;
 use super::recipe::Recipe;
@@ -14,10 +16,17 @@ use super::start::start;
 pub struct Candidate {
     /// Which start it comes from.
     pub start: usize,
+    /// Epochs made since the last checkpoint of the recipe.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub made: u64,
     /// Where its training is.
     pub lm: Lm,
     /// Factor on the weights at each distance, once the end has begun [1].
     pub factors: Vec<f64>,
+}
+
+fn is_none(count: &u64) -> bool {
+    *count == 0
 }
 
 /// The best block so far.
@@ -84,6 +93,7 @@ impl TournamentState {
     pub(super) fn new(recipe: &Recipe, seed: u64, scaling: Scaling) -> Self {
         let candidate = |number| Candidate {
             start: number,
+            made: 0,
             lm: Lm::new(start(&recipe.start, recipe.neurons, seed, number), &recipe.optimiser),
             factors: Vec::new(),
         };

@@ -1,10 +1,12 @@
 //! The tournament: many starts, of which ever fewer are trained ever longer, and a last one that is
 //! trained with weights that follow its errors.
 //!
-//! All that decides how it goes on is [`State`], so that a training that was stopped and one that was
-//! not end alike.
+//! All that decides how it goes on is [`TournamentState`], so that a training that was stopped and one
+//! that was not end alike.
 
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
 
 use rayon::prelude::*;
 
@@ -22,6 +24,17 @@ use super::lm::{Lm, Problem, Stop};
 use super::recipe::{Recipe, Stage};
 use super::state::{BestBlock, CurvePoint, TournamentState};
 
+/// Who watches a training.
+#[derive(Clone, Copy)]
+pub struct Watch<'a> {
+    /// Set when the user interrupts.
+    pub stop: Option<&'a AtomicBool>,
+    /// Is told of work done [histograms times epochs].
+    pub done: &'a (dyn Fn(u64) + Sync),
+    /// When to come back, so that the state can be saved; at least one epoch is made before.
+    pub until: Option<Instant>,
+}
+
 /// A tournament and its data.
 #[derive(Debug)]
 pub struct Tournament<'a> {
@@ -32,7 +45,7 @@ pub struct Tournament<'a> {
     pub state: TournamentState,
     data: StageData,
     held_out: Option<StageData>,
-    choice: Samples,
+    choice: OnceLock<Samples>,
 }
 
 impl<'a> Tournament<'a> {
@@ -59,7 +72,7 @@ impl<'a> Tournament<'a> {
         Tournament {
             data: StageData::new(samples, &state.scaling),
             held_out: held_out.map(|samples| StageData::new(samples, &state.scaling)),
-            choice: draw(Purpose::Choice),
+            choice: OnceLock::new(),
             recipe,
             material,
             seed,
@@ -91,38 +104,50 @@ impl<'a> Tournament<'a> {
         };
         let whole = |place| work(place, blocks(place) as u64 * recipe.stage(place).epochs);
         let made = state.block as u64 * recipe.stage(state.stage).epochs + state.epochs;
-        let done = (0..state.stage).map(whole).sum::<u64>() + work(state.stage, made);
+        let begun: u64 = state.candidates.iter().map(|candidate| candidate.made).sum();
+        let begun = begun * recipe.stage(state.stage).samples;
+        let done = (0..state.stage).map(whole).sum::<u64>() + work(state.stage, made) + begun;
         (done, (0..=recipe.stages.len()).map(whole).sum())
     }
 
-    /// Trains until the next checkpoint, or until `stop` is set; what was done since the last one is
-    /// then lost.
+    /// Whether it is between two checkpoints of the recipe.
+    pub fn is_between(&self) -> bool {
+        self.state.candidates.iter().any(|candidate| candidate.made > 0)
+    }
+
+    /// Trains until the next checkpoint of the recipe, or until the watch has it come back; whether it
+    /// got to the checkpoint.
     ///
     /// # Errors
-    /// When a cost is no number, or the user stops.
-    pub fn advance(&mut self, stop: Option<&AtomicBool>) -> Result<()> {
+    /// When a cost is no number, or the user stops. The state is good to go on from even then, if it
+    /// [is between](Tournament::is_between) two checkpoints.
+    pub fn advance(&mut self, watch: &Watch) -> Result<bool> {
         if self.is_over() {
-            return Ok(());
+            return Ok(true);
         }
-        if self.in_finish() && self.state.epochs == 0 {
+        if self.in_finish() && self.state.epochs == 0 && !self.is_between() {
             self.reweigh();
         }
         let epochs = self.recipe.checkpoint_epochs.min(self.target() - self.state.epochs);
-        self.train(epochs, stop)?;
+        self.train(epochs, watch)?;
+        if self.state.candidates.iter().any(|candidate| candidate.made < epochs) {
+            return Ok(false);
+        }
+        self.state.candidates.iter_mut().for_each(|candidate| candidate.made = 0);
         self.state.epochs += epochs;
         self.record();
         let resting = self.state.candidates.iter().all(|candidate| candidate.lm.stop.is_some());
         if self.state.epochs < self.target() && !resting {
-            return Ok(());
+            return Ok(true);
         }
         self.state.epochs = 0;
         if self.in_finish() {
             self.judge()?;
             self.state.block += 1;
-            return Ok(());
+        } else {
+            self.next_stage();
         }
-        self.next_stage();
-        Ok(())
+        Ok(true)
     }
 
     /// Adds to the learning curve, and lets those rest that gain too little.
@@ -145,19 +170,32 @@ impl<'a> Tournament<'a> {
         }
     }
 
-    fn train(&mut self, epochs: u64, stop: Option<&AtomicBool>) -> Result<()> {
+    /// Trains every candidate for so many epochs, less those that it has made, or until the watch ends.
+    fn train(&mut self, epochs: u64, watch: &Watch) -> Result<()> {
         let (recipe, data, scaling) = (self.recipe, &self.data, &self.state.scaling);
         let held_out = self.held_out.as_ref();
+        let samples = recipe.stage(self.state.stage).samples;
+        let any = AtomicBool::new(false);
+        let is_late = || {
+            let over = watch.until.is_some_and(|until| Instant::now() >= until);
+            over && any.load(Ordering::Relaxed)
+        };
         self.state.candidates.par_iter_mut().try_for_each(|candidate| {
             let weights = |data: &StageData| data.weights(recipe, &candidate.factors);
             let (weights, others) = (weights(data), held_out.map(weights).unwrap_or_default());
             let held_out = held_out.map(|data| data.problem(recipe, scaling, &others, None));
             let problem = data.problem(recipe, scaling, &weights, held_out.as_ref());
-            for _ in 0..epochs {
-                if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+            while candidate.made < epochs {
+                if watch.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
                     return Err(Error::Interrupted);
                 }
+                if is_late() {
+                    return Ok(());
+                }
                 candidate.lm.epoch(&problem, &recipe.optimiser)?;
+                candidate.made += 1;
+                any.store(true, Ordering::Relaxed);
+                (watch.done)(samples);
             }
             if candidate.lm.stop.is_some() {
                 candidate.lm.cost = problem.cost(&candidate.lm.x);
@@ -194,13 +232,15 @@ impl<'a> Tournament<'a> {
 
     /// Keeps the block if none was better at its worst distance, in fixed point.
     fn judge(&mut self) -> Result<()> {
+        let drawn = || self.material.draw(self.recipe, self.seed, Purpose::Choice);
+        let choice = self.choice.get_or_init(drawn);
         for candidate in &self.state.candidates {
             let (start, block) = (candidate.start, self.state.block + 1);
             let folded = fold(&candidate.lm.x, self.recipe.neurons, &self.state.scaling);
             let circuit = Circuit::new(&folded, self.recipe.formats)?;
             // What does not fit the words cannot be the best.
             let fits = circuit.saturated_weights == 0;
-            let rows = fits.then(|| errors(&circuit, &self.choice));
+            let rows = fits.then(|| errors(&circuit, choice));
             let ratio = rows.map_or(f64::INFINITY, |rows| worst(&rows, &self.recipe.weighting));
             let point = self.state.curve.iter_mut().rev().find(|point| point.start == start);
             point.into_iter().for_each(|point| point.ratio = Some(ratio));
@@ -230,3 +270,6 @@ impl<'a> Tournament<'a> {
 fn errors(circuit: &Circuit, samples: &Samples) -> Vec<DistanceErrors> {
     by_distance(samples, |histogram| circuit.depth_m(histogram))
 }
+
+#[cfg(test)]
+mod tests;

@@ -19,7 +19,8 @@ use promises::Promise;
 
 use serde::Serialize;
 
-use tofsim::error::{Error, Result};
+use tofsim::error::Result;
+use tofsim::files::staged::ScratchFolder;
 
 use crate::golden::blocks::CENTROID;
 
@@ -55,27 +56,38 @@ impl Count {
 }
 
 /// Counts and proves everything for an estimator with so many neurons; `limits` are those of one run of
-/// a tool.
+/// a tool, and `done` is told of each count when it is there.
 ///
 /// # Errors
 /// When a tool is missing, Icarus Verilog cannot compile `rtl` with our bench (a module or a port
 /// is missing), the simulation does not end, or the user stops.
-pub fn cycle_counts(rtl: &Rtl, neurons: usize, limits: &Limits) -> Result<Vec<Count>> {
+pub fn cycle_counts(
+    rtl: &Rtl,
+    neurons: usize,
+    limits: &Limits,
+    done: impl Fn(&Count),
+) -> Result<Vec<Count>> {
     let mut promises = promises::promises(neurons);
     if rtl.has(CENTROID)? {
         promises.push(promises::centroid());
     }
-    count(&promises, neurons, rtl, limits)
+    count(&promises, neurons, rtl, limits, done)
 }
 
-fn count(promises: &[Promise], neurons: usize, rtl: &Rtl, limits: &Limits) -> Result<Vec<Count>> {
-    let folder = tempfile::tempdir().map_err(Error::io(&std::env::temp_dir(), "create"))?;
+fn count(
+    promises: &[Promise],
+    neurons: usize,
+    rtl: &Rtl,
+    limits: &Limits,
+    done: impl Fn(&Count),
+) -> Result<Vec<Count>> {
+    let folder = ScratchFolder::new()?;
     let simulated = simulate::measure(rtl, neurons, folder.path(), limits)?;
     let modelled = model::measure(neurons);
     let count = |promise: &Promise| {
         let (key, expected) = (promise.key(), promise.expected);
         let reason = prove::prove(promise, rtl, folder.path(), limits)?;
-        Ok(Count {
+        let count = Count {
             what: promise.what.clone(),
             expected,
             unit: promise.properties.unit,
@@ -83,7 +95,9 @@ fn count(promises: &[Promise], neurons: usize, rtl: &Rtl, limits: &Limits) -> Re
             rtl: simulated.count(&key, expected),
             proven: reason.is_none(),
             reason,
-        })
+        };
+        done(&count);
+        Ok(count)
     };
     promises.iter().map(count).collect()
 }

@@ -36,7 +36,8 @@ pub fn run(args: &Args, data: &Path, talk: &Talk) -> Result<()> {
         done(count);
         Ok(evaluation)
     })?;
-    let of = |column: &EstimatorErrors| figures(&evaluation, column, labelled.knows_light);
+    let limit_m = 1e-3 * args.outlier_limit_mm;
+    let of = |column: &EstimatorErrors| figures(&evaluation, column, limit_m, labelled.knows_light);
     let figures: Vec<_> = evaluation.columns.iter().map(of).collect();
     let (profile, network) = (&setup.scenario.tdc.profile, &setup.network.name);
     let json = json!({
@@ -69,8 +70,13 @@ pub fn run(args: &Args, data: &Path, talk: &Talk) -> Result<()> {
 }
 
 /// The figures of an estimator; the thesis's line is for its own scenes.
-fn figures(evaluation: &Evaluation, column: &EstimatorErrors, knows_light: bool) -> Figures {
-    let mut figures = Figures::new(evaluation, column);
+fn figures(
+    evaluation: &Evaluation,
+    column: &EstimatorErrors,
+    limit_m: f64,
+    knows_light: bool,
+) -> Figures {
+    let mut figures = Figures::new(evaluation, column, limit_m);
     (figures.worst_ratio_to_thesis, figures.worst_distance_m) = (None, None);
     if !knows_light {
         figures.by_reflectance.clear();

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::output::write_bytes;
+use tofsim::files::staged::StagedFolder;
 use tofsim::kernel::Time;
 use tofsim::sim::Run;
 use tofsim::sim::setup::Setup;
@@ -16,7 +17,9 @@ use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, captu
 use crate::choice::{self, words};
 use crate::text::table::facts;
 use crate::verbs::draws::load;
-use crate::verbs::terminal::{Talk, print, print_json, stop_signal};
+use crate::verbs::frames::check as check_frames;
+use crate::verbs::interrupt::look_no_more;
+use crate::verbs::terminal::{Talk, print_json, stop_signal};
 
 /// Sample a simulation as a logic analyser on the board would, and write Vivado's files
 ///
@@ -113,13 +116,15 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let setup = simulated(args, &set_up)?;
     let mut plan = AnalyserPlan::new(&set_up, &setup)?;
     plan.stop_when_full = args.stop_when_full;
-    let mut analyser = Analyser::new(&plan, &setup);
     let frames = args.frames.unwrap_or(set_up.file.frames);
+    check_frames("--frames", frames, &setup)?;
+    let mut analyser = Analyser::new(&plan, &setup);
     let outcome = capture(Run::new(&setup), frames, &mut analyser, stop_signal().as_deref())?;
     let (triggers, full) = (analyser.triggers(), analyser.is_full());
     if triggers.is_empty() {
         return Err(never(&set_up, &analyser, outcome.end));
     }
+    look_no_more();
     let capture = analyser.finish();
     if !full {
         talk.note(format_args!("note: the run ended with {}", missing(&plan, &capture)));
@@ -128,14 +133,16 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         outcome.notes.iter().for_each(|note| talk.note(note));
     }
     let formats = if args.format.is_empty() { &CaptureFormat::ALL[..] } else { &args.format };
-    let mut files = export(&capture, &args.output, &set_up.name, formats, !args.legacy_csv)?;
+    let stage = StagedFolder::new(&args.output)?;
+    let files = export(&capture, stage.path(), &set_up.name, formats, !args.legacy_csv)?;
     // The map by which `tofsim compare` lays the capture over a waveform.
-    let map = args.output.join(format!("{}.map.toml", set_up.name));
+    let map = stage.path().join(format!("{}.map.toml", set_up.name));
     write_bytes(&map, SignalMap::of(&set_up).to_toml())?;
-    files.push(map);
-    for file in &files {
-        talk.detail(format_args!("wrote {}", file.display()));
-    }
+    // In the order of the formats.
+    let names = files.iter().chain([&map]).filter_map(|file| file.file_name());
+    let files: Vec<_> = names.map(|name| args.output.join(name)).collect();
+    stage.commit()?;
+    files.iter().for_each(|file| talk.wrote(file));
     let files = files.iter().map(|file| file.display().to_string()).collect();
     let report = Report {
         set_up: &set_up,
@@ -147,7 +154,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     };
     match args.json {
         true => print_json(&report.json(full, outcome.end)),
-        false => print(&report.text()),
+        false => talk.report(&report.text()),
     }
 }
 

@@ -11,7 +11,7 @@ use tofsim_captures::source::{SignalKind, Source, SourceFormat};
 
 use crate::choice::{self, words};
 use crate::text::table::{facts, grouped, table};
-use crate::verbs::terminal::print;
+use crate::verbs::terminal::{Talk, print};
 
 /// Say what a logic analyser's file holds
 ///
@@ -30,7 +30,7 @@ pub struct Args {
 }
 
 /// Runs the command.
-pub fn run(args: &Args) -> Result<()> {
+pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let source = Source::file(&args.file, args.radix)?;
     if !source.is_capture() {
         let expected = format!(
@@ -42,7 +42,7 @@ pub fn run(args: &Args) -> Result<()> {
     let survey = survey(&source)?;
     match args.json {
         true => print(&format!("{:#}\n", as_json(&source, &survey))),
-        false => print(&as_text(&source, &survey)),
+        false => talk.report(&as_text(&source, &survey)),
     }
 }
 

@@ -40,7 +40,7 @@ pub fn write(
     let write = |name: &str, text: &str| -> Result<PathBuf> {
         let path = folder.join(name);
         write_bytes(&path, text)?;
-        talk.detail(format_args!("wrote {}", path.display()));
+        talk.wrote(&path);
         Ok(path)
     };
     let points = &tournament.state.curve;

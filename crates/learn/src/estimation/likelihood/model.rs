@@ -5,33 +5,46 @@
 //! over its spans; what lies between the spans and after them has no code. The histogram, with the
 //! shots without a code as one more cell, is a multinomial number.
 //!
+//! Jitter is a convolution ([`super::stretches`]) of the first avalanches, not of the hazard: pile-up
+//! comes before it. In MODE 1 not every shot finds the diode armed, nor the chain empty
+//! ([`super::arming`]).
+//!
 //! Coordinates are mu / sigma, ln S and N times the end of the last bin: numbers of order 1, and S
 //! stays positive.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use tofsim::error::Input;
 use tofsim::network::Histogram;
 use tofsim::optics::hazard::normal_cdf;
 
-use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo, spans_ps};
+use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo, FreeRunning};
 
+use super::arming::Arming;
 use super::solve::{Matrix, inverse_diagonal};
+use super::stretches::{CELLS, Stretch, Stretches};
 
-/// Cells: the codes, and no code [1].
-const CELLS: usize = 257;
 /// Background that is as good as none: hits of it in all shots [hits].
 const LEAST: f64 = 0.01;
 /// Signal below which no climb begins [1].
 const FAINTEST: f64 = 1e-7;
+/// A small step of a coordinate of order 1 [1].
+const SMALL: f64 = 1e-3;
 /// Probability that is as good as none [1].
 const IMPROBABLE: f64 = 1e-250;
 
 /// The model of one pulse and one chain.
 #[derive(Clone, Debug)]
 pub struct Model {
-    /// Ends of stretches in order of time, from 0 on [ps], and the cell of each [code or 256].
-    stretches: Vec<(f64, usize)>,
+    /// Stretches in order of time, from 0 on.
+    stretches: Arc<[Stretch]>,
+    /// Codes that have a cell of their own.
+    known: [bool; CELLS - 1],
+    /// Length of a stretch, if all have the same [ps].
+    step_ps: f64,
+    /// What decides which shots find the diode armed; all do without it.
+    pub(super) free_running: Option<FreeRunning>,
     /// Shots of the histogram [shots].
     pub(super) shots: u64,
     /// Standard deviation of the pulse [ps].
@@ -53,17 +66,10 @@ impl Model {
     /// When [`Acquisition::check`] fails.
     pub fn new(acquisition: &Acquisition) -> Result<Self, Input> {
         acquisition.check()?;
-        let mut stretches: Vec<(f64, usize)> = Vec::new();
-        let mut end_ps = 0.0;
-        for (code, from, until) in spans_ps(acquisition.bins) {
-            if from > end_ps {
-                stretches.push((from, CELLS - 1));
-            }
-            stretches.push((until, code.into()));
-            end_ps = until;
-        }
+        let Stretches { stretches, known, step_ps, end_ps } = Stretches::new(acquisition);
         let (shots, sigma_ps) = (acquisition.shots, acquisition.pulse_sigma_ps);
-        Ok(Model { stretches, shots, sigma_ps, end_ps })
+        let free_running = acquisition.free_running;
+        Ok(Model { stretches, known, step_ps, free_running, shots, sigma_ps, end_ps })
     }
 
     /// Lower limit of the third coordinate.
@@ -93,8 +99,7 @@ impl Model {
 
     /// Logarithm of the histogram's probability, but for a constant.
     pub fn log_likelihood(&self, at: &[f64; 3], histogram: &Histogram) -> f64 {
-        let cells = self.cells(at);
-        let terms = self.counts(histogram).zip(cells.of);
+        let terms = self.counts(histogram).zip(self.chances(at));
         terms
             .map(|(count, p)| if count > 0.0 { count * libm::log(p.max(IMPROBABLE)) } else { 0.0 })
             .sum()
@@ -121,11 +126,18 @@ impl Model {
         Some(variance.sqrt() * self.sigma_ps / ARRIVAL_PS_PER_M)
     }
 
+    /// The probability of each code, where it has a cell of its own; 0 elsewhere [1].
+    pub fn probabilities(&self, echo: &Echo) -> [f64; CELLS - 1] {
+        let chances = self.chances(&self.coordinates(echo));
+        std::array::from_fn(|code| chances[code])
+    }
+
     /// Counts of the cells; last the shots without a code.
-    fn counts(&self, histogram: &Histogram) -> impl Iterator<Item = f64> {
-        let hits: u64 = histogram.iter().map(|&count| u64::from(count)).sum();
-        let without = self.shots.saturating_sub(hits) as f64;
-        histogram.map(f64::from).into_iter().chain([without])
+    fn counts<'a>(&'a self, histogram: &'a Histogram) -> impl Iterator<Item = f64> + 'a {
+        let own = histogram.iter().zip(self.known);
+        let own = own.map(|(&count, known)| if known { u64::from(count) } else { 0 });
+        let without = self.shots.saturating_sub(own.clone().sum()) as f64;
+        own.map(|count| count as f64).chain([without])
     }
 
     /// Expected curvature of the log likelihood.
@@ -150,22 +162,70 @@ impl Model {
         (at[2] * of_end + part, [-signal * density, part, of_end])
     }
 
+    /// The probability of each cell.
+    fn chances(&self, at: &[f64; 3]) -> [f64; CELLS] {
+        match &self.free_running {
+            None => self.cells(at).of,
+            Some(free) => self.free_chances(free, at),
+        }
+    }
+
     fn cells(&self, at: &[f64; 3]) -> Cells {
+        if let Some(free) = &self.free_running {
+            return self.free_cells(free, at);
+        }
         let mut cells = Cells { of: [0.0; CELLS], by: [[0.0; 3]; CELLS] };
         let signal = libm::exp(at[1]);
         let (mut h, mut by) = (0.0, [0.0; 3]);
-        for &(until_ps, cell) in &self.stretches {
-            let (next, next_by) = self.hazard(at, signal, until_ps);
+        for stretch in self.stretches.iter() {
+            let (next, next_by) = self.hazard(at, signal, stretch.until_ps);
             // In this form a small difference keeps its digits.
             let (none_yet, none_after) = (libm::exp(-h), libm::exp(-next));
             let p = -none_yet * libm::expm1(h - next);
             let grown = |k: usize| (next_by[k] - by[k]) * none_after - by[k] * p;
-            cells.add(cell, p, [0, 1, 2].map(grown));
+            let grown = [0, 1, 2].map(grown);
+            for &(cell, part) in &stretch.cells {
+                cells.add(cell, p * part, grown.map(|by| by * part));
+            }
             (h, by) = (next, next_by);
         }
         let none = libm::exp(-h);
         cells.add(CELLS - 1, none, by.map(|by| -by * none));
         cells
+    }
+
+    /// The probabilities in MODE 1, where the scene decides how often the diode is armed too.
+    fn free_chances(&self, free: &FreeRunning, at: &[f64; 3]) -> [f64; CELLS] {
+        let (signal, mut h) = (libm::exp(at[1]), 0.0);
+        let first = self.stretches.iter().map(|stretch| {
+            let next = self.hazard(at, signal, stretch.until_ps).0;
+            let p = -libm::exp(-h) * libm::expm1(h - next);
+            h = next;
+            p
+        });
+        let first: Vec<_> = first.collect();
+        let arming = Arming::new(free, self.sigma_ps, self.step_ps, &self.echo(at));
+        let mut of = [0.0; CELLS];
+        for (stretch, p) in self.stretches.iter().zip(arming.show(&first)) {
+            stretch.cells.iter().for_each(|&(cell, part)| of[cell] += p * part);
+        }
+        of[CELLS - 1] = (1.0 - of[..CELLS - 1].iter().sum::<f64>()).max(0.0);
+        of
+    }
+
+    /// The same with derivatives, by differences.
+    fn free_cells(&self, free: &FreeRunning, at: &[f64; 3]) -> Cells {
+        let steps = [SMALL, SMALL, SMALL * at[2] + self.least_background()];
+        let moved = |k: usize, by: f64| {
+            let mut to = *at;
+            to[k] += by;
+            self.free_chances(free, &to)
+        };
+        let sides = [0, 1, 2].map(|k| [moved(k, steps[k]), moved(k, -steps[k])]);
+        let slope =
+            |cell: usize, k: usize| (sides[k][0][cell] - sides[k][1][cell]) / steps[k] / 2.0;
+        let by = std::array::from_fn(|cell| [0, 1, 2].map(|k| slope(cell, k)));
+        Cells { of: self.free_chances(free, at), by }
     }
 }
 

@@ -2,6 +2,7 @@ use tofsim::firmware::carry_chain::{Delays, TAPS};
 use tofsim::kernel::Time;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 
+use super::super::acquisition::{FreeRunning, most_probable};
 use super::*;
 
 const PERIOD: Time = Time::from_ns(8);
@@ -22,7 +23,7 @@ fn uneven() -> Bins {
 }
 
 fn likelihood(bins: &Bins) -> Likelihood {
-    Likelihood::new(&Acquisition { bins, shots: 30_000, pulse_sigma_ps: 137.0 }).unwrap()
+    Likelihood::new(&Acquisition::new(bins, 30_000, 137.0)).unwrap()
 }
 
 fn scenes() -> [Echo; 4] {
@@ -46,14 +47,7 @@ fn expected(bins: &Bins, scene: &Echo) -> Histogram {
         ..Budget::default()
     };
     let probabilities = BinProbabilities::new(&Hazard::new(&budget), bins);
-    // What one bin loses by rounding the next one gets.
-    let mut owed = 0.0;
-    probabilities.of_code().map(|p| {
-        owed += 30_000.0 * p;
-        let count = f64::round(owed);
-        owed -= count;
-        count as u16
-    })
+    most_probable(probabilities.of_code(), 30_000)
 }
 
 #[test]
@@ -161,4 +155,46 @@ fn the_bound_is_the_textbooks_where_nothing_disturbs() {
     let found = model.cramer_rao_m(&scene).unwrap() / expected_m;
     assert!((0.99..1.02).contains(&found), "{found}");
     assert_eq!(model.cramer_rao_m(&Echo { arrival_ps: 1e6, ..scene }), None);
+}
+
+/// MODE 1 of the default scenario.
+const FREE: FreeRunning = FreeRunning {
+    period_ps: 48_000.0,
+    dead_ps: 20_000.0,
+    cycle_ps: 8_000.0,
+    tap_0_ps: 2_230.0,
+    chain_ps: 11_418.5,
+};
+
+#[test]
+fn the_scene_of_an_expected_histogram_is_found_again_with_jitter_and_in_mode_1() {
+    let bins = even(11_500, 2_230);
+    let steady = Acquisition::new(&bins, 30_000, 137.0);
+    let free_running = Acquisition { free_running: Some(FREE), ..steady };
+    for acquisition in [Acquisition { jitter_ps: 70.0, ..steady }, free_running] {
+        let likelihood = Likelihood::new(&acquisition).unwrap();
+        for scene in scenes() {
+            let scene = Echo { background_per_ps: scene.background_per_ps.min(4e-4), ..scene };
+            let fit = likelihood
+                .fit(&most_probable(&likelihood.model.probabilities(&scene), 30_000))
+                .unwrap();
+            let error = (fit.echo.arrival_ps - scene.arrival_ps) / fit.arrival_deviation_ps;
+            assert!(error.abs() < 0.5, "{scene:?}: {fit:?}");
+        }
+    }
+}
+
+#[test]
+fn a_diode_that_is_always_back_in_time_is_as_one_that_is_armed_for_each_shot() {
+    // Without background the only avalanche of a shot is the echo's, long before the next one.
+    let bins = even(11_500, 2_230);
+    let steady = Acquisition::new(&bins, 30_000, 137.0);
+    let free_running = Acquisition { free_running: Some(FREE), ..steady };
+    let scene = Echo { arrival_ps: 2000.0, signal: 5.0, background_per_ps: 1e-12 };
+    let [expected, found] = [steady, free_running]
+        .map(|acquisition| Model::new(&acquisition).unwrap().probabilities(&scene));
+    for (code, (found, expected)) in found.into_iter().zip(expected).enumerate().take(180) {
+        assert!((found - expected).abs() < 1e-3, "{code}: {found} {expected}");
+    }
+    assert_eq!(found[200], 0.0, "a code that the second edge may have seen has no cell");
 }

@@ -12,7 +12,7 @@ fn even(tap_fs: i64, offset_ps: u64) -> Bins {
 }
 
 fn filter(bins: &Bins) -> MatchedFilter {
-    MatchedFilter::new(&Acquisition { bins, shots: 60_000, pulse_sigma_ps: 137.0 }).unwrap()
+    MatchedFilter::new(&Acquisition::new(bins, 60_000, 137.0)).unwrap()
 }
 
 #[test]

@@ -1,19 +1,23 @@
 //! Arrays from a MATLAB file of level 5 (`save -v7` or `-v6`): numeric arrays, by name.
 
-use std::fs::File;
-use std::io::BufReader;
+use std::io::Read;
 use std::path::Path;
 
 use matfile::{MatFile, NumericData};
 
+use tofsim::error::open::open;
 use tofsim::error::{Error, Input, Result};
 
 use super::arrays::Arrays;
+use super::unpack::{LARGEST, unpacked};
 
 /// Reads a file; what is no numeric array in it, such as the network object itself, is passed over.
 pub(super) fn read(path: &Path) -> Result<Arrays> {
-    let file = File::open(path).map_err(Error::io(path, "read"))?;
-    let mat = MatFile::parse(BufReader::new(file)).map_err(|error| {
+    let mut bytes = Vec::new();
+    let file = open(path)?.take(LARGEST as u64 + 1).read_to_end(&mut bytes);
+    file.map_err(Error::io(path, "read"))?;
+    let bytes = unpacked(&bytes).map_err(|expected| Input::new(path.display(), expected))?;
+    let mat = MatFile::parse(&bytes[..]).map_err(|error| {
         let expected = format!("not a MATLAB file of level 5 ({error:?}); save with -v7");
         Input::new(path.display(), expected)
     })?;

@@ -1,11 +1,12 @@
 //! Arrays from a folder of NumPy files, one an array, named after it.
 
-use std::fs::{self, File};
+use std::fs;
 use std::io::BufReader;
 use std::path::Path;
 
 use npyz::{DType, NpyFile, Order, TypeChar};
 
+use tofsim::error::open::open_file;
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::npy;
 
@@ -30,7 +31,7 @@ pub(super) fn read(folder: &Path) -> Result<Arrays> {
 }
 
 fn array(path: &Path) -> Result<(Vec<usize>, Vec<f64>)> {
-    let file = File::open(path).map_err(Error::io(path, "read"))?;
+    let file = open_file(path)?;
     let fault = |expected: String| Error::from(Input::new(path.display(), expected));
     let mut reader = BufReader::new(file);
     let header = npy::header(&mut reader);

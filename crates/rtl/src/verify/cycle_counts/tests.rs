@@ -27,7 +27,7 @@ pub fn with_fault(key: &str, edits: &[Edit]) -> Count {
     let mut promises = promises::promises(NEURONS);
     promises.push(promises::centroid());
     promises.retain(|promise| promise.key() == key);
-    count(&promises, NEURONS, &rtl, &limits()).unwrap().remove(0)
+    count(&promises, NEURONS, &rtl, &limits(), |_| {}).unwrap().remove(0)
 }
 
 #[test]
@@ -35,7 +35,7 @@ pub fn with_fault(key: &str, edits: &[Edit]) -> Count {
 fn everything_that_is_promised_is_counted_and_proven() {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
-    let counts = cycle_counts(&rtl, NEURONS, &limits()).unwrap();
+    let counts = cycle_counts(&rtl, NEURONS, &limits(), |_| {}).unwrap();
     assert_eq!(counts.len(), 19);
     for count in counts {
         assert!(count.holds(), "{count:?}");
@@ -48,7 +48,7 @@ fn sixteen_neurons_take_275_clocks() {
     let rtl = Rtl::own(folder.path()).unwrap();
     let mut promises = promises::promises(16);
     promises.retain(|promise| promise.properties.module == "check_estimator");
-    let counts = count(&promises, 16, &rtl, &limits()).unwrap();
+    let counts = count(&promises, 16, &rtl, &limits(), |_| {}).unwrap();
     assert_eq!(counts.iter().map(|count| count.expected).collect::<Vec<_>>(), [275, 257, 1, 18]);
     for count in counts {
         assert!(count.holds(), "{count:?}");
@@ -98,7 +98,7 @@ fn a_missing_module_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let mut rtl = Rtl::own(folder.path()).unwrap();
     rtl.files.retain(|file| !file.ends_with("spad_control.v"));
-    let error = cycle_counts(&rtl, NEURONS, &limits()).unwrap_err();
+    let error = cycle_counts(&rtl, NEURONS, &limits(), |_| {}).unwrap_err();
     assert_eq!(error.to_string(), "rtl_ref: it has no module `spad_control`");
 }
 
@@ -109,7 +109,7 @@ fn what_the_compiler_refuses_comes_with_its_message() {
     let path = folder.path().join("spad_control.v");
     let text = fs::read_to_string(&path).unwrap().replace("spad_rst", "spad_reset");
     fs::write(&path, text).unwrap();
-    let error = cycle_counts(&rtl, NEURONS, &limits()).unwrap_err().to_string();
+    let error = cycle_counts(&rtl, NEURONS, &limits(), |_| {}).unwrap_err().to_string();
     assert!(error.contains("bench_shot.v") && error.contains("spad_rst"), "{error}");
 }
 
@@ -122,7 +122,7 @@ fn a_simulation_that_never_ends_is_stopped() {
     fs::write(&path, text.replace("initial begin", "initial begin while (1) spad_sel = 40'd1;"))
         .unwrap();
     let limits = Limits { time: Duration::from_secs(2), stop: None };
-    let error = cycle_counts(&rtl, NEURONS, &limits).unwrap_err().to_string();
+    let error = cycle_counts(&rtl, NEURONS, &limits, |_| {}).unwrap_err().to_string();
     assert_eq!(error, "rtl_ref: bench_shot has not ended after 2 s of simulation");
 }
 

@@ -1,0 +1,163 @@
+//! What an output says of where it comes from, and how that is found again.
+
+use clap::parser::ValueSource;
+use clap::{ArgAction, ArgMatches, Command};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+
+use tofsim::Note;
+use tofsim::sim::setup::Setup;
+
+/// Begins the record in a file that is not JSON.
+const MARK: &str = "tofsim-record ";
+
+/// Options that leave the bytes of an output as they are, or only say where it goes.
+const LEFT_OUT: [&str; 7] = ["output", "threads", "quiet", "verbose", "strict", "json", "resume"];
+
+/// Where an output comes from.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// Version of the program.
+    pub version: String,
+    /// The scenario's name.
+    pub scenario: String,
+    /// The overrides, as given.
+    pub set: Vec<String>,
+    /// Seed of every random stream.
+    pub seed: u64,
+    /// Hash of the resolved scenario.
+    pub hash: String,
+    /// The verb and its options, but for those that only say where outputs go.
+    pub command: Vec<String>,
+}
+
+impl Record {
+    /// Of what `command` makes of a setup.
+    pub fn new(setup: &Setup, command: &[String]) -> Self {
+        Record {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            scenario: setup.name.clone(),
+            set: setup.set.clone(),
+            seed: setup.scenario.seed,
+            hash: setup.hash(),
+            command: command.to_vec(),
+        }
+    }
+
+    /// Lines of a comment: what a setup says of itself, and the record on one line.
+    pub fn lines(&self, setup: &Setup) -> Vec<String> {
+        setup.provenance().into_iter().chain([self.line()]).collect()
+    }
+
+    /// The record on one line, in characters that no comment takes for its end.
+    pub fn line(&self) -> String {
+        let mut text = json!(self).to_string();
+        for (special, escaped) in
+            [("$", "\\u0024"), ("<", "\\u003c"), (">", "\\u003e"), ("--", "-\\u002d")]
+        {
+            text = text.replace(special, escaped);
+        }
+        format!("{MARK}{text}")
+    }
+
+    /// The first line of a CSV file.
+    pub fn csv_line(&self) -> String {
+        format!("# {}\n", self.line())
+    }
+
+    /// A picture with the record in it.
+    pub fn in_svg(&self, svg: &str) -> String {
+        match svg.rfind("</svg>") {
+            Some(end) => format!("{}<!-- {} -->\n{}", &svg[..end], self.line(), &svg[end..]),
+            None => svg.to_owned(),
+        }
+    }
+
+    /// Puts the record and the notes into a JSON object, over what has the same keys.
+    pub fn put_into(&self, object: &mut Value, notes: &[Note]) {
+        let Some(object) = object.as_object_mut() else { return };
+        if let Value::Object(own) = json!(self) {
+            object.extend(own);
+        }
+        object.insert("notes".to_owned(), json!(notes));
+    }
+
+    /// The record in the bytes of a file, if it has one.
+    pub fn find(bytes: &[u8]) -> Option<Record> {
+        if bytes.trim_ascii_start().starts_with(b"{") {
+            let object: Map<String, Value> = serde_json::from_slice(bytes).ok()?;
+            return serde_json::from_value(Value::Object(object)).ok();
+        }
+        // A dataset's description is an object in the Parquet file's metadata.
+        let marked = memmem(bytes, MARK.as_bytes()).map(|place| place + MARK.len());
+        let begin = marked.or_else(|| memmem(bytes, br#"{"schema":"tofsim."#))?;
+        serde_json::Deserializer::from_slice(&bytes[begin..]).into_iter().next()?.ok()
+    }
+}
+
+/// Where `wanted` first stands in `bytes`.
+fn memmem(bytes: &[u8], wanted: &[u8]) -> Option<usize> {
+    bytes.windows(wanted.len()).position(|window| window == wanted)
+}
+
+/// The verb and the options that were given, as a command line has them.
+pub fn command_line(command: &Command, matches: &ArgMatches) -> Vec<String> {
+    let Some((verb, given)) = matches.subcommand() else { return Vec::new() };
+    let mut words = vec![verb.to_owned()];
+    let Some(command) = command.find_subcommand(verb) else { return words };
+    let mut places = Vec::new();
+    for argument in command.get_arguments() {
+        let id = argument.get_id().as_str();
+        let is_given = given.value_source(id) == Some(ValueSource::CommandLine);
+        if !is_given || LEFT_OUT.contains(&id) {
+            continue;
+        }
+        let values = given.get_raw(id).into_iter().flatten();
+        let values = values.map(|value| value.to_string_lossy().into_owned());
+        match (argument.get_long(), argument.get_action()) {
+            (None, _) => places.extend(values),
+            (Some(long), ArgAction::Set | ArgAction::Append) => {
+                words.extend(values.map(|value| format!("--{long}={value}")));
+            }
+            (Some(long), _) => words.push(format!("--{long}")),
+        }
+    }
+    words.extend(command_line(command, given));
+    words.extend(places);
+    words
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record() -> Record {
+        Record {
+            version: "0.1.0".into(),
+            scenario: "kc705".into(),
+            set: vec!["target.distance_m=0.3".into()],
+            seed: 7,
+            hash: "0123456789abcdef".into(),
+            command: ["run", "--set=description=a $end --> b"].map(str::to_owned).into(),
+        }
+    }
+
+    #[test]
+    fn a_record_is_found_in_a_comment_of_any_format() {
+        let record = record();
+        for text in [
+            format!("$comment {} $end\n#0\n", record.line()),
+            format!("{}bin,count\n0,1\n", record.csv_line()),
+            record.in_svg("<svg>\n</svg>\n"),
+        ] {
+            assert_eq!(Record::find(text.as_bytes()), Some(record.clone()), "{text}");
+            assert_eq!(text.matches("$end").count(), text.matches("$comment").count(), "{text}");
+            assert!(text.matches("--").count() <= 2, "{text}");
+        }
+        let mut object = json!({ "schema": "tofsim.run/1", "frames": [1] });
+        record.put_into(&mut object, &[]);
+        assert_eq!(Record::find(object.to_string().as_bytes()), Some(record));
+        assert_eq!(Record::find(b"bin,count\n"), None);
+        assert_eq!(Record::find(b"tofsim-record {\"version\":"), None);
+    }
+}

@@ -1,0 +1,160 @@
+//! What the depths of a run come to: mean and spread, and how many are far off or missing.
+
+use serde::Serialize;
+
+use tofsim_learn::estimation::Reading;
+use tofsim_learn::evaluation::spread::is_outlier;
+
+/// What depths are judged by.
+#[derive(Clone, Copy, Debug)]
+pub struct Judge {
+    /// True distance; none where no light was simulated [m].
+    pub truth_m: Option<f64>,
+    /// What is further from it is an outlier [m].
+    pub limit_m: f64,
+}
+
+impl Judge {
+    /// Whether a depth is far off, negative or no number.
+    pub fn is_outlier(&self, depth_m: f64) -> bool {
+        is_outlier(depth_m, self.truth_m.unwrap_or(depth_m), self.limit_m)
+    }
+
+    /// How far a mean is off [m].
+    pub fn error_m(&self, mean_m: f64) -> Option<f64> {
+        Some(mean_m - self.truth_m?)
+    }
+}
+
+/// What an estimator said of the frames or pairs of a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct EstimatorStatistics {
+    /// Its name on the command line.
+    pub estimator: &'static str,
+    /// Mean of its depths [m].
+    pub mean_m: Option<f64>,
+    /// Mean less the true distance [m].
+    pub mean_error_m: Option<f64>,
+    /// Two standard deviations of its depths, with n - 1 [m].
+    pub two_sd_m: Option<f64>,
+    /// Depths that are far off, negative or no number.
+    pub outliers: u64,
+    /// Frames or pairs without a depth.
+    pub failures: u64,
+}
+
+/// The depths of an estimator so far.
+#[derive(Clone, Debug, Default)]
+struct Depths {
+    estimator: &'static str,
+    moments: Moments,
+    outliers: u64,
+    failures: u64,
+}
+
+/// The depths of all estimators so far.
+#[derive(Clone, Debug, Default)]
+pub struct Tally(Vec<Depths>);
+
+impl Tally {
+    /// Takes what the estimators say of the next frame or pair.
+    pub fn add(&mut self, readings: &[Reading], judge: &Judge) {
+        if self.0.is_empty() {
+            let empty =
+                |reading: &Reading| Depths { estimator: reading.estimator, ..Depths::default() };
+            self.0 = readings.iter().map(empty).collect();
+        }
+        for (depths, reading) in self.0.iter_mut().zip(readings) {
+            let Some(depth_m) = reading.depth_m else {
+                depths.failures += 1;
+                continue;
+            };
+            depths.outliers += u64::from(judge.is_outlier(depth_m));
+            if depth_m.is_finite() {
+                depths.moments.add(depth_m);
+            }
+        }
+    }
+
+    /// What two frames or pairs or more have come to, an estimator each.
+    pub fn statistics(&self, judge: &Judge) -> Vec<EstimatorStatistics> {
+        let several = self.0.iter().filter(|depths| depths.moments.count + depths.failures > 1);
+        let statistics = |depths: &Depths| EstimatorStatistics {
+            estimator: depths.estimator,
+            mean_m: depths.moments.mean(),
+            mean_error_m: depths.moments.mean().and_then(|mean_m| judge.error_m(mean_m)),
+            two_sd_m: depths.moments.two_sd(),
+            outliers: depths.outliers,
+            failures: depths.failures,
+        };
+        several.map(statistics).collect()
+    }
+}
+
+/// Mean and squares of deviations of numbers as they come (Welford).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Moments {
+    /// How many.
+    pub count: u64,
+    mean: f64,
+    squares: f64,
+}
+
+impl Moments {
+    /// Takes the next number.
+    pub fn add(&mut self, value: f64) {
+        self.count += 1;
+        let off = value - self.mean;
+        self.mean += off / self.count as f64;
+        self.squares += off * (value - self.mean);
+    }
+
+    /// Their mean, if there are any.
+    pub fn mean(&self) -> Option<f64> {
+        (self.count > 0).then_some(self.mean)
+    }
+
+    /// Two standard deviations of them, with n - 1.
+    pub fn two_sd(&self) -> Option<f64> {
+        (self.count > 1).then(|| 2.0 * (self.squares / (self.count - 1) as f64).sqrt())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn reading(depth_m: Option<f64>) -> Vec<Reading> {
+        vec![Reading { estimator: "peak", depth_m, failure: None }]
+    }
+
+    #[test]
+    fn what_is_far_off_negative_or_missing_is_counted() {
+        let judge = Judge { truth_m: Some(0.05), limit_m: 0.1 };
+        let mut tally = Tally::default();
+        assert!(tally.statistics(&judge).is_empty());
+        for depth_m in [Some(0.04), Some(0.2), Some(-0.03), Some(f64::NAN), None] {
+            tally.add(&reading(depth_m), &judge);
+        }
+        let [found] = &tally.statistics(&judge)[..] else { panic!("one estimator") };
+        assert_eq!((found.outliers, found.failures), (3, 1));
+        assert!((found.mean_m.unwrap() - 0.07).abs() < 1e-12, "{found:?}");
+        assert!((found.mean_error_m.unwrap() - 0.02).abs() < 1e-12, "{found:?}");
+    }
+
+    #[test]
+    fn without_a_truth_there_is_no_error_and_only_nonsense_is_an_outlier() {
+        let judge = Judge { truth_m: None, limit_m: 0.1 };
+        assert_eq!([5.0, -0.01, f64::NAN].map(|m| judge.is_outlier(m)), [false, true, true]);
+        assert_eq!(judge.error_m(0.3), None);
+    }
+
+    #[test]
+    fn moments_are_those_of_the_numbers() {
+        let mut moments = Moments::default();
+        assert_eq!((moments.mean(), moments.two_sd()), (None, None));
+        [1.0, 2.0, 3.0, 4.0, 5.0].into_iter().for_each(|value| moments.add(value));
+        assert_eq!(moments.mean(), Some(3.0));
+        assert!((moments.two_sd().unwrap() - 2.0 * 2.5f64.sqrt()).abs() < 1e-12);
+    }
+}

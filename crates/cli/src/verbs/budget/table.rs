@@ -1,0 +1,85 @@
+//! The budget as a table.
+
+use tofsim::optics::eye_safety::Exposure;
+
+use crate::text::table::{grouped, number_or_dash, plain};
+
+use super::Findings;
+
+type Row = [String; 3];
+
+pub(super) fn table(findings: &Findings) -> String {
+    let setup = &findings.setup;
+    let (budget, target) = (&setup.budget, &setup.scenario.target);
+    let light = [
+        row("distance", format!("{} m", target.distance_m), flight(findings)),
+        row("signal", format!("{:.4}", budget.signal_per_shot), "detected photons per shot"),
+        row("ambient", format!("{:.4e} /s", budget.ambient_rate_hz), "avalanches"),
+        row("dark", format!("{:.4e} /s", budget.dark_rate_hz), "avalanches"),
+    ];
+    let average = format!("{:.2} mW", findings.a_frame.average_w * 1e3);
+    let rate_mhz = 1e-6 / setup.laser_period_s();
+    let laser = [
+        row("pulse energy", format!("{:.1} pJ", budget.pulse_energy_j * 1e12), ""),
+        row("average power", average, format!("at {rate_mhz:.3} MHz")),
+    ];
+    let rows = light.into_iter().chain(shot(findings)).chain(laser).chain(eye_safety(findings));
+    plain(rows)
+}
+
+fn row(name: &str, value: impl Into<String>, meaning: impl Into<String>) -> Row {
+    [name.to_owned(), value.into(), meaning.into()]
+}
+
+fn flight(findings: &Findings) -> String {
+    format!("{:.1} ps of flight", findings.setup.budget.mean_arrival.fs() as f64 / 1e3)
+}
+
+/// What a shot can expect.
+fn shot(findings: &Findings) -> Vec<Row> {
+    let Some(chances) = &findings.chances else {
+        return vec![row("any hit", "-", "told where a shot's first avalanche alone decides")];
+    };
+    let shots = f64::from(findings.setup.params.frame_ctrl.shots_per_frame);
+    let counted = grouped((chances.counted * shots).round() as u64);
+    let ratio = number_or_dash(chances.signal_to_noise(), 4);
+    let four = |chance: f64| format!("{chance:.4}");
+    vec![
+        row("any hit", four(chances.hit), "chance that the TDC keeps one in a shot"),
+        row("signal first", four(chances.signal_first), "chance that it is a laser photon's"),
+        row(
+            "counted",
+            four(chances.counted),
+            format!("hits per shot with a code, {counted} a frame"),
+        ),
+        row("signal to noise", ratio, "of these, laser photons' to one other"),
+    ]
+}
+
+/// The verdict for one frame, for frames that repeat, and by eq. 3.3.
+fn eye_safety(findings: &Findings) -> Vec<Row> {
+    let verdict = |name: &str, exposure: &Exposure, what: String| {
+        let verdict = match exposure.is_within() {
+            Some(true) => "within",
+            Some(false) => "above",
+            None => "no limit",
+        };
+        let (average, limit) =
+            (exposure.average_w * 1e3, exposure.limit_w.map(|limit| limit * 1e3));
+        let limit = number_or_dash(limit, 2);
+        row(name, verdict, format!("{average:.2} of {limit} mW, Class 1 {what}"))
+    };
+    let (design, a_frame, frames) =
+        (&findings.at_the_optics_rate, &findings.a_frame, &findings.frames);
+    let ms = |seconds: f64| format!("{:.3} ms", seconds * 1e3);
+    let mut rows = vec![
+        verdict("eye safety", a_frame, format!("for one frame, {}", ms(a_frame.exposure_s))),
+        verdict("", frames, format!("for {} s of frames", frames.exposure_s)),
+    ];
+    if let (Some(false), Some(longest_s)) = (frames.is_within(), findings.longest_s()) {
+        rows.push(row("", "within", format!("for {} of frames", ms(longest_s))));
+    }
+    let by_the_thesis = format!("for {} (eq. 3.3)", ms(design.exposure_s));
+    rows.push(verdict("", design, by_the_thesis));
+    rows
+}

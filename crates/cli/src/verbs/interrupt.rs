@@ -1,0 +1,46 @@
+//! How the program hears that the user interrupts, and ends.
+//!
+//! A verb that looks at [`stop_signal`] ends of itself. Any other is ended at once, and so is one that
+//! is interrupted again; what it has under construction goes in both cases.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use tofsim::files::unfinished::discard_all;
+
+/// Exit status of an interrupted program, as shells have it.
+pub const INTERRUPTED: u8 = 130;
+
+/// What the verb that is going on looks at.
+static LOOKS: Mutex<Option<Arc<AtomicBool>>> = Mutex::new(None);
+
+/// Begins to listen, if the system offers a way to.
+pub fn listen() {
+    let heard = || {
+        let looks = LOOKS.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        if looks.is_none_or(|stop| stop.swap(true, Ordering::Relaxed)) {
+            discard_all();
+            say();
+            std::process::exit(INTERRUPTED.into());
+        }
+    };
+    // Without a way, the system ends the program, which is as good but for what is left.
+    drop(ctrlc::set_handler(heard));
+}
+
+/// Says that it was interrupted.
+pub fn say() {
+    eprintln!("tofsim: interrupted");
+}
+
+/// Set when the user interrupts; from now on the verb looks at it.
+pub fn stop_signal() -> Option<Arc<AtomicBool>> {
+    let stop = Arc::new(AtomicBool::new(false));
+    *LOOKS.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::clone(&stop));
+    Some(stop)
+}
+
+/// From now on the verb does not look any more.
+pub fn look_no_more() {
+    *LOOKS.lock().unwrap_or_else(PoisonError::into_inner) = None;
+}

@@ -1,0 +1,176 @@
+//! `tofsim rerun`: makes an output again from what it records.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode, Stdio};
+
+use regex::{Captures, Regex};
+use serde_json::json;
+
+use tofsim::error::{Error, Input, Result};
+
+use crate::record::Record;
+
+use super::terminal::{Talk, print, print_json};
+
+/// Verbs that print and write nothing.
+const PRINTING: [&str; 2] = ["budget", "estimate"];
+
+/// Make an output again from what it records, and compare the two byte by byte
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Any output will do: waveforms, JSON, CSV, Parquet and SVG carry the command that made \
+    them.\nPaths in that command are taken from here. Exit status 1 says that the bytes differ.\n\n\
+    Examples:\n  \
+    tofsim run -s target.distance_m=0.3 -o out\n  \
+    tofsim rerun out/histogram.svg                 is it still what this version makes?\n  \
+    tofsim rerun out/summary.json -o again         keep what is made"
+)]
+pub struct Args {
+    /// The output
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Keep what is made in this folder, which must be another than the file's
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Print one JSON object instead of a line
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the verb; the status says whether the bytes are the same.
+pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+    let given = read(&args.file)?;
+    let record = record(&args.file, &given)?;
+    let scratch =
+        tempfile::tempdir().map_err(Error::io(Path::new("temporary folder"), "create"))?;
+    let folder = match &args.output {
+        Some(folder) if is_home(folder, &args.file) => {
+            let expected = "expected another folder than the file's";
+            return Err(Input::new("--output", expected).value(folder.display()).into());
+        }
+        Some(folder) => folder.as_path(),
+        None => scratch.path(),
+    };
+    talk.detail(format_args!("tofsim {}", record.command.join(" ")));
+    let again = again(&args.file, &given, &record, folder)?;
+    let differences = differences(&without_folder(given), &without_folder(again), &record);
+    let same = differences.is_empty();
+    if args.json {
+        print_json(&json!({
+            "schema": "tofsim.rerun/1",
+            "file": args.file.display().to_string(),
+            "same": same,
+            "differences": differences,
+            "record": record,
+        }))?;
+    } else if same {
+        print(&format!("{}: the same\n", args.file.display()))?;
+    } else {
+        print(&format!("{}: differs\n  {}\n", args.file.display(), differences.join("\n  ")))?;
+    }
+    Ok(if same { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+fn read(path: &Path) -> Result<Vec<u8>> {
+    fs::read(path).map_err(Error::io(path, "read"))
+}
+
+/// Whether a file stands in a folder.
+fn is_home(folder: &Path, file: &Path) -> bool {
+    let home = file.parent().filter(|home| !home.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    folder.canonicalize().is_ok_and(|folder| home.canonicalize().is_ok_and(|home| home == folder))
+}
+
+/// The record of a file, or of another output in its folder that was made with it.
+fn record(path: &Path, bytes: &[u8]) -> Result<Record> {
+    if let Some(record) = Record::find(bytes) {
+        return Ok(record);
+    }
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let beside = ["summary.json", "evaluation.json", "dataset.json", "vectors.json"];
+    let found = beside.iter().find_map(|name| Record::find(&fs::read(folder.join(name)).ok()?));
+    found.ok_or_else(|| {
+        let expected = "has no record of how it was made, nor has a summary beside it";
+        Input::new(path.display(), expected).into()
+    })
+}
+
+/// Runs the command of a record, with what it writes in `folder`; the bytes that are to be those of
+/// `file`.
+fn again(file: &Path, given: &[u8], record: &Record, folder: &Path) -> Result<Vec<u8>> {
+    let Some(verb) = record.command.first().filter(|verb| *verb != "rerun") else {
+        return Err(Input::new(file.display(), "expected a record with a command").into());
+    };
+    let name = file.file_name().unwrap_or_default();
+    let path = folder.join(name);
+    let program = std::env::current_exe().map_err(Error::io(Path::new("tofsim"), "find"))?;
+    let mut command = Command::new(program);
+    command.args(record.command.iter().map(|word| with_events_in(folder, word))).arg("--quiet");
+    if !PRINTING.contains(&verb.as_str()) {
+        command.arg("--output").arg(folder);
+    }
+    command.arg("--json");
+    command.stdin(Stdio::null()).stderr(Stdio::piped());
+    let done = command.output().map_err(Error::io(Path::new("tofsim"), "run"))?;
+    if !matches!(done.status.code(), Some(0 | 1)) {
+        let said = String::from_utf8_lossy(&done.stderr);
+        let said = said.trim().trim_start_matches("tofsim: ");
+        let expected = format!("cannot be made again: {said}");
+        return Err(Input::new(file.display(), expected).into());
+    }
+    match fs::read(&path) {
+        Ok(bytes) => Ok(bytes),
+        Err(_) if done.stdout.starts_with(b"{") && given.starts_with(b"{") => Ok(done.stdout),
+        Err(_) => {
+            let expected =
+                format!("`tofsim {}` writes no file of that name", record.command.join(" "));
+            Err(Input::new(file.display(), expected).into())
+        }
+    }
+}
+
+/// A summary without the folder of its waveform, which is where the user wants it.
+fn without_folder(bytes: Vec<u8>) -> Vec<u8> {
+    let text = match String::from_utf8(bytes) {
+        Ok(text) if text.starts_with('{') => text,
+        Ok(text) => return text.into_bytes(),
+        Err(fault) => return fault.into_bytes(),
+    };
+    let name = |found: &Captures| format!("\"waves\":\"{}\"", &found[1]);
+    match Regex::new(r#""waves":"(?:[^"]*/)?([^"/]*)""#) {
+        Ok(waves) => waves.replace(&text, name).into_owned().into_bytes(),
+        Err(_) => text.into_bytes(),
+    }
+}
+
+/// A word of a command; the shots of a run, which it writes where it is told, go into a folder.
+fn with_events_in(folder: &Path, word: &str) -> String {
+    let name = word.strip_prefix("--events=").and_then(|path| Path::new(path).file_name());
+    name.map_or(word.to_owned(), |name| format!("--events={}", folder.join(name).display()))
+}
+
+/// What differs, in words: the record first, then the first byte.
+fn differences(given: &[u8], again: &[u8], record: &Record) -> Vec<String> {
+    if given == again {
+        return Vec::new();
+    }
+    let mut found = Vec::new();
+    let now = Record::find(again).unwrap_or_else(|| record.clone());
+    for (what, then, now) in [
+        ("version", &record.version, &now.version),
+        ("hash of the scenario and its files", &record.hash, &now.hash),
+    ] {
+        if then != now {
+            found.push(format!("{what}: {then} then, {now} now"));
+        }
+    }
+    if given.len() != again.len() {
+        found.push(format!("length: {} bytes then, {} now", given.len(), again.len()));
+    }
+    if let Some(place) = given.iter().zip(again).position(|(a, b)| a != b) {
+        let line = given[..place].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        found.push(format!("first other byte: {place}, in line {line}"));
+    }
+    found
+}

@@ -1,0 +1,109 @@
+//! An output is made again from what it records.
+
+use std::fs;
+
+use super::common::{json, output, refused, stdout};
+
+/// Options of a short run.
+const SHORT: [&str; 4] = ["-s", "firmware.shots_per_frame=200", "--seed", "7"];
+
+#[test]
+fn every_file_of_a_run_is_made_again_to_the_byte() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    for (out, more) in [
+        ("vcd", &["--events", "shots.csv", "-s", "description=a --> $end <b>"][..]),
+        ("fst", &["--waves", "fst", "--events", "shots.parquet", "--threads", "1"]),
+        ("pair", &["--estimator", "subtraction", "--waves", "none", "--events", "pair.csv"]),
+    ] {
+        stdout(path, &[&["run", "-o", out], &SHORT[..], more].concat());
+        let files = fs::read_dir(path.join(out)).unwrap().map(|file| file.unwrap().path());
+        let mut files: Vec<_> = files.filter(|file| file.is_file()).collect();
+        files.push(path.join(more[more.iter().position(|word| *word == "--events").unwrap() + 1]));
+        assert!(files.len() >= 5, "{files:?}");
+        for file in files {
+            let said = output(path, &["rerun", file.to_str().unwrap()]);
+            let text = String::from_utf8_lossy(&said.stdout).into_owned();
+            assert!(
+                said.status.success() && text.contains("the same"),
+                "{}: {text}",
+                file.display()
+            );
+        }
+    }
+    let printed = stdout(path, &[&["run", "--json", "--waves", "none"], &SHORT[..]].concat());
+    fs::write(path.join("printed.json"), printed).unwrap();
+    assert!(stdout(path, &["rerun", "printed.json"]).contains("the same"));
+}
+
+#[test]
+fn what_differs_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    fs::write(path.join("own.toml"), "[target]\ndistance_m = 0.3\n").unwrap();
+    stdout(path, &[&["run", "own.toml", "--waves", "none", "-o", "out"], &SHORT[..]].concat());
+    let name = "out/histogram.csv";
+    let text = fs::read_to_string(path.join(name)).unwrap();
+    fs::write(path.join(name), text.replacen("\n9,", "\n9,1", 1)).unwrap();
+    let done = output(path, &["rerun", name, "--json"]);
+    let report: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
+    assert_eq!((done.status.code(), &report["same"]), (Some(1), &false.into()));
+    assert!(report["differences"].to_string().contains("in line 12"), "{report}");
+    fs::write(path.join(name), &text).unwrap();
+    fs::write(path.join("own.toml"), "[target]\ndistance_m = 0.31\n").unwrap();
+    let done = output(path, &["rerun", name]);
+    let said = String::from_utf8_lossy(&done.stdout).into_owned();
+    assert!(said.contains("hash of the scenario and its files"), "{said}");
+    fs::remove_file(path.join("own.toml")).unwrap();
+    assert!(refused(path, &["rerun", name]).contains("cannot be made again: own.toml"));
+}
+
+#[test]
+fn what_has_no_record_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.csv"), "bin,count\n").unwrap();
+    assert!(refused(folder.path(), &["rerun", "a.csv"]).contains("has no record"));
+    assert!(refused(folder.path(), &["rerun", "none.vcd"]).contains("none.vcd: cannot read"));
+    stdout(folder.path(), &[&["run", "-o", "out"], &SHORT[..]].concat());
+    let home = refused(folder.path(), &["rerun", "out/kc705.vcd", "-o", "out"]);
+    assert!(home.contains("expected another folder"), "{home}");
+}
+
+#[test]
+fn a_folder_holds_the_files_of_one_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let own = path.join("out/own.txt");
+    stdout(path, &[&["run", "-o", "out"], &SHORT[..]].concat());
+    fs::write(&own, "mine").unwrap();
+    let args = [&["run", "-o", "out", "--waves", "fst"], &SHORT[..]].concat();
+    let said = output(path, &args);
+    let said = String::from_utf8_lossy(&said.stderr).into_owned();
+    assert!(said.contains("removed out/kc705.vcd: it was an older run's"), "{said}");
+    let summary = fs::read(path.join("out/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
+    let mut listed: Vec<_> =
+        summary["files"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
+    listed.extend([".surfer", "own.txt"]);
+    let mut found: Vec<_> =
+        fs::read_dir(path.join("out")).unwrap().map(|file| file.unwrap().file_name()).collect();
+    listed.sort();
+    found.sort();
+    assert_eq!(found, listed);
+}
+
+#[test]
+fn a_run_says_what_it_was_made_of() {
+    let folder = tempfile::tempdir().unwrap();
+    let args = ["run", "--json", "--waves", "none", "-s", "target.distance_m=0.3"];
+    let run = json(folder.path(), &args);
+    assert_eq!(run["set"], serde_json::json!(["target.distance_m=0.3"]));
+    assert_eq!(
+        run["command"],
+        serde_json::json!(["run", "--set=target.distance_m=0.3", "--waves=none"])
+    );
+    let hash = |args: &[&str]| json(folder.path(), args)["hash"].as_str().unwrap().to_owned();
+    assert_eq!(run["hash"].as_str().unwrap().len(), 16);
+    assert_eq!(run["hash"], hash(&args));
+    assert_ne!(run["hash"], hash(&["run", "--json", "--waves", "none"]));
+}

@@ -1,0 +1,262 @@
+//! What the estimators take for granted, and what of it a scenario does not have.
+//!
+//! The network's own limits are those of its training; they are not told here.
+
+use tofsim::optics::{BinProbabilities, Bins};
+use tofsim::scenario::QuenchMode;
+use tofsim::sim::fast::histogram::independent_shots;
+use tofsim::sim::setup::{CYCLE, Setup};
+use tofsim::{Note, NoteCode, NoteValue};
+
+use super::acquisition::{ARRIVAL_PS_PER_M, BIN_PS, FreeRunning, most_probable};
+use super::by_name::EstimatorKind;
+use super::centroid::Centroid;
+use super::estimator::Estimator;
+use super::peak_detection::PeakDetection;
+
+/// Jitter of an edge that costs the matched filter, the peak and the centroid half a millimetre at
+/// 0.1 m and 34 % [ps]; `docs/accuracy.md` has what it was measured by.
+const JITTER_PS: f64 = 7.7;
+/// Standard deviation of the thesis's pulse, to which K_d and B_d are fitted [ps].
+const THESIS_SIGMA_PS: f64 = 137.0;
+/// A pulse that is that part wider or narrower is another one [1].
+const OTHER_PULSE: f64 = 0.02;
+/// The distances to which they are fitted (Table 5.2) [m].
+const THESIS_RANGE_M: [f64; 2] = [0.1, 0.6];
+/// Part of a pulse that a centroid's window has to hold to either side [sigma].
+const WINDOW_SIGMA: f64 = 4.0;
+/// Part of a pulse after which the range may end [sigma].
+const TAIL_SIGMA: f64 = 3.0;
+/// The longest dead time for which arming is worked out [ns].
+const LONGEST_DEAD_NS: f64 = 1000.0;
+/// An error that is worth a note [m].
+const WORTH_M: f64 = 1e-3;
+
+impl EstimatorKind {
+    /// What this estimator takes for granted and the scenario does not have, whatever the scene.
+    pub fn notes(self, setup: &Setup) -> Vec<Note> {
+        let teller = Teller { name: self.name(), setup };
+        let found = match self {
+            EstimatorKind::Network | EstimatorKind::NetworkFloat => [None, None, None],
+            EstimatorKind::Likelihood => [teller.dead_time(), teller.control(), None],
+            EstimatorKind::Matched => [teller.mode(), teller.jitter(), teller.control()],
+            EstimatorKind::Centroid => [teller.mode(), teller.jitter(), teller.window()],
+            EstimatorKind::Peak | EstimatorKind::Subtraction => {
+                [teller.mode(), teller.jitter(), teller.pulse()]
+            }
+        };
+        found.into_iter().flatten().collect()
+    }
+
+    /// The same for the scene of the scenario, too: what the estimator makes of the histogram that
+    /// is to be expected.
+    pub fn notes_of_scene(self, setup: &Setup) -> Vec<Note> {
+        let teller = Teller { name: self.name(), setup };
+        let of_scene = match self {
+            EstimatorKind::Likelihood => teller.first_edge(),
+            EstimatorKind::Centroid => teller
+                .expected(&Centroid(setup.params.centroid_estimator), "pile-up makes it early"),
+            EstimatorKind::Peak => teller.range().or_else(|| {
+                let detection = PeakDetection::of_bins(teller.shots(), &teller.bins());
+                teller.expected(&detection, "its straight line knows neither signal nor background")
+            }),
+            EstimatorKind::Subtraction => teller.range(),
+            _ => None,
+        };
+        self.notes(setup).into_iter().chain(of_scene).collect()
+    }
+}
+
+/// Who says what of which scenario.
+struct Teller<'a> {
+    name: &'static str,
+    setup: &'a Setup,
+}
+
+impl Teller<'_> {
+    fn note(
+        &self,
+        key: &str,
+        value: impl Into<NoteValue>,
+        expected: impl Into<String>,
+        text: &str,
+    ) -> Note {
+        let text = format!("{}: {text}", self.name);
+        Note::new(NoteCode::EstimatorOutsideModel, key, value, expected, text)
+    }
+
+    fn is_free_running(&self) -> bool {
+        self.setup.scenario.firmware.mode == QuenchMode::FreeRunning
+    }
+
+    fn mode(&self) -> Option<Note> {
+        let text = "it takes the diode to be armed at every laser edge, and the chain to be empty";
+        self.is_free_running().then(|| self.note("firmware.mode", 1.0, "0", text))
+    }
+
+    fn jitter(&self) -> Option<Note> {
+        let rms_ps = self.setup.scenario.pll.jitter_rms_ps;
+        let text = "jitter blurs what pile-up has left of the pulse, and so moves it";
+        let expected = format!("{JITTER_PS} at most");
+        (rms_ps > JITTER_PS).then(|| self.note("pll.jitter_rms_ps", rms_ps, expected, text))
+    }
+
+    fn control(&self) -> Option<Note> {
+        let changes = self.setup.scenario.control.len() as u64;
+        let text = "it takes all shots of a frame to be alike";
+        (changes > 0).then(|| self.note("control", changes, "no changes", text))
+    }
+
+    /// The dead times for which it is worked out how often the diode is armed.
+    fn dead_time(&self) -> Option<Note> {
+        let dead_ns = self.setup.scenario.spad.dead_time_ns;
+        // A shorter pulse can pass between two edges.
+        let shortest_ns = CYCLE.seconds() * 1e9;
+        let is_worked_out = (shortest_ns..=LONGEST_DEAD_NS).contains(&dead_ns);
+        let text = "in MODE 1 it takes the diode to rest for longer than a clock period";
+        let expected = format!("{shortest_ns} to {LONGEST_DEAD_NS}");
+        let is_outside = self.is_free_running() && !is_worked_out;
+        is_outside.then(|| self.note("spad.dead_time_ns", dead_ns, expected, text))
+    }
+
+    /// That the first edge sees the echo of MODE 1.
+    fn first_edge(&self) -> Option<Note> {
+        let scenario = &self.setup.scenario;
+        let tail_ps = TAIL_SIGMA * scenario.laser.pulse_sigma_ps;
+        let last_ps = FreeRunning::of(self.setup)?.first_edge_ps() - tail_ps;
+        let arrival_ps = self.setup.budget.mean_arrival.fs() as f64 * 1e-3;
+        let last_m = last_ps / ARRIVAL_PS_PER_M;
+        let text = "in MODE 1 later codes may be of hits with an old pulse in the chain";
+        let expected = format!("{last_m:.3} at most");
+        let distance_m = scenario.target.distance_m;
+        (arrival_ps > last_ps).then(|| self.note("target.distance_m", distance_m, expected, text))
+    }
+
+    /// That the centroid's window holds the pulse.
+    fn window(&self) -> Option<Note> {
+        let half = self.setup.scenario.estimator.centroid_half_width;
+        let needed = WINDOW_SIGMA * self.setup.scenario.laser.pulse_sigma_ps / BIN_PS;
+        let text = "its window cuts the pulse off, or begins within it";
+        let expected = format!("{:.0} at least, 4 sigma of the pulse", needed.ceil());
+        let is_narrow = (half as f64) < needed.floor();
+        is_narrow.then(|| self.note("estimator.centroid_half_width", half, expected, text))
+    }
+
+    /// That the pulse is the one to which the straight line was fitted.
+    fn pulse(&self) -> Option<Note> {
+        let sigma_ps = self.setup.scenario.laser.pulse_sigma_ps;
+        let is_other = (sigma_ps / THESIS_SIGMA_PS - 1.0).abs() > OTHER_PULSE;
+        let text = "K_d and B_d of eq. 5.2 are those of the thesis's pulse";
+        let expected = format!("{THESIS_SIGMA_PS}");
+        is_other.then(|| self.note("laser.pulse_sigma_ps", sigma_ps, expected, text))
+    }
+
+    /// That the distance is one of those to which the straight line was fitted.
+    fn range(&self) -> Option<Note> {
+        let distance_m = self.setup.scenario.target.distance_m;
+        let [first, last] = THESIS_RANGE_M;
+        let text = "K_d and B_d of eq. 5.2 are those of the thesis's distances";
+        let is_within = (first..=last).contains(&distance_m);
+        let expected = format!("{first} to {last}");
+        (!is_within).then(|| self.note("target.distance_m", distance_m, expected, text))
+    }
+
+    fn shots(&self) -> u64 {
+        self.setup.params.frame_ctrl.shots_per_frame.into()
+    }
+
+    fn bins(&self) -> Bins {
+        let tdc = &self.setup.params.tdc;
+        Bins::of_chain(&tdc.delays, &tdc.cal, CYCLE)
+    }
+
+    /// That the estimator finds the distance in the histogram that is to be expected, where that has
+    /// a closed form.
+    fn expected(&self, estimator: &dyn Estimator, why: &str) -> Option<Note> {
+        let setup = self.setup;
+        let (optics, _) = independent_shots(setup, self.name).ok()?;
+        let is_lit = setup.scenario.firmware.laser_en && setup.budget.signal_per_shot > 0.0;
+        let truth_m = setup.true_depth_m().filter(|_| is_lit)?;
+        let codes = BinProbabilities::new(optics.hazard(true), &self.bins());
+        let histogram = most_probable(codes.of_code(), self.shots());
+        let what = match estimator.estimate(&histogram) {
+            Ok(found_m) if (found_m - truth_m).abs() <= WORTH_M => return None,
+            Ok(found_m) => format!("is {:+.1} mm off", 1e3 * (found_m - truth_m)),
+            Err(failure) => format!("finds {failure}"),
+        };
+        let text = format!("in the histogram that is to be expected here it {what}: {why}");
+        Some(self.note(
+            "--estimator",
+            self.name,
+            "likelihood or matched, which know pile-up",
+            &text,
+        ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tofsim::scenario;
+
+    /// Keys of the notes of an estimator under overrides, those of the scene too.
+    fn keys(kind: EstimatorKind, overrides: &[&str]) -> Vec<String> {
+        let overrides: Vec<_> = overrides.iter().map(|&text| text.to_owned()).collect();
+        let setup = Setup::new(scenario::load("kc705", &overrides).unwrap()).unwrap();
+        kind.notes_of_scene(&setup).into_iter().map(|note| note.key).collect()
+    }
+
+    #[test]
+    fn an_estimator_within_its_model_says_nothing() {
+        for kind in [EstimatorKind::Network, EstimatorKind::Likelihood, EstimatorKind::Matched] {
+            assert!(keys(kind, &[]).is_empty(), "{kind:?}");
+            assert!(keys(kind, &["laser.pulse_sigma_ps=200"]).is_empty(), "{kind:?}");
+        }
+        let known = ["firmware.mode=1", "pll.jitter_rms_ps=50"];
+        assert!(keys(EstimatorKind::Likelihood, &known).is_empty());
+    }
+
+    #[test]
+    fn what_an_estimator_does_not_know_is_named() {
+        use EstimatorKind::{Centroid, Likelihood, Matched, Peak, Subtraction};
+        for (kind, set, key) in [
+            (Matched, "firmware.mode=1", "firmware.mode"),
+            (Centroid, "firmware.mode=1", "firmware.mode"),
+            (Peak, "firmware.mode=1", "firmware.mode"),
+            (Matched, "pll.jitter_rms_ps=50", "pll.jitter_rms_ps"),
+            (Peak, "laser.pulse_sigma_ps=200", "laser.pulse_sigma_ps"),
+            (Subtraction, "laser.pulse_sigma_ps=100", "laser.pulse_sigma_ps"),
+            (Subtraction, "target.distance_m=0.7", "target.distance_m"),
+            (Peak, "target.distance_m=0.05", "target.distance_m"),
+            (Centroid, "laser.pulse_sigma_ps=200", "estimator.centroid_half_width"),
+            (Centroid, "target.distance_m=0.3", "--estimator"),
+            (Peak, "target.distance_m=0.1", "--estimator"),
+        ] {
+            let found = keys(kind, &[set]);
+            assert!(found.iter().any(|found| found == key), "{kind:?} {set}: {found:?}");
+        }
+        let found = keys(Likelihood, &["firmware.mode=1", "spad.dead_time_ns=6"]);
+        assert_eq!(found, ["spad.dead_time_ns"]);
+        let found = keys(Likelihood, &["firmware.mode=1", "target.distance_m=0.65"]);
+        assert_eq!(found, ["target.distance_m"]);
+        assert_eq!(keys(Likelihood, &["spad.dead_time_ns=6"]), [""; 0]);
+    }
+
+    #[test]
+    fn a_centroid_without_pile_up_says_nothing() {
+        let faint = ["spad.pdp=0.00001", "spad.dark_rate_hz=0", "ambient.irradiance_w_m2_nm=0"];
+        assert_eq!(keys(EstimatorKind::Centroid, &faint), [""; 0]);
+    }
+
+    #[test]
+    fn a_note_says_how_far_off_the_estimate_is() {
+        let setup = Setup::new(scenario::load("kc705", &[]).unwrap()).unwrap();
+        let notes = EstimatorKind::Centroid.notes_of_scene(&setup);
+        let text = notes[0].text.as_str();
+        assert!(text.starts_with("centroid: in the histogram that is to be expected"), "{text}");
+        assert!(
+            text.contains("it is -15.6 mm off") && text.ends_with("pile-up makes it early"),
+            "{text}"
+        );
+    }
+}

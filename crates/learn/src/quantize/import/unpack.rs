@@ -1,0 +1,111 @@
+//! The compressed parts of a MATLAB file, unpacked with a bound: the library that reads such files
+//! unpacks whatever there is, and a thousandth of a gigabyte of zeros is a small file.
+
+use miniz_oxide::inflate::TINFLStatus;
+use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
+
+/// Most that a file may hold, unpacked [bytes].
+pub(super) const LARGEST: usize = 64 << 20;
+/// Bytes before the first element.
+const HEADER: usize = 128;
+/// Bytes of an element's type and length.
+const TAG: usize = 8;
+/// Type of an element that is another one, compressed.
+const COMPRESSED: u32 = 15;
+
+/// The same file with nothing compressed; what is no MATLAB file comes back as it is.
+///
+/// # Errors
+/// When it is too large, or a part cannot be unpacked, in words.
+pub(super) fn unpacked(file: &[u8]) -> Result<Vec<u8>, String> {
+    let too_large = || {
+        let most = LARGEST >> 20;
+        format!("holds more than {most} MiB; expected the network's arrays alone")
+    };
+    if file.len() > LARGEST {
+        return Err(too_large());
+    }
+    let Some((header, mut rest)) = file.split_at_checked(HEADER) else {
+        return Ok(file.to_vec());
+    };
+    let word: fn([u8; 4]) -> u32 =
+        if header.ends_with(b"MI") { u32::from_be_bytes } else { u32::from_le_bytes };
+    let mut whole = header.to_vec();
+    while let Some((kind, length)) = tag(rest, word) {
+        let (element, after) = rest.split_at(rest.len().min(TAG + length));
+        if kind != COMPRESSED {
+            // Aligned by the padding that stands there, too.
+            let (element, after) = rest.split_at(rest.len().min(TAG + length.next_multiple_of(8)));
+            whole.extend_from_slice(element);
+            rest = after;
+            continue;
+        }
+        let left = LARGEST.saturating_sub(whole.len());
+        let inner = decompress_to_vec_zlib_with_limit(&element[TAG..], left);
+        let mut inner = inner.map_err(|error| match error.status {
+            TINFLStatus::HasMoreOutput => too_large(),
+            status => format!("a compressed part cannot be unpacked ({status:?})"),
+        })?;
+        if tag(&inner, word).is_none_or(|(kind, _)| kind == COMPRESSED) {
+            return Err("a compressed part holds no array".to_owned());
+        }
+        inner.resize(inner.len().next_multiple_of(8), 0);
+        whole.append(&mut inner);
+        rest = after;
+    }
+    whole.extend_from_slice(rest);
+    Ok(whole)
+}
+
+/// Type and length of the element that begins here.
+fn tag(bytes: &[u8], word: fn([u8; 4]) -> u32) -> Option<(u32, usize)> {
+    let (kind, rest) = bytes.split_first_chunk()?;
+    Some((word(*kind), word(*rest.first_chunk()?) as usize))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use miniz_oxide::deflate::compress_to_vec_zlib;
+
+    fn file(parts: &[(u32, &[u8])]) -> Vec<u8> {
+        let mut file = vec![b' '; HEADER - 4];
+        file.extend([0, 1, b'I', b'M']);
+        for (kind, data) in parts {
+            file.extend(kind.to_le_bytes());
+            file.extend((data.len() as u32).to_le_bytes());
+            file.extend_from_slice(data);
+        }
+        file
+    }
+
+    fn element(data: &[u8]) -> Vec<u8> {
+        [&14u32.to_le_bytes()[..], &(data.len() as u32).to_le_bytes(), data].concat()
+    }
+
+    #[test]
+    fn compressed_parts_are_unpacked_in_their_places() {
+        let (a, b) = (element(&[1; 16]), element(&[2; 8]));
+        let packed = compress_to_vec_zlib(&b, 6);
+        let mixed = file(&[(14, &[1; 16]), (COMPRESSED, &packed), (14, &[1; 16])]);
+        assert_eq!(unpacked(&mixed).unwrap()[HEADER..], [a.clone(), b, a].concat());
+        assert_eq!(unpacked(b"no MATLAB file").unwrap(), b"no MATLAB file");
+    }
+
+    #[test]
+    fn what_is_too_large_or_packed_twice_is_refused() {
+        let large = compress_to_vec_zlib(&element(&vec![0; LARGEST]), 6);
+        assert!(large.len() < 1 << 20);
+        let error = unpacked(&file(&[(COMPRESSED, &large)])).unwrap_err();
+        assert!(error.contains("more than 64 MiB"), "{error}");
+        // Many parts, none of which is too large.
+        let part = compress_to_vec_zlib(&element(&vec![0; LARGEST / 3]), 6);
+        let error = unpacked(&file(&[(COMPRESSED, &part[..]); 4])).unwrap_err();
+        assert!(error.contains("more than 64 MiB"), "{error}");
+        let twice = [&COMPRESSED.to_le_bytes()[..], &[0; 4]].concat();
+        let twice = file(&[(COMPRESSED, &compress_to_vec_zlib(&twice, 6))]);
+        assert!(unpacked(&twice).unwrap_err().contains("no array"));
+        assert!(unpacked(&file(&[(COMPRESSED, b"none")])).unwrap_err().contains("unpacked"));
+        assert!(unpacked(&vec![0; LARGEST + 1]).unwrap_err().contains("more than 64 MiB"));
+    }
+}

@@ -1,0 +1,175 @@
+//! Errors, and how they are said.
+
+use std::borrow::Cow;
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// An error that a user can act on. All of them exit with status 2, but for an interruption.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// Something in an input is not what it should be.
+    #[error("{0}")]
+    Input(Box<Input>),
+    /// A file or directory cannot be read or written.
+    #[error("{}: cannot {action}: {source}", shortened(&path.display().to_string(), LONG_NAME))]
+    Io {
+        /// The file or directory.
+        path: PathBuf,
+        /// What was tried, as a verb: `read`, `write`, `create`.
+        action: &'static str,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The user stopped the run (exit status 130).
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// Shorthand for results of this crate.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// A fault in an input: where it is, what stands there and what was expected.
+#[derive(Debug, Default, Clone, PartialEq)]
+pub struct Input {
+    /// File, or the option of the command line.
+    pub source: String,
+    /// Line and column, counted from 1.
+    pub place: Option<(usize, usize)>,
+    /// Field, row or key.
+    pub field: Option<String>,
+    /// What stands there.
+    pub value: Option<String>,
+    /// What was expected, or what is wrong.
+    pub expected: String,
+}
+
+impl fmt::Display for Input {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", shortened(&self.source, LONG_NAME))?;
+        if let Some((line, column)) = self.place {
+            write!(f, ":{line}:{column}")?;
+        }
+        let field = self.field.as_ref().map(|field| shortened(field, LONG_NAME));
+        match (field, &self.value) {
+            (Some(field), Some(value)) => write!(f, ": {field} = {value}")?,
+            (Some(field), None) => write!(f, ": {field}")?,
+            (None, Some(value)) => write!(f, ": {value}")?,
+            (None, None) => {}
+        }
+        write!(f, ": {}", shortened(&self.expected, LONG_TEXT))
+    }
+}
+
+/// Longest value that a message shows whole [characters].
+const LONG_VALUE: usize = 60;
+/// Longest name of a file, an option or a field that it shows whole [characters].
+const LONG_NAME: usize = 300;
+/// Longest that it says of what was expected, which may quote the input [characters].
+const LONG_TEXT: usize = 2000;
+
+/// A text, or its beginning and three dots if it has more than `most` characters.
+pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
+    match text.char_indices().nth(most) {
+        None => Cow::Borrowed(text),
+        Some((end, _)) => Cow::Owned(format!("{}...", &text[..end])),
+    }
+}
+
+impl Input {
+    /// A fault in `source` (a file's path or an option).
+    pub fn new(source: impl fmt::Display, expected: impl fmt::Display) -> Self {
+        let (source, expected) = (source.to_string(), expected.to_string());
+        Input { source, expected, ..Input::default() }
+    }
+
+    /// Where in the file, counted from 1.
+    pub fn at(self, line: usize, column: usize) -> Self {
+        Input { place: Some((line, column)), ..self }
+    }
+
+    /// Which field, row or key.
+    pub fn field(self, field: impl fmt::Display) -> Self {
+        Input { field: Some(field.to_string()), ..self }
+    }
+
+    /// The same of a field that lies below the key `above`.
+    pub(crate) fn below(self, above: impl fmt::Display) -> Self {
+        let field = self.field.as_ref().map_or(above.to_string(), |key| format!("{above}.{key}"));
+        self.field(field)
+    }
+
+    /// What stands there; long values are shortened.
+    pub fn value(self, value: impl fmt::Display) -> Self {
+        Input { value: Some(shortened(&value.to_string(), LONG_VALUE).into_owned()), ..self }
+    }
+}
+
+impl From<Input> for Error {
+    fn from(input: Input) -> Self {
+        Error::Input(Box::new(input))
+    }
+}
+
+impl Error {
+    /// For `map_err` around file operations.
+    pub fn io(path: &Path, action: &'static str) -> impl FnOnce(io::Error) -> Error {
+        let path = path.to_owned();
+        move |source| Error::Io { path, action, source }
+    }
+
+    /// Whether the reader of our output has gone, which is no fault.
+    pub fn is_broken_pipe(&self) -> bool {
+        matches!(self, Error::Io { source, .. } if source.kind() == io::ErrorKind::BrokenPipe)
+    }
+}
+
+/// Line and column of a byte offset in `text`, counted from 1; columns count characters.
+pub fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
+    let before = &text[..text.floor_char_boundary(offset)];
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
+/// The known name that `name` was probably meant to be.
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let likeness = |known: &str| strsim::jaro_winkler(name, known);
+    let scored = known.into_iter().map(|known| (likeness(known), known));
+    let best = scored.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (best.0 > 0.75).then_some(best.1)
+}
+
+/// The name that was probably meant, as words after what is wrong, and all known names.
+pub fn hint<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> (String, String) {
+    let known: Vec<_> = known.into_iter().collect();
+    let meant = nearest(name, known.iter().copied());
+    (meant.map_or(String::new(), |name| format!(" (`{name}`?)")), known.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_input_error_names_place_field_value_and_expectation() {
+        let error = Input::new("a.toml", "expected metres").at(3, 7).field("target.d").value(-1);
+        assert_eq!(error.to_string(), "a.toml:3:7: target.d = -1: expected metres");
+    }
+
+    #[test]
+    fn no_part_of_a_message_is_longer_than_a_screen() {
+        let long = "ü".repeat(50_000);
+        let fault = Input::new(&long, &long).field(&long).value(&long);
+        assert!(fault.to_string().chars().count() < 2_700);
+        let missing = io::Error::from(io::ErrorKind::NotFound);
+        let error = Error::io(Path::new(&long), "read")(missing).to_string();
+        assert!(error.contains("ü...: cannot read") && error.len() < 1_000, "{error}");
+        assert_eq!(shortened("as it is", 8), "as it is");
+    }
+
+    #[test]
+    fn columns_count_characters() {
+        assert_eq!(line_and_column("a\néb", 4), (2, 2));
+        assert_eq!(line_and_column("", 0), (1, 1));
+    }
+}

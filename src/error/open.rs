@@ -1,0 +1,204 @@
+//! Opens what a user names to be read: a file, or a pipe, which has to have a writer soon.
+//!
+//! A pipe is as good as a file (`<(command)` of a shell is one), but to open one waits until somebody
+//! opens it to write, and to read one waits for the next byte. Neither may be for ever.
+
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::thread;
+use std::time::Duration;
+
+use super::fault::{Error, Input, Result, line_and_column};
+
+/// How long a pipe may be without a writer.
+const WRITER: Duration = Duration::from_secs(5);
+/// How long a writer may write nothing.
+const SILENCE: Duration = Duration::from_secs(60);
+/// Bytes that are read from a pipe at once.
+const CHUNK: usize = 1 << 16;
+
+/// An opened file or pipe.
+#[derive(Debug)]
+pub enum Opened {
+    /// A file, or a device.
+    File(File),
+    /// A pipe with a writer.
+    Pipe(Pipe),
+}
+
+/// A pipe that another thread reads.
+#[derive(Debug)]
+pub struct Pipe {
+    chunks: Receiver<io::Result<Vec<u8>>>,
+    rest: io::Cursor<Vec<u8>>,
+    silence: Duration,
+}
+
+/// Opens a file or a pipe.
+///
+/// # Errors
+/// When it cannot be opened, or nobody opens the pipe to write.
+pub fn open(path: &Path) -> Result<Opened> {
+    match is_pipe(path) {
+        true => Pipe::open(path, WRITER, SILENCE).map(Opened::Pipe),
+        false => File::open(path).map(Opened::File).map_err(Error::io(path, "read")),
+    }
+}
+
+/// Opens a file that has to be one, because it is read more than once or has to have an end.
+///
+/// # Errors
+/// When it cannot be opened or is a pipe or a device.
+pub fn open_file(path: &Path) -> Result<File> {
+    let found = fs::metadata(path).map_err(Error::io(path, "read"))?;
+    if !found.is_file() && !found.is_dir() {
+        return Err(Input::new(path.display(), "expected a file, not a pipe or device").into());
+    }
+    File::open(path).map_err(Error::io(path, "read"))
+}
+
+#[cfg(unix)]
+fn is_pipe(path: &Path) -> bool {
+    use std::os::unix::fs::FileTypeExt;
+    fs::metadata(path).is_ok_and(|found| found.file_type().is_fifo())
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_: &Path) -> bool {
+    false
+}
+
+impl Pipe {
+    fn open(path: &Path, writer: Duration, silence: Duration) -> Result<Pipe> {
+        let (send, chunks) = sync_channel(1);
+        let to_open = path.to_owned();
+        // If nobody ever writes, the thread waits until the program ends.
+        thread::spawn(move || pump(to_open, &send));
+        match chunks.recv_timeout(writer) {
+            Ok(Ok(_)) => Ok(Pipe { chunks, rest: io::Cursor::default(), silence }),
+            Ok(Err(error)) => Err(Error::io(path, "read")(error)),
+            Err(_) => {
+                let seconds = writer.as_secs_f64();
+                let expected =
+                    format!("is a pipe; expected somebody to write into it within {seconds} s");
+                Err(Input::new(path.display(), expected).into())
+            }
+        }
+    }
+}
+
+/// Hands on that the pipe is open, and then what is in it.
+fn pump(path: PathBuf, send: &SyncSender<io::Result<Vec<u8>>>) {
+    let mut file = match File::open(path) {
+        Ok(file) => file,
+        Err(error) => return drop(send.send(Err(error))),
+    };
+    let mut sent = send.send(Ok(Vec::new()));
+    while sent.is_ok() {
+        let mut chunk = vec![0; CHUNK];
+        sent = match file.read(&mut chunk) {
+            Ok(0) => return,
+            Ok(length) => {
+                chunk.truncate(length);
+                send.send(Ok(chunk))
+            }
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => Ok(()),
+            Err(error) => return drop(send.send(Err(error))),
+        };
+    }
+}
+
+impl Read for Pipe {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        if self.rest.position() == self.rest.get_ref().len() as u64 {
+            let chunk = match self.chunks.recv_timeout(self.silence) {
+                Ok(chunk) => chunk?,
+                Err(RecvTimeoutError::Disconnected) => return Ok(0),
+                Err(RecvTimeoutError::Timeout) => {
+                    let seconds = self.silence.as_secs_f64();
+                    let silent = format!("nothing was written into the pipe for {seconds} s");
+                    return Err(io::Error::new(io::ErrorKind::TimedOut, silent));
+                }
+            };
+            self.rest = io::Cursor::new(chunk);
+        }
+        self.rest.read(bytes)
+    }
+}
+
+impl Read for Opened {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        match self {
+            Opened::File(file) => file.read(bytes),
+            Opened::Pipe(pipe) => pipe.read(bytes),
+        }
+    }
+}
+
+/// Longest text that is read [bytes].
+const LONGEST: u64 = 1 << 28;
+
+/// The text of a file or a pipe, which has to be UTF-8 and end within 256 MiB.
+pub fn read_text(path: &Path) -> Result<String> {
+    let mut bytes = Vec::new();
+    let file = open(path)?;
+    file.take(LONGEST + 1).read_to_end(&mut bytes).map_err(Error::io(path, "read"))?;
+    if bytes.len() as u64 > LONGEST {
+        return Err(Input::new(path.display(), "expected 256 MiB at most").into());
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let text = String::from_utf8_lossy(&error.as_bytes()[..valid]).into_owned();
+        let (line, column) = line_and_column(&text, valid);
+        Input::new(path.display(), "expected UTF-8 text").at(line, column).into()
+    })
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::process::Command;
+
+    const SHORT: Duration = Duration::from_millis(200);
+
+    fn pipe(folder: &Path) -> PathBuf {
+        let path = folder.join("pipe");
+        assert!(Command::new("mkfifo").arg(&path).status().unwrap().success());
+        path
+    }
+
+    #[test]
+    fn a_pipe_that_nobody_writes_into_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = pipe(folder.path());
+        let error = Pipe::open(&path, SHORT, SHORT).unwrap_err().to_string();
+        assert!(error.contains("expected somebody to write into it within 0.2 s"), "{error}");
+        let error = open_file(&path).unwrap_err().to_string();
+        assert!(error.contains("expected a file, not a pipe"), "{error}");
+    }
+
+    #[test]
+    fn a_pipe_is_read_to_its_end_and_not_waited_for_without_end() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = pipe(folder.path());
+        let write = |script: &str| {
+            let script = format!("exec > {}; {script}", path.display());
+            Command::new("sh").args(["-c", &script]).spawn().unwrap()
+        };
+        let mut writer = write("echo one; sleep 0.05; seq 100000");
+        let mut text = String::new();
+        let mut opened = open(&path).unwrap();
+        opened.read_to_string(&mut text).unwrap();
+        assert!(text.starts_with("one\n1\n") && text.ends_with("\n100000\n"));
+        assert!(writer.wait().unwrap().success());
+
+        let mut writer = write("echo one; exec sleep 60");
+        let mut opened = Pipe::open(&path, WRITER, SHORT).unwrap();
+        let error = opened.read_to_string(&mut text).unwrap_err();
+        assert!(error.to_string().contains("nothing was written into the pipe for 0.2 s"));
+        writer.kill().unwrap();
+        writer.wait().unwrap();
+    }
+}

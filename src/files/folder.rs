@@ -1,0 +1,53 @@
+//! A folder that one run at a time writes into.
+
+use std::fs::{File, TryLockError};
+use std::path::Path;
+
+use crate::error::{Error, Input, Result};
+
+use super::output::create_directory;
+
+/// Held while a run writes into a folder; the system lets go of it with the process.
+#[derive(Debug)]
+pub struct FolderLock {
+    _folder: Option<File>,
+}
+
+impl FolderLock {
+    /// Makes the folder, and holds it.
+    ///
+    /// # Errors
+    /// When it cannot be made, or another run holds it.
+    pub fn take(path: &Path) -> Result<Self> {
+        create_directory(path)?;
+        // Where the system opens no folders, there is nothing to hold.
+        let Ok(folder) = File::open(path) else { return Ok(FolderLock { _folder: None }) };
+        match folder.try_lock() {
+            Ok(()) => Ok(FolderLock { _folder: Some(folder) }),
+            Err(TryLockError::WouldBlock) => {
+                let expected = "another run is writing there, expected a folder of its own";
+                Err(Input::new("--output", expected).value(path.display()).into())
+            }
+            Err(TryLockError::Error(error)) if error.kind() == std::io::ErrorKind::Unsupported => {
+                Ok(FolderLock { _folder: None })
+            }
+            Err(TryLockError::Error(error)) => Err(Error::io(path, "lock")(error)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_is_held_by_one_at_a_time() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("out");
+        let held = FolderLock::take(&path).unwrap();
+        let error = FolderLock::take(&path).unwrap_err().to_string();
+        assert!(error.contains("out: another run is writing there"), "{error}");
+        drop(held);
+        FolderLock::take(&path).unwrap();
+    }
+}

@@ -1,0 +1,198 @@
+//! Files and folders under construction: what they are called, and what becomes of those whose run is
+//! gone.
+//!
+//! A name is `.tofsim-PROCESS-RANDOM.part`, and whoever makes one keeps it locked. So a run that was
+//! killed is told from one that goes on: the first time that a run writes into a folder, it removes
+//! what a dead one left there.
+
+use std::collections::BTreeSet;
+use std::ffi::OsStr;
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{LazyLock, Mutex, PoisonError};
+use std::time::Duration;
+
+use tempfile::{Builder, NamedTempFile, TempDir, TempPath};
+
+const PREFIX: &str = ".tofsim-";
+const SUFFIX: &str = ".part";
+/// Age from which something that nobody has locked is a dead run's, whatever its process may be.
+const OLD: Duration = Duration::from_secs(60);
+
+/// What this process has under construction.
+static OURS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+/// Folders that this process has looked through.
+static SWEPT: LazyLock<Mutex<BTreeSet<PathBuf>>> = LazyLock::new(Mutex::default);
+
+/// A path under construction, which is removed unless it is put in place.
+#[derive(Debug)]
+pub(super) struct Unfinished<T> {
+    path: PathBuf,
+    /// Removes it when dropped; `None` once it is in place.
+    own: Option<T>,
+}
+
+impl Unfinished<TempPath> {
+    /// Begins a file in `directory`.
+    pub(super) fn file(directory: &Path) -> io::Result<(File, Self)> {
+        sweep(directory);
+        let made = made(|builder| {
+            #[cfg(unix)]
+            {
+                use std::os::unix::fs::PermissionsExt;
+                builder.permissions(fs::Permissions::from_mode(0o666));
+            }
+            builder.tempfile_in(directory).map(NamedTempFile::into_parts)
+        })?;
+        let (file, path) = made;
+        lock(&file);
+        Ok((file, Unfinished { path: register(&path), own: Some(path) }))
+    }
+
+    /// Gives it its name.
+    pub(super) fn persist(mut self, target: &Path) -> io::Result<()> {
+        match self.own.take() {
+            Some(path) => path.persist(target).map_err(|error| error.error),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Unfinished<TempDir> {
+    /// Begins a folder in `directory`.
+    pub(super) fn folder(directory: &Path) -> io::Result<(Option<File>, Self)> {
+        sweep(directory);
+        let own = made(|builder| builder.tempdir_in(directory))?;
+        // Where a folder cannot be opened, its age has to do.
+        let lock_file = File::open(own.path()).ok();
+        lock_file.iter().for_each(lock);
+        Ok((lock_file, Unfinished { path: register(own.path()), own: Some(own) }))
+    }
+
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+impl<T> Drop for Unfinished<T> {
+    fn drop(&mut self) {
+        let mut ours = OURS.lock().unwrap_or_else(PoisonError::into_inner);
+        drop(self.own.take());
+        ours.remove(&self.path);
+    }
+}
+
+/// Makes something with one of our names.
+fn made<T>(make: impl FnOnce(&mut Builder) -> io::Result<T>) -> io::Result<T> {
+    let prefix = format!("{PREFIX}{}-", std::process::id());
+    make(Builder::new().prefix(&prefix).suffix(SUFFIX))
+        // The crate's error names the temporary file, which says nothing to a user.
+        .map_err(|error| io::Error::from(error.kind()))
+}
+
+/// A lock says that this process lives; a file system without locks has the age to go by.
+fn lock(file: &File) {
+    drop(file.try_lock());
+}
+
+fn register(path: &Path) -> PathBuf {
+    // Whoever ends the process may do so in another folder than where it began.
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    OURS.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone());
+    path
+}
+
+/// Removes all that this process has under construction, and keeps it from beginning anything more:
+/// for the last moment before it ends.
+pub fn discard_all() {
+    let ours = OURS.lock().unwrap_or_else(PoisonError::into_inner);
+    ours.iter().for_each(|path| remove(path));
+    std::mem::forget(ours);
+}
+
+/// Removes what dead runs left in a folder, once in the life of this process.
+fn sweep(directory: &Path) {
+    let known = fs::canonicalize(directory).unwrap_or_else(|_| directory.to_owned());
+    if !SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(known) {
+        return;
+    }
+    // What cannot be read or removed does not keep the run from its work.
+    let entries = fs::read_dir(directory).into_iter().flatten().flatten();
+    entries.map(|entry| entry.path()).filter(|path| is_left(path)).for_each(|path| remove(&path));
+}
+
+fn remove(path: &Path) {
+    let is_folder = fs::symlink_metadata(path).is_ok_and(|found| found.is_dir());
+    let _ = if is_folder { fs::remove_dir_all(path) } else { fs::remove_file(path) };
+}
+
+/// The process in the name of something under construction; `None` within if an older tofsim made it.
+pub fn process(name: &OsStr) -> Option<Option<u32>> {
+    let middle = name.to_str()?.strip_prefix(PREFIX)?.strip_suffix(SUFFIX)?;
+    Some(middle.split_once('-').and_then(|(process, _)| process.parse().ok()))
+}
+
+/// Whether a path is something under construction that a dead run left.
+fn is_left(path: &Path) -> bool {
+    let Some(process) = path.file_name().and_then(process) else { return false };
+    let Ok(found) = fs::symlink_metadata(path) else { return false };
+    let age = found.modified().ok().and_then(|then| then.elapsed().ok()).unwrap_or_default();
+    let is_plain = found.is_file() || found.is_dir();
+    let may_be = age > OLD || process.is_some_and(is_gone);
+    is_plain && may_be && File::open(path).is_ok_and(|file| file.try_lock().is_ok())
+}
+
+/// Whether there is no such process any more, as far as the system tells.
+pub fn is_gone(process: u32) -> bool {
+    let tells = Path::new("/proc/self/stat").exists();
+    let stat = fs::read_to_string(format!("/proc/{process}/stat"));
+    tells && stat.map_or(true, |stat| stat.contains(") Z") || stat.contains(") X"))
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+
+    /// A process that has ended.
+    fn dead() -> u32 {
+        let mut child = std::process::Command::new("true").spawn().unwrap();
+        child.wait().unwrap();
+        child.id()
+    }
+
+    #[test]
+    fn what_a_dead_run_left_is_removed_and_what_lives_is_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let (left, folder_left) =
+            (format!(".tofsim-{}-abc.part", dead()), format!(".tofsim-{}-d.part", dead()));
+        fs::write(at(&left), "half").unwrap();
+        fs::create_dir(at(&folder_left)).unwrap();
+        fs::write(at(&folder_left).join("within"), "half").unwrap();
+        let other = format!(".tofsim-{}-abc.part", std::process::id());
+        let kept = [other.as_str(), ".tofsim-new.part", ".tofsim-1", "mine.part"];
+        kept.iter().for_each(|name| fs::write(at(name), "whole").unwrap());
+        let locked = at(&format!(".tofsim-{}-locked.part", dead()));
+        let file = File::create(&locked).unwrap();
+        file.lock().unwrap();
+
+        let (_, unfinished) = Unfinished::file(folder.path()).unwrap();
+        assert!(!at(&left).exists() && !at(&folder_left).exists());
+        assert!(kept.iter().all(|name| at(name).exists()) && locked.exists());
+        let own = unfinished.path.clone();
+        assert!(own.exists() && OURS.lock().unwrap().contains(&own));
+        drop(unfinished);
+        assert!(!own.exists() && !OURS.lock().unwrap().contains(&own));
+    }
+
+    #[test]
+    fn a_file_in_place_is_no_longer_under_construction() {
+        let folder = tempfile::tempdir().unwrap();
+        let (_, unfinished) = Unfinished::file(folder.path()).unwrap();
+        let own = unfinished.path.clone();
+        unfinished.persist(&folder.path().join("whole")).unwrap();
+        assert!(folder.path().join("whole").exists() && !own.exists());
+        assert!(!OURS.lock().unwrap().contains(&own));
+    }
+}

@@ -1,0 +1,107 @@
+//! What a shot can expect: chances of its first avalanche, in closed form.
+
+use crate::kernel::Time;
+
+use super::closed_form::{BinProbabilities, Bins};
+use super::hazard::Hazard;
+
+/// Chances of a shot whose detector is armed at the laser edge, where the first avalanche decides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chances {
+    /// That the TDC keeps a hit, whenever in the shot [1].
+    pub hit: f64,
+    /// That it keeps a hit and a laser photon is its cause [1].
+    pub signal_first: f64,
+    /// Mean number of hits in the histogram: those with a code [1].
+    pub counted: f64,
+    /// Of these, the laser photons' [1].
+    pub counted_signal: f64,
+}
+
+impl Chances {
+    /// Where hits have the codes of `bins`, and the TDC keeps none from `end` on.
+    pub fn new(hazard: &Hazard, bins: &Bins, end: Time) -> Self {
+        let mut counted_signal = 0.0;
+        let mut spans = bins.spans().iter().peekable();
+        while let Some(first) = spans.next() {
+            // Spans without a gap are one.
+            let mut until = first.until;
+            while let Some(next) = spans.next_if(|next| next.from == until) {
+                until = next.until;
+            }
+            counted_signal += hazard.signal_first(until) - hazard.signal_first(first.from);
+        }
+        Chances {
+            hit: -libm::expm1(-hazard.at(end)),
+            signal_first: hazard.signal_first(end),
+            counted: BinProbabilities::new(hazard, bins).of_code().iter().sum(),
+            counted_signal,
+        }
+    }
+
+    /// Hits of laser photons to one of any other cause, in the histogram; `None` without any other [1].
+    pub fn signal_to_noise(&self) -> Option<f64> {
+        let noise = self.counted - self.counted_signal;
+        // Below this it is what sums of a thousand terms leave over.
+        (noise > 1e-13).then(|| self.counted_signal / noise)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::firmware::carry_chain::{Delays, TAPS};
+    use crate::optics::Budget;
+
+    use super::*;
+
+    const PERIOD: Time = Time::from_ns(8);
+    const END: Time = Time::from_ns(40);
+
+    fn chances(budget: &Budget) -> Chances {
+        let delays = Delays::new(Time::from_ns(2), &[12_500; TAPS]).unwrap();
+        let bins = Bins::of_chain(&delays, &delays.calibration(PERIOD), PERIOD);
+        Chances::new(&Hazard::new(budget), &bins, END)
+    }
+
+    fn budget() -> Budget {
+        Budget {
+            signal_per_shot: 0.9,
+            ambient_rate_hz: 0.5e9,
+            mean_arrival: Time::from_fs(3_336_000),
+            pulse_sigma_ps: 137.0,
+            ..Budget::default()
+        }
+    }
+
+    #[test]
+    fn signal_and_noise_share_what_is_counted() {
+        let found = chances(&budget());
+        assert!((found.hit - (1.0 - (-0.9 - 0.5 * 40.0f64).exp())).abs() < 1e-12);
+        assert!((found.counted - (1.0 - (-0.9 - 0.5 * 6.4f64).exp())).abs() < 1e-6);
+        assert!((found.signal_first - found.counted_signal).abs() < 1e-12, "no echo past 6.4 ns");
+        // Nearly what a pulse without width would have: no noise before it, and a photon in it.
+        let none_before = (-0.5 * 3.336f64).exp();
+        let expected = none_before * (1.0 - (-0.9f64).exp());
+        assert!((found.signal_first / expected - 1.0).abs() < 0.03, "{}", found.signal_first);
+        let noise = found.counted - found.counted_signal;
+        assert_eq!(found.signal_to_noise(), Some(found.counted_signal / noise));
+    }
+
+    #[test]
+    fn an_echo_past_the_histogram_is_a_hit_that_is_not_counted() {
+        let far = Budget { mean_arrival: Time::from_ns(10), ambient_rate_hz: 1e7, ..budget() };
+        let found = chances(&far);
+        assert!(found.signal_first > 0.5);
+        assert!(found.counted_signal.abs() < 1e-12);
+        assert!((found.counted - (1.0 - (-0.064f64).exp())).abs() < 1e-6);
+    }
+
+    #[test]
+    fn without_noise_there_is_no_ratio_to_it() {
+        let found = chances(&Budget { ambient_rate_hz: 0.0, ..budget() });
+        assert_eq!(found.signal_to_noise(), None);
+        let none = chances(&Budget::default());
+        assert_eq!((none.hit, none.signal_first, none.counted), (0.0, 0.0, 0.0));
+        assert_eq!(none.signal_to_noise(), None);
+    }
+}
