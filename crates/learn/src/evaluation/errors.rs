@@ -98,14 +98,14 @@ impl Evaluation {
         scenes: Vec<Scene>,
         estimators: &[Box<dyn Estimator + '_>],
     ) -> Self {
-        let column = |estimator: &Box<dyn Estimator + '_>| {
+        let column = |estimator: &dyn Estimator| {
             let pairs = histograms.par_iter().zip(&scenes);
             let error = |(histogram, scene): (&Histogram, &Scene)| {
                 Some(estimator.estimate(histogram).ok()? - scene.distance_m)
             };
             EstimatorErrors { name: estimator.name(), errors_m: pairs.map(error).collect() }
         };
-        let columns = estimators.iter().map(column).collect();
+        let columns = estimators.iter().map(|one| column(&**one)).collect();
         Evaluation { scenes, columns }
     }
 
