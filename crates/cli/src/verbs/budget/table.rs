@@ -4,11 +4,12 @@ use tofsim::optics::eye_safety::Exposure;
 
 use crate::text::table::{grouped, number_or_dash, plain};
 
-use super::Findings;
+use super::findings::Findings;
 
 type Row = [String; 3];
 
-pub(super) fn table(findings: &Findings) -> String {
+/// Rows of what is found: light, shot, laser, verdicts.
+pub fn table(findings: &Findings) -> String {
     let setup = &findings.setup;
     let (budget, target) = (&setup.budget, &setup.scenario.target);
     let light = [
