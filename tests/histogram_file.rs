@@ -100,7 +100,7 @@ fn a_faulty_npy_is_refused_with_shape_type_or_place() {
     assert!(fault(&npy("<u2", "(256, 2)", &zeros)).contains("shape = (256, 2): expected"));
     assert!(fault(&npy("<u2", "(2, 2, 256)", &zeros)).contains("shape = (2, 2, 256): expected"));
     assert!(fault(&npy("<u2", "(0, 256)", &[])).contains("shape = (0, 256): expected"));
-    assert!(fault(&npy("<f4", "(256,)", &zeros)).contains("dtype = '<f4': expected integers"));
+    assert!(fault(&npy("<f2", "(256,)", &zeros)).contains("dtype = '<f2': expected integers"));
     assert!(fault(&npy("|b1", "(256,)", &zeros)).contains("dtype = '|b1': expected integers"));
     let short = fault(&npy("<u2", "(2, 256)", &zeros[..1022]));
     assert_eq!(short, ": histogram 1, bin 255: the file ends here, expected 2 histograms");

@@ -79,12 +79,13 @@ fn a_folder_holds_the_files_of_one_run() {
     let args = [&["run", "-o", "out", "--waves", "fst"], &SHORT[..]].concat();
     let said = output(path, &args);
     let said = String::from_utf8_lossy(&said.stderr).into_owned();
-    assert!(said.contains("removed out/kc705.vcd: it was an older run's"), "{said}");
+    assert!(said.contains("out/kc705.vcd is of an older run"), "{said}");
+    assert!(!said.contains("histogram.csv is of"), "{said}");
     let summary = fs::read(path.join("out/summary.json")).unwrap();
     let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
     let mut listed: Vec<_> =
         summary["files"].as_array().unwrap().iter().map(|name| name.as_str().unwrap()).collect();
-    listed.extend([".surfer", "own.txt"]);
+    listed.extend([".surfer", "own.txt", "kc705.vcd"]);
     let mut found: Vec<_> =
         fs::read_dir(path.join("out")).unwrap().map(|file| file.unwrap().file_name()).collect();
     listed.sort();

@@ -94,7 +94,7 @@ impl<'a> RunFiles<'a> {
     }
 
     /// Puts the files in place, beside those that are `written` already, and lists all of them in the
-    /// summary. What an older summary lists and this one does not is removed.
+    /// summary. What an older summary lists and this one does not is named.
     pub fn finish(
         &mut self,
         setup: &Setup,
@@ -107,7 +107,7 @@ impl<'a> RunFiles<'a> {
         }
         let (Some(folder), Some(frame)) = (self.folder, log.rows.get(self.shown as usize).cloned())
         else {
-            return Ok(Written { files: written, removed: Vec::new() });
+            return Ok(Written { files: written, older: Vec::new() });
         };
         let names = &NAMES[..if log.pairs.is_some() { 4 } else { 3 }];
         written.extend(names.iter().map(|name| folder.join(name)));
@@ -133,9 +133,7 @@ impl<'a> RunFiles<'a> {
             let difference = pair_table::csv(&log.rows[0], &log.rows[1]);
             write_bytes(&folder.join(NAMES[3]), csv(difference))?;
         }
-        // What cannot be removed is not there any more, or not ours.
-        let removed = older.into_iter().filter(|path| std::fs::remove_file(path).is_ok());
-        Ok(Written { files: written, removed: removed.collect() })
+        Ok(Written { files: written, older })
     }
 }
 
@@ -143,18 +141,18 @@ impl<'a> RunFiles<'a> {
 pub struct Written {
     /// Those that it wrote.
     pub files: Vec<PathBuf>,
-    /// Those that it removed, because an older run had written them.
-    pub removed: Vec<PathBuf>,
+    /// Those of an older run beside them.
+    pub older: Vec<PathBuf>,
 }
 
-/// Files that the summary in a folder lists, but for those of some names.
+/// Files in a folder that its summary lists, but for those of some names.
 fn older_files(folder: &Path, names: &[String]) -> Vec<PathBuf> {
     let summary = std::fs::read(folder.join(NAMES[0])).unwrap_or_default();
     let summary: Value = serde_json::from_slice(&summary).unwrap_or_default();
     let listed = summary["files"].as_array().into_iter().flatten().filter_map(Value::as_str);
     let is_plain = |name: &&str| Path::new(name).file_name() == Some(OsStr::new(name));
     let older = listed.filter(is_plain).filter(|name| names.iter().all(|own| own != name));
-    older.map(|name| folder.join(name)).collect()
+    older.map(|name| folder.join(name)).filter(|path| path.exists()).collect()
 }
 
 /// A histogram as CSV: `bin,count`, 256 rows.

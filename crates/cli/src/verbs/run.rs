@@ -148,12 +148,15 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let fidelity = args.fidelity.name();
     let about = (&record, &notes[..]);
     let mut summary = Summary::new(&setup, fidelity, waves, &log, files.tdc(), about);
-    let Written { files, removed } = files.finish(&setup, &mut log, &mut summary, written)?;
+    let Written { files, older } = files.finish(&setup, &mut log, &mut summary, written)?;
     for path in files {
         talk.wrote(&path);
     }
-    for path in removed {
-        talk.note(format_args!("removed {}: it was an older run's", path.display()));
+    for path in older {
+        talk.note(format_args!(
+            "{} is of an older run: summary.json does not list it",
+            path.display()
+        ));
     }
     if args.json {
         return print_with(|out| summary.write(&mut log, out));

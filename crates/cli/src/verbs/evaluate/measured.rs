@@ -16,7 +16,7 @@ use tofsim_learn::evaluation::{EstimatorErrors, Evaluation, Figures};
 use crate::report::evaluation as report;
 use crate::verbs::terminal::{Talk, print, print_json};
 
-use super::{Args, SHOWN};
+use super::args::{Args, SHOWN};
 
 /// Evaluates what is in `data`.
 pub fn run(args: &Args, data: &Path, talk: &Talk) -> Result<()> {

@@ -11,7 +11,7 @@ use tofsim_learn::training::weighting::Weighting;
 use crate::verbs::draws::from_here;
 use crate::verbs::scenes::Scenes;
 
-use super::Args;
+use super::args::Args;
 
 /// Where the histograms come from.
 pub enum Origin {

@@ -1,0 +1,68 @@
+//! The options of `tofsim evaluate`.
+
+use std::path::PathBuf;
+
+use tofsim::network::Network;
+use tofsim::scenario;
+use tofsim_learn::estimation::EstimatorKind;
+
+use crate::choice::words;
+use crate::verbs::draws::Draws;
+
+/// Distances of the tables, where the grid is not the thesis's.
+pub(super) const SHOWN: usize = 6;
+
+/// Measure how exactly the network and other estimators find the distance
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Histograms are drawn afresh over the thesis's test grid: 51 distances from 0.1 \
+    to 0.6 m, 9 irradiances,\n53 reflectances, 5 of each scene. All estimators see the same ones,\nbut for \
+    pub(super) subtraction: a dark and a lit one of half the shots each.\nWith --grid KEY=... scenes are those of \
+    one's own, and what no --grid has is the scenario's.\n\n\
+    Examples:\n  \
+    tofsim evaluate                                 the default network on its chain's bins\n  \
+    tofsim evaluate ideal --profile ideal -o out    with box plots and tables as CSV\n  \
+    tofsim evaluate --estimator network,peak,matched,likelihood --rows 12000\n  \
+    tofsim evaluate --estimator peak,subtraction    does a dark histogram help the detector?\n  \
+    tofsim evaluate --data measured --profile chain.toml    on histograms of one's own\n  \
+    tofsim evaluate --grid target.distance_m=0.1..0.9:0.05 --grid laser.pulse_sigma_ps=100,137,200"
+)]
+pub struct Args {
+    /// Built-in network (uniform, uniform-16, ideal) or network file
+    #[arg(value_name = "NETWORK", default_value = Network::DEFAULT)]
+    pub(super) network: String,
+    /// Built-in scenario, or the path of a scenario file, for all but the scene
+    #[arg(long, default_value = scenario::DEFAULT)]
+    pub(super) scenario: String,
+    #[command(flatten)]
+    pub(super) draws: Draws,
+    /// Estimators, separated by commas
+    #[arg(long, value_parser = words(&EstimatorKind::ALL), value_delimiter = ',', default_value = "network,network-float")]
+    pub(super) estimator: Vec<EstimatorKind>,
+    /// Which scenes: thesis or test (51 distances, every 10 mm), train (201), KEY=FROM..TO:STEP or KEY=A,B,C
+    /// of any numeric key of the scenario (may be repeated), or a TOML file of those [default: thesis]
+    #[arg(long, value_name = "GRID")]
+    pub(super) grid: Vec<String>,
+    /// Histograms of each scene, where all are drawn
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u64).range(1..))]
+    pub(super) repeats: u64,
+    /// Histograms of known distances instead of drawn ones: the folder of a dataset, a Parquet file with
+    /// columns b0 to b255 and distance_m, or an .npy file with --truth
+    #[arg(long, value_name = "PATH", conflicts_with_all = ["grid", "repeats", "rows"])]
+    pub(super) data: Option<PathBuf>,
+    /// The true distances of --data [m]: an .npy file of n or n x k floats, distances first
+    #[arg(long, value_name = "FILE", requires = "data")]
+    pub(super) truth: Option<PathBuf>,
+    /// Frames to simulate cycle by cycle at each of six distances, to be compared with the fast path
+    #[arg(long, value_name = "N", default_value_t = 8, allow_hyphen_values = true)]
+    pub(super) check: u64,
+    /// Count an estimate as an outlier that is further than this from the truth
+    #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = crate::choice::millimetres)]
+    pub(super) outlier_limit_mm: f64,
+    /// Write evaluation.json, evaluation.csv and box plots of the errors there
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+    /// Print one JSON object instead of tables
+    #[arg(long)]
+    pub(super) json: bool,
+}

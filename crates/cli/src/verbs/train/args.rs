@@ -1,0 +1,85 @@
+//! The options of `tofsim train`.
+
+use std::path::PathBuf;
+
+use tofsim::scenario;
+
+use super::word_format::{FormatOption, word_format};
+
+/// Train a depth network on simulated histograms, within the firmware's number formats or others
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+    tofsim train --profile uniform --seed 1 -o mine\n  \
+    tofsim train --profile chain.toml -o mine       on one's own chain\n  \
+    tofsim train --resume -o mine                   go on where it was stopped\n  \
+    tofsim train --with finish.blocks=10 -o mine    with a number of the recipe changed\n  \
+    tofsim train --grid target.distance_m=0.05..0.9:0.0025 --grid target.reflectance=0.05..0.9:0.05 -o far\n  \
+    tofsim train --data measured --profile chain.toml -o mine   on histograms of one's own\n  \
+    tofsim train --lut-bits 10 --format w1=12.19    for a datapath that is not the firmware's\n  \
+    tofsim run -s estimator.network=mine/network.toml")]
+pub struct Args {
+    /// Built-in scenario or scenario file: optics, detector and shots; its scene does not matter
+    #[arg(default_value = scenario::DEFAULT)]
+    pub(super) scenario: String,
+    /// Set a key of the scenario, such as spad.pdp=0.015; may be repeated
+    #[arg(short, long = "set", value_name = "KEY=VALUE")]
+    pub(super) set: Vec<String>,
+    /// Chain whose bins to train on, built-in or a file: tdc.profile of the scenario
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) profile: Option<String>,
+    /// Seed of data and starts
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(super) seed: u64,
+    /// Scenes to train for: thesis, KEY=FROM..TO:STEP or KEY=A,B,C of any numeric key of the scenario (may be
+    /// repeated; what none has is the scenario's), or a TOML file of those [default: thesis]
+    #[arg(long, value_name = "GRID")]
+    pub(super) grid: Vec<String>,
+    /// Histograms of known distances instead of drawn ones: the folder of a dataset, a Parquet file with
+    /// columns b0 to b255 and distance_m, or an .npy file with --truth
+    #[arg(long, value_name = "PATH", conflicts_with = "grid")]
+    pub(super) data: Option<PathBuf>,
+    /// The true distances of --data [m]: an .npy file of n or n x k floats, distances first
+    #[arg(long, value_name = "FILE", requires = "data")]
+    pub(super) truth: Option<PathBuf>,
+    /// A training of seconds, whose network is poor
+    #[arg(long)]
+    pub(super) quick: bool,
+    /// TOML file with numbers of the recipe, over the built-in one's
+    #[arg(long, value_name = "FILE")]
+    pub(super) recipe: Option<PathBuf>,
+    /// Set a key of the recipe, such as finish.blocks=10 or table_noise=0; may be repeated
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(super) with: Vec<String>,
+    /// Hidden neurons, 1 to 16 [default: 8, as in the thesis]
+    #[arg(long, value_name = "N")]
+    pub(super) neurons: Option<usize>,
+    /// Address bits of the table of activations [default: 12, as in the thesis]
+    #[arg(long, value_name = "N")]
+    pub(super) lut_bits: Option<u32>,
+    /// Width and fraction bits of w1, b1, w2, b2 or l1_out (activations), such as w1=16.23; may be
+    /// repeated [default: those of the thesis's Table 6.4]
+    #[arg(long = "format", value_name = "WORD=WIDTH.FRACTION", value_parser = word_format)]
+    pub(super) formats: Vec<FormatOption>,
+    /// Starts that take part in the first stage
+    #[arg(long, value_name = "N")]
+    pub(super) starts: Option<usize>,
+    /// Print the recipe as TOML, and train nothing
+    #[arg(long)]
+    pub(super) print_recipe: bool,
+    /// Go on from the checkpoint in the folder
+    #[arg(long)]
+    pub(super) resume: bool,
+    /// Stop after so many checkpoints, to go on later with --resume
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(super) checkpoints: Option<u64>,
+    /// Threads; the network is the same for any number [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(super) threads: Option<u16>,
+    /// Write network.toml, accuracy.csv, curve.csv, curve.svg and checkpoint there; for formats that are
+    /// not the firmware's, network.json for quantize --from instead of network.toml
+    #[arg(short, long, value_name = "DIR", default_value = "training")]
+    pub(super) output: PathBuf,
+    /// Print one JSON object instead of a table
+    #[arg(long)]
+    pub(super) json: bool,
+}
