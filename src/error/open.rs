@@ -156,7 +156,8 @@ pub fn read_text(path: &Path) -> Result<String> {
     })
 }
 
-#[cfg(all(test, unix))]
+#[cfg(unix)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use std::process::Command;

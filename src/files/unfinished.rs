@@ -150,7 +150,8 @@ pub fn is_gone(process: u32) -> bool {
     tells && stat.map_or(true, |stat| stat.contains(") Z") || stat.contains(") X"))
 }
 
-#[cfg(all(test, target_os = "linux"))]
+#[cfg(target_os = "linux")]
+#[cfg(test)]
 mod tests {
     use super::*;
 

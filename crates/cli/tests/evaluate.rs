@@ -78,7 +78,7 @@ fn a_folder_gets_the_figures_and_the_plots() {
     let report: Value = serde_json::from_str(&text).unwrap();
     let row = csv.lines().find(|line| line.starts_with("network,distance_m,0.3,")).unwrap();
     let two_sd = at(&report, "network", 0.3)["two_sd_mm"].as_f64().unwrap();
-    let in_csv: f64 = row.split(',').nth(7).unwrap().parse().unwrap();
+    let in_csv: f64 = row.split(',').nth(8).unwrap().parse().unwrap();
     // The parser of this test may miss the last bit.
     assert!((in_csv / two_sd - 1.0).abs() < 1e-12);
 }
@@ -172,7 +172,7 @@ fn several_frames_give_each_estimator_mean_error_spread_outliers_and_failures() 
 fn an_evaluation_counts_outliers_by_the_stated_limit() {
     let folder = empty();
     let report = |more: &[&str]| {
-        let some = ["--estimator", "centroid,likelihood", "--json", "--check", "0"];
+        let some = ["--estimator", "centroid,likelihood", "--json"];
         json(folder.path(), &with(&[&some[..], more].concat()))
     };
     let (usual, strict) = (report(&[]), report(&["--outlier-limit-mm", "5"]));
@@ -201,7 +201,7 @@ fn an_estimator_says_what_it_does_not_know() {
     assert!(text.contains("[estimator-outside-model]"), "{text}");
     let (_, text) = told(&[&run[..], &["likelihood"]].concat());
     assert!(!text.contains("likelihood: "), "{text}");
-    let wide = ["--estimator", "peak", "-s", "laser.pulse_sigma_ps=200", "--check", "0"];
+    let wide = ["--estimator", "peak", "-s", "laser.pulse_sigma_ps=200"];
     let (_, text) = told(&with(&wide));
     assert!(text.contains("note: laser.pulse_sigma_ps = 200: peak: "), "{text}");
     let (status, _) = told(&with(&[&wide[..], &["--strict"]].concat()));

@@ -160,6 +160,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let (a, b) = match (scenario, &args.files[..]) {
         (Some(scenario), [b]) => {
             let setup = Setup::new(load(scenario, set, *seed)?)?;
+            talk.heed(&setup.notes()?)?;
             super::frames::check("--frames", *frames, &setup)?;
             (Source::simulation(setup, *frames), open(b)?)
         }

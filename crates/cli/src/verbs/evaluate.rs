@@ -22,6 +22,7 @@ use tofsim_learn::evaluation::thesis::{self, DISTANCES_M};
 use tofsim_learn::evaluation::{EstimatorErrors, Evaluation, Figures, KeyGroups, by_setting};
 
 use crate::choice::words;
+use crate::record::Record;
 use crate::report::evaluation as report;
 
 use super::draws::Draws;
@@ -160,6 +161,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             }
         }
     }
+    Record::new(&scenes.setups[0], &talk.command).put_into(&mut json, &notes);
     if let Some(folder) = &args.output {
         let json = format!("{json}\n");
         let written = report::write(folder, &json, &figures, &by_setting, grid.is_thesis())?;

@@ -20,7 +20,7 @@ pub fn check(option: &str, frames: u64, setup: &Setup) -> Result<()> {
     let own = PERIODS.get(setup.scenario.firmware.laser_freq as usize);
     let slowest = PERIODS.iter().max();
     let period = if setup.scenario.control.is_empty() { own.or(slowest) } else { slowest };
-    let cycles = AROUND + setup.shots(1) * period.map_or(1, |period| *period as u64);
+    let cycles = AROUND + setup.shots(1) * period.copied().unwrap_or(1);
     let most = u64::MAX / (cycles * CYCLE.fs()) / setup.frames_together();
     let reason = "simulated time, in 64 bits of femtoseconds, ends after five hours";
     within(option, frames, most, reason)

@@ -10,6 +10,7 @@ use tofsim::network::file::Training;
 use tofsim::network::formats::Overflow;
 use tofsim::network::{Network, mem};
 use tofsim::scenario;
+use tofsim::sim::domain;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::{Grid, GridOption, HistogramSource};
 use tofsim_learn::evaluation::exploration::{explore, sweep};
@@ -145,6 +146,8 @@ impl Args {
         let loaded = self.draws.load_with(&self.scenario, network, &self.draws.set)?;
         let (seed, profile) = (loaded.scenario.seed, loaded.scenario.tdc.profile.clone());
         let network = Network::find(network, None)?;
+        let notes = domain::notes(&network, &loaded.scenario, &Grid::test().ranges())?;
+        talk.heed(&notes)?;
         let source = HistogramSource::new(&Setup::new(loaded)?)?;
         let rows = self.draws.rows(Some(EXPLORED), &Grid::test(), seed)?;
         let (stop, data) = (stop_signal(), (&source, &rows, seed));
@@ -155,6 +158,7 @@ impl Args {
         if self.json {
             return print_json(&json!({
                 "schema": "tofsim.exploration/1",
+                "notes": notes,
                 "network": name,
                 "profile": profile,
                 "seed": seed,

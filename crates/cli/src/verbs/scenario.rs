@@ -70,8 +70,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         What::Check { which, json } => {
             let setup = Setup::new(scenario::load(&which.scenario, &which.set)?)?;
             setup.windows(&[], 1)?;
+            let notes = setup.notes()?;
+            talk.heed(&notes)?;
             match json {
-                true => print_json(&json!({ "scenario": setup.name, "ok": true })),
+                true => print_json(&json!({ "scenario": setup.name, "ok": true, "notes": notes })),
                 false => talk.report(&format!("{}: ok\n", setup.name)),
             }
         }

@@ -23,7 +23,7 @@ fn what_makes_no_pairs_is_refused_by_name() {
             "control.0.laser_en = true: expected no change",
         ),
         (&["-s", "firmware.dark_frames=false"], "firmware.dark_frames = false: expected true"),
-        (&["--frames", "18000000000000000000"], "--frames: 18000000000000000000: expected fewer"),
+        (&["--frames", "18000000000000000000"], "--frames: 18000000000000000000: expected 12,"),
         (&["--fidelity", "histogram", "-s", "firmware.mode=1"], "firmware.mode = 1"),
         (&["-s", "firmware.dark_frames=maybe"], "expected true or false"),
     ] {

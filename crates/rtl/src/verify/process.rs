@@ -90,6 +90,8 @@ pub fn run(mut command: Command, folder: &Path, limits: &Limits) -> Result<Finis
     let out = tempfile::tempfile().map_err(fault)?;
     let both = |file: &File| Ok(Stdio::from(file.try_clone()?));
     command.current_dir(folder).stdin(Stdio::null());
+    // What it leaves when it is killed goes with the folder.
+    command.env("TMPDIR", std::path::absolute(folder).map_err(fault)?);
     command.stdout(both(&out).map_err(fault)?).stderr(both(&out).map_err(fault)?);
     let mut child =
         CommandWrap::from(command).wrap(ProcessGroup::leader()).spawn().map_err(fault)?;

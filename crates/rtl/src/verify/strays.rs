@@ -41,7 +41,8 @@ fn is_of_a_dead_run(folder: &Path) -> bool {
     runs.last().is_some_and(is_gone)
 }
 
-#[cfg(all(test, target_os = "linux"))]
+#[cfg(target_os = "linux")]
+#[cfg(test)]
 mod tests {
     use super::*;
     use std::process::Command;

@@ -114,6 +114,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let mut set_up = AnalyserSetup::load(&args.probes)?;
     args.instead.lay_over(&mut set_up);
     let setup = simulated(args, &set_up)?;
+    talk.heed(&setup.notes()?)?;
     let mut plan = AnalyserPlan::new(&set_up, &setup)?;
     plan.stop_when_full = args.stop_when_full;
     let frames = args.frames.unwrap_or(set_up.file.frames);
