@@ -1,5 +1,7 @@
 //! What an output says of where it comes from, and how that is found again.
 
+use std::path::Path;
+
 use clap::parser::ValueSource;
 use clap::{ArgAction, ArgMatches, Command};
 use serde::{Deserialize, Serialize};
@@ -114,6 +116,12 @@ pub fn command_line(command: &Command, matches: &ArgMatches) -> Vec<String> {
         }
         let values = given.get_raw(id).into_iter().flatten();
         let values = values.map(|value| value.to_string_lossy().into_owned());
+        // The shots of a run go where it is told; only their name is part of it.
+        let name = |path: String| match Path::new(&path).file_name() {
+            Some(name) if id == "events" => name.to_string_lossy().into_owned(),
+            _ => path,
+        };
+        let values = values.map(name);
         match (argument.get_long(), argument.get_action()) {
             (None, _) => places.extend(values),
             (Some(long), ArgAction::Set | ArgAction::Append) => {

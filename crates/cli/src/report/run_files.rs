@@ -99,7 +99,7 @@ impl<'a> RunFiles<'a> {
         &mut self,
         setup: &Setup,
         log: &mut FrameLog,
-        summary: &mut Summary,
+        summary: &Summary,
         mut written: Vec<PathBuf>,
     ) -> Result<Written> {
         if let Some(events) = self.events.take() {
@@ -111,9 +111,14 @@ impl<'a> RunFiles<'a> {
         };
         let names = &NAMES[..if log.pairs.is_some() { 4 } else { 3 }];
         written.extend(names.iter().map(|name| folder.join(name)));
-        let name = |path: &PathBuf| Some(path.file_name()?.to_string_lossy().into_owned());
+        let name = |path: &PathBuf| {
+            let elsewhere = || path.file_name().map(Path::new);
+            let name = path.strip_prefix(folder).ok().or_else(elsewhere)?;
+            Some(name.to_string_lossy().into_owned())
+        };
         let names: Vec<String> = written.iter().filter_map(name).collect();
         let older = older_files(folder, &names);
+        let mut summary = summary.clone();
         summary.list(names);
         if self.causes.as_flattened().iter().all(|&count| count == 0) {
             self.causes[CAUSES.len() - 1] = frame.histogram.map(u32::from);

@@ -147,8 +147,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let waves = plan.map(|plan| plan.path.display().to_string());
     let fidelity = args.fidelity.name();
     let about = (&record, &notes[..]);
-    let mut summary = Summary::new(&setup, fidelity, waves, &log, files.tdc(), about);
-    let Written { files, older } = files.finish(&setup, &mut log, &mut summary, written)?;
+    let summary = Summary::new(&setup, fidelity, waves, &log, files.tdc(), about);
+    let Written { files, older } = files.finish(&setup, &mut log, &summary, written)?;
     for path in files {
         talk.wrote(&path);
     }

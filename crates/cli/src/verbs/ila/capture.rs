@@ -16,7 +16,7 @@ use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, captu
 
 use crate::choice::{self, words};
 use crate::text::table::facts;
-use crate::verbs::draws::load;
+use crate::verbs::draws::{load, outside_training};
 use crate::verbs::frames::check as check_frames;
 use crate::verbs::interrupt::look_no_more;
 use crate::verbs::terminal::{Talk, print_json, stop_signal};
@@ -114,7 +114,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let mut set_up = AnalyserSetup::load(&args.probes)?;
     args.instead.lay_over(&mut set_up);
     let setup = simulated(args, &set_up)?;
-    talk.heed(&setup.notes()?)?;
+    talk.heed(&outside_training(&setup)?)?;
     let mut plan = AnalyserPlan::new(&set_up, &setup)?;
     plan.stop_when_full = args.stop_when_full;
     let frames = args.frames.unwrap_or(set_up.file.frames);
