@@ -7,6 +7,9 @@
 //! root of its weight is largest, and a parabola through three points of that finds it between the
 //! grid's.
 
+use std::f64::consts::PI;
+use std::ops::Range;
+
 use tofsim::error::Input;
 use tofsim::network::Histogram;
 use tofsim::optics::Bins;
@@ -34,6 +37,8 @@ pub struct MatchedFilter {
     widths: Vec<f64>,
     /// All bins together [ps].
     range_ps: f64,
+    /// Standard deviation of jitter, and the bins that are 3 to 6 of it long after the laser edge.
+    jitter: (f64, Range<usize>),
     /// For each arrival on the grid, every 25 ps from 0.
     pulses: Vec<Pulse>,
 }
@@ -109,12 +114,18 @@ impl MatchedFilter {
         let end_ps = spans_ps(acquisition.bins).map(|(.., until)| until).fold(0.0, f64::max);
         // Exact for a faint pulse only: pile-up comes before jitter.
         let sigma_ps = acquisition.pulse_sigma_ps.hypot(acquisition.jitter_ps);
+        let bin_at = |deviations: f64| {
+            let t_ps = deviations * acquisition.jitter_ps;
+            pieces.partition_point(|bin| bin.spans[0][0] < t_ps)
+        };
+        let jitter = (acquisition.jitter_ps, bin_at(3.0)..bin_at(6.0));
         let pulse = |place| Pulse::new(&pieces, place as f64 * BIN_PS, sigma_ps);
         Ok(MatchedFilter {
             shots: acquisition.shots,
             codes: pieces.iter().map(|bin| bin.code).collect(),
             widths: pieces.iter().map(|bin| bin.width_ps() / range_ps).collect(),
             range_ps,
+            jitter,
             pulses: (0..=(end_ps / BIN_PS) as usize).map(pulse).collect(),
         })
     }
@@ -122,7 +133,7 @@ impl MatchedFilter {
     /// The most likely echo, however faint; `None` where no signal above zero fits.
     pub fn best(&self, histogram: &Histogram) -> Option<Match> {
         let counts = self.codes.iter().map(|&code| histogram[code as usize]);
-        let bins = correct(counts, self.shots);
+        let bins = correct(counts, self.shots - self.lost(histogram));
         let flat = self.flat(&bins);
         let fits: Vec<_> =
             self.pulses.iter().map(|pulse| Fit::new(pulse, self, &bins, flat)).collect();
@@ -149,6 +160,21 @@ impl MatchedFilter {
             echo,
             significance: fit.signal / self.signal_deviation(&self.pulses[best], &bins, fit),
         })
+    }
+
+    /// Shots whose hit jitter puts before the laser edge, where it has no code: so many as hits come
+    /// in 0.4 deviations, J / sqrt(2 pi). Taken for waiting ones they would hide all that comes late.
+    fn lost(&self, histogram: &Histogram) -> u64 {
+        let (jitter_ps, early) = &self.jitter;
+        let hits =
+            self.codes[early.clone()].iter().map(|&code| u64::from(histogram[code as usize]));
+        let width_ps = self.widths[early.clone()].iter().sum::<f64>() * self.range_ps;
+        if width_ps == 0.0 {
+            return 0;
+        }
+        let lost = hits.sum::<u64>() as f64 / width_ps * jitter_ps / (2.0 * PI).sqrt();
+        let all: u64 = histogram.iter().map(|&count| u64::from(count)).sum();
+        (lost.round() as u64).min(self.shots.saturating_sub(all))
     }
 
     /// Weighted squares of the widths, and widths times hazards.

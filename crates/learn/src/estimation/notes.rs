@@ -8,15 +8,14 @@ use tofsim::sim::fast::histogram::independent_shots;
 use tofsim::sim::setup::{CYCLE, Setup};
 use tofsim::{Note, NoteCode, NoteValue};
 
-use super::acquisition::{ARRIVAL_PS_PER_M, BIN_PS, FreeRunning, most_probable};
+use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, BIN_PS, most_probable};
 use super::by_name::EstimatorKind;
 use super::centroid::Centroid;
 use super::estimator::Estimator;
 use super::peak_detection::PeakDetection;
 
-/// Jitter of an edge that costs the matched filter, the peak and the centroid half a millimetre at
-/// 0.1 m and 34 % [ps]; `docs/accuracy.md` has what it was measured by.
-const JITTER_PS: f64 = 7.7;
+/// Jitter of an edge that moves centroid and peak by a tenth of a millimetre [ps].
+const JITTER_PS: f64 = 20.0;
 /// Standard deviation of the thesis's pulse, to which K_d and B_d are fitted [ps].
 const THESIS_SIGMA_PS: f64 = 137.0;
 /// A pulse that is that part wider or narrower is another one [1].
@@ -39,10 +38,10 @@ impl EstimatorKind {
         let found = match self {
             EstimatorKind::Network | EstimatorKind::NetworkFloat => [None, None, None],
             EstimatorKind::Likelihood => [teller.dead_time(), teller.control(), None],
-            EstimatorKind::Matched => [teller.mode(), teller.jitter(), teller.control()],
-            EstimatorKind::Centroid => [teller.mode(), teller.jitter(), teller.window()],
+            EstimatorKind::Matched => [teller.mode(), teller.jitter(0.0), teller.control()],
+            EstimatorKind::Centroid => [teller.mode(), teller.jitter(JITTER_PS), teller.window()],
             EstimatorKind::Peak | EstimatorKind::Subtraction => {
-                [teller.mode(), teller.jitter(), teller.pulse()]
+                [teller.mode(), teller.jitter(JITTER_PS), teller.pulse()]
             }
         };
         found.into_iter().flatten().collect()
@@ -94,11 +93,11 @@ impl Teller<'_> {
         self.is_free_running().then(|| self.note("firmware.mode", 1.0, "0", text))
     }
 
-    fn jitter(&self) -> Option<Note> {
+    fn jitter(&self, most_ps: f64) -> Option<Note> {
         let rms_ps = self.setup.scenario.pll.jitter_rms_ps;
         let text = "jitter blurs what pile-up has left of the pulse, and so moves it";
-        let expected = format!("{JITTER_PS} at most");
-        (rms_ps > JITTER_PS).then(|| self.note("pll.jitter_rms_ps", rms_ps, expected, text))
+        let expected = format!("{most_ps} at most");
+        (rms_ps > most_ps).then(|| self.note("pll.jitter_rms_ps", rms_ps, expected, text))
     }
 
     fn control(&self) -> Option<Note> {
@@ -119,15 +118,26 @@ impl Teller<'_> {
         is_outside.then(|| self.note("spad.dead_time_ns", dead_ns, expected, text))
     }
 
-    /// That the first edge sees the echo of MODE 1.
+    /// That the first edge sees the echo, where that matters: in MODE 1, and with jitter.
     fn first_edge(&self) -> Option<Note> {
         let scenario = &self.setup.scenario;
-        let tail_ps = TAIL_SIGMA * scenario.laser.pulse_sigma_ps;
-        let last_ps = FreeRunning::of(self.setup)?.first_edge_ps() - tail_ps;
+        let bins = self.bins();
+        let Acquisition { jitter_ps, free_running, .. } = Acquisition::of(self.setup, &bins, 1);
+        let (edge_ps, text) = match free_running {
+            Some(free) => (
+                free.first_edge_ps(),
+                "in MODE 1 later codes may be of hits with an old pulse in the chain",
+            ),
+            None if jitter_ps > 0.0 => {
+                let tap_0 = self.setup.params.tdc.delays.tap_0();
+                let text = "which of two jittered edges sees a hit there hangs on both";
+                (CYCLE.since(tap_0).fs() as f64 * 1e-3, text)
+            }
+            None => return None,
+        };
+        let last_ps = edge_ps - TAIL_SIGMA * scenario.laser.pulse_sigma_ps.hypot(jitter_ps);
         let arrival_ps = self.setup.budget.mean_arrival.fs() as f64 * 1e-3;
-        let last_m = last_ps / ARRIVAL_PS_PER_M;
-        let text = "in MODE 1 later codes may be of hits with an old pulse in the chain";
-        let expected = format!("{last_m:.3} at most");
+        let expected = format!("{:.3} at most", last_ps / ARRIVAL_PS_PER_M);
         let distance_m = scenario.target.distance_m;
         (arrival_ps > last_ps).then(|| self.note("target.distance_m", distance_m, expected, text))
     }
@@ -224,6 +234,8 @@ mod tests {
             (Centroid, "firmware.mode=1", "firmware.mode"),
             (Peak, "firmware.mode=1", "firmware.mode"),
             (Matched, "pll.jitter_rms_ps=50", "pll.jitter_rms_ps"),
+            (Matched, "pll.jitter_rms_ps=7.7", "pll.jitter_rms_ps"),
+            (Centroid, "pll.jitter_rms_ps=50", "pll.jitter_rms_ps"),
             (Peak, "laser.pulse_sigma_ps=200", "laser.pulse_sigma_ps"),
             (Subtraction, "laser.pulse_sigma_ps=100", "laser.pulse_sigma_ps"),
             (Subtraction, "target.distance_m=0.7", "target.distance_m"),
@@ -238,6 +250,8 @@ mod tests {
         let found = keys(Likelihood, &["firmware.mode=1", "spad.dead_time_ns=6"]);
         assert_eq!(found, ["spad.dead_time_ns"]);
         let found = keys(Likelihood, &["firmware.mode=1", "target.distance_m=0.65"]);
+        assert_eq!(found, ["target.distance_m"]);
+        let found = keys(Likelihood, &["pll.jitter_rms_ps=50", "target.distance_m=0.86"]);
         assert_eq!(found, ["target.distance_m"]);
         assert_eq!(keys(Likelihood, &["spad.dead_time_ns=6"]), [""; 0]);
     }

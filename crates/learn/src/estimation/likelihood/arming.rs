@@ -3,7 +3,7 @@
 //! The diode fires at the rate a(t) = h(t) A(t): h is the hazard's rate and A(t) the chance that it is
 //! armed, since an armed diode has no memory. What fires is back after the dead time D:
 //! A'(t) = -a(t) + a(t - D). Shot after shot this comes to what repeats with the laser's period, and
-//! that is computed here, step by step, for a diode that begins armed.
+//! that is computed here, step by step, for a diode that has seen even light before.
 //!
 //! `tdc_stop` stays high for D, and the chain is longer than a clock period. An avalanche of a shot
 //! is seen at its place only if the pulse before has left the chain by the first edge, so if the diode
@@ -18,9 +18,9 @@ use tofsim::optics::hazard::normal_cdf;
 /// Longest step [ps].
 const STEP_PS: f64 = 25.0;
 /// A chance that has changed by less from one period to the next repeats [1].
-const SAME: f64 = 1e-9;
+const SAME: f64 = 1e-8;
 /// Most steps until it does.
-const MOST_STEPS: usize = 4_000_000;
+const MOST_STEPS: usize = 100_000;
 
 /// How avalanches of an armed shot are seen.
 #[derive(Clone, Debug)]
@@ -80,9 +80,12 @@ impl Steady {
         let fires: Vec<_> = (0..count).map(|k| -libm::expm1(hazard(k) - hazard(k + 1))).collect();
         let dead = free.dead_ps / step_ps;
         let (whole, part) = (dead.floor() as usize, dead.fract());
+        // It begins as if photons came evenly, which is near to what repeats.
+        let even = hazard(count) / free.period_ps;
+        let fires_per_ps = even / (1.0 + even * free.dead_ps);
         // What fired in each of the last steps, a ring.
-        let mut fired = vec![0.0; whole + 2];
-        let (mut now, mut armed) = (0usize, 1.0);
+        let mut fired = vec![fires_per_ps * step_ps; whole + 2];
+        let (mut now, mut armed) = (0usize, 1.0 - fires_per_ps * free.dead_ps);
         let mut steady = Steady { step_ps, armed: vec![1.0; count], back: vec![0.0; count] };
         // What fired in the first dead time has to be back before anything can repeat.
         let least = 2 * (whole + count);
