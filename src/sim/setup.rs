@@ -16,6 +16,7 @@ use crate::hierarchy;
 use crate::kernel::{S, Time, U};
 use crate::network::estimate::estimate;
 use crate::network::{Histogram, Network};
+use crate::note::Note;
 use crate::optics::{Budget, Hazard};
 use crate::scenario::builtin::Source;
 use crate::scenario::window::Window;
@@ -58,6 +59,8 @@ pub struct Setup {
     pub params: Params,
     /// The network in the estimator.
     pub network: Network,
+    /// Why no depth of a run can be that of the target, if none can.
+    no_depth: Option<Note>,
     pll: Pll,
     pub(super) light: Light,
     pins: Pins,
@@ -107,7 +110,10 @@ impl Setup {
             histogram_source,
         };
         let (pll, pins) = (Pll::new(&pll_params), pins_at_power_up(&scenario.firmware));
-        Ok(Setup { name, scenario, set, budget, params, network, pll, light, pins })
+        let no_depth = None;
+        let setup =
+            Setup { name, scenario, set, budget, params, network, pll, light, pins, no_depth };
+        Ok(Setup { no_depth: setup.why_no_depth(), ..setup })
     }
 
     /// The clocks.

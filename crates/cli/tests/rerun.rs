@@ -37,6 +37,28 @@ fn every_file_of_a_run_is_made_again_to_the_byte() {
 }
 
 #[test]
+fn budgets_datasets_and_evaluations_are_made_again_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    fs::write(path.join("budget.json"), stdout(path, &["budget", "near", "--json"])).unwrap();
+    stdout(path, &["dataset", "--rows", "100", "--format", "npy,parquet", "-o", "data"]);
+    stdout(path, &["evaluate", "--rows", "102", "--check", "0", "-o", "evaluated"]);
+    for name in [
+        "budget.json",
+        "data/dataset.json",
+        "data/dataset.parquet",
+        "data/histograms.npy",
+        "evaluated/evaluation.json",
+        "evaluated/evaluation.csv",
+        "evaluated/network_by_distance_m.svg",
+    ] {
+        assert!(stdout(path, &["rerun", name]).contains("the same"), "{name}");
+    }
+    fs::remove_file(path.join("data/dataset.json")).unwrap();
+    assert!(stdout(path, &["rerun", "data/dataset.parquet"]).contains("the same"));
+}
+
+#[test]
 fn what_differs_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();

@@ -18,7 +18,7 @@ impl Setup {
     /// Distance of the target, where a depth can be that of the target: where light and not a list or
     /// a ROM decides it, the laser's light comes back, and the histogram holds the echo [m].
     pub fn true_depth_m(&self) -> Option<f64> {
-        self.no_depth().is_none().then_some(self.scenario.target.distance_m)
+        self.no_depth.is_none().then_some(self.scenario.target.distance_m)
     }
 
     /// What the depths of a run lie outside of: what the scenario makes impossible, or else what the
@@ -27,8 +27,8 @@ impl Setup {
     /// # Errors
     /// When the network's file has a domain that is none.
     pub fn notes(&self) -> Result<Vec<Note>> {
-        match self.no_depth() {
-            Some(note) => Ok(vec![note]),
+        match &self.no_depth {
+            Some(note) => Ok(vec![note.clone()]),
             None if self.params.estimator == Estimator::Network => {
                 domain::notes(&self.network, &self.scenario, &[])
             }
@@ -37,7 +37,7 @@ impl Setup {
     }
 
     /// Why no depth of a run can be that of the target.
-    fn no_depth(&self) -> Option<Note> {
+    pub(super) fn why_no_depth(&self) -> Option<Note> {
         self.without_light().or_else(|| self.without_echo()).or_else(|| self.past_the_end())
     }
 
