@@ -19,8 +19,8 @@ pub enum NoteCode {
     EstimatorOutsideModel,
     /// The laser is above a limit, or there is none to tell.
     EyeSafety,
-    /// The run did something that its scenario does not show.
-    Run,
+    /// The run ended before all of an input came due.
+    UnusedInput,
 }
 
 impl fmt::Display for NoteCode {

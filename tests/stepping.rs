@@ -8,6 +8,7 @@ use std::sync::LazyLock;
 use proptest::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use tofsim::Note;
 use tofsim::scenario::{self, Control, QuenchMode};
 use tofsim::sim::frames::Frame;
 use tofsim::sim::run::Observers;
@@ -24,7 +25,7 @@ struct Result {
     end_fs: u64,
     cycles: u64,
     shots: u64,
-    notes: Vec<String>,
+    notes: Vec<Note>,
 }
 
 #[derive(Clone, Copy, Debug)]

@@ -11,7 +11,6 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Domain {
     /// Least and largest value of a key, in its unit; one twice where there was only one.
-    #[schemars(with = "BTreeMap<String, Vec<f64>>")]
     pub ranges: BTreeMap<String, [f64; 2]>,
     /// Words and names.
     pub words: BTreeMap<String, String>,

@@ -264,6 +264,11 @@ mod tests {
             ("\"counts\"", "3", "scaling.input = 3: expected a text in quotes"),
             ("\"counts\"", "\"hits\"", "scaling.input = \"hits\": expected \"counts\""),
             ("\"tofsim.network/1\"", "\"tofsim.network/9\"", "expected \"tofsim.network/1\""),
+            (
+                "\"target.distance_m\" = [0.1, 0.6]",
+                "\"target.distance_m\" = [0.1]",
+                "domain.ranges.target.distance_m = [0.1]: expected a list of 2",
+            ),
             ("b2 = 3", "b2 = \"3\" #", "integers.b2 = \"3\": expected a whole number"),
             (
                 "two_sd_mm = [",

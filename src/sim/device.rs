@@ -7,6 +7,7 @@ use crate::firmware::carry_chain::StopLine;
 use crate::firmware::pll::Pll;
 use crate::firmware::tof_top::{Params, Pins, TofTop};
 use crate::kernel::Time;
+use crate::note::{Note, NoteCode};
 use crate::sensor::light::Light;
 use crate::sensor::spad::{Event, Spad};
 
@@ -60,15 +61,23 @@ impl Device {
         }
     }
 
-    /// What has not come due: control changes and given photons, a line each.
-    pub fn unused(&self) -> Vec<String> {
-        let (changes, photons) = (self.timeline.left(), self.light.left());
-        let changes = (changes > 0)
-            .then(|| format!("note: the run ended before the last {changes} changes of control"));
-        let photons = (photons > 0).then(|| {
-            format!("note: the run ended before the shots of {photons} rows of the photon list")
-        });
-        changes.into_iter().chain(photons).collect()
+    /// What has not come due: control changes and given photons.
+    pub fn unused(&self) -> Vec<Note> {
+        let left = [
+            ("control", self.timeline.left(), "the last of the changes of control"),
+            (
+                "stimulus.photons",
+                self.light.left(),
+                "the shots of the last rows of the photon list",
+            ),
+        ];
+        let note = |(key, left, what): (&str, usize, &str)| {
+            let text = format!("the run ended before {what}");
+            let value = format!("{left} left");
+            (left > 0)
+                .then(|| Note::new(NoteCode::UnusedInput, key, value.as_str(), "none left", text))
+        };
+        left.into_iter().filter_map(note).collect()
     }
 
     /// Rising edges of `clk_125` so far.

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::error::{Error, Input, Result};
 use crate::firmware::tof_top::Params;
 use crate::kernel::Time;
+use crate::note::Note;
 use crate::scenario::window::Window;
 use crate::waves::{Marks, Waves};
 
@@ -43,8 +44,8 @@ pub struct Outcome {
     pub shots: u64,
     /// Where to look in the waveform.
     pub marks: Marks,
-    /// What a user may not expect, a line each.
-    pub notes: Vec<String>,
+    /// What of its inputs the run did not come to.
+    pub notes: Vec<Note>,
 }
 
 /// A run in progress.

@@ -117,7 +117,8 @@ fn what_has_no_effect_is_said() {
     };
     assert_eq!(said(&[]), "");
     assert!(
-        said(&["-s", "control=[{at_us=9999,mode=1}]"]).contains("the last 1 changes of control")
+        said(&["-s", "control=[{at_us=9999,mode=1}]"])
+            .contains("control = 1 left: the run ended before the last of the changes of control")
     );
     assert!(
         said(&["-s", "tdc.profile=ideal"])
@@ -126,7 +127,10 @@ fn what_has_no_effect_is_said() {
     let photons = folder.path().join("late.csv");
     fs::write(&photons, "shot,arrival_ps\n3,100\n400,100\n").unwrap();
     let photons = format!("stimulus.photons={:?}", photons.to_str().unwrap());
-    assert!(said(&["-s", &photons]).contains("1 rows of the photon list"));
+    assert!(
+        said(&["-s", &photons])
+            .contains("stimulus.photons = 1 left: the run ended before the shots of the last rows")
+    );
     assert_eq!(said(&["-q", "-s", &photons]), "");
 }
 

@@ -85,6 +85,11 @@ fn what_has_no_record_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("a.csv"), "bin,count\n").unwrap();
     assert!(refused(folder.path(), &["rerun", "a.csv"]).contains("has no record"));
+    let other = "# tofsim-record {\"version\":\"\",\"scenario\":\"\",\"set\":[],\"seed\":1,\"hash\":\"\",\
+        \"command\":[\"man\",\"--output=here\"]}";
+    fs::write(folder.path().join("other.csv"), other).unwrap();
+    let error = refused(folder.path(), &["rerun", "other.csv"]);
+    assert!(error.contains("command = man: expected a record of one of budget, run"), "{error}");
     assert!(refused(folder.path(), &["rerun", "none.vcd"]).contains("none.vcd: cannot read"));
     stdout(folder.path(), &[&["run", "-o", "out"], &SHORT[..]].concat());
     let home = refused(folder.path(), &["rerun", "out/kc705.vcd", "-o", "out"]);

@@ -1,20 +1,24 @@
 //! `tofsim rerun`: makes an output again from what it records.
 
-use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 
 use regex::{Captures, Regex};
 use serde_json::json;
 
+use tofsim::error::open::open_file;
 use tofsim::error::{Error, Input, Result};
 
 use crate::record::Record;
 
 use super::terminal::{Talk, print, print_json};
 
-/// Verbs that print and write nothing.
-const PRINTING: [&str; 2] = ["budget", "estimate"];
+/// Verbs whose outputs are made again. They write into the folder of `--output` and nowhere else, so
+/// that no record of another's can make them write over anything.
+const VERBS: [&str; 4] = [PRINTS, "run", "evaluate", "dataset"];
+/// The one that prints and writes nothing.
+const PRINTS: &str = "budget";
 
 /// Make an output again from what it records, and compare the two byte by byte
 #[derive(Debug, clap::Args)]
@@ -73,7 +77,9 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>> {
-    fs::read(path).map_err(Error::io(path, "read"))
+    let mut bytes = Vec::new();
+    let read = open_file(path)?.read_to_end(&mut bytes);
+    read.map(|_| bytes).map_err(Error::io(path, "read"))
 }
 
 /// Whether a file stands in a folder.
@@ -88,8 +94,8 @@ fn record(path: &Path, bytes: &[u8]) -> Result<Record> {
         return Ok(record);
     }
     let folder = path.parent().unwrap_or(Path::new(""));
-    let beside = ["summary.json", "evaluation.json", "dataset.json", "vectors.json"];
-    let found = beside.iter().find_map(|name| Record::find(&fs::read(folder.join(name)).ok()?));
+    let beside = ["summary.json", "evaluation.json", "dataset.json"];
+    let found = beside.iter().find_map(|name| Record::find(&read(&folder.join(name)).ok()?));
     found.ok_or_else(|| {
         let expected = "has no record of how it was made, nor has a summary beside it";
         Input::new(path.display(), expected).into()
@@ -99,15 +105,17 @@ fn record(path: &Path, bytes: &[u8]) -> Result<Record> {
 /// Runs the command of a record, with what it writes in `folder`; the bytes that are to be those of
 /// `file`.
 fn again(file: &Path, given: &[u8], record: &Record, folder: &Path) -> Result<Vec<u8>> {
-    let Some(verb) = record.command.first().filter(|verb| *verb != "rerun") else {
-        return Err(Input::new(file.display(), "expected a record with a command").into());
-    };
+    let verb = record.command.first().map_or("", String::as_str);
+    if !VERBS.contains(&verb) {
+        let expected = format!("expected a record of one of {}", VERBS.join(", "));
+        return Err(Input::new(file.display(), expected).field("command").value(verb).into());
+    }
     let name = file.file_name().unwrap_or_default();
     let path = folder.join(name);
     let program = std::env::current_exe().map_err(Error::io(Path::new("tofsim"), "find"))?;
     let mut command = Command::new(program);
     command.args(record.command.iter().map(|word| with_events_in(folder, word))).arg("--quiet");
-    if !PRINTING.contains(&verb.as_str()) {
+    if verb != PRINTS {
         command.arg("--output").arg(folder);
     }
     command.arg("--json");
@@ -119,7 +127,7 @@ fn again(file: &Path, given: &[u8], record: &Record, folder: &Path) -> Result<Ve
         let expected = format!("cannot be made again: {said}");
         return Err(Input::new(file.display(), expected).into());
     }
-    match fs::read(&path) {
+    match read(&path) {
         Ok(bytes) => Ok(bytes),
         Err(_) if done.stdout.starts_with(b"{") && given.starts_with(b"{") => Ok(done.stdout),
         Err(_) => {

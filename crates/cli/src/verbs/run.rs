@@ -140,7 +140,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     };
     let wall = began.elapsed();
     progress.finish_and_clear();
-    outcome.notes.iter().for_each(|note| talk.note(note));
+    talk.heed(&outcome.notes)?;
+    notes.extend(outcome.notes);
 
     let finish = |plan: &WavePlan| plan.finish(&outcome.marks);
     let written = plan.as_ref().map_or(Ok(Vec::new()), finish)?;

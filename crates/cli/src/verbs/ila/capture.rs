@@ -131,7 +131,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         talk.note(format_args!("note: the run ended with {}", missing(&plan, &capture)));
     }
     if !args.stop_when_full {
-        outcome.notes.iter().for_each(|note| talk.note(note));
+        talk.heed(&outcome.notes)?;
     }
     let formats = if args.format.is_empty() { &CaptureFormat::ALL[..] } else { &args.format };
     let stage = StagedFolder::new(&args.output)?;
