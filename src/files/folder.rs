@@ -1,16 +1,19 @@
 //! A folder that one run at a time writes into.
 
 use std::fs::{File, TryLockError};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Input, Result};
 
 use super::output::create_directory;
+use super::unfinished::{remove_empty, will_make};
 
-/// Held while a run writes into a folder; the system lets go of it with the process.
+/// Held while a run writes into a folder; the system lets go of it with the process. A folder that was
+/// made for it and stays empty is removed in the end.
 #[derive(Debug)]
 pub struct FolderLock {
     _folder: Option<File>,
+    made: Vec<PathBuf>,
 }
 
 impl FolderLock {
@@ -19,20 +22,27 @@ impl FolderLock {
     /// # Errors
     /// When it cannot be made, or another run holds it.
     pub fn take(path: &Path) -> Result<Self> {
+        let made = will_make(path);
         create_directory(path)?;
         // Where the system opens no folders, there is nothing to hold.
-        let Ok(folder) = File::open(path) else { return Ok(FolderLock { _folder: None }) };
+        let Ok(folder) = File::open(path) else { return Ok(FolderLock { _folder: None, made }) };
         match folder.try_lock() {
-            Ok(()) => Ok(FolderLock { _folder: Some(folder) }),
+            Ok(()) => Ok(FolderLock { _folder: Some(folder), made }),
             Err(TryLockError::WouldBlock) => {
                 let expected = "another run is writing there, expected a folder of its own";
                 Err(Input::new("--output", expected).value(path.display()).into())
             }
             Err(TryLockError::Error(error)) if error.kind() == std::io::ErrorKind::Unsupported => {
-                Ok(FolderLock { _folder: None })
+                Ok(FolderLock { _folder: None, made })
             }
             Err(TryLockError::Error(error)) => Err(Error::io(path, "lock")(error)),
         }
+    }
+}
+
+impl Drop for FolderLock {
+    fn drop(&mut self) {
+        remove_empty(&self.made);
     }
 }
 
@@ -48,6 +58,10 @@ mod tests {
         let error = FolderLock::take(&path).unwrap_err().to_string();
         assert!(error.contains("out: another run is writing there"), "{error}");
         drop(held);
-        FolderLock::take(&path).unwrap();
+        assert!(!path.exists(), "what was made stays empty");
+        let held = FolderLock::take(&path).unwrap();
+        std::fs::write(path.join("file"), "whole").unwrap();
+        drop(held);
+        assert!(path.join("file").exists());
     }
 }

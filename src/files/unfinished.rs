@@ -25,6 +25,9 @@ static OURS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 /// Folders that this process has looked through.
 static SWEPT: LazyLock<Mutex<BTreeSet<PathBuf>>> = LazyLock::new(Mutex::default);
 
+/// Folders that this process made for its outputs, outer ones first.
+static MADE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
 /// A path under construction, which is removed unless it is put in place.
 #[derive(Debug)]
 pub(super) struct Unfinished<T> {
@@ -109,6 +112,24 @@ pub fn discard_all() {
     let ours = OURS.lock().unwrap_or_else(PoisonError::into_inner);
     ours.iter().for_each(|path| remove(path));
     std::mem::forget(ours);
+    remove_empty(&MADE.lock().unwrap_or_else(PoisonError::into_inner));
+}
+
+/// The folders that are missing up to `directory`, which this process is about to make; outer ones
+/// first.
+pub(super) fn will_make(directory: &Path) -> Vec<PathBuf> {
+    let Ok(directory) = std::path::absolute(directory) else { return Vec::new() };
+    let is_missing = |path: &&Path| fs::symlink_metadata(path).is_err();
+    let missing = directory.ancestors().take_while(is_missing).map(Path::to_owned);
+    let mut missing: Vec<_> = missing.collect();
+    missing.reverse();
+    MADE.lock().unwrap_or_else(PoisonError::into_inner).extend(missing.iter().cloned());
+    missing
+}
+
+/// Removes those folders, outer ones first in the list, that have nothing in them.
+pub(super) fn remove_empty(made: &[PathBuf]) {
+    made.iter().rev().for_each(|path| drop(fs::remove_dir(path)));
 }
 
 /// Removes what dead runs left in a folder, once in the life of this process.

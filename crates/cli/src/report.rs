@@ -3,6 +3,7 @@
 pub mod box_plot;
 pub mod causes;
 pub mod comparison;
+pub mod error_plots;
 pub mod evaluation;
 pub mod events;
 pub mod explanation;

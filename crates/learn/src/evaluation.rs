@@ -11,9 +11,11 @@ pub mod errors;
 pub mod exploration;
 pub mod figures;
 pub mod spread;
+pub mod tails;
 pub mod thesis;
 
 pub use by_setting::{KeyGroups, by_setting};
 pub use errors::{EstimatorErrors, Evaluation};
 pub use figures::Figures;
 pub use spread::{Group, Spread};
+pub use tails::Tails;

@@ -1,100 +1,307 @@
-//! Errors by a quantity of the scene, as boxes.
+//! Errors by a quantity of the scene, as boxes: one for each value and estimator.
 
+use std::io;
+use std::ops::Range;
+
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
-use tofsim_learn::evaluation::Group;
+use tofsim_learn::evaluation::{Group, Spread};
 
-use crate::text::svg::{chart, picture};
+use crate::text::svg::{Canvas, chart, picture};
 
-/// Whiskers reach so many heights of the box at most, and not past the last error.
-const WHISKER: f64 = 1.5;
+/// A colour for each estimator; more of them begin again.
+const COLOURS: [RGBColor; 6] = [
+    RGBColor(43, 108, 176),
+    RGBColor(221, 107, 32),
+    RGBColor(47, 133, 90),
+    RGBColor(128, 90, 213),
+    RGBColor(151, 90, 22),
+    RGBColor(74, 85, 104),
+];
 
-/// A group's value and its box: whiskers, quartiles and median [mm]; none without errors.
-fn five(group: &Group) -> Option<(f64, [f64; 5])> {
-    let [least, lower, median, upper, largest] = group.spread.quartiles_mm?;
-    let reach = WHISKER * (upper - lower);
-    let whiskers = [least.max(lower - reach), largest.min(upper + reach)];
-    Some((group.value, [whiskers[0], lower, median, upper, whiskers[1]]))
+/// Part of the place of a value that its boxes take.
+const FILLED: f64 = 0.7;
+
+/// Ink of a box.
+const BOX: f64 = 0.35;
+
+/// Errors beyond the whiskers are shown up to so many times the farthest whisker, and at the edge from there on.
+const SHOWN: f64 = 2.5;
+
+/// The errors of an estimator by a quantity.
+#[derive(Clone, Copy, Debug)]
+pub struct Series<'a> {
+    /// The estimator's name.
+    pub name: &'a str,
+    /// Its errors; of all series at the same values.
+    pub groups: &'a [Group],
 }
 
-/// The picture as SVG text: a box for each group of a quantity, with its unit, and on both sides half of the
-/// spread to compare with at each group's value, if there is one [mm]; an error only if the plotting
-/// library fails.
-pub fn svg(
-    title: &str,
-    quantity: &str,
-    groups: &[Group],
-    beside_mm: Option<fn(f64) -> f64>,
-) -> Result<String, String> {
-    let boxes: Vec<_> = groups.iter().filter_map(five).collect();
-    let values: Vec<_> = groups.iter().map(|group| group.value).collect();
-    let (first, last) = (values.first().copied(), values.last().copied());
-    let (first, last) = (first.unwrap_or(0.0), last.unwrap_or(1.0));
-    let apart = if values.len() > 1 { (last - first) / (values.len() - 1) as f64 } else { 1.0 };
-    let whiskers = boxes.iter().flat_map(|(_, five)| [five[0].abs(), five[4].abs()]);
-    let beside = values.iter().filter_map(|&value| Some(beside_mm?(value)));
-    let highest = 1.1 * whiskers.chain(beside).fold(0.1, f64::max);
-    picture(|canvas| {
+/// What errors are to stay within, drawn on both sides of zero.
+#[derive(Clone, Copy, Debug)]
+pub struct Limit {
+    /// What it is.
+    pub name: &'static str,
+    /// Its half width at a value [mm].
+    pub mm: fn(f64) -> f64,
+    /// How it is drawn.
+    pub colour: RGBColor,
+}
+
+/// What is to be drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct BoxPlot<'a> {
+    /// What stands above it.
+    pub title: &'a str,
+    /// What errors are grouped by, with its unit.
+    pub quantity: &'a str,
+    /// Estimators, side by side.
+    pub series: &'a [Series<'a>],
+    /// Limits to lie beside, as far as they are on the scale of the errors; the least value of each is.
+    pub limits: &'a [Limit],
+}
+
+type Axes = Cartesian2d<RangedCoordf64, RangedCoordf64>;
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Axes>;
+type Result<T> = std::result::Result<T, DrawingAreaErrorKind<io::Error>>;
+
+impl BoxPlot<'_> {
+    /// The picture as SVG text; an error only if the plotting library fails. Values have places equally
+    /// far apart. Below the boxes are the parts of the histograms without an estimate or with one that is
+    /// far off, if there are any.
+    pub fn svg(&self) -> std::result::Result<String, String> {
+        picture(|canvas| match self.has_missing() {
+            true => {
+                let (boxes, missing) = canvas.split_vertically(390);
+                self.boxes(&boxes)?;
+                self.missing(&missing)
+            }
+            false => self.boxes(canvas),
+        })
+    }
+
+    fn values(&self) -> Vec<f64> {
+        let groups = self.series.first().map_or(&[][..], |one| one.groups);
+        groups.iter().map(|group| group.value).collect()
+    }
+
+    fn has_missing(&self) -> bool {
+        let mut groups = self.series.iter().flat_map(|one| one.groups);
+        groups.any(|Group { spread, .. }| spread.failures + spread.outliers > 0)
+    }
+
+    /// Largest error on the scale [mm].
+    fn highest(&self) -> f64 {
+        let spreads = || self.series.iter().flat_map(|one| one.groups).map(|group| &group.spread);
+        let whiskers = spreads().filter_map(|spread| Some(spread.tails.as_ref()?.whiskers_mm));
+        let reach = whiskers.flatten().map(f64::abs).fold(0.1, f64::max);
+        let beyond =
+            spreads().filter_map(|spread| spread.tails.as_ref()).flat_map(|t| &t.beyond_mm);
+        let beyond = beyond.map(|error| error.abs()).fold(0.0, f64::max).min(SHOWN * reach);
+        let values = self.values();
+        let least =
+            |limit: &Limit| values.iter().map(|&value| (limit.mm)(value)).fold(f64::NAN, f64::min);
+        let limits = self.limits.iter().map(least).fold(0.0, f64::max);
+        1.1 * reach.max(beyond).max(limits)
+    }
+
+    /// A chart with a place for each value.
+    fn axes<'a, 'b>(
+        &self,
+        canvas: &'a Canvas<'b>,
+        title: &str,
+        heights: Range<f64>,
+        words: [&str; 2],
+    ) -> Result<Chart<'a, 'b>> {
+        let (values, heights_px) = (self.values(), canvas.dim_in_pixel().1);
         let mut chart = chart(canvas, title)
-            .build_cartesian_2d(first - apart..last + apart, -highest..highest)?;
+            .build_cartesian_2d(-0.5..values.len().max(1) as f64 - 0.5, heights)?;
+        let value = |place: &f64| match values.get(place.round().max(0.0) as usize) {
+            Some(value) if place.fract() == 0.0 => format!("{}", (1e9 * value).round() / 1e9),
+            _ => String::new(),
+        };
         chart
             .configure_mesh()
-            .x_desc(quantity)
-            .y_desc("error of the depth [mm]")
+            .x_desc(words[0])
+            .y_desc(words[1])
+            .x_labels(values.len().min(14) + 1)
+            .x_label_formatter(&value)
+            .y_labels((heights_px / 40) as usize)
+            .label_style(("sans-serif", 13))
+            .axis_desc_style(("sans-serif", 14))
             .light_line_style(TRANSPARENT)
             .bold_line_style(BLACK.mix(0.08))
             .draw()?;
-        for sign in [-1.0, 1.0] {
-            let Some(beside) = beside_mm else { break };
-            let line = values.iter().map(|&value| (value, sign * beside(value)));
-            chart.draw_series(LineSeries::new(line, RED.mix(0.6).stroke_width(2)))?;
+        Ok(chart)
+    }
+
+    /// Each series with its place beside a value's, and the width of a box.
+    fn beside(&self) -> impl Iterator<Item = (&Series<'_>, RGBColor, f64, f64)> {
+        let each = FILLED / self.series.len().max(1) as f64;
+        self.series.iter().enumerate().map(move |(k, series)| {
+            let centre = (k as f64 + 0.5) * each - FILLED / 2.0;
+            (series, COLOURS[k % COLOURS.len()], centre, 0.9 * each)
+        })
+    }
+
+    fn boxes(&self, canvas: &Canvas) -> Result<()> {
+        let highest = self.highest();
+        let words = [self.quantity, "error of the depth [mm]"];
+        let legend = if self.series.len() > 1 { self.series.len() } else { 0 } + self.limits.len();
+        let room = highest * (1.0 + 0.12 * legend as f64);
+        let mut chart = self.axes(canvas, self.title, -highest..room, words)?;
+        self.draw_limits(&mut chart, highest)?;
+        for (series, colour, centre, width) in self.beside() {
+            let places =
+                || series.groups.iter().enumerate().map(|(k, one)| (k as f64 + centre, one));
+            let boxes = places().filter_map(|(at, one)| boxed(&one.spread, at, width, colour));
+            let (filled, lines): (Vec<_>, Vec<_>) = boxes.unzip();
+            let drawn = chart.draw_series(filled)?;
+            if self.series.len() > 1 {
+                drawn.label(series.name).legend(move |(x, y)| {
+                    Rectangle::new([(x, y - 5), (x + 12, y + 5)], colour.mix(BOX).filled())
+                });
+            }
+            chart.draw_series(lines.into_iter().flatten())?;
+            let beyond = |spread: &Spread| spread.tails.clone().map(|tails| tails.beyond_mm);
+            let dots = places().flat_map(|(at, one)| {
+                let beyond = beyond(&one.spread).unwrap_or_default();
+                beyond.into_iter().map(move |error| (at, error))
+            });
+            let (on, off): (Vec<_>, Vec<_>) = dots.partition(|(_, error)| error.abs() <= highest);
+            let style = colour.mix(0.6);
+            chart.draw_series(on.into_iter().map(|dot| Circle::new(dot, 1, style.filled())))?;
+            let edge = off.into_iter().map(|(at, error)| (at, 0.99 * highest.copysign(error)));
+            chart.draw_series(edge.map(|dot| TriangleMarker::new(dot, 4, style.filled())))?;
         }
-        let half = 0.3 * apart;
-        let ink = BLUE.mix(0.8);
-        for (value, [low, lower, median, upper, high]) in boxes {
-            let line = |from, to| PathElement::new(vec![from, to], ink);
-            chart.draw_series([
-                line((value, low), (value, lower)),
-                line((value, upper), (value, high)),
-            ])?;
-            chart.draw_series([Rectangle::new(
-                [(value - half, lower), (value + half, upper)],
-                BLUE.mix(0.25).filled(),
-            )])?;
-            chart.draw_series([line((value - half, median), (value + half, median))])?;
+        if legend > 0 {
+            chart
+                .configure_series_labels()
+                .position(SeriesLabelPosition::UpperLeft)
+                .background_style(WHITE.mix(0.85))
+                .border_style(BLACK.mix(0.2))
+                .label_font(("sans-serif", 13))
+                .draw()?;
         }
         Ok(())
-    })
+    }
+
+    fn draw_limits(&self, chart: &mut Chart, highest: f64) -> Result<()> {
+        for limit in self.limits {
+            let style = limit.colour.mix(0.7).stroke_width(2);
+            for (k, sign) in [-1.0, 1.0].into_iter().enumerate() {
+                let heights = self.values().into_iter().map(|value| (limit.mm)(value));
+                let line = heights.enumerate().filter(|(_, mm)| *mm <= highest);
+                let line = line.map(|(place, mm)| (place as f64, sign * mm));
+                let drawn = chart.draw_series(LineSeries::new(line, style))?;
+                if k == 0 {
+                    drawn
+                        .label(limit.name)
+                        .legend(move |(x, y)| PathElement::new([(x, y), (x + 12, y)], style));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The parts without an estimate, and above them those far off.
+    fn missing(&self, canvas: &Canvas) -> Result<()> {
+        let part = |spread: &Spread, count: u64| {
+            100.0 * count as f64 / (spread.estimates + spread.failures).max(1) as f64
+        };
+        let all = |spread: &Spread| part(spread, spread.failures + spread.outliers);
+        let groups = self.series.iter().flat_map(|one| one.groups);
+        let most = groups.map(|group| all(&group.spread)).fold(0.0, f64::max);
+        let mut chart =
+            self.axes(canvas, "", 0.0..1.1 * most, ["none (full) or far off (pale)", "% of all"])?;
+        for (series, colour, centre, width) in self.beside() {
+            let bar = |(place, group): (usize, &Group)| {
+                let spread = &group.spread;
+                let [left, right] = [-0.5, 0.5].map(|side| place as f64 + centre + side * width);
+                let failed = part(spread, spread.failures);
+                [(0.0, failed, 0.9), (failed, all(spread), 0.35)].map(|(from, to, ink)| {
+                    Rectangle::new([(left, from), (right, to)], colour.mix(ink).filled())
+                })
+            };
+            let bars =
+                series.groups.iter().enumerate().filter(|(_, group)| all(&group.spread) > 0.0);
+            chart.draw_series(bars.flat_map(bar))?;
+        }
+        Ok(())
+    }
+}
+
+/// Box, and whiskers and median, of errors at a place; none without errors.
+fn boxed(
+    spread: &Spread,
+    at: f64,
+    width: f64,
+    colour: RGBColor,
+) -> Option<(Rectangle<(f64, f64)>, [PathElement<(f64, f64)>; 3])> {
+    let [_, lower, median, upper, _] = spread.quartiles_mm?;
+    let [low, high] = spread.tails.as_ref()?.whiskers_mm;
+    let [left, right] = [at - width / 2.0, at + width / 2.0];
+    let line = |from, to| PathElement::new(vec![from, to], colour);
+    Some((
+        Rectangle::new([(left, lower), (right, upper)], colour.mix(BOX).filled()),
+        [
+            line((at, low), (at, lower)),
+            line((at, upper), (at, high)),
+            line((left, median), (right, median)),
+        ],
+    ))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tofsim_learn::evaluation::Spread;
 
-    #[test]
-    fn whiskers_stop_at_one_and_a_half_boxes() {
-        let errors = [-100.0, -1.0, 0.0, 1.0, 2.0];
-        let spread = Spread::of(errors.map(|mm| Some(1e-3 * mm)));
-        let (value, five) = super::five(&Group { value: 0.3, spread }).unwrap();
-        assert_eq!(value, 0.3);
-        for (found, expected) in five.into_iter().zip([-4.0, -1.0, 0.0, 1.0, 2.0]) {
-            assert!((found - expected).abs() < 1e-9, "{five:?}");
-        }
+    fn group(value: f64, errors_mm: &[f64], failures: usize) -> Group {
+        let errors = errors_mm.iter().map(|&mm| Some(1e-3 * mm));
+        Group { value, spread: Spread::of(errors.chain(vec![None; failures])) }
+    }
+
+    fn drawn(series: &[Series], limits: &[Limit]) -> String {
+        let plot = BoxPlot { title: "errors", quantity: "distance [m]", series, limits };
+        let svg = plot.svg().unwrap();
+        assert_eq!(plot.svg().unwrap(), svg);
+        svg
     }
 
     #[test]
-    fn a_picture_has_a_box_for_each_group_that_has_errors() {
-        let group = |value, errors: &[f64]| Group {
-            value,
-            spread: Spread::of(errors.iter().map(|&error| Some(error))),
-        };
-        let groups = [group(0.1, &[0.001, 0.002]), group(0.2, &[]), group(0.3, &[-0.001, 0.0])];
-        let svg = |groups| super::svg("network", "distance [m]", groups, Some(|_| 1.0));
-        let drawn = svg(&groups).unwrap();
-        let filled = drawn.matches("<rect").count();
-        assert_eq!(filled, 1 + 2, "background and boxes");
-        assert_eq!(svg(&groups).unwrap(), drawn);
-        assert!(svg(&[]).is_ok());
+    fn estimators_stand_side_by_side_with_what_they_miss() {
+        let a = [group(0.1, &[1.0, 2.0], 0), group(0.2, &[], 3), group(0.35, &[-1.0, 0.0], 0)];
+        let b = [group(0.1, &[4.0, 5.0], 1), group(0.2, &[3.0], 0), group(0.35, &[0.0], 0)];
+        let [a, b] = [("network", &a), ("peak", &b)].map(|(name, groups)| Series { name, groups });
+        let one = drawn(&[a], &[]);
+        // Background, two boxes, and a bar for the failures.
+        assert_eq!(one.matches("<rect").count(), 1 + 2 + 2, "{one}");
+        assert!(one.contains("% of all") && !one.contains("network"), "{one}");
+        let both = drawn(&[a, b], &[]);
+        for words in ["network", "peak", "0.1\n", "0.35\n"] {
+            assert!(both.contains(words), "{words}: {both}");
+        }
+        let none = drawn(&[], &[]);
+        assert!(!none.contains("% of all"));
+    }
+
+    #[test]
+    fn what_lies_beyond_the_whiskers_is_a_dot_or_a_mark_at_the_edge() {
+        let errors = [-0.5, -0.4, 0.0, 0.1, 0.4, 0.5, 2.0, 90.0];
+        let groups = [group(0.3, &errors, 0)];
+        let svg = drawn(&[Series { name: "network", groups: &groups }], &[]);
+        assert_eq!((svg.matches("<circle").count(), svg.matches("<polygon").count()), (1, 1));
+    }
+
+    #[test]
+    fn a_limit_is_drawn_on_both_sides_as_far_as_the_scale_goes() {
+        let groups = [group(0.1, &[1.0, -1.0], 0), group(0.2, &[1.0], 0), group(0.6, &[1.0], 0)];
+        let limit = Limit { name: "allowed", mm: |m| 100.0 * m, colour: RED };
+        let series = [Series { name: "network", groups: &groups }];
+        let lines = |svg: &str| svg.matches("#FF0000").count();
+        // A line on either side and one in the legend; 60 mm are off the scale.
+        assert_eq!(lines(&drawn(&series, &[limit])), 3);
+        assert_eq!(lines(&drawn(&series, &[])), 0);
     }
 }

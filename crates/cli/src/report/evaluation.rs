@@ -2,14 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
+use serde_json::Value;
+
 use tofsim::error::{Input, Result};
 use tofsim::files::output::{create_directory, write_bytes};
 use tofsim_learn::evaluation::thesis::{self, Published};
 use tofsim_learn::evaluation::{Figures, Group, KeyGroups, Spread};
 
-use crate::text::table::{number_or_dash, table};
+use crate::text::table::{fitted, number_or_dash, width};
 
-use super::box_plot;
+use crate::record::Record;
+
+use super::error_plots;
 
 /// The columns of `evaluation.csv`.
 const HEADER: &str = "estimator,by,value,estimates,failures,outliers,mean_mm,mean_se_mm,two_sd_mm,two_sd_se_mm,\
@@ -23,6 +27,22 @@ pub struct Beside<'a> {
     pub bound_mm: &'a [Option<f64>],
     /// Whether the grid is the thesis's, so that its figures and its line are shown.
     pub thesis: bool,
+}
+
+/// What each estimator comes to over all scenes: a row each.
+pub fn overview(figures: &[Figures]) -> String {
+    let row = |one: &Figures| {
+        let Spread { mean_mm, two_sd_mm, quartiles_mm, .. } = one.all;
+        let largest =
+            quartiles_mm.map(|[least, .., most]| if -least > most { least } else { most });
+        let all = one.all.estimates + one.all.failures;
+        let [two_sd, mean, largest] = [two_sd_mm, mean_mm, largest].map(|mm| number_or_dash(mm, 2));
+        let counts = [one.all.outliers, one.all.failures, all].map(|count| count.to_string());
+        named(one.name, [two_sd, mean, largest].into_iter().chain(counts))
+    };
+    let header = ["2 sd [mm]", "mean error", "largest error", "outliers", "failures", "of"];
+    let rows: Vec<_> = figures.iter().map(row).collect();
+    fitted(&named("all scenes", header.map(str::to_owned)), &rows, width()) + "\n"
 }
 
 /// Twice the standard deviation, the mean, the outliers and the failures at some distances, with the thesis's rows.
@@ -55,23 +75,23 @@ pub fn tables(figures: &[Figures], beside: &Beside) -> String {
     ];
     let text = |(title, rows): (&str, [Vec<Vec<String>>; 3])| {
         let header = named(title, distances_m.iter().map(|distance_m| format!("{distance_m} m")));
-        table(header, rows.concat(), 1..) + "\n"
+        fitted(&header, &rows.concat(), width()) + "\n"
     };
     tables.map(text).join("\n")
 }
 
-/// How far an estimator's spread is from the line between those of the thesis's float network, over
-/// all distances.
-pub fn beside_the_line(figures: &Figures) -> Option<String> {
-    Some(format!(
-        "{}: 2 sd is at most {:.2} times the line between the thesis's float figures, at {} m; \
-         above it at {} of {} distances",
-        figures.name,
-        figures.worst_ratio_to_thesis?,
-        figures.worst_distance_m?,
-        figures.distances_above_the_line(),
-        figures.by_distance_m.len()
-    ))
+/// How far each estimator's spread is from the line between those of the thesis's float network, over
+/// all distances; nothing where scenes are not the thesis's.
+pub fn beside_the_line(figures: &[Figures]) -> String {
+    let row = |one: &Figures| {
+        let above = format!("{} of {}", one.distances_above_the_line(), one.by_distance_m.len());
+        let (ratio, distance_m) = (one.worst_ratio_to_thesis?, one.worst_distance_m?);
+        Some(named(one.name, [format!("{ratio:.2}"), format!("{distance_m} m"), above]))
+    };
+    let rows: Vec<_> = figures.iter().filter_map(row).collect();
+    let header = ["largest", "at", "above it at"].map(str::to_owned);
+    let text = || fitted(&named("2 sd over the thesis's line", header), &rows, width());
+    if rows.is_empty() { String::new() } else { format!("\n{}\n", text()) }
 }
 
 /// The cells of a row that begins with a name.
@@ -87,33 +107,38 @@ fn with_error(value_mm: Option<f64>, error_mm: Option<f64>) -> String {
 /// The file that is always written.
 pub const JSON: &str = "evaluation.json";
 
-/// Puts them in a folder, which is made, with the thesis's line where the grid is the thesis's;
-/// `by_setting` has the errors of each by the grid's other keys. Their paths.
-pub fn write(
-    folder: &Path,
-    json: &str,
-    figures: &[Figures],
-    by_setting: &[Vec<KeyGroups>],
-    thesis: bool,
-) -> Result<Vec<PathBuf>> {
-    create_directory(folder)?;
-    let mut paths = vec![folder.join(JSON), folder.join("evaluation.csv")];
-    write_bytes(&paths[0], json)?;
-    write_bytes(&paths[1], csv(figures, by_setting))?;
-    for one in figures {
-        for grouping in one.groupings() {
-            let beside_mm: Option<fn(f64) -> f64> =
-                (thesis && grouping.key == "distance_m").then_some(thesis::line_two_sd_mm);
-            let line = beside_mm.map_or("", |_| "; red: 2 sd of the thesis's float network");
-            let title = format!("{}: errors by {}{line}", one.name, grouping.quantity);
-            let path = folder.join(format!("{}_by_{}.svg", one.name, grouping.key));
-            let svg = box_plot::svg(&title, grouping.quantity, grouping.groups, beside_mm);
-            let svg = svg.map_err(|why| Input::new(path.display(), why))?;
-            write_bytes(&path, svg)?;
+/// What is known of an evaluation, as files have it.
+pub struct Evaluated<'a> {
+    /// What made it.
+    pub record: &'a Record,
+    /// The object that `--json` prints.
+    pub json: &'a Value,
+    /// Of each estimator.
+    pub figures: &'a [Figures],
+    /// The errors of each by the grid's other keys.
+    pub by_setting: &'a [Vec<KeyGroups>],
+    /// Whether the grid is the thesis's, whose line is drawn.
+    pub thesis: bool,
+}
+
+impl Evaluated<'_> {
+    /// Puts it in a folder, which is made: JSON, figures as CSV, and box plots. Their paths.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>> {
+        create_directory(folder)?;
+        let mut paths = vec![folder.join(JSON), folder.join("evaluation.csv")];
+        write_bytes(&paths[0], format!("{}\n", self.json))?;
+        write_bytes(&paths[1], self.record.csv_line() + &csv(self.figures, self.by_setting))?;
+        for picture in error_plots::all(self.figures, self.by_setting, self.thesis) {
+            let path = folder.join(picture.name);
+            let svg = picture.svg.map_err(|why| Input::new(path.display(), why))?;
+            write_bytes(&path, self.record.in_svg(&svg))?;
             paths.push(path);
         }
+        Ok(paths)
     }
-    Ok(paths)
 }
 
 /// A row for each estimator and group.
@@ -142,7 +167,7 @@ pub fn setting_tables(figures: &[Figures], by_setting: &[Vec<KeyGroups>]) -> Str
     let text = |(k, KeyGroups { key, .. }): (usize, &KeyGroups)| {
         let rows = figures.iter().zip(by_setting).flat_map(|(one, keys)| {
             keys[k].groups.iter().map(move |Group { value, spread }| {
-                [
+                vec![
                     one.name.to_owned(),
                     value.to_string(),
                     with_error(spread.two_sd_mm, spread.two_sd_se_mm),
@@ -152,7 +177,8 @@ pub fn setting_tables(figures: &[Figures], by_setting: &[Vec<KeyGroups>]) -> Str
             })
         });
         let header = ["estimator", key, "2 sd [mm]", "mean error [mm]", "failures"];
-        format!("\n{}\n", table(header, rows, 1..))
+        let rows: Vec<_> = rows.collect();
+        format!("\n{}\n", fitted(&header.map(str::to_owned), &rows, width()))
     };
     first.iter().enumerate().map(text).collect()
 }
@@ -186,10 +212,8 @@ mod tests {
         let row = text.lines().find(|line| line.trim_start().starts_with("network")).unwrap();
         assert_eq!(row.split_whitespace().collect::<Vec<_>>()[1..3], ["-", "2.00"]);
         assert!(text.contains("Table 6.5") && text.contains("2584 of 30000"));
-        let line = beside_the_line(&figures).unwrap();
-        assert!(
-            line.contains("at most 0.71 times") && line.ends_with("0 of 1 distances"),
-            "{line}"
-        );
+        let text = beside_the_line(std::slice::from_ref(&figures));
+        let row = text.lines().last().unwrap().split_whitespace().collect::<Vec<_>>();
+        assert_eq!(row, ["network", "0.71", "0.2", "m", "0", "of", "1"]);
     }
 }

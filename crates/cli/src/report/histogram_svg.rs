@@ -32,12 +32,12 @@ pub fn svg(
     picture(|canvas| {
         let top = stack(CAUSES.len());
         let peak = (0..BINS).max_by_key(|&bin| (top[bin], BINS - bin)).unwrap_or(0);
-        let highest = (top[peak] as f64 * 1.12).max(1.0);
+        let highest = top[peak] + top[peak] / 8 + 1;
         let depth: Range<f64> = 0.0..RANGE_NS * M_PER_NS;
         let mut chart = chart(canvas, title)
             .top_x_label_area_size(40)
-            .build_cartesian_2d(0.0..RANGE_NS, 0.0..highest)?
-            .set_secondary_coord(depth, 0.0..highest);
+            .build_cartesian_2d(0.0..RANGE_NS, 0..highest)?
+            .set_secondary_coord(depth, 0..highest);
         chart
             .configure_mesh()
             .x_desc("time from the laser edge [ns]")
@@ -57,7 +57,7 @@ pub fn svg(
             let style = colour.filled();
             let bars = (0..BINS).filter(|&bin| above[bin] > below[bin]).map(|bin| {
                 let left = bin as f64 * BIN_NS;
-                let corners = [(left, below[bin] as f64), (left + BIN_NS, above[bin] as f64)];
+                let corners = [(left, below[bin]), (left + BIN_NS, above[bin])];
                 Rectangle::new(corners, style)
             });
             chart
@@ -67,20 +67,28 @@ pub fn svg(
         }
         let peak_ns = (peak as f64 + 0.5) * BIN_NS;
         let peak_label = format!("peak: bin {peak}, {peak_ns:.4} ns");
-        let estimated = |m: f64| (m / M_PER_NS, RED.mix(0.9), format!("estimated: {m:.4} m"));
-        let truth = |m: f64| (m / M_PER_NS, BLACK.mix(0.9), format!("true: {m:.4} m"));
+        // The truth is broad and pale, so that an estimate over it is seen.
+        let line = |ns: f64, style: ShapeStyle, label: String| (ns, style, label);
+        let truth =
+            |m: f64| line(m / M_PER_NS, BLACK.mix(0.3).stroke_width(7), format!("true: {m:.4} m"));
+        let estimated = |m: f64| {
+            line(m / M_PER_NS, RED.mix(0.9).stroke_width(2), format!("estimated: {m:.4} m"))
+        };
         let lines = [
-            Some((peak_ns, BLACK.mix(0.45), peak_label)),
-            depth_m.map(estimated),
             true_depth_m.map(truth),
+            Some(line(peak_ns, BLACK.mix(0.6).stroke_width(1), peak_label)),
+            depth_m.map(estimated),
         ];
-        for (x, colour, label) in lines.into_iter().flatten() {
-            let style = colour.stroke_width(2);
-            let label_style = style;
-            chart
-                .draw_series(DashedLineSeries::new([(x, 0.0), (x, highest)], 6, 4, style))?
-                .label(label)
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 12, y)], label_style));
+        for (x, style, label) in lines.into_iter().flatten() {
+            let legend = move |(x, y)| PathElement::new([(x, y), (x + 12, y)], style);
+            let is_broad = style.stroke_width > 2;
+            let ends = [(x, 0), (x, highest)];
+            match is_broad {
+                true => chart.draw_series(LineSeries::new(ends, style))?,
+                false => chart.draw_series(DashedLineSeries::new(ends, 6, 4, style))?,
+            }
+            .label(label)
+            .legend(legend);
         }
         chart
             .configure_series_labels()

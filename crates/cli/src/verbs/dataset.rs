@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use serde_json::json;
 
 use tofsim::error::{Error, Result};
+use tofsim::files::folder::FolderLock;
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::files::{DatasetFiles, DatasetFormat};
@@ -66,6 +67,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let grid = Grid { repeats: args.repeats, ..scenes.grid };
     let rows = args.draws.rows(None, &grid, seed)?;
     let description = DatasetDescription::new(&setup, &talk.command, source, &rows, seed);
+    let _held = FolderLock::take(&args.output)?;
     let files = DatasetFiles::create(&args.output, &args.format, &description, &grid)?;
     let stop = stop_signal();
     let blocks = source.blocks(&rows, seed);

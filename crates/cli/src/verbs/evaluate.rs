@@ -8,6 +8,7 @@ use serde_json::json;
 
 use tofsim::Note;
 use tofsim::error::{Input, Result};
+use tofsim::files::folder::FolderLock;
 use tofsim::files::output::create_directory_for;
 use tofsim::network::Network;
 use tofsim::sim::domain;
@@ -53,6 +54,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     talk.heed(&notes)?;
     let estimators = args.estimators(&scenes, &network)?;
     let rows = args.draws.rows(None, &grid, seed)?;
+    let _held = args.output.as_deref().map(FolderLock::take).transpose()?;
     let look = |folder: &PathBuf| create_directory_for(folder, report::JSON);
     args.output.as_ref().map_or(Ok(()), look)?;
     let stop = stop_signal();
@@ -72,12 +74,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let bound_mm = bound::two_sd_mm(source, &grid, bound_at)?;
     let mut json = json!({
         "schema": "tofsim.evaluate/1",
-        "version": env!("CARGO_PKG_VERSION"),
         "network": network.name,
-        "scenario": loaded.name,
-        "set": loaded.set,
         "profile": profile,
-        "seed": seed,
         "rows": rows.count(),
         "shots_per_frame": source.shots_of_all(),
         "outlier_limit_mm": args.outlier_limit_mm,
@@ -85,7 +83,6 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         // At the thesis's distances, or those of one's own grid; light unknown.
         "cramer_rao_two_sd_mm": bound_mm,
         "cross_check": cross_check,
-        "notes": notes,
     });
     match grid.is_thesis() {
         true => {
@@ -104,11 +101,14 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             }
         }
     }
-    Record::new(&scenes.setups[0], &talk.command).put_into(&mut json, &notes);
+    let record = Record::new(&scenes.setups[0], &talk.command);
+    record.put_into(&mut json, &notes);
+    let thesis = grid.is_thesis();
+    let (figures, by_setting) = (&figures[..], &by_setting[..]);
     if let Some(folder) = &args.output {
-        let json = format!("{json}\n");
-        let written = report::write(folder, &json, &figures, &by_setting, grid.is_thesis())?;
-        written.iter().for_each(|path| talk.wrote(path));
+        let record = &record;
+        let evaluated = report::Evaluated { record, json: &json, figures, by_setting, thesis };
+        evaluated.write(folder)?.iter().for_each(|path| talk.wrote(path));
     }
     if args.json {
         print_json(&json)?;
@@ -126,11 +126,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             place.and_then(|place| bound_mm[place])
         };
         let bound_mm: Vec<_> = shown.iter().map(at).collect();
-        let thesis = grid.is_thesis();
         let beside = report::Beside { distances_m: &shown, bound_mm: &bound_mm, thesis };
-        let tables = report::tables(&figures, &beside);
-        let tables = tables + &report::setting_tables(&figures, &by_setting);
-        talk.report(&(head + &tables + &text(&figures, source.shots_of_all(), &cross_check)))?;
+        let tables = report::overview(figures) + "\n" + &report::tables(figures, &beside);
+        let tables = tables + &report::setting_tables(figures, by_setting);
+        talk.report(&(head + &tables + &text(figures, source.shots_of_all(), &cross_check)))?;
     }
     let agrees = cross_check.iter().all(CrossCheck::agrees);
     Ok(if agrees { ExitCode::SUCCESS } else { ExitCode::FAILURE })
@@ -211,9 +210,9 @@ fn text(figures: &[Figures], shots: Option<u16>, checks: &[CrossCheck]) -> Strin
         let shots = shots.map_or("half the".to_owned(), |shots| (shots / 2).to_string());
         text += &format!("\n{}: {shots} dark and {shots} lit shots each\n", subtraction::NAME);
     }
-    text += "\n";
-    for line in figures.iter().filter_map(report::beside_the_line) {
-        text += &(line + "\n");
+    text += &report::beside_the_line(figures);
+    if !checks.is_empty() {
+        text += "\n";
     }
     for check in checks {
         text += &format!(

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use serde_json::json;
 
 use tofsim::error::{Error, Input, Result, read_text};
-use tofsim::files::output::create_directory;
+use tofsim::files::folder::FolderLock;
 use tofsim::network::formats::WordFormat;
 use tofsim::scenario;
 use tofsim::sim::domain;
@@ -55,7 +55,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
 
     let path = args.output.join("checkpoint");
     let state = args.resume.then(|| checkpoint::load(&path, &of, &recipe)).transpose()?;
-    create_directory(&args.output)?;
+    let _held = FolderLock::take(&args.output)?;
     use_threads(args.threads)?;
     let mut tournament = Tournament::new(&recipe, &*material, args.seed, state);
     if !args.train(&mut tournament, &path, &of, talk)? {

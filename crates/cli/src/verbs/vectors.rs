@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use tofsim::error::{Input, Result, nearest};
+use tofsim::files::folder::FolderLock;
 use tofsim::files::staged::StagedFolder;
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
@@ -75,6 +76,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         name => vec![find(name, "BLOCK")?],
     };
     let setting = args.from.setting()?;
+    let _held = FolderLock::take(&args.output)?;
     let stage = StagedFolder::new(&args.output)?;
     for spec in blocks {
         let vectors = (spec.record)(spec, &setting)?;

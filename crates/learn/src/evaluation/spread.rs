@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use super::tails::Tails;
+
 /// An estimate further from the truth than that is an outlier, unless another limit is stated [m].
 pub const OUTLIER_M: f64 = 0.1;
 
@@ -33,6 +35,9 @@ pub struct Spread {
     pub two_sd_se_mm: Option<f64>,
     /// Least error, the quartiles and the largest error [mm].
     pub quartiles_mm: Option<[f64; 5]>,
+    /// What a box plot shows beside those.
+    #[serde(skip)]
+    pub tails: Option<Tails>,
 }
 
 impl Spread {
@@ -65,7 +70,9 @@ impl Spread {
         let n = errors_mm.len() as f64;
         let mean = errors_mm.iter().sum::<f64>() / n;
         spread.mean_mm = Some(mean);
-        spread.quartiles_mm = Some([0.0, 0.25, 0.5, 0.75, 1.0].map(|q| quantile(&errors_mm, q)));
+        let quartiles = [0.0, 0.25, 0.5, 0.75, 1.0].map(|q| quantile(&errors_mm, q));
+        spread.quartiles_mm = Some(quartiles);
+        spread.tails = Some(Tails::of(&errors_mm, [quartiles[1], quartiles[3]]));
         if errors_mm.len() > 1 {
             let moment =
                 |power| errors_mm.iter().map(|error| (error - mean).powi(power)).sum::<f64>();

@@ -48,9 +48,24 @@ pub fn line_two_sd_mm(distance_m: f64) -> f64 {
     line[below] + (place - below as f64) * (line[below + 1] - line[below])
 }
 
+/// The error that the specification allows (Table 5.2, "requested error"): 10 mm, and 5 % of the distance
+/// from 0.2 m on. Beyond the table's 0.1 to 0.6 m it goes on in the same way, which is our reading [mm].
+pub fn allowed_error_mm(distance_m: f64) -> f64 {
+    (50.0 * distance_m).max(10.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_specification_goes_through_the_table() {
+        for (distance_m, allowed_mm) in
+            DISTANCES_M.into_iter().zip([10.0, 10.0, 15.0, 20.0, 25.0, 30.0])
+        {
+            assert!((allowed_error_mm(distance_m) - allowed_mm).abs() < 1e-9);
+        }
+    }
 
     #[test]
     fn the_line_goes_through_the_table() {

@@ -17,7 +17,7 @@ pub(super) const SHOWN: usize = 6;
 #[command(
     after_help = "Histograms are drawn afresh over the thesis's test grid: 51 distances from 0.1 \
     to 0.6 m, 9 irradiances,\n53 reflectances, 5 of each scene. All estimators see the same ones,\nbut for \
-    pub(super) subtraction: a dark and a lit one of half the shots each.\nWith --grid KEY=... scenes are those of \
+    subtraction: a dark and a lit one of half the shots each.\nWith --grid KEY=... scenes are those of \
     one's own, and what no --grid has is the scenario's.\n\n\
     Examples:\n  \
     tofsim evaluate                                 the default network on its chain's bins\n  \

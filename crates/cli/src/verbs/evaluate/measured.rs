@@ -6,6 +6,7 @@ use serde_json::json;
 
 use tofsim::Note;
 use tofsim::error::{Input, Result};
+use tofsim::files::folder::FolderLock;
 use tofsim::sim::domain;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::Labelled;
@@ -13,8 +14,9 @@ use tofsim_learn::dataset::axis::thinned;
 use tofsim_learn::estimation::{EstimatorKind, Panel};
 use tofsim_learn::evaluation::{EstimatorErrors, Evaluation, Figures};
 
+use crate::record::Record;
 use crate::report::evaluation as report;
-use crate::verbs::terminal::{Talk, print, print_json};
+use crate::verbs::terminal::{Talk, print_json};
 
 use super::args::{Args, SHOWN};
 
@@ -28,6 +30,7 @@ pub fn run(args: &Args, data: &Path, talk: &Talk) -> Result<()> {
         let expected = "expected estimators of one histogram, it needs a dark one beside each";
         return Err(Input::new("--estimator", expected).value("subtraction").into());
     }
+    let _held = args.output.as_deref().map(FolderLock::take).transpose()?;
     let estimators = Panel::new(&args.estimator, &setup)?.into_estimators();
     let count = labelled.histograms.len() as u64;
     let (histograms, scenes) = (&labelled.histograms, labelled.scenes.clone());
@@ -40,21 +43,25 @@ pub fn run(args: &Args, data: &Path, talk: &Talk) -> Result<()> {
     let of = |column: &EstimatorErrors| figures(&evaluation, column, limit_m, labelled.knows_light);
     let figures: Vec<_> = evaluation.columns.iter().map(of).collect();
     let (profile, network) = (&setup.scenario.tdc.profile, &setup.network.name);
-    let json = json!({
+    let mut json = json!({
         "schema": "tofsim.evaluate/1",
-        "version": env!("CARGO_PKG_VERSION"),
         "network": network,
-        "scenario": setup.name,
-        "set": setup.set,
         "profile": profile,
         "data": data.display().to_string(),
         "rows": count,
         "estimators": figures,
-        "notes": notes,
     });
+    let record = Record::new(&setup, &talk.command);
+    record.put_into(&mut json, &notes);
     if let Some(folder) = &args.output {
-        report::write(folder, &format!("{json}\n"), &figures, &[], false)?;
-        talk.detail(format_args!("wrote {}", folder.display()));
+        let evaluated = report::Evaluated {
+            record: &record,
+            json: &json,
+            figures: &figures,
+            by_setting: &[],
+            thesis: false,
+        };
+        evaluated.write(folder)?.iter().for_each(|path| talk.wrote(path));
     }
     if args.json {
         return print_json(&json);
@@ -66,7 +73,8 @@ pub fn run(args: &Args, data: &Path, talk: &Talk) -> Result<()> {
     let distances: Vec<f64> = distances.iter().map(|group| group.value).collect();
     let shown = thinned(&distances, SHOWN);
     let beside = report::Beside { distances_m: &shown, bound_mm: &[], thesis: false };
-    print(&(head + &report::tables(&figures, &beside)))
+    let tables = report::overview(&figures) + "\n" + &report::tables(&figures, &beside);
+    talk.report(&(head + &tables))
 }
 
 /// The figures of an estimator; the thesis's line is for its own scenes.

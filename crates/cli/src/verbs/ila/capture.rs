@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use serde_json::{Value, json};
 
 use tofsim::error::{Error, Input, Result};
+use tofsim::files::folder::FolderLock;
 use tofsim::files::output::write_bytes;
 use tofsim::files::staged::StagedFolder;
 use tofsim::kernel::Time;
@@ -119,6 +120,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     plan.stop_when_full = args.stop_when_full;
     let frames = args.frames.unwrap_or(set_up.file.frames);
     check_frames("--frames", frames, &setup)?;
+    let _held = FolderLock::take(&args.output)?;
     let mut analyser = Analyser::new(&plan, &setup);
     let outcome = capture(Run::new(&setup), frames, &mut analyser, stop_signal().as_deref())?;
     let (triggers, full) = (analyser.triggers(), analyser.is_full());

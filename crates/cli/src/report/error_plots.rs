@@ -1,0 +1,81 @@
+//! The box plots of an evaluation.
+
+use plotters::style::{BLACK, RED};
+
+use tofsim_learn::dataset::axis::thinned;
+use tofsim_learn::evaluation::{Figures, Group, KeyGroups, thesis};
+
+use super::box_plot::{BoxPlot, Limit, Series};
+
+/// Values of a picture of several estimators.
+const SHOWN: usize = 11;
+
+/// What the specification allows.
+const ALLOWED: Limit =
+    Limit { name: "specification (Table 5.2)", mm: thesis::allowed_error_mm, colour: BLACK };
+
+/// The spread that the thesis's network has.
+const LINE: Limit = Limit {
+    name: "2 sd of the thesis's float network (Table 5.5)",
+    mm: thesis::line_two_sd_mm,
+    colour: RED,
+};
+
+/// A picture.
+pub struct ErrorPlot {
+    /// Of its file.
+    pub name: String,
+    /// Its text, or why there is none.
+    pub svg: Result<String, String>,
+}
+
+/// One for each estimator and quantity, and one for each quantity with all estimators side by side if
+/// there are several; with the line of the thesis's network where scenes are the thesis's.
+pub fn all(figures: &[Figures], by_setting: &[Vec<KeyGroups>], thesis: bool) -> Vec<ErrorPlot> {
+    let of_scene = figures.iter().map(|one| {
+        let groupings = one.groupings().into_iter();
+        groupings.map(|of| (of.key, of.quantity, of.groups)).collect::<Vec<_>>()
+    });
+    let mut of_each: Vec<Vec<(&str, &str, &[Group])>> = of_scene.collect();
+    for (quantities, keys) in of_each.iter_mut().zip(by_setting) {
+        quantities.extend(keys.iter().map(|of| (&of.key[..], &of.key[..], &of.groups[..])));
+    }
+    let count = of_each.first().map_or(0, Vec::len);
+    let quantities = (0..count).flat_map(|k| {
+        let (key, quantity, _) = of_each[0][k];
+        let limits: &[Limit] = match (key == "distance_m", thesis) {
+            (false, _) => &[],
+            (true, false) => &[ALLOWED],
+            (true, true) => &[ALLOWED, LINE],
+        };
+        let series = figures.iter().zip(&of_each);
+        let series = series.map(|(one, groups)| Series { name: one.name, groups: groups[k].2 });
+        let series: Vec<_> = series.filter(|one| !one.groups.is_empty()).collect();
+        of_quantity(key, quantity, &series, limits)
+    });
+    quantities.collect()
+}
+
+fn of_quantity(key: &str, quantity: &str, series: &[Series], limits: &[Limit]) -> Vec<ErrorPlot> {
+    let one = |series: &Series| {
+        let title = format!("{}: errors by {quantity}", series.name);
+        let plot = BoxPlot { title: &title, quantity, series: &[*series], limits };
+        ErrorPlot { name: format!("{}_by_{key}.svg", series.name), svg: plot.svg() }
+    };
+    let mut plots: Vec<_> = series.iter().map(one).collect();
+    if let [first, _, ..] = series {
+        let values: Vec<_> = first.groups.iter().map(|group| group.value).collect();
+        let values = thinned(&values, SHOWN);
+        let shown = |one: &Series| -> Vec<Group> {
+            let groups = one.groups.iter().filter(|group| values.contains(&group.value));
+            groups.cloned().collect()
+        };
+        let groups: Vec<_> = series.iter().map(shown).collect();
+        let series = series.iter().zip(&groups);
+        let series: Vec<_> = series.map(|(one, groups)| Series { groups, ..*one }).collect();
+        let title = format!("errors by {quantity}");
+        let plot = BoxPlot { title: &title, quantity, series: &series, limits };
+        plots.push(ErrorPlot { name: format!("errors_by_{key}.svg"), svg: plot.svg() });
+    }
+    plots
+}
