@@ -14,7 +14,8 @@ use tofsim::sim::setup::Setup;
 const MARK: &str = "tofsim-record ";
 
 /// Options that leave the bytes of an output as they are, or only say where it goes.
-const LEFT_OUT: [&str; 7] = ["output", "threads", "quiet", "verbose", "strict", "json", "resume"];
+const LEFT_OUT: [&str; 8] =
+    ["output", "threads", "quiet", "verbose", "strict", "json", "resume", "checkpoints"];
 
 /// Where an output comes from.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -62,8 +63,8 @@ impl Record {
         format!("{MARK}{text}")
     }
 
-    /// The first line of a CSV file.
-    pub fn csv_line(&self) -> String {
+    /// The first line of a CSV or TOML file.
+    pub fn comment_line(&self) -> String {
         format!("# {}\n", self.line())
     }
 
@@ -155,7 +156,7 @@ mod tests {
         let record = record();
         for text in [
             format!("$comment {} $end\n#0\n", record.line()),
-            format!("{}bin,count\n0,1\n", record.csv_line()),
+            format!("{}bin,count\n0,1\n", record.comment_line()),
             record.in_svg("<svg>\n</svg>\n"),
         ] {
             assert_eq!(Record::find(text.as_bytes()), Some(record.clone()), "{text}");

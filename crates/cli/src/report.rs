@@ -5,6 +5,7 @@ pub mod causes;
 pub mod comparison;
 pub mod error_plots;
 pub mod evaluation;
+pub mod evaluation_csv;
 pub mod events;
 pub mod explanation;
 pub mod exploration;

@@ -64,6 +64,8 @@ fn the_tables_stand_beside_the_thesis_and_threads_change_nothing() {
         assert!(text.contains(row), "{row} in {text}");
     }
     assert!(text.contains("0.6 m: counts as drawn"), "{text}");
+    assert!(text.lines().all(|line| line.len() <= 80), "{text}");
+    assert!(text.lines().nth(3).unwrap().contains("largest error"), "{text}");
 }
 
 #[test]
@@ -71,9 +73,13 @@ fn a_folder_gets_the_figures_and_the_plots() {
     let folder = empty();
     stdout(folder.path(), &with(&["-o", "out"]));
     let names = common::files(&folder.path().join("out"));
-    assert_eq!(names.len(), 2 + 2 * 3, "{names:?}");
+    assert_eq!(names.len(), 3 + 3 * 3, "{names:?}");
+    let both = fs::read_to_string(folder.path().join("out/errors_by_distance_m.svg")).unwrap();
+    for words in ["network-float", "specification (Table 5.2)", "tofsim-record"] {
+        assert!(both.contains(words), "{words}");
+    }
     let csv = fs::read_to_string(folder.path().join("out/evaluation.csv")).unwrap();
-    assert_eq!(csv.lines().count(), 1 + 2 * (51 + 53 + 9));
+    assert_eq!(csv.lines().count(), 2 + 2 * (51 + 53 + 9));
     let text = fs::read_to_string(folder.path().join("out/evaluation.json")).unwrap();
     let report: Value = serde_json::from_str(&text).unwrap();
     let row = csv.lines().find(|line| line.starts_with("network,distance_m,0.3,")).unwrap();

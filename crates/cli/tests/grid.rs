@@ -110,7 +110,8 @@ fn an_evaluation_follows_the_grid() {
     assert!(csv.contains("\nmatched,laser.pulse_sigma_ps,200,"), "{csv}");
     let picture = folder.path().join("out/likelihood_by_distance_m.svg");
     assert!(!fs::read_to_string(picture).unwrap().contains("thesis"));
-    assert_eq!(files(&folder.path().join("out")).len(), 2 + 2 * 3);
+    // A picture of each estimator and one of both, for four quantities.
+    assert_eq!(files(&folder.path().join("out")).len(), 3 + 4 * 3);
 
     let text = stdout(folder.path(), &[&args[..5], &grid[..2]].concat());
     assert!(!text.contains("thesis") && text.contains("Cramer-Rao") && text.contains("0.9 m"));

@@ -59,6 +59,35 @@ fn budgets_datasets_and_evaluations_are_made_again_too() {
 }
 
 #[test]
+fn networks_vectors_captures_and_estimates_are_made_again_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let short = ["--set", "firmware.shots_per_frame=300"];
+    stdout(path, &["train", "--quick", "--seed", "3", "--with", "limits.penalty=5", "-o", "net"]);
+    stdout(path, &["vectors", "tdc", "--cycles", "500", "-o", "golden"]);
+    let captured = [&["ila", "capture", "--probes", "fig_6_21", "--json", "-o", "ila"], &short[..]];
+    fs::write(path.join("captured.json"), stdout(path, &captured.concat())).unwrap();
+    stdout(path, &[&["run", "-o", "out", "--waves", "none"], &short[..]].concat());
+    let histogram = ["estimate", "out/histogram.csv", "--estimator", "matched", "--json"];
+    fs::write(path.join("estimated.json"), stdout(path, &histogram)).unwrap();
+    for name in [
+        "net/network.toml",
+        "net/accuracy.csv",
+        "net/curve.svg",
+        "golden/tdc/ports.json",
+        "golden/tdc/expected.mem",
+        "golden/tdc/tb_tdc.v",
+        "captured.json",
+        "ila/fig_6_21.ila",
+        "ila/fig_6_21.csv",
+        "ila/fig_6_21.map.toml",
+        "estimated.json",
+    ] {
+        assert!(stdout(path, &["rerun", name]).contains("the same"), "{name}");
+    }
+}
+
+#[test]
 fn what_differs_is_said() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
@@ -89,7 +118,10 @@ fn what_has_no_record_is_refused() {
         \"command\":[\"man\",\"--output=here\"]}";
     fs::write(folder.path().join("other.csv"), other).unwrap();
     let error = refused(folder.path(), &["rerun", "other.csv"]);
-    assert!(error.contains("command = man: expected a record of one of budget, run"), "{error}");
+    assert!(
+        error.contains("command = man: expected a record of one of budget, estimate, run"),
+        "{error}"
+    );
     assert!(refused(folder.path(), &["rerun", "none.vcd"]).contains("none.vcd: cannot read"));
     stdout(folder.path(), &[&["run", "-o", "out"], &SHORT[..]].concat());
     let home = refused(folder.path(), &["rerun", "out/kc705.vcd", "-o", "out"]);
@@ -119,6 +151,26 @@ fn a_folder_holds_the_files_of_one_run() {
     listed.sort();
     found.sort();
     assert_eq!(found, listed);
+}
+
+#[test]
+fn a_folder_is_one_commands_at_a_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let held = tofsim::files::folder::FolderLock::take(&path.join("out")).unwrap();
+    for command in [
+        &["run", "--waves", "none"][..],
+        &["evaluate", "--rows", "51", "--check", "0"],
+        &["dataset", "--rows", "10"],
+        &["train", "--quick"],
+        &["vectors", "tdc", "--cycles", "100"],
+        &["ila", "capture", "--probes", "fig_6_21"],
+    ] {
+        let error = refused(path, &[command, &["-o", "out"]].concat());
+        assert!(error.contains("out: another run is writing there"), "{command:?}: {error}");
+    }
+    drop(held);
+    assert_eq!(fs::read_dir(path).unwrap().count(), 0);
 }
 
 #[test]

@@ -2,9 +2,11 @@
 //! each.
 //!
 //! Every estimator sees the same histograms; one that needs dark histograms too sees pairs of its own.
-//! Errors are kept row by row, so that any grouping of them is exact: by distance, as the thesis has it, by reflectance, by irradiance.
+//! Errors are kept row by row, so that any grouping of them is exact: by distance, as the thesis has
+//! it, by reflectance, by irradiance, by scene.
 
 pub mod bound;
+pub mod by_scene;
 pub mod by_setting;
 pub mod cross_check;
 pub mod errors;
@@ -14,6 +16,7 @@ pub mod spread;
 pub mod tails;
 pub mod thesis;
 
+pub use by_scene::{SceneErrors, by_scene, most_biased};
 pub use by_setting::{KeyGroups, by_setting};
 pub use errors::{EstimatorErrors, Evaluation};
 pub use figures::Figures;

@@ -36,6 +36,11 @@ impl Setup {
         }
     }
 
+    /// What makes it impossible that a depth is that of the target, if something does.
+    pub fn no_depth(&self) -> Option<&Note> {
+        self.no_depth.as_ref()
+    }
+
     /// Why no depth of a run can be that of the target.
     pub(super) fn why_no_depth(&self) -> Option<Note> {
         self.without_light().or_else(|| self.without_echo()).or_else(|| self.past_the_end())

@@ -288,7 +288,7 @@ mod tests {
 
     #[test]
     fn what_lies_beyond_the_whiskers_is_a_dot_or_a_mark_at_the_edge() {
-        let errors = [-0.5, -0.4, 0.0, 0.1, 0.4, 0.5, 2.0, 90.0];
+        let errors = [-1.0, -0.5, -0.4, -0.1, 0.0, 0.1, 0.2, 0.3, 0.4, 1.0, 2.2, 90.0];
         let groups = [group(0.3, &errors, 0)];
         let svg = drawn(&[Series { name: "network", groups: &groups }], &[]);
         assert_eq!((svg.matches("<circle").count(), svg.matches("<polygon").count()), (1, 1));

@@ -3,7 +3,7 @@
 use plotters::style::{BLACK, RED};
 
 use tofsim_learn::dataset::axis::thinned;
-use tofsim_learn::evaluation::{Figures, Group, KeyGroups, thesis};
+use tofsim_learn::evaluation::{Figures, Group, thesis};
 
 use super::box_plot::{BoxPlot, Limit, Series};
 
@@ -31,27 +31,19 @@ pub struct ErrorPlot {
 
 /// One for each estimator and quantity, and one for each quantity with all estimators side by side if
 /// there are several; with the line of the thesis's network where scenes are the thesis's.
-pub fn all(figures: &[Figures], by_setting: &[Vec<KeyGroups>], thesis: bool) -> Vec<ErrorPlot> {
-    let of_scene = figures.iter().map(|one| {
-        let groupings = one.groupings().into_iter();
-        groupings.map(|of| (of.key, of.quantity, of.groups)).collect::<Vec<_>>()
-    });
-    let mut of_each: Vec<Vec<(&str, &str, &[Group])>> = of_scene.collect();
-    for (quantities, keys) in of_each.iter_mut().zip(by_setting) {
-        quantities.extend(keys.iter().map(|of| (&of.key[..], &of.key[..], &of.groups[..])));
-    }
-    let count = of_each.first().map_or(0, Vec::len);
-    let quantities = (0..count).flat_map(|k| {
-        let (key, quantity, _) = of_each[0][k];
-        let limits: &[Limit] = match (key == "distance_m", thesis) {
+pub fn all(figures: &[Figures], thesis: bool) -> Vec<ErrorPlot> {
+    let of_each: Vec<_> = figures.iter().map(Figures::groupings).collect();
+    let Some(first) = of_each.first() else { return Vec::new() };
+    let quantities = first.iter().enumerate().flat_map(|(k, of)| {
+        let limits: &[Limit] = match (of.key == "distance_m", thesis) {
             (false, _) => &[],
             (true, false) => &[ALLOWED],
             (true, true) => &[ALLOWED, LINE],
         };
         let series = figures.iter().zip(&of_each);
-        let series = series.map(|(one, groups)| Series { name: one.name, groups: groups[k].2 });
+        let series = series.map(|(one, all)| Series { name: one.name, groups: all[k].groups });
         let series: Vec<_> = series.filter(|one| !one.groups.is_empty()).collect();
-        of_quantity(key, quantity, &series, limits)
+        of_quantity(of.key, of.quantity, &series, limits)
     });
     quantities.collect()
 }

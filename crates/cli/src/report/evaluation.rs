@@ -6,6 +6,7 @@ use serde_json::Value;
 
 use tofsim::error::{Input, Result};
 use tofsim::files::output::{create_directory, write_bytes};
+use tofsim_learn::dataset::Grid;
 use tofsim_learn::evaluation::thesis::{self, Published};
 use tofsim_learn::evaluation::{Figures, Group, KeyGroups, Spread};
 
@@ -13,11 +14,7 @@ use crate::text::table::{fitted, number_or_dash, width};
 
 use crate::record::Record;
 
-use super::error_plots;
-
-/// The columns of `evaluation.csv`.
-const HEADER: &str = "estimator,by,value,estimates,failures,outliers,mean_mm,mean_se_mm,two_sd_mm,two_sd_se_mm,\
-    least_mm,lower_quartile_mm,median_mm,upper_quartile_mm,largest_mm";
+use super::{error_plots, evaluation_csv};
 
 /// What figures lie beside.
 pub struct Beside<'a> {
@@ -115,8 +112,8 @@ pub struct Evaluated<'a> {
     pub json: &'a Value,
     /// Of each estimator.
     pub figures: &'a [Figures],
-    /// The errors of each by the grid's other keys.
-    pub by_setting: &'a [Vec<KeyGroups>],
+    /// The grid, if histograms were drawn over one.
+    pub grid: Option<&'a Grid>,
     /// Whether the grid is the thesis's, whose line is drawn.
     pub thesis: bool,
 }
@@ -128,10 +125,15 @@ impl Evaluated<'_> {
     /// When a file cannot be written.
     pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>> {
         create_directory(folder)?;
+        let csv = |text: String| self.record.comment_line() + &text;
         let mut paths = vec![folder.join(JSON), folder.join("evaluation.csv")];
         write_bytes(&paths[0], format!("{}\n", self.json))?;
-        write_bytes(&paths[1], self.record.csv_line() + &csv(self.figures, self.by_setting))?;
-        for picture in error_plots::all(self.figures, self.by_setting, self.thesis) {
+        write_bytes(&paths[1], csv(evaluation_csv::groups(self.figures)))?;
+        if self.figures.iter().any(|one| !one.by_scene.is_empty()) {
+            paths.push(folder.join("scenes.csv"));
+            write_bytes(&paths[2], csv(evaluation_csv::scenes(self.figures, self.grid)))?;
+        }
+        for picture in error_plots::all(self.figures, self.thesis) {
             let path = folder.join(picture.name);
             let svg = picture.svg.map_err(|why| Input::new(path.display(), why))?;
             write_bytes(&path, self.record.in_svg(&svg))?;
@@ -141,32 +143,12 @@ impl Evaluated<'_> {
     }
 }
 
-/// A row for each estimator and group.
-fn csv(figures: &[Figures], by_setting: &[Vec<KeyGroups>]) -> String {
-    let mut text = format!("{HEADER}\n");
-    for one in figures {
-        for grouping in one.groupings() {
-            for group in grouping.groups {
-                text += &format!("{},{},{}\n", one.name, grouping.key, numbers(group));
-            }
-        }
-    }
-    for (one, keys) in figures.iter().zip(by_setting) {
-        for KeyGroups { key, groups } in keys {
-            for group in groups {
-                text += &format!("{},{key},{}\n", one.name, numbers(group));
-            }
-        }
-    }
-    text
-}
-
 /// Errors by the grid's other keys, a table each.
-pub fn setting_tables(figures: &[Figures], by_setting: &[Vec<KeyGroups>]) -> String {
-    let first = by_setting.first().map_or(&[][..], |keys| keys);
+pub fn setting_tables(figures: &[Figures]) -> String {
+    let first = figures.first().map_or(&[][..], |one| &one.by_key);
     let text = |(k, KeyGroups { key, .. }): (usize, &KeyGroups)| {
-        let rows = figures.iter().zip(by_setting).flat_map(|(one, keys)| {
-            keys[k].groups.iter().map(move |Group { value, spread }| {
+        let rows = figures.iter().flat_map(|one| {
+            one.by_key[k].groups.iter().map(move |Group { value, spread }| {
                 vec![
                     one.name.to_owned(),
                     value.to_string(),
@@ -183,14 +165,28 @@ pub fn setting_tables(figures: &[Figures], by_setting: &[Vec<KeyGroups>]) -> Str
     first.iter().enumerate().map(text).collect()
 }
 
-fn numbers(group: &Group) -> String {
-    let spread = &group.spread;
-    let number = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
-    let counts =
-        [spread.estimates, spread.failures, spread.outliers].map(|count| count.to_string());
-    let moments = [spread.mean_mm, spread.mean_se_mm, spread.two_sd_mm, spread.two_sd_se_mm];
-    let quartiles = [0, 1, 2, 3, 4].map(|k| number(spread.quartiles_mm.map(|five| five[k])));
-    [&[group.value.to_string()], &counts[..], &moments.map(number), &quartiles].concat().join(",")
+/// The scene in which each estimator has the largest mean error.
+pub fn biased_scenes(figures: &[Figures]) -> String {
+    let row = |one: &Figures| {
+        let worst = one.most_biased_scene.as_ref()?;
+        let keys = worst.keys.iter().map(|(key, value)| format!(", {key} = {value}"));
+        let scene = format!(
+            "{} m, {}, {} W/m^2/nm{}",
+            worst.distance_m,
+            worst.reflectance,
+            worst.irradiance_w_m2_nm,
+            keys.collect::<String>()
+        );
+        let mean = with_error(Some(worst.mean_mm), Some(worst.mean_se_mm));
+        Some(named(one.name, [mean, format!("of {}", worst.estimates), scene]))
+    };
+    let rows: Vec<_> = figures.iter().filter_map(row).collect();
+    let header = named(
+        "most biased scene",
+        ["mean error [mm]", "", "distance, reflectance, irradiance"].map(str::to_owned),
+    );
+    let text = || fitted(&header, &rows, width());
+    if rows.is_empty() { String::new() } else { format!("\n{}\n", text()) }
 }
 
 #[cfg(test)]

@@ -130,7 +130,7 @@ impl<'a> RunFiles<'a> {
         };
         let svg = histogram_svg::svg(&title, &self.causes, setup.true_depth_m(), depth_m);
         write_file(&folder.join(NAMES[0]), |file| summary.write(log, file))?;
-        let csv = |text: String| self.record.csv_line() + &text;
+        let csv = |text: String| self.record.comment_line() + &text;
         write_bytes(&folder.join(NAMES[1]), csv(histogram_csv(&frame.histogram)))?;
         let svg = svg.map_err(|fault| Input::new("histogram.svg", fault))?;
         write_bytes(&folder.join(NAMES[2]), self.record.in_svg(&svg))?;

@@ -21,7 +21,7 @@ use tofsim_captures::source::Source;
 use crate::choice::{self, words};
 use crate::report::comparison;
 
-use super::draws::{load, outside_training};
+use super::draws::load;
 use super::terminal::{Talk, print};
 
 /// Compare two waveforms or captures: what A has is expected, what B has was got
@@ -160,7 +160,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let (a, b) = match (scenario, &args.files[..]) {
         (Some(scenario), [b]) => {
             let setup = Setup::new(load(scenario, set, *seed)?)?;
-            talk.heed(&outside_training(&setup)?)?;
+            talk.heed(&setup.notes()?)?;
             super::frames::check("--frames", *frames, &setup)?;
             (Source::simulation(setup, *frames), open(b)?)
         }

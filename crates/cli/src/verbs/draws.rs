@@ -6,8 +6,6 @@ use rayon::ThreadPoolBuilder;
 
 use tofsim::error::{Error, Input, Result};
 use tofsim::scenario::{self, Loaded, builtin};
-use tofsim::sim::setup::Setup;
-use tofsim::{Note, NoteCode};
 use tofsim_learn::dataset::grid::MOST_ROWS;
 use tofsim_learn::dataset::{Grid, Rows, Subset};
 
@@ -85,12 +83,6 @@ pub fn load(scenario: &str, set: &[String], seed: Option<u64>) -> Result<Loaded>
     let mut loaded = scenario::load(scenario, set)?;
     loaded.scenario.seed = seed.unwrap_or(loaded.scenario.seed);
     Ok(loaded)
-}
-
-/// Notes for verbs that show signals and no depth beside a true one.
-pub fn outside_training(setup: &Setup) -> Result<Vec<Note>> {
-    let notes = setup.notes()?.into_iter();
-    Ok(notes.filter(|note| note.code == NoteCode::OutsideTraining).collect())
 }
 
 /// Makes the pool of so many threads, if a number is asked for.

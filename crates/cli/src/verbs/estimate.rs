@@ -10,11 +10,13 @@ use tofsim::error::Result;
 use tofsim::network::{Estimate, Network, estimate};
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
+use tofsim::{Note, NoteCode};
 use tofsim_learn::dataset::labelled::histograms;
 use tofsim_learn::estimation::{EstimatorKind, Panel, Reading};
 use tofsim_learn::quantize::{Explanation, explain};
 
 use crate::choice::words;
+use crate::record::Record;
 use crate::report::explanation;
 use crate::text;
 
@@ -77,7 +79,10 @@ struct Numbers {
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let network = Network::find(&args.network, None)?;
     let params = network.params();
-    let panel = args.panel()?;
+    let setup = args.setup()?;
+    let notes = args.notes(&setup)?;
+    talk.heed(&notes)?;
+    let panel = Panel::new(&args.estimator, &setup)?;
     let names: Vec<String> = args.files.iter().map(|file| file.display().to_string()).collect();
     let mut rows = Vec::new();
     for (path, file) in args.files.iter().zip(&names) {
@@ -103,18 +108,26 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         report.extend(json!(row.numbers).as_object().cloned().unwrap_or_default());
     }
     report["histograms"] = json!(rows);
+    Record::new(&setup, &talk.command).put_into(&mut report, &notes);
     print_json(&report)
 }
 
 impl Args {
-    /// The other estimators.
-    fn panel(&self) -> Result<Panel> {
-        if self.estimator.is_empty() && self.set.is_empty() {
-            return Ok(Panel::default());
-        }
+    /// What the histograms are of, as far as it is known.
+    fn setup(&self) -> Result<Setup> {
         let mut loaded = scenario::load(&self.scenario, &self.set)?;
         loaded.scenario.estimator.network = from_here(&self.network, &loaded)?;
-        Panel::new(&self.estimator, &Setup::new(loaded)?)
+        Setup::new(loaded)
+    }
+
+    /// What the depths lie outside of; the network's, only where it was said what the histograms are of.
+    fn notes(&self, setup: &Setup) -> Result<Vec<Note>> {
+        let is_said = self.scenario != scenario::DEFAULT || !self.set.is_empty();
+        let mut notes = if is_said { setup.notes()? } else { Vec::new() };
+        // Whether light can have made the histogram does not matter: it is there.
+        notes.retain(|note| note.code == NoteCode::OutsideTraining);
+        notes.extend(self.estimator.iter().flat_map(|kind| kind.notes(setup)));
+        Ok(notes)
     }
 }
 

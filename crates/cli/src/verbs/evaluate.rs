@@ -19,7 +19,7 @@ use tofsim_learn::estimation::{Estimator, EstimatorInputs, EstimatorKind, subtra
 use tofsim_learn::evaluation::bound;
 use tofsim_learn::evaluation::cross_check::CrossCheck;
 use tofsim_learn::evaluation::thesis::{self, DISTANCES_M};
-use tofsim_learn::evaluation::{EstimatorErrors, Evaluation, Figures, KeyGroups, by_setting};
+use tofsim_learn::evaluation::{Evaluation, Figures};
 
 use crate::record::Record;
 use crate::report::evaluation as report;
@@ -49,8 +49,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let loaded = &scenes.loaded[0];
     let (seed, profile) = (loaded.scenario.seed, &loaded.scenario.tdc.profile);
     let mut notes = args.notes(&scenes, &network)?;
-    let middle = &scenes.setups[scenes.setups.len() / 2];
-    notes.extend(args.estimator.iter().flat_map(|kind| kind.notes(middle)));
+    notes.extend(args.notes_of_estimators(&scenes)?);
     talk.heed(&notes)?;
     let estimators = args.estimators(&scenes, &network)?;
     let rows = args.draws.rows(None, &grid, seed)?;
@@ -62,7 +61,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         let of = |scene: &Scene| &estimators[scene.setting][..];
         Evaluation::with(source, &rows, seed, of, stop.as_deref(), done)
     })?;
-    let (figures, by_setting) = figures(&evaluation, &grid, 1e-3 * args.outlier_limit_mm);
+    let of = |column| Figures::over(&evaluation, column, &grid, 1e-3 * args.outlier_limit_mm);
+    let figures: Vec<_> = evaluation.columns.iter().map(of).collect();
     let drawn = figures.first().map_or(&[][..], |one| &one.by_distance_m);
     let drawn: Vec<f64> = drawn.iter().map(|group| group.value).collect();
     let shown = match grid.is_thesis() {
@@ -96,18 +96,15 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             json["grid"] =
                 json!({ "axes": grid.axes().collect::<Vec<_>>(), "repeats": grid.repeats });
             json["distances_m"] = json!(drawn);
-            for (one, keys) in by_setting.iter().enumerate() {
-                json["estimators"][one]["by_key"] = json!(keys);
-            }
         }
     }
     let record = Record::new(&scenes.setups[0], &talk.command);
     record.put_into(&mut json, &notes);
     let thesis = grid.is_thesis();
-    let (figures, by_setting) = (&figures[..], &by_setting[..]);
+    let figures = &figures[..];
     if let Some(folder) = &args.output {
-        let record = &record;
-        let evaluated = report::Evaluated { record, json: &json, figures, by_setting, thesis };
+        let (record, json) = (&record, &json);
+        let evaluated = report::Evaluated { record, json, figures, grid: Some(&grid), thesis };
         evaluated.write(folder)?.iter().for_each(|path| talk.wrote(path));
     }
     if args.json {
@@ -116,7 +113,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         let shots = source.shots_of_all().map(|shots| format!(" of {shots} shots"));
         let shots = shots.unwrap_or_default();
         let head = format!(
-            "network {}, chain {profile}, scenario {}, {} histograms{shots}, seed {seed}\n\n",
+            "network {}, chain {profile}, scenario {}, seed {seed}\n{} histograms{shots}\n\n",
             network.name,
             loaded.name,
             rows.count(),
@@ -128,7 +125,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         let bound_mm: Vec<_> = shown.iter().map(at).collect();
         let beside = report::Beside { distances_m: &shown, bound_mm: &bound_mm, thesis };
         let tables = report::overview(figures) + "\n" + &report::tables(figures, &beside);
-        let tables = tables + &report::setting_tables(figures, by_setting);
+        let tables = tables + &report::setting_tables(figures) + &report::biased_scenes(figures);
         talk.report(&(head + &tables + &text(figures, source.shots_of_all(), &cross_check)))?;
     }
     let agrees = cross_check.iter().all(CrossCheck::agrees);
@@ -143,6 +140,21 @@ impl Args {
         if self.measures_a_network() {
             let scenario = &scenes.loaded[0].scenario;
             notes.extend(domain::notes(network, scenario, &scenes.grid.ranges())?);
+        }
+        Ok(notes)
+    }
+
+    /// What the estimators take for granted: of all scenes, and of the nearest and the farthest.
+    fn notes_of_estimators(&self, scenes: &Scenes) -> Result<Vec<Note>> {
+        let middle = scenes.setups.len() / 2;
+        let of = |setup: &Setup| self.estimator.iter().flat_map(|kind| kind.notes(setup)).collect();
+        let mut notes: Vec<Note> = of(&scenes.setups[middle]);
+        for distance_m in scenes.grid.distances_m.range() {
+            let mut loaded = scenes.loaded[middle].clone();
+            loaded.scenario.target.distance_m = distance_m;
+            let setup = Setup::new(loaded)?;
+            let of_scene = self.estimator.iter().flat_map(|kind| kind.notes_of_scene(&setup));
+            notes.extend(of_scene.filter(|note| note.key == "target.distance_m"));
         }
         Ok(notes)
     }
@@ -185,23 +197,6 @@ impl Args {
         let check = |scene| CrossCheck::new(loaded, source, &scene, self.check, stop);
         distances_m.iter().map(scene).map(check).collect()
     }
-}
-
-/// The figures of each estimator, and its errors by the grid's other keys; beside the thesis's line where
-/// the grid is the thesis's.
-fn figures(
-    evaluation: &Evaluation,
-    grid: &Grid,
-    limit_m: f64,
-) -> (Vec<Figures>, Vec<Vec<KeyGroups>>) {
-    let of = |column: &EstimatorErrors| {
-        let mut figures = Figures::new(evaluation, column, limit_m);
-        if !grid.is_thesis() {
-            (figures.worst_ratio_to_thesis, figures.worst_distance_m) = (None, None);
-        }
-        (figures, by_setting(evaluation, column, grid, limit_m))
-    };
-    evaluation.columns.iter().map(of).unzip()
 }
 
 fn text(figures: &[Figures], shots: Option<u16>, checks: &[CrossCheck]) -> String {

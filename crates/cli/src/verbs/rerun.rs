@@ -16,9 +16,10 @@ use super::terminal::{Talk, print, print_json};
 
 /// Verbs whose outputs are made again. They write into the folder of `--output` and nowhere else, so
 /// that no record of another's can make them write over anything.
-const VERBS: [&str; 4] = [PRINTS, "run", "evaluate", "dataset"];
-/// The one that prints and writes nothing.
-const PRINTS: &str = "budget";
+const VERBS: [&str; 8] =
+    ["budget", "estimate", "run", "evaluate", "dataset", "train", "vectors", "ila capture"];
+/// Those that print and write nothing.
+const PRINTING: [&str; 2] = ["budget", "estimate"];
 
 /// Make an output again from what it records, and compare the two byte by byte
 #[derive(Debug, clap::Args)]
@@ -94,7 +95,9 @@ fn record(path: &Path, bytes: &[u8]) -> Result<Record> {
         return Ok(record);
     }
     let folder = path.parent().unwrap_or(Path::new(""));
-    let beside = ["summary.json", "evaluation.json", "dataset.json"];
+    // A logic analyser's formats have no room for it: the map beside has.
+    let map = format!("{}.map.toml", path.file_stem().unwrap_or_default().to_string_lossy());
+    let beside = ["summary.json", "evaluation.json", "dataset.json", "ports.json", &map];
     let found = beside.iter().find_map(|name| Record::find(&read(&folder.join(name)).ok()?));
     found.ok_or_else(|| {
         let expected = "has no record of how it was made, nor has a summary beside it";
@@ -105,20 +108,27 @@ fn record(path: &Path, bytes: &[u8]) -> Result<Record> {
 /// Runs the command of a record, with what it writes in `folder`; the bytes that are to be those of
 /// `file`.
 fn again(file: &Path, given: &[u8], record: &Record, folder: &Path) -> Result<Vec<u8>> {
-    let verb = record.command.first().map_or("", String::as_str);
-    if !VERBS.contains(&verb) {
+    let words: Vec<_> = record.command.iter().map(String::as_str).collect();
+    let verb = match words[..] {
+        ["ila", command, ..] => format!("ila {command}"),
+        [verb, ..] => verb.to_owned(),
+        [] => String::new(),
+    };
+    if !VERBS.contains(&&verb[..]) {
         let expected = format!("expected a record of one of {}", VERBS.join(", "));
         return Err(Input::new(file.display(), expected).field("command").value(verb).into());
     }
     let name = file.file_name().unwrap_or_default();
-    let path = folder.join(name);
     let program = std::env::current_exe().map_err(Error::io(Path::new("tofsim"), "find"))?;
     let mut command = Command::new(program);
     command.args(record.command.iter().map(|word| with_events_in(folder, word))).arg("--quiet");
-    if verb != PRINTS {
+    let prints = PRINTING.contains(&&verb[..]);
+    if !prints {
         command.arg("--output").arg(folder);
     }
-    command.arg("--json");
+    if verb != "vectors" {
+        command.arg("--json");
+    }
     command.stdin(Stdio::null()).stderr(Stdio::piped());
     let done = command.output().map_err(Error::io(Path::new("tofsim"), "run"))?;
     if !matches!(done.status.code(), Some(0 | 1)) {
@@ -127,6 +137,9 @@ fn again(file: &Path, given: &[u8], record: &Record, folder: &Path) -> Result<Ve
         let expected = format!("cannot be made again: {said}");
         return Err(Input::new(file.display(), expected).into());
     }
+    // A block's vectors have a folder of their own.
+    let own = words.last().map(|block| folder.join(block).join(name));
+    let path = own.filter(|_| verb == "vectors").unwrap_or_else(|| folder.join(name));
     match read(&path) {
         Ok(bytes) => Ok(bytes),
         Err(_) if done.stdout.starts_with(b"{") && given.starts_with(b"{") => Ok(done.stdout),
@@ -138,18 +151,19 @@ fn again(file: &Path, given: &[u8], record: &Record, folder: &Path) -> Result<Ve
     }
 }
 
-/// A summary without the folder of its waveform, which is where the user wants it.
+/// What was printed or a summary, without the folder of its files, which is where the user wants it.
 fn without_folder(bytes: Vec<u8>) -> Vec<u8> {
     let text = match String::from_utf8(bytes) {
         Ok(text) if text.starts_with('{') => text,
         Ok(text) => return text.into_bytes(),
         Err(fault) => return fault.into_bytes(),
     };
-    let name = |found: &Captures| format!("\"waves\":\"{}\"", &found[1]);
-    match Regex::new(r#""waves":"(?:[^"]*/)?([^"/]*)""#) {
-        Ok(waves) => waves.replace(&text, name).into_owned().into_bytes(),
-        Err(_) => text.into_bytes(),
-    }
+    // In keys that name files, the part of each text up to its last stroke.
+    let keys = Regex::new(r#""(?:waves|network|files)":(?:"[^"]*"|\[[^\]]*\])"#);
+    let folders = Regex::new(r#""[^"]*/"#);
+    let (Ok(keys), Ok(folders)) = (keys, folders) else { return text.into_bytes() };
+    let name = |found: &Captures| folders.replace_all(&found[0], "\"").into_owned();
+    keys.replace_all(&text, name).into_owned().into_bytes()
 }
 
 /// A word of a command; the shots of a run, which it writes where it is told, go into a folder.

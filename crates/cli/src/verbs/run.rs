@@ -15,6 +15,7 @@ use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 use tofsim::sim::{Run, Stepping};
 use tofsim::waves::{self, Marks, WaveFormat, Waves, write_views};
+use tofsim_learn::estimation::notes::notes_of_firmware;
 use tofsim_learn::estimation::{EstimatorKind, Panel};
 
 use crate::choice::{self, Fidelity, WaveformChoice, words};
@@ -93,6 +94,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     args.check_fidelity(&setup)?;
     args.check_pairs(&setup)?;
     let mut notes = setup.notes()?;
+    notes.extend(notes_of_firmware(&setup));
     notes.extend(args.estimator.iter().flat_map(|kind| kind.notes_of_scene(&setup)));
     talk.heed(&notes)?;
     let frames = args.frames * setup.frames_together();

@@ -3,8 +3,6 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use serde_json::json;
-
 use tofsim::error::{Error, Input, Result, read_text};
 use tofsim::files::folder::FolderLock;
 use tofsim::network::formats::WordFormat;
@@ -15,6 +13,7 @@ use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::tournament::{Tournament, Watch};
 use tofsim_learn::training::weighting::Weighting;
 
+use crate::record::Record;
 use crate::report::training as report;
 
 use super::draws::use_threads;
@@ -68,14 +67,14 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let mut trained_for = scenario.clone();
     trained_for.tdc.profile.clone_from(&chain);
     let domain = Some(domain::of(&trained_for, &origin.ranges())?);
-    let made = TrainingOrigin { chain, command, seed, domain };
+    let record = Record { seed, ..Record::new(&origin.setup()?, &talk.command) };
+    let made = TrainingOrigin { chain, command, seed, domain, record: &record };
     let (network, rows) = written::write(&args.output, &recipe, &tournament, made, talk)?;
     let line = &recipe.weighting;
     match args.json {
         true => {
             let mut report = report::json(&rows, line, &network);
-            report["set"] = json!(args.set);
-            report["notes"] = json!(notes);
+            record.put_into(&mut report, &notes);
             print_json(&report)
         }
         false => talk.report(&report::table(&rows, line)),

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use serde_json::json;
+
 use tofsim::error::{Input, Result, nearest};
 use tofsim::files::folder::FolderLock;
 use tofsim::files::staged::StagedFolder;
@@ -9,6 +11,8 @@ use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim_rtl::golden::bench::Bench;
 use tofsim_rtl::golden::{BLOCKS, Setting, Spec, blocks};
+
+use crate::record::Record;
 
 use super::terminal::Talk;
 
@@ -80,11 +84,23 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let stage = StagedFolder::new(&args.output)?;
     for spec in blocks {
         let vectors = (spec.record)(spec, &setting)?;
-        Bench::new(&vectors).write(&stage.path().join(spec.name))?;
+        let mut bench = Bench::new(&vectors);
+        bench.about = json!(record(&setting, &talk.command, spec));
+        bench.write(&stage.path().join(spec.name))?;
         talk.detail(format_args!("{}: {} cycles", spec.name, vectors.stimulus.rows()));
     }
     stage.commit()?.iter().for_each(|path| talk.wrote(path));
     Ok(())
+}
+
+/// What the vectors of a block come from.
+fn record(setting: &Setting, command: &[String], spec: &Spec) -> Record {
+    let mut record = Record { seed: setting.seed, ..Record::new(&setting.setup, command) };
+    // Of all blocks, this one is enough.
+    if let Some(block) = record.command.last_mut() {
+        spec.name.clone_into(block);
+    }
+    record
 }
 
 /// The block called `name`.

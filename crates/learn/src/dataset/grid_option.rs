@@ -14,6 +14,9 @@ use super::grid::{DISTANCE, Grid, GridPurpose, IRRADIANCE, REFLECTANCE};
 /// The option, as errors name it.
 const OPTION: &str = "--grid";
 
+/// Another way to say what [`IRRADIANCE`] says.
+const ILLUMINANCE: &str = "ambient.illuminance_klux";
+
 /// Which grid.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum GridOption {
@@ -50,6 +53,10 @@ impl GridOption {
                 false => axes.extend(file(option)?),
             }
         }
+        if axes.iter().any(|axis| axis.key == ILLUMINANCE) {
+            let expected = format!("expected {IRRADIANCE}, which it stands for");
+            return Err(Input::new(OPTION, expected).field(ILLUMINANCE).into());
+        }
         Ok(GridOption::Own(axes))
     }
 
@@ -69,7 +76,9 @@ impl GridOption {
         for assignment in overrides {
             let mut table = Table::new();
             assign::<Scenario>(&mut table, "-s", assignment)?;
-            if let Some(key) = self.keys().into_iter().find(|key| has(&table, key)) {
+            let says =
+                |key: &&str| has(&table, key) || (*key == IRRADIANCE && has(&table, ILLUMINANCE));
+            if let Some(key) = self.keys().into_iter().find(says) {
                 let own = match self {
                     GridOption::Own(_) => "",
                     _ => "; another grid is an option, such as --grid target.distance_m=0.9",
@@ -219,6 +228,10 @@ mod tests {
 
     #[test]
     fn an_override_of_what_the_grid_has_is_refused_by_name() {
+        let light = refused(GridOption::Thesis, "ambient.illuminance_klux=14").unwrap();
+        assert!(light.contains("the grid has the values of ambient.irradiance_w_m2_nm"), "{light}");
+        let error = parse(&["ambient.illuminance_klux=1,2"]).unwrap_err().to_string();
+        assert!(error.contains("expected ambient.irradiance_w_m2_nm"), "{error}");
         let error = refused(GridOption::Thesis, "target.distance_m=0.9").unwrap();
         let expected =
             "-s target.distance_m=0.9: the grid has the values of target.distance_m; another";

@@ -2,6 +2,7 @@
 //!
 //! The network's own limits are those of its training; they are not told here.
 
+use tofsim::firmware::tof_top::Estimator;
 use tofsim::optics::{BinProbabilities, Bins};
 use tofsim::scenario::QuenchMode;
 use tofsim::sim::fast::histogram::independent_shots;
@@ -11,7 +12,7 @@ use tofsim::{Note, NoteCode, NoteValue};
 use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, BIN_PS, most_probable};
 use super::by_name::EstimatorKind;
 use super::centroid::Centroid;
-use super::estimator::Estimator;
+use super::estimator;
 use super::peak_detection::PeakDetection;
 
 /// Jitter of an edge that moves centroid and peak by a tenth of a millimetre [ps].
@@ -28,6 +29,8 @@ const WINDOW_SIGMA: f64 = 4.0;
 const TAIL_SIGMA: f64 = 3.0;
 /// The longest dead time for which arming is worked out [ns].
 const LONGEST_DEAD_NS: f64 = 1000.0;
+/// What chooses estimators.
+const OPTION: &str = "--estimator";
 /// An error that is worth a note [m].
 const WORTH_M: f64 = 1e-3;
 
@@ -52,7 +55,8 @@ impl EstimatorKind {
     pub fn notes_of_scene(self, setup: &Setup) -> Vec<Note> {
         let teller = Teller { name: self.name(), setup };
         let of_scene = match self {
-            EstimatorKind::Likelihood => teller.first_edge(),
+            EstimatorKind::Likelihood => teller.first_bin().or_else(|| teller.first_edge()),
+            EstimatorKind::Matched => teller.first_bin(),
             EstimatorKind::Centroid => teller
                 .expected(&Centroid(setup.params.centroid_estimator), "pile-up makes it early"),
             EstimatorKind::Peak => teller.range().or_else(|| {
@@ -64,6 +68,18 @@ impl EstimatorKind {
         };
         self.notes(setup).into_iter().chain(of_scene).collect()
     }
+}
+
+/// What the estimator in the firmware's socket takes for granted of the scenario and its scene; the
+/// network's limits are those of its training.
+pub fn notes_of_firmware(setup: &Setup) -> Vec<Note> {
+    let Estimator::Centroid = setup.params.estimator else { return Vec::new() };
+    let mut notes = EstimatorKind::Centroid.notes_of_scene(setup);
+    for note in notes.iter_mut().filter(|note| note.key == OPTION) {
+        "estimator.kind".clone_into(&mut note.key);
+        "network".clone_into(&mut note.expected);
+    }
+    notes
 }
 
 /// Who says what of which scenario.
@@ -116,6 +132,17 @@ impl Teller<'_> {
         let expected = format!("{shortest_ns} to {LONGEST_DEAD_NS}");
         let is_outside = self.is_free_running() && !is_worked_out;
         is_outside.then(|| self.note("spad.dead_time_ns", dead_ns, expected, text))
+    }
+
+    /// That the first bin comes before the pulse.
+    fn first_bin(&self) -> Option<Note> {
+        let begin_ps = self.bins().spans().first()?.from.fs() as f64 * 1e-3;
+        let first_ps = begin_ps + TAIL_SIGMA * self.setup.scenario.laser.pulse_sigma_ps;
+        let arrival_ps = self.setup.budget.mean_arrival.fs() as f64 * 1e-3;
+        let expected = format!("{:.3} at least", first_ps / ARRIVAL_PS_PER_M);
+        let distance_m = self.setup.scenario.target.distance_m;
+        let text = "the pulse begins before the first bin, and uses up shots there";
+        (arrival_ps < first_ps).then(|| self.note("target.distance_m", distance_m, expected, text))
     }
 
     /// That the first edge sees the echo, where that matters: in MODE 1, and with jitter.
@@ -182,7 +209,7 @@ impl Teller<'_> {
 
     /// That the estimator finds the distance in the histogram that is to be expected, where that has
     /// a closed form.
-    fn expected(&self, estimator: &dyn Estimator, why: &str) -> Option<Note> {
+    fn expected(&self, estimator: &dyn estimator::Estimator, why: &str) -> Option<Note> {
         let setup = self.setup;
         let (optics, _) = independent_shots(setup, self.name).ok()?;
         let is_lit = setup.scenario.firmware.laser_en && setup.budget.signal_per_shot > 0.0;
@@ -195,12 +222,7 @@ impl Teller<'_> {
             Err(failure) => format!("finds {failure}"),
         };
         let text = format!("in the histogram that is to be expected here it {what}: {why}");
-        Some(self.note(
-            "--estimator",
-            self.name,
-            "likelihood or matched, which know pile-up",
-            &text,
-        ))
+        Some(self.note(OPTION, self.name, "likelihood or matched, which know pile-up", &text))
     }
 }
 
@@ -240,6 +262,8 @@ mod tests {
             (Subtraction, "laser.pulse_sigma_ps=100", "laser.pulse_sigma_ps"),
             (Subtraction, "target.distance_m=0.7", "target.distance_m"),
             (Peak, "target.distance_m=0.05", "target.distance_m"),
+            (Matched, "target.distance_m=0.04", "target.distance_m"),
+            (Likelihood, "target.distance_m=0.04", "target.distance_m"),
             (Centroid, "laser.pulse_sigma_ps=200", "estimator.centroid_half_width"),
             (Centroid, "target.distance_m=0.3", "--estimator"),
             (Peak, "target.distance_m=0.1", "--estimator"),
@@ -260,6 +284,19 @@ mod tests {
     fn a_centroid_without_pile_up_says_nothing() {
         let faint = ["spad.pdp=0.00001", "spad.dark_rate_hz=0", "ambient.irradiance_w_m2_nm=0"];
         assert_eq!(keys(EstimatorKind::Centroid, &faint), [""; 0]);
+    }
+
+    #[test]
+    fn the_centroid_in_the_firmware_says_the_same_by_its_key() {
+        let of = |set: &[&str]| {
+            let set: Vec<_> = set.iter().map(|&text| text.to_owned()).collect();
+            notes_of_firmware(&Setup::new(scenario::load("kc705", &set).unwrap()).unwrap())
+        };
+        assert!(of(&[]).is_empty());
+        let notes = of(&["estimator.kind=centroid", "firmware.mode=1"]);
+        let keys: Vec<_> = notes.iter().map(|note| &*note.key).collect();
+        assert_eq!(keys, ["firmware.mode"]);
+        assert_eq!(of(&["estimator.kind=centroid"])[0].key, "estimator.kind");
     }
 
     #[test]

@@ -1,7 +1,13 @@
 //! What an evaluation says of one estimator.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
+use crate::dataset::Grid;
+
+use super::by_scene::{SceneErrors, by_scene, most_biased};
+use super::by_setting::{KeyGroups, by_setting};
 use super::errors::{EstimatorErrors, Evaluation};
 use super::spread::{Group, Spread};
 use super::thesis;
@@ -19,19 +25,47 @@ pub struct Figures {
     pub by_reflectance: Vec<Group>,
     /// By spectral irradiance of the target [W/m^2/nm].
     pub by_irradiance_w_m2_nm: Vec<Group>,
+    /// By the other keys of the grid.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub by_key: Vec<KeyGroups>,
+    /// By scene.
+    #[serde(skip)]
+    pub by_scene: Vec<SceneErrors>,
+    /// The scene with the largest mean error, of those that came several times.
+    pub most_biased_scene: Option<BiasedScene>,
     /// Spread over the line between the thesis's float figures, where that is largest [1].
     pub worst_ratio_to_thesis: Option<f64>,
     /// Where that is [m].
     pub worst_distance_m: Option<f64>,
 }
 
+/// A scene, and what estimates of it are off by.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BiasedScene {
+    /// Distance of the target [m].
+    pub distance_m: f64,
+    /// Its reflectance [1].
+    pub reflectance: f64,
+    /// Its spectral irradiance [W/m^2/nm].
+    pub irradiance_w_m2_nm: f64,
+    /// What the other keys of the grid are there.
+    #[serde(flatten)]
+    pub keys: BTreeMap<String, f64>,
+    /// Estimates of it.
+    pub estimates: u64,
+    /// Their mean error [mm].
+    pub mean_mm: f64,
+    /// Its standard error [mm].
+    pub mean_se_mm: f64,
+}
+
 /// A quantity that errors are grouped by.
 #[derive(Clone, Copy, Debug)]
 pub struct Grouping<'a> {
     /// Its name, with the unit as keys have it.
-    pub key: &'static str,
+    pub key: &'a str,
     /// In words, with the unit.
-    pub quantity: &'static str,
+    pub quantity: &'a str,
     /// The groups.
     pub groups: &'a [Group],
 }
@@ -41,7 +75,11 @@ impl Figures {
     pub fn new(evaluation: &Evaluation, column: &EstimatorErrors, limit_m: f64) -> Self {
         let by_distance_m = evaluation.by(column, |scene| scene.distance_m, limit_m);
         let worst = worst(&by_distance_m);
+        let by_scene = by_scene(evaluation, column, limit_m);
         Figures {
+            by_key: Vec::new(),
+            most_biased_scene: most_biased(&by_scene).and_then(biased),
+            by_scene,
             name: column.name,
             all: evaluation.all(column, limit_m),
             by_reflectance: evaluation.by(column, |scene| scene.reflectance, limit_m),
@@ -50,6 +88,26 @@ impl Figures {
             worst_distance_m: worst.map(|(distance_m, _)| distance_m),
             by_distance_m,
         }
+    }
+
+    /// The same over a grid, with the errors by its other keys; the thesis's line is for the thesis's grid.
+    pub fn over(
+        evaluation: &Evaluation,
+        column: &EstimatorErrors,
+        grid: &Grid,
+        limit_m: f64,
+    ) -> Self {
+        let mut figures = Figures::new(evaluation, column, limit_m);
+        if !grid.is_thesis() {
+            (figures.worst_ratio_to_thesis, figures.worst_distance_m) = (None, None);
+        }
+        if let (Some(shown), Some(worst)) =
+            (&mut figures.most_biased_scene, most_biased(&figures.by_scene))
+        {
+            let keys = grid.setting(worst.scene.setting).into_iter();
+            shown.keys = keys.map(|(key, value)| (key.to_owned(), value)).collect();
+        }
+        Figures { by_key: by_setting(evaluation, column, grid, limit_m), ..figures }
     }
 
     /// Errors at a distance of the grid [m].
@@ -63,15 +121,32 @@ impl Figures {
         self.by_distance_m.iter().filter(|group| ratio(group) > Some(1.0)).count()
     }
 
-    /// All ways in which the errors are grouped.
-    pub fn groupings(&self) -> [Grouping<'_>; 3] {
+    /// All ways in which the errors are grouped by one quantity.
+    pub fn groupings(&self) -> Vec<Grouping<'_>> {
         let grouping = |key, quantity, groups| Grouping { key, quantity, groups };
-        [
+        let of_scene = [
             grouping("distance_m", "distance [m]", &self.by_distance_m[..]),
             grouping("reflectance", "reflectance", &self.by_reflectance),
             grouping("irradiance_w_m2_nm", "irradiance [W/m^2/nm]", &self.by_irradiance_w_m2_nm),
-        ]
+        ];
+        let by_key = self.by_key.iter();
+        of_scene
+            .into_iter()
+            .chain(by_key.map(|of| grouping(&of.key, &of.key, &of.groups)))
+            .collect()
     }
+}
+
+fn biased(SceneErrors { scene, spread }: &SceneErrors) -> Option<BiasedScene> {
+    Some(BiasedScene {
+        distance_m: scene.distance_m,
+        reflectance: scene.reflectance,
+        irradiance_w_m2_nm: scene.irradiance_w_m2_nm,
+        keys: BTreeMap::new(),
+        estimates: spread.estimates,
+        mean_mm: spread.mean_mm?,
+        mean_se_mm: spread.mean_se_mm?,
+    })
 }
 
 /// The distance at which the spread is largest beside the line, and how large [m, 1].
@@ -105,6 +180,7 @@ mod tests {
         assert_eq!(figures.worst_distance_m, Some(0.1));
         assert!((figures.worst_ratio_to_thesis.unwrap() - 1.7 / 1.6).abs() < 1e-9);
         assert_eq!(figures.distances_above_the_line(), 2);
-        assert_eq!(figures.groupings().map(|grouping| grouping.groups.len()), [3, 1, 1]);
+        let counts: Vec<_> = figures.groupings().iter().map(|of| of.groups.len()).collect();
+        assert_eq!(counts, [3, 1, 1]);
     }
 }

@@ -6,15 +6,14 @@ use tofsim::network::file::Training;
 use tofsim::network::float::Float;
 
 /// Weights for raw counts and metres, and where they come from, as JSON.
-pub fn json(float: &Float, training: &Training) -> String {
+pub fn json(float: &Float, training: &Training) -> Value {
     let rows: Vec<Value> = float.w1.iter().map(|row| row.to_vec().into()).collect();
-    let network = json!({
+    json!({
         "training": training,
         "IW": rows,
         "LW": float.w2,
         "b": [json!(float.b1), json!([float.b2])],
-    });
-    format!("{network:#}\n")
+    })
 }
 
 #[cfg(test)]
@@ -28,7 +27,7 @@ mod tests {
         let network = Network::builtin("uniform-16").unwrap().unwrap();
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("network.json");
-        std::fs::write(&path, json(&network.twin(), &network.training)).unwrap();
+        std::fs::write(&path, json(&network.twin(), &network.training).to_string()).unwrap();
         assert!(import::read(&path).unwrap() == network.twin());
     }
 }

@@ -7,6 +7,8 @@ pub mod allowances;
 
 use std::path::Path;
 
+use serde_json::Value;
+
 use allowances::Allowances;
 
 use tofsim::error::Result;
@@ -29,12 +31,15 @@ pub struct Bench<'a> {
     pub allowed: Allowances,
     /// The module that is instantiated.
     pub module: String,
+    /// An object whose keys go into `ports.json` too: where the vectors come from.
+    pub about: Value,
 }
 
 impl<'a> Bench<'a> {
     /// The bench for the reference itself.
     pub fn new(vectors: &'a Vectors) -> Self {
-        Bench { vectors, allowed: Allowances::default(), module: vectors.spec.name.to_owned() }
+        let (allowed, about) = (Allowances::default(), Value::Null);
+        Bench { vectors, allowed, module: vectors.spec.name.to_owned(), about }
     }
 
     /// Names of the parameters that it sets.
@@ -61,7 +66,11 @@ impl<'a> Bench<'a> {
         {
             write_file(&folder.join(name), |file| table.write(file))?;
         }
-        text("ports.json", &format!("{:#}\n", ports::json(vectors)))?;
+        let mut ports = ports::json(vectors);
+        if let (Some(ports), Some(about)) = (ports.as_object_mut(), self.about.as_object()) {
+            ports.extend(about.clone());
+        }
+        text("ports.json", &format!("{ports:#}\n"))?;
         text(&(vectors.bench_module() + ".v"), &self.text())
     }
 

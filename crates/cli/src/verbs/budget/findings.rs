@@ -30,7 +30,8 @@ impl Findings {
         }
     }
 
-    /// Which limits the laser is above, and where there is none to tell.
+    /// Why a depth cannot be that of the target, which limits the laser is above, and where there is
+    /// none to tell.
     pub fn notes(&self) -> Vec<Note> {
         // The laser does not run at the optics' rate, so only that there is no limit is worth a note.
         let design = Some(&self.at_the_optics_rate).filter(|design| design.limit_w.is_none());
@@ -42,7 +43,8 @@ impl Findings {
         let note = |(what, exposure): (&str, Option<&Exposure>)| {
             exposure.and_then(|exposure| self.setup.eye_safety_note(what, exposure))
         };
-        exposures.into_iter().filter_map(note).collect()
+        let impossible = self.setup.no_depth().cloned();
+        impossible.into_iter().chain(exposures.into_iter().filter_map(note)).collect()
     }
 
     /// Longest stretch of frames within Class 1 [s].

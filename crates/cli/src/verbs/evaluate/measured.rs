@@ -54,13 +54,8 @@ pub fn run(args: &Args, data: &Path, talk: &Talk) -> Result<()> {
     let record = Record::new(&setup, &talk.command);
     record.put_into(&mut json, &notes);
     if let Some(folder) = &args.output {
-        let evaluated = report::Evaluated {
-            record: &record,
-            json: &json,
-            figures: &figures,
-            by_setting: &[],
-            thesis: false,
-        };
+        let (record, json, figures) = (&record, &json, &figures[..]);
+        let evaluated = report::Evaluated { record, json, figures, grid: None, thesis: false };
         evaluated.write(folder)?.iter().for_each(|path| talk.wrote(path));
     }
     if args.json {
@@ -87,6 +82,8 @@ fn figures(
     let mut figures = Figures::new(evaluation, column, limit_m);
     (figures.worst_ratio_to_thesis, figures.worst_distance_m) = (None, None);
     if !knows_light {
+        figures.most_biased_scene = None;
+        figures.by_scene.clear();
         figures.by_reflectance.clear();
         figures.by_irradiance_w_m2_nm.clear();
     }

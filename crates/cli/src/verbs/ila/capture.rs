@@ -16,8 +16,9 @@ use tofsim_captures::ila::export::{CaptureFormat, export};
 use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, capture};
 
 use crate::choice::{self, words};
+use crate::record::Record;
 use crate::text::table::facts;
-use crate::verbs::draws::{load, outside_training};
+use crate::verbs::draws::load;
 use crate::verbs::frames::check as check_frames;
 use crate::verbs::interrupt::look_no_more;
 use crate::verbs::terminal::{Talk, print_json, stop_signal};
@@ -115,7 +116,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let mut set_up = AnalyserSetup::load(&args.probes)?;
     args.instead.lay_over(&mut set_up);
     let setup = simulated(args, &set_up)?;
-    talk.heed(&outside_training(&setup)?)?;
+    let mut notes = setup.notes()?;
+    talk.heed(&notes)?;
     let mut plan = AnalyserPlan::new(&set_up, &setup)?;
     plan.stop_when_full = args.stop_when_full;
     let frames = args.frames.unwrap_or(set_up.file.frames);
@@ -134,13 +136,15 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     }
     if !args.stop_when_full {
         talk.heed(&outcome.notes)?;
+        notes.extend(outcome.notes);
     }
     let formats = if args.format.is_empty() { &CaptureFormat::ALL[..] } else { &args.format };
     let stage = StagedFolder::new(&args.output)?;
     let files = export(&capture, stage.path(), &set_up.name, formats, !args.legacy_csv)?;
     // The map by which `tofsim compare` lays the capture over a waveform.
     let map = stage.path().join(format!("{}.map.toml", set_up.name));
-    write_bytes(&map, SignalMap::of(&set_up).to_toml())?;
+    let record = Record::new(&setup, &talk.command);
+    write_bytes(&map, record.comment_line() + &SignalMap::of(&set_up).to_toml())?;
     // In the order of the formats.
     let names = files.iter().chain([&map]).filter_map(|file| file.file_name());
     let files: Vec<_> = names.map(|name| args.output.join(name)).collect();
@@ -156,7 +160,11 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         files,
     };
     match args.json {
-        true => print_json(&report.json(full, outcome.end)),
+        true => {
+            let mut json = report.json(full, outcome.end);
+            record.put_into(&mut json, &notes);
+            print_json(&json)
+        }
         false => talk.report(&report.text()),
     }
 }
@@ -222,8 +230,6 @@ impl Report<'_> {
         json!({
             "schema": "tofsim.ila_capture/1",
             "name": self.set_up.name,
-            "scenario": self.scenario.0,
-            "seed": self.scenario.1,
             "clock": self.plan.sampling.to_string(),
             "probes": probes.collect::<Vec<_>>(),
             "samples": capture.samples(),

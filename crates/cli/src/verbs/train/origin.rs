@@ -3,6 +3,7 @@
 use tofsim::Note;
 use tofsim::error::{Input, Result};
 use tofsim::scenario::{self, Loaded, Scenario};
+use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::{GridOption, GridPurpose, Labelled};
 use tofsim_learn::training::data::{TrainingMaterial, TrainingScenes, fingerprint};
 use tofsim_learn::training::measured::MeasuredParts;
@@ -119,6 +120,17 @@ impl Origin {
         match self {
             Origin::Grid(scenes) => &scenes.loaded[0].scenario,
             Origin::Measured { loaded, .. } => &loaded.scenario,
+        }
+    }
+
+    /// The same, ready to run.
+    ///
+    /// # Errors
+    /// When a file that it names cannot be used.
+    pub fn setup(&self) -> Result<Setup> {
+        match self {
+            Origin::Grid(scenes) => Ok(scenes.setups[0].clone()),
+            Origin::Measured { loaded, .. } => Setup::new((**loaded).clone()),
         }
     }
 

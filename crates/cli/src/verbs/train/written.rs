@@ -14,11 +14,12 @@ use tofsim_learn::training::accuracy::DistanceErrors;
 use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::tournament::Tournament;
 
+use crate::record::Record;
 use crate::report::{learning_curve, training as report};
 use crate::verbs::terminal::Talk;
 
 /// What a network comes from.
-pub struct TrainingOrigin {
+pub struct TrainingOrigin<'a> {
     /// Chain on whose bins it was trained.
     pub chain: String,
     /// Command that trains it again.
@@ -27,6 +28,8 @@ pub struct TrainingOrigin {
     pub seed: u64,
     /// What it was trained for.
     pub domain: Option<Domain>,
+    /// What stands in its files.
+    pub record: &'a Record,
 }
 
 /// Rounds, tests and writes a network; the network's file, and its errors.
@@ -44,9 +47,11 @@ pub fn write(
         Ok(path)
     };
     let points = &tournament.state.curve;
-    write("curve.csv", &learning_curve::csv(points))?;
+    let line = made.record.comment_line();
+    write("curve.csv", &(line.clone() + &learning_curve::csv(points)))?;
     let svg = learning_curve::svg(points).map_err(io::Error::other);
-    write("curve.svg", &svg.map_err(Error::io(&folder.join("curve.svg"), "write"))?)?;
+    let svg = svg.map_err(Error::io(&folder.join("curve.svg"), "write"))?;
+    write("curve.svg", &made.record.in_svg(&svg))?;
     let float = tournament.result();
     let is_firmware_s = recipe.formats == Datapath::default();
     let fixed = is_firmware_s.then(|| float.round("trained network", Overflow::Refuse));
@@ -58,7 +63,7 @@ pub fn write(
         return Err(fault.value(circuit.saturated_weights).into());
     }
     let rows = tournament.test(&circuit);
-    write("accuracy.csv", &report::csv(&rows))?;
+    write("accuracy.csv", &(line.clone() + &report::csv(&rows)))?;
 
     let best = tournament.state.best.as_ref();
     let block = best
@@ -73,9 +78,14 @@ pub fn write(
     let path = match fixed {
         Some(fixed) => {
             let network = network(fixed, float, training, &rows, recipe);
-            write("network.toml", &Network { domain: made.domain, ..network }.to_toml())?
+            let network = Network { domain: made.domain, ..network };
+            write("network.toml", &(line + &network.to_toml()))?
         }
-        None => write("network.json", &export::json(&float, &training))?,
+        None => {
+            let mut network = export::json(&float, &training);
+            made.record.put_into(&mut network, &[]);
+            write("network.json", &format!("{network:#}\n"))?
+        }
     };
     Ok((path, rows))
 }
