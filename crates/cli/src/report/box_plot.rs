@@ -62,6 +62,7 @@ pub struct BoxPlot<'a> {
     pub limits: &'a [Limit],
 }
 
+type Point = (f64, f64);
 type Axes = Cartesian2d<RangedCoordf64, RangedCoordf64>;
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Axes>;
 type Result<T> = std::result::Result<T, DrawingAreaErrorKind<io::Error>>;
@@ -238,7 +239,7 @@ fn boxed(
     at: f64,
     width: f64,
     colour: RGBColor,
-) -> Option<(Rectangle<(f64, f64)>, [PathElement<(f64, f64)>; 3])> {
+) -> Option<(Rectangle<Point>, [PathElement<Point>; 3])> {
     let [_, lower, median, upper, _] = spread.quartiles_mm?;
     let [low, high] = spread.tails.as_ref()?.whiskers_mm;
     let [left, right] = [at - width / 2.0, at + width / 2.0];
