@@ -100,6 +100,9 @@ fn what_differs_is_said() {
     let report: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
     assert_eq!((done.status.code(), &report["same"]), (Some(1), &false.into()));
     assert!(report["differences"].to_string().contains("in line 12"), "{report}");
+    // As long as it was, with one bin for another.
+    fs::write(path.join(name), text.replacen("\n9,", "\n8,", 1)).unwrap();
+    assert_eq!(output(path, &["rerun", name]).status.code(), Some(1));
     fs::write(path.join(name), &text).unwrap();
     fs::write(path.join("own.toml"), "[target]\ndistance_m = 0.31\n").unwrap();
     let done = output(path, &["rerun", name]);

@@ -1,17 +1,12 @@
 //! `tofsim train`: what it writes is decided by seed and recipe alone.
 
+mod own_grid;
+
 use std::fs;
 use std::path::Path;
 
 use tofsim::network::Network;
-use tofsim_learn::quantize::Datapath;
-use tofsim_learn::training::features::{self, Scaling};
-use tofsim_learn::training::limits::{Hinges, WordLimits};
-use tofsim_learn::training::lm::{Lm, LmSettings};
-use tofsim_learn::training::network_problem::NetworkProblem;
 use tofsim_learn::training::recipe::Recipe;
-use tofsim_learn::training::start::start;
-use tofsim_learn::training::sums::parameters;
 
 use crate::common::{files, json, refused, stdout};
 
@@ -260,100 +255,4 @@ fn a_quick_training_finds_distances() {
     );
     let depth = depth["frames"][0]["depth_m"].as_f64().unwrap();
     assert!((depth - 0.3).abs() < 0.05, "{depth}");
-}
-
-#[test]
-fn a_network_is_trained_for_a_grid_of_one_s_own_and_says_so() {
-    let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    let grid = [
-        "--grid",
-        "target.distance_m=0.3..0.9:0.02",
-        "--grid",
-        "target.reflectance=0.2..0.8:0.2",
-        "-s",
-        "firmware.shots_per_frame=15000",
-        "--with",
-        "limits.penalty=50",
-    ];
-    let report = json(folder, &[&SMALL[..], &END, &grid, &["-o", "own", "--json"]].concat());
-    let numbers = |key: &str| -> Vec<f64> {
-        report[key].as_array().unwrap().iter().map(|value| value.as_f64().unwrap()).collect()
-    };
-    let (distances, line) = (numbers("distances_m"), numbers("line_mm"));
-    assert_eq!((distances.len(), distances[0], distances[30]), (31, 0.3, 0.9));
-    // The line follows the bound, which is larger far away.
-    assert!(line[30] > 2.0 * line[0], "{line:?}");
-    assert_eq!(report["set"][0], "firmware.shots_per_frame=15000");
-    let network = Network::load(&folder.join("own/network.toml")).unwrap();
-    let command = network.training.command.clone().unwrap();
-    assert!(command.contains("--grid target.distance_m=0.3..0.9:0.02 --grid"), "{command}");
-    let domain = network.domain.unwrap();
-    assert_eq!(domain.ranges["target.distance_m"], [0.3, 0.9]);
-    assert_eq!(domain.ranges["target.reflectance"], [0.2, 0.8]);
-    assert_eq!(domain.ranges["ambient.irradiance_w_m2_nm"], [0.2, 0.2]);
-    assert_eq!(domain.ranges["firmware.shots_per_frame"], [15_000.0; 2]);
-
-    // Inside nothing is said, and outside what it is.
-    let evaluate = |grid: &str| {
-        let shots = ["-s", "firmware.shots_per_frame=15000"];
-        let args = ["evaluate", "own/network.toml", "--check", "0", "--json", "--grid", grid];
-        let report = json(folder, &[&args[..], &shots].concat());
-        let notes = report["notes"].as_array().unwrap().clone();
-        notes.iter().map(|note| note["key"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
-    };
-    assert_eq!(evaluate("target.distance_m=0.3..0.9:0.1"), [""; 0]);
-    assert_eq!(evaluate("target.distance_m=0.1..0.9:0.1"), ["target.distance_m"]);
-    assert_eq!(evaluate("target.distance_m=0.3..1.0:0.1").len(), 2, "past the last bin too");
-
-    // The training goes on for these scenes only.
-    let again = ["--resume", "-o", "own"];
-    let error = refused(folder, &[&SMALL[..], &END, &again].concat());
-    assert!(error.contains("of another training"), "{error}");
-    for (more, expected) in [
-        (&["-s", "target.distance_m=0.9"][..], "-s target.distance_m=0.9: the grid has"),
-        (&["--grid", "test"], "expected thesis, which has a grid for training and one for tests"),
-        (&["--grid", "target.reflectance=0.1,0.2"], "target.distance_m: one value, expected two"),
-        (
-            &["--grid", "target.distance_m=0.1,0.2", "-s", "laser.average_power_w=0"],
-            "a scene there tells nothing of its distance",
-        ),
-    ] {
-        let error = refused(folder, &[&["train", "--quick"], more].concat());
-        assert!(error.contains(expected), "{error}");
-    }
-}
-
-#[test]
-fn bins_that_never_count_do_no_harm() {
-    let histogram = |s: usize| -> [u16; 256] {
-        std::array::from_fn(|bin| {
-            if (40..90).contains(&bin) { ((s * 7 + bin * s) % 31) as u16 } else { 0 }
-        })
-    };
-    let counts: Vec<_> = (0..400).map(histogram).collect();
-    let distances_m: Vec<f64> =
-        counts.iter().map(|counts| 0.1 + f64::from(counts[60]) / 100.0).collect();
-    let scaling = Scaling::of(&counts, &[]);
-    assert!(scaling.inverse_sd.contains(&0.0));
-    let blocks = features::blocks(&counts, &scaling);
-    let (recipe, weights) = (Recipe::default(), vec![1000.0; 400]);
-    let problem = NetworkProblem {
-        blocks: &blocks,
-        scaling: &scaling,
-        distances_m: &distances_m,
-        weights: &weights,
-        neurons: 2,
-        table_noise: 0.0,
-        hinges: Hinges { limits: WordLimits::default(), words: Datapath::default() },
-        held_out: None,
-    };
-    let mut lm = Lm::new(start(&recipe.start, 2, 1, 0), &LmSettings::default());
-    lm.epoch(&problem, &LmSettings::default()).unwrap();
-    let first = lm.cost;
-    for _ in 0..10 {
-        lm.epoch(&problem, &LmSettings::default()).unwrap();
-    }
-    assert!(lm.x.len() == parameters(2) && lm.x.iter().all(|x| x.is_finite()));
-    assert!(lm.cost < 0.5 * first, "{} {first}", lm.cost);
 }

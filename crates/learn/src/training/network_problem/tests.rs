@@ -3,6 +3,9 @@ use tofsim::network::Histogram;
 use crate::quantize::datapath::Datapath;
 use crate::training::features::blocks;
 use crate::training::limits::{Hinges, WordLimits};
+use crate::training::lm::{Lm, LmSettings};
+use crate::training::recipe::Recipe;
+use crate::training::start::start;
 use crate::training::sums::parameters;
 
 use super::*;
@@ -119,4 +122,38 @@ fn wider_vectors_change_no_bit() {
         let cost = |arch: pulp::Arch| problem.squares(arch, x);
         assert_eq!(cost(narrow), cost(wide));
     });
+}
+
+#[test]
+fn bins_that_never_count_do_no_harm() {
+    let histogram = |s: usize| -> [u16; 256] {
+        std::array::from_fn(|bin| {
+            if (40..90).contains(&bin) { ((s * 7 + bin * s) % 31) as u16 } else { 0 }
+        })
+    };
+    let counts: Vec<_> = (0..400).map(histogram).collect();
+    let distances_m: Vec<f64> =
+        counts.iter().map(|counts| 0.1 + f64::from(counts[60]) / 100.0).collect();
+    let scaling = Scaling::of(&counts, &[]);
+    assert!(scaling.inverse_sd.contains(&0.0));
+    let blocks = blocks(&counts, &scaling);
+    let (recipe, weights) = (Recipe::default(), vec![1000.0; 400]);
+    let problem = NetworkProblem {
+        blocks: &blocks,
+        scaling: &scaling,
+        distances_m: &distances_m,
+        weights: &weights,
+        neurons: 2,
+        table_noise: 0.0,
+        hinges: Hinges { limits: WordLimits::default(), words: Datapath::default() },
+        held_out: None,
+    };
+    let mut lm = Lm::new(start(&recipe.start, 2, 1, 0), &LmSettings::default());
+    lm.epoch(&problem, &LmSettings::default()).unwrap();
+    let first = lm.cost;
+    for _ in 0..10 {
+        lm.epoch(&problem, &LmSettings::default()).unwrap();
+    }
+    assert!(lm.x.len() == parameters(2) && lm.x.iter().all(|x| x.is_finite()));
+    assert!(lm.cost < 0.5 * first, "{} {first}", lm.cost);
 }
