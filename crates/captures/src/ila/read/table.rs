@@ -68,7 +68,6 @@ impl<R: Read> Table<R> {
         let found = self.row.len();
         if more && found != fields {
             if found > fields && (fields..found).all(|index| self.row.field(index).is_empty()) {
-                self.row.fields.truncate(fields);
                 self.trails = true;
                 return Ok(true);
             }
