@@ -22,6 +22,7 @@ mod result;
 mod samples;
 mod selection;
 mod show;
+mod states;
 
 use std::path::PathBuf;
 
@@ -79,11 +80,13 @@ pub struct Options {
 /// # Errors
 /// When they cannot be read, nothing belongs together, or it is not clear which samples do.
 pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> {
-    let sources = [a, b];
+    let resolved = states::resolve([a, b], &options.map, &options.choice)?;
+    let sources = resolved.sources.as_ref().map_or([a, b], |[a, b]| [a, b]);
     let nothing = |expected: &str| {
         Input::new("compare", expected).value(format_args!("{} and {}", a.name, b.name))
     };
-    let matching = matching(sources, &options.map, &options.choice)?;
+    let mut matching = matching(sources, &options.map, &options.choice)?;
+    resolved.mark(&mut matching);
     if matching.pairs.is_empty() {
         let expected = "no signal of one has a partner in the other; give a map (--map)";
         return Err(nothing(expected).into());
@@ -103,7 +106,7 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
     let plan = Plan::new(sources, matching, terms, sampled)?;
     let both = options.waves.as_deref().map(|path| Both::create(path, &plan.matching.pairs));
     let mut differences = Differences::new(&plan.matching, options.unknowns, both.transpose()?);
-    let result = if sampled {
+    let mut result = if sampled {
         let time_from = options.time_from.as_deref().or(options.map.time_from.as_deref());
         let alignment = align::alignment(&plan, &align, time_from)?;
         let mut result = by_samples::compare(&plan, &align, &alignment, &mut differences)?;
@@ -118,6 +121,7 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
         result.findings = diagnose::changes(&result);
         result
     };
+    result.notes.extend(resolved.notes);
     if result.compared == 0 && result.is_same() {
         let expected = "nothing to compare: there is no place that both sides have";
         return Err(nothing(expected).into());

@@ -18,6 +18,7 @@ mod simulation;
 mod state;
 mod stream;
 mod tick;
+mod translated;
 mod wave;
 
 use std::path::Path;
@@ -29,10 +30,11 @@ use crate::ila::Radix;
 
 pub use names::Name;
 pub(crate) use shapes::{SHAPES, known_shape};
-pub use signals::{Axis, Signal, SignalKind, Source, SourceFormat};
+pub use signals::{Axis, Signal, SignalKind, Source, SourceFormat, Words};
 pub use state::SourceState;
 pub use stream::{Cursor, Feed, Gone, Marks};
 pub use tick::Tick;
+pub(crate) use translated::Translation;
 
 impl Source {
     /// Looks at a file; what it holds decides its format. `radix` is that of values in a file that

@@ -110,7 +110,9 @@ fn words_in_quotes_are_no_numbers() {
     let (opened, rows) = open("system_ila.csv");
     let texts: Vec<_> = opened.columns.iter().map(|column| column.text).collect();
     assert_eq!(texts, [false, true, true, false]);
-    assert_eq!((rows[0].value.len(), opened.columns[3].word), (2, 1));
+    assert_eq!((rows[0].value.len(), opened.columns[3].word), (34, 33));
+    let word = |name, row: usize| values(&opened, &rows, name)[row].to_le_bytes();
+    assert_eq!(word("slot_0_axis_status", 1), *b"Active\0\0");
     assert_eq!(values(&opened, &rows, "slot_0_axis_tdata"), [0xa5, 0x5a]);
     assert_eq!(values(&opened, &rows, "slot_0_axis_tvalid"), [1, 0]);
     let text = String::from_utf8(bytes("system_ila.csv")).unwrap();
@@ -157,11 +159,14 @@ fn a_capture_without_samples_is_fine() {
 #[test]
 fn rows_with_too_few_or_too_many_fields_are_refused_with_their_line() {
     let few = fault_in("HEX", "a[3:0]", "0,0,0,1\n1,1,0\n");
-    assert_eq!(few, "capture:4:1: too few fields: 3, expected 4");
+    assert_eq!(few, "capture:4:1: 1,1,0: too few fields: 3, expected 4");
     let many = fault("a[3:0]", "0,0,0,1\n1,1,0,1,1\n");
-    assert_eq!(many, "capture:3:1: too many fields: 5, expected 4");
+    assert_eq!(many, "capture:3:1: 1,1,0,1,1: too many fields: 5, expected 4");
     let radices = fault_in("HEX,HEX", "a", "0,0,0,1\n");
-    assert_eq!(radices, "capture:2:1: 5 radices, expected 4");
+    assert_eq!(
+        radices,
+        "capture:2:1: Radix - UNSIGNED,UNSIGNED,UNSIGNED,HEX,HEX: 5 radices, expected 4"
+    );
 }
 
 #[test]

@@ -8,3 +8,5 @@ mod ila_archives;
 mod ila_capture;
 mod ila_files;
 mod ila_round_trip;
+mod ila_spreadsheets;
+mod words;

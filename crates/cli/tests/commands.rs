@@ -86,15 +86,17 @@ fn the_commands_print_what_the_page_says() {
 }
 
 #[test]
-fn the_set_up_and_the_map_on_the_page_are_read() {
+fn the_set_up_and_the_maps_on_the_page_are_read() {
     let page = fs::read_to_string(PAGE).unwrap();
     let blocks: Vec<_> = (page.split("```toml\n").skip(1))
         .map(|block| block.split("```").next().unwrap().to_owned())
         .collect();
-    let [set_up, map] = &blocks[..] else { panic!("{} blocks", blocks.len()) };
+    let [set_up, map, words] = &blocks[..] else { panic!("{} blocks", blocks.len()) };
     let set_up = AnalyserSetup::parse("example", "example.toml", set_up).unwrap();
     let plan = AnalyserPlan::new(&set_up, &common::setup(&set_up.file.scenario, &[])).unwrap();
     assert_eq!((plan.probes.len(), plan.shape.depth, plan.shape.windows), (2, 512, 2));
     let map = SignalMap::parse("map.toml", map).unwrap();
     assert_eq!((map.rename.len(), map.signal.len()), (1, 2));
+    let words = SignalMap::parse("map.toml", words).unwrap();
+    assert_eq!(words.signal[0].states["No Streams"], 3);
 }

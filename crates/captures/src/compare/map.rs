@@ -1,6 +1,7 @@
 //! How the names and values of two sides belong together: a TOML file, or what a logic analyser's
 //! set-up says.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use regex::Regex;
@@ -117,6 +118,10 @@ pub struct Rule {
     /// Signal of one bit on the first side; compared only where it is 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub valid: Option<String>,
+    /// Values that words stand for, as `{ idle = 0, run = 1 }`, where one side has words and the
+    /// other bits.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub states: BTreeMap<String, u64>,
 }
 
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {

@@ -67,7 +67,7 @@ pub(super) fn matching(
             let reason = match signal.kind {
                 _ if is_left_out(&is_in) => UnmatchedReason::Ignored,
                 SignalKind::Other => UnmatchedReason::Text,
-                SignalKind::Bits | SignalKind::Real => {
+                SignalKind::Bits | SignalKind::Real | SignalKind::Text => {
                     candidates[side].push(k);
                     continue;
                 }

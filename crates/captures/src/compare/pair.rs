@@ -51,6 +51,8 @@ pub(super) struct Pair {
     /// Bits that are compared, lowest word first; empty if all are.
     pub(super) mask: Vec<u64>,
     pub(super) invert: bool,
+    /// Whether a side has words of which the bits are not known, which are not compared.
+    pub(super) has_words: bool,
     pub(super) latency: i64,
     pub(super) tolerance: u64,
     /// Signal of the first side's cursor that has to be 1.
@@ -113,6 +115,7 @@ impl Pair {
 
     /// Whether two values are the same.
     pub(super) fn equal(&self, a: &Bits, b: &Bits, unknowns: Unknowns) -> bool {
+        let unknowns = if self.has_words { Unknowns::Any } else { unknowns };
         let differs = |k: usize| {
             let unknown = a.unknown[k] | b.unknown[k];
             let bits = match unknowns {

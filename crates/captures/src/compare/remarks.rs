@@ -28,6 +28,13 @@ pub(super) fn add(plan: &Plan, counts: &[PairCount], all: bool, result: &mut Com
     }
     for unmatched in &plan.matching.unmatched {
         let source = &plan.sources[unmatched.side];
+        if unmatched.reason == UnmatchedReason::Text {
+            if source.is_capture() || all {
+                let (name, reason) = (&unmatched.name, &unmatched.reason);
+                notes.push(format!("{}: {name} is not compared: {reason}", source.name));
+            }
+            continue;
+        }
         if (all || source.is_capture()) && unmatched.reason != UnmatchedReason::Ignored {
             let reason = &unmatched.reason;
             differences
@@ -40,6 +47,7 @@ pub(super) fn add(plan: &Plan, counts: &[PairCount], all: bool, result: &mut Com
     }
     for (side, source) in plan.sources.iter().enumerate() {
         let name = SIDES[side];
+        notes.extend(source.notes.iter().map(|note| format!("{}: {note}", source.name)));
         let is_vcd = source.format == SourceFormat::IlaVcd;
         if is_vcd && !plan.sources[1 - side].is_capture() {
             let note = "does not say how many samples it has; compared up to its last change";

@@ -3,6 +3,7 @@
 use tofsim::kernel::signals::SignalFormat as Shape;
 
 use crate::ila::Radix;
+use crate::ila::read::word;
 use crate::source::{Signal, SignalKind, known_shape};
 use crate::words::{Bits, extend};
 
@@ -18,6 +19,8 @@ pub(super) enum Show {
     Fixed(u32),
     /// Floating point.
     Real,
+    /// Words.
+    Text,
 }
 
 impl Show {
@@ -25,6 +28,9 @@ impl Show {
     pub(super) fn of(a: &Signal, b: &Signal) -> Show {
         if a.kind == SignalKind::Real {
             return Show::Real;
+        }
+        if a.kind == SignalKind::Text {
+            return Show::Text;
         }
         let shape = a.shape.or(b.shape).map(Show::Shape);
         let shown = shape.or_else(|| a.radix.or(b.radix).map(Show::radix));
@@ -49,6 +55,9 @@ impl Show {
 
     /// The value as text.
     pub(super) fn text(self, bits: &Bits, width: u32) -> String {
+        if self == Show::Text {
+            return word(&bits.value);
+        }
         let digits = digits(bits, width);
         let Some(number) = bits.number() else {
             return match self {
@@ -74,6 +83,7 @@ impl Show {
                 None => format!("no state ({number})"),
             },
             Show::Shape(Shape::Taps) => format!("{} of {width} taps high", number.count_ones()),
+            Show::Text => digits,
             Show::Real => f64::from_bits(number as u64).to_string(),
         }
     }

@@ -2,6 +2,7 @@
 //! radices, and the archive. A file is told by its content, never by its name.
 
 mod archive;
+mod buffer;
 mod csv;
 pub(crate) mod digits;
 mod dump;
@@ -11,7 +12,9 @@ mod line;
 mod ltx;
 mod opened;
 mod order;
+mod survey;
 mod table;
+mod vcd;
 
 use std::fs::File;
 use std::io::{Read, Seek};
@@ -21,8 +24,10 @@ use tofsim::error::{Error, Result};
 
 use super::capture::Radix;
 
+pub(crate) use opened::word;
 pub use opened::{
-    CaptureForm, CaptureRow, CaptureRows, Column, LARGEST, Opened, WIDEST_PROBE, WIDEST_SAMPLE,
+    CaptureForm, CaptureRow, CaptureRows, Column, LARGEST, LONGEST_WORD, Opened, State,
+    WIDEST_PROBE, WIDEST_SAMPLE,
 };
 
 /// Opens a capture. `radix` decides where a CSV without radices can be read in several ways.

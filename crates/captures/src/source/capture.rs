@@ -9,7 +9,7 @@ use crate::ila::Radix;
 use crate::ila::read::{CaptureForm, CaptureRow, Column, open};
 
 use super::names::Name;
-use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat};
+use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat, Words};
 use super::stream::Cursor;
 
 /// Where a capture is.
@@ -35,15 +35,17 @@ pub(super) fn source(path: &Path, radix: Option<Radix>) -> Result<Source> {
         signals: columns.map(|(id, column)| signal(column, id)).collect(),
         end: None,
         radix_told: opened.radix_told,
+        notes: opened.notes,
         origin: Arc::new(Origin { path: path.to_owned(), radix }),
     })
 }
 
 fn signal(column: &Column, id: usize) -> Signal {
-    let kind = if column.text { SignalKind::Other } else { SignalKind::Bits };
-    let (width, radix) = (column.width, column.radix);
-    let lsb = column.lsb.into();
-    Signal { name: Name::new(&column.name), width, lsb, kind, radix, shape: None, id }
+    let kind = if column.text { SignalKind::Text } else { SignalKind::Bits };
+    let (width, mixed, states) = (column.width, column.mixed, column.states.clone());
+    let words = Words { width, mixed, states };
+    let (width, radix, lsb) = (column.bits(), column.radix, column.lsb.into());
+    Signal { name: Name::new(&column.name), width, lsb, kind, radix, shape: None, words, id }
 }
 
 impl signals::Origin for Origin {
@@ -52,7 +54,7 @@ impl signals::Origin for Origin {
         let mut places = Vec::new();
         for &id in ids {
             let column = &opened.columns[id];
-            places.push(column.word..column.word + column.words());
+            places.push(column.place());
         }
         Ok(Cursor::spawn(widths, move |feed| {
             let (mut row, mut before) = (CaptureRow::default(), CaptureRow::default());

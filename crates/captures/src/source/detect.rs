@@ -50,6 +50,7 @@ pub(super) fn open(path: &Path, radix: Option<Radix>) -> Result<Source> {
 }
 
 fn starts_as_csv(text: &[u8]) -> bool {
+    let text = text.strip_prefix("\u{feff}".as_bytes()).unwrap_or(text);
     let text = text.strip_prefix(b"\"").unwrap_or(text);
     text.get(..CSV.len()).is_some_and(|head| head.eq_ignore_ascii_case(CSV))
 }

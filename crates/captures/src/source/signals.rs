@@ -8,6 +8,7 @@ use tofsim::error::Result;
 use tofsim::kernel::signals::SignalFormat as Shape;
 
 use crate::ila::Radix;
+use crate::ila::read::State;
 
 use super::names::Name;
 use super::stream::Cursor;
@@ -77,8 +78,21 @@ pub enum SignalKind {
     Bits,
     /// A number in floating point.
     Real,
-    /// Text or events, which are not compared.
+    /// Words, each as its bytes, the first lowest; a place beyond its end is 0.
+    Text,
+    /// Text of a simulator or events, which are not compared.
     Other,
+}
+
+/// Words that stand for values of a signal.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Words {
+    /// Width of the values that they stand for [bits].
+    pub width: u32,
+    /// Whether the source has numbers among them.
+    pub mixed: bool,
+    /// The words that are known, with their bits if the source tells these.
+    pub states: Vec<State>,
 }
 
 /// A signal by one of its names.
@@ -96,6 +110,8 @@ pub struct Signal {
     pub radix: Option<Radix>,
     /// What its values mean, if the source says.
     pub shape: Option<Shape>,
+    /// Words that stand for values of it.
+    pub words: Words,
     /// Names of the same signal share it.
     pub id: usize,
 }
@@ -115,6 +131,8 @@ pub struct Source {
     pub end: Option<u64>,
     /// Whether it says how values are written, where that matters.
     pub radix_told: bool,
+    /// What was read otherwise than it is usually written, or taken from elsewhere.
+    pub notes: Vec<String>,
     pub(super) origin: Arc<dyn Origin>,
 }
 
@@ -158,6 +176,6 @@ impl Source {
 
     fn width(&self, id: usize) -> u32 {
         let signal = self.signals.iter().find(|signal| signal.id == id);
-        signal.map_or(0, |signal| if signal.kind == SignalKind::Other { 0 } else { signal.width })
+        signal.map_or(0, |signal| signal.width)
     }
 }

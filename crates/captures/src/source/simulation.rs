@@ -14,7 +14,7 @@ use tofsim::sim::{Device, Run, WindowedProbe};
 use tofsim::waves::TapDigits;
 
 use super::names::Name;
-use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat};
+use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat, Words};
 use super::stream::{Cursor, Feed};
 use super::tick::Tick;
 
@@ -36,6 +36,7 @@ pub(super) fn source(setup: Setup, frames: u64) -> Source {
         width: entry.signal.width,
         lsb: 0,
         kind: SignalKind::Bits,
+        words: Words::default(),
         radix: None,
         shape: Some(entry.signal.format),
         id: entry.id,
@@ -47,6 +48,7 @@ pub(super) fn source(setup: Setup, frames: u64) -> Source {
         signals: signals.collect(),
         end: None,
         radix_told: true,
+        notes: Vec::new(),
         origin: Arc::new(Origin { setup: Arc::new(setup), frames }),
     }
 }

@@ -20,7 +20,7 @@ use super::loaded;
 use super::locate::located;
 use super::marks::{Marking, Style};
 use super::names::Name;
-use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat};
+use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat, Words};
 use super::stream::{Cursor, Feed, Gone};
 use super::tick::Tick;
 
@@ -97,6 +97,7 @@ fn described(path: &Path, hierarchy: &Hierarchy) -> Result<Source> {
         signals,
         end: end.filter(|_| marks.is_none()),
         radix_told: marks.is_none(),
+        notes: Vec::new(),
         origin: Arc::new(Origin { path: path.to_owned(), format, references, marks }),
     })
 }
@@ -110,7 +111,7 @@ fn signal(var: &Var, hierarchy: &Hierarchy, id: usize) -> Signal {
     // The library makes scopes of the indices of arrays.
     let name = Name::new(var.full_name(hierarchy).replace(".[", "["));
     let lsb = var.index().map_or(0, |index| index.lsb());
-    Signal { name, width, lsb, kind, radix: None, shape: None, id }
+    Signal { name, width, lsb, kind, radix: None, shape: None, words: Words::default(), id }
 }
 
 fn tick(source: &str, hierarchy: &Hierarchy) -> Result<Tick> {

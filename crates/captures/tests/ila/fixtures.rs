@@ -16,12 +16,25 @@ pub fn bytes(name: &str) -> Vec<u8> {
     fs::read(fixture(name)).unwrap()
 }
 
+/// The parts of an archive.
+pub const PARTS: [&str; 4] = ["waveform.csv", "waveform.dmp", "waveform.vcd", "probes.ltx"];
+
 /// The files of the archive, with those of `but` exchanged or, if empty, left out.
 pub fn archive_but(but: &[(&str, &[u8])]) -> Vec<u8> {
-    let names = ["waveform.csv", "waveform.dmp", "probes.ltx"];
-    let entries = names.map(|name| {
+    packed("archive", but)
+}
+
+/// The same of a System ILA's: a port with slices of its own names, words among numbers, a view of
+/// other probes that is not in the dump.
+pub fn views_but(but: &[(&str, &[u8])]) -> Vec<u8> {
+    packed("views", but)
+}
+
+fn packed(folder: &str, but: &[(&str, &[u8])]) -> Vec<u8> {
+    let entries = PARTS.map(|name| {
         let other = but.iter().find(|(other, _)| *other == name);
-        (name, other.map_or_else(|| bytes(&format!("archive/{name}")), |(_, bytes)| bytes.to_vec()))
+        let own = || fs::read(fixture(folder).join(name)).unwrap_or_default();
+        (name, other.map_or_else(own, |(_, bytes)| bytes.to_vec()))
     });
     let kept = entries.iter().filter(|(_, content)| !content.is_empty());
     let kept: Vec<_> = kept.map(|(name, content)| (*name, &content[..])).collect();

@@ -36,8 +36,8 @@ pub enum UnmatchedReason {
     /// The other side has slices of it, but not so many of its bits.
     #[error("{0} of its bits are not on the other side")]
     Part(u32),
-    /// It is text or an event.
-    #[error("text or events, which are not compared")]
+    /// It is text or an event, or its partner is.
+    #[error("text on one side only, or an event")]
     Text,
     /// It was asked not to be compared.
     #[error("left out")]

@@ -1,138 +1,217 @@
-//! `.ila` archives: the data from the dump, names from the CSV's head or from the list of probes.
+//! `.ila` archives: names and radices from the CSV's head, values from the dump, places in it from
+//! the list of probes. What the dump does not have comes from the CSV or the VCD, and so does
+//! everything if it is damaged.
+
+mod entries;
+mod merge;
 
 use std::fs::File;
 use std::io::{BufReader, Cursor, Read};
 
-use zip::ZipArchive;
-use zip::read::ZipFile;
-
-use tofsim::error::{Input, Result};
+use tofsim::error::{Error, Input, Result};
 
 use super::super::capture::Radix;
+use super::buffer::Buffer;
+use super::csv;
 use super::dump::Dump;
 use super::heads::Heads;
-use super::opened::{CaptureForm, Column, Opened, damaged};
+use super::ltx::{self, List, Placed};
+use super::opened::{CaptureForm, Column, Opened, lay_out};
 use super::table::first_lines;
-use super::{csv, ltx};
+use super::vcd::Vcd;
 
-/// Most bytes of an entry that are read.
-const LARGEST_ENTRY: u64 = 1 << 30;
+use entries::{Entries, LARGEST_ENTRY, text, whole};
+use merge::Merge;
+
 /// Most bytes of a list of probes.
 const LARGEST_LIST: u64 = 1 << 23;
+/// Most bytes of a VCD.
+const LARGEST_VCD: u64 = 1 << 28;
 
 /// Opens an archive.
 pub(super) fn open(source: String, file: File, radix: Option<Radix>) -> Result<Opened> {
-    let zip = ZipArchive::new(file)
-        .map_err(|error| Input::new(&source, format!("expected a whole ZIP archive: {error}")))?;
-    let mut archive = Archive { source, zip };
-    let [csv, dump, list] = ["waveform.csv", "waveform.dmp", "probes.ltx"].map(|n| archive.find(n));
-    let Some(dump) = dump else {
-        let Some(csv) = csv else {
-            let text = "expected an entry waveform.dmp or waveform.csv in the archive";
-            return Err(Input::new(&archive.source, text).into());
-        };
-        let (source, entry) = archive.entry(csv)?;
-        let bytes = whole(&source, entry, LARGEST_ENTRY)?;
-        let opened = csv::open(source, Cursor::new(bytes), radix)?;
-        return Ok(Opened { form: CaptureForm::Archive, ..opened });
+    let (entries, notes) = Entries::open(source, file)?;
+    let mut parts = Parts { entries, faults: Vec::new(), notes };
+    let dump = parts.read("waveform.dmp", |source, entry| {
+        Dump::read(source, BufReader::new(entry.take(LARGEST_ENTRY)))
+    });
+    let list = parts.read("probes.ltx", |source, entry| {
+        List::read(source, &text(source, entry, LARGEST_LIST)?)
+    });
+    let csv = parts.read("waveform.csv", |source, entry| {
+        Ok((source.to_owned(), whole(source, entry, LARGEST_ENTRY)?))
+    });
+    let heads = csv.as_ref().and_then(|(source, bytes)| {
+        let lines = first_lines(&bytes[..]).unwrap_or_default();
+        parts.keep("waveform.csv", Heads::read(source, &lines))
+    });
+    let placed = match (&list, &dump) {
+        (Some(list), Some(dump)) => list.placed(&dump.core, dump.width),
+        _ => None,
     };
-    let (source, entry) = archive.entry(dump)?;
-    let dump = Dump::read(&source, BufReader::new(entry.take(LARGEST_ENTRY)))?;
-    let (heads, source) = if let Some(csv) = csv {
-        let (source, entry) = archive.entry(csv)?;
-        let lines = first_lines(entry).map_err(|error| damaged(&source, error))?;
-        (Heads::read(&source, &lines)?, source)
-    } else if let Some(list) = list {
-        let (source, entry) = archive.entry(list)?;
-        let text = String::from_utf8(whole(&source, entry, LARGEST_LIST)?)
-            .map_err(|_| Input::new(&source, "expected UTF-8 text"))?;
-        let columns = ltx::columns(&source, &text, &dump.core, dump.width)?;
-        (Heads { columns, radix_row: false, gap: false }, source)
-    } else {
-        let text = "expected an entry waveform.csv or probes.ltx in the archive, for the names";
-        return Err(Input::new(&archive.source, text).into());
+    let radix_told = heads.as_ref().is_some_and(|heads| heads.radix_row);
+    let has_names = heads.is_some();
+    let columns = heads.map(|heads| heads.columns).or_else(|| named(placed.as_deref()));
+    let Some(columns) = columns else { return parts.vcd_alone(dump.is_some()) };
+    let places = places(&columns, dump.as_ref(), placed.as_deref());
+    let are_all = places.iter().all(Option::is_some);
+    // Without radices the digits of a CSV say less than the dump's bits.
+    let table = match csv.filter(|_| has_names && (radix_told || !are_all)) {
+        Some((source, bytes)) => {
+            let lines = bytes.iter().filter(|&&byte| byte == b'\n').count() as u64 + 1;
+            let table = csv::open(source, Cursor::new(bytes), radix);
+            parts.keep("waveform.csv", table).map(|table| (table, lines))
+        }
+        None => None,
     };
-    let mut columns = heads.columns;
-    let places = lay_out(&source, &mut columns, dump.width)?;
+    if table.is_none() && dump.is_none() {
+        return parts.vcd_alone(false);
+    }
+    let columns = match &table {
+        Some((table, _)) => table.columns.clone(),
+        None => columns,
+    };
+    let needs_vcd = |(column, place): (&Column, &Option<usize>)| {
+        place.is_none() && (column.text || table.is_none())
+    };
+    let vcd = match columns.iter().zip(&places).any(needs_vcd) {
+        true => parts.vcd().filter(|vcd| {
+            let widths = |columns: &[Column]| columns.iter().map(|c| c.width).collect::<Vec<_>>();
+            widths(&vcd.columns) == widths(&columns)
+        }),
+        false => None,
+    };
+    let has_dump = dump.is_some();
+    let buffer = dump.map(|dump| dump.buffer);
+    let mut merge =
+        Merge::new(buffer, columns, places, vcd.as_ref(), table.is_some(), &mut parts.notes);
+    if let Some((table, lines)) = table {
+        merge.table(table, (!has_dump).then_some(lines))?;
+    }
+    let (buffer, mut columns, places) = merge.finish();
+    parts.say((!has_dump).then_some("waveform.csv"));
+    if columns.is_empty() {
+        return Err(parts.nothing());
+    }
     for column in columns.iter_mut().filter(|column| !column.text && column.radix.is_none()) {
         column.radix = radix;
     }
-    let rows = Box::new(dump.rows(columns.clone(), places));
-    let radix_told = heads.radix_row;
-    Ok(Opened { form: CaptureForm::Archive, columns, radix_told, rows })
+    Ok(opened(buffer, columns, places, radix_told, parts.notes))
 }
 
-/// Places the columns in a row, and tells the lowest bit in the dump of each that is not text.
-fn lay_out(source: &str, columns: &mut [Column], width: u32) -> Result<Vec<usize>> {
-    let bits = |texts: bool| -> u64 {
-        let counted = columns.iter().filter(|column| texts || !column.text);
-        counted.map(|column| column.width as u64).sum()
-    };
-    // Nobody knows whether the words of a System ILA have bits in the dump.
-    let texts = bits(true) == width as u64;
-    if !texts && bits(false) != width as u64 {
-        let text =
-            format!("the columns have {} bits, the dump has {width} (data_width)", bits(false));
-        return Err(Input::new(source, text).into());
-    }
-    let (mut low, mut word, mut places) = (0, 0, Vec::new());
-    for column in columns {
-        column.word = word;
-        word += column.words();
-        if !column.text {
-            places.push(low);
-        }
-        if texts || !column.text {
-            low += column.width as usize;
+fn opened(
+    buffer: Buffer,
+    mut columns: Vec<Column>,
+    places: Vec<usize>,
+    radix_told: bool,
+    notes: Vec<String>,
+) -> Opened {
+    lay_out(&mut columns);
+    let rows = Box::new(buffer.rows(columns.clone(), places));
+    Opened { form: CaptureForm::Archive, columns, radix_told, rows, notes }
+}
+
+/// The columns of a list of probes, one for each name.
+fn named(placed: Option<&[Placed]>) -> Option<Vec<Column>> {
+    let mut columns: Vec<Column> = Vec::new();
+    for (column, _) in placed? {
+        if columns.iter().all(|other| other.head() != column.head()) {
+            columns.push(column.clone());
         }
     }
-    Ok(places)
+    (!columns.is_empty()).then_some(columns)
 }
 
-/// An archive being read.
-struct Archive {
-    source: String,
-    zip: ZipArchive<File>,
+/// The lowest bit of each column in the dump: by the list of probes, or one after the other if that
+/// makes as many bits as the dump has.
+fn places(
+    columns: &[Column],
+    dump: Option<&Dump>,
+    placed: Option<&[Placed]>,
+) -> Vec<Option<usize>> {
+    let Some(dump) = dump else { return vec![None; columns.len()] };
+    if dump.buffer.samples == 0 {
+        return vec![Some(0); columns.len()];
+    }
+    let bits: u64 = columns.iter().map(|column| u64::from(column.width)).sum();
+    let in_order = bits == u64::from(dump.width);
+    let mut next = 0;
+    columns
+        .iter()
+        .map(|column| {
+            let low = next;
+            next += column.width as usize;
+            let listed = placed.and_then(|placed| ltx::place(placed, column));
+            listed.or(in_order.then_some(low))
+        })
+        .collect()
 }
 
-impl Archive {
-    /// The entry of this name, in any directory.
-    fn find(&self, name: &str) -> Option<usize> {
-        let last = |path: &[u8]| path.rsplit(|&byte| byte == b'/').next() == Some(name.as_bytes());
-        self.zip.file_names_raw().position(last)
+/// The parts of an archive, and what is wrong with some.
+struct Parts {
+    entries: Entries,
+    /// Name of each part that cannot be used, and why.
+    faults: Vec<(&'static str, Error)>,
+    notes: Vec<String>,
+}
+
+impl Parts {
+    /// A part, if it is there and sound.
+    fn read<T>(
+        &mut self,
+        name: &'static str,
+        read: impl FnOnce(&str, &mut dyn Read) -> Result<T>,
+    ) -> Option<T> {
+        let result = self.entries.part(name, read)?;
+        self.keep(name, result)
     }
 
-    /// An entry, and what it is called.
-    fn entry(&mut self, index: usize) -> Result<(String, ZipFile<'_, File>)> {
-        let name = self.zip.file_names_raw().nth(index).unwrap_or_default();
-        let source = format!("{}/{}", self.source, String::from_utf8_lossy(name));
-        match self.zip.by_index(index) {
-            Ok(entry) => Ok((source, entry)),
-            Err(error) => Err(Input::new(source, format!("damaged: {error}")).into()),
+    /// What came of a part, or its fault kept.
+    fn keep<T>(&mut self, name: &'static str, result: Result<T>) -> Option<T> {
+        result.map_err(|error| self.faults.push((name, error))).ok()
+    }
+
+    fn vcd(&mut self) -> Option<Vcd> {
+        self.read("waveform.vcd", |source, entry| {
+            Vcd::read(source, &text(source, entry, LARGEST_VCD)?)
+        })
+    }
+
+    /// Says which parts are not used, and what the values were taken from instead of the dump.
+    fn say(&mut self, values: Option<&str>) {
+        for (name, error) in self.faults.drain(..) {
+            self.notes.push(format!("{name} is not used: {error}"));
+        }
+        if let Some(name) = values {
+            self.notes.push(format!("the values are those of {name}, not of waveform.dmp"));
         }
     }
-}
 
-/// All of an entry, which may not be longer than a limit, whatever the archive says.
-fn whole(source: &str, entry: impl Read, limit: u64) -> Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    let mut entry = entry.take(limit + 1);
-    entry.read_to_end(&mut bytes).map_err(|error| damaged(source, error))?;
-    match bytes.len() as u64 > limit {
-        true => Err(Input::new(source, format!("unpacks to more than {limit} bytes")).into()),
-        false => Ok(bytes),
+    /// Everything from the VCD; `nameless` if there is a dump but nobody knows the names in it.
+    fn vcd_alone(mut self, nameless: bool) -> Result<Opened> {
+        let vcd = self.vcd();
+        let Some((vcd, (buffer, places))) = vcd.and_then(|vcd| {
+            let held = vcd.buffer()?;
+            (!vcd.columns.is_empty()).then_some((vcd, held))
+        }) else {
+            if nameless && self.faults.is_empty() {
+                let expected =
+                    "expected an entry waveform.csv or probes.ltx in the archive, for the names";
+                return Err(Input::new(&self.entries.source, expected).into());
+            }
+            return Err(self.nothing());
+        };
+        self.say(Some("waveform.vcd"));
+        self.notes.push("a VCD ends with the last change: samples after it are missing".to_owned());
+        Ok(opened(buffer, vcd.columns, places, false, self.notes))
     }
-}
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_entry_ends_in_an_error_at_its_limit() {
-        let limited =
-            |limit| whole("a.ila/x", &b"12345"[..], limit).map_err(|error| error.to_string());
-        assert_eq!(limited(5), Ok(b"12345".to_vec()));
-        assert_eq!(limited(4), Err("a.ila/x: unpacks to more than 4 bytes".into()));
+    /// The error if no part can be read.
+    fn nothing(&mut self) -> Error {
+        if self.faults.is_empty() {
+            let expected = "expected an entry waveform.dmp or waveform.csv in the archive";
+            return Input::new(&self.entries.source, expected).into();
+        }
+        self.faults.swap_remove(0).1
     }
 }

@@ -7,12 +7,12 @@ use tofsim::error::{Error, Result};
 use super::super::capture::Radix;
 use super::digits;
 use super::heads::{FIXED, Heads};
-use super::infer::infer;
-use super::opened::{CaptureForm, CaptureRow, CaptureRows, Opened};
+use super::opened::{CaptureForm, CaptureRow, CaptureRows, LONGEST_WORD, Opened, put_word};
 use super::order::Order;
+use super::survey::survey;
 use super::table::{Table, first_lines};
 
-/// Opens a CSV. Without a row of radices it is read twice.
+/// Opens a CSV, which is read twice: only all of it tells which columns are numbers.
 pub(super) fn open<R: Read + Seek + Send + 'static>(
     source: String,
     mut file: R,
@@ -22,23 +22,21 @@ pub(super) fn open<R: Read + Seek + Send + 'static>(
     let lines = first_lines(&mut file).map_err(fault)?;
     file.rewind().map_err(fault)?;
     let mut heads = Heads::read(&source, &lines)?;
-    if !heads.radix_row {
-        let mut table = below(&source, file, &heads)?;
-        infer(&mut table, &mut heads, hint)?;
-        file = table.into_inner();
-        file.rewind().map_err(fault)?;
-    }
+    let mut table = below(&source, file, &heads)?;
+    survey(&mut table, &mut heads, hint)?;
+    file = table.into_inner();
+    file.rewind().map_err(fault)?;
     let table = below(&source, file, &heads)?;
     let form = if heads.radix_row { CaptureForm::Csv } else { CaptureForm::LegacyCsv };
     let columns = heads.columns.clone();
-    let radix_told = heads.radix_row;
+    let (radix_told, notes) = (heads.radix_row, std::mem::take(&mut heads.notes));
     let rows = Box::new(CsvRows { table, heads, order: Order::default() });
-    Ok(Opened { form, columns, radix_told, rows })
+    Ok(Opened { form, columns, radix_told, rows, notes })
 }
 
 /// The table from the first row below the heads on.
 fn below<R: Read>(source: &str, file: R, heads: &Heads) -> Result<Table<R>> {
-    let mut table = Table::new(source, file);
+    let mut table = Table::new(source, file, heads.delimiter);
     for _ in 0..1 + usize::from(heads.radix_row) {
         table.advance()?;
     }
@@ -74,11 +72,16 @@ impl<R: Read + Send> CaptureRows for CsvRows<R> {
         row.clear(&heads.columns);
         for (index, column) in heads.columns.iter().enumerate() {
             let index = first + index;
+            let place = column.place();
             let Some(radix) = column.radix.filter(|_| !column.text) else {
-                cells.text(index)?;
+                let cell = cells.text(index)?;
+                if cell.len() > LONGEST_WORD {
+                    let expected = format!("expected {LONGEST_WORD} bytes at most");
+                    return Err(cells.fault(index, expected).field(column.head()).into());
+                }
+                put_word(cell.as_bytes(), &mut row.value[place]);
                 continue;
             };
-            let place = column.word..column.word + column.words();
             let read = digits::read(&cells.field(index), radix, column.width);
             let bits = read.map_err(|fault| {
                 let expected = fault.say(radix, column.width);

@@ -4,8 +4,9 @@ use std::io::BufRead;
 
 use tofsim::error::{Input, Result};
 
+use super::buffer::Buffer;
 use super::line::Line;
-use super::opened::{CaptureRow, CaptureRows, Column, LARGEST, WIDEST_SAMPLE, damaged};
+use super::opened::{LARGEST, WIDEST_SAMPLE, damaged};
 
 /// What a dump holds.
 #[derive(Debug, Default)]
@@ -14,15 +15,8 @@ pub(super) struct Dump {
     pub(super) core: String,
     /// Bits of a sample.
     pub(super) width: u32,
-    /// Number of samples.
-    pub(super) samples: u64,
-    windows: Vec<u64>,
-    triggers: Vec<u64>,
-    gaps: Vec<u64>,
-    /// Words of a bit's samples.
-    stride: usize,
-    /// Bit after bit, 64 samples to a word.
-    bits: Vec<u64>,
+    /// The samples.
+    pub(super) buffer: Buffer,
 }
 
 impl Dump {
@@ -39,9 +33,9 @@ impl Dump {
                 "core_id" => dump.core = line.value(),
                 "data_width" => width = Some(line.number()?),
                 "sample_count" => samples = Some(line.number()?),
-                "window_marks" => dump.windows = line.list()?,
-                "trigger_marks" => dump.triggers = line.list()?,
-                "gaps" => dump.gaps = line.list()?,
+                "window_marks" => dump.buffer.windows = line.list()?,
+                "trigger_marks" => dump.buffer.triggers = line.list()?,
+                "gaps" => dump.buffer.gaps = line.list()?,
                 key if key.starts_with("ch[") => {
                     if bit == 0 {
                         dump.size(source, width, samples)?;
@@ -53,7 +47,7 @@ impl Dump {
                         };
                         return Err(line.fault(1, expected).into());
                     }
-                    line.channel(dump.samples, &mut dump.bits)?;
+                    dump.buffer.channel(&line)?;
                     bit += 1;
                 }
                 _ => {}
@@ -62,7 +56,7 @@ impl Dump {
         if bit == 0 {
             dump.size(source, width, samples)?;
         }
-        if bit != dump.width && dump.samples > 0 {
+        if bit != dump.width && dump.buffer.samples > 0 {
             let text = format!("ends after {bit} channels, expected {} (data_width)", dump.width);
             return Err(Input::new(source, text).into());
         }
@@ -76,7 +70,7 @@ impl Dump {
             let text = "expected data_width and sample_count before the channels";
             return Err(fault(text.into()).into());
         };
-        if !(1..=WIDEST_SAMPLE as u64).contains(&width) {
+        if width > WIDEST_SAMPLE as u64 || (width == 0 && samples > 0) {
             let text = format!("expected 1 to {WIDEST_SAMPLE} bits");
             return Err(fault(text).field("data_width").value(width).into());
         }
@@ -87,91 +81,49 @@ impl Dump {
             );
             return Err(fault(text).field("sample_count").value(samples).into());
         }
-        (self.width, self.samples) = (width as u32, samples);
-        self.stride = samples.div_ceil(64) as usize;
+        self.width = width as u32;
+        self.buffer.size(samples);
         Ok(())
     }
 
     fn check_marks(&mut self, source: &str) -> Result<()> {
+        let Buffer { samples, windows, triggers, gaps, .. } = &mut self.buffer;
         // A last window without samples is marked at the end.
-        self.windows.pop_if(|&mut window| window == self.samples && window > 0);
-        for (key, marks) in [
-            ("window_marks", &self.windows),
-            ("trigger_marks", &self.triggers),
-            ("gaps", &self.gaps),
-        ] {
+        windows.pop_if(|&mut window| window == *samples && window > 0);
+        for (key, marks) in
+            [("window_marks", &*windows), ("trigger_marks", &*triggers), ("gaps", &*gaps)]
+        {
             let fault = |text: String, mark| Input::new(source, text).field(key).value(mark);
             if let Some(pair) = marks.windows(2).find(|pair| pair[0] >= pair[1]) {
                 let text = format!("expected a sample after {}", pair[0]);
                 return Err(fault(text, pair[1]).into());
             }
             if let Some(&last) = marks.last()
-                && last >= self.samples.max(1)
+                && last >= (*samples).max(1)
             {
-                let text = format!("expected a sample below {} (sample_count)", self.samples);
+                let text = format!("expected a sample below {samples} (sample_count)");
                 return Err(fault(text, last).into());
             }
         }
-        if let Some(&first) = self.windows.first()
+        if let Some(&first) = windows.first()
             && first != 0
         {
             let fault = Input::new(source, "expected the first window at 0");
             return Err(fault.field("window_marks").value(first).into());
         }
-        let window = |trigger: u64| self.windows.partition_point(|&start| start <= trigger);
-        if let Some(pair) = self.triggers.windows(2).find(|pair| window(pair[0]) == window(pair[1]))
-        {
+        let window = |trigger: u64| windows.partition_point(|&start| start <= trigger);
+        if let Some(pair) = triggers.windows(2).find(|pair| window(pair[0]) == window(pair[1])) {
             let text = format!("a second trigger in the window that has one at {}", pair[0]);
             return Err(Input::new(source, text).field("trigger_marks").value(pair[1]).into());
         }
         Ok(())
-    }
-
-    /// The samples, laid out as `columns`; `places` are the lowest bits of those in the dump.
-    pub(super) fn rows(self, columns: Vec<Column>, places: Vec<usize>) -> impl CaptureRows + use<> {
-        DumpRows { dump: self, columns, places, next: 0 }
-    }
-}
-
-/// The samples of a dump.
-struct DumpRows {
-    dump: Dump,
-    columns: Vec<Column>,
-    places: Vec<usize>,
-    next: u64,
-}
-
-impl CaptureRows for DumpRows {
-    fn next(&mut self, row: &mut CaptureRow) -> Result<bool> {
-        let (sample, dump) = (self.next, &self.dump);
-        if sample == dump.samples {
-            return Ok(false);
-        }
-        self.next += 1;
-        let windows = dump.windows.partition_point(|&window| window <= sample);
-        let begin = windows.checked_sub(1).map_or(0, |window| dump.windows[window]);
-        row.sample = sample;
-        row.in_window = sample - begin;
-        row.window_start = sample == begin;
-        row.trigger = dump.triggers.binary_search(&sample).is_ok();
-        row.gap = dump.gaps.binary_search(&sample).is_ok();
-        row.clear(&self.columns);
-        let numbers = self.columns.iter().filter(|column| !column.text);
-        for (column, &low) in numbers.zip(&self.places) {
-            let target = if row.gap { &mut row.unknown } else { &mut row.value };
-            for bit in 0..column.width as usize {
-                let word = dump.bits[(low + bit) * dump.stride + (sample / 64) as usize];
-                let digit = row.gap as u64 | word >> (sample % 64) & 1;
-                target[column.word + bit / 64] |= digit << (bit % 64);
-            }
-        }
-        Ok(true)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ila::read::{CaptureRow, CaptureRows};
 
     const HEAD: &str = "core_id:7\ndata_width:2\nsample_count:3\nhas_timestamps:false\n";
 
@@ -185,9 +137,9 @@ mod tests {
         let text = "window_marks:0 2 3\r\ntrigger_marks:1 2\r\ngaps:1\r\ntimestamps:\r\nch[0]: 101\r\n\
                     ch[1]: 001";
         let dump = Dump::read("a.dmp", format!("{HEAD}{text}").as_bytes()).unwrap();
-        assert_eq!((dump.core.as_str(), dump.width, dump.samples), ("7", 2, 3));
+        assert_eq!((dump.core.as_str(), dump.width, dump.buffer.samples), ("7", 2, 3));
         let column = super::super::heads::parse("a[1:0]").unwrap();
-        let mut rows = dump.rows(vec![column], vec![0]);
+        let mut rows = dump.buffer.rows(vec![column], vec![0]);
         let (mut row, mut found) = (CaptureRow::default(), Vec::new());
         while rows.next(&mut row).unwrap() {
             found.push((

@@ -15,6 +15,9 @@ const MOST_PROBES: usize = 1 << 14;
 /// What the row of radices begins with, glued to the first radix.
 const MARK: &[u8] = b"Radix - ";
 
+/// What is said of empty fields that spreadsheets add.
+pub(super) const TRAIL: &str = "empty fields at the end of lines are left out";
+
 /// What the first rows tell.
 pub(super) struct Heads {
     pub(super) columns: Vec<Column>,
@@ -22,19 +25,33 @@ pub(super) struct Heads {
     pub(super) radix_row: bool,
     /// Whether the fourth column tells gaps.
     pub(super) gap: bool,
+    /// What stands between two fields.
+    pub(super) delimiter: u8,
+    /// What these rows have that Vivado does not write.
+    pub(super) notes: Vec<String>,
 }
 
 impl Heads {
     /// Reads the first lines of a file.
-    pub(super) fn read(source: &str, [head, second, third]: &[Vec<u8>; 3]) -> Result<Self> {
+    pub(super) fn read(source: &str, [head, second]: &[Vec<u8>; 2]) -> Result<Self> {
         let mark = "\u{feff}".as_bytes();
-        let heads = Row::new(source, 1, head.strip_prefix(mark).unwrap_or(head));
+        let bare = head.strip_prefix(mark);
+        let head = bare.unwrap_or(head);
+        let (delimiter, mut notes) = delimiter(head);
+        if bare.is_some() {
+            notes.push("a byte order mark at the begin is passed over".to_owned());
+        }
+        let mut heads = Row::new(source, 1, head, delimiter);
+        if heads.take_trail() {
+            notes.push(TRAIL.to_owned());
+        }
         if let Some(wrong) = FIXED.iter().enumerate().position(|(k, name)| !heads.is(k, name)) {
             let expected = format!("expected a head that begins with `{}`", FIXED.join(","));
             return Err(heads.fault(wrong, expected).into());
         }
-        let radix_row = second.starts_with(MARK);
-        let radices = Row::new(source, 2, second);
+        let mut radices = Row::new(source, 2, second, delimiter);
+        let radix_row = radices.field(0).starts_with(MARK);
+        radices.take_trail();
         // chipscopy leaves GAP out of the radices; Vivado gives a net of that name one like HEX.
         let short = radices.len() + 1 == heads.len();
         let gap = radix_row && heads.is(3, "GAP") && (short || radices.is(3, "UNSIGNED"));
@@ -47,7 +64,6 @@ impl Heads {
             let text = format!("{found} probes, expected 1 to {most}");
             return Err(heads.row_fault(text).into());
         }
-        let sample = Row::new(source, 0, if radix_row { third } else { second });
         let mut columns = Vec::new();
         let (mut names, mut width, mut word) = (HashSet::new(), 0, 0);
         for index in first..heads.len() {
@@ -61,7 +77,6 @@ impl Heads {
             if width > WIDEST_SAMPLE {
                 return Err(fault(format!("more than {WIDEST_SAMPLE} bits in a sample")).into());
             }
-            column.text = sample.is_quoted(index);
             if radix_row {
                 let index = index - (gap && short) as usize;
                 match radix(&radices.field(index)) {
@@ -71,13 +86,26 @@ impl Heads {
                         return Err(radices.fault(index, expected).field(column.head()).into());
                     }
                 }
-                column.text |= column.radix.is_none();
+                column.text = column.radix.is_none();
             }
             column.word = word;
             word += column.words();
             columns.push(column);
         }
-        Ok(Heads { columns, radix_row, gap })
+        Ok(Heads { columns, radix_row, gap, delimiter, notes })
+    }
+}
+
+/// What stands between the fields of a file with this first line, and what is to be said of it.
+fn delimiter(head: &[u8]) -> (u8, Vec<String>) {
+    let first = FIXED[0].as_bytes();
+    let bare = head.strip_prefix(b"\"").unwrap_or(head);
+    let after = bare.get(first.len()..).unwrap_or_default();
+    let after = after.strip_prefix(b"\"").unwrap_or(after);
+    match after.first() {
+        Some(b';') => (b';', vec!["fields are separated by ; instead of commas".to_owned()]),
+        Some(b'\t') => (b'\t', vec!["fields are separated by tabs instead of commas".to_owned()]),
+        _ => (b',', Vec::new()),
     }
 }
 
@@ -123,7 +151,7 @@ pub(super) fn parse(head: &str) -> std::result::Result<Column, String> {
         return Err("expected the name of a probe".into());
     }
     let name = name.to_owned();
-    Ok(Column { name, width, lsb, vector, radix: None, text: false, word: 0 })
+    Ok(Column { name, width, lsb, vector, ..Column::default() })
 }
 
 /// Splits `name[msb:lsb]`. Anything else in brackets belongs to the name.
@@ -138,14 +166,14 @@ fn range(head: &str) -> Option<(&str, &str, &str)> {
 mod tests {
     use super::*;
 
-    fn heads(lines: [&str; 3]) -> std::result::Result<Heads, String> {
+    fn heads(lines: [&str; 2]) -> std::result::Result<Heads, String> {
         Heads::read("a.csv", &lines.map(|line| line.as_bytes().to_vec()))
             .map_err(|error| error.to_string())
     }
 
     fn fault(probes: &str) -> String {
         let head = format!("Sample in Buffer,Sample in Window,TRIGGER,{probes}");
-        heads([&head, "", ""]).err().unwrap()
+        heads([&head, ""]).err().unwrap()
     }
 
     #[test]
@@ -173,12 +201,12 @@ mod tests {
         assert!(fault("a,a").starts_with("a.csv:1:45: a: a second column of this name"));
         let wide: Vec<_> = (0..257).map(|place| format!("a{place}[4095:0]")).collect();
         assert!(fault(&wide.join(",")).ends_with("more than 1048576 bits in a sample"));
-        let head = ["Sample in Buffer,Sample in Window,TRIGGER", "", ""];
+        let head = ["Sample in Buffer,Sample in Window,TRIGGER", ""];
         assert!(heads(head).err().unwrap().ends_with("0 probes, expected 1 to 16384"));
-        let head = ["Sample in Buffer,Window,TRIGGER,a", "", ""];
+        let head = ["Sample in Buffer,Window,TRIGGER,a", ""];
         let expected = "a.csv:1:18: Window: expected a head that begins with `Sample in Buffer,";
         assert!(heads(head).err().unwrap().starts_with(expected));
-        assert!(heads(["", "", ""]).err().unwrap().contains("expected a head that begins with"));
+        assert!(heads(["", ""]).err().unwrap().contains("expected a head that begins with"));
     }
 
     #[test]
@@ -186,12 +214,12 @@ mod tests {
         let head = "Sample in Buffer,Sample in Window,TRIGGER,GAP,a";
         let told = |radices: &str| {
             let radices = format!("Radix - UNSIGNED,UNSIGNED,UNSIGNED,{radices}");
-            let heads = heads([head, &radices, ""]).unwrap();
+            let heads = heads([head, &radices]).unwrap();
             (heads.gap, heads.columns.len())
         };
         assert_eq!(told("HEX"), (true, 1));
         assert_eq!(told("UNSIGNED,HEX"), (true, 1));
         assert_eq!(told("HEX,HEX"), (false, 2));
-        assert!(!heads([head, "", ""]).unwrap().gap);
+        assert!(!heads([head, ""]).unwrap().gap);
     }
 }

@@ -3,73 +3,55 @@
 //! Hexadecimal digits are always as many as the width needs and decimals never begin with 0, so
 //! most columns leave one radix. Octal is considered only on demand: no such file is known.
 
-use std::io::Read;
-
 use tofsim::error::{Input, Result};
 
 use super::super::capture::Radix;
 use super::digits;
-use super::heads::Heads;
-use super::table::Table;
+use super::opened::Column;
+use super::table::Row;
 
 /// What is tried, first what is taken if all give the same values.
 const TRIED: [Radix; 5] = [Radix::Hex, Radix::Unsigned, Radix::Signed, Radix::Binary, Radix::Octal];
 
-/// Looks through the rest of `table` and sets the radices. `hint` decides where several are left.
-pub(super) fn infer(
-    table: &mut Table<impl Read>,
-    heads: &mut Heads,
-    hint: Option<Radix>,
-) -> Result<()> {
-    let fields = super::heads::FIXED.len() + heads.columns.len();
-    let mut guesses = vec![Guess::new(hint); heads.columns.len()];
-    while table.advance_to(fields)? {
-        let columns = heads.columns.iter().zip(&mut guesses).enumerate();
-        for (index, (column, guess)) in columns.filter(|(_, (column, _))| !column.text) {
-            let index = super::heads::FIXED.len() + index;
-            let before = guess.left.clone();
-            if guess.look(&table.row.field(index), column.width) {
-                guess.telling = Some(table.row.fault(index, "").field(column.head()));
-            }
-            if guess.left.is_empty() {
-                let expected = match guess.seen {
-                    true => {
-                        guess.left = before;
-                        format!("expected {} of {} bits, as above", guess.names(), column.width)
-                    }
-                    false => format!("expected a number of {} bits", column.width),
-                };
-                return Err(table.row.fault(index, expected).field(column.head()).into());
-            }
-            guess.seen = true;
-        }
-    }
-    for (column, guess) in heads.columns.iter_mut().zip(&guesses) {
-        if !column.text {
-            column.radix = Some(guess.decide(hint)?);
-        }
-    }
-    Ok(())
-}
-
 /// What a column may be.
 #[derive(Clone)]
-struct Guess {
+pub(super) struct Guess {
     /// Radices of [`TRIED`].
     left: Vec<Radix>,
     /// Whether binary numbers may still be of all digits, and of as few as they need.
     padded: bool,
     bare: bool,
-    seen: bool,
+    /// Whether there was a cell.
+    pub(super) seen: bool,
     /// A cell that has another value in each radix.
     telling: Option<Input>,
 }
 
 impl Guess {
-    fn new(hint: Option<Radix>) -> Self {
+    pub(super) fn new(hint: Option<Radix>) -> Self {
         let octal = hint == Some(Radix::Octal);
         let left = TRIED.into_iter().filter(|&radix| octal || radix != Radix::Octal).collect();
         Guess { left, padded: true, bare: true, seen: false, telling: None }
+    }
+
+    /// Takes a cell of the column into account.
+    pub(super) fn take(&mut self, row: &Row, index: usize, column: &Column) -> Result<()> {
+        let before = self.left.clone();
+        if self.look(&row.field(index), column.width) {
+            self.telling = Some(row.fault(index, "").field(column.head()));
+        }
+        if self.left.is_empty() {
+            let expected = match self.seen {
+                true => {
+                    self.left = before;
+                    format!("expected {} of {} bits, as above", self.names(), column.width)
+                }
+                false => format!("expected a number of {} bits", column.width),
+            };
+            return Err(row.fault(index, expected).field(column.head()).into());
+        }
+        self.seen = true;
+        Ok(())
     }
 
     fn names(&self) -> String {
@@ -102,7 +84,7 @@ impl Guess {
     }
 
     /// The radix of the column.
-    fn decide(&self, hint: Option<Radix>) -> Result<Radix> {
+    pub(super) fn decide(&self, hint: Option<Radix>) -> Result<Radix> {
         if let Some(hint) = hint.filter(|hint| self.left.contains(hint)) {
             return Ok(hint);
         }

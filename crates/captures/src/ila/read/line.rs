@@ -7,6 +7,14 @@ use tofsim::error::{Error, Input, Result};
 /// Longest key [bytes].
 const LONGEST_KEY: usize = 64;
 
+/// The words of the banner.
+const BANNER: &[u8] = b"ILA Data Dump";
+
+/// Whether a line is empty or one of the three that a dump begins with.
+fn is_banner(line: &[u8]) -> bool {
+    line == BANNER || line.iter().all(|&byte| byte == b'=')
+}
+
 /// A line that is not empty.
 pub(super) struct Line<'a> {
     source: &'a str,
@@ -19,14 +27,14 @@ pub(super) struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    /// From its text, with its end; `None` if there is nothing in it.
+    /// From its text, with its end; `None` if there is nothing in it, or the banner.
     pub(super) fn new(source: &'a str, number: usize, text: &'a [u8]) -> Result<Option<Self>> {
         let colon = text.iter().take(LONGEST_KEY + 1).position(|&byte| byte == b':');
         let end = colon.unwrap_or(text.len().min(LONGEST_KEY));
         let key = String::from_utf8_lossy(&text[..end]).trim().to_owned();
         match colon {
             Some(colon) => Ok(Some(Line { source, number, key, text, begin: colon + 1 })),
-            None if text.trim_ascii().is_empty() => Ok(None),
+            None if is_banner(text.trim_ascii()) => Ok(None),
             None => {
                 let fault = Input::new(source, "expected a key, a colon and a value");
                 Err(fault.at(number, 1).value(key).into())

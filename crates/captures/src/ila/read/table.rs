@@ -1,6 +1,7 @@
 //! The lines of a CSV as fields, each with its place for errors.
 //!
 //! All lines end alike, none is without bound or empty but the last ones, and quotes end on theirs.
+//! Empty fields at the end of a line, which spreadsheets add, are no fields.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -20,6 +21,8 @@ pub(super) struct Table<R> {
     pub(super) row: Row,
     /// Whether the first line ends with a carriage return too.
     returns: Option<bool>,
+    /// Whether a line had empty fields too many.
+    pub(super) trails: bool,
 }
 
 /// A line, without its end, and its fields.
@@ -28,13 +31,16 @@ pub(super) struct Row {
     source: String,
     line: usize,
     text: Vec<u8>,
+    /// What stands between two fields.
+    delimiter: u8,
     fields: Vec<Range<usize>>,
 }
 
 impl<R: Read> Table<R> {
-    pub(super) fn new(source: &str, file: R) -> Self {
-        let row = Row { source: source.to_owned(), ..Row::default() };
-        Table { file: BufReader::with_capacity(1 << 16, file), row, returns: None }
+    pub(super) fn new(source: &str, file: R, delimiter: u8) -> Self {
+        let row = Row { source: source.to_owned(), delimiter, ..Row::default() };
+        let file = BufReader::with_capacity(1 << 16, file);
+        Table { file, row, returns: None, trails: false }
     }
 
     /// Goes to the next row; false at the end.
@@ -61,6 +67,10 @@ impl<R: Read> Table<R> {
         let more = self.advance()?;
         let found = self.row.len();
         if more && found != fields {
+            if found > fields && (fields..found).all(|index| self.row.field(index).is_empty()) {
+                self.trails = true;
+                return Ok(true);
+            }
             let few = if found < fields { "few" } else { "many" };
             let text = format!("too {few} fields: {found}, expected {fields}");
             return Err(self.row.row_fault(text).into());
@@ -110,11 +120,19 @@ impl<R: Read> Table<R> {
 
 impl Row {
     /// The line of that number.
-    pub(super) fn new(source: &str, line: usize, text: &[u8]) -> Self {
+    pub(super) fn new(source: &str, line: usize, text: &[u8], delimiter: u8) -> Self {
         let (source, text) = (source.to_owned(), text.to_owned());
-        let mut row = Row { source, line, text, fields: Vec::new() };
+        let mut row = Row { source, line, text, delimiter, fields: Vec::new() };
         row.split();
         row
+    }
+
+    /// Takes the empty fields off the end; whether there are any.
+    pub(super) fn take_trail(&mut self) -> bool {
+        let end = (0..self.len()).rposition(|index| !self.field(index).is_empty());
+        let before = self.len();
+        self.fields.truncate(end.map_or(1, |last| last + 1));
+        self.len() < before
     }
 
     fn split(&mut self) {
@@ -122,7 +140,7 @@ impl Row {
         self.fields.clear();
         for (place, &byte) in self.text.iter().enumerate() {
             inside ^= byte == b'"';
-            if byte == b',' && !inside {
+            if byte == self.delimiter && !inside {
                 self.fields.push(begin..place);
                 begin = place + 1;
             }
@@ -187,7 +205,8 @@ impl Row {
 
     /// A fault of the whole row.
     pub(super) fn row_fault(&self, expected: impl Display) -> Input {
-        Input::new(&self.source, expected).at(self.line, 1)
+        let line = String::from_utf8_lossy(&self.text);
+        Input::new(&self.source, expected).at(self.line, 1).value(line)
     }
 }
 
@@ -208,7 +227,7 @@ mod tests {
     use super::*;
 
     fn fault(text: &str) -> String {
-        let mut table = Table::new("a.csv", text.as_bytes());
+        let mut table = Table::new("a.csv", text.as_bytes(), b',');
         loop {
             match table.advance() {
                 Ok(true) => {}
@@ -244,7 +263,7 @@ mod tests {
 
     #[test]
     fn fields_in_quotes_are_found() {
-        let row = Row::new("a.csv", 1, b"0,0,1,\"a,\"\"b\"\"\",ff,\"\",\"x\"");
+        let row = Row::new("a.csv", 1, b"0,0,1,\"a,\"\"b\"\"\",ff,\"\",\"x\"", b',');
         let found: Vec<_> = (0..row.len()).map(|index| row.is_quoted(index)).collect();
         assert_eq!(found, [false, false, false, true, false, true, true]);
         let fields = [3, 5, 6].map(|index| row.text(index).unwrap());

@@ -1,23 +1,40 @@
 //! `waveform.dmp`: the archive's data, a line of samples for each bit.
 
+use std::fmt::Display;
 use std::io::{self, Write};
 
 use super::super::capture::Capture;
 use super::spill::spill;
 
-/// Writes a capture as Vivado's `waveform.dmp`.
+/// What Vivado's dumps begin with.
+const BANNER: &str = "=========================================\n              ILA Data Dump\n\
+    =========================================\n";
+
+/// Writes a capture as Vivado's `waveform.dmp`. The keys up to `window_marks` are padded to one
+/// width and the others to another, as there; a blank ends a list of marks.
 pub fn dump(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
-    writeln!(out, "core_id:{}", super::ltx::CORE)?;
-    writeln!(out, "data_width:{}", capture.width())?;
-    writeln!(out, "sample_count:{}", capture.samples())?;
-    writeln!(out, "has_timestamps:false\nclock_frequency_hz:0")?;
-    writeln!(out, "window_marks:{}", marks(&capture.windows))?;
-    writeln!(out, "trigger_marks:{}", marks(&capture.triggers))?;
-    writeln!(out, "gaps:\ntimestamps:\ngap_timestamps:")?;
+    let head: [(&str, &dyn Display); 7] = [
+        ("core_id", &super::ltx::CORE),
+        ("data_width", &capture.width()),
+        ("sample_count", &capture.samples()),
+        ("has_timestamps", &false),
+        ("clock_frequency_hz", &0),
+        ("timestamp_counter_width", &0),
+        ("window_marks", &marks(&capture.windows)),
+    ];
+    let rest = ["gaps", "timestamps", "gap_timestamps", "data_per_channel"];
+    out.write_all(BANNER.as_bytes())?;
+    for (key, value) in head {
+        writeln!(out, "{key:23}:{value}")?;
+    }
+    writeln!(out, "{:19}:{}", "trigger_marks", marks(&capture.triggers))?;
+    for key in rest {
+        writeln!(out, "{key:19}:")?;
+    }
     let mut text = Vec::new();
     for bit in 0..capture.width() {
         let words = capture.words.iter().skip(bit / 64).step_by(capture.stride);
-        write!(text, "ch[{bit}]: ")?;
+        write!(text, "    ch[{bit}]: ")?;
         text.extend(words.map(|word| b'0' + (word >> (bit % 64) & 1) as u8));
         text.push(b'\n');
         spill(out, &mut text)?;
@@ -25,9 +42,9 @@ pub fn dump(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
     out.write_all(&text)
 }
 
+/// Numbers of samples, each with a blank after it.
 fn marks(samples: &[usize]) -> String {
-    let numbers: Vec<_> = samples.iter().map(usize::to_string).collect();
-    numbers.join(" ")
+    samples.iter().map(|sample| format!("{sample} ")).collect()
 }
 
 #[cfg(test)]
@@ -48,9 +65,26 @@ mod tests {
         let mut out = Vec::new();
         dump(&mut out, &capture).unwrap();
         let text = String::from_utf8(out).unwrap();
-        let (head, body) = text.split_once("gap_timestamps:\n").unwrap();
-        assert!(head.contains("data_width:3\nsample_count:4\n"), "{head}");
-        assert!(head.contains("window_marks:0 2\ntrigger_marks:1 3\n"), "{head}");
-        assert_eq!(body, "ch[0]: 1010\nch[1]: 0110\nch[2]: 0011\n");
+        let expected = "\
+=========================================
+              ILA Data Dump
+=========================================
+core_id                :u_ila_0
+data_width             :3
+sample_count           :4
+has_timestamps         :false
+clock_frequency_hz     :0
+timestamp_counter_width:0
+window_marks           :0 2 
+trigger_marks      :1 3 
+gaps               :
+timestamps         :
+gap_timestamps     :
+data_per_channel   :
+    ch[0]: 1010
+    ch[1]: 0110
+    ch[2]: 0011
+";
+        assert_eq!(text, expected);
     }
 }

@@ -6,22 +6,28 @@ use super::super::capture::Capture;
 
 /// Name of the core in the files of an archive.
 pub(super) const CORE: &str = "u_ila_0";
+/// The KC705's device, as a set of probes is called.
+const PART: &str = "xc7k325t_0";
+/// A core that was never built has none of its own.
+const UUID: &str = "00000000000000000000000000000000";
 
 /// Writes the probes of a capture as Vivado's `probes.ltx`.
 pub fn ltx(out: &mut dyn Write, capture: &Capture) -> io::Result<()> {
     writeln!(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>")?;
-    writeln!(out, "<probeData version=\"1\" minor=\"1\">")?;
-    writeln!(out, "  <probeset name=\"EDA_PROBESET\" active=\"true\">")?;
+    writeln!(out, "<probeData version=\"2\" minor=\"2\">")?;
+    writeln!(out, "  <probeset name=\"{PART}\" active=\"false\">")?;
     for (port, probe) in capture.probes.iter().enumerate() {
-        writeln!(
-            out,
-            "    <probe type=\"ila\" busType=\"net\" source=\"netlist\" spec=\"ILA_V2_RT\">"
-        )?;
+        let bus = if probe.vector { "bus" } else { "net" };
+        write!(out, "    <probe type=\"ila\" busType=\"{bus}\" ")?;
+        writeln!(out, "source=\"netlist\" spec=\"ILA_V2_RT\">")?;
         writeln!(out, "      <probeOptions Id=\"DebugProbeParams\">")?;
         let mut option = |id, value: &dyn std::fmt::Display| {
             writeln!(out, "        <Option Id=\"{id}\" value=\"{value}\"/>")
         };
+        option("BSCAN_SWITCH_INDEX", &0)?;
         option("CORE_LOCATION", &"1:0")?;
+        option("CORE_UUID", &UUID)?;
+        option("HUB_CLK_INPUT_FREQ_HZ", &"")?;
         option("HW_ILA", &CORE)?;
         option("PROBE_PORT", &port)?;
         option("PROBE_PORT_BITS", &0)?;
@@ -79,5 +85,9 @@ mod tests {
         let names: Vec<_> = nets.collect();
         assert_eq!(names, ["u/<const0>_\"17\"&[5]", "u/<const0>_\"17\"&[4]", "valid"]);
         assert!(text.contains("\"PROBE_PORT_BIT_COUNT\" value=\"2\""));
+        assert!(text.contains("<probeData version=\"2\" minor=\"2\">"));
+        assert!(
+            text.contains("type=\"ila\" busType=\"bus\" source=\"netlist\" spec=\"ILA_V2_RT\"")
+        );
     }
 }

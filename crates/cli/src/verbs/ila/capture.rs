@@ -28,6 +28,8 @@ use crate::verbs::terminal::{Talk, print_json, stop_signal};
 /// A set-up names the probes, the clock, the buffer and the trigger; options go before its keys.
 /// Conditions are as `state == 5 && (start rising || code[7:4] != 0b1x0x)`, over names of probes
 /// and paths of signals. What is taken at an edge is the value just before it.
+///
+/// The files are in the dialect of real captures. Vivado itself has not opened one of them yet.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim ila capture --probes fig_6_21 -o out\n  \

@@ -7,7 +7,7 @@ use serde_json::json;
 use tofsim::error::{Input, Result};
 use tofsim_captures::compare::{Survey, survey};
 use tofsim_captures::ila::Radix;
-use tofsim_captures::source::{SignalKind, Source, SourceFormat};
+use tofsim_captures::source::{Signal, SignalKind, Source, SourceFormat};
 
 use crate::choice::{self, words};
 use crate::text::table::{facts, grouped, table};
@@ -16,7 +16,8 @@ use crate::verbs::terminal::{Talk, print};
 /// Say what a logic analyser's file holds
 ///
 /// Reads CSV (with or without a row of radices), VCD and .ila archives of Vivado's ILA, and what
-/// chipscopy writes; the contents decide which, not the name.
+/// chipscopy writes; the contents decide which, not the name. What had to be read otherwise than it
+/// is written there, or taken from another part of an archive, is noted.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// The file
@@ -61,14 +62,26 @@ fn unsaid(source: &Source, survey: &Survey) -> Vec<&'static str> {
     unsaid
 }
 
+/// The words that stand for values, with those that are known.
+fn states(signal: &Signal) -> serde_json::Map<String, serde_json::Value> {
+    let states = signal.words.states.iter();
+    states.map(|state| (state.name.clone(), state.bits.into())).collect()
+}
+
+/// Width of a probe [bits], also of one whose values are words.
+fn width(signal: &Signal) -> u32 {
+    if signal.kind == SignalKind::Text { signal.words.width } else { signal.width }
+}
+
 fn as_json(source: &Source, survey: &Survey) -> serde_json::Value {
-    let probe = |signal: &tofsim_captures::source::Signal| {
+    let probe = |signal: &Signal| {
         json!({
             "name": signal.name.text,
-            "width": signal.width,
+            "width": width(signal),
             "lsb": signal.lsb,
             "radix": signal.radix.map(|radix| radix.word()),
-            "text": signal.kind == SignalKind::Other,
+            "states": states(signal),
+            "text": signal.kind == SignalKind::Text,
         })
     };
     let triggers: Vec<_> = survey.windows.iter().filter_map(|window| window.trigger).collect();
@@ -85,6 +98,7 @@ fn as_json(source: &Source, survey: &Survey) -> serde_json::Value {
         "last_change": survey.last,
         "probes": source.signals.iter().map(probe).collect::<Vec<_>>(),
         "unknown": unsaid(source, survey),
+        "notes": source.notes,
     })
 }
 
@@ -116,15 +130,18 @@ fn as_text(source: &Source, survey: &Survey) -> String {
     }
     let probes = source.signals.iter().map(|signal| {
         let radix = match (signal.kind, signal.radix) {
-            (SignalKind::Other, _) => "text",
+            (SignalKind::Text, _) if signal.words.mixed => "text, numbers",
+            (SignalKind::Text, _) => "text",
             (_, Some(radix)) => radix.word(),
             (_, None) => "-",
         };
-        [signal.name.text.clone(), signal.width.to_string(), radix.to_owned()]
+        [signal.name.text.clone(), width(signal).to_string(), radix.to_owned()]
     });
     let unsaid = unsaid(source, survey).into_iter().map(|unsaid| format!("  {unsaid}\n"));
+    let notes: String = source.notes.iter().map(|note| format!("  {note}\n")).collect();
+    let notes = if notes.is_empty() { notes } else { format!("\nNotes:\n{notes}") };
     format!(
-        "{}: {}\n\n{}\n\n{}\n\nNot in this file:\n{}",
+        "{}: {}\n\n{}\n\n{}\n\nNot in this file:\n{}{notes}",
         source.name,
         source.format.name(),
         facts(rows),

@@ -1,0 +1,152 @@
+//! Words on one side and bits on the other: what the words stand for is what the map says, or else
+//! what the side with the bits knows. Where both have words, these are compared as they are.
+
+use std::collections::{BTreeSet, HashMap};
+
+use tofsim::error::Result;
+
+use crate::source::{Name, Signal, SignalKind, Source, Translation};
+
+use super::map::SignalMap;
+use super::matching::{Matching, SignalChoice, matching};
+use super::pair::Pair;
+
+/// Names in a note.
+const LISTED: usize = 6;
+
+/// Sources that can be compared, and what is to be said of their words.
+#[derive(Debug, Default)]
+pub(super) struct Resolved {
+    pub(super) sources: Option<[Source; 2]>,
+    /// Ids of the signals on each side that were words.
+    words: [BTreeSet<usize>; 2],
+    pub(super) notes: Vec<String>,
+}
+
+/// Finds the pairs of words and bits, and makes bits of the words.
+///
+/// # Errors
+/// As [`matching`].
+pub(super) fn resolve(
+    sides: [&Source; 2],
+    map: &SignalMap,
+    choice: &SignalChoice,
+) -> Result<Resolved> {
+    let mut resolved = Resolved::default();
+    if !sides.iter().any(|side| side.signals.iter().any(is_text)) {
+        return Ok(resolved);
+    }
+    let bare = sides.map(as_bits);
+    let found = matching([&bare[0], &bare[1]], map, choice)?;
+    let mut sources = sides.map(Source::clone);
+    let mut translations: [HashMap<usize, Translation>; 2] = Default::default();
+    for pair in &found.pairs {
+        let ids = [0, 1].map(|side| ids(&found, pair, side));
+        let texts = [0, 1].map(|side| text(sides[side], &ids[side]));
+        let (side, signal) = match texts {
+            [Some(signal), None] => (0, signal),
+            [None, Some(signal)] => (1, signal),
+            _ => continue,
+        };
+        let other = ids[1 - side].first().and_then(|id| by_id(sides[1 - side], *id));
+        let states = states(pair, map, other, signal.words.width);
+        let names = signal.words.states.iter().map(|state| state.name.as_str());
+        let missing: Vec<&str> = names.filter(|name| !states.contains_key(*name)).collect();
+        let is_known = !states.is_empty() || signal.words.mixed;
+        let is_whole = pair.sides.iter().all(|parts| parts.len() == 1 && parts[0].whole);
+        if is_known && is_whole {
+            let (width, radix) = (signal.words.width, signal.radix);
+            resolved.words[side].insert(signal.id);
+            translations[side].insert(signal.id, Translation { width, radix, states });
+        } else {
+            for side in 0..2 {
+                let is_it = |signal: &&mut Signal| ids[side].contains(&signal.id);
+                sources[side].signals.iter_mut().filter(is_it).for_each(leave_out);
+            }
+        }
+        if !missing.is_empty() {
+            resolved.notes.push(note(&pair.name, side, is_known, &missing));
+        }
+    }
+    let [a, b] = sources;
+    let [of_a, of_b] = translations;
+    resolved.sources = Some([a.translated(of_a), b.translated(of_b)]);
+    Ok(resolved)
+}
+
+impl Resolved {
+    /// Marks the pairs of which a side has words.
+    pub(super) fn mark(&self, matching: &mut Matching) {
+        let Matching { pairs, slots, .. } = matching;
+        for pair in pairs {
+            pair.has_words = (0..2).any(|side| {
+                let mut parts = pair.sides[side].iter();
+                parts.any(|part| self.words[side].contains(&slots[side].ids[part.signal]))
+            });
+        }
+    }
+}
+
+fn is_text(signal: &Signal) -> bool {
+    signal.kind == SignalKind::Text
+}
+
+fn leave_out(signal: &mut Signal) {
+    signal.kind = SignalKind::Other;
+}
+
+/// The same source as if its words were bits already, to find what belongs together.
+fn as_bits(source: &Source) -> Source {
+    let mut source = source.clone();
+    for signal in source.signals.iter_mut().filter(|signal| is_text(signal)) {
+        (signal.kind, signal.width) = (SignalKind::Bits, signal.words.width);
+    }
+    source
+}
+
+/// Ids of a side's signals in a pair.
+fn ids(matching: &Matching, pair: &Pair, side: usize) -> Vec<usize> {
+    pair.sides[side].iter().map(|part| matching.slots[side].ids[part.signal]).collect()
+}
+
+fn by_id(source: &Source, id: usize) -> Option<&Signal> {
+    source.signals.iter().find(|signal| signal.id == id)
+}
+
+/// The one of some signals that has words.
+fn text<'a>(source: &'a Source, ids: &[usize]) -> Option<&'a Signal> {
+    ids.iter().filter_map(|id| by_id(source, *id)).find(|signal| is_text(signal))
+}
+
+/// What the words of a pair stand for.
+fn states(pair: &Pair, map: &SignalMap, bits: Option<&Signal>, width: u32) -> HashMap<String, u64> {
+    let learned = bits.iter().flat_map(|signal| &signal.words.states);
+    let learned = learned.filter_map(|state| Some((state.name.clone(), state.bits?)));
+    let called = |name: &String| {
+        let wanted = Name::new(name.clone());
+        let is_it = |own: &String| Name::new(own.clone()).common(&wanted) == Some(wanted.depth());
+        is_it(&pair.name) || is_it(&pair.other)
+    };
+    let rules = map.signal.iter().filter(|rule| rule.a.iter().chain(&rule.b).any(called));
+    let told = rules.flat_map(|rule| rule.states.iter().map(|(name, bits)| (name.clone(), *bits)));
+    let fits = |(_, bits): &(String, u64)| width >= 64 || bits >> width == 0;
+    learned.chain(told).filter(fits).collect()
+}
+
+/// What is said of words that nobody knows the bits of.
+fn note(name: &str, side: usize, is_known: bool, missing: &[&str]) -> String {
+    let list: Vec<_> = missing.iter().take(LISTED).map(|name| format!("`{name}`")).collect();
+    let more = missing.len().saturating_sub(LISTED);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let first = match missing[0].bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_') {
+        true => missing[0].to_owned(),
+        false => format!("{:?}", missing[0]),
+    };
+    let [own, other] = if side == 0 { ["first", "second"] } else { ["second", "first"] };
+    let what = if is_known { "where the words are" } else { "because its words are" };
+    format!(
+        "{name} is not compared {what} {}{more}: the {own} side has words, the {other} bits; a map \
+         says what they stand for: [[signal]] a = [{name:?}], states = {{ {first} = 0 }}",
+        list.join(", "),
+    )
+}

@@ -1,0 +1,98 @@
+//! A source with some words as the bits that they stand for.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use tofsim::error::Result;
+
+use crate::ila::Radix;
+use crate::ila::read::{LONGEST_WORD, digits, word};
+use crate::words::Bits;
+
+use super::signals::{self, Signal, SignalKind, Source};
+use super::stream::Cursor;
+
+/// Which bits the words of a signal stand for.
+#[derive(Clone, Debug)]
+pub(crate) struct Translation {
+    /// Width of the values [bits].
+    pub(crate) width: u32,
+    /// Radix of the numbers among the words.
+    pub(crate) radix: Option<Radix>,
+    /// The words, and their values.
+    pub(crate) states: HashMap<String, u64>,
+}
+
+impl Translation {
+    /// The bits of a word; unknown ones if nobody knows what it stands for.
+    fn bits(&self, value: &[u64]) -> Bits {
+        let cell = word(value);
+        let mut bits = Bits::default();
+        bits.clear(self.width.div_ceil(64) as usize);
+        if let Some(&state) = self.states.get(&cell) {
+            bits.value[0] = state;
+        } else if let Some(read) =
+            self.radix.and_then(|radix| digits::read(cell.as_bytes(), radix, self.width).ok())
+        {
+            bits = read;
+        } else {
+            let words = bits.unknown.iter_mut().enumerate();
+            words.for_each(|(k, word)| *word = crate::words::ones(self.width, k));
+        }
+        bits
+    }
+}
+
+/// The other source, and what is translated, by id.
+#[derive(Debug)]
+struct Translated {
+    origin: Arc<dyn signals::Origin>,
+    by_id: HashMap<usize, Translation>,
+}
+
+impl Source {
+    /// The same with the words of some signals, by id, as bits.
+    pub(crate) fn translated(mut self, by_id: HashMap<usize, Translation>) -> Source {
+        let is_it = |signal: &&mut Signal| signal.kind == SignalKind::Text;
+        for signal in self.signals.iter_mut().filter(is_it) {
+            if let Some(translation) = by_id.get(&signal.id) {
+                (signal.kind, signal.width) = (SignalKind::Bits, translation.width);
+            }
+        }
+        self.origin = Arc::new(Translated { origin: self.origin, by_id });
+        self
+    }
+}
+
+impl signals::Origin for Translated {
+    fn read(&self, ids: &[usize], widths: &[u32]) -> Result<Cursor> {
+        let of: Vec<_> = ids.iter().map(|id| self.by_id.get(id).cloned()).collect();
+        let inner = widths.iter().zip(&of).map(|(&width, translation)| match translation {
+            Some(_) => 8 * LONGEST_WORD as u32,
+            None => width,
+        });
+        let mut cursor = self.origin.read(ids, &inner.collect::<Vec<_>>())?;
+        Ok(Cursor::spawn(widths, move |feed| {
+            let mut changed = Vec::new();
+            while let Some(at) = cursor.peek()? {
+                if feed.at(at).is_err() {
+                    return Ok(());
+                }
+                let marks = cursor.take(|signal| changed.push(signal));
+                feed.mark(|mark| *mark = marks);
+                for signal in changed.drain(..) {
+                    let (value, unknown) =
+                        (cursor.state.value(signal), cursor.state.unknown(signal));
+                    match &of[signal] {
+                        Some(translation) => {
+                            let bits = translation.bits(value);
+                            feed.change(signal, &bits.value, &bits.unknown);
+                        }
+                        None => feed.change(signal, value, unknown),
+                    }
+                }
+            }
+            Ok(())
+        }))
+    }
+}
