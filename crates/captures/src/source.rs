@@ -3,9 +3,10 @@
 
 mod bytes;
 mod capture;
-mod counts;
 mod detect;
 mod end;
+mod fst;
+mod ghw;
 mod guard;
 mod library;
 mod loaded;
@@ -15,6 +16,7 @@ mod names;
 mod shapes;
 mod signals;
 mod simulation;
+mod span;
 mod state;
 mod stream;
 mod tick;

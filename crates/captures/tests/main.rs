@@ -2,6 +2,7 @@
 
 #[path = "../../../tests/common.rs"]
 mod common;
+mod fst;
 mod fuzz;
 mod ila;
 mod ila_archives;
