@@ -30,7 +30,7 @@ use tofsim::sim::setup::Setup;
 use crate::ila::Radix;
 
 pub use names::Name;
-pub(crate) use shapes::{SHAPES, known_shape};
+pub(crate) use shapes::{flow, known_shape};
 pub use signals::{Axis, Signal, SignalKind, Source, SourceFormat};
 pub use state::SourceState;
 pub use stream::{Cursor, Feed, Gone, Marks};

@@ -9,3 +9,4 @@ mod ila_archives;
 mod ila_capture;
 mod ila_files;
 mod ila_round_trip;
+mod many_signals;

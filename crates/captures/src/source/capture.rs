@@ -1,7 +1,7 @@
 //! A logic analyser's CSV files and archives.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use tofsim::error::Result;
 
@@ -36,6 +36,7 @@ pub(super) fn source(path: &Path, radix: Option<Radix>) -> Result<Source> {
         end: None,
         radix_told: opened.radix_told,
         origin: Arc::new(Origin { path: path.to_owned(), radix }),
+        by_last: OnceLock::new(),
     })
 }
 

@@ -1,6 +1,6 @@
 //! tofsim itself as a source: a scenario, simulated while it is read.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use tofsim::error::Result;
 use tofsim::firmware::tof_top::{Params, TofTop};
@@ -48,6 +48,7 @@ pub(super) fn source(setup: Setup, frames: u64) -> Source {
         end: None,
         radix_told: true,
         origin: Arc::new(Origin { setup: Arc::new(setup), frames }),
+        by_last: OnceLock::new(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! VCD, FST and GHW, read by the crate `wellen`.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use wellen::stream::{Filter, StreamError, StreamingWaveform};
 use wellen::{Hierarchy, LoadOptions, SignalEncoding, SignalRef, SignalValueRef, Var};
@@ -95,6 +95,7 @@ fn described(
         end: end.filter(|_| marks.is_none()),
         radix_told: marks.is_none(),
         origin: Arc::new(Origin { path: path.to_owned(), format, references, marks }),
+        by_last: OnceLock::new(),
     })
 }
 
