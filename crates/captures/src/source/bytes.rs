@@ -1,7 +1,7 @@
 //! A file that is read a byte at a time without a call for each.
 
 use std::fs::File;
-use std::io::{BufRead, Error, ErrorKind, Read, Result, Seek, SeekFrom};
+use std::io::{BufRead, BufReader, Cursor, Error, ErrorKind, Read, Result, Seek, SeekFrom};
 
 /// Bytes that are read at once.
 const CHUNK: usize = 1 << 17;
@@ -9,30 +9,41 @@ const CHUNK: usize = 1 << 17;
 /// A file whose single bytes come from a buffer, inlined where they are read: the waveform library
 /// asks for each byte of a VCD on its own, and jumps about in an FST within a few bytes.
 #[derive(Debug)]
-pub(super) struct Bytes {
-    /// Nothing where the buffer has all there is.
-    file: Option<File>,
-    buffer: Vec<u8>,
-    at: usize,
-    filled: usize,
-    /// Place in the file behind the buffer.
-    end: u64,
+pub(super) struct Bytes(BufReader<Placed>);
+
+/// Where bytes come from, and the place that they are read from next.
+#[derive(Debug)]
+struct Placed {
+    store: Store,
+    place: u64,
+}
+
+#[derive(Debug)]
+enum Store {
+    File(File),
+    Memory(Cursor<Vec<u8>>),
 }
 
 impl Bytes {
     pub(super) fn new(file: File) -> Bytes {
-        Bytes { file: Some(file), buffer: vec![0; CHUNK], at: 0, filled: 0, end: 0 }
+        Bytes::of(Store::File(file))
     }
 
     /// What is in memory already.
-    pub(super) fn loaded(buffer: Vec<u8>) -> Bytes {
-        let filled = buffer.len();
-        Bytes { file: None, buffer, at: 0, filled, end: filled as u64 }
+    pub(super) fn loaded(bytes: Vec<u8>) -> Bytes {
+        Bytes::of(Store::Memory(Cursor::new(bytes)))
+    }
+
+    fn of(store: Store) -> Bytes {
+        Bytes(BufReader::with_capacity(CHUNK, Placed { store, place: 0 }))
     }
 
     /// How many bytes there are.
     pub(super) fn length(&self) -> Result<u64> {
-        self.file.as_ref().map_or(Ok(self.end), |file| Ok(file.metadata()?.len()))
+        match &self.0.get_ref().store {
+            Store::File(file) => Ok(file.metadata()?.len()),
+            Store::Memory(bytes) => Ok(bytes.get_ref().len() as u64),
+        }
     }
 
     /// So many bytes from a place on.
@@ -44,68 +55,70 @@ impl Bytes {
     }
 }
 
-impl Read for Bytes {
-    #[inline(always)]
+impl Read for Placed {
     fn read(&mut self, into: &mut [u8]) -> Result<usize> {
-        if let [into] = into
-            && self.at < self.filled
-        {
-            *into = self.buffer[self.at];
-            self.at += 1;
-            return Ok(1);
-        }
-        let count = self.fill_buf()?.read(into)?;
-        self.consume(count);
+        let count = match &mut self.store {
+            Store::File(file) => file.read(into)?,
+            Store::Memory(bytes) => bytes.read(into)?,
+        };
+        self.place += count as u64;
         Ok(count)
     }
 }
 
-impl BufRead for Bytes {
-    #[inline]
-    fn fill_buf(&mut self) -> Result<&[u8]> {
-        if self.at == self.filled
-            && let Some(file) = &mut self.file
+impl Seek for Placed {
+    fn seek(&mut self, to: SeekFrom) -> Result<u64> {
+        self.place = match &mut self.store {
+            Store::File(file) => file.seek(to)?,
+            Store::Memory(bytes) => bytes.seek(to)?,
+        };
+        Ok(self.place)
+    }
+}
+
+impl Read for Bytes {
+    #[inline(always)]
+    fn read(&mut self, into: &mut [u8]) -> Result<usize> {
+        if let [into] = into
+            && let [byte, ..] = self.0.buffer()
         {
-            let count = loop {
-                match file.read(&mut self.buffer) {
-                    Err(error) if error.kind() == ErrorKind::Interrupted => {}
-                    result => break result?,
-                }
-            };
-            (self.at, self.filled) = (0, count);
-            self.end += count as u64;
+            *into = *byte;
+            self.0.consume(1);
+            return Ok(1);
         }
-        Ok(&self.buffer[self.at..self.filled])
+        self.0.read(into)
+    }
+}
+
+impl BufRead for Bytes {
+    fn fill_buf(&mut self) -> Result<&[u8]> {
+        self.0.fill_buf()
     }
 
-    #[inline]
     fn consume(&mut self, count: usize) {
-        self.at = self.filled.min(self.at + count);
+        self.0.consume(count);
     }
 }
 
 impl Seek for Bytes {
+    /// Within the buffer, nothing is read again.
     fn seek(&mut self, to: SeekFrom) -> Result<u64> {
+        let now = self.stream_position()?;
         let place = match to {
             SeekFrom::Start(place) => Some(place),
-            SeekFrom::Current(by) => self.stream_position()?.checked_add_signed(by),
+            SeekFrom::Current(by) => now.checked_add_signed(by),
             SeekFrom::End(by) => self.length()?.checked_add_signed(by),
         };
         let place = place.ok_or_else(|| Error::from(ErrorKind::InvalidInput))?;
-        let begin = self.end - self.filled as u64;
-        match (&mut self.file, place.checked_sub(begin)) {
-            (_, Some(at)) if at <= self.filled as u64 => self.at = at as usize,
-            (Some(file), _) => {
-                file.seek(SeekFrom::Start(place))?;
-                (self.at, self.filled, self.end) = (0, 0, place);
-            }
-            (None, _) => self.at = self.filled,
+        match i64::try_from(i128::from(place) - i128::from(now)) {
+            Ok(by) => self.0.seek_relative(by)?,
+            Err(_) => drop(self.0.seek(SeekFrom::Start(place))?),
         }
         Ok(place)
     }
 
     fn stream_position(&mut self) -> Result<u64> {
-        Ok(self.end - (self.filled - self.at) as u64)
+        Ok(self.0.get_ref().place - self.0.buffer().len() as u64)
     }
 }
 
