@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
+use std::path::Path;
 
 use vcd::{IdCode, TimescaleUnit, Writer};
 
@@ -161,12 +162,16 @@ pub struct View<'a> {
 }
 
 impl View<'_> {
-    /// GTKWave's save file for the waveform called `wave`.
+    /// GTKWave's save file for the waveform called `wave`, beside it and with its stem.
     pub fn gtkwave(&self, wave: &str) -> String {
         let View { top: [top, bit], from, zoom, height, .. } = self;
         let marker = self.marker.map_or("-1".to_owned(), |at| at.to_string());
+        // With its own name in it, the paths in a save file count from where it is.
+        let own = Path::new(wave).with_extension("gtkw");
         let mut text = format!(
-            "[dumpfile] \"{wave}\"\n[timestart] {from}\n[size] 1400 {height}\n*{zoom} {marker}\n"
+            "[dumpfile] \"{wave}\"\n[savefile] \"{}\"\n[timestart] {from}\n[size] 1400 {height}\n\
+            *{zoom} {marker}\n",
+            own.display()
         );
         // Writing to a string cannot fail.
         if let Some([scopes, names]) = self.columns {
@@ -236,7 +241,7 @@ mod tests {
             marker: Some(16),
             signals: vec![depth],
         };
-        let save = "[dumpfile] \"a.vcd\"\n[timestart] 8\n[size] 1400 700\n*-14.0 16\n@28\npair.any\n\
+        let save = "[dumpfile] \"a.vcd\"\n[savefile] \"a.gtkw\"\n[timestart] 8\n[size] 1400 700\n*-14.0 16\n@28\npair.any\n\
             @22\n[color] 4\n+{depth got} pair.got.depth[35:0]\n";
         assert_eq!(view.gtkwave("a.vcd"), save);
         let commands = "variable_add pair.any\nvariable_add pair.got.depth\n\

@@ -161,7 +161,8 @@ fn terms(options: &Options) -> Result<Terms> {
 }
 
 /// How the sides are brought together, if not told: captures by their triggers, a capture and a
-/// waveform by the trigger's condition or else by correlation, waveforms by time.
+/// waveform by the trigger's condition or else by correlation, window by window if there are several,
+/// waveforms by time.
 fn align(sources: [&Source; 2], options: &Options, terms: &Terms) -> Result<Align> {
     if let Some(align) = &options.align {
         return Ok(align.clone());
@@ -180,6 +181,12 @@ fn align(sources: [&Source; 2], options: &Options, terms: &Terms) -> Result<Alig
         }
         [false, false] if terms.trigger.is_none() || terms.sampling.is_none() => Ok(Align::Start),
         _ if terms.trigger.is_some() => Ok(Align::Trigger),
-        _ => Ok(Align::Correlation(Vec::new())),
+        captures => {
+            let capture = sources[usize::from(captures[1])];
+            match survey(capture)?.windows.len() {
+                0 | 1 => Ok(Align::Correlation(Vec::new())),
+                _ => Ok(Align::Windows(Vec::new())),
+            }
+        }
     }
 }

@@ -3,9 +3,10 @@
 
 mod bytes;
 mod capture;
-mod counts;
 mod detect;
 mod end;
+mod fst;
+mod ghw;
 mod guard;
 mod library;
 mod loaded;
@@ -15,6 +16,7 @@ mod names;
 mod shapes;
 mod signals;
 mod simulation;
+mod span;
 mod state;
 mod stream;
 mod tick;
@@ -29,7 +31,7 @@ use tofsim::sim::setup::Setup;
 use crate::ila::Radix;
 
 pub use names::Name;
-pub(crate) use shapes::{SHAPES, known_shape};
+pub(crate) use shapes::{flow, known_shape};
 pub use signals::{Axis, Signal, SignalKind, Source, SourceFormat, Words};
 pub use state::SourceState;
 pub use stream::{Cursor, Feed, Gone, Marks};

@@ -1,8 +1,7 @@
 //! Any bytes are an input or an error, never a panic, a hang, or much memory.
 //!
 //! The cases are always the same, `PROPTEST_CASES` of them; with `TOFSIM_FUZZ_SECONDS` every test
-//! goes on for that long with others. (A GHW file can still make the library ask for more memory than
-//! there is, which ends the program: counts within its types are not checked.)
+//! goes on for that long with others.
 
 mod captures;
 mod edit;

@@ -2,6 +2,7 @@
 
 #[path = "../../../tests/common.rs"]
 mod common;
+mod fst;
 mod fuzz;
 mod ila;
 mod ila_archives;
@@ -9,4 +10,5 @@ mod ila_capture;
 mod ila_files;
 mod ila_round_trip;
 mod ila_spreadsheets;
+mod many_signals;
 mod words;

@@ -5,6 +5,7 @@ mod correlation;
 mod edge;
 mod survey;
 mod trigger;
+mod windows;
 
 use tofsim::error::{Input, Result};
 
@@ -58,7 +59,7 @@ pub(super) fn alignment(plan: &Plan, align: &Align, time_from: Option<&str>) -> 
         Align::Start => edge::start(plan),
         Align::Edge(signal) => edge::alignment(plan, signal),
         Align::Correlation(signals) => correlation::alignment(plan, signals),
-        Align::Windows(signals) => correlation::windows(plan, signals),
+        Align::Windows(signals) => windows::alignment(plan, signals),
         Align::Offset(samples) => Ok(Alignment::shifted(*samples, format!("offset {samples}"))),
         Align::Shift { .. } => {
             let expected = "expected samples, as `offset 3`, where samples are compared";

@@ -2,7 +2,7 @@
 
 use tofsim::error::Result;
 
-use crate::source::{Name, SHAPES, SourceState};
+use crate::source::{Name, SourceState, flow};
 use crate::words::{Bits, bit};
 
 use super::both::Both;
@@ -124,13 +124,6 @@ impl<'a> Differences<'a> {
     /// The result for each pair where so many places were compared, the first to differ first and
     /// in the order of data flow.
     pub(super) fn results(&self, compared: u64) -> Vec<Compared> {
-        let flow = |name: &str| {
-            let name = Name::new(name);
-            let place = SHAPES.iter().position(|(known, _)| {
-                known.common(&name).is_some_and(|parts| parts >= 2 || parts == name.depth())
-            });
-            place.unwrap_or(SHAPES.len())
-        };
         let result = |(pair, count): (&Pair, &PairCount)| Compared {
             name: pair.name.clone(),
             other: pair.other.clone(),
@@ -144,7 +137,7 @@ impl<'a> Differences<'a> {
         };
         let mut results: Vec<_> = self.pairs.iter().zip(&self.counts).map(result).collect();
         results.sort_by_cached_key(|pair| match &pair.first {
-            Some(first) => (first.order, flow(&pair.name)),
+            Some(first) => (first.order, flow(&Name::new(pair.name.as_str()))),
             None => (u64::MAX, 0),
         });
         results

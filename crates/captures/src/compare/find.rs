@@ -23,8 +23,8 @@ pub(super) fn signal(source: &Source, text: &str) -> Result<usize> {
             is_end.then(|| signal.name.depth() + 1)
         }
     };
-    let ranked = source.signals.iter().enumerate();
-    let ranked: Vec<_> = ranked.filter_map(|(k, signal)| Some((rank(signal)?, k))).collect();
+    let called = source.called(wanted.last()).iter();
+    let ranked: Vec<_> = called.filter_map(|&k| Some((rank(&source.signals[k])?, k))).collect();
     let best = ranked.iter().map(|(rank, _)| rank).min();
     let found: Vec<usize> =
         ranked.iter().filter(|(rank, _)| Some(rank) == best).map(|(_, k)| *k).collect();
@@ -65,7 +65,8 @@ pub(super) fn part(source: &Source, text: &str, slots: &mut Slots) -> Result<(us
     }
     let Some((name, high, low)) = slice(text) else { return Err(whole) };
     let wanted = Name::new(name);
-    let column = source.signals.iter().position(|signal| {
+    let column = source.called(wanted.last()).iter().copied().find(|&k| {
+        let signal = &source.signals[k];
         signal.lsb == i64::from(low)
             && i64::from(high) == signal.lsb + i64::from(signal.width) - 1
             && signal.name.common(&wanted) == Some(wanted.depth())
@@ -79,12 +80,14 @@ pub(super) fn part(source: &Source, text: &str, slots: &mut Slots) -> Result<(us
 
 /// The whole signal, where slices of it have names of their own and so have all of them a range.
 fn widest(source: &Source, text: &str) -> Option<usize> {
-    let begin = Name::new(text).scope(0) + "[";
+    let wanted = Name::new(text);
+    let begin = wanted.scope(0) + "[";
     let is_part = |(_, signal): &(usize, &Signal)| {
         let name = signal.name.scope(0);
         name.strip_prefix(&begin).is_some_and(|range| range.contains(':'))
     };
-    let parts: Vec<_> = source.signals.iter().enumerate().filter(is_part).collect();
+    let called = source.called(wanted.last()).iter().map(|&k| (k, &source.signals[k]));
+    let parts: Vec<_> = called.filter(is_part).collect();
     let (found, whole) = *parts.iter().max_by_key(|(_, signal)| signal.width)?;
     let top = |signal: &Signal| signal.lsb + i64::from(signal.width);
     let holds_all = parts.iter().all(|(k, part)| {

@@ -4,6 +4,7 @@ mod matched;
 mod names;
 mod rules;
 mod slices;
+mod tails;
 
 use std::collections::HashSet;
 

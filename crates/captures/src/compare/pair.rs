@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use crate::source::SourceState;
+use crate::source::{Signal, SourceState};
 use crate::words::{Bits, extend, ones};
 
-use super::parts::{Part, gather};
+use super::parts::{Part, Slots, gather};
 use super::show::Show;
 
 /// What an unknown bit is the same as.
@@ -29,6 +29,8 @@ pub enum MatchedBy {
     Name,
     /// One name is the end of the other.
     Suffix,
+    /// Both names end alike, and no other so.
+    Tail,
     /// The map says so.
     Map,
 }
@@ -60,6 +62,20 @@ pub(super) struct Pair {
 }
 
 impl Pair {
+    /// Two signals as they are.
+    pub(super) fn whole([a, b]: [&Signal; 2], how: MatchedBy, slots: &mut [Slots; 2]) -> Pair {
+        let [left, right] = slots;
+        Pair {
+            name: a.name.text.clone(),
+            other: b.name.text.clone(),
+            how,
+            width: a.width,
+            sides: [vec![Part::whole(left, a)], vec![Part::whole(right, b)]],
+            show: Show::of(a, b),
+            ..Pair::default()
+        }
+    }
+
     /// Whether it is compared by the bits at one place alone.
     pub(super) fn is_plain(&self) -> bool {
         self.latency == 0 && self.valid.is_none()
@@ -147,6 +163,7 @@ impl MatchedBy {
         match self {
             MatchedBy::Name => "name",
             MatchedBy::Suffix => "suffix",
+            MatchedBy::Tail => "tail",
             MatchedBy::Map => "map",
         }
     }

@@ -1,18 +1,78 @@
 //! A file that is read a byte at a time without a call for each.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read, Result, Seek, SeekFrom};
+use std::io::{BufRead, BufReader, Cursor, Error, ErrorKind, Read, Result, Seek, SeekFrom};
 
 /// Bytes that are read at once.
 const CHUNK: usize = 1 << 17;
 
 /// A file whose single bytes come from a buffer, inlined where they are read: the waveform library
-/// asks for each byte of a VCD on its own.
-pub(super) struct Bytes(BufReader<File>);
+/// asks for each byte of a VCD on its own, and jumps about in an FST within a few bytes.
+#[derive(Debug)]
+pub(super) struct Bytes(BufReader<Placed>);
+
+/// Where bytes come from, and the place that they are read from next.
+#[derive(Debug)]
+struct Placed {
+    store: Store,
+    place: u64,
+}
+
+#[derive(Debug)]
+enum Store {
+    File(File),
+    Memory(Cursor<Vec<u8>>),
+}
 
 impl Bytes {
     pub(super) fn new(file: File) -> Bytes {
-        Bytes(BufReader::with_capacity(CHUNK, file))
+        Bytes::of(Store::File(file))
+    }
+
+    /// What is in memory already.
+    pub(super) fn loaded(bytes: Vec<u8>) -> Bytes {
+        Bytes::of(Store::Memory(Cursor::new(bytes)))
+    }
+
+    fn of(store: Store) -> Bytes {
+        Bytes(BufReader::with_capacity(CHUNK, Placed { store, place: 0 }))
+    }
+
+    /// How many bytes there are.
+    pub(super) fn length(&self) -> Result<u64> {
+        match &self.0.get_ref().store {
+            Store::File(file) => Ok(file.metadata()?.len()),
+            Store::Memory(bytes) => Ok(bytes.get_ref().len() as u64),
+        }
+    }
+
+    /// So many bytes from a place on.
+    pub(super) fn range(&mut self, place: u64, count: u64) -> Result<Vec<u8>> {
+        self.seek(SeekFrom::Start(place))?;
+        let mut bytes = Vec::new();
+        self.take(count).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    }
+}
+
+impl Read for Placed {
+    fn read(&mut self, into: &mut [u8]) -> Result<usize> {
+        let count = match &mut self.store {
+            Store::File(file) => file.read(into)?,
+            Store::Memory(bytes) => bytes.read(into)?,
+        };
+        self.place += count as u64;
+        Ok(count)
+    }
+}
+
+impl Seek for Placed {
+    fn seek(&mut self, to: SeekFrom) -> Result<u64> {
+        self.place = match &mut self.store {
+            Store::File(file) => file.seek(to)?,
+            Store::Memory(bytes) => bytes.seek(to)?,
+        };
+        Ok(self.place)
     }
 }
 
@@ -41,7 +101,52 @@ impl BufRead for Bytes {
 }
 
 impl Seek for Bytes {
+    /// Within the buffer, nothing is read again.
     fn seek(&mut self, to: SeekFrom) -> Result<u64> {
-        self.0.seek(to)
+        let now = self.stream_position()?;
+        let place = match to {
+            SeekFrom::Start(place) => Some(place),
+            SeekFrom::Current(by) => now.checked_add_signed(by),
+            SeekFrom::End(by) => self.length()?.checked_add_signed(by),
+        };
+        let place = place.ok_or_else(|| Error::from(ErrorKind::InvalidInput))?;
+        match i64::try_from(i128::from(place) - i128::from(now)) {
+            Ok(by) => self.0.seek_relative(by)?,
+            Err(_) => drop(self.0.seek(SeekFrom::Start(place))?),
+        }
+        Ok(place)
+    }
+
+    fn stream_position(&mut self) -> Result<u64> {
+        Ok(self.0.get_ref().place - self.0.buffer().len() as u64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write;
+
+    use super::*;
+
+    #[test]
+    fn a_jump_within_the_buffer_and_beyond_it_lands_where_it_says() {
+        let whole: Vec<u8> = (0..3 * CHUNK as u32).map(|k| (k % 251) as u8).collect();
+        let mut file = tempfile::tempfile().unwrap();
+        file.write_all(&whole).unwrap();
+        file.rewind().unwrap();
+        for mut bytes in [Bytes::new(file), Bytes::loaded(whole.clone())] {
+            let last = whole.len() as u64 - 1;
+            for place in [0, 5, 3, CHUNK as u64 + 7, CHUNK as u64, 1, last, 2] {
+                assert_eq!(bytes.seek(SeekFrom::Start(place)).unwrap(), place);
+                let mut byte = [0];
+                bytes.read_exact(&mut byte).unwrap();
+                assert_eq!(byte[0], whole[place as usize]);
+                assert_eq!(bytes.stream_position().unwrap(), place + 1);
+            }
+            assert_eq!(bytes.range(9, 1 << 18).unwrap(), whole[9..9 + (1 << 18)]);
+            assert_eq!(bytes.seek(SeekFrom::End(-1)).unwrap(), last);
+            assert_eq!(bytes.read_to_end(&mut Vec::new()).unwrap(), 1);
+            assert!(bytes.seek(SeekFrom::Current(-1 - last as i64 - 1)).is_err());
+        }
     }
 }

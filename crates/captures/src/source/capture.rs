@@ -1,7 +1,7 @@
 //! A logic analyser's CSV files and archives.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use tofsim::error::Result;
 
@@ -37,6 +37,7 @@ pub(super) fn source(path: &Path, radix: Option<Radix>) -> Result<Source> {
         radix_told: opened.radix_told,
         notes: opened.notes,
         origin: Arc::new(Origin { path: path.to_owned(), radix }),
+        by_last: OnceLock::new(),
     })
 }
 

@@ -8,8 +8,8 @@ use tofsim::error::{Error, Input, Result};
 
 use crate::ila::Radix;
 
-use super::signals::Source;
-use super::{capture, wave};
+use super::signals::{Source, SourceFormat};
+use super::{capture, fst, wave};
 
 /// First bytes of a zip archive, which an ILA's is.
 const ARCHIVE: &[u8] = b"PK";
@@ -37,25 +37,22 @@ pub(super) fn open(path: &Path, radix: Option<Radix>) -> Result<Source> {
     if head.starts_with(ARCHIVE) || starts_as_csv(text) {
         return capture::source(path, radix);
     }
-    let known = text.starts_with(b"$") || head.starts_with(GHW) || is_binary(&head);
-    match known {
-        true => wave::source(path),
-        false => {
+    let format = match head[0] {
+        _ if text.starts_with(b"$") => SourceFormat::Vcd,
+        _ if head.starts_with(GHW) => SourceFormat::Ghw,
+        fst::HEADER | fst::WRAPPED => SourceFormat::Fst,
+        _ => {
             let expected =
                 "expected VCD, FST, GHW, or an ILA's CSV (`Sample in Buffer,...`) or archive";
             let line: String = String::from_utf8_lossy(text).lines().next().unwrap_or("").into();
-            Err(Input::new(path.display(), expected).at(1, 1).value(line).into())
+            return Err(Input::new(path.display(), expected).at(1, 1).value(line).into());
         }
-    }
+    };
+    wave::source(path, format)
 }
 
 fn starts_as_csv(text: &[u8]) -> bool {
     let text = text.strip_prefix("\u{feff}".as_bytes()).unwrap_or(text);
     let text = text.strip_prefix(b"\"").unwrap_or(text);
     text.get(..CSV.len()).is_some_and(|head| head.eq_ignore_ascii_case(CSV))
-}
-
-/// Whether there are bytes that no text has; an FST file begins with some.
-fn is_binary(head: &[u8]) -> bool {
-    head.iter().any(|&byte| byte < b'\t')
 }

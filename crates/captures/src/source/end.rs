@@ -1,34 +1,20 @@
-//! How far a waveform goes, which its last change does not tell.
+//! How far a VCD goes, which its last change does not tell.
 
 use std::fs::File;
-use std::io::{BufRead, Read, Seek, SeekFrom};
+use std::io::BufRead;
 use std::path::Path;
 
 use tofsim::error::{Error, Input, Result};
 
 use super::bytes::Bytes;
-use super::signals::SourceFormat;
 
-/// Where an FST file's header has its end: after the block's type and length and the begin.
-const FST_END: u64 = 1 + 8 + 8;
-
-/// The last time of a waveform, in its ticks, if it says.
+/// The last time of the VCD at `path`, in its ticks, if it says.
 ///
 /// # Errors
-/// When the file cannot be read, or time goes back in a VCD.
-pub(super) fn end(path: &Path, format: SourceFormat) -> Result<Option<u64>> {
+/// When the file cannot be read, or time goes back.
+pub(super) fn end(path: &Path) -> Result<Option<u64>> {
     let file = File::open(path).map_err(Error::io(path, "read"))?;
-    match format {
-        SourceFormat::Fst => fst(file).map_err(Error::io(path, "read")),
-        SourceFormat::Vcd => vcd(path, Bytes::new(file)),
-        _ => Ok(None),
-    }
-}
-
-fn fst(mut file: File) -> std::io::Result<Option<u64>> {
-    let mut end = [0; 8];
-    file.seek(SeekFrom::Start(FST_END))?;
-    Ok(file.read_exact(&mut end).is_ok().then_some(u64::from_be_bytes(end)))
+    vcd(path, Bytes::new(file))
 }
 
 /// The last time stamp of a VCD.

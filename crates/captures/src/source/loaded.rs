@@ -1,7 +1,8 @@
 //! GHW files, which the library can only load whole.
 
-use std::fs::File;
-use std::io::BufReader;
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, HashMap};
+use std::io::Cursor;
 use std::path::Path;
 
 use wellen::viewers::HeaderResult;
@@ -11,16 +12,16 @@ use tofsim::error::{Error, Result};
 
 use crate::words::Bits;
 
-use super::counts::check;
+use super::ghw;
 use super::library::{fault, set};
 use super::stream::Feed;
 
 /// The head of the file.
-pub(super) fn open(path: &Path) -> Result<HeaderResult<BufReader<File>>> {
-    let mut file = File::open(path).map_err(Error::io(path, "read"))?;
-    check(&path.display().to_string(), &mut file).map_err(Error::io(path, "read"))??;
+pub(super) fn open(path: &Path) -> Result<HeaderResult<Cursor<Vec<u8>>>> {
+    let bytes = std::fs::read(path).map_err(Error::io(path, "read"))?;
+    ghw::check(&bytes).map_err(|fault| fault.of_file(path))?;
     let options = LoadOptions { multi_thread: false, remove_scopes_with_empty_name: true };
-    wellen::viewers::read_header(BufReader::new(file), &options).map_err(|error| fault(path, error))
+    wellen::viewers::read_header(Cursor::new(bytes), &options).map_err(|error| fault(path, error))
 }
 
 /// Feeds the changes of `references`, in the order of time.
@@ -32,21 +33,29 @@ pub(super) fn feed(path: &Path, references: &[SignalRef], feed: &mut Feed) -> Re
     wanted.sort();
     wanted.dedup();
     let loaded = body.source.load_signals(&wanted, &header.hierarchy, false);
-    let mut signals: Vec<_> = Vec::new();
-    for (place, reference) in references.iter().enumerate() {
-        let found = loaded.iter().find(|signal| signal.signal_ref() == *reference);
-        signals.extend(found.map(|signal| (place, signal.iter_changes().peekable())));
+    let loaded: HashMap<_, _> = loaded.iter().map(|signal| (signal.signal_ref(), signal)).collect();
+    let mut changes: Vec<_> =
+        references.iter().map(|reference| Some(loaded.get(reference)?.iter_changes())).collect();
+    let mut next = |place: usize| changes[place].as_mut()?.next();
+    let mut waiting: BinaryHeap<Reverse<(u32, usize)>> = BinaryHeap::new();
+    let mut values: Vec<_> = Vec::new();
+    for place in 0..references.len() {
+        let first = next(place);
+        waiting.extend(first.map(|(time, _)| Reverse((time, place))));
+        values.push(first.map(|(_, value)| value));
     }
     let mut bits = Bits::default();
-    for (index, &at) in body.time_table.iter().enumerate() {
-        for (place, changes) in &mut signals {
-            while let Some((_, value)) = changes.next_if(|(time, _)| *time as usize == index) {
-                if feed.at(at).is_err() {
-                    return Ok(());
-                }
-                set(&mut bits, value, feed.words(*place));
-                feed.change(*place, &bits.value, &bits.unknown);
-            }
+    while let Some(Reverse((time, place))) = waiting.pop() {
+        let Some(&at) = body.time_table.get(time as usize) else { break };
+        let Some(value) = values[place].take() else { continue };
+        if feed.at(at).is_err() {
+            return Ok(());
+        }
+        set(&mut bits, value, feed.words(place));
+        feed.change(place, &bits.value, &bits.unknown);
+        if let Some((time, value)) = next(place) {
+            values[place] = Some(value);
+            waiting.push(Reverse((time, place)));
         }
     }
     Ok(())

@@ -1,5 +1,6 @@
 //! What the values of the firmware's signals mean, for other sources of the same names.
 
+use std::collections::HashMap;
 use std::sync::LazyLock;
 
 use tofsim::hierarchy;
@@ -11,15 +12,34 @@ use super::names::Name;
 const SHARED: usize = 2;
 
 /// The firmware's signals and their shapes, in the order of data flow.
-pub(crate) static SHAPES: LazyLock<Vec<(Name, Shape)>> = LazyLock::new(|| {
+static SHAPES: LazyLock<Vec<(Name, Shape)>> = LazyLock::new(|| {
     let entries = hierarchy::every_entry().into_iter().chain(hierarchy::ram_entries());
     entries.map(|entry| (Name::new(entry.path()), entry.signal.format)).collect()
 });
 
+/// Places in [`SHAPES`] by the last part of the name.
+static BY_LAST: LazyLock<HashMap<&str, Vec<usize>>> = LazyLock::new(|| {
+    let mut by_last: HashMap<&str, Vec<usize>> = HashMap::new();
+    for (place, (known, _)) in SHAPES.iter().enumerate() {
+        by_last.entry(known.last()).or_default().push(place);
+    }
+    by_last
+});
+
+/// The place in [`SHAPES`] of the first that shares enough parts with a name.
+fn place(name: &Name, enough: usize) -> Option<usize> {
+    let places = BY_LAST.get(name.last())?;
+    let is_one = |place: &usize| SHAPES[*place].0.common(name).is_some_and(|n| n >= enough);
+    places.iter().copied().find(is_one)
+}
+
 /// The shape of the firmware's first signal that has one of those names.
 pub(crate) fn known_shape(names: &[&Name]) -> Option<Shape> {
-    let is_one = |known: &Name| {
-        names.iter().any(|name| known.common(name).is_some_and(|parts| parts >= SHARED))
-    };
-    SHAPES.iter().find(|(known, _)| is_one(known)).map(|(_, shape)| *shape)
+    let first = names.iter().filter_map(|name| place(name, SHARED)).min()?;
+    Some(SHAPES[first].1)
+}
+
+/// Where in the data flow the firmware's signal of that name stands; behind all of them if it has none.
+pub(crate) fn flow(name: &Name) -> usize {
+    place(name, SHARED.min(name.depth())).unwrap_or(SHAPES.len())
 }

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 use std::fmt::Debug;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use tofsim::error::Result;
 use tofsim::kernel::signals::SignalFormat as Shape;
@@ -134,6 +134,8 @@ pub struct Source {
     /// What was read otherwise than it is usually written, or taken from elsewhere.
     pub notes: Vec<String>,
     pub(super) origin: Arc<dyn Origin>,
+    /// Signals by the last parts of their names, once somebody has asked.
+    pub(super) by_last: OnceLock<HashMap<String, Vec<usize>>>,
 }
 
 /// Where the changes of a source come from.
@@ -148,7 +150,10 @@ impl Source {
     /// # Errors
     /// When the file has changed or cannot be read any more.
     pub fn read(&self, ids: &[usize]) -> Result<Cursor> {
-        let widths: Vec<u32> = ids.iter().map(|&id| self.width(id)).collect();
+        // The first name of a signal says how wide it is.
+        let signals = self.signals.iter().rev();
+        let widths: HashMap<usize, u32> = signals.map(|s| (s.id, s.width)).collect();
+        let widths: Vec<u32> = ids.iter().map(|id| widths.get(id).copied().unwrap_or(0)).collect();
         self.origin.read(ids, &widths)
     }
 
@@ -174,8 +179,20 @@ impl Source {
         self
     }
 
-    fn width(&self, id: usize) -> u32 {
-        let signal = self.signals.iter().find(|signal| signal.id == id);
-        signal.map_or(0, |signal| signal.width)
+    /// The signals whose names have that last part, whatever their ranges, in ascending order.
+    pub(crate) fn called(&self, last: &str) -> &[usize] {
+        let by_last = self.by_last.get_or_init(|| {
+            let mut by_last: HashMap<String, Vec<usize>> = HashMap::new();
+            for (k, signal) in self.signals.iter().enumerate() {
+                by_last.entry(bare(signal.name.last()).to_owned()).or_default().push(k);
+            }
+            by_last
+        });
+        by_last.get(bare(last)).map_or(&[], Vec::as_slice)
     }
+}
+
+/// A name without what stands in brackets behind it.
+fn bare(last: &str) -> &str {
+    last.split('[').next().unwrap_or(last)
 }

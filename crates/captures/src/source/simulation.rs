@@ -1,6 +1,6 @@
 //! tofsim itself as a source: a scenario, simulated while it is read.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use tofsim::error::Result;
 use tofsim::firmware::tof_top::{Params, TofTop};
@@ -50,6 +50,7 @@ pub(super) fn source(setup: Setup, frames: u64) -> Source {
         radix_told: true,
         notes: Vec::new(),
         origin: Arc::new(Origin { setup: Arc::new(setup), frames }),
+        by_last: OnceLock::new(),
     }
 }
 

@@ -1,19 +1,18 @@
 //! VCD, FST and GHW, read by the crate `wellen`.
 
-use std::fs::File;
-use std::io::BufReader;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use wellen::stream::{Filter, StreamError, StreamingWaveform};
-use wellen::{FileFormat, Hierarchy, LoadOptions, SignalEncoding, SignalRef, SignalValueRef, Var};
+use wellen::{Hierarchy, LoadOptions, SignalEncoding, SignalRef, SignalValueRef, Var};
 
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::{Input, Result};
 
 use crate::words::Bits;
 
 use super::bytes::Bytes;
 use super::end::end;
+use super::fst;
 use super::guard::guarded;
 use super::library::{fault, set};
 use super::loaded;
@@ -25,7 +24,7 @@ use super::stream::{Cursor, Feed, Gone};
 use super::tick::Tick;
 
 /// Widest signal that is read [bits].
-const WIDEST: u32 = 1 << 20;
+pub(super) const WIDEST: u32 = 1 << 20;
 
 /// Where a waveform is.
 #[derive(Clone, Debug)]
@@ -39,26 +38,30 @@ struct Origin {
 }
 
 fn open(path: &Path) -> Result<StreamingWaveform<Bytes>> {
-    let file = File::open(path).map_err(Error::io(path, "read"))?;
     let options = LoadOptions { multi_thread: false, remove_scopes_with_empty_name: true };
-    let wave = wellen::stream::read(Bytes::new(file), &options);
+    let wave = wellen::stream::read(fst::open(path)?, &options);
     wave.map_err(|error| fault(path, error))
 }
 
-/// The source at `path`, of that format as far as the library tells.
-pub(super) fn source(path: &Path) -> Result<Source> {
-    guarded(&path.display().to_string(), || match format(path)? {
-        FileFormat::Ghw => described(path, &loaded::open(path)?.hierarchy),
-        _ => described(path, open(path)?.hierarchy()),
+/// The source at `path`, of one of the three formats.
+pub(super) fn source(path: &Path, format: SourceFormat) -> Result<Source> {
+    guarded(&path.display().to_string(), || match format {
+        SourceFormat::Ghw => described(path, format, &loaded::open(path)?.hierarchy, None),
+        SourceFormat::Fst => {
+            let end = fst::check(&mut fst::open(path)?).map_err(|fault| fault.of_file(path))?;
+            described(path, format, open(path)?.hierarchy(), end)
+        }
+        // Time stamps are looked for in text alone: packed bytes may look like some.
+        _ => described(path, format, open(path)?.hierarchy(), end(path)?),
     })
 }
 
-fn format(path: &Path) -> Result<FileFormat> {
-    let file = File::open(path).map_err(Error::io(path, "read"))?;
-    Ok(wellen::viewers::detect_file_format(&mut BufReader::new(file)))
-}
-
-fn described(path: &Path, hierarchy: &Hierarchy) -> Result<Source> {
+fn described(
+    path: &Path,
+    format: SourceFormat,
+    hierarchy: &Hierarchy,
+    end: Option<u64>,
+) -> Result<Source> {
     let source = path.display().to_string();
     let mut signals = Vec::new();
     let mut references: Vec<SignalRef> = Vec::new();
@@ -75,18 +78,12 @@ fn described(path: &Path, hierarchy: &Hierarchy) -> Result<Source> {
         let expected = format!("expected {WIDEST} bits at most");
         return Err(Input::new(source, expected).field(&wide.name.text).value(wide.width).into());
     }
-    let format = match hierarchy.file_format() {
-        FileFormat::Fst => SourceFormat::Fst,
-        FileFormat::Ghw => SourceFormat::Ghw,
-        FileFormat::Vcd | FileFormat::Unknown => SourceFormat::Vcd,
-    };
     let marks =
         (format == SourceFormat::Vcd).then(|| Style::of(&signals, hierarchy.version())).flatten();
     let axis = match &marks {
         Some(_) => Axis::Samples,
         None => Axis::Time(tick(&source, hierarchy)?),
     };
-    let end = end(path, format)?;
     if let Some(style) = &marks {
         style.hide(&mut signals);
     }
@@ -99,6 +96,7 @@ fn described(path: &Path, hierarchy: &Hierarchy) -> Result<Source> {
         radix_told: marks.is_none(),
         notes: Vec::new(),
         origin: Arc::new(Origin { path: path.to_owned(), format, references, marks }),
+        by_last: OnceLock::new(),
     })
 }
 
@@ -158,7 +156,13 @@ fn stream(origin: &Origin, references: &[SignalRef], feed: &mut Feed) -> Result<
         places[reference.index()].push(signal);
     }
     let mut bits = Bits::default();
+    let (mut last, mut is_back) = (0, false);
     let result = wave.stream_changes(Filter::include_signals(&wanted), |at, reference, value| {
+        is_back |= at < last;
+        if is_back {
+            return Err(Gone);
+        }
+        last = at;
         feed.at(at)?;
         if let Some(marking) = &mut marking
             && let SignalValueRef::BitVec(level) = value
@@ -171,6 +175,10 @@ fn stream(origin: &Origin, references: &[SignalRef], feed: &mut Feed) -> Result<
         }
         Ok::<(), Gone>(())
     });
+    if is_back {
+        let expected = format!("time goes back from {last}");
+        return Err(Input::new(origin.path.display(), expected).into());
+    }
     match result {
         Ok(()) | Err(StreamError::Callback(Gone)) => Ok(()),
         Err(StreamError::Wellen(error)) => Err(fault(&origin.path, error)),

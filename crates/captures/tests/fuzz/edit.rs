@@ -17,6 +17,34 @@ pub fn edits(pieces: &'static [&'static str]) -> impl Strategy<Value = Vec<Edit>
     vec((any::<Index>(), 0usize..12, piece), 0..5)
 }
 
+/// Lengths, sizes and counts that are put in place of others: where, in how many bytes, whether the
+/// highest is first.
+pub type Plant = (Index, usize, bool, u64);
+
+/// A few of them, most of which are more than there can be.
+pub fn plants() -> impl Strategy<Value = Vec<Plant>> {
+    let value = prop_oneof![
+        select(vec![u64::MAX, u64::MAX - 8, 1 << 63, 1 << 48, u64::MAX >> 1, 1 << 35]),
+        select(vec![u64::from(u32::MAX), 1 << 31, 1 << 28, 1 << 24, 0xffff_ff7f, 0x7fff_ffff]),
+        select(vec![0, 1, 7, 9, 0x7fff_ff0f]),
+        any::<u64>(),
+    ];
+    let bytes = select(vec![1, 2, 4, 5, 8, 8]);
+    vec((any::<Index>(), bytes, any::<bool>(), value), 1..4)
+}
+
+/// The file with those numbers at some of the places.
+pub fn planted(mut bytes: Vec<u8>, places: &[usize], plants: &[Plant]) -> Vec<u8> {
+    for (place, count, is_big, value) in plants {
+        let start = *place.get(places);
+        let word = if *is_big { value.to_be_bytes() } else { value.to_le_bytes() };
+        let word = if *is_big { &word[8 - count..] } else { &word[..*count] };
+        let end = bytes.len().min(start + count);
+        bytes[start..end].copy_from_slice(&word[..end - start]);
+    }
+    bytes
+}
+
 /// The file with its changes.
 pub fn edited(mut bytes: Vec<u8>, edits: &[Edit]) -> Vec<u8> {
     for (place, gone, piece) in edits {

@@ -18,7 +18,7 @@ use tofsim_captures::source::Source;
 
 use crate::common;
 
-use super::edit::{edited, edits};
+use super::edit::{edited, edits, planted, plants};
 use super::fuzz;
 
 /// Text that means something in a VCD.
@@ -143,4 +143,31 @@ fn fsts_that_are_nearly_right() {
 #[test]
 fn ghws_that_are_nearly_right() {
     fuzz(edits(&PIECES), |edits| drive(&edited(GHW.into(), &edits)));
+}
+
+#[test]
+fn fsts_with_other_lengths_sizes_and_counts() {
+    let heads = heads(fst());
+    fuzz(plants(), |plants| drive(&planted(fst().into(), &heads, &plants)));
+    let all: Vec<usize> = (0..fst().len()).collect();
+    fuzz(plants(), |plants| drive(&planted(fst().into(), &all, &plants)));
+}
+
+/// Places of the first and the last bytes of the blocks of an FST file.
+fn heads(bytes: &[u8]) -> Vec<usize> {
+    let mut heads = Vec::new();
+    let mut begin = 0;
+    while begin + 9 < bytes.len() {
+        let length = u64::from_be_bytes(bytes[begin + 1..begin + 9].try_into().unwrap());
+        let end = begin + 1 + length as usize;
+        heads.extend((begin..end).filter(|place| *place < begin + 80 || *place + 40 > end));
+        begin = end;
+    }
+    heads
+}
+
+#[test]
+fn ghws_with_other_counts_and_ranges() {
+    let all: Vec<usize> = (0..GHW.len()).collect();
+    fuzz(plants(), |plants| drive(&planted(GHW.into(), &all, &plants)));
 }

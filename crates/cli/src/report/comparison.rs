@@ -87,6 +87,7 @@ fn matched(result: &Comparison, verbose: bool) -> String {
     let parts = [
         (count(MatchedBy::Name), "by name"),
         (count(MatchedBy::Suffix), "by the end of the name"),
+        (count(MatchedBy::Tail), "by the ends of both names"),
         (count(MatchedBy::Map), "by the map"),
         (aliases, "more names of the same"),
     ];
@@ -99,6 +100,7 @@ fn matched(result: &Comparison, verbose: bool) -> String {
             text += &format!("            {:<6} {} {other}\n", pair.how.word(), pair.name);
         }
     }
+    text += &guessed(result, verbose);
     for (side, which) in ["first", "second"].iter().enumerate() {
         let own = |reason: bool| {
             let unmatched = result.unmatched.iter().filter(move |u| u.side == side);
@@ -124,6 +126,29 @@ fn matched(result: &Comparison, verbose: bool) -> String {
             text += &format!("left out  {ignored} of the {which} side\n");
         }
     }
+    text
+}
+
+/// The pairs of which only the ends of the names are alike, and the lines of a map that would put
+/// another in place of the first.
+fn guessed(result: &Comparison, verbose: bool) -> String {
+    let guessed: Vec<_> = result.pairs.iter().filter(|pair| pair.how == MatchedBy::Tail).collect();
+    let Some(first) = guessed.first() else { return String::new() };
+    let shown = if verbose { 0 } else { UNMATCHED };
+    let lines = guessed.iter().take(shown);
+    let mut text: String =
+        lines.map(|pair| format!("            {} and {}\n", pair.name, pair.other)).collect();
+    if !verbose && guessed.len() > shown {
+        text += "            ... and more with -v\n";
+    }
+    let quoted = |name: &str| toml::Value::from(name).to_string();
+    let lines = [
+        "# If one is wrong, lines like these in a --map name the right one:".to_owned(),
+        "[[signal]]".to_owned(),
+        format!("a = [{}]", quoted(&first.name)),
+        format!("b = [{}]", quoted(&first.other)),
+    ];
+    text += &lines.map(|line| format!("            {line}\n")).concat();
     text
 }
 

@@ -114,7 +114,7 @@ struct When {
     clock: Option<SampleClock>,
     /// start, trigger, edge SIGNAL, correlation [SIGNAL,...], windows [SIGNAL,...], offset N
     /// (samples) or offset 8ns [default: trigger of captures; correlation of a capture with a
-    /// waveform; time of waveforms]
+    /// waveform, windows if it has several; time of waveforms]
     #[arg(long, value_name = "HOW", allow_hyphen_values = true)]
     align: Option<Align>,
     /// What a waveform triggers on, as `start rising && mode == 0`

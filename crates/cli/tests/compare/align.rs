@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::common;
 
-use super::{csv, different, refused, same, vcd, write};
+use super::{csv, different, differing, refused, same, vcd, write};
 
 /// A waveform of a clock of 10 ns, rising at 5, 15, 25 ... ns, a word that never repeats within 200
 /// steps, and a pulse at step 60; both change with the clock.
@@ -152,6 +152,41 @@ fn each_window_alone() {
     write(folder, "ila.csv", &damaged);
     let json = different(folder, &args(&["--align", "windows"]));
     assert_eq!(json["first"]["first"]["window"], 2);
+    let json = different(folder, &args(&[]));
+    let told = json["alignment"].as_str().unwrap();
+    assert!(told.starts_with("window 0: correlation: offset -20 (0 of 288 bits differ)"), "{told}");
+}
+
+#[test]
+fn windows_of_which_every_sample_differs_are_found_too() {
+    let folder = common::empty();
+    let folder = folder.path();
+    waveform(folder);
+    let stuck = |text: String| {
+        let line = |line: &str| match line.rsplit_once(',') {
+            Some((rest, "0")) => format!("{rest},1\n"),
+            _ => format!("{line}\n"),
+        };
+        text.lines().map(line).collect::<String>()
+    };
+    write(folder, "ila.csv", &stuck(windows(&[(20..52, 3), (70..102, 3), (140..172, 3)])));
+    let json = different(folder, &args(&[]));
+    assert_eq!((differing(&json), &json["compared"]), (vec!["top.go".to_owned()], &96.into()));
+}
+
+#[test]
+fn windows_follow_each_other_and_many_are_told_by_the_first() {
+    let folder = common::empty();
+    let folder = folder.path();
+    waveform(folder);
+    write(folder, "ila.csv", &windows(&[(20..40, 3), (30..50, 3)]));
+    let error = refused(folder, &args(&[]));
+    assert!(error.contains("window 1 fits"), "{error}");
+    let many: Vec<_> = (0..12).map(|k| (15 * k..15 * k + 12, 3)).collect();
+    write(folder, "ila.csv", &windows(&many));
+    let json = same(folder, &args(&[]));
+    let lines: Vec<_> = json["alignment"].as_str().unwrap().lines().collect();
+    assert_eq!((lines.len(), lines[7]), (8, "... and 5 more windows"));
 }
 
 #[test]

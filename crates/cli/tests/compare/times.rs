@@ -128,5 +128,6 @@ fn a_waveform_of_both_sides_ends_with_its_last_difference() {
     let commands = fs::read_to_string(folder.join("both.sucl")).unwrap();
     assert!(commands.ends_with("marker_set first 10000\ncursor_set 10000\n"), "{commands}");
     let save = fs::read_to_string(folder.join("both.gtkw")).unwrap();
+    assert!(save.contains("[savefile] \"both.gtkw\"\n"), "{save}");
     assert!(save.contains("[timestart] 9375\n"), "{save}");
 }

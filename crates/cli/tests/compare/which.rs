@@ -39,6 +39,49 @@ fn a_name_that_fits_several_signals_is_left_and_said_why() {
 }
 
 #[test]
+fn names_below_different_scopes_are_matched_by_the_longest_end_that_is_unique() {
+    let folder = common::empty();
+    let folder = folder.path();
+    let ones = "HEX,HEX,HEX";
+    let values = rows(&["0,1,0", "1,0,0", "0,1,1"]);
+    let board = "top_i/BIST_0/inst/axi_ready,top_i/BIST_0/inst/axi_valid,top_i/led";
+    write(folder, "a.csv", &csv(board, ones, 1, &values));
+    write(folder, "b.csv", &csv("tb.dut.inst.axi_ready,tb.dut.axi_valid,x.led", ones, 1, &values));
+    let json = same(folder, &["a.csv", "b.csv"]);
+    assert!(json["signals"].as_array().unwrap().iter().all(|pair| pair["matched_by"] == "tail"));
+    let text = common::stdout(folder, &["compare", "a.csv", "b.csv"]);
+    let told = "matched   3 by the ends of both names\n            \
+        top_i/BIST_0/inst/axi_ready and tb.dut.inst.axi_ready\n";
+    assert!(text.contains(told), "{text}");
+    let lines: Vec<_> = text.lines().skip_while(|line| !line.contains("--map")).take(4).collect();
+    let map: String = lines.iter().map(|line| line.trim_start().to_owned() + "\n").collect();
+    write(folder, "map.toml", &map.replace("tb.dut.inst.axi_ready", "tb.dut.axi_valid"));
+    let json = different(folder, &["a.csv", "b.csv", "--map", "map.toml"]);
+    let pairs = json["signals"].as_array().unwrap();
+    assert!(pairs.iter().any(|pair| pair["matched_by"] == "map"), "{json:#}");
+}
+
+#[test]
+fn an_end_that_a_third_signal_has_too_matches_nothing() {
+    let folder = common::empty();
+    let folder = folder.path();
+    write(folder, "a.csv", &csv("x,p/u/hit", "HEX,HEX", 0, &rows(&["0,0", "1,1"])));
+    let values = rows(&["0,0,0", "1,1,1"]);
+    write(folder, "b.csv", &csv("x,q/v/hit,r/w/hit", "HEX,HEX,HEX", 0, &values));
+    for files in [["a.csv", "b.csv"], ["b.csv", "a.csv"]] {
+        let json = different(folder, &files);
+        assert_eq!(json["signals"].as_array().unwrap().len(), 1, "{json:#}");
+    }
+    // The longer end decides, though the shorter is that of several.
+    write(folder, "b.csv", &csv("x,q/u/hit,r/w/hit", "HEX,HEX,HEX", 0, &values));
+    let json = different(folder, &["a.csv", "b.csv"]);
+    assert_eq!(
+        (json["signals"][1]["other"].as_str(), json["unmatched"].as_array().unwrap().len()),
+        (Some("q/u/hit"), 1)
+    );
+}
+
+#[test]
 fn a_signal_of_another_width_is_left_and_said_why() {
     let folder = common::empty();
     let folder = folder.path();

@@ -18,23 +18,23 @@ use super::survey::survey;
 use crate::words::Bits;
 
 /// Longest sequence that is looked for [samples].
-const LONGEST: u64 = 1 << 17;
+pub(super) const LONGEST: u64 = 1 << 17;
 /// Bits of a sample that are looked at; the rest is left to the comparison.
 const BITS: usize = 256;
 /// Candidates that are kept.
-const KEPT: usize = 8;
+pub(super) const KEPT: usize = 8;
 /// Candidates that an error lists.
 const LISTED: usize = 4;
 
 /// An offset and how well it does.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Candidate {
+pub(super) struct Candidate {
     /// Sample of the longer side at the shorter one's first.
-    offset: i64,
+    pub(super) offset: i64,
     /// Bits that differ.
-    differing: u64,
+    pub(super) differing: u64,
     /// Bits that could.
-    compared: u64,
+    pub(super) compared: u64,
 }
 
 impl Candidate {
@@ -52,14 +52,14 @@ impl Candidate {
 type Rows = Vec<Vec<i8>>;
 
 /// The bits of some pairs, side by side.
-struct PairBits<'a> {
+pub(super) struct PairBits<'a> {
     pairs: Vec<&'a Pair>,
-    width: usize,
+    pub(super) width: usize,
     scratch: Bits,
 }
 
 impl<'a> PairBits<'a> {
-    fn new(plan: &'a Plan, signals: &[String]) -> Result<Self> {
+    pub(super) fn new(plan: &'a Plan, signals: &[String]) -> Result<Self> {
         let matching = &plan.matching;
         let named = |signal: &String| Ok(&matching.pairs[matching.pair(signal)?]);
         let pairs: Vec<&Pair> = match signals {
@@ -70,7 +70,7 @@ impl<'a> PairBits<'a> {
         Ok(PairBits { pairs, width: BITS.min(width), scratch: Bits::default() })
     }
 
-    fn row(&mut self, side: usize, state: &SourceState) -> Vec<i8> {
+    pub(super) fn row(&mut self, side: usize, state: &SourceState) -> Vec<i8> {
         let mut row = Vec::with_capacity(self.width);
         for pair in &self.pairs {
             pair.gather(side, state, &mut self.scratch);
@@ -89,19 +89,19 @@ impl<'a> PairBits<'a> {
 }
 
 /// What is looked for, and where.
-struct Search {
+pub(super) struct Search {
     /// Side with the shorter sequence.
-    side: usize,
+    pub(super) side: usize,
     /// The sequence.
-    piece: Piece,
+    pub(super) piece: Piece,
     /// Whether it may hang over the other's begin and end by up to half.
-    overhangs: bool,
+    pub(super) overhangs: bool,
     /// First sample of the other side that is looked at.
-    from: u64,
+    pub(super) from: u64,
 }
 
 /// The best offsets, the best first.
-fn search(plan: &Plan, signals: &[String], search: &Search) -> Result<Vec<Candidate>> {
+pub(super) fn search(plan: &Plan, signals: &[String], search: &Search) -> Result<Vec<Candidate>> {
     let mut probe = PairBits::new(plan, signals)?;
     let pieces = [search.piece.clone()];
     let mut needle = Rows::new();
@@ -216,7 +216,11 @@ impl Matcher {
 ///
 /// # Errors
 /// When there is none, or another does as well.
-fn decide(candidates: &[Candidate], side: usize, what: &str) -> Result<(Candidate, String)> {
+pub(super) fn decide(
+    candidates: &[Candidate],
+    side: usize,
+    what: &str,
+) -> Result<(Candidate, String)> {
     let Some(best) = candidates.first() else {
         return Err(Input::new("--align", format!("{what}: one side is too short")).into());
     };
@@ -240,8 +244,9 @@ fn decide(candidates: &[Candidate], side: usize, what: &str) -> Result<(Candidat
         let expected = format!("{what} fits nowhere; the best offset is {}", tell(best));
         return Err(Input::new("--align", expected).into());
     }
-    let next = candidates.get(1).map_or("no other".to_owned(), tell);
-    Ok((*best, format!("correlation: offset {}; next best {next}", tell(best))))
+    let next = candidates.get(1).map(|next| format!("next best {}", tell(next)));
+    let next = next.unwrap_or("no other is near".to_owned());
+    Ok((*best, format!("correlation: offset {}; {next}", tell(best))))
 }
 
 /// One offset for all.
@@ -261,25 +266,4 @@ pub(super) fn alignment(plan: &Plan, signals: &[String]) -> Result<Alignment> {
     let found = search(plan, signals, &Search { side, piece, overhangs, from: 0 })?;
     let (best, text) = decide(&found, side, what)?;
     Ok(Alignment::shifted(best.later(side), text))
-}
-
-/// An offset for each window, in the order of time.
-pub(super) fn windows(plan: &Plan, signals: &[String]) -> Result<Alignment> {
-    let Some(side) = plan.capture() else {
-        let expected = "windows: expected a capture on one side and a waveform on the other";
-        return Err(Input::new("--align", expected).into());
-    };
-    let mut pieces = [Vec::new(), Vec::new()];
-    let (mut found, mut from) = (Vec::new(), 0);
-    for (k, window) in survey(plan.sources[side])?.windows.iter().enumerate() {
-        let piece = Piece::Run(window.first, window.count);
-        let look = Search { side, piece: piece.clone(), overhangs: false, from };
-        let (best, text) = decide(&search(plan, signals, &look)?, side, &format!("window {k}"))?;
-        found.push(format!("window {k}: {text}"));
-        let begin = best.offset.unsigned_abs();
-        from = begin + window.count.unwrap_or(1);
-        pieces[side].push(piece);
-        pieces[1 - side].push(Piece::Run(begin, window.count));
-    }
-    Ok(Alignment { pieces, found: found.join("\n"), offset: None, differences: Vec::new() })
 }

@@ -5,25 +5,33 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use crate::source::{Name, Source};
 
 use super::super::pair::{MatchedBy, Pair};
-use super::super::parts::Part;
-use super::super::show::Show;
 use super::matched::{Matching, Unmatched, UnmatchedReason};
+use super::tails::by_tail;
 
-/// Signals of one name beyond which it says nothing about where they belong.
-const COMMON: usize = 64;
+/// Pairs of names of which the last parts are the same that are looked at to find the scopes; those
+/// that are rare are the first.
+const VOTES: usize = 1 << 16;
 
 /// The scopes of the two sides below which most names are the same: where a design hangs in a bench.
 fn scopes(names: &[Vec<Name>; 2], candidates: &[Vec<usize>; 2]) -> Option<[String; 2]> {
-    let mut by_last: HashMap<&str, [Vec<usize>; 2]> = HashMap::new();
+    let mut by_last: BTreeMap<&str, [Vec<usize>; 2]> = BTreeMap::new();
     for side in 0..2 {
         for &k in &candidates[side] {
             by_last.entry(names[side][k].last()).or_default()[side].push(k);
         }
     }
+    let mut alike: Vec<_> = by_last.into_values().collect();
+    let pairs = |[a, b]: &[Vec<usize>; 2]| a.len() * b.len();
+    alike.sort_by_key(pairs);
     let mut votes: BTreeMap<[String; 2], usize> = BTreeMap::new();
-    for [of_a, of_b] in by_last.values().filter(|sides| sides.iter().all(|k| k.len() <= COMMON)) {
-        for &a in of_a {
-            for &b in of_b {
+    let mut count = 0;
+    for [of_a, of_b] in alike {
+        count += of_a.len() * of_b.len();
+        if count > VOTES {
+            break;
+        }
+        for &a in &of_a {
+            for &b in &of_b {
                 let (a, b) = (&names[0][a], &names[1][b]);
                 let tail = a.tail(b);
                 *votes.entry([a.scope(tail), b.scope(tail)]).or_default() += 1;
@@ -48,55 +56,92 @@ fn below(names: &[Vec<Name>; 2], scopes: &[String; 2]) -> [Vec<Name>; 2] {
 /// Stands for the scopes below which names are the same.
 const SHARED: &str = "*";
 
-/// For each signal of each side those of the other whose names share the most parts with its own.
-type Best = [HashMap<usize, (usize, Vec<usize>)>; 2];
+/// Those of the other side whose names share the most parts with a signal's, and how well they do.
+#[derive(Clone, Debug, Default)]
+struct Best {
+    score: usize,
+    found: Vec<usize>,
+    /// Names of the found, if they are not all of one signal.
+    several: Option<Vec<String>>,
+}
 
-fn best(names: &[Vec<Name>; 2], candidates: &[Vec<usize>; 2]) -> Best {
-    let mut by_last: HashMap<&str, Vec<usize>> = HashMap::new();
-    for &k in &candidates[1] {
-        by_last.entry(names[1][k].last()).or_default().push(k);
+impl Best {
+    fn take(&mut self, score: usize, other: usize) {
+        if score > self.score {
+            (self.score, self.found) = (score, vec![other]);
+        } else if score == self.score {
+            self.found.push(other);
+        }
     }
-    let mut best = Best::default();
-    for &a in &candidates[0] {
-        for &b in by_last.get(names[0][a].last()).into_iter().flatten() {
-            let Some(mut common) = names[0][a].common(&names[1][b]) else { continue };
-            if names[0][a].is(&names[1][b]) {
-                common = usize::MAX / 2;
-            }
-            // Verilog tells `drain` from `Drain`; other tools do not.
-            common = 2 * common + usize::from(names[0][a].ends_exactly_as(&names[1][b]));
-            for (side, own, other) in [(0, a, b), (1, b, a)] {
-                let (most, found) = best[side].entry(own).or_default();
-                if common > *most {
-                    (*most, *found) = (common, vec![other]);
-                } else if common == *most {
-                    found.push(other);
+}
+
+/// The best for each signal of each side; nothing for those that are no candidates.
+fn best(
+    sides: [&Source; 2],
+    names: &[Vec<Name>; 2],
+    candidates: &[Vec<usize>; 2],
+) -> [Vec<Best>; 2] {
+    let mut whole: [HashMap<String, Vec<usize>>; 2] = Default::default();
+    for side in 0..2 {
+        for &k in &candidates[side] {
+            whole[side].entry(names[side][k].scope(0)).or_default().push(k);
+        }
+    }
+    let mut best = [0, 1].map(|side| vec![Best::default(); names[side].len()]);
+    for side in 0..2 {
+        for &own in &candidates[side] {
+            let text = names[side][own].scope(0);
+            // Names that are the same are found from the first side.
+            for end in ends(&text).skip(side) {
+                for &other in whole[1 - side].get(end).into_iter().flatten() {
+                    let (a, b) = if side == 0 { (own, other) } else { (other, own) };
+                    let score = score(&names[0][a], &names[1][b]);
+                    best[0][a].take(score, b);
+                    best[1][b].take(score, a);
                 }
             }
+        }
+    }
+    for side in 0..2 {
+        for best in &mut best[side] {
+            best.found.sort_unstable();
+            best.several = several(sides[1 - side], &best.found);
         }
     }
     best
 }
 
+/// A name and all its ends, the longest first.
+pub(super) fn ends(text: &str) -> impl Iterator<Item = &str> {
+    let inner = text.match_indices('.').map(|(place, _)| &text[place + 1..]);
+    std::iter::once(text).chain(inner).filter(|end| !end.is_empty())
+}
+
+/// How well two names do of which one is the end of the other.
+fn score(a: &Name, b: &Name) -> usize {
+    let parts = if a.is(b) { usize::MAX / 2 } else { a.depth().min(b.depth()) };
+    // Verilog tells `drain` from `Drain`; other tools do not.
+    2 * parts + usize::from(a.ends_exactly_as(b))
+}
+
 /// Matches the candidates by name, and says why the others are left.
 pub(super) fn by_name(
     sides: [&Source; 2],
-    names: &[Vec<Name>; 2],
+    own: &[Vec<Name>; 2],
     candidates: &[Vec<usize>; 2],
     matching: &mut Matching,
 ) {
-    let hung = scopes(names, candidates).map(|scopes| below(names, &scopes));
-    let names = hung.as_ref().unwrap_or(names);
-    let best = best(names, candidates);
+    let hung = scopes(own, candidates).map(|scopes| below(own, &scopes));
+    let names = hung.as_ref().unwrap_or(own);
+    let best = best(sides, names, candidates);
     let mut pairs: HashMap<(usize, usize), usize> = HashMap::new();
     let mut joined = [HashSet::new(), HashSet::new()];
     let mut reasons: [HashMap<usize, UnmatchedReason>; 2] = Default::default();
     for &k in &candidates[0] {
-        let Some((_, found)) = best[0].get(&k) else { continue };
+        let found = &best[0][k];
         let a = &sides[0].signals[k];
-        let mutual: Vec<usize> = (found.iter().copied())
-            .filter(|b| best[1].get(b).is_some_and(|(_, back)| back.contains(&k)))
-            .collect();
+        let is_mutual = |&b: &usize| best[1][b].score == found.score;
+        let mutual: Vec<usize> = found.found.iter().copied().filter(is_mutual).collect();
         let mut refuse = |side: usize, signal: usize, reason: UnmatchedReason| {
             reasons[side].entry(signal).or_insert(reason);
         };
@@ -106,10 +151,8 @@ pub(super) fn by_name(
             refuse(0, k, UnmatchedReason::Ambiguous(others));
             continue;
         }
-        if let Some((_, back)) = best[1].get(&first)
-            && let Some(others) = several(sides[0], back)
-        {
-            refuse(1, first, UnmatchedReason::Ambiguous(others));
+        if let Some(others) = &best[1][first].several {
+            refuse(1, first, UnmatchedReason::Ambiguous(others.clone()));
             continue;
         }
         if a.width != b.width || a.kind != b.kind {
@@ -124,16 +167,21 @@ pub(super) fn by_name(
             continue;
         }
         pairs.insert((a.id, b.id), matching.pairs.len());
-        let [left, right] = &mut matching.slots;
-        matching.pairs.push(Pair {
-            name: a.name.text.clone(),
-            other: b.name.text.clone(),
-            how: if a.name.is(&b.name) { MatchedBy::Name } else { MatchedBy::Suffix },
-            width: a.width,
-            sides: [vec![Part::whole(left, a)], vec![Part::whole(right, b)]],
-            show: Show::of(a, b),
-            ..Pair::default()
-        });
+        let how = if a.name.is(&b.name) { MatchedBy::Name } else { MatchedBy::Suffix };
+        matching.pairs.push(Pair::whole([a, b], how, &mut matching.slots));
+    }
+    let is_alone = |side: usize, k: &usize| {
+        !joined[side].contains(&sides[side].signals[*k].id) && !reasons[side].contains_key(k)
+    };
+    let alone = [0, 1].map(|side| {
+        let alone = candidates[side].iter().copied();
+        alone.filter(|k| is_alone(side, k)).collect::<Vec<_>>()
+    });
+    for [a, b] in by_tail(sides, own, candidates, &alone) {
+        let [a, b] = [&sides[0].signals[a], &sides[1].signals[b]];
+        if joined[0].insert(a.id) && joined[1].insert(b.id) {
+            matching.pairs.push(Pair::whole([a, b], MatchedBy::Tail, &mut matching.slots));
+        }
     }
     for side in 0..2 {
         for &k in &candidates[side] {
@@ -150,6 +198,9 @@ pub(super) fn by_name(
 
 /// The names, if they are not all of one signal.
 fn several(source: &Source, signals: &[usize]) -> Option<Vec<String>> {
+    if signals.len() < 2 {
+        return None;
+    }
     let ids: HashSet<usize> = signals.iter().map(|&k| source.signals[k].id).collect();
     let name = |&k: &usize| source.signals[k].name.text.clone();
     (ids.len() > 1).then(|| signals.iter().take(4).map(name).collect())

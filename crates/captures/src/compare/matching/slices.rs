@@ -23,6 +23,9 @@ pub(super) fn by_slice(sides: [&Source; 2], matching: &mut Matching) {
         if left.reason != UnmatchedReason::Alone
             || !left.name.ends_with(']')
             || !left.name.contains(':')
+            || sides[1 - left.side]
+                .called(sides[left.side].signals[left.signal].name.last())
+                .is_empty()
         {
             return true;
         }

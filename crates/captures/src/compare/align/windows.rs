@@ -1,0 +1,163 @@
+//! Alignment of each window alone by best agreement, of all windows in one pass over the waveform.
+//!
+//! Parts of the windows are looked for, by their hashes, in the waveform; where one is found its window
+//! is laid over. A window that differs from the waveform in so many places that none of its parts may be
+//! left is laid over all places, in a second pass.
+
+mod hay;
+mod needle;
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use tofsim::error::{Input, Result};
+
+use super::super::plan::Plan;
+use super::super::selection::{Piece, Selected};
+use super::alignment::Alignment;
+use super::correlation::{KEPT, LONGEST, PairBits, Search, decide, search};
+use super::survey::survey;
+use hay::{hash, pass, power};
+use needle::{Needle, packed};
+
+/// Windows that are listed one by one.
+const LISTED: usize = 8;
+
+/// An offset for each window, in the order of time.
+pub(super) fn alignment(plan: &Plan, signals: &[String]) -> Result<Alignment> {
+    let Some(side) = plan.capture() else {
+        let expected = "windows: expected a capture on one side and a waveform on the other";
+        return Err(Input::new("--align", expected).into());
+    };
+    let windows = survey(plan.sources[side])?.windows;
+    let capture: Vec<Piece> =
+        windows.iter().map(|window| Piece::Run(window.first, window.count)).collect();
+    let mut bits = PairBits::new(plan, signals)?;
+    let mut needles = needles(plan, side, &capture, &mut bits)?;
+    lay_over_seeds(plan, 1 - side, &mut needles, &mut bits)?;
+    lay_over_all(plan, 1 - side, &mut needles, &mut bits)?;
+    let (mut found, mut waveform, mut from) = (Vec::new(), Vec::new(), 0);
+    for (k, (needle, window)) in needles.iter().zip(&windows).enumerate() {
+        let candidates = match needle.candidates(from, bits.width) {
+            Some(candidates) => candidates,
+            None => {
+                let piece = Piece::Run(window.first, window.count);
+                search(plan, signals, &Search { side, piece, overhangs: false, from })?
+            }
+        };
+        let (best, text) = decide(&candidates, side, &format!("window {k}"))?;
+        found.push(format!("window {k}: {text}"));
+        let begin = best.offset.unsigned_abs();
+        from = begin + window.count.unwrap_or(1);
+        waveform.push(Piece::Run(begin, window.count));
+    }
+    if found.len() > LISTED {
+        let more = found.split_off(LISTED - 1).len();
+        found.push(format!("... and {more} more windows"));
+    }
+    let mut pieces = [capture, waveform];
+    if side == 1 {
+        pieces.swap(0, 1);
+    }
+    Ok(Alignment { pieces, found: found.join("\n"), offset: None, differences: Vec::new() })
+}
+
+fn needles(
+    plan: &Plan,
+    side: usize,
+    windows: &[Piece],
+    bits: &mut PairBits,
+) -> Result<Vec<Needle>> {
+    let mut selected = Selected::new(plan.samples(side)?, windows);
+    let stride = 2 * bits.width.div_ceil(64);
+    let mut needles = Vec::new();
+    loop {
+        let (mut rows, mut count) = (Vec::new(), 0);
+        while let Some(place) = selected.next()? {
+            if place.sample.held || count == LONGEST {
+                break;
+            }
+            rows.extend(packed(&bits.row(side, &selected.samples.state)));
+            count += 1;
+        }
+        if count < 2 {
+            let source = &plan.sources[side].name;
+            let expected = "expected at least two samples of each window to align by";
+            return Err(Input::new(source, expected).into());
+        }
+        needles.push(Needle::new(rows, stride));
+        if !selected.next_piece() {
+            return Ok(needles);
+        }
+    }
+}
+
+fn longest(needles: &[Needle]) -> usize {
+    needles.iter().map(Needle::length).max().unwrap_or(0)
+}
+
+/// For each hash the windows that have such a part, with the number of samples behind it.
+type Seeds = HashMap<u64, Vec<(usize, usize)>>;
+
+/// Lays windows over the places where one of their parts is found.
+fn lay_over_seeds(
+    plan: &Plan,
+    side: usize,
+    needles: &mut [Needle],
+    bits: &mut PairBits,
+) -> Result<()> {
+    let stride = 2 * bits.width.div_ceil(64);
+    let mut by_length: BTreeMap<usize, Seeds> = BTreeMap::new();
+    for (k, needle) in needles.iter_mut().enumerate() {
+        for (rows, behind) in needle.seeds() {
+            let seeds = by_length.entry(rows.len() / stride).or_default();
+            seeds.entry(hash(rows, stride)).or_default().push((k, behind));
+        }
+    }
+    let by_length: Vec<(usize, u64, Seeds)> =
+        by_length.into_iter().map(|(length, seeds)| (length, power(length), seeds)).collect();
+    // Windows that are to be laid over once their last sample is there.
+    let mut waiting: BTreeSet<(u64, usize)> = BTreeSet::new();
+    pass(plan, side, bits, longest(needles), |hay| {
+        for (length, power, seeds) in &by_length {
+            let found = hay.hash(*length, *power).and_then(|hash| seeds.get(&hash));
+            waiting.extend(
+                found.into_iter().flatten().map(|&(k, behind)| (hay.last() + behind as u64, k)),
+            );
+        }
+        while let Some(&(end, k)) = waiting.first().filter(|(end, _)| *end <= hay.last()) {
+            waiting.pop_first();
+            let length = needles[k].length();
+            if let Some(first) = hay.first_of(end, length) {
+                needles[k].lay_over(hay.samples(first, length), first);
+            }
+        }
+    })
+}
+
+/// Lays the windows of which the best place is not clear over all places.
+fn lay_over_all(
+    plan: &Plan,
+    side: usize,
+    needles: &mut [Needle],
+    bits: &mut PairBits,
+) -> Result<()> {
+    let longest = longest(needles);
+    let width = bits.width;
+    let unclear = |needle: &&mut Needle| needle.candidates(0, width).is_none();
+    let mut needles: Vec<&mut Needle> = needles.iter_mut().filter(unclear).collect();
+    if needles.is_empty() {
+        return Ok(());
+    }
+    needles.iter_mut().for_each(|needle| needle.begin_anew());
+    pass(plan, side, bits, longest, |hay| {
+        for needle in &mut needles {
+            let length = needle.length();
+            // Nothing moves where all samples are alike: the first KEPT places say it all.
+            if hay.steady < length + KEPT
+                && let Some(first) = hay.first_of(hay.last(), length)
+            {
+                needle.lay_over(hay.samples(first, length), first);
+            }
+        }
+    })
+}

@@ -1,0 +1,54 @@
+//! Signals whose names end alike, below scopes of which neither is in the other.
+
+use std::collections::{HashMap, HashSet};
+
+use crate::source::{Name, Source};
+
+use super::names::ends;
+
+/// The one signal of a side whose names end so, or that there are several.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ending {
+    One(usize),
+    Several,
+}
+
+/// Pairs of signals that are left of both sides: the longest end of a name that there is on the other
+/// side too belongs to no third signal, be it left or not.
+pub(super) fn by_tail(
+    sides: [&Source; 2],
+    names: &[Vec<Name>; 2],
+    candidates: &[Vec<usize>; 2],
+    left: &[Vec<usize>; 2],
+) -> Vec<[usize; 2]> {
+    if left.iter().any(Vec::is_empty) {
+        return Vec::new();
+    }
+    let [own, others] = [0, 1].map(|side| endings(sides[side], &names[side], &candidates[side]));
+    let is_left: HashSet<usize> = left[1].iter().copied().collect();
+    let partner = |&a: &usize| {
+        let text = names[0][a].scope(0);
+        let (end, &found) = ends(&text).find_map(|end| others.get_key_value(end))?;
+        let (Ending::One(b), Some(Ending::One(_))) = (found, own.get(end)) else { return None };
+        let [a_signal, b_signal] = [&sides[0].signals[a], &sides[1].signals[b]];
+        let fits = a_signal.width == b_signal.width && a_signal.kind == b_signal.kind;
+        (fits && is_left.contains(&b)).then_some([a, b])
+    };
+    left[0].iter().filter_map(partner).collect()
+}
+
+/// All ends of the names of a side, and whose they are.
+fn endings(source: &Source, names: &[Name], candidates: &[usize]) -> HashMap<String, Ending> {
+    let mut endings: HashMap<String, Ending> = HashMap::new();
+    for &k in candidates {
+        let text = names[k].scope(0);
+        for end in ends(&text) {
+            match endings.get_mut(end) {
+                Some(Ending::One(first)) if source.signals[*first].id == source.signals[k].id => {}
+                Some(ending) => *ending = Ending::Several,
+                None => drop(endings.insert(end.to_owned(), Ending::One(k))),
+            }
+        }
+    }
+    endings
+}

@@ -1,0 +1,130 @@
+//! FST files, looked through before the library reads them: it makes room for whatever their lengths,
+//! sizes and counts say, and follows lengths that lead nowhere.
+//!
+//! The format is that of GTKWave's `block_format.txt` and `fstapi.c`.
+
+mod changes;
+mod names;
+mod unpack;
+
+use std::fs::File;
+use std::io::Seek;
+use std::path::Path;
+
+use tofsim::error::{Error, Result};
+
+use changes::Section;
+use names::Packed;
+use unpack::{gzip_prefix, most};
+
+use super::bytes::Bytes;
+use super::span::{Checked, Fault, Span, at_most, word};
+
+/// First byte of a file that begins with its header.
+pub(super) const HEADER: u8 = 0;
+/// First byte of a file that is packed as a whole.
+pub(super) const WRAPPED: u8 = 254;
+
+/// Bytes of a header with its length, and where behind that it has its end and its timescale.
+const HEADER_LENGTH: u64 = 329;
+const END: usize = 8;
+const TIMESCALE: usize = 64;
+/// Exponents of the seconds that a file counts in.
+const EXPONENTS: std::ops::RangeInclusive<i8> = -21..=2;
+/// Bytes of a block's length.
+const LENGTH: u64 = 8;
+
+/// Opens a file of any format; an FST file that is packed as a whole is unpacked.
+pub(super) fn open(path: &Path) -> Result<Bytes> {
+    let file = File::open(path).map_err(Error::io(path, "read"))?;
+    let mut bytes = Bytes::new(file);
+    let unpacked = match bytes.range(0, 1).map_err(Error::io(path, "read"))?[..] {
+        [WRAPPED] => Some(unwrapped(&mut bytes).map_err(|fault| fault.of_file(path))?),
+        _ => None,
+    };
+    match unpacked {
+        Some(unpacked) => Ok(Bytes::loaded(unpacked)),
+        None => {
+            bytes.rewind().map_err(Error::io(path, "read"))?;
+            Ok(bytes)
+        }
+    }
+}
+
+/// What is packed in a file.
+fn unwrapped(file: &mut Bytes) -> Checked<Vec<u8>> {
+    let head = file.range(1, 2 * LENGTH)?;
+    let mut span = Span::new(&head, "packed file");
+    let (length, size) = (word(span.take(LENGTH)?), word(span.take(LENGTH)?));
+    if length == 0 {
+        return Err(Fault::of("packed file", "was not packed to its end"));
+    }
+    let packed = file.length()? - 1 - 2 * LENGTH;
+    at_most("size of the packed file", size, most(packed, true))?;
+    gzip_prefix(&file.range(1 + 2 * LENGTH, packed)?, size, "size of the packed file")
+}
+
+/// Looks through a file, and says where its last time is.
+pub(super) fn check(file: &mut Bytes) -> Checked<Option<u64>> {
+    let whole = file.length()?;
+    let (mut end, mut signals) = (None, None);
+    let (mut sections, mut hierarchies) = (Vec::new(), Vec::new());
+    let mut place = 0;
+    while place < whole {
+        let block = format!("block at byte {place}");
+        let within = |fault: Fault| fault.within(&block);
+        let head = file.range(place, 1 + LENGTH)?;
+        let mut span = Span::new(&head, "length");
+        let kind = span.byte()?;
+        let length = word(span.take(LENGTH).map_err(within)?);
+        if kind == 255 && length == 0 {
+            // A file that was not finished; what follows are changes on their way.
+            break;
+        }
+        let most = whole - place - 1;
+        if !(LENGTH..=most).contains(&length) {
+            let expected = format!("expected {LENGTH} to {most}");
+            return Err(within(Fault::value("length", length, expected)));
+        }
+        let begin = place + 1;
+        let mut body = || file.range(begin + LENGTH, length - LENGTH);
+        match kind {
+            HEADER => end = Some(header(&body()?).map_err(within)?),
+            1 | 5 | 8 => sections.push(Section { kind, begin, length }),
+            2 => drop(Span::new(&body()?, "pauses").count("number").map_err(within)?),
+            3 => signals = Some(names::widths(&body()?).map_err(within)?.len() as u64),
+            4 => hierarchies.push((body()?, Packed::Gzip, block)),
+            6 => hierarchies.push((body()?, Packed::Lz4, block)),
+            7 => hierarchies.push((body()?, Packed::Lz4Twice, block)),
+            255 => {}
+            _ => return Err(within(Fault::value("kind", kind.into(), "is none of FST's"))),
+        }
+        place = begin + length;
+    }
+    let Some(signals) = signals else {
+        return Err(Fault::of("geometry", "is missing: the file was not written to its end"));
+    };
+    for (body, packed, block) in hierarchies {
+        names::check(&body, packed, signals).map_err(|fault| fault.within(&block))?;
+    }
+    for section in sections {
+        let block = format!("block at byte {}", section.begin - 1);
+        section.check(file, signals).map_err(|fault| fault.within(&block))?;
+    }
+    Ok(end)
+}
+
+/// The last time, from the header.
+fn header(body: &[u8]) -> Checked<u64> {
+    let length = body.len() as u64 + LENGTH;
+    if length != HEADER_LENGTH {
+        let expected = format!("expected {HEADER_LENGTH} of a header");
+        return Err(Fault::value("length", length, expected));
+    }
+    let exponent = body[TIMESCALE] as i8;
+    if !EXPONENTS.contains(&exponent) {
+        let expected = format!("expected 10 to the -21 to 2 seconds, not to the {exponent}");
+        return Err(Fault::value("timescale", body[TIMESCALE].into(), expected));
+    }
+    Ok(word(&body[END..]))
+}

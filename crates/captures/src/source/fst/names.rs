@@ -1,0 +1,84 @@
+//! Names and widths of an FST file's signals.
+
+use super::super::span::{Checked, Fault, Span, at_most, word};
+use super::unpack::{gzip, lz4, zlib};
+
+/// Widest signal [bits].
+const WIDEST: u64 = super::super::wave::WIDEST as u64;
+
+/// Bytes that the first values of each signal take, from the block that says so.
+pub(super) fn widths(body: &[u8]) -> Checked<Vec<u64>> {
+    let mut span = Span::new(body, "geometry");
+    let (size, count) = (word(span.take(8)?), word(span.take(8)?));
+    let bytes = zlib(span.take(span.left())?, size, "geometry's size")?;
+    let count = at_most("geometry's signals", count, bytes.len() as u64)?;
+    let mut span = Span::new(&bytes, "geometry");
+    let width = |_| match span.number()? {
+        0 => Ok(8),
+        0xffff_ffff => Ok(0),
+        width => at_most("a signal's width", width, WIDEST),
+    };
+    (0..count).map(width).collect()
+}
+
+/// How the names are packed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Packed {
+    Gzip,
+    Lz4,
+    Lz4Twice,
+}
+
+/// That no name is of a signal beyond the first `signals`.
+pub(super) fn check(body: &[u8], packed: Packed, signals: u64) -> Checked<()> {
+    const SIZE: &str = "names' size";
+    let mut span = Span::new(body, "names");
+    let size = word(span.take(8)?);
+    let bytes = match packed {
+        Packed::Gzip => gzip(span.take(span.left())?, size, SIZE)?,
+        Packed::Lz4 => lz4(span.take(span.left())?, size, SIZE)?,
+        Packed::Lz4Twice => {
+            let once = span.number()?;
+            lz4(&lz4(span.take(span.left())?, once, SIZE)?, size, SIZE)?
+        }
+    };
+    let mut span = Span::new(&bytes, "names");
+    let mut own = 0;
+    while span.left() > 0 {
+        match span.byte()? {
+            SCOPE => {
+                span.byte()?;
+                span.text()?;
+                span.text()?;
+            }
+            0..=LAST_KIND => {
+                span.byte()?;
+                span.text()?;
+                at_most("a signal's width", span.number()?, u32::MAX.into())?;
+                if at_most("a name's signal", span.number()?, signals)? == 0 {
+                    own = at_most("names' signals", own + 1, signals)?;
+                }
+            }
+            ATTRIBUTE => {
+                let kind = [span.byte()?, span.byte()?];
+                if SOURCES.contains(&kind) {
+                    span.number()?;
+                }
+                span.text()?;
+                span.number()?;
+            }
+            ATTRIBUTE_END | SCOPE_END => {}
+            kind => return Err(Fault::value("a name's kind", kind.into(), "is none")),
+        }
+    }
+    Ok(())
+}
+
+/// What stands before a name, a scope and an attribute, and at their ends.
+const LAST_KIND: u8 = 29;
+const ATTRIBUTE: u8 = 252;
+const ATTRIBUTE_END: u8 = 253;
+const SCOPE: u8 = 254;
+const SCOPE_END: u8 = 255;
+/// Attributes that have a number in place of their text.
+const SOURCES: [[u8; 2]; 2] = [[0, 4], [0, 5]];
