@@ -21,6 +21,8 @@ pub enum NoteCode {
     EyeSafety,
     /// The run ended before all of an input came due.
     UnusedInput,
+    /// Two files could not be read or matched as they are.
+    Comparison,
 }
 
 impl fmt::Display for NoteCode {

@@ -187,7 +187,6 @@ pub fn json(result: &Comparison) -> Value {
             "name": unmatched.name,
             "reason": unmatched.reason.to_string(),
         })).collect::<Vec<_>>(),
-        "notes": result.notes,
     })
 }
 

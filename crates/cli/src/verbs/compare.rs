@@ -7,9 +7,12 @@ use std::process::ExitCode;
 
 use values::{latency, time, tolerance, valid};
 
+use serde_json::{Value, json};
+
 use tofsim::error::{Error, Input, Result, read_text};
 use tofsim::kernel::Time;
 use tofsim::sim::setup::Setup;
+use tofsim::{Note, NoteCode, NoteValue};
 use tofsim_captures::compare::map::Rule;
 use tofsim_captures::compare::{
     Align, Options, SampleClock, SignalChoice, SignalMap, Unknowns, compare,
@@ -19,6 +22,7 @@ use tofsim_captures::ila::{AnalyserSetup, Radix};
 use tofsim_captures::source::Source;
 
 use crate::choice::{self, words};
+use crate::record::Record;
 use crate::report::comparison;
 
 use super::draws::load;
@@ -157,11 +161,14 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let radix = args.which.radix;
     let open = |path: &PathBuf| Source::file(path, radix);
     let Simulated { scenario, set, seed, frames } = &args.simulated;
+    let (mut notes, mut record) = (Vec::new(), None);
     let (a, b) = match (scenario, &args.files[..]) {
         (Some(scenario), [b]) => {
             let setup = Setup::new(load(scenario, set, *seed)?)?;
-            talk.heed(&setup.notes()?)?;
+            notes = setup.notes()?;
+            talk.heed(&notes)?;
             super::frames::check("--frames", *frames, &setup)?;
+            record = Some(Record::new(&setup, &talk.command));
             (Source::simulation(setup, *frames), open(b)?)
         }
         (None, [a, b]) => (open(a)?, open(b)?),
@@ -183,7 +190,18 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     }
     options.waves.iter().for_each(|path| talk.wrote_wave(path));
     match args.json {
-        true => print(&format!("{:#}\n", comparison::json(&result)))?,
+        true => {
+            let remark = |text: &String| {
+                Note::new(NoteCode::Comparison, "compare", NoteValue::None, "", text)
+            };
+            notes.extend(result.notes.iter().map(remark));
+            let mut json = comparison::json(&result);
+            json["set"] = json!([]);
+            json["hash"] = Value::Null;
+            json["notes"] = json!(notes);
+            record.iter().for_each(|record| record.put_into(&mut json, &notes));
+            print(&format!("{json:#}\n"))?;
+        }
         false => talk.report(&comparison::text(&result, talk.verbose))?,
     }
     Ok(ExitCode::from(u8::from(!result.is_same())))
