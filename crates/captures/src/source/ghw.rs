@@ -4,10 +4,12 @@
 //! The format is that of GHDL's `grt-waves.adb`; what the library does not know is left to it.
 
 mod types;
+mod words;
 
 use super::span::{Checked, Fault, Span, at_most};
 
 use types::Types;
+use words::{count, word};
 
 /// Bytes of the file's header, and where it says in which order the bytes of a number stand (2 for the
 /// highest first) and its version.
@@ -37,19 +39,6 @@ pub(super) fn check(bytes: &[u8]) -> Checked<()> {
         let name = String::from_utf8_lossy(name).trim_end_matches('\0').to_owned();
         section.map_err(|fault| fault.within(&format!("section {name} at byte {place}")))?;
     }
-}
-
-/// A number of four bytes.
-fn word(file: &mut Span, is_big: bool) -> Checked<u64> {
-    let bytes = file.take(4)?.iter();
-    let add = |word, &byte: &u8| word << 8 | u64::from(byte);
-    Ok(if is_big { bytes.fold(0, add) } else { bytes.rev().fold(0, add) })
-}
-
-/// How many things a section has, of a byte each or more.
-fn count(file: &mut Span, is_big: bool, field: &str) -> Checked<u64> {
-    let count = word(file, is_big)?;
-    at_most(field, count, file.left())
 }
 
 fn strings(file: &mut Span, is_big: bool) -> Checked<()> {

@@ -138,6 +138,9 @@ pub struct Source {
     pub(super) by_last: OnceLock<HashMap<String, Vec<usize>>>,
 }
 
+/// Widest signal that is read [bits].
+pub(super) const WIDEST: u32 = 1 << 20;
+
 /// Where the changes of a source come from.
 pub(super) trait Origin: Debug + Send + Sync {
     /// Begins to read the signals with those ids and widths.

@@ -19,12 +19,9 @@ use super::loaded;
 use super::locate::located;
 use super::marks::{Marking, Style};
 use super::names::Name;
-use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat, Words};
+use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat, WIDEST, Words};
 use super::stream::{Cursor, Feed, Gone};
 use super::tick::Tick;
-
-/// Widest signal that is read [bits].
-pub(super) const WIDEST: u32 = 1 << 20;
 
 /// Where a waveform is.
 #[derive(Clone, Debug)]

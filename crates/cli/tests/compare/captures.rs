@@ -140,5 +140,14 @@ fn the_sides_may_be_exchanged() {
     run(folder, SET_UPS[3]);
     let files = ["fig_6_21.csv", "estimator_validation.vcd"];
     let json = same(folder, &[&files[..], &["--map", "fig_6_21"]].concat());
+    assert_eq!(json["notes"][0]["code"], "comparison", "{json:#}");
     assert!(json["notes"].to_string().contains("exchanged"), "{json:#}");
+    assert!(json["hash"].is_null() && json["set"].as_array().unwrap().is_empty());
+    let simulated = ["--scenario", "estimator_validation", "fig_6_21.csv", "--map", "fig_6_21"];
+    let json = same(folder, &simulated);
+    assert_eq!(json["notes"][0]["code"], "no-light", "{json:#}");
+    assert_eq!(
+        (&json["scenario"], json["hash"].as_str().unwrap().len()),
+        (&"estimator_validation".into(), 16)
+    );
 }

@@ -6,7 +6,7 @@ use crate::source::{Name, Source};
 
 use super::super::pair::{MatchedBy, Pair};
 use super::matched::{Matching, Unmatched, UnmatchedReason};
-use super::tails::by_tail;
+use super::tails::{by_tail, ends};
 
 /// Pairs of names of which the last parts are the same that are looked at to find the scopes; those
 /// that are rare are the first.
@@ -109,12 +109,6 @@ fn best(
         }
     }
     best
-}
-
-/// A name and all its ends, the longest first.
-pub(super) fn ends(text: &str) -> impl Iterator<Item = &str> {
-    let inner = text.match_indices('.').map(|(place, _)| &text[place + 1..]);
-    std::iter::once(text).chain(inner).filter(|end| !end.is_empty())
 }
 
 /// How well two names do of which one is the end of the other.

@@ -4,7 +4,11 @@ use std::collections::{HashMap, HashSet};
 
 use crate::source::{Name, Source};
 
-use super::names::ends;
+/// A name and all its ends, the longest first.
+pub(super) fn ends(text: &str) -> impl Iterator<Item = &str> {
+    let inner = text.match_indices('.').map(|(place, _)| &text[place + 1..]);
+    std::iter::once(text).chain(inner).filter(|end| !end.is_empty())
+}
 
 /// The one signal of a side whose names end so, or that there are several.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

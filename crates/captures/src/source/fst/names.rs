@@ -1,10 +1,8 @@
 //! Names and widths of an FST file's signals.
 
+use super::super::signals::WIDEST;
 use super::super::span::{Checked, Fault, Span, at_most, word};
 use super::unpack::{gzip, lz4, zlib};
-
-/// Widest signal [bits].
-const WIDEST: u64 = super::super::wave::WIDEST as u64;
 
 /// Bytes that the first values of each signal take, from the block that says so.
 pub(super) fn widths(body: &[u8]) -> Checked<Vec<u64>> {
@@ -16,7 +14,7 @@ pub(super) fn widths(body: &[u8]) -> Checked<Vec<u64>> {
     let width = |_| match span.number()? {
         0 => Ok(8),
         0xffff_ffff => Ok(0),
-        width => at_most("a signal's width", width, WIDEST),
+        width => at_most("a signal's width", width, WIDEST.into()),
     };
     (0..count).map(width).collect()
 }

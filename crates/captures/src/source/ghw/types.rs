@@ -1,7 +1,7 @@
 //! The types of a GHW file, as far as they say how many signals a name has.
 
 use super::super::span::{Checked, Fault, Span, at_most};
-use super::count;
+use super::words::count;
 
 /// Deepest that types may be within each other.
 const DEEPEST: u32 = 256;

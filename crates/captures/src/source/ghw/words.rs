@@ -1,0 +1,16 @@
+//! Numbers of a GHW file that take four bytes each.
+
+use super::super::span::{Checked, Span, at_most};
+
+/// A number of four bytes.
+pub(super) fn word(file: &mut Span, is_big: bool) -> Checked<u64> {
+    let bytes = file.take(4)?.iter();
+    let add = |word, &byte: &u8| word << 8 | u64::from(byte);
+    Ok(if is_big { bytes.fold(0, add) } else { bytes.rev().fold(0, add) })
+}
+
+/// How many things a section has, of a byte each or more.
+pub(super) fn count(file: &mut Span, is_big: bool, field: &str) -> Checked<u64> {
+    let count = word(file, is_big)?;
+    at_most(field, count, file.left())
+}
