@@ -179,7 +179,13 @@ mod tests {
                 knots: Vec::new(),
             },
             candidates: (0..recipe.stages[0].candidates).map(candidate).collect(),
-            best: Some(BestBlock { start: 1, block: 2, ratio: f64::INFINITY, x: x.clone() }),
+            best: Some(BestBlock {
+                start: 1,
+                block: 2,
+                ratio: f64::INFINITY,
+                saturated: false,
+                x: x.clone(),
+            }),
             curve: Vec::new(),
         }
     }

@@ -39,6 +39,9 @@ pub struct BestBlock {
     pub block: usize,
     /// Largest ratio of a spread to the line, in fixed point.
     pub ratio: f64,
+    /// Whether weights had to be saturated for that.
+    #[serde(default)]
+    pub saturated: bool,
     /// Parameters.
     pub x: Vec<f64>,
 }

@@ -230,7 +230,8 @@ impl<'a> Tournament<'a> {
         }
     }
 
-    /// Keeps the block if none was better at its worst distance, in fixed point.
+    /// Keeps the block if none was better at its worst distance, in fixed point. One that fits the words is
+    /// better than any whose weights have to be saturated.
     fn judge(&mut self) -> Result<()> {
         let drawn = || self.material.draw(self.recipe, self.seed, Purpose::Choice);
         let choice = self.choice.get_or_init(drawn);
@@ -238,21 +239,23 @@ impl<'a> Tournament<'a> {
             let (start, block) = (candidate.start, self.state.block + 1);
             let folded = fold(&candidate.lm.x, self.recipe.neurons, &self.state.scaling);
             let circuit = Circuit::new(&folded, self.recipe.formats)?;
-            // What does not fit the words cannot be the best.
-            let fits = circuit.saturated_weights == 0;
-            let rows = fits.then(|| errors(&circuit, choice));
-            let ratio = rows.map_or(f64::INFINITY, |rows| worst(&rows, &self.recipe.weighting));
+            let saturated = circuit.saturated_weights > 0;
+            let ratio = worst(&errors(&circuit, choice), &self.recipe.weighting);
             let point = self.state.curve.iter_mut().rev().find(|point| point.start == start);
             point.into_iter().for_each(|point| point.ratio = Some(ratio));
-            if fits && self.state.best.as_ref().is_none_or(|best| ratio < best.ratio) {
-                self.state.best =
-                    Some(BestBlock { start, block, ratio, x: candidate.lm.x.clone() });
+            let is_better = |best: &BestBlock| match saturated == best.saturated {
+                true => ratio < best.ratio,
+                false => best.saturated,
+            };
+            if self.state.best.as_ref().is_none_or(is_better) {
+                let x = candidate.lm.x.clone();
+                self.state.best = Some(BestBlock { start, block, ratio, saturated, x });
             }
         }
         Ok(())
     }
 
-    /// The network to keep: the best block, or the best candidate if none fits the words.
+    /// The network to keep: the best block, or the first candidate if none was made.
     pub fn result(&self) -> Float {
         let best = self.state.best.as_ref().map(|best| &best.x);
         let x = best.unwrap_or(&self.state.candidates[0].lm.x);
