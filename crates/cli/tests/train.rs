@@ -8,7 +8,7 @@ use std::path::Path;
 use tofsim::network::Network;
 use tofsim_learn::training::recipe::Recipe;
 
-use crate::common::{files, json, refused, stdout};
+use crate::common::{files, json, output, refused, stdout};
 
 /// Arguments of a training of about a second.
 const SMALL: [&str; 8] = [
@@ -51,7 +51,7 @@ fn the_same_command_writes_the_same_files_on_any_number_of_threads() {
         "{command}"
     );
     assert_eq!(network.accuracy.unwrap().distances_m, [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
-    assert_eq!(read(folder, "a/accuracy.csv").lines().count(), 52);
+    assert_eq!(read(folder, "a/accuracy.csv").lines().count(), 53);
 }
 
 #[test]
@@ -227,6 +227,22 @@ fn other_numbers_of_neurons_are_trained_and_run() {
     assert_eq!(run["frames"][0]["estimator_cycles"], 259 + 4);
     let error = refused(folder, &["train", "--neurons", "17"]);
     assert!(error.contains("neurons = 17: expected 16 at most"), "{error}");
+}
+
+#[test]
+fn weights_that_fit_no_words_are_saturated_and_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let args = ["train", "--quick", "--profile", "uniform", "--seed", "2", "-o", "wide"];
+    let done = output(folder, &[&args[..], &["--with", "limits.penalty=0.0001"]].concat());
+    let told = String::from_utf8(done.stderr).unwrap();
+    assert!(done.status.success() && told.contains("do not fit their words"), "{told}");
+    let network = Network::load(&folder.join("wide/network.toml")).unwrap();
+    let fixed = &network.fixed;
+    let w1 = fixed.w1.iter().flatten().map(|weight| weight.to_bits());
+    let others = fixed.b1.iter().map(|bias| bias.to_bits());
+    let words = w1.chain(others).chain(fixed.w2.iter().map(|weight| weight.to_bits()));
+    assert!(words.into_iter().any(|word| [i16::MIN, i16::MAX].contains(&word)));
 }
 
 #[test]

@@ -144,10 +144,9 @@ fn the_sides_may_be_exchanged() {
     assert!(json["notes"].to_string().contains("exchanged"), "{json:#}");
     assert!(json["hash"].is_null() && json["set"].as_array().unwrap().is_empty());
     let simulated = ["--scenario", "estimator_validation", "fig_6_21.csv", "--map", "fig_6_21"];
-    let json = same(folder, &simulated);
+    let done = common::output(folder, &[&["compare", "--json"], &simulated[..]].concat());
+    let json: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
     assert_eq!(json["notes"][0]["code"], "no-light", "{json:#}");
-    assert_eq!(
-        (&json["scenario"], json["hash"].as_str().unwrap().len()),
-        (&"estimator_validation".into(), 16)
-    );
+    assert_eq!(json["scenario"], "estimator_validation");
+    assert_eq!(json["hash"].as_str().unwrap().len(), 16);
 }
