@@ -240,9 +240,9 @@ fn weights_that_fit_no_words_are_saturated_and_told() {
     let network = Network::load(&folder.join("wide/network.toml")).unwrap();
     let fixed = &network.fixed;
     let w1 = fixed.w1.iter().flatten().map(|weight| weight.to_bits());
-    let others = fixed.b1.iter().map(|bias| bias.to_bits());
-    let words = w1.chain(others).chain(fixed.w2.iter().map(|weight| weight.to_bits()));
-    assert!(words.into_iter().any(|word| [i16::MIN, i16::MAX].contains(&word)));
+    let others = fixed.b1.iter().map(|bias| i32::from(bias.to_bits()));
+    let words = w1.chain(others).chain(fixed.w2.iter().map(|weight| i32::from(weight.to_bits())));
+    assert!(words.into_iter().any(|word| [-32768, 32767].contains(&word)));
 }
 
 #[test]
