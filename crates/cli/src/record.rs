@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::parser::ValueSource;
 use clap::{ArgAction, ArgMatches, Command};
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use tofsim::Note;
 use tofsim::sim::setup::Setup;
@@ -88,8 +88,10 @@ impl Record {
     /// The record in the bytes of a file, if it has one.
     pub fn find(bytes: &[u8]) -> Option<Record> {
         if bytes.trim_ascii_start().starts_with(b"{") {
-            let object: Map<String, Value> = serde_json::from_slice(bytes).ok()?;
-            return serde_json::from_value(Value::Object(object)).ok();
+            let mut object: Value = serde_json::from_slice(bytes).ok()?;
+            // A network as plain arrays has numbers beside.
+            let within = object.pointer_mut("/training/record").map(Value::take);
+            return serde_json::from_value(within.unwrap_or(object)).ok();
         }
         // A dataset's description is an object in the Parquet file's metadata.
         let marked = memmem(bytes, MARK.as_bytes()).map(|place| place + MARK.len());
@@ -165,7 +167,9 @@ mod tests {
         }
         let mut object = json!({ "schema": "tofsim.run/1", "frames": [1] });
         record.put_into(&mut object, &[]);
-        assert_eq!(Record::find(object.to_string().as_bytes()), Some(record));
+        assert_eq!(Record::find(object.to_string().as_bytes()).as_ref(), Some(&record));
+        let network = json!({ "b": [[0.5]], "training": { "seed": 1, "record": record } });
+        assert_eq!(Record::find(network.to_string().as_bytes()), Some(record));
         assert_eq!(Record::find(b"bin,count\n"), None);
         assert_eq!(Record::find(b"tofsim-record {\"version\":"), None);
     }

@@ -3,6 +3,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use serde_json::json;
+
 use tofsim::error::{Error, Result};
 use tofsim::files::output::write_bytes;
 use tofsim::network::file::{Accuracy, Training};
@@ -87,7 +89,7 @@ pub fn write(
         }
         None => {
             let mut network = export::json(&float, &training);
-            made.record.put_into(&mut network, &[]);
+            network["training"]["record"] = json!(made.record);
             write("network.json", &format!("{network:#}\n"))?
         }
     };
