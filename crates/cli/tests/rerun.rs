@@ -70,7 +70,10 @@ fn networks_vectors_captures_and_estimates_are_made_again_too() {
     stdout(path, &[&["run", "-o", "out", "--waves", "none"], &short[..]].concat());
     let histogram = ["estimate", "out/histogram.csv", "--estimator", "matched", "--json"];
     fs::write(path.join("estimated.json"), stdout(path, &histogram)).unwrap();
+    let explored = ["quantize", "--explore", "uniform", "--rows", "51", "--json"];
+    fs::write(path.join("explored.json"), stdout(path, &explored)).unwrap();
     for name in [
+        "explored.json",
         "net/network.toml",
         "net/accuracy.csv",
         "net/curve.svg",
@@ -122,7 +125,9 @@ fn what_has_no_record_is_refused() {
     fs::write(folder.path().join("other.csv"), other).unwrap();
     let error = refused(folder.path(), &["rerun", "other.csv"]);
     assert!(
-        error.contains("command = man: expected a record of one of budget, estimate, run"),
+        error.contains(
+            "command = man: expected a record of one of budget, estimate, quantize --explore, run"
+        ),
         "{error}"
     );
     assert!(refused(folder.path(), &["rerun", "none.vcd"]).contains("none.vcd: cannot read"));

@@ -16,6 +16,7 @@ use tofsim_learn::dataset::{Grid, GridOption, HistogramSource};
 use tofsim_learn::evaluation::exploration::{explore, sweep};
 use tofsim_learn::quantize::import;
 
+use crate::record::Record;
 use crate::report::exploration;
 use crate::text::table::{self, table};
 
@@ -148,7 +149,8 @@ impl Args {
         let network = Network::find(network, None)?;
         let notes = domain::notes(&network, &loaded.scenario, &Grid::test().ranges())?;
         talk.heed(&notes)?;
-        let source = HistogramSource::new(&Setup::new(loaded)?)?;
+        let setup = Setup::new(loaded)?;
+        let source = HistogramSource::new(&setup)?;
         let rows = self.draws.rows(Some(EXPLORED), &Grid::test(), seed)?;
         let (stop, data) = (stop_signal(), (&source, &rows, seed));
         let points = self.draws.on_threads(rows.count(), talk, |done| {
@@ -156,15 +158,15 @@ impl Args {
         })?;
         let (name, rows) = (&network.name, rows.count());
         if self.json {
-            return print_json(&json!({
+            let mut object = json!({
                 "schema": "tofsim.exploration/1",
-                "notes": notes,
                 "network": name,
                 "profile": profile,
-                "seed": seed,
                 "rows": rows,
                 "points": points,
-            }));
+            });
+            Record::new(&setup, &talk.command).put_into(&mut object, &notes);
+            return print_json(&object);
         }
         let head = format!("network {name}, chain {profile}, {rows} histograms, seed {seed}\n\n");
         talk.report(&(head + &exploration::text(&points, table::width())))

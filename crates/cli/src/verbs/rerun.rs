@@ -16,10 +16,19 @@ use super::terminal::{Talk, print, print_json};
 
 /// Verbs whose outputs are made again. They write into the folder of `--output` and nowhere else, so
 /// that no record of another's can make them write over anything.
-const VERBS: [&str; 8] =
-    ["budget", "estimate", "run", "evaluate", "dataset", "train", "vectors", "ila capture"];
+const VERBS: [&str; 9] = [
+    "budget",
+    "estimate",
+    "quantize --explore",
+    "run",
+    "evaluate",
+    "dataset",
+    "train",
+    "vectors",
+    "ila capture",
+];
 /// Those that print and write nothing.
-const PRINTING: [&str; 2] = ["budget", "estimate"];
+const PRINTING: &[&str] = VERBS.split_at(3).0;
 
 /// Make an output again from what it records, and compare the two byte by byte
 #[derive(Debug, clap::Args)]
@@ -111,6 +120,9 @@ fn again(file: &Path, given: &[u8], record: &Record, folder: &Path) -> Result<Ve
     let words: Vec<_> = record.command.iter().map(String::as_str).collect();
     let verb = match words[..] {
         ["ila", command, ..] => format!("ila {command}"),
+        ["quantize", ..] if words.iter().any(|word| word.starts_with("--explore=")) => {
+            "quantize --explore".to_owned()
+        }
         [verb, ..] => verb.to_owned(),
         [] => String::new(),
     };
