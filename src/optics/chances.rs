@@ -51,6 +51,7 @@ impl Chances {
 mod tests {
     use crate::firmware::carry_chain::{Delays, TAPS};
     use crate::optics::Budget;
+    use crate::optics::closed_form::tests::budget;
 
     use super::*;
 
@@ -61,16 +62,6 @@ mod tests {
         let delays = Delays::new(Time::from_ns(2), &[12_500; TAPS]).unwrap();
         let bins = Bins::of_chain(&delays, &delays.calibration(PERIOD), PERIOD);
         Chances::new(&Hazard::new(budget), &bins, END)
-    }
-
-    fn budget() -> Budget {
-        Budget {
-            signal_per_shot: 0.9,
-            ambient_rate_hz: 0.5e9,
-            mean_arrival: Time::from_fs(3_336_000),
-            pulse_sigma_ps: 137.0,
-            ..Budget::default()
-        }
     }
 
     #[test]

@@ -135,7 +135,7 @@ impl BinProbabilities {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
@@ -215,7 +215,8 @@ mod tests {
         assert_eq!(bins.code_at(Time::from_fs(6_400_001)), None);
     }
 
-    fn budget() -> Budget {
+    /// A bright target near the middle of the range.
+    pub(in crate::optics) fn budget() -> Budget {
         Budget {
             signal_per_shot: 0.9,
             ambient_rate_hz: 0.5e9,

@@ -12,6 +12,7 @@ mod verilog;
 mod waveforms;
 mod which;
 mod windows;
+mod words;
 
 use std::fs;
 use std::path::Path;

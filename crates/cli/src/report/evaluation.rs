@@ -112,10 +112,8 @@ pub struct Evaluated<'a> {
     pub json: &'a Value,
     /// Of each estimator.
     pub figures: &'a [Figures],
-    /// The grid, if histograms were drawn over one.
+    /// The grid, if histograms were drawn over one; over the thesis's its line is drawn.
     pub grid: Option<&'a Grid>,
-    /// Whether the grid is the thesis's, whose line is drawn.
-    pub thesis: bool,
 }
 
 impl Evaluated<'_> {
@@ -133,7 +131,7 @@ impl Evaluated<'_> {
             paths.push(folder.join("scenes.csv"));
             write_bytes(&paths[2], csv(evaluation_csv::scenes(self.figures, self.grid)))?;
         }
-        for picture in error_plots::all(self.figures, self.thesis) {
+        for picture in error_plots::all(self.figures, self.grid.is_some_and(Grid::is_thesis)) {
             let path = folder.join(picture.name);
             let svg = picture.svg.map_err(|why| Input::new(path.display(), why))?;
             write_bytes(&path, self.record.in_svg(&svg))?;

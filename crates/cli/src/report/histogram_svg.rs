@@ -6,7 +6,7 @@ use plotters::prelude::*;
 
 use tofsim::firmware::histogram_builder::BINS;
 
-use crate::text::svg::{chart, picture};
+use crate::text::svg::{chart, legend, picture};
 
 use super::causes::{CAUSES, Causes};
 
@@ -90,13 +90,6 @@ pub fn svg(
             .label(label)
             .legend(legend);
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .background_style(WHITE.mix(0.85))
-            .border_style(BLACK.mix(0.2))
-            .label_font(("sans-serif", 14))
-            .draw()?;
-        Ok(())
+        legend(&mut chart, SeriesLabelPosition::UpperRight)
     })
 }

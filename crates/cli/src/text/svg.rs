@@ -2,7 +2,7 @@
 
 use std::io;
 
-use plotters::coord::Shift;
+use plotters::coord::{CoordTranslate, Shift};
 use plotters::prelude::*;
 
 /// Width and height of a picture [px].
@@ -20,6 +20,17 @@ pub fn chart<'a, 'b, 'c>(
     chart.margin(12).caption(title, ("sans-serif", 18));
     chart.x_label_area_size(42).y_label_area_size(64);
     chart
+}
+
+/// What the labels of a chart's series stand for, in one of its corners; an error only if the plotting
+/// library fails.
+pub fn legend<'a, 'b: 'a, C: CoordTranslate>(
+    chart: &mut ChartContext<'a, SVGBackend<'b>, C>,
+    corner: SeriesLabelPosition,
+) -> Result<(), DrawingAreaErrorKind<io::Error>> {
+    let mut labels = chart.configure_series_labels();
+    labels.position(corner).label_font(("sans-serif", 14));
+    labels.background_style(WHITE.mix(0.85)).border_style(BLACK.mix(0.2)).draw()
 }
 
 /// The text of what `draw` draws on white; an error only if the plotting library fails.

@@ -104,7 +104,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let figures = &figures[..];
     if let Some(folder) = &args.output {
         let (record, json) = (&record, &json);
-        let evaluated = report::Evaluated { record, json, figures, grid: Some(&grid), thesis };
+        let evaluated = report::Evaluated { record, json, figures, grid: Some(&grid) };
         evaluated.write(folder)?.iter().for_each(|path| talk.wrote(path));
     }
     if args.json {

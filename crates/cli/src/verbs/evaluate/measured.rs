@@ -55,7 +55,7 @@ pub fn run(args: &Args, data: &Path, talk: &Talk) -> Result<()> {
     record.put_into(&mut json, &notes);
     if let Some(folder) = &args.output {
         let (record, json, figures) = (&record, &json, &figures[..]);
-        let evaluated = report::Evaluated { record, json, figures, grid: None, thesis: false };
+        let evaluated = report::Evaluated { record, json, figures, grid: None };
         evaluated.write(folder)?.iter().for_each(|path| talk.wrote(path));
     }
     if args.json {

@@ -1,0 +1,82 @@
+use super::*;
+use tofsim::scenario;
+
+/// Keys of the notes of an estimator under overrides, those of the scene too.
+fn keys(kind: EstimatorKind, overrides: &[&str]) -> Vec<String> {
+    let overrides: Vec<_> = overrides.iter().map(|&text| text.to_owned()).collect();
+    let setup = Setup::new(scenario::load("kc705", &overrides).unwrap()).unwrap();
+    kind.notes_of_scene(&setup).into_iter().map(|note| note.key).collect()
+}
+
+#[test]
+fn an_estimator_within_its_model_says_nothing() {
+    for kind in [EstimatorKind::Network, EstimatorKind::Likelihood, EstimatorKind::Matched] {
+        assert!(keys(kind, &[]).is_empty(), "{kind:?}");
+        assert!(keys(kind, &["laser.pulse_sigma_ps=200"]).is_empty(), "{kind:?}");
+    }
+    let known = ["firmware.mode=1", "pll.jitter_rms_ps=50"];
+    assert!(keys(EstimatorKind::Likelihood, &known).is_empty());
+}
+
+#[test]
+fn what_an_estimator_does_not_know_is_named() {
+    use EstimatorKind::{Centroid, Likelihood, Matched, Peak, Subtraction};
+    for (kind, set, key) in [
+        (Matched, "firmware.mode=1", "firmware.mode"),
+        (Centroid, "firmware.mode=1", "firmware.mode"),
+        (Peak, "firmware.mode=1", "firmware.mode"),
+        (Matched, "pll.jitter_rms_ps=50", "pll.jitter_rms_ps"),
+        (Matched, "pll.jitter_rms_ps=7.7", "pll.jitter_rms_ps"),
+        (Centroid, "pll.jitter_rms_ps=50", "pll.jitter_rms_ps"),
+        (Peak, "laser.pulse_sigma_ps=200", "laser.pulse_sigma_ps"),
+        (Subtraction, "laser.pulse_sigma_ps=100", "laser.pulse_sigma_ps"),
+        (Subtraction, "target.distance_m=0.7", "target.distance_m"),
+        (Peak, "target.distance_m=0.05", "target.distance_m"),
+        (Matched, "target.distance_m=0.04", "target.distance_m"),
+        (Likelihood, "target.distance_m=0.04", "target.distance_m"),
+        (Centroid, "laser.pulse_sigma_ps=200", "estimator.centroid_half_width"),
+        (Centroid, "target.distance_m=0.3", "--estimator"),
+        (Peak, "target.distance_m=0.1", "--estimator"),
+    ] {
+        let found = keys(kind, &[set]);
+        assert!(found.iter().any(|found| found == key), "{kind:?} {set}: {found:?}");
+    }
+    let found = keys(Likelihood, &["firmware.mode=1", "spad.dead_time_ns=6"]);
+    assert_eq!(found, ["spad.dead_time_ns"]);
+    let found = keys(Likelihood, &["firmware.mode=1", "target.distance_m=0.65"]);
+    assert_eq!(found, ["target.distance_m"]);
+    let found = keys(Likelihood, &["pll.jitter_rms_ps=50", "target.distance_m=0.86"]);
+    assert_eq!(found, ["target.distance_m"]);
+    assert_eq!(keys(Likelihood, &["spad.dead_time_ns=6"]), [""; 0]);
+}
+
+#[test]
+fn a_centroid_without_pile_up_says_nothing() {
+    let faint = ["spad.pdp=0.00001", "spad.dark_rate_hz=0", "ambient.irradiance_w_m2_nm=0"];
+    assert_eq!(keys(EstimatorKind::Centroid, &faint), [""; 0]);
+}
+
+#[test]
+fn the_centroid_in_the_firmware_says_the_same_by_its_key() {
+    let of = |set: &[&str]| {
+        let set: Vec<_> = set.iter().map(|&text| text.to_owned()).collect();
+        notes_of_firmware(&Setup::new(scenario::load("kc705", &set).unwrap()).unwrap())
+    };
+    assert!(of(&[]).is_empty());
+    let notes = of(&["estimator.kind=centroid", "firmware.mode=1"]);
+    let keys: Vec<_> = notes.iter().map(|note| &*note.key).collect();
+    assert_eq!(keys, ["firmware.mode"]);
+    assert_eq!(of(&["estimator.kind=centroid"])[0].key, "estimator.kind");
+}
+
+#[test]
+fn a_note_says_how_far_off_the_estimate_is() {
+    let setup = Setup::new(scenario::load("kc705", &[]).unwrap()).unwrap();
+    let notes = EstimatorKind::Centroid.notes_of_scene(&setup);
+    let text = notes[0].text.as_str();
+    assert!(text.starts_with("centroid: in the histogram that is to be expected"), "{text}");
+    assert!(
+        text.contains("it is -15.6 mm off") && text.ends_with("pile-up makes it early"),
+        "{text}"
+    );
+}
