@@ -9,6 +9,9 @@ use serde_json::Value;
 
 use crate::common;
 
+mod foreign;
+mod whole;
+
 const OWN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rtl_ref");
 const THEIRS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/verilog");
 

@@ -6,6 +6,7 @@
 
 pub mod bench;
 pub mod blocks;
+pub mod configuration;
 pub mod cover;
 pub mod draw;
 mod estimations;
@@ -23,5 +24,6 @@ mod top;
 pub mod verilog;
 
 pub use blocks::BLOCKS;
+pub use configuration::Configuration;
 pub use setting::Setting;
 pub use spec::{Spec, Vectors};

@@ -3,6 +3,7 @@
 mod adapter;
 pub mod check;
 pub mod cycle_counts;
+mod data;
 pub mod interface;
 pub mod map;
 pub mod observed;
@@ -10,6 +11,7 @@ pub mod process;
 pub mod rtl;
 pub mod simulator;
 pub mod strays;
+pub mod task;
 pub mod verdict;
 mod wave;
 
@@ -17,4 +19,5 @@ pub use check::{BlockCheck, BlockReport};
 pub use map::RtlMap;
 pub use rtl::Rtl;
 pub use simulator::Simulator;
+pub use task::Task;
 pub use verdict::Verdict;

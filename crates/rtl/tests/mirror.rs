@@ -9,7 +9,7 @@ use tofsim::firmware::forward2::{MOST_NEURONS, NEURONS};
 use tofsim::hierarchy::{Entry, Kind, every_entry, fitted};
 use tofsim_rtl::golden::BLOCKS;
 use tofsim_rtl::golden::ports::Port;
-use tofsim_rtl::verify::interface::{PortShape, Ports};
+use tofsim_rtl::verify::interface::PortShape;
 use tofsim_rtl::verify::process::Limits;
 use tofsim_rtl::verify::{Rtl, Simulator};
 
@@ -46,6 +46,12 @@ fn sources() -> Vec<(String, String)> {
     stems("rtl_ref", ".v", "").into_iter().map(|stem| (stem.clone(), text(&stem))).collect()
 }
 
+type Ports = BTreeMap<String, PortShape>;
+
+fn vector(output: bool, width: u32) -> PortShape {
+    PortShape { output, width, words: None }
+}
+
 /// Ports of each module as Rust has them; a module with several instances has one name for all.
 /// There are ports for the most neurons, as wide as the default number of them needs.
 fn rust_ports() -> BTreeMap<String, Ports> {
@@ -60,7 +66,7 @@ fn rust_ports() -> BTreeMap<String, Ports> {
     for entry in ports.map(narrow) {
         let instance = entry.scope.rsplit('.').next().unwrap();
         let module = if instance.starts_with("reset_sync_") { "reset_sync" } else { instance };
-        let port = PortShape { output: entry.kind == Kind::Output, width: entry.signal.width };
+        let port = vector(entry.kind == Kind::Output, entry.signal.width);
         let known = modules.entry(module.to_owned()).or_default();
         let before = known.insert(entry.signal.name.clone(), port);
         assert!(before.is_none_or(|before| before == port), "{}", entry.path());
@@ -85,11 +91,12 @@ fn every_module_has_golden_vectors() {
 fn ports_widths_and_directions_are_the_same() {
     let folder = common::empty();
     let rtl = Rtl::folder(&root().join("rtl_ref")).unwrap();
-    let limits = Limits { time: Duration::from_secs(60), stop: None };
+    let limits = Limits::new(Duration::from_secs(60));
     let rust = rust_ports();
     assert!(rust.keys().eq(&modules()), "{:?}", rust.keys());
     for (module, ours) in &rust {
-        let verilog = Simulator::Icarus.ports(folder.path(), module, &[], &rtl, &limits).unwrap();
+        let verilog = Simulator::Icarus.interface(folder.path(), module, &[], &rtl, &limits);
+        let verilog = verilog.unwrap().ports;
         let names: BTreeSet<_> = ours.keys().chain(verilog.keys()).collect();
         for name in names {
             let (left, right) = (verilog.get(name), ours.get(name));
@@ -97,7 +104,7 @@ fn ports_widths_and_directions_are_the_same() {
         }
     }
     for spec in BLOCKS {
-        let port = |port: Port| (port.name, PortShape { output: port.output, width: port.width });
+        let port = |port: Port| (port.name, vector(port.output, port.width));
         let of = |neurons| spec.ports(neurons).into_iter().map(port).collect::<Ports>();
         let vectors = Ports::from_iter(of(MOST_NEURONS).into_iter().chain(of(NEURONS)));
         assert_eq!(rust[spec.name], vectors, "ports of the golden block {}", spec.name);

@@ -202,12 +202,12 @@ pub fn write_junit(path: &Path, result: &Comparison) -> Result<()> {
                 format!("{} of {} differ: {}", pair.differing, pair.compared, pair.overview);
             (first_line(result, pair), count)
         });
-        JunitCase { name: pair.name.clone(), failure }
+        JunitCase { name: pair.name.clone(), failure, skipped: None }
     };
     let findings: Vec<_> = result.findings.iter().map(|f| f.text.as_str()).collect();
     let differs = !result.differences.is_empty();
     let failure = differs.then(|| (result.differences.join("; "), findings.join("\n")));
-    let structure = JunitCase { name: "structure".to_owned(), failure };
+    let structure = JunitCase { name: "structure".to_owned(), failure, skipped: None };
     let cases = result.pairs.iter().map(pair).chain([structure]);
     junit::write(path, "tofsim compare", format!("tofsim compare {a} {b}"), cases)
 }

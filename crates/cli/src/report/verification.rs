@@ -22,14 +22,16 @@ pub fn text(reports: &[BlockReport]) -> String {
             grouped(report.cycles as u64),
             grouped(report.mismatches() as u64),
             if goals == 0 { "-".to_owned() } else { format!("{met} of {goals}") },
-            report.word().to_owned(),
+            verdict(report),
         ]
     });
     let header = ["block", "cycles", "mismatches", "stimulus goals", "verdict"];
     let table_of_all = table(header, rows, ..0);
-    let verdicts: Vec<_> = reports.iter().map(|report| (report.word(), report.passed())).collect();
+    let words: Vec<_> = reports.iter().map(verdict).collect();
+    let good = reports.iter().map(|report| !report.failed());
+    let verdicts: Vec<_> = words.iter().map(String::as_str).zip(good).collect();
     let mut text = coloured_ends(&table_of_all, &verdicts, &stdout()) + "\n";
-    for report in reports.iter().filter(|report| !report.passed()) {
+    for report in reports.iter().filter(|report| report.failed()) {
         text += &format!("\n{}: {}\n", report.name, report.fault());
         if !report.around.is_empty() {
             text += &format!("{}\n", around(report));
@@ -38,7 +40,46 @@ pub fn text(reports: &[BlockReport]) -> String {
             text += &format!("both sides: {}\n", wave.display());
         }
     }
-    text
+    text += &not_run(reports);
+    let missed: Vec<_> = reports.iter().filter_map(missed).collect();
+    match missed.as_slice() {
+        [] => text,
+        missed => format!(
+            "{text}\n{}\nWhat was missed may be wrong unseen: more --cycles reach more.\n",
+            missed.join("\n"),
+        ),
+    }
+}
+
+/// What was not run, a line for each reason.
+fn not_run(reports: &[BlockReport]) -> String {
+    let mut reasons: Vec<(&str, Vec<&str>)> = Vec::new();
+    for report in reports {
+        let Verdict::NotRun { reason } = &report.verdict else { continue };
+        match reasons.iter_mut().find(|(other, _)| other == reason) {
+            Some((_, names)) => names.push(&report.name),
+            None => reasons.push((reason, vec![&report.name])),
+        }
+    }
+    let line = |(reason, names): &(&str, Vec<&str>)| {
+        format!("\nnot run: {}: {reason}\n", names.join(", "))
+    };
+    reasons.iter().map(line).collect()
+}
+
+/// How it came out, and whether the stimulus was too short to tell.
+fn verdict(report: &BlockReport) -> String {
+    let short = report.verdict == Verdict::Pass && !report.missed.is_empty();
+    if short { "pass, goals missed".to_owned() } else { report.word().to_owned() }
+}
+
+/// What the stimulus has not reached, a line for each block.
+fn missed(report: &BlockReport) -> Option<String> {
+    let goal =
+        |(what, missing, cases): &(&str, usize, usize)| format!("{what} ({missing} of {cases})");
+    let goals: Vec<_> = report.missed.iter().map(goal).collect();
+    let all = goals.join("; ");
+    (!goals.is_empty()).then(|| format!("{}: goals of the stimulus missed: {all}", report.name))
 }
 
 /// The cycles around the first mismatch.
@@ -60,16 +101,16 @@ pub fn json(rtl: &str, simulator: &str, reports: &[BlockReport]) -> Value {
             "cycles": report.cycles,
             "mismatches": report.mismatches(),
             "first": first,
-            "fault": (!report.passed()).then(|| report.fault()),
+            "fault": (report.verdict != Verdict::Pass).then(|| report.fault()),
             "waves": report.wave.as_ref().map(|path| path.display().to_string()),
-            "goals": {"met": report.coverage.0, "of": report.coverage.1},
+            "goals": {"met": report.coverage.0, "of": report.coverage.1, "missed": missed(report)},
         })
     };
     json!({
         "schema": "tofsim.verify/1",
         "rtl": rtl,
         "simulator": simulator,
-        "passed": reports.iter().all(BlockReport::passed),
+        "passed": !reports.iter().any(BlockReport::failed),
         "blocks": reports.iter().map(block).collect::<Vec<_>>(),
     })
 }
@@ -81,7 +122,8 @@ pub fn json(rtl: &str, simulator: &str, reports: &[BlockReport]) -> Value {
 pub fn write_junit(path: &Path, simulator: &str, reports: &[BlockReport]) -> Result<()> {
     let case = |report: &BlockReport| JunitCase {
         name: report.name.clone(),
-        failure: (!report.passed()).then(|| (report.fault(), around(report))),
+        failure: report.failed().then(|| (report.fault(), around(report))),
+        skipped: matches!(report.verdict, Verdict::NotRun { .. }).then(|| report.fault()),
     };
     let suite = format!("tofsim verify {simulator}");
     junit::write(path, "tofsim verify", suite, reports.iter().map(case))

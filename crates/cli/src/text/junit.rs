@@ -13,6 +13,8 @@ pub struct JunitCase {
     pub name: String,
     /// If it failed: why in a line, and at length.
     pub failure: Option<(String, String)>,
+    /// If it was not run: why.
+    pub skipped: Option<String>,
 }
 
 /// Writes one suite as a document of its own.
@@ -26,15 +28,17 @@ pub fn write(
     cases: impl IntoIterator<Item = JunitCase>,
 ) -> Result<()> {
     let mut suite = TestSuite::new(suite);
-    for JunitCase { name, failure } in cases {
-        let status = match failure {
-            None => TestCaseStatus::success(),
-            Some((message, description)) => {
-                let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
-                status.set_message(message).set_description(description);
-                status
-            }
+    for JunitCase { name, failure, skipped } in cases {
+        let mut status = match (&failure, &skipped) {
+            (Some(_), _) => TestCaseStatus::non_success(NonSuccessKind::Failure),
+            (None, Some(_)) => TestCaseStatus::skipped(),
+            (None, None) => TestCaseStatus::success(),
         };
+        if let Some((message, description)) = failure {
+            status.set_message(message).set_description(description);
+        } else if let Some(reason) = skipped {
+            status.set_message(reason);
+        }
         suite.add_test_case(TestCase::new(name, status));
     }
     let mut report = Report::new(report);

@@ -12,7 +12,8 @@ use tofsim_rtl::golden::blocks::CENTROID;
 use tofsim_rtl::golden::{BLOCKS, Setting, Spec};
 use tofsim_rtl::verify::cycle_counts::{self as count, Count};
 use tofsim_rtl::verify::process::Limits;
-use tofsim_rtl::verify::{BlockCheck, BlockReport, Rtl, RtlMap, Simulator, strays};
+use tofsim_rtl::verify::task::run_all;
+use tofsim_rtl::verify::{BlockCheck, BlockReport, Rtl, RtlMap, Simulator, Task, strays};
 
 use crate::choice::{self, words};
 use crate::report::verification as report;
@@ -40,7 +41,7 @@ pub struct Args {
     #[arg(long)]
     top: bool,
     /// Count cycles in the model and in the RTL, and prove them (Icarus and Yosys), instead of vectors
-    #[arg(long, conflicts_with_all = ["block", "top", "map", "registers", "junit", "simulator"])]
+    #[arg(long, conflicts_with_all = ["block", "top", "map", "registers", "from_power_up", "junit", "simulator"])]
     cycle_counts: bool,
     /// Simulator to run
     #[arg(long, value_parser = words(choice::SIMULATOR), default_value = "icarus")]
@@ -51,6 +52,9 @@ pub struct Args {
     /// Compare registers inside the blocks too, which have to have our names [default for our own]
     #[arg(long, conflicts_with = "map")]
     registers: bool,
+    /// Compare from power-up on, not only from the first reset on [default for our own]
+    #[arg(long)]
+    from_power_up: bool,
     /// Most that a compilation or a simulation may take
     #[arg(long, value_name = "SECONDS", default_value_t = 300,
         value_parser = clap::value_parser!(u64).range(1..))]
@@ -68,13 +72,6 @@ pub struct Args {
     from: From,
 }
 
-/// One thing to check.
-struct Task {
-    name: String,
-    spec: &'static Spec,
-    setting: Setting,
-}
-
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let map = args.map.as_deref().map(RtlMap::read).transpose()?;
@@ -85,30 +82,30 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         None => Rtl::own(work.path())?,
     };
     let stop = stop_signal();
-    let limits = Limits { time: Duration::from_secs(args.time_limit), stop: stop.as_deref() };
+    let limits =
+        Limits { stop: stop.as_deref(), ..Limits::new(Duration::from_secs(args.time_limit)) };
     if args.cycle_counts {
         return cycle_counts(args, &rtl, &limits, talk);
     }
     let tasks = tasks(args, map.as_ref(), &rtl, talk)?;
-    let check = |task: &Task| {
-        let check = BlockCheck {
-            rtl: &rtl,
-            map: map.as_ref().and_then(|map| map.block.get(task.spec.name)),
-            simulator: args.simulator,
-            registers: args.registers || args.rtl.is_none(),
-            limits,
-            output: &args.output,
-        };
-        let report = check.run(&task.name, task.spec, &task.setting, &work.path().join(&task.name));
+    let check = BlockCheck {
+        rtl: &rtl,
+        map: map.as_ref(),
+        simulator: args.simulator,
+        registers: args.registers || args.rtl.is_none(),
+        from_power_up: args.from_power_up || args.rtl.is_none(),
+        limits,
+        output: &args.output,
+    };
+    let one = |task: &&Task| {
+        let report = check.run(task, &work.path().join(&task.name));
         if let Ok(report) = &report {
-            let word = coloured(report.word(), report.passed(), &std::io::stderr());
+            let word = coloured(report.word(), !report.failed(), &std::io::stderr());
             talk.note(format_args!("{}: {word}", task.name));
         }
         report
     };
-    let reports: Vec<_> = tasks.par_iter().map(check).collect();
-    // Whichever fails first in time, the first error is that of the first task.
-    let reports = reports.into_iter().collect::<Result<Vec<_>>>()?;
+    let reports = run_all(&tasks, |tasks| tasks.par_iter().map(one).collect())?;
 
     let simulator = args.simulator.name();
     if let Some(path) = &args.junit {
@@ -122,7 +119,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         true => print(&format!("{:#}\n", report::json(&rtl.source, simulator, &reports)))?,
         false => talk.report(&report::text(&reports))?,
     }
-    Ok(ExitCode::from(u8::from(!reports.iter().all(BlockReport::passed))))
+    Ok(ExitCode::from(u8::from(reports.iter().any(BlockReport::failed))))
 }
 
 fn cycle_counts(args: &Args, rtl: &Rtl, limits: &Limits, talk: &Talk) -> Result<ExitCode> {
@@ -139,22 +136,25 @@ fn cycle_counts(args: &Args, rtl: &Rtl, limits: &Limits, talk: &Talk) -> Result<
     Ok(ExitCode::from(u8::from(!counts.iter().all(Count::holds))))
 }
 
-/// The blocks that are asked for, then the whole.
+/// The blocks that are asked for and all that they can be, then the whole.
 fn tasks(args: &Args, map: Option<&RtlMap>, rtl: &Rtl, talk: &Talk) -> Result<Vec<Task>> {
     let setting = args.from.setting()?;
-    let setting = map.map_or(setting.clone(), |map| map.fit(&setting));
     let specs: Vec<_> = match (args.block.as_slice(), args.top) {
         ([], true) => Vec::new(),
         ([], false) => every(map, rtl, talk)?,
         (names, _) => names.iter().map(|name| find(name, "--block")).collect::<Result<_>>()?,
     };
-    let task =
-        |spec: &'static Spec| Task { name: spec.name.to_owned(), spec, setting: setting.clone() };
-    let mut tasks: Vec<_> = specs.into_iter().map(task).collect();
+    let mut tasks = Vec::new();
+    for spec in specs {
+        let task = Task::new(spec, &setting, map);
+        let others = task.others()?;
+        tasks.push(task);
+        tasks.extend(others);
+    }
     if args.top {
-        let setting = Setting { as_told: true, ..setting.clone() };
-        let name = format!("tof_top.{}", setting.setup.name);
-        tasks.push(Task { name, spec: find("tof_top", "--top")?, setting });
+        let setting = Setting { as_told: true, ..setting };
+        let task = Task::new(find("tof_top", "--top")?, &setting, map);
+        tasks.push(Task { name: format!("tof_top.{}", setting.setup.name), ..task });
     }
     Ok(tasks)
 }

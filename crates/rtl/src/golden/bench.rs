@@ -22,6 +22,9 @@ use super::table::Column;
 use super::timing::{Step, Timing};
 use super::verilog::{parameter_list, place, range};
 
+/// With `+progress`, a bench says after so many cycles how far it is.
+const BEAT: usize = 100;
+
 /// A bench, with what another implementation is allowed.
 #[derive(Clone, Debug)]
 pub struct Bench<'a> {
@@ -82,7 +85,7 @@ impl<'a> Bench<'a> {
         let connected: Vec<_> =
             ports.iter().map(|port| format!("    .{0}({0})", port.name)).collect();
         let columns = vectors.expected.columns();
-        let allowances = columns.iter().map(|column| self.allowed.text(column, columns));
+        let allowances = columns.iter().map(|column| self.allowed.text(column, vectors));
         let inputs: Vec<_> = vectors.stimulus.columns().iter().map(|c| c.name.as_str()).collect();
         let inputs = inputs.join(", ");
         let before = match vectors.first_edge_ps > spec.timing.period_ps() {
@@ -106,10 +109,30 @@ impl<'a> Bench<'a> {
             line_out = range(vectors.expected.width() as u32),
             looks = looks(vectors),
             allowances = allowances.collect::<String>(),
+            beat = BEAT,
+            quiet = self.allowed.quiet(vectors),
+            resets = self.resets(),
             show = show(vectors),
             before = before,
             steps = steps(&spec.timing, &inputs),
         )
+    }
+
+    /// What a line that resets the block changes about the lines that are compared.
+    fn resets(&self) -> String {
+        let columns = self.vectors.stimulus.columns().iter();
+        let resets = columns.filter(|column| ["rst", "rst_late"].contains(&column.name.as_str()));
+        let levels: Vec<_> =
+            resets.map(|column| format!("stimulus[cycle][{}]", column.low)).collect();
+        let Allowances { settle, .. } = self.allowed;
+        match levels.as_slice() {
+            [] => String::new(),
+            levels => format!(
+                "    if ({})\n      quiet = quiet < 0 ? {} : quiet < {settle} ? {settle} : quiet;\n",
+                levels.join(" || "),
+                self.allowed.quiet_after_first(),
+            ),
+        }
     }
 }
 

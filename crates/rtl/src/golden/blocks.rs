@@ -55,9 +55,10 @@ pub fn find(name: &str) -> Option<&'static Spec> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::golden::configuration::Configuration;
     use crate::golden::draw::MEMORIES;
     use crate::golden::setting::Setting;
-    use crate::golden::spec::Vectors;
+    use crate::golden::spec::{FIRST_RESET, Vectors};
     use crate::golden::timing::Step;
     use tofsim::scenario;
     use tofsim::sim::setup::Setup;
@@ -68,15 +69,46 @@ mod tests {
         (spec.record)(spec, &setting).unwrap()
     }
 
+    fn configured(spec: &'static Spec, configuration: &Configuration, seed: u64) -> Vectors {
+        let setup = Setup::new(scenario::load(scenario::DEFAULT, &[]).unwrap()).unwrap();
+        let setting = configuration.setting(&Setting { seed, ..Setting::new(setup) }).unwrap();
+        (spec.record)(spec, &setting).unwrap()
+    }
+
+    #[test]
+    fn what_has_a_reset_is_reset_soon() {
+        for spec in BLOCKS {
+            let vectors = vectors(spec, 1, Some(FIRST_RESET + 1));
+            let Some(reset) = spec.reset else { continue };
+            let columns = vectors.stimulus.columns();
+            let column = columns.iter().find(|column| column.name == reset).unwrap();
+            assert!(vectors.stimulus.row(FIRST_RESET)[column.low], "{}", spec.name);
+        }
+    }
+
     #[test]
     fn every_stimulus_covers_its_goals() {
         let mut gaps = Vec::new();
         for (spec, seed) in BLOCKS.iter().flat_map(|spec| [(spec, 1), (spec, 20_221_121)]) {
-            let coverage = vectors(spec, seed, None).coverage;
-            assert!(!coverage.is_empty(), "{}", spec.name);
-            for cover in coverage.iter().filter(|cover| cover.met() < cover.cases()) {
-                let missing: Vec<_> = cover.missing().collect();
-                gaps.push(format!("{}, seed {seed}: {}: {missing:?}", spec.name, cover.what));
+            let mut all = vec![("", vectors(spec, seed, None))];
+            for configuration in spec.configurations {
+                let vectors = configured(spec, configuration, seed);
+                let names: Vec<_> = vectors.parameters.iter().map(|(name, _)| *name).collect();
+                let has = |name: &&str| names.contains(name);
+                assert!(configuration.parameters.iter().all(has), "{}: {names:?}", spec.name);
+                all.push((configuration.name, vectors));
+            }
+            for (configuration, vectors) in all {
+                let coverage = vectors.coverage;
+                assert!(!coverage.is_empty(), "{}", spec.name);
+                for cover in coverage.iter().filter(|cover| cover.met() < cover.cases()) {
+                    let missing: Vec<_> = cover.missing().collect();
+                    let name = spec.name;
+                    gaps.push(format!(
+                        "{name}.{configuration}, seed {seed}: {}: {missing:?}",
+                        cover.what
+                    ));
+                }
             }
         }
         assert!(gaps.is_empty(), "not covered:\n{}", gaps.join("\n"));

@@ -9,6 +9,7 @@ use tofsim::network::mem::{Mem, lines};
 use super::cover::Cover;
 use super::draw::Draw;
 use super::setting::Setting;
+use super::spec::FIRST_RESET;
 
 /// Words of a histogram [hits].
 pub type Histogram = [U<16>; BINS];
@@ -39,6 +40,7 @@ pub struct Estimations {
     /// How long a slower estimator is left alone after an estimation [cycles], and how long yet.
     slack: u64,
     rest: u64,
+    line: usize,
     done: Cover,
     starts: Cover,
     resets: Cover,
@@ -55,6 +57,7 @@ impl Estimations {
             cut: None,
             slack: setting.slack,
             rest: 0,
+            line: 0,
             done: Cover::new("estimations of histogram", 0..special),
             starts: Cover::new("start in part, with algo_done (4), idle (5)", 0..6),
             resets: Cover::new("reset in part", 0..PARTS as u64),
@@ -64,7 +67,8 @@ impl Estimations {
     /// `rst` and `algo_start` of a cycle; `phase` is how far the estimator is, if it is busy.
     pub fn next(&mut self, phase: Option<u64>, draw: &mut Draw) -> (bool, bool) {
         let end = self.parts[PARTS - 1].end;
-        let rst = phase.is_some() && phase == self.cut;
+        let rst = self.line == FIRST_RESET || phase.is_some() && phase == self.cut;
+        self.line += 1;
         self.rest = if phase.is_some() { self.slack } else { self.rest.saturating_sub(1) };
         let algo_start = draw.one_in(3) && self.rest == 0;
         let part = match phase {

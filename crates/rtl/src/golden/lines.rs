@@ -91,6 +91,7 @@ impl<'a> Lines<'a> {
             first_edge_ps: spec.timing.period_ps(),
             stops: Vec::new(),
             bench_memory: None,
+            settles: 0,
             coverage: Vec::new(),
         }
     }

@@ -6,11 +6,12 @@ pub use tofsim::kernel::{Clocked, S, Time, U};
 pub use tofsim::network::mem;
 pub use tofsim::signals;
 
+pub use super::configuration::{Configuration, NEURONS_16};
 pub use super::cover::{Cover, bits};
 pub use super::draw::{Draw, MEMORIES};
 pub use super::parameters::{self, Parameter, files, with_neurons};
 pub use super::record::Recorder;
 pub use super::setting::Setting;
-pub use super::spec::{Glue, Latency, Spec, Vectors};
+pub use super::spec::{FIRST_RESET, Glue, Latency, Spec, Vectors};
 pub use super::stops::{self, Stops};
 pub use super::timing;

@@ -1,8 +1,31 @@
 //! What golden vectors are made from.
 
+use std::collections::BTreeSet;
+
+use tofsim::error::{Error, Input};
 use tofsim::firmware::carry_chain::TAPS;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::sim::setup::Setup;
+
+/// Parameters of ours that are constants inside a design. Its constant is what the scenario says, so
+/// the stimulus keeps to that, where it would try other values.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Constants {
+    /// These.
+    These(BTreeSet<String>),
+    /// All.
+    All,
+}
+
+impl Constants {
+    /// Whether the parameter of that name is one.
+    pub fn has(&self, parameter: &str) -> bool {
+        match self {
+            Constants::These(names) => names.contains(parameter),
+            Constants::All => true,
+        }
+    }
+}
 
 /// What vectors are made from.
 #[derive(Clone, Debug)]
@@ -21,6 +44,13 @@ pub struct Setting {
     pub taps: usize,
     /// Words of the histogram, for a design with a smaller one.
     pub bins: u64,
+    /// Shots of a frame, for a design that has them as a constant.
+    pub shots_per_frame: Option<u16>,
+    /// What else it has as constants.
+    pub constants: Constants,
+    /// Whether the histogram has an address of its own for reading: then nothing is read while a word
+    /// is cleared or counted, when ours shows that one.
+    pub reads_apart: bool,
     /// Clock cycles that the estimator under test may take longer than ours; so long it is not
     /// started again.
     pub slack: u64,
@@ -28,7 +58,7 @@ pub struct Setting {
 
 impl Setting {
     /// Lines of each block unless told otherwise [clock cycles].
-    const CYCLES: usize = 20_000;
+    pub const CYCLES: usize = 20_000;
 
     /// Tap at each place in the order of arrival.
     pub fn order(&self) -> &[u16] {
@@ -44,13 +74,39 @@ impl Setting {
     pub fn new(setup: Setup) -> Self {
         let seed = setup.scenario.seed;
         let (taps, bins) = (TAPS, BINS as u64);
-        Setting { setup, as_told: false, seed, cycles: None, frames: 1, taps, bins, slack: 0 }
+        Setting {
+            setup,
+            as_told: false,
+            seed,
+            cycles: None,
+            frames: 1,
+            taps,
+            bins,
+            shots_per_frame: None,
+            constants: Constants::These(BTreeSet::new()),
+            reads_apart: false,
+            slack: 0,
+        }
     }
 
     /// How many taps may be high, in the order of arrival, but tap 0 always.
     pub fn places(&self) -> usize {
         let allowed = self.order().iter().take_while(|&&tap| (tap as usize) < self.taps).count();
         allowed.max(self.setup.params.tdc.delays.tap_0_position() + 1)
+    }
+
+    /// Shots of a frame: `few`, unless the design has them as a constant.
+    pub fn shots(&self, few: u16) -> u16 {
+        let scenario = self.setup.params.frame_ctrl.shots_per_frame;
+        let constant = self.constants.has("ShotsPerFrame").then_some(scenario);
+        self.shots_per_frame.or(constant).unwrap_or(few)
+    }
+
+    /// A design has this constant inside, and the scenario does not say what is in it.
+    pub fn lacks(&self, parameter: &str, key: &str) -> Error {
+        let source = format!("scenario {}", self.setup.name);
+        let expected = format!("expected what the constant {parameter} of the design holds");
+        Input::new(source, expected).field(key).into()
     }
 
     /// Lines of a block [clock cycles].

@@ -5,6 +5,7 @@ use tofsim::hierarchy;
 use tofsim::kernel::Time;
 use tofsim::network::mem::Mem;
 
+use super::configuration::Configuration;
 use super::cover::Cover;
 use super::parameters::{Parameters, memories};
 use super::setting::Setting;
@@ -32,6 +33,9 @@ pub struct Glue {
     pub verilog: &'static str,
 }
 
+/// The line that resets a block: those before it show how its registers begin.
+pub const FIRST_RESET: usize = 16;
+
 /// Makes a block's vectors.
 pub type Record = fn(&'static Spec, &Setting) -> Result<Vectors>;
 
@@ -50,12 +54,14 @@ pub struct Spec {
     pub scope: &'static str,
     /// When its clocks move and when it is looked at.
     pub timing: Timing,
-    /// Its synchronous reset, active high.
+    /// Its synchronous reset, active high. Line [`FIRST_RESET`] has it, at the latest.
     pub reset: Option<&'static str>,
     /// Outputs and registers that change within a cycle of the clock that counts.
     pub fast: &'static [&'static str],
     /// How long effects take.
     pub latency: &'static [Latency],
+    /// What the block can be besides what the scenario makes of it.
+    pub configurations: &'static [Configuration],
     /// A loop around the block, if it needs one.
     pub glue: Option<Glue>,
     /// Steps the Rust model.
@@ -73,6 +79,7 @@ impl Spec {
             reset: None,
             fast: &[],
             latency: &[],
+            configurations: &[],
             glue: None,
             record,
         }
@@ -119,6 +126,8 @@ pub struct Vectors {
     pub stops: Vec<Time>,
     /// A memory that the bench reads.
     pub bench_memory: Option<Mem>,
+    /// Of a block without reset: lines from power-up until its registers have all taken a value.
+    pub settles: usize,
     /// What the stimulus has reached.
     pub coverage: Vec<Cover>,
 }

@@ -36,6 +36,9 @@ signals! {
     }
 }
 
+/// Lines after the PLL has locked in which the resets pass their registers, and reset the rest.
+const SETTLES: usize = 8;
+
 /// Sees the firmware just before the edge that takes a line.
 pub(super) type EveryCycle<'a> = &'a mut dyn FnMut(&TofTop);
 
@@ -67,7 +70,8 @@ pub(super) fn record(
     let first_edge_ps = device.next_edge().ps();
     run(setting, &mut device, &mut sampler)?;
     let Sampler { lines, stops, .. } = sampler;
-    Ok(Vectors { parameters: parameters::tof_top(setup), first_edge_ps, stops, ..lines.vectors() })
+    let parameters = parameters::tof_top(setup);
+    Ok(Vectors { parameters, first_edge_ps, stops, settles: SETTLES, ..lines.vectors() })
 }
 
 fn run(setting: &Setting, device: &mut Device, sampler: &mut Sampler) -> Result<()> {

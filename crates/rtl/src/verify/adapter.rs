@@ -11,11 +11,8 @@ use crate::golden::ports::Port;
 use crate::golden::spec::Spec;
 use crate::golden::verilog::{parameter_list, range};
 
-use super::interface::Ports;
+use super::interface::{COUNT, Interface, PortShape};
 use super::map::BlockMap;
-
-/// Bits of a count.
-const COUNT: u32 = 16;
 
 impl BlockMap {
     /// Their name of our port.
@@ -23,9 +20,10 @@ impl BlockMap {
         self.ports.get(ours).map_or(ours, String::as_str)
     }
 
-    /// Their name of our parameter; none if it has none.
-    pub(super) fn parameter<'a>(&'a self, ours: &'a str) -> &'a str {
-        self.parameters.get(ours).map_or(ours, String::as_str)
+    /// Their name of our parameter; none if it is a constant inside.
+    pub(super) fn parameter<'a>(&'a self, ours: &'a str) -> Option<&'a str> {
+        let theirs = self.parameters.get(ours).map_or(ours, String::as_str);
+        (self.design.parameters && !theirs.is_empty()).then_some(theirs)
     }
 
     /// Whether an adapter stands in for a port of ours.
@@ -47,11 +45,11 @@ impl BlockMap {
     }
 
     /// The ports that their module has to have.
-    pub(super) fn wanted(&self, spec: &Spec, neurons: usize, found: &Ports) -> Vec<Port> {
+    pub(super) fn wanted(&self, spec: &Spec, neurons: usize, found: &Interface) -> Vec<Port> {
         let mut wanted = Vec::new();
         for port in spec.ports(neurons) {
             let theirs = self.theirs(&port.name);
-            let optional = self.ignore.contains(&port.name) && !found.contains_key(theirs);
+            let optional = self.ignore.contains(&port.name) && !found.ports.contains_key(theirs);
             if !optional && !self.is_made(&port.name) {
                 let width = self.width(spec, &port);
                 wanted.push(Port { name: theirs.to_owned(), width, ..port });
@@ -73,16 +71,21 @@ impl BlockMap {
         &self,
         bench: &mut Bench,
         spec: &Spec,
-        found: &Ports,
+        found: &Interface,
         folder: &Path,
     ) -> Result<PathBuf> {
         bench.allowed = Allowances {
             delays: self.latency.clone(),
             ignored: self.ignore.iter().cloned().collect(),
             valid: self.valid.clone(),
+            settle: self.settle,
             ..Allowances::default()
         };
         for port in spec.ports(bench.vectors.neurons) {
+            let is_there = found.ports.contains_key(self.theirs(&port.name));
+            if port.output && !is_there && !self.is_made(&port.name) {
+                bench.allowed.absent.insert(port.name.clone());
+            }
             let width = self.width(spec, &port);
             if width < port.width {
                 bench.allowed.bits.insert(port.name, width as usize);
@@ -96,21 +99,18 @@ impl BlockMap {
     }
 
     /// The adapter.
-    fn text(&self, bench: &Bench, spec: &Spec, found: &Ports) -> String {
+    fn text(&self, bench: &Bench, spec: &Spec, found: &Interface) -> String {
         let ports = spec.ports(bench.vectors.neurons);
         let declare = |port: &Port| {
             let direction = if port.output { "output" } else { "input" };
             format!("    {direction} wire {}{}", range(port.width), port.name)
         };
         let parameter = |name| format!("    parameter {name} = 0");
-        let set = |ours| match self.parameter(ours) {
-            "" => None,
-            theirs => Some(format!("        .{theirs}({ours})")),
-        };
+        let set = |ours| Some(format!("        .{}({ours})", self.parameter(ours)?));
         let (mut lines, mut connected) = (String::new(), Vec::new());
         for port in ports.iter().filter(|port| !self.is_made(&port.name)) {
             let theirs = self.theirs(&port.name);
-            if port.output && !found.contains_key(theirs) {
+            if port.output && !found.ports.contains_key(theirs) {
                 lines += &format!("    assign {} = {}'d0;\n", port.name, port.width);
             } else {
                 let (declared, signal) = self.connection(spec, port);
@@ -123,12 +123,16 @@ impl BlockMap {
         if let Some(counts) = &self.counts {
             // All counts side by side, read as if they were a RAM with one address.
             lines += &format!(include_str!("adapter/counts.v"), range = range);
-            connected.push(format!("        .{counts}(counts)"));
+            let (declared, signal) = words("counts", found.ports.get(counts));
+            lines += &declared;
+            connected.push(format!("        .{counts}({signal})"));
         }
         if let Some(vector) = &self.vector {
             // Collects the histogram word by word, then starts the estimator.
             lines += &format!(include_str!("adapter/vector.v"), range = range, whole = whole);
-            connected.push(format!("        .{vector}(vector)"));
+            let (declared, signal) = words("vector", found.ports.get(vector));
+            lines += &declared;
+            connected.push(format!("        .{vector}({signal})"));
         }
         format!(
             "`timescale 1ps/1fs\n`default_nettype none\n\nmodule {} {}(\n{}\n);\n{lines}\n    \
@@ -158,6 +162,27 @@ impl BlockMap {
             format!("    wire {range}{theirs};\n    assign {name} = {inverted}{value};\n");
         (declared, theirs)
     }
+}
+
+/// What is declared for a port with all counts, and what is connected to it: the vector of the
+/// adapter, or the words of an unpacked array, of which the one with the lowest index is bin 0.
+fn words(vector: &str, port: Option<&PortShape>) -> (String, String) {
+    let Some(PortShape { output, words: Some((first, last)), .. }) = port else {
+        return (String::new(), vector.to_owned());
+    };
+    let (lowest, bins) = (first.min(last), first.abs_diff(*last) + 1);
+    let [word, part] = [format!("{vector}_words[k + {lowest}]"), format!("{vector}[16 * k +: 16]")];
+    let [to, from] = if *output { [part, word] } else { [word, part] };
+    let declared = format!(
+        include_str!("adapter/words.v"),
+        vector = vector,
+        first = first,
+        last = last,
+        bins = bins,
+        to = to,
+        from = from,
+    );
+    (declared, format!("{vector}_words"))
 }
 
 /// A value of `from` bits as one of `to`.

@@ -1,90 +1,91 @@
-//! The ports that a module really has, against those that the bench connects.
+//! The ports and parameters that a module really has, against those that the bench connects and sets.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use tofsim::error::{Input, Result, hint};
 
 use crate::golden::ports::Port;
+
+pub(super) mod icarus;
+pub(super) mod verilator;
+
+/// Bits of a count, the words of the only ports that may be arrays.
+pub(super) const COUNT: u32 = 16;
 
 /// A port as a simulator tells it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PortShape {
     /// Whether the module drives it.
     pub output: bool,
-    /// Its width [bits].
+    /// Its width, of all words together [bits].
     pub width: u32,
+    /// First and last index of an unpacked array of words, as declared; none of a vector.
+    pub words: Option<(u32, u32)>,
 }
 
-/// Ports of a module by name.
-pub type Ports = BTreeMap<String, PortShape>;
-
-/// From the compiled form of Icarus: `.port_info 2 /OUTPUT 36 "depth";`, first those of the root.
-pub(super) fn of_icarus(text: &str) -> Ports {
-    let lines = text.lines().map(str::trim);
-    let lines = lines.skip_while(|line| !line.starts_with(".port_info"));
-    let lines = lines.take_while(|line| line.starts_with(".port_info"));
-    let port = |line: &str| {
-        let mut words = line.split_whitespace().skip(2);
-        let output = words.next()? == "/OUTPUT";
-        let width = words.next()?.parse().ok()?;
-        let name = line.split('"').nth(1)?.to_owned();
-        Some((name, PortShape { output, width }))
-    };
-    lines.filter_map(port).collect()
+/// What a module shows to whoever instantiates it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Interface {
+    /// Its ports by name.
+    pub ports: BTreeMap<String, PortShape>,
+    /// Names of its parameters.
+    pub parameters: BTreeSet<String>,
 }
 
-/// From the XML of Verilator: the `var` elements of the module that have a direction, and the types
-/// that they refer to.
-pub(super) fn of_verilator(text: &str, module: &str) -> Result<Ports> {
-    let fault = |what: String| Input::new("verilator --xml-only", what);
-    let document =
-        roxmltree::Document::parse(text).map_err(|error| fault(format!("no XML: {error}")))?;
-    let number = |node: &roxmltree::Node, name| node.attribute(name)?.parse::<i64>().ok();
-    let width = |id: &str| {
-        let node = document.descendants().find(|node| node.attribute("id") == Some(id))?;
-        match (number(&node, "left"), number(&node, "right")) {
-            (Some(left), Some(right)) => Some(left.abs_diff(right) as u32 + 1),
-            _ => Some(1),
+impl Interface {
+    /// Whether it has the ports that are wanted of it.
+    ///
+    /// # Errors
+    /// Names the first port that is missing, or is no output, or has another width.
+    pub fn check_ports(&self, source: &str, module: &str, wanted: &[Port]) -> Result<()> {
+        for port in wanted {
+            let fault = |what: String| {
+                let field = format!("module {module}, port {}", port.name);
+                Err(Input::new(source, what).field(field).into())
+            };
+            let Some(real) = self.ports.get(&port.name) else {
+                let (hint, names) = hint(&port.name, self.ports.keys().map(String::as_str));
+                return fault(format!("no such port{hint}; it has {names}"));
+            };
+            let direction = |output| if output { "an output" } else { "an input" };
+            if real.output != port.output {
+                let [is, expected] = [real.output, port.output].map(direction);
+                return fault(format!("is {is}, expected {expected}"));
+            }
+            if real.width != port.width {
+                return fault(format!("has {} bits, expected {}", real.width, port.width));
+            }
+            let words = real.words.map_or(1, |(first, last)| first.abs_diff(last) + 1);
+            if words > 1 && real.width / words != COUNT {
+                let bits = real.width / words;
+                return fault(format!("is an array of {bits} bits, expected words of {COUNT}"));
+            }
         }
-    };
-    let modules = document.descendants().filter(|node| node.has_tag_name("module"));
-    let is_meant = |node: &roxmltree::Node| {
-        [node.attribute("origName"), node.attribute("name")].contains(&Some(module))
-    };
-    let found = modules.into_iter().find(is_meant);
-    let found = found.ok_or_else(|| fault(format!("no module {module} in it")))?;
-    let port = |node: roxmltree::Node| {
-        let output = node.attribute("dir")? == "output";
-        let width = width(node.attribute("dtype_id")?)?;
-        Some((node.attribute("name")?.to_owned(), PortShape { output, width }))
-    };
-    Ok(found.children().filter_map(port).collect())
-}
-
-/// Whether `module` has the ports that are wanted of it.
-///
-/// # Errors
-/// Names the first port that is missing, or is no output, or has another width.
-pub fn check(source: &str, module: &str, wanted: &[Port], found: &Ports) -> Result<()> {
-    for port in wanted {
-        let fault = |what: String| {
-            let field = format!("module {module}, port {}", port.name);
-            Err(Input::new(source, what).field(field).into())
-        };
-        let Some(real) = found.get(&port.name) else {
-            let (hint, names) = hint(&port.name, found.keys().map(String::as_str));
-            return fault(format!("no such port{hint}; it has {names}"));
-        };
-        let direction = |output| if output { "an output" } else { "an input" };
-        if real.output != port.output {
-            let [is, expected] = [real.output, port.output].map(direction);
-            return fault(format!("is {is}, expected {expected}"));
-        }
-        if real.width != port.width {
-            return fault(format!("has {} bits, expected {}", real.width, port.width));
-        }
+        Ok(())
     }
-    Ok(())
+
+    /// Whether it has the parameters that the bench of `block` sets: our name and theirs of each.
+    ///
+    /// # Errors
+    /// Names the first one that is missing, and the entry of a map that leaves it out.
+    pub fn check_parameters<'a>(
+        &self,
+        source: &str,
+        [module, block]: [&str; 2],
+        set: impl IntoIterator<Item = (&'a str, &'a str)>,
+    ) -> Result<()> {
+        let lacks = |(_, theirs): &(&str, &str)| !self.parameters.contains(*theirs);
+        let Some((ours, theirs)) = set.into_iter().find(lacks) else { return Ok(()) };
+        let (hint, names) = hint(theirs, self.parameters.iter().map(String::as_str));
+        let has =
+            if names.is_empty() { "it has none".to_owned() } else { format!("it has {names}") };
+        let what = format!(
+            "no such parameter{hint}; {has}. If it is a constant inside, leave it out in a map: \
+             [block.{block}.parameters] {ours} = \"\"",
+        );
+        let field = format!("module {module}, parameter {theirs}");
+        Err(Input::new(source, what).field(field).into())
+    }
 }
 
 #[cfg(test)]
@@ -95,21 +96,18 @@ mod tests {
         Port { name: name.to_owned(), width, output, meaning: "" }
     }
 
-    const VVP: &str = "S_0x1 .scope module, \"a\" \"a\" 2 2;\n .timescale -12 -15;\n    \
-        .port_info 0 /INPUT 1 \"clk\";\n    .port_info 1 /OUTPUT 36 \"depth\";\nP_0x2 .param;\n\
-        S_0x3 .scope module, \"b\";\n    .port_info 0 /INPUT 3 \"inner\";\n";
-
-    #[test]
-    fn icarus_tells_the_ports_of_the_root() {
-        let ports = of_icarus(VVP);
-        assert_eq!(ports.keys().collect::<Vec<_>>(), ["clk", "depth"]);
-        assert_eq!(ports["depth"], PortShape { output: true, width: 36 });
+    fn interface() -> Interface {
+        let shape = |output, width| PortShape { output, width, words: None };
+        Interface {
+            ports: [("clk".to_owned(), shape(false, 1)), ("depth".to_owned(), shape(true, 36))]
+                .into(),
+            parameters: ["W1".to_owned(), "Neurons".to_owned()].into(),
+        }
     }
 
     #[test]
     fn a_port_that_does_not_fit_is_named_with_what_there_is() {
-        let ports = of_icarus(VVP);
-        let fault = |port| check("rtl", "a", &[port], &ports).unwrap_err().to_string();
+        let fault = |port| interface().check_ports("rtl", "a", &[port]).unwrap_err().to_string();
         assert_eq!(
             fault(port("dept", 36, true)),
             "rtl: module a, port dept: no such port (`depth`?); it has clk, depth"
@@ -122,6 +120,17 @@ mod tests {
             fault(port("clk", 1, true)),
             "rtl: module a, port clk: is an input, expected an output"
         );
-        assert!(check("rtl", "a", &[port("clk", 1, false)], &ports).is_ok());
+        assert!(interface().check_ports("rtl", "a", &[port("clk", 1, false)]).is_ok());
+    }
+
+    #[test]
+    fn a_missing_parameter_is_named_with_the_entry_that_leaves_it_out() {
+        let check = |set| interface().check_parameters("rtl", ["a", "forward1"], set);
+        assert!(check([("W1File", "W1"), ("Neurons", "Neurons")]).is_ok());
+        assert_eq!(
+            check([("W1File", "W1"), ("B1File", "B1")]).unwrap_err().to_string(),
+            "rtl: module a, parameter B1: no such parameter; it has Neurons, W1. If it is a \
+             constant inside, leave it out in a map: [block.forward1.parameters] B1File = \"\""
+        );
     }
 }

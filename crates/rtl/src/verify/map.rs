@@ -13,7 +13,8 @@ use tofsim::firmware::forward2::MOST_NEURONS;
 use tofsim::firmware::histogram_builder::BINS;
 
 use crate::golden::blocks::{self, BLOCKS};
-use crate::golden::setting::Setting;
+use crate::golden::ports::Port;
+use crate::golden::setting::{Constants, Setting};
 use crate::golden::spec::Spec;
 
 /// A map file.
@@ -26,10 +27,16 @@ pub struct RtlMap {
     pub block: BTreeMap<String, BlockMap>,
 }
 
-/// Sizes that differ from ours.
+/// Sizes and constants that differ from ours.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Design {
+    /// Whether the modules have parameters. Without, all that ours are told by parameters is a
+    /// constant inside: what the scenario says, unless it stands here.
+    pub parameters: bool,
+    /// Shots of a frame, if they are a constant inside.
+    #[schemars(range(min = 1, max = 65_535), extend("unit" = "shots"))]
+    pub shots_per_frame: Option<u16>,
     /// Taps of the delay line. With fewer than ours, the stimulus leaves out what they cannot show.
     #[schemars(range(min = 4, max = 4096), extend("unit" = "taps"))]
     pub taps: usize,
@@ -40,7 +47,7 @@ pub struct Design {
 
 impl Default for Design {
     fn default() -> Self {
-        Design { taps: TAPS, bins: BINS }
+        Design { parameters: true, shots_per_frame: None, taps: TAPS, bins: BINS }
     }
 }
 
@@ -52,7 +59,7 @@ pub struct BlockMap {
     pub module: Option<String>,
     /// Their name of each of our ports that has another.
     pub ports: BTreeMap<String, String>,
-    /// Their name of each of our parameters that has another; an empty one is left out.
+    /// Their name of each of our parameters that has another; an empty one is a constant inside.
     pub parameters: BTreeMap<String, String>,
     /// Our ports whose level is the other way round, as an active-low reset.
     pub invert: Vec<String>,
@@ -60,8 +67,12 @@ pub struct BlockMap {
     pub ignore: Vec<String>,
     /// Clock cycles that our outputs come later there (less than 0: earlier).
     pub latency: BTreeMap<String, i64>,
-    /// Our outputs that are compared only where another of our outputs is high.
+    /// Outputs that are compared only where another port of one bit is high in the reference, by our
+    /// names or theirs.
     pub valid: BTreeMap<String, String>,
+    /// After each reset so many lines are not compared: what a pipeline without reset takes to empty.
+    #[schemars(range(max = 10_000), extend("unit" = "clock cycles"))]
+    pub settle: u64,
     /// For histogram_builder: their output with all counts side by side, bin 0 in the low bits
     /// (thesis, Listing 6.1).
     pub counts: Option<String>,
@@ -100,15 +111,33 @@ impl RtlMap {
         Ok(map)
     }
 
-    /// The setting that the design can be held to.
-    pub fn fit(&self, setting: &Setting) -> Setting {
+    /// The setting that the design's module of a block can be held to.
+    pub fn fit(&self, spec: &Spec, setting: &Setting) -> Setting {
         let latency = self.block.values().flat_map(|block| block.latency.values());
+        let design = &self.design;
+        let empty = |block: &BlockMap| {
+            let left_out = block.parameters.iter().filter(|(_, theirs)| theirs.is_empty());
+            left_out.map(|(ours, _)| ours.clone()).collect()
+        };
+        let constants = match design.parameters {
+            true => Constants::These(self.block.get(spec.name).map(empty).unwrap_or_default()),
+            false => Constants::All,
+        };
         Setting {
-            taps: self.design.taps.min(TAPS),
-            bins: setting.bins.min(self.design.bins as u64),
+            taps: design.taps.min(TAPS),
+            bins: setting.bins.min(design.bins as u64),
             slack: latency.copied().max().unwrap_or(0).max(0) as u64,
+            shots_per_frame: design.shots_per_frame,
+            constants,
+            reads_apart: self.block.get(spec.name).is_some_and(|block| block.reads_apart()),
             ..setting.clone()
         }
+    }
+
+    /// What is different in a block: nothing but the design's sizes if the file does not name it.
+    pub fn block(&self, name: &str) -> BlockMap {
+        let design = self.design.clone();
+        self.block.get(name).cloned().unwrap_or(BlockMap { design, ..BlockMap::default() })
     }
 }
 
@@ -118,17 +147,15 @@ fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> 
 }
 
 impl BlockMap {
-    /// Whether everything that is named exists in our block.
-    fn check(&self, spec: &Spec, fault: &dyn Fn(&str, String) -> Input) -> Result<()> {
+    /// Whether everything that is named exists in our block; `valid` has our names from then on.
+    fn check(&mut self, spec: &Spec, fault: &dyn Fn(&str, String) -> Input) -> Result<()> {
         let ports = spec.ports(MOST_NEURONS);
         // Each name of a port of ours: where it stands, and whether it has to be an output.
         let place = |table: &str, name: &str| format!("{table}.{name}");
         let named = (self.ports.keys().map(|name| (place("ports", name), name, false)))
             .chain(self.invert.iter().map(|name| ("invert".to_owned(), name, false)))
             .chain(self.ignore.iter().map(|name| ("ignore".to_owned(), name, true)))
-            .chain(self.latency.keys().map(|name| (place("latency", name), name, true)))
-            .chain(self.valid.keys().map(|name| (place("valid", name), name, true)))
-            .chain(self.valid.iter().map(|(key, name)| (place("valid", key), name, true)));
+            .chain(self.latency.keys().map(|name| (place("latency", name), name, true)));
         for (key, name, is_output) in named {
             let ports = ports.iter().filter(|port| port.output || !is_output);
             let known = ports.map(|port| port.name.as_str());
@@ -137,6 +164,7 @@ impl BlockMap {
                 return Err(fault(&key, unknown(what, name, known)).into());
             }
         }
+        self.valid = self.valid_by_our_names(spec, &ports, fault)?;
         let adapters = [
             ("counts", "histogram_builder", self.counts.is_some()),
             ("vector", "depth_estimator", self.vector.is_some()),
@@ -152,6 +180,50 @@ impl BlockMap {
             return Err(fault("vector", expected).into());
         }
         Ok(())
+    }
+
+    /// Which output is compared only where which port is high, by our names.
+    fn valid_by_our_names(
+        &self,
+        spec: &Spec,
+        ports: &[Port],
+        fault: &dyn Fn(&str, String) -> Input,
+    ) -> Result<BTreeMap<String, String>> {
+        let ours = |name: &str| {
+            let renamed =
+                || self.ports.iter().find(|(_, theirs)| *theirs == name).map(|(ours, _)| ours);
+            let own = ports.iter().find(|port| port.name == name);
+            own.or_else(|| ports.iter().find(|port| Some(&port.name) == renamed()))
+        };
+        // A level that a line of the vectors has.
+        let is_level = |port: &&Port| {
+            let is_driven = port.name.starts_with("clk") || port.name == "tdc_stop";
+            let is_glued = spec.glue.is_some_and(|glue| glue.drives == port.name);
+            port.width == 1 && (port.output || !is_driven && !is_glued)
+        };
+        let mut valid = BTreeMap::new();
+        for (output, level) in &self.valid {
+            let names = |ports: &mut dyn Iterator<Item = &Port>| {
+                ports.map(|port| port.name.clone()).collect::<Vec<_>>()
+            };
+            let Some(output) = ours(output).filter(|port| port.output) else {
+                let known = names(&mut ports.iter().filter(|port| port.output));
+                let what = unknown("output", output, known.iter().map(String::as_str));
+                return Err(fault(&format!("valid.{output}"), what).into());
+            };
+            let Some(level) = ours(level).filter(is_level) else {
+                let known = names(&mut ports.iter().filter(is_level));
+                let what = unknown("port of one bit", level, known.iter().map(String::as_str));
+                return Err(fault(&format!("valid.{}", output.name), what).into());
+            };
+            valid.insert(output.name.clone(), level.name.clone());
+        }
+        Ok(valid)
+    }
+
+    /// Whether `count` is compared only while something is read.
+    fn reads_apart(&self) -> bool {
+        self.valid.get("count").is_some_and(|level| level == "read_en")
     }
 
     /// Their module.

@@ -15,6 +15,8 @@ pub struct Observed<'a> {
     /// In hexadecimal.
     pub lines: Vec<String>,
     bench: &'a Bench<'a>,
+    /// Whether registers were looked at.
+    registers: bool,
 }
 
 /// Cycles shown before and after the first mismatch.
@@ -27,12 +29,18 @@ impl<'a> Observed<'a> {
     ///
     /// # Errors
     /// When it cannot be read.
-    pub fn read(path: &Path, bench: &'a Bench<'a>) -> Result<Self> {
+    pub fn read(path: &Path, bench: &'a Bench<'a>, registers: bool) -> Result<Self> {
         let text = read_text(path)?;
         if text.is_empty() {
             return Err(Input::new(path.display(), "the bench has written nothing").into());
         }
-        Ok(Observed { lines: text.lines().map(str::to_owned).collect(), bench })
+        Ok(Observed { lines: text.lines().map(str::to_owned).collect(), bench, registers })
+    }
+
+    /// Whether the design has a column, as far as was looked.
+    pub fn has(&self, column: &Column) -> bool {
+        let is_absent = self.bench.allowed.absent.contains(&column.name);
+        !is_absent && (self.registers || !column.internal)
     }
 
     /// A value as binary digits, the highest first, with x and z.
@@ -52,21 +60,32 @@ impl<'a> Observed<'a> {
     }
 
     /// What a value should have been, as binary digits, or x where nothing is expected: before an
-    /// output that comes later has come, and of one that is not compared.
+    /// output that comes later has come, where it means nothing, and of one that is not compared.
     pub fn wanted(&self, cycle: usize, column: &Column) -> String {
-        let expected = &self.bench.vectors.expected;
-        let delay = self.bench.allowed.delay(&column.name);
-        let row = usize::try_from(cycle as i64 - delay).ok().filter(|row| *row < expected.rows());
-        match row.filter(|_| !self.bench.allowed.ignored.contains(&column.name)) {
-            Some(row) => binary(expected, row, column),
+        let (vectors, allowed) = (self.bench.vectors, &self.bench.allowed);
+        let row = usize::try_from(cycle as i64 - allowed.delay(&column.name)).ok();
+        let row = row.filter(|row| *row < vectors.expected.rows());
+        let is_valid = |row: &usize| {
+            let table = |name| match name {
+                "stimulus" => &vectors.stimulus,
+                _ => &vectors.expected,
+            };
+            let valid = allowed.valid(column, vectors);
+            valid.is_none_or(|valid| table(valid.table).row(*row)[valid.column.low])
+        };
+        match row.filter(is_valid).filter(|_| !allowed.ignored.contains(&column.name)) {
+            Some(row) => binary(&vectors.expected, row, column),
             None => "x".repeat(column.width),
         }
     }
 
-    /// Whether the two sides differ there.
+    /// Whether the two sides differ there, in what is compared.
     pub fn differs(&self, cycle: usize, column: &Column) -> bool {
-        let wanted = self.wanted(cycle, column);
-        !wanted.contains('x') && wanted != self.bits(cycle, column)
+        let (wanted, bits) = (self.wanted(cycle, column), self.bits(cycle, column));
+        let compared = self.bench.allowed.bits.get(&column.name).map_or(column.width, |bits| *bits);
+        let low =
+            |digits: &str| digits.get(digits.len().saturating_sub(compared)..).map(str::to_owned);
+        self.has(column) && !wanted.contains('x') && low(&wanted) != low(&bits)
     }
 
     /// The five cycles around the first mismatch, a row for each line of a table: inputs, and both
@@ -139,7 +158,7 @@ mod tests {
         let mut bench = Bench::new(&vectors);
         bench.allowed.delays.insert("window".to_owned(), 1);
         let lines = vec!["0x5".to_owned(), "fff".to_owned()];
-        let observed = Observed { lines, bench: &bench };
+        let observed = Observed { lines, bench: &bench, registers: false };
         assert_eq!(observed.bits(0, &column(6, 1)), "xxx010");
         assert_eq!(observed.bits(1, &column(3, 9)), "111");
         assert_eq!(observed.bits(7, &column(1, 0)), "");

@@ -34,12 +34,23 @@ pub const YOSYS: Tool = Tool { program: "yosys", package: "yosys" };
 /// How a program ended.
 #[derive(Clone, Debug)]
 pub struct Finished {
-    /// Whether it says that all went well.
-    pub success: bool,
-    /// Whether it was killed because its time was up.
-    pub timed_out: bool,
+    /// By itself or not.
+    pub end: End,
     /// What it wrote on standard output and standard error, in that order.
     pub output: String,
+}
+
+/// What ended a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// Itself, and whether it says that all went well.
+    Exit(bool),
+    /// It was killed because this time was up.
+    OutOfTime(Duration),
+    /// It was killed because it had written nothing for so long.
+    Stalled(Duration),
+    /// It was killed because it had written too much.
+    Wild,
 }
 
 /// When to give up.
@@ -47,6 +58,8 @@ pub struct Finished {
 pub struct Limits<'a> {
     /// How long a program may take.
     pub time: Duration,
+    /// How long it may write nothing, if it is one that says how far it is.
+    pub silence: Option<Duration>,
     /// Set from outside to stop.
     pub stop: Option<&'a AtomicBool>,
 }
@@ -55,6 +68,20 @@ pub struct Limits<'a> {
 const LONGEST: u64 = 64 << 20;
 /// First and longest time between two looks at a program.
 const NAP: (Duration, Duration) = (Duration::from_millis(1), Duration::from_millis(20));
+
+impl Limits<'_> {
+    /// So long, whatever it writes.
+    pub fn new(time: Duration) -> Self {
+        Limits { time, silence: None, stop: None }
+    }
+}
+
+impl Finished {
+    /// Whether it ended by itself and says that all went well.
+    pub fn success(&self) -> bool {
+        self.end == End::Exit(true)
+    }
+}
 
 impl Tool {
     /// Runs it in `folder` until it ends or its time is up; then it is killed with its children.
@@ -96,28 +123,33 @@ pub fn run(mut command: Command, folder: &Path, limits: &Limits) -> Result<Finis
     let mut child =
         CommandWrap::from(command).wrap(ProcessGroup::leader()).spawn().map_err(fault)?;
     let begin = Instant::now();
+    let (mut written, mut spoke) = (0, begin);
     let mut nap = NAP.0;
-    let status = loop {
+    let end = loop {
         if let Some(status) = child.try_wait().map_err(fault)? {
-            break Some(status);
+            break End::Exit(status.success());
         }
         if limits.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
             kill(child.as_mut());
             return Err(Error::Interrupted);
         }
-        let wild = out.metadata().is_ok_and(|file| file.len() > LONGEST);
-        if begin.elapsed() > limits.time || wild {
+        let length = out.metadata().map_or(written, |file| file.len());
+        if length != written {
+            (written, spoke) = (length, Instant::now());
+        }
+        let silence = limits.silence.filter(|limit| spoke.elapsed() > *limit);
+        let out_of_time = begin.elapsed() > limits.time;
+        let reason = (out_of_time.then_some(End::OutOfTime(limits.time)))
+            .or(silence.map(End::Stalled))
+            .or((length > LONGEST).then_some(End::Wild));
+        if let Some(reason) = reason {
             kill(child.as_mut());
-            break None;
+            break reason;
         }
         sleep(nap);
         nap = (nap * 2).min(NAP.1);
     };
-    Ok(Finished {
-        success: status.is_some_and(|status| status.success()),
-        timed_out: status.is_none(),
-        output: text(out).map_err(fault)?,
-    })
+    Ok(Finished { end, output: text(out).map_err(fault)? })
 }
 
 /// Ends a program and its children; one that has just ended by itself is as good.
@@ -141,7 +173,7 @@ mod tests {
     const SHELL: Tool = Tool { program: "sh", package: "dash" };
 
     fn limits(seconds: f64) -> Limits<'static> {
-        Limits { time: Duration::from_secs_f64(seconds), stop: None }
+        Limits::new(Duration::from_secs_f64(seconds))
     }
 
     #[test]
@@ -150,7 +182,7 @@ mod tests {
         let script = ["-c", "echo out; echo err >&2; exit 3"];
         let finished = SHELL.run(folder.path(), script, &limits(60.0)).unwrap();
         assert_eq!(finished.output, "out\nerr\n");
-        assert!(!finished.success && !finished.timed_out);
+        assert_eq!(finished.end, End::Exit(false));
     }
 
     #[test]
@@ -158,7 +190,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let child = "sh -c 'echo $$ > pid; exec sleep 60' & echo begun; sleep 60; true";
         let finished = SHELL.run(folder.path(), ["-c", child], &limits(1.0)).unwrap();
-        assert!(finished.timed_out);
+        assert_eq!(finished.end, End::OutOfTime(Duration::from_secs(1)));
         assert_eq!(finished.output, "begun\n");
         let pid = std::fs::read_to_string(folder.path().join("pid")).unwrap();
         let lives = || {
@@ -174,6 +206,17 @@ mod tests {
     }
 
     #[test]
+    fn a_program_that_says_nothing_for_too_long_is_killed() {
+        let folder = tempfile::tempdir().unwrap();
+        let silence = Some(Duration::from_secs(1));
+        let script = ["-c", "for k in 1 2 3 4; do echo $k; sleep 0.4; done; sleep 60"];
+        let limits = Limits { silence, ..limits(60.0) };
+        let finished = SHELL.run(folder.path(), script, &limits).unwrap();
+        assert_eq!(finished.end, End::Stalled(Duration::from_secs(1)));
+        assert_eq!(finished.output, "1\n2\n3\n4\n");
+    }
+
+    #[test]
     fn a_missing_tool_is_named_with_its_package() {
         let tool = Tool { program: "no-such-simulator", package: "nothing" };
         let folder = tempfile::tempdir().unwrap();
@@ -186,7 +229,7 @@ mod tests {
     fn an_interruption_ends_the_program() {
         let folder = tempfile::tempdir().unwrap();
         let stop = AtomicBool::new(true);
-        let limits = Limits { time: Duration::from_secs(60), stop: Some(&stop) };
+        let limits = Limits { stop: Some(&stop), ..limits(60.0) };
         let error = SHELL.run(folder.path(), ["-c", "sleep 60"], &limits).unwrap_err();
         assert!(matches!(error, Error::Interrupted));
     }

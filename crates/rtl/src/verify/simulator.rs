@@ -6,8 +6,8 @@ use std::process::Command;
 
 use tofsim::error::{Error, Input, Result};
 
-use super::interface::{Ports, of_icarus, of_verilator};
-use super::process::{self, Finished, IVERILOG, Limits, VERILATOR, VVP};
+use super::interface::{Interface, icarus, verilator};
+use super::process::{self, End, Finished, IVERILOG, Limits, VERILATOR, VVP};
 use super::rtl::Rtl;
 
 /// Which simulator.
@@ -24,7 +24,7 @@ pub enum Simulator {
 pub struct Compiled {
     simulator: Simulator,
     /// The folder that it runs in, with the vectors.
-    folder: PathBuf,
+    pub folder: PathBuf,
     program: PathBuf,
 }
 
@@ -53,11 +53,11 @@ impl Simulator {
         let (program, mut args) = match self {
             Simulator::Icarus => {
                 let program = folder.join("bench.vvp");
-                (program.clone(), icarus(rtl, top, &program))
+                (program.clone(), icarus_args(rtl, top, &program))
             }
             Simulator::Verilator => {
                 let more = ["-Mdir", "obj_dir", "-o", "bench"].map(OsString::from);
-                (folder.join("obj_dir/bench"), verilator("--binary", top, more))
+                (folder.join("obj_dir/bench"), verilator_args("--binary", top, more))
             }
         };
         args.extend(registers.then(|| "-DREGISTERS".into()));
@@ -66,27 +66,27 @@ impl Simulator {
         Ok(Compiled { simulator: self, folder: folder.to_owned(), program })
     }
 
-    /// The ports of a module with those parameters, which decide how wide they are.
+    /// Ports and parameters of a module with those parameters set, which decide how wide ports are.
     ///
     /// # Errors
     /// When the simulator is missing, refuses the sources, or finds no such module or parameter.
-    pub fn ports(
+    pub fn interface(
         self,
         folder: &Path,
         module: &str,
         parameters: &[(&str, u64)],
         rtl: &Rtl,
         limits: &Limits,
-    ) -> Result<Ports> {
+    ) -> Result<Interface> {
         let (output, mut args, set) = match self {
             Simulator::Icarus => {
                 let output = folder.join("ports.vvp");
-                (output.clone(), icarus(rtl, module, &output), format!("-P{module}."))
+                (output.clone(), icarus_args(rtl, module, &output), format!("-P{module}."))
             }
             Simulator::Verilator => {
                 let output = folder.join("ports.xml");
                 let more = ["--xml-output".into(), output.clone().into()];
-                (output, verilator("--xml-only", module, more), "-G".to_owned())
+                (output, verilator_args("--xml-only", module, more), "-G".to_owned())
             }
         };
         args.extend(parameters.iter().map(|(name, value)| format!("{set}{name}={value}").into()));
@@ -94,8 +94,8 @@ impl Simulator {
         let bytes = std::fs::read(&output).map_err(Error::io(&output, "read"))?;
         let text = String::from_utf8_lossy(&bytes);
         match self {
-            Simulator::Icarus => Ok(of_icarus(&text)),
-            Simulator::Verilator => of_verilator(&text, module),
+            Simulator::Icarus => Ok(icarus::read(&text)),
+            Simulator::Verilator => verilator::read(&text, module),
         }
     }
 
@@ -119,21 +119,21 @@ impl Simulator {
             let fault = Input::new(&rtl.source, "no such module in it").field("module");
             return Err(fault.value(top).into());
         }
-        if finished.success { Ok(()) } else { Err(refused(rtl, &finished).into()) }
+        if finished.success() { Ok(()) } else { Err(refused(rtl, &finished).into()) }
     }
 }
 
 impl Compiled {
-    /// Runs it; with `got`, what is seen goes there line by line.
+    /// Runs it with those plusargs.
     ///
     /// # Errors
     /// When it cannot be started, or the user stops everything.
-    pub fn run(&self, got: Option<&str>, limits: &Limits) -> Result<Finished> {
+    pub fn run(&self, plusargs: &[String], limits: &Limits) -> Result<Finished> {
         let mut args: Vec<OsString> = Vec::new();
         if self.simulator == Simulator::Icarus {
             args.extend(["-n".into(), self.program.clone().into()]);
         }
-        args.extend(got.map(|name| format!("+got={name}").into()));
+        args.extend(plusargs.iter().map(OsString::from));
         if self.simulator == Simulator::Icarus {
             return VVP.run(&self.folder, args, limits);
         }
@@ -144,14 +144,14 @@ impl Compiled {
 }
 
 /// Icarus's arguments to compile `top` into a file, but for the sources.
-fn icarus(rtl: &Rtl, top: &str, output: &Path) -> Vec<OsString> {
+fn icarus_args(rtl: &Rtl, top: &str, output: &Path) -> Vec<OsString> {
     let mut args = [generation(rtl), "-s", top, "-o"].map(OsString::from).to_vec();
     args.push(output.into());
     args
 }
 
 /// Verilator's arguments to do something with `top`, but for the sources.
-fn verilator<const N: usize>(action: &str, top: &str, more: [OsString; N]) -> Vec<OsString> {
+fn verilator_args<const N: usize>(action: &str, top: &str, more: [OsString; N]) -> Vec<OsString> {
     let args = [action, "--timing", "-Wno-fatal", "-Wno-lint", "-Wno-style", "--top-module", top];
     args.map(OsString::from).into_iter().chain(more).collect()
 }
@@ -170,9 +170,9 @@ fn refused(rtl: &Rtl, finished: &Finished) -> Input {
         return Input::new(&rtl.source, format!("it has no module `{module}`"));
     }
     let message: Vec<_> = finished.output.lines().take(LINES).collect();
-    let what = match finished.timed_out {
-        true => "the simulator took too long to compile it",
-        false => "the simulator does not take it",
+    let what = match finished.end {
+        End::Exit(_) => "the simulator does not take it",
+        _ => "the simulator took too long to compile it",
     };
     Input::new(&rtl.source, format!("{what}:\n{}", message.join("\n")))
 }

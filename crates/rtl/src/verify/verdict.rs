@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use super::process::End;
+
 /// The first line on which the two sides differ.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Mismatch {
@@ -29,6 +31,18 @@ pub enum Verdict {
         /// The first.
         first: Mismatch,
     },
+    /// The bench has stood still: something in the design goes round without a delay.
+    Hangs {
+        /// For how long [s].
+        seconds: u64,
+        /// The cycle that it last said it had reached.
+        cycle: u64,
+    },
+    /// It was not run.
+    NotRun {
+        /// Why.
+        reason: String,
+    },
     /// The bench did not end in time.
     TimedOut {
         /// The limit [s].
@@ -43,9 +57,21 @@ pub enum Verdict {
 
 impl Verdict {
     /// From what a bench has printed.
-    pub fn read(output: &str, limit_s: Option<u64>) -> Self {
-        if let Some(seconds) = limit_s {
-            return Verdict::TimedOut { seconds };
+    pub fn read(output: &str, end: End) -> Self {
+        let reached = || {
+            let cycle = |line: &str| line.strip_prefix("cycle ")?.parse().ok();
+            output.lines().rev().find_map(cycle).unwrap_or(0)
+        };
+        match end {
+            End::OutOfTime(limit) => return Verdict::TimedOut { seconds: limit.as_secs() },
+            End::Stalled(limit) => {
+                return Verdict::Hangs { seconds: limit.as_secs(), cycle: reached() };
+            }
+            End::Wild => {
+                let message = "it has written too much".to_owned();
+                return Verdict::Broke { message };
+            }
+            End::Exit(_) => {}
         }
         let first = output.lines().find_map(Mismatch::read);
         let total = output.lines().find_map(|line| {
@@ -58,7 +84,8 @@ impl Verdict {
                 Verdict::Differs { mismatches, first }
             }
             _ => {
-                let lines: Vec<_> = output.lines().collect();
+                let is_beat = |line: &&str| line.starts_with("cycle ");
+                let lines: Vec<_> = output.lines().filter(|line| !is_beat(line)).collect();
                 let last = lines.len().saturating_sub(6);
                 Verdict::Broke { message: lines[last..].join("\n") }
             }
@@ -86,15 +113,26 @@ impl Mismatch {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::*;
 
     #[test]
     fn a_pass_is_one_only_if_no_mismatch_was_printed() {
         let pass = "tb_a: PASS, 20 cycles, 0 mismatches\n- tb.v:9: Verilog $finish\n";
-        assert_eq!(Verdict::read(pass, None), Verdict::Pass);
+        assert_eq!(Verdict::read(pass, End::Exit(true)), Verdict::Pass);
         let odd = format!("mismatch: cycle 3, time 31999 ps, a: expected 1, got 0\n{pass}");
-        assert!(matches!(Verdict::read(&odd, None), Verdict::Broke { .. }));
-        assert!(matches!(Verdict::read("", None), Verdict::Broke { .. }));
+        assert!(matches!(Verdict::read(&odd, End::Exit(true)), Verdict::Broke { .. }));
+        assert!(matches!(Verdict::read("", End::Exit(true)), Verdict::Broke { .. }));
+    }
+
+    #[test]
+    fn a_bench_that_stands_still_says_where() {
+        let output = "cycle 0\ncycle 100\nmismatch: nothing yet\n";
+        let stalled = Verdict::read(output, End::Stalled(Duration::from_secs(20)));
+        assert_eq!(stalled, Verdict::Hangs { seconds: 20, cycle: 100 });
+        let late = Verdict::read(output, End::OutOfTime(Duration::from_secs(300)));
+        assert_eq!(late, Verdict::TimedOut { seconds: 300 });
     }
 
     #[test]
@@ -102,7 +140,7 @@ mod tests {
         let output = "mismatch: cycle 3, time 31999 ps, a.b: expected 0f, got xx\n\
             mismatch: cycle 3, time 31999 ps, c: expected 1, got 0\n\
             tb_a: FAIL, 20 cycles, 17 mismatches\nFATAL: tb.v:9: tb_a: 17 mismatches\n";
-        let Verdict::Differs { mismatches, first } = Verdict::read(output, None) else {
+        let Verdict::Differs { mismatches, first } = Verdict::read(output, End::Exit(false)) else {
             panic!("no mismatch read");
         };
         assert_eq!((mismatches, first.cycle, first.time_ps), (17, 3, 31999));

@@ -58,7 +58,11 @@ fn body(
 ) -> io::Result<()> {
     let (timing, stimulus) = (&vectors.spec.timing, &vectors.stimulus);
     let [expected, inputs] = [&vectors.expected, stimulus].map(|table| signals(table.columns()));
-    let sides = [(SIDES[0], &expected), (SIDES[1], &expected), (INPUT, &inputs)];
+    let is_there = |columns: &&[Column]| observed.has(&columns[0]);
+    let got: Vec<_> = expected.iter().copied().filter(is_there).collect();
+    let is_compared = |columns: &&[Column]| columns[0].internal || observed.has(&columns[0]);
+    let expected: Vec<_> = expected.into_iter().filter(is_compared).collect();
+    let sides = [(SIDES[0], &expected), (SIDES[1], &got), (INPUT, &inputs)];
     let top = vectors.bench_module();
     let layout = Layout { version: None, top: &top, first: Some(timing.clock), last: None };
     let signal = |columns: &&[Column]| (columns[0].name.clone(), columns[0].width as u32);

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::golden::spec::Vectors;
 use crate::golden::table::Column;
 use crate::golden::verilog::place;
 
@@ -12,10 +13,23 @@ pub struct Allowances {
     pub delays: BTreeMap<String, i64>,
     /// Outputs that are not compared.
     pub ignored: BTreeSet<String>,
+    /// Outputs that are not there.
+    pub absent: BTreeSet<String>,
     /// Low bits of an output that are compared, where not all are.
     pub bits: BTreeMap<String, usize>,
-    /// Outputs that are compared only where another one is high.
+    /// Outputs that are compared only where another port is high in the reference.
     pub valid: BTreeMap<String, String>,
+    /// Lines after a reset that are not compared.
+    pub settle: u64,
+}
+
+/// Where the level is that says whether a column is compared.
+#[derive(Clone, Copy, Debug)]
+pub struct Valid<'a> {
+    /// Memory of the bench with it: `stimulus` or `expected`.
+    pub table: &'static str,
+    /// Its column there.
+    pub column: &'a Column,
 }
 
 impl Allowances {
@@ -24,8 +38,20 @@ impl Allowances {
         self.delays.get(name).copied().unwrap_or(0)
     }
 
-    /// Verilog that replaces what is wanted of one of these columns, where it is not as expected.
-    pub fn text(&self, column: &Column, columns: &[Column]) -> String {
+    /// The level that says whether a column is compared, if one does: of the same sample, if it is
+    /// looked at in each.
+    pub fn valid<'a>(&self, column: &Column, vectors: &'a Vectors) -> Option<Valid<'a>> {
+        let name = self.valid.get(&column.name)?;
+        let outputs = vectors.expected.columns().iter().filter(|other| other.name == *name);
+        let output = outputs.max_by_key(|other| other.sample == column.sample);
+        let inputs = vectors.stimulus.columns();
+        let input = || inputs.iter().find(|other| other.name == *name);
+        let output = output.map(|column| Valid { table: "expected", column });
+        output.or_else(|| input().map(|column| Valid { table: "stimulus", column }))
+    }
+
+    /// Verilog that replaces what is wanted of a column where it is not as expected.
+    pub fn text(&self, column: &Column, vectors: &Vectors) -> String {
         let place = place(column);
         if self.ignored.contains(&column.name) {
             return format!("    want[{place}] = got[{place}];\n");
@@ -43,15 +69,29 @@ impl Allowances {
             let top = format!("{}:{}", column.low + column.width - 1, column.low + bits);
             text += &format!("    want[{top}] = got[{top}];\n");
         }
-        let valid = self.valid.get(&column.name);
-        if let Some(valid) = valid.and_then(|name| columns.iter().find(|c| c.name == *name)) {
-            let at = match self.delay(&valid.name) {
+        if let Some(Valid { table, column: Column { low, .. } }) = self.valid(column, vectors) {
+            let at = match delay {
                 0 => "cycle".to_owned(),
                 delay => format!("cycle - ({delay})"),
             };
-            let low = valid.low;
-            text += &format!("    if (!expected[{at}][{low}]) want[{place}] = got[{place}];\n");
+            text += &format!("    if (!{table}[{at}][{low}]) want[{place}] = got[{place}];\n");
         }
         text
+    }
+
+    /// Lines that are not compared to begin with: until the registers have been reset (-1), or have
+    /// taken their first values.
+    pub fn quiet(&self, vectors: &Vectors) -> i64 {
+        match vectors.spec.reset {
+            Some(_) => -1,
+            None => vectors.settles as i64 + self.quiet_after_first(),
+        }
+    }
+
+    /// Lines after the first reset that are not compared: what comes later there shows for so long what
+    /// was before it.
+    pub fn quiet_after_first(&self) -> i64 {
+        let latest = self.delays.values().copied().max().unwrap_or(0).max(0);
+        self.settle as i64 + latest
     }
 }

@@ -1,6 +1,7 @@
 // Golden vectors for {name} by tofsim {version}: scenario {source}, seed {seed}.
 // Line k of stimulus.mem is taken by edge k, line k of expected.mem seen just before it.
-// Define REGISTERS to compare registers inside too; +got=FILE writes what was seen.
+// Define REGISTERS to compare registers inside too; +from_power_up compares before the first reset
+// too; +got=FILE writes what was seen, +progress how far it is.
 `timescale 1ps/1fs
 `default_nettype none
 
@@ -20,17 +21,19 @@ module tb_{name};
   reg {line_out}want;
   integer cycle;
   integer mismatches = 0;
+  integer quiet = {quiet};  // lines not compared yet; below 0: until a reset
   integer got_file = 0;
   reg [8191:0] got_name;
 {looks}
   task compare;
   begin
-{allowances}    if (got !== want) begin
+{allowances}    if (quiet == 0 && got !== want) begin
       if (mismatches == 0) show;
       mismatches = mismatches + 1;
     end
     if (got_file != 0) $fdisplay(got_file, "%h", got);
-  end
+    if (quiet > 0) quiet = quiet - 1;
+{resets}  end
   endtask
 
   task show;
@@ -42,7 +45,12 @@ module tb_{name};
     $readmemh("stimulus.mem", stimulus);
     $readmemh("expected.mem", expected);
     if ($value$plusargs("got=%s", got_name)) got_file = $fopen(got_name, "w");
+    if ($test$plusargs("from_power_up")) quiet = 0;
 {before}    for (cycle = 0; cycle < Cycles; cycle = cycle + 1) begin
+      if (cycle % {beat} == 0 && $test$plusargs("progress")) begin
+        $display("cycle %0d", cycle);
+        $fflush;
+      end
       want = expected[cycle];
       got = want;
 {steps}    end

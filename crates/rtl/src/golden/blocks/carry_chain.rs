@@ -33,7 +33,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     }
     let parameters = files(["DelaysFile"], [parameters::tap_delays(delays)]);
     let stops = stops.times().to_vec();
-    Ok(Vectors { parameters, stops, ..run.vectors([ones, travelling]) })
+    Ok(Vectors { parameters, stops, settles: 1, ..run.vectors([ones, travelling]) })
 }
 
 /// Plans changes after the edge that ends a cycle, now that none is left.

@@ -7,6 +7,7 @@ use tofsim::firmware::histogram_builder::BINS;
 use tofsim::sim::fast::centroid::locate;
 
 use crate::golden::estimations::{Estimations, memory};
+use crate::golden::configuration;
 use crate::golden::prelude::*;
 
 mod histograms;
@@ -15,7 +16,21 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |_| DONE }],
     glue: Some(histograms::GLUE),
+    configurations: &[LEVEL],
     ..Spec::new("centroid_estimator", "centroid_estimator", record)
+};
+
+/// The whole window counted, and a distance taken off.
+const LEVEL: Configuration = Configuration {
+    name: "level",
+    set: &[
+        "estimator.kind=centroid",
+        "estimator.centroid_half_width=9",
+        "estimator.centroid_background=false",
+        "estimator.centroid_offset_m=-0.1",
+    ],
+    parameters: &["HalfWidth", "Background", "Offset"],
+    ..configuration::DEFAULTS
 };
 
 signals! {

@@ -42,5 +42,5 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.control_sync = run.top.control_sync.next(&i, &());
     }
-    Ok(run.vectors([pairs, rates, alone]))
+    Ok(Vectors { settles: 2, ..run.vectors([pairs, rates, alone]) })
 }

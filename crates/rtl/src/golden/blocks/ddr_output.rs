@@ -25,5 +25,5 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.sample();
         run.top.vcsel_driver.ddr_output = output.rise(&In { d });
     }
-    Ok(run.vectors([levels]))
+    Ok(Vectors { settles: 1, ..run.vectors([levels]) })
 }

@@ -15,6 +15,7 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[Latency { from: "algo_start", to: "algo_done", cycles: done }],
     glue: Some(histograms::GLUE),
+    configurations: &[NEURONS_16],
     ..Spec::new("depth_estimator", "depth_estimator", record)
 };
 

@@ -14,8 +14,12 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "algo_start", to: "read_en", cycles: |_| 0 },
         Latency { from: "algo_start", to: "algo_done", cycles: done },
     ],
+    configurations: &[NEURONS_16],
     ..Spec::new("estimator_ctrl", "depth_estimator.estimator_ctrl", record)
 };
+
+/// Lines in which an estimation is cut short everywhere.
+const LINES: usize = 26_000;
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let (neurons, third) = (setting.neurons(), setting.seed % 3);
@@ -28,7 +32,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut idle = Cover::new("rst x 2 + algo_start while idle", 0..4);
     let mut run = Recorder::new(spec, setting, In::list());
     let mut begun = 0;
-    for cycle in 0..setting.cycles() {
+    for cycle in 0..setting.cycles.unwrap_or(LINES) {
         let (ctrl, draw) = (run.top.depth_estimator.estimator_ctrl, &mut run.draw);
         let phase = ctrl.phase();
         let i = match phase {
@@ -39,6 +43,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             },
             None => In { rst: draw.one_in(6) && cycle > 0, algo_start: draw.one_in(3) },
         };
+        let i = In { rst: i.rst || cycle == FIRST_RESET, ..i };
         match phase {
             Some(phase) => {
                 starts.see_if(i.algo_start && !i.rst, phase);

@@ -18,6 +18,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "count", to: "l1_in_0", cycles: |_| 0 },
         Latency { from: "rom_addr", to: "l1_in_0", cycles: |_| 1 },
     ],
+    configurations: &[NEURONS_16],
     ..Spec::new("forward1", "depth_estimator.forward1", record)
 };
 
@@ -77,6 +78,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             },
             _ => any,
         };
+        let i = In { rst: i.rst || cycle == FIRST_RESET as u64, ..i };
         situations.see(bits([i.rst, i.forward1_en, i.read_en, i.read_addr == 0]));
         rows.see_if(!i.rst, i.rom_addr.get());
         run.line(&i);

@@ -13,12 +13,15 @@ const WRAP: i64 = 1 << 34;
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[Latency { from: "l1_out_0", to: "depth", cycles: |_| 0 }],
+    configurations: &[NEURONS_16],
     ..Spec::new("forward2", "depth_estimator.forward2", record)
 };
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut rom = setting.setup.params.depth_estimator.forward2;
-    rom.b2 = S::new(-rom.b2.get().abs());
+    if !setting.constants.has("B2File") {
+        rom.b2 = S::new(-rom.b2.get().abs());
+    }
     // Neuron of the strongest weight but the first, which would begin the sum anew.
     let strength = |neuron: &usize| rom.w2[*neuron].get().abs();
     let strongest = (1..rom.neurons).max_by_key(strength).unwrap_or_default();
@@ -30,7 +33,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut run = Recorder::new(spec, setting, In::list());
     // Neuron of the cycle before, if it was added.
     let mut last = None;
-    for cycle in 0..setting.cycles() {
+    // Pairs of neurons come by chance.
+    let lines = Setting::CYCLES.max(32 * (values * values) as usize);
+    for cycle in 0..setting.cycles.unwrap_or(lines) {
         let draw = &mut run.draw;
         let mut any = In {
             rst: draw.one_in(8),
@@ -52,6 +57,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             }
             _ => any,
         };
+        let i = In { rst: i.rst || cycle == FIRST_RESET, ..i };
         neurons.see(bits([i.rst, i.forward2_en]) * values + i.neuron.get());
         let now = (i.forward2_en && !i.rst).then(|| i.neuron.get());
         if let (Some(last), Some(now)) = (last, now) {

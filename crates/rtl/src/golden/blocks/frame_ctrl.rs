@@ -4,10 +4,13 @@
 use tofsim::firmware::frame_ctrl::{In, Params, State};
 use tofsim::kernel::signals::Word;
 
+use crate::golden::configuration;
 use crate::golden::prelude::*;
 
 /// Few, so that all states recur.
 const SHOTS: u16 = 3;
+/// Of more shots than these, each cycle has one.
+const FEW: u16 = 50;
 /// Cycles of Drain.
 const DRAIN: u64 = 16;
 
@@ -18,7 +21,16 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "dsp_en", to: "algo_start", cycles: |_| 0 },
         Latency { from: "algo_done", to: "frame_done", cycles: |_| 0 },
     ],
+    configurations: &[PRELOADED],
     ..Spec::new("frame_ctrl", "frame_ctrl", record)
+};
+
+/// The histogram comes from a ROM.
+const PRELOADED: Configuration = Configuration {
+    name: "preloaded",
+    scenario: "estimator_validation",
+    parameters: &["Preloaded"],
+    ..configuration::DEFAULTS
 };
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
@@ -26,7 +38,10 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let is_state = |state| !preloaded || matches!(state, State::Clear | State::Estimate);
     // Where to leave, state and place in it; `turn` counts them.
     let clear = (0..256).step_by(51).map(|word| (State::Clear, word));
-    let acquire = (0..SHOTS as u64).map(|shots| (State::Acquire, shots));
+    let shots = setting.shots(SHOTS);
+    // Of many shots, the first and the last ones.
+    let places = (0..u64::from(shots)).filter(|shot| *shot < 2 || *shot + 2 >= u64::from(shots));
+    let acquire = places.map(|shots| (State::Acquire, shots));
     let drain = (0..=DRAIN).map(|cycle| (State::Drain, cycle));
     let estimate = (0..3).map(|cycle| (State::Estimate, cycle));
     let mut exits: Vec<_> = clear.chain(acquire).chain(drain).chain(estimate).collect();
@@ -43,11 +58,14 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut kinds = Cover::new("state x 4 + rst x 2 + dsp_rst", each(4));
     let mut inputs = Cover::new("state x 8 + start, dsp_en, algo_done as bits", each(8));
 
-    let params = Params { shots_per_frame: SHOTS, preloaded };
+    let params = Params { shots_per_frame: shots, preloaded };
     let mut run = Recorder::new(spec, setting, In::list());
     // The state, cycles in it, whether this run is to be left at the exit of this turn, frames finished.
     let (mut last, mut phase, mut leaves, mut turn, mut frames) = (State::Clear, 0, false, 0, 0u64);
-    for _ in 0..setting.cycles() {
+    // So that each exit comes up whatever the draws.
+    let lines = exits.len() * (600 + usize::from(shots));
+    let lines = if shots > FEW { Setting::CYCLES.max(2 * lines) } else { Setting::CYCLES };
+    for cycle in 0..setting.cycles.unwrap_or(lines) {
         let (ctrl, draw) = (run.top.frame_ctrl, &mut run.draw);
         let state = ctrl.state();
         phase = if state == last { phase + 1 } else { 0 };
@@ -65,11 +83,11 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let held = leaves && exit == (State::Drain, DRAIN);
         let (start, dsp_en) = match state {
             State::Estimate => (frames.is_multiple_of(2), frames % 4 < 2),
-            State::Acquire => (draw.one_in(4), draw.one_in(2)),
+            State::Acquire => (shots > FEW || draw.one_in(4), draw.one_in(2)),
             _ => (draw.one_in(2), draw.one_in(2)),
         };
         let i = In {
-            rst: kind >= 2,
+            rst: kind >= 2 || cycle == FIRST_RESET,
             dsp_rst: kind % 2 == 1,
             start,
             dsp_en: dsp_en && !held,
@@ -88,7 +106,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.top.frame_ctrl = ctrl.next(&i, &params);
     }
     let parameters = vec![
-        ("ShotsPerFrame", Parameter::Number(SHOTS.into())),
+        ("ShotsPerFrame", Parameter::Number(shots.into())),
         ("Preloaded", Parameter::Number(preloaded.into())),
     ];
     Ok(Vectors { parameters, ..run.vectors([transitions, resets, kinds, inputs]) })

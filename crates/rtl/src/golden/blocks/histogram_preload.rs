@@ -2,6 +2,7 @@
 
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::firmware::histogram_preload::{self, In};
+use tofsim::firmware::tof_top::HistogramSource;
 
 use crate::golden::prelude::*;
 
@@ -14,6 +15,12 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut draw = Draw::new(setting.seed, MEMORIES);
     let (bins, mut rom) = (setting.bins, [U::new(0); BINS]);
     rom[..bins as usize].fill_with(|| draw.word());
+    if setting.constants.has("HistogramFile") {
+        let HistogramSource::Preload(words) = &setting.setup.params.histogram_source else {
+            return Err(setting.lacks("HistogramFile", "stimulus.histogram"));
+        };
+        rom.copy_from_slice(&words[..]);
+    }
     let mut words = Cover::new("words read", 0..bins);
     let mut run = Recorder::new(spec, setting, In::list());
     for cycle in 0..setting.cycles() as u64 {

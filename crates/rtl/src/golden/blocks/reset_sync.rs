@@ -26,5 +26,5 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.reset_sync_125 = run.top.reset_sync_125.next(&i, &());
     }
-    Ok(run.vectors([changes]))
+    Ok(Vectors { settles: 2, ..run.vectors([changes]) })
 }

@@ -16,9 +16,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let levels = |i: In| bits([i.rst, i.mode, i.pre_start]);
     let mut run = Recorder::new(spec, setting, In::list());
     let mut i = In::default();
-    for _ in 0..setting.cycles() {
+    for cycle in 0..setting.cycles() {
         let before = i;
-        i.rst = run.draw.one_in(4);
+        i.rst = cycle == FIRST_RESET || run.draw.one_in(4);
         i.mode ^= run.draw.one_in(3);
         i.pre_start = run.draw.one_in(2);
         changes.see(levels(before) * 8 + levels(i));

@@ -18,6 +18,7 @@ const BEYOND: [i64; 4] =
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[Latency { from: "l1_in_0", to: "l1_out_0", cycles: |_| 0 }],
+    configurations: &[NEURONS_16],
     ..Spec::new("tansig", "depth_estimator.tansig", record)
 };
 
@@ -33,9 +34,10 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut situations = Cover::new("rst x 2 + tansig_en", 0..4);
     let mut run = Recorder::new(spec, setting, In::list());
     let mut swept = 0;
-    for _ in 0..setting.cycles() {
+    for cycle in 0..setting.cycles() {
         let draw = &mut run.draw;
         let (rst, tansig_en, special) = (draw.one_in(32), !draw.one_in(4), draw.one_in(8));
+        let rst = rst || cycle == FIRST_RESET;
         let mut l1_in = [S::new(0); MOST_NEURONS];
         for (neuron, sum) in l1_in[..neurons].iter_mut().enumerate() {
             *sum = match (special, draw.below(3)) {

@@ -56,7 +56,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let draw = &mut run.draw;
         let start = cycle == next;
         let since = if start { 0 } else { cycle - started };
-        let rst = since == reset && draw.one_in(6);
+        let rst = cycle == FIRST_RESET || since == reset && draw.one_in(6);
         let tdc = &run.top.tdc;
         let (window, coarse) = (tdc.coarse_counter.window, tdc.coarse_counter.coarse);
         let (used, before) = tdc.tdc_latch.before();

@@ -25,6 +25,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let times = (0..COARSE).flat_map(|coarse| ENDS.map(|end| (coarse, end)));
     // Coarse and ones count for a time at an end of the range.
     let mut ends = Vec::new();
+    let times = times.filter(|_| !setting.constants.has("CalFile"));
     for (n, (coarse, end)) in (0..=taps).rev().zip(times) {
         cal[n] = U::new((CYCLE * (coarse as i64 + 1) - end) as u64);
         ends.push((coarse, n));
@@ -41,8 +42,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     for cycle in 0..setting.cycles() {
         let (decoder, draw) = (run.top.tdc.tdc_decoder, &mut run.draw);
         let (rst, hit) = (cycle > 0 && draw.one_in(40), draw.one_in(2));
+        let rst = rst || cycle == FIRST_RESET;
         let (round, n) = (hits_swept / (taps + 1), hits_swept % (taps + 1));
-        let special = draw.below(8);
+        let special = if ends.is_empty() { 1 + draw.below(7) } else { draw.below(8) };
         let (coarse, n) = match special {
             0 => ends[draw.below(ends.len() as u64) as usize],
             1 => (draw.below(8), n),

@@ -32,7 +32,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let first = cycle == 0;
         let high = first || draw.one_in(2);
         let i = In {
-            rst: !first && draw.one_in(10),
+            rst: cycle == FIRST_RESET || !first && draw.one_in(10),
             start: draw.one_in(3),
             window: first || !draw.one_in(3),
             coarse: draw.word(),

@@ -1,8 +1,10 @@
 //! The whole firmware: a scenario as it is, or short frames under control signals that change at
 //! random, also in the middle of a frame, and abandon some.
 
+use tofsim::firmware::tof_top::CodeSource;
 use tofsim::scenario::{Control, QuenchMode};
 
+use crate::golden::configuration;
 use crate::golden::prelude::*;
 use crate::golden::top;
 
@@ -21,7 +23,38 @@ pub(super) const SPEC: Spec = Spec {
         "lvds_output.o",
         "lvds_output.ob",
     ],
+    configurations: &[NEURONS_16, CENTROID, CODES, HISTOGRAM],
     ..Spec::new("tof_top", "", record)
+};
+
+/// The other estimator, with values of its own.
+const CENTROID: Configuration = Configuration {
+    name: "centroid",
+    set: &[
+        "estimator.kind=centroid",
+        "estimator.centroid_half_width=9",
+        "estimator.centroid_background=false",
+        "estimator.centroid_offset_m=-0.1",
+    ],
+    parameters: &["Estimator", "HalfWidth", "Background", "Slope", "Offset"],
+    module: Some(super::CENTROID),
+    ..configuration::DEFAULTS
+};
+
+/// Codes from the ROM.
+const CODES: Configuration = Configuration {
+    name: "codes",
+    scenario: "histogram_validation",
+    parameters: &["CodeSource", "Codes", "CodeFile"],
+    ..configuration::DEFAULTS
+};
+
+/// A histogram from the ROM.
+const HISTOGRAM: Configuration = Configuration {
+    name: "histogram",
+    scenario: "estimator_validation",
+    parameters: &["HistogramSource", "HistogramFile"],
+    ..configuration::DEFAULTS
 };
 
 /// A little more than Clear takes after a reset [ns].
@@ -40,14 +73,24 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     }
     let mut setting = setting.clone();
     setting.cycles = setting.cycles.or(Some(RANDOM + PLANTED));
-    setting.setup.params.frame_ctrl.shots_per_frame = SHOTS;
-    setting.setup.scenario.control = control(&setting);
-    let transitions = [(0, 1), (1, 2), (2, 3), (3, 0), (1, 0)].map(|(from, to)| from * 4 + to);
+    let shots = setting.shots(SHOTS);
+    setting.setup.params.frame_ctrl.shots_per_frame = shots;
+    setting.setup.scenario.control = control(&setting, shots.into());
+    let params = &setting.setup.params;
+    // Without Acquire, or without the TDC, there is less to reach.
+    let (transitions, in_states, hits): (&[_], &[_], _) = match params.frame_ctrl.preloaded {
+        true => (&[(0, 3), (3, 0)], &[0, 3], false),
+        false => {
+            let all = &[(0, 1), (1, 2), (2, 3), (3, 0), (1, 0)];
+            (all, &[0, 1, 3], matches!(params.code_source, CodeSource::Tdc))
+        }
+    };
+    let transitions = transitions.iter().map(|(from, to)| from * 4 + to);
     let mut states = Cover::new("states, from x 4 + to", transitions);
     let mut rates = Cover::new("laser_freq in force, from x 4 + to", 0..16);
-    let mut coarse = Cover::new("coarse", 0..8);
-    let mut resets = Cover::new("dsp_rst in state", [0, 1, 3]);
-    let mut modes = Cover::new("mode of a hit", 0..2);
+    let mut coarse = Cover::new("coarse", 0..if hits { 8 } else { 0 });
+    let mut resets = Cover::new("dsp_rst in state", in_states.iter().copied());
+    let mut modes = Cover::new("mode of a hit", 0..if hits { 2 } else { 0 });
     let mut before = None;
     let vectors = top::record(spec, &setting, &mut |top| {
         let state = top.frame_ctrl.state();
@@ -71,7 +114,7 @@ const PLANTED: usize = 28_000;
 
 /// Control signals that change at random times; some frames are abandoned twice, the second time in
 /// Acquire.
-fn control(setting: &Setting) -> Vec<Control> {
+fn control(setting: &Setting, shots: u64) -> Vec<Control> {
     let mut draw = Draw::new(setting.seed, u64::MAX);
     let mut changes = Vec::new();
     let first_us = setting.setup.pll().locked_at.fs() as f64 * 1e-9;
@@ -101,7 +144,7 @@ fn control(setting: &Setting) -> Vec<Control> {
         }
     }
     while at_ns < 8 * setting.cycles() as u64 {
-        for (span_ns, change) in planted(&mut draw) {
+        for (span_ns, change) in planted(shots, &mut draw) {
             changes.push(Control { at_us: first_us + at_ns as f64 * 1e-3, ..change });
             at_ns += span_ns;
         }
@@ -111,7 +154,7 @@ fn control(setting: &Setting) -> Vec<Control> {
 
 /// A frame begun anew, and in it a short reset, another mode or a hold, in some cycle of the shots or
 /// about the one that starts the estimator; each change and how long it lasts [ns].
-fn planted(draw: &mut Draw) -> [(u64, Control); 4] {
+fn planted(shots: u64, draw: &mut Draw) -> [(u64, Control); 4] {
     let begin = Control {
         laser_freq: Some(3),
         mode: Some(QuenchMode::EachShot),
@@ -121,7 +164,7 @@ fn planted(draw: &mut Draw) -> [(u64, Control); 4] {
         ..Control::default()
     };
     let go = Control { dsp_rst: Some(false), ..Control::default() };
-    let shots_ns = SHOTS_NS + draw.below(8 * 6 * u64::from(SHOTS));
+    let shots_ns = SHOTS_NS + draw.below(8 * 6 * shots);
     let kind = draw.below(9);
     let (wait_ns, span_ns, change) = match kind {
         0..4 => (shots_ns, 3 + draw.below(14), Control { rst: Some(true), ..Control::default() }),

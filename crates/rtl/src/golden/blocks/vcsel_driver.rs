@@ -28,6 +28,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         i.laser_en ^= run.draw.one_in(40);
         i.acquire = if i.acquire { !run.draw.one_in(300) } else { run.draw.one_in(5) };
         (i.rst, i.rst_250) = (run.draw.one_in(400), run.draw.one_in(400));
+        if cycle == FIRST_RESET {
+            (i.rst, i.rst_250) = (true, true);
+        }
         if let Some((rate, count, wraps)) = run.top.vcsel_driver.registers.place() {
             changes.see_if(wraps && i.acquire, rate * 4 + i.laser_freq.get());
             phases.see_if(before != i.laser_freq, rate * 32 + count);

@@ -6,7 +6,7 @@ use std::path::Path;
 use tofsim::error::Result;
 use tofsim::files::output::write_bytes;
 
-use crate::verify::process::{Finished, Limits, YOSYS};
+use crate::verify::process::{End, Finished, Limits, YOSYS};
 use crate::verify::rtl::Rtl;
 
 use super::promises::Promise;
@@ -91,7 +91,7 @@ fn script(promise: &Promise, number: u64) -> String {
 
 fn answer(promise: &Promise, finished: &Finished, limits: &Limits) -> Answer {
     let says = |text| finished.output.contains(text);
-    if finished.timed_out {
+    if !matches!(finished.end, End::Exit(_)) {
         Answer::Stuck(format!("Yosys has no answer after {} s", limits.time.as_secs_f64()))
     } else if says("Induction step proven: SUCCESS!") {
         Answer::Holds

@@ -7,7 +7,7 @@ use tofsim::error::{Input, Result};
 use tofsim::files::output::write_file;
 
 use crate::golden::blocks::CENTROID;
-use crate::verify::process::Limits;
+use crate::verify::process::{End, Limits};
 use crate::verify::rtl::Rtl;
 use crate::verify::simulator::Simulator;
 
@@ -36,8 +36,8 @@ pub fn measure(rtl: &Rtl, neurons: usize, folder: &Path, limits: &Limits) -> Res
         write_file(&folder.join(&bench), |file| write!(file, "{define}{text}"))?;
         let bench = [folder.join(bench)];
         let compiled = Simulator::Icarus.compile(folder, name, &bench, rtl, false, limits)?;
-        let run = compiled.run(None, limits)?;
-        if run.timed_out {
+        let run = compiled.run(&[], limits)?;
+        if !matches!(run.end, End::Exit(_)) {
             let seconds = limits.time.as_secs_f64();
             let expected = format!("{name} has not ended after {seconds} s of simulation");
             return Err(Input::new(&rtl.source, expected).into());

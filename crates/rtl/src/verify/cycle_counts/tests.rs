@@ -8,7 +8,7 @@ use tofsim::firmware::forward2::NEURONS;
 use super::*;
 
 fn limits() -> Limits<'static> {
-    Limits { time: Duration::from_secs(60), stop: None }
+    Limits::new(Duration::from_secs(60))
 }
 
 /// A place in a file of ours, and what to put there.
@@ -121,7 +121,7 @@ fn a_simulation_that_never_ends_is_stopped() {
     let text = fs::read_to_string(&path).unwrap();
     fs::write(&path, text.replace("initial begin", "initial begin while (1) spad_sel = 40'd1;"))
         .unwrap();
-    let limits = Limits { time: Duration::from_secs(2), stop: None };
+    let limits = Limits::new(Duration::from_secs(2));
     let error = cycle_counts(&rtl, NEURONS, &limits, |_| {}).unwrap_err().to_string();
     assert_eq!(error, "rtl_ref: bench_shot has not ended after 2 s of simulation");
 }
@@ -130,7 +130,7 @@ fn a_simulation_that_never_ends_is_stopped() {
 fn a_proof_that_takes_too_long_is_none() {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
-    let limits = Limits { time: Duration::ZERO, stop: None };
+    let limits = Limits::new(Duration::ZERO);
     let unproven =
         prove::prove(&promises::promises(NEURONS)[0], &rtl, folder.path(), &limits).unwrap();
     assert_eq!(unproven.as_deref(), Some("Yosys has no answer after 0 s"));

@@ -1,0 +1,46 @@
+//! What a block can be besides what the scenario makes of it.
+
+use tofsim::error::Result;
+use tofsim::scenario::{self, DEFAULT};
+use tofsim::sim::setup::Setup;
+
+use super::setting::Setting;
+
+/// Another choice of the parameters of a block.
+#[derive(Debug)]
+pub struct Configuration {
+    /// Its name, after that of the block.
+    pub name: &'static str,
+    /// The scenario that has it.
+    pub scenario: &'static str,
+    /// What is set in that.
+    pub set: &'static [&'static str],
+    /// The parameters that tell a design of it. One that has not all of them cannot be it.
+    pub parameters: &'static [&'static str],
+    /// The module that it is about, if other people's designs need not have that.
+    pub module: Option<&'static str>,
+}
+
+/// Sixteen hidden neurons.
+pub const NEURONS_16: Configuration = Configuration {
+    name: "neurons_16",
+    set: &["estimator.network=uniform-16"],
+    parameters: &[super::parameters::NEURONS],
+    ..DEFAULTS
+};
+
+/// Nothing else than usual.
+pub(super) const DEFAULTS: Configuration =
+    Configuration { name: "", scenario: DEFAULT, set: &[], parameters: &[], module: None };
+
+impl Configuration {
+    /// The setting with it.
+    ///
+    /// # Errors
+    /// When its scenario cannot be loaded.
+    pub fn setting(&self, base: &Setting) -> Result<Setting> {
+        let set: Vec<_> = self.set.iter().map(|line| (*line).to_owned()).collect();
+        let setup = Setup::new(scenario::load(self.scenario, &set)?)?;
+        Ok(Setting { setup, ..base.clone() })
+    }
+}
