@@ -133,10 +133,10 @@ fn simulated(folder: &Path, params: &Params, histograms: &[Histogram]) -> Vec<(S
     let path = folder.join("bench.v");
     fs::write(&path, bench.replace("NEURONS", &neurons)).unwrap();
     let rtl = Rtl::folder(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rtl_ref")).unwrap();
-    let limits = Limits { time: Duration::from_secs(600), stop: None };
+    let limits = Limits::new(Duration::from_secs(600));
     let simulator = Simulator::Verilator;
     let compiled = simulator.compile(folder, "bench", &[path], &rtl, false, &limits).unwrap();
-    let finished = compiled.run(None, &limits).unwrap();
+    let finished = compiled.run(&[], &limits).unwrap();
     let depths = finished.output.lines().filter_map(|line| line.strip_prefix("depth "));
     let split = |line: &str| {
         let (depth, edges) = line.split_once(' ').unwrap();

@@ -100,7 +100,7 @@ pub fn compare(sources: &Sources) -> Verdict {
     let compiled = Simulator::Icarus
         .compile(work, "tb_tof_top", &bench, &rtl, false, &LIMITS)
         .unwrap_or_else(|error| panic!("{error}"));
-    let finished = compiled.run(None, &LIMITS).unwrap_or_else(|error| panic!("{error}"));
-    let limit = finished.timed_out.then_some(LIMITS.time.as_secs());
-    Verdict::read(&finished.output, limit)
+    let from_power_up = ["+from_power_up".to_owned()];
+    let finished = compiled.run(&from_power_up, &LIMITS).unwrap_or_else(|error| panic!("{error}"));
+    Verdict::read(&finished.output, finished.end)
 }

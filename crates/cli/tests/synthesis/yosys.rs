@@ -12,7 +12,7 @@ use tofsim_rtl::verify::process::{Limits, Tool, YOSYS};
 use crate::common;
 
 /// Longest run of one program; a busy machine takes some minutes for the core's netlist.
-pub const LIMITS: Limits = Limits { time: Duration::from_secs(1200), stop: None };
+pub const LIMITS: Limits = Limits::new(Duration::from_secs(1200));
 
 /// Yosys takes up to 1 GB and both tests would start it.
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
@@ -66,7 +66,7 @@ fn output(tool: Tool, folder: &Path, args: &[&str]) -> String {
     let finished = tool.run(folder, args, &LIMITS).unwrap_or_else(|error| panic!("{error}"));
     let lines: Vec<_> = finished.output.lines().collect();
     let last = lines[lines.len().saturating_sub(20)..].join("\n");
-    assert!(finished.success, "{} {args:?}: {last}", tool.program);
+    assert!(finished.success(), "{} {args:?}: {last}", tool.program);
     finished.output
 }
 

@@ -57,7 +57,7 @@ fn registers_need_no_initial_values() {
         }
         // Verilator has no x: what it begins with is 0.
         let report = check(folder.path(), name, &["--from-power-up"]);
-        assert_eq!((&report["verdict"], &report["first"]["cycle"]), (&"differs".into(), &0.into()));
+        assert_eq!(report["verdict"], "differs", "{report}");
     }
 }
 

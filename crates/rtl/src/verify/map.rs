@@ -202,19 +202,20 @@ impl BlockMap {
             port.width == 1 && (port.output || !is_driven && !is_glued)
         };
         let mut valid = BTreeMap::new();
-        for (output, level) in &self.valid {
+        for (key, level) in &self.valid {
+            let place = format!("valid.{key}");
             let names = |ports: &mut dyn Iterator<Item = &Port>| {
                 ports.map(|port| port.name.clone()).collect::<Vec<_>>()
             };
-            let Some(output) = ours(output).filter(|port| port.output) else {
+            let Some(output) = ours(key).filter(|port| port.output) else {
                 let known = names(&mut ports.iter().filter(|port| port.output));
-                let what = unknown("output", output, known.iter().map(String::as_str));
-                return Err(fault(&format!("valid.{output}"), what).into());
+                let what = unknown("output", key, known.iter().map(String::as_str));
+                return Err(fault(&place, what).into());
             };
             let Some(level) = ours(level).filter(is_level) else {
                 let known = names(&mut ports.iter().filter(is_level));
                 let what = unknown("port of one bit", level, known.iter().map(String::as_str));
-                return Err(fault(&format!("valid.{}", output.name), what).into());
+                return Err(fault(&place, what).into());
             };
             valid.insert(output.name.clone(), level.name.clone());
         }

@@ -71,7 +71,7 @@ const NAP: (Duration, Duration) = (Duration::from_millis(1), Duration::from_mill
 
 impl Limits<'_> {
     /// So long, whatever it writes.
-    pub fn new(time: Duration) -> Self {
+    pub const fn new(time: Duration) -> Self {
         Limits { time, silence: None, stop: None }
     }
 }
