@@ -1,4 +1,4 @@
-//! Runs Verilog against the golden vectors, and reports where it differs.
+//! Runs Verilog, and VHDL as Verilog, against the golden vectors, and reports where it differs.
 
 mod adapter;
 pub mod check;
@@ -11,6 +11,7 @@ pub mod rtl;
 pub mod simulator;
 pub mod strays;
 pub mod verdict;
+mod vhdl;
 mod wave;
 
 pub use check::{BlockCheck, BlockReport};

@@ -1,8 +1,9 @@
 //! Checks one block: vectors, ports, compilation, run, and a second look where it differs.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use tofsim::error::Result;
+use tofsim::error::{Input, Result};
 use tofsim::files::output::create_directory;
 
 use crate::golden::bench::Bench;
@@ -10,13 +11,14 @@ use crate::golden::parameters::{NEURONS, Parameter};
 use crate::golden::setting::Setting;
 use crate::golden::spec::{Spec, Vectors};
 
-use super::interface;
+use super::interface::{self, Ports};
 use super::map::BlockMap;
 use super::observed::Observed;
 use super::process::Limits;
 use super::rtl::Rtl;
 use super::simulator::{Compiled, Simulator};
 use super::verdict::{Mismatch, Verdict};
+use super::vhdl;
 use super::wave;
 
 /// What is checked, and how.
@@ -122,8 +124,14 @@ impl BlockCheck<'_> {
         create_directory(work)?;
         let module = self.map.map_or(spec.name, |map| map.module(spec.name));
         let vectors = (spec.record)(spec, setting)?;
-        let shape: Vec<_> = shape(&vectors, self.map).collect();
-        let found = self.simulator.ports(work, module, &shape, self.rtl, &self.limits)?;
+        let is_vhdl = self.rtl.has_entity(module);
+        if is_vhdl && self.registers {
+            let expected = "expected a module in Verilog: the registers of VHDL have no names here";
+            return Err(Input::new("--registers", expected).value(module).into());
+        }
+        let rtl = self.verilog(spec, module, &vectors, setting.neurons(), work)?;
+        let shape: Vec<_> = shape(&vectors, self.map).filter(|_| !is_vhdl).collect();
+        let found = self.simulator.ports(work, module, &shape, &rtl, &self.limits)?;
         let wanted = match self.map {
             Some(map) => map.wanted(spec, setting.neurons(), &found),
             None => spec.ports(setting.neurons()),
@@ -131,6 +139,7 @@ impl BlockCheck<'_> {
         interface::check(&self.rtl.source, module, &wanted, &found)?;
 
         let mut bench = Bench::new(&vectors);
+        bench.fixed = is_vhdl;
         let top = vectors.bench_module();
         let mut sources = vec![work.join(&top).with_extension("v")];
         if let Some(map) = self.map {
@@ -138,7 +147,7 @@ impl BlockCheck<'_> {
         }
         bench.write(work)?;
         let compiled =
-            self.simulator.compile(work, &top, &sources, self.rtl, self.registers, &self.limits)?;
+            self.simulator.compile(work, &top, &sources, &rtl, self.registers, &self.limits)?;
         let verdict = self.verdict(&compiled, None)?;
         let mut report = BlockReport {
             name: name.to_owned(),
@@ -155,6 +164,26 @@ impl BlockCheck<'_> {
             self.look_again(&mut report, &compiled, &bench, &first, work)?;
         }
         Ok(report)
+    }
+
+    /// The design, with Verilog for its VHDL.
+    fn verilog(
+        &self,
+        spec: &Spec,
+        module: &str,
+        vectors: &Vectors,
+        neurons: usize,
+        work: &Path,
+    ) -> Result<Cow<'_, Rtl>> {
+        let theirs = |ours| self.map.map_or(ours, |map| map.parameter(ours));
+        let generics = vectors.parameters.iter().map(|(ours, value)| (theirs(ours), value));
+        let generics: Vec<_> = generics.filter(|(name, _)| !name.is_empty()).collect();
+        let ports = match self.map {
+            Some(map) => map.wanted(spec, neurons, &Ports::new()),
+            None => spec.ports(neurons),
+        };
+        let names: Vec<_> = ports.into_iter().map(|port| port.name).collect();
+        vhdl::as_verilog(self.rtl, module, &generics, &names, work, &self.limits)
     }
 
     fn verdict(&self, compiled: &Compiled, got: Option<&str>) -> Result<Verdict> {
