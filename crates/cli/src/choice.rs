@@ -7,6 +7,7 @@ use tofsim_captures::compare::Unknowns;
 use tofsim_captures::ila::Radix;
 use tofsim_captures::ila::export::CaptureFormat;
 use tofsim_learn::dataset::files::DatasetFormat;
+use tofsim_rtl::golden::bench::Language;
 use tofsim_rtl::verify::Simulator;
 
 /// A word, what it stands for, and what the help says of it.
@@ -51,6 +52,10 @@ pub const UNKNOWNS: &[Choice<Unknowns>] = &[
     ("any", Unknowns::Any, "x is anything"),
     ("none", Unknowns::None, "x is nothing, not even x"),
 ];
+
+/// What a bench is written in.
+pub const LANGUAGE: &[Choice<Language>] =
+    &[("verilog", Language::Verilog, "Verilog-2005"), ("vhdl", Language::Vhdl, "VHDL-2008")];
 
 /// Which simulator runs the Verilog.
 pub const SIMULATOR: &[Choice<Simulator>] = &[

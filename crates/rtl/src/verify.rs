@@ -1,6 +1,7 @@
-//! Runs Verilog against the golden vectors, and reports where it differs.
+//! Runs Verilog, and VHDL as Verilog, against the golden vectors, and reports where it differs.
 
 mod adapter;
+mod candidate;
 pub mod check;
 pub mod cycle_counts;
 mod data;
@@ -8,15 +9,18 @@ pub mod interface;
 pub mod map;
 pub mod observed;
 pub mod process;
+pub mod report;
 pub mod rtl;
 pub mod simulator;
 pub mod strays;
 pub mod task;
 pub mod verdict;
+mod vhdl;
 mod wave;
 
-pub use check::{BlockCheck, BlockReport};
+pub use check::BlockCheck;
 pub use map::RtlMap;
+pub use report::BlockReport;
 pub use rtl::Rtl;
 pub use simulator::Simulator;
 pub use task::Task;

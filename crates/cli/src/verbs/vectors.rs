@@ -9,22 +9,27 @@ use tofsim::files::folder::FolderLock;
 use tofsim::files::staged::StagedFolder;
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
-use tofsim_rtl::golden::bench::Bench;
+use tofsim_rtl::golden::bench::{Bench, Language};
 use tofsim_rtl::golden::{BLOCKS, Setting, Spec, blocks};
 
+use crate::choice::{self, words};
 use crate::record::Record;
 
 use super::terminal::Talk;
 
-/// Write golden vectors of a block with a self-checking Verilog bench
+/// Write golden vectors of a block with a self-checking bench
 ///
 /// DIR/BLOCK gets stimulus.mem and expected.mem (one line per clock), ports.json (order and widths of
 /// their columns, clock, reset, latency), tb_BLOCK.v, and the memories that the block loads. The bench
-/// runs in any Verilog simulator:
+/// runs in any simulator of Verilog or SystemVerilog:
 ///
 ///   cd DIR/BLOCK && iverilog -g2005 -o tb tb_BLOCK.v YOUR_FILES.v && vvp tb
 ///
-/// Benches are Verilog only, not VHDL.
+/// With --language vhdl it is tb_BLOCK.vhd, in VHDL-2008 for std_logic and std_logic_vector ports. It was
+/// run in GHDL; it has nothing in it that is GHDL's own, but NVC, Questa and xsim were not tried:
+///
+///   cd DIR/BLOCK && ghdl -i --std=08 tb_BLOCK.vhd YOUR_FILES.vhd &&
+///     ghdl -m --std=08 tb_BLOCK && ghdl -r --std=08 tb_BLOCK
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// Module of the firmware, or all
@@ -32,6 +37,9 @@ pub struct Args {
     /// Directory to write to
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    /// What the bench is written in
+    #[arg(long, value_parser = words(choice::LANGUAGE), default_value = "verilog")]
+    language: Language,
     #[command(flatten)]
     from: From,
 }
@@ -85,6 +93,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     for spec in blocks {
         let vectors = (spec.record)(spec, &setting)?;
         let mut bench = Bench::new(&vectors);
+        bench.language = args.language;
         bench.about = json!(record(&setting, &talk.command, spec));
         bench.write(&stage.path().join(spec.name))?;
         talk.detail(format_args!("{}: {} cycles", spec.name, vectors.stimulus.rows()));

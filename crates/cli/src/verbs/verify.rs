@@ -6,12 +6,12 @@ use std::time::Duration;
 
 use rayon::prelude::*;
 
-use tofsim::error::Result;
+use tofsim::error::{Input, Result};
 use tofsim::files::staged::ScratchFolder;
-use tofsim_rtl::golden::blocks::CENTROID;
 use tofsim_rtl::golden::{BLOCKS, Setting, Spec};
 use tofsim_rtl::verify::cycle_counts::{self as count, Count};
 use tofsim_rtl::verify::process::Limits;
+use tofsim_rtl::verify::rtl::Sources;
 use tofsim_rtl::verify::task::run_all;
 use tofsim_rtl::verify::{BlockCheck, BlockReport, Rtl, RtlMap, Simulator, Task, strays};
 
@@ -31,10 +31,9 @@ use super::vectors::{From, find};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Exit status: 0 all pass, 1 something differs, 2 it could not be checked.")]
 pub struct Args {
-    /// Folder with the Verilog to check: all its .v and .sv files
-    #[arg(long, value_name = "DIR")]
-    rtl: Option<PathBuf>,
-    /// Block to check; may be repeated [default: all; centroid_estimator only if the design has it]
+    #[command(flatten)]
+    design: Design,
+    /// Block to check; may be repeated [default: all that the design has]
     #[arg(long, value_name = "BLOCK")]
     block: Vec<String>,
     /// Check the whole firmware with a full frame of the scenario too (alone, unless --block is given)
@@ -72,15 +71,57 @@ pub struct Args {
     from: From,
 }
 
+/// The sources of the design.
+#[derive(Debug, clap::Args)]
+#[command(group = clap::ArgGroup::new("sources").multiple(true))]
+struct Design {
+    /// Folder with the design (all .v, .sv, .vhd and .vhdl files in it and below), or one file; may be
+    /// repeated
+    #[arg(long, value_name = "PATH", group = "sources")]
+    rtl: Vec<PathBuf>,
+    /// File list, as simulators take them; its paths are relative to the current folder; may be repeated
+    #[arg(short = 'f', long = "file-list", value_name = "FILE", group = "sources")]
+    list: Vec<PathBuf>,
+    /// File list whose paths are relative to itself; may be repeated
+    #[arg(short = 'F', long = "relative-file-list", value_name = "FILE", group = "sources")]
+    relative_list: Vec<PathBuf>,
+    /// Folder in which an `include is looked for, after that of the file; may be repeated
+    #[arg(short = 'I', long = "include", value_name = "DIR", requires = "sources")]
+    include: Vec<PathBuf>,
+    /// Define a macro; may be repeated
+    #[arg(short = 'D', long = "define", value_name = "NAME[=VALUE]", requires = "sources")]
+    define: Vec<String>,
+}
+
+impl Design {
+    fn is_ours(&self) -> bool {
+        self.rtl.is_empty() && self.list.is_empty() && self.relative_list.is_empty()
+    }
+
+    fn sources(&self) -> Sources {
+        let lists = self.list.iter().map(|list| (list.clone(), false));
+        let relative = self.relative_list.iter().map(|list| (list.clone(), true));
+        Sources {
+            paths: self.rtl.clone(),
+            lists: lists.chain(relative).collect(),
+            includes: self.include.clone(),
+            defines: self.define.clone(),
+        }
+    }
+}
+
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let map = args.map.as_deref().map(RtlMap::read).transpose()?;
     strays::end();
     let work = ScratchFolder::new()?;
-    let rtl = match &args.rtl {
-        Some(folder) => Rtl::folder(folder)?,
-        None => Rtl::own(work.path())?,
+    let rtl = match args.design.is_ours() {
+        false => Rtl::read(&args.design.sources())?,
+        true => Rtl::own(work.path())?,
     };
+    for option in &rtl.options.unknown {
+        talk.note(format_args!("{option}: no option of a source, which is passed over"));
+    }
     let stop = stop_signal();
     let limits =
         Limits { stop: stop.as_deref(), ..Limits::new(Duration::from_secs(args.time_limit)) };
@@ -92,8 +133,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         rtl: &rtl,
         map: map.as_ref(),
         simulator: args.simulator,
-        registers: args.registers || args.rtl.is_none(),
-        from_power_up: args.from_power_up || args.rtl.is_none(),
+        registers: args.registers || args.design.is_ours(),
+        from_power_up: args.from_power_up || args.design.is_ours(),
         limits,
         output: &args.output,
     };
@@ -123,6 +164,15 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
 }
 
 fn cycle_counts(args: &Args, rtl: &Rtl, limits: &Limits, talk: &Talk) -> Result<ExitCode> {
+    let unread = (rtl.vhdl.first().map(|file| &file.path))
+        .or(rtl.options.library_files.first())
+        .or(rtl.options.libraries.first());
+    if let Some(path) = unread {
+        let expected =
+            "expected Verilog sources only, without libraries: Yosys reads no others here";
+        let path = path.display().to_string();
+        return Err(Input::new("--cycle-counts", expected).value(path).into());
+    }
     let neurons = args.from.setting()?.neurons();
     let counts = count::cycle_counts(rtl, neurons, limits, |count: &Count| {
         let word = if count.holds() { "holds" } else { "fails" };
@@ -159,13 +209,24 @@ fn tasks(args: &Args, map: Option<&RtlMap>, rtl: &Rtl, talk: &Talk) -> Result<Ve
     Ok(tasks)
 }
 
-/// All blocks, but for an estimator that the thesis does not have and the design need not.
+/// All blocks that the design has, or the map names.
 fn every(map: Option<&RtlMap>, rtl: &Rtl, talk: &Talk) -> Result<Vec<&'static Spec>> {
-    let named = map.and_then(|map| map.block.get(CENTROID));
-    let module = named.map_or(CENTROID, |block| block.module(CENTROID));
-    if named.is_some() || rtl.has(module)? {
-        return Ok(BLOCKS.iter().collect());
+    let has = |spec: &&Spec| {
+        let named = map.and_then(|map| map.block.get(spec.name));
+        named.is_some_and(|block| block.module.is_some()) || rtl.has(spec.name)
+    };
+    let (there, missing): (Vec<_>, Vec<_>) = BLOCKS.iter().partition(has);
+    let missing: Vec<_> = missing.iter().map(|spec| spec.name).collect();
+    let missing = missing.join(", ");
+    if there.is_empty() {
+        let expected = format!("expected one of the modules {missing}, or a map with their names");
+        return Err(Input::new(&rtl.source, expected).into());
     }
-    talk.note(format_args!("{}: no module {module}, which is not checked", rtl.source));
-    Ok(BLOCKS.iter().filter(|spec| spec.name != CENTROID).collect())
+    if !missing.is_empty() {
+        talk.note(format_args!(
+            "{}: not checked, because it has no such module: {missing}",
+            rtl.source
+        ));
+    }
+    Ok(there)
 }

@@ -1,15 +1,16 @@
-//! The self-checking Verilog bench of a block.
+//! The self-checking bench of a block, in Verilog or in VHDL.
 //!
 //! One process applies the inputs 1 ps after the edge, moves the clocks and looks 1 ps before the
 //! next edge, so that nothing depends on the order in which a simulator takes simultaneous events.
 
 pub mod allowances;
+mod vhdl;
 
 use std::path::Path;
 
 use serde_json::Value;
 
-use allowances::Allowances;
+use allowances::{Allowances, RESETS};
 
 use tofsim::error::Result;
 use tofsim::files::output::{create_directory, write_bytes, write_file};
@@ -25,6 +26,16 @@ use super::verilog::{parameter_list, place, range};
 /// With `+progress`, a bench says after so many cycles how far it is.
 const BEAT: usize = 100;
 
+/// What a bench is written in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Language {
+    /// Verilog-2005.
+    #[default]
+    Verilog,
+    /// VHDL-2008; strict, and for ports only.
+    Vhdl,
+}
+
 /// A bench, with what another implementation is allowed.
 #[derive(Clone, Debug)]
 pub struct Bench<'a> {
@@ -34,6 +45,10 @@ pub struct Bench<'a> {
     pub allowed: Allowances,
     /// The module that is instantiated.
     pub module: String,
+    /// Whether the module has its parameters already and cannot be given any.
+    pub fixed: bool,
+    /// What it is written in.
+    pub language: Language,
     /// An object whose keys go into `ports.json` too: where the vectors come from.
     pub about: Value,
 }
@@ -42,18 +57,23 @@ impl<'a> Bench<'a> {
     /// The bench for the reference itself.
     pub fn new(vectors: &'a Vectors) -> Self {
         let (allowed, about) = (Allowances::default(), Value::Null);
-        Bench { vectors, allowed, module: vectors.spec.name.to_owned(), about }
+        let module = vectors.spec.name.to_owned();
+        Bench { vectors, allowed, module, fixed: false, language: Language::default(), about }
     }
 
     /// Names of the parameters that it sets.
     pub fn parameters(&self) -> impl Iterator<Item = &'static str> {
-        self.vectors.parameters.iter().map(|(name, _)| *name)
+        self.set().map(|(name, _)| *name)
+    }
+
+    fn set(&self) -> impl Iterator<Item = &'a (&'static str, Parameter)> {
+        self.vectors.parameters.iter().filter(|_| !self.fixed)
     }
 
     /// Writes it with all files that it needs into a folder, which is made if it is not there.
     ///
     /// # Errors
-    /// When one cannot be written.
+    /// When one cannot be written, or the language has no such parameter.
     pub fn write(&self, folder: &Path) -> Result<()> {
         create_directory(folder)?;
         let text = |name: &str, text: &str| write_bytes(&folder.join(name), text);
@@ -74,14 +94,17 @@ impl<'a> Bench<'a> {
             ports.extend(about.clone());
         }
         text("ports.json", &format!("{ports:#}\n"))?;
-        text(&(vectors.bench_module() + ".v"), &self.text())
+        match self.language {
+            Language::Verilog => text(&(vectors.bench_module() + ".v"), &self.text()),
+            Language::Vhdl => text(&(vectors.bench_module() + ".vhd"), &vhdl::text(vectors)?),
+        }
     }
 
     /// Its Verilog.
     fn text(&self) -> String {
         let (vectors, spec) = (self.vectors, self.vectors.spec);
         let ports = spec.ports(vectors.neurons);
-        let parameters: Vec<_> = vectors.parameters.iter().map(parameter).collect();
+        let parameters: Vec<_> = self.set().map(parameter).collect();
         let connected: Vec<_> =
             ports.iter().map(|port| format!("    .{0}({0})", port.name)).collect();
         let columns = vectors.expected.columns();
@@ -121,7 +144,7 @@ impl<'a> Bench<'a> {
     /// What a line that resets the block changes about the lines that are compared.
     fn resets(&self) -> String {
         let columns = self.vectors.stimulus.columns().iter();
-        let resets = columns.filter(|column| ["rst", "rst_late"].contains(&column.name.as_str()));
+        let resets = columns.filter(|column| RESETS.contains(&column.name.as_str()));
         let levels: Vec<_> =
             resets.map(|column| format!("stimulus[cycle][{}]", column.low)).collect();
         let Allowances { settle, .. } = self.allowed;

@@ -31,6 +31,8 @@ pub struct Glue {
     pub drives: &'static str,
     /// Its declaration and driver in the bench.
     pub verilog: &'static str,
+    /// In a bench in VHDL, the declaration of the memory that it is read from, and its driver.
+    pub vhdl: (&'static str, &'static str),
 }
 
 /// The line that resets a block: those before it show how its registers begin.

@@ -1,6 +1,6 @@
 //! Checks one block: vectors, ports, compilation, run, and a second look where it differs.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 use tofsim::error::Result;
@@ -8,13 +8,13 @@ use tofsim::files::output::create_directory;
 
 use crate::golden::bench::Bench;
 use crate::golden::cover::Cover;
-use crate::golden::parameters::{NEURONS, Parameter};
 
+use super::candidate::Candidate;
 use super::data;
-use super::interface::Interface;
 use super::map::RtlMap;
 use super::observed::Observed;
 use super::process::Limits;
+use super::report::BlockReport;
 use super::rtl::Rtl;
 use super::simulator::{Compiled, Simulator};
 use super::task::Task;
@@ -40,105 +40,8 @@ pub struct BlockCheck<'a> {
     pub output: &'a Path,
 }
 
-/// How a block came out.
-#[derive(Clone, Debug)]
-pub struct BlockReport {
-    /// The block, and what of it if that is not its own bench.
-    pub name: String,
-    /// Lines compared.
-    pub cycles: usize,
-    /// How it came out.
-    pub verdict: Verdict,
-    /// The cycles around the first mismatch, as rows of a table; none without one.
-    pub around: Vec<Vec<String>>,
-    /// The waveform of both sides.
-    pub wave: Option<PathBuf>,
-    /// Goals of the stimulus met, and goals.
-    pub coverage: (usize, usize),
-    /// What it has not reached, and how many cases of it of how many.
-    pub missed: Vec<(&'static str, usize, usize)>,
-}
-
 /// A bench that says nothing for so long stands still.
 const SILENCE: Duration = Duration::from_secs(15);
-
-impl BlockReport {
-    /// Whether the block does not do what it should; one that was not run is not said to.
-    pub fn failed(&self) -> bool {
-        !matches!(self.verdict, Verdict::Pass | Verdict::NotRun { .. })
-    }
-
-    /// Whether it never came to an end.
-    pub fn hangs(&self) -> bool {
-        matches!(self.verdict, Verdict::Hangs { .. } | Verdict::TimedOut { .. })
-    }
-
-    /// Of a block that was not run.
-    pub(super) fn not_run(task: &Task, reason: String) -> Self {
-        BlockReport {
-            name: task.name.clone(),
-            cycles: 0,
-            verdict: Verdict::NotRun { reason },
-            around: Vec::new(),
-            wave: None,
-            coverage: (0, 0),
-            missed: Vec::new(),
-        }
-    }
-
-    /// What went wrong, in a line; empty if nothing did.
-    pub fn fault(&self) -> String {
-        match &self.verdict {
-            Verdict::Pass => String::new(),
-            Verdict::Differs { first, .. } => format!(
-                "cycle {}, {} ps: {} expected {}, got {}",
-                first.cycle,
-                first.time_ps,
-                first.signal,
-                short(&first.expected),
-                short(&first.got),
-            ),
-            Verdict::Hangs { seconds, cycle } => format!(
-                "hangs after cycle {cycle}: nothing has moved for {seconds} s, something goes round \
-                 without a delay",
-            ),
-            Verdict::NotRun { reason } => reason.clone(),
-            Verdict::TimedOut { seconds } => {
-                format!("the bench has not ended in {seconds} s and was killed")
-            }
-            Verdict::Broke { message } => format!("the bench broke off: {}", message.trim()),
-        }
-    }
-
-    /// Cycles that differ.
-    pub fn mismatches(&self) -> usize {
-        match &self.verdict {
-            Verdict::Differs { mismatches, .. } => *mismatches,
-            _ => 0,
-        }
-    }
-
-    /// How it came out, in a word or two.
-    pub fn word(&self) -> &'static str {
-        match self.verdict {
-            Verdict::Pass => "pass",
-            Verdict::Differs { .. } => "differs",
-            Verdict::Hangs { .. } => "hangs",
-            Verdict::NotRun { .. } => "not run",
-            Verdict::TimedOut { .. } => "timed out",
-            Verdict::Broke { .. } => "broke off",
-        }
-    }
-}
-
-/// A value too long to read, shortened in its middle.
-fn short(digits: &str) -> String {
-    const LONGEST: usize = 40;
-    match (digits.get(..16), digits.len().checked_sub(16).and_then(|end| digits.get(end..))) {
-        (Some(head), Some(tail)) if digits.len() > LONGEST => format!("{head}..{tail}"),
-        _ => digits.to_owned(),
-    }
-}
 
 impl BlockCheck<'_> {
     /// Checks a block in `work`, a folder of its own.
@@ -148,37 +51,22 @@ impl BlockCheck<'_> {
     /// parameter, Verilog that does not compile, files that cannot be written.
     pub fn run(&self, task: &Task, work: &Path) -> Result<BlockReport> {
         create_directory(work)?;
-        let (spec, map) = (task.spec, self.map.map(|map| map.block(task.spec.name)));
-        let module = map.as_ref().map_or(spec.name, |map| map.module(spec.name));
-        let mut found = self.simulator.interface(work, module, &[], self.rtl, &self.limits)?;
-        if let Some(reason) = self.cannot_be(task, module, &found)? {
-            return Ok(BlockReport::not_run(task, reason));
-        }
-        let vectors = (spec.record)(spec, &task.setting)?;
-        let set = vectors.parameters.iter().filter_map(|(ours, value)| {
-            let theirs = map.as_ref().map_or(Some(*ours), |map| map.parameter(ours))?;
-            Some((*ours, theirs, value))
-        });
-        let names = set.clone().map(|(ours, theirs, _)| (ours, theirs));
-        found.check_parameters(&self.rtl.source, [module, spec.name], names)?;
-        if let Some(shape) = set.filter_map(shape).next() {
-            found = self.simulator.interface(work, module, &[shape], self.rtl, &self.limits)?;
-        }
-        let wanted = match &map {
-            Some(map) => map.wanted(spec, vectors.neurons, &found),
-            None => spec.ports(vectors.neurons),
+        let vectors = (task.spec.record)(task.spec, &task.setting)?;
+        let candidate = match Candidate::find(self, task, &vectors, work)? {
+            Ok(candidate) => candidate,
+            Err(reason) => return Ok(BlockReport::not_run(task, reason)),
         };
-        found.check_ports(&self.rtl.source, module, &wanted)?;
-
         let mut bench = Bench::new(&vectors);
+        bench.fixed = candidate.fixed;
         let top = vectors.bench_module();
         let mut sources = vec![work.join(&top).with_extension("v")];
-        if let Some(map) = &map {
-            sources.push(map.apply(&mut bench, spec, &found, work)?);
+        if let Some(map) = &candidate.map {
+            sources.push(map.apply(&mut bench, task.spec, &candidate.found, work)?);
         }
         bench.write(work)?;
+        let (rtl, registers) = (&candidate.rtl, self.registers);
         let compiled =
-            self.simulator.compile(work, &top, &sources, self.rtl, self.registers, &self.limits)?;
+            self.simulator.compile(work, &top, &sources, rtl, registers, &self.limits)?;
         let verdict = self.verdict(&compiled, None)?;
         let coverage = vectors.coverage.iter();
         let missed = coverage.clone().filter(|cover| cover.met() < cover.cases());
@@ -197,25 +85,6 @@ impl BlockCheck<'_> {
             self.look_again(&mut report, &compiled, &bench, &first, work)?;
         }
         Ok(report)
-    }
-
-    /// Why the design cannot be what the task is about, if it cannot.
-    fn cannot_be(&self, task: &Task, module: &str, found: &Interface) -> Result<Option<String>> {
-        let Some(configuration) = task.configuration else { return Ok(None) };
-        if let Some(other) = configuration.module {
-            let block = self.map.map(|map| map.block(other));
-            let other = block.as_ref().map_or(other, |block| block.module(other));
-            if !self.rtl.has(other)? {
-                return Ok(Some(format!("{} has no module {other}", self.rtl.source)));
-            }
-        }
-        let map = self.map.map(|map| map.block(task.spec.name));
-        let lacks = |parameter: &&&str| {
-            let theirs = map.as_ref().map_or(Some(**parameter), |map| map.parameter(parameter));
-            theirs.is_none_or(|theirs| !found.parameters.contains(theirs))
-        };
-        let missing = configuration.parameters.iter().find(lacks);
-        Ok(missing.map(|parameter| format!("module {module} has no parameter {parameter}")))
     }
 
     fn verdict(&self, compiled: &Compiled, got: Option<&str>) -> Result<Verdict> {
@@ -251,13 +120,5 @@ impl BlockCheck<'_> {
         wave::write(self.output, &report.name, bench.vectors, &observed, first)?;
         report.wave = Some(self.output.join(format!("{}.vcd", report.name)));
         Ok(())
-    }
-}
-
-/// The parameter that ports depend on, by their name of it, if it is one.
-fn shape<'a>((ours, theirs, value): (&str, &'a str, &Parameter)) -> Option<(&'a str, u64)> {
-    match value {
-        Parameter::Number(value) if ours == NEURONS => Some((theirs, *value)),
-        _ => None,
     }
 }

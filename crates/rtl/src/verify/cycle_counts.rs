@@ -68,7 +68,7 @@ pub fn cycle_counts(
     done: impl Fn(&Count),
 ) -> Result<Vec<Count>> {
     let mut promises = promises::promises(neurons);
-    if rtl.has(CENTROID)? {
+    if rtl.has(CENTROID) {
         promises.push(promises::centroid());
     }
     count(&promises, neurons, rtl, limits, done)

@@ -15,7 +15,8 @@ use super::rtl::Rtl;
 /// # Errors
 /// When a file that is there cannot be copied.
 pub(super) fn bring(work: &Path, rtl: &Rtl, said: &str) -> Result<bool> {
-    let beside: BTreeSet<_> = rtl.files.iter().filter_map(|file| file.parent()).collect();
+    let beside: BTreeSet<_> =
+        rtl.files.iter().chain(&rtl.vhdl).filter_map(|file| file.path.parent()).collect();
     let mut brought = false;
     for name in missing(said).map(Path::new).filter(|name| stays_inside(name)) {
         let to = work.join(name);

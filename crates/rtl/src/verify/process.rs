@@ -31,6 +31,11 @@ pub const VERILATOR: Tool = Tool { program: "verilator", package: "verilator" };
 /// Yosys.
 pub const YOSYS: Tool = Tool { program: "yosys", package: "yosys" };
 
+/// GHDL.
+pub const GHDL: Tool = Tool { program: "ghdl", package: "ghdl" };
+/// The shell.
+pub const SHELL: Tool = Tool { program: "sh", package: "dash" };
+
 /// How a program ended.
 #[derive(Clone, Debug)]
 pub struct Finished {
@@ -169,8 +174,6 @@ fn text(mut file: File) -> std::io::Result<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const SHELL: Tool = Tool { program: "sh", package: "dash" };
 
     fn limits(seconds: f64) -> Limits<'static> {
         Limits::new(Duration::from_secs_f64(seconds))

@@ -1,6 +1,11 @@
-//! The Verilog under test: a folder of the user's, or our own, which is in the program.
+//! The design under test: source files of the user's, or our own, which are in the program.
 
-use std::fs;
+pub mod file_list;
+mod order;
+pub mod scan;
+mod search;
+
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use tofsim::error::{Error, Input, Result};
@@ -8,59 +13,161 @@ use tofsim::files::output::write_bytes;
 
 use crate::golden::blocks::VERILOG;
 
-/// Verilog source files.
+use file_list::Listed;
+use scan::Scan;
+
+/// Where the sources of a design are.
+#[derive(Clone, Debug, Default)]
+pub struct Sources {
+    /// Folders, which are searched with all below them, and files.
+    pub paths: Vec<PathBuf>,
+    /// File lists, and whether their paths are relative to the list.
+    pub lists: Vec<(PathBuf, bool)>,
+    /// Folders in which an `` `include `` is looked for.
+    pub includes: Vec<PathBuf>,
+    /// Macros: `NAME` or `NAME=VALUE`.
+    pub defines: Vec<String>,
+}
+
+/// A source file.
 #[derive(Clone, Debug)]
+pub struct Source {
+    /// Its absolute path.
+    pub path: PathBuf,
+    /// What it declares and names.
+    pub scan: Scan,
+    /// Whether it was found in a folder: then it is compiled only where something in it is needed.
+    pub found: bool,
+}
+
+/// The sources of a design.
+#[derive(Clone, Debug, Default)]
 pub struct Rtl {
-    /// Their absolute paths, sorted.
-    pub files: Vec<PathBuf>,
+    /// Verilog and SystemVerilog, in the order in which they are named; those of a folder are sorted.
+    pub files: Vec<Source>,
+    /// VHDL.
+    pub vhdl: Vec<Source>,
+    /// Folders of includes and libraries, macros, and what was passed over.
+    pub options: Listed,
     /// Where they come from, for people.
     pub source: String,
 }
 
 impl Rtl {
-    /// The `.v` and `.sv` files of a folder.
+    /// The sources of a folder and all below it.
     ///
     /// # Errors
-    /// When the folder cannot be read or has none.
+    /// As [`Rtl::read`].
     pub fn folder(folder: &Path) -> Result<Self> {
-        let fault = || Error::io(folder, "read");
-        let mut files = Vec::new();
-        for entry in fs::read_dir(folder).map_err(fault())? {
-            let path = entry.map_err(fault())?.path();
-            let verilog = path.extension().is_some_and(|end| end == "v" || end == "sv");
-            if verilog && path.is_file() {
-                files.push(path.canonicalize().map_err(fault())?);
-            }
-        }
-        files.sort();
-        let source = folder.display().to_string();
-        if files.is_empty() {
-            return Err(Input::new("--rtl", "no .v or .sv file in it").value(source).into());
-        }
-        Ok(Rtl { files, source })
+        Self::read(&Sources { paths: vec![folder.to_owned()], ..Sources::default() })
     }
 
-    /// Whether a file says by its name that it is SystemVerilog.
-    pub fn is_system_verilog(&self) -> bool {
-        self.files.iter().any(|file| file.extension().is_some_and(|end| end == "sv"))
-    }
-
-    /// Whether one of the files declares that module.
+    /// Those that are named, each file once.
     ///
     /// # Errors
-    /// When a file cannot be read.
-    pub fn has(&self, module: &str) -> Result<bool> {
-        for file in &self.files {
-            let bytes = fs::read(file).map_err(Error::io(file, "read"))?;
-            let text = String::from_utf8_lossy(&bytes);
-            let mut words = text.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == '$'));
-            while words.by_ref().any(|word| word == "module") {
-                if words.find(|word| !word.is_empty()) == Some(module) {
-                    return Ok(true);
-                }
+    /// When a file, folder or list cannot be read, or there is no source among them.
+    pub fn read(sources: &Sources) -> Result<Self> {
+        let names: Vec<_> =
+            (sources.paths.iter().chain(sources.lists.iter().map(|(list, _)| list)))
+                .map(|path| path.display().to_string())
+                .collect();
+        let mut rtl = Rtl { source: names.join(", "), ..Rtl::default() };
+        let options = &mut rtl.options;
+        for (list, is_base) in &sources.lists {
+            options.read(list, *is_base)?;
+        }
+        let listed = std::mem::take(&mut options.files);
+        options.includes.splice(0..0, sources.includes.iter().cloned());
+        options.defines.extend(sources.defines.iter().cloned());
+        for folder in options.includes.iter_mut().chain(&mut options.libraries) {
+            *folder = folder.canonicalize().map_err(Error::io(folder.as_path(), "read"))?;
+            if !folder.is_dir() {
+                let folder = folder.display().to_string();
+                return Err(Input::new("-I", "expected a folder").value(folder).into());
             }
         }
-        Ok(false)
+        for file in &mut options.library_files {
+            *file = file.canonicalize().map_err(Error::io(file.as_path(), "read"))?;
+        }
+        for path in listed {
+            rtl.add(&path, false)?;
+        }
+        for path in &sources.paths {
+            if path.is_dir() {
+                for file in search::sources(path)? {
+                    rtl.add(&file, true)?;
+                }
+            } else {
+                rtl.add(path, false)?;
+            }
+        }
+        if rtl.files.is_empty() && rtl.vhdl.is_empty() && rtl.options.library_files.is_empty() {
+            let expected = "no .v, .sv, .vhd or .vhdl file in it";
+            return Err(Input::new("--rtl", expected).value(&rtl.source).into());
+        }
+        Ok(rtl)
+    }
+
+    fn add(&mut self, path: &Path, found: bool) -> Result<()> {
+        let source = Source::read(path, found)?;
+        let files = if source.is_vhdl() { &mut self.vhdl } else { &mut self.files };
+        if !files.iter().any(|file| file.path == source.path) {
+            files.push(source);
+        }
+        Ok(())
+    }
+
+    /// Whether one of the files declares that module, or that entity, whatever the case of its letters.
+    pub fn has(&self, module: &str) -> bool {
+        let declares = |source: &Source| source.scan.modules.iter().any(|it| it.name == module);
+        let in_library = |folder: &PathBuf| {
+            self.suffixes().iter().any(|end| folder.join(format!("{module}{end}")).is_file())
+        };
+        self.files.iter().any(declares)
+            || self.has_entity(module)
+            || self.options.libraries.iter().any(in_library)
+    }
+
+    /// Whether a VHDL file declares that entity, and no Verilog file a module of that name.
+    pub fn has_entity(&self, name: &str) -> bool {
+        let lower = name.to_lowercase();
+        let is_named =
+            |source: &Source, name: &str| source.scan.modules.iter().any(|it| it.name == name);
+        self.vhdl.iter().any(|source| is_named(source, &lower))
+            && !self.files.iter().any(|source| is_named(source, name))
+    }
+
+    /// Those of some names that the files of an entity have, as its generics have to be.
+    pub fn generics<'a>(
+        &self,
+        entity: &str,
+        names: impl Iterator<Item = &'a str>,
+    ) -> BTreeSet<String> {
+        let entity = entity.to_lowercase();
+        let declares = |source: &&Source| source.scan.modules.iter().any(|it| it.name == entity);
+        let files: Vec<_> = self.vhdl.iter().filter(declares).collect();
+        let is_in = |name: &str| {
+            files.iter().any(|source| source.scan.words.contains(&name.to_lowercase()))
+        };
+        names.filter(|name| is_in(name)).map(str::to_owned).collect()
+    }
+
+    /// Suffixes of the files in library folders.
+    pub fn suffixes(&self) -> Vec<&str> {
+        match self.options.suffixes.as_slice() {
+            [] => vec![".v", ".sv"],
+            suffixes => suffixes.iter().map(String::as_str).collect(),
+        }
+    }
+
+    /// The Verilog files that something which names those identifiers needs, packages before their users:
+    /// all that were named one by one, and of those found in folders the ones that declare what is needed
+    /// and the ones that declare no module at all.
+    ///
+    /// # Errors
+    /// When two files declare the same module, or packages need each other.
+    pub fn needed(&self, text: &str) -> Result<Vec<&Source>> {
+        order::needed(self, &Scan::verilog(text).words)
     }
 
     /// Our own, written into `folder`.
@@ -68,12 +175,37 @@ impl Rtl {
     /// # Errors
     /// When it cannot be written.
     pub fn own(folder: &Path) -> Result<Self> {
-        let mut files = Vec::new();
+        let mut rtl = Rtl { source: "rtl_ref".to_owned(), ..Rtl::default() };
         for (name, text) in VERILOG {
             let path = folder.join(name);
             write_bytes(&path, text)?;
-            files.push(path);
+            rtl.add(&path, true)?;
         }
-        Ok(Rtl { files, source: "rtl_ref".to_owned() })
+        Ok(rtl)
+    }
+}
+
+impl Source {
+    /// A file; `found` in a folder, or named.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn read(path: &Path, found: bool) -> Result<Self> {
+        let fault = || Error::io(path, "read");
+        let path = path.canonicalize().map_err(fault())?;
+        let bytes = std::fs::read(&path).map_err(fault())?;
+        let text = String::from_utf8_lossy(&bytes);
+        let mut source = Source { path, scan: Scan::default(), found };
+        source.scan = if source.is_vhdl() { Scan::vhdl(&text) } else { Scan::verilog(&text) };
+        Ok(source)
+    }
+
+    fn is_vhdl(&self) -> bool {
+        search::ends_in(&self.path, &["vhd", "vhdl"])
+    }
+
+    /// Whether it says by its name that it is SystemVerilog.
+    pub fn is_system_verilog(&self) -> bool {
+        search::ends_in(&self.path, &["sv"])
     }
 }

@@ -1,13 +1,15 @@
 //! The two simulators: how each compiles a bench, runs it, and tells the ports of a module.
 
+mod refusal;
+
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use tofsim::error::{Error, Input, Result};
+use tofsim::error::{Error, Result, read_text};
 
 use super::interface::{Interface, icarus, verilator};
-use super::process::{self, End, Finished, IVERILOG, Limits, VERILATOR, VVP};
+use super::process::{self, Finished, IVERILOG, Limits, VERILATOR, VVP};
 use super::rtl::Rtl;
 
 /// Which simulator.
@@ -53,7 +55,7 @@ impl Simulator {
         let (program, mut args) = match self {
             Simulator::Icarus => {
                 let program = folder.join("bench.vvp");
-                (program.clone(), icarus_args(rtl, top, &program))
+                (program.clone(), icarus_args(top, &program))
             }
             Simulator::Verilator => {
                 let more = ["-Mdir", "obj_dir", "-o", "bench"].map(OsString::from);
@@ -62,7 +64,8 @@ impl Simulator {
         };
         args.extend(registers.then(|| "-DREGISTERS".into()));
         args.extend(bench.iter().map(OsString::from));
-        self.make(folder, top, args, rtl, limits)?;
+        let texts: Result<String> = bench.iter().map(|file| read_text(file)).collect();
+        self.make(folder, top, &texts?, args, rtl, limits)?;
         Ok(Compiled { simulator: self, folder: folder.to_owned(), program })
     }
 
@@ -81,7 +84,7 @@ impl Simulator {
         let (output, mut args, set) = match self {
             Simulator::Icarus => {
                 let output = folder.join("ports.vvp");
-                (output.clone(), icarus_args(rtl, module, &output), format!("-P{module}."))
+                (output.clone(), icarus_args(module, &output), format!("-P{module}."))
             }
             Simulator::Verilator => {
                 let output = folder.join("ports.xml");
@@ -90,7 +93,7 @@ impl Simulator {
             }
         };
         args.extend(parameters.iter().map(|(name, value)| format!("{set}{name}={value}").into()));
-        self.make(folder, module, args, rtl, limits)?;
+        self.make(folder, module, module, args, rtl, limits)?;
         let bytes = std::fs::read(&output).map_err(Error::io(&output, "read"))?;
         let text = String::from_utf8_lossy(&bytes);
         match self {
@@ -99,27 +102,49 @@ impl Simulator {
         }
     }
 
-    /// Compiles the design's files with those arguments, of which `top` is one.
+    /// Compiles what `text` needs of the design with those arguments, of which `top` is one.
     fn make(
         self,
         folder: &Path,
         top: &str,
-        args: Vec<OsString>,
+        text: &str,
+        mut args: Vec<OsString>,
         rtl: &Rtl,
         limits: &Limits,
     ) -> Result<()> {
-        let tool = match self {
-            Simulator::Icarus => IVERILOG,
-            Simulator::Verilator => VERILATOR,
+        let needed = rtl.needed(text)?;
+        let (tool, suffix, library) = match self {
+            Simulator::Icarus => (IVERILOG, "-Y", "-l"),
+            Simulator::Verilator => (VERILATOR, "+libext+", "-v"),
         };
-        let args = args.into_iter().chain(rtl.files.iter().map(OsString::from));
-        let finished = tool.run(folder, args, limits)?;
-        let says = ["Unable to find the root module", "was not found in design"];
-        if says.iter().any(|text| finished.output.contains(text)) {
-            let fault = Input::new(&rtl.source, "no such module in it").field("module");
-            return Err(fault.value(top).into());
+        if self == Simulator::Icarus {
+            let is_system_verilog = rtl.options.system_verilog
+                || needed.iter().any(|source| source.is_system_verilog());
+            args.push(if is_system_verilog { "-g2012" } else { "-g2005" }.into());
         }
-        if finished.success() { Ok(()) } else { Err(refused(rtl, &finished).into()) }
+        let joined = |option: &str, value: &OsString| {
+            let mut word = OsString::from(option);
+            word.push(value);
+            word
+        };
+        let options = &rtl.options;
+        args.extend(options.includes.iter().map(|folder| joined("-I", &folder.into())));
+        args.extend(options.defines.iter().map(|define| joined("-D", &define.into())));
+        for folder in &options.libraries {
+            args.extend(["-y".into(), folder.into()]);
+        }
+        if !options.libraries.is_empty() {
+            args.extend(rtl.suffixes().iter().map(|end| joined(suffix, &end.into())));
+        }
+        for file in &options.library_files {
+            args.extend([library.into(), file.into()]);
+        }
+        args.extend(needed.iter().map(|source| OsString::from(&source.path)));
+        let finished = tool.run(folder, args, limits)?;
+        match finished.success() && !refusal::lacks_macro(&finished) {
+            true => Ok(()),
+            false => Err(refusal::of(rtl, top, &finished).into()),
+        }
     }
 }
 
@@ -144,35 +169,25 @@ impl Compiled {
 }
 
 /// Icarus's arguments to compile `top` into a file, but for the sources.
-fn icarus_args(rtl: &Rtl, top: &str, output: &Path) -> Vec<OsString> {
-    let mut args = [generation(rtl), "-s", top, "-o"].map(OsString::from).to_vec();
+fn icarus_args(top: &str, output: &Path) -> Vec<OsString> {
+    let mut args = ["-grelative-include", "-s", top, "-o"].map(OsString::from).to_vec();
     args.push(output.into());
     args
 }
 
-/// Verilator's arguments to do something with `top`, but for the sources.
+/// Verilator's arguments to do something with `top`, but for the sources. It takes the first of two modules
+/// of one name, and warns only, where Icarus refuses them.
 fn verilator_args<const N: usize>(action: &str, top: &str, more: [OsString; N]) -> Vec<OsString> {
-    let args = [action, "--timing", "-Wno-fatal", "-Wno-lint", "-Wno-style", "--top-module", top];
+    let args = [
+        action,
+        "--timing",
+        "--relative-includes",
+        "-Wno-fatal",
+        "-Wno-lint",
+        "-Wno-style",
+        "-Werror-MODDUP",
+        "--top-module",
+        top,
+    ];
     args.map(OsString::from).into_iter().chain(more).collect()
-}
-
-/// The language: Verilog-2005 unless there is SystemVerilog.
-fn generation(rtl: &Rtl) -> &'static str {
-    if rtl.is_system_verilog() { "-g2012" } else { "-g2005" }
-}
-
-/// Lines of a simulator's message that are passed on.
-const LINES: usize = 12;
-
-fn refused(rtl: &Rtl, finished: &Finished) -> Input {
-    let unknown = |line: &str| Some(line.split_once("Unknown module type: ")?.1.to_owned());
-    if let Some(module) = finished.output.lines().find_map(unknown) {
-        return Input::new(&rtl.source, format!("it has no module `{module}`"));
-    }
-    let message: Vec<_> = finished.output.lines().take(LINES).collect();
-    let what = match finished.end {
-        End::Exit(_) => "the simulator does not take it",
-        _ => "the simulator took too long to compile it",
-    };
-    Input::new(&rtl.source, format!("{what}:\n{}", message.join("\n")))
 }

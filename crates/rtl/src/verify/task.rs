@@ -7,8 +7,8 @@ use crate::golden::configuration::Configuration;
 use crate::golden::setting::Setting;
 use crate::golden::spec::Spec;
 
-use super::check::BlockReport;
 use super::map::RtlMap;
+use super::report::BlockReport;
 
 /// One thing to check.
 #[derive(Clone, Debug)]

@@ -23,6 +23,9 @@ pub struct Allowances {
     pub settle: u64,
 }
 
+/// Inputs that reset a block: after a line with one, a pipeline may have to settle.
+pub const RESETS: [&str; 2] = ["rst", "rst_late"];
+
 /// Where the level is that says whether a column is compared.
 #[derive(Clone, Copy, Debug)]
 pub struct Valid<'a> {

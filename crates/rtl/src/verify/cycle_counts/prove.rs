@@ -1,6 +1,6 @@
 //! Proves a promise of the Verilog with Yosys, and tries to prove what is next to it.
 
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsString;
 use std::path::Path;
 
 use tofsim::error::Result;
@@ -58,10 +58,17 @@ fn ask(
     folder: &Path,
     limits: &Limits,
 ) -> Result<Answer> {
-    let frontend = if rtl.is_system_verilog() { "verilog -defer -sv" } else { "verilog -defer" };
-    let mut args: Vec<OsString> = ["-f", frontend, "-p"].map(OsString::from).into();
+    let needed = rtl.needed(promise.properties.text)?;
+    let is_system_verilog =
+        rtl.options.system_verilog || needed.iter().any(|source| source.is_system_verilog());
+    let frontend = if is_system_verilog { "verilog -defer -sv" } else { "verilog -defer" };
+    let folders = rtl.options.includes.iter().map(|folder| format!(" -I{}", folder.display()));
+    let defines = rtl.options.defines.iter().map(|define| format!(" -D{define}"));
+    let frontend: String =
+        [frontend.to_owned()].into_iter().chain(folders).chain(defines).collect();
+    let mut args: Vec<OsString> = ["-f", &frontend, "-p"].map(OsString::from).into();
     args.push(script(promise, number).into());
-    args.extend(rtl.files.iter().map(|file| OsStr::new(file).to_owned()));
+    args.extend(needed.iter().map(|source| OsString::from(&source.path)));
     Ok(answer(promise, &YOSYS.run(folder, args, limits)?, limits))
 }
 

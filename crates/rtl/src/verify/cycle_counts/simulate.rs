@@ -28,7 +28,7 @@ const BENCHES: [(&str, &str); 3] = [
 /// end, `folder` cannot be written, or the user stops.
 pub fn measure(rtl: &Rtl, neurons: usize, folder: &Path, limits: &Limits) -> Result<Measured> {
     let mut measured = Measured::default();
-    let left_out = if rtl.has(CENTROID)? { None } else { Some("bench_centroid") };
+    let left_out = if rtl.has(CENTROID) { None } else { Some("bench_centroid") };
     for (name, text) in BENCHES.into_iter().filter(|(name, _)| Some(*name) != left_out) {
         let bench = format!("{name}.v");
         let define = define(neurons)

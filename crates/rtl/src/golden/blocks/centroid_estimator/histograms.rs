@@ -20,6 +20,10 @@ pub(super) const GLUE: Glue = Glue {
     verilog: "  reg [15:0] histograms [0:8191];\n  \
                   initial $readmemh(\"histograms.mem\", histograms);\n  \
                   wire [15:0] count = histograms[{histogram, read_addr}];\n",
+    vhdl: (
+        "constant histograms : words(0 to 8191) := read_words(\"histograms.mem\", 8192);",
+        "count <= histograms(to_integer(unsigned(histogram) & unsigned(read_addr)));",
+    ),
 };
 
 /// What [`cases`] are of.

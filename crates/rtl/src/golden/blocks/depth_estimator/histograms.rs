@@ -22,6 +22,11 @@ pub(super) const GLUE: Glue = Glue {
     verilog: "  reg [15:0] histograms [0:16383];\n  \
                   initial $readmemh(\"histograms.mem\", histograms);\n  \
                   wire [15:0] count = read_en ? histograms[{histogram, read_addr}] : 16'd0;\n",
+    vhdl: (
+        "constant histograms : words(0 to 16383) := read_words(\"histograms.mem\", 16384);",
+        "count <= histograms(to_integer(unsigned(histogram) & unsigned(read_addr))) when read_en = '1'\n    \
+         else (others => '0');",
+    ),
 };
 
 /// Empty, level, random, all hits in the bin that drives each neuron to either end, more than there

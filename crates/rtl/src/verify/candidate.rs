@@ -1,0 +1,125 @@
+//! A user's module that is to be one of our blocks: in Verilog, with what it shows.
+
+use std::borrow::Cow;
+use std::path::Path;
+
+use tofsim::error::{Input, Result};
+
+use crate::golden::parameters::{NEURONS, Parameter};
+use crate::golden::ports::Port;
+use crate::golden::spec::Vectors;
+
+use super::check::BlockCheck;
+use super::interface::Interface;
+use super::map::BlockMap;
+use super::rtl::Rtl;
+use super::task::Task;
+use super::vhdl;
+
+/// A module that a bench can be put around.
+#[derive(Debug)]
+pub(super) struct Candidate<'a> {
+    /// The design, with Verilog in place of VHDL.
+    pub(super) rtl: Cow<'a, Rtl>,
+    /// Ports and parameters of the module.
+    pub(super) found: Interface,
+    /// What the map says of it.
+    pub(super) map: Option<BlockMap>,
+    /// Whether it has its parameters already: one in VHDL has been given them as generics.
+    pub(super) fixed: bool,
+}
+
+/// A parameter: our name, theirs, and its value.
+type Set<'a> = (&'a str, &'a str, &'a Parameter);
+
+/// The parameters that the bench sets: those that are no constants inside.
+fn set<'a>(map: Option<&'a BlockMap>, vectors: &'a Vectors) -> Vec<Set<'a>> {
+    let theirs = |ours: &'a str| map.map_or(Some(ours), |map| map.parameter(ours));
+    let each = vectors.parameters.iter();
+    each.filter_map(|(ours, value)| Some((*ours, theirs(ours)?, value))).collect()
+}
+
+impl<'a> Candidate<'a> {
+    /// The module of a task's block, or why it cannot be what the task is about.
+    ///
+    /// # Errors
+    /// When it is not there or cannot be compiled, or has other ports or parameters.
+    pub(super) fn find(
+        check: &BlockCheck<'a>,
+        task: &Task,
+        vectors: &Vectors,
+        work: &Path,
+    ) -> Result<std::result::Result<Self, String>> {
+        let (spec, rtl, limits) = (task.spec, check.rtl, &check.limits);
+        let map = check.map.map(|map| map.block(spec.name));
+        let module = map.as_ref().map_or(spec.name, |map| map.module(spec.name)).to_owned();
+        let set = set(map.as_ref(), vectors);
+        let fixed = rtl.has_entity(&module);
+        if fixed && check.registers {
+            let expected = "expected a module in Verilog: the registers of VHDL have no names here";
+            return Err(Input::new("--registers", expected).value(module).into());
+        }
+        let names = || set.iter().map(|(ours, theirs, _)| (*ours, *theirs));
+        let named = [module.as_str(), spec.name];
+        if fixed {
+            let generics = Interface {
+                parameters: rtl.generics(&module, set.iter().map(|(_, theirs, _)| *theirs)),
+                ..Interface::default()
+            };
+            if let Some(reason) = check.cannot_be(task, &module, &generics) {
+                return Ok(Err(reason));
+            }
+            generics.check_parameters(&rtl.source, named, names())?;
+        }
+        let wanted = |found: &Interface| -> Vec<Port> {
+            let ports = map.as_ref().map(|map| map.wanted(spec, vectors.neurons, found));
+            ports.unwrap_or_else(|| spec.ports(vectors.neurons))
+        };
+        let ports: Vec<_> =
+            wanted(&Interface::default()).into_iter().map(|port| port.name).collect();
+        let generics: Vec<_> = set.iter().map(|(_, theirs, value)| (*theirs, *value)).collect();
+        let rtl = vhdl::as_verilog(rtl, &module, &generics, &ports, work, limits)?;
+        let mut found = check.simulator.interface(work, &module, &[], &rtl, limits)?;
+        if !fixed {
+            if let Some(reason) = check.cannot_be(task, &module, &found) {
+                return Ok(Err(reason));
+            }
+            found.check_parameters(&rtl.source, named, names())?;
+            if let Some(shape) = set.iter().find_map(shape) {
+                found = check.simulator.interface(work, &module, &[shape], &rtl, limits)?;
+            }
+        }
+        found.check_ports(&rtl.source, &module, &wanted(&found))?;
+        Ok(Ok(Candidate { rtl, found, map, fixed }))
+    }
+}
+
+/// The parameter that ports depend on, if it is one.
+fn shape<'a>((ours, theirs, value): &Set<'a>) -> Option<(&'a str, u64)> {
+    match value {
+        Parameter::Number(value) if *ours == NEURONS => Some((theirs, *value)),
+        _ => None,
+    }
+}
+
+impl BlockCheck<'_> {
+    /// Why the design cannot be what a task is about, if it cannot.
+    fn cannot_be(&self, task: &Task, module: &str, found: &Interface) -> Option<String> {
+        let configuration = task.configuration?;
+        let module_of = |block: &str| {
+            let map = self.map.map(|map| map.block(block));
+            map.as_ref().map_or(block, |map| map.module(block)).to_owned()
+        };
+        let other = configuration.module.map(module_of);
+        if let Some(other) = other.filter(|other| !self.rtl.has(other)) {
+            return Some(format!("{} has no module {other}", self.rtl.source));
+        }
+        let map = self.map.map(|map| map.block(task.spec.name));
+        let lacks = |parameter: &&&str| {
+            let theirs = map.as_ref().map_or(Some(**parameter), |map| map.parameter(parameter));
+            theirs.is_none_or(|theirs| !found.parameters.contains(theirs))
+        };
+        let missing = configuration.parameters.iter().find(lacks)?;
+        Some(format!("module {module} has no parameter {missing}"))
+    }
+}

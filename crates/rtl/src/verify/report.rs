@@ -1,0 +1,103 @@
+//! How a block came out.
+
+use std::path::PathBuf;
+
+use super::task::Task;
+use super::verdict::Verdict;
+
+/// How a block came out.
+#[derive(Clone, Debug)]
+pub struct BlockReport {
+    /// The block, and what of it if that is not its own bench.
+    pub name: String,
+    /// Lines compared.
+    pub cycles: usize,
+    /// How it came out.
+    pub verdict: Verdict,
+    /// The cycles around the first mismatch, as rows of a table; none without one.
+    pub around: Vec<Vec<String>>,
+    /// The waveform of both sides.
+    pub wave: Option<PathBuf>,
+    /// Goals of the stimulus met, and goals.
+    pub coverage: (usize, usize),
+    /// What it has not reached, and how many cases of it of how many.
+    pub missed: Vec<(&'static str, usize, usize)>,
+}
+
+impl BlockReport {
+    /// Whether the block does not do what it should; one that was not run is not said to.
+    pub fn failed(&self) -> bool {
+        !matches!(self.verdict, Verdict::Pass | Verdict::NotRun { .. })
+    }
+
+    /// Whether it never came to an end.
+    pub fn hangs(&self) -> bool {
+        matches!(self.verdict, Verdict::Hangs { .. } | Verdict::TimedOut { .. })
+    }
+
+    /// Of a block that was not run.
+    pub(super) fn not_run(task: &Task, reason: String) -> Self {
+        BlockReport {
+            name: task.name.clone(),
+            cycles: 0,
+            verdict: Verdict::NotRun { reason },
+            around: Vec::new(),
+            wave: None,
+            coverage: (0, 0),
+            missed: Vec::new(),
+        }
+    }
+
+    /// What went wrong, in a line; empty if nothing did.
+    pub fn fault(&self) -> String {
+        match &self.verdict {
+            Verdict::Pass => String::new(),
+            Verdict::Differs { first, .. } => format!(
+                "cycle {}, {} ps: {} expected {}, got {}",
+                first.cycle,
+                first.time_ps,
+                first.signal,
+                short(&first.expected),
+                short(&first.got),
+            ),
+            Verdict::Hangs { seconds, cycle } => format!(
+                "hangs after cycle {cycle}: nothing has moved for {seconds} s, something goes round \
+                 without a delay",
+            ),
+            Verdict::NotRun { reason } => reason.clone(),
+            Verdict::TimedOut { seconds } => {
+                format!("the bench has not ended in {seconds} s and was killed")
+            }
+            Verdict::Broke { message } => format!("the bench broke off: {}", message.trim()),
+        }
+    }
+
+    /// Cycles that differ.
+    pub fn mismatches(&self) -> usize {
+        match &self.verdict {
+            Verdict::Differs { mismatches, .. } => *mismatches,
+            _ => 0,
+        }
+    }
+
+    /// How it came out, in a word or two.
+    pub fn word(&self) -> &'static str {
+        match self.verdict {
+            Verdict::Pass => "pass",
+            Verdict::Differs { .. } => "differs",
+            Verdict::Hangs { .. } => "hangs",
+            Verdict::NotRun { .. } => "not run",
+            Verdict::TimedOut { .. } => "timed out",
+            Verdict::Broke { .. } => "broke off",
+        }
+    }
+}
+
+/// A value too long to read, shortened in its middle.
+fn short(digits: &str) -> String {
+    const LONGEST: usize = 40;
+    match (digits.get(..16), digits.len().checked_sub(16).and_then(|end| digits.get(end..))) {
+        (Some(head), Some(tail)) if digits.len() > LONGEST => format!("{head}..{tail}"),
+        _ => digits.to_owned(),
+    }
+}

@@ -1,0 +1,67 @@
+//! Why a simulator does not take a design: the first real error that it tells, and what helps.
+
+use tofsim::error::Input;
+
+use crate::verify::process::{End, Finished};
+use crate::verify::rtl::Rtl;
+
+/// Lines of a simulator's message that are passed on.
+const LINES: usize = 12;
+
+/// What it says where there is no such module, or where none is left after another error.
+const NO_ROOT: [&str; 2] = ["Unable to find the root module", "was not found in design"];
+
+/// What a line says, and the option that helps.
+const HINTS: [(&str, &str); 5] = [
+    ("Include file ", "-I DIR names a folder to look in"),
+    ("Cannot find include file", "-I DIR names a folder to look in"),
+    (NO_MACRO, "-D NAME=VALUE defines a macro"),
+    ("Define or directive not defined", "-D NAME=VALUE defines a macro"),
+    ("was already declared here", "name the sources one by one, or in a file list (-f)"),
+];
+
+/// What Icarus says of an unknown macro before it goes on as if it were empty.
+const NO_MACRO: &str = "undefined (and assumed null)";
+
+/// Whether it went on without a macro.
+pub fn lacks_macro(finished: &Finished) -> bool {
+    finished.output.contains(NO_MACRO)
+}
+
+/// The error for a run that ended without success.
+pub fn of(rtl: &Rtl, top: &str, finished: &Finished) -> Input {
+    let lines = || finished.output.lines();
+    let unknown = |line: &str| Some(line.split_once("Unknown module type: ")?.1.to_owned());
+    let is_root = |line: &str| NO_ROOT.iter().any(|text| line.contains(text));
+    // Icarus's warnings and notes have these words; what it ends with says nothing more.
+    let is_noise = |line: &str| {
+        if line.contains(NO_MACRO) {
+            return false;
+        }
+        ["warning: ", "error(s) during", "Perhaps ``-s", "No top level modules"]
+            .iter()
+            .any(|text| line.contains(text))
+            || line.starts_with("%Warning") && !line.contains("MODDUP")
+            || line.trim().is_empty()
+    };
+    let errors: Vec<_> = lines()
+        .skip_while(|line| is_noise(line))
+        .filter(|line| !is_noise(line) && !is_root(line))
+        .collect();
+    let is_verilators = |line: &&&str| line.starts_with("%Error: Exiting due to");
+    let real = errors.iter().filter(|line| !is_verilators(line) && !line.starts_with(' ')).count();
+    if real == 0 && lines().any(is_root) {
+        return Input::new(&rtl.source, "no such module in it").field("module").value(top);
+    }
+    if let Some(module) = lines().find_map(unknown) {
+        return Input::new(&rtl.source, format!("it has no module `{module}`"));
+    }
+    let what = match finished.end {
+        End::Exit(_) => "the simulator does not take it",
+        _ => "the simulator took too long to compile it",
+    };
+    let hint = lines().find_map(|line| HINTS.iter().find(|(text, _)| line.contains(text)));
+    let hint = hint.map_or(String::new(), |(_, hint)| format!(" ({hint})"));
+    let message = errors[..errors.len().min(LINES)].join("\n");
+    Input::new(&rtl.source, format!("{what}{hint}:\n{message}"))
+}
