@@ -10,6 +10,7 @@ use serde_json::Value;
 use crate::common;
 
 mod foreign;
+mod stranger;
 mod whole;
 
 const OWN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rtl_ref");

@@ -9,7 +9,7 @@ use crate::golden::prelude::*;
 
 /// Few, so that all states recur.
 const SHOTS: u16 = 3;
-/// Of more shots than these, each cycle has one.
+/// Of more shots than these, nearly each cycle has one.
 const FEW: u16 = 50;
 /// Cycles of Drain.
 const DRAIN: u64 = 16;
@@ -83,7 +83,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let held = leaves && exit == (State::Drain, DRAIN);
         let (start, dsp_en) = match state {
             State::Estimate => (frames.is_multiple_of(2), frames % 4 < 2),
-            State::Acquire => (shots > FEW || draw.one_in(4), draw.one_in(2)),
+            State::Acquire => (if shots > FEW { !draw.one_in(8) } else { draw.one_in(4) }, draw.one_in(2)),
             _ => (draw.one_in(2), draw.one_in(2)),
         };
         let i = In {
