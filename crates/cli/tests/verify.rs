@@ -236,7 +236,7 @@ fn what_cannot_be_asked_for_is_refused() {
     let error = common::refused(folder.path(), &["verify", "--block", "coarse_countr"]);
     assert!(error.contains("did you mean coarse_counter?"), "{error}");
     let error = common::refused(folder.path(), &["verify", "--rtl", "."]);
-    assert!(error.contains("no .v or .sv file"), "{error}");
+    assert!(error.contains("no .v, .sv, .vhd or .vhdl file"), "{error}");
     common::refused(folder.path(), &["verify", "--rtl", "none"]);
     common::refused(folder.path(), &["verify", "--time-limit", "0"]);
     let jitter = ["verify", "--top", "-s", "pll.jitter_rms_ps=7.7"];

@@ -22,12 +22,12 @@ use crate::text::colour::coloured;
 use super::terminal::{Talk, print, stop_signal};
 use super::vectors::{From, find};
 
-/// Run Verilog against the golden vectors
+/// Run Verilog or VHDL against the golden vectors
 ///
-/// Makes the vectors of each block, compiles its bench with your Verilog, runs it, and says where it
+/// Makes the vectors of each block, compiles its bench with your design, runs it, and says where it
 /// first differs, with a table of the cycles around and a waveform of both sides. Without --rtl it
-/// checks tofsim's own Verilog, which is in the program. Simulators are looked for on PATH. Benches are
-/// Verilog only, not VHDL.
+/// checks tofsim's own Verilog, which is in the program. VHDL goes through GHDL's synthesis to Verilog.
+/// Simulators and GHDL are looked for on PATH.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Exit status: 0 all pass, 1 something differs, 2 it could not be checked.")]
 pub struct Args {

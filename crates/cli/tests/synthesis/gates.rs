@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use tofsim::files::output::write_file;
 use tofsim_rtl::golden::bench::Bench;
 use tofsim_rtl::golden::{Setting, Vectors, blocks};
-use tofsim_rtl::verify::{Rtl, Simulator, Verdict};
+use tofsim_rtl::verify::{Rtl, Simulator, Verdict, rtl};
 
 use crate::common;
 
@@ -95,7 +95,7 @@ pub fn compare(sources: &Sources) -> Verdict {
         let name = format!("{name}.v");
         files.push(write(&name, &sources[&name]));
     }
-    let rtl = Rtl { files, source: "the netlist of tof_top".to_owned() };
+    let rtl = Rtl::read(&rtl::Sources { paths: files, ..rtl::Sources::default() }).unwrap();
     let bench = [work.join(vectors.bench_module() + ".v"), write("tof_top.v", &wrapper(&vectors))];
     let compiled = Simulator::Icarus
         .compile(work, "tb_tof_top", &bench, &rtl, false, &LIMITS)
