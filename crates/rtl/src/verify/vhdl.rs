@@ -138,7 +138,7 @@ fn synthesise(
         _ => "GHDL took too long to synthesise it",
     };
     let message: Vec<_> = (refused.lines())
-        .chain(made.output.lines().filter(|_| !made.success))
+        .chain(made.output.lines().filter(|_| !made.success()))
         .chain(finished.output.lines())
         .take(12)
         .collect();
