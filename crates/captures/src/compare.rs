@@ -113,6 +113,7 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
         conclude(&plan, &differences, options.all, &mut result);
         if !result.is_same() {
             result.findings = diagnose::samples(&plan, &alignment, &result)?;
+            result.notes.extend(alignment.doubts);
         }
         result
     } else {

@@ -7,6 +7,7 @@ mod formats;
 mod how;
 mod odd;
 mod offsets;
+mod simulated;
 mod times;
 mod verilog;
 mod waveforms;

@@ -81,10 +81,11 @@ struct Simulated {
     /// Seed of every random stream, instead of the scenario's
     #[arg(long, value_name = "N", requires = "scenario")]
     seed: Option<u64>,
-    /// How many frames to simulate at most
-    #[arg(long, value_name = "N", default_value_t = 1, requires = "scenario",
+    /// How many frames to simulate at most [default: as far as a capture goes, to 100 ms, of
+    /// which a search for the best fit takes the first frame; one frame for a waveform]
+    #[arg(long, value_name = "N", requires = "scenario",
         value_parser = clap::value_parser!(u64).range(1..))]
-    frames: u64,
+    frames: Option<u64>,
 }
 
 /// Which signals.
@@ -167,9 +168,11 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             let setup = Setup::new(load(scenario, set, *seed)?)?;
             notes = setup.notes()?;
             talk.heed(&notes)?;
-            super::frames::check("--frames", *frames, &setup)?;
+            let b = open(b)?;
+            let frames = frames.or((!b.is_capture()).then_some(1));
+            super::frames::check("--frames", frames.unwrap_or(1), &setup)?;
             record = Some(Record::new(&setup, &talk.command));
-            (Source::simulation(setup, *frames), open(b)?)
+            (Source::simulation(setup, frames), b)
         }
         (None, [a, b]) => (open(a)?, open(b)?),
         (Some(_), _) => {
