@@ -231,7 +231,7 @@ fn options(args: &Args) -> Result<Options> {
     let condition = |option: &str, text: &Option<String>| {
         text.as_ref().map(|text| Condition::parse(option, text)).transpose()
     };
-    let mut map = args.which.map.as_deref().map(map).transpose()?.unwrap_or_default();
+    let mut map = args.which.map.as_deref().map(named_map).transpose()?.unwrap_or_default();
     map.signal.extend(rules(&args.how));
     let (when, which) = (&args.when, &args.which);
     Ok(Options {
@@ -251,7 +251,7 @@ fn options(args: &Args) -> Result<Options> {
 }
 
 /// A map file, or the map of a set-up.
-fn map(name: &str) -> Result<SignalMap> {
+pub fn named_map(name: &str) -> Result<SignalMap> {
     let built_in = !name.contains(['/', '.']);
     let is_set_up = |path: &Path| {
         // A pipe can be read once only.
