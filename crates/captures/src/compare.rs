@@ -4,6 +4,7 @@
 //! read as streams, in bounded memory, as often as that needs.
 
 mod align;
+mod beats;
 mod both;
 mod by_changes;
 mod by_samples;
@@ -39,7 +40,10 @@ pub use map::SignalMap;
 pub use matching::{SignalChoice, Unmatched, UnmatchedReason};
 pub use pair::{MatchedBy, Unknowns};
 pub(crate) use probed::{Probed, pulse};
-pub use result::{Compared, Comparison, Described, Difference, Finding};
+pub use result::{
+    BeatDifference, BeatKind, BeatPlace, Beats, Compared, Comparison, Described, Difference,
+    Finding,
+};
 pub use samples::SampleClock;
 pub use samples::time;
 
@@ -73,6 +77,9 @@ pub struct Options {
     pub unknowns: Unknowns,
     /// Every signal needs a partner.
     pub all: bool,
+    /// When a bus accepts a word, instead of the map's: then the words are compared, and not when they
+    /// come.
+    pub beats: Option<Condition>,
     /// Where both sides go as one waveform.
     pub waves: Option<PathBuf>,
 }
@@ -100,6 +107,9 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
         return Err(Input::new("--after or --until", expected).into());
     }
     let mut terms = terms(options)?;
+    if let Some(condition) = beats_condition(options)? {
+        return by_beats(sources, matching, terms, &condition, options, resolved.notes);
+    }
     let align = align(sources, options, &terms)?;
     if align != Align::Trigger {
         terms.trigger = None;
@@ -132,6 +142,35 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
     if let Some(both) = differences.both.take() {
         both.finish(&result)?;
     }
+    Ok(result)
+}
+
+/// When a bus accepts a word, if beats are compared.
+fn beats_condition(options: &Options) -> Result<Option<Condition>> {
+    let text = options.map.beats.as_ref();
+    match &options.beats {
+        Some(condition) => Ok(Some(condition.clone())),
+        None => text.map(|text| Condition::parse("beats", text)).transpose(),
+    }
+}
+
+fn by_beats(
+    sources: [&Source; 2],
+    matching: matching::Matching,
+    terms: Terms,
+    condition: &Condition,
+    options: &Options,
+    notes: Vec<String>,
+) -> Result<Comparison> {
+    beats::check(options)?;
+    // When samples were stored and what triggered is of no matter.
+    let terms = Terms { trigger: None, qualifier: None, ..terms };
+    let mut plan = Plan::new(sources, matching, terms, true)?;
+    let mut result = beats::compare(&mut plan, condition, &options.choice.only)?;
+    let mut differences = Differences::new(&plan.matching, options.unknowns, None);
+    differences.counts.iter_mut().for_each(|count| count.compared = result.compared);
+    conclude(&plan, &differences, options.all, &mut result);
+    result.notes.extend(notes);
     Ok(result)
 }
 

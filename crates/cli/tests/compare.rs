@@ -1,6 +1,7 @@
 //! `tofsim compare`, as its users run it.
 
 mod align;
+mod beats;
 mod captures;
 mod damage;
 mod formats;

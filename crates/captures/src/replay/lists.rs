@@ -66,7 +66,8 @@ pub(super) fn photons(
     if quantised > 0 {
         let half = observed.timebase.step_ps() as f64 / 2e3;
         notes.push(format!(
-            "{quantised} photons are placed by tdc_stop alone, to {half} ns; their codes may differ"
+            "{quantised} photons are placed by tdc_stop alone, to {half} ns; their hits and codes \
+             may differ from the board's"
         ));
     }
     if elsewhere > 0 {

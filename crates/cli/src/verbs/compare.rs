@@ -42,6 +42,7 @@ use super::terminal::{Talk, print};
     tofsim compare waves/kc705.vcd verilog.vcd\n  \
     tofsim compare waves/run.vcd board.ila --map fig_6_6\n  \
     tofsim compare --scenario near board.csv --clock clk_125 --align correlation\n  \
+    tofsim compare a.fst board.ila --clock clk --beats 'valid && ready' --signals data\n  \
     tofsim compare a.fst b.fst --clock clk_125 --latency depth=2 --waves both.vcd\n\n\
     Exit status: 0 same, 1 different, 2 cannot be compared."
 )]
@@ -57,6 +58,10 @@ pub struct Args {
     when: When,
     #[command(flatten)]
     how: How,
+    /// Compare the words of a bus, and not when they come: those at samples where this CONDITION
+    /// holds, as `valid && ready`
+    #[arg(long, value_name = "CONDITION")]
+    beats: Option<String>,
     /// Write both sides and what differs as one waveform, with save files for GTKWave and Surfer
     #[arg(long, value_name = "FILE.vcd")]
     waves: Option<PathBuf>,
@@ -246,6 +251,7 @@ fn options(args: &Args) -> Result<Options> {
         until: when.until,
         unknowns: args.how.x,
         all: which.all,
+        beats: condition("--beats", &args.beats)?,
         waves: args.waves.clone(),
     })
 }

@@ -165,7 +165,7 @@ pub(super) fn search(plan: &Plan, signals: &[String], search: &Search) -> Result
 }
 
 /// How far a side is searched for a sequence that begins in the part that is searched.
-pub(super) struct SearchEnd {
+pub(in super::super) struct SearchEnd {
     /// Last place of that part.
     last: u64,
     /// Samples that are taken after it.
@@ -173,12 +173,12 @@ pub(super) struct SearchEnd {
 }
 
 impl SearchEnd {
-    pub(super) fn new(plan: &Plan, side: usize, length: usize) -> Result<Self> {
+    pub(in super::super) fn new(plan: &Plan, side: usize, length: usize) -> Result<Self> {
         Ok(SearchEnd { last: plan.sources[side].searched()?, left: length.saturating_sub(1) })
     }
 
     /// Whether a sample is still looked at.
-    pub(super) fn takes(&mut self, sample: Sample) -> bool {
+    pub(in super::super) fn takes(&mut self, sample: Sample) -> bool {
         if sample.at <= self.last {
             return true;
         }
