@@ -162,7 +162,7 @@ fn by_beats(
     options: &Options,
     notes: Vec<String>,
 ) -> Result<Comparison> {
-    beats::check(options)?;
+    without_order(options)?;
     // When samples were stored and what triggered is of no matter.
     let terms = Terms { trigger: None, qualifier: None, ..terms };
     let mut plan = Plan::new(sources, matching, terms, true)?;
@@ -172,6 +172,28 @@ fn by_beats(
     conclude(&plan, &differences, options.all, &mut result);
     result.notes.extend(notes);
     Ok(result)
+}
+
+/// That nothing was asked for that beats do not have.
+///
+/// # Errors
+/// When it was; the error names the option.
+fn without_order(options: &Options) -> Result<()> {
+    let meant = |option: &str, reason: &str| {
+        Err(Input::new(option, format!("cannot go with --beats: {reason}")).into())
+    };
+    let in_order = "the words themselves say what belongs together";
+    match options {
+        Options { align: Some(_), .. } => meant("--align", in_order),
+        Options { trigger: Some(_), .. } => meant("--trigger", in_order),
+        Options { time_from: Some(_), .. } => meant("--time-from", in_order),
+        Options { qualified_by: Some(_), .. } => meant("--qualified-by", in_order),
+        Options { waves: Some(_), .. } => meant("--waves", "the sides have no time in common"),
+        Options { unknowns: Unknowns::Any, .. } => {
+            meant("--x any", "words are looked for as they are")
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Puts what was counted into the result, and what else is to be said.

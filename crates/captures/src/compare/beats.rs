@@ -9,9 +9,8 @@ use std::ops::Range;
 
 use tofsim::error::{Input, Result};
 
-use super::Options;
 use super::operands::SideCondition;
-use super::pair::{Pair, Unknowns};
+use super::pair::Pair;
 use super::plan::Plan;
 use super::result::{Beats, Comparison};
 use crate::condition::Condition;
@@ -23,28 +22,6 @@ use stream::{Stream, Words, stream};
 
 /// Places that an error lists.
 const LISTED: usize = 4;
-
-/// That nothing was asked for that beats do not have.
-///
-/// # Errors
-/// When it was; the error names the option.
-pub(super) fn check(options: &Options) -> Result<()> {
-    let meant = |option: &str, reason: &str| {
-        Err(Input::new(option, format!("cannot go with --beats: {reason}")).into())
-    };
-    let in_order = "the words themselves say what belongs together";
-    match options {
-        Options { align: Some(_), .. } => meant("--align", in_order),
-        Options { trigger: Some(_), .. } => meant("--trigger", in_order),
-        Options { time_from: Some(_), .. } => meant("--time-from", in_order),
-        Options { qualified_by: Some(_), .. } => meant("--qualified-by", in_order),
-        Options { waves: Some(_), .. } => meant("--waves", "the sides have no time in common"),
-        Options { unknowns: Unknowns::Any, .. } => {
-            meant("--x any", "words are looked for as they are")
-        }
-        _ => Ok(()),
-    }
-}
 
 /// The pairs that make up a word: those that were asked for, or else all but those of the condition;
 /// the clock is none.

@@ -108,7 +108,8 @@ fn lost_repeated_extra_and_changed_words_are_named_with_their_places() {
     let folder = folder.path();
     let words = words(400);
     waveform(folder, "a.vcd", &words, 0);
-    let faults: [(&str, fn(&mut Vec<u64>)); 4] = [
+    type Fault = fn(&mut Vec<u64>);
+    let faults: [(&str, Fault); 4] = [
         ("lost", |words| _ = words.remove(100)),
         ("repeated", |words| words.insert(100, words[100])),
         ("extra", |words| words.insert(100, 0xabcd)),
@@ -142,7 +143,10 @@ fn lost_repeated_extra_and_changed_words_are_named_with_their_places() {
     assert_eq!(kinds(&json), (vec!["changed", "changed"], 98));
     assert_eq!(json["beats"]["list"][0]["beats"][0]["at"], 1015.0 * 1000.0);
     let place = &json["beats"]["list"][0]["beats"][1];
-    assert_eq!((&place["beat"], &place["sample"], &place["at"]), (&0.into(), &0.into(), &0.0.into()));
+    assert_eq!(
+        (&place["beat"], &place["sample"], &place["at"]),
+        (&0.into(), &0.into(), &0.0.into())
+    );
 }
 
 #[test]

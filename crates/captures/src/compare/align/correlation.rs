@@ -165,7 +165,7 @@ pub(super) fn search(plan: &Plan, signals: &[String], search: &Search) -> Result
 }
 
 /// How far a side is searched for a sequence that begins in the part that is searched.
-pub(in super::super) struct SearchEnd {
+pub(crate) struct SearchEnd {
     /// Last place of that part.
     last: u64,
     /// Samples that are taken after it.
@@ -173,12 +173,12 @@ pub(in super::super) struct SearchEnd {
 }
 
 impl SearchEnd {
-    pub(in super::super) fn new(plan: &Plan, side: usize, length: usize) -> Result<Self> {
+    pub(crate) fn new(plan: &Plan, side: usize, length: usize) -> Result<Self> {
         Ok(SearchEnd { last: plan.sources[side].searched()?, left: length.saturating_sub(1) })
     }
 
     /// Whether a sample is still looked at.
-    pub(in super::super) fn takes(&mut self, sample: Sample) -> bool {
+    pub(crate) fn takes(&mut self, sample: Sample) -> bool {
         if sample.at <= self.last {
             return true;
         }

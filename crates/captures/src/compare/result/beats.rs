@@ -38,7 +38,7 @@ impl Beats {
         self.lost + self.repeated + self.extra + self.changed
     }
 
-    pub(in super::super) fn push(&mut self, difference: BeatDifference) {
+    pub(crate) fn push(&mut self, difference: BeatDifference) {
         let count = match difference.kind {
             BeatKind::Lost => &mut self.lost,
             BeatKind::Repeated => &mut self.repeated,
