@@ -6,6 +6,7 @@ mod kind;
 mod lists;
 mod observed;
 mod pins;
+mod sums;
 mod timebase;
 
 use tofsim::error::{Input, Result};
@@ -145,15 +146,22 @@ fn of_kind(
 ) -> Result<Option<Replay>> {
     let design = kind.design(setup);
     let mut probed = Probed::new(&design, capture, &options.map)?;
+    let timebase = Timebase::new(options.clock.as_ref(), &options.map, options.qualified);
     let mut notes = Vec::new();
     if kind == ReplayKind::Histogram {
         let alone = "a preloaded histogram drives the estimator alone, frame after frame without \
             shots: only what the estimator does is the same";
         notes.push(alone.to_owned());
-        let list = histogram::histogram(capture, &mut probed, &mut notes)?;
-        return Ok(list.map(|list| Replay { kind, list, entries: 256, notes, observed: None }));
+        let words = histogram::readout(&mut probed, &mut notes)?;
+        let words = match words {
+            None => from_sums(capture, setup, &mut probed, timebase, &mut notes)?,
+            words => words,
+        };
+        let Some(words) = words else { return Ok(None) };
+        let list = histogram::list(capture, &words)?;
+        return Ok(Some(Replay { kind, list, entries: 256, notes, observed: None }));
     }
-    let timebase = Timebase::new(options.clock.as_ref(), &options.map, options.qualified)?;
+    let timebase = timebase?;
     let Some(observed) = observe(capture, &mut probed, kind, timebase)? else { return Ok(None) };
     notes.extend(observed.notes.iter().cloned());
     let (list, entries) = match kind {
@@ -161,4 +169,25 @@ fn of_kind(
         _ => lists::codes(&observed, &mut notes)?,
     };
     Ok(Some(Replay { kind, list, entries, notes, observed: Some(observed) }))
+}
+
+/// The histogram from the sums of the hidden layer, by the weights of the scenario's network.
+fn from_sums(
+    capture: &Source,
+    setup: &Setup,
+    probed: &mut Probed,
+    timebase: Result<Timebase>,
+    notes: &mut Vec<String>,
+) -> Result<Option<histogram::Words>> {
+    // A clock of one's own tells nothing of the cycles, but asks for nothing where there are no sums.
+    let (per_cycle, steady) = timebase.map_or((1, false), |own| (own.per_cycle, own.steady));
+    let words = sums::words(capture, probed, per_cycle, &setup.params.depth_estimator.forward1)?;
+    if words.is_some() {
+        if !steady {
+            let expected = "expected all samples of clk_125 or clk_250, to take the sums apart";
+            return Err(Input::new("--clock", expected).into());
+        }
+        notes.push("the words are taken from the sums of the hidden layer".to_owned());
+    }
+    Ok(words)
 }

@@ -13,15 +13,15 @@ const BINS: usize = 256;
 /// Words that an error lists.
 const LISTED: usize = 4;
 
-/// The first histogram of which all words are read, as CSV; `None` if its readout is not probed.
+/// The words of a histogram, as far as they are known.
+pub(super) type Words = [Option<u64>; BINS];
+
+/// The words that the estimator reads, the first of each if they differ; `None` if its readout is not
+/// probed.
 ///
 /// # Errors
-/// When the capture cannot be read, or a word is never read.
-pub(super) fn histogram(
-    capture: &Source,
-    probed: &mut Probed,
-    notes: &mut Vec<String>,
-) -> Result<Option<String>> {
+/// When the capture cannot be read.
+pub(super) fn readout(probed: &mut Probed, notes: &mut Vec<String>) -> Result<Option<Words>> {
     let port = |name: &str| probed.probe(&format!("{TOP}.{name}"));
     let (Some(valid), Some(bin), Some(count)) =
         (port("hist_valid"), port("hist_bin"), port("hist_count"))
@@ -30,7 +30,7 @@ pub(super) fn histogram(
     };
     let mut words = [None; BINS];
     let mut others = false;
-    while let Some(_sample) = probed.next()? {
+    while probed.next()?.is_some() {
         if probed.value(valid) != Some(1) {
             continue;
         }
@@ -40,6 +40,17 @@ pub(super) fn histogram(
             others |= first != count;
         }
     }
+    if others {
+        notes.push("the words differ from frame to frame; the first of each is taken".to_owned());
+    }
+    Ok(Some(words))
+}
+
+/// A histogram as CSV.
+///
+/// # Errors
+/// When a word is not known.
+pub(super) fn list(capture: &Source, words: &Words) -> Result<String> {
     let missing: Vec<String> =
         (0..BINS).filter(|&bin| words[bin].is_none()).map(|bin| bin.to_string()).collect();
     if !missing.is_empty() {
@@ -51,12 +62,9 @@ pub(super) fn histogram(
         );
         return Err(Input::new(&capture.name, expected).into());
     }
-    if others {
-        notes.push("the words differ from frame to frame; the first of each is taken".to_owned());
-    }
     let mut list = "bin,count\n".to_owned();
     for (bin, count) in words.iter().enumerate() {
         let _ = writeln!(list, "{bin},{}", count.unwrap_or(0));
     }
-    Ok(Some(list))
+    Ok(list)
 }

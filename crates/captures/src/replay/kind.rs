@@ -40,7 +40,10 @@ impl ReplayKind {
             ReplayKind::Codes => {
                 "code_preload.tdc_valid and code_preload.tdc_code with vcsel_driver.start"
             }
-            ReplayKind::Histogram => "hist_valid, hist_bin and hist_count while all words are read",
+            ReplayKind::Histogram => {
+                "hist_valid, hist_bin and hist_count, or estimator_ctrl.forward1_en and \
+                 forward1.l1_in_0 .., while all words are read"
+            }
         }
     }
 
