@@ -88,7 +88,7 @@ impl Replay {
         let Some(observed) = &self.observed else { return Ok(Located::default()) };
         let (timebase, shot) = (&observed.timebase, &observed.shots[0]);
         let changes = &observed.pins.changes;
-        if !timebase.steady {
+        if !observed.is_continuous() {
             if let Some((sample, ..)) = changes.first() {
                 let expected = "a control signal changes there, but the samples do not tell when";
                 return Err(Input::new("capture", expected).value(sample).into());
@@ -162,7 +162,10 @@ fn of_kind(
         return Ok(Some(Replay { kind, list, entries: 256, notes, observed: None }));
     }
     let timebase = timebase?;
-    let Some(observed) = observe(capture, &mut probed, kind, timebase)? else { return Ok(None) };
+    let shots_per_frame = setup.scenario.firmware.shots_per_frame;
+    let Some(observed) = observe(capture, &mut probed, kind, timebase, shots_per_frame)? else {
+        return Ok(None);
+    };
     notes.extend(observed.notes.iter().cloned());
     let (list, entries) = match kind {
         ReplayKind::Photons => lists::photons(&observed, setup, &mut notes)?,

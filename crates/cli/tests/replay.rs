@@ -154,6 +154,41 @@ fn the_estimator_reads_the_same_histogram_again() {
 }
 
 #[test]
+fn sums_of_the_hidden_layer_give_the_histogram_back() {
+    let folder = common::empty();
+    let folder = folder.path();
+    common::stdout(folder, &["ila", "capture", "--probes", "fig_6_21", "-o", "."]);
+    fs::rename(folder.join("fig_6_21.map.toml"), folder.join("probes.map.toml")).unwrap();
+    assert_eq!(replayed(folder, "fig_6_21.ila", &[])["kind"], "histogram");
+    let rows = |text: &str| -> Vec<String> {
+        text.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect()
+    };
+    let list = fs::read_to_string(folder.join("again/run.histogram.csv")).unwrap();
+    let own = include_str!("../../../stimuli/histograms/kc705.csv");
+    assert_eq!(rows(&list), rows(own));
+    let other = ["-s", "estimator.network=ideal", "--map", "fig_6_21", "-o", "other/run.toml"];
+    let args = [&["ila", "replay", "fig_6_21.ila"], &other[..]].concat();
+    let error = common::refused(folder, &args);
+    assert!(error.contains("are not of the scenario's network; set estimator.network"), "{error}");
+}
+
+#[test]
+fn several_windows_are_the_same_again() {
+    let folder = common::empty();
+    let folder = folder.path();
+    let head = "depth = 1024\nwindows = 4\nposition = 16\n\
+        trigger = \"start rising && frame_ctrl.shots == 50\"";
+    set_up(folder, head, &PROBES[..5]);
+    let text = fs::read_to_string(folder.join("probes.toml")).unwrap();
+    fs::write(folder.join("probes.toml"), text.replace("frames = 3", "frames = 9")).unwrap();
+    let shots = ["-s", "firmware.shots_per_frame=300"];
+    let args = ["ila", "capture", "--probes", "probes.toml", "-o", "."];
+    common::stdout(folder, &[&args[..], &shots].concat());
+    let json = replayed(folder, "probes.csv", &shots);
+    assert_eq!((&json["offset"], &json["shots_per_frame"]), (&Value::Null, &Value::Null));
+}
+
+#[test]
 fn what_is_missing_is_said() {
     let folder = common::empty();
     let folder = folder.path();

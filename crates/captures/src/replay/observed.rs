@@ -16,6 +16,8 @@ use super::timebase::Timebase;
 pub(super) struct Shot {
     /// Its number since power-up, if the frame that the capture begins in is the first.
     pub(super) number: u64,
+    /// The window that shows it.
+    window: usize,
     /// First sample that sees it begin; less than 0 before the capture.
     pub(super) start: i64,
     /// Its code, and the first sample that sees it.
@@ -34,10 +36,23 @@ pub(super) struct Observed {
     pub(super) per_frame: Option<u64>,
     /// Cycles between two shots, if they are all the same [cycles of clk_125].
     pub(super) period: Option<u64>,
+    /// What the windows begin with.
+    pub(super) windows: Vec<Begin>,
     pub(super) pins: Pins,
     /// Samples.
     pub(super) samples: u64,
     pub(super) notes: Vec<String>,
+}
+
+/// What a window begins with, before its first shot.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Begin {
+    /// Place of its first shot.
+    first: usize,
+    /// The end of the shot that it begins in.
+    shot: Shot,
+    /// The code that the TDC holds from an earlier one.
+    held: Option<u64>,
 }
 
 /// The probes of a bit: where it is, and what it was at the sample before.
@@ -54,7 +69,7 @@ impl Bit {
     /// Whether it is high, and whether it was before.
     fn sample(&mut self, probed: &mut Probed) -> (bool, bool) {
         let now = self.probe.and_then(|probe| probed.value(probe)) == Some(1);
-        (now, self.before.replace(now).unwrap_or(false))
+        (now, self.before.replace(now).unwrap_or(now))
     }
 
     /// Whether a cycle begins in which it is high, where it is high for one at a time.
@@ -77,6 +92,7 @@ pub(super) fn observe(
     probed: &mut Probed,
     kind: ReplayKind,
     timebase: Timebase,
+    shots_per_frame: u64,
 ) -> Result<Option<Observed>> {
     let module = if kind == ReplayKind::Codes { "code_preload" } else { "tdc" };
     let [valid, code] = ["tdc_valid", "tdc_code"]
@@ -96,32 +112,34 @@ pub(super) fn observe(
         let expected = "does not show where the shots begin; probe vcsel_driver.start";
         return Err(Input::new(&capture.name, expected).into());
     }
-    let mut numbers = Numbers::default();
+    let mut numbers = Numbers { usual: shots_per_frame, ..Numbers::default() };
     let mut observed = Observed {
         timebase,
         shots: Vec::new(),
         has_codes: code.is_some(),
         per_frame: None,
         period: None,
+        windows: Vec::new(),
         pins: Pins::new(probed),
         samples: 0,
         notes: Vec::new(),
     };
-    let (mut windows, mut is_early) = (0u64, false);
-    // Of the shot that the capture begins in, and the code that stood there before.
-    let (mut begun, mut held) = (Shot::default(), None);
+    let mut is_early = false;
     while let Some(sample) = probed.next()? {
         observed.samples += 1;
-        if sample.marks.window {
-            windows += 1;
-        }
-        if windows > 1 && sample.marks.window {
-            observed.timebase.steady = false;
-            if counter.is_none() {
-                let expected = "has several windows, and does not show how many shots lie between \
-                    them; probe frame_ctrl.shots";
-                return Err(Input::new(&capture.name, expected).into());
+        let begins = sample.marks.window || observed.windows.is_empty();
+        if begins {
+            let first = observed.shots.len();
+            observed.windows.push(Begin { first, ..Begin::default() });
+            for bit in [&mut start, &mut acquire, &mut valid, &mut stop] {
+                bit.before = None;
             }
+            numbers.across = observed.windows.len() > 1;
+        }
+        if numbers.across && counter.is_none() {
+            let expected = "has several windows, and does not show how many shots lie between \
+                them; probe frame_ctrl.shots";
+            return Err(Input::new(&capture.name, expected).into());
         }
         observed.pins.sample(sample.index, probed);
         let counted = counter.and_then(|counter| probed.value(counter));
@@ -129,26 +147,23 @@ pub(super) fn observe(
         numbers.frame(counted, acquires, acquired);
         if start.pulse(probed, &observed.timebase) {
             let number = numbers.start(counted);
-            observed.shots.push(Shot { number, start: sample.index as i64, ..Shot::default() });
+            let (start, window) = (sample.index as i64, observed.windows.len());
+            observed.shots.push(Shot { number, window, start, ..Shot::default() });
         }
         let (is_high, was_high) = stop.sample(probed);
         is_early |= is_high && observed.shots.is_empty();
-        if is_high && !was_high && sample.index > 0 {
-            match observed.shots.last_mut() {
-                Some(shot) => shot.stops.push(sample.index as i64),
-                None => begun.stops.push(sample.index as i64),
-            }
-        }
         let is_valid = valid.pulse(probed, &observed.timebase);
-        if let Some(value) = code.and_then(|code| probed.value(code)) {
-            match is_valid {
-                true => {
-                    let shot = observed.shots.last_mut().unwrap_or(&mut begun);
-                    shot.code = Some((value, sample.index as i64));
-                }
-                false if sample.index == 0 => held = Some(value),
-                false => {}
-            }
+        let value = code.and_then(|code| probed.value(code));
+        let Some(begin) = observed.windows.last_mut() else { continue };
+        let own = observed.shots.get_mut(begin.first..).and_then(<[Shot]>::last_mut);
+        let shot = own.unwrap_or(&mut begin.shot);
+        if is_high && !was_high {
+            shot.stops.push(sample.index as i64);
+        }
+        match value {
+            Some(value) if is_valid => shot.code = Some((value, sample.index as i64)),
+            held if begins && kind == ReplayKind::Photons => begin.held = held,
+            _ => {}
         }
     }
     if observed.shots.is_empty() {
@@ -157,7 +172,7 @@ pub(super) fn observe(
     }
     observed.period = period(&observed);
     observed.per_frame = numbers.per_frame.or_else(|| first_pause(&observed));
-    observed.add_earlier(begun, held.filter(|_| kind == ReplayKind::Photons));
+    observed.add_earlier();
     let first = observed.shots[0].number;
     let notes = &mut observed.notes;
     if counter.is_none() && !numbers.begun {
@@ -175,6 +190,13 @@ pub(super) fn observe(
             "tdc_stop is high before the first shot, where a list of photons has none".to_owned(),
         );
     }
+    if observed.windows.len() > 1 {
+        notes.push(
+            "windows that begin with fewer shots than the one before are taken to be of the next \
+             frame; the shots between windows are not known"
+                .to_owned(),
+        );
+    }
     if observed.per_frame.is_none() {
         notes.push("the capture does not show how many shots a frame has".to_owned());
     }
@@ -182,23 +204,40 @@ pub(super) fn observe(
 }
 
 impl Observed {
-    /// Adds what the capture shows of the shots before its first: the end of one, and the code of
-    /// another that the TDC still holds.
-    fn add_earlier(&mut self, begun: Shot, held: Option<u64>) {
+    /// Whether all samples follow one another.
+    pub(super) fn is_continuous(&self) -> bool {
+        self.timebase.steady && self.windows.len() == 1
+    }
+
+    /// Adds what the windows show of the shots before their first.
+    fn add_earlier(&mut self) {
         let Some(period) = self.period else { return };
-        let first = self.shots[0].clone();
+        for begin in self.windows.clone().into_iter().rev() {
+            if begin.first < self.shots.len() {
+                self.add_before(period, begin);
+            }
+        }
+    }
+
+    /// Adds the end of one and the code of another that the TDC still holds.
+    fn add_before(&mut self, period: u64, Begin { first: place, shot: begun, held }: Begin) {
+        let first = self.shots[place].clone();
+        let last = place.checked_sub(1).map(|last| self.shots[last].number);
         let before = |back: u64| {
             let number = first.number.checked_sub(back)?;
+            if last.is_some_and(|last| number <= last) {
+                return None;
+            }
             let start = first.start - (back * period * self.timebase.per_cycle) as i64;
             Some(Shot { number, start, ..Shot::default() })
         };
         let (last, earlier) = (before(1), before(HELD_SINCE));
         if let Some(last) = last.filter(|_| begun.code.is_some() || !begun.stops.is_empty()) {
-            self.shots.insert(0, Shot { number: last.number, start: last.start, ..begun });
+            self.shots.insert(place, Shot { number: last.number, start: last.start, ..begun });
         }
         if let (Some(shot), Some(code)) = (earlier, held.filter(|&code| code > 0)) {
             let cycles = (USUAL_CYCLES * self.timebase.per_cycle) as i64;
-            self.shots.insert(0, Shot { code: Some((code, shot.start + cycles)), ..shot });
+            self.shots.insert(place, Shot { code: Some((code, shot.start + cycles)), ..shot });
         }
     }
 }
@@ -213,7 +252,7 @@ const PAUSE: u64 = 256 + 16;
 /// Shots until the first pause between frames, where nothing else tells how many a frame has.
 fn first_pause(observed: &Observed) -> Option<u64> {
     let apart = |shots: &[Shot]| {
-        observed.timebase.steady
+        observed.is_continuous()
             && (shots[1].start - shots[0].start) as u64 / observed.timebase.per_cycle > PAUSE
     };
     let last = observed.shots.windows(2).find(|shots| apart(shots))?;
@@ -231,6 +270,10 @@ struct Numbers {
     whole: bool,
     begun: bool,
     per_frame: Option<u64>,
+    /// Shots of a frame, where the capture does not show how many it has.
+    usual: u64,
+    /// Whether a window begins, so that it is not known what was before.
+    across: bool,
 }
 
 impl Numbers {
@@ -240,17 +283,20 @@ impl Numbers {
         if acquired && !acquires && (self.whole || counted.is_some()) {
             self.per_frame = counted.or(Some(self.count)).filter(|&count| count > 0);
         }
-        if starts_anew {
+        if starts_anew && !self.across {
             self.per_frame = self.per_frame.or(Some(self.count));
         }
         if starts_anew || (counted.is_none() && acquires && !acquired) {
-            (self.before, self.count) = (self.before + self.count, 0);
+            let whole = self.per_frame.unwrap_or(self.usual);
+            let shots = if self.across { whole } else { self.count };
+            (self.before, self.count) = (self.before + shots, 0);
             (self.whole, self.begun) = (acquires && !acquired, true);
         }
         if acquires && !acquired {
             (self.whole, self.begun) = (true, true);
         }
         self.count = counted.unwrap_or(self.count);
+        self.across = false;
     }
 
     /// The number of a shot that begins.
@@ -270,7 +316,8 @@ fn period(observed: &Observed) -> Option<u64> {
     }
     let apart = observed.shots.windows(2).filter_map(|shots| {
         let apart = (shots[1].start - shots[0].start) as u64 / observed.timebase.per_cycle;
-        (shots[1].number == shots[0].number + 1).then_some(apart)
+        let follows = shots[1].number == shots[0].number + 1 && shots[1].window == shots[0].window;
+        follows.then_some(apart)
     });
     let first = apart.min()?;
     PERIODS.contains(&first).then_some(first)
