@@ -170,6 +170,8 @@ fn by_beats(
     let mut differences = Differences::new(&plan.matching, options.unknowns, None);
     differences.counts.iter_mut().for_each(|count| count.compared = result.compared);
     conclude(&plan, &differences, options.all, &mut result);
+    let Comparison { pairs, beats, .. } = &mut result;
+    pairs.retain(|pair| beats.as_ref().is_none_or(|found| found.signals.contains(&pair.name)));
     result.notes.extend(notes);
     Ok(result)
 }

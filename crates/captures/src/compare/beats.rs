@@ -79,8 +79,9 @@ pub(super) fn compare(
     }
     let alignment = "by the words of the beats".to_owned();
     let mut result = Comparison::new(plan.sources, "beats", alignment);
-    let mut beats = Beats::default();
-    beats.counts = streams.each_ref().map(|stream| stream.beats.len() as u64);
+    let counts = streams.each_ref().map(|stream| stream.beats.len() as u64);
+    let signals = pairs.iter().map(|pair| pair.name.clone()).collect();
+    let mut beats = Beats { signals, counts, ..Beats::default() };
     match plan.sources.map(|source| source.is_capture()) {
         [true, true] => captures(&streams, &words, &mut result, &mut beats)?,
         [false, false] => {

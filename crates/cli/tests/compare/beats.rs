@@ -91,6 +91,8 @@ fn stalls_are_no_difference() {
     capture(folder, "ila.csv", &[&words[500..600], &words[640..700], &words[1500..1600]], 2);
     let json = same(folder, &args(["a.vcd", "b.vcd"], &CLOCK));
     assert_eq!(kinds(&json), (vec![], 2000));
+    assert_eq!(json["beats"]["signals"], serde_json::json!(["top.data"]));
+    assert_eq!(json["signals"].as_array().unwrap().len(), 1);
     let json = same(folder, &args(["a.vcd", "ila.csv"], &CLOCK));
     assert_eq!(kinds(&json), (vec![], 260));
     assert_eq!(json["beats"]["outside"], serde_json::json!([1740, 0]));

@@ -8,6 +8,8 @@ const LISTED: usize = 64;
 /// What a comparison of beats has found.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Beats {
+    /// Signals of a word, by their names on the first side.
+    pub signals: Vec<String>,
     /// Beats of each side.
     pub counts: [u64; 2],
     /// Beats that are the same.
