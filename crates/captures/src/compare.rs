@@ -4,6 +4,7 @@
 //! read as streams, in bounded memory, as often as that needs.
 
 mod align;
+mod beats;
 mod both;
 mod by_changes;
 mod by_samples;
@@ -17,6 +18,7 @@ mod operands;
 mod pair;
 mod parts;
 mod plan;
+mod probed;
 mod remarks;
 mod result;
 mod samples;
@@ -37,7 +39,11 @@ pub use align::{Survey, survey};
 pub use map::SignalMap;
 pub use matching::{SignalChoice, Unmatched, UnmatchedReason};
 pub use pair::{MatchedBy, Unknowns};
-pub use result::{Compared, Comparison, Described, Difference, Finding};
+pub(crate) use probed::{Probed, pulse};
+pub use result::{
+    BeatDifference, BeatKind, BeatPlace, Beats, Compared, Comparison, Described, Difference,
+    Finding,
+};
 pub use samples::SampleClock;
 pub use samples::time;
 
@@ -71,6 +77,9 @@ pub struct Options {
     pub unknowns: Unknowns,
     /// Every signal needs a partner.
     pub all: bool,
+    /// When a bus accepts a word, instead of the map's: then the words are compared, and not when they
+    /// come.
+    pub beats: Option<Condition>,
     /// Where both sides go as one waveform.
     pub waves: Option<PathBuf>,
 }
@@ -98,6 +107,9 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
         return Err(Input::new("--after or --until", expected).into());
     }
     let mut terms = terms(options)?;
+    if let Some(condition) = beats_condition(options)? {
+        return by_beats(sources, matching, terms, &condition, options, resolved.notes);
+    }
     let align = align(sources, options, &terms)?;
     if align != Align::Trigger {
         terms.trigger = None;
@@ -113,6 +125,7 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
         conclude(&plan, &differences, options.all, &mut result);
         if !result.is_same() {
             result.findings = diagnose::samples(&plan, &alignment, &result)?;
+            result.notes.extend(alignment.doubts);
         }
         result
     } else {
@@ -130,6 +143,59 @@ pub fn compare(a: &Source, b: &Source, options: &Options) -> Result<Comparison> 
         both.finish(&result)?;
     }
     Ok(result)
+}
+
+/// When a bus accepts a word, if beats are compared.
+fn beats_condition(options: &Options) -> Result<Option<Condition>> {
+    let text = options.map.beats.as_ref();
+    match &options.beats {
+        Some(condition) => Ok(Some(condition.clone())),
+        None => text.map(|text| Condition::parse("beats", text)).transpose(),
+    }
+}
+
+fn by_beats(
+    sources: [&Source; 2],
+    matching: matching::Matching,
+    terms: Terms,
+    condition: &Condition,
+    options: &Options,
+    notes: Vec<String>,
+) -> Result<Comparison> {
+    without_order(options)?;
+    // When samples were stored and what triggered is of no matter.
+    let terms = Terms { trigger: None, qualifier: None, ..terms };
+    let mut plan = Plan::new(sources, matching, terms, true)?;
+    let mut result = beats::compare(&mut plan, condition, &options.choice.only)?;
+    let mut differences = Differences::new(&plan.matching, options.unknowns, None);
+    differences.counts.iter_mut().for_each(|count| count.compared = result.compared);
+    conclude(&plan, &differences, options.all, &mut result);
+    let Comparison { pairs, beats, .. } = &mut result;
+    pairs.retain(|pair| beats.as_ref().is_none_or(|found| found.signals.contains(&pair.name)));
+    result.notes.extend(notes);
+    Ok(result)
+}
+
+/// That nothing was asked for that beats do not have.
+///
+/// # Errors
+/// When it was; the error names the option.
+fn without_order(options: &Options) -> Result<()> {
+    let meant = |option: &str, reason: &str| {
+        Err(Input::new(option, format!("cannot go with --beats: {reason}")).into())
+    };
+    let in_order = "the words themselves say what belongs together";
+    match options {
+        Options { align: Some(_), .. } => meant("--align", in_order),
+        Options { trigger: Some(_), .. } => meant("--trigger", in_order),
+        Options { time_from: Some(_), .. } => meant("--time-from", in_order),
+        Options { qualified_by: Some(_), .. } => meant("--qualified-by", in_order),
+        Options { waves: Some(_), .. } => meant("--waves", "the sides have no time in common"),
+        Options { unknowns: Unknowns::Any, .. } => {
+            meant("--x any", "words are looked for as they are")
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Puts what was counted into the result, and what else is to be said.

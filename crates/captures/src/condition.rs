@@ -39,6 +39,11 @@ impl Condition {
         Ok(Condition { source: source.to_owned(), node, leaves })
     }
 
+    /// The names in it, without slices.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.leaves.iter().map(|leaf| slice(&leaf.name).map_or(&leaf.name[..], |(name, ..)| name))
+    }
+
     /// Ties the names to places. `find` is asked for each name as it is written, then, where that
     /// fails, without its slice.
     ///

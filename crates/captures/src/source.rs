@@ -33,6 +33,7 @@ use crate::ila::Radix;
 pub use names::Name;
 pub(crate) use shapes::{flow, known_shape};
 pub use signals::{Axis, Signal, SignalKind, Source, SourceFormat, Words};
+pub use simulation::LONGEST_SIMULATION;
 pub use state::SourceState;
 pub use stream::{Cursor, Feed, Gone, Marks};
 pub use tick::Tick;
@@ -48,8 +49,9 @@ impl Source {
         Ok(detect::open(path, radix)?.distinguish())
     }
 
-    /// A simulation of so many frames.
-    pub fn simulation(setup: Setup, frames: u64) -> Source {
+    /// A simulation of so many frames or, without a number, of as much as is asked for, up to
+    /// [`LONGEST_SIMULATION`].
+    pub fn simulation(setup: Setup, frames: Option<u64>) -> Source {
         simulation::source(setup, frames)
     }
 }

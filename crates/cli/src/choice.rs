@@ -6,6 +6,7 @@ use tofsim::waves::WaveFormat;
 use tofsim_captures::compare::Unknowns;
 use tofsim_captures::ila::Radix;
 use tofsim_captures::ila::export::CaptureFormat;
+use tofsim_captures::replay::ReplayKind;
 use tofsim_learn::dataset::files::DatasetFormat;
 use tofsim_rtl::golden::bench::Language;
 use tofsim_rtl::verify::Simulator;
@@ -44,6 +45,13 @@ pub const CAPTURE_FORMAT: &[Choice<CaptureFormat>] = &[
     ("csv", CaptureFormat::Csv, "A row for each sample"),
     ("vcd", CaptureFormat::Vcd, "Value change dump, its time the number of the sample"),
     ("ila", CaptureFormat::Ila, "Vivado's own archive"),
+];
+
+/// What a replay takes from a capture.
+pub const REPLAY: &[Choice<ReplayKind>] = &[
+    ("photons", ReplayKind::Photons, "When a photon arrived in each shot"),
+    ("codes", ReplayKind::Codes, "The code of each shot, by the ROM in the TDC's place"),
+    ("histogram", ReplayKind::Histogram, "The histogram that the estimator read"),
 ];
 
 /// What an unknown bit is the same as.

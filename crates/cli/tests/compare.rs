@@ -1,12 +1,14 @@
 //! `tofsim compare`, as its users run it.
 
 mod align;
+mod beats;
 mod captures;
 mod damage;
 mod formats;
 mod how;
 mod odd;
 mod offsets;
+mod simulated;
 mod times;
 mod verilog;
 mod waveforms;

@@ -20,6 +20,7 @@ mod limits;
 mod lockstep;
 mod measured;
 mod quantize;
+mod replay;
 mod rerun;
 mod sources;
 mod subtraction;

@@ -13,6 +13,7 @@ use super::plan::Plan;
 
 pub use alignment::Align;
 pub(super) use alignment::Alignment;
+pub(super) use correlation::SearchEnd;
 pub use survey::{Survey, survey};
 
 /// Time by which the second of two waveforms is late [fs], and how it was found.

@@ -41,6 +41,9 @@ pub struct SignalMap {
     #[serde(skip_serializing_if = "is_default")]
     #[schemars(range(min = 0, max = 6), extend("unit" = "edges"))]
     pub input_stages: u64,
+    /// Condition under which a bus accepts a word: the words are compared, and not when they come.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub beats: Option<String>,
     /// Condition under which a logic analyser has stored a sample.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub qualified_by: Option<String>,

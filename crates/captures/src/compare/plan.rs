@@ -8,6 +8,7 @@ use crate::source::Source;
 
 use super::matching::{Matching, Unmatched, UnmatchedReason};
 use super::operands::SideCondition;
+use super::pair::Pair;
 use super::parts::Part;
 use super::samples::{Clocking, Sample, SampleClock, Samples};
 
@@ -73,6 +74,14 @@ impl<'a> Plan<'a> {
     pub(super) fn samples(&self, side: usize) -> Result<Samples> {
         let slots = &self.matching.slots[side];
         Samples::new(self.sources[side], slots, self.clocking[side].clone())
+    }
+
+    /// Whether a pair is the clock that a side is sampled by.
+    pub(super) fn is_clock(&self, pair: &Pair) -> bool {
+        (0..2).any(|side| match (&self.clocking[side], &pair.sides[side][..]) {
+            (Clocking::Rising(clock), [part]) => part.signal == *clock,
+            _ => false,
+        })
     }
 
     /// Whether a sample is late enough to be looked at.

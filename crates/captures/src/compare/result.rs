@@ -1,11 +1,15 @@
 //! What a comparison has found.
 
+mod beats;
+
 use serde::Serialize;
 
 use crate::source::{Axis, Source};
 
 use super::matching::Unmatched;
 use super::pair::MatchedBy;
+
+pub use beats::{BeatDifference, BeatKind, BeatPlace, Beats};
 
 /// What a comparison has found.
 #[derive(Clone, Debug, Default)]
@@ -28,6 +32,8 @@ pub struct Comparison {
     pub differences: Vec<String>,
     /// What the differences look like.
     pub findings: Vec<Finding>,
+    /// What was found of the words that a bus accepts, where these are compared.
+    pub beats: Option<Beats>,
     /// What a user may not expect.
     pub notes: Vec<String>,
 }
@@ -131,7 +137,9 @@ impl Comparison {
 
     /// Whether the sides are the same.
     pub fn is_same(&self) -> bool {
-        self.differences.is_empty() && self.pairs.iter().all(|pair| pair.differing == 0)
+        self.differences.is_empty()
+            && self.pairs.iter().all(|pair| pair.differing == 0)
+            && self.beats.as_ref().is_none_or(Beats::is_same)
     }
 
     /// Whether the signals of a side without a partner are listed: those of a capture, and those of

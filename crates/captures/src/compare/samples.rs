@@ -55,14 +55,14 @@ pub fn time(text: &str) -> Option<Time> {
 
 /// One sample of a sequence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Sample {
+pub(crate) struct Sample {
     /// Its number, from 0.
-    pub(super) index: u64,
+    pub(crate) index: u64,
     /// Its place in the source: a tick, or the number of the row.
-    pub(super) at: u64,
-    pub(super) marks: Marks,
+    pub(crate) at: u64,
+    pub(crate) marks: Marks,
     /// Nothing is said of it but that nothing has changed.
-    pub(super) held: bool,
+    pub(crate) held: bool,
 }
 
 /// What makes samples of a source.

@@ -139,6 +139,12 @@ impl Core {
         self.state == State::Full
     }
 
+    /// Whether a window has not yet the samples that stand before its trigger, so that none counts.
+    #[inline]
+    pub fn is_filling(&self) -> bool {
+        self.state == State::Filling
+    }
+
     /// Whether a trigger, now or later, can still matter: not behind that of the last window.
     #[inline]
     pub fn looks_for_triggers(&self) -> bool {

@@ -145,6 +145,11 @@ pub(super) const WIDEST: u32 = 1 << 20;
 pub(super) trait Origin: Debug + Send + Sync {
     /// Begins to read the signals with those ids and widths.
     fn read(&self, ids: &[usize], widths: &[u32]) -> Result<Cursor>;
+
+    /// The last place that is searched for what may lie anywhere, if it goes on for long.
+    fn searched(&self) -> Result<Option<u64>> {
+        Ok(None)
+    }
 }
 
 impl Source {
@@ -158,6 +163,15 @@ impl Source {
         let widths: HashMap<usize, u32> = signals.map(|s| (s.id, s.width)).collect();
         let widths: Vec<u32> = ids.iter().map(|id| widths.get(id).copied().unwrap_or(0)).collect();
         self.origin.read(ids, &widths)
+    }
+
+    /// The last place that is searched for what may lie anywhere: of a simulation that goes on for
+    /// as long as it is asked to, the end of its first frame.
+    ///
+    /// # Errors
+    /// When that frame does not end.
+    pub(crate) fn searched(&self) -> Result<u64> {
+        Ok(self.origin.searched()?.unwrap_or(u64::MAX))
     }
 
     /// Whether its places are samples of a logic analyser.

@@ -9,6 +9,7 @@ use tofsim::kernel::signals::Sink;
 use tofsim::kernel::{Thermometer, Time};
 use tofsim::sim::device::SignalProbe;
 use tofsim::sim::frames::Frames;
+use tofsim::sim::run::Observers;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::{Device, Run, WindowedProbe};
 use tofsim::waves::TapDigits;
@@ -18,15 +19,18 @@ use super::signals::{self, Axis, Signal, SignalKind, Source, SourceFormat, Words
 use super::stream::{Cursor, Feed};
 use super::tick::Tick;
 
+/// What a simulation without a number of frames ends at.
+pub const LONGEST_SIMULATION: Time = Time::from_ns(100_000_000);
+
 /// What is simulated.
 #[derive(Clone, Debug)]
 struct Origin {
     setup: Arc<Setup>,
-    frames: u64,
+    frames: Option<u64>,
 }
 
-/// A simulation of so many frames.
-pub(super) fn source(setup: Setup, frames: u64) -> Source {
+/// A simulation of so many frames, or of as much as is asked for.
+pub(super) fn source(setup: Setup, frames: Option<u64>) -> Source {
     let mut entries = hierarchy::entries(&setup.params);
     if entries.iter().any(|entry| entry.scope == "tof_top.histogram_builder") {
         entries.extend(hierarchy::ram_entries());
@@ -64,12 +68,22 @@ impl signals::Origin for Origin {
         Ok(Cursor::spawn(widths, move |feed| {
             let taps = TapDigits::new(setup.params.tdc.delays.order());
             let values = Values { feed: &mut *feed, places, taps };
-            let mut probe = ChangeFeed { values, part: Part::of(0..IDS), gone: false };
+            let until = if frames.is_some() { Time::NEVER } else { LONGEST_SIMULATION };
+            let mut probe = ChangeFeed { values, part: Part::of(0..IDS), until, gone: false };
+            let frames = frames.unwrap_or(u64::MAX);
             let end = Run::new(&setup).traced(frames, &mut probe, None)?.end;
             // That nobody listens any more is no fault.
             let _ = feed.at(end.fs());
             Ok(())
         }))
+    }
+
+    fn searched(&self) -> Result<Option<u64>> {
+        if self.frames.is_some() {
+            return Ok(None);
+        }
+        let first = Run::new(&self.setup).observe(1, Observers::default())?;
+        Ok(Some(first.end.fs()))
     }
 }
 
@@ -77,6 +91,9 @@ impl signals::Origin for Origin {
 struct ChangeFeed<'a> {
     values: Values<'a>,
     part: Part,
+    /// When to end.
+    until: Time,
+    /// Whether to simulate on is of no use.
     gone: bool,
 }
 
@@ -111,7 +128,7 @@ impl SignalProbe for ChangeFeed<'_> {
     const ON: bool = true;
 
     fn sample(&mut self, now: Time, top: &TofTop) {
-        if self.gone || self.values.feed.at(now.fs()).is_err() {
+        if self.gone || now > self.until || self.values.feed.at(now.fs()).is_err() {
             self.gone = true;
             return;
         }

@@ -1,5 +1,7 @@
 //! A comparison as text, as JSON and as JUnit XML.
 
+mod beats;
+
 use std::io::stdout;
 use std::path::Path;
 
@@ -28,9 +30,13 @@ pub fn text(result: &Comparison, verbose: bool) -> String {
     for (k, line) in result.alignment.lines().enumerate() {
         text += &format!("{:<9} {line}\n", if k == 0 { "aligned" } else { "" });
     }
-    let places = if result.unit == "samples" { "samples" } else { "instants" };
+    let places = match result.unit {
+        "changes" => "instants",
+        unit => unit,
+    };
     let pairs = counted(result.pairs.len() as u64, "signals");
     text += &format!("compared  {pairs} at {}\n", counted(result.compared, places));
+    text += &beats::counts(result);
     text += &matched(result, verbose);
     for note in &result.notes {
         text += &format!("note      {note}\n");
@@ -46,6 +52,7 @@ pub fn text(result: &Comparison, verbose: bool) -> String {
     for finding in &result.findings {
         text += &format!("  {}: {}\n", finding.kind, finding.text);
     }
+    text += &beats::differing(result);
     if let Some(first) = result.differing().next() {
         text += &format!("\nfirst     {}\n{}", first_line(result, first), differing(result));
     }
@@ -178,6 +185,7 @@ pub fn json(result: &Comparison) -> Value {
         "alignment": result.alignment,
         "offset": result.offset,
         "compared": result.compared,
+        "beats": result.beats.as_ref().map(|found| beats::json(result, found)),
         "differences": result.differences,
         "findings": result.findings,
         "first": result.differing().next().map(pair),
@@ -208,6 +216,11 @@ pub fn write_junit(path: &Path, result: &Comparison) -> Result<()> {
     let differs = !result.differences.is_empty();
     let failure = differs.then(|| (result.differences.join("; "), findings.join("\n")));
     let structure = JunitCase { name: "structure".to_owned(), failure, skipped: None };
-    let cases = result.pairs.iter().map(pair).chain([structure]);
+    let words = result.beats.as_ref().map(|found| JunitCase {
+        name: "beats".to_owned(),
+        failure: beats::first_line(result, found).map(|first| (first, beats::counts(result))),
+        skipped: None,
+    });
+    let cases = result.pairs.iter().map(pair).chain([structure]).chain(words);
     junit::write(path, "tofsim compare", format!("tofsim compare {a} {b}"), cases)
 }

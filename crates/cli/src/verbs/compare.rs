@@ -42,6 +42,7 @@ use super::terminal::{Talk, print};
     tofsim compare waves/kc705.vcd verilog.vcd\n  \
     tofsim compare waves/run.vcd board.ila --map fig_6_6\n  \
     tofsim compare --scenario near board.csv --clock clk_125 --align correlation\n  \
+    tofsim compare a.fst board.ila --clock clk --beats 'valid && ready' --signals data\n  \
     tofsim compare a.fst b.fst --clock clk_125 --latency depth=2 --waves both.vcd\n\n\
     Exit status: 0 same, 1 different, 2 cannot be compared."
 )]
@@ -57,6 +58,10 @@ pub struct Args {
     when: When,
     #[command(flatten)]
     how: How,
+    /// Compare the words of a bus, and not when they come: those at samples where this CONDITION
+    /// holds, as `valid && ready`
+    #[arg(long, value_name = "CONDITION")]
+    beats: Option<String>,
     /// Write both sides and what differs as one waveform, with save files for GTKWave and Surfer
     #[arg(long, value_name = "FILE.vcd")]
     waves: Option<PathBuf>,
@@ -81,10 +86,11 @@ struct Simulated {
     /// Seed of every random stream, instead of the scenario's
     #[arg(long, value_name = "N", requires = "scenario")]
     seed: Option<u64>,
-    /// How many frames to simulate at most
-    #[arg(long, value_name = "N", default_value_t = 1, requires = "scenario",
+    /// How many frames to simulate at most [default: as far as a capture goes, to 100 ms, of
+    /// which a search for the best fit takes the first frame; one frame for a waveform]
+    #[arg(long, value_name = "N", requires = "scenario",
         value_parser = clap::value_parser!(u64).range(1..))]
-    frames: u64,
+    frames: Option<u64>,
 }
 
 /// Which signals.
@@ -167,9 +173,11 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             let setup = Setup::new(load(scenario, set, *seed)?)?;
             notes = setup.notes()?;
             talk.heed(&notes)?;
-            super::frames::check("--frames", *frames, &setup)?;
+            let b = open(b)?;
+            let frames = frames.or((!b.is_capture()).then_some(1));
+            super::frames::check("--frames", frames.unwrap_or(1), &setup)?;
             record = Some(Record::new(&setup, &talk.command));
-            (Source::simulation(setup, *frames), open(b)?)
+            (Source::simulation(setup, frames), b)
         }
         (None, [a, b]) => (open(a)?, open(b)?),
         (Some(_), _) => {
@@ -228,7 +236,7 @@ fn options(args: &Args) -> Result<Options> {
     let condition = |option: &str, text: &Option<String>| {
         text.as_ref().map(|text| Condition::parse(option, text)).transpose()
     };
-    let mut map = args.which.map.as_deref().map(map).transpose()?.unwrap_or_default();
+    let mut map = args.which.map.as_deref().map(named_map).transpose()?.unwrap_or_default();
     map.signal.extend(rules(&args.how));
     let (when, which) = (&args.when, &args.which);
     Ok(Options {
@@ -243,12 +251,13 @@ fn options(args: &Args) -> Result<Options> {
         until: when.until,
         unknowns: args.how.x,
         all: which.all,
+        beats: condition("--beats", &args.beats)?,
         waves: args.waves.clone(),
     })
 }
 
 /// A map file, or the map of a set-up.
-fn map(name: &str) -> Result<SignalMap> {
+pub fn named_map(name: &str) -> Result<SignalMap> {
     let built_in = !name.contains(['/', '.']);
     let is_set_up = |path: &Path| {
         // A pipe can be read once only.

@@ -2,6 +2,7 @@
 
 pub mod capture;
 pub mod info;
+pub mod replay;
 pub mod set_ups;
 
 use clap::Subcommand;
@@ -21,6 +22,7 @@ pub struct Args {
 enum Verb {
     Capture(Box<capture::Args>),
     Info(info::Args),
+    Replay(replay::Args),
     /// List the built-in set-ups of captures
     List {
         /// Print JSON
@@ -45,6 +47,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     match &args.verb {
         Verb::Capture(args) => capture::run(args, talk),
         Verb::Info(args) => info::run(args, talk),
+        Verb::Replay(args) => replay::run(args, talk),
         Verb::List { json } => set_ups::list(*json),
         Verb::Show { set_up } => set_ups::show(set_up),
         Verb::Schema { map } => set_ups::schema(*map),

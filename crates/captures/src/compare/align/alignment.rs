@@ -64,7 +64,7 @@ impl FromStr for Align {
 }
 
 /// Samples that belong together: piece by piece, one by one.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Alignment {
     /// The pieces of each side.
     pub(crate) pieces: [Vec<Piece>; 2],
@@ -74,6 +74,8 @@ pub(crate) struct Alignment {
     pub(crate) offset: Option<i64>,
     /// What is different already.
     pub(crate) differences: Vec<String>,
+    /// What may be the reason where the samples differ.
+    pub(crate) doubts: Vec<String>,
 }
 
 impl Alignment {
@@ -82,6 +84,6 @@ impl Alignment {
         let a = Piece::Run(offset.min(0).unsigned_abs(), None);
         let b = Piece::Run(offset.max(0).unsigned_abs(), None);
         let pieces = [vec![a], vec![b]];
-        Alignment { pieces, found, offset: Some(offset), differences: Vec::new() }
+        Alignment { pieces, found, offset: Some(offset), ..Alignment::default() }
     }
 }

@@ -12,6 +12,7 @@ use crate::source::SourceState;
 
 use super::super::pair::Pair;
 use super::super::plan::Plan;
+use super::super::samples::Sample;
 use super::super::selection::{Piece, Selected};
 use super::alignment::Alignment;
 use super::survey::survey;
@@ -128,14 +129,16 @@ pub(super) fn search(plan: &Plan, signals: &[String], search: &Search) -> Result
     let mut taken = 0u64;
     let mut first = None;
     let mut goes_on = true;
+    let mut end = SearchEnd::new(plan, other, length)?;
     while goes_on {
-        match samples.next()?.filter(|sample| !sample.held) {
+        match samples.next()?.filter(|&sample| !sample.held && end.takes(sample)) {
             Some(sample) if sample.index < search.from || !plan.is_looked_at(other, sample) => {}
             Some(sample) => {
                 first.get_or_insert(sample.index);
                 taken += 1;
                 hay.push(probe.row(other, &samples.state));
             }
+            None if end.is_reached() => goes_on = false,
             None => {
                 hay.resize(hay.len() + hang, unknown.clone());
                 goes_on = false;
@@ -159,6 +162,35 @@ pub(super) fn search(plan: &Plan, signals: &[String], search: &Search) -> Result
     }
     best.sort_by(|a, b| a.rate().total_cmp(&b.rate()).then(b.compared.cmp(&a.compared)));
     Ok(best)
+}
+
+/// How far a side is searched for a sequence that begins in the part that is searched.
+pub(crate) struct SearchEnd {
+    /// Last place of that part.
+    last: u64,
+    /// Samples that are taken after it.
+    left: usize,
+}
+
+impl SearchEnd {
+    pub(crate) fn new(plan: &Plan, side: usize, length: usize) -> Result<Self> {
+        Ok(SearchEnd { last: plan.sources[side].searched()?, left: length.saturating_sub(1) })
+    }
+
+    /// Whether a sample is still looked at.
+    pub(crate) fn takes(&mut self, sample: Sample) -> bool {
+        if sample.at <= self.last {
+            return true;
+        }
+        let is_taken = self.left > 0;
+        self.left = self.left.saturating_sub(1);
+        is_taken
+    }
+
+    /// Whether the side goes on behind what was taken.
+    fn is_reached(&self) -> bool {
+        self.left == 0
+    }
 }
 
 /// Finds a sequence in chunks of another.

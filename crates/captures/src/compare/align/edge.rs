@@ -84,7 +84,7 @@ pub(super) fn start(plan: &Plan) -> Result<Alignment> {
                 let windows = windows.iter().take(count);
                 windows.map(|window| Piece::Run(window.first, window.count)).collect()
             });
-            Ok(Alignment { pieces, found, offset: Some(0), differences })
+            Ok(Alignment { pieces, found, offset: Some(0), differences, doubts: Vec::new() })
         }
         _ => Ok(Alignment::shifted(0, found)),
     }
@@ -115,7 +115,7 @@ fn same_time(plan: &Plan, ticks: [Tick; 2]) -> Result<Alignment> {
     let pieces = firsts.map(|first| vec![Piece::Run(first, None)]);
     let offset = Some(firsts[1] as i64 - firsts[0] as i64);
     let found = "samples of the same time".to_owned();
-    Ok(Alignment { pieces, found, offset, differences: Vec::new() })
+    Ok(Alignment { pieces, found, offset, ..Alignment::default() })
 }
 
 /// The first sample that is looked at.

@@ -8,6 +8,8 @@ use crate::ila::core::{Core, Shape};
 use super::super::find;
 use super::super::operands::SideCondition;
 use super::super::plan::Plan;
+use super::super::result::Described;
+use super::super::samples::Sample;
 use super::super::selection::Piece;
 use super::alignment::Alignment;
 use super::edge::first_looked_at;
@@ -62,7 +64,7 @@ fn captures(plan: &Plan) -> Result<Alignment> {
     let count = pieces[0].len();
     let windows = if count == 1 { "window" } else { "windows" };
     let found = format!("by the trigger of {count} {windows}");
-    Ok(Alignment { pieces, found, offset, differences })
+    Ok(Alignment { pieces, found, offset, differences, doubts: Vec::new() })
 }
 
 /// The pieces of a capture's side and the waveform's, in the order of the sides.
@@ -80,7 +82,8 @@ fn one_capture(plan: &Plan, side: usize, time_from: Option<&str>) -> Result<Alig
     let depth = first.count.or(last.map(|last| last + 1)).unwrap_or(1) as usize;
     let shape = Shape { depth, windows: windows.len(), position: (at - first.first) as usize };
     let (mut capture, mut waveform) = (Vec::new(), Vec::new());
-    for (window, (piece, lead)) in windows.iter().zip(stored(plan, 1 - side, shape)?) {
+    let Stored { pieces, early } = stored(plan, 1 - side, shape)?;
+    for (window, (piece, lead)) in windows.iter().zip(pieces) {
         let count = window.count.map(|count| count.saturating_sub(lead));
         capture.push(Piece::Run(window.first + lead, count));
         waveform.push(piece.part(0, count.unwrap_or(u64::MAX)));
@@ -99,23 +102,34 @@ fn one_capture(plan: &Plan, side: usize, time_from: Option<&str>) -> Result<Alig
         _ => None,
     };
     let pieces = ordered(side, capture, waveform);
-    Ok(Alignment { pieces, found, offset, differences: Vec::new() })
+    let doubts = Vec::from_iter(early);
+    Ok(Alignment { pieces, found, offset, doubts, ..Alignment::default() })
 }
 
-fn never(plan: &Plan, side: usize, found: usize, windows: usize) -> Input {
-    let expected = match found {
-        0 => format!("the trigger never comes after {}", plan.terms.after),
-        _ => format!(
-            "the trigger comes {found} times after {}, not {windows} times",
-            plan.terms.after
-        ),
-    };
-    Input::new(&plan.sources[side].name, expected)
+fn never(plan: &Plan, side: usize, last: Option<Sample>, found: usize, windows: usize) -> String {
+    let after = plan.terms.after;
+    let end = last.map(|last| format!(" (it ends at {})", tell(plan, side, last)));
+    let end = end.unwrap_or_default();
+    match found {
+        0 => format!("the trigger never comes after {after}{end}"),
+        _ => format!("the trigger comes {found} times after {after}, not {windows} times{end}"),
+    }
 }
 
-/// The samples of each window that a logic analyser of that shape would store of a waveform, and how
-/// many more of each window are from before the waveform's first.
-fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Vec<(Piece, u64)>> {
+fn tell(plan: &Plan, side: usize, sample: Sample) -> String {
+    Described::new(plan.sources[side]).place(sample.at)
+}
+
+/// What a logic analyser would store of a waveform.
+struct Stored {
+    /// The samples of each window, and how many more of it are from before the waveform's first.
+    pieces: Vec<(Piece, u64)>,
+    /// That a trigger came too early to count.
+    early: Option<String>,
+}
+
+/// What a logic analyser of that shape would store of a waveform.
+fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Stored> {
     let Some(mut trigger) = plan.trigger[side].clone() else {
         let expected =
             "expected a condition (--trigger, or in the map) that the waveform triggers on";
@@ -131,19 +145,38 @@ fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Vec<(Piece, u64)>> {
         core.sample(&[number], trigger.sample_nothing(), qualifies);
     }
     let mut samples = plan.samples(side)?;
+    let (mut last, mut early, mut lost) = (None, None, None);
     while !core.is_full()
         && let Some(sample) = samples.next()?
     {
+        last = Some(sample);
         if sample.index < skipped {
             continue;
         }
         let triggers = trigger.sample(&samples.state);
+        match core.triggers().is_empty() {
+            true if triggers && core.is_filling() => early = early.or(Some(sample)),
+            true if !triggers => lost = lost.or(early),
+            _ => {}
+        }
         let qualifies = qualifier.as_mut().is_none_or(|term| term.sample(&samples.state));
         core.sample(&[sample.index - skipped + missing], triggers, qualifies);
     }
     let capture = core.finish(Vec::new());
-    if capture.triggers.len() < shape.windows {
-        return Err(never(plan, side, capture.triggers.len(), shape.windows).into());
+    let found = capture.triggers.len();
+    let early = lost.or(early.filter(|_| found == 0)).map(|sample| {
+        let (position, before) = (shape.position, sample.index - skipped + missing);
+        format!(
+            "the window would begin too early: the trigger at sample {} ({}) does not count, \
+             because the capture has {position} samples before its trigger, and there are {before}",
+            sample.index,
+            tell(plan, side, sample),
+        )
+    });
+    if found < shape.windows {
+        let never = never(plan, side, last, found, shape.windows);
+        let expected = early.map_or(never.clone(), |early| format!("{never}; {early}"));
+        return Err(Input::new(&plan.sources[side].name, expected).into());
     }
     let ends = capture.windows.iter().skip(1).copied().chain([capture.samples()]);
     let windows = capture.windows.iter().zip(ends).map(|(&begin, end)| {
@@ -156,15 +189,16 @@ fn stored(plan: &Plan, side: usize, shape: Shape) -> Result<Vec<(Piece, u64)>> {
         };
         (piece, lead as u64)
     });
-    Ok(windows.collect())
+    Ok(Stored { pieces: windows.collect(), early })
 }
 
 /// The first sample of a waveform that triggers.
 fn first(plan: &Plan, side: usize) -> Result<u64> {
     let shape = Shape { depth: 1, windows: 1, position: 0 };
     let stored = stored(plan, side, shape)?;
-    let first = stored.first().and_then(|(piece, _)| piece.sample(0));
-    first.ok_or_else(|| never(plan, side, 0, 1).into())
+    let first = stored.pieces.first().and_then(|(piece, _)| piece.sample(0));
+    let never = || Input::new(&plan.sources[side].name, never(plan, side, None, 0, 1));
+    first.ok_or_else(|| never().into())
 }
 
 /// The samples of a capture that has a column that counts the clock, where sample `at` of the capture is sample `at_waveform` of the waveform.
@@ -212,5 +246,5 @@ pub(super) fn by_counter(
     let own = Piece::Run(before as u64, Some((counts.len() - before) as u64));
     let pieces = ordered(side, vec![own], vec![Piece::Kept(samples)]);
     let found = format!("sample {at} of the capture at {at_waveform}, the others by {counter}");
-    Ok(Alignment { pieces, found, offset: None, differences: Vec::new() })
+    Ok(Alignment { pieces, found, ..Alignment::default() })
 }

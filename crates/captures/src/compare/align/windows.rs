@@ -58,7 +58,7 @@ pub(super) fn alignment(plan: &Plan, signals: &[String]) -> Result<Alignment> {
     if side == 1 {
         pieces.swap(0, 1);
     }
-    Ok(Alignment { pieces, found: found.join("\n"), offset: None, differences: Vec::new() })
+    Ok(Alignment { pieces, found: found.join("\n"), ..Alignment::default() })
 }
 
 fn needles(

@@ -3,7 +3,7 @@
 use tofsim::error::Result;
 
 use super::super::super::plan::Plan;
-use super::super::correlation::PairBits;
+use super::super::correlation::{PairBits, SearchEnd};
 use super::needle::packed;
 
 /// What hashes are powers of.
@@ -96,7 +96,8 @@ pub(super) fn pass(
     let mut hay = Hay { rows, stride, hashes, begin: 0, first: 0, longest, steady: 0 };
     let mut samples = plan.samples(side)?;
     let mut row = None;
-    while let Some(sample) = samples.next()?.filter(|sample| !sample.held) {
+    let mut end = SearchEnd::new(plan, side, longest)?;
+    while let Some(sample) = samples.next()?.filter(|&sample| !sample.held && end.takes(sample)) {
         let mut changed = false;
         samples.changes(|_| changed = true);
         if !plan.is_looked_at(side, sample) {

@@ -1,0 +1,69 @@
+//! What the places between words that are the same are: lost, repeated, extra or changed words.
+
+use std::ops::Range;
+
+use super::super::result::{BeatDifference, BeatKind, BeatPlace, Beats};
+use super::stream::{Stream, Words};
+
+/// Two streams and their words.
+pub(super) struct Classifier<'a> {
+    pub(super) sides: [&'a Stream; 2],
+    pub(super) words: &'a Words,
+    pub(super) window: usize,
+}
+
+impl Classifier<'_> {
+    /// Counts what lies between the words that are the same, from `begin` to `end` of both sides.
+    pub(super) fn count(
+        &self,
+        same: &[(usize, usize)],
+        begin: [usize; 2],
+        end: [usize; 2],
+        beats: &mut Beats,
+    ) {
+        let mut next = begin;
+        for &(a, b) in same.iter().chain([&(end[0], end[1])]) {
+            self.between([next[0]..a, next[1]..b], beats);
+            next = [a + 1, b + 1];
+        }
+        beats.same += same.len() as u64;
+    }
+
+    fn between(&self, [lost, extra]: [Range<usize>; 2], beats: &mut Beats) {
+        let [mut a, mut b] = [lost.start, extra.start];
+        while a < lost.end || b < extra.end {
+            let is_in = [a < lost.end, b < extra.end];
+            let kind = match is_in {
+                // As many as there are on both sides are other values of the same words.
+                [true, true] => BeatKind::Changed,
+                [true, false] => BeatKind::Lost,
+                _ if self.repeats(b) => BeatKind::Repeated,
+                _ => BeatKind::Extra,
+            };
+            let place = |side: usize, k: usize| {
+                let beat = self.sides[side].beats.get(k)?;
+                Some(BeatPlace { beat: k as u64, sample: beat.sample, at: beat.at })
+            };
+            let text = |side: usize, k: usize| {
+                let number = self.sides[side].words.get(k).filter(|_| is_in[side])?;
+                Some(self.words.text(*number).to_owned())
+            };
+            beats.push(BeatDifference {
+                kind,
+                window: self.window,
+                beats: [place(0, a), place(1, b)],
+                expected: text(0, a),
+                got: text(1, b),
+            });
+            a += usize::from(is_in[0]);
+            b += usize::from(is_in[1]);
+        }
+    }
+
+    /// Whether a word of the second side is the same as the one before it or after it.
+    fn repeats(&self, k: usize) -> bool {
+        let words = &self.sides[1].words;
+        let before = k.checked_sub(1).map(|before| words[before]);
+        before == Some(words[k]) || words.get(k + 1) == Some(&words[k])
+    }
+}

@@ -1,0 +1,138 @@
+//! The words that a side accepts, one after the other.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use tofsim::error::{Input, Result};
+
+use crate::words::Bits;
+
+use super::super::align::SearchEnd;
+use super::super::operands::SideCondition;
+use super::super::pair::Pair;
+use super::super::plan::Plan;
+use super::super::samples::{Sample, Samples};
+
+/// Most beats of a side.
+const MOST_BEATS: usize = 1 << 22;
+
+/// A word that was accepted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Beat {
+    /// Number of the sample.
+    pub(super) sample: u64,
+    /// Its place in the source.
+    pub(super) at: u64,
+}
+
+/// The beats of a side.
+#[derive(Debug, Default)]
+pub(super) struct Stream {
+    pub(super) beats: Vec<Beat>,
+    /// The number of each word in [`Words`].
+    pub(super) words: Vec<u32>,
+    /// Beats of each window.
+    pub(super) windows: Vec<Range<usize>>,
+    /// Samples that were looked at.
+    pub(super) samples: usize,
+}
+
+/// The different words of both sides.
+#[derive(Debug, Default)]
+pub(super) struct Words {
+    numbers: HashMap<Box<[u64]>, u32>,
+    texts: Vec<String>,
+}
+
+impl Words {
+    /// The number of the word that a side has, as the first side should have it.
+    fn number(&mut self, pairs: &[&Pair], side: usize, samples: &Samples) -> u32 {
+        let mut key = Vec::new();
+        let mut bits = Bits::default();
+        for pair in pairs {
+            pair.gather(side, &samples.state, &mut bits);
+            for (k, mask) in pair.mask.iter().enumerate() {
+                for word in [&mut bits.value, &mut bits.unknown] {
+                    if let Some(word) = word.get_mut(k) {
+                        *word &= mask;
+                    }
+                }
+            }
+            key.extend_from_slice(&bits.value);
+            key.extend_from_slice(&bits.unknown);
+        }
+        let next = self.texts.len() as u32;
+        let number = *self.numbers.entry(key.into()).or_insert(next);
+        if number == next {
+            self.texts.push(text(pairs, side, samples));
+        }
+        number
+    }
+
+    /// A word for people.
+    pub(super) fn text(&self, number: u32) -> &str {
+        &self.texts[number as usize]
+    }
+}
+
+/// The values of a word, with their names if there are several.
+fn text(pairs: &[&Pair], side: usize, samples: &Samples) -> String {
+    let mut bits = Bits::default();
+    let values = pairs.iter().map(|pair| {
+        pair.gather(side, &samples.state, &mut bits);
+        let value = pair.show.text(&bits, pair.width);
+        let last = pair.name.rsplit(['.', '/']).next().unwrap_or(&pair.name);
+        if pairs.len() == 1 { value } else { format!("{last}={value}") }
+    });
+    values.collect::<Vec<_>>().join(" ")
+}
+
+/// All beats of a side; of one that goes on as long as it is asked to, those of so many samples more
+/// than its first part.
+///
+/// # Errors
+/// When it cannot be read, or has too many.
+pub(super) fn stream(
+    plan: &Plan,
+    side: usize,
+    condition: &SideCondition,
+    pairs: &[&Pair],
+    words: &mut Words,
+    more: usize,
+) -> Result<Stream> {
+    let mut stream = Stream::default();
+    let mut holds = condition.clone();
+    let mut samples = plan.samples(side)?;
+    let mut end = SearchEnd::new(plan, side, more)?;
+    let source = plan.sources[side];
+    let is_late = |sample: Sample| {
+        let time = source.axis.femtoseconds(sample.at);
+        time.is_some_and(|time| time >= plan.terms.until_fs)
+    };
+    while let Some(sample) = samples.next()?
+        && !sample.held
+        && !is_late(sample)
+        && end.takes(sample)
+    {
+        let count = stream.beats.len();
+        if sample.marks.window || stream.windows.is_empty() {
+            stream.windows.push(count..count);
+            holds = condition.clone();
+        }
+        stream.samples += 1;
+        let is_beat = holds.sample(&samples.state);
+        if !is_beat || sample.marks.gap || !plan.is_looked_at(side, sample) {
+            continue;
+        }
+        if count == MOST_BEATS {
+            let expected = format!("has more than {MOST_BEATS} beats; take part of it (--until)");
+            return Err(Input::new(&source.name, expected).into());
+        }
+        stream.beats.push(Beat { sample: sample.index, at: sample.at });
+        stream.words.push(words.number(pairs, side, &samples));
+        if let Some(window) = stream.windows.last_mut() {
+            window.end = count + 1;
+        }
+    }
+    Ok(stream)
+}

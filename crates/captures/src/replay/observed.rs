@@ -1,0 +1,324 @@
+//! The shots that a capture shows, with what the detector and the TDC made of each.
+
+use tofsim::error::{Input, Result};
+use tofsim::firmware::vcsel_driver::PERIODS;
+use tofsim::hierarchy::TOP;
+
+use crate::compare::Probed;
+use crate::source::Source;
+
+use super::kind::ReplayKind;
+use super::pins::Pins;
+use super::timebase::Timebase;
+
+/// A shot that a capture shows.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Shot {
+    /// Its number since power-up, if the frame that the capture begins in is the first.
+    pub(super) number: u64,
+    /// The window that shows it.
+    window: usize,
+    /// First sample that sees it begin; less than 0 before the capture.
+    pub(super) start: i64,
+    /// Its code, and the first sample that sees it.
+    pub(super) code: Option<(u64, i64)>,
+    /// Samples that are the first to see the detector's output high.
+    pub(super) stops: Vec<i64>,
+}
+
+/// What a capture shows.
+#[derive(Clone, Debug)]
+pub(super) struct Observed {
+    pub(super) timebase: Timebase,
+    pub(super) shots: Vec<Shot>,
+    /// Whether it shows codes.
+    pub(super) has_codes: bool,
+    pub(super) per_frame: Option<u64>,
+    /// Cycles between two shots, if they are all the same [cycles of clk_125].
+    pub(super) period: Option<u64>,
+    /// What the windows begin with.
+    pub(super) windows: Vec<Begin>,
+    pub(super) pins: Pins,
+    /// Samples.
+    pub(super) samples: u64,
+    pub(super) notes: Vec<String>,
+}
+
+/// What a window begins with, before its first shot.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Begin {
+    /// Place of its first shot.
+    first: usize,
+    /// The end of the shot that it begins in.
+    shot: Shot,
+    /// The code that the TDC holds from an earlier one.
+    held: Option<u64>,
+}
+
+/// The probes of a bit: where it is, and what it was at the sample before.
+struct Bit {
+    probe: Option<usize>,
+    before: Option<bool>,
+}
+
+impl Bit {
+    fn new(probed: &Probed, names: &[&str]) -> Self {
+        Bit { probe: find(probed, names), before: None }
+    }
+
+    /// Whether it is high, and whether it was before.
+    fn sample(&mut self, probed: &mut Probed) -> (bool, bool) {
+        let now = self.probe.and_then(|probe| probed.value(probe)) == Some(1);
+        (now, self.before.replace(now).unwrap_or(now))
+    }
+
+    /// Whether a cycle begins in which it is high, where it is high for one at a time.
+    fn pulse(&mut self, probed: &mut Probed, timebase: &Timebase) -> bool {
+        let (now, before) = self.sample(probed);
+        now && (timebase.per_cycle == 1 || !before)
+    }
+}
+
+fn find(probed: &Probed, names: &[&str]) -> Option<usize> {
+    names.iter().find_map(|name| probed.probe(&format!("{TOP}.{name}")))
+}
+
+/// The shots of a capture, `None` if it does not show what the detector or the TDC made of them.
+///
+/// # Errors
+/// When the capture cannot be read, or does not show where the shots begin.
+pub(super) fn observe(
+    capture: &Source,
+    probed: &mut Probed,
+    kind: ReplayKind,
+    timebase: Timebase,
+    shots_per_frame: u64,
+) -> Result<Option<Observed>> {
+    let module = if kind == ReplayKind::Codes { "code_preload" } else { "tdc" };
+    let [valid, code] = ["tdc_valid", "tdc_code"]
+        .map(|port| [format!("{module}.{port}"), port.to_owned()])
+        .map(|[own, wire]| [&own[..], &wire[..]].map(str::to_owned));
+    let mut valid = Bit::new(probed, &[&valid[0], &valid[1]]);
+    let code = find(probed, &[&code[0], &code[1]]).filter(|_| valid.probe.is_some());
+    let stop = if kind == ReplayKind::Photons { &["tdc_stop"][..] } else { &[] };
+    let mut stop = Bit::new(probed, stop);
+    if code.is_none() && stop.probe.is_none() {
+        return Ok(None);
+    }
+    let mut start = Bit::new(probed, &["start"]);
+    let mut acquire = Bit::new(probed, &["acquire"]);
+    let counter = find(probed, &["frame_ctrl.shots"]);
+    if start.probe.is_none() {
+        let expected = "does not show where the shots begin; probe vcsel_driver.start";
+        return Err(Input::new(&capture.name, expected).into());
+    }
+    let mut numbers = Numbers { usual: shots_per_frame, ..Numbers::default() };
+    let mut observed = Observed {
+        timebase,
+        shots: Vec::new(),
+        has_codes: code.is_some(),
+        per_frame: None,
+        period: None,
+        windows: Vec::new(),
+        pins: Pins::new(probed),
+        samples: 0,
+        notes: Vec::new(),
+    };
+    let mut is_early = false;
+    while let Some(sample) = probed.next()? {
+        observed.samples += 1;
+        let begins = sample.marks.window || observed.windows.is_empty();
+        if begins {
+            let first = observed.shots.len();
+            observed.windows.push(Begin { first, ..Begin::default() });
+            for bit in [&mut start, &mut acquire, &mut valid, &mut stop] {
+                bit.before = None;
+            }
+            numbers.across = observed.windows.len() > 1;
+        }
+        if numbers.across && counter.is_none() {
+            let expected = "has several windows, and does not show how many shots lie between \
+                them; probe frame_ctrl.shots";
+            return Err(Input::new(&capture.name, expected).into());
+        }
+        observed.pins.sample(sample.index, probed);
+        let counted = counter.and_then(|counter| probed.value(counter));
+        let (acquires, acquired) = acquire.sample(probed);
+        numbers.frame(counted, acquires, acquired);
+        if start.pulse(probed, &observed.timebase) {
+            let number = numbers.start(counted);
+            let (start, window) = (sample.index as i64, observed.windows.len());
+            observed.shots.push(Shot { number, window, start, ..Shot::default() });
+        }
+        let (is_high, was_high) = stop.sample(probed);
+        is_early |= is_high && observed.shots.is_empty();
+        let is_valid = valid.pulse(probed, &observed.timebase);
+        let value = code.and_then(|code| probed.value(code));
+        let Some(begin) = observed.windows.last_mut() else { continue };
+        let own = observed.shots.get_mut(begin.first..).and_then(<[Shot]>::last_mut);
+        let shot = own.unwrap_or(&mut begin.shot);
+        if is_high && !was_high {
+            shot.stops.push(sample.index as i64);
+        }
+        match value {
+            Some(value) if is_valid => shot.code = Some((value, sample.index as i64)),
+            held if begins && kind == ReplayKind::Photons => begin.held = held,
+            _ => {}
+        }
+    }
+    if observed.shots.is_empty() {
+        let expected = "shows no shot: vcsel_driver.start never rises in it";
+        return Err(Input::new(&capture.name, expected).into());
+    }
+    observed.period = period(&observed);
+    observed.per_frame = numbers.per_frame.or_else(|| first_pause(&observed));
+    observed.add_earlier();
+    let first = observed.shots[0].number;
+    let notes = &mut observed.notes;
+    if counter.is_none() && !numbers.begun {
+        notes.push(
+            "the first shot of the capture is taken as the first of a frame; frame_ctrl.shots or \
+             acquire would say which it is"
+                .to_owned(),
+        );
+    }
+    if first > 0 {
+        notes.push(format!("the {first} shots of the frame before the capture are not known"));
+    }
+    if is_early {
+        notes.push(
+            "tdc_stop is high before the first shot, where a list of photons has none".to_owned(),
+        );
+    }
+    if observed.windows.len() > 1 {
+        notes.push(
+            "windows that begin with fewer shots than the one before are taken to be of the next \
+             frame; the shots between windows are not known"
+                .to_owned(),
+        );
+    }
+    if observed.per_frame.is_none() {
+        notes.push("the capture does not show how many shots a frame has".to_owned());
+    }
+    Ok(Some(observed))
+}
+
+impl Observed {
+    /// Whether all samples follow one another.
+    pub(super) fn is_continuous(&self) -> bool {
+        self.timebase.steady && self.windows.len() == 1
+    }
+
+    /// Adds what the windows show of the shots before their first.
+    fn add_earlier(&mut self) {
+        let Some(period) = self.period else { return };
+        for begin in self.windows.clone().into_iter().rev() {
+            if begin.first < self.shots.len() {
+                self.add_before(period, begin);
+            }
+        }
+    }
+
+    /// Adds the end of one and the code of another that the TDC still holds.
+    fn add_before(&mut self, period: u64, Begin { first: place, shot: begun, held }: Begin) {
+        let first = self.shots[place].clone();
+        let last = place.checked_sub(1).map(|last| self.shots[last].number);
+        let before = |back: u64| {
+            let number = first.number.checked_sub(back)?;
+            if last.is_some_and(|last| number <= last) {
+                return None;
+            }
+            let start = first.start - (back * period * self.timebase.per_cycle) as i64;
+            Some(Shot { number, start, ..Shot::default() })
+        };
+        let (last, earlier) = (before(1), before(HELD_SINCE));
+        if let Some(last) = last.filter(|_| begun.code.is_some() || !begun.stops.is_empty()) {
+            self.shots.insert(place, Shot { number: last.number, start: last.start, ..begun });
+        }
+        if let (Some(shot), Some(code)) = (earlier, held.filter(|&code| code > 0)) {
+            let cycles = (USUAL_CYCLES * self.timebase.per_cycle) as i64;
+            self.shots.insert(place, Shot { code: Some((code, shot.start + cycles)), ..shot });
+        }
+    }
+}
+
+/// Shots from the one whose code is taken to be held as the capture begins to the first.
+const HELD_SINCE: u64 = 3;
+/// Cycles from the begin of a shot to its code.
+const USUAL_CYCLES: u64 = 4;
+/// Cycles between frames, at least: Clear and Drain.
+const PAUSE: u64 = 256 + 16;
+
+/// Shots until the first pause between frames, where nothing else tells how many a frame has.
+fn first_pause(observed: &Observed) -> Option<u64> {
+    let apart = |shots: &[Shot]| {
+        observed.is_continuous()
+            && (shots[1].start - shots[0].start) as u64 / observed.timebase.per_cycle > PAUSE
+    };
+    let last = observed.shots.windows(2).find(|shots| apart(shots))?;
+    Some(last[0].number + 1)
+}
+
+/// Numbers the shots.
+#[derive(Default)]
+struct Numbers {
+    /// Shots of the frames before.
+    before: u64,
+    /// Shots of this frame.
+    count: u64,
+    /// Whether the capture shows the begin of this frame, and that of any.
+    whole: bool,
+    begun: bool,
+    per_frame: Option<u64>,
+    /// Shots of a frame, where the capture does not show how many it has.
+    usual: u64,
+    /// Whether a window begins, so that it is not known what was before.
+    across: bool,
+}
+
+impl Numbers {
+    /// Looks at the frame, of which so many shots are counted.
+    fn frame(&mut self, counted: Option<u64>, acquires: bool, acquired: bool) {
+        let starts_anew = counted.is_some_and(|counted| counted < self.count);
+        if acquired && !acquires && (self.whole || counted.is_some()) {
+            self.per_frame = counted.or(Some(self.count)).filter(|&count| count > 0);
+        }
+        if starts_anew && !self.across {
+            self.per_frame = self.per_frame.or(Some(self.count));
+        }
+        if starts_anew || (counted.is_none() && acquires && !acquired) {
+            let whole = self.per_frame.unwrap_or(self.usual);
+            let shots = if self.across { whole } else { self.count };
+            (self.before, self.count) = (self.before + shots, 0);
+            (self.whole, self.begun) = (acquires && !acquired, true);
+        }
+        if acquires && !acquired {
+            (self.whole, self.begun) = (true, true);
+        }
+        self.count = counted.unwrap_or(self.count);
+        self.across = false;
+    }
+
+    /// The number of a shot that begins.
+    fn start(&mut self, counted: Option<u64>) -> u64 {
+        let number = self.before + self.count;
+        if counted.is_none() {
+            self.count += 1;
+        }
+        number
+    }
+}
+
+/// Cycles between shots that follow one another, if one of the laser's periods is the most common.
+fn period(observed: &Observed) -> Option<u64> {
+    if !observed.timebase.steady {
+        return None;
+    }
+    let apart = observed.shots.windows(2).filter_map(|shots| {
+        let apart = (shots[1].start - shots[0].start) as u64 / observed.timebase.per_cycle;
+        let follows = shots[1].number == shots[0].number + 1 && shots[1].window == shots[0].window;
+        follows.then_some(apart)
+    });
+    let first = apart.min()?;
+    PERIODS.contains(&first).then_some(first)
+}

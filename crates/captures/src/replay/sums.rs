@@ -1,0 +1,97 @@
+//! The histogram from the sums of the hidden layer: each clock adds a word times a weight.
+
+use tofsim::error::{Input, Result};
+use tofsim::firmware::forward1::Rom;
+use tofsim::hierarchy::TOP;
+
+use crate::compare::Probed;
+use crate::source::Source;
+
+use super::histogram::Words;
+
+/// Width of a sum [bits].
+const SUM: u32 = 36;
+/// Largest word.
+const LARGEST: i64 = 0xffff;
+
+/// The first histogram that all words were added of, by a network's weights; `None` if the sums are not
+/// probed.
+///
+/// # Errors
+/// When the capture cannot be read, or the sums are not of these weights.
+pub(super) fn words(
+    capture: &Source,
+    probed: &mut Probed,
+    per_cycle: u64,
+    rom: &Rom,
+) -> Result<Option<Words>> {
+    let port = |name: &str| probed.probe(&format!("{TOP}.depth_estimator.{name}"));
+    let enable = port("estimator_ctrl.forward1_en");
+    let neurons: Vec<(usize, usize)> = (0..rom[0].len())
+        .filter_map(|neuron| Some((neuron, port(&format!("forward1.l1_in_{neuron}"))?)))
+        .collect();
+    let (Some(enable), false) = (enable, neurons.is_empty()) else { return Ok(None) };
+    let mut words: Words = [None; 256];
+    // The samples since the unit was enabled, and the sums at the cycle before.
+    let (mut samples, mut sums) = (None, vec![0; neurons.len()]);
+    let mut before = true;
+    while let Some(sample) = probed.next()? {
+        let enabled = probed.value(enable) == Some(1);
+        if enabled && !before {
+            (samples, words) = (Some(0), [None; 256]);
+            sums.fill(0);
+        }
+        before = enabled;
+        let Some(passed) = &mut samples else { continue };
+        let (cycle, is_first) = (*passed / per_cycle, *passed % per_cycle == 0);
+        *passed += 1;
+        let Some(row) = cycle.checked_sub(1).filter(|_| is_first) else { continue };
+        if row >= words.len() as u64 {
+            break;
+        }
+        let now: Option<Vec<u64>> = neurons.iter().map(|&(_, probe)| probed.value(probe)).collect();
+        let added = now.as_ref().map(|now| {
+            let added = now.iter().zip(&sums).map(|(now, sum)| signed(now.wrapping_sub(*sum)));
+            added.collect::<Vec<_>>()
+        });
+        let weights = neurons.iter().map(|&(neuron, _)| rom[row as usize][neuron].get());
+        let Some(count) = added.and_then(|added| word(added.into_iter().zip(weights))) else {
+            let expected = format!(
+                "the sums at sample {} are not of the scenario's network; set estimator.network",
+                sample.index
+            );
+            return Err(Input::new(&capture.name, expected).field("l1_in").into());
+        };
+        words[row as usize] = Some(count);
+        sums = now.unwrap_or_default();
+    }
+    Ok(Some(words))
+}
+
+/// A difference of two sums in two's complement.
+fn signed(difference: u64) -> i64 {
+    ((difference << (64 - SUM)) as i64) >> (64 - SUM)
+}
+
+/// The word of which the products with some weights were added; 0 where all of them are.
+fn word(added: impl Iterator<Item = (i64, i64)> + Clone) -> Option<u64> {
+    let first = added.clone().find(|&(_, weight)| weight != 0);
+    let count = first.map_or(0, |(added, weight)| added / weight);
+    let fits = (0..=LARGEST).contains(&count);
+    (fits && added.into_iter().all(|(added, weight)| added == count * weight))
+        .then_some(count as u64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_word_is_what_all_products_say() {
+        assert_eq!(word([(0, 0), (-21, -3), (14, 2)].into_iter()), Some(7));
+        assert_eq!(word([(-21, -3), (15, 2)].into_iter()), None);
+        assert_eq!(word([(-21, 3)].into_iter()), None);
+        assert_eq!(word([(0, 0)].into_iter()), Some(0));
+        assert_eq!(signed((1 << 36) - 5), -5);
+    }
+}

@@ -1,0 +1,244 @@
+//! `tofsim ila replay`: a scenario from what a capture shows of the inputs.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+
+use tofsim::error::{Input, Result};
+use tofsim::files::folder::FolderLock;
+use tofsim::files::output::write_bytes;
+use tofsim::files::staged::StagedFolder;
+use tofsim::firmware::vcsel_driver::PERIODS;
+use tofsim::scenario::builtin::Source as Files;
+use tofsim::scenario::{Control, DEFAULT, Loaded, Scenario, load, show};
+use tofsim::sim::setup::Setup;
+use tofsim::{Note, NoteCode, NoteValue};
+use tofsim_captures::compare::SampleClock;
+use tofsim_captures::ila::Radix;
+use tofsim_captures::replay::{Located, Replay, ReplayKind, ReplayOptions, replay};
+use tofsim_captures::source::Source;
+
+use crate::choice::{self, words};
+use crate::record::Record;
+use crate::text::table::facts;
+use crate::verbs::compare::named_map;
+use crate::verbs::terminal::{Talk, print_json};
+
+/// Make a scenario of what a capture shows of the inputs, to simulate the board's own run
+///
+/// Codes of the TDC become photons that arrive within their bins, tdc_stop alone photons to half a
+/// sample, codes of the ROM a list of codes, the histogram's readout a preloaded histogram, and
+/// control signals a timeline. Signals are found by the firmware's names or by a map.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  \
+    tofsim ila replay board.ila --map my_ila.toml -o replay/scenario.toml")]
+pub struct Args {
+    /// An ILA's CSV, VCD or .ila archive
+    capture: PathBuf,
+    /// Scenario to write; the list goes beside it
+    #[arg(short, long, value_name = "FILE.toml")]
+    output: PathBuf,
+    /// What belongs together: a map file, or a set-up of `ila capture` by name or path
+    #[arg(long, value_name = "FILE|NAME")]
+    map: Option<String>,
+    /// The analyser's clock, clk_125 or clk_250 [default: the map's, or else clk_125]
+    #[arg(long, value_name = "CLOCK")]
+    clock: Option<SampleClock>,
+    /// Not all samples were stored (a capture condition that the map does not have)
+    #[arg(long)]
+    qualified: bool,
+    /// What stands in for the light [default: the first of these that is probed]
+    #[arg(long = "as", value_name = "KIND", value_parser = words(choice::REPLAY))]
+    kind: Option<ReplayKind>,
+    /// Radix of the values in a CSV that does not say
+    #[arg(long, value_parser = words(choice::RADIX))]
+    radix: Option<Radix>,
+    /// What the capture does not show is as in this scenario
+    #[arg(long, value_name = "NAME|FILE", default_value = DEFAULT)]
+    scenario: String,
+    /// Set a key of the scenario; may be repeated
+    #[arg(short, long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Print one JSON object instead of a table
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+    let place = Place::new(&args.output)?;
+    let base = load(&args.scenario, &args.set)?;
+    let setup = Setup::new(base.clone())?;
+    let options = ReplayOptions {
+        map: args.map.as_deref().map(named_map).transpose()?.unwrap_or_default(),
+        clock: args.clock.clone(),
+        qualified: args.qualified,
+        kind: args.kind,
+    };
+    let replay = replay(&Source::file(&args.capture, args.radix)?, &setup, &options)?;
+    let notes: Vec<Note> = replay.notes.iter().map(note).collect();
+    let list = place.list(replay.kind);
+    let _held = FolderLock::take(&place.folder)?;
+    let stage = StagedFolder::new(&place.folder)?;
+    let record = Record::new(&setup, &talk.command);
+    let staged = stage.path().join(&place.scenario);
+    write_bytes(&stage.path().join(&list), record.comment_line() + &replay.list)?;
+    let mut scenario = replayed(base, &replay, &list)?;
+    let write = |scenario: &Scenario| {
+        write_bytes(&staged, record.comment_line() + &show::show(scenario))?;
+        Setup::new(load(&staged.display().to_string(), &[])?)
+    };
+    let located = replay.locate(&write(&scenario)?)?;
+    if !located.changes.is_empty() {
+        scenario.control = located.changes.clone();
+        write(&scenario)?;
+    }
+    let files = [&place.scenario, &list].map(|name| place.folder.join(name));
+    stage.commit()?;
+    files.iter().for_each(|file| talk.wrote(file));
+    let report =
+        Report { replay: &replay, located: &located, files: &files, next: next(args, &located) };
+    match args.json {
+        true => {
+            let mut json = report.json();
+            record.put_into(&mut json, &notes);
+            print_json(&json)
+        }
+        false => talk.report(&report.text()),
+    }
+}
+
+fn note(text: &String) -> Note {
+    Note::new(NoteCode::Comparison, "capture", NoteValue::None, "", text)
+}
+
+/// Where the files go.
+struct Place {
+    folder: PathBuf,
+    scenario: String,
+    stem: String,
+}
+
+impl Place {
+    fn new(output: &Path) -> Result<Self> {
+        let stem = output.file_stem().and_then(|stem| stem.to_str());
+        let (Some(stem), Some("toml")) = (stem, output.extension().and_then(|e| e.to_str())) else {
+            let expected = "expected a scenario file, as replay/scenario.toml";
+            return Err(Input::new("--output", expected).value(output.display()).into());
+        };
+        let folder = output.parent().filter(|folder| !folder.as_os_str().is_empty());
+        Ok(Place {
+            folder: folder.unwrap_or(Path::new(".")).to_owned(),
+            scenario: format!("{stem}.toml"),
+            stem: stem.to_owned(),
+        })
+    }
+
+    /// Name of the list that stands beside.
+    fn list(&self, kind: ReplayKind) -> String {
+        format!("{}.{}.csv", self.stem, kind.key())
+    }
+}
+
+/// The scenario with what the capture shows, but for changes of the control signals.
+fn replayed(base: Loaded, replay: &Replay, list: &str) -> Result<Scenario> {
+    let Loaded { name, mut scenario, files, .. } = base;
+    // Files are named from the scenario's own folder, which is another now.
+    if let Files::Folder(folder) = files {
+        for file in [&mut scenario.tdc.profile, &mut scenario.estimator.network] {
+            if file.contains(['/', '.']) {
+                let path = std::path::absolute(folder.join(&*file));
+                let path = path.map_err(tofsim::error::Error::io(&folder, "read"))?;
+                *file = path.display().to_string();
+            }
+        }
+    }
+    scenario.description = format!("What a capture shows, replayed; the rest is {name}");
+    let stimulus = &mut scenario.stimulus;
+    (stimulus.photons, stimulus.codes, stimulus.histogram) = (None, None, None);
+    let list = Some(list.to_owned());
+    match replay.kind {
+        ReplayKind::Photons => stimulus.photons = list,
+        ReplayKind::Codes => stimulus.codes = list,
+        ReplayKind::Histogram => stimulus.histogram = list,
+    }
+    let firmware = &mut scenario.firmware;
+    let of_period =
+        replay.period().and_then(|period| PERIODS.iter().position(|own| *own == period));
+    let Control { laser_freq, mode, laser_en, dsp_en, dsp_rst, rst, .. } = replay.begin();
+    let laser_freq = laser_freq.or(of_period.map(|code| code as u64));
+    firmware.laser_freq = laser_freq.unwrap_or(firmware.laser_freq);
+    firmware.mode = mode.unwrap_or(firmware.mode);
+    firmware.laser_en = laser_en.unwrap_or(firmware.laser_en);
+    firmware.dsp_en = dsp_en.unwrap_or(firmware.dsp_en);
+    firmware.dsp_rst = dsp_rst.unwrap_or(firmware.dsp_rst);
+    firmware.rst = rst.unwrap_or(firmware.rst);
+    firmware.shots_per_frame = replay.shots_per_frame().unwrap_or(firmware.shots_per_frame);
+    Ok(scenario)
+}
+
+/// The command that compares the capture with its replay.
+fn next(args: &Args, located: &Located) -> String {
+    let quoted = |text: String| match text.contains([' ', '\'']) {
+        true => format!("\"{text}\""),
+        false => text,
+    };
+    let mut words = vec!["tofsim compare --scenario".to_owned()];
+    words.push(quoted(args.output.display().to_string()));
+    words.push(quoted(args.capture.display().to_string()));
+    words.extend(args.map.iter().map(|map| format!("--map {}", quoted(map.clone()))));
+    match &args.clock {
+        Some(SampleClock::Signal(clock)) => words.push(format!("--clock {clock}")),
+        _ if args.map.is_none() => words.push("--clock clk_125".to_owned()),
+        _ => {}
+    }
+    if let Some(offset) = located.offset {
+        words.push(format!("--align 'offset {offset}'"));
+    }
+    words.join(" ")
+}
+
+/// What came of a replay.
+struct Report<'a> {
+    replay: &'a Replay,
+    located: &'a Located,
+    files: &'a [PathBuf; 2],
+    next: String,
+}
+
+impl Report<'_> {
+    fn json(&self) -> serde_json::Value {
+        json!({
+            "schema": "tofsim.ila_replay/1",
+            "kind": self.replay.kind.key(),
+            "entries": self.replay.entries,
+            "shots": self.replay.shots(),
+            "shots_per_frame": self.replay.shots_per_frame(),
+            "control_changes": self.located.changes.len(),
+            "offset": self.located.offset,
+            "files": self.files.each_ref().map(|file| file.display().to_string()),
+            "next": self.next,
+        })
+    }
+
+    fn text(&self) -> String {
+        let Replay { kind, entries, .. } = self.replay;
+        let unknown = || "not in the capture".to_owned();
+        let per_frame = self.replay.shots_per_frame();
+        let rows = [
+            (
+                "replayed",
+                format!(
+                    "{entries} {}",
+                    if *kind == ReplayKind::Histogram { "words" } else { kind.key() }
+                ),
+            ),
+            ("shots", self.replay.shots().to_string()),
+            ("a frame", per_frame.map_or_else(unknown, |shots| format!("{shots} shots"))),
+            ("control", format!("{} changes", self.located.changes.len())),
+            ("next", self.next.clone()),
+        ];
+        let notes = self.replay.notes.iter().map(|note| ("note", note.clone()));
+        format!("{}\n", facts(rows.into_iter().chain(notes)))
+    }
+}
