@@ -63,7 +63,9 @@ fn a_missing_include_is_named_and_a_folder_for_it_helps() {
         passes(folder.path(), &[&args[..], &["-I", "inc"]].concat());
     }
     fs::copy(folder.path().join("inc/width.vh"), folder.path().join("rtl/sub/width.vh")).unwrap();
-    SIMULATORS.map(|simulator| passes(folder.path(), &["--rtl", "rtl", "--simulator", simulator]));
+    for simulator in SIMULATORS {
+        passes(folder.path(), &["--rtl", "rtl", "--simulator", simulator]);
+    }
 }
 
 #[test]
@@ -114,7 +116,9 @@ fn the_benches_take_a_design_in_system_verilog_as_they_are() {
         .replace("output logic [2:0] coarse,", "output logic [2:0] coarse = 3'd0,")
         .replace("output logic window ", "output logic window = 1'b0 ");
     fs::write(folder.path().join("counter.sv"), declared).unwrap();
-    SIMULATORS.map(|simulator| passes(folder.path(), &["--rtl", ".", "--simulator", simulator]));
+    for simulator in SIMULATORS {
+        passes(folder.path(), &["--rtl", ".", "--simulator", simulator]);
+    }
 }
 
 #[test]
@@ -132,7 +136,9 @@ fn what_a_block_does_not_need_does_not_disturb_it() {
     let folder = tree(&files);
     #[cfg(unix)]
     std::os::unix::fs::symlink(folder.path(), folder.path().join("rtl/loop")).unwrap();
-    SIMULATORS.map(|simulator| passes(folder.path(), &["--rtl", ".", "--simulator", simulator]));
+    for simulator in SIMULATORS {
+        passes(folder.path(), &["--rtl", ".", "--simulator", simulator]);
+    }
     fs::copy(folder.path().join("rtl/counter.v"), folder.path().join("old/counter.v")).unwrap();
     let error = refused(folder.path(), &["--rtl", "."]);
     let said = "module = coarse_counter: expected it in one file, found it in ";
