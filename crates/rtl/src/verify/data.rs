@@ -45,8 +45,7 @@ pub(super) fn check(rtl: &Rtl, said: &str) -> Result<()> {
 /// The files that Icarus and Verilator say they have not found.
 fn missing(said: &str) -> impl Iterator<Item = &str> {
     said.lines().filter_map(|line| {
-        let icarus =
-            || Some(line.split_once(": Unable to open ")?.1.strip_suffix(" for reading.")?);
+        let icarus = || line.split_once(": Unable to open ")?.1.strip_suffix(" for reading.");
         let verilator = || {
             let (file, _) = line.split_once(":0: $readmem file not found")?;
             file.strip_prefix("%Warning: ")
