@@ -106,7 +106,7 @@ fn a_block_in_vhdl_works_in_a_design_in_verilog() {
         fs::copy(format!("{OWN}/{file}.v"), folder.path().join(format!("{file}.v"))).unwrap();
     }
     let args = ["--block", "tdc", "--cycles", "2000"];
-    for (old, new, status) in [("", "", 0), ("count = 7", "count = 6", 1)] {
+    for (old, new, status) in [("", "", 0), ("count + 1", "count + 2", 1)] {
         planted(folder.path(), ("coarse_counter", old, new));
         let output = verify(folder.path(), folder.path(), &args);
         let error = String::from_utf8_lossy(&output.stderr);
@@ -170,7 +170,7 @@ fn what_cannot_be_checked_is_refused_with_the_reason() {
     let error = refused(("forward2", "W2File", "Weight_File"), &[]);
     assert!(error.contains("entity forward2, generic W2File: no such generic"), "{error}");
     let error = refused(("coarse_counter", "elsif start", "elsif stat"), &[]);
-    assert!(error.contains("coarse_counter.vhd:28:13") && error.contains("\"stat\""), "{error}");
+    assert!(error.contains("coarse_counter.vhd:29:13") && error.contains("\"stat\""), "{error}");
     let error = refused(("coarse_counter", "end if", "fi"), &[]);
     assert!(error.contains("coarse_counter.vhd:"), "{error}");
     let error = refused(("coarse_counter", "window  : out", "windo   : out"), &[]);

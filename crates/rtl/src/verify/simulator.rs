@@ -113,6 +113,10 @@ impl Simulator {
         limits: &Limits,
     ) -> Result<()> {
         let needed = rtl.needed(text)?;
+        let options = &rtl.options;
+        if needed.is_empty() && options.libraries.is_empty() && options.library_files.is_empty() {
+            return Err(refusal::no_module(rtl, top).into());
+        }
         let (tool, suffix, library) = match self {
             Simulator::Icarus => (IVERILOG, "-Y", "-l"),
             Simulator::Verilator => (VERILATOR, "+libext+", "-v"),
@@ -127,7 +131,6 @@ impl Simulator {
             word.push(value);
             word
         };
-        let options = &rtl.options;
         args.extend(options.includes.iter().map(|folder| joined("-I", &folder.into())));
         args.extend(options.defines.iter().map(|define| joined("-D", &define.into())));
         for folder in &options.libraries {

@@ -28,6 +28,11 @@ pub fn lacks_macro(finished: &Finished) -> bool {
     finished.output.contains(NO_MACRO)
 }
 
+/// The error for a module that the sources do not declare.
+pub fn no_module(rtl: &Rtl, module: &str) -> Input {
+    Input::new(&rtl.source, "no such module in it").field("module").value(module)
+}
+
 /// The error for a run that ended without success.
 pub fn of(rtl: &Rtl, top: &str, finished: &Finished) -> Input {
     let lines = || finished.output.lines();
@@ -51,7 +56,7 @@ pub fn of(rtl: &Rtl, top: &str, finished: &Finished) -> Input {
     let is_verilators = |line: &&&str| line.starts_with("%Error: Exiting due to");
     let real = errors.iter().filter(|line| !is_verilators(line) && !line.starts_with(' ')).count();
     if real == 0 && lines().any(is_root) {
-        return Input::new(&rtl.source, "no such module in it").field("module").value(top);
+        return no_module(rtl, top);
     }
     if let Some(module) = lines().find_map(unknown) {
         return Input::new(&rtl.source, format!("it has no module `{module}`"));

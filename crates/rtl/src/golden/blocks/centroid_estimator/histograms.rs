@@ -22,7 +22,8 @@ pub(super) const GLUE: Glue = Glue {
                   wire [15:0] count = histograms[{histogram, read_addr}];\n",
     vhdl: (
         "constant histograms : words(0 to 8191) := read_words(\"histograms.mem\", 8192);",
-        "count <= histograms(to_integer(unsigned(histogram) & unsigned(read_addr)));",
+        "count <= std_logic_vector(to_unsigned(histograms(\n    \
+         to_integer(unsigned(histogram) & unsigned(read_addr))), 16));",
     ),
 };
 

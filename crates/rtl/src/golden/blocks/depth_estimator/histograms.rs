@@ -24,7 +24,8 @@ pub(super) const GLUE: Glue = Glue {
                   wire [15:0] count = read_en ? histograms[{histogram, read_addr}] : 16'd0;\n",
     vhdl: (
         "constant histograms : words(0 to 16383) := read_words(\"histograms.mem\", 16384);",
-        "count <= histograms(to_integer(unsigned(histogram) & unsigned(read_addr))) when read_en = '1'\n    \
+        "count <= std_logic_vector(to_unsigned(histograms(\n    \
+         to_integer(unsigned(histogram) & unsigned(read_addr))), 16)) when read_en = '1'\n    \
          else (others => '0');",
     ),
 };
