@@ -18,6 +18,7 @@ pub mod verdict;
 mod vhdl;
 mod wave;
 
+pub use candidate::Dut;
 pub use check::BlockCheck;
 pub use map::RtlMap;
 pub use report::BlockReport;

@@ -13,7 +13,7 @@ use tofsim_rtl::verify::cycle_counts::{self as count, Count};
 use tofsim_rtl::verify::process::Limits;
 use tofsim_rtl::verify::rtl::Sources;
 use tofsim_rtl::verify::task::run_all;
-use tofsim_rtl::verify::{BlockCheck, BlockReport, Rtl, RtlMap, Simulator, Task, strays};
+use tofsim_rtl::verify::{BlockCheck, BlockReport, Dut, Rtl, RtlMap, Simulator, Task, strays};
 
 use crate::choice::{self, words};
 use crate::report::verification as report;
@@ -130,12 +130,9 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     }
     let tasks = tasks(args, map.as_ref(), &rtl, talk)?;
     let check = BlockCheck {
-        rtl: &rtl,
-        map: map.as_ref(),
-        simulator: args.simulator,
+        dut: Dut { rtl: &rtl, map: map.as_ref(), simulator: args.simulator, limits },
         registers: args.registers || args.design.is_ours(),
         from_power_up: args.from_power_up || args.design.is_ours(),
-        limits,
         output: &args.output,
     };
     let one = |task: &&Task| {

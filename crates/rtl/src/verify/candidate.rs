@@ -3,18 +3,32 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use tofsim::error::{Input, Result};
+use tofsim::error::Result;
 
 use crate::golden::parameters::{NEURONS, Parameter};
 use crate::golden::ports::Port;
 use crate::golden::spec::Vectors;
 
-use super::check::BlockCheck;
 use super::interface::Interface;
-use super::map::BlockMap;
+use super::map::{BlockMap, RtlMap};
+use super::process::Limits;
 use super::rtl::Rtl;
+use super::simulator::Simulator;
 use super::task::Task;
 use super::vhdl;
+
+/// A design under test.
+#[derive(Clone, Debug)]
+pub struct Dut<'a> {
+    /// Its sources.
+    pub rtl: &'a Rtl,
+    /// How it differs from ours by intention.
+    pub map: Option<&'a RtlMap>,
+    /// What reads and runs it.
+    pub simulator: Simulator,
+    /// When to give up.
+    pub limits: Limits<'a>,
+}
 
 /// A module that a bench can be put around.
 #[derive(Debug)]
@@ -45,20 +59,16 @@ impl<'a> Candidate<'a> {
     /// # Errors
     /// When it is not there or cannot be compiled, or has other ports or parameters.
     pub(super) fn find(
-        check: &BlockCheck<'a>,
+        dut: &Dut<'a>,
         task: &Task,
         vectors: &Vectors,
         work: &Path,
     ) -> Result<std::result::Result<Self, String>> {
-        let (spec, rtl, limits) = (task.spec, check.rtl, &check.limits);
-        let map = check.map.map(|map| map.block(spec.name));
+        let (spec, rtl, limits) = (task.spec, dut.rtl, &dut.limits);
+        let map = dut.map.map(|map| map.block(spec.name));
         let module = map.as_ref().map_or(spec.name, |map| map.module(spec.name)).to_owned();
         let set = set(map.as_ref(), vectors);
         let fixed = rtl.has_entity(&module);
-        if fixed && check.registers {
-            let expected = "expected a module in Verilog: the registers of VHDL have no names here";
-            return Err(Input::new("--registers", expected).value(module).into());
-        }
         let names = || set.iter().map(|(ours, theirs, _)| (*ours, *theirs));
         let named = [module.as_str(), spec.name];
         if fixed {
@@ -66,7 +76,7 @@ impl<'a> Candidate<'a> {
                 parameters: rtl.generics(&module, set.iter().map(|(_, theirs, _)| *theirs)),
                 ..Interface::default()
             };
-            if let Some(reason) = check.cannot_be(task, &module, &generics) {
+            if let Some(reason) = dut.cannot_be(task, &module, &generics) {
                 return Ok(Err(reason));
             }
             generics.check_parameters(&rtl.source, named, names())?;
@@ -79,14 +89,14 @@ impl<'a> Candidate<'a> {
             wanted(&Interface::default()).into_iter().map(|port| port.name).collect();
         let generics: Vec<_> = set.iter().map(|(_, theirs, value)| (*theirs, *value)).collect();
         let rtl = vhdl::as_verilog(rtl, &module, &generics, &ports, work, limits)?;
-        let mut found = check.simulator.interface(work, &module, &[], &rtl, limits)?;
+        let mut found = dut.simulator.interface(work, &module, &[], &rtl, limits)?;
         if !fixed {
-            if let Some(reason) = check.cannot_be(task, &module, &found) {
+            if let Some(reason) = dut.cannot_be(task, &module, &found) {
                 return Ok(Err(reason));
             }
             found.check_parameters(&rtl.source, named, names())?;
             if let Some(shape) = set.iter().find_map(shape) {
-                found = check.simulator.interface(work, &module, &[shape], &rtl, limits)?;
+                found = dut.simulator.interface(work, &module, &[shape], &rtl, limits)?;
             }
         }
         found.check_ports(&rtl.source, &module, &wanted(&found))?;
@@ -102,7 +112,7 @@ fn shape<'a>((ours, theirs, value): &Set<'a>) -> Option<(&'a str, u64)> {
     }
 }
 
-impl BlockCheck<'_> {
+impl Dut<'_> {
     /// Why the design cannot be what a task is about, if it cannot.
     fn cannot_be(&self, task: &Task, module: &str, found: &Interface) -> Option<String> {
         let configuration = task.configuration?;

@@ -3,20 +3,18 @@
 use std::path::Path;
 use std::time::Duration;
 
-use tofsim::error::Result;
+use tofsim::error::{Input, Result};
 use tofsim::files::output::create_directory;
 
 use crate::golden::bench::Bench;
 use crate::golden::cover::Cover;
 
-use super::candidate::Candidate;
+use super::candidate::{Candidate, Dut};
 use super::data;
-use super::map::RtlMap;
 use super::observed::Observed;
 use super::process::Limits;
 use super::report::BlockReport;
-use super::rtl::Rtl;
-use super::simulator::{Compiled, Simulator};
+use super::simulator::Compiled;
 use super::task::Task;
 use super::verdict::{Mismatch, Verdict};
 use super::wave;
@@ -24,18 +22,12 @@ use super::wave;
 /// What is checked, and how.
 #[derive(Clone, Debug)]
 pub struct BlockCheck<'a> {
-    /// The Verilog.
-    pub rtl: &'a Rtl,
-    /// How it differs from ours by intention.
-    pub map: Option<&'a RtlMap>,
-    /// The simulator.
-    pub simulator: Simulator,
+    /// The design, and what it is checked with.
+    pub dut: Dut<'a>,
     /// Whether registers are compared, too.
     pub registers: bool,
     /// Whether what comes before the first reset is compared, too.
     pub from_power_up: bool,
-    /// When to give up.
-    pub limits: Limits<'a>,
     /// Where the waveform of a mismatch goes.
     pub output: &'a Path,
 }
@@ -52,10 +44,14 @@ impl BlockCheck<'_> {
     pub fn run(&self, task: &Task, work: &Path) -> Result<BlockReport> {
         create_directory(work)?;
         let vectors = (task.spec.record)(task.spec, &task.setting)?;
-        let candidate = match Candidate::find(self, task, &vectors, work)? {
+        let candidate = match Candidate::find(&self.dut, task, &vectors, work)? {
             Ok(candidate) => candidate,
-            Err(reason) => return Ok(BlockReport::not_run(task, reason)),
+            Err(reason) => return Ok(BlockReport::not_run(&task.name, reason)),
         };
+        if candidate.fixed && self.registers {
+            let expected = "expected a module in Verilog: the registers of VHDL have no names here";
+            return Err(Input::new("--registers", expected).value(task.spec.name).into());
+        }
         let mut bench = Bench::new(&vectors);
         bench.fixed = candidate.fixed;
         let top = vectors.bench_module();
@@ -66,7 +62,7 @@ impl BlockCheck<'_> {
         bench.write(work)?;
         let (rtl, registers) = (&candidate.rtl, self.registers);
         let compiled =
-            self.simulator.compile(work, &top, &sources, rtl, registers, &self.limits)?;
+            self.dut.simulator.compile(work, &top, &sources, rtl, registers, &self.dut.limits)?;
         let verdict = self.verdict(&compiled, None)?;
         let coverage = vectors.coverage.iter();
         let missed = coverage.clone().filter(|cover| cover.met() < cover.cases());
@@ -91,14 +87,14 @@ impl BlockCheck<'_> {
         let mut options = vec!["+progress".to_owned()];
         options.extend(self.from_power_up.then(|| "+from_power_up".to_owned()));
         options.extend(got.map(|name| format!("+got={name}")));
-        let limits = Limits { silence: Some(SILENCE), ..self.limits };
+        let limits = Limits { silence: Some(SILENCE), ..self.dut.limits };
         let mut finished = compiled.run(&options, &limits)?;
-        if data::bring(&compiled.folder, self.rtl, &finished.output)? {
+        if data::bring(&compiled.folder, self.dut.rtl, &finished.output)? {
             finished = compiled.run(&options, &limits)?;
         }
         let verdict = Verdict::read(&finished.output, finished.end);
         if verdict != Verdict::Pass {
-            data::check(self.rtl, &finished.output)?;
+            data::check(self.dut.rtl, &finished.output)?;
         }
         Ok(verdict)
     }

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use super::task::Task;
 use super::verdict::Verdict;
 
 /// How a block came out.
@@ -36,9 +35,9 @@ impl BlockReport {
     }
 
     /// Of a block that was not run.
-    pub(super) fn not_run(task: &Task, reason: String) -> Self {
+    pub(super) fn not_run(name: &str, reason: String) -> Self {
         BlockReport {
-            name: task.name.clone(),
+            name: name.to_owned(),
             cycles: 0,
             verdict: Verdict::NotRun { reason },
             around: Vec::new(),

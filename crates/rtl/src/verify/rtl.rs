@@ -4,6 +4,7 @@ pub mod file_list;
 mod order;
 pub mod scan;
 mod search;
+mod source;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -14,7 +15,10 @@ use tofsim::files::output::write_bytes;
 use crate::golden::blocks::VERILOG;
 
 use file_list::Listed;
+use order::Tree;
 use scan::Scan;
+
+pub use source::Source;
 
 /// Where the sources of a design are.
 #[derive(Clone, Debug, Default)]
@@ -27,17 +31,6 @@ pub struct Sources {
     pub includes: Vec<PathBuf>,
     /// Macros: `NAME` or `NAME=VALUE`.
     pub defines: Vec<String>,
-}
-
-/// A source file.
-#[derive(Clone, Debug)]
-pub struct Source {
-    /// Its absolute path.
-    pub path: PathBuf,
-    /// What it declares and names.
-    pub scan: Scan,
-    /// Whether it was found in a folder: then it is compiled only where something in it is needed.
-    pub found: bool,
 }
 
 /// The sources of a design.
@@ -167,7 +160,8 @@ impl Rtl {
     /// # Errors
     /// When two files declare the same module, or packages need each other.
     pub fn needed(&self, text: &str) -> Result<Vec<&Source>> {
-        order::needed(self, &Scan::verilog(text).words)
+        let (name, files, includes) = (&self.source, &self.files, &self.options.includes);
+        Tree { name, files, includes }.needed(&Scan::verilog(text).words)
     }
 
     /// Our own, written into `folder`.
@@ -182,30 +176,5 @@ impl Rtl {
             rtl.add(&path, true)?;
         }
         Ok(rtl)
-    }
-}
-
-impl Source {
-    /// A file; `found` in a folder, or named.
-    ///
-    /// # Errors
-    /// When it cannot be read.
-    pub fn read(path: &Path, found: bool) -> Result<Self> {
-        let fault = || Error::io(path, "read");
-        let path = path.canonicalize().map_err(fault())?;
-        let bytes = std::fs::read(&path).map_err(fault())?;
-        let text = String::from_utf8_lossy(&bytes);
-        let mut source = Source { path, scan: Scan::default(), found };
-        source.scan = if source.is_vhdl() { Scan::vhdl(&text) } else { Scan::verilog(&text) };
-        Ok(source)
-    }
-
-    fn is_vhdl(&self) -> bool {
-        search::ends_in(&self.path, &["vhd", "vhdl"])
-    }
-
-    /// Whether it says by its name that it is SystemVerilog.
-    pub fn is_system_verilog(&self) -> bool {
-        search::ends_in(&self.path, &["sv"])
     }
 }

@@ -82,7 +82,7 @@ pub fn run_all(
             match tasks.iter().zip(&reports).find_map(hangs) {
                 Some(inner) => {
                     let reason = format!("{inner}, which is in it, does not come to an end");
-                    reports[n] = Some(BlockReport::not_run(task, reason));
+                    reports[n] = Some(BlockReport::not_run(&task.name, reason));
                 }
                 None => level.push(n),
             }

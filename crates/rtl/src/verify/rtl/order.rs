@@ -6,20 +6,36 @@ use std::path::{Path, PathBuf};
 use tofsim::error::{Input, Result};
 
 use super::scan::Scan;
-use super::{Rtl, Source};
+use super::source::Source;
 
-/// The files for something that names `roots`; see [`Rtl::needed`].
-pub fn needed<'a>(rtl: &'a Rtl, roots: &BTreeSet<String>) -> Result<Vec<&'a Source>> {
-    let chosen = choose(rtl, roots);
-    let chosen: Vec<_> = rtl.files.iter().filter(|file| chosen.contains(&file.path)).collect();
-    duplicates(rtl, &chosen)?;
-    packages_first(rtl, &chosen)
+/// The Verilog of a design.
+#[derive(Clone, Copy, Debug)]
+pub struct Tree<'a> {
+    /// Where it comes from, for people.
+    pub name: &'a str,
+    /// Its files.
+    pub files: &'a [Source],
+    /// Folders of includes.
+    pub includes: &'a [PathBuf],
+}
+
+impl<'a> Tree<'a> {
+    /// The files for something that names `roots`, in the order in which they are compiled.
+    ///
+    /// # Errors
+    /// When two of them declare the same module, or packages need each other.
+    pub fn needed(self, roots: &BTreeSet<String>) -> Result<Vec<&'a Source>> {
+        let chosen = choose(&self, roots);
+        let chosen: Vec<_> = self.files.iter().filter(|file| chosen.contains(&file.path)).collect();
+        duplicates(&self, &chosen)?;
+        packages_first(&self, &chosen)
+    }
 }
 
 /// What a file names, with what the files name that it includes.
-fn words(rtl: &Rtl, source: &Source) -> Included {
+fn words(tree: &Tree, source: &Source) -> Included {
     let mut all = Included::default();
-    all.add(rtl, &source.path, &source.scan);
+    all.add(tree, &source.path, &source.scan);
     all
 }
 
@@ -31,28 +47,28 @@ struct Included {
 }
 
 impl Included {
-    fn add(&mut self, rtl: &Rtl, path: &Path, scan: &Scan) {
+    fn add(&mut self, tree: &Tree, path: &Path, scan: &Scan) {
         self.words.extend(scan.words.iter().cloned());
         self.scopes.extend(scan.scopes.iter().cloned());
         let own = path.parent().map(Path::to_owned);
         for name in &scan.includes {
-            let folders = own.iter().chain(&rtl.options.includes);
+            let folders = own.iter().chain(tree.includes);
             // One that is not there is the simulator's to name.
             let found = folders.map(|folder| folder.join(name)).find(|path| path.is_file());
             let Some(path) = found else { continue };
             if self.files.insert(path.clone())
                 && let Ok(bytes) = std::fs::read(&path)
             {
-                self.add(rtl, &path, &Scan::verilog(&String::from_utf8_lossy(&bytes)));
+                self.add(tree, &path, &Scan::verilog(&String::from_utf8_lossy(&bytes)));
             }
         }
     }
 }
 
 /// Paths of the files that are compiled.
-fn choose(rtl: &Rtl, roots: &BTreeSet<String>) -> BTreeSet<PathBuf> {
+fn choose(tree: &Tree, roots: &BTreeSet<String>) -> BTreeSet<PathBuf> {
     let mut declared = BTreeMap::<&str, Vec<&Source>>::new();
-    for file in &rtl.files {
+    for file in tree.files {
         let names = file.scan.modules.iter().map(|module| module.name.as_str());
         for name in names.chain(file.scan.packages.iter().map(String::as_str)) {
             declared.entry(name).or_default().push(file);
@@ -62,7 +78,7 @@ fn choose(rtl: &Rtl, roots: &BTreeSet<String>) -> BTreeSet<PathBuf> {
     let always = |file: &&Source| {
         !file.found || file.scan.modules.is_empty() && file.scan.packages.is_empty()
     };
-    let mut open: Vec<&Source> = rtl.files.iter().filter(always).collect();
+    let mut open: Vec<&Source> = tree.files.iter().filter(always).collect();
     let of = |words: &BTreeSet<String>| -> Vec<&Source> {
         words.iter().filter_map(|word| declared.get(word.as_str())).flatten().copied().collect()
     };
@@ -70,14 +86,14 @@ fn choose(rtl: &Rtl, roots: &BTreeSet<String>) -> BTreeSet<PathBuf> {
     let mut chosen = BTreeSet::new();
     while let Some(file) = open.pop() {
         if chosen.insert(file.path.clone()) {
-            open.extend(of(&words(rtl, file).words));
+            open.extend(of(&words(tree, file).words));
         }
     }
     chosen
 }
 
 /// Whether no two files declare the same module; one under a condition is the simulator's to judge.
-fn duplicates(rtl: &Rtl, files: &[&Source]) -> Result<()> {
+fn duplicates(tree: &Tree, files: &[&Source]) -> Result<()> {
     let mut first = BTreeMap::new();
     for file in files {
         for module in file.scan.modules.iter().filter(|module| !module.conditional) {
@@ -85,7 +101,7 @@ fn duplicates(rtl: &Rtl, files: &[&Source]) -> Result<()> {
             if **other != file.path {
                 let [one, two] = [&**other, &file.path].map(|path| path.display().to_string());
                 let expected = format!("expected it in one file, found it in {one} and in {two}");
-                let fault = Input::new(&rtl.source, expected).field("module");
+                let fault = Input::new(tree.name, expected).field("module");
                 return Err(fault.value(&module.name).into());
             }
         }
@@ -95,10 +111,10 @@ fn duplicates(rtl: &Rtl, files: &[&Source]) -> Result<()> {
 
 /// The files in their order, but each after those with the packages that it names, and after those without
 /// any module.
-fn packages_first<'a>(rtl: &Rtl, files: &[&'a Source]) -> Result<Vec<&'a Source>> {
-    let named: Vec<_> = files.iter().map(|file| words(rtl, file).scopes).collect();
+fn packages_first<'a>(tree: &Tree, files: &[&'a Source]) -> Result<Vec<&'a Source>> {
+    let named: Vec<_> = files.iter().map(|file| words(tree, file).scopes).collect();
     let mut order = Order {
-        rtl,
+        tree,
         files,
         named: &named,
         state: vec![State::Open; files.len()],
@@ -123,7 +139,7 @@ enum State {
 }
 
 struct Order<'a, 'b> {
-    rtl: &'b Rtl,
+    tree: &'b Tree<'b>,
     files: &'b [&'a Source],
     named: &'b [BTreeSet<String>],
     state: Vec<State>,
@@ -148,7 +164,7 @@ impl Order<'_, '_> {
                         "expected packages that do not need each other; {one} needs it, and {two}, which \
                          has it, needs what is in {one}"
                     );
-                    let fault = Input::new(&self.rtl.source, expected).field("package");
+                    let fault = Input::new(self.tree.name, expected).field("package");
                     return Err(fault.value(package).into());
                 }
             }

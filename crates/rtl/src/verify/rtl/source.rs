@@ -1,0 +1,44 @@
+//! A source file of a design.
+
+use std::path::{Path, PathBuf};
+
+use tofsim::error::{Error, Result};
+
+use super::scan::Scan;
+use super::search;
+
+/// A source file.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// Its absolute path.
+    pub path: PathBuf,
+    /// What it declares and names.
+    pub scan: Scan,
+    /// Whether it was found in a folder: then it is compiled only where something in it is needed.
+    pub found: bool,
+}
+
+impl Source {
+    /// A file; `found` in a folder, or named.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn read(path: &Path, found: bool) -> Result<Self> {
+        let fault = || Error::io(path, "read");
+        let path = path.canonicalize().map_err(fault())?;
+        let bytes = std::fs::read(&path).map_err(fault())?;
+        let text = String::from_utf8_lossy(&bytes);
+        let mut source = Source { path, scan: Scan::default(), found };
+        source.scan = if source.is_vhdl() { Scan::vhdl(&text) } else { Scan::verilog(&text) };
+        Ok(source)
+    }
+
+    pub(super) fn is_vhdl(&self) -> bool {
+        search::ends_in(&self.path, &["vhd", "vhdl"])
+    }
+
+    /// Whether it says by its name that it is SystemVerilog.
+    pub fn is_system_verilog(&self) -> bool {
+        search::ends_in(&self.path, &["sv"])
+    }
+}
