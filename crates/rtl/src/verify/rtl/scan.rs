@@ -120,6 +120,9 @@ fn tokens<'a>(text: &'a str, syntax: &Syntax) -> Vec<Token<'a>> {
             rest = rest.split_once('\n').map_or("", |(_, rest)| rest);
         } else if let Some(comment) = rest.strip_prefix("/*") {
             rest = comment.split_once("*/").map_or("", |(_, rest)| rest);
+        } else if let Some(after) = rest.strip_prefix("'\"'").filter(|_| !syntax.escapes) {
+            // A character of VHDL, which begins no string.
+            rest = after;
         } else if first == '"' {
             let end = end_of_string(after, syntax.escapes);
             tokens.push(Token::Text(&after[..end]));
