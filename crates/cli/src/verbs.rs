@@ -4,6 +4,7 @@ pub mod budget;
 pub mod compare;
 pub mod completions;
 pub mod dataset;
+mod design;
 pub mod draws;
 pub mod estimate;
 pub mod evaluate;

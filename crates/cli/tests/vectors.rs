@@ -121,3 +121,30 @@ fn what_there_is_not_is_refused() {
     let error = refused(&["tof_top", "--scenario", "kc705", "-s", "firmware.dsp_en=false"]);
     assert!(error.contains("never ends"), "{error}");
 }
+
+#[test]
+fn a_bench_for_a_design_of_other_names_comes_with_what_lies_between() {
+    const THEIRS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/verilog/array_port");
+    let folder = common::empty();
+    let map = format!("{THEIRS}/map.toml");
+    vectors(
+        folder.path(),
+        &["histogram_builder", "--cycles", "900", "--rtl", THEIRS, "--map", &map],
+    );
+    let files = common::files(&folder.path().join("histogram_builder"));
+    assert!(files.contains(&"histogram_builder_adapter.v".to_owned()), "{files:?}");
+    let simulators = [
+        "iverilog -g2012 -s tb_histogram_builder -o tb *.v",
+        "verilator --binary --timing -Wno-fatal -Wno-lint -o ../tb --top-module tb_histogram_builder *.v",
+    ];
+    for (compile, run) in simulators.into_iter().zip(["vvp tb", "./tb"]) {
+        let command = format!("cd histogram_builder && {compile} {THEIRS}/histogram.sv && {run}");
+        let output = Command::new("sh").args(["-c", &command]).current_dir(folder.path()).output();
+        let output = output.unwrap();
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        let pass = "tb_histogram_builder: PASS, 900 cycles, 0 mismatches";
+        assert!(text.contains(pass), "{text}{}", String::from_utf8_lossy(&output.stderr));
+    }
+    let all = ["vectors", "histogram_builder", "--map", &map, "-o", "a"];
+    assert!(common::refused(folder.path(), &all).contains("--rtl"));
+}

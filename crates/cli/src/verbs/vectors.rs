@@ -1,20 +1,24 @@
 //! `tofsim vectors`: what each block does, clock by clock, with a bench that checks it.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use serde_json::json;
 
 use tofsim::error::{Input, Result, nearest};
 use tofsim::files::folder::FolderLock;
-use tofsim::files::staged::StagedFolder;
+use tofsim::files::staged::{ScratchFolder, StagedFolder};
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim_rtl::golden::bench::{Bench, Language};
 use tofsim_rtl::golden::{BLOCKS, Setting, Spec, blocks};
+use tofsim_rtl::verify::process::Limits;
+use tofsim_rtl::verify::{Dut, RtlMap, Simulator, Task};
 
 use crate::choice::{self, words};
 use crate::record::Record;
 
+use super::design::Design;
 use super::terminal::Talk;
 
 /// Write golden vectors of a block with a self-checking bench
@@ -25,11 +29,15 @@ use super::terminal::Talk;
 ///
 ///   cd DIR/BLOCK && iverilog -g2005 -o tb tb_BLOCK.v YOUR_FILES.v && vvp tb
 ///
+/// With --rtl and --map the bench is for your module: it has its names, and BLOCK_adapter.v between the
+/// two says what the map says. Icarus tells its ports.
+///
 /// With --language vhdl it is tb_BLOCK.vhd, in VHDL-2008 for std_logic and std_logic_vector ports. It was
 /// run in GHDL; it has nothing in it that is GHDL's own, but NVC, Questa and xsim were not tried:
 ///
-///   cd DIR/BLOCK && ghdl -i --std=08 tb_BLOCK.vhd YOUR_FILES.vhd &&
-///     ghdl -m --std=08 tb_BLOCK && ghdl -r --std=08 tb_BLOCK
+///   cd DIR/BLOCK && ghdl -i --std=08 tb_BLOCK.vhd YOUR_FILES.vhd
+///
+///   ghdl -m --std=08 tb_BLOCK && ghdl -r --std=08 tb_BLOCK
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// Module of the firmware, or all
@@ -37,6 +45,11 @@ pub struct Args {
     /// Directory to write to
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    #[command(flatten)]
+    design: Design,
+    /// How your design (--rtl) differs by intention: the bench gets BLOCK_adapter.v between (TOML)
+    #[arg(long, value_name = "FILE", requires = "sources", conflicts_with = "language")]
+    map: Option<PathBuf>,
     /// What the bench is written in
     #[arg(long, value_parser = words(choice::LANGUAGE), default_value = "verilog")]
     language: Language,
@@ -88,14 +101,29 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         name => vec![find(name, "BLOCK")?],
     };
     let setting = args.from.setting()?;
+    let map = args.map.as_deref().map(RtlMap::read).transpose()?;
+    let rtl = if args.design.is_ours() { None } else { Some(args.design.read(talk)?) };
+    let limits = Limits::new(Duration::from_secs(300));
+    let dut = rtl.as_ref().map(|rtl| Dut {
+        rtl,
+        map: map.as_ref(),
+        simulator: Simulator::Icarus,
+        limits,
+    });
     let _held = FolderLock::take(&args.output)?;
     let stage = StagedFolder::new(&args.output)?;
+    let scratch = ScratchFolder::new()?;
     for spec in blocks {
-        let vectors = (spec.record)(spec, &setting)?;
+        let task = Task::new(spec, &setting, map.as_ref());
+        let vectors = (spec.record)(spec, &task.setting)?;
+        let folder = stage.path().join(spec.name);
         let mut bench = Bench::new(&vectors);
         bench.language = args.language;
         bench.about = json!(record(&setting, &talk.command, spec));
-        bench.write(&stage.path().join(spec.name))?;
+        if let Some(dut) = &dut {
+            dut.fit(&mut bench, &task, &scratch.path().join(spec.name), &folder)?;
+        }
+        bench.write(&folder)?;
         talk.detail(format_args!("{}: {} cycles", spec.name, vectors.stimulus.rows()));
     }
     stage.commit()?.iter().for_each(|path| talk.wrote(path));

@@ -11,7 +11,6 @@ use tofsim::files::staged::ScratchFolder;
 use tofsim_rtl::golden::{BLOCKS, Setting, Spec};
 use tofsim_rtl::verify::cycle_counts::{self as count, Count};
 use tofsim_rtl::verify::process::Limits;
-use tofsim_rtl::verify::rtl::Sources;
 use tofsim_rtl::verify::task::run_all;
 use tofsim_rtl::verify::{BlockCheck, BlockReport, Dut, Rtl, RtlMap, Simulator, Task, strays};
 
@@ -19,6 +18,7 @@ use crate::choice::{self, words};
 use crate::report::verification as report;
 use crate::text::colour::coloured;
 
+use super::design::Design;
 use super::terminal::{Talk, print, stop_signal};
 use super::vectors::{From, find};
 
@@ -71,57 +71,15 @@ pub struct Args {
     from: From,
 }
 
-/// The sources of the design.
-#[derive(Debug, clap::Args)]
-#[command(group = clap::ArgGroup::new("sources").multiple(true))]
-struct Design {
-    /// Folder with the design (all .v, .sv, .vhd and .vhdl files in it and below), or one file; may be
-    /// repeated
-    #[arg(long, value_name = "PATH", group = "sources")]
-    rtl: Vec<PathBuf>,
-    /// File list, as simulators take them; its paths are relative to the current folder; may be repeated
-    #[arg(short = 'f', long = "file-list", value_name = "FILE", group = "sources")]
-    list: Vec<PathBuf>,
-    /// File list whose paths are relative to itself; may be repeated
-    #[arg(short = 'F', long = "relative-file-list", value_name = "FILE", group = "sources")]
-    relative_list: Vec<PathBuf>,
-    /// Folder in which an `include is looked for, after that of the file; may be repeated
-    #[arg(short = 'I', long = "include", value_name = "DIR", requires = "sources")]
-    include: Vec<PathBuf>,
-    /// Define a macro; may be repeated
-    #[arg(short = 'D', long = "define", value_name = "NAME[=VALUE]", requires = "sources")]
-    define: Vec<String>,
-}
-
-impl Design {
-    fn is_ours(&self) -> bool {
-        self.rtl.is_empty() && self.list.is_empty() && self.relative_list.is_empty()
-    }
-
-    fn sources(&self) -> Sources {
-        let lists = self.list.iter().map(|list| (list.clone(), false));
-        let relative = self.relative_list.iter().map(|list| (list.clone(), true));
-        Sources {
-            paths: self.rtl.clone(),
-            lists: lists.chain(relative).collect(),
-            includes: self.include.clone(),
-            defines: self.define.clone(),
-        }
-    }
-}
-
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let map = args.map.as_deref().map(RtlMap::read).transpose()?;
     strays::end();
     let work = ScratchFolder::new()?;
     let rtl = match args.design.is_ours() {
-        false => Rtl::read(&args.design.sources())?,
+        false => args.design.read(talk)?,
         true => Rtl::own(work.path())?,
     };
-    for option in &rtl.options.unknown {
-        talk.note(format_args!("{option}: no option of a source, which is passed over"));
-    }
     let stop = stop_signal();
     let limits =
         Limits { stop: stop.as_deref(), ..Limits::new(Duration::from_secs(args.time_limit)) };

@@ -3,8 +3,10 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use tofsim::error::Result;
+use tofsim::error::{Input, Result};
+use tofsim::files::output::create_directory;
 
+use crate::golden::bench::Bench;
 use crate::golden::parameters::{NEURONS, Parameter};
 use crate::golden::ports::Port;
 use crate::golden::spec::Vectors;
@@ -113,6 +115,26 @@ fn shape<'a>((ours, theirs, value): &Set<'a>) -> Option<(&'a str, u64)> {
 }
 
 impl Dut<'_> {
+    /// Fits a bench of a task's block to the design's module, for any simulator: what lies between the
+    /// two is written into `folder`. The module is looked at in `work`.
+    ///
+    /// # Errors
+    /// When the module is not there or cannot be compiled, has other ports or parameters, or is in VHDL.
+    pub fn fit(&self, bench: &mut Bench, task: &Task, work: &Path, folder: &Path) -> Result<()> {
+        let fault = |expected: String| Input::new(&self.rtl.source, expected).field(task.spec.name);
+        create_directory(work)?;
+        let candidate = Candidate::find(self, task, bench.vectors, work)?.map_err(fault)?;
+        if candidate.fixed {
+            let expected = "expected Verilog; for VHDL there is --language vhdl, without a map";
+            return Err(fault(expected.to_owned()).into());
+        }
+        if let Some(map) = &candidate.map {
+            create_directory(folder)?;
+            map.apply(bench, task.spec, &candidate.found, folder)?;
+        }
+        Ok(())
+    }
+
     /// Why the design cannot be what a task is about, if it cannot.
     fn cannot_be(&self, task: &Task, module: &str, found: &Interface) -> Option<String> {
         let configuration = task.configuration?;

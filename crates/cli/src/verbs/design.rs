@@ -1,0 +1,57 @@
+//! The options that name the sources of a design.
+
+use std::path::PathBuf;
+
+use tofsim::error::Result;
+use tofsim_rtl::verify::Rtl;
+use tofsim_rtl::verify::rtl::Sources;
+
+use super::terminal::Talk;
+
+/// The sources of the design.
+#[derive(Debug, clap::Args)]
+#[command(group = clap::ArgGroup::new("sources").multiple(true))]
+pub struct Design {
+    /// Folder with the design (all .v, .sv, .vhd and .vhdl files in it and below), or one file; may be
+    /// repeated
+    #[arg(long, value_name = "PATH", group = "sources")]
+    rtl: Vec<PathBuf>,
+    /// File list, as simulators take them; its paths are relative to the current folder; may be repeated
+    #[arg(short = 'f', long = "file-list", value_name = "FILE", group = "sources")]
+    list: Vec<PathBuf>,
+    /// File list whose paths are relative to itself; may be repeated
+    #[arg(short = 'F', long = "relative-file-list", value_name = "FILE", group = "sources")]
+    relative_list: Vec<PathBuf>,
+    /// Folder in which an `include is looked for, after that of the file; may be repeated
+    #[arg(short = 'I', long = "include", value_name = "DIR", requires = "sources")]
+    include: Vec<PathBuf>,
+    /// Define a macro; may be repeated
+    #[arg(short = 'D', long = "define", value_name = "NAME[=VALUE]", requires = "sources")]
+    define: Vec<String>,
+}
+
+impl Design {
+    /// Whether none is named: then it is our own.
+    pub fn is_ours(&self) -> bool {
+        self.rtl.is_empty() && self.list.is_empty() && self.relative_list.is_empty()
+    }
+
+    /// The design; what its lists have beside sources is noted.
+    ///
+    /// # Errors
+    /// When a source cannot be read, or there is none.
+    pub fn read(&self, talk: &Talk) -> Result<Rtl> {
+        let lists = self.list.iter().map(|list| (list.clone(), false));
+        let relative = self.relative_list.iter().map(|list| (list.clone(), true));
+        let rtl = Rtl::read(&Sources {
+            paths: self.rtl.clone(),
+            lists: lists.chain(relative).collect(),
+            includes: self.include.clone(),
+            defines: self.define.clone(),
+        })?;
+        for option in &rtl.options.unknown {
+            talk.note(format_args!("{option}: no option of a source, which is passed over"));
+        }
+        Ok(rtl)
+    }
+}
