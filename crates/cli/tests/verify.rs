@@ -165,7 +165,8 @@ fn a_design_with_the_estimator_of_the_thesis_only_is_checked_without_the_other()
     assert_eq!(instance.matches(");\n").count(), 1);
     fs::write(&top, format!("{before}endmodule\n")).unwrap();
 
-    let output = common::output(folder.path(), &["verify", "--rtl", ".", "--json"]);
+    let output =
+        common::output(folder.path(), &["verify", "--rtl", ".", "--json", "--cycles", "2000"]);
     let error = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(0), "{error}");
     assert!(error.contains("no such module: centroid_estimator"), "{error}");

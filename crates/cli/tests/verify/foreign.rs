@@ -51,12 +51,9 @@ fn registers_need_no_initial_values() {
     let names = ["coarse_counter", "control_sync", "histogram_builder", "tdc_latch", "reset_sync"];
     let folder = changed(&names, without_initial_values);
     for name in names {
-        for simulator in ["icarus", "verilator"] {
-            let report = check(folder.path(), name, &["--simulator", simulator]);
-            assert_eq!(report["verdict"], "pass", "{report}");
-        }
-        // Verilator has no x: what it begins with is 0.
-        let report = check(folder.path(), name, &["--from-power-up"]);
+        let report = check(folder.path(), name, &["--cycles", "2000"]);
+        assert_eq!(report["verdict"], "pass", "{report}");
+        let report = check(folder.path(), name, &["--cycles", "2000", "--from-power-up"]);
         assert_eq!(report["verdict"], "differs", "{report}");
     }
 }
@@ -81,7 +78,8 @@ fn a_pipeline_without_reset_has_its_clocks_after_each_reset() {
     let verdict = |more: &str| {
         let text = format!("[block.tdc_decoder]\n{more}");
         fs::write(folder.path().join("map.toml"), text).unwrap();
-        check(folder.path(), "tdc_decoder", &["--map", "map.toml"])["verdict"].clone()
+        check(folder.path(), "tdc_decoder", &["--map", "map.toml", "--cycles", "3000"])["verdict"]
+            .clone()
     };
     let valid = "valid = { tdc_code = \"tdc_valid\" }\n";
     assert_eq!(verdict(valid), "differs", "the hits that were under way");
@@ -110,7 +108,8 @@ fn a_constant_inside_is_named_with_the_entry_that_leaves_it_out() {
         ["[design]\nparameters = false\n", "[block.tdc_decoder.parameters]\nCalFile = \"\"\n"]
     {
         fs::write(folder.path().join("map.toml"), map).unwrap();
-        let report = check(folder.path(), "tdc_decoder", &["--map", "map.toml"]);
+        let report =
+            check(folder.path(), "tdc_decoder", &["--map", "map.toml", "--cycles", "3000"]);
         assert_eq!(report["verdict"], "pass", "{report}");
     }
 }
@@ -135,7 +134,6 @@ fn an_output_that_means_something_only_at_times_is_compared_then() {
 #[test]
 fn counts_may_be_an_array_of_words() {
     map("array_port", "histogram_builder", "icarus");
-    map("array_port", "histogram_builder", "verilator");
 }
 
 #[test]
