@@ -4,6 +4,7 @@
 mod histogram;
 mod kind;
 mod lists;
+mod numbers;
 mod observed;
 mod pins;
 mod sums;

@@ -8,6 +8,7 @@ use crate::compare::Probed;
 use crate::source::Source;
 
 use super::kind::ReplayKind;
+use super::numbers::Numbers;
 use super::pins::Pins;
 use super::timebase::Timebase;
 
@@ -112,7 +113,7 @@ pub(super) fn observe(
         let expected = "does not show where the shots begin; probe vcsel_driver.start";
         return Err(Input::new(&capture.name, expected).into());
     }
-    let mut numbers = Numbers { usual: shots_per_frame, ..Numbers::default() };
+    let mut numbers = Numbers::new(shots_per_frame);
     let mut observed = Observed {
         timebase,
         shots: Vec::new(),
@@ -173,37 +174,43 @@ pub(super) fn observe(
     observed.period = period(&observed);
     observed.per_frame = numbers.per_frame.or_else(|| first_pause(&observed));
     observed.add_earlier();
-    let first = observed.shots[0].number;
-    let notes = &mut observed.notes;
-    if counter.is_none() && !numbers.begun {
-        notes.push(
-            "the first shot of the capture is taken as the first of a frame; frame_ctrl.shots or \
-             acquire would say which it is"
-                .to_owned(),
-        );
-    }
-    if first > 0 {
-        notes.push(format!("the {first} shots of the frame before the capture are not known"));
-    }
-    if is_early {
-        notes.push(
-            "tdc_stop is high before the first shot, where a list of photons has none".to_owned(),
-        );
-    }
-    if observed.windows.len() > 1 {
-        notes.push(
-            "windows that begin with fewer shots than the one before are taken to be of the next \
-             frame; the shots between windows are not known"
-                .to_owned(),
-        );
-    }
-    if observed.per_frame.is_none() {
-        notes.push("the capture does not show how many shots a frame has".to_owned());
-    }
+    observed.add_notes(counter.is_some() || numbers.begun, is_early);
     Ok(Some(observed))
 }
 
 impl Observed {
+    /// Notes what the capture does not show.
+    fn add_notes(&mut self, is_placed: bool, is_early: bool) {
+        let first = self.shots[0].number;
+        let notes = &mut self.notes;
+        if !is_placed {
+            notes.push(
+                "the first shot of the capture is taken as the first of a frame; frame_ctrl.shots or \
+                 acquire would say which it is"
+                    .to_owned(),
+            );
+        }
+        if first > 0 {
+            notes.push(format!("the {first} shots of the frame before the capture are not known"));
+        }
+        if is_early {
+            notes.push(
+                "tdc_stop is high before the first shot, where a list of photons has none"
+                    .to_owned(),
+            );
+        }
+        if self.windows.len() > 1 {
+            notes.push(
+                "windows that begin with fewer shots than the one before are taken to be of the next \
+                 frame; the shots between windows are not known"
+                    .to_owned(),
+            );
+        }
+        if self.per_frame.is_none() {
+            notes.push("the capture does not show how many shots a frame has".to_owned());
+        }
+    }
+
     /// Whether all samples follow one another.
     pub(super) fn is_continuous(&self) -> bool {
         self.timebase.steady && self.windows.len() == 1
@@ -257,56 +264,6 @@ fn first_pause(observed: &Observed) -> Option<u64> {
     };
     let last = observed.shots.windows(2).find(|shots| apart(shots))?;
     Some(last[0].number + 1)
-}
-
-/// Numbers the shots.
-#[derive(Default)]
-struct Numbers {
-    /// Shots of the frames before.
-    before: u64,
-    /// Shots of this frame.
-    count: u64,
-    /// Whether the capture shows the begin of this frame, and that of any.
-    whole: bool,
-    begun: bool,
-    per_frame: Option<u64>,
-    /// Shots of a frame, where the capture does not show how many it has.
-    usual: u64,
-    /// Whether a window begins, so that it is not known what was before.
-    across: bool,
-}
-
-impl Numbers {
-    /// Looks at the frame, of which so many shots are counted.
-    fn frame(&mut self, counted: Option<u64>, acquires: bool, acquired: bool) {
-        let starts_anew = counted.is_some_and(|counted| counted < self.count);
-        if acquired && !acquires && (self.whole || counted.is_some()) {
-            self.per_frame = counted.or(Some(self.count)).filter(|&count| count > 0);
-        }
-        if starts_anew && !self.across {
-            self.per_frame = self.per_frame.or(Some(self.count));
-        }
-        if starts_anew || (counted.is_none() && acquires && !acquired) {
-            let whole = self.per_frame.unwrap_or(self.usual);
-            let shots = if self.across { whole } else { self.count };
-            (self.before, self.count) = (self.before + shots, 0);
-            (self.whole, self.begun) = (acquires && !acquired, true);
-        }
-        if acquires && !acquired {
-            (self.whole, self.begun) = (true, true);
-        }
-        self.count = counted.unwrap_or(self.count);
-        self.across = false;
-    }
-
-    /// The number of a shot that begins.
-    fn start(&mut self, counted: Option<u64>) -> u64 {
-        let number = self.before + self.count;
-        if counted.is_none() {
-            self.count += 1;
-        }
-        number
-    }
 }
 
 /// Cycles between shots that follow one another, if one of the laser's periods is the most common.
