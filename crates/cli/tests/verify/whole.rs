@@ -55,6 +55,18 @@ fn faults_that_only_another_configuration_shows_are_found() {
 }
 
 #[test]
+fn outputs_past_the_last_neuron_have_to_stay_0() {
+    let folder = all("tansig.v", "if (k >= Neurons) begin", "if (k > Neurons) begin");
+    let args = ["verify", "--rtl", ".", "--block", "tansig", "--cycles", "100"];
+    let output = common::output(folder.path(), &args);
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        text.contains("tansig: cycle 17, 143999 ps: l1_out_8 expected 0000, got zzzz"),
+        "{text}"
+    );
+}
+
+#[test]
 fn what_a_design_cannot_be_is_not_run_and_no_fault() {
     let folder =
         all("estimator_ctrl.v", "// hidden neurons, 1 to 16", "// units of the hidden layer");

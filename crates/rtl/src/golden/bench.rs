@@ -47,6 +47,9 @@ pub struct Bench<'a> {
     pub module: String,
     /// Whether the module has its parameters already and cannot be given any.
     pub fixed: bool,
+    /// Ports that the module has for neurons past the last: inputs that it does not look at, outputs that
+    /// stay 0.
+    pub past: Vec<Port>,
     /// What it is written in.
     pub language: Language,
     /// An object whose keys go into `ports.json` too: where the vectors come from.
@@ -58,7 +61,8 @@ impl<'a> Bench<'a> {
     pub fn new(vectors: &'a Vectors) -> Self {
         let (allowed, about) = (Allowances::default(), Value::Null);
         let module = vectors.spec.name.to_owned();
-        Bench { vectors, allowed, module, fixed: false, language: Language::default(), about }
+        let (past, language) = (Vec::new(), Language::default());
+        Bench { vectors, allowed, module, fixed: false, past, language, about }
     }
 
     /// Names of the parameters that it sets.
@@ -107,6 +111,11 @@ impl<'a> Bench<'a> {
         let parameters: Vec<_> = self.set().map(parameter).collect();
         let connected: Vec<_> =
             ports.iter().map(|port| format!("    .{0}({0})", port.name)).collect();
+        let past = self.past.iter().map(|port| match port.output {
+            true => format!("    .{0}({0})", port.name),
+            false => format!("    .{}({{{}{{1'b1}}}})", port.name, port.width),
+        });
+        let connected: Vec<_> = connected.into_iter().chain(past).collect();
         let columns = vectors.expected.columns();
         let allowances = columns.iter().map(|column| self.allowed.text(column, vectors));
         let inputs: Vec<_> = vectors.stimulus.columns().iter().map(|c| c.name.as_str()).collect();
@@ -124,7 +133,7 @@ impl<'a> Bench<'a> {
             cycles = vectors.stimulus.rows(),
             first_edge = vectors.first_edge_ps,
             period = spec.timing.period_ps(),
-            signals = signals(vectors, &ports),
+            signals = signals(vectors, &ports) + &self.past_signals(),
             module = self.module,
             parameters = parameter_list(&parameters, "  "),
             ports = connected.join(",\n"),
@@ -135,10 +144,35 @@ impl<'a> Bench<'a> {
             beat = BEAT,
             quiet = self.allowed.quiet(vectors),
             resets = self.resets(),
-            show = show(vectors),
+            show = show(vectors) + &self.show_past(),
             before = before,
             steps = steps(&spec.timing, &inputs),
         )
+    }
+
+    fn past_outputs(&self) -> impl Iterator<Item = &Port> {
+        self.past.iter().filter(|port| port.output)
+    }
+
+    /// Declares the outputs past the last neuron, and whether one of them is not 0.
+    fn past_signals(&self) -> String {
+        let declare = |port: &Port| format!("  wire {}{};\n", range(port.width), port.name);
+        let names: Vec<_> = self.past_outputs().map(|port| port.name.as_str()).collect();
+        let any =
+            if names.is_empty() { "1'b0".to_owned() } else { format!("|{{{}}}", names.join(", ")) };
+        self.past_outputs().map(declare).collect::<String>() + &format!("  wire past = {any};\n")
+    }
+
+    /// Lines that say which of them is not 0.
+    fn show_past(&self) -> String {
+        let show = |Port { name, width, .. }: &Port| {
+            format!(
+                "    if ({name} !== {width}'d0)\n      \
+                 $display(\"mismatch: cycle %0d, time %0d ps, {name}: expected %h, got %h\",\n        \
+                 cycle, FirstEdge + cycle * Period - 64'd1, {width}'d0, {name});\n",
+            )
+        };
+        self.past_outputs().map(show).collect()
     }
 
     /// What a line that resets the block changes about the lines that are compared.

@@ -5,13 +5,14 @@ use std::path::Path;
 
 use tofsim::error::{Input, Result};
 use tofsim::files::output::create_directory;
+use tofsim::firmware::forward2::MOST_NEURONS;
 
 use crate::golden::bench::Bench;
 use crate::golden::parameters::{NEURONS, Parameter};
 use crate::golden::ports::Port;
 use crate::golden::spec::Vectors;
 
-use super::interface::Interface;
+use super::interface::{Interface, PortShape};
 use super::map::{BlockMap, RtlMap};
 use super::process::Limits;
 use super::rtl::Rtl;
@@ -103,6 +104,20 @@ impl<'a> Candidate<'a> {
         }
         found.check_ports(&rtl.source, &module, &wanted(&found))?;
         Ok(Ok(Candidate { rtl, found, map, fixed }))
+    }
+}
+
+impl Candidate<'_> {
+    /// The ports that it has for neurons past the last, where no map says what it has.
+    pub(super) fn past(&self, task: &Task, neurons: usize) -> Vec<Port> {
+        let used = task.spec.ports(neurons);
+        let is_past = |port: &Port| {
+            let has = |found: &PortShape| (found.output, found.width) == (port.output, port.width);
+            self.found.ports.get(&port.name).is_some_and(has)
+                && !used.iter().any(|used| used.name == port.name)
+        };
+        let all = if self.map.is_none() { task.spec.ports(MOST_NEURONS) } else { Vec::new() };
+        all.into_iter().filter(is_past).collect()
     }
 }
 

@@ -27,7 +27,7 @@ module tb_{name};
 {looks}
   task compare;
   begin
-{allowances}    if (quiet == 0 && got !== want) begin
+{allowances}    if (quiet == 0 && (got !== want || past !== 1'b0)) begin
       if (mismatches == 0) show;
       mismatches = mismatches + 1;
     end
