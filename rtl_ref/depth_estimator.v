@@ -4,7 +4,7 @@
 // The neural depth estimator: wires its four blocks.
 //
 // Its ports are a socket: any module with them, of any latency, can take its place. Its own latency is
-// 259 + Neurons cycles.
+// 259 + Neurons cycles, from eight neurons on.
 module depth_estimator #(
     parameter [4:0] Neurons = 5'd8,              // hidden neurons, 1 to 16
     parameter W1File = "rtl_ref/w1.mem",         // see forward1
@@ -21,14 +21,17 @@ module depth_estimator #(
     output wire [7:0] read_addr,      // word of the histogram
     input wire [15:0] count,          // word of the histogram at read_addr [hits]
     // Result
-    output wire signed [35:0] depth,  // when algo_done is high; before, a partial sum [2^-29 m]
+    output wire signed [35:0] depth,  // from algo_done until the next one [2^-29 m]
     output wire algo_done             // the depth is ready; one cycle
 );
-    wire [8:0] rom_addr;
+    wire [7:0] rom_addr;
+    wire forward1_first;
     wire forward1_en;
     wire tansig_en;
+    wire [2:0] pair;
+    wire forward2_first;
     wire forward2_en;
-    wire [$clog2(Neurons + 2)-1:0] neuron;
+    wire depth_en;
     wire signed [35:0] l1_in_0, l1_in_1, l1_in_2, l1_in_3, l1_in_4, l1_in_5, l1_in_6, l1_in_7;
     wire signed [35:0] l1_in_8, l1_in_9, l1_in_10, l1_in_11, l1_in_12, l1_in_13, l1_in_14, l1_in_15;
     wire signed [15:0] l1_out_0, l1_out_1, l1_out_2, l1_out_3, l1_out_4, l1_out_5, l1_out_6, l1_out_7;
@@ -44,10 +47,13 @@ module depth_estimator #(
         .read_en(read_en),
         .read_addr(read_addr),
         .rom_addr(rom_addr),
+        .forward1_first(forward1_first),
         .forward1_en(forward1_en),
         .tansig_en(tansig_en),
+        .pair(pair),
+        .forward2_first(forward2_first),
         .forward2_en(forward2_en),
-        .neuron(neuron)
+        .depth_en(depth_en)
     );
 
     forward1 #(
@@ -57,9 +63,8 @@ module depth_estimator #(
     ) forward1 (
         .clk_125(clk_125),
         .rst(rst),
+        .forward1_first(forward1_first),
         .forward1_en(forward1_en),
-        .read_en(read_en),
-        .read_addr(read_addr),
         .rom_addr(rom_addr),
         .count(count),
         .l1_in_0(l1_in_0),
@@ -128,8 +133,10 @@ module depth_estimator #(
     ) forward2 (
         .clk_125(clk_125),
         .rst(rst),
+        .pair(pair),
+        .forward2_first(forward2_first),
         .forward2_en(forward2_en),
-        .neuron(neuron),
+        .depth_en(depth_en),
         .l1_out_0(l1_out_0),
         .l1_out_1(l1_out_1),
         .l1_out_2(l1_out_2),

@@ -2,6 +2,8 @@
 `default_nettype none
 
 // The hidden layer: one multiply-accumulate unit, one DSP48E1, for each neuron.
+//
+//   word (A), weight (B)  ->  product (M)  ->  l1_in (P), which begins with the bias (C)
 module forward1 #(
     parameter [4:0] Neurons = 5'd8,       // hidden neurons, 1 to 16
     parameter W1File = "rtl_ref/w1.mem",  // 256 rows, a weight for each neuron [2^-23]
@@ -10,10 +12,9 @@ module forward1 #(
     input wire clk_125,
     input wire rst,
     // estimator_ctrl
+    input wire forward1_first,   // the sums begin
     input wire forward1_en,      // accumulates
-    input wire read_en,          // count is a word of the histogram; if not, the bias is added
-    input wire [7:0] read_addr,  // which word; 0 begins the sum
-    input wire [8:0] rom_addr,   // row to fetch; from 256 on, the biases
+    input wire [7:0] rom_addr,   // row to fetch: that of the coming word
     // Histogram
     input wire [15:0] count,     // word of the histogram [hits]
     // Sums of the neurons; zero past the last [2^-23]
@@ -40,69 +41,92 @@ module forward1 #(
 `else
     (* rom_style = "block" *)
 `endif
-    reg [16*Neurons-1:0] rom [0:256];
+    reg [16*Neurons-1:0] rom [0:255];
+    reg [16*Neurons-1:0] bias_rom [0:0];
     initial begin
-        $readmemh(W1File, rom, 0, 255);
-        $readmemh(B1File, rom, 256, 256);
+        $readmemh(W1File, rom);
+        $readmemh(B1File, bias_rom);
     end
 
-    wire [8:0] row = rom_addr[8] ? 9'd256 : rom_addr;
-    wire [16*Neurons-1:0] weights = rom[row];
+    wire [16*Neurons-1:0] row = rom[rom_addr];
+    wire [16*Neurons-1:0] biases = bias_rom[0];
 
-    // The bias is a product too, 1024 x B1, so that nothing is added outside the DSP48E1.
-    wire signed [16:0] operand = read_en ? {1'b0, count} : 17'd1024;
-    wire first = read_en && read_addr == 8'd0;
+    reg [15:0] word;  // word of the histogram [hits]
 
-    // The registers of the units below, by their names; those of the weights are for waveforms.
+    initial word = 16'd0;
+
+    always @(posedge clk_125) word <= count;
+
+    // The registers of the units below, by their names; but for the sums they are for waveforms.
     /* verilator lint_off UNUSED */
+    wire signed [15:0] fetched_0, fetched_1, fetched_2, fetched_3, fetched_4, fetched_5, fetched_6;
+    wire signed [15:0] fetched_7, fetched_8, fetched_9, fetched_10, fetched_11, fetched_12, fetched_13;
+    wire signed [15:0] fetched_14, fetched_15;
     wire signed [15:0] weight_0, weight_1, weight_2, weight_3, weight_4, weight_5, weight_6, weight_7;
-    wire signed [15:0] weight_8, weight_9, weight_10, weight_11, weight_12, weight_13, weight_14;
-    wire signed [15:0] weight_15;
+    wire signed [15:0] weight_8, weight_9, weight_10, weight_11, weight_12, weight_13, weight_14, weight_15;
+    wire signed [32:0] product_0, product_1, product_2, product_3, product_4, product_5, product_6;
+    wire signed [32:0] product_7, product_8, product_9, product_10, product_11, product_12, product_13;
+    wire signed [32:0] product_14, product_15;
     /* verilator lint_on UNUSED */
-    wire [16*16-1:0] unit_weight;
+    wire [16*16-1:0] unit_fetched, unit_weight;
+    wire [33*16-1:0] unit_product;
     wire [36*16-1:0] unit_l1_in;
+    assign {fetched_15, fetched_14, fetched_13, fetched_12, fetched_11, fetched_10, fetched_9,
+            fetched_8, fetched_7, fetched_6, fetched_5, fetched_4, fetched_3, fetched_2, fetched_1,
+            fetched_0}
+           = unit_fetched;
     assign {weight_15, weight_14, weight_13, weight_12, weight_11, weight_10, weight_9, weight_8,
             weight_7, weight_6, weight_5, weight_4, weight_3, weight_2, weight_1, weight_0}
            = unit_weight;
-    assign {l1_in_15, l1_in_14, l1_in_13, l1_in_12, l1_in_11, l1_in_10, l1_in_9, l1_in_8,
-            l1_in_7, l1_in_6, l1_in_5, l1_in_4, l1_in_3, l1_in_2, l1_in_1, l1_in_0}
+    assign {product_15, product_14, product_13, product_12, product_11, product_10, product_9,
+            product_8, product_7, product_6, product_5, product_4, product_3, product_2, product_1,
+            product_0}
+           = unit_product;
+    assign {l1_in_15, l1_in_14, l1_in_13, l1_in_12, l1_in_11, l1_in_10, l1_in_9, l1_in_8, l1_in_7,
+            l1_in_6, l1_in_5, l1_in_4, l1_in_3, l1_in_2, l1_in_1, l1_in_0}
            = unit_l1_in;
 
     genvar k;
     generate
         for (k = 0; k < 16; k = k + 1) begin : unit
             if (k < Neurons) begin : used
-                // Weight of this cycle, fetched in the one before so that the ROM can be a block RAM.
-                reg signed [15:0] weight;
+                reg signed [15:0] fetched;  // output of the ROM
+                reg signed [15:0] weight;   // weight of the word
+                reg signed [32:0] product;  // their product, a cycle later
                 reg signed [35:0] l1_in;
 
-                wire signed [15:0] weight_next = weights[16*k +: 16];
+                wire signed [35:0] bias = {{10{biases[16*k+15]}}, biases[16*k +: 16], 10'd0};
                 reg signed [35:0] l1_in_next;
 
                 initial begin
+                    fetched = 16'sd0;
                     weight = 16'sd0;
+                    product = 33'sd0;
                     l1_in = 36'sd0;
                 end
 
                 always @* begin
                     l1_in_next = l1_in;
-                    if (forward1_en) l1_in_next = (first ? 36'sd0 : l1_in) + weight * operand;
+                    if (forward1_en)
+                        l1_in_next = (forward1_first ? bias : l1_in) + {{3{product[32]}}, product};
                 end
 
                 always @(posedge clk_125) begin
-                    if (rst) begin
-                        weight <= 16'sd0;
-                        l1_in <= 36'sd0;
-                    end else begin
-                        weight <= weight_next;
-                        l1_in <= l1_in_next;
-                    end
+                    fetched <= row[16*k +: 16];
+                    weight <= fetched;
+                    product <= weight * $signed({1'b0, word});
+                    if (rst) l1_in <= 36'sd0;
+                    else l1_in <= l1_in_next;
                 end
 
+                assign unit_fetched[16*k +: 16] = fetched;
                 assign unit_weight[16*k +: 16] = weight;
+                assign unit_product[33*k +: 33] = product;
                 assign unit_l1_in[36*k +: 36] = l1_in;
             end else begin : unused
+                assign unit_fetched[16*k +: 16] = 16'd0;
                 assign unit_weight[16*k +: 16] = 16'd0;
+                assign unit_product[33*k +: 33] = 33'd0;
                 assign unit_l1_in[36*k +: 36] = 36'd0;
             end
         end

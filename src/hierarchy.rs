@@ -37,13 +37,13 @@ fn of_network(entries: Vec<Entry>, neurons: usize) -> Vec<Entry> {
     entries.into_iter().filter_map(fit).collect()
 }
 
-/// A signal as an estimator with so many neurons has it: not at all past the last of them, and their
-/// count just as wide as it has to be.
+/// A signal as an estimator with so many neurons has it: not at all past the last of them.
 pub fn fitted(signal: Signal, neurons: usize) -> Option<Signal> {
     let is_there = |place: &str| place.parse::<usize>().is_ok_and(|neuron| neuron < neurons);
     match signal.name.rsplit_once('_') {
-        Some(("l1_in" | "l1_out" | "weight", place)) => is_there(place).then_some(signal),
-        _ if signal.name == "neuron" => Some(Signal { width: (neurons + 1).ilog2() + 1, ..signal }),
+        Some(("fetched" | "weight" | "product" | "l1_in" | "entry" | "l1_out", place)) => {
+            is_there(place).then_some(signal)
+        }
         _ => Some(signal),
     }
 }

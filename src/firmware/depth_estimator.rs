@@ -2,7 +2,8 @@
 //!
 //! Mirrors `rtl_ref/depth_estimator.v`. Its ports are a socket (`algo_start count`, `read_en
 //! read_addr depth algo_done`) into which any other estimator fits. How many hidden neurons it has is a
-//! parameter: 259 and one cycle each, so 267 for the thesis's eight, 2.136 us.
+//! parameter: 259 and one cycle each from eight on, so 267 for the thesis's eight, 2.136 us
+//! (see [`estimator_ctrl`]).
 
 use std::sync::Arc;
 
@@ -64,9 +65,8 @@ connect! {
     }
     forward1(clk_125): forward1::In {
         rst <- i.rst;
+        forward1_first <- this.estimator_ctrl.forward1_first;
         forward1_en <- this.estimator_ctrl.forward1_en;
-        read_en <- this.estimator_ctrl.read_en;
-        read_addr <- this.estimator_ctrl.read_addr;
         rom_addr <- this.estimator_ctrl.rom_addr;
         count <- i.count;
     }
@@ -77,8 +77,10 @@ connect! {
     }
     forward2(clk_125): forward2::In {
         rst <- i.rst;
+        pair <- this.estimator_ctrl.pair;
+        forward2_first <- this.estimator_ctrl.forward2_first;
         forward2_en <- this.estimator_ctrl.forward2_en;
-        neuron <- this.estimator_ctrl.neuron;
+        depth_en <- this.estimator_ctrl.depth_en;
         l1_out <- this.tansig.l1_out;
     }
 }
@@ -98,19 +100,12 @@ impl Params {
 impl DepthEstimator {
     /// The rising edge of `clk_125`.
     pub fn rise(&mut self, i: &In, p: &Params) {
-        let EstimatorCtrl { tansig_en, forward2_en, .. } = self.estimator_ctrl;
         let (estimator_ctrl, forward1) = (Wires::estimator_ctrl(self, i), Wires::forward1(self, i));
-        // Clock enables: without them the wide inputs need not be read.
-        let tansig = (i.rst || tansig_en).then(|| Wires::tansig(self, i));
-        let forward2 = (i.rst || forward2_en).then(|| Wires::forward2(self, i));
+        let (tansig, forward2) = (Wires::tansig(self, i), Wires::forward2(self, i));
 
         self.estimator_ctrl.tick(&estimator_ctrl, &p.neurons());
         self.forward1.tick(&forward1, &p.forward1);
-        if let Some(i) = tansig {
-            self.tansig.tick(&i, &p.tansig);
-        }
-        if let Some(i) = forward2 {
-            self.forward2.tick(&i, &p.forward2);
-        }
+        self.tansig.tick(&tansig, &p.tansig);
+        self.forward2.tick(&forward2, &p.forward2);
     }
 }

@@ -1,6 +1,8 @@
-//! The output layer: one multiply-accumulate unit (U_S3 with MEM3, thesis Fig. 6.19c).
+//! The output layer: two multiply-accumulate units (U_S3 with MEM3, thesis Fig. 6.19c).
 //!
-//! Mirrors `rtl_ref/forward2.v`. One neuron an edge, then the bias as a last product, 4096 x B2.
+//! Mirrors `rtl_ref/forward2.v`. One unit takes the even neurons and begins with the bias, one the odd
+//! ones. Operands, products and sums are registers, so that a unit is one DSP48E1 with all of its registers;
+//! only the depth has a reset, because nothing else is looked at without an enable.
 
 use crate::kernel::{Clocked, S, U};
 use crate::signals;
@@ -10,10 +12,14 @@ pub const NEURONS: usize = 8;
 /// Most neurons that elaboration can ask for: so many have ports.
 pub const MOST_NEURONS: usize = 16;
 /// Aligns B2 (17 fraction bits) with the depth (29).
-const BIAS_FACTOR: i64 = 1 << 12;
+const BIAS_SHIFT: u32 = 12;
+/// Multiply-accumulate units.
+const UNITS: usize = 2;
 
 /// Activation of a hidden neuron.
 pub type L1Out = S<16, 15>;
+/// An activation times its weight.
+pub type Product = S<32, 29>;
 /// Depth word [m].
 pub type Depth = S<36, 29>;
 
@@ -33,20 +39,32 @@ signals! {
     pub struct In {
         /// Synchronous reset.
         pub rst: bool,
+        /// Neurons whose activations become operands: twice this, and the next.
+        pub pair: U<3>,
+        /// The sums begin.
+        pub forward2_first: bool,
         /// Accumulates.
         pub forward2_en: bool,
-        /// Neuron to add; 0 begins the sum, the one past the last is the bias, then the sum holds.
-        pub neuron: U<5>,
+        /// The sums become the depth.
+        pub depth_en: bool,
         /// Activations of the hidden layer.
         pub l1_out: [L1Out; MOST_NEURONS],
     }
 }
 
 signals! {
-    /// Registers, all output ports.
+    /// Registers; the public one is the output port.
     pub struct Forward2 {
-        /// The depth, when `algo_done` is high; before that, a partial sum.
+        /// The depth, from `algo_done` until the next one.
         pub depth: Depth,
+        /// Activations to multiply.
+        activation: [L1Out; UNITS],
+        /// Their weights.
+        w2: [S<16>; UNITS],
+        /// Their products, a cycle later.
+        term: [Product; UNITS],
+        /// Their sums, a cycle later.
+        sum: [Depth; UNITS],
     }
 }
 
@@ -57,14 +75,25 @@ impl Clocked for Forward2 {
     #[inline]
     fn next(&self, i: &In, rom: &Rom) -> Self {
         let (q, mut d) = (self, *self);
-        let neuron = i.neuron.index();
-        if i.forward2_en && neuron < rom.neurons {
-            let sum = if neuron == 0 { Depth::new(0) } else { q.depth };
-            d.depth = sum + i.l1_out[neuron].get() * rom.w2[neuron].get();
-        } else if i.forward2_en && neuron == rom.neurons {
-            d.depth = q.depth + BIAS_FACTOR * rom.b2.get();
+        let begins = [Depth::new(rom.b2.get() << BIAS_SHIFT), Depth::new(0)];
+        for unit in 0..UNITS {
+            let neuron = UNITS * i.pair.index() + unit;
+            let is_there = neuron < rom.neurons;
+            d.activation[unit] = if is_there { i.l1_out[neuron] } else { L1Out::new(0) };
+            d.w2[unit] = rom.w2[neuron];
+            d.term[unit] = Product::new(q.activation[unit].get() * q.w2[unit].get());
+            if i.forward2_en {
+                let sum = if i.forward2_first { begins[unit] } else { q.sum[unit] };
+                d.sum[unit] = sum + q.term[unit].get();
+            }
         }
-        if i.rst { Self::default() } else { d }
+        if i.depth_en {
+            d.depth = q.sum[0] + q.sum[1].get();
+        }
+        if i.rst {
+            d.depth = Depth::new(0);
+        }
+        d
     }
 }
 
@@ -74,12 +103,21 @@ mod tests {
 
     #[test]
     fn a_product_for_each_neuron_and_the_bias_make_the_depth() {
-        let l1_out = std::array::from_fn(|k| S::new(k as i64 + 1));
-        for (neurons, sum) in [(8, 36), (16, 136), (1, 1)] {
-            let rom = Rom { neurons, w2: [S::new(2); MOST_NEURONS], b2: S::new(-1) };
-            let mut forward2 = Forward2 { depth: S::new(999) };
-            for neuron in 0..neurons as u64 + 4 {
-                let i = In { rst: false, forward2_en: true, neuron: U::new(neuron), l1_out };
+        for (neurons, sum) in [(8, 36), (16, 136), (7, 28), (1, 1)] {
+            let l1_out = std::array::from_fn(|k| S::new(k as i64 + 1));
+            let w2 = std::array::from_fn(|k| S::new(if k < neurons { 2 } else { 0 }));
+            let rom = Rom { neurons, w2, b2: S::new(-1) };
+            let pairs = neurons.div_ceil(2) as u64;
+            let mut forward2 = Forward2 { depth: S::new(999), ..Forward2::default() };
+            for cycle in 0..pairs + 3 {
+                let i = In {
+                    rst: false,
+                    pair: U::new(cycle.min(pairs - 1)),
+                    forward2_first: cycle == 2,
+                    forward2_en: (2..pairs + 2).contains(&cycle),
+                    depth_en: cycle == pairs + 2,
+                    l1_out,
+                };
                 forward2 = forward2.next(&i, &rom);
             }
             assert_eq!(forward2.depth.get(), 2 * sum - 4096);

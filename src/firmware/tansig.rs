@@ -1,7 +1,8 @@
 //! The activation of the hidden layer, from a table (U_S2 with MEM2).
 //!
-//! Mirrors `rtl_ref/tansig.v`. One edge. The address is the only rounding in the datapath: the
-//! sum, rounded half up to 9 fraction bits and saturated to +-4.
+//! Mirrors `rtl_ref/tansig.v`. Two edges: the table's own register, then that of the activations. The
+//! address is the only rounding in the datapath: the sum, rounded half up to 9 fraction bits and
+//! saturated to +-4.
 
 use crate::kernel::Clocked;
 use crate::signals;
@@ -33,11 +34,15 @@ signals! {
 }
 
 signals! {
-    /// Registers, all output ports.
+    /// Registers; the public ones are the output ports.
     pub struct Tansig {
         /// Activations of the neurons.
         #[view(heading = "Hidden layer")]
         pub l1_out: [L1Out; MOST_NEURONS],
+        /// Output of the table.
+        entry: [L1Out; MOST_NEURONS],
+        /// The entries are new.
+        found: bool,
     }
 }
 
@@ -54,12 +59,15 @@ impl Clocked for Tansig {
 
     #[inline]
     fn tick(&mut self, i: &In, rom: &Rom) {
-        if i.tansig_en {
-            self.l1_out = i.l1_in.map(|l1_in| rom[address(l1_in)]);
-        }
         if i.rst {
-            *self = Self::default();
+            self.l1_out = Default::default();
+        } else if self.found {
+            self.l1_out = self.entry;
         }
+        if i.tansig_en {
+            self.entry = i.l1_in.map(|l1_in| rom[address(l1_in)]);
+        }
+        self.found = i.tansig_en && !i.rst;
     }
 }
 

@@ -225,7 +225,7 @@ fn other_numbers_of_neurons_are_trained_and_run() {
     assert_eq!(network.accuracy.unwrap().mean_mm.unwrap().len(), 6);
     let set = ["-s", "estimator.network=four/network.toml", "-s", "firmware.shots_per_frame=50"];
     let run = json(folder, &[&["run", "--waves", "none", "--json"], &set[..]].concat());
-    assert_eq!(run["frames"][0]["estimator_cycles"], 259 + 4);
+    assert_eq!(run["frames"][0]["estimator_cycles"], 263 + 2);
     let error = refused(folder, &["train", "--neurons", "17"]);
     assert!(error.contains("neurons = 17: expected 16 at most"), "{error}");
 }

@@ -116,7 +116,7 @@ fn mode_1_never_resets_the_spad() {
 }
 
 #[test]
-fn the_estimator_takes_267_edges_with_enables_of_257_1_and_10_cycles() {
+fn the_estimator_takes_267_edges_with_enables_of_256_1_and_4_cycles() {
     let folder = tempfile::tempdir().unwrap();
     run(folder.path(), &["--window", "estimation", "-s", "firmware.shots_per_frame=100"]);
     let wave = Wave::open(&folder.path().join("kc705.vcd"));
@@ -127,9 +127,9 @@ fn the_estimator_takes_267_edges_with_enables_of_257_1_and_10_cycles() {
         let (rise, fall) = (wave.rises(name)[0], wave.falls(name)[0]);
         (fall - rise) / 8_000
     };
-    assert_eq!(cycles("depth_estimator.estimator_ctrl.forward1_en"), 257);
+    assert_eq!(cycles("depth_estimator.estimator_ctrl.forward1_en"), 256);
     assert_eq!(cycles("depth_estimator.estimator_ctrl.tansig_en"), 1);
-    assert_eq!(cycles("depth_estimator.estimator_ctrl.forward2_en"), 10);
+    assert_eq!(cycles("depth_estimator.estimator_ctrl.forward2_en"), 4);
     assert_eq!(cycles("hist_valid"), 256);
     let depth = common::json(
         folder.path(),

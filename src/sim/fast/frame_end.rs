@@ -2,17 +2,15 @@
 //!
 //! Exact while no control signal changes and nothing else goes on: a word of the RAM is zero after
 //! its cycle of Clear, and an estimation is sums of integers. The TDC, whose window is closed, sees
-//! avalanches on the way with the next edges, and wires and weights follow with the next one.
+//! avalanches on the way with the next edges.
 
 use crate::firmware::centroid_estimator;
 use crate::firmware::depth_estimator::{self, DepthEstimator};
 use crate::firmware::estimator_ctrl::{self, EstimatorCtrl};
 use crate::firmware::forward1::Forward1;
-use crate::firmware::forward2::{Depth, Forward2};
 use crate::firmware::frame_ctrl::{LAST_WORD, State};
-use crate::firmware::tansig::{self, Tansig};
 use crate::firmware::tof_top::{Estimator, HistogramSource, Params, TofTop};
-use crate::kernel::{Clocked, U};
+use crate::kernel::U;
 use crate::network::Histogram;
 use crate::network::estimate::estimate;
 use crate::sim::device::Device;
@@ -40,6 +38,7 @@ pub fn leap_frame_end(device: &mut Device, p: &Params) {
         true => land_in_clear(&mut device.top, cycles),
         false => land_in_estimation(&mut device.top, p),
     }
+    device.top.settle(p);
     device.cycle += cycles;
 }
 
@@ -51,14 +50,15 @@ fn land_in_clear(top: &mut TofTop, cycles: u64) {
 
 /// Lands in the cycle before the depth is ready, from the first cycle of an estimation.
 fn land_in_estimation(top: &mut TofTop, p: &Params) {
-    let words = match &p.histogram_source {
-        HistogramSource::Builder => &*top.histogram_builder.ram,
-        HistogramSource::Preload(rom) => rom,
+    // The words, and the one at the port while none is read.
+    let (words, idle) = match &p.histogram_source {
+        HistogramSource::Builder => (&*top.histogram_builder.ram, U::new(0)),
+        HistogramSource::Preload(rom) => (&**rom, rom[0]),
     };
     match p.estimator {
         Estimator::Network => {
             let histogram = std::array::from_fn(|bin| words[bin].get() as u16);
-            top.depth_estimator = before_done(&histogram, &p.depth_estimator);
+            land_in_network(&mut top.depth_estimator, &histogram, idle, &p.depth_estimator);
         }
         Estimator::Centroid => {
             let centroid = &mut top.centroid_estimator;
@@ -71,19 +71,18 @@ fn land_in_estimation(top: &mut TofTop, p: &Params) {
     }
 }
 
-/// The network in the cycle before the depth is ready.
-fn before_done(histogram: &Histogram, p: &depth_estimator::Params) -> DepthEstimator {
+/// Lands in the cycle before the depth is ready: the hidden layer's sums at once, and then the plain step.
+fn land_in_network(
+    network: &mut DepthEstimator,
+    words: &Histogram,
+    idle: U<16>,
+    p: &depth_estimator::Params,
+) {
     let neurons = p.neurons();
-    let step = U::new(estimator_ctrl::done(neurons) - 2);
-    let estimator_ctrl = EstimatorCtrl { busy: true, step, ..EstimatorCtrl::default() };
-    let idle = estimator_ctrl::In { rst: false, algo_start: false };
-    let l1_in = estimate(p, histogram).l1_in;
-    let l1_out = l1_in.map(|l1_in| p.tansig[tansig::address(l1_in)]);
-    let products = l1_out.iter().zip(&p.forward2.w2).map(|(out, w2)| out.get() * w2.get());
-    DepthEstimator {
-        estimator_ctrl: estimator_ctrl.next(&idle, &neurons),
-        forward1: Forward1 { l1_in, ..Forward1::default() },
-        tansig: Tansig { l1_out },
-        forward2: Forward2 { depth: Depth::new(products.sum()) },
+    network.estimator_ctrl = EstimatorCtrl::at(estimator_ctrl::TANSIG, neurons);
+    network.forward1 = Forward1::at_rest(estimate(p, words).l1_in, idle, &p.forward1);
+    let idle = depth_estimator::In { rst: false, algo_start: false, count: idle };
+    for _ in estimator_ctrl::TANSIG + 1..estimator_ctrl::done(neurons) {
+        network.rise(&idle, p);
     }
 }

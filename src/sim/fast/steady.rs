@@ -3,7 +3,7 @@
 use crate::firmware::reset_sync::{self, ResetSync};
 use crate::firmware::tof_top::{Estimator, Params, TofTop, Wires};
 use crate::firmware::{centroid_estimator, depth_estimator};
-use crate::kernel::{ASLEEP, Clocked, Time, U};
+use crate::kernel::{ASLEEP, Clocked, Time};
 use crate::sim::device::Device;
 
 /// Whether resets and control signals stand still as long as their pins do.
@@ -21,16 +21,18 @@ pub(super) fn estimator_rests(top: &TofTop, p: &Params) -> bool {
     if estimation_phase(top, p).is_some() {
         return false;
     }
-    let (rst, algo_start, count) = (false, false, U::new(0));
+    let (rst, algo_start) = (false, false);
     match p.estimator {
         Estimator::Network => {
             let mut next = top.depth_estimator;
-            next.rise(&depth_estimator::In { rst, algo_start, count }, &p.depth_estimator);
+            let i = depth_estimator::In { rst, algo_start, ..Wires::depth_estimator(top) };
+            next.rise(&i, &p.depth_estimator);
             next == top.depth_estimator
         }
         Estimator::Centroid => {
             let mut next = top.centroid_estimator;
-            next.rise(&centroid_estimator::In { rst, algo_start, count }, &p.centroid_estimator);
+            let i = centroid_estimator::In { rst, algo_start, ..Wires::centroid_estimator(top) };
+            next.rise(&i, &p.centroid_estimator);
             next == top.centroid_estimator
         }
     }
@@ -39,7 +41,9 @@ pub(super) fn estimator_rests(top: &TofTop, p: &Params) -> bool {
 /// Cycles since the edge that took `algo_start`, while the estimator in the socket works.
 pub(super) fn estimation_phase(top: &TofTop, p: &Params) -> Option<u64> {
     match p.estimator {
-        Estimator::Network => top.depth_estimator.estimator_ctrl.phase(),
+        Estimator::Network => {
+            top.depth_estimator.estimator_ctrl.phase(p.depth_estimator.neurons())
+        }
         Estimator::Centroid => top.centroid_estimator.registers.phase(),
     }
 }

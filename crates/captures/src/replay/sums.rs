@@ -1,7 +1,7 @@
 //! The histogram from the sums of the hidden layer: each clock adds a word times a weight.
 
 use tofsim::error::{Input, Result};
-use tofsim::firmware::forward1::Rom;
+use tofsim::firmware::forward1::{Rom, bias};
 use tofsim::hierarchy::TOP;
 
 use crate::compare::Probed;
@@ -33,13 +33,14 @@ pub(super) fn words(
     let (Some(enable), false) = (enable, neurons.is_empty()) else { return Ok(None) };
     let mut words: Words = [None; 256];
     // The samples since the unit was enabled, and the sums at the cycle before.
-    let (mut samples, mut sums) = (None, vec![0; neurons.len()]);
+    let biases = || neurons.iter().map(|&(neuron, _)| bias(rom, neuron).bits()).collect();
+    let (mut samples, mut sums): (_, Vec<u64>) = (None, biases());
     let mut before = true;
     while let Some(sample) = probed.next()? {
         let enabled = probed.value(enable) == Some(1);
         if enabled && !before {
             (samples, words) = (Some(0), [None; 256]);
-            sums.fill(0);
+            sums = biases();
         }
         before = enabled;
         let Some(passed) = &mut samples else { continue };

@@ -3,7 +3,7 @@
 //! either end; starts while busy, and a reset in each layer.
 
 use tofsim::firmware::depth_estimator::In;
-use tofsim::firmware::estimator_ctrl::done;
+use tofsim::firmware::estimator_ctrl::{TANSIG, done};
 use tofsim::firmware::tansig::{ENTRIES, address};
 
 use crate::golden::estimations::{Estimations, memory};
@@ -35,14 +35,15 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let (params, neurons) = (&setting.setup.params.depth_estimator, setting.neurons());
     let mut draw = Draw::new(setting.seed, MEMORIES);
     let (histograms, special, ends) = histograms::new(params, &mut draw);
-    // Products and bias of the hidden layer, tansig, output layer.
-    let layers = [0..256, 256..257, 257..258, 258..params.cycles()];
+    // Words, the products that they leave behind, tansig, output layer.
+    let layers = [0..256, 256..TANSIG, TANSIG..TANSIG + 2, TANSIG + 2..params.cycles()];
     let mut estimations = Estimations::new(layers, histograms.len(), special, setting);
     let mut ends = Cover::new("neuron x 4096 + address at either end of the tansig", ends);
     let mut run = Recorder::new(spec, setting, Stimulus::list());
     for _ in 0..setting.cycles() {
         let estimator = &mut run.top.depth_estimator;
-        let (rst, algo_start) = estimations.next(estimator.estimator_ctrl.phase(), &mut run.draw);
+        let phase = estimator.estimator_ctrl.phase(neurons);
+        let (rst, algo_start) = estimations.next(phase, &mut run.draw);
         if estimator.estimator_ctrl.tansig_en && !rst {
             for (neuron, &l1_in) in estimator.forward1.l1_in[..neurons].iter().enumerate() {
                 ends.see((neuron * ENTRIES + address(l1_in)) as u64);

@@ -34,7 +34,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut begun = 0;
     for cycle in 0..setting.cycles.unwrap_or(LINES) {
         let (ctrl, draw) = (run.top.depth_estimator.estimator_ctrl, &mut run.draw);
-        let phase = ctrl.phase();
+        let phase = ctrl.phase(neurons);
         let i = match phase {
             Some(phase) => In {
                 rst: cut == Some(phase),

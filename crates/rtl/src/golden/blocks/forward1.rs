@@ -15,8 +15,8 @@ const PATIENCE: i64 = 1000;
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[
-        Latency { from: "count", to: "l1_in_0", cycles: |_| 0 },
-        Latency { from: "rom_addr", to: "l1_in_0", cycles: |_| 1 },
+        Latency { from: "count", to: "l1_in_0", cycles: |_| 2 },
+        Latency { from: "rom_addr", to: "l1_in_0", cycles: |_| 3 },
     ],
     configurations: &[NEURONS_16],
     ..Spec::new("forward1", "depth_estimator.forward1", record)
@@ -35,9 +35,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let feasible =
         |goal: &u64| pull(*goal, strongest[*goal as usize]) * PATIENCE * 65_535 > 2 * WRAP;
     let mut wraps = Cover::new("sum wraps, neuron x 2 + downwards", goals.filter(feasible));
-    let mut rows = Cover::new("rom_addr", 0..512);
-    let mut situations = Cover::new("rst, forward1_en, read_en, read_addr is 0 as bits", 0..16);
-    let mut sequence = Cover::new("words of a whole histogram", 0..=BIAS_ROW as u64);
+    let mut rows = Cover::new("rom_addr", 0..BIAS_ROW as u64);
+    let mut situations = Cover::new("rst, forward1_first, forward1_en as bits", 0..8);
+    let mut sequence = Cover::new("words of a whole histogram", 0..BIAS_ROW as u64);
     let mut run = Recorder::new(spec, setting, In::list());
     for cycle in 0..setting.cycles() as u64 {
         let (stretch, place, draw) = (cycle / STRETCH, cycle % STRETCH, &mut run.draw);
@@ -48,44 +48,41 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         };
         let any = In {
             rst: draw.one_in(16),
+            forward1_first: draw.one_in(3),
             forward1_en: !draw.one_in(3),
-            read_en: draw.one_in(2),
-            read_addr: U::new(draw.bits() & if draw.one_in(3) { 0 } else { 0xff }),
             rom_addr: if draw.one_in(2) { U::new(cycle) } else { draw.word() },
             count,
         };
         let i = match (stretch % 4, wraps.missing().next()) {
-            (0, _) if place <= BIAS_ROW as u64 + 1 => {
-                // Weights are fetched a cycle ahead.
-                let (word, next) = (place.wrapping_sub(1), if place > 256 { 0 } else { place });
-                sequence.see_if(place > 0, word);
+            (0, _) if place <= BIAS_ROW as u64 + 2 => {
+                // A weight is fetched a cycle ahead of its word, and added with it two cycles later.
+                let added = place.checked_sub(3);
+                added.into_iter().for_each(|word| sequence.see(word));
                 In {
                     rst: false,
-                    forward1_en: true,
-                    read_en: word != BIAS_ROW as u64,
-                    read_addr: U::new(word),
-                    rom_addr: U::new(next),
+                    forward1_first: added == Some(0),
+                    forward1_en: added.is_some(),
+                    rom_addr: U::new(place),
                     count,
                 }
             }
             (2 | 3, Some(goal)) => In {
                 rst: false,
+                forward1_first: false,
                 forward1_en: true,
-                read_en: true,
-                read_addr: U::new(1 + draw.below(255)),
                 rom_addr: U::new(strongest[goal as usize]),
                 count: U::MAX,
             },
             _ => any,
         };
         let i = In { rst: i.rst || cycle == FIRST_RESET as u64, ..i };
-        situations.see(bits([i.rst, i.forward1_en, i.read_en, i.read_addr == 0]));
+        situations.see(bits([i.rst, i.forward1_first, i.forward1_en]));
         rows.see_if(!i.rst, i.rom_addr.get());
         run.line(&i);
         let forward1 = &mut run.top.depth_estimator.forward1;
         let before = forward1.l1_in;
         *forward1 = forward1.next(&i, rom);
-        let goes_on = i.forward1_en && !i.rst && i.read_addr != 0;
+        let goes_on = i.forward1_en && !i.rst && !i.forward1_first;
         for (neuron, (after, before)) in forward1.l1_in.iter().zip(before).enumerate() {
             let change = after.get() - before.get();
             wraps.see_if(goes_on && change < -WRAP, 2 * neuron as u64);

@@ -17,7 +17,7 @@ const BEYOND: [i64; 4] =
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
-    latency: &[Latency { from: "l1_in_0", to: "l1_out_0", cycles: |_| 0 }],
+    latency: &[Latency { from: "l1_in_0", to: "l1_out_0", cycles: |_| 1 }],
     configurations: &[NEURONS_16],
     ..Spec::new("tansig", "depth_estimator.tansig", record)
 };
@@ -31,9 +31,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         "neuron x 4 + just below, just above, lowest, highest of all",
         0..neurons as u64 * 4,
     );
-    let mut situations = Cover::new("rst x 2 + tansig_en", 0..4);
+    let mut situations = Cover::new("rst, tansig_en, tansig_en before as bits", 0..8);
     let mut run = Recorder::new(spec, setting, In::list());
-    let mut swept = 0;
+    let (mut swept, mut before) = (0, false);
     for cycle in 0..setting.cycles() {
         let draw = &mut run.draw;
         let (rst, tansig_en, special) = (draw.one_in(32), !draw.one_in(4), draw.one_in(8));
@@ -46,7 +46,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
                 (false, _) => sweep(swept, neuron, draw),
             };
         }
-        situations.see(bits([rst, tansig_en]));
+        situations.see(bits([rst, tansig_en, before]));
+        before = tansig_en && !rst;
         if tansig_en && !rst {
             for (neuron, &l1_in) in l1_in[..neurons].iter().enumerate() {
                 let case = (neuron * ENTRIES + address(l1_in)) as u64;

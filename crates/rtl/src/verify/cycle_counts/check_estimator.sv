@@ -16,10 +16,10 @@
 `endif
 
 module check_estimator #(
-    parameter Latency = 259 + `NEURONS,  // cycle of algo_done
-    parameter Forward1 = 257,            // cycles of forward1_en, from e0 on
-    parameter Tansig = 1,                // cycles of tansig_en, from e257 on
-    parameter Forward2 = 2 + `NEURONS    // cycles of forward2_en, the last of them with algo_done
+    parameter Latency = 259 + `NEURONS,      // cycle of algo_done
+    parameter Forward1 = 256,                // cycles of forward1_en, from e2 on
+    parameter Tansig = 1,                    // cycles of tansig_en, from e258 on
+    parameter Forward2 = (`NEURONS + 1) / 2  // cycles of forward2_en, from e262 on
 ) (
     input wire clk_125,
     input wire rst,
@@ -56,11 +56,12 @@ module check_estimator #(
 
     wire shown = under_way || done;
     wire latency = algo_done == done;
-    wire forward1_cycles = \dut.estimator_ctrl.forward1_en == (shown && k < Forward1);
+    wire forward1_cycles =
+        \dut.estimator_ctrl.forward1_en == (shown && k >= 2 && k < 2 + Forward1);
     wire tansig_cycles =
-        \dut.estimator_ctrl.tansig_en == (shown && k >= 257 && k < 257 + Tansig);
+        \dut.estimator_ctrl.tansig_en == (shown && k >= 258 && k < 258 + Tansig);
     wire forward2_cycles =
-        \dut.estimator_ctrl.forward2_en == (shown && k + Forward2 > Latency);
+        \dut.estimator_ctrl.forward2_en == (shown && k >= 262 && k < 262 + Forward2);
 
     wire in_step = \dut.estimator_ctrl.busy == under_way
         && \dut.estimator_ctrl.step == (under_way ? k : 9'd0)

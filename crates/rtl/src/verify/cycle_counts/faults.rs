@@ -13,10 +13,10 @@ fn fault(key: &str, edits: &[Edit], measured: u64) {
 #[test]
 fn a_fault_of_the_estimator_is_counted_and_not_proven() {
     let control = |from, to| [["estimator_ctrl.v", from, to]];
-    fault("latency", &control("{4'd0, Neurons};", "{4'd0, Neurons} - 9'd1;"), 266);
-    fault("forward1_cycles", &control("<= Bias1;", "< Bias1;"), 256);
-    fault("tansig_cycles", &control("== Tansig;", ">= Tansig;"), 10);
-    fault("forward2_cycles", &control(">= Neuron0)", "> Neuron0)"), 9);
+    fault("latency", &control("9'd258 + {4'd0, Neurons};", "9'd257 + {4'd0, Neurons};"), 266);
+    fault("forward1_cycles", &control("step < Tansig - 9'd1;", "step < Tansig - 9'd2;"), 255);
+    fault("tansig_cycles", &control("step == Tansig - 9'd1", "step >= Tansig - 9'd1"), 10);
+    fault("forward2_cycles", &control("step >= Sums2", "step > Sums2"), 3);
 }
 
 #[test]

@@ -116,17 +116,17 @@ pub fn promises(neurons: usize) -> Vec<Promise> {
         define: define(neurons),
         ..Promise::new(&ESTIMATOR, property, expected, format!("estimator: {what}"))
     };
-    let layer = |property, parameter, expected, enable, more| Promise {
+    let layer = |property, parameter, expected, enable| Promise {
         register: Some(format!("estimator_ctrl.{enable}")),
-        ..estimator(property, parameter, expected, format!("{enable} high{more}"))
+        ..estimator(property, parameter, expected, format!("{enable} high"))
     };
     let latency = "algo_start taken to algo_done".to_owned();
-    let neurons = neurons as u64;
+    let (neurons, pairs) = (neurons as u64, neurons.div_ceil(2) as u64);
     let mut promises = vec![
-        estimator("latency", "Latency", 259 + neurons, latency),
-        layer("forward1_cycles", "Forward1", 257, "forward1_en", ""),
-        layer("tansig_cycles", "Tansig", 1, "tansig_en", ""),
-        layer("forward2_cycles", "Forward2", 2 + neurons, "forward2_en", ", to algo_done"),
+        estimator("latency", "Latency", (259 + neurons).max(263 + pairs), latency),
+        layer("forward1_cycles", "Forward1", 256, "forward1_en"),
+        layer("tansig_cycles", "Tansig", 1, "tansig_en"),
+        layer("forward2_cycles", "Forward2", pairs, "forward2_en"),
     ];
     for (property, span) in
         [("laser_period", "start to start"), ("first_shot", "acquire to the first start")]
