@@ -5,9 +5,10 @@
 //
 //   tdc_stop -> carry_chain -> tdc_latch -> tdc_decoder -> tdc_code, tdc_valid
 //   start ----> coarse_counter --^
-//   edge             e             e+1        e+2, e+3
+//   edge             e             e+1        e+2 .. e+7
 module tdc #(
     parameter DelaysFile = "rtl_ref/tap_delays.mem",  // for simulation, see carry_chain
+    parameter [1:0] CountStages = 2'd3,               // see tdc_decoder
     parameter CalFile = "rtl_ref/tdc_cal.mem"         // see tdc_decoder
 ) (
     input wire clk_125,
@@ -53,6 +54,7 @@ module tdc #(
     );
 
     tdc_decoder #(
+        .CountStages(CountStages),
         .CalFile(CalFile)
     ) tdc_decoder (
         .clk_125(clk_125),

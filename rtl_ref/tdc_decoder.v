@@ -1,92 +1,156 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// Turns a hit into a code of 25 ps: counts its high taps, then looks up and subtracts their time.
+// Turns a hit into a code of 25 ps: counts its high taps in steps, then looks up and subtracts their time.
+//
+//   edge      e+1       e+2       e+3       e+4  e+5  e+6  e+7
+//   register  hit_taps  sixteens  hundreds  n    age  t    tdc_code, tdc_valid
 module tdc_decoder #(
+    parameter [1:0] CountStages = 2'd3,        // registers of the ones count; 2: n counts the sixteens
     parameter CalFile = "rtl_ref/tdc_cal.mem"  // age of a hit for each ones count [25/16 ps]
 ) (
     input wire clk_125,
     input wire rst,
     // tdc_latch
-    input wire hit,               // a new hit is kept
+    input wire hit,               // hit_taps are those of a new hit
     input wire [2:0] hit_coarse,  // its coarse count
     input wire [799:0] hit_taps,  // its taps
     // The code
     output reg tdc_valid,         // tdc_code is new; one cycle
     output reg [7:0] tdc_code     // time from the laser edge to the hit [25 ps]
 );
-    reg n_valid;         // n is new
-    reg [9:0] n;         // taps the hit had run through
-    reg [2:0] n_coarse;  // coarse count of n
+    reg [249:0] sixteens;      // ones among 16 taps each
+    reg sixteens_valid;        // they are of a hit
+    reg [2:0] sixteens_coarse; // its coarse count
+    reg [55:0] hundreds;       // ones among 128 taps each
+    reg hundreds_valid;
+    reg [2:0] hundreds_coarse;
+    reg [9:0] n;               // taps that the last hit had run through
+    reg n_valid;               // n is new
+    reg [2:0] n_coarse;
+    reg [13:0] age;            // the time for n [25/16 ps]
+    reg age_valid;
+    reg [2:0] age_coarse;
+    // Its lowest bits are for the borrow.
+    // verilator lint_off UNUSEDSIGNAL
+    reg signed [16:0] t;       // time from the laser edge [25/16 ps]
+    // verilator lint_on UNUSEDSIGNAL
+    reg t_valid;
 
-    reg tdc_valid_next, n_valid_next;
-    reg [7:0] tdc_code_next;
+    reg [249:0] sixteens_next;
+    reg [55:0] hundreds_next;
     reg [9:0] n_next;
     reg [2:0] n_coarse_next;
+    reg tdc_valid_next;
+    reg [7:0] tdc_code_next;
 
-    reg [13:0] cal [0:800];
+    (* rom_style = "block" *) reg [13:0] cal [0:800];
     initial $readmemh(CalFile, cal);
 
     initial begin
-        {tdc_valid, n_valid} = 2'd0;
+        tdc_valid = 1'b0;
         tdc_code = 8'd0;
+        {sixteens_valid, hundreds_valid, n_valid, age_valid, t_valid} = 5'd0;
+        {sixteens_coarse, hundreds_coarse, n_coarse, age_coarse} = 12'd0;
+        sixteens = 250'd0;
+        hundreds = 56'd0;
         n = 10'd0;
-        n_coarse = 3'd0;
+        age = 14'd0;
+        t = 17'sd0;
     end
 
-    // Ones among the taps, as a balanced tree over bytes. All taps count, so bubbles do no harm.
-    function [9:0] ones;
-        input [799:0] taps;
-        reg [1279:0] sums;
-        reg [7:0] eight;
-        integer i, width;
-        begin
-            sums = 1280'd0;
-            for (i = 0; i < 100; i = i + 1) begin
-                eight = taps[8*i +: 8];
-                sums[10*i +: 10] = {9'd0, eight[0]} + {9'd0, eight[1]} + {9'd0, eight[2]}
-                    + {9'd0, eight[3]} + {9'd0, eight[4]} + {9'd0, eight[5]} + {9'd0, eight[6]}
-                    + {9'd0, eight[7]};
-            end
-            for (width = 64; width > 0; width = width / 2)
-                for (i = 0; i < width; i = i + 1)
-                    sums[10*i +: 10] = sums[20*i +: 10] + sums[20*i + 10 +: 10];
-            ones = sums[9:0];
-        end
+    // Ones and their sums, as balanced trees. All taps count, so bubbles do no harm.
+    function [2:0] ones_of_4;
+        input [3:0] taps;
+        ones_of_4 = {2'd0, taps[0]} + {2'd0, taps[1]} + {2'd0, taps[2]} + {2'd0, taps[3]};
     endfunction
 
+    function [4:0] ones_of_16;
+        input [15:0] taps;
+        ones_of_16 = ({2'd0, ones_of_4(taps[3:0])} + {2'd0, ones_of_4(taps[7:4])})
+            + ({2'd0, ones_of_4(taps[11:8])} + {2'd0, ones_of_4(taps[15:12])});
+    endfunction
+
+    function [7:0] sum_of_8;
+        input [5*8-1:0] s;
+        sum_of_8 = (({3'd0, s[0 +: 5]} + {3'd0, s[5 +: 5]}) + ({3'd0, s[10 +: 5]} + {3'd0, s[15 +: 5]}))
+            + (({3'd0, s[20 +: 5]} + {3'd0, s[25 +: 5]}) + ({3'd0, s[30 +: 5]} + {3'd0, s[35 +: 5]}));
+    endfunction
+
+    function [9:0] sum_of_7;
+        input [8*7-1:0] s;
+        sum_of_7 = (({2'd0, s[0 +: 8]} + {2'd0, s[8 +: 8]}) + ({2'd0, s[16 +: 8]} + {2'd0, s[24 +: 8]}))
+            + (({2'd0, s[32 +: 8]} + {2'd0, s[40 +: 8]}) + {2'd0, s[48 +: 8]});
+    endfunction
+
+    // Past the last tap stand zeros.
+    wire [5*56-1:0] all_sixteens = {30'd0, sixteens};
+
+    integer i;
+    always @* begin
+        for (i = 0; i < 50; i = i + 1) sixteens_next[5*i +: 5] = ones_of_16(hit_taps[16*i +: 16]);
+        for (i = 0; i < 7; i = i + 1) hundreds_next[8*i +: 8] = sum_of_8(all_sixteens[40*i +: 40]);
+    end
+
+    wire counted;
+    wire [9:0] count;
+    wire [2:0] counted_coarse;
+    generate
+        if (CountStages == 2'd2) begin : two_stages
+            wire [8*7-1:0] unregistered = hundreds_next;
+            assign counted = sixteens_valid;
+            assign count = sum_of_7(unregistered);
+            assign counted_coarse = sixteens_coarse;
+        end else begin : three_stages
+            assign counted = hundreds_valid;
+            assign count = sum_of_7(hundreds);
+            assign counted_coarse = hundreds_coarse;
+        end
+    endgenerate
+
     // A cycle is 5120 units of 25/16 ps.
-    wire [3:0] cycles = {1'b0, n_coarse} + 4'd1;
+    wire [3:0] cycles = {1'b0, age_coarse} + 4'd1;
     wire signed [16:0] edge_time = {1'b0, {2'd0, cycles} + {cycles, 2'd0}, 10'd0};
-    wire signed [16:0] age = {3'd0, cal[n]};
-    wire signed [16:0] t = edge_time - age;
 
     always @* begin
-        n_valid_next = hit;
         n_next = n;
         n_coarse_next = n_coarse;
-        if (hit) begin
-            n_next = ones(hit_taps);
-            n_coarse_next = hit_coarse;
+        if (counted) begin
+            n_next = count;
+            n_coarse_next = counted_coarse;
         end
-        tdc_valid_next = n_valid && t >= 17'sd0 && t < 17'sd4096;
+        // 0 to 4095; bit 16 is the sign.
+        tdc_valid_next = t_valid && t[16:12] == 5'd0;
         tdc_code_next = tdc_code;
         if (tdc_valid_next) tdc_code_next = t[11:4];
     end
 
     always @(posedge clk_125) begin
+        sixteens <= sixteens_next;
+        sixteens_coarse <= hit_coarse;
+        hundreds <= hundreds_next;
+        hundreds_coarse <= sixteens_coarse;
+        n <= n_next;
+        n_coarse <= n_coarse_next;
+        age <= cal[n];
+        age_coarse <= n_coarse;
+        t <= edge_time - {3'd0, age};
         if (rst) begin
             tdc_valid <= 1'b0;
             tdc_code <= 8'd0;
+            sixteens_valid <= 1'b0;
+            hundreds_valid <= 1'b0;
             n_valid <= 1'b0;
-            n <= 10'd0;
-            n_coarse <= 3'd0;
+            age_valid <= 1'b0;
+            t_valid <= 1'b0;
         end else begin
             tdc_valid <= tdc_valid_next;
             tdc_code <= tdc_code_next;
-            n_valid <= n_valid_next;
-            n <= n_next;
-            n_coarse <= n_coarse_next;
+            sixteens_valid <= hit;
+            hundreds_valid <= sixteens_valid;
+            n_valid <= counted;
+            age_valid <= n_valid;
+            t_valid <= age_valid;
         end
     end
 endmodule

@@ -1,7 +1,8 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// Keeps the taps and the coarse count of a shot's first hit.
+// Says which taps are a shot's first hit. All pass through one register, at every edge: an enable that
+// comes from tap 0 and has 800 loads would be the slowest path of the device.
 module tdc_latch (
     input wire clk_125,
     input wire rst,
@@ -12,16 +13,15 @@ module tdc_latch (
     // carry_chain
     input wire [799:0] taps,       // taps sampled at the last edge
     // tdc_decoder
-    output reg hit,                // a new hit is kept; one cycle
-    output reg [2:0] hit_coarse,   // its coarse count
-    output reg [799:0] hit_taps    // its taps
+    output reg hit,                // hit_taps are a new hit; one cycle
+    output reg [2:0] hit_coarse,   // coarse count of the last hit
+    output reg [799:0] hit_taps    // taps sampled at the edge before
 );
     reg used;        // the shot has had its hit
     reg tap_0_last;  // tap 0 at the edge before
 
     reg hit_next, used_next, tap_0_last_next;
     reg [2:0] hit_coarse_next;
-    reg [799:0] hit_taps_next;
 
     initial begin
         {hit, used, tap_0_last} = 3'd0;
@@ -32,12 +32,10 @@ module tdc_latch (
     always @* begin
         hit_next = taps[0] && !tap_0_last && window && !used;
         hit_coarse_next = hit_coarse;
-        hit_taps_next = hit_taps;
         used_next = used;
         tap_0_last_next = taps[0];
         if (hit_next) begin
             hit_coarse_next = coarse;
-            hit_taps_next = taps;
             used_next = 1'b1;
         end
         // A hit kept now belongs to the shot before.
@@ -45,16 +43,15 @@ module tdc_latch (
     end
 
     always @(posedge clk_125) begin
+        hit_taps <= taps;
         if (rst) begin
             hit <= 1'b0;
             hit_coarse <= 3'd0;
-            hit_taps <= 800'd0;
             used <= 1'b0;
             tap_0_last <= 1'b0;
         end else begin
             hit <= hit_next;
             hit_coarse <= hit_coarse_next;
-            hit_taps <= hit_taps_next;
             used <= used_next;
             tap_0_last <= tap_0_last_next;
         end

@@ -23,6 +23,7 @@ module tof_top #(
     parameter TansigFile = "rtl_ref/tansig.mem",
     parameter CalFile = "rtl_ref/tdc_cal.mem",
     parameter DelaysFile = "rtl_ref/tap_delays.mem",
+    parameter [1:0] CountStages = 2'd3,
     parameter CodeFile = "rtl_ref/codes.mem",
     parameter HistogramFile = "rtl_ref/histogram.mem"
 ) (
@@ -171,6 +172,7 @@ module tof_top #(
 
     tdc #(
         .DelaysFile(DelaysFile),
+        .CountStages(CountStages),
         .CalFile(CalFile)
     ) tdc (
         .clk_125(clk_125),

@@ -11,5 +11,5 @@ pub(crate) mod time;
 
 pub use bits::{S, U};
 pub use clocked::{ASLEEP, AWAKE, Clocked, asleep_if};
-pub use thermometer::Thermometer;
+pub use thermometer::{PartialOnes, Thermometer, ones_width, partial_ones};
 pub use time::Time;

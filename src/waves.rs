@@ -26,7 +26,7 @@ mod vcd;
 mod views;
 pub(crate) mod writer;
 
-pub use digits::TapDigits;
+pub use digits::{Bits, TapDigits};
 pub use gtkwave::zoom;
 pub use marks::Marks;
 pub use select::select;

@@ -28,7 +28,7 @@ impl Sink for Differences {
     fn word(&mut self, id: usize, _: u64) {
         self.0.push(id);
     }
-    fn taps<const N: usize>(&mut self, id: usize, _: &Thermometer<N>) {
+    fn taps<const N: usize>(&mut self, id: usize, _: &Thermometer<N>, _: usize) {
         self.0.push(id);
     }
 }
@@ -89,7 +89,7 @@ fn assert_skip_is_exact<M: Clocked>(module: &M, i: &M::In, p: &M::Params) -> u64
     for edges in 1..=quiet.min(EDGES) {
         stepped = stepped.next(i, p);
         let mut skipped = *module;
-        skipped.skip(i, edges);
+        skipped.skip(i, p, edges);
         assert_eq!(skipped, stepped, "after {edges} of {quiet} quiet edges");
     }
     quiet
@@ -134,7 +134,7 @@ fn check_modules(top: &TofTop, setup: &Setup) -> usize {
         assert_skip_is_exact(
             &top.tdc.tdc_decoder,
             &tdc::Wires::tdc_decoder(&top.tdc, &i),
-            &tdc_params.cal,
+            &tdc_params.decoder,
         ),
         assert_skip_is_exact(&top.code_preload, &Wires::code_preload(top), &[Default::default()]),
     ];
@@ -270,10 +270,10 @@ fn clear_and_an_estimation_come_to_the_same_leapt_over() {
             if leapt.cycle() > device.cycle() {
                 leaps += 1;
                 let mut stepped = device.clone();
-                // The TDC, whose window is closed, has seen the avalanches leapt over three edges later.
+                // The TDC, whose window is closed, has seen the avalanches leapt over four edges later.
                 let landed = leapt.cycle();
                 for device in [&mut leapt, &mut stepped] {
-                    while device.cycle() < landed + 3 {
+                    while device.cycle() < landed + 4 {
                         device.step(p, &mut Off, &mut Off);
                     }
                 }

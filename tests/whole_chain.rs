@@ -42,7 +42,7 @@ impl Depths {
 }
 
 fn probabilities(setup: &Setup) -> BinProbabilities {
-    let bins = Bins::of_chain(&setup.params.tdc.delays, &setup.params.tdc.cal, CYCLE);
+    let bins = Bins::of_chain(&setup.params.tdc.delays, &setup.params.tdc.decoder.cal, CYCLE);
     BinProbabilities::new(&Hazard::new(&Budget::new(&setup.scenario)), &bins)
 }
 

@@ -51,7 +51,7 @@ impl Clocked for CoarseCounter {
     }
 
     #[inline(always)]
-    fn skip(&mut self, _: &In, edges: u64) {
+    fn skip(&mut self, _: &In, (): &(), edges: u64) {
         if self.window {
             let left = U::<3>::MAX.get() - self.coarse.get();
             self.coarse = self.coarse + edges.min(left);

@@ -149,7 +149,7 @@ impl Clocked for FrameCtrl {
     }
 
     #[inline(always)]
-    fn skip(&mut self, _: &In, edges: u64) {
+    fn skip(&mut self, _: &In, _: &Params, edges: u64) {
         if self.state == State::Drain && self.drain != LAST_DRAIN {
             self.drain = self.drain + edges;
         }

@@ -5,7 +5,7 @@
 //! ```text
 //! tdc_stop ─► carry_chain ─► tdc_latch ─► tdc_decoder ─► tdc_code, tdc_valid
 //! start ────► coarse_counter ──┘
-//! edge             e            e+1        e+2, e+3
+//! edge             e            e+1        e+2 .. e+7
 //! ```
 
 use crate::kernel::{AWAKE, Clocked, Time};
@@ -33,17 +33,18 @@ signals! {
 pub struct Params {
     /// Delays of the chain.
     pub delays: Delays,
-    /// ROM of the decoder.
-    pub cal: Box<Calibration>,
+    /// ROM of the decoder, and steps of its ones count.
+    pub decoder: tdc_decoder::Params,
     /// Place of physical tap 0 in the order of arrival.
     tap_0: usize,
 }
 
 impl Params {
-    /// For a chain and the ROM that goes with it.
-    pub fn new(delays: Delays, cal: Calibration) -> Self {
+    /// For a chain, the ROM that goes with it, and 2 or 3 registers of the ones count.
+    pub fn new(delays: Delays, cal: Calibration, count_stages: u64) -> Self {
         let tap_0 = delays.tap_0_position();
-        Params { delays, cal: Box::new(cal), tap_0 }
+        let decoder = tdc_decoder::Params { cal: Box::new(cal), count_stages };
+        Params { delays, decoder, tap_0 }
     }
 }
 
@@ -99,10 +100,11 @@ impl Tdc {
         self.carry_chain = CarryChain { taps: line.sample(now, &p.delays) };
         self.coarse_counter.tick(&coarse_counter, &());
         self.tdc_latch.tick(&tdc_latch, &p.tap_0);
-        self.tdc_decoder.tick(&tdc_decoder, &p.cal);
+        self.tdc_decoder.tick(&tdc_decoder, &p.decoder);
     }
 
-    /// Coming edges at which, while the inputs hold, nothing would move but the coarse count.
+    /// Coming edges at which, while the inputs hold, nothing would move but the coarse count and what is
+    /// on its way through the decoder.
     #[inline(always)]
     pub fn quiet(&self, i: &In, p: &Params, line: &StopLine) -> u64 {
         if !line.is_shown_by(&self.carry_chain.taps) {
@@ -110,14 +112,21 @@ impl Tdc {
         }
         let tdc_latch = self.tdc_latch.quiet(&Wires::tdc_latch(self, i), &p.tap_0);
         tdc_latch
-            .min(self.tdc_decoder.quiet(&Wires::tdc_decoder(self, i), &p.cal))
+            .min(self.tdc_decoder.quiet(&Wires::tdc_decoder(self, i), &p.decoder))
             .min(self.coarse_counter.quiet(&Wires::coarse_counter(self, i), &()))
     }
 
     /// Stands for that many edges, all of them quiet.
     #[inline(always)]
-    pub fn skip(&mut self, i: &In, edges: u64) {
-        self.coarse_counter.skip(&Wires::coarse_counter(self, i), edges);
+    pub fn skip(&mut self, i: &In, p: &Params, edges: u64) {
+        if edges == 0 {
+            return;
+        }
+        let decoder = Wires::tdc_decoder(self, i);
+        self.coarse_counter.skip(&Wires::coarse_counter(self, i), &(), edges);
+        self.tdc_latch.skip(&Wires::tdc_latch(self, i), &p.tap_0, edges);
+        self.tdc_decoder.tick(&decoder, &p.decoder);
+        self.tdc_decoder.skip(&Wires::tdc_decoder(self, i), &p.decoder, edges - 1);
     }
 }
 
@@ -126,11 +135,11 @@ mod tests {
     use super::*;
     use crate::firmware::carry_chain::TAPS;
 
-    /// The code of a photon, with the laser edge at edge 10 and the cycle of `tdc_valid`.
-    fn code_of(photon_fs: u64) -> Option<(u64, u64)> {
+    /// The code of a photon, with the laser edge at edge 10, and the cycle of `tdc_valid`.
+    fn code_of(photon_fs: u64, count_stages: u64) -> Option<(u64, u64)> {
         let delays = Delays::new(Time::from_fs(2_230_000), &[11_500; TAPS]).unwrap();
         let cal = delays.calibration(Time::from_ns(8));
-        let params = Params::new(delays, cal);
+        let params = Params::new(delays, cal, count_stages);
         let (mut tdc, mut line) = (Tdc::default(), StopLine::default());
         let photon = Time::from_ns(80) + Time::from_fs(photon_fs);
         for edge in 0..30 {
@@ -149,19 +158,20 @@ mod tests {
 
     #[test]
     fn a_photon_on_the_laser_edge_has_code_0() {
-        assert_eq!(code_of(0), Some((11 + 3, 0)));
+        assert_eq!(code_of(0, 3), Some((11 + 7, 0)));
+        assert_eq!(code_of(0, 2), Some((11 + 6, 0)));
     }
 
     #[test]
-    fn the_code_is_up_three_edges_after_the_one_that_samples_the_taps() {
-        assert_eq!(code_of(3_300_000), Some((11 + 3, 132)));
-        assert_eq!(code_of(5_770_000), Some((11 + 3, 230)), "reaches the chain at edge 11");
-        assert_eq!(code_of(5_770_001), Some((12 + 3, 230)), "reaches the chain after it");
+    fn the_code_is_up_seven_edges_after_the_one_that_samples_the_taps() {
+        assert_eq!(code_of(3_300_000, 3), Some((11 + 7, 132)));
+        assert_eq!(code_of(5_770_000, 3), Some((11 + 7, 230)), "reaches the chain at edge 11");
+        assert_eq!(code_of(5_770_001, 3), Some((12 + 7, 230)), "reaches the chain after it");
     }
 
     #[test]
     fn a_photon_past_the_range_has_no_code() {
-        assert!(code_of(6_385_000).is_some());
-        assert_eq!(code_of(6_415_000), None);
+        assert!(code_of(6_385_000, 3).is_some());
+        assert_eq!(code_of(6_415_000, 3), None);
     }
 }

@@ -1,20 +1,22 @@
 //! Turns a hit into a code of 25 ps.
 //!
-//! Mirrors `rtl_ref/tdc_decoder.v`. Two stages, the ones count and the time:
+//! Mirrors `rtl_ref/tdc_decoder.v`. The ones count in two or three steps, its time, and the code:
 //!
 //! ```text
-//! edge       e+1        e+2              e+3
-//! register   hit_taps   n = ones count   tdc_code = t >> 4
-//!                                        t = 5120 (coarse + 1) - cal[n]   [25/16 ps]
+//! edge       e+1       e+2       e+3       e+4  e+5       e+6  e+7
+//! register   hit_taps  sixteens  hundreds  n    age       t    tdc_code = t >> 4
+//!                                               = cal[n]  = 5120 (coarse + 1) - age   [25/16 ps]
 //! ```
 //!
-//! A time outside 0 .. 4095 has no code, and `tdc_code` keeps its value.
+//! With two steps, `n` counts the sixteens and all after it comes an edge earlier. A time outside
+//! 0 .. 4095 has no code, and `tdc_code` keeps its value. What has no hit passes through too; only
+//! what says that there is one has a reset.
 
-use crate::kernel::{Clocked, S, U, asleep_if};
+use crate::kernel::{ASLEEP, AWAKE, Clocked, PartialOnes, S, U};
 use crate::signals;
 
 pub use super::carry_chain::Calibration;
-use super::carry_chain::Taps;
+use super::carry_chain::{TAPS, Taps};
 
 /// One cycle of `clk_125` [25/16 ps].
 pub const CYCLE: i64 = 5120;
@@ -22,19 +24,35 @@ pub const CYCLE: i64 = 5120;
 const BIN_SHIFT: u32 = 4;
 /// First time past the last bin, 6.4 ns [25/16 ps].
 const RANGE: i64 = 256 << BIN_SHIFT;
+/// Registers of the ones count unless elaboration says otherwise.
+pub const COUNT_STAGES: u64 = 3;
+/// Edges from the one that samples the taps of a hit to the one that makes its `n`, beside those of
+/// the count.
+const BEFORE_COUNT: u64 = 1;
+/// Edges from there to the code.
+const AFTER_COUNT: u64 = 3;
 
 signals! {
     /// Input ports.
     pub struct In {
         /// Synchronous reset.
         pub rst: bool,
-        /// A new hit is kept.
+        /// `hit_taps` are those of a new hit.
         pub hit: bool,
         /// Its coarse count.
         pub hit_coarse: U<3>,
         /// Its taps.
         pub hit_taps: Taps,
     }
+}
+
+/// ROM and parameter.
+#[derive(Clone, Debug)]
+pub struct Params {
+    /// Age of a hit for each ones count.
+    pub cal: Box<Calibration>,
+    /// Registers of the ones count, 2 or 3.
+    pub count_stages: u64,
 }
 
 signals! {
@@ -44,71 +62,165 @@ signals! {
         pub tdc_valid: bool,
         /// Time from the laser edge to the hit [25 ps].
         pub tdc_code: U<8>,
-        /// `n` is new.
-        n_valid: bool,
-        /// Taps the hit had run through.
+        /// Ones among 16 taps each.
+        sixteens: PartialOnes<TAPS, 16>,
+        /// They are of a hit.
+        sixteens_valid: bool,
+        /// Its coarse count.
+        sixteens_coarse: U<3>,
+        /// Ones among 128 taps each.
+        hundreds: PartialOnes<TAPS, 128>,
+        /// They are of a hit.
+        hundreds_valid: bool,
+        /// Its coarse count.
+        hundreds_coarse: U<3>,
+        /// Taps that the last hit had run through.
         #[view(heading = "TDC", probe = true)]
         n: U<10>,
+        /// `n` is new.
+        n_valid: bool,
         /// Coarse count of `n`.
         n_coarse: U<3>,
+        /// The time for `n` [25/16 ps].
+        age: U<14>,
+        /// `age` is new.
+        age_valid: bool,
+        /// Coarse count of `age`.
+        age_coarse: U<3>,
+        /// Time from the laser edge [25/16 ps].
+        t: S<17>,
+        /// `t` is new.
+        t_valid: bool,
+    }
+}
+
+impl Params {
+    /// From the edge that samples the taps of a hit to the one that makes its code [cycles of clk_125].
+    pub fn latency(&self) -> u64 {
+        BEFORE_COUNT + self.count_stages + AFTER_COUNT
     }
 }
 
 impl TdcDecoder {
-    /// The hit in the second stage: ones count and coarse count.
-    pub fn decoding(&self) -> Option<(u64, u64)> {
+    /// The hit that has just been counted: ones count and coarse count.
+    pub fn counted(&self) -> Option<(u64, u64)> {
         self.n_valid.then_some((self.n.get(), self.n_coarse.get()))
+    }
+
+    /// Whether the coming edge makes a code, or finds that there is none.
+    pub fn decides(&self) -> bool {
+        self.t_valid
     }
 }
 
 /// The code of a hit, if its time is in range.
 #[inline(always)]
 pub fn code(coarse: u64, n: usize, cal: &Calibration) -> Option<U<8>> {
-    let t = S::<17>::new(CYCLE * (coarse as i64 + 1) - cal[n].get() as i64).get();
-    (0..RANGE).contains(&t).then(|| U::new(t as u64 >> BIN_SHIFT))
+    code_of(time(coarse, cal[n]))
+}
+
+/// Time from the laser edge, of a hit of that age.
+#[inline(always)]
+fn time(coarse: u64, age: U<14>) -> S<17> {
+    S::new(CYCLE * (coarse as i64 + 1) - age.get() as i64)
+}
+
+#[inline(always)]
+fn code_of(t: S<17>) -> Option<U<8>> {
+    (0..RANGE).contains(&t.get()).then(|| U::new(t.get() as u64 >> BIN_SHIFT))
 }
 
 impl Clocked for TdcDecoder {
     type In = In;
-    type Params = Calibration;
+    type Params = Params;
 
     #[inline(always)]
-    fn next(&self, i: &In, cal: &Calibration) -> Self {
+    fn next(&self, i: &In, p: &Params) -> Self {
         let (q, mut d) = (self, *self);
-        d.n_valid = i.hit;
-        if i.hit {
-            (d.n, d.n_coarse) = (U::new(i.hit_taps.ones() as u64), i.hit_coarse);
+        d.sixteens = PartialOnes(i.hit_taps);
+        (d.sixteens_valid, d.sixteens_coarse) = (i.hit, i.hit_coarse);
+        d.hundreds = PartialOnes(q.sixteens.0);
+        (d.hundreds_valid, d.hundreds_coarse) = (q.sixteens_valid, q.sixteens_coarse);
+        let (taps, counted, coarse) = match p.count_stages {
+            2 => (&q.sixteens.0, q.sixteens_valid, q.sixteens_coarse),
+            _ => (&q.hundreds.0, q.hundreds_valid, q.hundreds_coarse),
+        };
+        d.n_valid = counted;
+        if counted {
+            (d.n, d.n_coarse) = (U::new(taps.ones() as u64), coarse);
         }
-        d.tdc_valid = false;
-        if q.n_valid
-            && let Some(code) = code(q.n_coarse.get(), q.n.index(), cal)
-        {
-            (d.tdc_valid, d.tdc_code) = (true, code);
+        (d.age, d.age_valid, d.age_coarse) = (p.cal[q.n.index()], q.n_valid, q.n_coarse);
+        (d.t, d.t_valid) = (time(q.age_coarse.get(), q.age), q.age_valid);
+        let code = code_of(q.t).filter(|_| q.t_valid);
+        d.tdc_valid = code.is_some();
+        d.tdc_code = code.unwrap_or(q.tdc_code);
+        if i.rst {
+            (d.tdc_valid, d.tdc_code) = (false, U::new(0));
+            (d.sixteens_valid, d.hundreds_valid) = (false, false);
+            (d.n_valid, d.age_valid, d.t_valid) = (false, false, false);
         }
-        if i.rst { Self::default() } else { d }
+        d
+    }
+
+    /// Nobody looks at a hit on its way until its code is there.
+    #[inline(always)]
+    fn quiet(&self, i: &In, p: &Params) -> u64 {
+        let q = self;
+        if i.rst | i.hit | q.tdc_valid | q.t_valid {
+            return AWAKE;
+        }
+        let is_3 = p.count_stages == 3;
+        let counted = if is_3 { q.hundreds_valid } else { q.sixteens_valid };
+        let stages = [q.age_valid, q.n_valid, counted, is_3 && q.sixteens_valid];
+        stages.iter().position(|valid| *valid).map_or(ASLEEP, |edges| edges as u64 + 1)
     }
 
     #[inline(always)]
-    fn quiet(&self, i: &In, _: &Calibration) -> u64 {
-        asleep_if(!(i.rst | i.hit | self.n_valid | self.tdc_valid))
+    fn skip(&mut self, i: &In, p: &Params, edges: u64) {
+        if edges < p.latency() {
+            (0..edges).for_each(|_| self.tick(i, p));
+            return;
+        }
+        // So many that no hit is left on its way.
+        let (age, coarse) = (p.cal[self.n.index()], self.n_coarse);
+        *self = TdcDecoder {
+            tdc_code: self.tdc_code,
+            sixteens: PartialOnes(i.hit_taps),
+            sixteens_coarse: i.hit_coarse,
+            hundreds: PartialOnes(i.hit_taps),
+            hundreds_coarse: i.hit_coarse,
+            n: self.n,
+            n_coarse: coarse,
+            age,
+            age_coarse: coarse,
+            t: time(coarse.get(), age),
+            ..Self::default()
+        };
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::firmware::carry_chain::TAPS;
 
-    fn decode(coarse: u64, n: usize, cal: &Calibration) -> (bool, u64) {
+    fn params(cal: Calibration, count_stages: u64) -> Params {
+        Params { cal: Box::new(cal), count_stages }
+    }
+
+    fn decode(coarse: u64, n: usize, p: &Params) -> (bool, u64) {
         let hit = In {
             rst: false,
             hit: true,
             hit_coarse: U::new(coarse),
             hit_taps: Taps::new(true, [n]),
         };
-        let idle = In { hit: false, ..hit };
-        let decoded = TdcDecoder::default().next(&hit, cal).next(&idle, cal);
-        (decoded.tdc_valid, decoded.tdc_code.get())
+        let idle = In { hit: false, hit_taps: Taps::settled(false), ..hit };
+        let mut decoder = TdcDecoder::default().next(&hit, p);
+        for _ in 0..p.latency() - 2 {
+            assert!(!decoder.tdc_valid);
+            decoder = decoder.next(&idle, p);
+        }
+        (decoder.tdc_valid, decoder.tdc_code.get())
     }
 
     #[test]
@@ -119,11 +231,13 @@ mod tests {
         cal[102] = U::new(5121);
         cal[103] = U::new(5120 - 4095);
         cal[104] = U::new(5120 - 4096);
-        assert_eq!(decode(0, 100, &cal), (true, 0));
-        assert_eq!(decode(0, 101, &cal), (true, 0));
-        assert_eq!(decode(0, 102, &cal), (false, 0), "before the laser edge");
-        assert_eq!(decode(0, 103, &cal), (true, 255));
-        assert_eq!(decode(0, 104, &cal), (false, 0), "past the range");
-        assert_eq!(decode(7, 100, &cal), (false, 0), "a late cycle");
+        for p in [params(cal, 2), params(cal, 3)] {
+            assert_eq!(decode(0, 100, &p), (true, 0));
+            assert_eq!(decode(0, 101, &p), (true, 0));
+            assert_eq!(decode(0, 102, &p), (false, 0), "before the laser edge");
+            assert_eq!(decode(0, 103, &p), (true, 255));
+            assert_eq!(decode(0, 104, &p), (false, 0), "past the range");
+            assert_eq!(decode(7, 100, &p), (false, 0), "a late cycle");
+        }
     }
 }

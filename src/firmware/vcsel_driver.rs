@@ -132,7 +132,7 @@ impl Clocked for Registers {
     }
 
     #[inline(always)]
-    fn skip(&mut self, i: &In, edges: u64) {
+    fn skip(&mut self, i: &In, (): &(), edges: u64) {
         if i.acquire {
             self.count = self.count + edges;
         }
@@ -195,7 +195,7 @@ impl VcselDriver {
     /// Stands for that many edges of `clk_125`, all of them quiet.
     #[inline(always)]
     pub fn skip(&mut self, i: &In, edges: u64) {
-        self.registers.skip(i, edges);
+        self.registers.skip(i, &(), edges);
     }
 
     /// The single-ended laser pulse.

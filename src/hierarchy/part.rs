@@ -157,7 +157,7 @@ mod tests {
             self.0[id] = value;
         }
 
-        fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>) {
+        fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, _: usize) {
             self.0[id] = value.ones() as u64;
         }
     }

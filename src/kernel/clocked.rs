@@ -32,7 +32,7 @@ pub trait Clocked: Copy + PartialEq + std::fmt::Debug {
     }
 
     /// Stands for that many edges, all of them quiet.
-    fn skip(&mut self, _i: &Self::In, _edges: u64) {}
+    fn skip(&mut self, _i: &Self::In, _p: &Self::Params, _edges: u64) {}
 }
 
 /// The coming edge may change an output.

@@ -1,7 +1,7 @@
 //! Named signals: a struct made by [`signals!`](crate::signals) can list and report its fields.
 
 use super::bits::{S, U};
-use super::thermometer::Thermometer;
+use super::thermometer::{PartialOnes, Thermometer, ones_width};
 
 /// How a value reads best.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,8 +58,9 @@ pub struct Signal {
 pub trait Sink {
     /// A word of up to 64 bits.
     fn word(&mut self, id: usize, value: u64);
-    /// The taps of a delay line.
-    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>);
+    /// The taps of a delay line, or with a `group` above 1 the ones among so many taps each (see
+    /// [`partial_ones`](super::partial_ones)).
+    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, group: usize);
 }
 
 /// A value that stands for one or more signals.
@@ -149,7 +150,20 @@ impl<const N: usize> Field for Thermometer<N> {
     }
     fn changes(&self, before: Option<&Self>, id: usize, sink: &mut impl Sink) {
         if before != Some(self) {
-            sink.taps(id, self);
+            sink.taps(id, self, 1);
+        }
+    }
+}
+
+impl<const N: usize, const GROUP: usize> Field for PartialOnes<N, GROUP> {
+    const COUNT: usize = 1;
+    fn declare(like: Signal, list: &mut Vec<Signal>) {
+        let width = (N.div_ceil(GROUP) * ones_width(GROUP)) as u32;
+        list.push(Signal { width, format: SignalFormat::Bits, ..like });
+    }
+    fn changes(&self, before: Option<&Self>, id: usize, sink: &mut impl Sink) {
+        if before != Some(self) {
+            sink.taps(id, &self.0, GROUP);
         }
     }
 }

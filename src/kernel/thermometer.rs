@@ -137,6 +137,25 @@ impl<const N: usize> Thermometer<N> {
     }
 }
 
+/// The ones among each `GROUP` of `N` taps, side by side: a register of a ones count on its way.
+///
+/// It holds the taps themselves: the model needs no more, and who shows it groups them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PartialOnes<const N: usize, const GROUP: usize>(pub Thermometer<N>);
+
+/// Bits of the ones count of each group of taps.
+pub const fn ones_width(group: usize) -> usize {
+    group.ilog2() as usize + 1
+}
+
+/// Writes the ones count of each `group` of `taps`, which may be one, into `out`, which is as long as
+/// they are.
+pub fn partial_ones(taps: &BitSlice<u64, Lsb0>, group: usize, out: &mut BitSlice<u64, Lsb0>) {
+    for (taps, out) in taps.chunks(group).zip(out.chunks_mut(ones_width(group))) {
+        out.store_le(taps.count_ones());
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -172,6 +191,14 @@ mod tests {
     fn two_transitions_between_the_same_taps_cancel() {
         assert_eq!(Thermometer::<12>::new(true, [4, 4, 9]), Thermometer::new(true, [9]));
         assert_eq!(bits(&Thermometer::new(true, [4, 4])), "111111111111");
+    }
+
+    #[test]
+    fn partial_ones_stand_side_by_side_in_as_many_bits_as_they_need() {
+        let taps = bits![u64, Lsb0; 1, 1, 1, 1, 0, 1, 0, 0, 1, 1];
+        let mut out = bitvec![u64, Lsb0; 0; 3 * 3];
+        partial_ones(taps, 4, &mut out);
+        assert_eq!(out.load_le::<u64>(), 4 | 1 << 3 | 2 << 6);
     }
 
     #[test]

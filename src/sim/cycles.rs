@@ -101,7 +101,7 @@ impl Sink for Values {
         self.0[id] = value;
     }
 
-    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>) {
+    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, _: usize) {
         self.0[id] = value.ones() as u64;
     }
 }

@@ -99,7 +99,7 @@ impl Setup {
                 shots_per_frame: scenario.firmware.shots_of_a_frame() as u16,
                 preloaded: matches!(histogram_source, HistogramSource::Preload(_)),
             },
-            tdc: tdc::Params::new(delays, cal),
+            tdc: tdc::Params::new(delays, cal, scenario.tdc.count_stages),
             depth_estimator: network.params(),
             centroid_estimator: centroid(&scenario.estimator),
             estimator: match scenario.estimator.kind {

@@ -31,6 +31,7 @@ pub struct Shot {
     begun: Time,
     cycle: u64,
     has_hit: bool,
+    is_decided: bool,
 }
 
 /// Follows shots through the TDC's pipeline.
@@ -46,8 +47,8 @@ pub struct ShotRecorder {
     /// The driver's `enable`, as the coming shot takes it.
     laser_en: bool,
     last_edge: Time,
-    /// Whether a hit was in the decoder's second stage at the last edge.
-    decoding: bool,
+    /// Whether this edge decides on the code of a hit.
+    decides: bool,
 }
 
 /// Shots that can be open at once.
@@ -99,18 +100,18 @@ impl ShotRecorder {
 
     fn follow_tdc(&mut self, cycle: u64, top: &TofTop, p: &Params) {
         let decoder = &top.tdc.tdc_decoder;
-        if self.decoding
-            && let Some(shot) = self.open.iter_mut().rfind(|shot| shot.n.is_some())
+        if self.decides
+            && let Some(shot) = self.open.iter_mut().find(|shot| shot.n.is_some() && !shot.is_decided)
         {
             shot.code = decoder.tdc_valid.then(|| decoder.tdc_code.get());
+            shot.is_decided = true;
         }
-        let decoding = decoder.decoding();
-        if let Some((n, coarse)) = decoding
+        self.decides = decoder.decides();
+        if let Some((n, coarse)) = decoder.counted()
             && let Some(shot) = self.open.iter_mut().find(|shot| shot.has_hit && shot.n.is_none())
         {
             (shot.n, shot.coarse) = (Some(n), Some(coarse));
         }
-        self.decoding = decoding.is_some();
         if top.tdc.tdc_latch.hit {
             let seen =
                 |&&(at, _): &&(Time, Option<Cause>)| at + p.tdc.delays.tap_0() <= self.last_edge;

@@ -30,7 +30,7 @@ pub(super) fn with_delays(taps: &[i64]) -> Params {
     let tansig = std::array::from_fn(|address| S::new((address as i64 - 2048) * 8));
     Params {
         frame_ctrl: frame_ctrl::Params { shots_per_frame: SHOTS, preloaded: false },
-        tdc: tdc::Params::new(delays, cal),
+        tdc: tdc::Params::new(delays, cal, 3),
         depth_estimator: depth_estimator::Params {
             forward1: Arc::new(rom),
             tansig: Arc::new(tansig),

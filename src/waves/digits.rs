@@ -2,7 +2,7 @@
 
 use bitvec::prelude::*;
 
-use crate::kernel::Thermometer;
+use crate::kernel::{Thermometer, ones_width, partial_ones};
 
 /// The binary digits of a byte, the highest first.
 #[inline(always)]
@@ -21,7 +21,7 @@ pub(super) fn three(number: u64) -> [u8; 4] {
 }
 
 /// The taps of a delay line in their physical places.
-#[derive(Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct TapDigits {
     /// The physical tap at each place in the order of arrival; none if that is the same order.
     order: Vec<u16>,
@@ -29,29 +29,46 @@ pub struct TapDigits {
     arrived: BitVec<u64>,
     /// In their physical places, if those are others.
     taps: BitVec<u64>,
+    /// Ones counts of groups of taps.
+    counts: BitVec<u64>,
+}
+
+/// Bits in words, the first one lowest.
+#[derive(Clone, Copy, Debug)]
+pub struct Bits<'a> {
+    pub words: &'a [u64],
+    /// How many there are.
+    pub width: usize,
 }
 
 impl TapDigits {
     /// For lines whose taps are reached in `order`.
     pub fn new(order: &[u16]) -> Self {
         let order = if order.is_sorted() { Vec::new() } else { order.to_vec() };
-        TapDigits { taps: bitvec![u64, Lsb0; 0; order.len()], order, arrived: BitVec::new() }
+        let taps = bitvec![u64, Lsb0; 0; order.len()];
+        TapDigits { taps, order, arrived: BitVec::new(), counts: BitVec::new() }
     }
 
-    /// The `N` bits in words, physical tap 0 the lowest.
-    pub fn words<const N: usize>(&mut self, value: &Thermometer<N>) -> &[u64] {
+    /// The `N` taps, physical tap 0 first, or the ones counts of each `group` of them.
+    pub fn bits<const N: usize>(&mut self, value: &Thermometer<N>, group: usize) -> Bits<'_> {
         if self.arrived.len() != N {
             self.arrived.resize(N, false);
             self.arrived.set_uninitialized(false);
         }
         value.expand(&mut self.arrived);
-        if self.order.is_empty() {
-            return self.arrived.as_raw_slice();
-        }
         for (&tap, level) in self.order.iter().zip(&self.arrived) {
             self.taps.set(tap.into(), *level);
         }
-        self.taps.as_raw_slice()
+        let taps = if self.order.is_empty() { &self.arrived } else { &self.taps };
+        if group == 1 {
+            return Bits { words: taps.as_raw_slice(), width: N };
+        }
+        let width = N.div_ceil(group) * ones_width(group);
+        self.counts.clear();
+        self.counts.resize(width, false);
+        self.counts.set_uninitialized(false);
+        partial_ones(taps, group, &mut self.counts);
+        Bits { words: self.counts.as_raw_slice(), width }
     }
 }
 
@@ -61,7 +78,7 @@ mod tests {
 
     /// Physical tap 0 last.
     fn text<const N: usize>(digits: &mut TapDigits, taps: &Thermometer<N>) -> String {
-        let words = digits.words(taps);
+        let words = digits.bits(taps, 1).words;
         (0..N)
             .rev()
             .map(|tap| if words[tap / 64] >> (tap % 64) & 1 == 1 { '1' } else { '0' })

@@ -92,17 +92,18 @@ impl Sink for Fst {
         self.changes.word(signal, value);
     }
 
-    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>) {
+    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, group: usize) {
         let Some(signal) = self.signals[id] else { return };
         self.time_step();
         self.bytes.clear();
-        let (words, shift) = (self.taps.words(value), N.next_multiple_of(8) - N);
+        let bits = self.taps.bits(value, group);
+        let (words, shift) = (bits.words, bits.width.next_multiple_of(8) - bits.width);
         for (place, &word) in words.iter().enumerate().rev() {
             let below = if place > 0 { words[place - 1] } else { 0 };
             let both = u128::from(word) << 64 | u128::from(below);
             self.bytes.extend_from_slice(&((both << shift >> 64) as u64).to_be_bytes());
         }
-        let begin = self.bytes.len() - N.div_ceil(8);
+        let begin = self.bytes.len() - bits.width.div_ceil(8);
         self.changes.change(signal, &self.bytes[begin..]);
     }
 }

@@ -72,10 +72,10 @@ impl Sink for Vcd {
         }
     }
 
-    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>) {
+    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, group: usize) {
         let signal = &self.signals[id];
         if signal.width > 0 {
-            self.text.vector(self.taps.words(value), signal.tail);
+            self.text.vector(self.taps.bits(value, group).words, signal.tail);
         }
     }
 }

@@ -33,6 +33,10 @@ table! {
         /// Carry chain: `uniform`, `table6_3`, `ideal`, or the path of a chain file.
         #[schemars(extend("source" = "docs/model.md"))]
         pub profile: String = "uniform".into(),
+        /// Registers of the ones count. A code comes this and four cycles after the edge that samples its
+        /// hit; with two, the second sums 50 numbers in a cycle.
+        #[schemars(range(min = 2, max = 3), extend("unit" = "cycles", "source" = "docs/timing.md"))]
+        pub count_stages: u64 = 3,
     }
 }
 

@@ -51,10 +51,10 @@ pub fn acquire(
             converter_wakes = (device.cycle + 1).saturating_add(quiet);
         } else if !emits {
             let quiet = limit.min(emitter_wakes).min(converter_wakes) - device.cycle;
-            now += Time::from_fs(skip_until_event(device, quiet, now, period) * period.fs());
+            now += Time::from_fs(skip_until_event(device, p, quiet, now, period) * period.fs());
             continue;
         } else {
-            skip_converter(&mut device.top, 1);
+            skip_converter(&mut device.top, p, 1);
         }
         device.cycle += 1;
         if !emits {

@@ -21,8 +21,8 @@ pub(super) fn emitter_quiet(top: &TofTop) -> u64 {
     }
 }
 
-/// Coming cycles in which nothing of the converter would move but the coarse count, while `tdc_stop`
-/// holds.
+/// Coming cycles in which nothing of the converter would move but the coarse count and a hit on its way,
+/// while `tdc_stop` holds.
 #[inline(always)]
 pub(super) fn converter_quiet(top: &TofTop, p: &Params, line: &StopLine) -> u64 {
     match &p.code_source {
@@ -40,9 +40,7 @@ pub(super) fn rouses_converter(top: &TofTop, line: &StopLine) -> bool {
 /// The converter's part of an edge at which both clocks rise.
 #[inline(always)]
 pub(super) fn convert(top: &mut TofTop, p: &Params, line: &mut StopLine, now: Time) {
-    let (clear, read_en) = (false, false);
-    let histogram = Wires::histogram_builder(top);
-    top.histogram_builder.tick(&histogram_builder::In { clear, read_en, ..histogram });
+    count(top);
     top.convert(p, &tdc_inputs(top), &preload_inputs(top), line, now);
     top.take_code(p);
 }
@@ -78,8 +76,31 @@ pub(super) fn skip_emitter(top: &mut TofTop, cycles: u64) {
 
 /// Stands for that many cycles of the converter, all of them quiet.
 #[inline(always)]
-pub(super) fn skip_converter(top: &mut TofTop, cycles: u64) {
-    top.tdc.skip(&tdc_inputs(top), cycles);
+pub(super) fn skip_converter(top: &mut TofTop, p: &Params, cycles: u64) {
+    match p.code_source {
+        CodeSource::Tdc => top.tdc.skip(&tdc_inputs(top), &p.tdc, cycles),
+        CodeSource::Preload(_) => {}
+    }
+}
+
+/// Lets the hits that the TDC has kept come to their words.
+pub(super) fn empty_converter(top: &mut TofTop, p: &Params) {
+    let decoder = &p.tdc.decoder;
+    for _ in 0..decoder.latency() {
+        let i = tdc::Wires::tdc_decoder(&top.tdc, &tdc_inputs(top));
+        count(top);
+        top.tdc.tdc_decoder.tick(&i, decoder);
+        top.tdc.tdc_latch.hit = false;
+        top.take_code(p);
+    }
+}
+
+/// The histogram's part of an edge while nothing is read.
+#[inline(always)]
+fn count(top: &mut TofTop) {
+    let (clear, read_en) = (false, false);
+    let histogram = Wires::histogram_builder(top);
+    top.histogram_builder.tick(&histogram_builder::In { clear, read_en, ..histogram });
 }
 
 #[inline(always)]

@@ -96,7 +96,7 @@ impl<'a> Histograms<'a> {
     pub fn new(setup: &'a Setup) -> Result<Self> {
         let (optics, outcomes) = independent_shots(setup, "--fidelity histogram")?;
         let firmware = &setup.scenario.firmware;
-        let (delays, cal) = (&setup.params.tdc.delays, &setup.params.tdc.cal);
+        let (delays, cal) = (&setup.params.tdc.delays, &setup.params.tdc.decoder.cal);
         let bins = Bins::of_chain(delays, cal, CYCLE);
         let kind = |lit| {
             let hazard = optics.hazard(lit);

@@ -49,7 +49,7 @@ impl ShotOutcomes {
         let tap_0 = p.delays.tap_0();
         // First time of an avalanche that an edge is too early for.
         let end = |edge: u64| Time::from_fs(edge * cycle.fs() + 1).since(tap_0);
-        let bins = Bins::of_chain(&p.delays, &p.cal, cycle);
+        let bins = Bins::of_chain(&p.delays, &p.decoder.cal, cycle);
         let coded = bins.spans().last().map_or(Time::ZERO, |span| span.until);
         if tap_0 > cycle || p.delays.longest() > cycle + cycle || coded > end(LAST_CODED) {
             return None;

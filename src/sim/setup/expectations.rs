@@ -16,7 +16,7 @@ impl Setup {
     pub fn chances(&self) -> Option<Chances> {
         let (optics, outcomes) = independent_shots(self, "a chance").ok()?;
         let tdc = &self.params.tdc;
-        let bins = Bins::of_chain(&tdc.delays, &tdc.cal, CYCLE);
+        let bins = Bins::of_chain(&tdc.delays, &tdc.decoder.cal, CYCLE);
         let [end, _of_the_last_shot] = outcomes.ends();
         let hazard = optics.hazard(self.scenario.firmware.laser_en);
         Some(Chances::new(hazard, &bins, end))

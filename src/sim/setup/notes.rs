@@ -94,7 +94,7 @@ impl Setup {
     /// target is nearer than that.
     fn past_the_end(&self) -> Option<Note> {
         let tdc = &self.params.tdc;
-        let bins = Bins::of_chain(&tdc.delays, &tdc.cal, CYCLE);
+        let bins = Bins::of_chain(&tdc.delays, &tdc.decoder.cal, CYCLE);
         let end = bins.spans().last().map_or(Time::ZERO, |span| span.until);
         if self.budget.mean_arrival < end {
             return None;

@@ -2,11 +2,11 @@
 
 use bitvec::prelude::*;
 
-use tofsim::firmware::carry_chain::TAPS;
 use tofsim::firmware::tof_top::TofTop;
 use tofsim::hierarchy::{IDS, Part};
 use tofsim::kernel::Thermometer;
 use tofsim::kernel::signals::Sink;
+use tofsim::waves::TapDigits;
 
 use crate::condition::WIDEST;
 
@@ -35,8 +35,8 @@ pub(super) struct ProbeValues {
 struct Packed {
     /// The places of each id.
     places: Vec<Vec<Place>>,
-    /// Tap at each place in the order of arrival.
-    order: Vec<u16>,
+    /// Shows taps in their physical places.
+    taps: TapDigits,
     /// The row, then two words for each operand of the conditions.
     words: Vec<u64>,
     /// Words of the row.
@@ -50,7 +50,7 @@ impl ProbeValues {
     pub(super) fn new(probes: &[Bits], operands: &[Bits], stride: usize, order: &[u16]) -> Self {
         let mut present = Packed {
             places: vec![Vec::new(); IDS],
-            order: order.to_vec(),
+            taps: TapDigits::new(order),
             words: vec![0; stride + 2 * operands.len()],
             stride,
             operands_changed: true,
@@ -124,19 +124,16 @@ impl Sink for Packed {
         self.put(id, |place| value >> place.low);
     }
 
-    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>) {
+    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, group: usize) {
         if self.places[id].is_empty() {
             return;
         }
-        let (mut arrived, mut taps) = ([0u64; TAPS.div_ceil(64)], [0u64; TAPS.div_ceil(64)]);
-        value.expand(arrived.view_bits_mut());
-        let taps = taps.view_bits_mut::<Lsb0>();
-        for (&tap, level) in self.order.iter().zip(arrived.view_bits::<Lsb0>()) {
-            taps.set(tap as usize, *level);
-        }
+        let mut digits = std::mem::take(&mut self.taps);
+        let bits = digits.bits(value, group).words.view_bits::<Lsb0>();
         self.put(id, |&Place { mask, low, .. }| {
-            taps[low as usize..(low + mask.count_ones()) as usize].load_le()
+            bits[low as usize..(low + mask.count_ones()) as usize].load_le()
         });
+        self.taps = digits;
     }
 }
 
@@ -144,6 +141,7 @@ impl Sink for Packed {
 mod tests {
     use super::*;
     use tofsim::hierarchy::{self, entries, ram_entries};
+    use tofsim::kernel::ones_width;
     use tofsim::scenario;
     use tofsim::sim::device::Off;
     use tofsim::sim::setup::Setup;
@@ -156,11 +154,16 @@ mod tests {
             self.0[id] = BitVec::from_element(value);
         }
 
-        fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>) {
-            self.0[id] = bitvec![u64, Lsb0; 0; N];
+        fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, group: usize) {
+            let mut taps = bitvec![u64, Lsb0; 0; N];
             for (place, &tap) in self.1.iter().enumerate() {
-                self.0[id].set(tap as usize, value.tap(place));
+                taps.set(tap as usize, value.tap(place));
             }
+            let counts = taps.chunks(group).map(|taps| taps.count_ones());
+            let bits = counts.flat_map(|ones| {
+                (0..ones_width(group)).map(move |bit| ones >> bit & 1 == 1)
+            });
+            self.0[id] = bits.collect();
         }
     }
 

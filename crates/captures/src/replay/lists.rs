@@ -87,7 +87,7 @@ fn edge(observed: &Observed, shot: &Shot, valid: i64) -> Option<u64> {
 /// An arrival that the TDC gives that code, sampled by the edge of that number if it is known: the
 /// middle of the tap next to the edge [ps].
 fn arrival(setup: &Setup, code: u64, edge: Option<u64>) -> Option<f64> {
-    let cal = &setup.params.tdc.cal;
+    let cal = &setup.params.tdc.decoder.cal;
     let of_edge = |edge: u64| {
         let is_it = |n: &usize| {
             tdc_decoder::code(edge - 1, *n, cal).is_some_and(|given| given.get() == code)

@@ -112,11 +112,11 @@ impl Sink for Values<'_> {
         }
     }
 
-    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>) {
+    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, group: usize) {
         if self.places[id].is_empty() {
             return;
         }
-        let words = self.taps.words(value);
+        let words = self.taps.bits(value, group).words;
         let unknown = vec![0; words.len()];
         for &signal in &self.places[id] {
             self.feed.change(signal, words, &unknown);

@@ -14,7 +14,7 @@ const LEVEL: f64 = 1e-3;
 
 /// Probabilities of a code in the dark and with the laser.
 fn probabilities(setup: &Setup) -> [BinProbabilities; 2] {
-    let (delays, cal) = (&setup.params.tdc.delays, &setup.params.tdc.cal);
+    let (delays, cal) = (&setup.params.tdc.delays, &setup.params.tdc.decoder.cal);
     let bins = Bins::of_chain(delays, cal, CYCLE);
     let hazards = [Hazard::dark(&setup.budget), Hazard::new(&setup.budget)];
     hazards.map(|hazard| BinProbabilities::new(&hazard, &bins))

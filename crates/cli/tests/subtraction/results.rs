@@ -23,7 +23,7 @@ fn histogram(frame: &Value) -> Histogram {
 fn a_depth_comes_from_a_dark_and_a_lit_frame_at_every_fidelity() {
     let folder = empty();
     let setup = setup("kc705", &["firmware.dark_frames=true"]);
-    let (delays, cal) = (&setup.params.tdc.delays, &setup.params.tdc.cal);
+    let (delays, cal) = (&setup.params.tdc.delays, &setup.params.tdc.decoder.cal);
     let subtraction = Subtraction::of_bins(30_000, &Bins::of_chain(delays, cal, CYCLE)).unwrap();
     for fidelity in ["cycle", "shot", "histogram"] {
         let run = pairs(folder.path(), &["--fidelity", fidelity, "--frames", "3"]);

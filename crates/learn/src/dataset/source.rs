@@ -147,7 +147,7 @@ impl Setting {
             return Err(fault.field("firmware.dark_frames").value(true).into());
         }
         let tdc = &setup.params.tdc;
-        let bins = Bins::of_chain(&tdc.delays, &tdc.cal, CYCLE);
+        let bins = Bins::of_chain(&tdc.delays, &tdc.decoder.cal, CYCLE);
         Ok(Setting { scenario: setup.scenario.clone(), bins })
     }
 

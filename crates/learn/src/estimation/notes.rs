@@ -204,7 +204,7 @@ impl Teller<'_> {
 
     fn bins(&self) -> Bins {
         let tdc = &self.setup.params.tdc;
-        Bins::of_chain(&tdc.delays, &tdc.cal, CYCLE)
+        Bins::of_chain(&tdc.delays, &tdc.decoder.cal, CYCLE)
     }
 
     /// That the estimator finds the distance in the histogram that is to be expected, where that has

@@ -36,7 +36,7 @@ impl Panel {
     /// When they cannot be made for it.
     pub fn new(kinds: &[EstimatorKind], setup: &Setup) -> Result<Self> {
         let tdc = &setup.params.tdc;
-        let bins = &Bins::of_chain(&tdc.delays, &tdc.cal, CYCLE);
+        let bins = &Bins::of_chain(&tdc.delays, &tdc.decoder.cal, CYCLE);
         let estimator = |kind: &EstimatorKind| {
             let shots = match kind {
                 EstimatorKind::Subtraction => setup.scenario.firmware.shots_per_frame,

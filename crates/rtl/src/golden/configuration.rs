@@ -29,6 +29,14 @@ pub const NEURONS_16: Configuration = Configuration {
     ..DEFAULTS
 };
 
+/// Two registers of the TDC's ones count.
+pub const COUNT_STAGES_2: Configuration = Configuration {
+    name: "count_stages_2",
+    set: &["tdc.count_stages=2"],
+    parameters: &[super::parameters::COUNT_STAGES],
+    ..DEFAULTS
+};
+
 /// Nothing else than usual.
 pub(super) const DEFAULTS: Configuration =
     Configuration { name: "", scenario: DEFAULT, set: &[], parameters: &[], module: None };

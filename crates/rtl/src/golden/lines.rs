@@ -2,6 +2,7 @@
 
 use tofsim::hierarchy::{self, Entry, IDS, Kind, fitted};
 use tofsim::kernel::signals::{Signal, Signals};
+use tofsim::waves::TapDigits;
 
 use super::setting::Setting;
 use super::spec::{Spec, Vectors};
@@ -19,6 +20,7 @@ pub(super) struct Lines<'a> {
     compared: Vec<Vec<Vec<usize>>>,
     /// The coming sample.
     pub(super) sample: usize,
+    taps: TapDigits,
 }
 
 impl<'a> Lines<'a> {
@@ -52,23 +54,20 @@ impl<'a> Lines<'a> {
             }
         }
         let (stimulus, expected) = (Table::new(stimulus), Table::new(expected));
-        Lines { spec, setting, stimulus, inputs: places, expected, compared, sample: 0 }
+        let taps = TapDigits::new(setting.order());
+        Lines { spec, setting, stimulus, inputs: places, expected, compared, sample: 0, taps }
     }
 
     /// The input of the cycle's line.
     pub(super) fn input(&mut self, i: &impl Signals) {
-        let order = self.setting.order();
-        i.changes(
-            None,
-            0,
-            &mut LineSink { table: &mut self.stimulus, places: &self.inputs, order },
-        );
+        let (table, places, taps) = (&mut self.stimulus, &self.inputs, &mut self.taps);
+        i.changes(None, 0, &mut LineSink { table, places, taps });
     }
 
     /// Takes a sample, of which `show` reports the signals; the last one of a cycle ends the line.
     pub(super) fn sample(&mut self, show: impl FnOnce(&mut LineSink)) {
-        let (places, order) = (&self.compared[self.sample], self.setting.order());
-        show(&mut LineSink { table: &mut self.expected, places, order });
+        let (table, places) = (&mut self.expected, &self.compared[self.sample]);
+        show(&mut LineSink { table, places, taps: &mut self.taps });
         self.sample += 1;
         if self.sample == self.compared.len() {
             self.sample = 0;
@@ -85,6 +84,7 @@ impl<'a> Lines<'a> {
             seed: setting.seed,
             source: setting.setup.name.clone(),
             neurons: setting.neurons(),
+            count_stages: setting.count_stages(),
             parameters: Vec::new(),
             stimulus,
             expected,

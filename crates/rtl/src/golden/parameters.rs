@@ -3,7 +3,7 @@
 use tofsim::firmware::carry_chain::Delays;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::firmware::tof_top::{CodeSource, Estimator, HistogramSource};
-use tofsim::firmware::{centroid_estimator, depth_estimator, forward2};
+use tofsim::firmware::{centroid_estimator, depth_estimator, forward2, tdc_decoder};
 use tofsim::kernel::U;
 use tofsim::network::mem::{self, Mem, lines};
 use tofsim::sim::setup::Setup;
@@ -26,6 +26,15 @@ pub const NEURONS: &str = "Neurons";
 /// That parameter, where it is not the default: so many another design need not have.
 pub fn neurons(neurons: usize) -> Option<(&'static str, Parameter)> {
     (neurons != forward2::NEURONS).then_some((NEURONS, Parameter::Number(neurons as u64)))
+}
+
+/// The parameter with the number of registers of the TDC's ones count.
+pub const COUNT_STAGES: &str = "CountStages";
+
+/// That parameter, where it is not the default.
+pub fn count_stages(params: &tdc_decoder::Params) -> Option<(&'static str, Parameter)> {
+    let stages = params.count_stages;
+    (stages != tdc_decoder::COUNT_STAGES).then_some((COUNT_STAGES, Parameter::Number(stages)))
 }
 
 /// Those of a block of the depth estimator: its memories, and how many neurons they are for.
@@ -76,10 +85,11 @@ pub fn tof_top(setup: &Setup) -> Parameters {
     ];
     list.extend(depth_estimator(&params.depth_estimator));
     list.extend([
-        ("CalFile", Memory(mem::tdc_decoder(&params.tdc.cal))),
+        ("CalFile", Memory(mem::tdc_decoder(&params.tdc.decoder.cal))),
         ("DelaysFile", Memory(tap_delays(&params.tdc.delays))),
     ]);
     list.extend(neurons(params.depth_estimator.neurons()));
+    list.extend(count_stages(&params.tdc.decoder));
     let (preloads_codes, rom) = match &params.code_source {
         CodeSource::Tdc => (false, &[U::new(0)][..]),
         CodeSource::Preload(rom) => (true, &rom[..]),

@@ -59,7 +59,7 @@ pub fn json(vectors: &Vectors) -> Value {
         },
         "reset": reset,
         "latency": spec.latency.iter().map(|latency| json!({
-            "from": latency.from, "to": latency.to, "cycles": (latency.cycles)(vectors.neurons),
+            "from": latency.from, "to": latency.to, "cycles": (latency.cycles)(vectors),
         })).collect::<Vec<_>>(),
         "parameters": parameters(&vectors.parameters),
         "ports": spec.ports(vectors.neurons).iter().map(|port| json!({

@@ -65,6 +65,11 @@ impl Setting {
         self.setup.params.tdc.delays.order()
     }
 
+    /// Registers of the TDC's ones count.
+    pub fn count_stages(&self) -> u64 {
+        self.setup.params.tdc.decoder.count_stages
+    }
+
     /// Hidden neurons.
     pub fn neurons(&self) -> usize {
         self.setup.params.depth_estimator.neurons()

@@ -20,8 +20,8 @@ pub struct Latency {
     pub from: &'static str,
     /// Output port.
     pub to: &'static str,
-    /// Clock cycles with so many neurons.
-    pub cycles: fn(usize) -> u64,
+    /// Clock cycles in the design of these vectors.
+    pub cycles: fn(&Vectors) -> u64,
 }
 
 /// An input that answers an output within the cycle, and so is no part of a line.
@@ -116,6 +116,8 @@ pub struct Vectors {
     pub source: String,
     /// Hidden neurons of the network.
     pub neurons: usize,
+    /// Registers of the TDC's ones count.
+    pub count_stages: u64,
     /// Verilog parameters.
     pub parameters: Parameters,
     /// What goes in: line k is taken by edge k.

@@ -4,9 +4,9 @@ use std::io::{self, Write};
 
 use bitvec::prelude::*;
 
-use tofsim::firmware::carry_chain::TAPS;
 use tofsim::kernel::Thermometer;
 use tofsim::kernel::signals::Sink;
+use tofsim::waves::{Bits, TapDigits};
 
 /// A place in every line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,21 +73,10 @@ impl Table {
         self.line[low..low + width].store_le(value);
     }
 
-    /// Writes the taps of a delay line into the line under construction, in the order of the taps;
-    /// `order` is the tap at each place in the order of arrival.
-    pub fn set_taps<const N: usize>(
-        &mut self,
-        column: usize,
-        taps: &Thermometer<N>,
-        order: &[u16],
-    ) {
-        let low = self.columns[column].low;
-        let mut arrived = [0u64; TAPS.div_ceil(64)];
-        taps.expand(arrived.view_bits_mut());
-        for (place, &tap) in order.iter().enumerate() {
-            let level = arrived.view_bits::<Lsb0>()[place];
-            self.line.set(low + tap as usize, level);
-        }
+    /// Writes bits into the line under construction, the first one lowest.
+    pub fn set_bits(&mut self, column: usize, bits: Bits) {
+        let Column { low, width, .. } = self.columns[column];
+        self.line[low..low + width].copy_from_bitslice(&bits.words.view_bits()[..width]);
     }
 
     /// Ends the line; the next one begins with its values.
@@ -130,8 +119,8 @@ pub struct LineSink<'a> {
     pub table: &'a mut Table,
     /// Columns of each id.
     pub places: &'a [Vec<usize>],
-    /// Tap at each place in the order of arrival.
-    pub order: &'a [u16],
+    /// Shows taps in their physical places.
+    pub taps: &'a mut TapDigits,
 }
 
 impl Sink for LineSink<'_> {
@@ -141,9 +130,9 @@ impl Sink for LineSink<'_> {
         }
     }
 
-    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>) {
+    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, group: usize) {
         for &column in &self.places[id] {
-            self.table.set_taps(column, value, self.order);
+            self.table.set_bits(column, self.taps.bits(value, group));
         }
     }
 }
@@ -166,16 +155,6 @@ mod tests {
         table.write(&mut text).unwrap();
         assert_eq!(String::from_utf8(text).unwrap(), "1a5f00000001\n0a5f00000001\n");
         assert_eq!(table.hex(1, 2), "f00000001");
-    }
-
-    #[test]
-    fn taps_stand_in_their_own_order() {
-        let mut table = Table::new(vec![Column::new("taps", TAPS as u32)]);
-        let mut order: Vec<u16> = (0..TAPS as u16).collect();
-        order.swap(1, 2);
-        table.set_taps(0, &Thermometer::<TAPS>::new(true, [2]), &order);
-        table.push();
-        assert!(table.hex(0, 0).ends_with("05"));
     }
 
     #[test]

@@ -12,14 +12,15 @@ mod light;
 use light::{Ages, Light};
 
 /// Last cycle after a start in which there is a reset.
-const LAST_RESET: usize = 11;
+const LAST_RESET: usize = 15;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[
-        Latency { from: "tdc_stop", to: "tdc_valid", cycles: |_| 3 },
-        Latency { from: "tdc_stop", to: "tdc_code", cycles: |_| 3 },
+        Latency { from: "tdc_stop", to: "tdc_valid", cycles: |vectors| vectors.count_stages + 4 },
+        Latency { from: "tdc_stop", to: "tdc_code", cycles: |vectors| vectors.count_stages + 4 },
     ],
+    configurations: &[COUNT_STAGES_2],
     ..Spec::new("tdc", "tdc", record)
 };
 
@@ -37,7 +38,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let params = &setting.setup.params.tdc;
     let mut light = Light::new(&params.delays);
     let code_of = |ages: &Ages| {
-        Some(code(light::coarse(ages.first), ages.taps as usize, &params.cal)?.get())
+        Some(code(light::coarse(ages.first), ages.taps as usize, &params.decoder.cal)?.get())
     };
     let mut hits = Cover::new("taps of a hit", light.ages.iter().map(|ages| ages.taps));
     let mut codes = Cover::new("codes", light.ages.iter().filter_map(code_of));
@@ -74,7 +75,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             corners.see_if(last_code == Some(code), 4);
             last_code = Some(code);
         }
-        if let Some((taps, coarse)) = tdc.tdc_decoder.decoding().filter(|_| !rst) {
+        if let Some((taps, coarse)) = tdc.tdc_decoder.counted().filter(|_| !rst) {
             hits.see(taps);
             coarses.see(coarse);
             light.counted(taps);
@@ -102,9 +103,11 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let i = In { rst, start, tdc_stop: stops.line.level() };
         run.top.tdc.rise(&i, params, &mut stops.line, now);
     }
-    let memories = [parameters::tap_delays(&params.delays), mem::tdc_decoder(&params.cal)];
+    let memories = [parameters::tap_delays(&params.delays), mem::tdc_decoder(&params.decoder.cal)];
+    let mut parameters = files(["DelaysFile", "CalFile"], memories);
+    parameters.extend(parameters::count_stages(&params.decoder));
     Ok(Vectors {
-        parameters: files(["DelaysFile", "CalFile"], memories),
+        parameters,
         stops: light.stops.times().to_vec(),
         ..run.vectors([hits, codes, coarses, rises, resets, corners])
     })

@@ -14,14 +14,16 @@ const COARSE: u64 = 3;
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[
-        Latency { from: "hit", to: "tdc_valid", cycles: |_| 1 },
-        Latency { from: "hit_taps", to: "tdc_code", cycles: |_| 1 },
+        Latency { from: "hit", to: "tdc_valid", cycles: |vectors| vectors.count_stages + 2 },
+        Latency { from: "hit_taps", to: "tdc_code", cycles: |vectors| vectors.count_stages + 2 },
     ],
+    configurations: &[COUNT_STAGES_2],
     ..Spec::new("tdc_decoder", "tdc.tdc_decoder", record)
 };
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let (mut cal, taps) = (setting.setup.params.tdc.cal.clone(), setting.places());
+    let (mut params, taps) = (setting.setup.params.tdc.decoder.clone(), setting.places());
+    let cal = &mut params.cal;
     let times = (0..COARSE).flat_map(|coarse| ENDS.map(|end| (coarse, end)));
     // Coarse and ones count for a time at an end of the range.
     let mut ends = Vec::new();
@@ -31,7 +33,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         ends.push((coarse, n));
     }
     let all = (0..=taps).flat_map(|n| (0..COARSE).map(move |coarse| (coarse, n)));
-    let reachable = all.filter_map(|(coarse, n)| Some(code(coarse, n, &cal)?.get()));
+    let reachable = all.filter_map(|(coarse, n)| Some(code(coarse, n, cal)?.get()));
     let mut codes = Cover::new("codes", reachable);
     let mut ones = Cover::new("ones count", 0..=taps as u64);
     let mut coarses = Cover::new("coarse", 0..8);
@@ -39,6 +41,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut situations = Cover::new("rst, hit, hit before as bits", 0..8);
     let mut run = Recorder::new(spec, setting, In::list());
     let mut hits_swept = 0;
+    // Whether the line before had a hit, and the hits counted one and two lines ago.
+    let (mut hit_before, mut counted) = (false, [None; 2]);
     for cycle in 0..setting.cycles() {
         let (decoder, draw) = (run.top.tdc.tdc_decoder, &mut run.draw);
         let (rst, hit) = (cycle > 0 && draw.one_in(40), draw.one_in(2));
@@ -52,21 +56,23 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         };
         hits_swept += usize::from(hit && !rst && special > 1);
 
-        let before = decoder.decoding();
-        situations.see(bits([rst, hit, before.is_some()]));
+        situations.see(bits([rst, hit, hit_before]));
+        hit_before = hit && !rst;
         codes.see_if(decoder.tdc_valid, decoder.tdc_code.get());
-        if let Some((n, coarse)) = before.filter(|_| !rst) {
+        if let Some((n, coarse)) = counted[1].filter(|_| !rst) {
             ones.see(n);
             coarses.see(coarse);
             let ends = ends.iter().zip(0..).filter(|(end, _)| **end == (coarse, n as usize));
             ends.for_each(|(_, case)| times.see(case));
         }
+        counted = if rst { [None; 2] } else { [decoder.counted(), counted[0]] };
         let hit_taps = with_ones(n, taps, draw);
         let i = In { rst, hit, hit_coarse: U::new(coarse), hit_taps };
         run.line(&i);
-        run.top.tdc.tdc_decoder = decoder.next(&i, &cal);
+        run.top.tdc.tdc_decoder = decoder.next(&i, &params);
     }
-    let parameters = files(["CalFile"], [mem::tdc_decoder(&cal)]);
+    let mut parameters = files(["CalFile"], [mem::tdc_decoder(&params.cal)]);
+    parameters.extend(parameters::count_stages(&params));
     Ok(Vectors { parameters, ..run.vectors([ones, coarses, codes, times, situations]) })
 }
 
