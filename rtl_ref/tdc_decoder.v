@@ -19,28 +19,20 @@ module tdc_decoder #(
     output reg tdc_valid,         // tdc_code is new; one cycle
     output reg [7:0] tdc_code     // time from the laser edge to the hit [25 ps]
 );
-    reg [249:0] sixteens;      // ones among 16 taps each
-    reg sixteens_valid;        // they are of a hit
-    reg [2:0] sixteens_coarse; // its coarse count
-    reg [55:0] hundreds;       // ones among 128 taps each
-    reg hundreds_valid;
-    reg [2:0] hundreds_coarse;
-    reg [9:0] n;               // taps that the last hit had run through
-    reg n_valid;               // n is new
-    reg [2:0] n_coarse;
-    reg [13:0] age;            // the time for n [25/16 ps]
-    reg age_valid;
-    reg [2:0] age_coarse;
+    // Each holds its last hit, is new for one cycle, and has that hit's coarse count.
+    reg [249:0] sixteens;        // ones among 16 taps each
+    reg [55:0] hundreds;         // ones among 128 taps each
+    reg [9:0] n;                 // taps that the hit had run through
+    reg [13:0] age;              // the time for that [25/16 ps]
     // Its lowest bits are for the borrow.
     // verilator lint_off UNUSEDSIGNAL
-    reg signed [16:0] t;       // time from the laser edge [25/16 ps]
+    reg signed [16:0] t;         // time from the laser edge [25/16 ps]
     // verilator lint_on UNUSEDSIGNAL
-    reg t_valid;
+    reg sixteens_valid, hundreds_valid, n_valid, age_valid, t_valid;
+    reg [2:0] sixteens_coarse, hundreds_coarse, n_coarse, age_coarse;
 
     reg [249:0] sixteens_next;
     reg [55:0] hundreds_next;
-    reg [9:0] n_next;
-    reg [2:0] n_coarse_next;
     reg tdc_valid_next;
     reg [7:0] tdc_code_next;
 
@@ -113,12 +105,6 @@ module tdc_decoder #(
     wire signed [16:0] edge_time = {1'b0, {2'd0, cycles} + {cycles, 2'd0}, 10'd0};
 
     always @* begin
-        n_next = n;
-        n_coarse_next = n_coarse;
-        if (counted) begin
-            n_next = count;
-            n_coarse_next = counted_coarse;
-        end
         // 0 to 4095; bit 16 is the sign.
         tdc_valid_next = t_valid && t[16:12] == 5'd0;
         tdc_code_next = tdc_code;
@@ -126,15 +112,23 @@ module tdc_decoder #(
     end
 
     always @(posedge clk_125) begin
-        sixteens <= sixteens_next;
-        sixteens_coarse <= hit_coarse;
-        hundreds <= hundreds_next;
-        hundreds_coarse <= sixteens_coarse;
-        n <= n_next;
-        n_coarse <= n_coarse_next;
-        age <= cal[n];
-        age_coarse <= n_coarse;
-        t <= edge_time - {3'd0, age};
+        if (hit) begin
+            sixteens <= sixteens_next;
+            sixteens_coarse <= hit_coarse;
+        end
+        if (sixteens_valid) begin
+            hundreds <= hundreds_next;
+            hundreds_coarse <= sixteens_coarse;
+        end
+        if (counted) begin
+            n <= count;
+            n_coarse <= counted_coarse;
+        end
+        if (n_valid) begin
+            age <= cal[n];
+            age_coarse <= n_coarse;
+        end
+        if (age_valid) t <= edge_time - {3'd0, age};
         if (rst) begin
             tdc_valid <= 1'b0;
             tdc_code <= 8'd0;

@@ -103,30 +103,36 @@ impl Tdc {
         self.tdc_decoder.tick(&tdc_decoder, &p.decoder);
     }
 
-    /// Coming edges at which, while the inputs hold, nothing would move but the coarse count and what is
-    /// on its way through the decoder.
+    /// Coming edges at which, while the inputs hold, nothing before the decoder would move but the
+    /// coarse count.
     #[inline(always)]
     pub fn quiet(&self, i: &In, p: &Params, line: &StopLine) -> u64 {
         if !line.is_shown_by(&self.carry_chain.taps) {
             return AWAKE;
         }
         let tdc_latch = self.tdc_latch.quiet(&Wires::tdc_latch(self, i), &p.tap_0);
-        tdc_latch
-            .min(self.tdc_decoder.quiet(&Wires::tdc_decoder(self, i), &p.decoder))
-            .min(self.coarse_counter.quiet(&Wires::coarse_counter(self, i), &()))
+        tdc_latch.min(self.coarse_counter.quiet(&Wires::coarse_counter(self, i), &()))
     }
 
-    /// Stands for that many edges, all of them quiet.
+    /// Stands for that many edges of all before the decoder, all of them quiet.
     #[inline(always)]
     pub fn skip(&mut self, i: &In, p: &Params, edges: u64) {
-        if edges == 0 {
-            return;
-        }
-        let decoder = Wires::tdc_decoder(self, i);
         self.coarse_counter.skip(&Wires::coarse_counter(self, i), &(), edges);
         self.tdc_latch.skip(&Wires::tdc_latch(self, i), &p.tap_0, edges);
-        self.tdc_decoder.tick(&decoder, &p.decoder);
-        self.tdc_decoder.skip(&Wires::tdc_decoder(self, i), &p.decoder, edges - 1);
+    }
+
+    /// Whether a hit is on its way to its code, or a code is new.
+    #[inline(always)]
+    pub fn has_hit(&self) -> bool {
+        self.tdc_latch.hit | self.tdc_decoder.has_hit()
+    }
+
+    /// The decoder's part of an edge at which nothing before it moves but the fall of `hit`.
+    #[inline(always)]
+    pub fn decode(&mut self, i: &In, p: &Params) {
+        let i = Wires::tdc_decoder(self, i);
+        self.tdc_decoder.tick(&i, &p.decoder);
+        self.tdc_latch.hit = false;
     }
 }
 

@@ -9,10 +9,10 @@
 //! ```
 //!
 //! With two steps, `n` counts the sixteens and all after it comes an edge earlier. A time outside
-//! 0 .. 4095 has no code, and `tdc_code` keeps its value. What has no hit passes through too; only
-//! what says that there is one has a reset.
+//! 0 .. 4095 has no code, and `tdc_code` keeps its value. Each register holds its last hit; only what
+//! says that a hit is new has a reset.
 
-use crate::kernel::{ASLEEP, AWAKE, Clocked, PartialOnes, S, U};
+use crate::kernel::{Clocked, PartialOnes, S, U, asleep_if};
 use crate::signals;
 
 pub use super::carry_chain::Calibration;
@@ -64,15 +64,15 @@ signals! {
         pub tdc_code: U<8>,
         /// Ones among 16 taps each.
         sixteens: PartialOnes<TAPS, 16>,
-        /// They are of a hit.
+        /// `sixteens` is new.
         sixteens_valid: bool,
-        /// Its coarse count.
+        /// Coarse count of `sixteens`.
         sixteens_coarse: U<3>,
         /// Ones among 128 taps each.
         hundreds: PartialOnes<TAPS, 128>,
-        /// They are of a hit.
+        /// `hundreds` is new.
         hundreds_valid: bool,
-        /// Its coarse count.
+        /// Coarse count of `hundreds`.
         hundreds_coarse: U<3>,
         /// Taps that the last hit had run through.
         #[view(heading = "TDC", probe = true)]
@@ -107,6 +107,13 @@ impl TdcDecoder {
         self.n_valid.then_some((self.n.get(), self.n_coarse.get()))
     }
 
+    /// Whether a hit is on its way to its code, or a code is new.
+    #[inline(always)]
+    pub fn has_hit(&self) -> bool {
+        let before = self.sixteens_valid | self.hundreds_valid | self.n_valid;
+        before | self.age_valid | self.t_valid | self.tdc_valid
+    }
+
     /// Whether the coming edge makes a code, or finds that there is none.
     pub fn decides(&self) -> bool {
         self.t_valid
@@ -134,68 +141,50 @@ impl Clocked for TdcDecoder {
     type In = In;
     type Params = Params;
 
+    /// From the end on, so that each register takes what the one before it was.
     #[inline(always)]
-    fn next(&self, i: &In, p: &Params) -> Self {
-        let (q, mut d) = (self, *self);
-        d.sixteens = PartialOnes(i.hit_taps);
-        (d.sixteens_valid, d.sixteens_coarse) = (i.hit, i.hit_coarse);
-        d.hundreds = PartialOnes(q.sixteens.0);
-        (d.hundreds_valid, d.hundreds_coarse) = (q.sixteens_valid, q.sixteens_coarse);
-        let (taps, counted, coarse) = match p.count_stages {
-            2 => (&q.sixteens.0, q.sixteens_valid, q.sixteens_coarse),
-            _ => (&q.hundreds.0, q.hundreds_valid, q.hundreds_coarse),
-        };
-        d.n_valid = counted;
-        if counted {
-            (d.n, d.n_coarse) = (U::new(taps.ones() as u64), coarse);
-        }
-        (d.age, d.age_valid, d.age_coarse) = (p.cal[q.n.index()], q.n_valid, q.n_coarse);
-        (d.t, d.t_valid) = (time(q.age_coarse.get(), q.age), q.age_valid);
-        let code = code_of(q.t).filter(|_| q.t_valid);
-        d.tdc_valid = code.is_some();
-        d.tdc_code = code.unwrap_or(q.tdc_code);
-        if i.rst {
-            (d.tdc_valid, d.tdc_code) = (false, U::new(0));
-            (d.sixteens_valid, d.hundreds_valid) = (false, false);
-            (d.n_valid, d.age_valid, d.t_valid) = (false, false, false);
-        }
-        d
-    }
-
-    /// Nobody looks at a hit on its way until its code is there.
-    #[inline(always)]
-    fn quiet(&self, i: &In, p: &Params) -> u64 {
-        let q = self;
-        if i.rst | i.hit | q.tdc_valid | q.t_valid {
-            return AWAKE;
-        }
-        let is_3 = p.count_stages == 3;
-        let counted = if is_3 { q.hundreds_valid } else { q.sixteens_valid };
-        let stages = [q.age_valid, q.n_valid, counted, is_3 && q.sixteens_valid];
-        stages.iter().position(|valid| *valid).map_or(ASLEEP, |edges| edges as u64 + 1)
-    }
-
-    #[inline(always)]
-    fn skip(&mut self, i: &In, p: &Params, edges: u64) {
-        if edges < p.latency() {
-            (0..edges).for_each(|_| self.tick(i, p));
+    fn tick(&mut self, i: &In, p: &Params) {
+        if !(i.rst | i.hit | self.has_hit()) {
             return;
         }
-        // So many that no hit is left on its way.
-        let (age, coarse) = (p.cal[self.n.index()], self.n_coarse);
-        *self = TdcDecoder {
-            tdc_code: self.tdc_code,
-            sixteens: PartialOnes(i.hit_taps),
-            sixteens_coarse: i.hit_coarse,
-            hundreds: PartialOnes(i.hit_taps),
-            hundreds_coarse: i.hit_coarse,
-            n: self.n,
-            n_coarse: coarse,
-            age,
-            age_coarse: coarse,
-            t: time(coarse.get(), age),
-            ..Self::default()
+        let code = code_of(self.t).filter(|_| self.t_valid);
+        self.tdc_valid = code.is_some();
+        self.tdc_code = code.unwrap_or(self.tdc_code);
+        self.t_valid = self.age_valid;
+        if self.age_valid {
+            self.t = time(self.age_coarse.get(), self.age);
+        }
+        self.age_valid = self.n_valid;
+        if self.n_valid {
+            (self.age, self.age_coarse) = (p.cal[self.n.index()], self.n_coarse);
+        }
+        let (taps, counted, coarse) = match p.count_stages {
+            2 => (&self.sixteens.0, self.sixteens_valid, self.sixteens_coarse),
+            _ => (&self.hundreds.0, self.hundreds_valid, self.hundreds_coarse),
         };
+        self.n_valid = counted;
+        if counted {
+            (self.n, self.n_coarse) = (U::new(taps.ones() as u64), coarse);
+        }
+        self.hundreds_valid = self.sixteens_valid;
+        if self.sixteens_valid {
+            self.hundreds = PartialOnes(self.sixteens.0);
+            self.hundreds_coarse = self.sixteens_coarse;
+        }
+        self.sixteens_valid = i.hit;
+        if i.hit {
+            (self.sixteens, self.sixteens_coarse) = (PartialOnes(i.hit_taps), i.hit_coarse);
+        }
+        if i.rst {
+            (self.tdc_valid, self.tdc_code) = (false, U::new(0));
+            (self.sixteens_valid, self.hundreds_valid) = (false, false);
+            (self.n_valid, self.age_valid, self.t_valid) = (false, false, false);
+        }
+    }
+
+    #[inline(always)]
+    fn quiet(&self, i: &In, _: &Params) -> u64 {
+        asleep_if(!(i.rst | i.hit | self.has_hit()))
     }
 }
 

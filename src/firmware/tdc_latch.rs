@@ -71,17 +71,17 @@ impl Clocked for TdcLatch {
         self.hit_taps = i.taps;
     }
 
-    /// Nobody looks at the taps of no hit.
+    /// A hit is over with the next edge, and nobody looks at the taps of no hit.
     #[inline(always)]
     fn quiet(&self, i: &In, tap_0: &usize) -> u64 {
         let idle = i.taps.tap(*tap_0) == self.tap_0_last;
-        asleep_if(idle && !(i.rst | self.hit | (i.start & self.used)))
+        asleep_if(idle && !(i.rst | (i.start & self.used)))
     }
 
     #[inline(always)]
     fn skip(&mut self, i: &In, _: &usize, edges: u64) {
         if edges > 0 {
-            self.hit_taps = i.taps;
+            (self.hit, self.hit_taps) = (false, i.taps);
         }
     }
 }

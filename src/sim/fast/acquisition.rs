@@ -14,7 +14,7 @@ use super::halves::{
     convert, converter_quiet, emit, emitter_quiet, rest_of_cycle, rouses_converter, skip_converter,
     skip_emitter,
 };
-use super::idle::skip_until_event;
+use super::idle::cycles_until_event;
 use super::steady::{control_is_steady, cycles_of_steady_control, estimator_rests, even_period};
 
 /// Goes on until `limit`, or until something else begins than an acquisition [cycles of clk_125].
@@ -37,6 +37,8 @@ pub fn acquire(
     }
     let limit = limit.min(device.cycle.saturating_add(cycles_of_steady_control(device, period)));
     let (mut emitter_wakes, mut converter_wakes) = (device.cycle, device.cycle);
+    // The converter is where it is in that cycle, and sleeps until now.
+    let mut converter_at = device.cycle;
     let mut now = device.pll.clk_125.rise(device.cycle);
     while device.top.frame_ctrl.acquire && device.cycle < limit {
         while device.spad.next_event() <= now {
@@ -45,16 +47,19 @@ pub fn acquire(
         }
         let emits = emitter_wakes <= device.cycle;
         if converter_wakes <= device.cycle {
+            skip_converter(&mut device.top, p, device.cycle - converter_at);
             convert(&mut device.top, p, &mut device.line, now);
             frames.count_hit(&device.top);
             let quiet = converter_quiet(&device.top, p, &device.line);
-            converter_wakes = (device.cycle + 1).saturating_add(quiet);
+            converter_at = device.cycle + 1;
+            converter_wakes = converter_at.saturating_add(quiet);
         } else if !emits {
             let quiet = limit.min(emitter_wakes).min(converter_wakes) - device.cycle;
-            now += Time::from_fs(skip_until_event(device, p, quiet, now, period) * period.fs());
+            let cycles = cycles_until_event(device, quiet, now, period);
+            skip_emitter(&mut device.top, cycles);
+            device.cycle += cycles;
+            now += Time::from_fs(cycles * period.fs());
             continue;
-        } else {
-            skip_converter(&mut device.top, p, 1);
         }
         device.cycle += 1;
         if !emits {
@@ -72,9 +77,12 @@ pub fn acquire(
         now += period;
         if device.top.vcsel_driver.registers.start {
             frames.count_shot(&device.top);
+            skip_converter(&mut device.top, p, device.cycle - converter_at);
             at_shot(device, frames);
+            converter_at = device.cycle;
             emitter_wakes = device.cycle;
             now = device.pll.clk_125.rise(device.cycle);
         }
     }
+    skip_converter(&mut device.top, p, device.cycle - converter_at);
 }

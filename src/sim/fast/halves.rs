@@ -21,8 +21,8 @@ pub(super) fn emitter_quiet(top: &TofTop) -> u64 {
     }
 }
 
-/// Coming cycles in which nothing of the converter would move but the coarse count and a hit on its way,
-/// while `tdc_stop` holds.
+/// Coming cycles in which nothing of the converter would move but the coarse count and hits on their way
+/// to their words, while `tdc_stop` holds.
 #[inline(always)]
 pub(super) fn converter_quiet(top: &TofTop, p: &Params, line: &StopLine) -> u64 {
     match &p.code_source {
@@ -77,21 +77,21 @@ pub(super) fn skip_emitter(top: &mut TofTop, cycles: u64) {
 /// Stands for that many cycles of the converter, all of them quiet.
 #[inline(always)]
 pub(super) fn skip_converter(top: &mut TofTop, p: &Params, cycles: u64) {
-    match p.code_source {
-        CodeSource::Tdc => top.tdc.skip(&tdc_inputs(top), &p.tdc, cycles),
-        CodeSource::Preload(_) => {}
+    count_hits(top, p, cycles);
+    if let CodeSource::Tdc = p.code_source {
+        top.tdc.skip(&tdc_inputs(top), &p.tdc, cycles);
     }
 }
 
-/// Lets the hits that the TDC has kept come to their words.
-pub(super) fn empty_converter(top: &mut TofTop, p: &Params) {
-    let decoder = &p.tdc.decoder;
-    for _ in 0..decoder.latency() {
-        let i = tdc::Wires::tdc_decoder(&top.tdc, &tdc_inputs(top));
+/// Takes the hits that the TDC has kept so many cycles on, towards their words.
+#[inline(always)]
+pub(super) fn count_hits(top: &mut TofTop, p: &Params, cycles: u64) {
+    let mut left = cycles;
+    while left > 0 && top.tdc.has_hit() {
         count(top);
-        top.tdc.tdc_decoder.tick(&i, decoder);
-        top.tdc.tdc_latch.hit = false;
+        top.tdc.decode(&tdc_inputs(top), &p.tdc);
         top.take_code(p);
+        left -= 1;
     }
 }
 

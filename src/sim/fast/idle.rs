@@ -21,31 +21,24 @@ pub fn skip_idle(device: &mut Device, p: &Params, limit: u64) {
         quiet.min(cycles_of_steady_control(device, period)).min(limit.saturating_sub(device.cycle));
     if cycles != AWAKE {
         let now = device.pll.clk_125.rise(device.cycle);
-        skip_until_event(device, p, cycles, now, period);
+        let cycles = cycles_until_event(device, cycles, now, period);
+        let top = &mut device.top;
+        top.frame_ctrl.skip(&Wires::frame_ctrl(top), &p.frame_ctrl, cycles);
+        skip_emitter(top, cycles);
+        skip_converter(top, p, cycles);
+        device.cycle += cycles;
     }
 }
 
-/// Skips that many quiet cycles, the first of them at `now`, or those whose edge of `clk_125` comes
-/// before the detector's next event. Returns how many.
+/// Of that many quiet cycles, the first of them at `now`, those whose edge of `clk_125` comes before the
+/// detector's next event.
 #[inline(always)]
-pub(super) fn skip_until_event(
-    device: &mut Device,
-    p: &Params,
-    quiet: u64,
-    now: Time,
-    period: Time,
-) -> u64 {
+pub(super) fn cycles_until_event(device: &Device, quiet: u64, now: Time, period: Time) -> u64 {
     let event = device.spad.next_event();
-    let cycles = match event < now.saturating_add(Time::from_fs(quiet * period.fs())) {
+    match event < now.saturating_add(Time::from_fs(quiet * period.fs())) {
         true => event.since(now).fs().div_ceil(period.fs()),
         false => quiet,
-    };
-    let top = &mut device.top;
-    top.frame_ctrl.skip(&Wires::frame_ctrl(top), &p.frame_ctrl, cycles);
-    skip_emitter(top, cycles);
-    skip_converter(top, p, cycles);
-    device.cycle += cycles;
-    cycles
+    }
 }
 
 /// Coming cycles in which nothing would move but hidden counters, while all pins hold.

@@ -17,7 +17,7 @@ use crate::sim::frames::Frames;
 use crate::sim::setup::CYCLE;
 
 use super::draws::Draws;
-use super::halves::empty_converter;
+use super::halves::count_hits;
 use super::outcomes::{NO_HIT, OUTCOMES, ShotOutcomes};
 use super::steady::even_period;
 
@@ -60,7 +60,7 @@ pub fn leap_shots(device: &mut Device, p: &Params, tables: &mut Tables, frames: 
         // The remainder is the outcome; it shows the compiler that it is within bounds.
         counts[draws.outcome(word) as usize % counts.len()] += 1;
     });
-    empty_converter(&mut device.top, p);
+    count_hits(&mut device.top, p, u64::MAX);
     land(&mut device.top, shots, &counts[..BINS]);
     device.cycle += shots * period;
     let now = device.pll.clk_125.rise(device.cycle - 1);
