@@ -8,8 +8,8 @@
 //   edge             e             e+1        e+2 .. e+7
 module tdc #(
     parameter DelaysFile = "rtl_ref/tap_delays.mem",  // for simulation, see carry_chain
-    parameter [1:0] CountStages = 2'd3,               // see tdc_decoder
-    parameter CalFile = "rtl_ref/tdc_cal.mem"         // see tdc_decoder
+    parameter CalFile = "rtl_ref/tdc_cal.mem",        // see tdc_decoder
+    parameter [1:0] CountStages = 2'd3
 ) (
     input wire clk_125,
     input wire rst,
@@ -54,8 +54,8 @@ module tdc #(
     );
 
     tdc_decoder #(
-        .CountStages(CountStages),
-        .CalFile(CalFile)
+        .CalFile(CalFile),
+        .CountStages(CountStages)
     ) tdc_decoder (
         .clk_125(clk_125),
         .rst(rst),

@@ -6,8 +6,8 @@
 //   edge      e+1       e+2       e+3       e+4  e+5  e+6  e+7
 //   register  hit_taps  sixteens  hundreds  n    age  t    tdc_code, tdc_valid
 module tdc_decoder #(
-    parameter [1:0] CountStages = 2'd3,        // registers of the ones count; 2: n counts the sixteens
-    parameter CalFile = "rtl_ref/tdc_cal.mem"  // age of a hit for each ones count [25/16 ps]
+    parameter CalFile = "rtl_ref/tdc_cal.mem",  // age of a hit for each ones count [25/16 ps]
+    parameter [1:0] CountStages = 2'd3          // registers of the ones count; 2: n counts the sixteens
 ) (
     input wire clk_125,
     input wire rst,

@@ -101,7 +101,8 @@ impl ShotRecorder {
     fn follow_tdc(&mut self, cycle: u64, top: &TofTop, p: &Params) {
         let decoder = &top.tdc.tdc_decoder;
         if self.decides
-            && let Some(shot) = self.open.iter_mut().find(|shot| shot.n.is_some() && !shot.is_decided)
+            && let Some(shot) =
+                self.open.iter_mut().find(|shot| shot.n.is_some() && !shot.is_decided)
         {
             shot.code = decoder.tdc_valid.then(|| decoder.tdc_code.get());
             shot.is_decided = true;

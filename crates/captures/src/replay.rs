@@ -164,7 +164,9 @@ fn of_kind(
     }
     let timebase = timebase?;
     let shots_per_frame = setup.scenario.firmware.shots_per_frame;
-    let Some(observed) = observe(capture, &mut probed, kind, timebase, shots_per_frame)? else {
+    let pace = lists::pace(setup, kind);
+    let observed = observe(capture, &mut probed, kind, timebase, shots_per_frame, pace)?;
+    let Some(observed) = observed else {
         return Ok(None);
     };
     notes.extend(observed.notes.iter().cloned());

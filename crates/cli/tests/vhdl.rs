@@ -16,7 +16,7 @@ const OWN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../rtl_ref");
 /// The blocks, and a fault for each: a text and what stands in its place.
 const FAULTS: [(&str, &str, &str); 3] = [
     ("coarse_counter", "count + 1", "count + 2"),
-    ("forward2", "unsigned(neuron) <= 8", "unsigned(neuron) <= 7"),
+    ("forward2", "begins := Bias", "begins := (others => '0')"),
     ("histogram_builder", "Count <= std_logic_vector(ram", "Count <= not std_logic_vector(ram"),
 ];
 

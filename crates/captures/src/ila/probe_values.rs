@@ -160,9 +160,8 @@ mod tests {
                 taps.set(tap as usize, value.tap(place));
             }
             let counts = taps.chunks(group).map(|taps| taps.count_ones());
-            let bits = counts.flat_map(|ones| {
-                (0..ones_width(group)).map(move |bit| ones >> bit & 1 == 1)
-            });
+            let bits =
+                counts.flat_map(|ones| (0..ones_width(group)).map(move |bit| ones >> bit & 1 == 1));
             self.0[id] = bits.collect();
         }
     }

@@ -4,19 +4,27 @@ use std::fmt::Write;
 
 use tofsim::error::{Input, Result};
 use tofsim::firmware::tdc_decoder::{self, CYCLE};
+use tofsim::firmware::vcsel_driver::PERIODS;
 use tofsim::sim::setup::Setup;
 
-use super::observed::{Observed, Shot};
+use super::kind::ReplayKind;
+use super::observed::{Observed, Pace, Shot};
 use super::timebase::CYCLE_PS;
 
-/// Cycles from the edge that samples a hit to the one after which its code is up.
-const LATENCY: i64 = 3;
 /// The TDC's unit of time [ps].
 const UNIT_PS: f64 = CYCLE_PS as f64 / CYCLE as f64;
 /// Cycles of a shot's window.
 const WINDOW: u64 = 8;
 /// Past the last code [ps].
 const RANGE_PS: f64 = 6400.0;
+
+/// When codes come after their shots in the firmware of the scenario: a hit is sampled an edge after the
+/// laser's at the earliest. Codes from a ROM come within the shot.
+pub(super) fn pace(setup: &Setup, kind: ReplayKind) -> Pace {
+    let from_rom = kind == ReplayKind::Codes;
+    let to_code = if from_rom { 0 } else { setup.params.tdc.decoder.latency() + 1 };
+    Pace { to_code, period: PERIODS[setup.scenario.firmware.laser_freq as usize] }
+}
 
 /// Photons that give the codes, or else come when the detector's output rose; and how many.
 ///
@@ -32,7 +40,7 @@ pub(super) fn photons(
     for shot in &observed.shots {
         let mut arrivals = Vec::new();
         if let Some((code, at)) = shot.code {
-            let edge = edge(observed, shot, at);
+            let edge = edge(observed, shot, at, setup);
             let arrival = arrival(setup, code, edge);
             let Some(arrival) = arrival.or_else(|| {
                 elsewhere += 1;
@@ -79,9 +87,10 @@ pub(super) fn photons(
 }
 
 /// Number of the edge that sampled a hit, counted from the shot's; `None` if time is not steady.
-fn edge(observed: &Observed, shot: &Shot, valid: i64) -> Option<u64> {
+fn edge(observed: &Observed, shot: &Shot, valid: i64, setup: &Setup) -> Option<u64> {
     let cycles = (valid - shot.start) / observed.timebase.per_cycle as i64;
-    observed.timebase.steady.then_some((cycles - LATENCY).max(0) as u64)
+    let latency = setup.params.tdc.decoder.latency() as i64;
+    observed.timebase.steady.then_some((cycles - latency).max(0) as u64)
 }
 
 /// An arrival that the TDC gives that code, sampled by the edge of that number if it is known: the

@@ -1,5 +1,7 @@
 //! The shots that a capture shows, with what the detector and the TDC made of each.
 
+use std::collections::BTreeMap;
+
 use tofsim::error::{Input, Result};
 use tofsim::firmware::vcsel_driver::PERIODS;
 use tofsim::hierarchy::TOP;
@@ -22,9 +24,21 @@ pub(super) struct Shot {
     /// First sample that sees it begin; less than 0 before the capture.
     pub(super) start: i64,
     /// Its code, and the first sample that sees it.
-    pub(super) code: Option<(u64, i64)>,
+    pub(super) code: Option<Code>,
     /// Samples that are the first to see the detector's output high.
     pub(super) stops: Vec<i64>,
+}
+
+/// A code, and the first sample that sees it.
+type Code = (u64, i64);
+
+/// When codes come after their shots [cycles of clk_125].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pace {
+    /// From a shot to its code, at least.
+    pub(super) to_code: u64,
+    /// From shot to shot.
+    pub(super) period: u64,
 }
 
 /// What a capture shows.
@@ -50,8 +64,10 @@ pub(super) struct Observed {
 pub(super) struct Begin {
     /// Place of its first shot.
     first: usize,
-    /// The end of the shot that it begins in.
-    shot: Shot,
+    /// First samples that see the detector's output high before it.
+    stops: Vec<i64>,
+    /// Codes that come before those of its shots.
+    codes: Vec<Code>,
     /// The code that the TDC holds from an earlier one.
     held: Option<u64>,
 }
@@ -94,6 +110,7 @@ pub(super) fn observe(
     kind: ReplayKind,
     timebase: Timebase,
     shots_per_frame: u64,
+    pace: Pace,
 ) -> Result<Option<Observed>> {
     let module = if kind == ReplayKind::Codes { "code_preload" } else { "tdc" };
     let [valid, code] = ["tdc_valid", "tdc_code"]
@@ -156,13 +173,15 @@ pub(super) fn observe(
         let is_valid = valid.pulse(probed, &observed.timebase);
         let value = code.and_then(|code| probed.value(code));
         let Some(begin) = observed.windows.last_mut() else { continue };
-        let own = observed.shots.get_mut(begin.first..).and_then(<[Shot]>::last_mut);
-        let shot = own.unwrap_or(&mut begin.shot);
+        let (shots, at) = (&mut observed.shots[begin.first..], sample.index as i64);
         if is_high && !was_high {
-            shot.stops.push(sample.index as i64);
+            shots.last_mut().map_or(&mut begin.stops, |shot| &mut shot.stops).push(at);
         }
         match value {
-            Some(value) if is_valid => shot.code = Some((value, sample.index as i64)),
+            Some(value) if is_valid => match pace.shot_of(at, shots, &observed.timebase) {
+                Some(shot) => shot.code = Some((value, at)),
+                None => begin.codes.push((value, at)),
+            },
             held if begins && kind == ReplayKind::Photons => begin.held = held,
             _ => {}
         }
@@ -173,9 +192,27 @@ pub(super) fn observe(
     }
     observed.period = period(&observed);
     observed.per_frame = numbers.per_frame.or_else(|| first_pause(&observed));
-    observed.add_earlier();
+    observed.add_earlier(pace);
     observed.add_notes(counter.is_some() || numbers.begun, is_early);
     Ok(Some(observed))
+}
+
+impl Pace {
+    /// The shot of a code that is seen at a sample, if it is among these. Where the samples do not tell the
+    /// time, so many shots have begun since as usual.
+    fn shot_of<'a>(
+        &self,
+        at: i64,
+        shots: &'a mut [Shot],
+        timebase: &Timebase,
+    ) -> Option<&'a mut Shot> {
+        if timebase.steady {
+            let to_code = (self.to_code * timebase.per_cycle) as i64;
+            return shots.iter_mut().rfind(|shot| shot.start + to_code <= at);
+        }
+        let begun_since = (self.to_code / self.period) as usize;
+        shots.iter_mut().nth_back(begun_since)
+    }
 }
 
 impl Observed {
@@ -217,42 +254,48 @@ impl Observed {
     }
 
     /// Adds what the windows show of the shots before their first.
-    fn add_earlier(&mut self) {
+    fn add_earlier(&mut self, pace: Pace) {
         let Some(period) = self.period else { return };
         for begin in self.windows.clone().into_iter().rev() {
             if begin.first < self.shots.len() {
-                self.add_before(period, begin);
+                self.add_before(Pace { period, ..pace }, begin);
             }
         }
     }
 
-    /// Adds the end of one and the code of another that the TDC still holds.
-    fn add_before(&mut self, period: u64, Begin { first: place, shot: begun, held }: Begin) {
+    /// Adds what a window shows of the shots before its first, and the code of another that the TDC still
+    /// holds.
+    fn add_before(&mut self, pace: Pace, Begin { first: place, stops, codes, held }: Begin) {
         let first = self.shots[place].clone();
         let last = place.checked_sub(1).map(|last| self.shots[last].number);
-        let before = |back: u64| {
-            let number = first.number.checked_sub(back)?;
-            if last.is_some_and(|last| number <= last) {
-                return None;
-            }
-            let start = first.start - (back * period * self.timebase.per_cycle) as i64;
-            Some(Shot { number, start, ..Shot::default() })
-        };
-        let (last, earlier) = (before(1), before(HELD_SINCE));
-        if let Some(last) = last.filter(|_| begun.code.is_some() || !begun.stops.is_empty()) {
-            self.shots.insert(place, Shot { number: last.number, start: last.start, ..begun });
+        let [to_code, period] =
+            [pace.to_code, pace.period].map(|cycles| (cycles * self.timebase.per_cycle) as i64);
+        let begin = |back: i64| first.start - back * period;
+        // By how many shots before the first.
+        let mut earlier = BTreeMap::<i64, Shot>::new();
+        if !stops.is_empty() {
+            earlier.entry(1).or_default().stops = stops;
         }
-        if let (Some(shot), Some(code)) = (earlier, held.filter(|&code| code > 0)) {
-            let cycles = (USUAL_CYCLES * self.timebase.per_cycle) as i64;
-            self.shots.insert(place, Shot { code: Some((code, shot.start + cycles)), ..shot });
+        for (code, at) in codes {
+            let back = (begin(0) + to_code - at + period - 1).div_euclid(period).max(1);
+            earlier.entry(back).or_default().code = Some((code, at));
+        }
+        if let Some(code) = held.filter(|&code| code > 0) {
+            let shot = earlier.entry(HELD_SINCE).or_default();
+            shot.code = shot.code.or(Some((code, begin(HELD_SINCE) + to_code)));
+        }
+        for (back, shot) in earlier {
+            let number = first.number.checked_sub(back as u64);
+            let is_new = |&number: &u64| last.is_none_or(|last| number > last);
+            if let Some(number) = number.filter(is_new) {
+                self.shots.insert(place, Shot { number, start: begin(back), ..shot });
+            }
         }
     }
 }
 
 /// Shots from the one whose code is taken to be held as the capture begins to the first.
-const HELD_SINCE: u64 = 3;
-/// Cycles from the begin of a shot to its code.
-const USUAL_CYCLES: u64 = 4;
+const HELD_SINCE: i64 = 3;
 /// Cycles between frames, at least: Clear and Drain.
 const PAUSE: u64 = 256 + 16;
 

@@ -80,7 +80,7 @@ mod tests {
             saturated_weights: 0,
             saturated_sums: 0.81,
             sum_bits: [36, 36],
-            cost: Cost { ramb36: rams.0, ramb18: rams.1, dsp48: 9 },
+            cost: Cost { ramb36: rams.0, ramb18: rams.1, dsp48: 10 },
         }
     }
 

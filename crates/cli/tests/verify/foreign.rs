@@ -83,18 +83,17 @@ fn a_pipeline_without_reset_has_its_clocks_after_each_reset() {
     };
     let valid = "valid = { tdc_code = \"tdc_valid\" }\n";
     assert_eq!(verdict(valid), "differs", "the hits that were under way");
-    assert_eq!(verdict("settle = 2\n"), "differs", "the code of the last hit");
-    assert_eq!(verdict(&format!("settle = 2\n{valid}")), "pass");
+    assert_eq!(verdict("settle = 6\n"), "differs", "the code of the last hit");
+    assert_eq!(verdict(&format!("settle = 6\n{valid}")), "pass");
 }
 
 #[test]
 fn a_constant_inside_is_named_with_the_entry_that_leaves_it_out() {
     let constant = |_: &str, text: String| {
-        let (head, rest) = text.split_once(" #(").unwrap();
-        let (parameter, rest) = rest.split_once(')').unwrap();
-        let (port, body) = rest.split_once(");").unwrap();
-        let parameter = parameter.replace("parameter", "localparam");
-        format!("{head}{port});\n{};{body}", parameter.split("//").next().unwrap())
+        let (head, rest) = text.split_once("    parameter CalFile").unwrap();
+        let (rom, rest) = rest.split_once(',').unwrap();
+        let (ports, body) = rest.split_once(");\n").unwrap();
+        format!("{head}{ports});\n    localparam CalFile{rom};\n{body}")
     };
     let folder = changed(&["tdc_decoder"], constant);
     let error = common::refused(folder.path(), &["verify", "--rtl", ".", "--block", "tdc_decoder"]);

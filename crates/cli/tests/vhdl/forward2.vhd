@@ -25,7 +25,7 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.memory_file.all;
 
--- The output layer of eight neurons: one product an edge, then the bias.
+-- The output layer of eight neurons: two products an edge, and the bias before the first.
 entity forward2 is
   generic (
     W2File : string := "w2.mem";
@@ -34,8 +34,10 @@ entity forward2 is
   port (
     clk_125 : in std_logic;
     rst : in std_logic;
+    pair : in std_logic_vector(2 downto 0);
+    forward2_first : in std_logic;
     forward2_en : in std_logic;
-    neuron : in std_logic_vector(3 downto 0);
+    depth_en : in std_logic;
     l1_out_0 : in std_logic_vector(15 downto 0);
     l1_out_1 : in std_logic_vector(15 downto 0);
     l1_out_2 : in std_logic_vector(15 downto 0);
@@ -49,36 +51,52 @@ entity forward2 is
 end entity;
 
 architecture rtl of forward2 is
-  type operands is array (0 to 8) of signed(15 downto 0);
+  type operands is array (natural range <>) of signed(15 downto 0);
+  type products is array (0 to 1) of signed(31 downto 0);
+  type sums is array (0 to 1) of signed(35 downto 0);
   constant W2 : std_logic_vector(127 downto 0) := first_line(W2File, 128);
-  constant B2 : std_logic_vector(15 downto 0) := first_line(B2File, 16);
-  constant Weights : operands := (
+  constant Bias : signed(35 downto 0) := shift_left(resize(signed(first_line(B2File, 16)), 36), 12);
+  -- Zeros stand past the last neuron.
+  constant Weights : operands(0 to 15) := (
     signed(W2(15 downto 0)), signed(W2(31 downto 16)), signed(W2(47 downto 32)),
     signed(W2(63 downto 48)), signed(W2(79 downto 64)), signed(W2(95 downto 80)),
-    signed(W2(111 downto 96)), signed(W2(127 downto 112)), signed(B2)
+    signed(W2(111 downto 96)), signed(W2(127 downto 112)), others => (others => '0')
   );
-  signal activations : operands;
-  signal sum : signed(35 downto 0) := (others => '0');
+  signal activations : operands(0 to 15);
+  signal a, b : operands(0 to 1) := (others => (others => '0'));
+  signal product : products := (others => (others => '0'));
+  signal sum : sums := (others => (others => '0'));
+  signal total : signed(35 downto 0) := (others => '0');
 begin
   activations <= (
     signed(l1_out_0), signed(l1_out_1), signed(l1_out_2), signed(l1_out_3), signed(l1_out_4),
-    signed(l1_out_5), signed(l1_out_6), signed(l1_out_7), to_signed(4096, 16)
+    signed(l1_out_5), signed(l1_out_6), signed(l1_out_7), others => (others => '0')
   );
-  depth <= std_logic_vector(sum);
+  depth <= std_logic_vector(total);
 
   process (clk_125)
-    variable before : signed(35 downto 0);
+    variable begins : signed(35 downto 0);
   begin
     if rising_edge(clk_125) then
-      if rst then
-        sum <= (others => '0');
-      elsif forward2_en = '1' and unsigned(neuron) <= 8 then
-        before := sum;
-        if unsigned(neuron) = 0 then
-          before := (others => '0');
+      for k in 0 to 1 loop
+        a(k) <= activations(to_integer(unsigned(pair)) * 2 + k);
+        b(k) <= Weights(to_integer(unsigned(pair)) * 2 + k);
+        product(k) <= a(k) * b(k);
+        if forward2_en = '1' then
+          if forward2_first = '0' then
+            begins := sum(k);
+          elsif k = 0 then
+            begins := Bias;
+          else
+            begins := (others => '0');
+          end if;
+          sum(k) <= begins + product(k);
         end if;
-        sum <= before
-          + activations(to_integer(unsigned(neuron))) * Weights(to_integer(unsigned(neuron)));
+      end loop;
+      if rst then
+        total <= (others => '0');
+      elsif depth_en = '1' then
+        total <= sum(0) + sum(1);
       end if;
     end if;
   end process;

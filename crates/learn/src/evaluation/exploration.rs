@@ -139,7 +139,7 @@ mod tests {
             let ratio = table(bits) / table(bits + 1);
             assert!((1.6..2.4).contains(&ratio), "{bits}: {ratio}");
         }
-        assert_eq!(points[0].cost, Cost { ramb36: 10, ramb18: 0, dsp48: 9 });
+        assert_eq!(points[0].cost, Cost { ramb36: 10, ramb18: 0, dsp48: 10 });
         assert_eq!(rms("the firmware's"), rms("table of 12 address bits over +-4"));
         assert!(points[0].saturated_sums > 0.5 && points[0].sum_bits[0] <= 36);
         assert!(rms("w1 and b1 of 10 bits") > 3.0 * rms("w1 and b1 of 14 bits"));

@@ -113,7 +113,7 @@ impl Datapath {
     }
 
     /// Block RAMs and DSP slices as `rtl_ref` is built for so many neurons: MEM1 a row a bin, MEM2 a copy for each two
-    /// neurons, since a block RAM has two ports; a multiplier of 25 x 18 bits a neuron, and one.
+    /// neurons, since a block RAM has two ports; a multiplier of 25 x 18 bits a neuron, and two.
     pub fn cost(&self, neurons: usize) -> Cost {
         let neurons = neurons as u32;
         // One port of twice the width: 512 words of 72 bits, or of 36 in a half (UG473, tables 1-7 and 1-8).
@@ -133,11 +133,11 @@ impl Datapath {
         let copies = neurons.div_ceil(2);
         // A count of 16 bits is 17 with its sign; activation and W2 take either side.
         let slices = |a: u32, b: u32| if a.min(b) <= 18 && a.max(b) <= 25 { 1 } else { 2 };
-        let hidden = neurons * slices(17, self.w1.width.max(self.b1.width));
+        let hidden = neurons * slices(17, self.w1.width);
         Cost {
             ramb36: mem1.whole + copies * mem2.whole,
             ramb18: mem1.half + copies * mem2.half,
-            dsp48: hidden + slices(self.l1_out.width, self.w2.width),
+            dsp48: hidden + neurons.min(2) * slices(self.l1_out.width, self.w2.width),
         }
     }
 }
@@ -175,10 +175,10 @@ mod tests {
     #[test]
     fn the_firmware_s_cost_is_that_of_its_synthesis() {
         let whole = |ramb36, dsp48| Cost { ramb36, ramb18: 0, dsp48 };
-        assert_eq!(Datapath::default().cost(8), whole(2 + 8, 8 + 1));
-        assert_eq!(Datapath::default().cost(16), whole(4 + 16, 16 + 1));
+        assert_eq!(Datapath::default().cost(8), whole(2 + 8, 8 + 2));
+        assert_eq!(Datapath::default().cost(16), whole(4 + 16, 16 + 2));
         let wide = Datapath { w1: WordFormat { width: 30, fraction: 37 }, ..Datapath::default() };
-        assert_eq!(wide.cost(8), Cost { ramb36: 3 + 8, ramb18: 1, dsp48: 16 + 1 });
+        assert_eq!(wide.cost(8), Cost { ramb36: 3 + 8, ramb18: 1, dsp48: 16 + 2 });
     }
 
     #[test]

@@ -23,21 +23,19 @@ module tdc_latch (
         hit_taps = 700'd0;
     end
 
+    always @(posedge clk_125) hit_taps <= taps;
+
     always @(posedge clk_125)
         if (rst) begin
             hit <= 1'b0;
             hit_coarse <= 3'd0;
-            hit_taps <= 700'd0;
             used <= 1'b0;
             before <= 1'b0;
         end else begin
             before <= taps[0];
             hit <= first;
             used <= (used | first) & ~start;
-            if (first) begin
-                hit_coarse <= coarse;
-                hit_taps <= taps;
-            end
+            if (first) hit_coarse <= coarse;
         end
 endmodule
 
