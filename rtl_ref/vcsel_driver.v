@@ -2,7 +2,8 @@
 `default_nettype none
 
 // Fires the laser at one of four rates. A pulse passes through three registers of clk_250 on its way
-// across the device, so that each leg has a cycle; once fire has asked for it, only rst_250 stops it.
+// across the device, so that each leg has a cycle; once fire has asked for it, only rst_250 stops it,
+// and never moves it.
 //
 //   clk_125      __/^^\__/^^\__/^^\__
 //   edge          s-2   s-1    s         s: the laser edge
@@ -31,6 +32,7 @@ module vcsel_driver (
     reg [4:0] count;   // place in the period
     reg [4:0] last;    // the period in force, less one [cycles of clk_125]
     reg enable;        // the laser_en in force
+    reg fire_last;     // fire at the edge before
     reg pulse_0;       // laser_pulse on its way
     reg pulse_1;
     reg laser_pulse;   // enable of the output register; the cycle of clk_250 before the laser edge
@@ -41,7 +43,7 @@ module vcsel_driver (
 
     initial begin
         {pre_start, start, fire, enable} = 4'd0;
-        {pulse_0, pulse_1, laser_pulse} = 3'd0;
+        {fire_last, pulse_0, pulse_1, laser_pulse} = 4'd0;
         {count, last} = 10'd0;
     end
 
@@ -64,7 +66,7 @@ module vcsel_driver (
             enable_next = laser_en;
         end
         // fire lasts two cycles of clk_250; only the first edge in it makes a pulse.
-        pulse_0_next = fire && !pulse_0;
+        pulse_0_next = fire && !fire_last;
     end
 
     always @(posedge clk_125) begin
@@ -86,6 +88,7 @@ module vcsel_driver (
     end
 
     always @(posedge clk_250) begin
+        fire_last <= fire;
         if (rst_250) begin
             pulse_0 <= 1'b0;
             pulse_1 <= 1'b0;

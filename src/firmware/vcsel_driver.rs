@@ -16,7 +16,7 @@
 //! ```
 //!
 //! A pulse passes through three registers of `clk_250` on its way across the device, so that each leg has
-//! a cycle. Once `fire` has asked for it, only `rst_250` stops it: where `acquire` falls or `rst` comes in
+//! a cycle. Once `fire` has asked for it, only `rst_250` stops it, and never moves it: where `acquire` falls or `rst` comes in
 //! the two cycles before the laser edge, there is light without a `start`, and no shot is counted.
 //!
 //! A new `laser_freq` or `laser_en` takes effect when the counter wraps. Without `laser_en` there
@@ -67,6 +67,8 @@ signals! {
 signals! {
     /// Registers in `clk_250`.
     pub struct Registers250 {
+        /// `fire` at the edge before.
+        fire_last: bool,
         /// `laser_pulse` on its way.
         pulse: [bool; 2],
         /// Enable of the output register; the cycle of `clk_250` before the laser edge.
@@ -151,7 +153,7 @@ impl Registers250 {
     /// Whether a pulse is on its way to the output register.
     #[inline(always)]
     fn has_pulse(&self) -> bool {
-        self.pulse[0] | self.pulse[1] | self.laser_pulse
+        self.fire_last | self.pulse[0] | self.pulse[1] | self.laser_pulse
     }
 }
 
@@ -161,9 +163,11 @@ impl Clocked for Registers250 {
 
     #[inline(always)]
     fn next(&self, i: &In250, (): &()) -> Self {
-        let pulse = [i.fire && !self.pulse[0], self.pulse[0]];
-        let d = Registers250 { pulse, laser_pulse: self.pulse[1] };
-        if i.rst_250 { Self::default() } else { d }
+        let (fire_last, pulse) = (i.fire, [i.fire && !self.fire_last, self.pulse[0]]);
+        match i.rst_250 {
+            true => Registers250 { fire_last, ..Self::default() },
+            false => Registers250 { fire_last, pulse, laser_pulse: self.pulse[1] },
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use tofsim::firmware::histogram_builder::In;
 use crate::golden::prelude::*;
 
 /// Lines before one word is hit until it wraps.
-const MIXED: usize = 20_000;
+const MIXED: usize = 40_000;
 /// Lines in all, if not told otherwise.
 const LINES: usize = MIXED + HIT * 67_500;
 /// Hits of that word before it is cleared.
@@ -64,8 +64,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut run = Recorder::new(spec, setting, In::list());
     // The word that counts on, and whether it has been seen close to its highest count.
     let (hot, mut full) = (setting.seed % bins, false);
-    // Lines since the last hit, and its code.
-    let (mut since, mut last) = (APART, U::new(0));
+    // Lines since the last hit, and its code; the next code of a sweep.
+    let (mut since, mut last, mut swept) = (APART, U::new(0), 0);
     for cycle in 0..cycles {
         let (histogram, draw) = (&mut run.top.histogram_builder, &mut run.draw);
         let (round, word) = (cycle as u64 / bins, cycle as u64 % bins);
@@ -82,18 +82,19 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let count = |address: U<8>| histogram.ram[address.index()].get();
         let looks = apart && (count(U::new(hot)) + 1).is_power_of_two() && draw.one_in(2);
         let hammers = cycle >= MIXED && !draw.one_in(64) && !looks;
-        match round % 5 {
+        match round % 10 {
             _ if hammers => (i.clear, i.tdc_valid, i.tdc_code) = (false, true, U::new(hot)),
             _ if apart && cycle >= MIXED => {
                 (i.clear, i.tdc_valid) = (false, false);
                 (i.read_en, i.read_addr) = (true, U::new(hot));
             }
             0 => (i.clear, i.clear_addr) = (true, U::new(word)),
-            1 | 2 => {
-                let code = if round % 5 == 1 { word } else { hot };
+            1 | 2 | 5 | 6 => {
+                let code = if round % 2 == 1 { swept % bins } else { hot };
+                swept += 1;
                 (i.clear, i.tdc_valid, i.tdc_code) = (false, !draw.one_in(8), U::new(code));
             }
-            3 => {
+            3 | 7 => {
                 (i.clear, i.tdc_valid) = (false, word != hot && draw.one_in(4));
                 (i.read_en, i.read_addr) = (true, U::new(word));
             }

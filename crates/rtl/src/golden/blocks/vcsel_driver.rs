@@ -8,7 +8,7 @@ use crate::golden::prelude::*;
 pub(super) const SPEC: Spec = Spec {
     timing: timing::BOTH,
     reset: Some("rst"),
-    fast: &["laser_on", "pulse_0", "pulse_1", "laser_pulse", "ddr_output.q"],
+    fast: &["laser_on", "fire_last", "pulse_0", "pulse_1", "laser_pulse", "ddr_output.q"],
     latency: &[Latency { from: "acquire", to: "start", cycles: |_| 5 }],
     ..Spec::new("vcsel_driver", "vcsel_driver", record)
 };

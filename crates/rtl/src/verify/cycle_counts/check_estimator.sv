@@ -16,7 +16,8 @@
 `endif
 
 module check_estimator #(
-    parameter Latency = 259 + `NEURONS,      // cycle of algo_done
+    // Cycle of algo_done
+    parameter Latency = `NEURONS < 8 ? 263 + (`NEURONS + 1) / 2 : 259 + `NEURONS,
     parameter Forward1 = 256,                // cycles of forward1_en, from e2 on
     parameter Tansig = 1,                    // cycles of tansig_en, from e258 on
     parameter Forward2 = (`NEURONS + 1) / 2  // cycles of forward2_en, from e262 on
