@@ -1,9 +1,10 @@
 //! The histogram: 256 words of 16 bits in distributed RAM.
 //!
-//! Mirrors `rtl_ref/histogram_builder.v`. Asynchronous read, synchronous write, one address:
-//! clear goes before hit, hit before read. `count + 1` is written at the edge that ends the
-//! `tdc_valid` cycle, so equal codes back to back are safe. There is no other register, and the
-//! RAM has no reset.
+//! Mirrors `rtl_ref/histogram_builder.v`. Asynchronous read, synchronous write, one address: clear goes
+//! before hit, hit before read. A hit takes the two cycles after that of `tdc_valid`: its word is read in
+//! the first, and written back, one more, in the second. So `tdc_valid` has to stay low and `tdc_code` to
+//! hold for two cycles: codes are a shot apart, six cycles or more, or four where one is late and the next
+//! early. A hit that meets `clear` in any of its three cycles is lost. Nothing has a reset.
 
 use crate::kernel::U;
 use crate::kernel::module::{Module, Visitor};
@@ -19,9 +20,9 @@ signals! {
         pub clear: bool,
         /// Word to clear.
         pub clear_addr: U<8>,
-        /// Counts a hit.
+        /// Counts a hit; low for the next two cycles.
         pub tdc_valid: bool,
-        /// Word of the hit.
+        /// Word of the hit; holds for the next two cycles.
         pub tdc_code: U<8>,
         /// Shows a word at `count`.
         pub read_en: bool,
@@ -30,49 +31,84 @@ signals! {
     }
 }
 
-/// The RAM. Too large to copy at every edge, so it is clocked in place.
+signals! {
+    /// Registers.
+    pub struct Registers {
+        /// Either cycle of a hit.
+        counting: bool,
+        /// The second cycle of a hit.
+        writing: bool,
+        /// The word of the hit before it is counted [hits].
+        hit_word: U<16>,
+    }
+}
+
+/// Registers and RAM. Too large to copy at every edge, so it is clocked in place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HistogramBuilder {
+    /// Registers.
+    pub registers: Registers,
     /// Counts [hits].
     pub ram: Box<[U<16>; BINS]>,
 }
 
 impl Default for HistogramBuilder {
     fn default() -> Self {
-        HistogramBuilder { ram: Box::new([U::new(0); BINS]) }
+        let (registers, ram) = (Registers::default(), Box::new([U::new(0); BINS]));
+        HistogramBuilder { registers, ram }
     }
 }
 
 impl Module for HistogramBuilder {
-    const COUNT: usize = 0;
+    const COUNT: usize = <Registers as Module>::COUNT;
 
     /// The words of the RAM come after all registers (see [`crate::hierarchy`]).
-    fn visit(&self, _: Option<&mut Self>, _: &mut impl Visitor) {}
+    #[inline(always)]
+    fn visit(&self, then: Option<&mut Self>, visitor: &mut impl Visitor) {
+        visitor.signals("registers", &self.registers, then.map(|then| &mut then.registers));
+    }
 }
 
 impl HistogramBuilder {
     /// Output port `count`: the word at the address, zero while `read_en` is low.
     #[inline(always)]
     pub fn count(&self, i: &In) -> U<16> {
-        if i.read_en { self.ram[address(i).index()] } else { U::new(0) }
+        if i.read_en { self.ram[self.address(i).index()] } else { U::new(0) }
+    }
+
+    /// Whether a hit is on its way to its word.
+    #[inline(always)]
+    pub fn has_hit(&self) -> bool {
+        self.registers.counting
     }
 
     /// The rising edge of `clk_125`.
     #[inline(always)]
     pub fn tick(&mut self, i: &In) {
-        if i.clear || i.tdc_valid {
-            let word = &mut self.ram[address(i).index()];
-            *word = if i.clear { U::new(0) } else { *word + 1 };
+        let q = self.registers;
+        let reading = q.counting && !q.writing;
+        if i.clear | q.counting {
+            let word = &mut self.ram[self.address(i).index()];
+            if reading {
+                self.registers.hit_word = *word;
+            }
+            if i.clear {
+                *word = U::new(0);
+            } else if q.writing {
+                *word = q.hit_word + 1;
+            }
         }
+        self.registers.counting = (i.tdc_valid || reading) && !i.clear;
+        self.registers.writing = reading && !i.clear;
     }
-}
 
-#[inline(always)]
-fn address(i: &In) -> U<8> {
-    match (i.clear, i.tdc_valid) {
-        (true, _) => i.clear_addr,
-        (false, true) => i.tdc_code,
-        (false, false) => i.read_addr,
+    #[inline(always)]
+    fn address(&self, i: &In) -> U<8> {
+        match (i.clear, self.registers.counting) {
+            (true, _) => i.clear_addr,
+            (false, true) => i.tdc_code,
+            (false, false) => i.read_addr,
+        }
     }
 }
 
@@ -89,24 +125,41 @@ mod tests {
         read_addr: U::new(9),
     };
 
-    #[test]
-    fn equal_codes_back_to_back_both_count() {
-        let mut histogram = HistogramBuilder::default();
-        let hit = In { tdc_valid: true, ..READ_9 };
-        histogram.tick(&hit);
-        assert_eq!(histogram.count(&READ_9), 1);
-        histogram.tick(&hit);
-        assert_eq!(histogram.count(&READ_9), 2);
+    /// A hit of word 9, with `clear` in its cycle of that number.
+    fn hit(histogram: &mut HistogramBuilder, cleared: Option<usize>) {
+        for cycle in 0..3 {
+            let (tdc_valid, clear) = (cycle == 0, cleared == Some(cycle));
+            histogram.tick(&In { tdc_valid, clear, ..READ_9 });
+        }
     }
 
     #[test]
-    fn clear_goes_before_hit_and_hit_before_read() {
+    fn equal_codes_three_cycles_apart_both_count() {
         let mut histogram = HistogramBuilder::default();
-        histogram.ram[3] = U::new(70);
+        for count in 1..4 {
+            hit(&mut histogram, None);
+            assert_eq!(histogram.count(&READ_9), count);
+        }
+    }
+
+    #[test]
+    fn a_hit_that_meets_clear_is_lost() {
+        for cycle in 0..3 {
+            let mut histogram = HistogramBuilder::default();
+            histogram.ram[3] = U::new(70);
+            histogram.ram[9] = U::new(5);
+            hit(&mut histogram, Some(cycle));
+            histogram.tick(&READ_9);
+            assert_eq!((histogram.ram[3].get(), histogram.ram[9].get()), (0, 5));
+        }
+    }
+
+    #[test]
+    fn a_hit_goes_before_a_read() {
+        let mut histogram = HistogramBuilder::default();
         histogram.ram[9] = U::new(5);
-        histogram.tick(&In { clear: true, tdc_valid: true, ..READ_9 });
-        assert_eq!((histogram.ram[3].get(), histogram.ram[9].get()), (0, 5));
-        let hit_elsewhere = In { tdc_valid: true, tdc_code: U::new(3), ..READ_9 };
-        assert_eq!(histogram.count(&hit_elsewhere), 0);
+        let elsewhere = In { read_addr: U::new(3), ..READ_9 };
+        histogram.tick(&In { tdc_valid: true, ..elsewhere });
+        assert_eq!(histogram.count(&elsewhere), 5);
     }
 }

@@ -7,11 +7,17 @@
 //! clk_125      __/^^\__/^^\__/^^\__
 //! edge          s-2   s-1    s
 //! pre_start    __/^^^^^\___________
-//! fire         ________/^^^^^\_____
-//! laser_pulse  ___________/^^\_____   clk_250
+//! fire         __/^^^^^\___________
+//! pulse_0      _____/^^\___________   clk_250
+//! pulse_1      ________/^^\________
+//! laser_pulse  ___________/^^\_____
 //! start        ______________/^^^^^
 //! laser_on     ______________/^\___   2 ns, from a DDR output register
 //! ```
+//!
+//! A pulse passes through three registers of `clk_250` on its way across the device, so that each leg has
+//! a cycle. Once `fire` has asked for it, only `rst_250` stops it: where `acquire` falls or `rst` comes in
+//! the two cycles before the laser edge, there is light without a `start`, and no shot is counted.
 //!
 //! A new `laser_freq` or `laser_en` takes effect when the counter wraps. Without `laser_en` there
 //! is no pulse, but shots go on.
@@ -47,7 +53,7 @@ signals! {
         pub pre_start: bool,
         /// From the laser edge on; one cycle.
         pub start: bool,
-        /// Asks `clk_250` for a pulse; the cycle before the laser edge.
+        /// Asks `clk_250` for a pulse; two cycles before the laser edge.
         fire: bool,
         /// Place in the period.
         pub(crate) count: U<5>,
@@ -61,6 +67,8 @@ signals! {
 signals! {
     /// Registers in `clk_250`.
     pub struct Registers250 {
+        /// `laser_pulse` on its way.
+        pulse: [bool; 2],
         /// Enable of the output register; the cycle of `clk_250` before the laser edge.
         #[view(probe = true)]
         laser_pulse: bool,
@@ -107,7 +115,7 @@ impl Clocked for Registers {
         let (q, mut d) = (self, *self);
         let left = q.last - q.count.get();
         d.pre_start = i.acquire && left == 2;
-        d.fire = i.acquire && q.enable && left == 1;
+        d.fire = d.pre_start && q.enable;
         d.start = i.acquire && left == 0;
         d.count = q.count + 1;
         if !i.acquire || left == 0 {
@@ -139,13 +147,23 @@ impl Clocked for Registers {
     }
 }
 
+impl Registers250 {
+    /// Whether a pulse is on its way to the output register.
+    #[inline(always)]
+    fn has_pulse(&self) -> bool {
+        self.pulse[0] | self.pulse[1] | self.laser_pulse
+    }
+}
+
 impl Clocked for Registers250 {
     type In = In250;
     type Params = ();
 
     #[inline(always)]
     fn next(&self, i: &In250, (): &()) -> Self {
-        Registers250 { laser_pulse: i.fire && !self.laser_pulse && !i.rst_250 }
+        let pulse = [i.fire && !self.pulse[0], self.pulse[0]];
+        let d = Registers250 { pulse, laser_pulse: self.pulse[1] };
+        if i.rst_250 { Self::default() } else { d }
     }
 }
 
@@ -188,7 +206,7 @@ impl VcselDriver {
     /// here and at the edges of `clk_250` between them.
     #[inline(always)]
     pub fn quiet(&self, i: &In) -> u64 {
-        let pulse = self.registers.fire | self.registers_250.laser_pulse | self.ddr_output.q;
+        let pulse = self.registers.fire | self.registers_250.has_pulse() | self.ddr_output.q;
         if pulse { AWAKE } else { self.registers.quiet(i, &()) }
     }
 

@@ -46,7 +46,7 @@ impl Part {
         let Some(kept) = &mut self.kept else { return self.show(top, sink) };
         let between = kept.clocks.clk_125;
         top.visit(Some(kept), &mut Look { wanted: Some(&*self.wanted), between, id: 0, sink });
-        let writes = top.nets.tdc_valid || top.frame_ctrl.clear;
+        let writes = top.histogram_builder.has_hit() || top.frame_ctrl.clear;
         if std::mem::replace(&mut self.writes, writes) {
             let (now, then) = (&top.histogram_builder.ram, &mut kept.histogram_builder.ram);
             for &bin in &self.words {

@@ -30,6 +30,7 @@ pub fn leap_frame_end(device: &mut Device, p: &Params) {
     let end = device.pll.clk_125.rise(device.cycle + cycles);
     let alone = device.jitter.is_none()
         && control_is_steady(&device.top)
+        && !device.top.histogram_builder.has_hit()
         && (!clearing || estimator_rests(&device.top, p));
     if !alone || end >= device.timeline.next_event() {
         return;

@@ -87,10 +87,12 @@ pub(super) fn skip_converter(top: &mut TofTop, p: &Params, cycles: u64) {
 #[inline(always)]
 pub(super) fn count_hits(top: &mut TofTop, p: &Params, cycles: u64) {
     let mut left = cycles;
-    while left > 0 && top.tdc.has_hit() {
+    while left > 0 && (top.tdc.has_hit() | top.histogram_builder.has_hit()) {
         count(top);
-        top.tdc.decode(&tdc_inputs(top), &p.tdc);
-        top.take_code(p);
+        if let CodeSource::Tdc = p.code_source {
+            top.tdc.decode(&tdc_inputs(top), &p.tdc);
+            top.take_code(p);
+        }
         left -= 1;
     }
 }

@@ -18,21 +18,30 @@ end entity;
 
 architecture rtl of Histogram_Builder is
   type ram_t is array (0 to 255) of unsigned(15 downto 0);
-  signal ram  : ram_t := (others => (others => '0'));
-  signal addr : unsigned(7 downto 0);
+  signal ram      : ram_t := (others => (others => '0'));
+  signal addr     : unsigned(7 downto 0);
+  signal hit_word : unsigned(15 downto 0) := (others => '0');
+  signal cycle    : natural range 0 to 2 := 0;  -- of a hit, 0 while there is none
 begin
   addr <= unsigned(Clear_Addr) when Clear else
-          unsigned(Tdc_Code) when Tdc_Valid else
+          unsigned(Tdc_Code) when cycle > 0 else
           unsigned(Read_Addr);
   Count <= std_logic_vector(ram(to_integer(addr))) when Read_En else (others => '0');
 
   process (Clk_125)
   begin
     if rising_edge(Clk_125) then
+      hit_word <= ram(to_integer(addr));
       if Clear then
         ram(to_integer(addr)) <= (others => '0');
-      elsif Tdc_Valid then
-        ram(to_integer(addr)) <= ram(to_integer(addr)) + 1;
+        cycle <= 0;
+      elsif cycle = 1 then
+        cycle <= 2;
+      else
+        if cycle = 2 then
+          ram(to_integer(addr)) <= hit_word + 1;
+        end if;
+        cycle <= 1 when Tdc_Valid else 0;
       end if;
     end if;
   end process;

@@ -1,5 +1,6 @@
 //! Clear, hits and readout as in a frame, each overlapped by the others; all three at once at equal
-//! and different addresses; and then hits of one word until it wraps.
+//! and different addresses; and then hits of one word until it wraps. After a hit there is none for two
+//! lines, and its code holds: that is what the TDC promises.
 
 use tofsim::firmware::histogram_builder::In;
 
@@ -8,14 +9,18 @@ use crate::golden::prelude::*;
 /// Lines before one word is hit until it wraps.
 const MIXED: usize = 20_000;
 /// Lines in all, if not told otherwise.
-const LINES: usize = MIXED + 67_500;
+const LINES: usize = MIXED + HIT * 67_500;
 /// Hits of that word before it is cleared.
-const MANY: u64 = 2600;
+const MANY: u64 = 600;
+/// Lines of a hit: the one of `tdc_valid` and two more.
+const HIT: usize = 3;
+/// Longest way from hit to hit that is a goal of its own.
+const APART: usize = 8;
 
 pub(super) const SPEC: Spec = Spec {
     latency: &[
         Latency { from: "clear", to: "count", cycles: |_| 0 },
-        Latency { from: "tdc_valid", to: "count", cycles: |_| 0 },
+        Latency { from: "tdc_valid", to: "count", cycles: |_| 2 },
     ],
     ..Spec::new("histogram_builder", "histogram_builder", record)
 };
@@ -32,6 +37,12 @@ fn equal(i: &In) -> u64 {
     }
 }
 
+/// What can meet in each line of a hit: as bits, `clear` and `read_en`, where reads have to keep away not
+/// the latter.
+fn phases(reads_apart: bool) -> impl Iterator<Item = u64> {
+    (0..4 * HIT as u64).filter(move |case| !reads_apart || case % 2 == 0)
+}
+
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let cycles = setting.cycles.unwrap_or(LINES);
     let (bins, words) = (setting.bins, 0..setting.bins);
@@ -42,12 +53,19 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         "clear, tdc_valid, read_en as bits x 5 + equal addresses",
         (0..40).filter(|case| !setting.reads_apart || ![3, 5, 7].contains(&(case / 5))),
     );
+    let mut phases = Cover::new("line of a hit x 4 + clear, read_en as bits", phases(setting.reads_apart));
+    let mut spans = Cover::new(
+        "lines from hit to hit x 2 + to the same word",
+        2 * HIT as u64..=2 * APART as u64 + 1,
+    );
     // Apart from its hits, that word is looked at only now and then.
     let (apart, close) = if setting.reads_apart { (true, 512) } else { (false, 64) };
     let mut sizes = Cover::new("bits of a count shown, or wrapped (17)", 1..=17);
     let mut run = Recorder::new(spec, setting, In::list());
     // The word that counts on, and whether it has been seen close to its highest count.
     let (hot, mut full) = (setting.seed % bins, false);
+    // Lines since the last hit, and its code.
+    let (mut since, mut last) = (APART, U::new(0));
     for cycle in 0..cycles {
         let (histogram, draw) = (&mut run.top.histogram_builder, &mut run.draw);
         let (round, word) = (cycle as u64 / bins, cycle as u64 % bins);
@@ -55,10 +73,10 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let any = |draw: &mut Draw| U::new(if draw.one_in(2) { near } else { draw.below(bins) });
         let mut i = In {
             clear_addr: any(draw),
-            tdc_code: any(draw),
+            tdc_code: if draw.one_in(3) { last } else { any(draw) },
             read_addr: any(draw),
             clear: draw.one_in(2),
-            tdc_valid: draw.one_in(2),
+            tdc_valid: draw.one_in(3),
             read_en: draw.one_in(2),
         };
         let count = |address: U<8>| histogram.ram[address.index()].get();
@@ -85,14 +103,25 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let may_clear = round == 0 || cycle < MIXED && count(U::new(hot)) >= MANY;
         i.clear &= i.clear_addr != hot || may_clear;
 
-        i.read_en &= !apart || !(i.clear || i.tdc_valid);
+        since += 1;
+        if since < HIT {
+            (i.tdc_valid, i.tdc_code) = (false, last);
+        }
+        if i.tdc_valid {
+            spans.see_if(since <= APART, 2 * since as u64 + u64::from(i.tdc_code == last));
+            (since, last) = (0, i.tdc_code);
+        }
+        i.read_en &= !apart || !i.clear && since >= HIT;
+        phases.see_if(since < HIT, since as u64 * 4 + bits([i.clear, i.read_en]));
         let [clear, hit] = [i.clear, i.tdc_valid && !i.clear];
         let shown = histogram.count(&i).get();
         cleared.see_if(clear && count(i.clear_addr) > 0, i.clear_addr.get());
         hits.see_if(hit, i.tdc_code.get());
-        seen.see_if(shown > 0 && !clear && !hit, i.read_addr.get());
+        let is_counting = histogram.has_hit();
+        seen.see_if(shown > 0 && !clear && !is_counting, i.read_addr.get());
         sizes.see(64 - u64::from(shown.leading_zeros()));
-        let shows_hot = (hit && i.tdc_code == hot || apart && i.read_addr == hot) && i.read_en;
+        let shown_word = if is_counting { i.tdc_code } else { i.read_addr };
+        let shows_hot = i.read_en && !clear && shown_word == hot;
         sizes.see_if(full && shows_hot && shown < close, 17);
         full |= shown >= (1 << 16) - close;
         overlaps.see(bits([i.clear, i.tdc_valid, i.read_en]) * 5 + equal(&i));
@@ -100,5 +129,5 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.histogram_builder.tick(&i);
     }
-    Ok(Vectors { settles: bins as usize, ..run.vectors([cleared, hits, seen, overlaps, sizes]) })
+    Ok(Vectors { settles: bins as usize, ..run.vectors([cleared, hits, seen, overlaps, phases, spans, sizes]) })
 }

@@ -17,6 +17,8 @@ pub(super) const SPEC: Spec = Spec {
         "rst_250",
         "reset_sync_250.rst_sync",
         "reset_sync_250.meta",
+        "vcsel_driver.pulse_0",
+        "vcsel_driver.pulse_1",
         "vcsel_driver.laser_pulse",
         "vcsel_driver.laser_on",
         "vcsel_driver.ddr_output.q",

@@ -32,19 +32,20 @@ module check_pulse #(
     );
 
     reg first = 1'b1;           // the first cycle of clk_125
-    reg undisturbed = 1'b0;     // the last edge of clk_125 found acquire high and rst low
-    reg [2:0] no_reset = 3'd0;  // the last edges of clk_250 found rst_250 low
+    // The last three edges of clk_125 found acquire high and rst low.
+    reg [2:0] undisturbed = 3'd0;
     reg [13:0] width = 14'd0;   // time for which laser_on had been high [ps]
 
-    always @(posedge clk_125) {first, undisturbed} <= {1'b0, acquire && !rst};
-    always @(posedge clk_250) no_reset <= {no_reset[1:0], !rst_250};
+    always @(posedge clk_125) begin
+        first <= 1'b0;
+        undisturbed <= {undisturbed[1:0], acquire && !rst};
+    end
     always @(posedge step) width <= laser_on ? width + 14'd2000 : 14'd0;
 
     // Whatever the edges find.
     wire laser_on_width = width <= Expected && (laser_on || width == 0 || width == Expected);
-    // If neither a reset nor the end of acquire comes between the request and the laser edge.
-    wire laser_on_lag =
-        !(laser_on && undisturbed && &no_reset) || start && 2000 * half == Expected;
+    // If neither rst nor the end of acquire comes between the request and the laser edge.
+    wire laser_on_lag = !(laser_on && &undisturbed) || start && 2000 * half == Expected;
 
     always @* begin
         if (first) assume (rst && rst_250);
