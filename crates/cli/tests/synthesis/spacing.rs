@@ -16,7 +16,8 @@ const STEPS: u32 = 40;
 /// at any time; so are the taps.
 pub fn is_proven(source: &str, gap: u64) -> bool {
     let stop = if source == "tdc" { "-DHAS_STOP" } else { "" };
-    let parts = ["vcsel_driver", "coarse_counter", "tdc_latch", "tdc_decoder", "tdc", "code_preload"];
+    let parts =
+        ["vcsel_driver", "coarse_counter", "tdc_latch", "tdc_decoder", "tdc", "code_preload"];
     let script = [
         &format!("read_verilog -defer {}", paths(parts)),
         &format!("read_verilog -sv -formal -DSOURCE={source} -DGap={gap} {stop} {CHECK}"),
