@@ -4,7 +4,12 @@
 // Argmax with centroid correction, with the ports of depth_estimator.
 //
 // A window of 2 HalfWidth + 1 words slides over the histogram; where its centre stands highest, its
-// centroid becomes the depth. 308 cycles.
+// centroid becomes the depth. 311 cycles.
+//
+//   edge       e(s+1)                                 e(s+2)                    e(s+3)
+//   registers  entering, leaving, level, centre       change, weighted, height  sum, ages, best ..
+//
+// for the word of cycle s and the window that ends before it.
 module centroid_estimator #(
     parameter [4:0] HalfWidth = 5'd23,        // words to either side of the centre, 1 to 31 [bins]
     parameter [0:0] Background = 1'b1,        // 1: height is counted from the window's first word
@@ -23,12 +28,21 @@ module centroid_estimator #(
     output reg algo_done             // the depth is ready; one cycle
 );
     // Cycles after the edge that takes algo_start: first one of the division, then the ones before
-    // the edges that make the position and the depth.
-    localparam [8:0] Divide = 9'd288, Place = 9'd306, Last = 9'd307;
+    // the edge that makes the position, and before the one that makes the depth.
+    localparam [8:0] Divide = 9'd290, Place = 9'd308, Last = 9'd310;
     localparam [5:0] Words = {HalfWidth, 1'b1};  // of the window
 
     reg busy;              // an estimation is under way
     reg [8:0] step;        // cycles since e0
+    reg whole;             // the window has all its words
+    reg [5:0] first;       // place of its first word, of word 0 before that
+    reg [15:0] entering;   // the word that enters the window [hits]
+    reg [15:0] leaving;    // the word that leaves it [hits]
+    reg [15:0] level;      // background at its centre [hits]
+    reg [15:0] centre;     // the word at its centre [hits]
+    reg signed [16:0] change;  // what entering and leaving change in sum [hits]
+    reg [21:0] weighted;   // leaving, as often as the window has words
+    reg [15:0] height;     // centre above the level, 0 below it or where none is [hits]
     reg [21:0] sum;        // hits in the window
     reg [26:0] ages;       // hits in the window, each times the words that came after its own
     reg [15:0] best;       // height of the highest centre [hits]
@@ -37,21 +51,27 @@ module centroid_estimator #(
     reg [28:0] remainder;  // ages of its window, then what the division leaves of it
     reg [17:0] quotient;   // mean age of the hits in its window [2^-12 bins]
     reg [19:0] position;   // centroid from the begin of bin 0 [2^-12 bins]
+    reg [29:0] distance;   // position times slope [2^-29 m]
 
-    // The last words, each at its number modulo 64, without reset: nothing is read before it has
-    // been written.
+    // The last words, each at its number plus one modulo 64, without reset: nothing is read before it
+    // has been written.
     (* ram_style = "distributed" *) reg [15:0] window [0:63];
 
     reg algo_done_next, read_en_next, busy_next;
     reg [7:0] read_addr_next, peak_next;
     reg signed [35:0] depth_next;
     reg [8:0] step_next;
-    reg [21:0] sum_next, best_sum_next;
+    reg whole_next;
+    reg [5:0] first_next;
+    reg [15:0] entering_next, leaving_next, level_next, centre_next;
+    reg [15:0] height_next, best_next;
+    reg signed [16:0] change_next;
+    reg [21:0] weighted_next, sum_next, best_sum_next;
     reg [26:0] ages_next;
-    reg [15:0] best_next;
     reg [28:0] remainder_next;
     reg [17:0] quotient_next;
     reg [19:0] position_next;
+    reg [29:0] distance_next;
 
     integer i;
     initial begin
@@ -60,36 +80,35 @@ module centroid_estimator #(
         {read_addr, peak} = 16'd0;
         depth = 36'sd0;
         step = 9'd0;
-        {sum, best_sum} = 44'd0;
+        whole = 1'b0;
+        first = 6'd0;
+        {entering, leaving, level, centre, height, best} = 96'd0;
+        change = 17'sd0;
+        {weighted, sum, best_sum} = 66'd0;
         ages = 27'd0;
-        best = 16'd0;
         remainder = 29'd0;
         quotient = 18'd0;
         position = 20'd0;
+        distance = 30'd0;
     end
 
-    // The window ends with the word before this cycle's; its first word leaves it next.
     wire sliding = busy && step < Divide;
-    wire whole = step >= {3'd0, Words};
-    wire centred = step > {4'd0, HalfWidth};
-    wire [15:0] entering = read_en ? count : 16'd0;
-    wire [5:0] first_addr = whole ? step[5:0] - Words : 6'd0;
-    wire [15:0] first = window[first_addr];
-    wire [15:0] leaving = whole ? first : 16'd0;
-    wire [7:0] centre_number = step[7:0] - 8'd1 - {3'd0, HalfWidth};
-    wire [15:0] centre = window[centre_number[5:0]];
+    wire [15:0] first_word = window[first];
+    wire [5:0] centre_place = step[5:0] - {1'b0, HalfWidth};
+    wire [15:0] centre_word = window[centre_place];
 
-    // Pile-up makes the background fall with time, so the first word is at least its level. No word
-    // is there before word 0: it stands for those, doubled, as bins may be twice as wide as others.
-    wire [16:0] level = !Background ? 17'd0 : whole ? {1'b0, first} : {first, 1'b0};
-    wire [17:0] over = {1'b0, level} + {2'd0, best};
-    wire [15:0] height = centre - level[15:0];
-    wire [21:0] weighted = {16'd0, Words} * {6'd0, leaving};
+    // A cycle later.
+    wire centred = step > {4'd0, HalfWidth} + 9'd1;
+    wire [16:0] over = {1'b0, centre} - {1'b0, level};
+
+    // Another cycle later.
+    wire higher = height > best;
+    wire [7:0] centre_number = step[7:0] - 8'd3 - {3'd0, HalfWidth};
 
     // Restoring division, a bit a cycle.
-    wire [27:0] divisor = {best_sum, 6'd0};
     wire [28:0] shifted = {remainder[27:0], 1'b0};
-    wire fits = shifted >= {1'b0, divisor};
+    wire [29:0] left = {1'b0, shifted} - {2'd0, best_sum, 6'd0};
+    wire fits = !left[29];
 
     // Bin i is centred at i + 1/2. The centroid is below 256, so the carry out of the sum means nothing.
     wire [7:0] window_end = peak + {3'd0, HalfWidth};
@@ -105,6 +124,15 @@ module centroid_estimator #(
         depth_next = depth;
         busy_next = busy;
         step_next = step;
+        whole_next = whole;
+        first_next = first;
+        entering_next = entering;
+        leaving_next = leaving;
+        level_next = level;
+        centre_next = centre;
+        change_next = change;
+        weighted_next = weighted;
+        height_next = height;
         sum_next = sum;
         ages_next = ages;
         best_next = best;
@@ -113,27 +141,41 @@ module centroid_estimator #(
         remainder_next = remainder;
         quotient_next = quotient;
         position_next = position;
+        distance_next = product[36:7];
         if (busy) begin
             step_next = step + 9'd1;
             read_en_next = !step_next[8];
             read_addr_next = read_en_next ? step_next[7:0] : 8'd0;
             if (step < Divide) begin
-                if (centred && {2'd0, centre} > over) begin
+                whole_next = step >= {3'd0, HalfWidth, 1'b0};
+                first_next = whole ? first + 6'd1 : 6'd1;
+                entering_next = read_en ? count : 16'd0;
+                leaving_next = whole ? first_word : 16'd0;
+                // Pile-up makes the background fall with time, so the first word is at least its
+                // level. No word is there before word 0: it stands for those, doubled, as bins may be
+                // twice as wide as others. No word is above the greatest.
+                level_next = !Background ? 16'd0 : whole ? first_word
+                    : first_word[15] ? 16'hffff : {first_word[14:0], 1'b0};
+                centre_next = centre_word;
+                change_next = {1'b0, entering} - {1'b0, leaving};
+                weighted_next = {16'd0, Words} * {6'd0, leaving};
+                height_next = centred && !over[16] ? over[15:0] : 16'd0;
+                if (higher) begin
                     best_next = height;
                     peak_next = centre_number;
                     best_sum_next = sum;
                     remainder_next = {2'd0, ages};
                 end
-                sum_next = sum + {6'd0, entering} - {6'd0, leaving};
+                sum_next = sum + {{5{change[16]}}, change};
                 ages_next = ages + {5'd0, sum} - {5'd0, weighted};
             end else if (step < Place) begin
-                remainder_next = fits ? shifted - {1'b0, divisor} : shifted;
+                remainder_next = fits ? left[28:0] : shifted;
                 quotient_next = {quotient[16:0], fits};
             end else if (step == Place) begin
                 position_next = {window_end, 12'd2048} - {2'd0, quotient};
             end else if (step == Last) begin
                 depth_next = best == 16'd0 ? 36'sd0
-                    : {6'd0, product[36:7]} + {{6{Offset[29]}}, Offset};
+                    : {6'd0, distance} + {{6{Offset[29]}}, Offset};
                 algo_done_next = 1'b1;
                 busy_next = 1'b0;
                 step_next = 9'd0;
@@ -143,6 +185,15 @@ module centroid_estimator #(
             read_addr_next = 8'd0;
             busy_next = 1'b1;
             step_next = 9'd0;
+            whole_next = 1'b0;
+            first_next = 6'd0;
+            entering_next = 16'd0;
+            leaving_next = 16'd0;
+            level_next = 16'd0;
+            centre_next = 16'd0;
+            change_next = 17'sd0;
+            weighted_next = 22'd0;
+            height_next = 16'd0;
             sum_next = 22'd0;
             ages_next = 27'd0;
             best_next = 16'd0;
@@ -151,6 +202,7 @@ module centroid_estimator #(
             remainder_next = 29'd0;
             quotient_next = 18'd0;
             position_next = 20'd0;
+            distance_next = 30'd0;
         end
     end
 
@@ -164,6 +216,15 @@ module centroid_estimator #(
             depth <= 36'sd0;
             busy <= 1'b0;
             step <= 9'd0;
+            whole <= 1'b0;
+            first <= 6'd0;
+            entering <= 16'd0;
+            leaving <= 16'd0;
+            level <= 16'd0;
+            centre <= 16'd0;
+            change <= 17'sd0;
+            weighted <= 22'd0;
+            height <= 16'd0;
             sum <= 22'd0;
             ages <= 27'd0;
             best <= 16'd0;
@@ -172,6 +233,7 @@ module centroid_estimator #(
             remainder <= 29'd0;
             quotient <= 18'd0;
             position <= 20'd0;
+            distance <= 30'd0;
         end else begin
             algo_done <= algo_done_next;
             read_en <= read_en_next;
@@ -179,6 +241,15 @@ module centroid_estimator #(
             depth <= depth_next;
             busy <= busy_next;
             step <= step_next;
+            whole <= whole_next;
+            first <= first_next;
+            entering <= entering_next;
+            leaving <= leaving_next;
+            level <= level_next;
+            centre <= centre_next;
+            change <= change_next;
+            weighted <= weighted_next;
+            height <= height_next;
             sum <= sum_next;
             ages <= ages_next;
             best <= best_next;
@@ -187,6 +258,7 @@ module centroid_estimator #(
             remainder <= remainder_next;
             quotient <= quotient_next;
             position <= position_next;
+            distance <= distance_next;
         end
     end
 endmodule

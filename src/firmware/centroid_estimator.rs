@@ -6,13 +6,20 @@
 //! depth = slope (centroid + 1/2) + offset: bin i is centred at i + 1/2. Edge e0 takes `algo_start`:
 //!
 //! ```text
-//! cycle      e0 .. e255   e256 .. e287   e288 .. e305   e306       e307    e308
-//! next edge  word         no word        quotient bit   position   depth   -
+//! cycle      e0 .. e255   e256 .. e289   e290 .. e307   e308       e309       e310    e311
+//! next edge  word         no word        quotient bit   position   distance   depth   -
 //! read_en    ^^^^^^^^^^
-//! algo_done                                                                ^^^^
+//! algo_done                                                                           ^^^^
 //! ```
 //!
-//! 308 cycles, 2.464 us, for every W. A start while busy is ignored; one in the cycle of `algo_done`
+//! A word, and the window that ends before it, go through three registers:
+//!
+//! ```text
+//! edge       e(s+1)                             e(s+2)                     e(s+3)
+//! registers  entering, leaving, level, centre   change, weighted, height   sum, ages, best ..
+//! ```
+//!
+//! 311 cycles, 2.488 us, for every W. A start while busy is ignored; one in the cycle of `algo_done`
 //! is taken.
 
 use crate::kernel::module::{Module, Visitor};
@@ -26,16 +33,20 @@ use super::histogram_builder::BINS;
 pub const MOST_HALF_WIDTH: u64 = 31;
 /// Words that the window can remember.
 const WORDS: usize = 64;
+/// Cycles from the one of a word to the one that lets it into the sums.
+const SUMS: u64 = 2;
 /// First cycle of the division, when the last centre has been looked at with any W.
-pub const DIVIDE: u64 = BINS as u64 + MOST_HALF_WIDTH + 1;
+pub const DIVIDE: u64 = BINS as u64 + MOST_HALF_WIDTH + 1 + SUMS;
 /// Bits of the quotient: 6 before the point, 12 after it.
 const QUOTIENT_BITS: u32 = 18;
 /// Fraction bits of quotient and position.
 pub const POSITION_FRACTION: u32 = 12;
 /// Cycle before the edge that makes the position.
 pub const PLACE: u64 = DIVIDE + QUOTIENT_BITS as u64;
+/// Cycle before the edge that makes the depth.
+const LAST: u64 = DONE - 1;
 /// Cycle in which the depth is ready: the estimator's latency [cycles of clk_125].
-pub const DONE: u64 = PLACE + 2;
+pub const DONE: u64 = PLACE + 3;
 
 /// Distance of a bin, 24 fraction bits [m].
 pub type Slope = U<17>;
@@ -93,6 +104,24 @@ signals! {
         busy: bool,
         /// Cycles since e0.
         step: U<9>,
+        /// The window has all its words.
+        whole: bool,
+        /// Place of its first word, of word 0 before that.
+        first: U<6>,
+        /// The word that enters the window [hits].
+        entering: U<16>,
+        /// The word that leaves it [hits].
+        leaving: U<16>,
+        /// Background at its centre [hits].
+        level: U<16>,
+        /// The word at its centre [hits].
+        centre: U<16>,
+        /// What `entering` and `leaving` change in `sum` [hits].
+        change: S<17>,
+        /// `leaving`, as often as the window has words.
+        weighted: U<22>,
+        /// `centre` above `level`, 0 below it or where none is [hits].
+        height: U<16>,
         /// Hits in the window.
         #[view(heading = "Estimator", curve = true, probe = true)]
         sum: U<22>,
@@ -114,6 +143,8 @@ signals! {
         quotient: U<18>,
         /// Centroid from the begin of bin 0, 12 fraction bits [bins].
         position: U<20>,
+        /// `position` times slope [2^-29 m].
+        distance: U<30>,
     }
 }
 
@@ -122,7 +153,7 @@ signals! {
 pub struct CentroidEstimator {
     /// Registers.
     pub registers: Registers,
-    /// The last words, each at its number modulo 64; without reset [hits].
+    /// The last words, each at its number plus one modulo 64; without reset [hits].
     window: [U<16>; WORDS],
 }
 
@@ -147,13 +178,14 @@ impl CentroidEstimator {
         let q = self.registers;
         self.registers = if i.rst { Registers::default() } else { self.next(i, p) };
         if q.busy && q.step.get() < DIVIDE {
-            self.window[q.step.index() % WORDS] = q.entering(i);
+            self.window[q.step.index() % WORDS] = q.entering;
         }
     }
 
     fn next(&self, i: &In, p: &Params) -> Registers {
         let (q, mut d) = (&self.registers, self.registers);
         d.algo_done = false;
+        d.distance = U::new((q.position.get() * p.slope.get()) >> SURPLUS);
         if !q.busy {
             if i.algo_start {
                 d = Registers { busy: true, read_en: true, depth: q.depth, ..Registers::default() };
@@ -164,45 +196,40 @@ impl CentroidEstimator {
         d.read_en = d.step.get() < BINS as u64;
         d.read_addr = U::new(if d.read_en { d.step.get() } else { 0 });
         match q.step.get() {
-            ..DIVIDE => self.slide(i, p, &mut d),
+            ..DIVIDE => {
+                self.look(i, p, &mut d);
+                q.weigh(p, &mut d);
+                q.slide(p, &mut d);
+            }
             DIVIDE..PLACE => q.divide(&mut d),
             PLACE => {
                 let (end, half) = (q.peak.get() + p.half_width, 1 << (POSITION_FRACTION - 1));
                 d.position = U::new((end << POSITION_FRACTION) + half) - q.quotient.get();
             }
-            _ => {
-                let product = (q.position.get() * p.slope.get()) >> SURPLUS;
-                let found = q.best != 0;
-                d.depth = Depth::new(if found { product as i64 + p.offset.get() } else { 0 });
+            LAST => {
+                let depth = q.distance.get() as i64 + p.offset.get();
+                d.depth = Depth::new(if q.best != 0 { depth } else { 0 });
                 (d.algo_done, d.busy, d.step) = (true, false, U::new(0));
             }
+            _ => {}
         }
         d
     }
 
-    /// Looks at the window that ends before this cycle's word, and lets that word in.
-    fn slide(&self, i: &In, p: &Params, d: &mut Registers) {
-        let (q, words) = (&self.registers, 2 * p.half_width + 1);
-        let word = |number: u64| self.window[number as usize % WORDS].get();
-        let step = q.step.get();
-        let whole = step >= words;
-        let first = word(if whole { step - words } else { 0 });
-        let leaving = if whole { first } else { 0 };
-        let level = match p.background {
-            true if whole => first,
-            true => 2 * first,
-            false => 0,
+    /// Takes this cycle's word and those of the window that ends before it.
+    fn look(&self, i: &In, p: &Params, d: &mut Registers) {
+        let q = &self.registers;
+        let first = self.window[q.first.index()];
+        d.whole = q.step.get() >= 2 * p.half_width;
+        d.first = if q.whole { q.first + 1 } else { U::new(1) };
+        d.entering = if q.read_en { i.count } else { U::new(0) };
+        d.leaving = if q.whole { first } else { U::new(0) };
+        d.level = match p.background {
+            true if q.whole => first,
+            true => U::new((2 * first.get()).min(U::<16>::MAX.get())),
+            false => U::new(0),
         };
-        if step > p.half_width {
-            let peak = step - 1 - p.half_width;
-            let centre = word(peak);
-            if centre > level + q.best.get() {
-                (d.best, d.peak) = (U::new(centre - level), U::new(peak));
-                (d.best_sum, d.remainder) = (q.sum, U::new(q.ages.get()));
-            }
-        }
-        d.sum = q.sum + q.entering(i).get() - leaving;
-        d.ages = q.ages + q.sum.get() - words * leaving;
+        d.centre = self.window[(q.step - p.half_width).index() % WORDS];
     }
 }
 
@@ -212,9 +239,24 @@ impl Registers {
         if self.algo_done { Some(DONE) } else { self.busy.then(|| self.step.get()) }
     }
 
-    /// The word that this cycle lets into the window; none is zero.
-    fn entering(&self, i: &In) -> U<16> {
-        if self.read_en { i.count } else { U::new(0) }
+    /// Makes of those words what the sums need.
+    fn weigh(&self, p: &Params, d: &mut Registers) {
+        let centred = self.step.get() > p.half_width + 1;
+        let over = self.centre.get().saturating_sub(self.level.get());
+        d.change = S::new(self.entering.get() as i64 - self.leaving.get() as i64);
+        d.weighted = U::new((2 * p.half_width + 1) * self.leaving.get());
+        d.height = U::new(if centred { over } else { 0 });
+    }
+
+    /// Keeps the window if its centre is the highest, and slides it on.
+    fn slide(&self, p: &Params, d: &mut Registers) {
+        if self.height.get() > self.best.get() {
+            (d.best, d.best_sum) = (self.height, self.sum);
+            d.peak = U::new(self.step.get() - SUMS - 1 - p.half_width);
+            d.remainder = U::new(self.ages.get());
+        }
+        d.sum = U::new((self.sum.get() as i64 + self.change.get()) as u64);
+        d.ages = self.ages + self.sum.get() - self.weighted.get();
     }
 
     /// One bit of `remainder` / `best_sum`, by restoring division.
@@ -253,13 +295,13 @@ mod tests {
     }
 
     #[test]
-    fn the_depth_is_ready_308_edges_after_the_start_is_taken() {
+    fn the_depth_is_ready_311_edges_after_the_start_is_taken() {
         let cycles = cycles(&one(100), |_| IDLE);
         let done: Vec<_> = (0..700).filter(|&cycle| cycles[cycle].algo_done).collect();
-        assert_eq!(done, [308]);
-        let metres = cycles[308].depth.to_f64();
+        assert_eq!(done, [311]);
+        let metres = cycles[311].depth.to_f64();
         assert!((metres - 100.5 * 0.003_747_405_725).abs() < 1e-6, "{metres}");
-        assert_eq!(cycles[699].depth, cycles[308].depth);
+        assert_eq!(cycles[699].depth, cycles[311].depth);
     }
 
     #[test]
@@ -272,9 +314,9 @@ mod tests {
     #[test]
     fn a_start_while_busy_is_ignored_and_one_with_algo_done_is_taken() {
         let at = |again| move |cycle| if cycle == again { GO } else { IDLE };
-        assert_eq!(cycles(&one(100), at(307)), cycles(&one(100), |_| IDLE));
-        let again = cycles(&one(100), at(308));
-        assert!(again[309].read_en && again[308 + 309].algo_done);
+        assert_eq!(cycles(&one(100), at(310)), cycles(&one(100), |_| IDLE));
+        let again = cycles(&one(100), at(311));
+        assert!(again[312].read_en && again[311 + 312].algo_done);
     }
 
     #[test]
@@ -282,15 +324,15 @@ mod tests {
         let reset = |cycle| In { rst: cycle == 200, algo_start: cycle == 210, ..IDLE };
         let cycles = cycles(&one(100), reset);
         assert_eq!(cycles[201], Registers::default());
-        assert_eq!(cycles.iter().position(|now| now.algo_done), Some(211 + 308));
-        let metres = cycles[211 + 308].depth.to_f64();
+        assert_eq!(cycles.iter().position(|now| now.algo_done), Some(211 + 311));
+        let metres = cycles[211 + 311].depth.to_f64();
         assert!((metres - 100.5 * 0.003_747_405_725).abs() < 1e-6, "{metres}");
     }
 
     #[test]
     fn nothing_stands_out_of_an_empty_or_a_full_histogram() {
         for histogram in [[0; BINS], [65_535; BINS]] {
-            assert_eq!(cycles(&histogram, |_| IDLE)[308].depth, Depth::new(0));
+            assert_eq!(cycles(&histogram, |_| IDLE)[311].depth, Depth::new(0));
         }
     }
 }

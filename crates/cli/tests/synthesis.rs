@@ -5,6 +5,7 @@
 
 mod cells;
 mod gates;
+mod spacing;
 mod yosys;
 
 use std::collections::BTreeMap;
@@ -89,6 +90,14 @@ fn sixteen_neurons_take_eighteen_multipliers() {
     assert!(cells.odd().is_empty(), "{:?}", cells.odd());
     assert_eq!(cells.count("DSP48E1"), 16 + 2);
     assert_eq!(cells.count("RAMB36E1"), u64::from(Datapath::default().cost(16).ramb36));
+}
+
+#[test]
+fn no_hit_comes_in_the_two_cycles_that_the_histogram_takes_for_another() {
+    for source in ["code_preload", "tdc"] {
+        assert!(spacing::is_proven(source, 2), "{source}");
+        assert!(!spacing::is_proven(source, 5), "{source}: the proof says too much");
+    }
 }
 
 #[test]

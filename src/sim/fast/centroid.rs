@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn extreme_histograms_give_what_308_edges_of_the_firmware_give() {
+    fn extreme_histograms_give_what_311_edges_of_the_firmware_give() {
         let (offset, most) = (S::new(-(1 << 29)), U::MAX);
         for half_width in [1, 2, 16, 30, 31] {
             for background in [false, true] {

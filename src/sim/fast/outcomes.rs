@@ -24,8 +24,8 @@ pub const OUTCOMES: usize = CODES + 2;
 /// Length of the TDC's window [cycles of clk_125].
 const WINDOW: u64 = 8;
 
-/// The last edge after the laser's whose hits may have codes, so that the histogram has them when
-/// the next laser edge comes.
+/// The last edge after the laser's whose hits may have codes, so that the TDC has kept them when the next
+/// laser edge comes: a leap counts what it has kept, however far it is from its word.
 const LAST_CODED: u64 = 2;
 
 /// The staircase: its steps in order of time.

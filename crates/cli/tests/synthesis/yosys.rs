@@ -62,7 +62,7 @@ pub fn paths<'a>(modules: impl IntoIterator<Item = &'a str>) -> String {
 }
 
 /// What a tool that has to succeed printed.
-fn output(tool: Tool, folder: &Path, args: &[&str]) -> String {
+pub fn output(tool: Tool, folder: &Path, args: &[&str]) -> String {
     let finished = tool.run(folder, args, &LIMITS).unwrap_or_else(|error| panic!("{error}"));
     let lines: Vec<_> = finished.output.lines().collect();
     let last = lines[lines.len().saturating_sub(20)..].join("\n");
