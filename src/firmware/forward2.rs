@@ -76,14 +76,14 @@ impl Clocked for Forward2 {
     fn next(&self, i: &In, rom: &Rom) -> Self {
         let (q, mut d) = (self, *self);
         let begins = [Depth::new(rom.b2.get() << BIAS_SHIFT), Depth::new(0)];
-        for unit in 0..UNITS {
+        for (unit, begin) in begins.into_iter().enumerate() {
             let neuron = UNITS * i.pair.index() + unit;
             let is_there = neuron < rom.neurons;
             d.activation[unit] = if is_there { i.l1_out[neuron] } else { L1Out::new(0) };
             d.w2[unit] = rom.w2[neuron];
             d.term[unit] = Product::new(q.activation[unit].get() * q.w2[unit].get());
             if i.forward2_en {
-                let sum = if i.forward2_first { begins[unit] } else { q.sum[unit] };
+                let sum = if i.forward2_first { begin } else { q.sum[unit] };
                 d.sum[unit] = sum + q.term[unit].get();
             }
         }
