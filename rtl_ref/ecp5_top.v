@@ -1,12 +1,14 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// The device on Lattice's ECP5 Evaluation Board: tof_top with the board's differential oscillator; for
-// synthesis only, with the macro ECP5.
+// The device on Lattice's ECP5 Evaluation Board, with an oscillator in the place X5; for synthesis only, with the
+// macro ECP5.
 `ifdef SYNTHESIS
 `ifdef ECP5
 module ecp5_top (
     // Board
+    input wire clk_200,               // oscillator
+    output wire clk_200_en,           // its enable
     input wire reset_n,               // button, active low
     output wire locked_n,             // LED, active low: the clocks run
     // Laser
@@ -28,22 +30,10 @@ module ecp5_top (
     output wire [15:0] hist_count,    // the word [hits]
     output wire frame_done            // the frame has ended; one cycle
 );
-    wire clk_200;
     wire locked;
 
+    assign clk_200_en = 1'b1;
     assign locked_n = !locked;
-
-    // The 200 MHz oscillator is at the reference clock pins of a SERDES, which are wired to this cell only.
-    (* LOC = "EXTREF1" *)
-    EXTREFB #(
-        .REFCK_PWDNB("0b1"),
-        .REFCK_RTERM("0b1"),
-        .REFCK_DCBIAS_EN("0b0")
-    ) extrefb (
-        .REFCLKP(),
-        .REFCLKN(),
-        .REFCLKO(clk_200)
-    );
 
     tof_top tof_top (
         .clk_200(clk_200),
