@@ -171,8 +171,11 @@ fn place(
     if is_long {
         args.extend(["--placer", "static", "--router", "router2"].map(OsString::from));
     }
+    // Names without a folder: PyPI's sees the folder that it runs in, but not every other one.
     let paths = [("--json", netlist), ("--lpf", &design.pins(block)?), ("--report", &file)];
-    args.extend(paths.into_iter().flat_map(|(name, path)| [name.into(), path.into()]));
+    for (option, path) in paths {
+        args.extend([option.into(), path.file_name().unwrap_or_default().into()]);
+    }
     args.extend(["--seed".into(), seed.to_string().into()]);
     let finished = tool.run(design.work, args, &design.limits)?;
     let fault = |why: String| Input::new(&design.rtl.source, why).field(block.name);

@@ -184,3 +184,39 @@ impl TimedPath {
         self.hops.len().saturating_sub(1)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two flip-flops with a LUT and a carry between them; the carry has a wire of its own to the next one.
+    const NETLIST: &str = r#"{
+        "cells": {
+            "a": {"type": "FDRE", "connections": {"C": [1], "D": [2], "Q": [3]}},
+            "lut": {"type": "LUT2", "connections": {"I0": [3], "I1": [2], "O": [4]}},
+            "low": {"type": "CARRY4", "connections": {
+                "S": [4, "0", "0", "0"], "CI": ["0"], "CO": [5, 6, 7, 8]}},
+            "high": {"type": "CARRY4", "connections": {
+                "S": ["0", "0", "0", "0"], "CI": [8], "O": [9, 10, 11, 12]}},
+            "b": {"type": "FDRE", "connections": {"C": [1], "D": [12], "Q": [13]}},
+            "loop": {"type": "LUT1", "connections": {"I0": [14], "O": [14]}}
+        },
+        "netnames": {
+            "start": {"bits": [3]}, "$made$up": {"bits": [4]}, "dut.sum": {"bits": [9, 10, 11, 12]}
+        }
+    }"#;
+
+    #[test]
+    fn the_longest_path_has_the_delays_of_its_cells_and_its_routed_nets() {
+        let netlist: Netlist = serde_json::from_str(NETLIST).unwrap();
+        let graph = TimingGraph::new(&netlist);
+        let path = graph.longest(600).unwrap();
+        // FF, LUT, S[0] to CO[3], CI to O[3]; routed: to the LUT, to S, to D, but not from carry to carry.
+        let cells = 0.303 + 0.127 + 0.508 + 0.313;
+        assert!((path.ns - (cells + 3.0 * 0.6)).abs() < 1e-9, "{path:#?}");
+        assert!((path.routing_ns - 1.8).abs() < 1e-9, "{path:#?}");
+        assert_eq!((path.from.as_str(), path.to.as_str()), ("start", "b.D (FDRE)"));
+        assert_eq!(path.levels(), 3);
+        assert_eq!(path.hops.last().unwrap().net, "dut.sum[3]");
+    }
+}

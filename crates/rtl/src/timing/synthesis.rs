@@ -79,7 +79,7 @@ impl Design<'_> {
         let mut args: Vec<OsString> = vec!["-q".into()];
         args.extend(yosys::sources(self.rtl, &text, self.folder, define)?);
         if !self.rtl.has(top) {
-            let file = self.work.join(format!("{top}.v"));
+            let file = self.work.join(format!("{}.{name}.v", block.name));
             write_bytes(&file, &text)?;
             args.push(file.into());
         }
