@@ -6,6 +6,7 @@
 mod cells;
 mod clocks;
 mod gates;
+mod rounding;
 mod yosys;
 
 use std::collections::BTreeMap;
