@@ -12,6 +12,48 @@ module carry_chain #(
     initial taps = 800'd0;
 
 `ifdef SYNTHESIS
+`ifdef ECP5
+    // The inverse of tdc_stop runs up the chain, and each sum output inverts it again: a sum output
+    // reaches the flip-flop beside it without passing through logic, and the carry itself reaches none.
+    wire [400:0] carry;
+    wire [799:0] level;
+
+    // Second half: COUT = !A1, whatever comes in.
+    (* keep = "true" *)
+    CCU2C #(
+        .INIT0(16'h0000),
+        .INIT1(16'h0005),
+        .INJECT1_0("NO"),
+        .INJECT1_1("NO")
+    ) entry (
+        .CIN(1'b0),
+        .A0(1'b1), .B0(1'b1), .C0(1'b1), .D0(1'b1),
+        .A1(tdc_stop), .B1(1'b1), .C1(1'b1), .D1(1'b1),
+        .S0(), .S1(),
+        .COUT(carry[0])
+    );
+
+    genvar k;
+    generate
+        for (k = 0; k < 400; k = k + 1) begin : slice
+            (* keep = "true" *)
+            CCU2C #(
+                .INIT0(16'hFFFF),
+                .INIT1(16'hFFFF),
+                .INJECT1_0("NO"),
+                .INJECT1_1("NO")
+            ) ccu2c (
+                .CIN(carry[k]),
+                .A0(1'b1), .B0(1'b1), .C0(1'b1), .D0(1'b1),
+                .A1(1'b1), .B1(1'b1), .C1(1'b1), .D1(1'b1),
+                .S0(level[2*k]), .S1(level[2*k+1]),
+                .COUT(carry[k+1])
+            );
+        end
+    endgenerate
+
+    always @(posedge clk_125) taps <= level;
+`else
     // Every carry bit passes the one before it on, so tdc_stop runs up the column of slices.
     wire [799:0] carry;
 
@@ -31,6 +73,7 @@ module carry_chain #(
     endgenerate
 
     always @(posedge clk_125) taps <= carry;
+`endif
 `else
     reg [39:0] arrival [0:799];   // time to each tap [fs]
     reg [39:0] sorted [0:799];    // the same, earliest first [fs]

@@ -8,6 +8,15 @@ module ddr_output (
     output wire q  // the output
 );
 `ifdef SYNTHESIS
+`ifdef ECP5
+    ODDRX1F oddr (
+        .SCLK(clk_250),
+        .RST(1'b0),
+        .D0(d),
+        .D1(1'b0),
+        .Q(q)
+    );
+`else
     ODDR #(
         .DDR_CLK_EDGE("SAME_EDGE"),
         .INIT(1'b0),
@@ -21,6 +30,7 @@ module ddr_output (
         .S(1'b0),
         .Q(q)
     );
+`endif
 `else
     reg level;
 

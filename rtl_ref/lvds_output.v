@@ -8,11 +8,17 @@ module lvds_output (
     output wire ob   // negative pin
 );
 `ifdef SYNTHESIS
+`ifdef ECP5
+    // The pin's I/O cell is differential by its IO_TYPE, and drives the other pin of the pair too.
+    assign o = i;
+    assign ob = 1'b0;
+`else
     OBUFDS obufds (
         .I(i),
         .O(o),
         .OB(ob)
     );
+`endif
 `else
     assign o = i;
     assign ob = !i;

@@ -1,7 +1,8 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// The clocks: 125 and 250 MHz from the board's 200 MHz oscillator (M = 5, D = 1, O = 8 and 4).
+// The clocks: 125 and 250 MHz from the board's 200 MHz oscillator, by a PLLE2 of the 7 series with its VCO at
+// 1 GHz (M = 5, D = 1, O = 8 and 4), or by an EHXPLLL of an ECP5 with its VCO at 500 MHz.
 module pll #(
     // Not read by synthesis, nor by Verilator without --timing, which cannot run the model below.
     // verilator lint_off UNUSEDPARAM
@@ -17,6 +18,43 @@ module pll #(
     output wire locked    // the outputs run
 );
 `ifdef SYNTHESIS
+`ifdef ECP5
+    // 200 MHz / 4 is compared with CLKOP / 5. Both outputs begin with the last count of their dividers,
+    // so that each second edge of clk_250 is one of clk_125.
+    EHXPLLL #(
+        .CLKI_DIV(4),
+        .CLKFB_DIV(5),
+        .FEEDBK_PATH("CLKOP"),
+        .CLKOP_DIV(2),
+        .CLKOP_CPHASE(1),
+        .CLKOS_ENABLE("ENABLED"),
+        .CLKOS_DIV(4),
+        .CLKOS_CPHASE(3)
+    ) ehxplll (
+        .CLKI(clk_200),
+        .CLKFB(clk_250),
+        .CLKOP(clk_250),
+        .CLKOS(clk_125),
+        .CLKOS2(),
+        .CLKOS3(),
+        .LOCK(locked),
+        .INTLOCK(),
+        .REFCLK(),
+        .CLKINTFB(),
+        .PHASESEL1(1'b0),
+        .PHASESEL0(1'b0),
+        .PHASEDIR(1'b0),
+        .PHASESTEP(1'b0),
+        .PHASELOADREG(1'b0),
+        .STDBY(1'b0),
+        .PLLWAKESYNC(1'b0),
+        .RST(1'b0),
+        .ENCLKOP(1'b0),
+        .ENCLKOS(1'b0),
+        .ENCLKOS2(1'b0),
+        .ENCLKOS3(1'b0)
+    );
+`else
     wire feedback_out, feedback_in, out_125, out_250;
 
     // Before lock the outputs already run, at some frequency; reset_sync waits for locked.
@@ -55,6 +93,7 @@ module pll #(
         .I(out_250),
         .O(clk_250)
     );
+`endif
 `else
     // Edges of one instant are one assignment, so that no register of one clock sees what a
     // register of the other has just become.

@@ -9,6 +9,7 @@ use tofsim_captures::ila::export::CaptureFormat;
 use tofsim_captures::replay::ReplayKind;
 use tofsim_learn::dataset::files::DatasetFormat;
 use tofsim_rtl::golden::bench::Language;
+use tofsim_rtl::timing::Part;
 use tofsim_rtl::verify::Simulator;
 
 /// A word, what it stands for, and what the help says of it.
@@ -52,6 +53,12 @@ pub const REPLAY: &[Choice<ReplayKind>] = &[
     ("photons", ReplayKind::Photons, "When a photon arrived in each shot"),
     ("codes", ReplayKind::Codes, "The code of each shot, by the ROM in the TDC's place"),
     ("histogram", ReplayKind::Histogram, "The histogram that the estimator read"),
+];
+
+/// What a design is timed for.
+pub const PART: &[Choice<Part>] = &[
+    ("ecp5", Part::Ecp5, "Lattice ECP5, placed, routed and measured"),
+    ("kintex7", Part::Kintex7, "Xilinx Kintex-7, estimated from the netlist"),
 ];
 
 /// What an unknown bit is the same as.

@@ -19,5 +19,6 @@ pub mod run_files;
 pub mod statistics;
 pub mod summary;
 pub mod table;
+pub mod timing;
 pub mod training;
 pub mod verification;

@@ -19,6 +19,7 @@ pub mod run;
 pub mod scenario;
 mod scenes;
 pub mod terminal;
+pub mod timing;
 pub mod train;
 mod usage;
 pub mod vectors;
@@ -56,6 +57,7 @@ enum Verb {
     Quantize(quantize::Args),
     Vectors(vectors::Args),
     Verify(verify::Args),
+    Timing(timing::Args),
     Ila(ila::Args),
     Compare(Box<compare::Args>),
     Dataset(dataset::Args),
@@ -94,6 +96,7 @@ impl Cli {
             Verb::Quantize(args) => quantize::run(args, talk),
             Verb::Vectors(args) => vectors::run(args, talk),
             Verb::Verify(args) => return verify::run(args, talk),
+            Verb::Timing(args) => return timing::run(args, talk),
             Verb::Ila(args) => ila::run(args, talk),
             Verb::Compare(args) => return compare::run(args, talk),
             Verb::Dataset(args) => dataset::run(args, talk),

@@ -12,7 +12,7 @@ use wellen::simple::read;
 use crate::common;
 
 /// What is shown: one shot from its reset to its code [ps].
-const SPAN_PS: u64 = 88_000;
+const SPAN_PS: u64 = 96_000;
 
 /// The first shot of kc705 as text: one character for each nanosecond, `▔` high and `▁` low; words
 /// at the cycle in which they change.

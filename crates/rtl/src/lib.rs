@@ -1,7 +1,8 @@
 //! The firmware in Verilog, other people's too, beside the model.
 //!
 //! Golden vectors with self-checking benches ([`golden`]), and simulators, maps and proofs that hold
-//! a design to them ([`verify`]).
+//! a design to them ([`verify`]); and how fast it can be clocked ([`timing`]).
 
 pub mod golden;
+pub mod timing;
 pub mod verify;

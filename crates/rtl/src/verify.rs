@@ -17,6 +17,7 @@ pub mod task;
 pub mod verdict;
 mod vhdl;
 mod wave;
+pub mod yosys;
 
 pub use candidate::Dut;
 pub use check::BlockCheck;

@@ -12,7 +12,9 @@ use tofsim_rtl::golden::{BLOCKS, Setting, Spec};
 use tofsim_rtl::verify::cycle_counts::{self as count, Count};
 use tofsim_rtl::verify::process::Limits;
 use tofsim_rtl::verify::task::run_all;
-use tofsim_rtl::verify::{BlockCheck, BlockReport, Dut, Rtl, RtlMap, Simulator, Task, strays};
+use tofsim_rtl::verify::{
+    BlockCheck, BlockReport, Dut, Rtl, RtlMap, Simulator, Task, strays, yosys,
+};
 
 use crate::choice::{self, words};
 use crate::report::verification as report;
@@ -119,10 +121,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
 }
 
 fn cycle_counts(args: &Args, rtl: &Rtl, limits: &Limits, talk: &Talk) -> Result<ExitCode> {
-    let unread = (rtl.vhdl.first().map(|file| &file.path))
-        .or(rtl.options.library_files.first())
-        .or(rtl.options.libraries.first());
-    if let Some(path) = unread {
+    if let Some(path) = yosys::unread(rtl) {
         let expected =
             "expected Verilog sources only, without libraries: Yosys reads no others here";
         let path = path.display().to_string();

@@ -26,6 +26,7 @@ const KEPT: [&str; 4] = ["carry_chain", "ddr_output", "lvds_output", "pll"];
 fn netlist(sources: &Sources) -> PathBuf {
     let mut sources = yosys::needed(sources, "tof_top");
     sources.remove("kc705_top.v");
+    sources.remove("ecp5_top.v");
     let rest = yosys::modules(&sources).filter(|name| !KEPT.contains(name));
     // Vectors are split, because Icarus takes minutes for one with a driver for each of 800 bits.
     let script = format!(

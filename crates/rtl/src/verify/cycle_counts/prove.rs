@@ -1,6 +1,5 @@
 //! Proves a promise of the Verilog with Yosys, and tries to prove what is next to it.
 
-use std::ffi::OsString;
 use std::path::Path;
 
 use tofsim::error::Result;
@@ -8,6 +7,7 @@ use tofsim::files::output::write_bytes;
 
 use crate::verify::process::{End, Finished, Limits, YOSYS};
 use crate::verify::rtl::Rtl;
+use crate::verify::yosys;
 
 use super::promises::Promise;
 
@@ -58,17 +58,8 @@ fn ask(
     folder: &Path,
     limits: &Limits,
 ) -> Result<Answer> {
-    let needed = rtl.needed(promise.properties.text)?;
-    let is_system_verilog =
-        rtl.options.system_verilog || needed.iter().any(|source| source.is_system_verilog());
-    let frontend = if is_system_verilog { "verilog -defer -sv" } else { "verilog -defer" };
-    let folders = rtl.options.includes.iter().map(|folder| format!(" -I{}", folder.display()));
-    let defines = rtl.options.defines.iter().map(|define| format!(" -D{define}"));
-    let frontend: String =
-        [frontend.to_owned()].into_iter().chain(folders).chain(defines).collect();
-    let mut args: Vec<OsString> = ["-f", &frontend, "-p"].map(OsString::from).into();
-    args.push(script(promise, number).into());
-    args.extend(needed.iter().map(|source| OsString::from(&source.path)));
+    let mut args = yosys::sources(rtl, promise.properties.text, folder, None)?;
+    args.extend(["-p".into(), script(promise, number).into()]);
     Ok(answer(promise, &YOSYS.run(folder, args, limits)?, limits))
 }
 

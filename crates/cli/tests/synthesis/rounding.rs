@@ -1,0 +1,57 @@
+//! The address of `tansig`: the rounding that its Verilog has, against the definition, for every sum.
+
+use std::fs;
+
+use tofsim_rtl::verify::process::YOSYS;
+
+use crate::common;
+
+use super::yosys::{self, LIMITS};
+
+/// The function `address` in a module that asserts that it rounds half up, then saturates.
+fn proof(function: &str) -> String {
+    format!(
+        "module proof (input signed [35:0] sum);
+    localparam integer AddressBits = 12, Shift = 14;
+    localparam signed [36:0] Limit = 37'sd1 <<< (AddressBits - 1);
+    {function}
+    wire signed [36:0] wide = {{sum[35], sum}};
+    wire signed [36:0] rounded = (wide + (37'sd1 <<< (Shift - 1))) >>> Shift;
+    wire signed [36:0] limited = rounded >= Limit ? Limit - 37'sd1 : rounded < -Limit ? -Limit : rounded;
+    always @* assert (address(sum) == limited[AddressBits-1:0]);
+endmodule
+"
+    )
+}
+
+/// The function as the Verilog has it.
+fn address() -> String {
+    const END: &str = "endfunction";
+    let sources = yosys::rtl_ref();
+    let text = &sources["tansig.v"];
+    let begin = text.find("function [AddressBits-1:0] address;").unwrap();
+    let end = begin + text[begin..].find(END).unwrap() + END.len();
+    text[begin..end].to_owned()
+}
+
+/// Whether Yosys proves it.
+fn is_proven(function: &str) -> bool {
+    let folder = common::empty();
+    fs::write(folder.path().join("proof.sv"), proof(function)).unwrap();
+    let script = "read_verilog -sv -formal proof.sv; hierarchy -top proof; proc; opt; sat -prove-asserts proof";
+    let finished = YOSYS.run(folder.path(), ["-p", script], &LIMITS).unwrap();
+    assert!(finished.success(), "{}", finished.output);
+    let says = |text| finished.output.contains(text);
+    let proven = says("SAT proof finished - no model found: SUCCESS!");
+    assert!(proven || says("SAT proof finished - model found: FAIL!"), "{}", finished.output);
+    proven
+}
+
+#[test]
+fn the_address_of_every_sum_is_rounded_half_up_and_saturated() {
+    let address = address();
+    assert!(is_proven(&address), "{address}");
+    // Another shift of what is looked at, in whatever form it is written.
+    let fault = address.replace("Shift - 1", "Shift - 2").replace("Shift-1", "Shift-2");
+    assert!(fault != address && !is_proven(&fault), "{fault}");
+}

@@ -1,0 +1,134 @@
+//! Netlists by Yosys.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use tofsim::error::{Input, Result};
+use tofsim::files::output::{create_directory, write_bytes};
+use tofsim::sim::setup::Setup;
+
+use crate::golden::parameters;
+use crate::verify::Rtl;
+use crate::verify::process::{End, Limits, YOSYS};
+use crate::verify::yosys;
+
+use super::block::{TOP, TimedBlock};
+use super::wrapper::{self, wrapper};
+
+/// Our tops for boards, and the pins of the ECP5's.
+const ECP5_TOP: &str = include_str!("../../../../rtl_ref/ecp5_top.v");
+const ECP5_LPF: &str = include_str!("../../../../rtl_ref/ecp5.lpf");
+
+/// An FPGA.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Lattice's, which open tools place and route.
+    Ecp5,
+    /// That of the KC705.
+    Kintex7,
+}
+
+/// A design that is timed.
+#[derive(Clone, Copy, Debug)]
+pub struct Design<'a> {
+    /// Its sources.
+    pub rtl: &'a Rtl,
+    /// Where the tools run: paths in the sources, such as those of ROMs, are relative to it.
+    pub folder: &'a Path,
+    /// Where they write.
+    pub work: &'a Path,
+    /// When to give up.
+    pub limits: Limits<'a>,
+}
+
+/// Writes our own Verilog, and the ROMs that it names, into `folder`.
+///
+/// # Errors
+/// When it cannot be written.
+pub fn own(folder: &Path, setup: &Setup) -> Result<Rtl> {
+    let sources = folder.join("rtl_ref");
+    create_directory(&sources)?;
+    for memory in parameters::memories(&parameters::tof_top(setup)) {
+        write_bytes(&sources.join(memory.name), &memory.text)?;
+    }
+    Rtl::own(&sources)
+}
+
+impl Design<'_> {
+    /// The netlist of a block in a file, and the name of its top.
+    ///
+    /// # Errors
+    /// When Yosys is missing, refuses the sources, or does not end.
+    pub fn synthesise(&self, block: &TimedBlock, part: Part) -> Result<(PathBuf, &'static str)> {
+        let (top, text) = self.top(block, part);
+        let (name, define) = match part {
+            Part::Ecp5 => ("ecp5", Some("ECP5")),
+            Part::Kintex7 => ("kintex7", None),
+        };
+        let netlist = self.work.join(format!("{}.{name}.json", block.name));
+        let synth = match part {
+            Part::Ecp5 => format!("synth_ecp5 -top {top}"),
+            Part::Kintex7 => {
+                format!("synth_xilinx -family xc7 -flatten -noiopad -noclkbuf -top {top}\nautoname")
+            }
+        };
+        let script = format!(
+            "{synth}\nsetattr -unset src\nsetattr -mod -unset src\nwrite_json \"{}\"\n",
+            netlist.display(),
+        );
+        let mut args: Vec<OsString> = vec!["-q".into()];
+        args.extend(yosys::sources(self.rtl, &text, self.folder, define)?);
+        if !self.rtl.has(top) {
+            let file = self.work.join(format!("{}.{name}.v", block.name));
+            write_bytes(&file, &text)?;
+            args.push(file.into());
+        }
+        args.extend(["-p".into(), script.into()]);
+        let finished = YOSYS.run(self.folder, args, &self.limits)?;
+        if finished.success() {
+            return Ok((netlist, top));
+        }
+        let error = finished.output.lines().find(|line| line.contains("ERROR: "));
+        let why = match finished.end {
+            End::Exit(_) => error.unwrap_or("Yosys ended without a netlist").to_owned(),
+            _ => format!("Yosys has no netlist after {} s", self.limits.time.as_secs_f64()),
+        };
+        Err(Input::new(&self.rtl.source, why).field(block.name).into())
+    }
+
+    /// The module that is placed, and what names it or declares it.
+    fn top(&self, block: &TimedBlock, part: Part) -> (&'static str, String) {
+        const BOARD: &str = "ecp5_top";
+        match part {
+            _ if !block.is_top() => (wrapper::TOP, wrapper(block)),
+            Part::Kintex7 => (TOP, TOP.to_owned()),
+            Part::Ecp5 if self.rtl.has(BOARD) => (BOARD, BOARD.to_owned()),
+            Part::Ecp5 => (BOARD, ECP5_TOP.to_owned()),
+        }
+    }
+
+    /// The name of the module that is placed on an ECP5.
+    pub(super) fn top_name(&self, block: &TimedBlock) -> &'static str {
+        self.top(block, Part::Ecp5).0
+    }
+
+    /// The constraints of a block's pins, in a file.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub(super) fn pins(&self, block: &TimedBlock) -> Result<PathBuf> {
+        let file = self.work.join(format!("{}.lpf", block.name));
+        let text = if block.is_top() {
+            ECP5_LPF.to_owned()
+        } else {
+            let mut clocks = String::new();
+            for (clock, mhz) in [("clk_125", 125), ("clk_250", 250)] {
+                clocks += &format!("FREQUENCY PORT \"{clock}\" {mhz} MHZ;\n");
+            }
+            // An output register in the pin's own cell needs a place for the pin.
+            clocks + "LOCATE COMP \"laser_on\" SITE \"G19\";\n"
+        };
+        write_bytes(&file, &text)?;
+        Ok(file)
+    }
+}

@@ -1,0 +1,61 @@
+`timescale 1ps / 1fs
+`default_nettype none
+
+// The device on Lattice's ECP5 Evaluation Board, with an oscillator in the place X5; for synthesis only, with the
+// macro ECP5.
+`ifdef SYNTHESIS
+`ifdef ECP5
+module ecp5_top (
+    // Board
+    input wire clk_200,               // oscillator
+    output wire clk_200_en,           // its enable
+    input wire reset_n,               // button, active low
+    output wire locked_n,             // LED, active low: the clocks run
+    // Laser
+    output wire laser_on_lvds_p,      // positive pin; its I/O cell drives the negative one
+    // SPAD array
+    input wire tdc_stop,              // its output, asynchronous
+    output wire spad_rst,             // recharges the SPAD and keeps it off
+    output wire [39:0] spad_sel,      // row, one-hot
+    // Acquisition computer
+    input wire mode,                  // SPAD quench mode
+    input wire [1:0] laser_freq,      // laser repetition rate
+    input wire laser_en,              // lets the laser fire
+    input wire dsp_en,                // lets the estimator start
+    input wire dsp_rst,               // abandons the frame
+    output wire signed [35:0] depth,  // when algo_done is high; before, a partial sum [2^-29 m]
+    output wire algo_done,            // the depth is ready; one cycle
+    output wire hist_valid,           // a word of the histogram is being read
+    output wire [7:0] hist_bin,       // which word
+    output wire [15:0] hist_count,    // the word [hits]
+    output wire frame_done            // the frame has ended; one cycle
+);
+    wire locked;
+
+    assign clk_200_en = 1'b1;
+    assign locked_n = !locked;
+
+    tof_top tof_top (
+        .clk_200(clk_200),
+        .rst(!reset_n),
+        .locked(locked),
+        .laser_on_lvds_p(laser_on_lvds_p),
+        .laser_on_lvds_n(),
+        .tdc_stop(tdc_stop),
+        .spad_rst(spad_rst),
+        .spad_sel(spad_sel),
+        .mode(mode),
+        .laser_freq(laser_freq),
+        .laser_en(laser_en),
+        .dsp_en(dsp_en),
+        .dsp_rst(dsp_rst),
+        .depth(depth),
+        .algo_done(algo_done),
+        .hist_valid(hist_valid),
+        .hist_bin(hist_bin),
+        .hist_count(hist_count),
+        .frame_done(frame_done)
+    );
+endmodule
+`endif
+`endif
