@@ -24,12 +24,12 @@ endmodule
     )
 }
 
-/// The function as the Verilog has it.
+/// The function as the Verilog has it, with the constant that it looks at.
 fn address() -> String {
     const END: &str = "endfunction";
     let sources = yosys::rtl_ref();
     let text = &sources["tansig.v"];
-    let begin = text.find("function [AddressBits-1:0] address;").unwrap();
+    let begin = text.find("localparam integer Sign").unwrap();
     let end = begin + text[begin..].find(END).unwrap() + END.len();
     text[begin..end].to_owned()
 }

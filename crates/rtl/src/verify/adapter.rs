@@ -121,7 +121,7 @@ impl BlockMap {
         let whole = COUNT * self.design.bins as u32;
         let range = range(whole);
         if let Some(counts) = &self.counts {
-            // All counts side by side, read as if they were a RAM with one address.
+            // All counts side by side, read as if they were a RAM.
             lines += &format!(include_str!("adapter/counts.v"), range = range);
             let (declared, signal) = words("counts", found.ports.get(counts));
             lines += &declared;

@@ -222,9 +222,10 @@ impl BlockMap {
         Ok(valid)
     }
 
-    /// Whether `count` is compared only while something is read.
+    /// Whether nothing is read while something is counted: where `count` is compared only while something
+    /// is read, or all counts are there at once.
     fn reads_apart(&self) -> bool {
-        self.valid.get("count").is_some_and(|level| level == "read_en")
+        self.counts.is_some() || self.valid.get("count").is_some_and(|level| level == "read_en")
     }
 
     /// Their module.

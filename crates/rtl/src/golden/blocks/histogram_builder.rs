@@ -9,7 +9,7 @@ use crate::golden::prelude::*;
 /// Lines before one word is hit until it wraps.
 const MIXED: usize = 40_000;
 /// Lines in all, if not told otherwise.
-const LINES: usize = MIXED + HIT * 67_500;
+const LINES: usize = MIXED + HIT * 68_500;
 /// Hits of that word before it is cleared.
 const MANY: u64 = 600;
 /// Lines of a hit: the one of `tdc_valid` and two more.
@@ -105,6 +105,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         i.clear &= i.clear_addr != hot || may_clear;
 
         since += 1;
+        // Nothing is counted before every word has been cleared.
+        i.tdc_valid &= round > 0;
         if since < HIT {
             (i.tdc_valid, i.tdc_code) = (false, last);
         }
