@@ -109,7 +109,7 @@ fn an_exploration_has_the_firmware_s_datapath_and_its_neighbours() {
     let points = report["points"].as_array().unwrap();
     let point = |variant: &str| points.iter().find(|point| point["variant"] == variant).unwrap();
     let firmware = point("the firmware's");
-    assert_eq!((&firmware["ramb36"], &firmware["dsp48"]), (&10.into(), &9.into()));
+    assert_eq!((&firmware["ramb36"], &firmware["dsp48"]), (&10.into(), &10.into()));
     assert_eq!(firmware["saturated_weights"], 0);
     let rms = |point: &serde_json::Value| point["rms_to_float_mm"].as_f64().unwrap();
     let coarse = point("table of 9 address bits over +-4");

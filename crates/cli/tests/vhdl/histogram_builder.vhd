@@ -21,10 +21,10 @@ architecture rtl of Histogram_Builder is
   signal ram      : ram_t := (others => (others => '0'));
   signal addr     : unsigned(7 downto 0);
   signal hit_word : unsigned(15 downto 0) := (others => '0');
-  signal cycle    : natural range 0 to 2 := 0;  -- of a hit, 0 while there is none
+  signal first, second : std_logic := '0';  -- cycle of a hit
 begin
   addr <= unsigned(Clear_Addr) when Clear else
-          unsigned(Tdc_Code) when cycle > 0 else
+          unsigned(Tdc_Code) when first or second else
           unsigned(Read_Addr);
   Count <= std_logic_vector(ram(to_integer(addr))) when Read_En else (others => '0');
 
@@ -32,16 +32,12 @@ begin
   begin
     if rising_edge(Clk_125) then
       hit_word <= ram(to_integer(addr));
+      first <= Tdc_Valid and not Clear;
+      second <= first and not Clear;
       if Clear then
         ram(to_integer(addr)) <= (others => '0');
-        cycle <= 0;
-      elsif cycle = 1 then
-        cycle <= 2;
-      else
-        if cycle = 2 then
-          ram(to_integer(addr)) <= hit_word + 1;
-        end if;
-        cycle <= 1 when Tdc_Valid else 0;
+      elsif second then
+        ram(to_integer(addr)) <= hit_word + 1;
       end if;
     end if;
   end process;
