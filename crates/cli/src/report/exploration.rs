@@ -92,7 +92,9 @@ mod tests {
             point("table of 12 address bits over +-8", 12.5, (2, 0), 0.2),
         ];
         let text = text(&points, 80);
-        assert!(text.starts_with("built: the firmware's\n  10 block RAMs, 10 DSP slices, 0.400 mm"));
+        assert!(
+            text.starts_with("built: the firmware's\n  10 block RAMs, 10 DSP slices, 0.400 mm")
+        );
         assert!(
             text.contains("spread: table of 10 address bits over +-4\n  4.5 block RAMs"),
             "{text}"
