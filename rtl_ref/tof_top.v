@@ -44,7 +44,7 @@ module tof_top #(
     input wire laser_en,              // lets the laser fire, asynchronous
     input wire dsp_en,                // lets the estimator start, asynchronous
     input wire dsp_rst,               // abandons the frame, asynchronous
-    output wire signed [35:0] depth,  // when algo_done is high; before, a partial sum [2^-29 m]
+    output wire signed [35:0] depth,  // from algo_done until the next one [2^-29 m]
     output wire algo_done,            // the depth is ready; one cycle
     output wire hist_valid,           // a word of the histogram is being read
     output wire [7:0] hist_bin,       // which word

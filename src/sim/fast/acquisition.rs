@@ -37,7 +37,7 @@ pub fn acquire(
     }
     let limit = limit.min(device.cycle.saturating_add(cycles_of_steady_control(device, period)));
     let (mut emitter_wakes, mut converter_wakes) = (device.cycle, device.cycle);
-    // The converter is where it is in that cycle, and sleeps until now.
+    // The cycle that the converter has come to; it sleeps from there to the present one.
     let mut converter_at = device.cycle;
     let mut now = device.pll.clk_125.rise(device.cycle);
     while device.top.frame_ctrl.acquire && device.cycle < limit {
