@@ -241,7 +241,7 @@ fn an_acquisition_is_the_same_with_its_halves_asleep() {
         while device.cycle() < cycles {
             let limit = device.cycle() + random.random_range(1..60);
             let (mut fast, mut frames) = (device.clone(), [(); 2].map(|()| Frames::default()));
-            acquire(&mut fast, p, &mut frames[0], limit, |_, _| {});
+            acquire(&mut fast, p, &mut frames[0], limit, |_, _, _| {});
             acquired += fast.cycle() - device.cycle();
             while device.cycle() < fast.cycle() {
                 device.step(p, &mut Off, &mut Off);

@@ -31,9 +31,9 @@ fn a_leap_lands_where_the_histogram_and_the_counts_are_what_stepping_gives() {
         }
         let (mut leapt, mut tables, mut leaps) = (stepped.clone(), Tables::default(), 0);
         let mut frames = [Frames::default(), Frames::default()];
-        acquire(&mut leapt, p, &mut frames[0], u64::MAX, |device, frames| {
+        acquire(&mut leapt, p, &mut frames[0], u64::MAX, |device, frames, hits| {
             let before = device.cycle();
-            leap_shots(device, p, &mut tables, frames);
+            leap_shots(device, p, &mut tables, frames, hits);
             leaps += u64::from(device.cycle() > before);
         });
         while stepped.cycle() < leapt.cycle() {

@@ -108,4 +108,15 @@ impl DepthEstimator {
         self.tansig.tick(&tansig, &p.tansig);
         self.forward2.tick(&forward2, &p.forward2);
     }
+
+    /// Whether no edge changes anything until an input does.
+    pub fn rests(&self, i: &In, p: &Params) -> bool {
+        fn rests<C: Clocked>(block: &C, i: &C::In, p: &C::Params) -> bool {
+            block.next(i, p) == *block
+        }
+        rests(&self.estimator_ctrl, &Wires::estimator_ctrl(self, i), &p.neurons())
+            && rests(&self.forward2, &Wires::forward2(self, i), &p.forward2)
+            && rests(&self.tansig, &Wires::tansig(self, i), &p.tansig)
+            && rests(&self.forward1, &Wires::forward1(self, i), &p.forward1)
+    }
 }

@@ -102,6 +102,13 @@ impl HistogramBuilder {
         self.registers.writing = reading && !i.clear;
     }
 
+    /// Stands for the three edges of a hit that meets no `clear`.
+    #[inline(always)]
+    pub fn count_at_once(&mut self, code: U<8>) {
+        let word = &mut self.ram[code.index()];
+        (self.registers.hit_word, *word) = (*word, *word + 1);
+    }
+
     #[inline(always)]
     fn address(&self, i: &In) -> U<8> {
         match (i.clear, self.registers.counting) {

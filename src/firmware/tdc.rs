@@ -93,14 +93,21 @@ impl Tdc {
     /// The rising edge of `clk_125` at `now`.
     #[inline(always)]
     pub fn rise(&mut self, i: &In, p: &Params, line: &mut StopLine, now: Time) {
+        let tdc_decoder = Wires::tdc_decoder(self, i);
+
+        self.sample(i, p, line, now);
+        self.tdc_decoder.tick(&tdc_decoder, &p.decoder);
+    }
+
+    /// The part of all before the decoder.
+    #[inline(always)]
+    pub fn sample(&mut self, i: &In, p: &Params, line: &mut StopLine, now: Time) {
         let coarse_counter = Wires::coarse_counter(self, i);
         let tdc_latch = Wires::tdc_latch(self, i);
-        let tdc_decoder = Wires::tdc_decoder(self, i);
 
         self.carry_chain = CarryChain { taps: line.sample(now, &p.delays) };
         self.coarse_counter.tick(&coarse_counter, &());
         self.tdc_latch.tick(&tdc_latch, &p.tap_0);
-        self.tdc_decoder.tick(&tdc_decoder, &p.decoder);
     }
 
     /// Coming edges at which, while the inputs hold, nothing before the decoder would move but the

@@ -9,6 +9,7 @@ mod draws;
 mod frame_end;
 mod halves;
 pub mod histogram;
+mod hits;
 mod idle;
 mod many;
 mod outcomes;
@@ -53,12 +54,12 @@ impl FastForward {
         match self.stepping {
             Stepping::EveryCycle => {}
             Stepping::SkipIdle => {
-                acquire(device, p, frames, limit, |_, _| {});
+                acquire(device, p, frames, limit, |_, _, _| {});
                 skip_idle(device, p, limit);
             }
             Stepping::LeapShots => {
-                acquire(device, p, frames, limit, |device, frames| {
-                    leap_shots(device, p, &mut self.tables, frames);
+                acquire(device, p, frames, limit, |device, frames, hits| {
+                    leap_shots(device, p, &mut self.tables, frames, hits);
                 });
                 skip_idle(device, p, limit);
                 leap_frame_end(device, p);

@@ -11,9 +11,9 @@ use crate::sim::device::{Device, Off};
 use crate::sim::frames::Frames;
 
 use super::halves::{
-    convert, converter_quiet, emit, emitter_quiet, rest_of_cycle, rouses_converter, skip_converter,
-    skip_emitter,
+    converter_quiet, emit, emitter_quiet, rest_of_cycle, rouses_converter, skip_emitter,
 };
+use super::hits::Hits;
 use super::idle::cycles_until_event;
 use super::steady::{control_is_steady, cycles_of_steady_control, estimator_rests, even_period};
 
@@ -26,7 +26,7 @@ pub fn acquire(
     p: &Params,
     frames: &mut Frames,
     limit: u64,
-    mut at_shot: impl FnMut(&mut Device, &mut Frames),
+    mut at_shot: impl FnMut(&mut Device, &mut Frames, &mut Hits),
 ) {
     let Some(period) = even_period(device) else { return };
     if !device.top.frame_ctrl.acquire
@@ -39,6 +39,7 @@ pub fn acquire(
     let (mut emitter_wakes, mut converter_wakes) = (device.cycle, device.cycle);
     // The cycle that the converter has come to; it sleeps from there to the present one.
     let mut converter_at = device.cycle;
+    let mut hits = Hits::default();
     let mut now = device.pll.clk_125.rise(device.cycle);
     while device.top.frame_ctrl.acquire && device.cycle < limit {
         while device.spad.next_event() <= now {
@@ -47,8 +48,8 @@ pub fn acquire(
         }
         let emits = emitter_wakes <= device.cycle;
         if converter_wakes <= device.cycle {
-            skip_converter(&mut device.top, p, device.cycle - converter_at);
-            convert(&mut device.top, p, &mut device.line, now);
+            hits.skip(&mut device.top, p, device.cycle - converter_at);
+            hits.convert(&mut device.top, p, &mut device.line, (device.cycle, now));
             frames.count_hit(&device.top);
             let quiet = converter_quiet(&device.top, p, &device.line);
             converter_at = device.cycle + 1;
@@ -77,12 +78,13 @@ pub fn acquire(
         now += period;
         if device.top.vcsel_driver.registers.start {
             frames.count_shot(&device.top);
-            skip_converter(&mut device.top, p, device.cycle - converter_at);
-            at_shot(device, frames);
+            hits.skip(&mut device.top, p, device.cycle - converter_at);
+            at_shot(device, frames, &mut hits);
             converter_at = device.cycle;
             emitter_wakes = device.cycle;
             now = device.pll.clk_125.rise(device.cycle);
         }
     }
-    skip_converter(&mut device.top, p, device.cycle - converter_at);
+    hits.skip(&mut device.top, p, device.cycle - converter_at);
+    hits.replay(&mut device.top, p, device.cycle);
 }

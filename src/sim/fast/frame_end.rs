@@ -17,13 +17,13 @@ use crate::sim::device::Device;
 
 use super::steady::{control_is_steady, estimation_phase, estimator_rests};
 
-/// Leaps to the end of Clear or of an estimation, if one has just begun and nothing else goes on.
+/// Leaps to the end of Clear, or of an estimation that has just begun, if nothing else goes on.
 #[inline(always)]
 pub fn leap_frame_end(device: &mut Device, p: &Params) {
     let ctrl = &device.top.frame_ctrl;
-    let clearing = ctrl.state == State::Clear && ctrl.clear_addr == 0;
+    let clearing = ctrl.state == State::Clear && ctrl.clear_addr != LAST_WORD;
     let cycles = match clearing {
-        true => LAST_WORD,
+        true => LAST_WORD - ctrl.clear_addr.get(),
         false if estimation_phase(&device.top, p) == Some(0) => p.estimator_cycles() - 1,
         false => return,
     };
@@ -36,17 +36,18 @@ pub fn leap_frame_end(device: &mut Device, p: &Params) {
         return;
     }
     match clearing {
-        true => land_in_clear(&mut device.top, cycles),
+        true => land_in_clear(&mut device.top),
         false => land_in_estimation(&mut device.top, p),
     }
     device.top.settle(p);
     device.cycle += cycles;
 }
 
-/// Lands in Clear so many cycles after its first, not past its end.
-fn land_in_clear(top: &mut TofTop, cycles: u64) {
-    top.histogram_builder.ram[..cycles as usize].fill(U::new(0));
-    top.frame_ctrl.clear_addr = U::new(cycles);
+/// Lands in the last cycle of Clear.
+fn land_in_clear(top: &mut TofTop) {
+    let from = top.frame_ctrl.clear_addr.index();
+    top.histogram_builder.ram[from..LAST_WORD as usize].fill(U::new(0));
+    top.frame_ctrl.clear_addr = U::new(LAST_WORD);
 }
 
 /// Lands in the cycle before the depth is ready, from the first cycle of an estimation.

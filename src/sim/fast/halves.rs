@@ -45,6 +45,12 @@ pub(super) fn convert(top: &mut TofTop, p: &Params, line: &mut StopLine, now: Ti
     top.take_code(p);
 }
 
+/// The part of it that samples and keeps hits.
+#[inline(always)]
+pub(super) fn sample(top: &mut TofTop, p: &Params, line: &mut StopLine, now: Time) {
+    top.tdc.sample(&tdc_inputs(top), &p.tdc, line, now);
+}
+
 /// The emitter's part of the same edge.
 #[inline(always)]
 pub(super) fn emit(top: &mut TofTop, p: &Params) {
@@ -78,6 +84,12 @@ pub(super) fn skip_emitter(top: &mut TofTop, cycles: u64) {
 #[inline(always)]
 pub(super) fn skip_converter(top: &mut TofTop, p: &Params, cycles: u64) {
     count_hits(top, p, cycles);
+    skip_sampling(top, p, cycles);
+}
+
+/// Stands for that many cycles of the part of it that samples and keeps hits.
+#[inline(always)]
+pub(super) fn skip_sampling(top: &mut TofTop, p: &Params, cycles: u64) {
     if let CodeSource::Tdc = p.code_source {
         top.tdc.skip(&tdc_inputs(top), &p.tdc, cycles);
     }
@@ -99,7 +111,7 @@ pub(super) fn count_hits(top: &mut TofTop, p: &Params, cycles: u64) {
 
 /// The histogram's part of an edge while nothing is read.
 #[inline(always)]
-fn count(top: &mut TofTop) {
+pub(super) fn count(top: &mut TofTop) {
     let (clear, read_en) = (false, false);
     let histogram = Wires::histogram_builder(top);
     top.histogram_builder.tick(&histogram_builder::In { clear, read_en, ..histogram });

@@ -17,7 +17,7 @@ use crate::sim::frames::Frames;
 use crate::sim::setup::CYCLE;
 
 use super::draws::Draws;
-use super::halves::count_hits;
+use super::hits::Hits;
 use super::outcomes::{NO_HIT, OUTCOMES, ShotOutcomes};
 use super::steady::even_period;
 
@@ -42,7 +42,13 @@ impl Tables {
 
 /// Leaps over as many shots as may be, but for the frame's last; [`acquire`](super::acquire) has just
 /// come through the cycle of a laser edge. Does nothing where a shot is more than its first avalanche.
-pub fn leap_shots(device: &mut Device, p: &Params, tables: &mut Tables, frames: &mut Frames) {
+pub fn leap_shots(
+    device: &mut Device,
+    p: &Params,
+    tables: &mut Tables,
+    frames: &mut Frames,
+    hits: &mut Hits,
+) {
     let Some((rate, lit)) = independent_shot(device) else { return };
     let Some(draws) = tables.find(rate, lit, p, &device.light) else { return };
     let Light::Optics(optics) = &mut device.light else { return };
@@ -60,7 +66,7 @@ pub fn leap_shots(device: &mut Device, p: &Params, tables: &mut Tables, frames: 
         // The remainder is the outcome; it shows the compiler that it is within bounds.
         counts[draws.outcome(word) as usize % counts.len()] += 1;
     });
-    count_hits(&mut device.top, p, u64::MAX);
+    hits.finish(&mut device.top, p);
     land(&mut device.top, shots, &counts[..BINS]);
     device.cycle += shots * period;
     let now = device.pll.clk_125.rise(device.cycle - 1);

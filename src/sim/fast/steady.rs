@@ -24,10 +24,8 @@ pub(super) fn estimator_rests(top: &TofTop, p: &Params) -> bool {
     let (rst, algo_start) = (false, false);
     match p.estimator {
         Estimator::Network => {
-            let mut next = top.depth_estimator;
             let i = depth_estimator::In { rst, algo_start, ..Wires::depth_estimator(top) };
-            next.rise(&i, &p.depth_estimator);
-            next == top.depth_estimator
+            top.depth_estimator.rests(&i, &p.depth_estimator)
         }
         Estimator::Centroid => {
             let mut next = top.centroid_estimator;

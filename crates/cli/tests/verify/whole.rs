@@ -105,5 +105,5 @@ fn a_design_that_hangs_is_said_to_once_and_within_a_minute() {
     assert!(
         list.iter().filter(|(name, _)| name != "carry_chain").all(|(_, word)| word == "not run")
     );
-    assert_eq!(list.len(), 7);
+    assert!(["tdc", "tof_top"].iter().all(|&block| of(&list, block) == "not run"));
 }

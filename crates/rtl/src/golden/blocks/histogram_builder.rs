@@ -84,7 +84,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let hammers = cycle >= MIXED && !draw.one_in(64) && !looks;
         match round % 10 {
             _ if hammers => (i.clear, i.tdc_valid, i.tdc_code) = (false, true, U::new(hot)),
-            _ if apart && cycle >= MIXED => {
+            _ if looks || apart && cycle >= MIXED => {
                 (i.clear, i.tdc_valid) = (false, false);
                 (i.read_en, i.read_addr) = (true, U::new(hot));
             }
