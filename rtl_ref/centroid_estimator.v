@@ -4,7 +4,7 @@
 // Argmax with centroid correction, with the ports of depth_estimator.
 //
 // A window of 2 HalfWidth + 1 words slides over the histogram; where its centre stands highest, its
-// centroid becomes the depth. 311 cycles.
+// centroid becomes the depth. 312 cycles.
 //
 //   edge       e(s+1)                                 e(s+2)                    e(s+3)
 //   registers  entering, leaving, level, centre       change, weighted, height  sum, ages, best ..
@@ -29,7 +29,7 @@ module centroid_estimator #(
 );
     // Cycles after the edge that takes algo_start: first one of the division, then the ones before
     // the edge that makes the position, and before the one that makes the depth.
-    localparam [8:0] Divide = 9'd290, Place = 9'd308, Last = 9'd310;
+    localparam [8:0] Divide = 9'd290, Place = 9'd308, Last = 9'd311;
     localparam [5:0] Words = {HalfWidth, 1'b1};  // of the window
 
     reg busy;              // an estimation is under way
@@ -51,6 +51,8 @@ module centroid_estimator #(
     reg [28:0] remainder;  // ages of its window, then what the division leaves of it
     reg [17:0] quotient;   // mean age of the hits in its window [2^-12 bins]
     reg [19:0] position;   // centroid from the begin of bin 0 [2^-12 bins]
+    reg [34:0] fine;       // low 18 bits of position times slope [2^-36 m]
+    reg [18:0] coarse;     // the two above them times slope [2^-18 m]
     reg [29:0] distance;   // position times slope [2^-29 m]
 
     // The last words, each at its number plus one modulo 64, without reset: nothing is read before it
@@ -71,6 +73,8 @@ module centroid_estimator #(
     reg [28:0] remainder_next;
     reg [17:0] quotient_next;
     reg [19:0] position_next;
+    reg [34:0] fine_next;
+    reg [18:0] coarse_next;
     reg [29:0] distance_next;
 
     integer i;
@@ -89,6 +93,8 @@ module centroid_estimator #(
         remainder = 29'd0;
         quotient = 18'd0;
         position = 20'd0;
+        fine = 35'd0;
+        coarse = 19'd0;
         distance = 30'd0;
     end
 
@@ -112,9 +118,9 @@ module centroid_estimator #(
 
     // Bin i is centred at i + 1/2. The centroid is below 256, so the carry out of the sum means nothing.
     wire [7:0] window_end = peak + {3'd0, HalfWidth};
-    // The low bits are rounded down: a depth word has no place for them.
+    // A multiplier has 18 bits. The low ones are rounded down: a depth word has no place for them.
     // verilator lint_off UNUSEDSIGNAL
-    wire [36:0] product = {17'd0, position} * {20'd0, Slope};
+    wire [36:0] product = {2'd0, fine} + {coarse, 18'd0};
     // verilator lint_on UNUSEDSIGNAL
 
     always @* begin
@@ -141,6 +147,8 @@ module centroid_estimator #(
         remainder_next = remainder;
         quotient_next = quotient;
         position_next = position;
+        fine_next = {17'd0, position[17:0]} * {18'd0, Slope};
+        coarse_next = {17'd0, position[19:18]} * {2'd0, Slope};
         distance_next = product[36:7];
         if (busy) begin
             step_next = step + 9'd1;
@@ -202,6 +210,8 @@ module centroid_estimator #(
             remainder_next = 29'd0;
             quotient_next = 18'd0;
             position_next = 20'd0;
+            fine_next = 35'd0;
+            coarse_next = 19'd0;
             distance_next = 30'd0;
         end
     end
@@ -233,6 +243,8 @@ module centroid_estimator #(
             remainder <= 29'd0;
             quotient <= 18'd0;
             position <= 20'd0;
+            fine <= 35'd0;
+            coarse <= 19'd0;
             distance <= 30'd0;
         end else begin
             algo_done <= algo_done_next;
@@ -258,6 +270,8 @@ module centroid_estimator #(
             remainder <= remainder_next;
             quotient <= quotient_next;
             position <= position_next;
+            fine <= fine_next;
+            coarse <= coarse_next;
             distance <= distance_next;
         end
     end

@@ -51,14 +51,24 @@ module forward1 #(
     wire [16*Neurons-1:0] row = rom[rom_addr];
     wire [16*Neurons-1:0] biases = bias_rom[0];
 
-    reg [15:0] word;  // word of the histogram [hits]
+    // The word of the histogram [hits], once for each four units: one net to all is too long for an ECP5.
+    genvar group;
+    generate
+        for (group = 0; 4 * group < Neurons; group = group + 1) begin : groups
+            reg [15:0] word;
 
-    initial word = 16'd0;
+            initial word = 16'd0;
 
-    always @(posedge clk_125) word <= count;
+`ifdef ECP5
+            (* keep *)
+`endif
+            always @(posedge clk_125) word <= count;
+        end
+    endgenerate
 
     // The registers of the units below, by their names; but for the sums they are for waveforms.
     /* verilator lint_off UNUSED */
+    wire [15:0] word = groups[0].word;
     wire signed [15:0] fetched_0, fetched_1, fetched_2, fetched_3, fetched_4, fetched_5, fetched_6;
     wire signed [15:0] fetched_7, fetched_8, fetched_9, fetched_10, fetched_11, fetched_12, fetched_13;
     wire signed [15:0] fetched_14, fetched_15;
@@ -114,7 +124,7 @@ module forward1 #(
                 always @(posedge clk_125) begin
                     fetched <= row[16*k +: 16];
                     weight <= fetched;
-                    product <= weight * $signed({1'b0, word});
+                    product <= weight * $signed({1'b0, groups[k / 4].word});
                     if (rst) l1_in <= 36'sd0;
                     else l1_in <= l1_in_next;
                 end

@@ -36,7 +36,13 @@ module tdc_decoder #(
     reg tdc_valid_next;
     reg [7:0] tdc_code_next;
 
-    (* rom_style = "block" *) reg [13:0] cal [0:800];
+    // Block RAM, or LUTs for gate-level simulation, since Yosys has no model of a block RAM.
+`ifdef ROM_IN_LUTS
+    (* rom_style = "logic" *)
+`else
+    (* rom_style = "block" *)
+`endif
+    reg [13:0] cal [0:800];
     initial $readmemh(CalFile, cal);
 
     initial begin

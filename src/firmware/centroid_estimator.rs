@@ -6,10 +6,10 @@
 //! depth = slope (centroid + 1/2) + offset: bin i is centred at i + 1/2. Edge e0 takes `algo_start`:
 //!
 //! ```text
-//! cycle      e0 .. e255   e256 .. e289   e290 .. e307   e308       e309       e310    e311
-//! next edge  word         no word        quotient bit   position   distance   depth   -
+//! cycle      e0 .. e255   e256 .. e289   e290 .. e307   e308       e309, e310      e311    e312
+//! next edge  word         no word        quotient bit   position   distance        depth   -
 //! read_en    ^^^^^^^^^^
-//! algo_done                                                                           ^^^^
+//! algo_done                                                                                ^^^^
 //! ```
 //!
 //! A word, and the window that ends before it, go through three registers:
@@ -19,7 +19,7 @@
 //! registers  entering, leaving, level, centre   change, weighted, height   sum, ages, best ..
 //! ```
 //!
-//! 311 cycles, 2.488 us, for every W. A start while busy is ignored; one in the cycle of `algo_done`
+//! 312 cycles, 2.496 us, for every W. A start while busy is ignored; one in the cycle of `algo_done`
 //! is taken.
 
 use crate::kernel::module::{Module, Visitor};
@@ -41,12 +41,14 @@ pub const DIVIDE: u64 = BINS as u64 + MOST_HALF_WIDTH + 1 + SUMS;
 const QUOTIENT_BITS: u32 = 18;
 /// Fraction bits of quotient and position.
 pub const POSITION_FRACTION: u32 = 12;
+/// Bits of the position that one multiplier takes.
+const FINE_BITS: u32 = 18;
 /// Cycle before the edge that makes the position.
 pub const PLACE: u64 = DIVIDE + QUOTIENT_BITS as u64;
 /// Cycle before the edge that makes the depth.
 const LAST: u64 = DONE - 1;
 /// Cycle in which the depth is ready: the estimator's latency [cycles of clk_125].
-pub const DONE: u64 = PLACE + 3;
+pub const DONE: u64 = PLACE + 4;
 
 /// Distance of a bin, 24 fraction bits [m].
 pub type Slope = U<17>;
@@ -143,6 +145,10 @@ signals! {
         quotient: U<18>,
         /// Centroid from the begin of bin 0, 12 fraction bits [bins].
         position: U<20>,
+        /// The low bits of `position` times slope [2^-36 m].
+        fine: U<35>,
+        /// The bits above them times slope [2^-18 m].
+        coarse: U<19>,
         /// `position` times slope [2^-29 m].
         distance: U<30>,
     }
@@ -185,7 +191,9 @@ impl CentroidEstimator {
     fn next(&self, i: &In, p: &Params) -> Registers {
         let (q, mut d) = (&self.registers, self.registers);
         d.algo_done = false;
-        d.distance = U::new((q.position.get() * p.slope.get()) >> SURPLUS);
+        d.fine = U::new((q.position.get() & ((1 << FINE_BITS) - 1)) * p.slope.get());
+        d.coarse = U::new((q.position.get() >> FINE_BITS) * p.slope.get());
+        d.distance = U::new(((q.coarse.get() << FINE_BITS) + q.fine.get()) >> SURPLUS);
         if !q.busy {
             if i.algo_start {
                 d = Registers { busy: true, read_en: true, depth: q.depth, ..Registers::default() };
@@ -298,10 +306,10 @@ mod tests {
     fn the_depth_is_ready_311_edges_after_the_start_is_taken() {
         let cycles = cycles(&one(100), |_| IDLE);
         let done: Vec<_> = (0..700).filter(|&cycle| cycles[cycle].algo_done).collect();
-        assert_eq!(done, [311]);
-        let metres = cycles[311].depth.to_f64();
+        assert_eq!(done, [312]);
+        let metres = cycles[312].depth.to_f64();
         assert!((metres - 100.5 * 0.003_747_405_725).abs() < 1e-6, "{metres}");
-        assert_eq!(cycles[699].depth, cycles[311].depth);
+        assert_eq!(cycles[699].depth, cycles[312].depth);
     }
 
     #[test]
@@ -314,9 +322,9 @@ mod tests {
     #[test]
     fn a_start_while_busy_is_ignored_and_one_with_algo_done_is_taken() {
         let at = |again| move |cycle| if cycle == again { GO } else { IDLE };
-        assert_eq!(cycles(&one(100), at(310)), cycles(&one(100), |_| IDLE));
-        let again = cycles(&one(100), at(311));
-        assert!(again[312].read_en && again[311 + 312].algo_done);
+        assert_eq!(cycles(&one(100), at(311)), cycles(&one(100), |_| IDLE));
+        let again = cycles(&one(100), at(312));
+        assert!(again[313].read_en && again[312 + 313].algo_done);
     }
 
     #[test]
@@ -324,15 +332,15 @@ mod tests {
         let reset = |cycle| In { rst: cycle == 200, algo_start: cycle == 210, ..IDLE };
         let cycles = cycles(&one(100), reset);
         assert_eq!(cycles[201], Registers::default());
-        assert_eq!(cycles.iter().position(|now| now.algo_done), Some(211 + 311));
-        let metres = cycles[211 + 311].depth.to_f64();
+        assert_eq!(cycles.iter().position(|now| now.algo_done), Some(211 + 312));
+        let metres = cycles[211 + 312].depth.to_f64();
         assert!((metres - 100.5 * 0.003_747_405_725).abs() < 1e-6, "{metres}");
     }
 
     #[test]
     fn nothing_stands_out_of_an_empty_or_a_full_histogram() {
         for histogram in [[0; BINS], [65_535; BINS]] {
-            assert_eq!(cycles(&histogram, |_| IDLE)[311].depth, Depth::new(0));
+            assert_eq!(cycles(&histogram, |_| IDLE)[312].depth, Depth::new(0));
         }
     }
 }

@@ -110,7 +110,7 @@ fn the_top_passes_with_the_centroid_estimator_in_its_socket() {
     let short = ["--top", "--frames", "2", "-s", "firmware.shots_per_frame=300"];
     for simulator in ["icarus", "verilator"] {
         let blocks = verified(&[&["--simulator", simulator], &kind[..], &short].concat());
-        let frames = 2 * (300 * 6 + 274 + 311 + 1);
+        let frames = 2 * (300 * 6 + 274 + 312 + 1);
         let cycles = blocks[0]["cycles"].as_u64().unwrap();
         assert!((frames..frames + 8).contains(&cycles), "{cycles} cycles");
     }

@@ -6,6 +6,7 @@
 mod cells;
 mod clocks;
 mod gates;
+mod record;
 mod rounding;
 mod spacing;
 mod yosys;
@@ -27,7 +28,7 @@ const END: &str = "<!-- end -->";
 const EXPECTED: &[(&str, &str, u64)] = &[
     ("carry_chain", "CARRY4", 200),
     ("carry_chain", "FD", 800),
-    ("centroid_estimator", "DSP48E1", 2),
+    ("centroid_estimator", "DSP48E1", 3),
     ("ddr_output", "ODDR", 1),
     ("depth_estimator", "DSP48E1", 10),
     ("forward1", "DSP48E1", 8),

@@ -81,7 +81,11 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let design = timing::Design { rtl: &rtl, folder: &folder, work: work.path(), limits };
     let is_wanted = |part| args.part.is_none_or(|only| only == part);
     let place = nextpnr::installed().filter(|_| is_wanted(timing::Part::Ecp5));
-    if place.is_none() && is_wanted(timing::Part::Ecp5) {
+    if place.is_none() && args.part == Some(timing::Part::Ecp5) {
+        let expected = format!("not found on PATH; install it: {}", nextpnr::HOW_TO_INSTALL);
+        return Err(Input::new("nextpnr-ecp5", expected).into());
+    }
+    if place.is_none() && args.part.is_none() {
         talk.note(format_args!(
             "nextpnr-ecp5: not found on PATH, so nothing is measured for an ECP5; install it: {}",
             nextpnr::HOW_TO_INSTALL
@@ -129,18 +133,16 @@ fn measured(
     known: &Record,
     talk: &Talk,
 ) -> Result<Measurement> {
-    let netlist = nextpnr::digest(design, block)?;
     let before = known.blocks.get(block.name).and_then(|block| block.ecp5.as_ref());
-    let has_seeds = |before: &&Measurement| {
-        before.clocks.values().all(|clock| clock.mhz.len() >= seeds as usize)
-    };
-    if let Some(before) = before.filter(|it| it.netlist == netlist).filter(has_seeds) {
-        talk.note(format_args!("{}: the same netlist as in the record", block.name));
-        return Ok(before.clone());
-    }
-    timing::measure(design, block, tool, seeds, |seed| {
+    let mut placed = 0;
+    let measurement = timing::measure(design, block, tool, seeds, before, |seed| {
+        placed = seed;
         talk.detail(format_args!("{}: seed {seed} placed and routed", block.name));
-    })
+    })?;
+    if placed == 0 {
+        talk.note(format_args!("{}: the same netlist as in the record", block.name));
+    }
+    Ok(measurement)
 }
 
 /// The blocks that are asked for, or all that the design has.

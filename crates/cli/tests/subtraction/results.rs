@@ -80,7 +80,7 @@ fn the_laser_answers_to_the_depth_of_whatever_is_in_the_socket() {
         let run = pairs(folder.path(), &centroid);
         for (index, frame) in run["frames"].as_array().unwrap().iter().enumerate() {
             assert_eq!(frame["laser_en"], index % 2 == 1, "{fidelity}, frame {index}");
-            assert_eq!(frame["estimator_cycles"], 311);
+            assert_eq!(frame["estimator_cycles"], 312);
         }
         assert_eq!(run["pairs"]["count"], 2, "{fidelity}");
         let depth_m = run["pairs"]["mean_m"].as_f64().unwrap();

@@ -22,9 +22,9 @@ fn a_fault_of_the_estimator_is_counted_and_not_proven() {
 #[test]
 fn a_fault_of_the_centroid_estimator_is_counted_and_not_proven() {
     let control = |from, to| [["centroid_estimator.v", from, to]];
-    fault("centroid_latency", &control("Last = 9'd310", "Last = 9'd311"), 312);
-    let shorter = control("Place = 9'd308, Last = 9'd310", "Place = 9'd307, Last = 9'd309");
-    fault("centroid_latency", &shorter, 310);
+    fault("centroid_latency", &control("Last = 9'd311", "Last = 9'd312"), 313);
+    let shorter = control("Place = 9'd308, Last = 9'd311", "Place = 9'd307, Last = 9'd310");
+    fault("centroid_latency", &shorter, 311);
 }
 
 #[test]

@@ -104,7 +104,7 @@ fn a_design_may_leave_the_centroid_estimator_out() {
     assert!(!rtl.has(CENTROID));
     let measured = simulate::measure(&rtl, NEURONS, folder.path(), &limits()).unwrap();
     assert_eq!(measured.count("latency", 267), Some(267));
-    assert_eq!(measured.count("centroid_latency", 311), None);
+    assert_eq!(measured.count("centroid_latency", 312), None);
 }
 
 #[test]
