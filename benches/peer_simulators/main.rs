@@ -65,7 +65,7 @@ fn main() -> ExitCode {
 
 fn compare(args: &Args) -> Result<()> {
     let begun = Instant::now();
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
     let cache = Cache::new(Path::new(env!("CARGO_TARGET_TMPDIR")))?;
     let (peers, notes) = compilers::peers(root, &cache, args.quick)?;
     let mut report = Report::new(notes, pinning::pin(args.core)?);

@@ -27,6 +27,7 @@ mod subtraction;
 mod synthesis;
 mod terminal;
 mod three_ways;
+mod timing;
 mod train;
 mod vectors;
 mod verify;

@@ -98,7 +98,7 @@ pub struct Socket {
     pub read_en: bool,
     /// Word of the histogram.
     pub read_addr: U<8>,
-    /// The depth, when `algo_done` is high.
+    /// The depth, from `algo_done` until the next one.
     pub depth: Depth,
     /// The depth is ready; one cycle.
     pub algo_done: bool,

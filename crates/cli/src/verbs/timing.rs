@@ -75,6 +75,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             "expected Verilog sources only, without libraries: Yosys reads no others here";
         return Err(Input::new("timing", expected).value(path.display().to_string()).into());
     }
+    let blocks = wanted(args, &rtl, talk)?;
     let stop = stop_signal();
     let limits =
         Limits { stop: stop.as_deref(), ..Limits::new(Duration::from_secs(args.time_limit)) };
@@ -107,7 +108,6 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         talk.note(format_args!("{}: timed", block.name));
         Ok((block.name.to_owned(), BlockTiming { ecp5, kintex7 }))
     };
-    let blocks = wanted(args, &rtl, talk)?;
     let timed: Result<BTreeMap<_, _>> = blocks.par_iter().map(one).collect();
     let record = Record { tools, blocks: timed? };
     if let Some(path) = &args.record {
