@@ -19,6 +19,8 @@ use super::wave_tracer::{WaveTracer, WindowedProbe};
 
 /// Cycles between two looks at whether to stop.
 const POLL_INTERVAL: u64 = 1 << 14;
+/// Cycles that a fast way takes at most between two of them: a part of a second.
+const FAST_INTERVAL: u64 = 1 << 20;
 
 /// What looks at a run, and what may stop it.
 #[derive(Default)]
@@ -167,8 +169,8 @@ impl<'a> Run<'a> {
         let mut ended = self.frames.done();
         loop {
             if !(T::ON || T::EDGES || R::ON) {
-                let Run { device, frames, params, fast, next_poll, .. } = self;
-                fast.go(device, params, frames, *next_poll);
+                let Run { device, frames, params, fast, .. } = self;
+                fast.go(device, params, frames, device.cycle() + FAST_INTERVAL);
             }
             self.cycle(probe, recorder)?;
             let frame = self.frames.edge(self.device.cycle() - 1, &self.device.top, self.params);

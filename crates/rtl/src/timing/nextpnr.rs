@@ -179,7 +179,7 @@ fn place(
     let mut args: Vec<OsString> = options.map(OsString::from).into();
     args.push("--lpf-allow-unconstrained".into());
     if is_long {
-        args.extend(["--placer", "static", "--router", "router2", "--tmg-ripup"].map(OsString::from));
+        args.extend(["--placer", "static", "--router", "router2"].map(OsString::from));
     }
     // Names without a folder: PyPI's sees the folder that it runs in, but not every other one.
     let paths = [("--json", netlist), ("--lpf", &design.pins(block)?), ("--report", &file)];
