@@ -80,7 +80,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             read_en: draw.one_in(2),
         };
         let count = |address: U<8>| histogram.ram[address.index()].get();
-        let looks = apart && (count(U::new(hot)) + 1).is_power_of_two() && draw.one_in(2);
+        // A count of each length, but not before every word has been cleared.
+        let at_its_end = round > 0 && (count(U::new(hot)) + 1).is_power_of_two();
+        let looks = apart && at_its_end && draw.one_in(2);
         let hammers = cycle >= MIXED && !draw.one_in(64) && !looks;
         match round % 10 {
             _ if hammers => (i.clear, i.tdc_valid, i.tdc_code) = (false, true, U::new(hot)),
