@@ -2,5 +2,5 @@
 
 pub(crate) mod light;
 pub mod photon_list;
-pub(crate) mod spad;
+pub mod spad;
 pub mod streams;

@@ -168,7 +168,15 @@ fn random_setup(seed: u64, cycles: u64) -> Setup {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let chain = ["uniform", "table6_3", "ideal"][random.random_range(0..3)];
     let kind = ["network", "centroid"][random.random_range(0..2)];
+    let stimulus = match seed % 8 {
+        5 => "histogram_validation",
+        6 => "estimator_validation",
+        7 => "tdc_validation",
+        _ => "kc705",
+    };
+    let on_tdc = if stimulus == "tdc_validation" { 1 } else { 1 + 6 * (seed / 2 % 3) };
     let keys = [
+        format!("spad.on_tdc={on_tdc}"),
         format!("firmware.laser_freq={}", seed % 4),
         format!("firmware.mode={}", u64::from(seed % 5 == 4)),
         format!("firmware.shots_per_frame={}", random.random_range(5..60)),
@@ -177,12 +185,6 @@ fn random_setup(seed: u64, cycles: u64) -> Setup {
         format!("estimator.kind={kind}"),
         format!("seed={seed}"),
     ];
-    let stimulus = match seed % 8 {
-        5 => "histogram_validation",
-        6 => "estimator_validation",
-        7 => "tdc_validation",
-        _ => "kc705",
-    };
     let mut loaded = scenario::load(stimulus, &keys).unwrap();
     if !seed.is_multiple_of(3) {
         loaded.scenario.control = control(&mut random, cycles);

@@ -10,6 +10,7 @@ use tofsim::kernel::Time;
 use tofsim::optics::eye_safety::maximum_average_power_w;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 use tofsim::scenario::{AmbientModel, Scenario};
+use tofsim::sensor::spad::Spads;
 use tofsim::sensor::streams::exponential;
 
 /// Distances of the thesis's tables [m].
@@ -244,4 +245,37 @@ fn causes_come_in_proportion_to_their_hazards() {
     let p = between(&counts[0], &counts[1]);
     println!("{counts:?}: p = {p:.3}");
     assert!(p > LEVEL, "{counts:?}: p = {p:e}");
+}
+
+#[test]
+fn outputs_of_a_row_are_low_together_as_often_as_independent_diodes_are() {
+    // Of a diode that fires at a rate and rests for a dead time, the share of time in which it is armed.
+    let (rate_hz, dead_ns, end) = (5e6, 20.0, Time::from_ns(20_000_000));
+    let armed = 1.0 / (1.0 + rate_hz * dead_ns * 1e-9);
+    for count in [1, 7, 40] {
+        let mut rng = ChaCha8Rng::seed_from_u64(count as u64);
+        let all_hz = rate_hz * count as f64;
+        let mut wait =
+            |share: f64| Time::from_ps_f64(exponential(rng.next_u64()) * share / all_hz * 1e12);
+        let mut spads = Spads::new(count, Time::from_ps_f64(dead_ns * 1e3), wait(1.0));
+        spads.set_passive(true, Time::ZERO);
+        let (mut last, mut low_fs, mut rises) = (Time::ZERO, 0u64, 0u32);
+        while spads.next_event() < end {
+            let (now, output) = (spads.next_event(), spads.output());
+            if !output {
+                low_fs += (now - last).fs();
+            }
+            last = now;
+            spads.event();
+            rises += u32::from(spads.output() && !output);
+            if spads.waits() {
+                spads.arm(now + wait(spads.share()));
+            }
+        }
+        let expected = armed.powi(count as i32);
+        // Each low time is exponential, and there are so many.
+        let error = 4.0 / f64::from(rises).sqrt();
+        assert_close(low_fs as f64 / last.fs() as f64, expected, error);
+        assert_close(f64::from(rises), expected * all_hz * last.seconds(), error);
+    }
 }

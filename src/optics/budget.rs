@@ -16,7 +16,7 @@ const FITTED_EFFICIENCY: f64 = 0.003;
 /// Largest distance of Table 4.3, to which the fitted ambient rate belongs [m].
 const FARTHEST_FITTED_M: f64 = 0.6;
 
-/// What one SPAD can expect of the scene.
+/// What the SPADs on the TDC can expect of the scene together.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Budget {
     /// Mean number of detected laser photons per shot, S_p of eq. 3.14 [1].
@@ -36,13 +36,15 @@ pub struct Budget {
 impl Budget {
     /// Of a scene.
     pub fn new(scenario: &Scenario) -> Self {
+        let on_tdc = f64::from(scenario.spad.on_tdc);
+        let ambient_rate_hz = match scenario.ambient.model {
+            AmbientModel::Fitted => fitted_ambient_rate_hz(scenario),
+            AmbientModel::Physical => physical_ambient_rate_hz(scenario),
+        };
         Budget {
-            signal_per_shot: signal_per_shot(scenario),
-            ambient_rate_hz: match scenario.ambient.model {
-                AmbientModel::Fitted => fitted_ambient_rate_hz(scenario),
-                AmbientModel::Physical => physical_ambient_rate_hz(scenario),
-            },
-            dark_rate_hz: scenario.spad.dark_rate_hz,
+            signal_per_shot: on_tdc * signal_per_shot(scenario),
+            ambient_rate_hz: on_tdc * ambient_rate_hz,
+            dark_rate_hz: on_tdc * scenario.spad.dark_rate_hz,
             pulse_energy_j: scenario.laser.pulse_energy_j(),
             mean_arrival: Time::from_ps_f64(2e12 * scenario.target.distance_m / LIGHT_M_S),
             pulse_sigma_ps: scenario.laser.pulse_sigma_ps,
@@ -55,7 +57,7 @@ impl Budget {
     }
 }
 
-/// S_p: eq. 3.13 into eq. 3.14, with P_s / f as the energy of the pulse.
+/// S_p of one SPAD: eq. 3.13 into eq. 3.14, with P_s / f as the energy of the pulse.
 fn signal_per_shot(scenario: &Scenario) -> f64 {
     let (target, laser) = (&scenario.target, &scenario.laser);
     let illumination_deg = laser.field_of_illumination_deg;
@@ -67,7 +69,7 @@ fn signal_per_shot(scenario: &Scenario) -> f64 {
     lens_energy_j * scenario.filter.efficiency * avalanches_per_joule(scenario)
 }
 
-/// N_r proportional to irradiance and reflectance, with the constant fitted to Table 4.3, and to what
+/// N_r of one SPAD, proportional to irradiance and reflectance, with the constant fitted to Table 4.3, and to what
 /// the optics make of ambient light, against the optics that the constant is stated for.
 fn fitted_ambient_rate_hz(scenario: &Scenario) -> f64 {
     let ambient = &scenario.ambient;
@@ -101,7 +103,7 @@ fn ambient_photons_hz(scenario: &Scenario) -> f64 {
         * photons_per_joule(scenario)
 }
 
-/// N_r of eq. 3.20, with what eq. 3.19 lacks: the factor pi of a diffuse reflector and the solid angle.
+/// N_r of one SPAD by eq. 3.20, with what eq. 3.19 lacks: the factor pi of a diffuse reflector and the solid angle.
 fn physical_ambient_rate_hz(scenario: &Scenario) -> f64 {
     let radiance_w_m2_sr = scenario.ambient.irradiance_w_m2_nm
         * passband_nm(&scenario.filter)

@@ -19,6 +19,7 @@ const VCO_HZ: std::ops::RangeInclusive<u64> = 800_000_000..=1_866_000_000;
 pub fn validate(scenario: &Scenario, checked: &Checked) -> Result<()> {
     clocks(scenario, checked)?;
     stimulus(scenario, checked)?;
+    spads(scenario, checked)?;
     control(scenario, checked)?;
     dark_frames(scenario, checked)
 }
@@ -55,6 +56,20 @@ fn stimulus(scenario: &Scenario, checked: &Checked) -> Result<()> {
     let tdc_takes_part = codes.is_none() && histogram.is_none();
     let expected = "the TDC takes no part with preloaded codes or a preloaded histogram";
     ensure(!scenario.report.tdc || tdc_takes_part, checked, "report.tdc", expected)
+}
+
+fn spads(scenario: &Scenario, checked: &Checked) -> Result<()> {
+    let (on_tdc, count) = (scenario.spad.on_tdc, scenario.spad.count);
+    let fault = |expected: &str| {
+        Err(checked.fault("spad.on_tdc", format!("expected {expected}")).value(on_tdc).into())
+    };
+    if on_tdc > count {
+        return fault(&format!("{count} at most, as many as share the light (spad.count)"));
+    }
+    if on_tdc > 1 && scenario.stimulus.photons.is_some() {
+        return fault("1: the photons of a list (stimulus.photons) are those of one");
+    }
+    Ok(())
 }
 
 /// Checks the texts that stand for windows in a table of values, before they are read.

@@ -44,11 +44,11 @@ impl Light {
         }
     }
 
-    /// The first avalanche of a diode armed at `now`.
+    /// The first avalanche of the diodes that are armed at `now`: one in `share` of all [1].
     #[inline(always)]
-    pub fn next_avalanche(&mut self, now: Time) -> Time {
+    pub fn next_avalanche(&mut self, now: Time, share: f64) -> Time {
         match self {
-            Light::Optics(optics) => optics.next_avalanche(now),
+            Light::Optics(optics) => optics.next_avalanche(now, share),
             Light::List(given) => given.next_photon(now),
             Light::None => Time::NEVER,
         }
@@ -140,13 +140,13 @@ impl Optics {
     }
 
     #[inline(always)]
-    fn next_avalanche(&mut self, now: Time) -> Time {
+    fn next_avalanche(&mut self, now: Time, share: f64) -> Time {
         let word = match self.word.take() {
             Some(word) => word,
             None => self.further_word(),
         };
         let hazard = &self.hazards[self.lit as usize];
-        let reached = hazard.at(now.since(self.origin)) + exponential(word);
+        let reached = hazard.at(now.since(self.origin)) + exponential(word) * share;
         self.origin.saturating_add(hazard.inverse(reached)).max(now)
     }
 
@@ -192,9 +192,9 @@ mod tests {
         let shot = |shot: u64| {
             let begun = Time::from_ns(48 * shot);
             light.begin_shot(begun, true);
-            let first = light.next_avalanche(begun);
+            let first = light.next_avalanche(begun, 1.0);
             for _ in 0..more {
-                assert!(light.next_avalanche(begun + Time::from_ns(20)) > begun);
+                assert!(light.next_avalanche(begun + Time::from_ns(20), 1.0) > begun);
             }
             if causes {
                 light.cause(first);
@@ -217,12 +217,12 @@ mod tests {
             let mut light = optics();
             for shot in 0..5 {
                 light.begin_shot(Time::from_ns(48 * shot), true);
-                light.next_avalanche(Time::from_ns(48 * shot));
+                light.next_avalanche(Time::from_ns(48 * shot), 1.0);
                 if shot >= skipped {
-                    light.next_avalanche(Time::from_ns(48 * shot + 20));
+                    light.next_avalanche(Time::from_ns(48 * shot + 20), 1.0);
                 }
             }
-            light.next_avalanche(Time::from_ns(48 * 4 + 40))
+            light.next_avalanche(Time::from_ns(48 * 4 + 40), 1.0)
         };
         assert_eq!(further(0), further(4));
     }
@@ -233,9 +233,9 @@ mod tests {
         let wait = |shot: u64| {
             let begun = Time::from_ns(1000 * shot);
             light.begin_shot(begun, true);
-            light.next_avalanche(begun);
+            light.next_avalanche(begun, 1.0);
             let armed = begun + Time::from_ns(20);
-            (light.next_avalanche(armed) - armed).seconds() * 1e9
+            (light.next_avalanche(armed, 1.0) - armed).seconds() * 1e9
         };
         (0..shots).map(wait).collect()
     }

@@ -9,7 +9,7 @@ use crate::firmware::tof_top::{Params, Pins, TofTop};
 use crate::kernel::Time;
 use crate::note::{Note, NoteCode};
 use crate::sensor::light::Light;
-use crate::sensor::spad::{Event, Spad};
+use crate::sensor::spad::{Event, Spads};
 
 use super::jitter::Jitter;
 use super::oscillator::Oscillator;
@@ -25,7 +25,7 @@ pub struct Device {
     /// The wire from detector to firmware.
     pub line: StopLine,
     pub light: Light,
-    pub(super) spad: Spad,
+    pub(super) spads: Spads,
     pub(super) timeline: Timeline,
     pub(super) pll: Pll,
     pub(super) jitter: Option<Jitter>,
@@ -44,13 +44,13 @@ impl Device {
         pll: Pll,
         jitter: Option<Jitter>,
         mut light: Light,
-        dead_time: Time,
+        (spads, dead_time): (usize, Time),
         timeline: Timeline,
     ) -> Self {
         Device {
             top: TofTop::new(pins),
             line: StopLine::default(),
-            spad: Spad::new(dead_time, light.next_avalanche(Time::ZERO)),
+            spads: Spads::new(spads, dead_time, light.next_avalanche(Time::ZERO, 1.0)),
             light,
             timeline,
             quarter: pll.clk_250.fall(0) - pll.clk_250.rise(0),
@@ -221,7 +221,7 @@ impl Device {
     ) -> bool {
         let mut unseen = false;
         loop {
-            let next = self.spad.next_event().min(self.timeline.next_event());
+            let next = self.spads.next_event().min(self.timeline.next_event());
             if T::ON {
                 while self.oscillator.next_edge() < next.min(until) {
                     let now = self.oscillator.next_edge();
@@ -247,7 +247,7 @@ impl Device {
         if self.timeline.next_event() == now {
             self.timeline.event(&mut self.top.pins);
         }
-        if self.spad.next_event() == now {
+        if self.spads.next_event() == now {
             self.detect(listener);
         }
     }
@@ -255,35 +255,52 @@ impl Device {
     /// The detector does what is due.
     #[inline(always)]
     pub(super) fn detect<R: AvalancheListener>(&mut self, listener: &mut R) {
-        let now = self.spad.next_event();
-        match self.spad.event() {
-            Event::Avalanche if R::ON => listener.avalanche(now, self.light.cause(now)),
-            Event::Avalanche => {}
-            Event::Recovery => self.spad.arm(self.light.next_avalanche(now)),
+        let now = self.spads.next_event();
+        let output = self.spads.output();
+        if self.spads.event() == Event::Avalanche && R::ON {
+            listener.avalanche(now, self.light.cause(now));
         }
-        self.toggle_stop(now);
+        if self.spads.waits() {
+            self.draw(now);
+        }
+        if self.spads.output() != output {
+            self.toggle_stop(now);
+        }
     }
 
     /// What the detector and the light do about the signals that the edge at `now` changed.
     #[inline(always)]
     pub(super) fn react(&mut self, now: Time) {
         let passive = self.top.control_sync.mode_sync;
-        if passive != self.spad.is_passive() {
-            self.spad.set_passive(passive, now);
+        if passive != self.spads.is_passive() {
+            self.spads.set_passive(passive, now);
+            if self.spads.waits() {
+                self.draw(now);
+            }
         }
         let (start, laser) = (self.top.vcsel_driver.registers.start, self.top.nets.laser_on);
         let hold = self.top.spad_control.spad_rst;
         if start || laser {
             self.light.begin_shot(now, laser);
-            if self.spad.is_armed() {
-                self.spad.arm(self.light.next_avalanche(now));
+            if self.spads.is_armed() {
+                self.draw(now);
             }
         }
-        if hold && !self.spad.is_off() && self.spad.hold() {
-            self.toggle_stop(now);
-        } else if !hold && self.spad.is_off() {
-            self.spad.arm(self.light.next_avalanche(now));
+        if hold && !self.spads.is_off() {
+            let output = self.spads.output();
+            self.spads.hold();
+            if output {
+                self.toggle_stop(now);
+            }
+        } else if !hold && self.spads.is_off() {
+            self.spads.arm_all(self.light.next_avalanche(now, 1.0));
         }
+    }
+
+    /// The next avalanche of the diodes that are armed at `now`.
+    #[inline(always)]
+    fn draw(&mut self, now: Time) {
+        self.spads.arm(self.light.next_avalanche(now, self.spads.share()));
     }
 
     fn toggle_stop(&mut self, now: Time) {

@@ -12,7 +12,7 @@ use crate::scenario::Scenario;
 
 /// Keys of the scenario that decide how the histograms of a frame are distributed. The laser's rate is
 /// none of them: in MODE 0 every shot begins with a reset.
-const KEYS: [&str; 24] = [
+const KEYS: [&str; 25] = [
     "target.distance_m",
     "target.reflectance",
     "target.length_m",
@@ -32,6 +32,7 @@ const KEYS: [&str; 24] = [
     "spad.pdp",
     "spad.fill_factor",
     "spad.count",
+    "spad.on_tdc",
     "spad.field_of_view_deg",
     "spad.dark_rate_hz",
     "pll.jitter_rms_ps",

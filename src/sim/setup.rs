@@ -131,7 +131,7 @@ impl Setup {
             self.pll.clone(),
             jitter,
             self.light.clone(),
-            Time::from_ps_f64(scenario.spad.dead_time_ns * 1e3),
+            (scenario.spad.on_tdc as usize, Time::from_ps_f64(scenario.spad.dead_time_ns * 1e3)),
             Timeline::new(scenario),
         );
         device.top.settle(&self.params);

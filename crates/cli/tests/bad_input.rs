@@ -35,6 +35,10 @@ fn a_scenario_that_cannot_be_used_is_refused_with_its_place() {
     assert!(
         scenario(b"[stimulus]\nphotons = \"a\"\ncodes = \"b\"\n").contains("one stimulus only")
     );
+    assert!(scenario(b"[spad]\non_tdc = 0\n").contains("on_tdc = 0: expected a whole number"));
+    assert!(scenario(b"[spad]\ncount = 7\non_tdc = 8\n").contains("on_tdc = 8: expected 7 at"));
+    let listed = b"[spad]\non_tdc = 2\n[stimulus]\nphotons = \"a\"\n";
+    assert!(scenario(listed).contains("s.toml:2:10: spad.on_tdc = 2: expected 1: the photons"));
     assert!(scenario(b"[[control]]\nlaser_freq = 2\n").contains("control.0.at_us: missing"));
     assert!(scenario(b"[[control]]\nat_us = 2\n[[control]]\nat_us = 1\n").contains("s.toml:4:9"));
     assert!(

@@ -58,6 +58,7 @@ fn random_setup(random: &mut ChaCha8Rng) -> Setup {
         format!("target.reflectance={}", random.random_range(0.02..0.9)),
         format!("ambient.irradiance_w_m2_nm={}", random.random_range(0.0..0.6)),
         format!("laser.pulse_sigma_ps={}", random.random_range(20.0..600.0)),
+        format!("spad.on_tdc={}", [1, 1, 2, 40][random.random_range(0..4)]),
         format!("spad.dark_rate_hz={}", [0.0, 100.0, 1e7][random.random_range(0..3)]),
         format!("firmware.laser_freq={}", random.random_range(0..4)),
         format!("firmware.laser_en={}", random.random_bool(0.9)),

@@ -109,9 +109,12 @@ table! {
         /// Fill factor.
         #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "Table 3.2"))]
         pub fill_factor: f64 = 0.25,
-        /// SPADs that share the light; one of them is connected.
+        /// SPADs that share the light.
         #[schemars(range(min = 1, max = 1_000_000), extend("unit" = "1", "source" = "Table 3.2"))]
         pub count: u32 = 40,
+        /// How many of them are connected: SPADs of a row whose outputs, joined by an OR, are `tdc_stop`.
+        #[schemars(range(min = 1, max = 40), extend("unit" = "1", "source" = "Fig. 4.3"))]
+        pub on_tdc: u32 = 1,
         /// Full angle of the field of view (FOV).
         #[schemars(range(min = 0.1, max = 170.0), extend("unit" = "deg", "source" = "Table 3.2"))]
         pub field_of_view_deg: f64 = 24.0,

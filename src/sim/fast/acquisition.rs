@@ -42,7 +42,7 @@ pub fn acquire(
     let mut hits = Hits::default();
     let mut now = device.pll.clk_125.rise(device.cycle);
     while device.top.frame_ctrl.acquire && device.cycle < limit {
-        while device.spad.next_event() <= now {
+        while device.spads.next_event() <= now {
             device.detect(&mut Off);
             converter_wakes = device.cycle;
         }

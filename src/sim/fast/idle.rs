@@ -34,7 +34,7 @@ pub fn skip_idle(device: &mut Device, p: &Params, limit: u64) {
 /// detector's next event.
 #[inline(always)]
 pub(super) fn cycles_until_event(device: &Device, quiet: u64, now: Time, period: Time) -> u64 {
-    let event = device.spad.next_event();
+    let event = device.spads.next_event();
     match event < now.saturating_add(Time::from_fs(quiet * period.fs())) {
         true => event.since(now).fs().div_ceil(period.fs()),
         false => quiet,

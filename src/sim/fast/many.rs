@@ -127,7 +127,7 @@ fn pass(device: &mut Device, cycles: u64, frame: u64) {
     device.cycle += cycles;
     device.timeline.pass(device.pll.clk_125.rise(device.cycle) - begun);
     device.light.begin_frame(frame);
-    device.spad.arm(Time::NEVER);
+    device.spads.arm_all(Time::NEVER);
     device.line = StopLine::default();
 }
 

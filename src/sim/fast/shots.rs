@@ -61,7 +61,7 @@ pub fn leap_shots(
     }
     let begun = device.pll.clk_125.rise(device.cycle - 1);
     let mut counts = [0u32; OUTCOMES.next_power_of_two()];
-    counts[draws.outcome_at(device.spad.next_event() - begun) as usize] += 1;
+    counts[draws.outcome_at(device.spads.next_event() - begun) as usize] += 1;
     optics.pass(shots - 1, |word| {
         // The remainder is the outcome; it shows the compiler that it is within bounds.
         counts[draws.outcome(word) as usize % counts.len()] += 1;
@@ -71,7 +71,7 @@ pub fn leap_shots(
     device.cycle += shots * period;
     let now = device.pll.clk_125.rise(device.cycle - 1);
     device.light.begin_shot(now, lit);
-    device.spad.arm(device.light.next_avalanche(now));
+    device.spads.arm_all(device.light.next_avalanche(now, 1.0));
     device.line = StopLine::default();
     frames.shots += shots;
     frames.tdc_hits += shots - u64::from(counts[NO_HIT as usize]);
@@ -84,7 +84,7 @@ fn independent_shot(device: &Device) -> Option<(usize, bool)> {
     let control = &device.top.control_sync;
     let (rate, lit) = (control.laser_freq_sync.index(), control.laser_en_sync);
     let independent =
-        !device.spad.is_passive() && device.spad.is_armed() && even_period(device) == Some(CYCLE);
+        !device.spads.is_passive() && device.spads.is_armed() && even_period(device) == Some(CYCLE);
     independent.then_some((rate, lit))
 }
 

@@ -40,7 +40,7 @@ impl EstimatorKind {
         let teller = Teller { name: self.name(), setup };
         let found = match self {
             EstimatorKind::Network | EstimatorKind::NetworkFloat => [None, None, None],
-            EstimatorKind::Likelihood => [teller.dead_time(), teller.control(), None],
+            EstimatorKind::Likelihood => [teller.dead_time(), teller.row(), teller.control()],
             EstimatorKind::Matched => [teller.mode(), teller.jitter(0.0), teller.control()],
             EstimatorKind::Centroid => [teller.mode(), teller.jitter(JITTER_PS), teller.window()],
             EstimatorKind::Peak | EstimatorKind::Subtraction => {
@@ -132,6 +132,12 @@ impl Teller<'_> {
         let expected = format!("{shortest_ns} to {LONGEST_DEAD_NS}");
         let is_outside = self.is_free_running() && !is_worked_out;
         is_outside.then(|| self.note("spad.dead_time_ns", dead_ns, expected, text))
+    }
+
+    fn row(&self) -> Option<Note> {
+        let on_tdc = u64::from(self.setup.scenario.spad.on_tdc);
+        let text = "in MODE 1 it takes one diode to be on the TDC";
+        (self.is_free_running() && on_tdc > 1).then(|| self.note("spad.on_tdc", on_tdc, "1", text))
     }
 
     /// That the first bin comes before the pulse.

@@ -43,6 +43,8 @@ fn what_an_estimator_does_not_know_is_named() {
     }
     let found = keys(Likelihood, &["firmware.mode=1", "spad.dead_time_ns=6"]);
     assert_eq!(found, ["spad.dead_time_ns"]);
+    let found = keys(Likelihood, &["firmware.mode=1", "spad.on_tdc=2"]);
+    assert_eq!(found, ["spad.on_tdc"]);
     let found = keys(Likelihood, &["firmware.mode=1", "target.distance_m=0.65"]);
     assert_eq!(found, ["target.distance_m"]);
     let found = keys(Likelihood, &["pll.jitter_rms_ps=50", "target.distance_m=0.86"]);
