@@ -5,7 +5,7 @@
 module carry_chain #(
     parameter DelaysFile = "rtl_ref/tap_delays.mem"  // for simulation: tdc_stop to each tap [fs]
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire tdc_stop,     // output of the SPAD, asynchronous
     output reg [799:0] taps  // level of each tap at the last edge
 );
@@ -52,7 +52,7 @@ module carry_chain #(
         end
     endgenerate
 
-    always @(posedge clk_125) taps <= level;
+    always @(posedge clk_sys) taps <= level;
 `else
     // Every carry bit passes the one before it on, so tdc_stop runs up the column of slices.
     wire [799:0] carry;
@@ -72,7 +72,7 @@ module carry_chain #(
         end
     endgenerate
 
-    always @(posedge clk_125) taps <= carry;
+    always @(posedge clk_sys) taps <= carry;
 `endif
 `else
     reg [39:0] arrival [0:799];   // time to each tap [fs]
@@ -147,7 +147,7 @@ module carry_chain #(
 
     // Each tap shows the present level, turned over by every change that has not reached it. A
     // change of this very instant has reached none, so it does not matter which block runs first.
-    always @(posedge clk_125) begin : sample
+    always @(posedge clk_sys) begin : sample
         reg [63:0] now, age;
         reg [799:0] levels;
         reg [2:0] change;  // a name of its own, so that it wraps in every simulator

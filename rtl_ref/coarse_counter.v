@@ -3,7 +3,7 @@
 
 // Counts the cycles of a shot, and closes the TDC's window after eight (64 ns).
 module coarse_counter (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     input wire start,         // a shot begins
     output reg [2:0] coarse,  // whole cycles from the laser edge to the edge before the last
@@ -29,7 +29,7 @@ module coarse_counter (
         end
     end
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         if (rst) begin
             coarse <= 3'd0;
             window <= 1'b0;

@@ -6,7 +6,7 @@ module code_preload #(
     parameter integer Codes = 27756,          // words of the ROM, 1 to 65536
     parameter CodeFile = "rtl_ref/codes.mem"  // [25 ps]
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     input wire start,          // a shot begins
     output reg tdc_valid,      // tdc_code is new; one cycle
@@ -44,7 +44,7 @@ module code_preload #(
         end
     end
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         if (rst) begin
             tdc_valid <= 1'b0;
             tdc_code <= 8'd0;

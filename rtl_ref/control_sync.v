@@ -1,16 +1,16 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// Brings the acquisition computer's signals into clk_125, two flip-flops each.
+// Brings the acquisition computer's signals into clk_sys, two flip-flops each.
 module control_sync (
-    input wire clk_125,
+    input wire clk_sys,
     // Acquisition computer, asynchronous
     input wire mode,                   // SPAD quench mode
     input wire [1:0] laser_freq,       // laser repetition rate
     input wire laser_en,               // lets the laser fire
     input wire dsp_en,                 // lets the estimator start
     input wire dsp_rst,                // abandons the frame
-    // The same in clk_125
+    // The same in clk_sys
     output reg mode_sync,
     output reg [1:0] laser_freq_sync,
     output reg laser_en_sync,
@@ -28,7 +28,7 @@ module control_sync (
         {mode_sync, laser_freq_sync, laser_en_sync, dsp_en_sync, dsp_rst_sync} = 6'd0;
     end
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         mode_meta <= mode;
         laser_freq_meta <= laser_freq;
         laser_en_meta <= laser_en;

@@ -3,14 +3,14 @@
 
 // A double-data-rate output register with its second input low: half-cycle pulses without glitches.
 module ddr_output (
-    input wire clk_250,
+    input wire clk_laser,
     input wire d,  // level for the first half of the coming cycle
     output wire q  // the output
 );
 `ifdef SYNTHESIS
 `ifdef ECP5
     ODDRX1F oddr (
-        .SCLK(clk_250),
+        .SCLK(clk_laser),
         .RST(1'b0),
         .D0(d),
         .D1(1'b0),
@@ -22,7 +22,7 @@ module ddr_output (
         .INIT(1'b0),
         .SRTYPE("SYNC")
     ) oddr (
-        .C(clk_250),
+        .C(clk_laser),
         .CE(1'b1),
         .D1(d),
         .D2(1'b0),
@@ -36,7 +36,7 @@ module ddr_output (
 
     initial level = 1'b0;
 
-    always @(posedge clk_250 or negedge clk_250) level <= clk_250 && d;
+    always @(posedge clk_laser or negedge clk_laser) level <= clk_laser && d;
 
     assign q = level;
 `endif

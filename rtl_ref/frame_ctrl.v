@@ -6,7 +6,7 @@ module frame_ctrl #(
     parameter [15:0] ShotsPerFrame = 16'd30000,  // [shots]
     parameter [0:0] Preloaded = 1'b0             // skips Acquire and Drain
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     // vcsel_driver
     input wire start,             // a shot begins
@@ -97,7 +97,7 @@ module frame_ctrl #(
         endcase
     end
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         if (rst || dsp_rst) begin
             acquire <= 1'b0;
             frame_done <= 1'b0;

@@ -11,7 +11,7 @@ module tdc #(
     parameter CalFile = "rtl_ref/tdc_cal.mem",        // see tdc_decoder
     parameter [1:0] CountStages = 2'd3
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     input wire start,            // a shot begins
     input wire tdc_stop,         // output of the SPAD, asynchronous
@@ -28,13 +28,13 @@ module tdc #(
     carry_chain #(
         .DelaysFile(DelaysFile)
     ) carry_chain (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .tdc_stop(tdc_stop),
         .taps(taps)
     );
 
     coarse_counter coarse_counter (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst),
         .start(start),
         .coarse(coarse),
@@ -42,7 +42,7 @@ module tdc #(
     );
 
     tdc_latch tdc_latch (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst),
         .start(start),
         .window(window),
@@ -57,7 +57,7 @@ module tdc #(
         .CalFile(CalFile),
         .CountStages(CountStages)
     ) tdc_decoder (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst),
         .hit(hit),
         .hit_coarse(hit_coarse),

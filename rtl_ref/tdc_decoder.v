@@ -9,7 +9,7 @@ module tdc_decoder #(
     parameter CalFile = "rtl_ref/tdc_cal.mem",  // age of a hit for each ones count [25/16 ps]
     parameter [1:0] CountStages = 2'd3          // registers of the ones count; 2: n counts the sixteens
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     // tdc_latch
     input wire hit,               // hit_taps are those of a new hit
@@ -117,7 +117,7 @@ module tdc_decoder #(
         if (tdc_valid_next) tdc_code_next = t[11:4];
     end
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         if (hit) begin
             sixteens <= sixteens_next;
             sixteens_coarse <= hit_coarse;

@@ -4,7 +4,7 @@
 // Says which taps are a shot's first hit. All pass through one register, at every edge: an enable that
 // comes from tap 0 and has 800 loads would be the slowest path of the device.
 module tdc_latch (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     input wire start,              // a shot begins
     // coarse_counter
@@ -42,7 +42,7 @@ module tdc_latch (
         if (start) used_next = 1'b0;
     end
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         hit_taps <= taps;
         if (rst) begin
             hit <= 1'b0;

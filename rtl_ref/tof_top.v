@@ -51,8 +51,8 @@ module tof_top #(
     output wire [15:0] hist_count,    // the word [hits]
     output wire frame_done            // the frame has ended; one cycle
 );
-    wire clk_125, clk_250;
-    wire rst_125, rst_250;
+    wire clk_sys, clk_laser;
+    wire rst_sys, rst_laser;
     wire mode_sync, laser_en_sync, dsp_en_sync, dsp_rst_sync;
     wire [1:0] laser_freq_sync;
     wire clear;
@@ -82,7 +82,7 @@ module tof_top #(
     assign algo_done = Estimator ? centroid_done : network_done;
 
     // The acquisition computer's reset leaves the laser and the synchronisers alone.
-    wire rst_dsp = rst_125 || dsp_rst_sync;
+    wire rst_dsp = rst_sys || dsp_rst_sync;
 
     assign hist_valid = read_en;
     assign hist_bin = read_addr;
@@ -92,27 +92,27 @@ module tof_top #(
         .LockTime(LockTime)
     ) pll (
         .clk_200(clk_200),
-        .clk_125(clk_125),
-        .clk_250(clk_250),
+        .clk_sys(clk_sys),
+        .clk_laser(clk_laser),
         .locked(locked)
     );
 
-    reset_sync reset_sync_125 (
-        .clk(clk_125),
+    reset_sync reset_sync_sys (
+        .clk(clk_sys),
         .rst(rst),
         .locked(locked),
-        .rst_sync(rst_125)
+        .rst_sync(rst_sys)
     );
 
-    reset_sync reset_sync_250 (
-        .clk(clk_250),
+    reset_sync reset_sync_laser (
+        .clk(clk_laser),
         .rst(rst),
         .locked(locked),
-        .rst_sync(rst_250)
+        .rst_sync(rst_laser)
     );
 
     control_sync control_sync (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .mode(mode),
         .laser_freq(laser_freq),
         .laser_en(laser_en),
@@ -129,8 +129,8 @@ module tof_top #(
         .ShotsPerFrame(ShotsPerFrame),
         .Preloaded(HistogramSource)
     ) frame_ctrl (
-        .clk_125(clk_125),
-        .rst(rst_125),
+        .clk_sys(clk_sys),
+        .rst(rst_sys),
         .start(start),
         .acquire(acquire),
         .dsp_rst(dsp_rst_sync),
@@ -143,10 +143,10 @@ module tof_top #(
     );
 
     vcsel_driver vcsel_driver (
-        .clk_125(clk_125),
-        .clk_250(clk_250),
-        .rst(rst_125),
-        .rst_250(rst_250),
+        .clk_sys(clk_sys),
+        .clk_laser(clk_laser),
+        .rst(rst_sys),
+        .rst_laser(rst_laser),
         .acquire(acquire),
         .laser_en(laser_en_sync),
         .laser_freq(laser_freq_sync),
@@ -162,8 +162,8 @@ module tof_top #(
     );
 
     spad_control spad_control (
-        .clk_125(clk_125),
-        .rst(rst_125),
+        .clk_sys(clk_sys),
+        .rst(rst_sys),
         .mode(mode_sync),
         .pre_start(pre_start),
         .spad_rst(spad_rst),
@@ -175,7 +175,7 @@ module tof_top #(
         .CountStages(CountStages),
         .CalFile(CalFile)
     ) tdc (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst_dsp),
         .start(start && !CodeSource),
         .tdc_stop(tdc_stop && !CodeSource),
@@ -187,7 +187,7 @@ module tof_top #(
         .Codes(Codes),
         .CodeFile(CodeFile)
     ) code_preload (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst_dsp),
         .start(start && CodeSource),
         .tdc_valid(preloaded_valid),
@@ -195,7 +195,7 @@ module tof_top #(
     );
 
     histogram_builder histogram_builder (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .clear(clear && !HistogramSource),
         .clear_addr(clear_addr),
         .tdc_valid(tdc_valid && !HistogramSource),
@@ -220,7 +220,7 @@ module tof_top #(
         .B2File(B2File),
         .TansigFile(TansigFile)
     ) depth_estimator (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst_dsp),
         .algo_start(algo_start && !Estimator),
         .read_en(network_read_en),
@@ -236,7 +236,7 @@ module tof_top #(
         .Slope(Slope),
         .Offset(Offset)
     ) centroid_estimator (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst_dsp),
         .algo_start(algo_start && Estimator),
         .read_en(centroid_read_en),

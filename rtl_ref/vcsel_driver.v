@@ -1,24 +1,24 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// Fires the laser at one of four rates. A pulse passes through three registers of clk_250 on its way
-// across the device, so that each leg has a cycle; once fire has asked for it, only rst_250 stops it,
+// Fires the laser at one of four rates. A pulse passes through three registers of clk_laser on its way
+// across the device, so that each leg has a cycle; once fire has asked for it, only rst_laser stops it,
 // and never moves it.
 //
-//   clk_125      __/^^\__/^^\__/^^\__
+//   clk_sys      __/^^\__/^^\__/^^\__
 //   edge          s-2   s-1    s         s: the laser edge
 //   pre_start    __/^^^^^\___________
 //   fire         __/^^^^^\___________
-//   pulse_0      _____/^^\___________    clk_250
+//   pulse_0      _____/^^\___________    clk_laser
 //   pulse_1      ________/^^\________
 //   laser_pulse  ___________/^^\_____
 //   start        ______________/^^^^^
 //   laser_on     ______________/^\___    2 ns
 module vcsel_driver (
-    input wire clk_125,
-    input wire clk_250,
-    input wire rst,               // of clk_125
-    input wire rst_250,           // of clk_250
+    input wire clk_sys,
+    input wire clk_laser,
+    input wire rst,               // of clk_sys
+    input wire rst_laser,           // of clk_laser
     // frame_ctrl and the acquisition computer
     input wire acquire,           // lets the counter run
     input wire laser_en,          // lets the laser fire
@@ -28,14 +28,14 @@ module vcsel_driver (
     output reg start,             // from the laser edge on; one cycle
     output wire laser_on          // the output
 );
-    reg fire;          // asks clk_250 for a pulse; two cycles before the laser edge
+    reg fire;          // asks clk_laser for a pulse; two cycles before the laser edge
     reg [4:0] count;   // place in the period
-    reg [4:0] last;    // the period in force, less one [cycles of clk_125]
+    reg [4:0] last;    // the period in force, less one [cycles of clk_sys]
     reg enable;        // the laser_en in force
     reg fire_last;     // fire at the edge before
     reg pulse_0;       // laser_pulse on its way
     reg pulse_1;
-    reg laser_pulse;   // enable of the output register; the cycle of clk_250 before the laser edge
+    reg laser_pulse;   // enable of the output register; the cycle of clk_laser before the laser edge
 
     reg pre_start_next, start_next, fire_next, enable_next, pulse_0_next;
     reg [4:0] count_next, last_next;
@@ -65,11 +65,11 @@ module vcsel_driver (
             last_next = last_of_freq;
             enable_next = laser_en;
         end
-        // fire lasts two cycles of clk_250; only the first edge in it makes a pulse.
+        // fire lasts two cycles of clk_laser; only the first edge in it makes a pulse.
         pulse_0_next = fire && !fire_last;
     end
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         if (rst) begin
             pre_start <= 1'b0;
             start <= 1'b0;
@@ -87,9 +87,9 @@ module vcsel_driver (
         end
     end
 
-    always @(posedge clk_250) begin
+    always @(posedge clk_laser) begin
         fire_last <= fire;
-        if (rst_250) begin
+        if (rst_laser) begin
             pulse_0 <= 1'b0;
             pulse_1 <= 1'b0;
             laser_pulse <= 1'b0;
@@ -101,7 +101,7 @@ module vcsel_driver (
     end
 
     ddr_output ddr_output (
-        .clk_250(clk_250),
+        .clk_laser(clk_laser),
         .d(laser_pulse),
         .q(laser_on)
     );

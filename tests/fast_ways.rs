@@ -95,14 +95,14 @@ fn assert_skip_is_exact<M: Clocked>(module: &M, i: &M::In, p: &M::Params) -> u64
     quiet
 }
 
-/// The driver has edges of its own between those of `clk_125`.
+/// The driver has edges of its own between those of `clk_sys`.
 fn assert_laser_skips_exactly(driver: &vcsel_driver::VcselDriver, i: &vcsel_driver::In) {
     let (mut stepped, quiet) = (*driver, driver.quiet(i));
     for edges in 1..=quiet.min(EDGES) {
         stepped.rise(i);
-        stepped.fall_250();
-        stepped.rise_250(i);
-        stepped.fall_250();
+        stepped.fall_laser();
+        stepped.rise_laser(i);
+        stepped.fall_laser();
         let mut skipped = *driver;
         skipped.skip(i, edges);
         assert_eq!(skipped, stepped, "after {edges} of {quiet} quiet edges");
@@ -115,8 +115,8 @@ fn check_modules(top: &TofTop, setup: &Setup) -> usize {
     let tdc_params = &p.tdc;
     assert_laser_skips_exactly(&top.vcsel_driver, &Wires::vcsel_driver(top));
     let quiet = [
-        assert_skip_is_exact(&top.reset_sync_125, &Wires::reset_sync_125(top), &()),
-        assert_skip_is_exact(&top.reset_sync_250, &Wires::reset_sync_250(top), &()),
+        assert_skip_is_exact(&top.reset_sync_sys, &Wires::reset_sync_sys(top), &()),
+        assert_skip_is_exact(&top.reset_sync_laser, &Wires::reset_sync_laser(top), &()),
         assert_skip_is_exact(&top.control_sync, &Wires::control_sync(top), &()),
         assert_skip_is_exact(&top.frame_ctrl, &Wires::frame_ctrl(top), &p.frame_ctrl),
         assert_skip_is_exact(&top.vcsel_driver.registers, &Wires::vcsel_driver(top), &()),

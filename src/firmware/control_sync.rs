@@ -1,4 +1,4 @@
-//! Brings the acquisition computer's signals into `clk_125`.
+//! Brings the acquisition computer's signals into `clk_sys`.
 //!
 //! Mirrors `rtl_ref/control_sync.v`. Two flip-flops each, without reset. The two bits of
 //! `laser_freq` cross side by side; a mixed value that an unlucky edge might catch lasts one
@@ -26,15 +26,15 @@ signals! {
 signals! {
     /// Registers; the public ones are the output ports.
     pub struct ControlSync {
-        /// `mode` in `clk_125`.
+        /// `mode` in `clk_sys`.
         pub mode_sync: bool,
-        /// `laser_freq` in `clk_125`.
+        /// `laser_freq` in `clk_sys`.
         pub laser_freq_sync: U<2>,
-        /// `laser_en` in `clk_125`.
+        /// `laser_en` in `clk_sys`.
         pub laser_en_sync: bool,
-        /// `dsp_en` in `clk_125`.
+        /// `dsp_en` in `clk_sys`.
         pub dsp_en_sync: bool,
-        /// `dsp_rst` in `clk_125`.
+        /// `dsp_rst` in `clk_sys`.
         pub dsp_rst_sync: bool,
         /// First flip-flop of `mode`.
         mode_meta: bool,

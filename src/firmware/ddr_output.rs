@@ -1,6 +1,6 @@
 //! A double-data-rate output register (ODDR with its second input tied low).
 //!
-//! Mirrors `rtl_ref/ddr_output.v`. `d`, taken at a rising edge of `clk_250`, is at the output
+//! Mirrors `rtl_ref/ddr_output.v`. `d`, taken at a rising edge of `clk_laser`, is at the output
 //! until the falling edge; then the output is low. So the pulse is half a cycle long and has no
 //! glitch, whatever the logic before it does.
 

@@ -17,7 +17,7 @@ use crate::{signals, states};
 
 /// Words of the histogram, each cleared in one cycle.
 pub(crate) const LAST_WORD: u64 = 255;
-/// Length of Drain less one: longer than the TDC's window and pipeline [cycles of clk_125].
+/// Length of Drain less one: longer than the TDC's window and pipeline [cycles of clk_sys].
 pub(crate) const LAST_DRAIN: u64 = 15;
 
 states! {

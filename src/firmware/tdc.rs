@@ -67,21 +67,21 @@ connect! {
         output tdc_code <- this.tdc_decoder.tdc_code;
         output tdc_valid <- this.tdc_decoder.tdc_valid;
     }
-    carry_chain(clk_125): carry_chain::In {
+    carry_chain(clk_sys): carry_chain::In {
         tdc_stop <- i.tdc_stop;
     }
-    coarse_counter(clk_125): coarse_counter::In {
+    coarse_counter(clk_sys): coarse_counter::In {
         rst <- i.rst;
         start <- i.start;
     }
-    tdc_latch(clk_125): tdc_latch::In {
+    tdc_latch(clk_sys): tdc_latch::In {
         rst <- i.rst;
         start <- i.start;
         window <- this.coarse_counter.window;
         coarse <- this.coarse_counter.coarse;
         taps <- this.carry_chain.taps;
     }
-    tdc_decoder(clk_125): tdc_decoder::In {
+    tdc_decoder(clk_sys): tdc_decoder::In {
         rst <- i.rst;
         hit <- this.tdc_latch.hit;
         hit_coarse <- this.tdc_latch.hit_coarse;
@@ -90,7 +90,7 @@ connect! {
 }
 
 impl Tdc {
-    /// The rising edge of `clk_125` at `now`.
+    /// The rising edge of `clk_sys` at `now`.
     #[inline(always)]
     pub fn rise(&mut self, i: &In, p: &Params, line: &mut StopLine, now: Time) {
         let tdc_decoder = Wires::tdc_decoder(self, i);

@@ -18,7 +18,7 @@ use crate::signals;
 pub use super::carry_chain::Calibration;
 use super::carry_chain::{TAPS, Taps};
 
-/// One cycle of `clk_125` [25/16 ps].
+/// One cycle of `clk_sys` [25/16 ps].
 pub const CYCLE: i64 = 5120;
 /// Time codes in a bin of 25 ps, as a shift.
 const BIN_SHIFT: u32 = 4;
@@ -95,7 +95,7 @@ signals! {
 }
 
 impl Params {
-    /// From the edge that samples the taps of a hit to the one that makes its code [cycles of clk_125].
+    /// From the edge that samples the taps of a hit to the one that makes its code [cycles of clk_sys].
     pub fn latency(&self) -> u64 {
         BEFORE_COUNT + self.count_stages + AFTER_COUNT
     }

@@ -1,22 +1,22 @@
 //! Fires the laser at one of four rates.
 //!
-//! Mirrors `rtl_ref/vcsel_driver.v`. A counter in `clk_125` runs through the period while
-//! `acquire` is high; with the laser edge at edge s of `clk_125`:
+//! Mirrors `rtl_ref/vcsel_driver.v`. A counter in `clk_sys` runs through the period while
+//! `acquire` is high; with the laser edge at edge s of `clk_sys`:
 //!
 //! ```text
-//! clk_125      __/^^\__/^^\__/^^\__
+//! clk_sys      __/^^\__/^^\__/^^\__
 //! edge          s-2   s-1    s
 //! pre_start    __/^^^^^\___________
 //! fire         __/^^^^^\___________
-//! pulse_0      _____/^^\___________   clk_250
+//! pulse_0      _____/^^\___________   clk_laser
 //! pulse_1      ________/^^\________
 //! laser_pulse  ___________/^^\_____
 //! start        ______________/^^^^^
 //! laser_on     ______________/^\___   2 ns, from a DDR output register
 //! ```
 //!
-//! A pulse passes through three registers of `clk_250` on its way across the device, so that each leg has
-//! a cycle. Once `fire` has asked for it, only `rst_250` stops it, and never moves it: where `acquire` falls or `rst` comes in
+//! A pulse passes through three registers of `clk_laser` on its way across the device, so that each leg has
+//! a cycle. Once `fire` has asked for it, only `rst_laser` stops it, and never moves it: where `acquire` falls or `rst` comes in
 //! the two cycles before the laser edge, there is light without a `start`, and no shot is counted.
 //!
 //! A new `laser_freq` or `laser_en` takes effect when the counter wraps. Without `laser_en` there
@@ -27,16 +27,16 @@ use crate::{connect, signals};
 
 use super::ddr_output::{self, DdrOutput};
 
-/// Laser period for each `laser_freq` (Table 6.1) [cycles of clk_125].
+/// Laser period for each `laser_freq` (Table 6.1) [cycles of clk_sys].
 pub const PERIODS: [u64; 4] = [25, 13, 8, 6];
 
 signals! {
     /// Input ports.
     pub struct In {
-        /// Synchronous reset of `clk_125`.
+        /// Synchronous reset of `clk_sys`.
         pub rst: bool,
-        /// Synchronous reset of `clk_250`.
-        pub rst_250: bool,
+        /// Synchronous reset of `clk_laser`.
+        pub rst_laser: bool,
         /// Lets the counter run.
         pub acquire: bool,
         /// Lets the laser fire.
@@ -47,17 +47,17 @@ signals! {
 }
 
 signals! {
-    /// Registers in `clk_125`; the public ones are output ports.
+    /// Registers in `clk_sys`; the public ones are output ports.
     pub struct Registers {
         /// Two cycles before the laser edge; one cycle.
         pub pre_start: bool,
         /// From the laser edge on; one cycle.
         pub start: bool,
-        /// Asks `clk_250` for a pulse; two cycles before the laser edge.
+        /// Asks `clk_laser` for a pulse; two cycles before the laser edge.
         fire: bool,
         /// Place in the period.
         pub(crate) count: U<5>,
-        /// The period in force, less one [cycles of clk_125].
+        /// The period in force, less one [cycles of clk_sys].
         pub(crate) last: U<5>,
         /// The `laser_en` in force.
         pub(crate) enable: bool,
@@ -65,13 +65,13 @@ signals! {
 }
 
 signals! {
-    /// Registers in `clk_250`.
-    pub struct Registers250 {
+    /// Registers in `clk_laser`.
+    pub struct LaserRegisters {
         /// `fire` at the edge before.
         fire_last: bool,
         /// `laser_pulse` on its way.
         pulse: [bool; 2],
-        /// Enable of the output register; the cycle of `clk_250` before the laser edge.
+        /// Enable of the output register; the cycle of `clk_laser` before the laser edge.
         #[view(probe = true)]
         laser_pulse: bool,
     }
@@ -80,10 +80,10 @@ signals! {
 /// The driver: two register banks and the output register.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct VcselDriver {
-    /// Registers in `clk_125`.
+    /// Registers in `clk_sys`.
     pub registers: Registers,
-    /// Registers in `clk_250`.
-    pub registers_250: Registers250,
+    /// Registers in `clk_laser`.
+    pub registers_laser: LaserRegisters,
     /// The DDR output register, port `laser_on`.
     pub ddr_output: DdrOutput,
 }
@@ -91,11 +91,11 @@ pub struct VcselDriver {
 connect! {
     /// Port connections inside the driver.
     pub struct Wires(this: &VcselDriver) {
-        signals registers, registers_250;
+        signals registers, registers_laser;
         output laser_on <- this.ddr_output.q;
     }
-    ddr_output(clk_250): ddr_output::In {
-        d <- this.registers_250.laser_pulse;
+    ddr_output(clk_laser): ddr_output::In {
+        d <- this.registers_laser.laser_pulse;
     }
 }
 
@@ -149,7 +149,7 @@ impl Clocked for Registers {
     }
 }
 
-impl Registers250 {
+impl LaserRegisters {
     /// Whether a pulse is on its way to the output register.
     #[inline(always)]
     fn has_pulse(&self) -> bool {
@@ -157,25 +157,25 @@ impl Registers250 {
     }
 }
 
-impl Clocked for Registers250 {
-    type In = In250;
+impl Clocked for LaserRegisters {
+    type In = LaserIn;
     type Params = ();
 
     #[inline(always)]
-    fn next(&self, i: &In250, (): &()) -> Self {
+    fn next(&self, i: &LaserIn, (): &()) -> Self {
         let (fire_last, pulse) = (i.fire, [i.fire && !self.fire_last, self.pulse[0]]);
-        match i.rst_250 {
-            true => Registers250 { fire_last, ..Self::default() },
-            false => Registers250 { fire_last, pulse, laser_pulse: self.pulse[1] },
+        match i.rst_laser {
+            true => LaserRegisters { fire_last, ..Self::default() },
+            false => LaserRegisters { fire_last, pulse, laser_pulse: self.pulse[1] },
         }
     }
 }
 
-/// What `clk_250` sees: the driver's own `fire` and its reset.
+/// What `clk_laser` sees: the driver's own `fire` and its reset.
 #[derive(Clone, Copy, Debug)]
-pub struct In250 {
+pub struct LaserIn {
     fire: bool,
-    rst_250: bool,
+    rst_laser: bool,
 }
 
 impl VcselDriver {
@@ -183,38 +183,38 @@ impl VcselDriver {
     #[inline(always)]
     pub fn rise(&mut self, i: &In) {
         let registers = self.registers.next(i, &());
-        self.rise_250(i);
+        self.rise_laser(i);
         self.registers = registers;
     }
 
-    /// An edge at which only `clk_250` rises, or the part of `clk_250` where both do.
+    /// An edge at which only `clk_laser` rises, or the part of `clk_laser` where both do.
     #[inline(always)]
-    pub fn rise_250(&mut self, i: &In) {
+    pub fn rise_laser(&mut self, i: &In) {
         let ddr_output = self.ddr_output.rise(&Wires::ddr_output(self));
-        let registers_250 = self.registers_250.next(&self.inputs_250(i), &());
-        (self.ddr_output, self.registers_250) = (ddr_output, registers_250);
+        let registers_laser = self.registers_laser.next(&self.laser_inputs(i), &());
+        (self.ddr_output, self.registers_laser) = (ddr_output, registers_laser);
     }
 
-    /// A falling edge of `clk_250`.
+    /// A falling edge of `clk_laser`.
     #[inline(always)]
-    pub fn fall_250(&mut self) {
+    pub fn fall_laser(&mut self) {
         self.ddr_output = self.ddr_output.fall();
     }
 
     #[inline(always)]
-    fn inputs_250(&self, i: &In) -> In250 {
-        In250 { fire: self.registers.fire, rst_250: i.rst_250 }
+    fn laser_inputs(&self, i: &In) -> LaserIn {
+        LaserIn { fire: self.registers.fire, rst_laser: i.rst_laser }
     }
 
-    /// Coming edges of `clk_125` at which, while the inputs hold, nothing but the count would move,
-    /// here and at the edges of `clk_250` between them.
+    /// Coming edges of `clk_sys` at which, while the inputs hold, nothing but the count would move,
+    /// here and at the edges of `clk_laser` between them.
     #[inline(always)]
     pub fn quiet(&self, i: &In) -> u64 {
-        let pulse = self.registers.fire | self.registers_250.has_pulse() | self.ddr_output.q;
+        let pulse = self.registers.fire | self.registers_laser.has_pulse() | self.ddr_output.q;
         if pulse { AWAKE } else { self.registers.quiet(i, &()) }
     }
 
-    /// Stands for that many edges of `clk_125`, all of them quiet.
+    /// Stands for that many edges of `clk_sys`, all of them quiet.
     #[inline(always)]
     pub fn skip(&mut self, i: &In, edges: u64) {
         self.registers.skip(i, &(), edges);
@@ -230,19 +230,19 @@ impl VcselDriver {
 mod tests {
     use super::*;
 
-    /// Runs for `cycles` of clk_125 and returns, for each, `pre_start`, `start`, the pulse in the
+    /// Runs for `cycles` of clk_sys and returns, for each, `pre_start`, `start`, the pulse in the
     /// first and in the second half, and `laser_on` in the first quarter and anywhere later.
     fn run(driver: &mut VcselDriver, i: &In, cycles: usize) -> Vec<[bool; 6]> {
         let mut seen = Vec::new();
         for _ in 0..cycles {
             driver.rise(i);
-            let (pulse_first, on_first) = (driver.registers_250.laser_pulse, driver.laser_on());
-            driver.fall_250();
+            let (pulse_first, on_first) = (driver.registers_laser.laser_pulse, driver.laser_on());
+            driver.fall_laser();
             let mut on_later = driver.laser_on();
-            driver.rise_250(i);
-            let pulse_second = driver.registers_250.laser_pulse;
+            driver.rise_laser(i);
+            let pulse_second = driver.registers_laser.laser_pulse;
             on_later |= driver.laser_on();
-            driver.fall_250();
+            driver.fall_laser();
             on_later |= driver.laser_on();
             let registers = driver.registers;
             seen.push([
@@ -259,7 +259,7 @@ mod tests {
 
     fn input(laser_freq: u64) -> In {
         let laser_freq = U::new(laser_freq);
-        In { rst: false, rst_250: false, acquire: true, laser_en: true, laser_freq }
+        In { rst: false, rst_laser: false, acquire: true, laser_en: true, laser_freq }
     }
 
     fn ready(i: &In) -> VcselDriver {

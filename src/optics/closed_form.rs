@@ -14,7 +14,7 @@ use super::hazard::Hazard;
 
 /// Codes of the TDC [codes].
 pub const CODES: usize = 256;
-/// Cycles of `clk_125` that the coarse counter tells apart [cycles].
+/// Cycles of `clk_sys` that the coarse counter tells apart [cycles].
 const COARSE: u64 = 8;
 
 /// A span of avalanche times that give one code.

@@ -46,7 +46,7 @@ pub struct Extra {
 /// laser edge samples the next rise, and `cal` has 14 bits [ns].
 const LONGEST_NS: u64 = 16;
 
-/// The shortest chain, from tap 0 to the end of the last tap: a period of `clk_125` [ns].
+/// The shortest chain, from tap 0 to the end of the last tap: a period of `clk_sys` [ns].
 ///
 /// A hit is seen at the first edge after it reaches tap 0, at an age of up to a period more than tap 0's.
 /// What is older then than the chain is long has run through all taps, and the edge does not tell by how
@@ -104,7 +104,7 @@ fn parse(source: &str, text: &str) -> Result<Delays> {
     if span < shortest {
         let (span_ps, missing_ps) = (in_ps(span), in_ps(shortest - span));
         let expected = format!(
-            "the {TAPS} taps take {span_ps} ps, expected {SHORTEST_NS} ns or more, a period of clk_125: \
+            "the {TAPS} taps take {span_ps} ps, expected {SHORTEST_NS} ns or more, a period of clk_sys: \
              hits of the other {missing_ps} ps would all have the same time"
         );
         return Err(checked.fault(taps_key, expected).into());
@@ -153,7 +153,7 @@ mod tests {
         assert_eq!(
             message("offset_ps = 2230\ntap_ps = 5").unwrap_err(),
             "c.toml:2:10: tap_ps = 5: the 800 taps take 4000 ps, expected 8 ns or more, a period of \
-             clk_125: hits of the other 4000 ps would all have the same time"
+             clk_sys: hits of the other 4000 ps would all have the same time"
         );
         assert_eq!(message("offset_ps = 2230\ntap_ps = 10"), Ok(()), "800 taps of 10 ps are 8 ns");
         let error = message("offset_ps = 7000\ntap_ps = 9.999").unwrap_err();

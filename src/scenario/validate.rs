@@ -11,7 +11,7 @@ use super::model::{Firmware, Pll, Scenario, Stimulus};
 use super::window::Window;
 
 /// Frequency of the whole-cycle clock that the firmware is built for [Hz].
-const CLK_125_HZ: u64 = 125_000_000;
+const CLK_SYS_HZ: u64 = 125_000_000;
 /// Range of the PLL's oscillator, Kintex-7 speed grade -2 (DS182) [Hz].
 const VCO_HZ: std::ops::RangeInclusive<u64> = 800_000_000..=1_866_000_000;
 
@@ -33,11 +33,11 @@ fn clocks(scenario: &Scenario, checked: &Checked) -> Result<()> {
     let vco = input_hz * multiply / divide;
     let expected = format!("the VCO would run at {vco} Hz, expected 800 to 1866 MHz");
     ensure(VCO_HZ.contains(&vco), checked, "pll.multiply", expected)?;
-    let is_exact = input_hz * multiply == CLK_125_HZ * divide * output_divide;
+    let is_exact = input_hz * multiply == CLK_SYS_HZ * divide * output_divide;
     let found_hz = vco as f64 / output_divide as f64;
-    let expected = format!("clk_125 would run at {found_hz} Hz, expected exactly {CLK_125_HZ}");
+    let expected = format!("clk_sys would run at {found_hz} Hz, expected exactly {CLK_SYS_HZ}");
     ensure(is_exact, checked, "pll.output_divide", expected)?;
-    let expected = "expected an even number: clk_250 has half of it";
+    let expected = "expected an even number: clk_laser has half of it";
     ensure(output_divide.is_multiple_of(2), checked, "pll.output_divide", expected)
 }
 

@@ -13,7 +13,7 @@ use super::frames::Frames;
 use super::run::{Outcome, Run};
 use super::wave_tracer::WindowedProbe;
 
-/// A cycle of `clk_125`.
+/// A cycle of `clk_sys`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cycle {
     /// Number of the edge that it begins with, from 0 at power-up.
@@ -24,7 +24,7 @@ pub struct Cycle {
 
 impl Run<'_> {
     /// Simulates every cycle until `count` frames are done, and calls `each` at every edge of
-    /// `clk_125` with the values of `signals`, in that order, as the edge takes them: what the
+    /// `clk_sys` with the values of `signals`, in that order, as the edge takes them: what the
     /// registers have held since the edge before. It may end the run there.
     ///
     /// A signal is named as in a waveform, `tof_top.tdc.tdc_decoder.tdc_code`; the top may be left out.

@@ -30,7 +30,7 @@ use super::jitter::Jitter;
 use super::timeline::{Timeline, pins_at_power_up};
 use stimulus::stimulus;
 
-/// Period of `clk_125`.
+/// Period of `clk_sys`.
 pub const CYCLE: Time = Time::from_ns(8);
 /// Cycles of a frame beside its shots and the estimator: Clear, Drain and two hand-overs.
 const OVERHEAD: u64 = 256 + 1 + 16 + 1;
@@ -40,7 +40,7 @@ const OVERHEAD_PRELOADED: u64 = 256 + 1;
 /// Shots of the waveform when nothing else is asked for.
 const FIRST_SHOTS: u64 = 16;
 
-/// Edges of `clk_125` in 2.4 hours, well within what [`Time`] can count.
+/// Edges of `clk_sys` in 2.4 hours, well within what [`Time`] can count.
 const LONGEST: u64 = 1 << 40;
 
 /// A scenario, ready to run.
@@ -139,7 +139,7 @@ impl Setup {
     }
 
     /// Length of an undisturbed frame at a laser rate: from the edge that begins Clear to the one
-    /// that raises `algo_done` [cycles of clk_125].
+    /// that raises `algo_done` [cycles of clk_sys].
     pub fn frame_cycles(&self, laser_freq: usize) -> u64 {
         let (ctrl, estimator) = (&self.params.frame_ctrl, self.params.estimator_cycles());
         if ctrl.preloaded {
@@ -185,7 +185,7 @@ impl Setup {
         }
         let frame = self.frame_cycles(firmware.laser_freq as usize) + 1;
         let edge = frames.checked_mul(frame).filter(|edge| *edge < LONGEST)? + 2;
-        Some(self.pll.clk_125.rise(edge))
+        Some(self.pll.clk_sys.rise(edge))
     }
 
     /// The windows that go into the waveform: those given, or the scenario's, or a first look.

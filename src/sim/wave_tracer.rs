@@ -12,7 +12,7 @@ use super::frames::Frames;
 
 /// A trace that is on only within windows, or none.
 pub trait WindowedProbe: SignalProbe {
-    /// Begins at power-up, if it is to see what happens before the first edge of `clk_125`; whether
+    /// Begins at power-up, if it is to see what happens before the first edge of `clk_sys`; whether
     /// it does.
     fn begins_at_power_up(&mut self, _device: &mut Device) -> bool {
         false
@@ -130,7 +130,7 @@ impl SignalProbe for WaveTracer {
 
     fn sample(&mut self, now: Time, top: &TofTop) {
         match self.state {
-            State::Opening if top.clocks.clk_125 => self.begin(now, top),
+            State::Opening if top.clocks.clk_sys => self.begin(now, top),
             State::Writing => self.waves.sample(now, top),
             State::Opening | State::Waiting => return,
         }

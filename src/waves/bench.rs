@@ -73,18 +73,18 @@ impl Bench {
         Time::from_ns(8 * self.cycle)
     }
 
-    /// One cycle of `clk_125`; `see` is shown every instant at which something may have changed.
+    /// One cycle of `clk_sys`; `see` is shown every instant at which something may have changed.
     pub(super) fn cycle(&mut self, see: &mut impl FnMut(Time, &TofTop)) {
         let start = self.now();
         for quarter in 0..4 {
             let now = start + Time::from_ns(2 * quarter);
             let held = self.line.level();
-            self.top.clocks.clk_250 = quarter % 2 == 0;
-            self.top.clocks.clk_125 = quarter < 2;
+            self.top.clocks.clk_laser = quarter % 2 == 0;
+            self.top.clocks.clk_sys = quarter < 2;
             match quarter {
                 0 => self.top.rise(&self.params, &mut self.line, now),
-                2 => self.top.rise_250(),
-                _ => self.top.fall_250(),
+                2 => self.top.rise_laser(),
+                _ => self.top.fall_laser(),
             }
             if quarter == 0 && self.top.spad_control.spad_rst && held {
                 self.stop(now);
@@ -108,7 +108,7 @@ impl Bench {
         self.top.pins.tdc_stop = self.line.level();
     }
 
-    /// Cycles of `clk_125`, sampled by each of `waves`.
+    /// Cycles of `clk_sys`, sampled by each of `waves`.
     pub(super) fn run(&mut self, cycles: u64, waves: &mut [Waves]) {
         for _ in 0..cycles {
             self.cycle(&mut |now, top| {

@@ -143,7 +143,7 @@ fn a_missing_module_or_port_and_a_wrong_width_are_named() {
         assert!(error.contains("coarse_counter: no such module"), "{error}");
         let folder = counter("window", "windo");
         let error = refused(folder.path(), &in_it);
-        let ports = "no such port (`windo`?); it has clk_125, coarse, rst, start, windo";
+        let ports = "no such port (`windo`?); it has clk_sys, coarse, rst, start, windo";
         assert!(error.contains(ports), "{error}");
         let folder = counter("output reg [2:0] coarse", "output reg [3:0] coarse");
         let error = refused(folder.path(), &in_it);

@@ -31,9 +31,9 @@ signals! {
         /// Oscillator of the board.
         pub clk_200: bool,
         /// PLL output.
-        pub clk_125: bool,
+        pub clk_sys: bool,
         /// PLL output.
-        pub clk_250: bool,
+        pub clk_laser: bool,
     }
 }
 
@@ -143,7 +143,7 @@ impl Params {
     }
 
     /// From the edge that takes `algo_start` to the one that raises `algo_done`, for the estimator in
-    /// use [cycles of clk_125].
+    /// use [cycles of clk_sys].
     pub fn estimator_cycles(&self) -> u64 {
         match self.estimator {
             Estimator::Network => self.depth_estimator.cycles(),

@@ -15,7 +15,7 @@ table! {
         /// Input divider D.
         #[schemars(range(min = 1, max = 56), extend("unit" = "1", "source" = "PLLE2"))]
         pub divide: u64 = 1,
-        /// Output divider O of `clk_125`; `clk_250` has half of it.
+        /// Output divider O of `clk_sys`; `clk_laser` has half of it.
         #[schemars(range(min = 2, max = 128), extend("unit" = "1", "source" = "PLLE2"))]
         pub output_divide: u64 = 8,
         /// From power-up to lock; the part's limit is 100 us.

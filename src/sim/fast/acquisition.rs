@@ -17,7 +17,7 @@ use super::hits::Hits;
 use super::idle::cycles_until_event;
 use super::steady::{control_is_steady, cycles_of_steady_control, estimator_rests, even_period};
 
-/// Goes on until `limit`, or until something else begins than an acquisition [cycles of clk_125].
+/// Goes on until `limit`, or until something else begins than an acquisition [cycles of clk_sys].
 /// Does nothing if that is so from the start. `at_shot` may move the device on in each cycle in which
 /// a shot has begun.
 #[inline(always)]
@@ -40,7 +40,7 @@ pub fn acquire(
     // The cycle that the converter has come to; it sleeps from there to the present one.
     let mut converter_at = device.cycle;
     let mut hits = Hits::default();
-    let mut now = device.pll.clk_125.rise(device.cycle);
+    let mut now = device.pll.clk_sys.rise(device.cycle);
     while device.top.frame_ctrl.acquire && device.cycle < limit {
         while device.spads.next_event() <= now {
             device.detect(&mut Off);
@@ -82,7 +82,7 @@ pub fn acquire(
             at_shot(device, frames, &mut hits);
             converter_at = device.cycle;
             emitter_wakes = device.cycle;
-            now = device.pll.clk_125.rise(device.cycle);
+            now = device.pll.clk_sys.rise(device.cycle);
         }
     }
     hits.skip(&mut device.top, p, device.cycle - converter_at);

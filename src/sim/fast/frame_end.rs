@@ -27,7 +27,7 @@ pub fn leap_frame_end(device: &mut Device, p: &Params) {
         false if estimation_phase(&device.top, p) == Some(0) => p.estimator_cycles() - 1,
         false => return,
     };
-    let end = device.pll.clk_125.rise(device.cycle + cycles);
+    let end = device.pll.clk_sys.rise(device.cycle + cycles);
     let alone = device.jitter.is_none()
         && control_is_steady(&device.top)
         && !device.top.histogram_builder.has_hit()

@@ -65,12 +65,12 @@ pub(super) fn emit(top: &mut TofTop, p: &Params) {
     top.drive_laser();
 }
 
-/// The rest of the emitter's cycle: `clk_250` falls, rises and falls.
+/// The rest of the emitter's cycle: `clk_laser` falls, rises and falls.
 #[inline(always)]
 pub(super) fn rest_of_cycle(top: &mut TofTop) {
-    top.vcsel_driver.fall_250();
-    top.vcsel_driver.rise_250(&laser_inputs(top));
-    top.vcsel_driver.fall_250();
+    top.vcsel_driver.fall_laser();
+    top.vcsel_driver.rise_laser(&laser_inputs(top));
+    top.vcsel_driver.fall_laser();
     top.drive_laser();
 }
 
@@ -119,7 +119,7 @@ pub(super) fn count(top: &mut TofTop) {
 
 #[inline(always)]
 fn laser_inputs(top: &TofTop) -> vcsel_driver::In {
-    vcsel_driver::In { rst: false, rst_250: false, ..Wires::vcsel_driver(top) }
+    vcsel_driver::In { rst: false, rst_laser: false, ..Wires::vcsel_driver(top) }
 }
 
 #[inline(always)]

@@ -123,9 +123,9 @@ impl Run<'_> {
 
 /// So many cycles later, at the begin of `frame`, with a detector that has been quiet for long.
 fn pass(device: &mut Device, cycles: u64, frame: u64) {
-    let begun = device.pll.clk_125.rise(device.cycle);
+    let begun = device.pll.clk_sys.rise(device.cycle);
     device.cycle += cycles;
-    device.timeline.pass(device.pll.clk_125.rise(device.cycle) - begun);
+    device.timeline.pass(device.pll.clk_sys.rise(device.cycle) - begun);
     device.light.begin_frame(frame);
     device.spads.arm_all(Time::NEVER);
     device.line = StopLine::default();

@@ -21,7 +21,7 @@ pub const NO_HIT: ShotOutcome = NO_CODE + 1;
 /// Number of outcomes.
 pub const OUTCOMES: usize = CODES + 2;
 
-/// Length of the TDC's window [cycles of clk_125].
+/// Length of the TDC's window [cycles of clk_sys].
 const WINDOW: u64 = 8;
 
 /// The last edge after the laser's whose hits may have codes, so that the TDC has kept them when the next

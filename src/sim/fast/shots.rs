@@ -54,12 +54,12 @@ pub fn leap_shots(
     let Light::Optics(optics) = &mut device.light else { return };
     let period = PERIODS[rate];
     let in_frame = u64::from(p.frame_ctrl.shots_per_frame) - device.top.frame_ctrl.shots() - 1;
-    let until = device.timeline.next_event().since(device.pll.clk_125.rise(device.cycle));
+    let until = device.timeline.next_event().since(device.pll.clk_sys.rise(device.cycle));
     let shots = in_frame.min(until.fs() / (period * CYCLE.fs()));
     if shots == 0 {
         return;
     }
-    let begun = device.pll.clk_125.rise(device.cycle - 1);
+    let begun = device.pll.clk_sys.rise(device.cycle - 1);
     let mut counts = [0u32; OUTCOMES.next_power_of_two()];
     counts[draws.outcome_at(device.spads.next_event() - begun) as usize] += 1;
     optics.pass(shots - 1, |word| {
@@ -69,7 +69,7 @@ pub fn leap_shots(
     hits.finish(&mut device.top, p);
     land(&mut device.top, shots, &counts[..BINS]);
     device.cycle += shots * period;
-    let now = device.pll.clk_125.rise(device.cycle - 1);
+    let now = device.pll.clk_sys.rise(device.cycle - 1);
     device.light.begin_shot(now, lit);
     device.spads.arm_all(device.light.next_avalanche(now, 1.0));
     device.line = StopLine::default();

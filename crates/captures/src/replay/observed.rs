@@ -32,7 +32,7 @@ pub(super) struct Shot {
 /// A code, and the first sample that sees it.
 type Code = (u64, i64);
 
-/// When codes come after their shots [cycles of clk_125].
+/// When codes come after their shots [cycles of clk_sys].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pace {
     /// From a shot to its code, at least.
@@ -49,7 +49,7 @@ pub(super) struct Observed {
     /// Whether it shows codes.
     pub(super) has_codes: bool,
     pub(super) per_frame: Option<u64>,
-    /// Cycles between two shots, if they are all the same [cycles of clk_125].
+    /// Cycles between two shots, if they are all the same [cycles of clk_sys].
     pub(super) period: Option<u64>,
     /// What the windows begin with.
     pub(super) windows: Vec<Begin>,

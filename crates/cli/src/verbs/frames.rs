@@ -6,7 +6,7 @@ use tofsim::sim::setup::{CYCLE, Setup};
 
 use crate::text::table::grouped;
 
-/// Cycles of a frame before its first shot and after its last, and some to spare [cycles of `clk_125`].
+/// Cycles of a frame before its first shot and after its last, and some to spare [cycles of `clk_sys`].
 const AROUND: u64 = 1000;
 /// Bits of a frame's number in the random streams.
 const NUMBER: u32 = 56;

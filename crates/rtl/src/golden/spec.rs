@@ -10,7 +10,7 @@ use super::cover::Cover;
 use super::parameters::{Parameters, memories};
 use super::setting::Setting;
 use super::table::Table;
-use super::timing::{CLK_125, Timing};
+use super::timing::{CLK_SYS, Timing};
 
 /// How many clocks an effect takes at least, from the edge that takes the input to the one that
 /// changes the output: 0 for a plain register. A combinational path has none.
@@ -72,12 +72,12 @@ pub struct Spec {
 
 impl Spec {
     /// A block of that name and place which `record` steps: what it is unless its file says otherwise.
-    /// Plain registers of `clk_125`, no reset.
+    /// Plain registers of `clk_sys`, no reset.
     pub const fn new(name: &'static str, scope: &'static str, record: Record) -> Self {
         Spec {
             name,
             scope,
-            timing: CLK_125,
+            timing: CLK_SYS,
             reset: None,
             fast: &[],
             latency: &[],

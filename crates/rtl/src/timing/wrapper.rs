@@ -13,11 +13,11 @@ use super::block::TimedBlock;
 /// Name of the module.
 pub const TOP: &str = "between_registers";
 
-const CLOCKS: [&str; 2] = ["clk_125", "clk_250"];
+const CLOCKS: [&str; 2] = ["clk_sys", "clk_laser"];
 
 /// The clock that a port belongs to, by its name.
 fn clock(port: &str) -> &'static str {
-    if port.ends_with("_250") { CLOCKS[1] } else { CLOCKS[0] }
+    if port.ends_with("_laser") { CLOCKS[1] } else { CLOCKS[0] }
 }
 
 /// A module that has the block's modules under their own names, with a register before every input and
@@ -81,9 +81,9 @@ mod tests {
     #[test]
     fn a_port_has_the_register_of_its_own_clock_and_a_pin_has_none() {
         let text = wrapper(TimedBlock::find("vcsel_driver").unwrap());
-        let (slow, fast) = text.split_once("posedge clk_250").unwrap();
+        let (slow, fast) = text.split_once("posedge clk_laser").unwrap();
         assert!(
-            fast.contains("rst_250 <= rst_250_pin;") && !slow.contains("rst_250 <= "),
+            fast.contains("rst_laser <= rst_laser_pin;") && !slow.contains("rst_laser <= "),
             "{text}"
         );
         assert!(

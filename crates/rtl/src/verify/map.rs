@@ -245,7 +245,7 @@ mod tests {
     #[test]
     fn a_map_names_what_there_is() {
         let text = "[design]\ntaps = 700\n[block.forward1]\nmodule = \"hidden\"\n\
-            invert = [\"rst\"]\nports = { clk_125 = \"clk\" }\nlatency = { l1_in_0 = 2 }\n";
+            invert = [\"rst\"]\nports = { clk_sys = \"clk\" }\nlatency = { l1_in_0 = 2 }\n";
         let map = RtlMap::parse("map.toml", text).unwrap();
         assert_eq!(map.block["forward1"].module("forward1"), "hidden");
         assert_eq!(map.block["forward1"].design.taps, 700);
@@ -255,7 +255,7 @@ mod tests {
     fn what_there_is_not_is_refused_with_its_place() {
         let error = fault("[block.forward1.ports]\nclk_124 = \"clk\"\n");
         assert!(error.starts_with("map.toml:2:"), "{error}");
-        assert!(error.contains("unknown port (`clk_125`?)"), "{error}");
+        assert!(error.contains("unknown port (`clk_sys`?)"), "{error}");
         let error = fault("[block.forwrd1]\nmodule = \"a\"\n");
         assert!(error.contains("unknown block (`forward1`?)"), "{error}");
         let error = fault("[block.forward1]\nmodul = \"a\"\n");

@@ -41,7 +41,7 @@ pub struct Args {
     /// What belongs together: a map file, or a set-up of `ila capture` by name or path
     #[arg(long, value_name = "FILE|NAME")]
     map: Option<String>,
-    /// The analyser's clock, clk_125 or clk_250 [default: the map's, or else clk_125]
+    /// The analyser's clock, clk_sys or clk_laser [default: the map's, or else clk_sys]
     #[arg(long, value_name = "CLOCK")]
     clock: Option<SampleClock>,
     /// Not all samples were stored (a capture condition that the map does not have)
@@ -189,7 +189,7 @@ fn next(args: &Args, located: &Located) -> String {
     words.extend(args.map.iter().map(|map| format!("--map {}", quoted(map.clone()))));
     match &args.clock {
         Some(SampleClock::Signal(clock)) => words.push(format!("--clock {clock}")),
-        _ if args.map.is_none() => words.push("--clock clk_125".to_owned()),
+        _ if args.map.is_none() => words.push("--clock clk_sys".to_owned()),
         _ => {}
     }
     if let Some(offset) = located.offset {

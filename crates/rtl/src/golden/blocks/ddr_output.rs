@@ -5,7 +5,7 @@ use tofsim::firmware::ddr_output::In;
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
-    timing: timing::CLK_250,
+    timing: timing::CLK_LASER,
     fast: &["q"],
     latency: &[Latency { from: "d", to: "q", cycles: |_| 0 }],
     ..Spec::new("ddr_output", "vcsel_driver.ddr_output", record)

@@ -20,12 +20,12 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut changes = Cover::new("laser_freq from x 4 + to, taken at a wrap", 0..16);
     // Cycles to the laser edge x 8, and what comes.
     let mut ends = Cover::new(
-        "cycles to the laser edge x 8 + rst, rst_250, acquire low as bits, one of them",
+        "cycles to the laser edge x 8 + rst, rst_laser, acquire low as bits, one of them",
         (0..4).flat_map(|left| [1, 2, 4].map(|what| left * 8 + what)),
     );
     let mut run = Recorder::new(spec, setting, In::list());
     let mut i =
-        In { rst: true, rst_250: true, acquire: true, laser_en: true, laser_freq: U::new(3) };
+        In { rst: true, rst_laser: true, acquire: true, laser_en: true, laser_freq: U::new(3) };
     for cycle in 0..setting.cycles() {
         let before = i.laser_freq;
         if run.draw.one_in(12) {
@@ -33,24 +33,24 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         }
         i.laser_en ^= run.draw.one_in(40);
         i.acquire = if i.acquire { !run.draw.one_in(100) } else { run.draw.one_in(5) };
-        (i.rst, i.rst_250) = (run.draw.one_in(200), run.draw.one_in(200));
+        (i.rst, i.rst_laser) = (run.draw.one_in(200), run.draw.one_in(200));
         if cycle == FIRST_RESET {
-            (i.rst, i.rst_250) = (true, true);
+            (i.rst, i.rst_laser) = (true, true);
         }
         if let Some((rate, count, wraps)) = run.top.vcsel_driver.registers.place() {
             changes.see_if(wraps && i.acquire, rate * 4 + i.laser_freq.get());
             phases.see_if(before != i.laser_freq, rate * 32 + count);
             let left = PERIODS[rate as usize] - 1 - count;
-            ends.see(left * 8 + bits([i.rst, i.rst_250, !i.acquire]));
+            ends.see(left * 8 + bits([i.rst, i.rst_laser, !i.acquire]));
         }
         run.line(&i);
-        run.top.vcsel_driver.fall_250();
+        run.top.vcsel_driver.fall_laser();
         run.sample();
         if cycle > 0 {
-            run.top.vcsel_driver.rise_250(&i);
+            run.top.vcsel_driver.rise_laser(&i);
         }
         run.sample();
-        run.top.vcsel_driver.fall_250();
+        run.top.vcsel_driver.fall_laser();
         run.sample();
         run.top.vcsel_driver.rise(&i);
     }

@@ -51,7 +51,7 @@ fn a_fault_of_the_spad_reset_or_of_the_pulse_is_counted_and_not_proven() {
     fault("spad_rst_width", &laser("count + 5'd2 == last", twice), 2);
     fault("spad_rst_mode_1", &[["spad_control.v", "pre_start && !mode", "pre_start"]], 1);
     fault("laser_on_lag", &laser("fire && !fire_last", "fire"), 4000);
-    let simulated = ["ddr_output.v", "level <= clk_250 && d", "level <= clk_250 ? d : level"];
+    let simulated = ["ddr_output.v", "level <= clk_laser && d", "level <= clk_laser ? d : level"];
     let synthesized = ["ddr_output.v", ".D2(1'b0)", ".D2(d)"];
     fault("laser_on_width", &[simulated, synthesized], 4000);
 }

@@ -14,7 +14,7 @@ use tofsim::network::roms::tansig_table;
 
 use super::measured::Measured;
 
-/// Half a cycle of `clk_250` [ps].
+/// Half a cycle of `clk_laser` [ps].
 const HALF: u64 = 2000;
 /// Cycles after which an estimation or five shots must be over.
 const PATIENCE: u64 = 1000;
@@ -88,13 +88,18 @@ fn centroid(measured: &mut Measured) {
 /// Counts five shots from the rise of `acquire` on.
 fn shots(mode: bool, code: u64, measured: &mut Measured) {
     let laser_freq = U::new(code);
-    let mut i =
-        vcsel_driver::In { rst: false, rst_250: false, acquire: false, laser_en: true, laser_freq };
+    let mut i = vcsel_driver::In {
+        rst: false,
+        rst_laser: false,
+        acquire: false,
+        laser_en: true,
+        laser_freq,
+    };
     let mut driver = VcselDriver::default();
     driver.rise(&i);
-    driver.fall_250();
-    driver.rise_250(&i);
-    driver.fall_250();
+    driver.fall_laser();
+    driver.rise_laser(&i);
+    driver.fall_laser();
     let mut spad = SpadControl::default();
     i.acquire = true;
     let (mut shots, mut start_at, mut pre_start_at, mut spad_rst_at) = (0, 0, 0, 0);
@@ -124,8 +129,8 @@ fn shots(mode: bool, code: u64, measured: &mut Measured) {
         for half in 0..4 {
             match half {
                 0 => {}
-                2 => driver.rise_250(&i),
-                _ => driver.fall_250(),
+                2 => driver.rise_laser(&i),
+                _ => driver.fall_laser(),
             }
             let now = (4 * k + half) * HALF;
             match (was_on, driver.laser_on()) {

@@ -4,7 +4,7 @@ use tofsim::firmware::carry_chain::{Delays, TAPS};
 
 use crate::golden::prelude::*;
 
-/// Period of `clk_125`.
+/// Period of `clk_sys`.
 const CYCLE: Time = Time::from_ns(8);
 /// Width of a pulse in MODE 1.
 const DEAD_TIME: Time = Time::from_ns(20);
