@@ -9,6 +9,8 @@
 module tdc #(
     parameter DelaysFile = "rtl_ref/tap_delays.mem",  // for simulation, see carry_chain
     parameter CalFile = "rtl_ref/tdc_cal.mem",        // see tdc_decoder
+    parameter integer Taps = 800,
+    parameter integer CoarseBits = 3,
     parameter [1:0] CountStages = 2'd3
 ) (
     input wire clk_sys,
@@ -18,14 +20,15 @@ module tdc #(
     output wire [7:0] tdc_code,  // time from the laser edge to the hit [25 ps]
     output wire tdc_valid        // tdc_code is new; one cycle
 );
-    wire [799:0] taps;
-    wire [2:0] coarse;
+    wire [Taps-1:0] taps;
+    wire [CoarseBits-1:0] coarse;
     wire window;
     wire hit;
-    wire [2:0] hit_coarse;
-    wire [799:0] hit_taps;
+    wire [CoarseBits-1:0] hit_coarse;
+    wire [Taps-1:0] hit_taps;
 
     carry_chain #(
+        .Taps(Taps),
         .DelaysFile(DelaysFile)
     ) carry_chain (
         .clk_sys(clk_sys),
@@ -33,7 +36,9 @@ module tdc #(
         .taps(taps)
     );
 
-    coarse_counter coarse_counter (
+    coarse_counter #(
+        .CoarseBits(CoarseBits)
+    ) coarse_counter (
         .clk_sys(clk_sys),
         .rst(rst),
         .start(start),
@@ -41,7 +46,10 @@ module tdc #(
         .window(window)
     );
 
-    tdc_latch tdc_latch (
+    tdc_latch #(
+        .Taps(Taps),
+        .CoarseBits(CoarseBits)
+    ) tdc_latch (
         .clk_sys(clk_sys),
         .rst(rst),
         .start(start),
@@ -54,6 +62,8 @@ module tdc #(
     );
 
     tdc_decoder #(
+        .Taps(Taps),
+        .CoarseBits(CoarseBits),
         .CalFile(CalFile),
         .CountStages(CountStages)
     ) tdc_decoder (

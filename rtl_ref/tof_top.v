@@ -4,6 +4,14 @@
 // The device: its modules and the wires between them.
 module tof_top #(
     parameter [15:0] ShotsPerFrame = 16'd30000,  // [shots]
+    parameter [16:0] DrainCycles = 17'd16,       // see frame_ctrl
+    // See vcsel_driver; RateBits is the width of laser_freq, PeriodBits that of a period less one
+    parameter [16*8-1:0] LaserPeriods = {{5{16'd6}}, 16'd8, 16'd13, 16'd25},
+    parameter integer RateBits = 2,
+    parameter integer PeriodBits = 5,
+    parameter integer PulseHalfCycles = 1,
+    parameter integer Taps = 800,                // see tdc
+    parameter integer CoarseBits = 3,
     parameter [0:0] CodeSource = 1'b0,           // 0: tdc, 1: code_preload
     parameter [0:0] HistogramSource = 1'b0,      // 0: histogram_builder, 1: histogram_preload
     parameter [0:0] Estimator = 1'b0,            // 0: depth_estimator, 1: centroid_estimator
@@ -40,7 +48,7 @@ module tof_top #(
     output wire [39:0] spad_sel,      // row, one-hot
     // Acquisition computer
     input wire mode,                  // SPAD quench mode, asynchronous
-    input wire [1:0] laser_freq,      // laser repetition rate, asynchronous
+    input wire [RateBits-1:0] laser_freq,  // laser repetition rate, asynchronous
     input wire laser_en,              // lets the laser fire, asynchronous
     input wire dsp_en,                // lets the estimator start, asynchronous
     input wire dsp_rst,               // abandons the frame, asynchronous
@@ -54,7 +62,7 @@ module tof_top #(
     wire clk_sys, clk_laser;
     wire rst_sys, rst_laser;
     wire mode_sync, laser_en_sync, dsp_en_sync, dsp_rst_sync;
-    wire [1:0] laser_freq_sync;
+    wire [RateBits-1:0] laser_freq_sync;
     wire clear;
     wire [7:0] clear_addr;
     wire acquire, algo_start;
@@ -111,7 +119,9 @@ module tof_top #(
         .rst_sync(rst_laser)
     );
 
-    control_sync control_sync (
+    control_sync #(
+        .RateBits(RateBits)
+    ) control_sync (
         .clk_sys(clk_sys),
         .mode(mode),
         .laser_freq(laser_freq),
@@ -127,7 +137,8 @@ module tof_top #(
 
     frame_ctrl #(
         .ShotsPerFrame(ShotsPerFrame),
-        .Preloaded(HistogramSource)
+        .Preloaded(HistogramSource),
+        .DrainCycles(DrainCycles)
     ) frame_ctrl (
         .clk_sys(clk_sys),
         .rst(rst_sys),
@@ -142,7 +153,12 @@ module tof_top #(
         .algo_done(algo_done)
     );
 
-    vcsel_driver vcsel_driver (
+    vcsel_driver #(
+        .LaserPeriods(LaserPeriods),
+        .RateBits(RateBits),
+        .PeriodBits(PeriodBits),
+        .PulseHalfCycles(PulseHalfCycles)
+    ) vcsel_driver (
         .clk_sys(clk_sys),
         .clk_laser(clk_laser),
         .rst(rst_sys),
@@ -171,6 +187,8 @@ module tof_top #(
     );
 
     tdc #(
+        .Taps(Taps),
+        .CoarseBits(CoarseBits),
         .DelaysFile(DelaysFile),
         .CountStages(CountStages),
         .CalFile(CalFile)

@@ -5,7 +5,7 @@
 use std::fmt::Write;
 use std::fs;
 
-use tofsim::firmware::forward2::NEURONS;
+use tofsim::firmware::tof_top::Sizes;
 use tofsim::hierarchy::{Entry, Kind, TOP, every_entry_of};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
@@ -70,7 +70,7 @@ fn with_every_module(mut text: String, entries: &[Entry]) -> String {
 fn the_port_tables_are_those_of_the_code() {
     let model = format!("{ROOT}/docs/model.md");
     let old = fs::read_to_string(&model).unwrap();
-    let entries = every_entry_of(NEURONS);
+    let entries = every_entry_of(&Sizes::default());
     let places = with_every_module(old.clone(), &entries);
     let mut parts = places.split(BEGIN);
     let mut new = parts.next().unwrap().to_owned();

@@ -6,6 +6,7 @@ use rand_distr::{Distribution, Exp, Normal, Poisson};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use tofsim::firmware::carry_chain::{Delays, TAPS};
+use tofsim::firmware::tdc;
 use tofsim::kernel::Time;
 use tofsim::optics::eye_safety::maximum_average_power_w;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
@@ -95,7 +96,8 @@ fn the_laser_may_have_12_77_mw() {
 /// The default carry chain: 11.5 ps taps, 2.23 ns before the first.
 fn bins() -> Bins {
     let delays = Delays::new(Time::from_fs(2_230_000), &[11_500; TAPS]).unwrap();
-    Bins::of_chain(&delays, &delays.calibration(PERIOD), PERIOD)
+    let cal = delays.calibration(PERIOD);
+    Bins::of_tdc(&tdc::Params::new(delays, cal, 3, 3), PERIOD)
 }
 
 /// Counts by code, and last the shots without one.

@@ -6,9 +6,9 @@ use std::thread;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use tofsim::network::Histogram;
-use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
+use tofsim::optics::{BinProbabilities, Budget, Hazard};
 use tofsim::sensor::streams::{Source, stream};
-use tofsim::sim::setup::{CYCLE, Setup};
+use tofsim::sim::setup::Setup;
 
 use crate::common;
 
@@ -42,8 +42,7 @@ impl Depths {
 }
 
 fn probabilities(setup: &Setup) -> BinProbabilities {
-    let bins = Bins::of_chain(&setup.params.tdc.delays, &setup.params.tdc.decoder.cal, CYCLE);
-    BinProbabilities::new(&Hazard::new(&Budget::new(&setup.scenario)), &bins)
+    BinProbabilities::new(&Hazard::new(&Budget::new(&setup.scenario)), &setup.bins())
 }
 
 fn scene(distance_m: f64, reflectance: f64, more: &[&str]) -> Setup {

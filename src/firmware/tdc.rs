@@ -33,6 +33,8 @@ signals! {
 pub struct Params {
     /// Delays of the chain.
     pub delays: Delays,
+    /// Length of the window.
+    pub coarse_counter: coarse_counter::Params,
     /// ROM of the decoder, and steps of its ones count.
     pub decoder: tdc_decoder::Params,
     /// Place of physical tap 0 in the order of arrival.
@@ -40,11 +42,17 @@ pub struct Params {
 }
 
 impl Params {
-    /// For a chain, the ROM that goes with it, and 2 or 3 registers of the ones count.
-    pub fn new(delays: Delays, cal: Calibration, count_stages: u64) -> Self {
+    /// For a chain, the ROM that goes with it, a coarse count of so many bits, and 2 or 3 registers of the
+    /// ones count.
+    pub fn new(delays: Delays, cal: Calibration, coarse_bits: u32, count_stages: u64) -> Self {
         let tap_0 = delays.tap_0_position();
-        let decoder = tdc_decoder::Params { cal: Box::new(cal), count_stages };
-        Params { delays, decoder, tap_0 }
+        let decoder = tdc_decoder::Params { cal, count_stages };
+        Params { delays, coarse_counter: coarse_counter::Params { coarse_bits }, decoder, tap_0 }
+    }
+
+    /// The last edge after the laser's that samples hits with a code, within the window.
+    pub fn last_coded(&self) -> u64 {
+        self.decoder.last_coded().min(self.coarse_counter.window())
     }
 }
 
@@ -106,7 +114,7 @@ impl Tdc {
         let tdc_latch = Wires::tdc_latch(self, i);
 
         self.carry_chain = CarryChain { taps: line.sample(now, &p.delays) };
-        self.coarse_counter.tick(&coarse_counter, &());
+        self.coarse_counter.tick(&coarse_counter, &p.coarse_counter);
         self.tdc_latch.tick(&tdc_latch, &p.tap_0);
     }
 
@@ -118,13 +126,14 @@ impl Tdc {
             return AWAKE;
         }
         let tdc_latch = self.tdc_latch.quiet(&Wires::tdc_latch(self, i), &p.tap_0);
-        tdc_latch.min(self.coarse_counter.quiet(&Wires::coarse_counter(self, i), &()))
+        let coarse_counter = &Wires::coarse_counter(self, i);
+        tdc_latch.min(self.coarse_counter.quiet(coarse_counter, &p.coarse_counter))
     }
 
     /// Stands for that many edges of all before the decoder, all of them quiet.
     #[inline(always)]
     pub fn skip(&mut self, i: &In, p: &Params, edges: u64) {
-        self.coarse_counter.skip(&Wires::coarse_counter(self, i), &(), edges);
+        self.coarse_counter.skip(&Wires::coarse_counter(self, i), &p.coarse_counter, edges);
         self.tdc_latch.skip(&Wires::tdc_latch(self, i), &p.tap_0, edges);
     }
 
@@ -152,7 +161,7 @@ mod tests {
     fn code_of(photon_fs: u64, count_stages: u64) -> Option<(u64, u64)> {
         let delays = Delays::new(Time::from_fs(2_230_000), &[11_500; TAPS]).unwrap();
         let cal = delays.calibration(Time::from_ns(8));
-        let params = Params::new(delays, cal, count_stages);
+        let params = Params::new(delays, cal, 3, count_stages);
         let (mut tdc, mut line) = (Tdc::default(), StopLine::default());
         let photon = Time::from_ns(80) + Time::from_fs(photon_fs);
         for edge in 0..30 {

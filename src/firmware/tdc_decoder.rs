@@ -16,7 +16,8 @@ use crate::kernel::{Clocked, PartialOnes, S, U, asleep_if};
 use crate::signals;
 
 pub use super::carry_chain::Calibration;
-use super::carry_chain::{TAPS, Taps};
+use super::carry_chain::Taps;
+use super::coarse_counter::Coarse;
 
 /// One cycle of `clk_sys` [25/16 ps].
 pub const CYCLE: i64 = 5120;
@@ -24,6 +25,8 @@ pub const CYCLE: i64 = 5120;
 const BIN_SHIFT: u32 = 4;
 /// First time past the last bin, 6.4 ns [25/16 ps].
 const RANGE: i64 = 256 << BIN_SHIFT;
+/// Time from the laser edge, with room for the longest window [25/16 ps].
+type TimeWord = S<26>;
 /// Registers of the ones count unless elaboration says otherwise.
 pub const COUNT_STAGES: u64 = 3;
 /// Edges from the one that samples the taps of a hit to the one that makes its `n`, beside those of
@@ -40,8 +43,10 @@ signals! {
         /// `hit_taps` are those of a new hit.
         pub hit: bool,
         /// Its coarse count.
-        pub hit_coarse: U<3>,
+        #[size("CoarseBits")]
+        pub hit_coarse: Coarse,
         /// Its taps.
+        #[size("Taps")]
         pub hit_taps: Taps,
     }
 }
@@ -50,7 +55,7 @@ signals! {
 #[derive(Clone, Debug)]
 pub struct Params {
     /// Age of a hit for each ones count.
-    pub cal: Box<Calibration>,
+    pub cal: Calibration,
     /// Registers of the ones count, 2 or 3.
     pub count_stages: u64,
 }
@@ -63,38 +68,58 @@ signals! {
         /// Time from the laser edge to the hit [25 ps].
         pub tdc_code: U<8>,
         /// Ones among 16 taps each.
-        sixteens: PartialOnes<TAPS, 16>,
+        #[size("Sixteens")]
+        sixteens: PartialOnes<16>,
         /// `sixteens` is new.
         sixteens_valid: bool,
         /// Coarse count of `sixteens`.
-        sixteens_coarse: U<3>,
+        #[size("CoarseBits")]
+        sixteens_coarse: Coarse,
         /// Ones among 128 taps each.
-        hundreds: PartialOnes<TAPS, 128>,
+        #[size("Hundreds")]
+        hundreds: PartialOnes<128>,
         /// `hundreds` is new.
         hundreds_valid: bool,
         /// Coarse count of `hundreds`.
-        hundreds_coarse: U<3>,
+        #[size("CoarseBits")]
+        hundreds_coarse: Coarse,
         /// Taps that the last hit had run through.
+        #[size("CountOfTaps")]
         #[view(heading = "TDC", probe = true)]
-        n: U<10>,
+        n: U<11>,
         /// `n` is new.
         n_valid: bool,
         /// Coarse count of `n`.
-        n_coarse: U<3>,
+        #[size("CoarseBits")]
+        n_coarse: Coarse,
         /// The time for `n` [25/16 ps].
         age: U<14>,
         /// `age` is new.
         age_valid: bool,
         /// Coarse count of `age`.
-        age_coarse: U<3>,
+        #[size("CoarseBits")]
+        age_coarse: Coarse,
         /// Time from the laser edge [25/16 ps].
-        t: S<17>,
+        #[size("TimeBits")]
+        t: TimeWord,
         /// `t` is new.
         t_valid: bool,
     }
 }
 
 impl Params {
+    /// Length of the chain [taps].
+    #[inline(always)]
+    pub fn taps(&self) -> usize {
+        self.cal.len() - 1
+    }
+
+    /// The last edge after the laser's at which a hit of some ones count has a time in range.
+    pub fn last_coded(&self) -> u64 {
+        let oldest = self.cal.iter().map(|age| age.get() as i64).max().unwrap_or_default();
+        (RANGE + oldest - 1).div_euclid(CYCLE) as u64
+    }
+
     /// From the edge that samples the taps of a hit to the one that makes its code [cycles of clk_sys].
     pub fn latency(&self) -> u64 {
         BEFORE_COUNT + self.count_stages + AFTER_COUNT
@@ -122,18 +147,23 @@ impl TdcDecoder {
 
 /// The code of a hit, if its time is in range.
 #[inline(always)]
-pub fn code(coarse: u64, n: usize, cal: &Calibration) -> Option<U<8>> {
+pub fn code(coarse: u64, n: usize, cal: &[U<14>]) -> Option<U<8>> {
     code_of(time(coarse, cal[n]))
+}
+
+/// Whether the time of such a hit is past the range.
+pub fn is_late(coarse: u64, n: usize, cal: &[U<14>]) -> bool {
+    time(coarse, cal[n]).get() >= RANGE
 }
 
 /// Time from the laser edge, of a hit of that age.
 #[inline(always)]
-fn time(coarse: u64, age: U<14>) -> S<17> {
-    S::new(CYCLE * (coarse as i64 + 1) - age.get() as i64)
+fn time(coarse: u64, age: U<14>) -> TimeWord {
+    TimeWord::new(CYCLE * (coarse as i64 + 1) - age.get() as i64)
 }
 
 #[inline(always)]
-fn code_of(t: S<17>) -> Option<U<8>> {
+fn code_of(t: TimeWord) -> Option<U<8>> {
     (0..RANGE).contains(&t.get()).then(|| U::new(t.get() as u64 >> BIN_SHIFT))
 }
 
@@ -164,7 +194,7 @@ impl Clocked for TdcDecoder {
         };
         self.n_valid = counted;
         if counted {
-            (self.n, self.n_coarse) = (U::new(taps.ones() as u64), coarse);
+            (self.n, self.n_coarse) = (U::new(taps.ones(p.taps()) as u64), coarse);
         }
         self.hundreds_valid = self.sixteens_valid;
         if self.sixteens_valid {
@@ -190,10 +220,11 @@ impl Clocked for TdcDecoder {
 
 #[cfg(test)]
 mod tests {
+    use super::super::carry_chain::TAPS;
     use super::*;
 
     fn params(cal: Calibration, count_stages: u64) -> Params {
-        Params { cal: Box::new(cal), count_stages }
+        Params { cal, count_stages }
     }
 
     fn decode(coarse: u64, n: usize, p: &Params) -> (bool, u64) {
@@ -214,13 +245,13 @@ mod tests {
 
     #[test]
     fn the_time_is_the_edge_less_the_calibrated_delay() {
-        let mut cal = [U::new(0); TAPS + 1];
+        let mut cal = vec![U::new(0); TAPS + 1];
         cal[100] = U::new(5120);
         cal[101] = U::new(5119);
         cal[102] = U::new(5121);
         cal[103] = U::new(5120 - 4095);
         cal[104] = U::new(5120 - 4096);
-        for p in [params(cal, 2), params(cal, 3)] {
+        for p in [params(cal.clone(), 2), params(cal, 3)] {
             assert_eq!(decode(0, 100, &p), (true, 0));
             assert_eq!(decode(0, 101, &p), (true, 0));
             assert_eq!(decode(0, 102, &p), (false, 0), "before the laser edge");

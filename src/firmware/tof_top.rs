@@ -22,9 +22,11 @@ use super::vcsel_driver::{self, VcselDriver};
 use super::{lvds_output, pll};
 
 mod ports;
+mod sizes;
 mod socket;
 
 pub use ports::{Clocks, CodeSource, Estimator, HistogramSource, Nets, Params, Pins, Socket};
+pub use sizes::Sizes;
 
 /// The state of the firmware.
 #[derive(Clone, Debug, Default)]
@@ -190,7 +192,7 @@ impl TofTop {
 
         (self.reset_sync_sys, self.reset_sync_laser) = (reset_sync_sys, reset_sync_laser);
         (self.control_sync, self.frame_ctrl) = (control_sync, frame_ctrl);
-        self.vcsel_driver.rise(&vcsel_driver);
+        self.vcsel_driver.rise(&vcsel_driver, &p.vcsel_driver);
         self.spad_control = spad_control;
         self.convert(p, &tdc, &code_preload, line, now);
         self.histogram_builder.tick(&histogram_builder);
@@ -200,9 +202,9 @@ impl TofTop {
 
     /// An edge at which only `clk_laser` rises: the middle of a cycle of `clk_sys`.
     #[inline(always)]
-    pub fn rise_laser(&mut self) {
+    pub fn rise_laser(&mut self, p: &Params) {
         let reset_sync_laser = self.reset_sync_laser.next(&Wires::reset_sync_laser(self), &());
-        self.vcsel_driver.rise_laser(&Wires::vcsel_driver(self));
+        self.vcsel_driver.rise_laser(&Wires::vcsel_driver(self), &p.vcsel_driver);
         self.reset_sync_laser = reset_sync_laser;
         self.drive_laser();
     }

@@ -1,4 +1,4 @@
-//! Fires the laser at one of four rates.
+//! Fires the laser at one of a few rates.
 //!
 //! Mirrors `rtl_ref/vcsel_driver.v`. A counter in `clk_sys` runs through the period while
 //! `acquire` is high; with the laser edge at edge s of `clk_sys`:
@@ -12,8 +12,10 @@
 //! pulse_1      ________/^^\________
 //! laser_pulse  ___________/^^\_____
 //! start        ______________/^^^^^
-//! laser_on     ______________/^\___   2 ns, from a DDR output register
+//! laser_on     ______________/^\___   half a cycle of clk_laser, from a DDR output register
 //! ```
+//!
+//! The pulse may be longer, up to eight half cycles: then `laser_pulse` and `laser_on` last.
 //!
 //! A pulse passes through three registers of `clk_laser` on its way across the device, so that each leg has
 //! a cycle. Once `fire` has asked for it, only `rst_laser` stops it, and never moves it: where `acquire` falls or `rst` comes in
@@ -27,8 +29,58 @@ use crate::{connect, signals};
 
 use super::ddr_output::{self, DdrOutput};
 
-/// Laser period for each `laser_freq` (Table 6.1) [cycles of clk_sys].
+/// Laser period for each `laser_freq` of the KC705 (Table 6.1) [cycles of clk_sys].
 pub const PERIODS: [u64; 4] = [25, 13, 8, 6];
+/// Most rates to choose from.
+pub const MOST_RATES: usize = 8;
+/// Longest pulse [half cycles of clk_laser].
+pub const LONGEST_PULSE: u32 = 8;
+/// Shortest and longest period: `pre_start` comes two cycles before the laser edge, and the edge before is
+/// that of a shot [cycles of clk_sys].
+pub const PERIOD_RANGE: std::ops::RangeInclusive<u64> = 4..=65_535;
+
+/// Which of the periods is in force, with room for all.
+pub type Rate = U<3>;
+
+/// Verilog parameters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Params {
+    /// Laser period for each `laser_freq`, one to eight of them; a `laser_freq` past the last has the last
+    /// [cycles of clk_sys].
+    pub periods: Vec<u64>,
+    /// Length of the pulse, one to eight [half cycles of clk_laser].
+    pub pulse_half_cycles: u32,
+}
+
+impl Default for Params {
+    /// The KC705's.
+    fn default() -> Self {
+        Params { periods: PERIODS.to_vec(), pulse_half_cycles: 1 }
+    }
+}
+
+impl Params {
+    /// The period that a `laser_freq` stands for [cycles of clk_sys].
+    #[inline(always)]
+    pub fn period(&self, laser_freq: Rate) -> u64 {
+        self.periods[laser_freq.index().min(self.periods.len() - 1)]
+    }
+
+    /// The period for each value that `laser_freq` can have [cycles of clk_sys].
+    pub fn every_period(&self) -> [u64; MOST_RATES] {
+        std::array::from_fn(|code| self.period(Rate::new(code as u64)))
+    }
+
+    /// The longest period [cycles of clk_sys].
+    pub fn longest_period(&self) -> u64 {
+        self.periods.iter().copied().max().unwrap_or_default()
+    }
+
+    /// Cycles of clk_laser after the first in which the pulse is high at its begin.
+    fn stretched(&self) -> u32 {
+        self.pulse_half_cycles.div_ceil(2) - 1
+    }
+}
 
 signals! {
     /// Input ports.
@@ -42,7 +94,8 @@ signals! {
         /// Lets the laser fire.
         pub laser_en: bool,
         /// Repetition rate.
-        pub laser_freq: U<2>,
+        #[size("RateBits")]
+        pub laser_freq: Rate,
     }
 }
 
@@ -56,9 +109,11 @@ signals! {
         /// Asks `clk_laser` for a pulse; two cycles before the laser edge.
         fire: bool,
         /// Place in the period.
-        pub(crate) count: U<5>,
+        #[size("PeriodBits")]
+        pub(crate) count: U<16>,
         /// The period in force, less one [cycles of clk_sys].
-        pub(crate) last: U<5>,
+        #[size("PeriodBits")]
+        pub(crate) last: U<16>,
         /// The `laser_en` in force.
         pub(crate) enable: bool,
     }
@@ -71,9 +126,14 @@ signals! {
         fire_last: bool,
         /// `laser_pulse` on its way.
         pulse: [bool; 2],
-        /// Enable of the output register; the cycle of `clk_laser` before the laser edge.
+        /// Enables of the output register, for either half of its cycle; the cycle of `clk_laser` before the
+        /// laser edge, and on with a longer pulse.
+        #[size("Halves")]
         #[view(probe = true)]
-        laser_pulse: bool,
+        laser_pulse: U<2>,
+        /// `pulse_1` in the cycles before, as many as a longer pulse goes on for.
+        #[size("Stretch")]
+        stretch: U<3>,
     }
 }
 
@@ -102,18 +162,18 @@ connect! {
 impl Registers {
     /// The rate in force, the place in its period, and whether that is the last; `None` before a
     /// rate has been taken.
-    pub fn place(&self) -> Option<(u64, u64, bool)> {
-        let rate = PERIODS.iter().position(|period| self.last == period - 1)?;
+    pub fn place(&self, p: &Params) -> Option<(u64, u64, bool)> {
+        let rate = p.periods.iter().position(|period| self.last == period - 1)?;
         Some((rate as u64, self.count.get(), self.count == self.last))
     }
 }
 
 impl Clocked for Registers {
     type In = In;
-    type Params = ();
+    type Params = Params;
 
     #[inline(always)]
-    fn next(&self, i: &In, (): &()) -> Self {
+    fn next(&self, i: &In, p: &Params) -> Self {
         let (q, mut d) = (self, *self);
         let left = q.last - q.count.get();
         d.pre_start = i.acquire && left == 2;
@@ -122,7 +182,7 @@ impl Clocked for Registers {
         d.count = q.count + 1;
         if !i.acquire || left == 0 {
             d.count = U::new(0);
-            d.last = U::new(PERIODS[i.laser_freq.index()] - 1);
+            d.last = U::new(p.period(i.laser_freq) - 1);
             d.enable = i.laser_en;
         }
         if i.rst { Self::default() } else { d }
@@ -130,19 +190,19 @@ impl Clocked for Registers {
 
     /// Nobody looks at the count until `pre_start` comes of it.
     #[inline(always)]
-    fn quiet(&self, i: &In, (): &()) -> u64 {
+    fn quiet(&self, i: &In, p: &Params) -> u64 {
         let q = self;
         if i.rst | q.pre_start | q.fire | q.start {
             AWAKE
         } else if !i.acquire {
-            asleep_if(q.next(i, &()) == *q)
+            asleep_if(q.next(i, p) == *q)
         } else {
             (q.last.get()).saturating_sub(q.count.get() + 2)
         }
     }
 
     #[inline(always)]
-    fn skip(&mut self, i: &In, (): &(), edges: u64) {
+    fn skip(&mut self, i: &In, _: &Params, edges: u64) {
         if i.acquire {
             self.count = self.count + edges;
         }
@@ -153,21 +213,38 @@ impl LaserRegisters {
     /// Whether a pulse is on its way to the output register.
     #[inline(always)]
     fn has_pulse(&self) -> bool {
-        self.fire_last | self.pulse[0] | self.pulse[1] | self.laser_pulse
+        let drives = self.laser_pulse != 0 || self.stretch != 0;
+        self.fire_last | self.pulse[0] | self.pulse[1] | drives
+    }
+
+    /// The enables at the next edge, for either half of the cycle, and the cycles before it.
+    #[inline(always)]
+    fn drive(&self, p: &Params) -> (U<2>, U<3>) {
+        let (begins, before) = (u64::from(self.pulse[1]), self.stretch.get());
+        if p.pulse_half_cycles == 1 {
+            return (U::new(begins), U::new(0));
+        }
+        let cycles = p.stretched();
+        let first = begins != 0 || before != 0;
+        let ends = (before << 1) >> cycles == 1;
+        let second = first && !(p.pulse_half_cycles % 2 == 1 && cycles > 0 && ends);
+        let stretch = (before << 1 | begins) & ((1 << cycles) - 1);
+        (U::new(u64::from(first) | u64::from(second) << 1), U::new(stretch))
     }
 }
 
 impl Clocked for LaserRegisters {
     type In = LaserIn;
-    type Params = ();
+    type Params = Params;
 
     #[inline(always)]
-    fn next(&self, i: &LaserIn, (): &()) -> Self {
+    fn next(&self, i: &LaserIn, p: &Params) -> Self {
         let (fire_last, pulse) = (i.fire, [i.fire && !self.fire_last, self.pulse[0]]);
-        match i.rst_laser {
-            true => LaserRegisters { fire_last, ..Self::default() },
-            false => LaserRegisters { fire_last, pulse, laser_pulse: self.pulse[1] },
+        if i.rst_laser {
+            return LaserRegisters { fire_last, ..Self::default() };
         }
+        let (laser_pulse, stretch) = self.drive(p);
+        LaserRegisters { fire_last, pulse, laser_pulse, stretch }
     }
 }
 
@@ -181,17 +258,17 @@ pub struct LaserIn {
 impl VcselDriver {
     /// An edge at which both clocks rise.
     #[inline(always)]
-    pub fn rise(&mut self, i: &In) {
-        let registers = self.registers.next(i, &());
-        self.rise_laser(i);
+    pub fn rise(&mut self, i: &In, p: &Params) {
+        let registers = self.registers.next(i, p);
+        self.rise_laser(i, p);
         self.registers = registers;
     }
 
     /// An edge at which only `clk_laser` rises, or the part of `clk_laser` where both do.
     #[inline(always)]
-    pub fn rise_laser(&mut self, i: &In) {
+    pub fn rise_laser(&mut self, i: &In, p: &Params) {
         let ddr_output = self.ddr_output.rise(&Wires::ddr_output(self));
-        let registers_laser = self.registers_laser.next(&self.laser_inputs(i), &());
+        let registers_laser = self.registers_laser.next(&self.laser_inputs(i), p);
         (self.ddr_output, self.registers_laser) = (ddr_output, registers_laser);
     }
 
@@ -209,15 +286,15 @@ impl VcselDriver {
     /// Coming edges of `clk_sys` at which, while the inputs hold, nothing but the count would move,
     /// here and at the edges of `clk_laser` between them.
     #[inline(always)]
-    pub fn quiet(&self, i: &In) -> u64 {
+    pub fn quiet(&self, i: &In, p: &Params) -> u64 {
         let pulse = self.registers.fire | self.registers_laser.has_pulse() | self.ddr_output.q;
-        if pulse { AWAKE } else { self.registers.quiet(i, &()) }
+        if pulse { AWAKE } else { self.registers.quiet(i, p) }
     }
 
     /// Stands for that many edges of `clk_sys`, all of them quiet.
     #[inline(always)]
-    pub fn skip(&mut self, i: &In, edges: u64) {
-        self.registers.skip(i, &(), edges);
+    pub fn skip(&mut self, i: &In, p: &Params, edges: u64) {
+        self.registers.skip(i, p, edges);
     }
 
     /// The single-ended laser pulse.
@@ -235,12 +312,13 @@ mod tests {
     fn run(driver: &mut VcselDriver, i: &In, cycles: usize) -> Vec<[bool; 6]> {
         let mut seen = Vec::new();
         for _ in 0..cycles {
-            driver.rise(i);
-            let (pulse_first, on_first) = (driver.registers_laser.laser_pulse, driver.laser_on());
+            driver.rise(i, &Params::default());
+            let pulse_first = driver.registers_laser.laser_pulse != 0;
+            let on_first = driver.laser_on();
             driver.fall_laser();
             let mut on_later = driver.laser_on();
-            driver.rise_laser(i);
-            let pulse_second = driver.registers_laser.laser_pulse;
+            driver.rise_laser(i, &Params::default());
+            let pulse_second = driver.registers_laser.laser_pulse != 0;
             on_later |= driver.laser_on();
             driver.fall_laser();
             on_later |= driver.laser_on();
@@ -302,5 +380,34 @@ mod tests {
         let seen = run(&mut ready(&i), &i, 12);
         assert_eq!(seen.iter().filter(|cycle| cycle[1]).count(), 2);
         assert!(seen.iter().all(|cycle| !cycle[2..].contains(&true)));
+    }
+
+    #[test]
+    fn a_pulse_lasts_as_many_half_cycles_as_are_asked_for() {
+        for pulse_half_cycles in 1..=LONGEST_PULSE {
+            let (i, p) = (input(0), Params { pulse_half_cycles, ..Params::default() });
+            let mut driver = ready(&i);
+            let mut halves = Vec::new();
+            for _ in 0..60 {
+                driver.rise(&i, &p);
+                for again in [false, true] {
+                    if again {
+                        driver.rise_laser(&i, &p);
+                    }
+                    halves.push(driver.laser_on());
+                    driver.fall_laser();
+                    halves.push(driver.laser_on());
+                }
+            }
+            let on: Vec<_> = (0..halves.len()).filter(|&half| halves[half]).collect();
+            let of_shot = |edge: usize| 4 * edge..4 * edge + pulse_half_cycles as usize;
+            assert_eq!(on, of_shot(24).chain(of_shot(49)).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn a_rate_past_the_last_is_the_last() {
+        let p = Params { periods: vec![9, 5, 7], ..Params::default() };
+        assert_eq!([0, 1, 2, 3, 7].map(|rate| p.period(U::new(rate))), [9, 5, 7, 7, 7]);
     }
 }

@@ -143,6 +143,7 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
+    use crate::firmware::carry_chain::TAPS;
     use crate::kernel::{Thermometer, Time};
     use crate::scenario::{self, Control, QuenchMode};
     use crate::sim::device::{Edge, Off, SignalProbe};
@@ -157,8 +158,8 @@ mod tests {
             self.0[id] = value;
         }
 
-        fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, _: usize) {
-            self.0[id] = value.ones() as u64;
+        fn taps(&mut self, id: usize, value: &Thermometer, _: usize) {
+            self.0[id] = value.ones(TAPS) as u64;
         }
     }
 

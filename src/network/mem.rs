@@ -76,7 +76,7 @@ mod tests {
     fn each_file_has_its_lines_and_digits() {
         let network = Network::builtin("uniform").unwrap().unwrap();
         let params = network.params();
-        let mut calibration = [U::new(0x3abc); TAPS + 1];
+        let mut calibration = vec![U::new(0x3abc); TAPS + 1];
         calibration[0] = U::new(5);
         let mut files = depth_estimator(&params);
         files.push(tdc_decoder(&calibration));

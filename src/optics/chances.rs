@@ -50,6 +50,7 @@ impl Chances {
 #[cfg(test)]
 mod tests {
     use crate::firmware::carry_chain::{Delays, TAPS};
+    use crate::firmware::tdc;
     use crate::optics::Budget;
     use crate::optics::closed_form::tests::budget;
 
@@ -60,7 +61,8 @@ mod tests {
 
     fn chances(budget: &Budget) -> Chances {
         let delays = Delays::new(Time::from_ns(2), &[12_500; TAPS]).unwrap();
-        let bins = Bins::of_chain(&delays, &delays.calibration(PERIOD), PERIOD);
+        let cal = delays.calibration(PERIOD);
+        let bins = Bins::of_tdc(&tdc::Params::new(delays, cal, 3, 3), PERIOD);
         Chances::new(&Hazard::new(budget), &bins, END)
     }
 

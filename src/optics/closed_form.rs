@@ -6,16 +6,13 @@
 use rand::Rng;
 use rand_distr::{Binomial, Distribution};
 
-use crate::firmware::carry_chain::Delays;
-use crate::firmware::tdc_decoder::{self, Calibration};
+use crate::firmware::{tdc, tdc_decoder};
 use crate::kernel::Time;
 
 use super::hazard::Hazard;
 
 /// Codes of the TDC [codes].
 pub const CODES: usize = 256;
-/// Cycles of `clk_sys` that the coarse counter tells apart [cycles].
-const COARSE: u64 = 8;
 
 /// A span of avalanche times that give one code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,15 +33,19 @@ pub struct Bins {
 }
 
 impl Bins {
-    /// Of a chain with its decoder's ROM, sampled every `period`.
+    /// Of a converter whose clock has that period.
     ///
     /// The chain has to be clear again before the next shot's first edge, 2 periods after
     /// `spad_rst` rises, or a hit would be counted together with the one before.
-    pub fn of_chain(delays: &Delays, cal: &Calibration, period: Time) -> Self {
+    pub fn of_tdc(p: &tdc::Params, period: Time) -> Self {
+        let (delays, cal) = (&p.delays, &p.decoder.cal);
         let mut spans = Vec::new();
         let (tap_0, ages) = (delays.tap_0(), delays.arrivals());
-        for coarse in 0..COARSE {
+        for coarse in 0..p.coarse_counter.window() {
             let edge = Time::from_fs((coarse + 1) * period.fs());
+            if (1..=ages.len()).all(|n| tdc_decoder::is_late(coarse, n, cal)) {
+                break;
+            }
             // The first edge at or after the arrival at tap 0 sees the avalanche.
             let first = first_younger(tap_0 + period, edge);
             let end = first_younger(tap_0, edge);
@@ -139,7 +140,7 @@ pub(super) mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    use crate::firmware::carry_chain::{StopLine, TAPS};
+    use crate::firmware::carry_chain::{Calibration, Delays, StopLine, TAPS};
     use crate::kernel::U;
     use crate::optics::Budget;
 
@@ -151,8 +152,12 @@ pub(super) mod tests {
         Delays::new(Time::from_fs(offset_ps * 1000), &[tap_fs; TAPS]).unwrap()
     }
 
+    fn of_chain(delays: &Delays, cal: Calibration) -> Bins {
+        Bins::of_tdc(&tdc::Params::new(delays.clone(), cal, 3, 3), PERIOD)
+    }
+
     fn bins(delays: &Delays) -> Bins {
-        Bins::of_chain(delays, &delays.calibration(PERIOD), PERIOD)
+        of_chain(delays, delays.calibration(PERIOD))
     }
 
     /// A chain whose taps are not reached in order, as in a real device.
@@ -166,11 +171,11 @@ pub(super) mod tests {
     fn sampled(t: Time, delays: &Delays, cal: &Calibration) -> Option<u8> {
         let mut line = StopLine::default();
         line.toggle(t);
-        for coarse in 0..COARSE {
+        for coarse in 0..8 {
             let edge = Time::from_fs((coarse + 1) * PERIOD.fs());
             let taps = line.sample(edge.max(t), delays);
             if edge >= t && taps.tap(delays.tap_0_position()) {
-                return tdc_decoder::code(coarse, taps.ones(), cal).map(|code| code.get() as u8);
+                return tdc_decoder::code(coarse, taps.ones(TAPS), cal).map(|code| code.get() as u8);
             }
         }
         None
@@ -243,7 +248,7 @@ pub(super) mod tests {
         let mut with_holes = delays.calibration(PERIOD);
         with_holes[300..310].fill(U::new(0));
         for cal in [delays.calibration(PERIOD), with_holes] {
-            let bins = Bins::of_chain(&delays, &cal, PERIOD);
+            let bins = of_chain(&delays, cal);
             let mut expected = [0.0; CODES];
             for span in bins.spans() {
                 let survival = |t| (-hazard.at(t)).exp();

@@ -7,7 +7,7 @@ use toml_edit::{Item, Table};
 use crate::error::Result;
 use crate::files::toml::Checked;
 
-use super::model::{Firmware, Pll, Scenario, Stimulus};
+use super::model::{Control, Firmware, Pll, Scenario, Stimulus};
 use super::window::Window;
 
 /// Frequency of the whole-cycle clock that the firmware is built for [Hz].
@@ -20,6 +20,7 @@ pub fn validate(scenario: &Scenario, checked: &Checked) -> Result<()> {
     clocks(scenario, checked)?;
     stimulus(scenario, checked)?;
     spads(scenario, checked)?;
+    laser(scenario, checked)?;
     control(scenario, checked)?;
     dark_frames(scenario, checked)
 }
@@ -68,6 +69,24 @@ fn spads(scenario: &Scenario, checked: &Checked) -> Result<()> {
     }
     if on_tdc > 1 && scenario.stimulus.photons.is_some() {
         return fault("1: the photons of a list (stimulus.photons) are those of one");
+    }
+    Ok(())
+}
+
+/// Codes of rates that there are.
+fn laser(scenario: &Scenario, checked: &Checked) -> Result<()> {
+    let firmware = &scenario.firmware;
+    let last = firmware.laser_periods.len() as u64 - 1;
+    let own = ("firmware.laser_freq".to_owned(), Some(firmware.laser_freq));
+    let change = |(k, change): (usize, &Control)| {
+        (format!("control.{k}.laser_freq"), change.laser_freq)
+    };
+    let changes = scenario.control.iter().enumerate().map(change);
+    for (key, code) in [own].into_iter().chain(changes) {
+        if let Some(code) = code.filter(|code| *code > last) {
+            let expected = format!("expected {last} at most, the last of firmware.laser_periods");
+            return Err(checked.fault(&key, expected).value(code).into());
+        }
     }
     Ok(())
 }

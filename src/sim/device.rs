@@ -127,11 +127,12 @@ impl Device {
         let now = self.next_edge();
         self.before_edge(Edge::Both, now, probe, listener);
         self.settle(now, probe, listener);
+        let lit = self.top.nets.laser_on;
         self.top.rise(p, &mut self.line, now);
         if self.top.socket.algo_done {
             self.timeline.take_depth(self.pll.clk_sys.rise(self.cycle));
         }
-        self.react(now);
+        self.react(now, lit);
         if T::ON {
             self.clocks(true, true);
             probe.sample(now, &self.top);
@@ -142,7 +143,7 @@ impl Device {
         self.before_edge(Edge::Middle, middle, probe, listener);
         let unseen = self.settle(middle, probe, listener);
         let before = self.top.registers_laser();
-        self.top.rise_laser();
+        self.top.rise_laser(p);
         if T::ON {
             self.clocks(false, true);
             if unseen || self.top.registers_laser() != before {
@@ -268,9 +269,10 @@ impl Device {
         }
     }
 
-    /// What the detector and the light do about the signals that the edge at `now` changed.
+    /// What the detector and the light do about the signals that the edge at `now` changed, if the laser
+    /// was on before or was not.
     #[inline(always)]
-    pub(super) fn react(&mut self, now: Time) {
+    pub(super) fn react(&mut self, now: Time, lit: bool) {
         let passive = self.top.control_sync.mode_sync;
         if passive != self.spads.is_passive() {
             self.spads.set_passive(passive, now);
@@ -278,7 +280,8 @@ impl Device {
                 self.draw(now);
             }
         }
-        let (start, laser) = (self.top.vcsel_driver.registers.start, self.top.nets.laser_on);
+        let laser = self.top.nets.laser_on && !lit;
+        let start = self.top.vcsel_driver.registers.start;
         let hold = self.top.spad_control.spad_rst;
         if start || laser {
             self.light.begin_shot(now, laser);

@@ -1,6 +1,7 @@
 //! From a scenario to a device: what elaboration, optics and stimuli come to.
 
 mod expectations;
+mod fits;
 mod notes;
 mod stimulus;
 
@@ -17,7 +18,7 @@ use crate::kernel::{S, Time, U};
 use crate::network::estimate::estimate;
 use crate::network::{Histogram, Network};
 use crate::note::Note;
-use crate::optics::{Budget, Hazard};
+use crate::optics::{Bins, Budget, Hazard};
 use crate::scenario::builtin::Source;
 use crate::scenario::window::Window;
 use crate::scenario::{self, EstimatorKind, Loaded, Scenario, chain};
@@ -32,8 +33,8 @@ use stimulus::stimulus;
 
 /// Period of `clk_sys`.
 pub const CYCLE: Time = Time::from_ns(8);
-/// Cycles of a frame beside its shots and the estimator: Clear, Drain and two hand-overs.
-const OVERHEAD: u64 = 256 + 1 + 16 + 1;
+/// Cycles of a frame beside its shots, Drain and the estimator: Clear and two hand-overs.
+const OVERHEAD: u64 = 256 + 1 + 1;
 /// The same with a preloaded histogram.
 const OVERHEAD_PRELOADED: u64 = 256 + 1;
 
@@ -98,8 +99,13 @@ impl Setup {
             frame_ctrl: frame_ctrl::Params {
                 shots_per_frame: scenario.firmware.shots_of_a_frame() as u16,
                 preloaded: matches!(histogram_source, HistogramSource::Preload(_)),
+                drain_cycles: scenario.firmware.drain_cycles,
             },
-            tdc: tdc::Params::new(delays, cal, scenario.tdc.count_stages),
+            vcsel_driver: vcsel_driver::Params {
+                periods: scenario.firmware.laser_periods.clone(),
+                pulse_half_cycles: scenario.firmware.pulse_half_cycles,
+            },
+            tdc: tdc::Params::new(delays, cal, scenario.tdc.coarse_bits, scenario.tdc.count_stages),
             depth_estimator: network.params(),
             centroid_estimator: centroid(&scenario.estimator),
             estimator: match scenario.estimator.kind {
@@ -109,6 +115,7 @@ impl Setup {
             code_source,
             histogram_source,
         };
+        fits::check(&name, &params)?;
         let (pll, pins) = (Pll::new(&pll_params), pins_at_power_up(&scenario.firmware));
         let no_depth = None;
         let setup =
@@ -138,15 +145,25 @@ impl Setup {
         device
     }
 
-    /// Length of an undisturbed frame at a laser rate: from the edge that begins Clear to the one
+    /// Period of the laser at power-up [cycles of clk_sys].
+    pub fn laser_period(&self) -> u64 {
+        self.params.vcsel_driver.period(U::new(self.scenario.firmware.laser_freq))
+    }
+
+    /// Which avalanche times give which code.
+    pub fn bins(&self) -> Bins {
+        Bins::of_tdc(&self.params.tdc, CYCLE)
+    }
+
+    /// Length of an undisturbed frame with such a laser period: from the edge that begins Clear to the one
     /// that raises `algo_done` [cycles of clk_sys].
-    pub fn frame_cycles(&self, laser_freq: usize) -> u64 {
+    pub fn frame_cycles(&self, laser_period: u64) -> u64 {
         let (ctrl, estimator) = (&self.params.frame_ctrl, self.params.estimator_cycles());
         if ctrl.preloaded {
             return OVERHEAD_PRELOADED + estimator;
         }
-        let shots = ctrl.shots_per_frame as u64 * vcsel_driver::PERIODS[laser_freq];
-        shots + OVERHEAD + estimator
+        let shots = ctrl.shots_per_frame as u64 * laser_period;
+        shots + ctrl.drain_cycles + OVERHEAD + estimator
     }
 
     /// The depth that the estimator in the socket finds in a histogram, without its clock.
@@ -183,7 +200,7 @@ impl Setup {
         if held || !self.scenario.control.is_empty() {
             return None;
         }
-        let frame = self.frame_cycles(firmware.laser_freq as usize) + 1;
+        let frame = self.frame_cycles(self.laser_period()) + 1;
         let edge = frames.checked_mul(frame).filter(|edge| *edge < LONGEST)? + 2;
         Some(self.pll.clk_sys.rise(edge))
     }
@@ -257,7 +274,7 @@ impl Setup {
     pub fn longest_run(&self, frames: u64) -> u64 {
         let changes = &self.scenario.control;
         let last_us = changes.last().map_or(0.0, |change| change.at_us);
-        let longest_frame = self.frame_cycles(0) + 16;
+        let longest_frame = self.frame_cycles(self.params.vcsel_driver.longest_period()) + 16;
         let begun = frames.saturating_add(changes.len() as u64 + 1);
         begun.saturating_mul(longest_frame).saturating_add((last_us * 125.0) as u64)
     }

@@ -1,7 +1,7 @@
 //! Writes the waveform while a window is open.
 
 use crate::error::{Input, Result};
-use crate::firmware::frame_ctrl::{self, FrameCtrl, LAST_DRAIN, LAST_WORD, State as FrameState};
+use crate::firmware::frame_ctrl::{self, FrameCtrl, LAST_WORD, State as FrameState};
 use crate::firmware::tof_top::{Params, TofTop};
 use crate::kernel::Time;
 use crate::scenario::window::{Moment, Window};
@@ -203,7 +203,7 @@ fn is_estimating(ctrl: &FrameCtrl, p: &frame_ctrl::Params) -> bool {
         FrameState::Clear if ctrl.frame_done => true,
         FrameState::Clear => p.preloaded && ctrl.clear_addr.get() + NEAR >= LAST_WORD,
         FrameState::Acquire => false,
-        FrameState::Drain => ctrl.drain.get() + NEAR >= LAST_DRAIN,
+        FrameState::Drain => ctrl.drain.get() + NEAR >= p.last_drain(),
         FrameState::Estimate => true,
     }
 }

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use crate::firmware::carry_chain::{Delays, StopLine, TAPS};
 use crate::firmware::forward2::{MOST_NEURONS, NEURONS};
 use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Pins, TofTop};
-use crate::firmware::{centroid_estimator, depth_estimator, forward2, frame_ctrl, tdc};
+use crate::firmware::{
+    centroid_estimator, depth_estimator, forward2, frame_ctrl, tdc, vcsel_driver,
+};
 use crate::kernel::{S, Time, U};
 
 use super::writer::Waves;
@@ -29,8 +31,13 @@ pub(super) fn with_delays(taps: &[i64]) -> Params {
     let rom = std::array::from_fn(|row| std::array::from_fn(|neuron| weight(row, neuron)));
     let tansig = std::array::from_fn(|address| S::new((address as i64 - 2048) * 8));
     Params {
-        frame_ctrl: frame_ctrl::Params { shots_per_frame: SHOTS, preloaded: false },
-        tdc: tdc::Params::new(delays, cal, 3),
+        frame_ctrl: frame_ctrl::Params {
+            shots_per_frame: SHOTS,
+            preloaded: false,
+            drain_cycles: frame_ctrl::DRAIN_CYCLES,
+        },
+        vcsel_driver: vcsel_driver::Params::default(),
+        tdc: tdc::Params::new(delays, cal, 3, 3),
         depth_estimator: depth_estimator::Params {
             forward1: Arc::new(rom),
             tansig: Arc::new(tansig),
@@ -83,7 +90,7 @@ impl Bench {
             self.top.clocks.clk_sys = quarter < 2;
             match quarter {
                 0 => self.top.rise(&self.params, &mut self.line, now),
-                2 => self.top.rise_laser(),
+                2 => self.top.rise_laser(&self.params),
                 _ => self.top.fall_laser(),
             }
             if quarter == 0 && self.top.spad_control.spad_rst && held {

@@ -5,6 +5,7 @@ mod detector;
 mod scipy;
 mod subtraction;
 
+use tofsim::firmware::tdc;
 use tofsim::kernel::Time;
 use tofsim::network::Histogram;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
@@ -26,7 +27,8 @@ const SHOTS: u64 = 30_000;
 fn bins(profile: &str) -> Bins {
     let (delays, period) = (chain::load(profile, &Place::Folder("".into())).unwrap(), 8);
     let period = Time::from_ns(period);
-    Bins::of_chain(&delays, &delays.calibration(period), period)
+    let cal = delays.calibration(period);
+    Bins::of_tdc(&tdc::Params::new(delays, cal, 3, 3), period)
 }
 
 fn acquisition(bins: &Bins) -> Acquisition<'_> {

@@ -5,8 +5,9 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use tofsim::firmware::forward2::{MOST_NEURONS, NEURONS};
-use tofsim::hierarchy::{Entry, Kind, every_entry, fitted};
+use tofsim::firmware::forward2::MOST_NEURONS;
+use tofsim::firmware::tof_top::Sizes;
+use tofsim::hierarchy::{Kind, every_entry_of};
 use tofsim_rtl::golden::BLOCKS;
 use tofsim_rtl::golden::ports::Port;
 use tofsim_rtl::verify::interface::PortShape;
@@ -58,18 +59,16 @@ fn vector(output: bool, width: u32) -> PortShape {
     PortShape { output, width, words: None }
 }
 
+/// Ports for the most neurons; all else is as large as by default.
+fn sizes() -> Sizes {
+    Sizes { neurons: MOST_NEURONS, ..Sizes::default() }
+}
+
 /// Ports of each module as Rust has them; a module with several instances has one name for all.
-/// There are ports for the most neurons, as wide as the default number of them needs.
 fn rust_ports() -> BTreeMap<String, Ports> {
     let mut modules = BTreeMap::<String, Ports>::new();
-    let narrow = |mut entry: Entry| {
-        if let Some(signal) = fitted(entry.signal.clone(), NEURONS) {
-            entry.signal = signal;
-        }
-        entry
-    };
-    let ports = every_entry().into_iter().filter(|entry| entry.kind != Kind::Internal);
-    for entry in ports.map(narrow) {
+    let entries = every_entry_of(&sizes()).into_iter();
+    for entry in entries.filter(|entry| entry.kind != Kind::Internal) {
         let instance = entry.scope.rsplit('.').next().unwrap();
         let module = if instance.starts_with("reset_sync_") { "reset_sync" } else { instance };
         let port = vector(entry.kind == Kind::Output, entry.signal.width);
@@ -111,8 +110,7 @@ fn ports_widths_and_directions_are_the_same() {
     }
     for spec in BLOCKS {
         let port = |port: Port| (port.name, vector(port.output, port.width));
-        let of = |neurons| spec.ports(neurons).into_iter().map(port).collect::<Ports>();
-        let vectors = Ports::from_iter(of(MOST_NEURONS).into_iter().chain(of(NEURONS)));
+        let vectors: Ports = spec.ports(&sizes()).into_iter().map(port).collect();
         assert_eq!(rust[spec.name], vectors, "ports of the golden block {}", spec.name);
     }
 }

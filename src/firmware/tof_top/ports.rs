@@ -1,6 +1,7 @@
 //! Pins, wires and parameters of the top.
 
 use crate::firmware::forward2::Depth;
+use crate::firmware::vcsel_driver::{self, Rate};
 use crate::firmware::{centroid_estimator, depth_estimator, frame_ctrl, histogram_preload, tdc};
 use crate::kernel::U;
 use crate::signals;
@@ -15,7 +16,8 @@ signals! {
         /// SPAD quench mode (Table 6.2), asynchronous.
         pub mode: bool,
         /// Laser repetition rate (Table 6.1), asynchronous.
-        pub laser_freq: U<2>,
+        #[size("RateBits")]
+        pub laser_freq: Rate,
         /// Lets the laser fire, asynchronous.
         pub laser_en: bool,
         /// Lets the estimator start, asynchronous.
@@ -109,6 +111,8 @@ pub struct Socket {
 pub struct Params {
     /// Frame length.
     pub frame_ctrl: frame_ctrl::Params,
+    /// Laser periods and pulse.
+    pub vcsel_driver: vcsel_driver::Params,
     /// Delay chain and its ROM.
     pub tdc: tdc::Params,
     /// ROMs of the network.

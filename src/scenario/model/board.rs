@@ -3,6 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::firmware::frame_ctrl::DRAIN_CYCLES;
+use crate::firmware::vcsel_driver::PERIODS;
+
 table! {
     /// The clock generator. The outputs have to be 125 and 250 MHz.
     pub struct Pll {
@@ -37,6 +40,9 @@ table! {
         /// hit; with two, the second sums 50 numbers in a cycle.
         #[schemars(range(min = 2, max = 3), extend("unit" = "cycles", "source" = "docs/timing.md"))]
         pub count_stages: u64 = 3,
+        /// Width of the coarse count: a shot's window has as many cycles as it can count, 8 with three bits.
+        #[schemars(range(min = 1, max = 12), extend("unit" = "bit", "source" = "section 6.5"))]
+        pub coarse_bits: u32 = 3,
     }
 }
 
@@ -72,9 +78,22 @@ impl From<QuenchMode> for u64 {
 table! {
     /// Control signals at power-up, and the frame.
     pub struct Firmware {
-        /// Laser repetition rate: 0 .. 3 for 5, 9.615, 15.625, 20.833 MHz.
-        #[schemars(range(min = 0, max = 3), extend("unit" = "code", "source" = "Table 6.1"))]
+        /// Laser repetition rate: which of `laser_periods`, from 0; of the default ones 0 .. 3 for 5, 9.615,
+        /// 15.625, 20.833 MHz.
+        #[schemars(range(min = 0, max = 7), extend("unit" = "code", "source" = "Table 6.1"))]
         pub laser_freq: u64 = 3,
+        /// Laser period for each `laser_freq`.
+        #[schemars(length(min = 1, max = 8), inner(range(min = 4, max = 65_535)))]
+        #[schemars(extend("unit" = "cycles of clk_sys", "source" = "Table 6.1"))]
+        pub laser_periods: Vec<u64> = PERIODS.to_vec(),
+        /// Length of the laser pulse.
+        #[schemars(range(min = 1, max = 8))]
+        #[schemars(extend("unit" = "half cycles of clk_laser", "source" = "section 6.3: 2 ns"))]
+        pub pulse_half_cycles: u32 = 1,
+        /// Length of Drain, in which the last photons of a frame come to their words.
+        #[schemars(range(min = 8, max = 65_536))]
+        #[schemars(extend("unit" = "cycles of clk_sys", "source" = "choice: twice the window; docs/model.md"))]
+        pub drain_cycles: u64 = DRAIN_CYCLES,
         /// SPAD quench mode: 0 resets before each shot, 1 recovers after the dead time.
         #[schemars(range(min = 0, max = 1), extend("unit" = "code", "source" = "Table 6.2"))]
         #[schemars(with = "u64")]
@@ -155,8 +174,8 @@ pub struct Control {
     /// When, from power-up.
     #[schemars(range(min = 0.0, max = 1e9), extend("unit" = "us", "source" = "choice"))]
     pub at_us: f64,
-    /// Laser repetition rate, 0 .. 3.
-    #[schemars(range(min = 0, max = 3), extend("unit" = "code", "source" = "Table 6.1"))]
+    /// Laser repetition rate: which of `firmware.laser_periods`.
+    #[schemars(range(min = 0, max = 7), extend("unit" = "code", "source" = "Table 6.1"))]
     pub laser_freq: Option<u64>,
     /// SPAD quench mode, 0 or 1.
     #[schemars(range(min = 0, max = 1), extend("unit" = "code", "source" = "Table 6.2"))]

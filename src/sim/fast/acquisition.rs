@@ -57,21 +57,22 @@ pub fn acquire(
         } else if !emits {
             let quiet = limit.min(emitter_wakes).min(converter_wakes) - device.cycle;
             let cycles = cycles_until_event(device, quiet, now, period);
-            skip_emitter(&mut device.top, cycles);
+            skip_emitter(&mut device.top, p, cycles);
             device.cycle += cycles;
             now += Time::from_fs(cycles * period.fs());
             continue;
         }
         device.cycle += 1;
         if !emits {
-            skip_emitter(&mut device.top, 1);
+            skip_emitter(&mut device.top, p, 1);
             now += period;
             continue;
         }
+        let lit = device.top.nets.laser_on;
         emit(&mut device.top, p);
-        device.react(now);
-        rest_of_cycle(&mut device.top);
-        emitter_wakes = device.cycle.saturating_add(emitter_quiet(&device.top));
+        device.react(now, lit);
+        rest_of_cycle(&mut device.top, p);
+        emitter_wakes = device.cycle.saturating_add(emitter_quiet(&device.top, p));
         if rouses_converter(&device.top, &device.line) {
             converter_wakes = device.cycle;
         }

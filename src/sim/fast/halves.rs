@@ -14,8 +14,8 @@ use crate::kernel::{AWAKE, Clocked, Time};
 
 /// Coming cycles in which nothing of the emitter would move but the laser's count.
 #[inline(always)]
-pub(super) fn emitter_quiet(top: &TofTop) -> u64 {
-    match top.vcsel_driver.quiet(&laser_inputs(top)) {
+pub(super) fn emitter_quiet(top: &TofTop, p: &Params) -> u64 {
+    match top.vcsel_driver.quiet(&laser_inputs(top), &p.vcsel_driver) {
         AWAKE => AWAKE,
         edges => edges.min(top.spad_control.quiet(&spad_inputs(top), &())),
     }
@@ -61,23 +61,23 @@ pub(super) fn emit(top: &mut TofTop, p: &Params) {
         top.frame_ctrl = top.frame_ctrl.next(&i, &p.frame_ctrl);
     }
     top.spad_control = top.spad_control.next(&spad_inputs(top), &());
-    top.vcsel_driver.rise(&laser);
+    top.vcsel_driver.rise(&laser, &p.vcsel_driver);
     top.drive_laser();
 }
 
 /// The rest of the emitter's cycle: `clk_laser` falls, rises and falls.
 #[inline(always)]
-pub(super) fn rest_of_cycle(top: &mut TofTop) {
+pub(super) fn rest_of_cycle(top: &mut TofTop, p: &Params) {
     top.vcsel_driver.fall_laser();
-    top.vcsel_driver.rise_laser(&laser_inputs(top));
+    top.vcsel_driver.rise_laser(&laser_inputs(top), &p.vcsel_driver);
     top.vcsel_driver.fall_laser();
     top.drive_laser();
 }
 
 /// Stands for that many cycles of the emitter, all of them quiet.
 #[inline(always)]
-pub(super) fn skip_emitter(top: &mut TofTop, cycles: u64) {
-    top.vcsel_driver.skip(&laser_inputs(top), cycles);
+pub(super) fn skip_emitter(top: &mut TofTop, p: &Params, cycles: u64) {
+    top.vcsel_driver.skip(&laser_inputs(top), &p.vcsel_driver, cycles);
 }
 
 /// Stands for that many cycles of the converter, all of them quiet.

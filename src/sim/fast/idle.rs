@@ -24,7 +24,7 @@ pub fn skip_idle(device: &mut Device, p: &Params, limit: u64) {
         let cycles = cycles_until_event(device, cycles, now, period);
         let top = &mut device.top;
         top.frame_ctrl.skip(&Wires::frame_ctrl(top), &p.frame_ctrl, cycles);
-        skip_emitter(top, cycles);
+        skip_emitter(top, p, cycles);
         skip_converter(top, p, cycles);
         device.cycle += cycles;
     }
@@ -51,7 +51,7 @@ fn quiet(top: &TofTop, p: &Params, line: &StopLine) -> u64 {
         .min(top.reset_sync_sys.quiet(&Wires::reset_sync_sys(top), &()))
         .min(top.reset_sync_laser.quiet(&Wires::reset_sync_laser(top), &()))
         .min(top.control_sync.quiet(&Wires::control_sync(top), &()))
-        .min(emitter_quiet(top))
+        .min(emitter_quiet(top, p))
         .min(converter_quiet(top, p, line));
     if quiet != AWAKE && estimator_rests(top, p) { quiet } else { AWAKE }
 }

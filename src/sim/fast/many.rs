@@ -95,9 +95,8 @@ impl Run<'_> {
     /// Where frame `frame` begins; `self` is where an earlier one of its kind does.
     fn of_frame(&self, frame: u64) -> Self {
         let mut run = self.clone();
-        let rate = self.setup.scenario.firmware.laser_freq as usize;
         let frames = frame - self.frames.done();
-        let cycles = frames * (self.setup.frame_cycles(rate) + 1);
+        let cycles = frames * (self.setup.frame_cycles(self.setup.laser_period()) + 1);
         pass(&mut run.device, cycles, frame);
         let counts = &mut run.frames;
         counts.done = frame;

@@ -93,6 +93,7 @@ impl EstimatorKind {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tofsim::firmware::tdc;
     use tofsim::kernel::Time;
     use tofsim::optics::Bins;
     use tofsim::scenario::{builtin::Source, chain};
@@ -101,7 +102,8 @@ mod tests {
     fn every_estimator_answers_to_its_name() {
         let delays = chain::load("ideal", &Source::Folder("".into())).unwrap();
         let period = Time::from_ns(8);
-        let bins = &Bins::of_chain(&delays, &delays.calibration(period), period);
+        let cal = delays.calibration(period);
+        let bins = &Bins::of_tdc(&tdc::Params::new(delays, cal, 3, 3), period);
         let network = &Network::builtin("ideal").unwrap().unwrap();
         let acquisition = Acquisition::new(bins, 30_000, 137.0);
         let centroid = &centroid_estimator::Params::default();

@@ -141,13 +141,15 @@ impl Estimator for PeakDetection {
 mod tests {
     use super::*;
     use tofsim::firmware::carry_chain::{Delays, TAPS};
+    use tofsim::firmware::tdc;
     use tofsim::kernel::Time;
 
     #[test]
     fn bins_of_a_chain_are_scaled_to_25_ps() {
         let delays = Delays::new(Time::from_fs(2_230_000), &[11_500; TAPS]).unwrap();
         let period = Time::from_ns(8);
-        let bins = Bins::of_chain(&delays, &delays.calibration(period), period);
+        let cal = delays.calibration(period);
+        let bins = Bins::of_tdc(&tdc::Params::new(delays, cal, 3, 3), period);
         let mut counts = [0.0; 256];
         for span in bins.spans() {
             counts[span.code as usize] += (span.until - span.from).fs() as f64 * 1e-3;
@@ -164,7 +166,8 @@ mod tests {
     fn codes_that_no_time_gives_are_left_out() {
         let delays = Delays::new(Time::from_fs(2_000_000), &[40_000; TAPS]).unwrap();
         let period = Time::from_ns(8);
-        let bins = Bins::of_chain(&delays, &delays.calibration(period), period);
+        let cal = delays.calibration(period);
+        let bins = Bins::of_tdc(&tdc::Params::new(delays, cal, 3, 3), period);
         let detection = PeakDetection::of_bins(30_000, &bins);
         assert!(detection.bins.len() < 256);
         assert!(detection.bins.windows(2).all(|pair| pair[0].centre_ps < pair[1].centre_ps));

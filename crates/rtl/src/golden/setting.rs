@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 
 use tofsim::error::{Error, Input};
-use tofsim::firmware::carry_chain::TAPS;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::sim::setup::Setup;
 
@@ -78,7 +77,7 @@ impl Setting {
     /// Full-size chain and histogram, random control, the scenario's own seed.
     pub fn new(setup: Setup) -> Self {
         let seed = setup.scenario.seed;
-        let (taps, bins) = (TAPS, BINS as u64);
+        let (taps, bins) = (setup.params.tdc.delays.taps(), BINS as u64);
         Setting {
             setup,
             as_told: false,

@@ -1,6 +1,7 @@
 //! What a block is, and what its golden vectors are.
 
 use tofsim::error::Result;
+use tofsim::firmware::tof_top::Sizes;
 use tofsim::hierarchy;
 use tofsim::kernel::Time;
 use tofsim::network::mem::Mem;
@@ -114,8 +115,8 @@ pub struct Vectors {
     pub seed: u64,
     /// Name of the scenario.
     pub source: String,
-    /// Hidden neurons of the network.
-    pub neurons: usize,
+    /// Widths and numbers of signals of the design.
+    pub sizes: Sizes,
     /// Registers of the TDC's ones count.
     pub count_stages: u64,
     /// Verilog parameters.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use tofsim::firmware::forward2::NEURONS;
+use tofsim::firmware::tof_top::Sizes;
 
 use crate::golden::blocks;
 use crate::golden::ports::Port;
@@ -24,7 +24,7 @@ fn clock(port: &str) -> &'static str {
 /// behind every output, of the port's own clock.
 pub fn wrapper(block: &TimedBlock) -> String {
     let specs: Vec<_> = block.modules.iter().filter_map(|name| blocks::find(name)).collect();
-    let all: Vec<Port> = specs.iter().flat_map(|spec| spec.ports(NEURONS)).collect();
+    let all: Vec<Port> = specs.iter().flat_map(|spec| spec.ports(&Sizes::default())).collect();
     let is_driven = |name: &str| all.iter().any(|port| port.output && port.name == name);
     let is_read = |name: &str| all.iter().any(|port| !port.output && port.name == name);
     let (mut head, mut body, mut edges) = (Vec::new(), String::new(), BTreeMap::new());
@@ -59,7 +59,7 @@ pub fn wrapper(block: &TimedBlock) -> String {
     }
     for spec in &specs {
         let connected: Vec<_> =
-            spec.ports(NEURONS).iter().map(|port| format!(".{0}({0})", port.name)).collect();
+            spec.ports(&Sizes::default()).iter().map(|port| format!(".{0}({0})", port.name)).collect();
         let _ = writeln!(body, "    {0} {0} ({1});", spec.name, connected.join(", "));
     }
     format!("module {TOP} (\n{}\n);\n{body}endmodule\n", head.join(",\n"))

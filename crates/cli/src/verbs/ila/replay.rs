@@ -8,7 +8,6 @@ use tofsim::error::{Input, Result};
 use tofsim::files::folder::FolderLock;
 use tofsim::files::output::write_bytes;
 use tofsim::files::staged::StagedFolder;
-use tofsim::firmware::vcsel_driver::PERIODS;
 use tofsim::scenario::builtin::Source as Files;
 use tofsim::scenario::{Control, DEFAULT, Loaded, Scenario, load, show};
 use tofsim::sim::setup::Setup;
@@ -163,8 +162,9 @@ fn replayed(base: Loaded, replay: &Replay, list: &str) -> Result<Scenario> {
         ReplayKind::Histogram => stimulus.histogram = list,
     }
     let firmware = &mut scenario.firmware;
+    let periods = &firmware.laser_periods;
     let of_period =
-        replay.period().and_then(|period| PERIODS.iter().position(|own| *own == period));
+        replay.period().and_then(|period| periods.iter().position(|own| *own == period));
     let Control { laser_freq, mode, laser_en, dsp_en, dsp_rst, rst, .. } = replay.begin();
     let laser_freq = laser_freq.or(of_period.map(|code| code as u64));
     firmware.laser_freq = laser_freq.unwrap_or(firmware.laser_freq);

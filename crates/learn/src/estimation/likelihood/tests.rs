@@ -1,4 +1,5 @@
 use tofsim::firmware::carry_chain::{Delays, TAPS};
+use tofsim::firmware::tdc;
 use tofsim::kernel::Time;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 
@@ -10,7 +11,8 @@ const PERIOD: Time = Time::from_ns(8);
 /// A chain of taps that are alike.
 fn even(tap_fs: i64, offset_ps: u64) -> Bins {
     let delays = Delays::new(Time::from_fs(offset_ps * 1000), &[tap_fs; TAPS]).unwrap();
-    Bins::of_chain(&delays, &delays.calibration(PERIOD), PERIOD)
+    let cal = delays.calibration(PERIOD);
+    Bins::of_tdc(&tdc::Params::new(delays, cal, 3, 3), PERIOD)
 }
 
 /// A chain whose taps are far from alike, and whose ROM leaves holes.
@@ -19,7 +21,7 @@ fn uneven() -> Bins {
     let delays = Delays::new(Time::from_fs(2_500_000), &delays).unwrap();
     let mut cal = delays.calibration(PERIOD);
     cal[300..310].fill(tofsim::kernel::U::new(0));
-    Bins::of_chain(&delays, &cal, PERIOD)
+    Bins::of_tdc(&tdc::Params::new(delays, cal, 3, 3), PERIOD)
 }
 
 fn likelihood(bins: &Bins) -> Likelihood {

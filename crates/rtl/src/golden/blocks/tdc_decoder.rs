@@ -23,21 +23,24 @@ pub(super) const SPEC: Spec = Spec {
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let (mut params, taps) = (setting.setup.params.tdc.decoder.clone(), setting.places());
+    let count = params.taps();
     let cal = &mut params.cal;
-    let times = (0..COARSE).flat_map(|coarse| ENDS.map(|end| (coarse, end)));
+    let window = setting.setup.params.tdc.coarse_counter.window();
+    let coarse_used = COARSE.min(window);
+    let times = (0..coarse_used).flat_map(|coarse| ENDS.map(|end| (coarse, end)));
     // Coarse and ones count for a time at an end of the range.
-    let mut ends = Vec::new();
+    let mut edges = Vec::new();
     let times = times.filter(|_| !setting.constants.has("CalFile"));
     for (n, (coarse, end)) in (0..=taps).rev().zip(times) {
         cal[n] = U::new((CYCLE * (coarse as i64 + 1) - end) as u64);
-        ends.push((coarse, n));
+        edges.push((coarse, n));
     }
-    let all = (0..=taps).flat_map(|n| (0..COARSE).map(move |coarse| (coarse, n)));
+    let all = (0..=taps).flat_map(|n| (0..coarse_used).map(move |coarse| (coarse, n)));
     let reachable = all.filter_map(|(coarse, n)| Some(code(coarse, n, cal)?.get()));
     let mut codes = Cover::new("codes", reachable);
     let mut ones = Cover::new("ones count", 0..=taps as u64);
-    let mut coarses = Cover::new("coarse", 0..8);
-    let mut times = Cover::new("coarse x 4 + time -1, 0, 4095, 4096", 0..ends.len() as u64);
+    let mut coarses = Cover::new("coarse", ends(window));
+    let mut times = Cover::new("coarse x 4 + time -1, 0, 4095, 4096", 0..edges.len() as u64);
     let mut situations = Cover::new("rst, hit, hit before as bits", 0..8);
     let mut run = Recorder::new(spec, setting, In::list());
     let mut hits_swept = 0;
@@ -48,11 +51,12 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let (rst, hit) = (cycle > 0 && draw.one_in(40), draw.one_in(2));
         let rst = rst || cycle == FIRST_RESET;
         let (round, n) = (hits_swept / (taps + 1), hits_swept % (taps + 1));
-        let special = if ends.is_empty() { 1 + draw.below(7) } else { draw.below(8) };
+        let special = if edges.is_empty() { 1 + draw.below(7) } else { draw.below(8) };
         let (coarse, n) = match special {
-            0 => ends[draw.below(ends.len() as u64) as usize],
-            1 => (draw.below(8), n),
-            _ => (round as u64 % COARSE, n),
+            0 => edges[draw.below(edges.len() as u64) as usize],
+            1 if window > 16 => (draw.near_ends(window), n),
+            1 => (draw.below(window), n),
+            _ => (round as u64 % coarse_used, n),
         };
         hits_swept += usize::from(hit && !rst && special > 1);
 
@@ -62,30 +66,31 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         if let Some((n, coarse)) = counted[1].filter(|_| !rst) {
             ones.see(n);
             coarses.see(coarse);
-            let ends = ends.iter().zip(0..).filter(|(end, _)| **end == (coarse, n as usize));
-            ends.for_each(|(_, case)| times.see(case));
+            let edges = edges.iter().zip(0..).filter(|(edge, _)| **edge == (coarse, n as usize));
+            edges.for_each(|(_, case)| times.see(case));
         }
         counted = if rst { [None; 2] } else { [decoder.counted(), counted[0]] };
-        let hit_taps = with_ones(n, taps, draw);
+        let hit_taps = with_ones(n, (taps, count), draw);
         let i = In { rst, hit, hit_coarse: U::new(coarse), hit_taps };
         run.line(&i);
         run.top.tdc.tdc_decoder = decoder.next(&i, &params);
     }
     let mut parameters = files(["CalFile"], [mem::tdc_decoder(&params.cal)]);
     parameters.extend(parameters::count_stages(&params));
+    parameters.extend(parameters::sized(&setting.setup.params, &["Taps", "CoarseBits"]));
     Ok(Vectors { parameters, ..run.vectors([ones, coarses, codes, times, situations]) })
 }
 
-/// So many ones among the first taps, in one run or two, with the gaps anywhere.
-fn with_ones(n: usize, taps: usize, draw: &mut Draw) -> Taps {
+/// So many ones among the first `taps` of a chain of `count`, in one run or two, with the gaps anywhere.
+fn with_ones(n: usize, (taps, count): (usize, usize), draw: &mut Draw) -> Taps {
     let zeros = taps - n;
     let mut below = |n: usize| draw.below(n as u64 + 1) as usize;
     let (begin, first) = (below(zeros), below(n));
     let gap = below(zeros - begin);
     let second = begin + first + gap;
     match below(2) {
-        0 => Taps::new(true, [n]),
-        1 => Taps::new(false, [begin, begin + n]),
-        _ => Taps::new(false, [begin, begin + first, second, second + n - first]),
+        0 => Taps::clipped(count, true, [n]),
+        1 => Taps::clipped(count, false, [begin, begin + n]),
+        _ => Taps::clipped(count, false, [begin, begin + first, second, second + n - first]),
     }
 }

@@ -8,7 +8,7 @@ use tofsim::firmware::estimator_ctrl::EstimatorCtrl;
 use tofsim::firmware::forward1::BIAS_ROW;
 use tofsim::firmware::forward2::{MOST_NEURONS, Rom};
 use tofsim::firmware::spad_control::{self, SpadControl};
-use tofsim::firmware::vcsel_driver::{self, PERIODS, VcselDriver};
+use tofsim::firmware::vcsel_driver::{self, VcselDriver};
 use tofsim::kernel::{Clocked, S, U};
 use tofsim::network::roms::tansig_table;
 
@@ -25,7 +25,7 @@ pub fn measure(neurons: usize) -> Measured {
     estimator(neurons, &mut measured);
     centroid(&mut measured);
     for mode in [false, true] {
-        (0..PERIODS.len()).for_each(|code| shots(mode, code as u64, &mut measured));
+        (0..vcsel_driver::PERIODS.len()).for_each(|code| shots(mode, code as u64, &mut measured));
     }
     measured
 }
@@ -95,10 +95,10 @@ fn shots(mode: bool, code: u64, measured: &mut Measured) {
         laser_en: true,
         laser_freq,
     };
-    let mut driver = VcselDriver::default();
-    driver.rise(&i);
+    let (mut driver, p) = (VcselDriver::default(), vcsel_driver::Params::default());
+    driver.rise(&i, &p);
     driver.fall_laser();
-    driver.rise_laser(&i);
+    driver.rise_laser(&i, &p);
     driver.fall_laser();
     let mut spad = SpadControl::default();
     i.acquire = true;
@@ -107,7 +107,7 @@ fn shots(mode: bool, code: u64, measured: &mut Measured) {
     for k in 1..PATIENCE {
         let pre_start = driver.registers.pre_start;
         spad = spad.next(&spad_control::In { rst: false, mode, pre_start }, &());
-        driver.rise(&i);
+        driver.rise(&i, &p);
         if driver.registers.pre_start {
             pre_start_at = k;
         }
@@ -129,7 +129,7 @@ fn shots(mode: bool, code: u64, measured: &mut Measured) {
         for half in 0..4 {
             match half {
                 0 => {}
-                2 => driver.rise_laser(&i),
+                2 => driver.rise_laser(&i, &p),
                 _ => driver.fall_laser(),
             }
             let now = (4 * k + half) * HALF;
