@@ -155,7 +155,7 @@ mod tests {
         }
 
         fn taps(&mut self, id: usize, value: &Thermometer, group: usize) {
-            let mut taps = bitvec![u64, Lsb0; 0; N];
+            let mut taps = bitvec![u64, Lsb0; 0; self.1.len()];
             for (place, &tap) in self.1.iter().enumerate() {
                 taps.set(tap as usize, value.tap(place));
             }
