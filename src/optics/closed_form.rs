@@ -175,7 +175,8 @@ pub(super) mod tests {
             let edge = Time::from_fs((coarse + 1) * PERIOD.fs());
             let taps = line.sample(edge.max(t), delays);
             if edge >= t && taps.tap(delays.tap_0_position()) {
-                return tdc_decoder::code(coarse, taps.ones(TAPS), cal).map(|code| code.get() as u8);
+                return tdc_decoder::code(coarse, taps.ones(TAPS), cal)
+                    .map(|code| code.get() as u8);
             }
         }
         None

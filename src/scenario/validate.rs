@@ -78,9 +78,8 @@ fn laser(scenario: &Scenario, checked: &Checked) -> Result<()> {
     let firmware = &scenario.firmware;
     let last = firmware.laser_periods.len() as u64 - 1;
     let own = ("firmware.laser_freq".to_owned(), Some(firmware.laser_freq));
-    let change = |(k, change): (usize, &Control)| {
-        (format!("control.{k}.laser_freq"), change.laser_freq)
-    };
+    let change =
+        |(k, change): (usize, &Control)| (format!("control.{k}.laser_freq"), change.laser_freq);
     let changes = scenario.control.iter().enumerate().map(change);
     for (key, code) in [own].into_iter().chain(changes) {
         if let Some(code) = code.filter(|code| *code > last) {

@@ -48,8 +48,7 @@ impl Run<'_> {
         let shown = std::array::from_fn(|k| Shown::new(found[k]));
         let taps = self.setup.params.tdc.delays.taps();
         let values = Values { of_id: Box::new([0; IDS]), taps };
-        let mut stepper =
-            Stepper { shown, part, values, number: 0, each, end: None };
+        let mut stepper = Stepper { shown, part, values, number: 0, each, end: None };
         let outcome = self.traced(count, &mut stepper, None)?;
         stepper.end.unwrap_or(Ok(()))?;
         Ok(outcome)

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use tofsim::firmware::forward2::MOST_NEURONS;
 use tofsim::firmware::tof_top::Sizes;
+use tofsim::firmware::vcsel_driver;
 use tofsim::hierarchy::{Kind, every_entry_of};
 use tofsim_rtl::golden::BLOCKS;
 use tofsim_rtl::golden::ports::Port;
@@ -134,6 +135,43 @@ fn vendor_primitives_stay_in_their_files() {
             let allowed = files.contains(&stem.as_str());
             let found = text.contains(primitive);
             assert_eq!(found, allowed, "{primitive} in rtl_ref/{stem}.v");
+        }
+    }
+}
+
+/// Parameters that say how large things are, and what each is by default.
+fn defaults() -> [(&'static str, String); 8] {
+    let (sizes, laser) = (Sizes::default(), vcsel_driver::Params::default());
+    let width = |name| sizes.width(name).unwrap().to_string();
+    let [shortest, others @ ..] = [3, 2, 1, 0].map(|rate| format!("16'd{}", laser.periods[rate]));
+    [
+        ("Taps", width("Taps")),
+        ("CoarseBits", width("CoarseBits")),
+        ("RateBits", width("RateBits")),
+        ("PeriodBits", width("PeriodBits")),
+        ("Halves", width("Halves")),
+        ("PulseHalfCycles", laser.pulse_half_cycles.to_string()),
+        ("DrainCycles", format!("17'd{}", sizes.drain_cycles)),
+        ("LaserPeriods", format!("{{{{5{{{shortest}}}}}, {}}}", others.join(", "))),
+    ]
+}
+
+#[test]
+fn parameters_have_the_same_defaults() {
+    for (name, default) in defaults() {
+        let declared = sources().into_iter().flat_map(|(stem, text)| {
+            let lines = text.lines().filter(|line| line.trim_start().starts_with("parameter "));
+            let values = lines.filter_map(|line| line.split_once(&format!(" {name} = ")));
+            let value = |(_, value): (&str, &str)| {
+                let value = value.split("//").next().unwrap_or_default().trim();
+                (stem.clone(), value.trim_end_matches(',').to_owned())
+            };
+            values.map(value).collect::<Vec<_>>()
+        });
+        let declared: Vec<_> = declared.collect();
+        assert!(!declared.is_empty(), "no module has {name}");
+        for (stem, value) in declared {
+            assert_eq!(value, default, "{name} in rtl_ref/{stem}.v, and as Rust has it");
         }
     }
 }

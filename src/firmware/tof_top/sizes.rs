@@ -3,8 +3,8 @@
 use crate::firmware::carry_chain::TAPS;
 use crate::firmware::forward2::NEURONS;
 use crate::firmware::{frame_ctrl, vcsel_driver};
-use crate::kernel::signals::{Signal, SignalFormat};
 use crate::kernel::ones_width;
+use crate::kernel::signals::{Signal, SignalFormat};
 
 use super::Params;
 
@@ -110,7 +110,8 @@ mod tests {
         let widths = |sizes: Sizes, names: &[&str]| -> Vec<u32> {
             names.iter().map(|name| sizes.width(name).unwrap()).collect()
         };
-        let names = ["Taps", "Sixteens", "Hundreds", "CountOfTaps", "TimeBits", "RateBits", "PeriodBits"];
+        let names =
+            ["Taps", "Sixteens", "Hundreds", "CountOfTaps", "TimeBits", "RateBits", "PeriodBits"];
         assert_eq!(widths(kc705, &names), [800, 250, 56, 10, 17, 2, 5]);
         let other = Sizes { taps: 17, coarse_bits: 12, rates: 1, longest_period: 65_535, ..kc705 };
         assert_eq!(widths(other, &names), [17, 10, 8, 5, 26, 1, 16]);

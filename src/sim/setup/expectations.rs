@@ -1,8 +1,8 @@
 //! What a setup's shots and an eye before it can expect, without a run.
 
 use crate::note::{Note, NoteCode};
-use crate::optics::eye_safety::{Exposure, LONGEST_S};
 use crate::optics::Chances;
+use crate::optics::eye_safety::{Exposure, LONGEST_S};
 use crate::sim::fast::histogram::independent_shots;
 
 use super::{CYCLE, Setup};

@@ -35,7 +35,8 @@ pub(super) fn check(scenario: &str, params: &Params) -> Result<()> {
     let least = last + params.tdc.decoder.latency() + TO_ITS_WORD;
     let drain = params.frame_ctrl.drain_cycles;
     if drain < least {
-        let expected = format!("expected {least} cycles or more: the last photon's way to its word");
+        let expected =
+            format!("expected {least} cycles or more: the last photon's way to its word");
         return fault("firmware.drain_cycles".to_owned(), drain, expected);
     }
     Ok(())
@@ -43,8 +44,8 @@ pub(super) fn check(scenario: &str, params: &Params) -> Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use crate::sim::setup::Setup;
     use crate::sim::run::Run;
+    use crate::sim::setup::Setup;
 
     fn error(overrides: &[&str]) -> String {
         Setup::load("kc705", overrides).unwrap_err().to_string()

@@ -61,8 +61,15 @@ const LASER_PERIODS: &str = "LaserPeriods";
 /// Of [`sized`], those on which widths of ports depend.
 pub const SHAPES: [&str; 5] = [NEURONS, "Taps", "CoarseBits", "RateBits", "Halves"];
 /// Of [`sized`], those of the whole.
-const OF_TOP: [&str; 7] =
-    ["DrainCycles", LASER_PERIODS, "RateBits", "PeriodBits", "PulseHalfCycles", "Taps", "CoarseBits"];
+const OF_TOP: [&str; 7] = [
+    "DrainCycles",
+    LASER_PERIODS,
+    "RateBits",
+    "PeriodBits",
+    "PulseHalfCycles",
+    "Taps",
+    "CoarseBits",
+];
 
 /// Those of a block of the depth estimator: its memories, and how many neurons they are for.
 pub fn with_neurons(mut memories: Parameters, count: usize) -> Parameters {

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use tofsim::error::{Error, Input};
+use tofsim::firmware::carry_chain::TAPS;
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::sim::setup::Setup;
 
@@ -111,6 +112,13 @@ impl Setting {
         let source = format!("scenario {}", self.setup.name);
         let expected = format!("expected what the constant {parameter} of the design holds");
         Input::new(source, expected).field(key).into()
+    }
+
+    /// Lines of a block whose stimulus sweeps through the taps: more for a longer chain than usual [clock
+    /// cycles].
+    pub fn cycles_of_chain(&self) -> usize {
+        let taps = self.setup.params.tdc.delays.taps();
+        self.cycles.unwrap_or(Self::CYCLES.max(Self::CYCLES / TAPS * taps))
     }
 
     /// Lines of a block [clock cycles].

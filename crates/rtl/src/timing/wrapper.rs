@@ -58,8 +58,11 @@ pub fn wrapper(block: &TimedBlock) -> String {
         let _ = write!(body, "    always @(posedge {clock}) begin\n{edge}    end\n");
     }
     for spec in &specs {
-        let connected: Vec<_> =
-            spec.ports(&Sizes::default()).iter().map(|port| format!(".{0}({0})", port.name)).collect();
+        let connected: Vec<_> = spec
+            .ports(&Sizes::default())
+            .iter()
+            .map(|port| format!(".{0}({0})", port.name))
+            .collect();
         let _ = writeln!(body, "    {0} {0} ({1});", spec.name, connected.join(", "));
     }
     format!("module {TOP} (\n{}\n);\n{body}endmodule\n", head.join(",\n"))

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use tofsim::error::Result;
-use tofsim::firmware::tof_top::Sizes;
 use tofsim::files::output::write_bytes;
+use tofsim::firmware::tof_top::Sizes;
 
 use crate::golden::bench::Bench;
 use crate::golden::bench::allowances::Allowances;

@@ -9,8 +9,8 @@ use serde::Deserialize;
 use tofsim::error::{Input, Result, hint, read_text};
 use tofsim::files::toml::Checked;
 use tofsim::firmware::forward2::MOST_NEURONS;
-use tofsim::firmware::tof_top::Sizes;
 use tofsim::firmware::histogram_builder::BINS;
+use tofsim::firmware::tof_top::Sizes;
 
 use crate::golden::blocks::{self, BLOCKS};
 use crate::golden::ports::Port;

@@ -19,7 +19,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut travelling = Cover::new("changes from tap to tap", 0..4);
     let mut run = Recorder::new(spec, setting, Vec::new());
     let mut stops = Stops::default();
-    for cycle in 0..setting.cycles() {
+    for cycle in 0..setting.cycles_of_chain() {
         if stops.last() <= stops::edge(cycle) {
             plan(&mut stops, cycle, delays, &ones, &mut run.draw);
         }

@@ -18,7 +18,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         Cover::new("start at coarse, or with the window closed (its length)", ends(window).chain([window]));
     let mut run = Recorder::new(spec, setting, In::list());
     let mut edges_until_start = 0;
-    let lines = Setting::CYCLES.max(64 * window as usize);
+    let lines = Setting::CYCLES.max(128 * window as usize);
     for cycle in 0..setting.cycles.unwrap_or(lines) {
         let counter = run.top.tdc.coarse_counter;
         let start = edges_until_start == 0;

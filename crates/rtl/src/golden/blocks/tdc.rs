@@ -55,7 +55,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut run = Recorder::new(spec, setting, Stimulus::list());
     // Cycle of the last start and of the next; cycle after a start in which the next reset comes.
     let (mut started, mut next, mut reset) = (0, 3, LAST_RESET);
-    for cycle in 0..setting.cycles() {
+    for cycle in 0..setting.cycles_of_chain() {
         let draw = &mut run.draw;
         let start = cycle == next;
         let since = if start { 0 } else { cycle - started };

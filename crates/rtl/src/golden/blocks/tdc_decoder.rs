@@ -46,7 +46,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut hits_swept = 0;
     // Whether the line before had a hit, and the hits counted one and two lines ago.
     let (mut hit_before, mut counted) = (false, [None; 2]);
-    for cycle in 0..setting.cycles() {
+    for cycle in 0..setting.cycles_of_chain() {
         let (decoder, draw) = (run.top.tdc.tdc_decoder, &mut run.draw);
         let (rst, hit) = (cycle > 0 && draw.one_in(40), draw.one_in(2));
         let rst = rst || cycle == FIRST_RESET;

@@ -28,7 +28,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut coarse = Cover::new("coarse of a hit", ends(window));
     let mut situations = Cover::new("rst, start, window, tap 0, before, used as bits", 0..64);
     let mut run = Recorder::new(spec, setting, In::list());
-    for cycle in 0..setting.cycles() {
+    for cycle in 0..setting.cycles_of_chain() {
         let (latch, draw) = (run.top.tdc.tdc_latch, &mut run.draw);
         let (used, before) = latch.before();
         // A hit at the first edge shows how the registers begin.
