@@ -37,6 +37,8 @@ module vcsel_driver #(
     // Of the pulse: whether it is odd, cycles of clk_laser that it goes on for, enables in each.
     localparam [0:0] Odd = PulseHalfCycles % 2 == 1;
     localparam integer Longer = (PulseHalfCycles - 1) / 2, Kept = Longer > 0 ? Longer : 1;
+    // A period has four cycles or more, so its last count two bits.
+    localparam [PeriodBits-1:0] Two = {{PeriodBits - 1{1'b0}}, 1'b1} << 1;
     localparam integer Halves = PulseHalfCycles > 1 ? 2 : 1;
 
     reg fire;          // asks clk_laser for a pulse; two cycles before the laser edge
@@ -68,7 +70,7 @@ module vcsel_driver #(
         last_of_freq = LaserPeriods[0 +: PeriodBits] - 1'b1;
         for (rate = 1; rate < 1 << RateBits; rate = rate + 1)
             if (laser_freq == rate[RateBits-1:0]) last_of_freq = LaserPeriods[16*rate +: PeriodBits] - 1'b1;
-        pre_start_next = acquire && count + 1'b1 + 1'b1 == last;
+        pre_start_next = acquire && count + Two == last;
         fire_next = pre_start_next && enable;
         start_next = acquire && count == last;
         count_next = count + 1'b1;

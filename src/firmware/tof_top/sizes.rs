@@ -6,7 +6,7 @@ use crate::firmware::{frame_ctrl, vcsel_driver};
 use crate::kernel::ones_width;
 use crate::kernel::signals::{Signal, SignalFormat};
 
-use super::Params;
+use super::ports::Params;
 
 /// What widths and numbers of signals follow from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -39,7 +39,7 @@ fn a_fault_of_the_laser_is_counted_and_not_proven() {
         &laser("count_next = {PeriodBits{1'b0}}", "count_next = {4'd0, !acquire}"),
         5,
     );
-    fault("pre_start_lead", &laser("count + 1'b1 + 1'b1 == last", "count + 5'd3 == last"), 3);
+    fault("pre_start_lead", &laser("count + Two == last", "count + 5'd3 == last"), 3);
 }
 
 #[test]
@@ -47,7 +47,7 @@ fn a_fault_of_the_laser_is_counted_and_not_proven() {
 fn a_fault_of_the_spad_reset_or_of_the_pulse_is_counted_and_not_proven() {
     let laser = |from, to| [["vcsel_driver.v", from, to]];
     let twice = "(count + 5'd2 == last || count + 5'd3 == last)";
-    let before = "count + 1'b1 + 1'b1 == last";
+    let before = "count + Two == last";
     fault("spad_rst_lead", &laser(before, "count + 5'd1 == last"), 0);
     fault("spad_rst_width", &laser(before, twice), 2);
     fault("spad_rst_mode_1", &[["spad_control.v", "pre_start && !mode", "pre_start"]], 1);
