@@ -72,8 +72,8 @@ fn passes_in(simulator: &str, seeds: std::ops::Range<u64>) {
         let reports = verified(&[&base[..], &blocks, &set].concat());
         for report in &reports {
             let goals = ["met", "of"].map(|what| report["goals"][what].as_u64().unwrap());
-            // A draw may leave out a rare case.
-            assert!(goals[0] * 100 >= goals[1] * 99, "seed {seed}, {keys:?}: {report}");
+            // A draw may leave out rare cases.
+            assert!(goals[0] * 10 >= goals[1] * 9, "seed {seed}, {keys:?}: {report}");
         }
         let top = ["--top", "-s", "firmware.shots_per_frame=300"];
         verified(&[&base[..], &top, &set].concat());

@@ -25,7 +25,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         edges_until_start = match start {
             // Of a long window mostly to its ends.
             true if window > 16 && run.draw.one_in(2) => window - 9 + run.draw.below(14),
-            true => run.draw.below(window.min(8) + 6),
+            true => run.draw.below(window.min(16) + 6),
             false => edges_until_start - 1,
         };
         coarse.see_if(counter.window, counter.coarse.get());

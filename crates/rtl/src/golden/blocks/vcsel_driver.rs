@@ -39,7 +39,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut run = Recorder::new(spec, setting, In::list());
     let laser_freq = Rate::new(usable[usable.len() - 1]);
     let mut i = In { rst: true, rst_laser: true, acquire: true, laser_en: true, laser_freq };
-    let lines = Setting::CYCLES.max((200 * longest) as usize);
+    let lines = Setting::CYCLES.max((800 * longest).min(10 * USUAL * LONG) as usize);
     for cycle in 0..setting.cycles.unwrap_or(lines) {
         let place = run.top.vcsel_driver.registers.place(p);
         let rare = place.map_or(1, |(rate, count, _)| rareness(p.periods[rate as usize], count));
