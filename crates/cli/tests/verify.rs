@@ -75,6 +75,28 @@ fn the_first_mismatch_is_the_same_in_both_simulators_and_in_table_json_and_xml()
 }
 
 #[test]
+fn with_fail_fast_nothing_comes_after_the_first_mismatch() {
+    let folder = counter("coarse + 3'd1", "coarse + 3'd2");
+    fs::copy(Path::new(OWN).join("control_sync.v"), folder.path().join("control_sync.v")).unwrap();
+    let args = ["verify", "--rtl", ".", "--json", "-o", "out"];
+    let args = [&args[..], &["--block", "coarse_counter", "--block", "control_sync"]].concat();
+    let blocks = |args: &[&str]| -> [Value; 2] {
+        let mut command = common::tofsim(folder.path(), args);
+        let output = command.env("RAYON_NUM_THREADS", "1").output().unwrap();
+        assert_eq!(output.status.code(), Some(1));
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        [0, 1].map(|n| report["blocks"][n].clone())
+    };
+    let first = blocks(&[&args[..], &["--fail-fast"]].concat());
+    assert!(!folder.path().join("out").exists());
+    let all = blocks(&args);
+    assert_eq!(first[0]["first"], all[0]["first"]);
+    assert_eq!(first[0]["mismatches"], 1);
+    assert!(all[0]["mismatches"].as_u64() > Some(1));
+    assert_eq!([&first[1]["verdict"], &all[1]["verdict"]], ["not run", "pass"]);
+}
+
+#[test]
 fn the_waveform_of_a_mismatch_has_both_sides() {
     let folder = counter("coarse + 1'b1", "coarse + 2'd2");
     verify(folder.path(), &["-o", "out"]);

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use rayon::prelude::*;
@@ -42,7 +43,7 @@ pub struct Args {
     #[arg(long)]
     top: bool,
     /// Count cycles in the model and in the RTL, and prove them (Icarus and Yosys), instead of vectors
-    #[arg(long, conflicts_with_all = ["block", "top", "map", "registers", "from_power_up", "junit", "simulator"])]
+    #[arg(long, conflicts_with_all = ["block", "top", "map", "registers", "from_power_up", "fail_fast", "junit", "simulator"])]
     cycle_counts: bool,
     /// Simulator to run
     #[arg(long, value_parser = words(choice::SIMULATOR), default_value = "icarus")]
@@ -56,6 +57,9 @@ pub struct Args {
     /// Compare from power-up on, not only from the first reset on [default for our own]
     #[arg(long)]
     from_power_up: bool,
+    /// End at the first mismatch, without the blocks not yet begun, and without a waveform
+    #[arg(long)]
+    fail_fast: bool,
     /// Most that a compilation or a simulation may take
     #[arg(long, value_name = "SECONDS", default_value_t = 300,
         value_parser = clap::value_parser!(u64).range(1..))]
@@ -93,13 +97,19 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         dut: Dut { rtl: &rtl, map: map.as_ref(), simulator: args.simulator, limits },
         registers: args.registers || args.design.is_ours(),
         from_power_up: args.from_power_up || args.design.is_ours(),
+        first_only: args.fail_fast,
         output: &args.output,
     };
+    let over = AtomicBool::new(false);
     let one = |task: &&Task| {
+        if over.load(Ordering::Relaxed) {
+            return Ok(BlockReport::not_run(&task.name, "another differs: --fail-fast".to_owned()));
+        }
         let report = check.run(task, &work.path().join(&task.name));
         if let Ok(report) = &report {
             let word = coloured(report.word(), !report.failed(), &std::io::stderr());
             talk.note(format_args!("{}: {word}", task.name));
+            over.fetch_or(args.fail_fast && report.failed(), Ordering::Relaxed);
         }
         report
     };

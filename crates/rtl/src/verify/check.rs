@@ -28,6 +28,8 @@ pub struct BlockCheck<'a> {
     pub registers: bool,
     /// Whether what comes before the first reset is compared, too.
     pub from_power_up: bool,
+    /// Whether a bench ends at its first mismatch, without a second look.
+    pub first_only: bool,
     /// Where the waveform of a mismatch goes.
     pub output: &'a Path,
 }
@@ -78,7 +80,7 @@ impl BlockCheck<'_> {
                 .map(|cover| (cover.what, cover.cases() - cover.met(), cover.cases()))
                 .collect(),
         };
-        if let Verdict::Differs { first, .. } = report.verdict.clone() {
+        if let (Verdict::Differs { first, .. }, false) = (report.verdict.clone(), self.first_only) {
             self.look_again(&mut report, &compiled, &bench, &first, work)?;
         }
         Ok(report)
@@ -87,6 +89,7 @@ impl BlockCheck<'_> {
     fn verdict(&self, compiled: &Compiled, got: Option<&str>) -> Result<Verdict> {
         let mut options = vec!["+progress".to_owned()];
         options.extend(self.from_power_up.then(|| "+from_power_up".to_owned()));
+        options.extend(self.first_only.then(|| "+first".to_owned()));
         options.extend(got.map(|name| format!("+got={name}")));
         let limits = Limits { silence: Some(SILENCE), ..self.dut.limits };
         let mut finished = compiled.run(&options, &limits)?;

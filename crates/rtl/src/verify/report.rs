@@ -35,7 +35,7 @@ impl BlockReport {
     }
 
     /// Of a block that was not run.
-    pub(super) fn not_run(name: &str, reason: String) -> Self {
+    pub fn not_run(name: &str, reason: String) -> Self {
         BlockReport {
             name: name.to_owned(),
             cycles: 0,

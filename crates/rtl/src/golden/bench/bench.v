@@ -1,7 +1,7 @@
 // Golden vectors for {name} by tofsim {version}: scenario {source}, seed {seed}.
 // Line k of stimulus.mem is taken by edge k, line k of expected.mem seen just before it.
 // Define REGISTERS to compare registers inside too; +from_power_up compares before the first reset
-// too; +got=FILE writes what was seen, +progress how far it is.
+// too; +got=FILE writes what was seen, +progress how far it is; +first ends it at a mismatch.
 `timescale 1ps/1fs
 `default_nettype none
 
@@ -22,6 +22,7 @@ module tb_{name};
   integer cycle;
   integer mismatches = 0;
   integer quiet = {quiet};  // lines not compared yet; below 0: until a reset
+  reg first_only = 1'b0;
   integer got_file = 0;
   reg [8191:0] got_name;
 {looks}
@@ -46,7 +47,8 @@ module tb_{name};
     $readmemh("expected.mem", expected);
     if ($value$plusargs("got=%s", got_name)) got_file = $fopen(got_name, "w");
     if ($test$plusargs("from_power_up")) quiet = 0;
-{before}    for (cycle = 0; cycle < Cycles; cycle = cycle + 1) begin
+    first_only = $test$plusargs("first");
+{before}    for (cycle = 0; cycle < Cycles && !(first_only && mismatches != 0); cycle = cycle + 1) begin
       if (cycle % {beat} == 0 && $test$plusargs("progress")) begin
         $display("cycle %0d", cycle);
         $fflush;
@@ -59,7 +61,7 @@ module tb_{name};
       $display("tb_{name}: PASS, %0d cycles, 0 mismatches", Cycles);
       $finish;
     end else begin
-      $display("tb_{name}: FAIL, %0d cycles, %0d mismatches", Cycles, mismatches);
+      $display("tb_{name}: FAIL, %0d cycles, %0d mismatches", cycle, mismatches);
       $fatal(1, "tb_{name}: %0d mismatches", mismatches);
     end
   end
