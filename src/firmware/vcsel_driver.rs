@@ -107,7 +107,7 @@ signals! {
         /// From the laser edge on; one cycle.
         pub start: bool,
         /// Asks `clk_laser` for a pulse; two cycles before the laser edge.
-        fire: bool,
+        pub(crate) fire: bool,
         /// Place in the period.
         #[size("PeriodBits")]
         pub(crate) count: U<16>,
@@ -217,19 +217,20 @@ impl LaserRegisters {
         self.fire_last | self.pulse[0] | self.pulse[1] | drives
     }
 
-    /// The enables at the next edge, for either half of the cycle, and the cycles before it.
+    /// Takes the enables for either half of the coming cycle, where a pulse `begins` or goes on.
     #[inline(always)]
-    fn drive(&self, p: &Params) -> (U<2>, U<3>) {
-        let (begins, before) = (u64::from(self.pulse[1]), self.stretch.get());
+    fn drive(&mut self, begins: bool, p: &Params) {
+        let begins = u64::from(begins);
         if p.pulse_half_cycles == 1 {
-            return (U::new(begins), U::new(0));
+            self.laser_pulse = U::new(begins);
+            return;
         }
-        let cycles = p.stretched();
+        let (cycles, before) = (p.stretched(), self.stretch.get());
         let first = begins != 0 || before != 0;
         let ends = (before << 1) >> cycles == 1;
         let second = first && !(p.pulse_half_cycles % 2 == 1 && cycles > 0 && ends);
-        let stretch = (before << 1 | begins) & ((1 << cycles) - 1);
-        (U::new(u64::from(first) | u64::from(second) << 1), U::new(stretch))
+        self.laser_pulse = U::new(u64::from(first) | u64::from(second) << 1);
+        self.stretch = U::new((before << 1 | begins) & ((1 << cycles) - 1));
     }
 }
 
@@ -238,13 +239,13 @@ impl Clocked for LaserRegisters {
     type Params = Params;
 
     #[inline(always)]
-    fn next(&self, i: &LaserIn, p: &Params) -> Self {
-        let (fire_last, pulse) = (i.fire, [i.fire && !self.fire_last, self.pulse[0]]);
+    fn tick(&mut self, i: &LaserIn, p: &Params) {
+        self.drive(self.pulse[1], p);
+        self.pulse = [i.fire && !self.fire_last, self.pulse[0]];
+        self.fire_last = i.fire;
         if i.rst_laser {
-            return LaserRegisters { fire_last, ..Self::default() };
+            *self = LaserRegisters { fire_last: i.fire, ..Self::default() };
         }
-        let (laser_pulse, stretch) = self.drive(p);
-        LaserRegisters { fire_last, pulse, laser_pulse, stretch }
     }
 }
 
@@ -267,9 +268,9 @@ impl VcselDriver {
     /// An edge at which only `clk_laser` rises, or the part of `clk_laser` where both do.
     #[inline(always)]
     pub fn rise_laser(&mut self, i: &In, p: &Params) {
-        let ddr_output = self.ddr_output.rise(&Wires::ddr_output(self));
-        let registers_laser = self.registers_laser.next(&self.laser_inputs(i), p);
-        (self.ddr_output, self.registers_laser) = (ddr_output, registers_laser);
+        let laser = self.laser_inputs(i);
+        self.ddr_output = self.ddr_output.rise(&Wires::ddr_output(self));
+        self.registers_laser.tick(&laser, p);
     }
 
     /// A falling edge of `clk_laser`.
@@ -287,8 +288,13 @@ impl VcselDriver {
     /// here and at the edges of `clk_laser` between them.
     #[inline(always)]
     pub fn quiet(&self, i: &In, p: &Params) -> u64 {
-        let pulse = self.registers.fire | self.registers_laser.has_pulse() | self.ddr_output.q;
-        if pulse { AWAKE } else { self.registers.quiet(i, p) }
+        if self.has_pulse() { AWAKE } else { self.registers.quiet(i, p) }
+    }
+
+    /// Whether a pulse is on its way; what is in `clk_laser` stands still if none is.
+    #[inline(always)]
+    pub fn has_pulse(&self) -> bool {
+        self.registers.fire | self.registers_laser.has_pulse() | self.ddr_output.q
     }
 
     /// Stands for that many edges of `clk_sys`, all of them quiet.

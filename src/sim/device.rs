@@ -132,7 +132,7 @@ impl Device {
         if self.top.socket.algo_done {
             self.timeline.take_depth(self.pll.clk_sys.rise(self.cycle));
         }
-        self.react(now, lit);
+        self.react(now, self.top.nets.laser_on && !lit);
         if T::ON {
             self.clocks(true, true);
             probe.sample(now, &self.top);
@@ -269,10 +269,10 @@ impl Device {
         }
     }
 
-    /// What the detector and the light do about the signals that the edge at `now` changed, if the laser
-    /// was on before or was not.
+    /// What the detector and the light do about the signals that the edge at `now` changed; `laser` if that
+    /// switched the laser on.
     #[inline(always)]
-    pub(super) fn react(&mut self, now: Time, lit: bool) {
+    pub(super) fn react(&mut self, now: Time, laser: bool) {
         let passive = self.top.control_sync.mode_sync;
         if passive != self.spads.is_passive() {
             self.spads.set_passive(passive, now);
@@ -280,7 +280,6 @@ impl Device {
                 self.draw(now);
             }
         }
-        let laser = self.top.nets.laser_on && !lit;
         let start = self.top.vcsel_driver.registers.start;
         let hold = self.top.spad_control.spad_rst;
         if start || laser {

@@ -13,6 +13,7 @@ mod hits;
 mod idle;
 mod many;
 mod outcomes;
+mod pulse;
 mod shots;
 mod steady;
 

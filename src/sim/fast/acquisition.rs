@@ -10,11 +10,10 @@ use crate::kernel::Time;
 use crate::sim::device::{Device, Off};
 use crate::sim::frames::Frames;
 
-use super::halves::{
-    converter_quiet, emit, emitter_quiet, rest_of_cycle, rouses_converter, skip_emitter,
-};
+use super::halves::{converter_quiet, rouses_converter, skip_emitter};
 use super::hits::Hits;
 use super::idle::cycles_until_event;
+use super::pulse::Pulse;
 use super::steady::{control_is_steady, cycles_of_steady_control, estimator_rests, even_period};
 
 /// Goes on until `limit`, or until something else begins than an acquisition [cycles of clk_sys].
@@ -40,6 +39,7 @@ pub fn acquire(
     // The cycle that the converter has come to; it sleeps from there to the present one.
     let mut converter_at = device.cycle;
     let mut hits = Hits::default();
+    let mut pulse = Pulse::new(&device.top, p);
     let mut now = device.pll.clk_sys.rise(device.cycle);
     while device.top.frame_ctrl.acquire && device.cycle < limit {
         while device.spads.next_event() <= now {
@@ -68,11 +68,8 @@ pub fn acquire(
             now += period;
             continue;
         }
-        let lit = device.top.nets.laser_on;
-        emit(&mut device.top, p);
-        device.react(now, lit);
-        rest_of_cycle(&mut device.top, p);
-        emitter_wakes = device.cycle.saturating_add(emitter_quiet(&device.top, p));
+        pulse.emit(device, p, now);
+        emitter_wakes = device.cycle.saturating_add(pulse.emitter_quiet(&device.top, p));
         if rouses_converter(&device.top, &device.line) {
             converter_wakes = device.cycle;
         }
@@ -88,4 +85,5 @@ pub fn acquire(
     }
     hits.skip(&mut device.top, p, device.cycle - converter_at);
     hits.replay(&mut device.top, p, device.cycle);
+    pulse.replay(&mut device.top, p, device.cycle);
 }
