@@ -186,6 +186,7 @@ fn random_setup(seed: u64, cycles: u64) -> Setup {
     let keys = [
         format!("spad.on_tdc={on_tdc}"),
         format!("firmware.laser_freq={}", seed % 4),
+        format!("firmware.pulse_half_cycles={}", [1, 1 + seed / 2 % 8][seed as usize % 2]),
         format!("firmware.mode={}", u64::from(seed % 5 == 4)),
         format!("firmware.shots_per_frame={}", random.random_range(5..60)),
         format!("ambient.irradiance_w_m2_nm={}", [0.0, 0.05, 0.4][random.random_range(0..3)]),
