@@ -11,13 +11,16 @@ module tdc #(
     parameter CalFile = "rtl_ref/tdc_cal.mem",        // see tdc_decoder
     parameter integer Taps = 800,
     parameter integer CoarseBits = 3,
+    parameter integer Cycle = 5120,                   // [units]
+    parameter integer Digits = 4,
+    parameter integer AgeBits = 14,
     parameter [1:0] CountStages = 2'd3
 ) (
     input wire clk_sys,
     input wire rst,
     input wire start,            // a shot begins
     input wire tdc_stop,         // output of the SPAD, asynchronous
-    output wire [7:0] tdc_code,  // time from the laser edge to the hit [25 ps]
+    output wire [7:0] tdc_code,  // time of the hit [bins]
     output wire tdc_valid        // tdc_code is new; one cycle
 );
     wire [Taps-1:0] taps;
@@ -64,6 +67,9 @@ module tdc #(
     tdc_decoder #(
         .Taps(Taps),
         .CoarseBits(CoarseBits),
+        .Cycle(Cycle),
+        .Digits(Digits),
+        .AgeBits(AgeBits),
         .CalFile(CalFile),
         .CountStages(CountStages)
     ) tdc_decoder (

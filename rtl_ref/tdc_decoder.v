@@ -1,14 +1,17 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// Turns a hit into a code of 25 ps: counts its high taps in steps, then looks up and subtracts their time.
+// Turns a hit into a code: counts its high taps in steps, then looks up and subtracts their time.
 //
 //   edge      e+1       e+2       e+3       e+4  e+5  e+6  e+7
 //   register  hit_taps  sixteens  hundreds  n    age  t    tdc_code, tdc_valid
 module tdc_decoder #(
     parameter integer Taps = 800,               // of the chain, 16 to 2000
     parameter integer CoarseBits = 3,
-    parameter CalFile = "rtl_ref/tdc_cal.mem",  // age of a hit for each ones count [25/16 ps]
+    parameter integer Cycle = 5120,             // a period of clk_sys [units, 25/16 ps]
+    parameter integer Digits = 4,               // of a time below a bin, in binary
+    parameter integer AgeBits = 14,             // of a word of CalFile
+    parameter CalFile = "rtl_ref/tdc_cal.mem",  // age of a hit for each ones count [units]
     parameter [1:0] CountStages = 2'd3          // registers of the ones count; 2: n counts the sixteens
 ) (
     input wire clk_sys,
@@ -19,22 +22,23 @@ module tdc_decoder #(
     input wire [Taps-1:0] hit_taps,          // its taps
     // The code
     output reg tdc_valid,                    // tdc_code is new; one cycle
-    output reg [7:0] tdc_code                // time from the laser edge to the hit [25 ps]
+    output reg [7:0] tdc_code                // time of the hit [bins]
 );
     // Groups of 16 and of 128 taps, and bits of what counts all of them and of a time.
     localparam integer Sixteens = (Taps + 15) / 16, Hundreds = (Taps + 127) / 128;
-    localparam integer CountBits = $clog2(Taps + 1), TimeBits = 14 + CoarseBits;
-    // A cycle of clk_sys [25/16 ps].
-    localparam [12:0] Cycle = 13'd5120;
+    localparam integer CountBits = $clog2(Taps + 1), EdgeBits = $clog2(Cycle + 1) + CoarseBits;
+    // A time is shorter than an edge's number of cycles, and than what it is compared with.
+    localparam integer CodeBits = 8 + Digits, LongBits = EdgeBits > AgeBits ? EdgeBits : AgeBits;
+    localparam integer TimeBits = 1 + (LongBits > CodeBits ? LongBits : CodeBits);
 
     // Each holds its last hit, is new for one cycle, and has that hit's coarse count.
     reg [5*Sixteens-1:0] sixteens;  // ones among 16 taps each
     reg [8*Hundreds-1:0] hundreds;  // ones among 128 taps each
     reg [CountBits-1:0] n;          // taps that the hit had run through
-    reg [13:0] age;                 // the time for that [25/16 ps]
+    reg [AgeBits-1:0] age;          // the time for that [units]
     // Its lowest bits are for the borrow.
     // verilator lint_off UNUSEDSIGNAL
-    reg signed [TimeBits-1:0] t;    // time from the laser edge [25/16 ps]
+    reg signed [TimeBits-1:0] t;    // time from the begin of bin 0 [units]
     // verilator lint_on UNUSEDSIGNAL
     reg sixteens_valid, hundreds_valid, n_valid, age_valid, t_valid;
     reg [CoarseBits-1:0] sixteens_coarse, hundreds_coarse, n_coarse, age_coarse;
@@ -50,7 +54,7 @@ module tdc_decoder #(
 `else
     (* rom_style = "block" *)
 `endif
-    reg [13:0] cal [0:Taps];
+    reg [AgeBits-1:0] cal [0:Taps];
     initial $readmemh(CalFile, cal);
 
     initial begin
@@ -61,7 +65,7 @@ module tdc_decoder #(
         sixteens = {5 * Sixteens{1'b0}};
         hundreds = {8 * Hundreds{1'b0}};
         n = {CountBits{1'b0}};
-        age = 14'd0;
+        age = {AgeBits{1'b0}};
         t = {TimeBits{1'b0}};
     end
 
@@ -134,15 +138,15 @@ module tdc_decoder #(
     integer bit_of_cycle;
     always @* begin
         edge_time = {TimeBits{1'b0}};
-        for (bit_of_cycle = 0; bit_of_cycle < 13; bit_of_cycle = bit_of_cycle + 1)
+        for (bit_of_cycle = 0; bit_of_cycle < 31; bit_of_cycle = bit_of_cycle + 1)
             if (Cycle[bit_of_cycle]) edge_time = edge_time + (edge_number << bit_of_cycle);
     end
 
     always @* begin
-        // 0 to 4095; the highest bit is the sign.
-        tdc_valid_next = t_valid && t[TimeBits-1:12] == {TimeBits - 12{1'b0}};
+        // Within 256 bins; the highest bit is the sign.
+        tdc_valid_next = t_valid && t[TimeBits-1:CodeBits] == {TimeBits - CodeBits{1'b0}};
         tdc_code_next = tdc_code;
-        if (tdc_valid_next) tdc_code_next = t[11:4];
+        if (tdc_valid_next) tdc_code_next = t[Digits +: 8];
     end
 
     always @(posedge clk_sys) begin
@@ -162,7 +166,7 @@ module tdc_decoder #(
             age <= cal[n];
             age_coarse <= n_coarse;
         end
-        if (age_valid) t <= edge_time - {{TimeBits - 14{1'b0}}, age};
+        if (age_valid) t <= edge_time - {{TimeBits - AgeBits{1'b0}}, age};
         if (rst) begin
             tdc_valid <= 1'b0;
             tdc_code <= 8'd0;

@@ -12,6 +12,9 @@ module tof_top #(
     parameter integer PulseHalfCycles = 1,
     parameter integer Taps = 800,                // see tdc
     parameter integer CoarseBits = 3,
+    parameter integer Cycle = 5120,              // see tdc_decoder
+    parameter integer Digits = 4,
+    parameter integer AgeBits = 14,
     parameter [0:0] CodeSource = 1'b0,           // 0: tdc, 1: code_preload
     parameter [0:0] HistogramSource = 1'b0,      // 0: histogram_builder, 1: histogram_preload
     parameter [0:0] Estimator = 1'b0,            // 0: depth_estimator, 1: centroid_estimator
@@ -189,6 +192,9 @@ module tof_top #(
     tdc #(
         .Taps(Taps),
         .CoarseBits(CoarseBits),
+        .Cycle(Cycle),
+        .Digits(Digits),
+        .AgeBits(AgeBits),
         .DelaysFile(DelaysFile),
         .CountStages(CountStages),
         .CalFile(CalFile)

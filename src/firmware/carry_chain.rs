@@ -9,7 +9,7 @@ use crate::signals;
 mod delays;
 mod stop_line;
 
-pub use delays::{Calibration, Delays, LENGTHS, TAPS, Taps};
+pub use delays::{Delays, LENGTHS, TAPS, Taps};
 pub use stop_line::StopLine;
 
 signals! {

@@ -11,6 +11,9 @@ pub type Coarse = U<12>;
 /// Narrowest and widest count [bits].
 pub const COARSE_BITS: std::ops::RangeInclusive<u32> = 1..=12;
 
+/// Width of the KC705's coarse count [bits].
+pub const DEFAULT_COARSE_BITS: u32 = 3;
+
 signals! {
     /// Input ports.
     pub struct In {

@@ -21,7 +21,7 @@ signals! {
     pub struct CodePreload {
         /// `tdc_code` is new; one cycle.
         pub tdc_valid: bool,
-        /// Code of the shot [25 ps].
+        /// Code of the shot [bins].
         pub tdc_code: U<8>,
         /// `start`, an edge later.
         pending: bool,

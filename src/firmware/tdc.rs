@@ -12,8 +12,8 @@ use crate::kernel::{AWAKE, Clocked, Time};
 use crate::{connect, signals};
 
 use super::carry_chain::{self, CarryChain, Delays, StopLine};
-use super::coarse_counter::{self, CoarseCounter};
-use super::tdc_decoder::{self, Calibration, TdcDecoder};
+use super::coarse_counter::{self, CoarseCounter, DEFAULT_COARSE_BITS};
+use super::tdc_decoder::{self, TdcDecoder, TimeScale};
 use super::tdc_latch::{self, TdcLatch};
 
 signals! {
@@ -42,12 +42,18 @@ pub struct Params {
 }
 
 impl Params {
-    /// For a chain, the ROM that goes with it, a coarse count of so many bits, and 2 or 3 registers of the
-    /// ones count.
-    pub fn new(delays: Delays, cal: Calibration, coarse_bits: u32, count_stages: u64) -> Self {
+    /// For a chain, with the ROM that goes with it, what times count, a coarse count of so many bits, and 2 or
+    /// 3 registers of the ones count.
+    pub fn new(delays: Delays, scale: TimeScale, coarse_bits: u32, count_stages: u64) -> Self {
         let tap_0 = delays.tap_0_position();
-        let decoder = tdc_decoder::Params { cal, count_stages };
+        let cal = tdc_decoder::Params::calibration(&delays, &scale);
+        let decoder = tdc_decoder::Params { cal, count_stages, scale };
         Params { delays, coarse_counter: coarse_counter::Params { coarse_bits }, decoder, tap_0 }
+    }
+
+    /// The KC705's but for the chain.
+    pub fn of_chain(delays: Delays) -> Self {
+        Params::new(delays, TimeScale::default(), DEFAULT_COARSE_BITS, tdc_decoder::COUNT_STAGES)
     }
 
     /// The last edge after the laser's that samples hits with a code, within the window.
@@ -160,8 +166,7 @@ mod tests {
     /// The code of a photon, with the laser edge at edge 10, and the cycle of `tdc_valid`.
     fn code_of(photon_fs: u64, count_stages: u64) -> Option<(u64, u64)> {
         let delays = Delays::new(Time::from_fs(2_230_000), &[11_500; TAPS]).unwrap();
-        let cal = delays.calibration(Time::from_ns(8));
-        let params = Params::new(delays, cal, 3, count_stages);
+        let params = Params::new(delays, TimeScale::default(), DEFAULT_COARSE_BITS, count_stages);
         let (mut tdc, mut line) = (Tdc::default(), StopLine::default());
         let photon = Time::from_ns(80) + Time::from_fs(photon_fs);
         for edge in 0..30 {

@@ -1,32 +1,33 @@
-//! Turns a hit into a code of 25 ps.
+//! Turns a hit into a code, of 25 ps on the KC705.
 //!
 //! Mirrors `rtl_ref/tdc_decoder.v`. The ones count in two or three steps, its time, and the code:
 //!
 //! ```text
 //! edge       e+1       e+2       e+3       e+4  e+5       e+6  e+7
-//! register   hit_taps  sixteens  hundreds  n    age       t    tdc_code = t >> 4
-//!                                               = cal[n]  = 5120 (coarse + 1) - age   [25/16 ps]
+//! register   hit_taps  sixteens  hundreds  n    age       t    tdc_code = t >> Digits
+//!                                               = cal[n]  = Cycle (coarse + 1) - age   [units]
 //! ```
 //!
-//! With two steps, `n` counts the sixteens and all after it comes an edge earlier. A time outside
-//! 0 .. 4095 has no code, and `tdc_code` keeps its value. Each register holds its last hit; only what
-//! says that a hit is new has a reset.
+//! [`TimeScale`] says what a unit is: 25/16 ps on the KC705, of which `Cycle` is 5120. Time 0 is where bin 0
+//! begins; the ages in the ROM know by how much that is after the laser edge. With two steps, `n` counts
+//! the sixteens and all after it comes an edge earlier. A time outside 256 bins has no code, and `tdc_code`
+//! keeps its value. Each register holds its last hit; only what says that a hit is new has a reset.
+
+mod scale;
 
 use crate::kernel::{Clocked, PartialOnes, S, U, asleep_if};
 use crate::signals;
 
-pub use super::carry_chain::Calibration;
-use super::carry_chain::Taps;
+use super::carry_chain::{Delays, Taps};
 use super::coarse_counter::Coarse;
+pub use scale::{CODES, TimeScale};
 
-/// One cycle of `clk_sys` [25/16 ps].
-pub const CYCLE: i64 = 5120;
-/// Time codes in a bin of 25 ps, as a shift.
-const BIN_SHIFT: u32 = 4;
-/// First time past the last bin, 6.4 ns [25/16 ps].
-const RANGE: i64 = 256 << BIN_SHIFT;
-/// Time from the laser edge, with room for the longest window [25/16 ps].
-type TimeWord = S<26>;
+/// Time from the begin of bin 0, with room for the longest window in the smallest units [units].
+type TimeWord = S<44>;
+/// Word of the calibration ROM, with room for the same [units].
+type Age = U<42>;
+/// Age of a hit for each ones count, and the time from the laser edge to bin 0 [units].
+pub type Calibration = Vec<Age>;
 /// Registers of the ones count unless elaboration says otherwise.
 pub const COUNT_STAGES: u64 = 3;
 /// Edges from the one that samples the taps of a hit to the one that makes its `n`, beside those of
@@ -58,6 +59,8 @@ pub struct Params {
     pub cal: Calibration,
     /// Registers of the ones count, 2 or 3.
     pub count_stages: u64,
+    /// What times count.
+    pub scale: TimeScale,
 }
 
 signals! {
@@ -65,7 +68,7 @@ signals! {
     pub struct TdcDecoder {
         /// `tdc_code` is new; one cycle.
         pub tdc_valid: bool,
-        /// Time from the laser edge to the hit [25 ps].
+        /// Time of the hit [bins].
         pub tdc_code: U<8>,
         /// Ones among 16 taps each.
         #[size("Sixteens")]
@@ -92,14 +95,15 @@ signals! {
         /// Coarse count of `n`.
         #[size("CoarseBits")]
         n_coarse: Coarse,
-        /// The time for `n` [25/16 ps].
-        age: U<14>,
+        /// The time for `n` [units].
+        #[size("AgeBits")]
+        age: Age,
         /// `age` is new.
         age_valid: bool,
         /// Coarse count of `age`.
         #[size("CoarseBits")]
         age_coarse: Coarse,
-        /// Time from the laser edge [25/16 ps].
+        /// Time from the begin of bin 0 [units].
         #[size("TimeBits")]
         t: TimeWord,
         /// `t` is new.
@@ -114,10 +118,55 @@ impl Params {
         self.cal.len() - 1
     }
 
+    /// Width of the ROM: for an age of two clock periods, and the time from the laser edge to bin 0 [bits].
+    pub fn age_bits(&self) -> u32 {
+        self.scale.units(4 * self.scale.period().fs() + 2 * self.scale.first().fs()).ilog2() + 1
+    }
+
     /// The last edge after the laser's at which a hit of some ones count has a time in range.
     pub fn last_coded(&self) -> u64 {
-        let oldest = self.cal.iter().map(|age| age.get() as i64).max().unwrap_or_default();
-        (RANGE + oldest - 1).div_euclid(CYCLE) as u64
+        let oldest = self.cal.iter().map(|age| age.get()).max().unwrap_or_default();
+        (self.scale.range() + oldest - 1) / self.scale.cycle()
+    }
+
+    /// The ROM of a chain whose delays are known: for each ones count the middle of the interval of ages that
+    /// gives it, rounded half up. The interval that holds a whole clock period (time 0 at the edge after the
+    /// laser's) is clamped so that its time is not negative.
+    pub fn calibration(delays: &Delays, scale: &TimeScale) -> Calibration {
+        let boundary = |n: usize| delays.boundary(n).fs();
+        let first = 2 * scale.first().fs();
+        let word = |twice_fs: u64| Age::new(scale.units(twice_fs + first));
+        let mut cal = vec![word(2 * boundary(0)); delays.taps() + 1];
+        for (n, age) in cal.iter_mut().enumerate().skip(1) {
+            *age = word(boundary(n - 1) + boundary(n));
+        }
+        let period = scale.period();
+        let at_start = delays.rank(period);
+        cal[at_start] = cal[at_start].min(word(2 * period.fs()));
+        cal
+    }
+
+    /// The code of a hit, if its time is in range.
+    #[inline(always)]
+    pub fn code(&self, coarse: u64, n: usize) -> Option<U<8>> {
+        self.code_of(self.time(coarse, self.cal[n]))
+    }
+
+    /// Whether the time of such a hit is past the range.
+    pub fn is_late(&self, coarse: u64, n: usize) -> bool {
+        self.time(coarse, self.cal[n]).get() >= self.scale.range() as i64
+    }
+
+    /// Time from the begin of bin 0, of a hit of that age.
+    #[inline(always)]
+    fn time(&self, coarse: u64, age: Age) -> TimeWord {
+        TimeWord::new((self.scale.cycle() * (coarse + 1)) as i64 - age.get() as i64)
+    }
+
+    #[inline(always)]
+    fn code_of(&self, t: TimeWord) -> Option<U<8>> {
+        let is_in_range = (0..self.scale.range() as i64).contains(&t.get());
+        is_in_range.then(|| U::new(t.get() as u64 >> self.scale.digits()))
     }
 
     /// From the edge that samples the taps of a hit to the one that makes its code [cycles of clk_sys].
@@ -145,28 +194,6 @@ impl TdcDecoder {
     }
 }
 
-/// The code of a hit, if its time is in range.
-#[inline(always)]
-pub fn code(coarse: u64, n: usize, cal: &[U<14>]) -> Option<U<8>> {
-    code_of(time(coarse, cal[n]))
-}
-
-/// Whether the time of such a hit is past the range.
-pub fn is_late(coarse: u64, n: usize, cal: &[U<14>]) -> bool {
-    time(coarse, cal[n]).get() >= RANGE
-}
-
-/// Time from the laser edge, of a hit of that age.
-#[inline(always)]
-fn time(coarse: u64, age: U<14>) -> TimeWord {
-    TimeWord::new(CYCLE * (coarse as i64 + 1) - age.get() as i64)
-}
-
-#[inline(always)]
-fn code_of(t: TimeWord) -> Option<U<8>> {
-    (0..RANGE).contains(&t.get()).then(|| U::new(t.get() as u64 >> BIN_SHIFT))
-}
-
 impl Clocked for TdcDecoder {
     type In = In;
     type Params = Params;
@@ -177,12 +204,12 @@ impl Clocked for TdcDecoder {
         if !(i.rst | i.hit | self.has_hit()) {
             return;
         }
-        let code = code_of(self.t).filter(|_| self.t_valid);
+        let code = p.code_of(self.t).filter(|_| self.t_valid);
         self.tdc_valid = code.is_some();
         self.tdc_code = code.unwrap_or(self.tdc_code);
         self.t_valid = self.age_valid;
         if self.age_valid {
-            self.t = time(self.age_coarse.get(), self.age);
+            self.t = p.time(self.age_coarse.get(), self.age);
         }
         self.age_valid = self.n_valid;
         if self.n_valid {
@@ -221,10 +248,12 @@ impl Clocked for TdcDecoder {
 #[cfg(test)]
 mod tests {
     use super::super::carry_chain::TAPS;
+    use crate::kernel::Time;
+
     use super::*;
 
     fn params(cal: Calibration, count_stages: u64) -> Params {
-        Params { cal, count_stages }
+        Params { cal, count_stages, scale: TimeScale::default() }
     }
 
     fn decode(coarse: u64, n: usize, p: &Params) -> (bool, u64) {
@@ -241,6 +270,18 @@ mod tests {
             decoder = decoder.next(&idle, p);
         }
         (decoder.tdc_valid, decoder.tdc_code.get())
+    }
+
+    #[test]
+    fn ideal_taps_are_two_to_a_bin_and_time_zero_is_clamped() {
+        let delays = Delays::new(Time::from_ns(2), &[12_500; TAPS]).unwrap();
+        let cal = Params::calibration(&delays, &TimeScale::default());
+        assert_eq!(cal[480], 5116);
+        assert_eq!(cal[479], 5108);
+        assert_eq!(cal[481], 5120, "holds an age of exactly 8 ns");
+        assert_eq!(cal[482], 5132);
+        assert_eq!(cal[0], 1280);
+        assert_eq!(cal[800], 1280 + 8 * 800 - 4);
     }
 
     #[test]

@@ -56,13 +56,11 @@ mod tests {
 
     use super::*;
 
-    const PERIOD: Time = Time::from_ns(8);
     const END: Time = Time::from_ns(40);
 
     fn chances(budget: &Budget) -> Chances {
         let delays = Delays::new(Time::from_ns(2), &[12_500; TAPS]).unwrap();
-        let cal = delays.calibration(PERIOD);
-        let bins = Bins::of_tdc(&tdc::Params::new(delays, cal, 3, 3), PERIOD);
+        let bins = Bins::of_tdc(&tdc::Params::of_chain(delays));
         Chances::new(&Hazard::new(budget), &bins, END)
     }
 

@@ -7,7 +7,7 @@ use toml_edit::{Item, Table};
 use crate::error::Result;
 use crate::files::toml::Checked;
 
-use super::model::{Control, Firmware, Pll, Scenario, Stimulus};
+use super::model::{Control, Firmware, Pll, Scenario, Stimulus, Tdc};
 use super::window::Window;
 
 /// Frequency of the whole-cycle clock that the firmware is built for [Hz].
@@ -18,6 +18,7 @@ const VCO_HZ: std::ops::RangeInclusive<u64> = 800_000_000..=1_866_000_000;
 /// Checks what no single key shows.
 pub fn validate(scenario: &Scenario, checked: &Checked) -> Result<()> {
     clocks(scenario, checked)?;
+    bins(scenario, checked)?;
     stimulus(scenario, checked)?;
     spads(scenario, checked)?;
     laser(scenario, checked)?;
@@ -40,6 +41,18 @@ fn clocks(scenario: &Scenario, checked: &Checked) -> Result<()> {
     ensure(is_exact, checked, "pll.output_divide", expected)?;
     let expected = "expected an even number: clk_laser has half of it";
     ensure(output_divide.is_multiple_of(2), checked, "pll.output_divide", expected)
+}
+
+/// That the window of a shot holds the first bin.
+fn bins(scenario: &Scenario, checked: &Checked) -> Result<()> {
+    let Tdc { bin_ps, first_bin_ps, coarse_bits, .. } = scenario.tdc;
+    let window_ps = 1e12 / CLK_SYS_HZ as f64 * f64::from(1 << coarse_bits);
+    let window = format!("the window that {coarse_bits} bits count (tdc.coarse_bits)");
+    let expected = format!("expected {window_ps} ps at most, {window}");
+    ensure(bin_ps <= window_ps, checked, "tdc.bin_ps", expected)?;
+    let most_ps = window_ps - bin_ps;
+    let expected = format!("expected {most_ps} ps at most, a bin less than {window}");
+    ensure(first_bin_ps <= most_ps, checked, "tdc.first_bin_ps", expected)
 }
 
 fn stimulus(scenario: &Scenario, checked: &Checked) -> Result<()> {

@@ -11,6 +11,7 @@ use crate::error::{Input, Result};
 use crate::files::digest::digest_of;
 use crate::firmware::forward2::Depth;
 use crate::firmware::pll::{self, Pll};
+use crate::firmware::tdc_decoder::TimeScale;
 use crate::firmware::tof_top::{Estimator, HistogramSource, Params, Pins};
 use crate::firmware::{centroid_estimator, frame_ctrl, tdc, vcsel_driver};
 use crate::hierarchy;
@@ -88,7 +89,7 @@ impl Setup {
         let network = network(&scenario, &files)?;
         let pll_params = pll_params(&scenario);
         let delays = chain::load(&scenario.tdc.profile, &files)?;
-        let cal = delays.calibration(CYCLE);
+        let scale = time_scale(&scenario.tdc);
         let (code_source, histogram_source, light) = stimulus(&scenario, &files)?;
         let budget = Budget::new(&scenario);
         let light = light.unwrap_or_else(|| {
@@ -105,7 +106,12 @@ impl Setup {
                 periods: scenario.firmware.laser_periods.clone(),
                 pulse_half_cycles: scenario.firmware.pulse_half_cycles,
             },
-            tdc: tdc::Params::new(delays, cal, scenario.tdc.coarse_bits, scenario.tdc.count_stages),
+            tdc: tdc::Params::new(
+                delays,
+                scale,
+                scenario.tdc.coarse_bits,
+                scenario.tdc.count_stages,
+            ),
             depth_estimator: network.params(),
             centroid_estimator: centroid(&scenario.estimator),
             estimator: match scenario.estimator.kind {
@@ -152,7 +158,7 @@ impl Setup {
 
     /// Which avalanche times give which code.
     pub fn bins(&self) -> Bins {
-        Bins::of_tdc(&self.params.tdc, CYCLE)
+        Bins::of_tdc(&self.params.tdc)
     }
 
     /// Length of an undisturbed frame with such a laser period: from the edge that begins Clear to the one
@@ -297,6 +303,11 @@ fn centroid(keys: &scenario::Estimator) -> centroid_estimator::Params {
         slope: U::new(word(keys.centroid_slope_m, centroid_estimator::SLOPE_FRACTION) as u64),
         offset: S::new(word(keys.centroid_offset_m, 29)),
     }
+}
+
+fn time_scale(tdc: &scenario::Tdc) -> TimeScale {
+    let [bin, first] = [tdc.bin_ps, tdc.first_bin_ps].map(Time::from_ps_f64);
+    TimeScale::new(CYCLE, bin, first, tdc.coarse_bits)
 }
 
 fn pll_params(scenario: &Scenario) -> pll::Params {

@@ -23,7 +23,6 @@ pub(super) fn params() -> Params {
 /// The same with a chain of those delays [fs].
 pub(super) fn with_delays(taps: &[i64]) -> Params {
     let delays = Delays::new(Time::from_fs(2_230_000), taps).unwrap();
-    let cal = delays.calibration(Time::from_ns(8));
     let weight = |row: usize, neuron: usize| match neuron < NEURONS {
         true => S::new((row * 37 + neuron * 911) as i64 % 4001 - 2000),
         false => S::new(0),
@@ -37,7 +36,7 @@ pub(super) fn with_delays(taps: &[i64]) -> Params {
             drain_cycles: frame_ctrl::DRAIN_CYCLES,
         },
         vcsel_driver: vcsel_driver::Params::default(),
-        tdc: tdc::Params::new(delays, cal, 3, 3),
+        tdc: tdc::Params::of_chain(delays),
         depth_estimator: depth_estimator::Params {
             forward1: Arc::new(rom),
             tansig: Arc::new(tansig),

@@ -24,6 +24,9 @@ const BLOCKS: [&str; 9] = [
     "vcsel_driver",
 ];
 
+/// Period of clk_sys [ps].
+const CYCLE_PS: f64 = 8000.0;
+
 /// A number from `low` to `high`, small ones as often as large ones.
 fn log_uniform(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     (random.random_range(low.ln()..=high.ln())).exp()
@@ -46,17 +49,29 @@ fn instrument(random: &mut ChaCha8Rng, folder: &Path, longest_period: f64) -> Ve
     let chain = folder.join("chain.toml");
     std::fs::write(&chain, format!("offset_ps = {offset_ps:?}\ntap_delays_ps = {delays:?}\n"))
         .unwrap();
+    let coarse_bits = random.random_range(1..=12);
+    let bin_ps = (log_uniform(random, 5.0, 800.0) * 1e3).round() / 1e3;
+    let most_first_ps = (CYCLE_PS * f64::from(1 << coarse_bits) - bin_ps).min(60_000.0);
+    let first_ps =
+        [0.0, random.random_range(0.0..most_first_ps).round()][random.random_range(0..2)];
+    // An edge that no code is later than.
+    let last = ((256.0 * bin_ps + first_ps) / CYCLE_PS).ceil() as u64 + 2;
+    let last = last.min(1 << coarse_bits);
     let rates = random.random_range(1..=8);
-    let periods: Vec<_> =
-        (0..rates).map(|_| log_uniform(random, 5.0, longest_period).round() as u64).collect();
+    let shortest = (last + 2).max(5);
+    let period =
+        |_| log_uniform(random, shortest as f64, shortest as f64 + longest_period).round() as u64;
+    let periods: Vec<_> = (0..rates).map(period).collect();
     vec![
         format!("tdc.profile={}", chain.display()),
-        format!("tdc.coarse_bits={}", random.random_range(1..=12)),
+        format!("tdc.coarse_bits={coarse_bits}"),
+        format!("tdc.bin_ps={bin_ps}"),
+        format!("tdc.first_bin_ps={first_ps}"),
         format!("tdc.count_stages={}", random.random_range(2..=3)),
         format!("firmware.laser_periods={periods:?}"),
         format!("firmware.laser_freq={}", random.random_range(0..rates)),
         format!("firmware.pulse_half_cycles={}", random.random_range(1..=8)),
-        format!("firmware.drain_cycles={}", random.random_range(12..100)),
+        format!("firmware.drain_cycles={}", random.random_range(last + 8..last + 100)),
         format!("firmware.mode={}", random.random_range(0..2)),
         format!("seed={}", random.random_range(0..u32::MAX)),
     ]
@@ -145,6 +160,12 @@ fn what_does_not_fit_is_refused_with_what_would() {
             key(&["firmware.drain_cycles=9"]),
             "firmware.drain_cycles = 9: expected 10 cycles or more",
         ),
+        (key(&["tdc.bin_ps=4.9"]), "from 5.0 to 2000.0 [ps]"),
+        (
+            key(&["tdc.bin_ps=2000", "tdc.first_bin_ps=62001"]),
+            "tdc.first_bin_ps = 62001.0: expected 62000 ps at most, a bin less than the window that 3 bits count",
+        ),
+        (key(&["tdc.bin_ps=100"]), "firmware.laser_periods.3 = 6: expected 7 cycles or more"),
         (key(&["tdc.coarse_bits=13"]), "from 1 to 12 [bit]"),
         (key(&["tdc.coarse_bits=0"]), "from 1 to 12 [bit]"),
         (chain("offset_ps = 2230\ntap_ps = 11.5\ntaps = 15"), "from 16 to 2000"),

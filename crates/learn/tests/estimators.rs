@@ -6,7 +6,6 @@ mod scipy;
 mod subtraction;
 
 use tofsim::firmware::tdc;
-use tofsim::kernel::Time;
 use tofsim::network::Histogram;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 use tofsim::scenario::builtin::Source as Place;
@@ -25,10 +24,8 @@ const DISTANCES_M: [f64; 6] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
 const SHOTS: u64 = 30_000;
 
 fn bins(profile: &str) -> Bins {
-    let (delays, period) = (chain::load(profile, &Place::Folder("".into())).unwrap(), 8);
-    let period = Time::from_ns(period);
-    let cal = delays.calibration(period);
-    Bins::of_tdc(&tdc::Params::new(delays, cal, 3, 3), period)
+    let delays = chain::load(profile, &Place::Folder("".into())).unwrap();
+    Bins::of_tdc(&tdc::Params::of_chain(delays))
 }
 
 fn acquisition(bins: &Bins) -> Acquisition<'_> {

@@ -140,13 +140,16 @@ fn vendor_primitives_stay_in_their_files() {
 }
 
 /// Parameters that say how large things are, and what each is by default.
-fn defaults() -> [(&'static str, String); 8] {
+fn defaults() -> [(&'static str, String); 11] {
     let (sizes, laser) = (Sizes::default(), vcsel_driver::Params::default());
     let width = |name| sizes.width(name).unwrap().to_string();
     let [shortest, others @ ..] = [3, 2, 1, 0].map(|rate| format!("16'd{}", laser.periods[rate]));
     [
         ("Taps", width("Taps")),
         ("CoarseBits", width("CoarseBits")),
+        ("Cycle", sizes.cycle.to_string()),
+        ("Digits", sizes.digits.to_string()),
+        ("AgeBits", width("AgeBits")),
         ("RateBits", width("RateBits")),
         ("PeriodBits", width("PeriodBits")),
         ("Halves", width("Halves")),

@@ -1,8 +1,8 @@
-//! When a transition reaches each tap, and the table of times that follows from it.
+//! When a transition reaches each tap.
 
 use std::ops::RangeInclusive;
 
-use crate::kernel::{Thermometer, Time, U};
+use crate::kernel::{Thermometer, Time};
 
 /// Length of the KC705's chain: 200 CARRY4 [taps].
 pub const TAPS: usize = 800;
@@ -11,10 +11,6 @@ pub const LENGTHS: RangeInclusive<usize> = 16..=2000;
 
 /// The taps, as registers.
 pub type Taps = Thermometer;
-
-/// ROM: for each ones count, from none to all, the time from the hit to the edge that sampled it
-/// [25/16 ps].
-pub type Calibration = Vec<U<14>>;
 
 /// The delays of a chain: what its placement decides.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,19 +121,9 @@ impl Delays {
         self.order.iter().position(|&tap| tap == 0).unwrap_or(0)
     }
 
-    /// The decoder's ROM for a chain whose delays are known: for each ones count the middle of
-    /// the interval of ages that gives it, rounded half up. The interval that holds a whole clock
-    /// period (time 0 at the edge after the laser's) is clamped so that its time is not negative.
-    pub fn calibration(&self, period: Time) -> Calibration {
-        let boundary = |n: usize| self.arrivals.get(n).unwrap_or(&self.end).fs();
-        let unit = |twice_fs: u64| (2 * twice_fs + 3125) / 6250;
-        let mut cal = vec![U::new(unit(2 * boundary(0))); self.taps() + 1];
-        for (n, word) in cal.iter_mut().enumerate().skip(1) {
-            *word = U::new(unit(boundary(n - 1) + boundary(n)));
-        }
-        let at_start = self.rank(period);
-        cal[at_start] = cal[at_start].min(U::new(unit(2 * period.fs())));
-        cal
+    /// Age at which `n` taps have been reached; past the last, that at which the hit has left the chain.
+    pub fn boundary(&self, n: usize) -> Time {
+        *self.arrivals.get(n).unwrap_or(&self.end)
     }
 }
 
@@ -168,17 +154,6 @@ mod tests {
             }
             assert_eq!(delays.rank(Time::from_ns(1_000_000)), TAPS);
         }
-    }
-
-    #[test]
-    fn ideal_taps_are_two_to_a_bin_and_time_zero_is_clamped() {
-        let cal = uniform(12_500, 2_000).calibration(Time::from_ns(8));
-        assert_eq!(cal[480], 5116);
-        assert_eq!(cal[479], 5108);
-        assert_eq!(cal[481], 5120, "holds an age of exactly 8 ns");
-        assert_eq!(cal[482], 5132);
-        assert_eq!(cal[0], 1280);
-        assert_eq!(cal[800], 1280 + 8 * 800 - 4);
     }
 
     #[test]

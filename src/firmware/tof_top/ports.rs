@@ -44,7 +44,7 @@ signals! {
     pub struct Nets {
         /// Reset of the TDC and the estimator: the board's or the acquisition computer's.
         pub rst_dsp: bool = true,
-        /// Code of a hit, from the source in use [25 ps].
+        /// Code of a hit, from the source in use [bins].
         pub tdc_code: U<8>,
         /// `tdc_code` is new.
         pub tdc_valid: bool,

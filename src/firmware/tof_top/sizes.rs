@@ -1,7 +1,9 @@
 //! How wide words are and how many there are of each, where elaboration decides it.
 
 use crate::firmware::carry_chain::TAPS;
+use crate::firmware::coarse_counter::DEFAULT_COARSE_BITS;
 use crate::firmware::forward2::NEURONS;
+use crate::firmware::tdc_decoder::{CODES, TimeScale};
 use crate::firmware::{frame_ctrl, vcsel_driver};
 use crate::kernel::ones_width;
 use crate::kernel::signals::{Signal, SignalFormat};
@@ -15,6 +17,12 @@ pub struct Sizes {
     pub taps: usize,
     /// Bits of the coarse count.
     pub coarse_bits: u32,
+    /// A clock period as times count it [units].
+    pub cycle: u64,
+    /// Binary digits of a time below a bin.
+    pub digits: u32,
+    /// Bits of the calibration ROM.
+    pub age_bits: u32,
     /// Laser rates to choose from.
     pub rates: usize,
     /// The longest laser period [cycles of clk_sys].
@@ -30,10 +38,13 @@ pub struct Sizes {
 impl Default for Sizes {
     /// The KC705's.
     fn default() -> Self {
-        let laser = vcsel_driver::Params::default();
+        let (laser, scale) = (vcsel_driver::Params::default(), TimeScale::default());
         Sizes {
             taps: TAPS,
-            coarse_bits: 3,
+            coarse_bits: DEFAULT_COARSE_BITS,
+            cycle: scale.cycle(),
+            digits: scale.digits(),
+            age_bits: 14,
             rates: laser.periods.len(),
             longest_period: laser.longest_period(),
             pulse_half_cycles: laser.pulse_half_cycles,
@@ -58,7 +69,12 @@ impl Sizes {
             "Hundreds" => groups(128),
             "CountOfTaps" => bits_to(self.taps as u64),
             "CoarseBits" => self.coarse_bits,
-            "TimeBits" => 14 + self.coarse_bits,
+            "AgeBits" => self.age_bits,
+            "TimeBits" => {
+                let edge_bits = bits_to(self.cycle) + self.coarse_bits;
+                let code_bits = CODES.ilog2() + self.digits;
+                edge_bits.max(self.age_bits).max(code_bits) + 1
+            }
             "RateBits" => bits_to(self.rates as u64 - 1),
             "PeriodBits" => bits_to(self.longest_period - 1),
             "Halves" => self.pulse_half_cycles.min(2),
@@ -91,6 +107,9 @@ impl Params {
         Sizes {
             taps: self.tdc.delays.taps(),
             coarse_bits: self.tdc.coarse_counter.coarse_bits,
+            cycle: self.tdc.decoder.scale.cycle(),
+            digits: self.tdc.decoder.scale.digits(),
+            age_bits: self.tdc.decoder.age_bits(),
             rates: self.vcsel_driver.periods.len(),
             longest_period: self.vcsel_driver.longest_period(),
             pulse_half_cycles: self.vcsel_driver.pulse_half_cycles,

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::firmware::coarse_counter::DEFAULT_COARSE_BITS;
 use crate::firmware::frame_ctrl::DRAIN_CYCLES;
 use crate::firmware::vcsel_driver::PERIODS;
 
@@ -42,7 +43,13 @@ table! {
         pub count_stages: u64 = 3,
         /// Width of the coarse count: a shot's window has as many cycles as it can count, 8 with three bits.
         #[schemars(range(min = 1, max = 12), extend("unit" = "bit", "source" = "section 6.5"))]
-        pub coarse_bits: u32 = 3,
+        pub coarse_bits: u32 = DEFAULT_COARSE_BITS,
+        /// Width of a bin: what a code counts.
+        #[schemars(range(min = 5.0, max = 2000.0), extend("unit" = "ps", "source" = "section 6.5: 256 bins in 6.4 ns"))]
+        pub bin_ps: f64 = 25.0,
+        /// Time at which bin 0 begins, from the laser edge: a range gate, within the window.
+        #[schemars(range(min = 0.0, max = 32_768_000.0), extend("unit" = "ps", "source" = "choice: at the laser edge"))]
+        pub first_bin_ps: f64 = 0.0,
     }
 }
 

@@ -92,7 +92,7 @@ impl Hits {
     fn count_oldest(&mut self, top: &mut TofTop, p: &Params) {
         let Some(hit) = self.0.pop_front() else { return };
         let (coarse, ones) = (hit.coarse.get(), hit.taps.ones(p.tdc.delays.taps()));
-        if let Some(code) = tdc_decoder::code(coarse, ones, &p.tdc.decoder.cal) {
+        if let Some(code) = p.tdc.decoder.code(coarse, ones) {
             top.tdc.tdc_decoder.tdc_code = code;
             top.nets.tdc_code = code;
             top.histogram_builder.count_at_once(code);

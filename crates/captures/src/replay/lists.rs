@@ -4,17 +4,10 @@ use std::fmt::Write;
 use std::ops::RangeInclusive;
 
 use tofsim::error::{Input, Result};
-use tofsim::firmware::tdc_decoder::{self, CYCLE};
 use tofsim::sim::setup::Setup;
 
 use super::kind::ReplayKind;
 use super::observed::{Observed, Pace, Shot};
-use super::timebase::CYCLE_PS;
-
-/// The TDC's unit of time [ps].
-const UNIT_PS: f64 = CYCLE_PS as f64 / CYCLE as f64;
-/// Past the last code [ps].
-const RANGE_PS: f64 = 6400.0;
 
 /// When codes come after their shots in the firmware of the scenario: a hit is sampled an edge after the
 /// laser's at the earliest. Codes from a ROM come within the shot.
@@ -56,7 +49,7 @@ pub(super) fn photons(
         }
         let stops = shot.stops.iter().skip(arrivals.len().min(shot.stops.len()));
         for &stop in stops {
-            arrivals.push(quantised_arrival(observed, shot, stop));
+            arrivals.push(quantised_arrival(observed, shot, stop, setup));
             quantised += 1;
         }
         for ps in arrivals {
@@ -100,14 +93,15 @@ fn edges(setup: &Setup) -> RangeInclusive<u64> {
 /// An arrival that the TDC gives that code, sampled by the edge of that number if it is known: the
 /// middle of the tap next to the edge [ps].
 fn arrival(setup: &Setup, code: u64, edge: Option<u64>) -> Option<f64> {
-    let cal = &setup.params.tdc.decoder.cal;
+    let decoder = &setup.params.tdc.decoder;
+    let (cal, scale) = (&decoder.cal, &decoder.scale);
     let of_edge = |edge: u64| {
         let is_it = |n: &usize| {
-            tdc_decoder::code(edge - 1, *n, cal).is_some_and(|given| given.get() == code)
-                && cal[*n].get() as i64 - (cal[1].get() as i64) < CYCLE
+            decoder.code(edge - 1, *n).is_some_and(|given| given.get() == code)
+                && cal[*n].get() < cal[1].get() + scale.cycle()
         };
         let n = (1..cal.len()).find(is_it)?;
-        Some((CYCLE * edge as i64 - cal[n].get() as i64) as f64 * UNIT_PS)
+        Some(scale.ps((scale.cycle() * edge) as i64 - cal[n].get() as i64))
     };
     match edge {
         Some(edge) => edges(setup).contains(&edge).then(|| of_edge(edge)).flatten(),
@@ -117,12 +111,14 @@ fn arrival(setup: &Setup, code: u64, edge: Option<u64>) -> Option<f64> {
 
 /// The middle of the step in which the detector's output rose; past the last code, where the shot has
 /// none, if the step reaches so far [ps].
-fn quantised_arrival(observed: &Observed, shot: &Shot, stop: i64) -> f64 {
+fn quantised_arrival(observed: &Observed, shot: &Shot, stop: i64, setup: &Setup) -> f64 {
+    let scale = &setup.params.tdc.decoder.scale;
+    let range_ps = scale.ps(scale.range() as i64);
     let step = observed.timebase.step_ps() as f64;
     let begin = (stop - shot.start) as f64 * step;
     let middle = begin + step / 2.0;
-    match begin + step > RANGE_PS && observed.has_codes {
-        true => middle.max((begin.max(RANGE_PS) + begin + step) / 2.0),
+    match begin + step > range_ps && observed.has_codes {
+        true => middle.max((begin.max(range_ps) + begin + step) / 2.0),
         false => middle,
     }
 }

@@ -12,8 +12,6 @@ use tofsim::sim::setup::{CYCLE, Setup};
 
 /// Codes of the TDC [codes].
 const CODES: usize = 256;
-/// Width of a bin as the decoder's codes count it [ps].
-pub const BIN_PS: f64 = 25.0;
 /// Mean arrival of an echo for each metre of distance, 2 / c (eq. 3.23) [ps/m].
 pub const ARRIVAL_PS_PER_M: f64 = 2e12 / LIGHT_M_S;
 

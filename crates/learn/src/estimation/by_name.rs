@@ -94,16 +94,13 @@ impl EstimatorKind {
 mod tests {
     use super::*;
     use tofsim::firmware::tdc;
-    use tofsim::kernel::Time;
     use tofsim::optics::Bins;
     use tofsim::scenario::{builtin::Source, chain};
 
     #[test]
     fn every_estimator_answers_to_its_name() {
         let delays = chain::load("ideal", &Source::Folder("".into())).unwrap();
-        let period = Time::from_ns(8);
-        let cal = delays.calibration(period);
-        let bins = &Bins::of_tdc(&tdc::Params::new(delays, cal, 3, 3), period);
+        let bins = &Bins::of_tdc(&tdc::Params::of_chain(delays));
         let network = &Network::builtin("ideal").unwrap().unwrap();
         let acquisition = Acquisition::new(bins, 30_000, 137.0);
         let centroid = &centroid_estimator::Params::default();

@@ -9,7 +9,7 @@ use tofsim::sim::fast::histogram::independent_shots;
 use tofsim::sim::setup::{CYCLE, Setup};
 use tofsim::{Note, NoteCode, NoteValue};
 
-use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, BIN_PS, most_probable};
+use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, most_probable};
 use super::by_name::EstimatorKind;
 use super::centroid::Centroid;
 use super::estimator;
@@ -178,7 +178,8 @@ impl Teller<'_> {
     /// That the centroid's window holds the pulse.
     fn window(&self) -> Option<Note> {
         let half = self.setup.scenario.estimator.centroid_half_width;
-        let needed = WINDOW_SIGMA * self.setup.scenario.laser.pulse_sigma_ps / BIN_PS;
+        let needed = WINDOW_SIGMA * self.setup.scenario.laser.pulse_sigma_ps
+            / self.setup.scenario.tdc.bin_ps;
         let text = "its window cuts the pulse off, or begins within it";
         let expected = format!("{:.0} at least, 4 sigma of the pulse", needed.ceil());
         let is_narrow = (half as f64) < needed.floor();

@@ -46,6 +46,8 @@ pub fn sized(params: &Params, names: &[&'static str]) -> Parameters {
         LASER_PERIODS => Parameter::Words(laser.every_period().to_vec()),
         "PulseHalfCycles" => Parameter::Number(sizes.pulse_half_cycles.into()),
         "DrainCycles" => Parameter::Number(sizes.drain_cycles),
+        "Cycle" => Parameter::Number(sizes.cycle),
+        "Digits" => Parameter::Number(sizes.digits.into()),
         name => Parameter::Number(sizes.width(name).unwrap_or_default().into()),
     };
     let usual = (Sizes::default(), vcsel_driver::Params::default());
@@ -60,8 +62,10 @@ pub fn sized(params: &Params, names: &[&'static str]) -> Parameters {
 const LASER_PERIODS: &str = "LaserPeriods";
 /// Of [`sized`], those on which widths of ports depend.
 pub const SHAPES: [&str; 5] = [NEURONS, "Taps", "CoarseBits", "RateBits", "Halves"];
+/// Of [`sized`], those of the decoder.
+pub const OF_DECODER: [&str; 5] = ["Taps", "CoarseBits", "Cycle", "Digits", "AgeBits"];
 /// Of [`sized`], those of the whole.
-const OF_TOP: [&str; 7] = [
+const OF_TOP: [&str; 10] = [
     "DrainCycles",
     LASER_PERIODS,
     "RateBits",
@@ -69,6 +73,9 @@ const OF_TOP: [&str; 7] = [
     "PulseHalfCycles",
     "Taps",
     "CoarseBits",
+    "Cycle",
+    "Digits",
+    "AgeBits",
 ];
 
 /// Those of a block of the depth estimator: its memories, and how many neurons they are for.
@@ -119,7 +126,7 @@ pub fn tof_top(setup: &Setup) -> Parameters {
     ];
     list.extend(depth_estimator(&params.depth_estimator));
     list.extend([
-        ("CalFile", Memory(mem::tdc_decoder(&params.tdc.decoder.cal))),
+        ("CalFile", Memory(mem::tdc_decoder(&params.tdc.decoder))),
         ("DelaysFile", Memory(tap_delays(&params.tdc.delays))),
     ]);
     list.extend(neurons(params.depth_estimator.neurons()));

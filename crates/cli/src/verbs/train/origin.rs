@@ -46,7 +46,8 @@ impl Origin {
             let loaded = load(&args.set)?;
             let labelled = Labelled::read(data, args.truth.as_deref())?;
             labelled.check(data, &loaded.scenario)?;
-            let parts = MeasuredParts::new(&labelled, args.seed)?;
+            let bins = Setup::new(loaded.clone())?.bins();
+            let parts = MeasuredParts::new(&labelled, bins, args.seed)?;
             return Ok(Origin::Measured {
                 parts,
                 ranges: labelled.ranges(),

@@ -5,12 +5,9 @@ use tofsim::optics::{BinProbabilities, Budget, Hazard};
 
 use super::*;
 
-const PERIOD: Time = Time::from_ns(8);
-
 fn even(tap_fs: i64, offset_ps: u64) -> Bins {
     let delays = Delays::new(Time::from_fs(offset_ps * 1000), &[tap_fs; TAPS]).unwrap();
-    let cal = delays.calibration(PERIOD);
-    Bins::of_tdc(&tdc::Params::new(delays, cal, 3, 3), PERIOD)
+    Bins::of_tdc(&tdc::Params::of_chain(delays))
 }
 
 fn filter(bins: &Bins) -> MatchedFilter {

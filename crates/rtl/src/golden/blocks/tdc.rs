@@ -3,8 +3,8 @@
 //! sweep through every number of taps that a hit can have.
 
 use tofsim::firmware::tdc::In;
-use tofsim::firmware::tdc_decoder::code;
 
+use crate::golden::parameters::OF_DECODER;
 use crate::golden::prelude::*;
 
 mod light;
@@ -38,7 +38,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let params = &setting.setup.params.tdc;
     let mut light = Light::new(&params.delays);
     let code_of = |ages: &Ages| {
-        Some(code(light::coarse(ages.first), ages.taps as usize, &params.decoder.cal)?.get())
+        Some(params.decoder.code(light::coarse(ages.first), ages.taps as usize)?.get())
     };
     let mut hits = Cover::new("taps of a hit", light.ages.iter().map(|ages| ages.taps));
     let mut codes = Cover::new("codes", light.ages.iter().filter_map(code_of));
@@ -105,10 +105,10 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let i = In { rst, start, tdc_stop: stops.line.level() };
         run.top.tdc.rise(&i, params, &mut stops.line, now);
     }
-    let memories = [parameters::tap_delays(&params.delays), mem::tdc_decoder(&params.decoder.cal)];
+    let memories = [parameters::tap_delays(&params.delays), mem::tdc_decoder(&params.decoder)];
     let mut parameters = files(["DelaysFile", "CalFile"], memories);
     parameters.extend(parameters::count_stages(&params.decoder));
-    parameters.extend(parameters::sized(&setting.setup.params, &["Taps", "CoarseBits"]));
+    parameters.extend(parameters::sized(&setting.setup.params, &OF_DECODER));
     Ok(Vectors {
         parameters,
         stops: light.stops.times().to_vec(),

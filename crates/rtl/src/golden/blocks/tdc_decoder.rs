@@ -2,14 +2,15 @@
 //! calibration but for the last words, which give times exactly at both ends of the range.
 
 use tofsim::firmware::carry_chain::Taps;
-use tofsim::firmware::tdc_decoder::{CYCLE, In, code};
+use tofsim::firmware::tdc_decoder::{In, Params};
 
+use crate::golden::parameters::OF_DECODER;
 use crate::golden::prelude::*;
 
-/// Last time before the range, its first, its last, and the first after it [25/16 ps].
-const ENDS: [i64; 4] = [-1, 0, 4095, 4096];
-/// Coarse counts of which a word of 14 bits can make such a time.
-const COARSE: u64 = 3;
+/// Coarse counts that are swept with all ones counts.
+const SWEPT: u64 = 3;
+/// Coarse counts at which a word of the ROM makes each end of the range.
+const AT_ENDS: usize = 3;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
@@ -24,23 +25,22 @@ pub(super) const SPEC: Spec = Spec {
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let (mut params, taps) = (setting.setup.params.tdc.decoder.clone(), setting.places());
     let count = params.taps();
-    let cal = &mut params.cal;
     let window = setting.setup.params.tdc.coarse_counter.window();
-    let coarse_used = COARSE.min(window);
-    let times = (0..coarse_used).flat_map(|coarse| ENDS.map(|end| (coarse, end)));
+    let coarse_used = SWEPT.min(window);
     // Coarse and ones count for a time at an end of the range.
     let mut edges = Vec::new();
-    let times = times.filter(|_| !setting.constants.has("CalFile"));
-    for (n, (coarse, end)) in (0..=taps).rev().zip(times) {
-        cal[n] = U::new((CYCLE * (coarse as i64 + 1) - end) as u64);
+    let ages = ages_at_ends(&params, window);
+    let ages = ages.into_iter().filter(|_| !setting.constants.has("CalFile"));
+    for (n, (coarse, age)) in (0..=taps).rev().zip(ages) {
+        params.cal[n] = U::new(age);
         edges.push((coarse, n));
     }
     let all = (0..=taps).flat_map(|n| (0..coarse_used).map(move |coarse| (coarse, n)));
-    let reachable = all.filter_map(|(coarse, n)| Some(code(coarse, n, cal)?.get()));
+    let reachable = all.filter_map(|(coarse, n)| Some(params.code(coarse, n)?.get()));
     let mut codes = Cover::new("codes", reachable);
     let mut ones = Cover::new("ones count", 0..=taps as u64);
     let mut coarses = Cover::new("coarse", ends(window));
-    let mut times = Cover::new("coarse x 4 + time -1, 0, 4095, 4096", 0..edges.len() as u64);
+    let mut times = Cover::new("times at both ends of the range", 0..edges.len() as u64);
     let mut situations = Cover::new("rst, hit, hit before as bits", 0..8);
     let mut run = Recorder::new(spec, setting, In::list());
     let mut hits_swept = 0;
@@ -75,10 +75,26 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.tdc.tdc_decoder = decoder.next(&i, &params);
     }
-    let mut parameters = files(["CalFile"], [mem::tdc_decoder(&params.cal)]);
+    let mut parameters = files(["CalFile"], [mem::tdc_decoder(&params)]);
     parameters.extend(parameters::count_stages(&params));
-    parameters.extend(parameters::sized(&setting.setup.params, &["Taps", "CoarseBits"]));
+    parameters.extend(parameters::sized(&setting.setup.params, &OF_DECODER));
     Ok(Vectors { parameters, ..run.vectors([ones, coarses, codes, times, situations]) })
+}
+
+/// Coarse counts, each with an age that makes the last time before the range, its first, its last, or the
+/// first after it.
+fn ages_at_ends(p: &Params, window: u64) -> Vec<(u64, u64)> {
+    let (cycle, range) = (p.scale.cycle() as i64, p.scale.range() as i64);
+    let mut ages: Vec<_> = [-1, 0, range - 1, range].into_iter()
+        .flat_map(|end| {
+            let age = move |coarse: u64| (coarse, cycle * (coarse as i64 + 1) - end);
+            let fits = |(_, age): &(u64, i64)| (0..1 << p.age_bits()).contains(age);
+            (0..window).map(age).filter(fits).take(AT_ENDS)
+        })
+        .map(|(coarse, age)| (coarse, age as u64))
+        .collect();
+    ages.sort_by_key(|(coarse, _)| *coarse);
+    ages
 }
 
 /// So many ones among the first `taps` of a chain of `count`, in one run or two, with the gaps anywhere.
