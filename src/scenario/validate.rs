@@ -48,11 +48,18 @@ fn bins(scenario: &Scenario, checked: &Checked) -> Result<()> {
     let Tdc { bin_ps, first_bin_ps, coarse_bits, .. } = scenario.tdc;
     let window_ps = 1e12 / CLK_SYS_HZ as f64 * f64::from(1 << coarse_bits);
     let window = format!("the window that {coarse_bits} bits count (tdc.coarse_bits)");
-    let expected = format!("expected {window_ps} ps at most, {window}");
-    ensure(bin_ps <= window_ps, checked, "tdc.bin_ps", expected)?;
+    let fault =
+        |key, value: f64, expected: String| Err(checked.fault(key, expected).value(value).into());
+    if bin_ps > window_ps {
+        let expected = format!("expected {window_ps} ps at most, {window}");
+        return fault("tdc.bin_ps", bin_ps, expected);
+    }
     let most_ps = window_ps - bin_ps;
-    let expected = format!("expected {most_ps} ps at most, a bin less than {window}");
-    ensure(first_bin_ps <= most_ps, checked, "tdc.first_bin_ps", expected)
+    if first_bin_ps > most_ps {
+        let expected = format!("expected {most_ps} ps at most, a bin less than {window}");
+        return fault("tdc.first_bin_ps", first_bin_ps, expected);
+    }
+    Ok(())
 }
 
 fn stimulus(scenario: &Scenario, checked: &Checked) -> Result<()> {
