@@ -76,7 +76,7 @@ fn the_first_mismatch_is_the_same_in_both_simulators_and_in_table_json_and_xml()
 
 #[test]
 fn with_fail_fast_nothing_comes_after_the_first_mismatch() {
-    let folder = counter("coarse + 3'd1", "coarse + 3'd2");
+    let folder = counter("coarse + 1'b1", "coarse + 2'd2");
     fs::copy(Path::new(OWN).join("control_sync.v"), folder.path().join("control_sync.v")).unwrap();
     let args = ["verify", "--rtl", ".", "--json", "-o", "out"];
     let args = [&args[..], &["--block", "coarse_counter", "--block", "control_sync"]].concat();
