@@ -42,7 +42,7 @@ impl TimeScale {
         };
         let holds = |digits: &u32| {
             let rounding = (period.fs() << digits).abs_diff(with(*digits).cycle * bin.fs());
-            16 * ((2 * rounding << coarse_bits) + bin.fs()) <= bin.fs() << digits
+            16 * (((2 * rounding) << coarse_bits) + bin.fs()) <= bin.fs() << digits
         };
         // With so many, half a unit at each edge of the window is little enough.
         let most = FEWEST_DIGITS + coarse_bits + 1;
