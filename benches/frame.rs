@@ -1,4 +1,4 @@
-//! What a frame costs: `cargo bench`. An iteration of `cycle` is one cycle of clk_125, so that its
+//! What a frame costs: `cargo bench`. An iteration of `cycle` is one cycle of clk_sys, so that its
 //! time is nanoseconds per cycle; `shots` gives shots per second.
 
 use std::hint::black_box;

@@ -7,7 +7,7 @@ fn main() -> tofsim::Result<()> {
     for frame in Run::new(&setup).frames(1)? {
         let fullest = frame.histogram.iter().enumerate().max_by_key(|(_, hits)| **hits);
         println!("{:.4} m, {} hits, fullest bin {fullest:?}", frame.depth_m(), frame.hits());
-        println!("{} cycles of clk_125", frame.frame_cycles);
+        println!("{} cycles of clk_sys", frame.frame_cycles);
     }
     Ok(())
 }

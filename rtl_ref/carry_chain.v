@@ -1,22 +1,25 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// The tapped delay line of the TDC: 800 taps of carry logic, all registered at every edge.
+// The tapped delay line of the TDC: taps of carry logic, all registered at every edge.
 module carry_chain #(
+    parameter integer Taps = 800,                    // 16 to 2000
     parameter DelaysFile = "rtl_ref/tap_delays.mem"  // for simulation: tdc_stop to each tap [fs]
 ) (
-    input wire clk_125,
-    input wire tdc_stop,     // output of the SPAD, asynchronous
-    output reg [799:0] taps  // level of each tap at the last edge
+    input wire clk_sys,
+    input wire tdc_stop,         // output of the SPAD, asynchronous
+    output reg [Taps-1:0] taps  // level of each tap at the last edge
 );
-    initial taps = 800'd0;
+    initial taps = {Taps{1'b0}};
 
 `ifdef SYNTHESIS
 `ifdef ECP5
     // The inverse of tdc_stop runs up the chain, and each sum output inverts it again: a sum output
     // reaches the flip-flop beside it without passing through logic, and the carry itself reaches none.
-    wire [400:0] carry;
-    wire [799:0] level;
+    localparam integer Slices = (Taps + 1) / 2;
+
+    wire [Slices:0] carry;
+    wire [2*Slices-1:0] level;
 
     // Second half: COUT = !A1, whatever comes in.
     (* keep = "true" *)
@@ -35,7 +38,7 @@ module carry_chain #(
 
     genvar k;
     generate
-        for (k = 0; k < 400; k = k + 1) begin : slice
+        for (k = 0; k < Slices; k = k + 1) begin : slice
             (* keep = "true" *)
             CCU2C #(
                 .INIT0(16'hFFFF),
@@ -52,14 +55,16 @@ module carry_chain #(
         end
     endgenerate
 
-    always @(posedge clk_125) taps <= level;
+    always @(posedge clk_sys) taps <= level[Taps-1:0];
 `else
     // Every carry bit passes the one before it on, so tdc_stop runs up the column of slices.
-    wire [799:0] carry;
+    localparam integer Slices = (Taps + 3) / 4;
+
+    wire [4*Slices-1:0] carry;
 
     genvar k;
     generate
-        for (k = 0; k < 200; k = k + 1) begin : slice
+        for (k = 0; k < Slices; k = k + 1) begin : slice
             (* keep = "true", DONT_TOUCH = "true" *)
             CARRY4 carry4 (
                 .CI(k == 0 ? 1'b0 : carry[(k == 0 ? 0 : 4*k - 1)]),
@@ -72,13 +77,13 @@ module carry_chain #(
         end
     endgenerate
 
-    always @(posedge clk_125) taps <= carry;
+    always @(posedge clk_sys) taps <= carry[Taps-1:0];
 `endif
 `else
-    reg [39:0] arrival [0:799];   // time to each tap [fs]
-    reg [39:0] sorted [0:799];    // the same, earliest first [fs]
-    integer order [0:799];        // the taps in that order
-    reg [799:0] reached [0:800];  // the taps that an edge has reached first, by their number
+    reg [39:0] arrival [0:Taps-1];    // time to each tap [fs]
+    reg [39:0] sorted [0:Taps-1];     // the same, earliest first [fs]
+    integer order [0:Taps-1];         // the taps in that order
+    reg [Taps-1:0] reached [0:Taps];  // the taps that an edge has reached first, by their number
 
     reg level;                    // tdc_stop, as far as its changes are noted
     reg [63:0] changed [0:7];     // its last changes, a ring [fs after Epoch]
@@ -90,7 +95,7 @@ module carry_chain #(
     integer i, place;
     initial begin
         $readmemh(DelaysFile, arrival);
-        for (i = 0; i < 800; i = i + 1) begin
+        for (i = 0; i < Taps; i = i + 1) begin
             place = i;
             while (place > 0 && sorted[place-1] > arrival[i]) begin
                 sorted[place] = sorted[place-1];
@@ -100,23 +105,26 @@ module carry_chain #(
             sorted[place] = arrival[i];
             order[place] = i;
         end
-        reached[0] = 800'd0;
-        for (i = 0; i < 800; i = i + 1) reached[i+1] = reached[i] | (800'd1 << order[i]);
+        reached[0] = {Taps{1'b0}};
+        for (i = 0; i < Taps; i = i + 1) begin
+            reached[i+1] = reached[i];
+            reached[i+1][order[i]] = 1'b1;
+        end
     end
 
     // Number of taps that a change of this age has reached; one that it reaches just now counts.
-    function [9:0] rank;
+    function integer rank;
         input [63:0] age;
-        reg [10:0] low, high, middle;  // one bit more, for low + high
+        integer low, high, middle;
         begin
-            low = 11'd0;
-            high = 11'd800;
+            low = 0;
+            high = Taps;
             while (low < high) begin
-                middle = (low + high) >> 1;
-                if ({24'd0, sorted[middle[9:0]]} <= age) low = middle + 11'd1;
+                middle = (low + high) / 2;
+                if ({24'd0, sorted[middle]} <= age) low = middle + 1;
                 else high = middle;
             end
-            rank = low[9:0];
+            rank = low;
         end
     endfunction
 
@@ -147,17 +155,17 @@ module carry_chain #(
 
     // Each tap shows the present level, turned over by every change that has not reached it. A
     // change of this very instant has reached none, so it does not matter which block runs first.
-    always @(posedge clk_125) begin : sample
+    always @(posedge clk_sys) begin : sample
         reg [63:0] now, age;
-        reg [799:0] levels;
+        reg [Taps-1:0] levels;
         reg [2:0] change;  // a name of its own, so that it wraps in every simulator
         integer n;
         now = fs_after_epoch($realtime);
-        levels = {800{level}};
+        levels = {Taps{level}};
         change = newest;
         age = now - changed[change];
         n = 1;
-        while (n <= 8 && age < {24'd0, sorted[799]}) begin
+        while (n <= 8 && age < {24'd0, sorted[Taps-1]}) begin
             levels = levels ^ ~reached[rank(age)];
             change = change - 3'd1;
             age = now - changed[change];

@@ -16,7 +16,7 @@ module centroid_estimator #(
     parameter [16:0] Slope = 17'd62871,       // distance of a bin [2^-24 m]
     parameter signed [29:0] Offset = 30'sd0   // distance that is added [2^-29 m]
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     input wire algo_start,           // starts an estimation
     // Histogram
@@ -216,9 +216,9 @@ module centroid_estimator #(
         end
     end
 
-    always @(posedge clk_125) if (sliding) window[step[5:0]] <= entering;
+    always @(posedge clk_sys) if (sliding) window[step[5:0]] <= entering;
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         if (rst) begin
             algo_done <= 1'b0;
             read_en <= 1'b0;

@@ -1,19 +1,23 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// Counts the cycles of a shot, and closes the TDC's window after eight (64 ns).
-module coarse_counter (
-    input wire clk_125,
+// Counts the cycles of a shot, and closes the TDC's window after all that it can count.
+module coarse_counter #(
+    parameter integer CoarseBits = 3  // eight cycles, 64 ns
+) (
+    input wire clk_sys,
     input wire rst,
-    input wire start,         // a shot begins
-    output reg [2:0] coarse,  // whole cycles from the laser edge to the edge before the last
-    output reg window         // a hit now belongs to the shot
+    input wire start,                    // a shot begins
+    output reg [CoarseBits-1:0] coarse,  // whole cycles from the laser edge to the edge before the last
+    output reg window                    // a hit now belongs to the shot
 );
-    reg [2:0] coarse_next;
+    localparam [CoarseBits-1:0] None = {CoarseBits{1'b0}};
+
+    reg [CoarseBits-1:0] coarse_next;
     reg window_next;
 
     initial begin
-        coarse = 3'd0;
+        coarse = None;
         window = 1'b0;
     end
 
@@ -21,17 +25,17 @@ module coarse_counter (
         coarse_next = coarse;
         window_next = window;
         if (start) begin
-            coarse_next = 3'd0;
+            coarse_next = None;
             window_next = 1'b1;
         end else if (window) begin
-            if (coarse == 3'd7) window_next = 1'b0;
-            else coarse_next = coarse + 3'd1;
+            if (&coarse) window_next = 1'b0;
+            else coarse_next = coarse + 1'b1;
         end
     end
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         if (rst) begin
-            coarse <= 3'd0;
+            coarse <= None;
             window <= 1'b0;
         end else begin
             coarse <= coarse_next;

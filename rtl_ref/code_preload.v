@@ -4,13 +4,13 @@
 // Stands in for the TDC: a code from a ROM for every shot.
 module code_preload #(
     parameter integer Codes = 27756,          // words of the ROM, 1 to 65536
-    parameter CodeFile = "rtl_ref/codes.mem"  // [25 ps]
+    parameter CodeFile = "rtl_ref/codes.mem"  // [bins]
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     input wire start,          // a shot begins
     output reg tdc_valid,      // tdc_code is new; one cycle
-    output reg [7:0] tdc_code  // code of the shot [25 ps]
+    output reg [7:0] tdc_code  // code of the shot [bins]
 );
     localparam [15:0] LastCode = Codes[15:0] - 16'd1;
     localparam integer AddressBits = Codes > 1 ? $clog2(Codes) : 1;
@@ -44,7 +44,7 @@ module code_preload #(
         end
     end
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         if (rst) begin
             tdc_valid <= 1'b0;
             tdc_code <= 8'd0;

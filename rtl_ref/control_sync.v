@@ -1,34 +1,36 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// Brings the acquisition computer's signals into clk_125, two flip-flops each.
-module control_sync (
-    input wire clk_125,
+// Brings the acquisition computer's signals into clk_sys, two flip-flops each.
+module control_sync #(
+    parameter integer RateBits = 2
+) (
+    input wire clk_sys,
     // Acquisition computer, asynchronous
-    input wire mode,                   // SPAD quench mode
-    input wire [1:0] laser_freq,       // laser repetition rate
-    input wire laser_en,               // lets the laser fire
-    input wire dsp_en,                 // lets the estimator start
-    input wire dsp_rst,                // abandons the frame
-    // The same in clk_125
+    input wire mode,                       // SPAD quench mode
+    input wire [RateBits-1:0] laser_freq,  // laser repetition rate
+    input wire laser_en,                   // lets the laser fire
+    input wire dsp_en,                     // lets the estimator start
+    input wire dsp_rst,                    // abandons the frame
+    // The same in clk_sys
     output reg mode_sync,
-    output reg [1:0] laser_freq_sync,
+    output reg [RateBits-1:0] laser_freq_sync,
     output reg laser_en_sync,
     output reg dsp_en_sync,
     output reg dsp_rst_sync
 );
     (* ASYNC_REG = "TRUE" *) reg mode_meta;
-    (* ASYNC_REG = "TRUE" *) reg [1:0] laser_freq_meta;
+    (* ASYNC_REG = "TRUE" *) reg [RateBits-1:0] laser_freq_meta;
     (* ASYNC_REG = "TRUE" *) reg laser_en_meta;
     (* ASYNC_REG = "TRUE" *) reg dsp_en_meta;
     (* ASYNC_REG = "TRUE" *) reg dsp_rst_meta;
 
     initial begin
-        {mode_meta, laser_freq_meta, laser_en_meta, dsp_en_meta, dsp_rst_meta} = 6'd0;
-        {mode_sync, laser_freq_sync, laser_en_sync, dsp_en_sync, dsp_rst_sync} = 6'd0;
+        {mode_meta, laser_freq_meta, laser_en_meta, dsp_en_meta, dsp_rst_meta} = {4 + RateBits{1'b0}};
+        {mode_sync, laser_freq_sync, laser_en_sync, dsp_en_sync, dsp_rst_sync} = {4 + RateBits{1'b0}};
     end
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         mode_meta <= mode;
         laser_freq_meta <= laser_freq;
         laser_en_meta <= laser_en;

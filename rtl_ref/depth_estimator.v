@@ -13,7 +13,7 @@ module depth_estimator #(
     parameter B2File = "rtl_ref/b2.mem",
     parameter TansigFile = "rtl_ref/tansig.mem"  // see tansig
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     input wire algo_start,            // starts an estimation
     // Histogram
@@ -40,7 +40,7 @@ module depth_estimator #(
     estimator_ctrl #(
         .Neurons(Neurons)
     ) estimator_ctrl (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst),
         .algo_start(algo_start),
         .algo_done(algo_done),
@@ -61,7 +61,7 @@ module depth_estimator #(
         .W1File(W1File),
         .B1File(B1File)
     ) forward1 (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst),
         .forward1_first(forward1_first),
         .forward1_en(forward1_en),
@@ -89,7 +89,7 @@ module depth_estimator #(
         .Neurons(Neurons),
         .TansigFile(TansigFile)
     ) tansig (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst),
         .tansig_en(tansig_en),
         .l1_in_0(l1_in_0),
@@ -131,7 +131,7 @@ module depth_estimator #(
         .W2File(W2File),
         .B2File(B2File)
     ) forward2 (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst),
         .pair(pair),
         .forward2_first(forward2_first),

@@ -14,7 +14,7 @@
 module estimator_ctrl #(
     parameter [4:0] Neurons = 5'd8  // hidden neurons, 1 to 16
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     input wire algo_start,       // starts an estimation; ignored while busy
     output reg algo_done,        // the depth is ready; one cycle
@@ -94,7 +94,7 @@ module estimator_ctrl #(
         end
     end
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         if (rst) begin
             algo_done <= 1'b0;
             read_en <= 1'b0;

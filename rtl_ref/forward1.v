@@ -9,7 +9,7 @@ module forward1 #(
     parameter W1File = "rtl_ref/w1.mem",  // 256 rows, a weight for each neuron [2^-23]
     parameter B1File = "rtl_ref/b1.mem"   // one row, a bias for each neuron [2^-13]
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     // estimator_ctrl
     input wire forward1_first,   // the sums begin
@@ -62,7 +62,7 @@ module forward1 #(
 `ifdef ECP5
             (* keep *)
 `endif
-            always @(posedge clk_125) word <= count;
+            always @(posedge clk_sys) word <= count;
         end
     endgenerate
 
@@ -121,7 +121,7 @@ module forward1 #(
                         l1_in_next = (forward1_first ? bias : l1_in) + {{3{product[32]}}, product};
                 end
 
-                always @(posedge clk_125) begin
+                always @(posedge clk_sys) begin
                     fetched <= row[16*k +: 16];
                     weight <= fetched;
                     product <= weight * $signed({1'b0, groups[k / 4].word});

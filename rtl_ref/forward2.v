@@ -10,7 +10,7 @@ module forward2 #(
     parameter W2File = "rtl_ref/w2.mem",  // one row, a weight for each neuron [2^-14]
     parameter B2File = "rtl_ref/b2.mem"   // the bias [2^-17]
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     // estimator_ctrl
     input wire [2:0] pair,      // neurons 2 pair and 2 pair + 1 become operands
@@ -81,7 +81,7 @@ module forward2 #(
         if (depth_en) depth_next = sum_0 + sum_1;
     end
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         activation_0 <= l1_out[{1'b0, pair, 5'd0} +: 16];
         activation_1 <= l1_out[{1'b0, pair, 5'd16} +: 16];
         w2_0 <= w2[{1'b0, pair, 5'd0} +: 16];

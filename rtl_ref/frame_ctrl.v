@@ -4,9 +4,10 @@
 // Runs a frame: clear the histogram, acquire, let the TDC drain, estimate, again.
 module frame_ctrl #(
     parameter [15:0] ShotsPerFrame = 16'd30000,  // [shots]
-    parameter [0:0] Preloaded = 1'b0             // skips Acquire and Drain
+    parameter [0:0] Preloaded = 1'b0,            // skips Acquire and Drain
+    parameter [16:0] DrainCycles = 17'd16        // longer than a photon's way to its word
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     // vcsel_driver
     input wire start,             // a shot begins
@@ -22,17 +23,19 @@ module frame_ctrl #(
     output reg algo_start,        // starts the estimator; one cycle
     input wire algo_done          // the estimator has finished
 );
+    localparam integer DrainBits = $clog2(DrainCycles);
+    localparam [16:0] LastDrain = DrainCycles - 17'd1;
     localparam [1:0] Clear = 2'd0, Acquire = 2'd1, Drain = 2'd2, Estimate = 2'd3;
 
     reg [1:0] state;   // state of the frame
     reg [15:0] shots;  // shots begun in this frame
-    reg [3:0] drain;   // cycles spent in Drain
+    reg [DrainBits-1:0] drain;  // cycles spent in Drain
 
     reg acquire_next, frame_done_next, clear_next, algo_start_next;
     reg [7:0] clear_addr_next;
     reg [1:0] state_next;
     reg [15:0] shots_next;
-    reg [3:0] drain_next;
+    reg [DrainBits-1:0] drain_next;
 
     initial begin
         {acquire, frame_done, algo_start} = 3'd0;
@@ -40,7 +43,7 @@ module frame_ctrl #(
         clear_addr = 8'd0;
         state = Clear;
         shots = 16'd0;
-        drain = 4'd0;
+        drain = {DrainBits{1'b0}};
     end
 
     always @* begin
@@ -74,14 +77,14 @@ module frame_ctrl #(
                     shots_next = shots + 16'd1;
                     if (shots_next == ShotsPerFrame) begin
                         acquire_next = 1'b0;
-                        drain_next = 4'd0;
+                        drain_next = {DrainBits{1'b0}};
                         state_next = Drain;
                     end
                 end
             end
             Drain: begin
-                if (drain != 4'd15) begin
-                    drain_next = drain + 4'd1;
+                if (drain != LastDrain[DrainBits-1:0]) begin
+                    drain_next = drain + 1'b1;
                 end else if (dsp_en) begin
                     algo_start_next = 1'b1;
                     state_next = Estimate;
@@ -97,7 +100,7 @@ module frame_ctrl #(
         endcase
     end
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         if (rst || dsp_rst) begin
             acquire <= 1'b0;
             frame_done <= 1'b0;
@@ -106,7 +109,7 @@ module frame_ctrl #(
             algo_start <= 1'b0;
             state <= Clear;
             shots <= 16'd0;
-            drain <= 4'd0;
+            drain <= {DrainBits{1'b0}};
         end else begin
             acquire <= acquire_next;
             frame_done <= frame_done_next;

@@ -5,7 +5,7 @@
 // tdc_valid: its word is read in the first, and written back, one more, in the second. Clear goes before
 // it, and a hit that meets it is lost.
 module histogram_builder (
-    input wire clk_125,
+    input wire clk_sys,
     // frame_ctrl
     input wire clear,             // sets the word at clear_addr to zero
     input wire [7:0] clear_addr,  // word to clear
@@ -37,7 +37,7 @@ module histogram_builder (
 
     assign count = read_en ? word : 16'd0;
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         counting <= (tdc_valid || reading) && !clear;
         writing <= reading && !clear;
         if (reading) hit_word <= word;

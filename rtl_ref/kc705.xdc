@@ -15,7 +15,7 @@ set_property -dict {PACKAGE_PIN AD11 IOSTANDARD LVDS} [get_ports sysclk_n]
 set_property -dict {PACKAGE_PIN AB7 IOSTANDARD LVCMOS15} [get_ports cpu_reset]
 set_property -dict {PACKAGE_PIN AB8 IOSTANDARD LVCMOS15} [get_ports locked]
 
-# The PLL's outputs are derived from this clock by Vivado; clk_125 and clk_250 are synchronous, and
+# The PLL's outputs are derived from this clock by Vivado; clk_sys and clk_laser are synchronous, and
 # the path between them (fire to laser_pulse) has 4 ns.
 create_clock -period 5.000 -name clk_200 [get_ports sysclk_p]
 

@@ -13,14 +13,14 @@ module pll #(
     // verilator lint_off UNUSEDSIGNAL
     input wire clk_200,   // oscillator of the board
     // verilator lint_on UNUSEDSIGNAL
-    output wire clk_125,
-    output wire clk_250,
+    output wire clk_sys,
+    output wire clk_laser,
     output wire locked    // the outputs run
 );
 `ifdef SYNTHESIS
 `ifdef ECP5
     // 200 MHz / 4 is compared with CLKOP / 5. Both outputs begin with the last count of their dividers,
-    // so that each second edge of clk_250 is one of clk_125.
+    // so that each second edge of clk_laser is one of clk_sys.
     EHXPLLL #(
         .CLKI_DIV(4),
         .CLKFB_DIV(5),
@@ -32,9 +32,9 @@ module pll #(
         .CLKOS_CPHASE(3)
     ) ehxplll (
         .CLKI(clk_200),
-        .CLKFB(clk_250),
-        .CLKOP(clk_250),
-        .CLKOS(clk_125),
+        .CLKFB(clk_laser),
+        .CLKOP(clk_laser),
+        .CLKOS(clk_sys),
         .CLKOS2(),
         .CLKOS3(),
         .LOCK(locked),
@@ -55,7 +55,7 @@ module pll #(
         .ENCLKOS3(1'b0)
     );
 `else
-    wire feedback_out, feedback_in, out_125, out_250;
+    wire feedback_out, feedback_in, out_sys, out_laser;
 
     // Before lock the outputs already run, at some frequency; reset_sync waits for locked.
     PLLE2_BASE #(
@@ -68,8 +68,8 @@ module pll #(
         .CLKIN1(clk_200),
         .CLKFBIN(feedback_in),
         .CLKFBOUT(feedback_out),
-        .CLKOUT0(out_125),
-        .CLKOUT1(out_250),
+        .CLKOUT0(out_sys),
+        .CLKOUT1(out_laser),
         .CLKOUT2(),
         .CLKOUT3(),
         .CLKOUT4(),
@@ -84,14 +84,14 @@ module pll #(
         .O(feedback_in)
     );
 
-    BUFG bufg_125 (
-        .I(out_125),
-        .O(clk_125)
+    BUFG bufg_sys (
+        .I(out_sys),
+        .O(clk_sys)
     );
 
-    BUFG bufg_250 (
-        .I(out_250),
-        .O(clk_250)
+    BUFG bufg_laser (
+        .I(out_laser),
+        .O(clk_laser)
     );
 `endif
 `else
@@ -100,7 +100,7 @@ module pll #(
     reg [1:0] clocks /* verilator public_flat_rw */;
     reg lock /* verilator public_flat_rw */;
 
-    assign {clk_125, clk_250} = clocks;
+    assign {clk_sys, clk_laser} = clocks;
     assign locked = lock;
 
     initial begin

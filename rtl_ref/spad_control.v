@@ -3,7 +3,7 @@
 
 // Resets the SPAD before each shot and selects one out of the array.
 module spad_control (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     input wire mode,             // quench mode: 0 reset by the firmware, 1 by the SPAD itself
     input wire pre_start,        // two cycles before the laser edge
@@ -24,7 +24,7 @@ module spad_control (
         spad_sel_next = spad_sel;
     end
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         if (rst) begin
             spad_rst <= 1'b0;
             spad_sel <= 40'd1;

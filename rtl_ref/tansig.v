@@ -10,7 +10,7 @@ module tansig #(
     parameter integer Shift = 14,                 // fraction bits of l1_in that the address drops
     parameter TansigFile = "rtl_ref/tansig.mem"   // by address as an unsigned number [2^-15]
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     input wire tansig_en,  // looks up the activations
     // Sums of the neurons; not looked at past the last [2^-23]
@@ -88,7 +88,7 @@ module tansig #(
 
     initial found = 1'b0;
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         if (rst) found <= 1'b0;
         else found <= tansig_en;
     end
@@ -117,7 +117,7 @@ module tansig #(
                     l1_out = 16'sd0;
                 end
 
-                always @(posedge clk_125) begin
+                always @(posedge clk_sys) begin
                     if (tansig_en) entry <= rom[place];
                     if (rst) l1_out <= 16'sd0;
                     else if (found) l1_out <= entry;

@@ -9,40 +9,51 @@
 module tdc #(
     parameter DelaysFile = "rtl_ref/tap_delays.mem",  // for simulation, see carry_chain
     parameter CalFile = "rtl_ref/tdc_cal.mem",        // see tdc_decoder
+    parameter integer Taps = 800,
+    parameter integer CoarseBits = 3,
+    parameter integer Cycle = 5120,                   // [units]
+    parameter integer Digits = 4,
+    parameter integer AgeBits = 14,
     parameter [1:0] CountStages = 2'd3
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     input wire start,            // a shot begins
     input wire tdc_stop,         // output of the SPAD, asynchronous
-    output wire [7:0] tdc_code,  // time from the laser edge to the hit [25 ps]
+    output wire [7:0] tdc_code,  // time of the hit [bins]
     output wire tdc_valid        // tdc_code is new; one cycle
 );
-    wire [799:0] taps;
-    wire [2:0] coarse;
+    wire [Taps-1:0] taps;
+    wire [CoarseBits-1:0] coarse;
     wire window;
     wire hit;
-    wire [2:0] hit_coarse;
-    wire [799:0] hit_taps;
+    wire [CoarseBits-1:0] hit_coarse;
+    wire [Taps-1:0] hit_taps;
 
     carry_chain #(
+        .Taps(Taps),
         .DelaysFile(DelaysFile)
     ) carry_chain (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .tdc_stop(tdc_stop),
         .taps(taps)
     );
 
-    coarse_counter coarse_counter (
-        .clk_125(clk_125),
+    coarse_counter #(
+        .CoarseBits(CoarseBits)
+    ) coarse_counter (
+        .clk_sys(clk_sys),
         .rst(rst),
         .start(start),
         .coarse(coarse),
         .window(window)
     );
 
-    tdc_latch tdc_latch (
-        .clk_125(clk_125),
+    tdc_latch #(
+        .Taps(Taps),
+        .CoarseBits(CoarseBits)
+    ) tdc_latch (
+        .clk_sys(clk_sys),
         .rst(rst),
         .start(start),
         .window(window),
@@ -54,10 +65,15 @@ module tdc #(
     );
 
     tdc_decoder #(
+        .Taps(Taps),
+        .CoarseBits(CoarseBits),
+        .Cycle(Cycle),
+        .Digits(Digits),
+        .AgeBits(AgeBits),
         .CalFile(CalFile),
         .CountStages(CountStages)
     ) tdc_decoder (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst),
         .hit(hit),
         .hit_coarse(hit_coarse),

@@ -1,38 +1,50 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// Turns a hit into a code of 25 ps: counts its high taps in steps, then looks up and subtracts their time.
+// Turns a hit into a code: counts its high taps in steps, then looks up and subtracts their time.
 //
 //   edge      e+1       e+2       e+3       e+4  e+5  e+6  e+7
 //   register  hit_taps  sixteens  hundreds  n    age  t    tdc_code, tdc_valid
 module tdc_decoder #(
-    parameter CalFile = "rtl_ref/tdc_cal.mem",  // age of a hit for each ones count [25/16 ps]
+    parameter integer Taps = 800,               // of the chain, 16 to 2000
+    parameter integer CoarseBits = 3,
+    parameter integer Cycle = 5120,             // a period of clk_sys [units, 25/16 ps]
+    parameter integer Digits = 4,               // of a time below a bin, in binary
+    parameter integer AgeBits = 14,             // of a word of CalFile
+    parameter CalFile = "rtl_ref/tdc_cal.mem",  // age of a hit for each ones count [units]
     parameter [1:0] CountStages = 2'd3          // registers of the ones count; 2: n counts the sixteens
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     // tdc_latch
-    input wire hit,               // hit_taps are those of a new hit
-    input wire [2:0] hit_coarse,  // its coarse count
-    input wire [799:0] hit_taps,  // its taps
+    input wire hit,                          // hit_taps are those of a new hit
+    input wire [CoarseBits-1:0] hit_coarse,  // its coarse count
+    input wire [Taps-1:0] hit_taps,          // its taps
     // The code
-    output reg tdc_valid,         // tdc_code is new; one cycle
-    output reg [7:0] tdc_code     // time from the laser edge to the hit [25 ps]
+    output reg tdc_valid,                    // tdc_code is new; one cycle
+    output reg [7:0] tdc_code                // time of the hit [bins]
 );
+    // Groups of 16 and of 128 taps, and bits of what counts all of them and of a time.
+    localparam integer Sixteens = (Taps + 15) / 16, Hundreds = (Taps + 127) / 128;
+    localparam integer CountBits = $clog2(Taps + 1), EdgeBits = $clog2(Cycle + 1) + CoarseBits;
+    // A time is shorter than an edge's number of cycles, and than what it is compared with.
+    localparam integer CodeBits = 8 + Digits, LongBits = EdgeBits > AgeBits ? EdgeBits : AgeBits;
+    localparam integer TimeBits = 1 + (LongBits > CodeBits ? LongBits : CodeBits);
+
     // Each holds its last hit, is new for one cycle, and has that hit's coarse count.
-    reg [249:0] sixteens;        // ones among 16 taps each
-    reg [55:0] hundreds;         // ones among 128 taps each
-    reg [9:0] n;                 // taps that the hit had run through
-    reg [13:0] age;              // the time for that [25/16 ps]
+    reg [5*Sixteens-1:0] sixteens;  // ones among 16 taps each
+    reg [8*Hundreds-1:0] hundreds;  // ones among 128 taps each
+    reg [CountBits-1:0] n;          // taps that the hit had run through
+    reg [AgeBits-1:0] age;          // the time for that [units]
     // Its lowest bits are for the borrow.
     // verilator lint_off UNUSEDSIGNAL
-    reg signed [16:0] t;         // time from the laser edge [25/16 ps]
+    reg signed [TimeBits-1:0] t;    // time from the begin of bin 0 [units]
     // verilator lint_on UNUSEDSIGNAL
     reg sixteens_valid, hundreds_valid, n_valid, age_valid, t_valid;
-    reg [2:0] sixteens_coarse, hundreds_coarse, n_coarse, age_coarse;
+    reg [CoarseBits-1:0] sixteens_coarse, hundreds_coarse, n_coarse, age_coarse;
 
-    reg [249:0] sixteens_next;
-    reg [55:0] hundreds_next;
+    reg [5*Sixteens-1:0] sixteens_next;
+    reg [8*Hundreds-1:0] hundreds_next;
     reg tdc_valid_next;
     reg [7:0] tdc_code_next;
 
@@ -42,19 +54,19 @@ module tdc_decoder #(
 `else
     (* rom_style = "block" *)
 `endif
-    reg [13:0] cal [0:800];
+    reg [AgeBits-1:0] cal [0:Taps];
     initial $readmemh(CalFile, cal);
 
     initial begin
         tdc_valid = 1'b0;
         tdc_code = 8'd0;
         {sixteens_valid, hundreds_valid, n_valid, age_valid, t_valid} = 5'd0;
-        {sixteens_coarse, hundreds_coarse, n_coarse, age_coarse} = 12'd0;
-        sixteens = 250'd0;
-        hundreds = 56'd0;
-        n = 10'd0;
-        age = 14'd0;
-        t = 17'sd0;
+        {sixteens_coarse, hundreds_coarse, n_coarse, age_coarse} = {4 * CoarseBits{1'b0}};
+        sixteens = {5 * Sixteens{1'b0}};
+        hundreds = {8 * Hundreds{1'b0}};
+        n = {CountBits{1'b0}};
+        age = {AgeBits{1'b0}};
+        t = {TimeBits{1'b0}};
     end
 
     // Ones and their sums, as balanced trees. All taps count, so bubbles do no harm.
@@ -75,49 +87,69 @@ module tdc_decoder #(
             + (({3'd0, s[20 +: 5]} + {3'd0, s[25 +: 5]}) + ({3'd0, s[30 +: 5]} + {3'd0, s[35 +: 5]}));
     endfunction
 
-    function [9:0] sum_of_7;
-        input [8*7-1:0] s;
-        sum_of_7 = (({2'd0, s[0 +: 8]} + {2'd0, s[8 +: 8]}) + ({2'd0, s[16 +: 8]} + {2'd0, s[24 +: 8]}))
-            + (({2'd0, s[32 +: 8]} + {2'd0, s[40 +: 8]}) + {2'd0, s[48 +: 8]});
+    function [11:0] sum_of_4;
+        input [8*4-1:0] s;
+        sum_of_4 = ({4'd0, s[0 +: 8]} + {4'd0, s[8 +: 8]}) + ({4'd0, s[16 +: 8]} + {4'd0, s[24 +: 8]});
+    endfunction
+
+    function [11:0] sum_of_16;
+        input [8*16-1:0] s;
+        sum_of_16 = (sum_of_4(s[0 +: 32]) + sum_of_4(s[32 +: 32]))
+            + (sum_of_4(s[64 +: 32]) + sum_of_4(s[96 +: 32]));
     endfunction
 
     // Past the last tap stand zeros.
-    wire [5*56-1:0] all_sixteens = {30'd0, sixteens};
+    // verilator lint_off UNUSEDSIGNAL
+    wire [16*Sixteens:0] all_taps = {{16 * Sixteens + 1 - Taps{1'b0}}, hit_taps};
+    wire [40*Hundreds:0] all_sixteens = {{40 * Hundreds + 1 - 5 * Sixteens{1'b0}}, sixteens};
+    wire [8*16:0] last_sums;
+    // verilator lint_on UNUSEDSIGNAL
 
     integer i;
     always @* begin
-        for (i = 0; i < 50; i = i + 1) sixteens_next[5*i +: 5] = ones_of_16(hit_taps[16*i +: 16]);
-        for (i = 0; i < 7; i = i + 1) hundreds_next[8*i +: 8] = sum_of_8(all_sixteens[40*i +: 40]);
+        for (i = 0; i < Sixteens; i = i + 1) sixteens_next[5*i +: 5] = ones_of_16(all_taps[16*i +: 16]);
+        for (i = 0; i < Hundreds; i = i + 1) hundreds_next[8*i +: 8] = sum_of_8(all_sixteens[40*i +: 40]);
     end
 
     wire counted;
-    wire [9:0] count;
-    wire [2:0] counted_coarse;
+    wire [CoarseBits-1:0] counted_coarse;
     generate
         if (CountStages == 2'd2) begin : two_stages
-            wire [8*7-1:0] unregistered = hundreds_next;
+            wire [8*Hundreds-1:0] unregistered = hundreds_next;
             assign counted = sixteens_valid;
-            assign count = sum_of_7(unregistered);
+            assign last_sums = {{129 - 8 * Hundreds{1'b0}}, unregistered};
             assign counted_coarse = sixteens_coarse;
         end else begin : three_stages
             assign counted = hundreds_valid;
-            assign count = sum_of_7(hundreds);
+            assign last_sums = {{129 - 8 * Hundreds{1'b0}}, hundreds};
             assign counted_coarse = hundreds_coarse;
         end
     endgenerate
 
-    // A cycle is 5120 units of 25/16 ps.
-    wire [3:0] cycles = {1'b0, age_coarse} + 4'd1;
-    wire signed [16:0] edge_time = {1'b0, {2'd0, cycles} + {cycles, 2'd0}, 10'd0};
+    // 2000 taps at most.
+    // verilator lint_off UNUSEDSIGNAL
+    wire [11:0] count = sum_of_16(last_sums[127:0]);
+    // verilator lint_on UNUSEDSIGNAL
 
+    // The bits of Cycle say which multiples of the edge's number make its time.
+    wire [TimeBits-1:0] edge_number = {{TimeBits - CoarseBits{1'b0}}, age_coarse} + 1'b1;
+    reg signed [TimeBits-1:0] edge_time;
+
+    integer bit_of_cycle;
     always @* begin
-        // 0 to 4095; bit 16 is the sign.
-        tdc_valid_next = t_valid && t[16:12] == 5'd0;
-        tdc_code_next = tdc_code;
-        if (tdc_valid_next) tdc_code_next = t[11:4];
+        edge_time = {TimeBits{1'b0}};
+        for (bit_of_cycle = 0; bit_of_cycle < 31; bit_of_cycle = bit_of_cycle + 1)
+            if (Cycle[bit_of_cycle]) edge_time = edge_time + (edge_number << bit_of_cycle);
     end
 
-    always @(posedge clk_125) begin
+    always @* begin
+        // Within 256 bins; the highest bit is the sign.
+        tdc_valid_next = t_valid && t[TimeBits-1:CodeBits] == {TimeBits - CodeBits{1'b0}};
+        tdc_code_next = tdc_code;
+        if (tdc_valid_next) tdc_code_next = t[Digits +: 8];
+    end
+
+    always @(posedge clk_sys) begin
         if (hit) begin
             sixteens <= sixteens_next;
             sixteens_coarse <= hit_coarse;
@@ -127,14 +159,14 @@ module tdc_decoder #(
             hundreds_coarse <= sixteens_coarse;
         end
         if (counted) begin
-            n <= count;
+            n <= count[CountBits-1:0];
             n_coarse <= counted_coarse;
         end
         if (n_valid) begin
             age <= cal[n];
             age_coarse <= n_coarse;
         end
-        if (age_valid) t <= edge_time - {3'd0, age};
+        if (age_valid) t <= edge_time - {{TimeBits - AgeBits{1'b0}}, age};
         if (rst) begin
             tdc_valid <= 1'b0;
             tdc_code <= 8'd0;

@@ -2,31 +2,34 @@
 `default_nettype none
 
 // Says which taps are a shot's first hit. All pass through one register, at every edge: an enable that
-// comes from tap 0 and has 800 loads would be the slowest path of the device.
-module tdc_latch (
-    input wire clk_125,
+// comes from tap 0 and has as many loads as there are taps would be the slowest path of the device.
+module tdc_latch #(
+    parameter integer Taps = 800,
+    parameter integer CoarseBits = 3
+) (
+    input wire clk_sys,
     input wire rst,
-    input wire start,              // a shot begins
+    input wire start,                        // a shot begins
     // coarse_counter
-    input wire window,             // a hit now belongs to the shot
-    input wire [2:0] coarse,       // coarse count, in step with the taps
+    input wire window,                       // a hit now belongs to the shot
+    input wire [CoarseBits-1:0] coarse,      // coarse count, in step with the taps
     // carry_chain
-    input wire [799:0] taps,       // taps sampled at the last edge
+    input wire [Taps-1:0] taps,              // taps sampled at the last edge
     // tdc_decoder
-    output reg hit,                // hit_taps are a new hit; one cycle
-    output reg [2:0] hit_coarse,   // coarse count of the last hit
-    output reg [799:0] hit_taps    // taps sampled at the edge before
+    output reg hit,                          // hit_taps are a new hit; one cycle
+    output reg [CoarseBits-1:0] hit_coarse,  // coarse count of the last hit
+    output reg [Taps-1:0] hit_taps           // taps sampled at the edge before
 );
     reg used;        // the shot has had its hit
     reg tap_0_last;  // tap 0 at the edge before
 
     reg hit_next, used_next, tap_0_last_next;
-    reg [2:0] hit_coarse_next;
+    reg [CoarseBits-1:0] hit_coarse_next;
 
     initial begin
         {hit, used, tap_0_last} = 3'd0;
-        hit_coarse = 3'd0;
-        hit_taps = 800'd0;
+        hit_coarse = {CoarseBits{1'b0}};
+        hit_taps = {Taps{1'b0}};
     end
 
     always @* begin
@@ -42,11 +45,11 @@ module tdc_latch (
         if (start) used_next = 1'b0;
     end
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         hit_taps <= taps;
         if (rst) begin
             hit <= 1'b0;
-            hit_coarse <= 3'd0;
+            hit_coarse <= {CoarseBits{1'b0}};
             used <= 1'b0;
             tap_0_last <= 1'b0;
         end else begin

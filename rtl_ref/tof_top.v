@@ -4,6 +4,17 @@
 // The device: its modules and the wires between them.
 module tof_top #(
     parameter [15:0] ShotsPerFrame = 16'd30000,  // [shots]
+    parameter [16:0] DrainCycles = 17'd16,       // see frame_ctrl
+    // See vcsel_driver; RateBits is the width of laser_freq, PeriodBits that of a period less one
+    parameter [16*8-1:0] LaserPeriods = {{5{16'd6}}, 16'd8, 16'd13, 16'd25},
+    parameter integer RateBits = 2,
+    parameter integer PeriodBits = 5,
+    parameter integer PulseHalfCycles = 1,
+    parameter integer Taps = 800,                // see tdc
+    parameter integer CoarseBits = 3,
+    parameter integer Cycle = 5120,              // see tdc_decoder
+    parameter integer Digits = 4,
+    parameter integer AgeBits = 14,
     parameter [0:0] CodeSource = 1'b0,           // 0: tdc, 1: code_preload
     parameter [0:0] HistogramSource = 1'b0,      // 0: histogram_builder, 1: histogram_preload
     parameter [0:0] Estimator = 1'b0,            // 0: depth_estimator, 1: centroid_estimator
@@ -40,7 +51,7 @@ module tof_top #(
     output wire [39:0] spad_sel,      // row, one-hot
     // Acquisition computer
     input wire mode,                  // SPAD quench mode, asynchronous
-    input wire [1:0] laser_freq,      // laser repetition rate, asynchronous
+    input wire [RateBits-1:0] laser_freq,  // laser repetition rate, asynchronous
     input wire laser_en,              // lets the laser fire, asynchronous
     input wire dsp_en,                // lets the estimator start, asynchronous
     input wire dsp_rst,               // abandons the frame, asynchronous
@@ -51,10 +62,10 @@ module tof_top #(
     output wire [15:0] hist_count,    // the word [hits]
     output wire frame_done            // the frame has ended; one cycle
 );
-    wire clk_125, clk_250;
-    wire rst_125, rst_250;
+    wire clk_sys, clk_laser;
+    wire rst_sys, rst_laser;
     wire mode_sync, laser_en_sync, dsp_en_sync, dsp_rst_sync;
-    wire [1:0] laser_freq_sync;
+    wire [RateBits-1:0] laser_freq_sync;
     wire clear;
     wire [7:0] clear_addr;
     wire acquire, algo_start;
@@ -82,7 +93,7 @@ module tof_top #(
     assign algo_done = Estimator ? centroid_done : network_done;
 
     // The acquisition computer's reset leaves the laser and the synchronisers alone.
-    wire rst_dsp = rst_125 || dsp_rst_sync;
+    wire rst_dsp = rst_sys || dsp_rst_sync;
 
     assign hist_valid = read_en;
     assign hist_bin = read_addr;
@@ -92,27 +103,29 @@ module tof_top #(
         .LockTime(LockTime)
     ) pll (
         .clk_200(clk_200),
-        .clk_125(clk_125),
-        .clk_250(clk_250),
+        .clk_sys(clk_sys),
+        .clk_laser(clk_laser),
         .locked(locked)
     );
 
-    reset_sync reset_sync_125 (
-        .clk(clk_125),
+    reset_sync reset_sync_sys (
+        .clk(clk_sys),
         .rst(rst),
         .locked(locked),
-        .rst_sync(rst_125)
+        .rst_sync(rst_sys)
     );
 
-    reset_sync reset_sync_250 (
-        .clk(clk_250),
+    reset_sync reset_sync_laser (
+        .clk(clk_laser),
         .rst(rst),
         .locked(locked),
-        .rst_sync(rst_250)
+        .rst_sync(rst_laser)
     );
 
-    control_sync control_sync (
-        .clk_125(clk_125),
+    control_sync #(
+        .RateBits(RateBits)
+    ) control_sync (
+        .clk_sys(clk_sys),
         .mode(mode),
         .laser_freq(laser_freq),
         .laser_en(laser_en),
@@ -127,10 +140,11 @@ module tof_top #(
 
     frame_ctrl #(
         .ShotsPerFrame(ShotsPerFrame),
-        .Preloaded(HistogramSource)
+        .Preloaded(HistogramSource),
+        .DrainCycles(DrainCycles)
     ) frame_ctrl (
-        .clk_125(clk_125),
-        .rst(rst_125),
+        .clk_sys(clk_sys),
+        .rst(rst_sys),
         .start(start),
         .acquire(acquire),
         .dsp_rst(dsp_rst_sync),
@@ -142,11 +156,16 @@ module tof_top #(
         .algo_done(algo_done)
     );
 
-    vcsel_driver vcsel_driver (
-        .clk_125(clk_125),
-        .clk_250(clk_250),
-        .rst(rst_125),
-        .rst_250(rst_250),
+    vcsel_driver #(
+        .LaserPeriods(LaserPeriods),
+        .RateBits(RateBits),
+        .PeriodBits(PeriodBits),
+        .PulseHalfCycles(PulseHalfCycles)
+    ) vcsel_driver (
+        .clk_sys(clk_sys),
+        .clk_laser(clk_laser),
+        .rst(rst_sys),
+        .rst_laser(rst_laser),
         .acquire(acquire),
         .laser_en(laser_en_sync),
         .laser_freq(laser_freq_sync),
@@ -162,8 +181,8 @@ module tof_top #(
     );
 
     spad_control spad_control (
-        .clk_125(clk_125),
-        .rst(rst_125),
+        .clk_sys(clk_sys),
+        .rst(rst_sys),
         .mode(mode_sync),
         .pre_start(pre_start),
         .spad_rst(spad_rst),
@@ -171,11 +190,16 @@ module tof_top #(
     );
 
     tdc #(
+        .Taps(Taps),
+        .CoarseBits(CoarseBits),
+        .Cycle(Cycle),
+        .Digits(Digits),
+        .AgeBits(AgeBits),
         .DelaysFile(DelaysFile),
         .CountStages(CountStages),
         .CalFile(CalFile)
     ) tdc (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst_dsp),
         .start(start && !CodeSource),
         .tdc_stop(tdc_stop && !CodeSource),
@@ -187,7 +211,7 @@ module tof_top #(
         .Codes(Codes),
         .CodeFile(CodeFile)
     ) code_preload (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst_dsp),
         .start(start && CodeSource),
         .tdc_valid(preloaded_valid),
@@ -195,7 +219,7 @@ module tof_top #(
     );
 
     histogram_builder histogram_builder (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .clear(clear && !HistogramSource),
         .clear_addr(clear_addr),
         .tdc_valid(tdc_valid && !HistogramSource),
@@ -220,7 +244,7 @@ module tof_top #(
         .B2File(B2File),
         .TansigFile(TansigFile)
     ) depth_estimator (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst_dsp),
         .algo_start(algo_start && !Estimator),
         .read_en(network_read_en),
@@ -236,7 +260,7 @@ module tof_top #(
         .Slope(Slope),
         .Offset(Offset)
     ) centroid_estimator (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst_dsp),
         .algo_start(algo_start && Estimator),
         .read_en(centroid_read_en),

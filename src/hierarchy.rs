@@ -6,7 +6,7 @@
 //! simulation uses.
 
 use crate::firmware::histogram_builder::BINS;
-use crate::firmware::tof_top::{Estimator, Params};
+use crate::firmware::tof_top::{Estimator, Params, Sizes};
 use crate::kernel::signals::{Signal, SignalFormat, View};
 
 mod build;
@@ -21,35 +21,23 @@ pub use part::{Part, changes, copy};
 /// Every name in every scope that those parameters have, without the RAM's words.
 pub fn entries(params: &Params) -> Vec<Entry> {
     let absent = params.left_out().map(|module| format!("{TOP}.{module}"));
-    let neurons = params.depth_estimator.neurons();
-    let mut entries = of_network(Build::entries(params.estimator), neurons);
+    let mut entries = fitted(Build::entries(params.estimator), &params.sizes());
     entries.retain(|entry| !absent.iter().any(|scope| within(&entry.scope, scope)));
     entries
 }
 
-/// Every name in every scope with so many neurons, without the RAM's words.
-pub fn every_entry_of(neurons: usize) -> Vec<Entry> {
-    of_network(every_entry(), neurons)
+/// Every name in every scope of a design of those sizes, without the RAM's words.
+pub fn every_entry_of(sizes: &Sizes) -> Vec<Entry> {
+    fitted(every_entry(), sizes)
 }
 
-fn of_network(entries: Vec<Entry>, neurons: usize) -> Vec<Entry> {
-    let fit = |entry: Entry| Some(Entry { signal: fitted(entry.signal, neurons)?, ..entry });
+fn fitted(entries: Vec<Entry>, sizes: &Sizes) -> Vec<Entry> {
+    let fit = |entry: Entry| Some(Entry { signal: sizes.fitted(entry.signal)?, ..entry });
     entries.into_iter().filter_map(fit).collect()
 }
 
-/// A signal as an estimator with so many neurons has it: not at all past the last of them.
-pub fn fitted(signal: Signal, neurons: usize) -> Option<Signal> {
-    let is_there = |place: &str| place.parse::<usize>().is_ok_and(|neuron| neuron < neurons);
-    match signal.name.rsplit_once('_') {
-        Some(("fetched" | "weight" | "product" | "l1_in" | "entry" | "l1_out", place)) => {
-            is_there(place).then_some(signal)
-        }
-        _ => Some(signal),
-    }
-}
-
-/// Every name in every scope that there can be, in the order of the hierarchy, without the RAM's
-/// words.
+/// Every name in every scope that there can be, as wide as it can be, in the order of the hierarchy, without
+/// the RAM's words.
 pub fn every_entry() -> Vec<Entry> {
     Build::entries(Estimator::default())
 }
@@ -61,6 +49,7 @@ pub fn ram_entries() -> Vec<Entry> {
         signal: Signal {
             name: format!("ram_{bin}"),
             width: 16,
+            size: None,
             format: SignalFormat::Unsigned,
             output: false,
             view: View::NONE,

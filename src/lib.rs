@@ -33,7 +33,7 @@
 //!
 //! # Cycle by cycle
 //!
-//! A function is called at every edge of `clk_125`, and has the values of the signals that it asks for
+//! A function is called at every edge of `clk_sys`, and has the values of the signals that it asks for
 //! by name. It ends the run when it likes.
 //!
 //! ```

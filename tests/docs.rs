@@ -5,7 +5,7 @@
 use std::fmt::Write;
 use std::fs;
 
-use tofsim::firmware::forward2::NEURONS;
+use tofsim::firmware::tof_top::Sizes;
 use tofsim::hierarchy::{Entry, Kind, TOP, every_entry_of};
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
@@ -20,7 +20,7 @@ fn table(module: &str, entries: &[Entry]) -> String {
     for entry in entries.iter().filter(|entry| below_top(entry) == module) {
         let name = entry.signal.name.as_str();
         found = true;
-        if ["clk", "clk_125", "clk_250", "rst", "rst_250"].contains(&name)
+        if ["clk", "clk_sys", "clk_laser", "rst", "rst_laser"].contains(&name)
             && entry.kind == Kind::Input
         {
             continue;
@@ -48,7 +48,7 @@ fn with_every_module(mut text: String, entries: &[Entry]) -> String {
     let mut modules: Vec<_> = entries.iter().map(below_top).collect();
     modules.dedup();
     // What it is stands where its twin is.
-    modules.retain(|module| *module != "reset_sync_250");
+    modules.retain(|module| *module != "reset_sync_laser");
     let place = |text: &str, module| text.find(&format!("{BEGIN}{module} -->"));
     for pair in modules.windows(2).filter(|pair| pair[0] != TOP) {
         let [before, module] = [pair[0], pair[1]];
@@ -70,7 +70,7 @@ fn with_every_module(mut text: String, entries: &[Entry]) -> String {
 fn the_port_tables_are_those_of_the_code() {
     let model = format!("{ROOT}/docs/model.md");
     let old = fs::read_to_string(&model).unwrap();
-    let entries = every_entry_of(NEURONS);
+    let entries = every_entry_of(&Sizes::default());
     let places = with_every_module(old.clone(), &entries);
     let mut parts = places.split(BEGIN);
     let mut new = parts.next().unwrap().to_owned();

@@ -28,7 +28,7 @@ impl Sink for Differences {
     fn word(&mut self, id: usize, _: u64) {
         self.0.push(id);
     }
-    fn taps<const N: usize>(&mut self, id: usize, _: &Thermometer<N>, _: usize) {
+    fn taps(&mut self, id: usize, _: &Thermometer, _: usize) {
         self.0.push(id);
     }
 }
@@ -95,16 +95,20 @@ fn assert_skip_is_exact<M: Clocked>(module: &M, i: &M::In, p: &M::Params) -> u64
     quiet
 }
 
-/// The driver has edges of its own between those of `clk_125`.
-fn assert_laser_skips_exactly(driver: &vcsel_driver::VcselDriver, i: &vcsel_driver::In) {
-    let (mut stepped, quiet) = (*driver, driver.quiet(i));
+/// The driver has edges of its own between those of `clk_sys`.
+fn assert_laser_skips_exactly(
+    driver: &vcsel_driver::VcselDriver,
+    i: &vcsel_driver::In,
+    p: &vcsel_driver::Params,
+) {
+    let (mut stepped, quiet) = (*driver, driver.quiet(i, p));
     for edges in 1..=quiet.min(EDGES) {
-        stepped.rise(i);
-        stepped.fall_250();
-        stepped.rise_250(i);
-        stepped.fall_250();
+        stepped.rise(i, p);
+        stepped.fall_laser();
+        stepped.rise_laser(i, p);
+        stepped.fall_laser();
         let mut skipped = *driver;
-        skipped.skip(i, edges);
+        skipped.skip(i, p, edges);
         assert_eq!(skipped, stepped, "after {edges} of {quiet} quiet edges");
     }
 }
@@ -113,18 +117,22 @@ fn assert_laser_skips_exactly(driver: &vcsel_driver::VcselDriver, i: &vcsel_driv
 fn check_modules(top: &TofTop, setup: &Setup) -> usize {
     let (p, i) = (&setup.params, Wires::tdc(top));
     let tdc_params = &p.tdc;
-    assert_laser_skips_exactly(&top.vcsel_driver, &Wires::vcsel_driver(top));
+    assert_laser_skips_exactly(&top.vcsel_driver, &Wires::vcsel_driver(top), &p.vcsel_driver);
     let quiet = [
-        assert_skip_is_exact(&top.reset_sync_125, &Wires::reset_sync_125(top), &()),
-        assert_skip_is_exact(&top.reset_sync_250, &Wires::reset_sync_250(top), &()),
+        assert_skip_is_exact(&top.reset_sync_sys, &Wires::reset_sync_sys(top), &()),
+        assert_skip_is_exact(&top.reset_sync_laser, &Wires::reset_sync_laser(top), &()),
         assert_skip_is_exact(&top.control_sync, &Wires::control_sync(top), &()),
         assert_skip_is_exact(&top.frame_ctrl, &Wires::frame_ctrl(top), &p.frame_ctrl),
-        assert_skip_is_exact(&top.vcsel_driver.registers, &Wires::vcsel_driver(top), &()),
+        assert_skip_is_exact(
+            &top.vcsel_driver.registers,
+            &Wires::vcsel_driver(top),
+            &p.vcsel_driver,
+        ),
         assert_skip_is_exact(&top.spad_control, &Wires::spad_control(top), &()),
         assert_skip_is_exact(
             &top.tdc.coarse_counter,
             &tdc::Wires::coarse_counter(&top.tdc, &i),
-            &(),
+            &tdc_params.coarse_counter,
         ),
         assert_skip_is_exact(
             &top.tdc.tdc_latch,
@@ -178,6 +186,7 @@ fn random_setup(seed: u64, cycles: u64) -> Setup {
     let keys = [
         format!("spad.on_tdc={on_tdc}"),
         format!("firmware.laser_freq={}", seed % 4),
+        format!("firmware.pulse_half_cycles={}", [1, 1 + seed / 2 % 8][seed as usize % 2]),
         format!("firmware.mode={}", u64::from(seed % 5 == 4)),
         format!("firmware.shots_per_frame={}", random.random_range(5..60)),
         format!("ambient.irradiance_w_m2_nm={}", [0.0, 0.05, 0.4][random.random_range(0..3)]),

@@ -6,6 +6,7 @@ use rand_distr::{Distribution, Exp, Normal, Poisson};
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use tofsim::firmware::carry_chain::{Delays, TAPS};
+use tofsim::firmware::tdc;
 use tofsim::kernel::Time;
 use tofsim::optics::eye_safety::maximum_average_power_w;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
@@ -16,7 +17,6 @@ use tofsim::sensor::streams::exponential;
 /// Distances of the thesis's tables [m].
 const DISTANCES_M: [f64; 6] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
 /// Clock period of the TDC.
-const PERIOD: Time = Time::from_ns(8);
 /// A test fails if its chi-square is larger than chance would make it once in so many runs.
 const LEVEL: f64 = 1e-3;
 
@@ -95,7 +95,7 @@ fn the_laser_may_have_12_77_mw() {
 /// The default carry chain: 11.5 ps taps, 2.23 ns before the first.
 fn bins() -> Bins {
     let delays = Delays::new(Time::from_fs(2_230_000), &[11_500; TAPS]).unwrap();
-    Bins::of_chain(&delays, &delays.calibration(PERIOD), PERIOD)
+    Bins::of_tdc(&tdc::Params::of_chain(delays))
 }
 
 /// Counts by code, and last the shots without one.

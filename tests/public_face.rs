@@ -20,7 +20,7 @@ fn what_is_read_cycle_by_cycle_is_what_the_frame_has() {
     let signals = ["tof_top.tdc_valid", "tdc.tdc_decoder.tdc_code", "algo_done", "tof_top.depth"];
     let outcome = Run::new(&setup)
         .step_cycles(1, signals, |cycle, [tdc_valid, tdc_code, algo_done, word]| {
-            let begin = setup.pll().clk_125.rise(cycles);
+            let begin = setup.pll().clk_sys.rise(cycles);
             assert_eq!((cycle.number, cycle.begin), (cycles, begin));
             cycles += 1;
             if tdc_valid == 1 {

@@ -158,7 +158,7 @@ prop_compose! {
     }
 }
 
-/// A change of one signal near an edge of `clk_125`.
+/// A change of one signal near an edge of `clk_sys`.
 fn change(&(edge, offset_fs, what): &(u64, i64, u8)) -> Control {
     let at_fs = (1_008_000_000 + 8_000_000 * edge).saturating_add_signed(offset_fs);
     let mut change = Control { at_us: at_fs as f64 / 1e9, ..Control::default() };

@@ -6,9 +6,9 @@ use std::thread;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use tofsim::network::Histogram;
-use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
+use tofsim::optics::{BinProbabilities, Budget, Hazard};
 use tofsim::sensor::streams::{Source, stream};
-use tofsim::sim::setup::{CYCLE, Setup};
+use tofsim::sim::setup::Setup;
 
 use crate::common;
 
@@ -42,8 +42,7 @@ impl Depths {
 }
 
 fn probabilities(setup: &Setup) -> BinProbabilities {
-    let bins = Bins::of_chain(&setup.params.tdc.delays, &setup.params.tdc.decoder.cal, CYCLE);
-    BinProbabilities::new(&Hazard::new(&Budget::new(&setup.scenario)), &bins)
+    BinProbabilities::new(&Hazard::new(&Budget::new(&setup.scenario)), &setup.bins())
 }
 
 fn scene(distance_m: f64, reflectance: f64, more: &[&str]) -> Setup {
@@ -146,4 +145,44 @@ fn two_hundred_frames_agree_with_the_closed_form() {
             }
         });
     }
+}
+
+/// Section 4.2's bin sizes, and one or 40 SPADs on the TDC: level 0.1 % for each, 40 frames.
+#[test]
+fn every_width_of_bin_and_number_of_spads_agrees_with_the_closed_form() {
+    thread::scope(|scope| {
+        for on_tdc in [1, 40] {
+            scope.spawn(move || {
+                for bin_ps in [10, 25, 50, 100, 250, 500] {
+                    let keys = [
+                        format!("tdc.bin_ps={bin_ps}"),
+                        format!("spad.on_tdc={on_tdc}"),
+                        "tdc.coarse_bits=5".to_owned(),
+                        "firmware.laser_periods=[30]".to_owned(),
+                        "firmware.laser_freq=0".to_owned(),
+                        "firmware.drain_cycles=40".to_owned(),
+                        "seed=2026".to_owned(),
+                    ];
+                    let setup = scene(0.3, 0.34, &keys.each_ref().map(String::as_str));
+                    let p = p_value(&setup, 40);
+                    println!("{bin_ps} ps, {on_tdc} SPADs: p = {p:.4}");
+                    assert!(p > 0.001, "{bin_ps} ps, {on_tdc} SPADs: p = {p}");
+                }
+            });
+        }
+    });
+}
+
+/// A range gate moves the codes and nothing else.
+#[test]
+fn with_a_range_gate_the_first_bin_is_later() {
+    let histogram = |first_ps: &str| {
+        let gate = format!("tdc.first_bin_ps={first_ps}");
+        let keys = ["tdc.profile=ideal", "firmware.shots_per_frame=20000", gate.as_str()];
+        common::frames(&scene(0.4, 0.6, &keys), 1)[0].histogram
+    };
+    let (open, gated) = (histogram("0"), histogram("2500"));
+    assert!(gated[..156].iter().map(|&count| u32::from(count)).sum::<u32>() > 500);
+    assert_eq!(gated[..156], open[100..]);
+    assert!(gated[160..].iter().any(|&count| count > 0), "light past 6.4 ns");
 }

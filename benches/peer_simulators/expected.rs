@@ -20,7 +20,7 @@ pub struct Expected {
     pub depth: u64,
     /// Shots of a frame.
     pub shots: u64,
-    /// From the end of a frame to that of the next [cycles of clk_125].
+    /// From the end of a frame to that of the next [cycles of clk_sys].
     pub period: u64,
 }
 

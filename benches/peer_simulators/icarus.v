@@ -74,9 +74,9 @@ module bench;
 
     always @(posedge spad_rst) tdc_stop = 1'b0;
 
-    always @(posedge tof_top.clk_125) edges = edges + 1;
+    always @(posedge tof_top.clk_sys) edges = edges + 1;
 
-    always @(negedge tof_top.clk_125) if (algo_done) begin
+    always @(negedge tof_top.clk_sys) if (algo_done) begin
         $display("frame %h %0d %0d", depth, shot, edges - 1);
         shot = 0;
         done = done + 1;

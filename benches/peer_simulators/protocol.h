@@ -7,7 +7,7 @@
 #include <vector>
 
 constexpr int64_t NEVER = int64_t{1} << 62;      // later than everything [fs]
-constexpr int64_t CYCLE = 8000000;               // of clk_125 [fs]
+constexpr int64_t CYCLE = 8000000;               // of clk_sys [fs]
 constexpr int64_t FIRST_EDGE = 1008000000;       // one cycle after the PLL has locked [fs]
 constexpr uint64_t DEPTH_MASK = 0xfffffffff;     // 36 bits
 
@@ -58,7 +58,7 @@ private:
     uint64_t shot = 0;
 };
 
-// A finished frame, and the edge of clk_125 that ended it.
+// A finished frame, and the edge of clk_sys that ended it.
 inline void print_frame(uint64_t depth, uint64_t shots, uint64_t edge) {
     std::printf("frame %09llx %llu %llu\n", (unsigned long long)(depth & DEPTH_MASK),
                 (unsigned long long)shots, (unsigned long long)edge);

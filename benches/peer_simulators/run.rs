@@ -13,7 +13,7 @@ pub struct PeerFrame {
     pub depth: u64,
     /// Shots of the frame.
     pub shots: u64,
-    /// Edge of clk_125, from the first, at which `algo_done` rose.
+    /// Edge of clk_sys, from the first, at which `algo_done` rose.
     pub edge: u64,
 }
 

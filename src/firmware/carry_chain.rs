@@ -1,4 +1,4 @@
-//! The tapped delay line of the TDC: 800 taps of carry logic, all registered at every edge.
+//! The tapped delay line of the TDC: taps of carry logic, all registered at every edge.
 //!
 //! Mirrors `rtl_ref/carry_chain.v`. Tap i sees `tdc_stop` after the chain's offset and the delays
 //! of taps 0 .. i - 1; an arrival at or before the edge counts. The line is longer than a clock
@@ -9,7 +9,7 @@ use crate::signals;
 mod delays;
 mod stop_line;
 
-pub use delays::{Calibration, Delays, TAPS, Taps};
+pub use delays::{Delays, LENGTHS, TAPS, Taps};
 pub use stop_line::StopLine;
 
 signals! {
@@ -24,6 +24,7 @@ signals! {
     /// Registers, all output ports.
     pub struct CarryChain {
         /// Level of each tap at the last edge.
+        #[size("Taps")]
         #[view(heading = "TDC")]
         pub taps: Taps,
     }

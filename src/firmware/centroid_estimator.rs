@@ -47,7 +47,7 @@ const FINE_BITS: u32 = 18;
 pub const PLACE: u64 = DIVIDE + QUOTIENT_BITS as u64;
 /// Cycle before the edge that makes the depth.
 const LAST: u64 = DONE - 1;
-/// Cycle in which the depth is ready: the estimator's latency [cycles of clk_125].
+/// Cycle in which the depth is ready: the estimator's latency [cycles of clk_sys].
 pub const DONE: u64 = PLACE + 4;
 
 /// Distance of a bin, 24 fraction bits [m].
@@ -179,7 +179,7 @@ impl Module for CentroidEstimator {
 }
 
 impl CentroidEstimator {
-    /// The rising edge of `clk_125`.
+    /// The rising edge of `clk_sys`.
     pub fn rise(&mut self, i: &In, p: &Params) {
         let q = self.registers;
         self.registers = if i.rst { Registers::default() } else { self.next(i, p) };

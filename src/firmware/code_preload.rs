@@ -1,7 +1,7 @@
 //! Stands in for the TDC: a code from a ROM for every shot (thesis 6.6.1).
 //!
 //! Mirrors `rtl_ref/code_preload.v`. The code is up two edges after the laser edge, the thesis's
-//! "10 ns after VCSEL-on" seen by `clk_125`. The ROM is read in order and again from its start.
+//! "10 ns after VCSEL-on" seen by `clk_sys`. The ROM is read in order and again from its start.
 
 use crate::kernel::{Clocked, U, asleep_if};
 use crate::signals;
@@ -21,7 +21,7 @@ signals! {
     pub struct CodePreload {
         /// `tdc_code` is new; one cycle.
         pub tdc_valid: bool,
-        /// Code of the shot [25 ps].
+        /// Code of the shot [bins].
         pub tdc_code: U<8>,
         /// `start`, an edge later.
         pending: bool,

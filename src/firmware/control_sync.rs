@@ -1,11 +1,13 @@
-//! Brings the acquisition computer's signals into `clk_125`.
+//! Brings the acquisition computer's signals into `clk_sys`.
 //!
-//! Mirrors `rtl_ref/control_sync.v`. Two flip-flops each, without reset. The two bits of
+//! Mirrors `rtl_ref/control_sync.v`. Two flip-flops each, without reset. The bits of
 //! `laser_freq` cross side by side; a mixed value that an unlucky edge might catch lasts one
 //! cycle and matters only if the laser's counter wraps in it.
 
-use crate::kernel::{Clocked, U, asleep_if};
+use crate::kernel::{Clocked, asleep_if};
 use crate::signals;
+
+use super::vcsel_driver::Rate;
 
 signals! {
     /// Input ports, asynchronous.
@@ -13,7 +15,8 @@ signals! {
         /// SPAD quench mode (Table 6.2).
         pub mode: bool,
         /// Laser repetition rate (Table 6.1).
-        pub laser_freq: U<2>,
+        #[size("RateBits")]
+        pub laser_freq: Rate,
         /// Lets the laser fire.
         pub laser_en: bool,
         /// Lets the estimator start.
@@ -26,20 +29,22 @@ signals! {
 signals! {
     /// Registers; the public ones are the output ports.
     pub struct ControlSync {
-        /// `mode` in `clk_125`.
+        /// `mode` in `clk_sys`.
         pub mode_sync: bool,
-        /// `laser_freq` in `clk_125`.
-        pub laser_freq_sync: U<2>,
-        /// `laser_en` in `clk_125`.
+        /// `laser_freq` in `clk_sys`.
+        #[size("RateBits")]
+        pub laser_freq_sync: Rate,
+        /// `laser_en` in `clk_sys`.
         pub laser_en_sync: bool,
-        /// `dsp_en` in `clk_125`.
+        /// `dsp_en` in `clk_sys`.
         pub dsp_en_sync: bool,
-        /// `dsp_rst` in `clk_125`.
+        /// `dsp_rst` in `clk_sys`.
         pub dsp_rst_sync: bool,
         /// First flip-flop of `mode`.
         mode_meta: bool,
         /// First flip-flops of `laser_freq`.
-        laser_freq_meta: U<2>,
+        #[size("RateBits")]
+        laser_freq_meta: Rate,
         /// First flip-flop of `laser_en`.
         laser_en_meta: bool,
         /// First flip-flop of `dsp_en`.
@@ -82,7 +87,7 @@ mod tests {
 
     #[test]
     fn a_change_arrives_with_the_second_edge() {
-        let i = In { laser_freq: U::new(2), dsp_en: true, ..In::default() };
+        let i = In { laser_freq: Rate::new(2), dsp_en: true, ..In::default() };
         let first = ControlSync::default().next(&i, &());
         assert_eq!(first.laser_freq_sync, 0);
         let second = first.next(&i, &());

@@ -59,23 +59,23 @@ connect! {
         output depth <- this.forward2.depth;
         output algo_done <- this.estimator_ctrl.algo_done;
     }
-    estimator_ctrl(clk_125): estimator_ctrl::In {
+    estimator_ctrl(clk_sys): estimator_ctrl::In {
         rst <- i.rst;
         algo_start <- i.algo_start;
     }
-    forward1(clk_125): forward1::In {
+    forward1(clk_sys): forward1::In {
         rst <- i.rst;
         forward1_first <- this.estimator_ctrl.forward1_first;
         forward1_en <- this.estimator_ctrl.forward1_en;
         rom_addr <- this.estimator_ctrl.rom_addr;
         count <- i.count;
     }
-    tansig(clk_125): tansig::In {
+    tansig(clk_sys): tansig::In {
         rst <- i.rst;
         tansig_en <- this.estimator_ctrl.tansig_en;
         l1_in <- this.forward1.l1_in;
     }
-    forward2(clk_125): forward2::In {
+    forward2(clk_sys): forward2::In {
         rst <- i.rst;
         pair <- this.estimator_ctrl.pair;
         forward2_first <- this.estimator_ctrl.forward2_first;
@@ -91,14 +91,14 @@ impl Params {
         self.forward2.neurons
     }
 
-    /// From the edge that takes a start to the depth [cycles of clk_125].
+    /// From the edge that takes a start to the depth [cycles of clk_sys].
     pub fn cycles(&self) -> u64 {
         estimator_ctrl::done(self.neurons())
     }
 }
 
 impl DepthEstimator {
-    /// The rising edge of `clk_125`.
+    /// The rising edge of `clk_sys`.
     pub fn rise(&mut self, i: &In, p: &Params) {
         let (estimator_ctrl, forward1) = (Wires::estimator_ctrl(self, i), Wires::forward1(self, i));
         let (tansig, forward2) = (Wires::tansig(self, i), Wires::forward2(self, i));

@@ -38,7 +38,7 @@ pub const fn pairs(neurons: usize) -> u64 {
 }
 
 /// Cycle in which the depth is ready with so many neurons: the estimator's latency [cycles of
-/// clk_125].
+/// clk_sys].
 pub const fn done(neurons: usize) -> u64 {
     let (sums_end, serial) = (SUMS_2 + pairs(neurons), TANSIG + neurons as u64);
     (if sums_end > serial { sums_end } else { serial }) + 1

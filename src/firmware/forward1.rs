@@ -46,15 +46,19 @@ signals! {
     /// Registers; the public ones are the output ports.
     pub struct Forward1 {
         /// Sums of the neurons.
+        #[size("Neurons")]
         #[view(heading = "Hidden layer", curve = true, probe = true)]
         pub l1_in: [L1In; MOST_NEURONS],
         /// Word of the histogram [hits].
         pub(crate) word: U<16>,
         /// Output of the ROM.
+        #[size("Neurons")]
         pub(crate) fetched: [Weight; MOST_NEURONS],
         /// Weights of the word.
+        #[size("Neurons")]
         pub(crate) weight: [Weight; MOST_NEURONS],
         /// Their products, a cycle later.
+        #[size("Neurons")]
         pub(crate) product: [Product; MOST_NEURONS],
     }
 }

@@ -48,6 +48,7 @@ signals! {
         /// The sums become the depth.
         pub depth_en: bool,
         /// Activations of the hidden layer.
+        #[size("Neurons")]
         pub l1_out: [L1Out; MOST_NEURONS],
     }
 }

@@ -8,7 +8,7 @@
 //! pulses    clear      acquire        -         algo_start^   ^frame_done
 //! ```
 //!
-//! `P` is the laser period. `dsp_en` low holds the machine before the estimator's start (in the
+//! `P` is the laser period, and Drain has as many cycles as elaboration says; 16 on the KC705. `dsp_en` low holds the machine before the estimator's start (in the
 //! last cycle of Drain) and keeps the histogram. With a preloaded histogram Acquire and Drain are
 //! skipped (thesis 6.7.4), and `dsp_en` low holds the last cycle of Clear.
 
@@ -17,8 +17,9 @@ use crate::{signals, states};
 
 /// Words of the histogram, each cleared in one cycle.
 pub(crate) const LAST_WORD: u64 = 255;
-/// Length of Drain less one: longer than the TDC's window and pipeline [cycles of clk_125].
-pub(crate) const LAST_DRAIN: u64 = 15;
+/// Length of Drain unless elaboration says otherwise: longer than what a photon of the last shot takes to
+/// its word of the histogram [cycles of clk_sys].
+pub const DRAIN_CYCLES: u64 = 16;
 
 states! {
     /// States of the frame.
@@ -41,6 +42,16 @@ pub struct Params {
     pub shots_per_frame: u16,
     /// The histogram comes from a ROM: nothing to acquire.
     pub preloaded: bool,
+    /// Length of Drain, 1 to 65,536 [cycles of clk_sys].
+    pub drain_cycles: u64,
+}
+
+impl Params {
+    /// The last count of Drain.
+    #[inline(always)]
+    pub fn last_drain(&self) -> u64 {
+        self.drain_cycles - 1
+    }
 }
 
 signals! {
@@ -79,7 +90,8 @@ signals! {
         #[view(heading = "Control", probe = true)]
         pub(crate) shots: U<16>,
         /// Cycles spent in Drain.
-        pub(crate) drain: U<4>,
+        #[size("DrainBits")]
+        pub(crate) drain: U<16>,
     }
 }
 
@@ -122,7 +134,7 @@ impl Clocked for FrameCtrl {
                 }
             }
             State::Acquire => {}
-            State::Drain if q.drain != LAST_DRAIN => d.drain = q.drain + 1,
+            State::Drain if q.drain != p.last_drain() => d.drain = q.drain + 1,
             State::Drain if i.dsp_en => (d.state, d.algo_start) = (State::Estimate, true),
             State::Drain => {}
             State::Estimate if i.algo_done => {
@@ -135,22 +147,22 @@ impl Clocked for FrameCtrl {
 
     /// Nobody looks at how far Drain has come.
     #[inline(always)]
-    fn quiet(&self, i: &In, _: &Params) -> u64 {
+    fn quiet(&self, i: &In, p: &Params) -> u64 {
         if i.rst || i.dsp_rst || self.algo_start || self.frame_done {
             return AWAKE;
         }
         match self.state {
             State::Clear => AWAKE,
             State::Acquire => asleep_if(!i.start),
-            State::Drain if self.drain != LAST_DRAIN => LAST_DRAIN - self.drain.get(),
+            State::Drain if self.drain != p.last_drain() => p.last_drain() - self.drain.get(),
             State::Drain => asleep_if(!i.dsp_en),
             State::Estimate => asleep_if(!i.algo_done),
         }
     }
 
     #[inline(always)]
-    fn skip(&mut self, _: &In, _: &Params, edges: u64) {
-        if self.state == State::Drain && self.drain != LAST_DRAIN {
+    fn skip(&mut self, _: &In, p: &Params, edges: u64) {
+        if self.state == State::Drain && self.drain != p.last_drain() {
             self.drain = self.drain + edges;
         }
     }
@@ -160,7 +172,8 @@ impl Clocked for FrameCtrl {
 mod tests {
     use super::*;
 
-    const SHORT: Params = Params { shots_per_frame: 2, preloaded: false };
+    const SHORT: Params =
+        Params { shots_per_frame: 2, preloaded: false, drain_cycles: DRAIN_CYCLES };
     const ENABLED: In =
         In { rst: false, start: false, dsp_rst: false, dsp_en: true, algo_done: false };
 

@@ -82,7 +82,7 @@ impl HistogramBuilder {
         self.registers.counting
     }
 
-    /// The rising edge of `clk_125`.
+    /// The rising edge of `clk_sys`.
     #[inline(always)]
     pub fn tick(&mut self, i: &In) {
         let q = self.registers;

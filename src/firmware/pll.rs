@@ -1,7 +1,7 @@
 //! The clocks: 125 and 250 MHz from the board's 200 MHz oscillator.
 //!
 //! Mirrors `rtl_ref/pll.v` (PLLE2: M = 5, D = 1, VCO 1000 MHz, O = 8 and 4). Until it has locked
-//! both outputs stay low; their first rising edges come together, one period of `clk_125` after
+//! both outputs stay low; their first rising edges come together, one period of `clk_sys` after
 //! `locked`, and from then on they rise together every 8 ns. `rst` does not reach it.
 
 use crate::kernel::Time;
@@ -30,7 +30,7 @@ pub struct Params {
     pub multiply: u64,
     /// Input divider, D.
     pub divide: u64,
-    /// Output divider of `clk_125`, O; `clk_250` has half of it.
+    /// Output divider of `clk_sys`, O; `clk_laser` has half of it.
     pub output_divide: u64,
     /// From power-up to `locked`.
     pub lock_time: Time,
@@ -42,9 +42,9 @@ pub struct Pll {
     /// Input, rising first half a period after power-up.
     pub clk_200: Clock,
     /// Output, whole cycles.
-    pub clk_125: Clock,
+    pub clk_sys: Clock,
     /// Output, half cycles.
-    pub clk_250: Clock,
+    pub clk_laser: Clock,
     /// When the outputs begin to run.
     pub locked_at: Time,
 }
@@ -57,8 +57,8 @@ impl Pll {
         let first = p.lock_time + output(p.output_divide, Time::ZERO).rise(1);
         Pll {
             clk_200: Clock::new(p.input_hz, 1, 1, input.fall(0)),
-            clk_125: output(p.output_divide, first),
-            clk_250: output(p.output_divide / 2, first),
+            clk_sys: output(p.output_divide, first),
+            clk_laser: output(p.output_divide / 2, first),
             locked_at: p.lock_time,
         }
     }
@@ -79,9 +79,9 @@ mod tests {
         });
         assert_eq!(pll.clk_200.rise(0), Time::from_fs(2_500_000));
         for n in 0..1000 {
-            assert_eq!(pll.clk_125.rise(n), Time::from_ns(1008 + 8 * n));
-            assert_eq!(pll.clk_250.rise(2 * n), pll.clk_125.rise(n));
-            assert_eq!(pll.clk_250.rise(2 * n + 1), pll.clk_125.fall(n));
+            assert_eq!(pll.clk_sys.rise(n), Time::from_ns(1008 + 8 * n));
+            assert_eq!(pll.clk_laser.rise(2 * n), pll.clk_sys.rise(n));
+            assert_eq!(pll.clk_laser.rise(2 * n + 1), pll.clk_sys.fall(n));
         }
     }
 }

@@ -29,6 +29,7 @@ signals! {
         /// Looks up the activations.
         pub tansig_en: bool,
         /// Sums of the neurons.
+        #[size("Neurons")]
         pub l1_in: [L1In; MOST_NEURONS],
     }
 }
@@ -37,9 +38,11 @@ signals! {
     /// Registers; the public ones are the output ports.
     pub struct Tansig {
         /// Activations of the neurons.
+        #[size("Neurons")]
         #[view(heading = "Hidden layer")]
         pub l1_out: [L1Out; MOST_NEURONS],
         /// Output of the table.
+        #[size("Neurons")]
         entry: [L1Out; MOST_NEURONS],
         /// The entries are new.
         found: bool,

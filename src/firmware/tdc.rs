@@ -12,8 +12,8 @@ use crate::kernel::{AWAKE, Clocked, Time};
 use crate::{connect, signals};
 
 use super::carry_chain::{self, CarryChain, Delays, StopLine};
-use super::coarse_counter::{self, CoarseCounter};
-use super::tdc_decoder::{self, Calibration, TdcDecoder};
+use super::coarse_counter::{self, CoarseCounter, DEFAULT_COARSE_BITS};
+use super::tdc_decoder::{self, TdcDecoder, TimeScale};
 use super::tdc_latch::{self, TdcLatch};
 
 signals! {
@@ -33,6 +33,8 @@ signals! {
 pub struct Params {
     /// Delays of the chain.
     pub delays: Delays,
+    /// Length of the window.
+    pub coarse_counter: coarse_counter::Params,
     /// ROM of the decoder, and steps of its ones count.
     pub decoder: tdc_decoder::Params,
     /// Place of physical tap 0 in the order of arrival.
@@ -40,11 +42,23 @@ pub struct Params {
 }
 
 impl Params {
-    /// For a chain, the ROM that goes with it, and 2 or 3 registers of the ones count.
-    pub fn new(delays: Delays, cal: Calibration, count_stages: u64) -> Self {
+    /// For a chain, with the ROM that goes with it, what times count, a coarse count of so many bits, and 2 or
+    /// 3 registers of the ones count.
+    pub fn new(delays: Delays, scale: TimeScale, coarse_bits: u32, count_stages: u64) -> Self {
         let tap_0 = delays.tap_0_position();
-        let decoder = tdc_decoder::Params { cal: Box::new(cal), count_stages };
-        Params { delays, decoder, tap_0 }
+        let cal = tdc_decoder::Params::calibration(&delays, &scale);
+        let decoder = tdc_decoder::Params { cal, count_stages, scale };
+        Params { delays, coarse_counter: coarse_counter::Params { coarse_bits }, decoder, tap_0 }
+    }
+
+    /// The KC705's but for the chain.
+    pub fn of_chain(delays: Delays) -> Self {
+        Params::new(delays, TimeScale::default(), DEFAULT_COARSE_BITS, tdc_decoder::COUNT_STAGES)
+    }
+
+    /// The last edge after the laser's that samples hits with a code, within the window.
+    pub fn last_coded(&self) -> u64 {
+        self.decoder.last_coded().min(self.coarse_counter.window())
     }
 }
 
@@ -67,21 +81,21 @@ connect! {
         output tdc_code <- this.tdc_decoder.tdc_code;
         output tdc_valid <- this.tdc_decoder.tdc_valid;
     }
-    carry_chain(clk_125): carry_chain::In {
+    carry_chain(clk_sys): carry_chain::In {
         tdc_stop <- i.tdc_stop;
     }
-    coarse_counter(clk_125): coarse_counter::In {
+    coarse_counter(clk_sys): coarse_counter::In {
         rst <- i.rst;
         start <- i.start;
     }
-    tdc_latch(clk_125): tdc_latch::In {
+    tdc_latch(clk_sys): tdc_latch::In {
         rst <- i.rst;
         start <- i.start;
         window <- this.coarse_counter.window;
         coarse <- this.coarse_counter.coarse;
         taps <- this.carry_chain.taps;
     }
-    tdc_decoder(clk_125): tdc_decoder::In {
+    tdc_decoder(clk_sys): tdc_decoder::In {
         rst <- i.rst;
         hit <- this.tdc_latch.hit;
         hit_coarse <- this.tdc_latch.hit_coarse;
@@ -90,7 +104,7 @@ connect! {
 }
 
 impl Tdc {
-    /// The rising edge of `clk_125` at `now`.
+    /// The rising edge of `clk_sys` at `now`.
     #[inline(always)]
     pub fn rise(&mut self, i: &In, p: &Params, line: &mut StopLine, now: Time) {
         let tdc_decoder = Wires::tdc_decoder(self, i);
@@ -106,7 +120,7 @@ impl Tdc {
         let tdc_latch = Wires::tdc_latch(self, i);
 
         self.carry_chain = CarryChain { taps: line.sample(now, &p.delays) };
-        self.coarse_counter.tick(&coarse_counter, &());
+        self.coarse_counter.tick(&coarse_counter, &p.coarse_counter);
         self.tdc_latch.tick(&tdc_latch, &p.tap_0);
     }
 
@@ -118,13 +132,14 @@ impl Tdc {
             return AWAKE;
         }
         let tdc_latch = self.tdc_latch.quiet(&Wires::tdc_latch(self, i), &p.tap_0);
-        tdc_latch.min(self.coarse_counter.quiet(&Wires::coarse_counter(self, i), &()))
+        let coarse_counter = &Wires::coarse_counter(self, i);
+        tdc_latch.min(self.coarse_counter.quiet(coarse_counter, &p.coarse_counter))
     }
 
     /// Stands for that many edges of all before the decoder, all of them quiet.
     #[inline(always)]
     pub fn skip(&mut self, i: &In, p: &Params, edges: u64) {
-        self.coarse_counter.skip(&Wires::coarse_counter(self, i), &(), edges);
+        self.coarse_counter.skip(&Wires::coarse_counter(self, i), &p.coarse_counter, edges);
         self.tdc_latch.skip(&Wires::tdc_latch(self, i), &p.tap_0, edges);
     }
 
@@ -151,8 +166,7 @@ mod tests {
     /// The code of a photon, with the laser edge at edge 10, and the cycle of `tdc_valid`.
     fn code_of(photon_fs: u64, count_stages: u64) -> Option<(u64, u64)> {
         let delays = Delays::new(Time::from_fs(2_230_000), &[11_500; TAPS]).unwrap();
-        let cal = delays.calibration(Time::from_ns(8));
-        let params = Params::new(delays, cal, count_stages);
+        let params = Params::new(delays, TimeScale::default(), DEFAULT_COARSE_BITS, count_stages);
         let (mut tdc, mut line) = (Tdc::default(), StopLine::default());
         let photon = Time::from_ns(80) + Time::from_fs(photon_fs);
         for edge in 0..30 {

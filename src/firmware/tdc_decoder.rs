@@ -1,29 +1,33 @@
-//! Turns a hit into a code of 25 ps.
+//! Turns a hit into a code, of 25 ps on the KC705.
 //!
 //! Mirrors `rtl_ref/tdc_decoder.v`. The ones count in two or three steps, its time, and the code:
 //!
 //! ```text
 //! edge       e+1       e+2       e+3       e+4  e+5       e+6  e+7
-//! register   hit_taps  sixteens  hundreds  n    age       t    tdc_code = t >> 4
-//!                                               = cal[n]  = 5120 (coarse + 1) - age   [25/16 ps]
+//! register   hit_taps  sixteens  hundreds  n    age       t    tdc_code = t >> Digits
+//!                                               = cal[n]  = Cycle (coarse + 1) - age   [units]
 //! ```
 //!
-//! With two steps, `n` counts the sixteens and all after it comes an edge earlier. A time outside
-//! 0 .. 4095 has no code, and `tdc_code` keeps its value. Each register holds its last hit; only what
-//! says that a hit is new has a reset.
+//! [`TimeScale`] says what a unit is: 25/16 ps on the KC705, of which `Cycle` is 5120. Time 0 is where bin 0
+//! begins; the ages in the ROM know by how much that is after the laser edge. With two steps, `n` counts
+//! the sixteens and all after it comes an edge earlier. A time outside 256 bins has no code, and `tdc_code`
+//! keeps its value. Each register holds its last hit; only what says that a hit is new has a reset.
+
+mod scale;
 
 use crate::kernel::{Clocked, PartialOnes, S, U, asleep_if};
 use crate::signals;
 
-pub use super::carry_chain::Calibration;
-use super::carry_chain::{TAPS, Taps};
+use super::carry_chain::{Delays, Taps};
+use super::coarse_counter::Coarse;
+pub use scale::{CODES, TimeScale};
 
-/// One cycle of `clk_125` [25/16 ps].
-pub const CYCLE: i64 = 5120;
-/// Time codes in a bin of 25 ps, as a shift.
-const BIN_SHIFT: u32 = 4;
-/// First time past the last bin, 6.4 ns [25/16 ps].
-const RANGE: i64 = 256 << BIN_SHIFT;
+/// Time from the begin of bin 0, with room for the longest window in the smallest units [units].
+type TimeWord = S<44>;
+/// Word of the calibration ROM, with room for the same [units].
+type Age = U<42>;
+/// Age of a hit for each ones count, and the time from the laser edge to bin 0 [units].
+pub type Calibration = Vec<Age>;
 /// Registers of the ones count unless elaboration says otherwise.
 pub const COUNT_STAGES: u64 = 3;
 /// Edges from the one that samples the taps of a hit to the one that makes its `n`, beside those of
@@ -40,8 +44,10 @@ signals! {
         /// `hit_taps` are those of a new hit.
         pub hit: bool,
         /// Its coarse count.
-        pub hit_coarse: U<3>,
+        #[size("CoarseBits")]
+        pub hit_coarse: Coarse,
         /// Its taps.
+        #[size("Taps")]
         pub hit_taps: Taps,
     }
 }
@@ -50,9 +56,11 @@ signals! {
 #[derive(Clone, Debug)]
 pub struct Params {
     /// Age of a hit for each ones count.
-    pub cal: Box<Calibration>,
+    pub cal: Calibration,
     /// Registers of the ones count, 2 or 3.
     pub count_stages: u64,
+    /// What times count.
+    pub scale: TimeScale,
 }
 
 signals! {
@@ -60,42 +68,108 @@ signals! {
     pub struct TdcDecoder {
         /// `tdc_code` is new; one cycle.
         pub tdc_valid: bool,
-        /// Time from the laser edge to the hit [25 ps].
+        /// Time of the hit [bins].
         pub tdc_code: U<8>,
         /// Ones among 16 taps each.
-        sixteens: PartialOnes<TAPS, 16>,
+        #[size("Sixteens")]
+        sixteens: PartialOnes<16>,
         /// `sixteens` is new.
         sixteens_valid: bool,
         /// Coarse count of `sixteens`.
-        sixteens_coarse: U<3>,
+        #[size("CoarseBits")]
+        sixteens_coarse: Coarse,
         /// Ones among 128 taps each.
-        hundreds: PartialOnes<TAPS, 128>,
+        #[size("Hundreds")]
+        hundreds: PartialOnes<128>,
         /// `hundreds` is new.
         hundreds_valid: bool,
         /// Coarse count of `hundreds`.
-        hundreds_coarse: U<3>,
+        #[size("CoarseBits")]
+        hundreds_coarse: Coarse,
         /// Taps that the last hit had run through.
+        #[size("CountOfTaps")]
         #[view(heading = "TDC", probe = true)]
-        n: U<10>,
+        n: U<11>,
         /// `n` is new.
         n_valid: bool,
         /// Coarse count of `n`.
-        n_coarse: U<3>,
-        /// The time for `n` [25/16 ps].
-        age: U<14>,
+        #[size("CoarseBits")]
+        n_coarse: Coarse,
+        /// The time for `n` [units].
+        #[size("AgeBits")]
+        age: Age,
         /// `age` is new.
         age_valid: bool,
         /// Coarse count of `age`.
-        age_coarse: U<3>,
-        /// Time from the laser edge [25/16 ps].
-        t: S<17>,
+        #[size("CoarseBits")]
+        age_coarse: Coarse,
+        /// Time from the begin of bin 0 [units].
+        #[size("TimeBits")]
+        t: TimeWord,
         /// `t` is new.
         t_valid: bool,
     }
 }
 
 impl Params {
-    /// From the edge that samples the taps of a hit to the one that makes its code [cycles of clk_125].
+    /// Length of the chain [taps].
+    #[inline(always)]
+    pub fn taps(&self) -> usize {
+        self.cal.len() - 1
+    }
+
+    /// Width of the ROM: for an age of two clock periods, and the time from the laser edge to bin 0 [bits].
+    pub fn age_bits(&self) -> u32 {
+        self.scale.units(4 * self.scale.period().fs() + 2 * self.scale.first().fs()).ilog2() + 1
+    }
+
+    /// The last edge after the laser's at which a hit of some ones count has a time in range.
+    pub fn last_coded(&self) -> u64 {
+        let oldest = self.cal.iter().map(|age| age.get()).max().unwrap_or_default();
+        (self.scale.range() + oldest - 1) / self.scale.cycle()
+    }
+
+    /// The ROM of a chain whose delays are known: for each ones count the middle of the interval of ages that
+    /// gives it, rounded half up. The interval that holds a whole clock period (time 0 at the edge after the
+    /// laser's) is clamped so that its time is not negative.
+    pub fn calibration(delays: &Delays, scale: &TimeScale) -> Calibration {
+        let boundary = |n: usize| delays.boundary(n).fs();
+        let first = 2 * scale.first().fs();
+        let word = |twice_fs: u64| Age::new(scale.units(twice_fs + first));
+        let mut cal = vec![word(2 * boundary(0)); delays.taps() + 1];
+        for (n, age) in cal.iter_mut().enumerate().skip(1) {
+            *age = word(boundary(n - 1) + boundary(n));
+        }
+        let period = scale.period();
+        let at_start = delays.rank(period);
+        cal[at_start] = cal[at_start].min(word(2 * period.fs()));
+        cal
+    }
+
+    /// The code of a hit, if its time is in range.
+    #[inline(always)]
+    pub fn code(&self, coarse: u64, n: usize) -> Option<U<8>> {
+        self.code_of(self.time(coarse, self.cal[n]))
+    }
+
+    /// Whether the time of such a hit is past the range.
+    pub fn is_late(&self, coarse: u64, n: usize) -> bool {
+        self.time(coarse, self.cal[n]).get() >= self.scale.range() as i64
+    }
+
+    /// Time from the begin of bin 0, of a hit of that age.
+    #[inline(always)]
+    fn time(&self, coarse: u64, age: Age) -> TimeWord {
+        TimeWord::new((self.scale.cycle() * (coarse + 1)) as i64 - age.get() as i64)
+    }
+
+    #[inline(always)]
+    fn code_of(&self, t: TimeWord) -> Option<U<8>> {
+        let is_in_range = (0..self.scale.range() as i64).contains(&t.get());
+        is_in_range.then(|| U::new(t.get() as u64 >> self.scale.digits()))
+    }
+
+    /// From the edge that samples the taps of a hit to the one that makes its code [cycles of clk_sys].
     pub fn latency(&self) -> u64 {
         BEFORE_COUNT + self.count_stages + AFTER_COUNT
     }
@@ -120,23 +194,6 @@ impl TdcDecoder {
     }
 }
 
-/// The code of a hit, if its time is in range.
-#[inline(always)]
-pub fn code(coarse: u64, n: usize, cal: &Calibration) -> Option<U<8>> {
-    code_of(time(coarse, cal[n]))
-}
-
-/// Time from the laser edge, of a hit of that age.
-#[inline(always)]
-fn time(coarse: u64, age: U<14>) -> S<17> {
-    S::new(CYCLE * (coarse as i64 + 1) - age.get() as i64)
-}
-
-#[inline(always)]
-fn code_of(t: S<17>) -> Option<U<8>> {
-    (0..RANGE).contains(&t.get()).then(|| U::new(t.get() as u64 >> BIN_SHIFT))
-}
-
 impl Clocked for TdcDecoder {
     type In = In;
     type Params = Params;
@@ -147,12 +204,12 @@ impl Clocked for TdcDecoder {
         if !(i.rst | i.hit | self.has_hit()) {
             return;
         }
-        let code = code_of(self.t).filter(|_| self.t_valid);
+        let code = p.code_of(self.t).filter(|_| self.t_valid);
         self.tdc_valid = code.is_some();
         self.tdc_code = code.unwrap_or(self.tdc_code);
         self.t_valid = self.age_valid;
         if self.age_valid {
-            self.t = time(self.age_coarse.get(), self.age);
+            self.t = p.time(self.age_coarse.get(), self.age);
         }
         self.age_valid = self.n_valid;
         if self.n_valid {
@@ -164,7 +221,7 @@ impl Clocked for TdcDecoder {
         };
         self.n_valid = counted;
         if counted {
-            (self.n, self.n_coarse) = (U::new(taps.ones() as u64), coarse);
+            (self.n, self.n_coarse) = (U::new(taps.ones(p.taps()) as u64), coarse);
         }
         self.hundreds_valid = self.sixteens_valid;
         if self.sixteens_valid {
@@ -190,10 +247,13 @@ impl Clocked for TdcDecoder {
 
 #[cfg(test)]
 mod tests {
+    use super::super::carry_chain::TAPS;
+    use crate::kernel::Time;
+
     use super::*;
 
     fn params(cal: Calibration, count_stages: u64) -> Params {
-        Params { cal: Box::new(cal), count_stages }
+        Params { cal, count_stages, scale: TimeScale::default() }
     }
 
     fn decode(coarse: u64, n: usize, p: &Params) -> (bool, u64) {
@@ -213,14 +273,26 @@ mod tests {
     }
 
     #[test]
+    fn ideal_taps_are_two_to_a_bin_and_time_zero_is_clamped() {
+        let delays = Delays::new(Time::from_ns(2), &[12_500; TAPS]).unwrap();
+        let cal = Params::calibration(&delays, &TimeScale::default());
+        assert_eq!(cal[480], 5116);
+        assert_eq!(cal[479], 5108);
+        assert_eq!(cal[481], 5120, "holds an age of exactly 8 ns");
+        assert_eq!(cal[482], 5132);
+        assert_eq!(cal[0], 1280);
+        assert_eq!(cal[800], 1280 + 8 * 800 - 4);
+    }
+
+    #[test]
     fn the_time_is_the_edge_less_the_calibrated_delay() {
-        let mut cal = [U::new(0); TAPS + 1];
+        let mut cal = vec![U::new(0); TAPS + 1];
         cal[100] = U::new(5120);
         cal[101] = U::new(5119);
         cal[102] = U::new(5121);
         cal[103] = U::new(5120 - 4095);
         cal[104] = U::new(5120 - 4096);
-        for p in [params(cal, 2), params(cal, 3)] {
+        for p in [params(cal.clone(), 2), params(cal, 3)] {
             assert_eq!(decode(0, 100, &p), (true, 0));
             assert_eq!(decode(0, 101, &p), (true, 0));
             assert_eq!(decode(0, 102, &p), (false, 0), "before the laser edge");

@@ -2,14 +2,15 @@
 //!
 //! Mirrors `rtl_ref/tdc_latch.v`. A hit is tap 0 high now and low at the edge before, inside the
 //! window, and only the first of a shot; a level held from before is none. Taps sampled at edge e
-//! are here after e + 1, whether they are a hit or not: an enable that comes from tap 0 and has 800
-//! loads would be the slowest path of the device. At the edge that takes `start`, a hit of the shot
+//! are here after e + 1, whether they are a hit or not: an enable that comes from tap 0 and has as
+//! many loads as there are taps would be the slowest path of the device. At the edge that takes `start`, a hit of the shot
 //! before may still be one (it is too late to have a code), and the new shot is unused.
 
-use crate::kernel::{Clocked, U, asleep_if};
+use crate::kernel::{Clocked, asleep_if};
 use crate::signals;
 
 use super::carry_chain::Taps;
+use super::coarse_counter::Coarse;
 
 signals! {
     /// Input ports.
@@ -21,8 +22,10 @@ signals! {
         /// A hit now belongs to the shot.
         pub window: bool,
         /// Coarse count, in step with the taps.
-        pub coarse: U<3>,
+        #[size("CoarseBits")]
+        pub coarse: Coarse,
         /// Taps sampled at the last edge.
+        #[size("Taps")]
         pub taps: Taps,
     }
 }
@@ -34,8 +37,10 @@ signals! {
         #[view(heading = "TDC", probe = true)]
         pub hit: bool,
         /// Coarse count of the last hit.
-        pub hit_coarse: U<3>,
+        #[size("CoarseBits")]
+        pub hit_coarse: Coarse,
         /// Taps sampled at the edge before.
+        #[size("Taps")]
         pub hit_taps: Taps,
         /// The shot has had its hit.
         used: bool,
@@ -88,34 +93,36 @@ impl Clocked for TdcLatch {
 
 #[cfg(test)]
 mod tests {
+    use super::super::carry_chain::TAPS;
     use super::*;
 
     const OPEN: In = In {
         rst: false,
         start: false,
         window: true,
-        coarse: U::new(2),
+        coarse: Coarse::new(2),
         taps: Taps::settled(false),
     };
 
-    fn high(ranks: usize) -> In {
-        In { taps: Taps::new(true, [ranks]), ..OPEN }
+    fn high(rank: usize) -> In {
+        In { taps: Taps::new(true, [rank]), ..OPEN }
     }
 
     #[test]
     fn the_first_hit_of_a_shot_is_kept_and_the_second_is_not() {
         let first = TdcLatch::default().next(&high(40), &0);
         assert!(first.hit);
-        assert_eq!((first.hit_coarse.get(), first.hit_taps.ones()), (2, 40));
+        assert_eq!((first.hit_coarse.get(), first.hit_taps.ones(TAPS)), (2, 40));
         let second = first.next(&OPEN, &0).next(&high(7), &0);
         assert!(!second.hit);
-        assert_eq!(second.hit_taps.ones(), 7);
+        assert_eq!(second.hit_taps.ones(TAPS), 7);
     }
 
     #[test]
     fn a_level_held_from_before_the_window_is_no_hit() {
-        let held = TdcLatch::default().next(&In { window: false, ..high(800) }, &0);
-        assert!(!held.next(&high(800), &0).hit);
+        let high = In { taps: Taps::settled(true), ..OPEN };
+        let held = TdcLatch::default().next(&In { window: false, ..high }, &0);
+        assert!(!held.next(&high, &0).hit);
     }
 
     #[test]

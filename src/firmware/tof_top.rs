@@ -22,9 +22,11 @@ use super::vcsel_driver::{self, VcselDriver};
 use super::{lvds_output, pll};
 
 mod ports;
+mod sizes;
 mod socket;
 
 pub use ports::{Clocks, CodeSource, Estimator, HistogramSource, Nets, Params, Pins, Socket};
+pub use sizes::Sizes;
 
 /// The state of the firmware.
 #[derive(Clone, Debug, Default)]
@@ -37,11 +39,11 @@ pub struct TofTop {
     pub nets: Nets,
     /// PLL outputs beside the clocks.
     pub pll: pll::Out,
-    /// Reset in `clk_125`.
-    pub reset_sync_125: ResetSync,
-    /// Reset in `clk_250`.
-    pub reset_sync_250: ResetSync,
-    /// The acquisition computer's signals in `clk_125`.
+    /// Reset in `clk_sys`.
+    pub reset_sync_sys: ResetSync,
+    /// Reset in `clk_laser`.
+    pub reset_sync_laser: ResetSync,
+    /// The acquisition computer's signals in `clk_sys`.
     pub control_sync: ControlSync,
     /// Frame sequence.
     pub frame_ctrl: FrameCtrl,
@@ -71,8 +73,8 @@ connect! {
     /// Port connections. Every module output is a register, so one pass settles them.
     pub struct Wires(this: &TofTop) {
         signals clocks, pins, nets;
-        wire rst_125 <- this.reset_sync_125.rst_sync;
-        wire rst_250 <- this.reset_sync_250.rst_sync;
+        wire rst_sys <- this.reset_sync_sys.rst_sync;
+        wire rst_laser <- this.reset_sync_laser.rst_sync;
         wire mode_sync <- this.control_sync.mode_sync;
         wire laser_freq_sync <- this.control_sync.laser_freq_sync;
         wire laser_en_sync <- this.control_sync.laser_en_sync;
@@ -98,32 +100,32 @@ connect! {
         output frame_done <- this.frame_ctrl.frame_done;
         output locked <- this.pll.locked;
     }
-    pll(clk_200): pll::In {} -> { clk_125: this.clocks.clk_125, clk_250: this.clocks.clk_250, }
-    reset_sync_125(clk <- clk_125): reset_sync::In {
+    pll(clk_200): pll::In {} -> { clk_sys: this.clocks.clk_sys, clk_laser: this.clocks.clk_laser, }
+    reset_sync_sys(clk <- clk_sys): reset_sync::In {
         rst <- this.pins.rst;
         locked <- this.pll.locked;
     }
-    reset_sync_250(clk <- clk_250): reset_sync::In {
+    reset_sync_laser(clk <- clk_laser): reset_sync::In {
         rst <- this.pins.rst;
         locked <- this.pll.locked;
     }
-    control_sync(clk_125): control_sync::In {
+    control_sync(clk_sys): control_sync::In {
         mode <- this.pins.mode;
         laser_freq <- this.pins.laser_freq;
         laser_en <- this.pins.laser_en;
         dsp_en <- this.pins.dsp_en;
         dsp_rst <- this.pins.dsp_rst;
     }
-    frame_ctrl(clk_125): frame_ctrl::In {
-        rst <- this.reset_sync_125.rst_sync;
+    frame_ctrl(clk_sys): frame_ctrl::In {
+        rst <- this.reset_sync_sys.rst_sync;
         start <- this.vcsel_driver.registers.start;
         dsp_rst <- this.control_sync.dsp_rst_sync;
         dsp_en <- this.control_sync.dsp_en_sync;
         algo_done <- this.socket.algo_done;
     }
-    vcsel_driver(clk_125, clk_250): vcsel_driver::In {
-        rst <- this.reset_sync_125.rst_sync;
-        rst_250 <- this.reset_sync_250.rst_sync;
+    vcsel_driver(clk_sys, clk_laser): vcsel_driver::In {
+        rst <- this.reset_sync_sys.rst_sync;
+        rst_laser <- this.reset_sync_laser.rst_sync;
         acquire <- this.frame_ctrl.acquire;
         laser_en <- this.control_sync.laser_en_sync;
         laser_freq <- this.control_sync.laser_freq_sync;
@@ -131,21 +133,21 @@ connect! {
     lvds_output(): lvds_output::In {
         i <- this.vcsel_driver.ddr_output.q;
     }
-    spad_control(clk_125): spad_control::In {
-        rst <- this.reset_sync_125.rst_sync;
+    spad_control(clk_sys): spad_control::In {
+        rst <- this.reset_sync_sys.rst_sync;
         mode <- this.control_sync.mode_sync;
         pre_start <- this.vcsel_driver.registers.pre_start;
     }
-    tdc(clk_125): tdc::In {
+    tdc(clk_sys): tdc::In {
         rst <- this.nets.rst_dsp;
         start <- this.vcsel_driver.registers.start;
         tdc_stop <- this.pins.tdc_stop;
     }
-    code_preload(clk_125): code_preload::In {
+    code_preload(clk_sys): code_preload::In {
         rst <- this.nets.rst_dsp;
         start <- this.vcsel_driver.registers.start;
     }
-    histogram_builder(clk_125): histogram_builder::In {
+    histogram_builder(clk_sys): histogram_builder::In {
         clear <- this.frame_ctrl.clear;
         clear_addr <- this.frame_ctrl.clear_addr;
         tdc_valid <- this.nets.tdc_valid;
@@ -156,12 +158,12 @@ connect! {
     histogram_preload(): histogram_preload::In {
         read_addr <- this.socket.read_addr;
     } -> { count: this.nets.count, }
-    depth_estimator(clk_125): depth_estimator::In {
+    depth_estimator(clk_sys): depth_estimator::In {
         rst <- this.nets.rst_dsp;
         algo_start <- this.frame_ctrl.algo_start;
         count <- this.nets.count;
     }
-    centroid_estimator(clk_125): centroid_estimator::In {
+    centroid_estimator(clk_sys): centroid_estimator::In {
         rst <- this.nets.rst_dsp;
         algo_start <- this.frame_ctrl.algo_start;
         count <- this.nets.count;
@@ -174,12 +176,12 @@ impl TofTop {
         TofTop { pins, ..TofTop::default() }
     }
 
-    /// An edge at which `clk_125` and `clk_250` rise, at `now`. All inputs are read in the first
+    /// An edge at which `clk_sys` and `clk_laser` rise, at `now`. All inputs are read in the first
     /// block, before any register changes in the second: the order within a block decides nothing.
     #[inline(always)]
     pub fn rise(&mut self, p: &Params, line: &mut StopLine, now: Time) {
-        let reset_sync_250 = self.reset_sync_250.next(&Wires::reset_sync_250(self), &());
-        let reset_sync_125 = self.reset_sync_125.next(&Wires::reset_sync_125(self), &());
+        let reset_sync_laser = self.reset_sync_laser.next(&Wires::reset_sync_laser(self), &());
+        let reset_sync_sys = self.reset_sync_sys.next(&Wires::reset_sync_sys(self), &());
         let control_sync = self.control_sync.next(&Wires::control_sync(self), &());
         let frame_ctrl = self.frame_ctrl.next(&Wires::frame_ctrl(self), &p.frame_ctrl);
         let vcsel_driver = Wires::vcsel_driver(self);
@@ -188,9 +190,9 @@ impl TofTop {
         let histogram_builder = Wires::histogram_builder(self);
         let (network, centroid) = (Wires::depth_estimator(self), Wires::centroid_estimator(self));
 
-        (self.reset_sync_125, self.reset_sync_250) = (reset_sync_125, reset_sync_250);
+        (self.reset_sync_sys, self.reset_sync_laser) = (reset_sync_sys, reset_sync_laser);
         (self.control_sync, self.frame_ctrl) = (control_sync, frame_ctrl);
-        self.vcsel_driver.rise(&vcsel_driver);
+        self.vcsel_driver.rise(&vcsel_driver, &p.vcsel_driver);
         self.spad_control = spad_control;
         self.convert(p, &tdc, &code_preload, line, now);
         self.histogram_builder.tick(&histogram_builder);
@@ -198,26 +200,26 @@ impl TofTop {
         self.settle(p);
     }
 
-    /// An edge at which only `clk_250` rises: the middle of a cycle of `clk_125`.
+    /// An edge at which only `clk_laser` rises: the middle of a cycle of `clk_sys`.
     #[inline(always)]
-    pub fn rise_250(&mut self) {
-        let reset_sync_250 = self.reset_sync_250.next(&Wires::reset_sync_250(self), &());
-        self.vcsel_driver.rise_250(&Wires::vcsel_driver(self));
-        self.reset_sync_250 = reset_sync_250;
+    pub fn rise_laser(&mut self, p: &Params) {
+        let reset_sync_laser = self.reset_sync_laser.next(&Wires::reset_sync_laser(self), &());
+        self.vcsel_driver.rise_laser(&Wires::vcsel_driver(self), &p.vcsel_driver);
+        self.reset_sync_laser = reset_sync_laser;
         self.drive_laser();
     }
 
-    /// What a rising edge of `clk_250` alone can change; more only follows from it.
+    /// What a rising edge of `clk_laser` alone can change; more only follows from it.
     #[inline(always)]
-    pub fn registers_250(&self) -> (ResetSync, vcsel_driver::Registers250, DdrOutput) {
+    pub fn registers_laser(&self) -> (ResetSync, vcsel_driver::LaserRegisters, DdrOutput) {
         let driver = &self.vcsel_driver;
-        (self.reset_sync_250, driver.registers_250, driver.ddr_output)
+        (self.reset_sync_laser, driver.registers_laser, driver.ddr_output)
     }
 
-    /// A falling edge of `clk_250`.
+    /// A falling edge of `clk_laser`.
     #[inline(always)]
-    pub fn fall_250(&mut self) {
-        self.vcsel_driver.fall_250();
+    pub fn fall_laser(&mut self) {
+        self.vcsel_driver.fall_laser();
         self.drive_laser();
     }
 
@@ -252,7 +254,7 @@ impl TofTop {
     /// who makes the device.
     #[inline(always)]
     pub fn settle(&mut self, p: &Params) {
-        self.nets.rst_dsp = self.reset_sync_125.rst_sync || self.control_sync.dsp_rst_sync;
+        self.nets.rst_dsp = self.reset_sync_sys.rst_sync || self.control_sync.dsp_rst_sync;
         self.take_code(p);
         self.nets.count = match &p.histogram_source {
             HistogramSource::Builder => {
@@ -299,7 +301,7 @@ mod tests {
         for [module, port, source] in connections.0 {
             let Some(pin) = source.strip_prefix("this.pins.") else { continue };
             let expected: &[&str] = match pin {
-                "rst" => &["reset_sync_125", "reset_sync_250"],
+                "rst" => &["reset_sync_sys", "reset_sync_laser"],
                 "tdc_stop" => &["tdc"],
                 _ => &["control_sync"],
             };

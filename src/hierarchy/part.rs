@@ -14,7 +14,7 @@ pub struct Part {
     wanted: Box<[bool; IDS]>,
     /// Words of the RAM, each once.
     words: Vec<usize>,
-    /// The edge of `clk_125` before the coming look may write a word of the RAM.
+    /// The edge of `clk_sys` before the coming look may write a word of the RAM.
     writes: bool,
     kept: Option<TofTop>,
 }
@@ -39,12 +39,12 @@ impl Part {
     }
 
     /// Reports every signal that differs from what it was; at first, every one. This has to be called
-    /// in every cycle of `clk_125`, and not only while that is high: from high to high or low, no
+    /// in every cycle of `clk_sys`, and not only while that is high: from high to high or low, no
     /// register of it has moved.
     #[inline]
     pub fn follow(&mut self, top: &TofTop, sink: &mut impl Sink) {
         let Some(kept) = &mut self.kept else { return self.show(top, sink) };
-        let between = kept.clocks.clk_125;
+        let between = kept.clocks.clk_sys;
         top.visit(Some(kept), &mut Look { wanted: Some(&*self.wanted), between, id: 0, sink });
         let writes = top.histogram_builder.has_hit() || top.frame_ctrl.clear;
         if std::mem::replace(&mut self.writes, writes) {
@@ -89,7 +89,7 @@ pub fn copy(from: &TofTop, to: &mut TofTop) {
 struct Look<'a, S> {
     /// Ids to look at, if not all.
     wanted: Option<&'a [bool; IDS]>,
-    /// Whether modules that have no other clock than `clk_125` are left out.
+    /// Whether modules that have no other clock than `clk_sys` are left out.
     between: bool,
     /// The coming signal.
     id: usize,
@@ -116,7 +116,7 @@ impl<K: Sink> Visitor for Look<'_, K> {
     #[inline(always)]
     fn module<M: Module>(&mut self, instance: &'static Instance, now: &M, then: Option<&mut M>) {
         match instance.clocks {
-            [("clk_125", _)] if self.between => self.id += M::COUNT,
+            [("clk_sys", _)] if self.between => self.id += M::COUNT,
             _ => now.visit(then, self),
         }
     }
@@ -143,6 +143,7 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
+    use crate::firmware::carry_chain::TAPS;
     use crate::kernel::{Thermometer, Time};
     use crate::scenario::{self, Control, QuenchMode};
     use crate::sim::device::{Edge, Off, SignalProbe};
@@ -157,8 +158,8 @@ mod tests {
             self.0[id] = value;
         }
 
-        fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, _: usize) {
-            self.0[id] = value.ones() as u64;
+        fn taps(&mut self, id: usize, value: &Thermometer, _: usize) {
+            self.0[id] = value.ones(TAPS) as u64;
         }
     }
 
@@ -168,7 +169,7 @@ mod tests {
         followed: Values,
         /// Looks at every change, not only before edges.
         every_change: bool,
-        /// Looks before the edges of `clk_250` too.
+        /// Looks before the edges of `clk_laser` too.
         middle: bool,
         looks: usize,
         ticks: usize,
@@ -232,11 +233,11 @@ mod tests {
     /// Changes of the control signals at any time, at an edge, and as pulses from an edge to before
     /// the next, which no look before an edge sees.
     fn control(setup: &Setup, cycles: u64, random: &mut ChaCha8Rng) -> Vec<Control> {
-        let clk_125 = &setup.pll().clk_125;
+        let clk_sys = &setup.pll().clk_sys;
         let mut changes = Vec::new();
         let mut cycle = 10;
         while cycle < cycles {
-            let edge = clk_125.rise(cycle);
+            let edge = clk_sys.rise(cycle);
             let at = |ps: u64| (edge + Time::from_fs(1000 * ps)).seconds() * 1e6;
             let begin = if random.random_bool(0.5) { 0 } else { random.random_range(0..8000) };
             let end = random.random_range(begin..begin + 24_000);

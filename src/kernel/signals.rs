@@ -1,7 +1,7 @@
 //! Named signals: a struct made by [`signals!`](crate::signals) can list and report its fields.
 
 use super::bits::{S, U};
-use super::thermometer::{PartialOnes, Thermometer, ones_width};
+use super::thermometer::{PartialOnes, Thermometer};
 
 /// How a value reads best.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,8 +43,10 @@ impl View {
 pub struct Signal {
     /// Its name, the same in Rust, Verilog and waveform.
     pub name: String,
-    /// Its width [bits].
+    /// Its width [bits]; of a word whose width is a parameter, the most that it can be.
     pub width: u32,
+    /// What elaboration has to know for its width, or for how many of an array there are.
+    pub size: Option<&'static str>,
     /// How to show it.
     pub format: SignalFormat,
     /// Whether other modules may read it.
@@ -60,7 +62,7 @@ pub trait Sink {
     fn word(&mut self, id: usize, value: u64);
     /// The taps of a delay line, or with a `group` above 1 the ones among so many taps each (see
     /// [`partial_ones`](super::partial_ones)).
-    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, group: usize);
+    fn taps(&mut self, id: usize, value: &Thermometer, group: usize);
 }
 
 /// A value that stands for one or more signals.
@@ -143,10 +145,10 @@ impl<T: Word, const K: usize> Field for [T; K] {
     }
 }
 
-impl<const N: usize> Field for Thermometer<N> {
+impl Field for Thermometer {
     const COUNT: usize = 1;
     fn declare(like: Signal, list: &mut Vec<Signal>) {
-        list.push(Signal { width: N as u32, format: SignalFormat::Taps, ..like });
+        list.push(Signal { format: SignalFormat::Taps, ..like });
     }
     fn changes(&self, before: Option<&Self>, id: usize, sink: &mut impl Sink) {
         if before != Some(self) {
@@ -155,11 +157,10 @@ impl<const N: usize> Field for Thermometer<N> {
     }
 }
 
-impl<const N: usize, const GROUP: usize> Field for PartialOnes<N, GROUP> {
+impl<const GROUP: usize> Field for PartialOnes<GROUP> {
     const COUNT: usize = 1;
     fn declare(like: Signal, list: &mut Vec<Signal>) {
-        let width = (N.div_ceil(GROUP) * ones_width(GROUP)) as u32;
-        list.push(Signal { width, format: SignalFormat::Bits, ..like });
+        list.push(like);
     }
     fn changes(&self, before: Option<&Self>, id: usize, sink: &mut impl Sink) {
         if before != Some(self) {
@@ -170,11 +171,13 @@ impl<const N: usize, const GROUP: usize> Field for PartialOnes<N, GROUP> {
 
 /// Declares a struct of signals. One line gives a signal's meaning, name, width and, after `=`,
 /// its reset value where that is not zero; `pub` fields are output ports, `pub(crate)` ones are not.
-/// `#[view(..)]` above a field sets fields of its [`View`].
+/// `#[size("..")]` above a field names what its width follows from where elaboration decides it, and
+/// `#[view(..)]` sets fields of its [`View`].
 #[macro_export]
 macro_rules! signals {
     ($(#[$meta:meta])* $vis:vis struct $name:ident {
-        $($(#[doc = $doc:literal])+ $(#[view($($view:ident = $shown:literal),+)])?
+        $($(#[doc = $doc:literal])+ $(#[size($size:literal)])?
+            $(#[view($($view:ident = $shown:literal),+)])?
             $field_vis:vis $field:ident: $ty:ty $(= $reset:expr)?,)*
     }) => {
         $(#[$meta])*
@@ -198,6 +201,7 @@ macro_rules! signals {
                     $crate::kernel::signals::Signal {
                         name: stringify!($field).to_owned(),
                         width: 0,
+                        size: $crate::signals!(@size $($size)?),
                         format: $crate::kernel::signals::SignalFormat::Bits,
                         output: matches!(stringify!($field_vis), "pub"),
                         view: $crate::kernel::signals::View {
@@ -228,6 +232,8 @@ macro_rules! signals {
             }
         }
     };
+    (@size) => { None };
+    (@size $size:literal) => { Some($size) };
     (@reset) => { Default::default() };
     (@reset $reset:expr) => { $reset };
 }

@@ -8,15 +8,15 @@ pub const MAX_TRANSITIONS: usize = 8;
 /// Bits of a rank.
 const BITS: usize = 16;
 
-/// `N` taps, in order of arrival, that show the level which has reached them.
+/// The taps of a line, in order of arrival, that show the level which has reached them.
 ///
 /// The input of the line alternates, so its taps are a few runs of ones and zeros. The newest
 /// level fills the taps before the first rank, the opposite one the taps up to the second, and so
-/// on: two words instead of `N` bits, and the ones count is an alternating sum. The form is
-/// canonical (ranks strictly increasing, from 1 to N - 1, unused ones zero), so that equal taps
-/// compare equal.
+/// on: two words instead of a bit for each tap, and the ones count is an alternating sum. The form is
+/// canonical (ranks strictly increasing, from 1 to one less than there are taps, unused ones zero), so
+/// that equal taps compare equal. How many taps there are is known to who asks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Thermometer<const N: usize> {
+pub struct Thermometer {
     /// 16 bits for each transition, the newest lowest. One word, like `shape`, because processors
     /// stall on reading together what was written apart.
     ranks: u128,
@@ -24,7 +24,7 @@ pub struct Thermometer<const N: usize> {
     shape: u16,
 }
 
-impl<const N: usize> Thermometer<N> {
+impl Thermometer {
     /// All taps at one level.
     #[inline(always)]
     pub const fn settled(level: bool) -> Self {
@@ -32,18 +32,21 @@ impl<const N: usize> Thermometer<N> {
     }
 
     /// The taps when the line's input is now at `level` and its last transitions, newest first,
-    /// have reached `ranks` taps each (0 = none yet, N or more = all). Transitions beyond
+    /// have reached `ranks` taps each (0 = none yet), fewer than there are. Transitions beyond
     /// [`MAX_TRANSITIONS`] are not seen; the caller's limits keep them from being there.
     pub fn new(level: bool, ranks: impl IntoIterator<Item = usize>) -> Self {
         let mut taps = Self::settled(level);
-        for rank in ranks.into_iter().take_while(|&rank| rank < N) {
-            taps.push(rank);
-        }
+        ranks.into_iter().for_each(|rank| taps.push(rank));
         taps
     }
 
+    /// The same of a line of `count` taps, of which a rank may be all or more: such a transition has passed.
+    pub fn clipped(count: usize, level: bool, ranks: impl IntoIterator<Item = usize>) -> Self {
+        Self::new(level, ranks.into_iter().take_while(|&rank| rank < count))
+    }
+
     /// The taps when the line's input is now at `level` and its last transition has reached `rank`
-    /// of them, fewer than `N`, and the ones before all.
+    /// of them, fewer than there are, and the ones before all.
     #[inline(always)]
     pub const fn single(level: bool, rank: usize) -> Self {
         match rank {
@@ -52,7 +55,8 @@ impl<const N: usize> Thermometer<N> {
         }
     }
 
-    /// Adds an older transition than those inside, which has reached `rank` taps, fewer than `N`.
+    /// Adds an older transition than those inside, which has reached `rank` taps, fewer than
+    /// there are.
     #[inline(always)]
     pub fn push(&mut self, rank: usize) {
         let len = self.len();
@@ -92,8 +96,9 @@ impl<const N: usize> Thermometer<N> {
         self.level() ^ (passed % 2 == 1)
     }
 
-    /// How many taps are high, from 0 to N.
-    pub fn ones(&self) -> usize {
+    /// How many of `count` taps are high.
+    #[inline]
+    pub fn ones(&self, count: usize) -> usize {
         let (mut ones, mut start, mut level) = (0, 0, self.level());
         for rank in self.ranks() {
             if level {
@@ -101,17 +106,17 @@ impl<const N: usize> Thermometer<N> {
             }
             (start, level) = (rank, !level);
         }
-        if level { ones + N - start } else { ones }
+        if level { ones + count - start } else { ones }
     }
 
-    /// Writes the taps as bits, in order of arrival, into the first `N` bits of `out`.
+    /// Writes the taps as bits, in order of arrival, into `out`, which is as long as the line.
     pub fn expand(&self, out: &mut BitSlice<u64, Lsb0>) {
         let (mut start, mut level) = (0, self.level());
         for rank in self.ranks() {
             out[start..rank].fill(level);
             (start, level) = (rank, !level);
         }
-        out[start..N].fill(level);
+        out[start..].fill(level);
     }
 
     #[inline(always)]
@@ -137,11 +142,11 @@ impl<const N: usize> Thermometer<N> {
     }
 }
 
-/// The ones among each `GROUP` of `N` taps, side by side: a register of a ones count on its way.
+/// The ones among each `GROUP` of taps, side by side: a register of a ones count on its way.
 ///
 /// It holds the taps themselves: the model needs no more, and who shows it groups them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PartialOnes<const N: usize, const GROUP: usize>(pub Thermometer<N>);
+pub struct PartialOnes<const GROUP: usize>(pub Thermometer);
 
 /// Bits of the ones count of each group of taps.
 pub const fn ones_width(group: usize) -> usize {
@@ -160,7 +165,7 @@ pub fn partial_ones(taps: &BitSlice<u64, Lsb0>, group: usize, out: &mut BitSlice
 mod tests {
     use super::*;
 
-    fn bits(taps: &Thermometer<12>) -> String {
+    fn bits(taps: &Thermometer) -> String {
         let mut out = bitvec![u64, Lsb0; 0; 12];
         taps.expand(&mut out);
         out.iter().map(|bit| if *bit { '1' } else { '0' }).collect()
@@ -168,28 +173,33 @@ mod tests {
 
     #[test]
     fn a_pulse_travels_as_two_ranks() {
-        let taps = Thermometer::<12>::new(false, [3, 8]);
+        let taps = Thermometer::new(false, [3, 8]);
         assert_eq!(bits(&taps), "000111110000");
-        assert_eq!(taps.ones(), 5);
+        assert_eq!(taps.ones(12), 5);
         assert!(!taps.tap(2) && taps.tap(3) && taps.tap(7) && !taps.tap(8));
     }
 
     #[test]
     fn a_transition_that_has_reached_no_tap_is_not_seen() {
-        assert_eq!(Thermometer::<12>::new(true, [0, 4]), Thermometer::new(false, [4]));
-        assert_eq!(Thermometer::<12>::new(true, [0]), Thermometer::settled(false));
+        assert_eq!(Thermometer::new(true, [0, 4]), Thermometer::new(false, [4]));
+        assert_eq!(Thermometer::new(true, [0]), Thermometer::settled(false));
     }
 
     #[test]
     fn a_transition_past_the_end_leaves_the_line_settled() {
-        assert_eq!(Thermometer::<12>::new(true, [12]), Thermometer::settled(true));
-        assert_eq!(Thermometer::<12>::new(false, [5, 12, 14]), Thermometer::new(false, [5]));
-        assert_eq!(Thermometer::<12>::settled(true).ones(), 12);
+        assert_eq!(Thermometer::clipped(12, true, [12]), Thermometer::settled(true));
+        assert_eq!(Thermometer::clipped(12, false, [5, 12, 14]), Thermometer::new(false, [5]));
+    }
+
+    #[test]
+    fn a_settled_line_is_all_ones_or_none() {
+        assert_eq!(Thermometer::settled(true).ones(12), 12);
+        assert_eq!(Thermometer::settled(false).ones(12), 0);
     }
 
     #[test]
     fn two_transitions_between_the_same_taps_cancel() {
-        assert_eq!(Thermometer::<12>::new(true, [4, 4, 9]), Thermometer::new(true, [9]));
+        assert_eq!(Thermometer::new(true, [4, 4, 9]), Thermometer::new(true, [9]));
         assert_eq!(bits(&Thermometer::new(true, [4, 4])), "111111111111");
     }
 
@@ -206,8 +216,8 @@ mod tests {
         for code in 0..12usize.pow(3) {
             let ranks = [code % 12, code / 12 % 12, code / 144];
             if ranks.is_sorted() {
-                let taps = Thermometer::<12>::new(code % 5 > 2, ranks);
-                assert_eq!(taps.ones(), bits(&taps).matches('1').count(), "{ranks:?}");
+                let taps = Thermometer::new(code % 5 > 2, ranks);
+                assert_eq!(taps.ones(12), bits(&taps).matches('1').count(), "{ranks:?}");
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::firmware::histogram_builder::BINS;
 
-/// Hits per bin of 25 ps, bin 0 first [hits].
+/// Hits per bin, bin 0 first [hits].
 pub type Histogram = [u16; BINS];
 
 /// Most hits a histogram may hold; the widths of the estimator's words bear any such sum [hits].

@@ -4,7 +4,7 @@ use crate::firmware::depth_estimator::Params;
 use crate::firmware::forward1::{BIAS_ROW, Rom, Weight};
 use crate::firmware::forward2;
 use crate::firmware::tansig;
-use crate::firmware::tdc_decoder::Calibration;
+use crate::firmware::tdc_decoder;
 
 /// A ROM's file.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,9 +43,10 @@ pub fn depth_estimator(params: &Params) -> Vec<Mem> {
     hidden.into_iter().chain(output).chain([tansig(&params.tansig)]).collect()
 }
 
-/// The decoder's calibration: line N is the time for N ones [25/16 ps].
-pub fn tdc_decoder(calibration: &Calibration) -> Mem {
-    Mem { name: "tdc_cal.mem", text: lines(calibration.iter().map(|time| time.get()), 4) }
+/// The decoder's calibration: line N is the time for N ones [units].
+pub fn tdc_decoder(params: &tdc_decoder::Params) -> Mem {
+    let digits = params.age_bits().div_ceil(4) as usize;
+    Mem { name: "tdc_cal.mem", text: lines(params.cal.iter().map(|age| age.get()), digits) }
 }
 
 /// Words side by side on a line, the first in the low bits.
@@ -63,6 +64,7 @@ pub fn lines(words: impl IntoIterator<Item = u64>, digits: usize) -> String {
 mod tests {
     use super::*;
     use crate::firmware::carry_chain::TAPS;
+    use crate::firmware::tdc_decoder::TimeScale;
     use crate::kernel::{S, U};
     use crate::network::Network;
 
@@ -76,10 +78,11 @@ mod tests {
     fn each_file_has_its_lines_and_digits() {
         let network = Network::builtin("uniform").unwrap().unwrap();
         let params = network.params();
-        let mut calibration = [U::new(0x3abc); TAPS + 1];
-        calibration[0] = U::new(5);
+        let mut cal = vec![U::new(0x3abc); TAPS + 1];
+        cal[0] = U::new(5);
+        let decoder = tdc_decoder::Params { cal, count_stages: 3, scale: TimeScale::default() };
         let mut files = depth_estimator(&params);
-        files.push(tdc_decoder(&calibration));
+        files.push(tdc_decoder(&decoder));
         let shape = |mem: &Mem| {
             let digits = mem.text.lines().next().map(str::len);
             assert!(mem.text.lines().all(|line| Some(line.len()) == digits));

@@ -50,17 +50,17 @@ impl Chances {
 #[cfg(test)]
 mod tests {
     use crate::firmware::carry_chain::{Delays, TAPS};
+    use crate::firmware::tdc;
     use crate::optics::Budget;
     use crate::optics::closed_form::tests::budget;
 
     use super::*;
 
-    const PERIOD: Time = Time::from_ns(8);
     const END: Time = Time::from_ns(40);
 
     fn chances(budget: &Budget) -> Chances {
         let delays = Delays::new(Time::from_ns(2), &[12_500; TAPS]).unwrap();
-        let bins = Bins::of_chain(&delays, &delays.calibration(PERIOD), PERIOD);
+        let bins = Bins::of_tdc(&tdc::Params::of_chain(delays));
         Chances::new(&Hazard::new(budget), &bins, END)
     }
 

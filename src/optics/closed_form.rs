@@ -6,16 +6,14 @@
 use rand::Rng;
 use rand_distr::{Binomial, Distribution};
 
-use crate::firmware::carry_chain::Delays;
-use crate::firmware::tdc_decoder::{self, Calibration};
+use crate::firmware::tdc;
+use crate::firmware::tdc_decoder::TimeScale;
 use crate::kernel::Time;
 
 use super::hazard::Hazard;
 
 /// Codes of the TDC [codes].
 pub const CODES: usize = 256;
-/// Cycles of `clk_125` that the coarse counter tells apart [cycles].
-const COARSE: u64 = 8;
 
 /// A span of avalanche times that give one code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +22,7 @@ pub struct Span {
     pub from: Time,
     /// First time after it.
     pub until: Time,
-    /// Code of the TDC [25 ps].
+    /// Code of the TDC [bins].
     pub code: u8,
 }
 
@@ -33,34 +31,61 @@ pub struct Span {
 pub struct Bins {
     /// In order of time, without overlap.
     spans: Vec<Span>,
+    /// What a code is meant to be.
+    scale: TimeScale,
 }
 
 impl Bins {
-    /// Of a chain with its decoder's ROM, sampled every `period`.
+    /// Of a converter.
     ///
     /// The chain has to be clear again before the next shot's first edge, 2 periods after
     /// `spad_rst` rises, or a hit would be counted together with the one before.
-    pub fn of_chain(delays: &Delays, cal: &Calibration, period: Time) -> Self {
+    pub fn of_tdc(p: &tdc::Params) -> Self {
+        let (delays, period) = (&p.delays, p.decoder.scale.period());
         let mut spans = Vec::new();
         let (tap_0, ages) = (delays.tap_0(), delays.arrivals());
-        for coarse in 0..COARSE {
+        for coarse in 0..p.coarse_counter.window() {
             let edge = Time::from_fs((coarse + 1) * period.fs());
+            if (1..=ages.len()).all(|n| p.decoder.is_late(coarse, n)) {
+                break;
+            }
             // The first edge at or after the arrival at tap 0 sees the avalanche.
             let first = first_younger(tap_0 + period, edge);
             let end = first_younger(tap_0, edge);
             for n in (1..=ages.len()).rev() {
-                let Some(code) = tdc_decoder::code(coarse, n, cal) else { continue };
+                let Some(code) = p.decoder.code(coarse, n) else { continue };
                 let from = ages.get(n).map_or(first, |&age| first_younger(age, edge).max(first));
                 let until = first_younger(ages[n - 1], edge).min(end);
                 push(&mut spans, Span { from, until, code: code.get() as u8 });
             }
         }
-        Bins { spans }
+        Bins { spans, scale: p.decoder.scale }
     }
 
     /// The spans of all codes, in order of time.
     pub fn spans(&self) -> &[Span] {
         &self.spans
+    }
+
+    /// Width of a bin, as codes count it [ps].
+    pub fn bin_ps(&self) -> f64 {
+        self.scale.bin().fs() as f64 * 1e-3
+    }
+
+    /// Time at which bin 0 begins, as codes count it [ps].
+    pub fn first_ps(&self) -> f64 {
+        self.scale.first().fs() as f64 * 1e-3
+    }
+
+    /// Place of a time from the laser edge [ps] among the bins, as codes count them [bins].
+    pub fn place(&self, ps: f64) -> f64 {
+        (ps - self.first_ps()) / self.bin_ps()
+    }
+
+    /// Whether codes count what the KC705's do.
+    pub fn are_kc705(&self) -> bool {
+        let usual = TimeScale::default();
+        (self.scale.bin(), self.scale.first()) == (usual.bin(), usual.first())
     }
 
     /// Code of an avalanche at `t` from the laser edge.
@@ -139,7 +164,7 @@ pub(super) mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    use crate::firmware::carry_chain::{StopLine, TAPS};
+    use crate::firmware::carry_chain::{Delays, StopLine, TAPS};
     use crate::kernel::U;
     use crate::optics::Budget;
 
@@ -152,7 +177,7 @@ pub(super) mod tests {
     }
 
     fn bins(delays: &Delays) -> Bins {
-        Bins::of_chain(delays, &delays.calibration(PERIOD), PERIOD)
+        Bins::of_tdc(&tdc::Params::of_chain(delays.clone()))
     }
 
     /// A chain whose taps are not reached in order, as in a real device.
@@ -163,14 +188,16 @@ pub(super) mod tests {
     }
 
     /// Code as the firmware finds it: edge by edge, tap by tap.
-    fn sampled(t: Time, delays: &Delays, cal: &Calibration) -> Option<u8> {
+    fn sampled(t: Time, p: &tdc::Params) -> Option<u8> {
+        let delays = &p.delays;
         let mut line = StopLine::default();
         line.toggle(t);
-        for coarse in 0..COARSE {
+        for coarse in 0..8 {
             let edge = Time::from_fs((coarse + 1) * PERIOD.fs());
             let taps = line.sample(edge.max(t), delays);
             if edge >= t && taps.tap(delays.tap_0_position()) {
-                return tdc_decoder::code(coarse, taps.ones(), cal).map(|code| code.get() as u8);
+                let code = p.decoder.code(coarse, taps.ones(TAPS));
+                return code.map(|code| code.get() as u8);
             }
         }
         None
@@ -180,7 +207,8 @@ pub(super) mod tests {
     fn a_code_is_what_the_firmware_samples() {
         let mut rng = ChaCha8Rng::seed_from_u64(1);
         for delays in [uniform(11_500, 2_230), uniform(12_500, 2_000), uneven()] {
-            let (bins, cal) = (bins(&delays), delays.calibration(PERIOD));
+            let params = tdc::Params::of_chain(delays);
+            let bins = Bins::of_tdc(&params);
             let borders = bins.spans().iter().flat_map(|span| {
                 [
                     span.from.fs(),
@@ -191,7 +219,7 @@ pub(super) mod tests {
             });
             let random: Vec<_> = (0..20_000).map(|_| rng.random_range(0..80_000_000)).collect();
             for t in borders.chain(random).map(Time::from_fs) {
-                assert_eq!(bins.code_at(t), sampled(t, &delays, &cal), "{t}");
+                assert_eq!(bins.code_at(t), sampled(t, &params), "{t}");
             }
         }
     }
@@ -239,11 +267,11 @@ pub(super) mod tests {
     #[test]
     fn a_bin_is_the_difference_of_two_survivals() {
         let hazard = Hazard::new(&budget());
-        let delays = uneven();
-        let mut with_holes = delays.calibration(PERIOD);
-        with_holes[300..310].fill(U::new(0));
-        for cal in [delays.calibration(PERIOD), with_holes] {
-            let bins = Bins::of_chain(&delays, &cal, PERIOD);
+        let whole = tdc::Params::of_chain(uneven());
+        let mut with_holes = whole.clone();
+        with_holes.decoder.cal[300..310].fill(U::new(0));
+        for params in [whole, with_holes] {
+            let bins = Bins::of_tdc(&params);
             let mut expected = [0.0; CODES];
             for span in bins.spans() {
                 let survival = |t| (-hazard.at(t)).exp();

@@ -20,10 +20,14 @@ pub struct Chain {
     /// From `tdc_stop` to tap 0, beyond the clock's own delay to the registers.
     #[schemars(range(min = 0.001, max = 100_000.0), extend("unit" = "ps"))]
     pub offset_ps: f64,
+    /// How many taps there are, if `tap_delays_ps` does not say.
+    #[schemars(range(min = 16, max = 2000), extend("unit" = "tap"))]
+    pub taps: Option<usize>,
     /// Delay of each tap, if all are alike.
     #[schemars(range(min = 0.001, max = 1000.0), extend("unit" = "ps"))]
     pub tap_ps: Option<f64>,
-    /// Delays of the 800 taps, one by one; a tap may be reached before the one below it.
+    /// Delays of the taps, one by one; a tap may be reached before the one below it.
+    #[schemars(length(min = 16, max = 2000))]
     pub tap_delays_ps: Option<Vec<f64>>,
     /// Delays that come on top.
     #[serde(default)]
@@ -35,7 +39,7 @@ pub struct Chain {
 #[serde(deny_unknown_fields)]
 pub struct Extra {
     /// The tap, from 0.
-    #[schemars(range(min = 0, max = 799), extend("unit" = "tap"))]
+    #[schemars(range(min = 0, max = 1999), extend("unit" = "tap"))]
     pub tap: usize,
     /// The delay.
     #[schemars(range(min = -10_000.0, max = 10_000.0), extend("unit" = "ps"))]
@@ -46,7 +50,7 @@ pub struct Extra {
 /// laser edge samples the next rise, and `cal` has 14 bits [ns].
 const LONGEST_NS: u64 = 16;
 
-/// The shortest chain, from tap 0 to the end of the last tap: a period of `clk_125` [ns].
+/// The shortest chain, from tap 0 to the end of the last tap: a period of `clk_sys` [ns].
 ///
 /// A hit is seen at the first edge after it reaches tap 0, at an age of up to a period more than tap 0's.
 /// What is older then than the chain is long has run through all taps, and the edge does not tell by how
@@ -72,16 +76,23 @@ fn parse(source: &str, text: &str) -> Result<Delays> {
     let chain: Chain = checked.read()?;
     let taps_key = if chain.tap_ps.is_some() { "tap_ps" } else { "tap_delays_ps" };
     let mut taps_ps = match (chain.tap_ps, chain.tap_delays_ps) {
-        (Some(tap_ps), None) => vec![tap_ps; TAPS],
-        (None, Some(taps_ps)) if taps_ps.len() == TAPS => taps_ps,
+        (Some(tap_ps), None) => vec![tap_ps; chain.taps.unwrap_or(TAPS)],
         (None, Some(taps_ps)) => {
-            let expected = format!("has {} delays, expected {TAPS}", taps_ps.len());
-            return Err(checked.fault("tap_delays_ps", expected).into());
+            if let Some(taps) = chain.taps.filter(|taps| *taps != taps_ps.len()) {
+                let expected = format!("expected {}, as many as tap_delays_ps has", taps_ps.len());
+                return Err(checked.fault("taps", expected).value(taps).into());
+            }
+            taps_ps
         }
         _ => return Err(Input::new(source, "expected either tap_ps or tap_delays_ps").into()),
     };
-    for extra in &chain.extra {
-        taps_ps[extra.tap] += extra.ps;
+    let last = taps_ps.len() - 1;
+    for (k, extra) in chain.extra.iter().enumerate() {
+        let Some(tap_ps) = taps_ps.get_mut(extra.tap) else {
+            let expected = format!("expected {last} at most, the last tap");
+            return Err(checked.fault(&format!("extra.{k}.tap"), expected).value(extra.tap).into());
+        };
+        *tap_ps += extra.ps;
     }
     if let Some(tap) = taps_ps.iter().position(|ps| !(-1e5..=1e5).contains(ps)) {
         let fault = checked.fault(&format!("tap_delays_ps.{tap}"), "expected a delay up to 1e5 ps");
@@ -104,8 +115,9 @@ fn parse(source: &str, text: &str) -> Result<Delays> {
     if span < shortest {
         let (span_ps, missing_ps) = (in_ps(span), in_ps(shortest - span));
         let expected = format!(
-            "the {TAPS} taps take {span_ps} ps, expected {SHORTEST_NS} ns or more, a period of clk_125: \
-             hits of the other {missing_ps} ps would all have the same time"
+            "the {} taps take {span_ps} ps, expected {SHORTEST_NS} ns or more, a period of clk_sys: \
+             hits of the other {missing_ps} ps would all have the same time",
+            delays.taps()
         );
         return Err(checked.fault(taps_key, expected).into());
     }
@@ -139,7 +151,7 @@ mod tests {
             "c.toml:2:10: tap_ps = -1: expected a number from 0.001 to 1000.0 [ps]"
         );
         assert!(message("tap_ps = 12").contains("offset_ps: missing"));
-        assert!(message("offset_ps = 2000\ntap_delays_ps = [1.0]").contains("has 1 delays"));
+        assert!(message("offset_ps = 2000\ntap_delays_ps = [1.0]").contains("16 to 2000"));
         assert!(message("offset_ps = 2000\ntap_ps = 30").contains("16 ns at most"));
         assert!(message("offset_ps = 2000\ntap_pz = 1").contains("did you mean `tap_ps`?"));
         assert!(
@@ -153,7 +165,7 @@ mod tests {
         assert_eq!(
             message("offset_ps = 2230\ntap_ps = 5").unwrap_err(),
             "c.toml:2:10: tap_ps = 5: the 800 taps take 4000 ps, expected 8 ns or more, a period of \
-             clk_125: hits of the other 4000 ps would all have the same time"
+             clk_sys: hits of the other 4000 ps would all have the same time"
         );
         assert_eq!(message("offset_ps = 2230\ntap_ps = 10"), Ok(()), "800 taps of 10 ps are 8 ns");
         let error = message("offset_ps = 7000\ntap_ps = 9.999").unwrap_err();

@@ -7,19 +7,21 @@ use toml_edit::{Item, Table};
 use crate::error::Result;
 use crate::files::toml::Checked;
 
-use super::model::{Firmware, Pll, Scenario, Stimulus};
+use super::model::{Control, Firmware, Pll, Scenario, Stimulus, Tdc};
 use super::window::Window;
 
 /// Frequency of the whole-cycle clock that the firmware is built for [Hz].
-const CLK_125_HZ: u64 = 125_000_000;
+const CLK_SYS_HZ: u64 = 125_000_000;
 /// Range of the PLL's oscillator, Kintex-7 speed grade -2 (DS182) [Hz].
 const VCO_HZ: std::ops::RangeInclusive<u64> = 800_000_000..=1_866_000_000;
 
 /// Checks what no single key shows.
 pub fn validate(scenario: &Scenario, checked: &Checked) -> Result<()> {
     clocks(scenario, checked)?;
+    bins(scenario, checked)?;
     stimulus(scenario, checked)?;
     spads(scenario, checked)?;
+    laser(scenario, checked)?;
     control(scenario, checked)?;
     dark_frames(scenario, checked)
 }
@@ -33,12 +35,31 @@ fn clocks(scenario: &Scenario, checked: &Checked) -> Result<()> {
     let vco = input_hz * multiply / divide;
     let expected = format!("the VCO would run at {vco} Hz, expected 800 to 1866 MHz");
     ensure(VCO_HZ.contains(&vco), checked, "pll.multiply", expected)?;
-    let is_exact = input_hz * multiply == CLK_125_HZ * divide * output_divide;
+    let is_exact = input_hz * multiply == CLK_SYS_HZ * divide * output_divide;
     let found_hz = vco as f64 / output_divide as f64;
-    let expected = format!("clk_125 would run at {found_hz} Hz, expected exactly {CLK_125_HZ}");
+    let expected = format!("clk_sys would run at {found_hz} Hz, expected exactly {CLK_SYS_HZ}");
     ensure(is_exact, checked, "pll.output_divide", expected)?;
-    let expected = "expected an even number: clk_250 has half of it";
+    let expected = "expected an even number: clk_laser has half of it";
     ensure(output_divide.is_multiple_of(2), checked, "pll.output_divide", expected)
+}
+
+/// That the window of a shot holds the first bin.
+fn bins(scenario: &Scenario, checked: &Checked) -> Result<()> {
+    let Tdc { bin_ps, first_bin_ps, coarse_bits, .. } = scenario.tdc;
+    let window_ps = 1e12 / CLK_SYS_HZ as f64 * f64::from(1 << coarse_bits);
+    let window = format!("the window that {coarse_bits} bits count (tdc.coarse_bits)");
+    let fault =
+        |key, value: f64, expected: String| Err(checked.fault(key, expected).value(value).into());
+    if bin_ps > window_ps {
+        let expected = format!("expected {window_ps} ps at most, {window}");
+        return fault("tdc.bin_ps", bin_ps, expected);
+    }
+    let most_ps = window_ps - bin_ps;
+    if first_bin_ps > most_ps {
+        let expected = format!("expected {most_ps} ps at most, a bin less than {window}");
+        return fault("tdc.first_bin_ps", first_bin_ps, expected);
+    }
+    Ok(())
 }
 
 fn stimulus(scenario: &Scenario, checked: &Checked) -> Result<()> {
@@ -68,6 +89,23 @@ fn spads(scenario: &Scenario, checked: &Checked) -> Result<()> {
     }
     if on_tdc > 1 && scenario.stimulus.photons.is_some() {
         return fault("1: the photons of a list (stimulus.photons) are those of one");
+    }
+    Ok(())
+}
+
+/// Codes of rates that there are.
+fn laser(scenario: &Scenario, checked: &Checked) -> Result<()> {
+    let firmware = &scenario.firmware;
+    let last = firmware.laser_periods.len() as u64 - 1;
+    let own = ("firmware.laser_freq".to_owned(), Some(firmware.laser_freq));
+    let change =
+        |(k, change): (usize, &Control)| (format!("control.{k}.laser_freq"), change.laser_freq);
+    let changes = scenario.control.iter().enumerate().map(change);
+    for (key, code) in [own].into_iter().chain(changes) {
+        if let Some(code) = code.filter(|code| *code > last) {
+            let expected = format!("expected {last} at most, the last of firmware.laser_periods");
+            return Err(checked.fault(&key, expected).value(code).into());
+        }
     }
     Ok(())
 }

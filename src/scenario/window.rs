@@ -9,7 +9,7 @@ use crate::kernel::Time;
 
 /// A part of a run: `shot:0..8`, `10us..12us` or `estimation`.
 ///
-/// All begin and end with an edge of `clk_125`. A shot lasts from three cycles before its laser
+/// All begin and end with an edge of `clk_sys`. A shot lasts from three cycles before its laser
 /// edge (one before `pre_start`) to the next one's, shots counted over the whole run; a window of
 /// time is widened to whole cycles; `estimation` is every frame's, from two cycles before
 /// `algo_start` to one after `frame_done`.

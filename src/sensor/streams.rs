@@ -16,7 +16,7 @@ pub enum Source {
     FurtherAvalanches = 2,
     /// What set an avalanche off; each shot has its own stretch.
     Cause = 3,
-    /// Jitter of the PLL, one word an edge of `clk_250` since power-up.
+    /// Jitter of the PLL, one word an edge of `clk_laser` since power-up.
     Jitter = 4,
     /// Stimulus of the golden vectors; the frame's place is the block's.
     Stimulus = 5,

@@ -13,7 +13,7 @@ use super::frames::Frames;
 use super::run::{Outcome, Run};
 use super::wave_tracer::WindowedProbe;
 
-/// A cycle of `clk_125`.
+/// A cycle of `clk_sys`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cycle {
     /// Number of the edge that it begins with, from 0 at power-up.
@@ -24,7 +24,7 @@ pub struct Cycle {
 
 impl Run<'_> {
     /// Simulates every cycle until `count` frames are done, and calls `each` at every edge of
-    /// `clk_125` with the values of `signals`, in that order, as the edge takes them: what the
+    /// `clk_sys` with the values of `signals`, in that order, as the edge takes them: what the
     /// registers have held since the edge before. It may end the run there.
     ///
     /// A signal is named as in a waveform, `tof_top.tdc.tdc_decoder.tdc_code`; the top may be left out.
@@ -46,8 +46,9 @@ impl Run<'_> {
         }
         let part = Part::of(found.iter().map(|entry| entry.id));
         let shown = std::array::from_fn(|k| Shown::new(found[k]));
-        let mut stepper =
-            Stepper { shown, part, values: Values(Box::new([0; IDS])), number: 0, each, end: None };
+        let taps = self.setup.params.tdc.delays.taps();
+        let values = Values { of_id: Box::new([0; IDS]), taps };
+        let mut stepper = Stepper { shown, part, values, number: 0, each, end: None };
         let outcome = self.traced(count, &mut stepper, None)?;
         stepper.end.unwrap_or(Ok(()))?;
         Ok(outcome)
@@ -94,15 +95,19 @@ impl Shown {
 }
 
 /// The value of each id.
-struct Values(Box<[u64; IDS]>);
+struct Values {
+    of_id: Box<[u64; IDS]>,
+    /// Length of the chain.
+    taps: usize,
+}
 
 impl Sink for Values {
     fn word(&mut self, id: usize, value: u64) {
-        self.0[id] = value;
+        self.of_id[id] = value;
     }
 
-    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, _: usize) {
-        self.0[id] = value.ones() as u64;
+    fn taps(&mut self, id: usize, value: &Thermometer, _: usize) {
+        self.of_id[id] = value.ones(self.taps) as u64;
     }
 }
 
@@ -133,7 +138,7 @@ where
     fn before_edge(&mut self, _: Edge, now: Time, top: &TofTop) {
         self.part.follow(top, &mut self.values);
         let value =
-            |shown: &Shown| (self.values.0[shown.id] << shown.unused) as i64 >> shown.unused;
+            |shown: &Shown| (self.values.of_id[shown.id] << shown.unused) as i64 >> shown.unused;
         let cycle = Cycle { number: self.number, begin: now };
         self.number += 1;
         self.end = match (self.each)(cycle, self.shown.each_ref().map(value)) {

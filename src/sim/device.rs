@@ -1,4 +1,4 @@
-//! The firmware, the detector and the light, stepped together, one cycle of `clk_125` at a time.
+//! The firmware, the detector and the light, stepped together, one cycle of `clk_sys` at a time.
 //!
 //! Nothing is searched for inside a cycle: an avalanche or a control change is a time to compare
 //! with, and asynchronous events go before the clock edges of the same instant.
@@ -29,9 +29,9 @@ pub struct Device {
     pub(super) timeline: Timeline,
     pub(super) pll: Pll,
     pub(super) jitter: Option<Jitter>,
-    /// Edges of `clk_125` so far.
+    /// Edges of `clk_sys` so far.
     pub(super) cycle: u64,
-    /// From a rising edge of `clk_250` to its fall.
+    /// From a rising edge of `clk_laser` to its fall.
     quarter: Time,
     /// Kept up only while tracing.
     oscillator: Oscillator,
@@ -53,7 +53,7 @@ impl Device {
             spads: Spads::new(spads, dead_time, light.next_avalanche(Time::ZERO, 1.0)),
             light,
             timeline,
-            quarter: pll.clk_250.fall(0) - pll.clk_250.rise(0),
+            quarter: pll.clk_laser.fall(0) - pll.clk_laser.rise(0),
             oscillator: Oscillator::new(pll.clk_200.clone()),
             pll,
             jitter,
@@ -80,27 +80,27 @@ impl Device {
         left.into_iter().filter_map(note).collect()
     }
 
-    /// Rising edges of `clk_125` so far.
+    /// Rising edges of `clk_sys` so far.
     pub fn cycle(&self) -> u64 {
         self.cycle
     }
 
-    /// The last rising edge of `clk_125`: its number and instant.
+    /// The last rising edge of `clk_sys`: its number and instant.
     pub fn last_edge(&mut self) -> (u64, Time) {
         let cycle = self.cycle - 1;
-        (cycle, self.rise_250_at(2 * cycle))
+        (cycle, self.rise_laser_at(2 * cycle))
     }
 
-    /// Begin and end of the coming cycle of `clk_125`.
+    /// Begin and end of the coming cycle of `clk_sys`.
     pub fn coming_cycle(&mut self) -> (Time, Time) {
-        let end = self.rise_250_at(2 * self.cycle + 2);
+        let end = self.rise_laser_at(2 * self.cycle + 2);
         (self.next_edge(), end)
     }
 
-    /// Instant of the next rising edge of `clk_125`.
+    /// Instant of the next rising edge of `clk_sys`.
     #[inline(always)]
     pub fn next_edge(&mut self) -> Time {
-        self.rise_250_at(2 * self.cycle)
+        self.rise_laser_at(2 * self.cycle)
     }
 
     /// From power-up until just before the first clock edge.
@@ -127,31 +127,32 @@ impl Device {
         let now = self.next_edge();
         self.before_edge(Edge::Both, now, probe, listener);
         self.settle(now, probe, listener);
+        let lit = self.top.nets.laser_on;
         self.top.rise(p, &mut self.line, now);
         if self.top.socket.algo_done {
-            self.timeline.take_depth(self.pll.clk_125.rise(self.cycle));
+            self.timeline.take_depth(self.pll.clk_sys.rise(self.cycle));
         }
-        self.react(now);
+        self.react(now, self.top.nets.laser_on && !lit);
         if T::ON {
             self.clocks(true, true);
             probe.sample(now, &self.top);
         }
-        let middle = self.rise_250_at(2 * self.cycle + 1);
+        let middle = self.rise_laser_at(2 * self.cycle + 1);
         let quarter = self.quarter;
-        self.fall_250(now + quarter, probe, listener);
+        self.fall_laser(now + quarter, probe, listener);
         self.before_edge(Edge::Middle, middle, probe, listener);
         let unseen = self.settle(middle, probe, listener);
-        let before = self.top.registers_250();
-        self.top.rise_250();
+        let before = self.top.registers_laser();
+        self.top.rise_laser(p);
         if T::ON {
             self.clocks(false, true);
-            if unseen || self.top.registers_250() != before {
+            if unseen || self.top.registers_laser() != before {
                 probe.sample(middle, &self.top);
             } else {
                 probe.tick(middle, &self.top);
             }
         }
-        self.fall_250(middle + quarter, probe, listener);
+        self.fall_laser(middle + quarter, probe, listener);
         self.cycle += 1;
     }
 
@@ -178,16 +179,16 @@ impl Device {
     }
 
     #[inline(always)]
-    fn fall_250<T: SignalProbe, R: AvalancheListener>(
+    fn fall_laser<T: SignalProbe, R: AvalancheListener>(
         &mut self,
         at: Time,
         probe: &mut T,
         listener: &mut R,
     ) {
         let only_clocks = T::ON && !self.settle(at, probe, listener) && !self.top.nets.laser_on;
-        self.top.fall_250();
+        self.top.fall_laser();
         if T::ON {
-            self.top.clocks.clk_250 = false;
+            self.top.clocks.clk_laser = false;
             if only_clocks {
                 probe.tick(at, &self.top);
             } else {
@@ -196,14 +197,14 @@ impl Device {
         }
     }
 
-    fn clocks(&mut self, clk_125: bool, clk_250: bool) {
-        (self.top.clocks.clk_125, self.top.clocks.clk_250) = (clk_125, clk_250);
+    fn clocks(&mut self, clk_sys: bool, clk_laser: bool) {
+        (self.top.clocks.clk_sys, self.top.clocks.clk_laser) = (clk_sys, clk_laser);
     }
 
-    /// Instant of rising edge `n` of `clk_250`.
+    /// Instant of rising edge `n` of `clk_laser`.
     #[inline(always)]
-    fn rise_250_at(&mut self, n: u64) -> Time {
-        let ideal = self.pll.clk_250.rise(n);
+    fn rise_laser_at(&mut self, n: u64) -> Time {
+        let ideal = self.pll.clk_laser.rise(n);
         match &mut self.jitter {
             None => ideal,
             Some(jitter) => jitter.shift(ideal, n),
@@ -268,9 +269,10 @@ impl Device {
         }
     }
 
-    /// What the detector and the light do about the signals that the edge at `now` changed.
+    /// What the detector and the light do about the signals that the edge at `now` changed; `laser` if that
+    /// switched the laser on.
     #[inline(always)]
-    pub(super) fn react(&mut self, now: Time) {
+    pub(super) fn react(&mut self, now: Time, laser: bool) {
         let passive = self.top.control_sync.mode_sync;
         if passive != self.spads.is_passive() {
             self.spads.set_passive(passive, now);
@@ -278,7 +280,7 @@ impl Device {
                 self.draw(now);
             }
         }
-        let (start, laser) = (self.top.vcsel_driver.registers.start, self.top.nets.laser_on);
+        let start = self.top.vcsel_driver.registers.start;
         let hold = self.top.spad_control.spad_rst;
         if start || laser {
             self.light.begin_shot(now, laser);

@@ -12,7 +12,7 @@ use crate::scenario::Scenario;
 
 /// Keys of the scenario that decide how the histograms of a frame are distributed. The laser's rate is
 /// none of them: in MODE 0 every shot begins with a reset.
-const KEYS: [&str; 25] = [
+const KEYS: [&str; 27] = [
     "target.distance_m",
     "target.reflectance",
     "target.length_m",
@@ -32,13 +32,20 @@ const KEYS: [&str; 25] = [
     "spad.pdp",
     "spad.fill_factor",
     "spad.count",
-    "spad.on_tdc",
+    ON_TDC,
     "spad.field_of_view_deg",
     "spad.dark_rate_hz",
+    BIN,
+    FIRST_BIN,
     "pll.jitter_rms_ps",
     "firmware.mode",
     SHOTS,
 ];
+const ON_TDC: &str = "spad.on_tdc";
+const BIN: &str = "tdc.bin_ps";
+const FIRST_BIN: &str = "tdc.first_bin_ps";
+/// Keys that older files do not have, and the only value that there was.
+const LATER: [(&str, f64); 3] = [(ON_TDC, 1.0), (BIN, 25.0), (FIRST_BIN, 0.0)];
 const CHAIN: &str = "tdc.profile";
 const DARK_RATE: &str = "spad.dark_rate_hz";
 const SHOTS: &str = "firmware.shots_per_frame";
@@ -95,7 +102,9 @@ pub fn notes(network: &Network, scenario: &Scenario, grid: &[GridRange]) -> Resu
         return Ok([unknown].into_iter().chain(chain(&network.training.chain)).collect());
     };
     let mut notes = Vec::new();
-    for (key, &range) in &domain.ranges {
+    let later = LATER.into_iter().filter(|(key, _)| !domain.ranges.contains_key(*key));
+    let ranges = domain.ranges.iter().map(|(key, range)| (key.as_str(), *range));
+    for (key, range) in ranges.chain(later.map(|(key, only)| (key, [only; 2]))) {
         match values.get(key) {
             Some(Found::Range(found)) if holds(range, found) => {}
             Some(Found::Range([least, largest])) if least == largest => {

@@ -13,6 +13,7 @@ mod hits;
 mod idle;
 mod many;
 mod outcomes;
+mod pulse;
 mod shots;
 mod steady;
 
@@ -48,7 +49,7 @@ pub(super) struct FastForward {
 
 impl FastForward {
     /// Goes on, by `limit` at the latest but for a shot, a Clear or an estimation that is leapt over, to
-    /// where the plain step has to take the next cycle [cycles of clk_125].
+    /// where the plain step has to take the next cycle [cycles of clk_sys].
     #[inline(always)]
     pub(super) fn go(&mut self, device: &mut Device, p: &Params, frames: &mut Frames, limit: u64) {
         match self.stepping {

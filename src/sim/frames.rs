@@ -19,9 +19,9 @@ pub struct Frame {
     pub tdc_hits: u64,
     /// The estimator's histogram [hits].
     pub histogram: [u16; BINS],
-    /// From the edge that takes `algo_start` to the one that raises `algo_done` [cycles of clk_125].
+    /// From the edge that takes `algo_start` to the one that raises `algo_done` [cycles of clk_sys].
     pub estimator_cycles: u64,
-    /// From the edge that begins Clear to the one that raises `algo_done` [cycles of clk_125].
+    /// From the edge that begins Clear to the one that raises `algo_done` [cycles of clk_sys].
     pub frame_cycles: u64,
 }
 

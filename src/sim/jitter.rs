@@ -1,4 +1,4 @@
-//! Jitter of the PLL's outputs: each rising edge of `clk_250` is early or late by a normal time.
+//! Jitter of the PLL's outputs: each rising edge of `clk_laser` is early or late by a normal time.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
@@ -24,7 +24,7 @@ impl Jitter {
         Jitter { rms_fs: rms_ps * 1e3, stream, position: 0, last: (u64::MAX, 0) }
     }
 
-    /// Edge `n` of `clk_250`, which would be at `ideal`.
+    /// Edge `n` of `clk_laser`, which would be at `ideal`.
     pub fn shift(&mut self, ideal: Time, n: u64) -> Time {
         if self.last.0 != n {
             if self.position != n {

@@ -8,7 +8,7 @@ use crate::optics::hazard::Cause;
 pub trait SignalProbe {
     /// Whether it looks at all.
     const ON: bool;
-    /// Whether it looks just before each rising edge of `clk_125` and `clk_250` too.
+    /// Whether it looks just before each rising edge of `clk_sys` and `clk_laser` too.
     const EDGES: bool = false;
     /// The signals as they are from `now` on.
     fn sample(&mut self, now: Time, top: &TofTop);
@@ -28,12 +28,12 @@ pub trait SignalProbe {
     fn before_edge(&mut self, _edge: Edge, _now: Time, _top: &TofTop) {}
 }
 
-/// A rising edge of `clk_250`.
+/// A rising edge of `clk_laser`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Edge {
-    /// `clk_125` rises too.
+    /// `clk_sys` rises too.
     Both,
-    /// `clk_125` falls.
+    /// `clk_sys` falls.
     Middle,
 }
 

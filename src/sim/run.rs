@@ -40,7 +40,7 @@ pub struct Observers<'a> {
 pub struct Outcome {
     /// When it ended.
     pub end: Time,
-    /// Edges of `clk_125` simulated.
+    /// Edges of `clk_sys` simulated.
     pub cycles: u64,
     /// Shots begun.
     pub shots: u64,
@@ -57,10 +57,10 @@ pub struct Run<'a> {
     pub(super) device: Device,
     params: &'a Params,
     pub(super) frames: Frames,
-    /// What no run reaches but one that never ends [cycles of clk_125].
+    /// What no run reaches but one that never ends [cycles of clk_sys].
     pub(super) limit: u64,
     pub(super) fast: FastForward,
-    /// When to look at whether to stop next [cycles of clk_125].
+    /// When to look at whether to stop next [cycles of clk_sys].
     pub(super) next_poll: u64,
 }
 

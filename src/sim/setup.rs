@@ -1,6 +1,7 @@
 //! From a scenario to a device: what elaboration, optics and stimuli come to.
 
 mod expectations;
+mod fits;
 mod notes;
 mod stimulus;
 
@@ -10,6 +11,7 @@ use crate::error::{Input, Result};
 use crate::files::digest::digest_of;
 use crate::firmware::forward2::Depth;
 use crate::firmware::pll::{self, Pll};
+use crate::firmware::tdc_decoder::TimeScale;
 use crate::firmware::tof_top::{Estimator, HistogramSource, Params, Pins};
 use crate::firmware::{centroid_estimator, frame_ctrl, tdc, vcsel_driver};
 use crate::hierarchy;
@@ -17,7 +19,7 @@ use crate::kernel::{S, Time, U};
 use crate::network::estimate::estimate;
 use crate::network::{Histogram, Network};
 use crate::note::Note;
-use crate::optics::{Budget, Hazard};
+use crate::optics::{Bins, Budget, Hazard};
 use crate::scenario::builtin::Source;
 use crate::scenario::window::Window;
 use crate::scenario::{self, EstimatorKind, Loaded, Scenario, chain};
@@ -30,17 +32,17 @@ use super::jitter::Jitter;
 use super::timeline::{Timeline, pins_at_power_up};
 use stimulus::stimulus;
 
-/// Period of `clk_125`.
+/// Period of `clk_sys`.
 pub const CYCLE: Time = Time::from_ns(8);
-/// Cycles of a frame beside its shots and the estimator: Clear, Drain and two hand-overs.
-const OVERHEAD: u64 = 256 + 1 + 16 + 1;
+/// Cycles of a frame beside its shots, Drain and the estimator: Clear and two hand-overs.
+const OVERHEAD: u64 = 256 + 1 + 1;
 /// The same with a preloaded histogram.
 const OVERHEAD_PRELOADED: u64 = 256 + 1;
 
 /// Shots of the waveform when nothing else is asked for.
 const FIRST_SHOTS: u64 = 16;
 
-/// Edges of `clk_125` in 2.4 hours, well within what [`Time`] can count.
+/// Edges of `clk_sys` in 2.4 hours, well within what [`Time`] can count.
 const LONGEST: u64 = 1 << 40;
 
 /// A scenario, ready to run.
@@ -87,7 +89,7 @@ impl Setup {
         let network = network(&scenario, &files)?;
         let pll_params = pll_params(&scenario);
         let delays = chain::load(&scenario.tdc.profile, &files)?;
-        let cal = delays.calibration(CYCLE);
+        let scale = time_scale(&scenario.tdc);
         let (code_source, histogram_source, light) = stimulus(&scenario, &files)?;
         let budget = Budget::new(&scenario);
         let light = light.unwrap_or_else(|| {
@@ -98,8 +100,18 @@ impl Setup {
             frame_ctrl: frame_ctrl::Params {
                 shots_per_frame: scenario.firmware.shots_of_a_frame() as u16,
                 preloaded: matches!(histogram_source, HistogramSource::Preload(_)),
+                drain_cycles: scenario.firmware.drain_cycles,
             },
-            tdc: tdc::Params::new(delays, cal, scenario.tdc.count_stages),
+            vcsel_driver: vcsel_driver::Params {
+                periods: scenario.firmware.laser_periods.clone(),
+                pulse_half_cycles: scenario.firmware.pulse_half_cycles,
+            },
+            tdc: tdc::Params::new(
+                delays,
+                scale,
+                scenario.tdc.coarse_bits,
+                scenario.tdc.count_stages,
+            ),
             depth_estimator: network.params(),
             centroid_estimator: centroid(&scenario.estimator),
             estimator: match scenario.estimator.kind {
@@ -109,6 +121,7 @@ impl Setup {
             code_source,
             histogram_source,
         };
+        fits::check(&name, &params)?;
         let (pll, pins) = (Pll::new(&pll_params), pins_at_power_up(&scenario.firmware));
         let no_depth = None;
         let setup =
@@ -138,15 +151,25 @@ impl Setup {
         device
     }
 
-    /// Length of an undisturbed frame at a laser rate: from the edge that begins Clear to the one
-    /// that raises `algo_done` [cycles of clk_125].
-    pub fn frame_cycles(&self, laser_freq: usize) -> u64 {
+    /// Period of the laser at power-up [cycles of clk_sys].
+    pub fn laser_period(&self) -> u64 {
+        self.params.vcsel_driver.period(U::new(self.scenario.firmware.laser_freq))
+    }
+
+    /// Which avalanche times give which code.
+    pub fn bins(&self) -> Bins {
+        Bins::of_tdc(&self.params.tdc)
+    }
+
+    /// Length of an undisturbed frame with such a laser period: from the edge that begins Clear to the one
+    /// that raises `algo_done` [cycles of clk_sys].
+    pub fn frame_cycles(&self, laser_period: u64) -> u64 {
         let (ctrl, estimator) = (&self.params.frame_ctrl, self.params.estimator_cycles());
         if ctrl.preloaded {
             return OVERHEAD_PRELOADED + estimator;
         }
-        let shots = ctrl.shots_per_frame as u64 * vcsel_driver::PERIODS[laser_freq];
-        shots + OVERHEAD + estimator
+        let shots = ctrl.shots_per_frame as u64 * laser_period;
+        shots + ctrl.drain_cycles + OVERHEAD + estimator
     }
 
     /// The depth that the estimator in the socket finds in a histogram, without its clock.
@@ -183,9 +206,9 @@ impl Setup {
         if held || !self.scenario.control.is_empty() {
             return None;
         }
-        let frame = self.frame_cycles(firmware.laser_freq as usize) + 1;
+        let frame = self.frame_cycles(self.laser_period()) + 1;
         let edge = frames.checked_mul(frame).filter(|edge| *edge < LONGEST)? + 2;
-        Some(self.pll.clk_125.rise(edge))
+        Some(self.pll.clk_sys.rise(edge))
     }
 
     /// The windows that go into the waveform: those given, or the scenario's, or a first look.
@@ -257,7 +280,7 @@ impl Setup {
     pub fn longest_run(&self, frames: u64) -> u64 {
         let changes = &self.scenario.control;
         let last_us = changes.last().map_or(0.0, |change| change.at_us);
-        let longest_frame = self.frame_cycles(0) + 16;
+        let longest_frame = self.frame_cycles(self.params.vcsel_driver.longest_period()) + 16;
         let begun = frames.saturating_add(changes.len() as u64 + 1);
         begun.saturating_mul(longest_frame).saturating_add((last_us * 125.0) as u64)
     }
@@ -280,6 +303,11 @@ fn centroid(keys: &scenario::Estimator) -> centroid_estimator::Params {
         slope: U::new(word(keys.centroid_slope_m, centroid_estimator::SLOPE_FRACTION) as u64),
         offset: S::new(word(keys.centroid_offset_m, 29)),
     }
+}
+
+fn time_scale(tdc: &scenario::Tdc) -> TimeScale {
+    let [bin, first] = [tdc.bin_ps, tdc.first_bin_ps].map(Time::from_ps_f64);
+    TimeScale::new(CYCLE, bin, first, tdc.coarse_bits)
 }
 
 fn pll_params(scenario: &Scenario) -> pll::Params {

@@ -1,7 +1,7 @@
 //! Writes the waveform while a window is open.
 
 use crate::error::{Input, Result};
-use crate::firmware::frame_ctrl::{self, FrameCtrl, LAST_DRAIN, LAST_WORD, State as FrameState};
+use crate::firmware::frame_ctrl::{self, FrameCtrl, LAST_WORD, State as FrameState};
 use crate::firmware::tof_top::{Params, TofTop};
 use crate::kernel::Time;
 use crate::scenario::window::{Moment, Window};
@@ -12,7 +12,7 @@ use super::frames::Frames;
 
 /// A trace that is on only within windows, or none.
 pub trait WindowedProbe: SignalProbe {
-    /// Begins at power-up, if it is to see what happens before the first edge of `clk_125`; whether
+    /// Begins at power-up, if it is to see what happens before the first edge of `clk_sys`; whether
     /// it does.
     fn begins_at_power_up(&mut self, _device: &mut Device) -> bool {
         false
@@ -130,7 +130,7 @@ impl SignalProbe for WaveTracer {
 
     fn sample(&mut self, now: Time, top: &TofTop) {
         match self.state {
-            State::Opening if top.clocks.clk_125 => self.begin(now, top),
+            State::Opening if top.clocks.clk_sys => self.begin(now, top),
             State::Writing => self.waves.sample(now, top),
             State::Opening | State::Waiting => return,
         }
@@ -203,7 +203,7 @@ fn is_estimating(ctrl: &FrameCtrl, p: &frame_ctrl::Params) -> bool {
         FrameState::Clear if ctrl.frame_done => true,
         FrameState::Clear => p.preloaded && ctrl.clear_addr.get() + NEAR >= LAST_WORD,
         FrameState::Acquire => false,
-        FrameState::Drain => ctrl.drain.get() + NEAR >= LAST_DRAIN,
+        FrameState::Drain => ctrl.drain.get() + NEAR >= p.last_drain(),
         FrameState::Estimate => true,
     }
 }

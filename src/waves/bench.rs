@@ -5,7 +5,9 @@ use std::sync::Arc;
 use crate::firmware::carry_chain::{Delays, StopLine, TAPS};
 use crate::firmware::forward2::{MOST_NEURONS, NEURONS};
 use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Pins, TofTop};
-use crate::firmware::{centroid_estimator, depth_estimator, forward2, frame_ctrl, tdc};
+use crate::firmware::{
+    centroid_estimator, depth_estimator, forward2, frame_ctrl, tdc, vcsel_driver,
+};
 use crate::kernel::{S, Time, U};
 
 use super::writer::Waves;
@@ -21,7 +23,6 @@ pub(super) fn params() -> Params {
 /// The same with a chain of those delays [fs].
 pub(super) fn with_delays(taps: &[i64]) -> Params {
     let delays = Delays::new(Time::from_fs(2_230_000), taps).unwrap();
-    let cal = delays.calibration(Time::from_ns(8));
     let weight = |row: usize, neuron: usize| match neuron < NEURONS {
         true => S::new((row * 37 + neuron * 911) as i64 % 4001 - 2000),
         false => S::new(0),
@@ -29,8 +30,13 @@ pub(super) fn with_delays(taps: &[i64]) -> Params {
     let rom = std::array::from_fn(|row| std::array::from_fn(|neuron| weight(row, neuron)));
     let tansig = std::array::from_fn(|address| S::new((address as i64 - 2048) * 8));
     Params {
-        frame_ctrl: frame_ctrl::Params { shots_per_frame: SHOTS, preloaded: false },
-        tdc: tdc::Params::new(delays, cal, 3),
+        frame_ctrl: frame_ctrl::Params {
+            shots_per_frame: SHOTS,
+            preloaded: false,
+            drain_cycles: frame_ctrl::DRAIN_CYCLES,
+        },
+        vcsel_driver: vcsel_driver::Params::default(),
+        tdc: tdc::Params::of_chain(delays),
         depth_estimator: depth_estimator::Params {
             forward1: Arc::new(rom),
             tansig: Arc::new(tansig),
@@ -73,18 +79,18 @@ impl Bench {
         Time::from_ns(8 * self.cycle)
     }
 
-    /// One cycle of `clk_125`; `see` is shown every instant at which something may have changed.
+    /// One cycle of `clk_sys`; `see` is shown every instant at which something may have changed.
     pub(super) fn cycle(&mut self, see: &mut impl FnMut(Time, &TofTop)) {
         let start = self.now();
         for quarter in 0..4 {
             let now = start + Time::from_ns(2 * quarter);
             let held = self.line.level();
-            self.top.clocks.clk_250 = quarter % 2 == 0;
-            self.top.clocks.clk_125 = quarter < 2;
+            self.top.clocks.clk_laser = quarter % 2 == 0;
+            self.top.clocks.clk_sys = quarter < 2;
             match quarter {
                 0 => self.top.rise(&self.params, &mut self.line, now),
-                2 => self.top.rise_250(),
-                _ => self.top.fall_250(),
+                2 => self.top.rise_laser(&self.params),
+                _ => self.top.fall_laser(),
             }
             if quarter == 0 && self.top.spad_control.spad_rst && held {
                 self.stop(now);
@@ -108,7 +114,7 @@ impl Bench {
         self.top.pins.tdc_stop = self.line.level();
     }
 
-    /// Cycles of `clk_125`, sampled by each of `waves`.
+    /// Cycles of `clk_sys`, sampled by each of `waves`.
     pub(super) fn run(&mut self, cycles: u64, waves: &mut [Waves]) {
         for _ in 0..cycles {
             self.cycle(&mut |now, top| {

@@ -25,7 +25,7 @@ pub(super) fn three(number: u64) -> [u8; 4] {
 pub struct TapDigits {
     /// The physical tap at each place in the order of arrival; none if that is the same order.
     order: Vec<u16>,
-    /// In the order of arrival.
+    /// In the order of arrival, as many as there are.
     arrived: BitVec<u64>,
     /// In their physical places, if those are others.
     taps: BitVec<u64>,
@@ -44,26 +44,24 @@ pub struct Bits<'a> {
 impl TapDigits {
     /// For lines whose taps are reached in `order`.
     pub fn new(order: &[u16]) -> Self {
+        let arrived = bitvec![u64, Lsb0; 0; order.len()];
         let order = if order.is_sorted() { Vec::new() } else { order.to_vec() };
         let taps = bitvec![u64, Lsb0; 0; order.len()];
-        TapDigits { taps, order, arrived: BitVec::new(), counts: BitVec::new() }
+        TapDigits { taps, order, arrived, counts: BitVec::new() }
     }
 
-    /// The `N` taps, physical tap 0 first, or the ones counts of each `group` of them.
-    pub fn bits<const N: usize>(&mut self, value: &Thermometer<N>, group: usize) -> Bits<'_> {
-        if self.arrived.len() != N {
-            self.arrived.resize(N, false);
-            self.arrived.set_uninitialized(false);
-        }
+    /// The taps, physical tap 0 first, or the ones counts of each `group` of them.
+    pub fn bits(&mut self, value: &Thermometer, group: usize) -> Bits<'_> {
+        let count = self.arrived.len();
         value.expand(&mut self.arrived);
         for (&tap, level) in self.order.iter().zip(&self.arrived) {
             self.taps.set(tap.into(), *level);
         }
         let taps = if self.order.is_empty() { &self.arrived } else { &self.taps };
         if group == 1 {
-            return Bits { words: taps.as_raw_slice(), width: N };
+            return Bits { words: taps.as_raw_slice(), width: count };
         }
-        let width = N.div_ceil(group) * ones_width(group);
+        let width = count.div_ceil(group) * ones_width(group);
         self.counts.clear();
         self.counts.resize(width, false);
         self.counts.set_uninitialized(false);
@@ -77,9 +75,9 @@ mod tests {
     use super::*;
 
     /// Physical tap 0 last.
-    fn text<const N: usize>(digits: &mut TapDigits, taps: &Thermometer<N>) -> String {
-        let words = digits.bits(taps, 1).words;
-        (0..N)
+    fn text(digits: &mut TapDigits, taps: &Thermometer) -> String {
+        let Bits { words, width } = digits.bits(taps, 1);
+        (0..width)
             .rev()
             .map(|tap| if words[tap / 64] >> (tap % 64) & 1 == 1 { '1' } else { '0' })
             .collect()
@@ -87,19 +85,20 @@ mod tests {
 
     #[test]
     fn tap_0_is_the_last_digit() {
-        let taps = Thermometer::<70>::new(true, [3]);
-        assert_eq!(text(&mut TapDigits::new(&[]), &taps), format!("{:070b}", 7));
+        let taps = Thermometer::new(true, [3]);
+        let order: Vec<u16> = (0..70).collect();
+        assert_eq!(text(&mut TapDigits::new(&order), &taps), format!("{:070b}", 7));
     }
 
     #[test]
     fn taps_reached_out_of_order_stand_in_their_physical_place() {
         let mut digits = TapDigits::new(&[2, 0, 3, 1]);
-        assert_eq!(text(&mut digits, &Thermometer::<4>::new(true, [1])), "0100");
-        assert_eq!(text(&mut digits, &Thermometer::<4>::new(true, [3])), "1101");
-        assert_eq!(text(&mut digits, &Thermometer::<4>::new(false, [2])), "1010");
-        assert_eq!(text(&mut digits, &Thermometer::<4>::new(true, [1, 3])), "0110");
-        assert_eq!(text(&mut digits, &Thermometer::<4>::settled(true)), "1111");
-        assert_eq!(text(&mut digits, &Thermometer::<4>::settled(false)), "0000");
+        assert_eq!(text(&mut digits, &Thermometer::new(true, [1])), "0100");
+        assert_eq!(text(&mut digits, &Thermometer::new(true, [3])), "1101");
+        assert_eq!(text(&mut digits, &Thermometer::new(false, [2])), "1010");
+        assert_eq!(text(&mut digits, &Thermometer::new(true, [1, 3])), "0110");
+        assert_eq!(text(&mut digits, &Thermometer::settled(true)), "1111");
+        assert_eq!(text(&mut digits, &Thermometer::settled(false)), "0000");
     }
 
     #[test]
@@ -107,7 +106,7 @@ mod tests {
         let order: Vec<u16> = (0..130).map(|place| place * 37 % 130).collect();
         let mut digits = TapDigits::new(&order);
         for (level, ranks) in [(true, [1, 64, 65]), (false, [63, 100, 129]), (true, [7, 8, 9])] {
-            let taps = Thermometer::<130>::new(level, ranks);
+            let taps = Thermometer::new(level, ranks);
             let mut expected = ['0'; 130];
             for (place, &tap) in order.iter().enumerate() {
                 expected[129 - tap as usize] = if taps.tap(place) { '1' } else { '0' };

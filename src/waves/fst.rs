@@ -92,7 +92,7 @@ impl Sink for Fst {
         self.changes.word(signal, value);
     }
 
-    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, group: usize) {
+    fn taps(&mut self, id: usize, value: &Thermometer, group: usize) {
         let Some(signal) = self.signals[id] else { return };
         self.time_step();
         self.bytes.clear();

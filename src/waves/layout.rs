@@ -25,7 +25,7 @@ pub(super) struct ShownSignal<'a> {
 /// Headings, and below each the signals: paths below the top, `*` at the end for any number, or those
 /// whose [`View`](crate::kernel::signals::View) has the heading, in the order of the modules.
 const FLOW: &[(&str, &[&str])] = &[
-    ("Clocks and reset", &["clk_125", "clk_250", "rst_dsp"]),
+    ("Clocks and reset", &["clk_sys", "clk_laser", "rst_dsp"]),
     ("Control", &["mode", "laser_freq", "laser_en", VIEWED]),
     (
         "Laser",

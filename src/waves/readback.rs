@@ -12,7 +12,7 @@ use super::bench::{Bench, SHOTS};
 use super::writer::{WaveFormat, Waves};
 
 pub(super) const FORMATS: [WaveFormat; 2] = [WaveFormat::Vcd, WaveFormat::Fst];
-/// A frame and a little more [cycles of clk_125].
+/// A frame and a little more [cycles of clk_sys].
 pub(super) const FRAME: u64 = 256 + 6 * SHOTS as u64 + 16 + 268 + 20;
 
 pub(super) fn extension(format: WaveFormat) -> &'static str {

@@ -51,7 +51,7 @@ fn values_are_those_that_the_firmware_had() {
         bench.cycle(&mut |now, top| {
             let taps = at(&vcd["tof_top.tdc.carry_chain.taps"].1, now.ps());
             assert_eq!(taps.len(), TAPS);
-            assert_eq!(taps.matches('1').count(), top.tdc.carry_chain.taps.ones());
+            assert_eq!(taps.matches('1').count(), top.tdc.carry_chain.taps.ones(TAPS));
             assert_eq!(word("tdc_stop", now), top.pins.tdc_stop as u64);
             assert_eq!(word("depth", now), top.depth_estimator.forward2.depth.bits());
             assert_eq!(word("frame_ctrl.state", now), top.frame_ctrl.state() as u64);

@@ -66,13 +66,13 @@ impl Sink for Vcd {
     fn word(&mut self, id: usize, value: u64) {
         let signal = &self.signals[id];
         if signal.width > 1 {
-            self.text.number(value, signal.tail);
+            self.text.number(value & u64::MAX >> (64 - signal.width), signal.tail);
         } else {
             self.text.bit(value, signal.tail);
         }
     }
 
-    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, group: usize) {
+    fn taps(&mut self, id: usize, value: &Thermometer, group: usize) {
         let signal = &self.signals[id];
         if signal.width > 0 {
             self.text.vector(self.taps.bits(value, group).words, signal.tail);

@@ -95,7 +95,7 @@ impl Waves {
     }
 
     /// Shows what has changed since the last call; outside windows nothing. Within a window this
-    /// has to be called at every edge of `clk_250` and at every change between them.
+    /// has to be called at every edge of `clk_laser` and at every change between them.
     #[inline]
     pub(crate) fn sample(&mut self, now: Time, top: &TofTop) {
         if self.state == State::Open {

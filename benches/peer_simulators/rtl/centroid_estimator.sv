@@ -11,7 +11,7 @@ module centroid_estimator #(
     // verilator lint_on UNUSEDPARAM
 ) (
     // verilator lint_off UNUSEDSIGNAL
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     input wire algo_start,
     input wire [15:0] count,

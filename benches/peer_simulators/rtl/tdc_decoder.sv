@@ -7,7 +7,7 @@ module tdc_decoder #(
     parameter CalFile = "rtl_ref/tdc_cal.mem",
     parameter [1:0] CountStages = 2'd3
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     input wire hit,
     input wire [2:0] hit_coarse,
@@ -38,7 +38,7 @@ module tdc_decoder #(
 
     wire two = CountStages == 2'd2;
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         if (hit) {first, first_coarse} <= {10'($countones(hit_taps)), hit_coarse};
         if (first_valid) {second, second_coarse} <= {first, first_coarse};
         if (two ? first_valid : second_valid)

@@ -69,7 +69,7 @@ impl Replay {
         self.observed.as_ref()?.per_frame
     }
 
-    /// Cycles between two shots, if the capture shows them [cycles of clk_125].
+    /// Cycles between two shots, if the capture shows them [cycles of clk_sys].
     pub fn period(&self) -> Option<u64> {
         self.observed.as_ref()?.period
     }
@@ -190,7 +190,7 @@ fn from_sums(
     let words = sums::words(capture, probed, per_cycle, &setup.params.depth_estimator.forward1)?;
     if words.is_some() {
         if !steady {
-            let expected = "expected all samples of clk_125 or clk_250, to take the sums apart";
+            let expected = "expected all samples of clk_sys or clk_laser, to take the sums apart";
             return Err(Input::new("--clock", expected).into());
         }
         notes.push("the words are taken from the sums of the hidden layer".to_owned());

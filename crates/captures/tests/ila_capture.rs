@@ -55,7 +55,7 @@ fn fig_6_6_shows_the_laser_in_the_second_half_of_the_reset() {
     let rises = rises(&laser);
     let mut periods: Vec<_> = rises.windows(2).map(|pair| pair[1] - pair[0]).collect();
     periods.dedup();
-    assert_eq!(periods, [12], "two samples of 4 ns for each cycle of clk_125");
+    assert_eq!(periods, [12], "two samples of 4 ns for each cycle of clk_sys");
     assert!(triggers[0] > Time::from_ns(1000));
 }
 
@@ -140,7 +140,7 @@ fn only_samples_that_qualify_are_stored() {
 
 #[test]
 fn an_edge_qualifies_one_sample() {
-    let text = format!("clock = \"clk_250\"\nposition = 0\ncapture = \"start rising\"{SHOTS}");
+    let text = format!("clock = \"clk_laser\"\nposition = 0\ncapture = \"start rising\"{SHOTS}");
     let shots = &values(&capture(&short(), &text, 1).0, "frame_ctrl/shots")[1..];
     assert!(shots.len() > 100, "{shots:?}");
     assert!(shots.windows(2).all(|pair| pair[1] == pair[0] + 1), "{shots:?}");
@@ -190,7 +190,7 @@ fn input_stages_shift_everything_by_so_many_edges() {
     let locked = "input_stages = 3\nposition = 0\n[[probe]]\nsignal = \"pll.locked\"";
     let (capture, at) = capture(&short(), locked, 1);
     assert_eq!(values(&capture, "pll/locked")[..5], [0, 0, 0, 1, 1]);
-    assert_eq!(at[0], short().pll().clk_125.rise(0));
+    assert_eq!(at[0], short().pll().clk_sys.rise(0));
 }
 
 /// Probes on about `count` signals of a design, a different choice for each `seed`.
@@ -217,7 +217,7 @@ fn looking_at_edges_only_is_looking_at_every_change() {
             .into_iter()
             .enumerate()
     {
-        for (clock, arm_at_us) in [("clk_125", 0.0), ("clk_250", 2.9)] {
+        for (clock, arm_at_us) in [("clk_sys", 0.0), ("clk_laser", 2.9)] {
             let overrides = ["firmware.shots_per_frame=120", "pll.jitter_rms_ps=7.7"];
             let photons = scenario == "tdc_validation";
             let setup = setup(scenario, if photons { &[] } else { &overrides });
@@ -242,14 +242,14 @@ fn looking_at_edges_only_is_looking_at_every_change() {
 }
 
 #[test]
-fn a_free_clock_with_the_edges_of_clk_125_takes_the_same_samples() {
+fn a_free_clock_with_the_edges_of_clk_sys_takes_the_same_samples() {
     let setup = setup("bright", &["firmware.shots_per_frame=100"]);
-    let first_ps = setup.pll().clk_125.rise(0).ps();
+    let first_ps = setup.pll().clk_sys.rise(0).ps();
     let text = |clock: &str| {
         let probes = some_probes(&setup, 60, 3);
         format!("clock = \"{clock}\"\nposition = 5\ntrigger = \"tdc.tdc_valid\"\n{probes}")
     };
-    let (design, design_at) = capture(&setup, &text("clk_125"), 1);
+    let (design, design_at) = capture(&setup, &text("clk_sys"), 1);
     let (free, free_at) = capture(&setup, &text(&format!("125 MHz + {first_ps} ps")), 1);
     assert_eq!(design_at, free_at);
     assert_eq!(design.words, free.words);
@@ -260,31 +260,31 @@ fn a_free_clock_with_the_edges_of_clk_125_takes_the_same_samples() {
 #[test]
 fn clk_200_sees_itself_low_and_the_others_move() {
     let text = "clock = \"clk_200\"\nposition = 0\n[[probe]]\nsignal = \"clk_200\"\n\
-        [[probe]]\nsignal = \"pll.locked\"\n[[probe]]\nsignal = \"pll.clk_125\"";
+        [[probe]]\nsignal = \"pll.locked\"\n[[probe]]\nsignal = \"pll.clk_sys\"";
     let (capture, at) = capture(&short(), text, 1);
     assert!(values(&capture, "clk_200").iter().all(|&level| level == 0));
     assert_eq!(at[0], Time::from_fs(2_500_000), "half a period after power-up");
     // Locked at 1000 ns; edge 199 comes at 997.5 ns.
     assert_eq!(rises(&values(&capture, "pll/locked")), [200]);
-    assert!(rises(&values(&capture, "pll/clk_125")).len() > 50);
+    assert!(rises(&values(&capture, "pll/clk_sys")).len() > 50);
 }
 
 /// A photon exactly on a clock edge reaches the detector with it; the edge has not seen it.
 #[test]
 fn a_change_exactly_at_an_edge_is_seen_by_the_next() {
     let setup = setup("spad_validation", &[]);
-    // Control changes at 6.3 us, which is no edge; at 8.0 us is one of clk_125.
+    // Control changes at 6.3 us, which is no edge; at 8.0 us is one of clk_sys.
     let folder = empty();
     let path = folder.path().join("edge.toml");
-    let first = setup.pll().clk_125.rise(100);
+    let first = setup.pll().clk_sys.rise(100);
     let text = format!("[[control]]\nat_us = {}\nmode = 1\n", first.seconds() * 1e6);
     std::fs::write(&path, text).unwrap();
     let setup = common::setup(path.to_str().unwrap(), &["firmware.shots_per_frame=40"]);
-    for (clock, probe) in [("clk_125", ""), ("clk_125", OSCILLATOR), ("clk_250", "")] {
+    for (clock, probe) in [("clk_sys", ""), ("clk_sys", OSCILLATOR), ("clk_laser", "")] {
         let text =
             format!("clock = \"{clock}\"\nposition = 0\n[[probe]]\nsignal = \"mode\"\n{probe}");
         let (capture, _) = capture(&setup, &text, 1);
-        let edges = if clock == "clk_250" { 200 } else { 100 };
+        let edges = if clock == "clk_laser" { 200 } else { 100 };
         let mode = values(&capture, "mode");
         assert_eq!((mode[edges], mode[edges + 1]), (0, 1), "{clock}");
     }

@@ -124,7 +124,7 @@ fn the_block_of_the_page_passes_lockstep_and_is_in_waveform_vectors_and_port_tab
     let far = ["-s", "target.distance_m=1.2", "--window", "shot:0..50"];
     tofsim(&[&["run", "-o", "out", "--signals", "miss_counter.*"], &far[..]].concat());
     let vcd = fs::read_to_string(root.join("out/kc705.vcd")).unwrap();
-    for line in ["$scope module miss_counter $end", " clk_125 $end", " misses [15:0] $end"] {
+    for line in ["$scope module miss_counter $end", " clk_sys $end", " misses [15:0] $end"] {
         assert!(vcd.contains(line), "{line}");
     }
     tofsim(&["vectors", "miss_counter", "-o", "out"]);

@@ -30,7 +30,7 @@ fn a_scenario_that_cannot_be_used_is_refused_with_its_place() {
     assert!(scenario(b"[target]\ndistance_m = nan\n").contains("distance_m = nan"));
     assert!(scenario(b"[firmware]\nshots_per_frame = 0\n").contains("from 1 to 65535"));
     assert!(scenario(b"[firmware]\nshots_per_frame = 70000\n").contains("from 1 to 65535"));
-    assert!(scenario(b"[pll]\nmultiply = 6\n").contains("clk_125 would run at 150000000"));
+    assert!(scenario(b"[pll]\nmultiply = 6\n").contains("clk_sys would run at 150000000"));
     assert!(scenario(b"[pll]\nmultiply = 2\n").contains("VCO"));
     assert!(
         scenario(b"[stimulus]\nphotons = \"a\"\ncodes = \"b\"\n").contains("one stimulus only")

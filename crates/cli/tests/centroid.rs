@@ -94,7 +94,7 @@ fn a_logic_analyser_captures_it_and_compare_knows_its_parameters() {
         ("DEPTH", "centroid_estimator.depth", "signed"),
     ];
     let mut text = String::from(
-        "scenario = \"estimator_validation\"\nframes = 3\nclock = \"clk_125\"\ndepth = 1024\n\
+        "scenario = \"estimator_validation\"\nframes = 3\nclock = \"clk_sys\"\ndepth = 1024\n\
          position = 16\ntrigger = \"START rising\"\n",
     );
     for (name, signal, radix) in probes {

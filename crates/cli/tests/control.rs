@@ -13,7 +13,7 @@ fn with_control(control: &str, more: &[&str], count: u64) -> Vec<tofsim::sim::fr
     frames(&setup("kc705", &[&[SHOTS, control.as_str()], more].concat()), count)
 }
 
-/// Instant of an edge of `clk_125` [us].
+/// Instant of an edge of `clk_sys` [us].
 fn edge_us(edge: u64) -> f64 {
     1.008 + 0.008 * edge as f64
 }
@@ -174,7 +174,7 @@ fn jitter_moves_edges_and_hardly_the_depth() {
     let depth_m = |run: &serde_json::Value| run["frames"][0]["depth_m"].as_f64().unwrap();
     assert_ne!(run["frames"][0]["histogram"], quiet["frames"][0]["histogram"]);
     assert!((depth_m(&run) - depth_m(&quiet)).abs() < 0.01);
-    stdout(folder.path(), &[&["run", "-o", ".", "--signals", "clk_125"], &jitter[..]].concat());
+    stdout(folder.path(), &[&["run", "-o", ".", "--signals", "clk_sys"], &jitter[..]].concat());
     let vcd = fs::read_to_string(folder.path().join("kc705.vcd")).unwrap();
     let off = vcd.lines().filter_map(|line| line.strip_prefix('#')?.parse::<u64>().ok());
     assert!(off.filter(|ps| ps % 1000 != 0).count() > 50, "edges off the nanosecond");

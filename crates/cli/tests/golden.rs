@@ -18,8 +18,8 @@ const SPAN_PS: u64 = 96_000;
 /// at the cycle in which they change.
 fn ascii_wave(path: &Path) -> String {
     const BITS: [&str; 9] = [
-        "clk_125",
-        "clk_250",
+        "clk_sys",
+        "clk_laser",
         "pre_start",
         "spad_rst",
         "vcsel_driver.laser_pulse",

@@ -18,7 +18,7 @@ fn the_command_writes_all_forms_and_says_when_it_triggered() {
         ["fig_6_21.csv", "fig_6_21.ila", "fig_6_21.map.toml", "fig_6_21.vcd"]
     );
     let table = stdout(folder.path(), &args[..6]);
-    assert!(table.contains("triggered") && table.contains("clk_125"), "{table}");
+    assert!(table.contains("triggered") && table.contains("clk_sys"), "{table}");
 }
 
 #[test]
@@ -28,7 +28,7 @@ fn options_go_before_the_set_up() {
         let first = ["ila", "capture", "--probes", "fig_6_6", "-o", "out", "--json"];
         json(folder.path(), &[&first[..], args].concat())
     };
-    let args = ["--windows", "4", "--position", "2", "--format", "csv", "--clock", "clk_125"];
+    let args = ["--windows", "4", "--position", "2", "--format", "csv", "--clock", "clk_sys"];
     let report =
         capture(&[&args[..], &["--trigger", "SPAD_RST_DO rising", "--arm-at-us", "0"]].concat());
     assert_eq!(report["window_depth"], 256);
@@ -102,7 +102,7 @@ fn faults_of_a_set_up_have_their_place() {
         ("windows = 2048", "t.toml:1:11: windows = 2048: expected 1 to 1024"),
         ("windows = 1024\nposition = 1", "t.toml:2:12: position = 1: expected 0 to 0"),
         ("input_stages = 7", "t.toml:1:16: input_stages = 7: expected a whole number from 0 to 6"),
-        ("clock = \"clk\"", "t.toml:1:9: clock = \"clk\": expected clk_125"),
+        ("clock = \"clk\"", "t.toml:1:9: clock = \"clk\": expected clk_sys"),
         ("name = \"a/b\"", "t.toml:1:8: name = \"a/b\": expected a name of letters"),
         ("trigger = \"rst &\"", "t.toml:1:16: trigger = &: expected a name, a value"),
         ("trigger = \"rst == 2\"", "t.toml:1:19: trigger = 2: expected 0 to 1"),

@@ -11,7 +11,7 @@ use crate::common;
 const CYCLES: u64 = 20_000;
 
 /// The reports of a `verify` that has to pass.
-fn verified(args: &[&str]) -> Vec<Value> {
+pub fn verified(args: &[&str]) -> Vec<Value> {
     let folder = common::empty();
     let output = common::output(folder.path(), &[&["verify", "--json"], args].concat());
     let text = String::from_utf8(output.stdout).unwrap();

@@ -16,6 +16,7 @@ mod fidelities;
 mod golden;
 mod grid;
 mod ila_command;
+mod instruments;
 mod limits;
 mod lockstep;
 mod measured;

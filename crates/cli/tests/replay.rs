@@ -84,7 +84,7 @@ fn a_part_of_a_frame_at_any_clock_and_with_a_capture_condition_is_the_same_again
         capture = \"start || tdc_valid || hist_valid\"";
     for (head, probes) in [
         (mid, &PROBES[..]),
-        ("clock = \"clk_250\"\ndepth = 8192", &PROBES),
+        ("clock = \"clk_laser\"\ndepth = 8192", &PROBES),
         (basic, &PROBES),
         ("depth = 4096\nposition = 16\ntrigger = \"start rising\"", &PROBES[..3]),
     ] {
@@ -211,7 +211,7 @@ fn what_is_missing_is_said() {
     let error = replay("probes.csv", &map);
     assert!(error.contains("probe frame_ctrl.shots"), "{error}");
     let error = replay("probes.csv", &[&map[..], &["--clock", "100MHz"]].concat());
-    assert!(error.contains("expected clk_125 or clk_250"), "{error}");
+    assert!(error.contains("expected clk_sys or clk_laser"), "{error}");
     capture(folder, "depth = 1024", &PROBES[1..3], &[]);
     let error = replay("probes.csv", &map);
     assert!(error.contains("probe vcsel_driver.start"), "{error}");

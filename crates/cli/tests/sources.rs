@@ -18,11 +18,15 @@ fn tree(files: &[(&str, &str)]) -> tempfile::TempDir {
     folder
 }
 
-/// Our coarse counter, its width in a macro, and a line before it.
+/// Our coarse counter without its parameter, its width in a macro, and a line before it.
 fn counter(before: &str) -> String {
     let text = fs::read_to_string(Path::new(OWN).join("coarse_counter.v")).unwrap();
-    let with_macro = text.replace("reg [2:0] coarse,", "reg [`WIDTH-1:0] coarse,");
-    assert_ne!(text, with_macro);
+    let parameter = text.find(" #(").unwrap()..text.find(" (\n    input").unwrap();
+    let mut fixed = text.clone();
+    fixed.replace_range(parameter, "");
+    let fixed = fixed.replace("CoarseBits", "3");
+    let with_macro = fixed.replace("reg [3-1:0] coarse,", "reg [`WIDTH-1:0] coarse,");
+    assert_ne!(fixed, with_macro);
     format!("{before}\n{with_macro}")
 }
 

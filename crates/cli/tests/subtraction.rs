@@ -26,7 +26,7 @@ fn counts(value: &Value) -> Vec<i64> {
     value.as_array().unwrap().iter().map(|count| count.as_i64().unwrap()).collect()
 }
 
-/// Instant of an edge of `clk_125` [us].
+/// Instant of an edge of `clk_sys` [us].
 fn edge_us(edge: u64) -> f64 {
     1.008 + 0.008 * edge as f64
 }

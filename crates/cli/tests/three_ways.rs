@@ -25,7 +25,7 @@ const HITS: u16 = u16::MAX;
 
 const BENCH: &str = r#"`timescale 1ps / 1fs
 module bench;
-    reg clk_125 = 1'b0, rst = 1'b1, algo_start = 1'b0;
+    reg clk_sys = 1'b0, rst = 1'b1, algo_start = 1'b0;
     wire read_en, algo_done;
     wire [7:0] read_addr;
     wire signed [35:0] depth;
@@ -38,21 +38,21 @@ module bench;
         .W1File("w1.mem"), .B1File("b1.mem"), .W2File("w2.mem"), .B2File("b2.mem"),
         .TansigFile("tansig.mem")
     ) dut (
-        .clk_125(clk_125), .rst(rst), .algo_start(algo_start), .count(count),
+        .clk_sys(clk_sys), .rst(rst), .algo_start(algo_start), .count(count),
         .read_en(read_en), .read_addr(read_addr), .depth(depth), .algo_done(algo_done)
     );
 
-    always #4000 clk_125 = !clk_125;
+    always #4000 clk_sys = !clk_sys;
 
     initial begin
         $readmemh("histograms.mem", words);
-        repeat (2) @(negedge clk_125);
+        repeat (2) @(negedge clk_sys);
         rst = 1'b0;
         while (n < HISTOGRAMS) begin
             algo_start = 1'b1;
-            @(negedge clk_125) algo_start = 1'b0;
+            @(negedge clk_sys) algo_start = 1'b0;
             edges = 0;
-            while (!algo_done) @(negedge clk_125) edges = edges + 1;
+            while (!algo_done) @(negedge clk_sys) edges = edges + 1;
             $display("depth %h %0d", depth, edges);
             n = n + 1;
         end

@@ -21,7 +21,7 @@ fn folder(mhz: Option<f64>) -> tempfile::TempDir {
             "#!/bin/sh\n\
              case $1 in --version) echo 'nextpnr-ecp5 -- made up (Version 0)'; exit;; esac\n\
              while [ $1 != --report ]; do shift; done\n\
-             echo '{{\"fmax\": {{\"clk_125\": {{\"achieved\": {mhz}}}}}, \"utilization\": {{}}, \
+             echo '{{\"fmax\": {{\"clk_sys\": {{\"achieved\": {mhz}}}}}, \"utilization\": {{}}, \
              \"critical_paths\": []}}' > $2\n"
         );
         let path = bin.join("nextpnr-ecp5");
@@ -83,7 +83,7 @@ fn what_is_recorded_of_the_same_netlist_is_not_measured_again() {
     }
     let text = fs::read_to_string(&path).unwrap();
     let recorded: Value = serde_json::from_str(&text).unwrap();
-    let clock = &recorded["blocks"]["vcsel_driver"]["ecp5"]["clocks"]["clk_125"];
+    let clock = &recorded["blocks"]["vcsel_driver"]["ecp5"]["clocks"]["clk_sys"];
     assert_eq!(clock["mhz"].as_array().unwrap().len(), 3);
     fs::write(&path, &text[..text.len() / 2]).unwrap();
     let output = timing(folder.path(), &[&record[..], &["1"]].concat());

@@ -52,7 +52,7 @@ fn map(name: &str, block: &str, simulator: &str) {
 
 #[test]
 fn the_first_mismatch_is_the_same_in_both_simulators_and_in_table_json_and_xml() {
-    let folder = counter("coarse + 3'd1", "coarse + 3'd2");
+    let folder = counter("coarse + 1'b1", "coarse + 2'd2");
     let first = |simulator: &str| -> Value {
         let output =
             verify(folder.path(), &["--json", "--junit", "a.xml", "--simulator", simulator]);
@@ -76,7 +76,7 @@ fn the_first_mismatch_is_the_same_in_both_simulators_and_in_table_json_and_xml()
 
 #[test]
 fn with_fail_fast_nothing_comes_after_the_first_mismatch() {
-    let folder = counter("coarse + 3'd1", "coarse + 3'd2");
+    let folder = counter("coarse + 1'b1", "coarse + 2'd2");
     fs::copy(Path::new(OWN).join("control_sync.v"), folder.path().join("control_sync.v")).unwrap();
     let args = ["verify", "--rtl", ".", "--json", "-o", "out"];
     let args = [&args[..], &["--block", "coarse_counter", "--block", "control_sync"]].concat();
@@ -98,7 +98,7 @@ fn with_fail_fast_nothing_comes_after_the_first_mismatch() {
 
 #[test]
 fn the_waveform_of_a_mismatch_has_both_sides() {
-    let folder = counter("coarse + 3'd1", "coarse + 3'd2");
+    let folder = counter("coarse + 1'b1", "coarse + 2'd2");
     verify(folder.path(), &["-o", "out"]);
     assert_eq!(
         common::files(&folder.path().join("out")),
@@ -152,7 +152,7 @@ fn a_wrong_latency_in_the_map_is_found() {
 fn a_syntax_error_is_shown_as_the_simulator_says_it() {
     let folder = counter("always @*", "always @*(");
     let error = refused(folder.path(), &[]);
-    assert!(error.contains("coarse_counter.v:20: syntax error"), "{error}");
+    assert!(error.contains("coarse_counter.v:24: syntax error"), "{error}");
     assert!(refused(folder.path(), &["--simulator", "verilator"]).contains("syntax error"));
 }
 
@@ -165,9 +165,10 @@ fn a_missing_module_or_port_and_a_wrong_width_are_named() {
         assert!(error.contains("coarse_counter: no such module"), "{error}");
         let folder = counter("window", "windo");
         let error = refused(folder.path(), &in_it);
-        let ports = "no such port (`windo`?); it has clk_125, coarse, rst, start, windo";
+        let ports = "no such port (`windo`?); it has clk_sys, coarse, rst, start, windo";
         assert!(error.contains(ports), "{error}");
-        let folder = counter("output reg [2:0] coarse", "output reg [3:0] coarse");
+        let folder =
+            counter("output reg [CoarseBits-1:0] coarse", "output reg [CoarseBits:0] coarse");
         let error = refused(folder.path(), &in_it);
         assert!(error.contains("port coarse: has 4 bits, expected 3"), "{error}");
     }

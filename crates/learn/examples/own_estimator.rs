@@ -13,7 +13,10 @@ use tofsim_learn::estimation::{Estimator, EstimatorKind, Failure, Panel, acquisi
 use tofsim_learn::evaluation::{Evaluation, Figures};
 
 /// The mean time of all hits: simple, and drawn towards the middle by ambient light.
-struct CentreOfGravity;
+struct CentreOfGravity {
+    /// Width of a bin [ps].
+    bin_ps: f64,
+}
 
 impl Estimator for CentreOfGravity {
     fn name(&self) -> &'static str {
@@ -26,7 +29,7 @@ impl Estimator for CentreOfGravity {
             return Err(Failure::NoHits);
         }
         let weighed = histogram.iter().enumerate().map(|(k, &n)| (k as f64 + 0.5) * f64::from(n));
-        let mean_ps = weighed.sum::<f64>() / hits * acquisition::BIN_PS;
+        let mean_ps = weighed.sum::<f64>() / hits * self.bin_ps;
         Ok(mean_ps / acquisition::ARRIVAL_PS_PER_M)
     }
 }
@@ -36,7 +39,7 @@ fn main() -> Result<()> {
     let setup = Setup::new(scenario::load("kc705", &dark_room)?)?;
 
     let mut panel = Panel::new(&[EstimatorKind::Network, EstimatorKind::Matched], &setup)?;
-    panel.add(Box::new(CentreOfGravity));
+    panel.add(Box::new(CentreOfGravity { bin_ps: setup.scenario.tdc.bin_ps }));
     let mut show = |frame: &Frame| {
         for reading in panel.read(&frame.histogram) {
             println!("frame {}  {:<8} {:.4?} m", frame.index, reading.estimator, reading.depth_m);

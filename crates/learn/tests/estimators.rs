@@ -5,7 +5,7 @@ mod detector;
 mod scipy;
 mod subtraction;
 
-use tofsim::kernel::Time;
+use tofsim::firmware::tdc;
 use tofsim::network::Histogram;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 use tofsim::scenario::builtin::Source as Place;
@@ -24,9 +24,8 @@ const DISTANCES_M: [f64; 6] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
 const SHOTS: u64 = 30_000;
 
 fn bins(profile: &str) -> Bins {
-    let (delays, period) = (chain::load(profile, &Place::Folder("".into())).unwrap(), 8);
-    let period = Time::from_ns(period);
-    Bins::of_chain(&delays, &delays.calibration(period), period)
+    let delays = chain::load(profile, &Place::Folder("".into())).unwrap();
+    Bins::of_tdc(&tdc::Params::of_chain(delays))
 }
 
 fn acquisition(bins: &Bins) -> Acquisition<'_> {

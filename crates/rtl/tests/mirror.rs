@@ -5,8 +5,10 @@ use std::fs;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use tofsim::firmware::forward2::{MOST_NEURONS, NEURONS};
-use tofsim::hierarchy::{Entry, Kind, every_entry, fitted};
+use tofsim::firmware::forward2::MOST_NEURONS;
+use tofsim::firmware::tof_top::Sizes;
+use tofsim::firmware::vcsel_driver;
+use tofsim::hierarchy::{Kind, every_entry_of};
 use tofsim_rtl::golden::BLOCKS;
 use tofsim_rtl::golden::ports::Port;
 use tofsim_rtl::verify::interface::PortShape;
@@ -58,18 +60,16 @@ fn vector(output: bool, width: u32) -> PortShape {
     PortShape { output, width, words: None }
 }
 
+/// Ports for the most neurons; all else is as large as by default.
+fn sizes() -> Sizes {
+    Sizes { neurons: MOST_NEURONS, ..Sizes::default() }
+}
+
 /// Ports of each module as Rust has them; a module with several instances has one name for all.
-/// There are ports for the most neurons, as wide as the default number of them needs.
 fn rust_ports() -> BTreeMap<String, Ports> {
     let mut modules = BTreeMap::<String, Ports>::new();
-    let narrow = |mut entry: Entry| {
-        if let Some(signal) = fitted(entry.signal.clone(), NEURONS) {
-            entry.signal = signal;
-        }
-        entry
-    };
-    let ports = every_entry().into_iter().filter(|entry| entry.kind != Kind::Internal);
-    for entry in ports.map(narrow) {
+    let entries = every_entry_of(&sizes()).into_iter();
+    for entry in entries.filter(|entry| entry.kind != Kind::Internal) {
         let instance = entry.scope.rsplit('.').next().unwrap();
         let module = if instance.starts_with("reset_sync_") { "reset_sync" } else { instance };
         let port = vector(entry.kind == Kind::Output, entry.signal.width);
@@ -111,8 +111,7 @@ fn ports_widths_and_directions_are_the_same() {
     }
     for spec in BLOCKS {
         let port = |port: Port| (port.name, vector(port.output, port.width));
-        let of = |neurons| spec.ports(neurons).into_iter().map(port).collect::<Ports>();
-        let vectors = Ports::from_iter(of(MOST_NEURONS).into_iter().chain(of(NEURONS)));
+        let vectors: Ports = spec.ports(&sizes()).into_iter().map(port).collect();
         assert_eq!(rust[spec.name], vectors, "ports of the golden block {}", spec.name);
     }
 }
@@ -136,6 +135,46 @@ fn vendor_primitives_stay_in_their_files() {
             let allowed = files.contains(&stem.as_str());
             let found = text.contains(primitive);
             assert_eq!(found, allowed, "{primitive} in rtl_ref/{stem}.v");
+        }
+    }
+}
+
+/// Parameters that say how large things are, and what each is by default.
+fn defaults() -> [(&'static str, String); 11] {
+    let (sizes, laser) = (Sizes::default(), vcsel_driver::Params::default());
+    let width = |name| sizes.width(name).unwrap().to_string();
+    let [shortest, others @ ..] = [3, 2, 1, 0].map(|rate| format!("16'd{}", laser.periods[rate]));
+    [
+        ("Taps", width("Taps")),
+        ("CoarseBits", width("CoarseBits")),
+        ("Cycle", sizes.cycle.to_string()),
+        ("Digits", sizes.digits.to_string()),
+        ("AgeBits", width("AgeBits")),
+        ("RateBits", width("RateBits")),
+        ("PeriodBits", width("PeriodBits")),
+        ("Halves", width("Halves")),
+        ("PulseHalfCycles", laser.pulse_half_cycles.to_string()),
+        ("DrainCycles", format!("17'd{}", sizes.drain_cycles)),
+        ("LaserPeriods", format!("{{{{5{{{shortest}}}}}, {}}}", others.join(", "))),
+    ]
+}
+
+#[test]
+fn parameters_have_the_same_defaults() {
+    for (name, default) in defaults() {
+        let declared = sources().into_iter().flat_map(|(stem, text)| {
+            let lines = text.lines().filter(|line| line.trim_start().starts_with("parameter "));
+            let values = lines.filter_map(|line| line.split_once(&format!(" {name} = ")));
+            let value = |(_, value): (&str, &str)| {
+                let value = value.split("//").next().unwrap_or_default().trim();
+                (stem.clone(), value.trim_end_matches(',').to_owned())
+            };
+            values.map(value).collect::<Vec<_>>()
+        });
+        let declared: Vec<_> = declared.collect();
+        assert!(!declared.is_empty(), "no module has {name}");
+        for (stem, value) in declared {
+            assert_eq!(value, default, "{name} in rtl_ref/{stem}.v, and as Rust has it");
         }
     }
 }

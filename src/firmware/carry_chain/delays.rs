@@ -1,15 +1,16 @@
-//! When a transition reaches each tap, and the table of times that follows from it.
+//! When a transition reaches each tap.
 
-use crate::kernel::{Thermometer, Time, U};
+use std::ops::RangeInclusive;
 
-/// Length of the chain: 200 CARRY4 [taps].
+use crate::kernel::{Thermometer, Time};
+
+/// Length of the KC705's chain: 200 CARRY4 [taps].
 pub const TAPS: usize = 800;
+/// Shortest and longest chain [taps].
+pub const LENGTHS: RangeInclusive<usize> = 16..=2000;
 
 /// The taps, as registers.
-pub type Taps = Thermometer<TAPS>;
-
-/// ROM: for each ones count the time from the hit to the edge that sampled it [25/16 ps].
-pub type Calibration = [U<14>; TAPS + 1];
+pub type Taps = Thermometer;
 
 /// The delays of a chain: what its placement decides.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,39 +31,51 @@ pub struct Delays {
 const CELL: u32 = 13;
 
 impl Delays {
-    /// From the delay before the first tap and the delay of each of the 800 taps [fs]. A negative
+    /// From the delay before the first tap and the delay of each tap [fs]. A negative
     /// delay is legal as long as every tap is reached after `tdc_stop` changes: real chains are
     /// not monotonic, because of carry look-ahead and clock skew.
     ///
-    /// Returns `None` if the number of taps is wrong or a tap is reached at time 0 or before.
+    /// Returns `None` if there are not as many taps as a chain can have ([`LENGTHS`]), or if one is reached
+    /// at time 0 or before.
     pub fn new(offset: Time, tap_delays_fs: &[i64]) -> Option<Self> {
         let mut at = i64::try_from(offset.fs()).ok()?;
-        let mut reached = Vec::with_capacity(TAPS);
+        if !LENGTHS.contains(&tap_delays_fs.len()) {
+            return None;
+        }
+        let mut reached = Vec::with_capacity(tap_delays_fs.len());
         for (tap, delay) in tap_delays_fs.iter().enumerate() {
             reached.push((at, tap as u16));
             at = at.checked_add(*delay)?;
         }
         reached.sort();
-        let end = at.max(reached.last()?.0);
-        if reached.len() != TAPS || reached[0].0 <= 0 {
+        let longest = reached.last()?.0;
+        let end = at.max(longest);
+        if reached[0].0 <= 0 {
             return None;
         }
         let arrivals: Vec<_> = reached.iter().map(|&(at, _)| Time::from_fs(at as u64)).collect();
-        let cells = 0..=arrivals[TAPS - 1].fs() >> CELL;
+        let longest = Time::from_fs(longest as u64);
+        let cells = 0..=longest.fs() >> CELL;
         let begins = cells.map(|cell| Time::from_fs(cell << CELL));
         Some(Delays {
             guide: begins.map(|age| arrivals.partition_point(|&at| at < age) as u16).collect(),
-            longest: arrivals[TAPS - 1],
+            longest,
             arrivals,
             order: reached.iter().map(|&(_, tap)| tap).collect(),
             end: Time::from_fs(end as u64),
         })
     }
 
+    /// Length of the chain [taps].
+    #[inline]
+    pub fn taps(&self) -> usize {
+        self.arrivals.len()
+    }
+
     /// How many taps a transition of that age has reached.
     #[inline]
     pub fn rank(&self, age: Time) -> usize {
-        if age >= self.longest { TAPS } else { self.rank_inside(age) }
+        if age >= self.longest { self.taps() } else { self.rank_inside(age) }
     }
 
     /// The same for a transition that has not reached every tap.
@@ -108,19 +121,9 @@ impl Delays {
         self.order.iter().position(|&tap| tap == 0).unwrap_or(0)
     }
 
-    /// The decoder's ROM for a chain whose delays are known: for each ones count the middle of
-    /// the interval of ages that gives it, rounded half up. The interval that holds a whole clock
-    /// period (time 0 at the edge after the laser's) is clamped so that its time is not negative.
-    pub fn calibration(&self, period: Time) -> Calibration {
-        let boundary = |n: usize| if n < TAPS { self.arrivals[n] } else { self.end }.fs();
-        let unit = |twice_fs: u64| (2 * twice_fs + 3125) / 6250;
-        let mut cal = [U::new(unit(2 * boundary(0))); TAPS + 1];
-        for (n, word) in cal.iter_mut().enumerate().skip(1) {
-            *word = U::new(unit(boundary(n - 1) + boundary(n)));
-        }
-        let at_start = self.rank(period);
-        cal[at_start] = cal[at_start].min(U::new(unit(2 * period.fs())));
-        cal
+    /// Age at which `n` taps have been reached; past the last, that at which the hit has left the chain.
+    pub fn boundary(&self, n: usize) -> Time {
+        *self.arrivals.get(n).unwrap_or(&self.end)
     }
 }
 
@@ -154,17 +157,6 @@ mod tests {
     }
 
     #[test]
-    fn ideal_taps_are_two_to_a_bin_and_time_zero_is_clamped() {
-        let cal = uniform(12_500, 2_000).calibration(Time::from_ns(8));
-        assert_eq!(cal[480], 5116);
-        assert_eq!(cal[479], 5108);
-        assert_eq!(cal[481], 5120, "holds an age of exactly 8 ns");
-        assert_eq!(cal[482], 5132);
-        assert_eq!(cal[0], 1280);
-        assert_eq!(cal[800], 1280 + 8 * 800 - 4);
-    }
-
-    #[test]
     fn taps_may_be_reached_out_of_order() {
         let mut tap_delays = [10_000; TAPS];
         tap_delays[0] = 25_000;
@@ -177,7 +169,8 @@ mod tests {
     #[test]
     fn a_tap_before_the_transition_is_refused() {
         assert_eq!(Delays::new(Time::ZERO, &[10_000; TAPS]), None);
-        assert_eq!(Delays::new(Time::from_ns(2), &[10_000; TAPS - 1]), None);
+        assert_eq!(Delays::new(Time::from_ns(2), &[10_000; 15]), None);
+        assert_eq!(Delays::new(Time::from_ns(2), &[10_000; 2001]), None);
         let mut tap_delays = [10_000; TAPS];
         tap_delays[5] = -3_000_000;
         assert_eq!(Delays::new(Time::from_ns(2), &tap_delays), None);

@@ -82,7 +82,7 @@ mod tests {
         let taps = line.sample(Time::from_ns(110), &delays);
         let rank = |age_ns| delays.rank(Time::from_ns(age_ns));
         assert_eq!(taps, Taps::new(true, [rank(4), rank(7), rank(10)]));
-        assert_eq!(taps.ones(), rank(4) + rank(10) - rank(7));
+        assert_eq!(taps.ones(TAPS), rank(4) + rank(10) - rank(7));
         assert_eq!(line.sample(Time::from_ns(150), &delays), Taps::settled(true));
         assert_eq!(line.travelling, 0);
     }

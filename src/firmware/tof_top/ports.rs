@@ -1,6 +1,7 @@
 //! Pins, wires and parameters of the top.
 
 use crate::firmware::forward2::Depth;
+use crate::firmware::vcsel_driver::{self, Rate};
 use crate::firmware::{centroid_estimator, depth_estimator, frame_ctrl, histogram_preload, tdc};
 use crate::kernel::U;
 use crate::signals;
@@ -15,7 +16,8 @@ signals! {
         /// SPAD quench mode (Table 6.2), asynchronous.
         pub mode: bool,
         /// Laser repetition rate (Table 6.1), asynchronous.
-        pub laser_freq: U<2>,
+        #[size("RateBits")]
+        pub laser_freq: Rate,
         /// Lets the laser fire, asynchronous.
         pub laser_en: bool,
         /// Lets the estimator start, asynchronous.
@@ -31,9 +33,9 @@ signals! {
         /// Oscillator of the board.
         pub clk_200: bool,
         /// PLL output.
-        pub clk_125: bool,
+        pub clk_sys: bool,
         /// PLL output.
-        pub clk_250: bool,
+        pub clk_laser: bool,
     }
 }
 
@@ -42,7 +44,7 @@ signals! {
     pub struct Nets {
         /// Reset of the TDC and the estimator: the board's or the acquisition computer's.
         pub rst_dsp: bool = true,
-        /// Code of a hit, from the source in use [25 ps].
+        /// Code of a hit, from the source in use [bins].
         pub tdc_code: U<8>,
         /// `tdc_code` is new.
         pub tdc_valid: bool,
@@ -109,6 +111,8 @@ pub struct Socket {
 pub struct Params {
     /// Frame length.
     pub frame_ctrl: frame_ctrl::Params,
+    /// Laser periods and pulse.
+    pub vcsel_driver: vcsel_driver::Params,
     /// Delay chain and its ROM.
     pub tdc: tdc::Params,
     /// ROMs of the network.
@@ -143,7 +147,7 @@ impl Params {
     }
 
     /// From the edge that takes `algo_start` to the one that raises `algo_done`, for the estimator in
-    /// use [cycles of clk_125].
+    /// use [cycles of clk_sys].
     pub fn estimator_cycles(&self) -> u64 {
         match self.estimator {
             Estimator::Network => self.depth_estimator.cycles(),

@@ -3,6 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::firmware::coarse_counter::DEFAULT_COARSE_BITS;
+use crate::firmware::frame_ctrl::DRAIN_CYCLES;
+use crate::firmware::vcsel_driver::PERIODS;
+
 table! {
     /// The clock generator. The outputs have to be 125 and 250 MHz.
     pub struct Pll {
@@ -15,7 +19,7 @@ table! {
         /// Input divider D.
         #[schemars(range(min = 1, max = 56), extend("unit" = "1", "source" = "PLLE2"))]
         pub divide: u64 = 1,
-        /// Output divider O of `clk_125`; `clk_250` has half of it.
+        /// Output divider O of `clk_sys`; `clk_laser` has half of it.
         #[schemars(range(min = 2, max = 128), extend("unit" = "1", "source" = "PLLE2"))]
         pub output_divide: u64 = 8,
         /// From power-up to lock; the part's limit is 100 us.
@@ -37,6 +41,15 @@ table! {
         /// hit; with two, the second sums 50 numbers in a cycle.
         #[schemars(range(min = 2, max = 3), extend("unit" = "cycles", "source" = "docs/timing.md"))]
         pub count_stages: u64 = 3,
+        /// Width of the coarse count: a shot's window has as many cycles as it can count, 8 with three bits.
+        #[schemars(range(min = 1, max = 12), extend("unit" = "bit", "source" = "section 6.5"))]
+        pub coarse_bits: u32 = DEFAULT_COARSE_BITS,
+        /// Width of a bin: what a code counts.
+        #[schemars(range(min = 5.0, max = 2000.0), extend("unit" = "ps", "source" = "section 6.5: 256 bins in 6.4 ns"))]
+        pub bin_ps: f64 = 25.0,
+        /// Time at which bin 0 begins, from the laser edge: a range gate, within the window.
+        #[schemars(range(min = 0.0, max = 32_768_000.0), extend("unit" = "ps", "source" = "choice: at the laser edge"))]
+        pub first_bin_ps: f64 = 0.0,
     }
 }
 
@@ -72,9 +85,22 @@ impl From<QuenchMode> for u64 {
 table! {
     /// Control signals at power-up, and the frame.
     pub struct Firmware {
-        /// Laser repetition rate: 0 .. 3 for 5, 9.615, 15.625, 20.833 MHz.
-        #[schemars(range(min = 0, max = 3), extend("unit" = "code", "source" = "Table 6.1"))]
+        /// Laser repetition rate: which of `laser_periods`, from 0; of the default ones 0 .. 3 for 5, 9.615,
+        /// 15.625, 20.833 MHz.
+        #[schemars(range(min = 0, max = 7), extend("unit" = "code", "source" = "Table 6.1"))]
         pub laser_freq: u64 = 3,
+        /// Laser period for each `laser_freq`.
+        #[schemars(length(min = 1, max = 8), inner(range(min = 4, max = 65_535)))]
+        #[schemars(extend("unit" = "cycles of clk_sys", "source" = "Table 6.1"))]
+        pub laser_periods: Vec<u64> = PERIODS.to_vec(),
+        /// Length of the laser pulse.
+        #[schemars(range(min = 1, max = 8))]
+        #[schemars(extend("unit" = "half cycles of clk_laser", "source" = "section 6.3: 2 ns"))]
+        pub pulse_half_cycles: u32 = 1,
+        /// Length of Drain, in which the last photons of a frame come to their words.
+        #[schemars(range(min = 8, max = 65_536))]
+        #[schemars(extend("unit" = "cycles of clk_sys", "source" = "choice: twice the window; docs/model.md"))]
+        pub drain_cycles: u64 = DRAIN_CYCLES,
         /// SPAD quench mode: 0 resets before each shot, 1 recovers after the dead time.
         #[schemars(range(min = 0, max = 1), extend("unit" = "code", "source" = "Table 6.2"))]
         #[schemars(with = "u64")]
@@ -155,8 +181,8 @@ pub struct Control {
     /// When, from power-up.
     #[schemars(range(min = 0.0, max = 1e9), extend("unit" = "us", "source" = "choice"))]
     pub at_us: f64,
-    /// Laser repetition rate, 0 .. 3.
-    #[schemars(range(min = 0, max = 3), extend("unit" = "code", "source" = "Table 6.1"))]
+    /// Laser repetition rate: which of `firmware.laser_periods`.
+    #[schemars(range(min = 0, max = 7), extend("unit" = "code", "source" = "Table 6.1"))]
     pub laser_freq: Option<u64>,
     /// SPAD quench mode, 0 or 1.
     #[schemars(range(min = 0, max = 1), extend("unit" = "code", "source" = "Table 6.2"))]

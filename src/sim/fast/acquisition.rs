@@ -10,14 +10,13 @@ use crate::kernel::Time;
 use crate::sim::device::{Device, Off};
 use crate::sim::frames::Frames;
 
-use super::halves::{
-    converter_quiet, emit, emitter_quiet, rest_of_cycle, rouses_converter, skip_emitter,
-};
+use super::halves::{converter_quiet, rouses_converter, skip_emitter};
 use super::hits::Hits;
 use super::idle::cycles_until_event;
+use super::pulse::Pulse;
 use super::steady::{control_is_steady, cycles_of_steady_control, estimator_rests, even_period};
 
-/// Goes on until `limit`, or until something else begins than an acquisition [cycles of clk_125].
+/// Goes on until `limit`, or until something else begins than an acquisition [cycles of clk_sys].
 /// Does nothing if that is so from the start. `at_shot` may move the device on in each cycle in which
 /// a shot has begun.
 #[inline(always)]
@@ -40,7 +39,8 @@ pub fn acquire(
     // The cycle that the converter has come to; it sleeps from there to the present one.
     let mut converter_at = device.cycle;
     let mut hits = Hits::default();
-    let mut now = device.pll.clk_125.rise(device.cycle);
+    let mut pulse = Pulse::new(&device.top, p);
+    let mut now = device.pll.clk_sys.rise(device.cycle);
     while device.top.frame_ctrl.acquire && device.cycle < limit {
         while device.spads.next_event() <= now {
             device.detect(&mut Off);
@@ -57,21 +57,19 @@ pub fn acquire(
         } else if !emits {
             let quiet = limit.min(emitter_wakes).min(converter_wakes) - device.cycle;
             let cycles = cycles_until_event(device, quiet, now, period);
-            skip_emitter(&mut device.top, cycles);
+            skip_emitter(&mut device.top, p, cycles);
             device.cycle += cycles;
             now += Time::from_fs(cycles * period.fs());
             continue;
         }
         device.cycle += 1;
         if !emits {
-            skip_emitter(&mut device.top, 1);
+            skip_emitter(&mut device.top, p, 1);
             now += period;
             continue;
         }
-        emit(&mut device.top, p);
-        device.react(now);
-        rest_of_cycle(&mut device.top);
-        emitter_wakes = device.cycle.saturating_add(emitter_quiet(&device.top));
+        pulse.emit(device, p, now);
+        emitter_wakes = device.cycle.saturating_add(pulse.emitter_quiet(&device.top, p));
         if rouses_converter(&device.top, &device.line) {
             converter_wakes = device.cycle;
         }
@@ -82,9 +80,10 @@ pub fn acquire(
             at_shot(device, frames, &mut hits);
             converter_at = device.cycle;
             emitter_wakes = device.cycle;
-            now = device.pll.clk_125.rise(device.cycle);
+            now = device.pll.clk_sys.rise(device.cycle);
         }
     }
     hits.skip(&mut device.top, p, device.cycle - converter_at);
     hits.replay(&mut device.top, p, device.cycle);
+    pulse.replay(&mut device.top, p, device.cycle);
 }

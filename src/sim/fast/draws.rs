@@ -112,7 +112,6 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
-    use crate::firmware::vcsel_driver::PERIODS;
     use crate::scenario;
     use crate::sensor::light::Light;
     use crate::sim::setup::{CYCLE, Setup};
@@ -121,7 +120,8 @@ mod tests {
         let keys: Vec<_> = keys.iter().map(|&key| key.to_owned()).collect();
         let setup = Setup::new(scenario::load("kc705", &keys).unwrap()).unwrap();
         let Light::Optics(optics) = &setup.light else { panic!("optics") };
-        let outcomes = ShotOutcomes::new(&setup.params.tdc, PERIODS[rate], CYCLE).unwrap();
+        let period = setup.params.vcsel_driver.periods[rate];
+        let outcomes = ShotOutcomes::new(&setup.params.tdc, period, CYCLE).unwrap();
         Draws::new(outcomes, optics.hazard(lit).clone())
     }
 

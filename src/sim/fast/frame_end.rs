@@ -1,7 +1,7 @@
 //! Clear and estimation, each as a whole.
 //!
 //! Exact while no control signal changes and nothing else goes on: a word of the RAM is zero after
-//! its cycle of Clear, and an estimation is sums of integers. The TDC, whose window is closed, sees
+//! its cycle of Clear, and an estimation is sums of integers. The TDC's window is closed, so that it sees
 //! avalanches on the way with the next edges.
 
 use crate::firmware::centroid_estimator;
@@ -27,9 +27,10 @@ pub fn leap_frame_end(device: &mut Device, p: &Params) {
         false if estimation_phase(&device.top, p) == Some(0) => p.estimator_cycles() - 1,
         false => return,
     };
-    let end = device.pll.clk_125.rise(device.cycle + cycles);
+    let end = device.pll.clk_sys.rise(device.cycle + cycles);
     let alone = device.jitter.is_none()
         && control_is_steady(&device.top)
+        && !device.top.tdc.coarse_counter.window
         && !device.top.histogram_builder.has_hit()
         && (!clearing || estimator_rests(&device.top, p));
     if !alone || end >= device.timeline.next_event() {

@@ -14,8 +14,19 @@ use crate::kernel::{AWAKE, Clocked, Time};
 
 /// Coming cycles in which nothing of the emitter would move but the laser's count.
 #[inline(always)]
-pub(super) fn emitter_quiet(top: &TofTop) -> u64 {
-    match top.vcsel_driver.quiet(&laser_inputs(top)) {
+pub(super) fn emitter_quiet(top: &TofTop, p: &Params) -> u64 {
+    emitter_quiet_if(top, top.vcsel_driver.quiet(&laser_inputs(top), &p.vcsel_driver))
+}
+
+/// The same while no pulse is on its way.
+#[inline(always)]
+pub(super) fn emitter_quiet_without_pulse(top: &TofTop, p: &Params) -> u64 {
+    emitter_quiet_if(top, top.vcsel_driver.registers.quiet(&laser_inputs(top), &p.vcsel_driver))
+}
+
+#[inline(always)]
+fn emitter_quiet_if(top: &TofTop, laser_quiet: u64) -> u64 {
+    match laser_quiet {
         AWAKE => AWAKE,
         edges => edges.min(top.spad_control.quiet(&spad_inputs(top), &())),
     }
@@ -51,7 +62,7 @@ pub(super) fn sample(top: &mut TofTop, p: &Params, line: &mut StopLine, now: Tim
     top.tdc.sample(&tdc_inputs(top), &p.tdc, line, now);
 }
 
-/// The emitter's part of the same edge.
+/// The emitter's part of `clk_sys` at the same edge.
 #[inline(always)]
 pub(super) fn emit(top: &mut TofTop, p: &Params) {
     let laser = laser_inputs(top);
@@ -61,23 +72,29 @@ pub(super) fn emit(top: &mut TofTop, p: &Params) {
         top.frame_ctrl = top.frame_ctrl.next(&i, &p.frame_ctrl);
     }
     top.spad_control = top.spad_control.next(&spad_inputs(top), &());
-    top.vcsel_driver.rise(&laser);
+    top.vcsel_driver.registers.tick(&laser, &p.vcsel_driver);
+}
+
+/// The edge of `clk_laser` that comes with it; before [`emit`], whose `fire` it does not see yet.
+#[inline(always)]
+pub(super) fn emit_light(top: &mut TofTop, p: &Params) {
+    top.vcsel_driver.rise_laser(&laser_inputs(top), &p.vcsel_driver);
     top.drive_laser();
 }
 
-/// The rest of the emitter's cycle: `clk_250` falls, rises and falls.
+/// The rest of the cycle: `clk_laser` falls, rises and falls.
 #[inline(always)]
-pub(super) fn rest_of_cycle(top: &mut TofTop) {
-    top.vcsel_driver.fall_250();
-    top.vcsel_driver.rise_250(&laser_inputs(top));
-    top.vcsel_driver.fall_250();
+pub(super) fn rest_of_cycle(top: &mut TofTop, p: &Params) {
+    top.vcsel_driver.fall_laser();
+    top.vcsel_driver.rise_laser(&laser_inputs(top), &p.vcsel_driver);
+    top.vcsel_driver.fall_laser();
     top.drive_laser();
 }
 
 /// Stands for that many cycles of the emitter, all of them quiet.
 #[inline(always)]
-pub(super) fn skip_emitter(top: &mut TofTop, cycles: u64) {
-    top.vcsel_driver.skip(&laser_inputs(top), cycles);
+pub(super) fn skip_emitter(top: &mut TofTop, p: &Params, cycles: u64) {
+    top.vcsel_driver.skip(&laser_inputs(top), &p.vcsel_driver, cycles);
 }
 
 /// Stands for that many cycles of the converter, all of them quiet.
@@ -119,7 +136,7 @@ pub(super) fn count(top: &mut TofTop) {
 
 #[inline(always)]
 fn laser_inputs(top: &TofTop) -> vcsel_driver::In {
-    vcsel_driver::In { rst: false, rst_250: false, ..Wires::vcsel_driver(top) }
+    vcsel_driver::In { rst: false, rst_laser: false, ..Wires::vcsel_driver(top) }
 }
 
 #[inline(always)]

@@ -9,9 +9,8 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Binomial, Distribution};
 
 use crate::error::{Input, Result};
-use crate::firmware::vcsel_driver::PERIODS;
 use crate::kernel::Time;
-use crate::optics::{BinProbabilities, Bins};
+use crate::optics::BinProbabilities;
 use crate::scenario::QuenchMode;
 use crate::sensor::light::{Light, Optics};
 use crate::sensor::streams::{Source, stream};
@@ -60,8 +59,8 @@ pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics,
     let Light::Optics(optics) = &setup.light else {
         return Err(refusal("stimulus", "it needs the light of the link budget").into());
     };
-    let period = PERIODS[firmware.laser_freq as usize];
-    let Some(outcomes) = ShotOutcomes::new(&setup.params.tdc, period, CYCLE) else {
+    let outcomes = ShotOutcomes::new(&setup.params.tdc, setup.laser_period(), CYCLE);
+    let Some(outcomes) = outcomes else {
         let why = "the chain is so long that a shot reaches into the next one";
         let refused = refusal("tdc.profile", why).value(&setup.scenario.tdc.profile);
         return Err(refused.into());
@@ -96,8 +95,7 @@ impl<'a> Histograms<'a> {
     pub fn new(setup: &'a Setup) -> Result<Self> {
         let (optics, outcomes) = independent_shots(setup, "--fidelity histogram")?;
         let firmware = &setup.scenario.firmware;
-        let (delays, cal) = (&setup.params.tdc.delays, &setup.params.tdc.decoder.cal);
-        let bins = Bins::of_chain(delays, cal, CYCLE);
+        let bins = setup.bins();
         let kind = |lit| {
             let hazard = optics.hazard(lit);
             let codes = BinProbabilities::new(hazard, &bins);
@@ -113,7 +111,7 @@ impl<'a> Histograms<'a> {
             setup,
             kinds: dark.into_iter().chain([kind(firmware.laser_en)]).collect(),
             shots: setup.shots(1),
-            frame_cycles: setup.frame_cycles(firmware.laser_freq as usize),
+            frame_cycles: setup.frame_cycles(setup.laser_period()),
         })
     }
 

@@ -7,9 +7,10 @@
 use std::collections::VecDeque;
 
 use crate::firmware::carry_chain::{StopLine, Taps};
+use crate::firmware::coarse_counter::Coarse;
 use crate::firmware::tdc_decoder;
 use crate::firmware::tof_top::{CodeSource, Params, TofTop};
-use crate::kernel::{Clocked, Time, U};
+use crate::kernel::{Clocked, Time};
 
 use super::halves::{convert, count, count_hits, sample, skip_converter, skip_sampling};
 
@@ -20,7 +21,7 @@ const COUNTING: u64 = 4;
 struct Hit {
     /// The edge that takes it from the latch.
     taken: u64,
-    coarse: U<3>,
+    coarse: Coarse,
     taps: Taps,
 }
 
@@ -90,8 +91,8 @@ impl Hits {
     #[inline(always)]
     fn count_oldest(&mut self, top: &mut TofTop, p: &Params) {
         let Some(hit) = self.0.pop_front() else { return };
-        let (coarse, ones) = (hit.coarse.get(), hit.taps.ones());
-        if let Some(code) = tdc_decoder::code(coarse, ones, &p.tdc.decoder.cal) {
+        let (coarse, ones) = (hit.coarse.get(), hit.taps.ones(p.tdc.delays.taps()));
+        if let Some(code) = p.tdc.decoder.code(coarse, ones) {
             top.tdc.tdc_decoder.tdc_code = code;
             top.nets.tdc_code = code;
             top.histogram_builder.count_at_once(code);

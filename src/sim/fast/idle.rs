@@ -12,7 +12,7 @@ use super::halves::{converter_quiet, emitter_quiet, skip_converter, skip_emitter
 use super::steady::{cycles_of_steady_control, estimator_rests, even_period};
 
 /// Skips the cycles before the next one in which something may happen, up to `limit` [cycles of
-/// clk_125].
+/// clk_sys].
 #[inline(always)]
 pub fn skip_idle(device: &mut Device, p: &Params, limit: u64) {
     let Some(period) = even_period(device) else { return };
@@ -20,17 +20,17 @@ pub fn skip_idle(device: &mut Device, p: &Params, limit: u64) {
     let cycles =
         quiet.min(cycles_of_steady_control(device, period)).min(limit.saturating_sub(device.cycle));
     if cycles != AWAKE {
-        let now = device.pll.clk_125.rise(device.cycle);
+        let now = device.pll.clk_sys.rise(device.cycle);
         let cycles = cycles_until_event(device, cycles, now, period);
         let top = &mut device.top;
         top.frame_ctrl.skip(&Wires::frame_ctrl(top), &p.frame_ctrl, cycles);
-        skip_emitter(top, cycles);
+        skip_emitter(top, p, cycles);
         skip_converter(top, p, cycles);
         device.cycle += cycles;
     }
 }
 
-/// Of that many quiet cycles, the first of them at `now`, those whose edge of `clk_125` comes before the
+/// Of that many quiet cycles, the first of them at `now`, those whose edge of `clk_sys` comes before the
 /// detector's next event.
 #[inline(always)]
 pub(super) fn cycles_until_event(device: &Device, quiet: u64, now: Time, period: Time) -> u64 {
@@ -48,10 +48,10 @@ fn quiet(top: &TofTop, p: &Params, line: &StopLine) -> u64 {
         return AWAKE;
     }
     let quiet = frame_ctrl
-        .min(top.reset_sync_125.quiet(&Wires::reset_sync_125(top), &()))
-        .min(top.reset_sync_250.quiet(&Wires::reset_sync_250(top), &()))
+        .min(top.reset_sync_sys.quiet(&Wires::reset_sync_sys(top), &()))
+        .min(top.reset_sync_laser.quiet(&Wires::reset_sync_laser(top), &()))
         .min(top.control_sync.quiet(&Wires::control_sync(top), &()))
-        .min(emitter_quiet(top))
+        .min(emitter_quiet(top, p))
         .min(converter_quiet(top, p, line));
     if quiet != AWAKE && estimator_rests(top, p) { quiet } else { AWAKE }
 }

@@ -95,9 +95,8 @@ impl Run<'_> {
     /// Where frame `frame` begins; `self` is where an earlier one of its kind does.
     fn of_frame(&self, frame: u64) -> Self {
         let mut run = self.clone();
-        let rate = self.setup.scenario.firmware.laser_freq as usize;
         let frames = frame - self.frames.done();
-        let cycles = frames * (self.setup.frame_cycles(rate) + 1);
+        let cycles = frames * (self.setup.frame_cycles(self.setup.laser_period()) + 1);
         pass(&mut run.device, cycles, frame);
         let counts = &mut run.frames;
         counts.done = frame;
@@ -123,9 +122,9 @@ impl Run<'_> {
 
 /// So many cycles later, at the begin of `frame`, with a detector that has been quiet for long.
 fn pass(device: &mut Device, cycles: u64, frame: u64) {
-    let begun = device.pll.clk_125.rise(device.cycle);
+    let begun = device.pll.clk_sys.rise(device.cycle);
     device.cycle += cycles;
-    device.timeline.pass(device.pll.clk_125.rise(device.cycle) - begun);
+    device.timeline.pass(device.pll.clk_sys.rise(device.cycle) - begun);
     device.light.begin_frame(frame);
     device.spads.arm_all(Time::NEVER);
     device.line = StopLine::default();

@@ -21,12 +21,9 @@ pub const NO_HIT: ShotOutcome = NO_CODE + 1;
 /// Number of outcomes.
 pub const OUTCOMES: usize = CODES + 2;
 
-/// Length of the TDC's window [cycles of clk_125].
-const WINDOW: u64 = 8;
-
-/// The last edge after the laser's whose hits may have codes, so that the TDC has kept them when the next
-/// laser edge comes: a leap counts what it has kept, however far it is from its word.
-const LAST_CODED: u64 = 2;
+/// From the last edge whose hits may have codes to the next laser edge at least, so that the TDC has kept
+/// them by then: a leap counts what it has kept, however far it is from its word [cycles of clk_sys].
+const TO_KEEP: u64 = 2;
 
 /// The staircase: its steps in order of time.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,12 +46,16 @@ impl ShotOutcomes {
         let tap_0 = p.delays.tap_0();
         // First time of an avalanche that an edge is too early for.
         let end = |edge: u64| Time::from_fs(edge * cycle.fs() + 1).since(tap_0);
-        let bins = Bins::of_chain(&p.delays, &p.decoder.cal, cycle);
+        let bins = Bins::of_tdc(p);
         let coded = bins.spans().last().map_or(Time::ZERO, |span| span.until);
-        if tap_0 > cycle || p.delays.longest() > cycle + cycle || coded > end(LAST_CODED) {
+        if tap_0 > cycle
+            || p.delays.longest() > cycle + cycle
+            || coded > end(period.saturating_sub(TO_KEEP))
+        {
             return None;
         }
-        let ends = [end(WINDOW.min(period - 1)), end(WINDOW)];
+        let window = p.coarse_counter.window();
+        let ends = [end(window.min(period - 1)), end(window)];
         let mut outcomes = ShotOutcomes { steps: vec![(Time::ZERO, NO_CODE)], ends };
         for span in bins.spans() {
             outcomes.step(span.from, span.code.into());

@@ -10,7 +10,7 @@ use crate::firmware::carry_chain::StopLine;
 use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tdc::Tdc;
 use crate::firmware::tof_top::{Params, TofTop};
-use crate::firmware::vcsel_driver::PERIODS;
+use crate::firmware::vcsel_driver::{MOST_RATES, Rate};
 use crate::sensor::light::Light;
 use crate::sim::device::Device;
 use crate::sim::frames::Frames;
@@ -24,19 +24,19 @@ use super::steady::even_period;
 /// Tables of outcomes, made when first needed: for each laser rate, in the dark and with the laser.
 #[derive(Clone, Debug, Default)]
 pub struct Tables {
-    draws: [[Option<Option<Arc<Draws>>>; 2]; PERIODS.len()],
+    draws: [[Option<Option<Arc<Draws>>>; 2]; MOST_RATES],
 }
 
 impl Tables {
     /// The outcomes at a laser rate; `None` where shots are not independent, or where something else
     /// than the light of optics, which the TDC measures, decides.
-    fn find(&mut self, rate: usize, lit: bool, p: &Params, light: &Light) -> Option<Arc<Draws>> {
+    fn find(&mut self, rate: Rate, lit: bool, p: &Params, light: &Light) -> Option<Arc<Draws>> {
         let Light::Optics(optics) = light else { return None };
         let make = || {
-            let outcomes = ShotOutcomes::new(&p.tdc, PERIODS[rate], CYCLE)?;
+            let outcomes = ShotOutcomes::new(&p.tdc, p.vcsel_driver.period(rate), CYCLE)?;
             Some(Arc::new(Draws::new(outcomes, optics.hazard(lit).clone())))
         };
-        self.draws[rate][lit as usize].get_or_insert_with(make).clone()
+        self.draws[rate.index()][lit as usize].get_or_insert_with(make).clone()
     }
 }
 
@@ -52,14 +52,14 @@ pub fn leap_shots(
     let Some((rate, lit)) = independent_shot(device) else { return };
     let Some(draws) = tables.find(rate, lit, p, &device.light) else { return };
     let Light::Optics(optics) = &mut device.light else { return };
-    let period = PERIODS[rate];
+    let period = p.vcsel_driver.period(rate);
     let in_frame = u64::from(p.frame_ctrl.shots_per_frame) - device.top.frame_ctrl.shots() - 1;
-    let until = device.timeline.next_event().since(device.pll.clk_125.rise(device.cycle));
+    let until = device.timeline.next_event().since(device.pll.clk_sys.rise(device.cycle));
     let shots = in_frame.min(until.fs() / (period * CYCLE.fs()));
     if shots == 0 {
         return;
     }
-    let begun = device.pll.clk_125.rise(device.cycle - 1);
+    let begun = device.pll.clk_sys.rise(device.cycle - 1);
     let mut counts = [0u32; OUTCOMES.next_power_of_two()];
     counts[draws.outcome_at(device.spads.next_event() - begun) as usize] += 1;
     optics.pass(shots - 1, |word| {
@@ -69,7 +69,7 @@ pub fn leap_shots(
     hits.finish(&mut device.top, p);
     land(&mut device.top, shots, &counts[..BINS]);
     device.cycle += shots * period;
-    let now = device.pll.clk_125.rise(device.cycle - 1);
+    let now = device.pll.clk_sys.rise(device.cycle - 1);
     device.light.begin_shot(now, lit);
     device.spads.arm_all(device.light.next_avalanche(now, 1.0));
     device.line = StopLine::default();
@@ -80,9 +80,9 @@ pub fn leap_shots(
 /// The laser rate of the shot that has just begun and whether the laser fires in those after it, if
 /// the first avalanche of each is all that decides. Control signals have held since before the laser
 /// edge: they are what the driver took with it, and the SPAD's output fell a cycle before it at last.
-fn independent_shot(device: &Device) -> Option<(usize, bool)> {
+fn independent_shot(device: &Device) -> Option<(Rate, bool)> {
     let control = &device.top.control_sync;
-    let (rate, lit) = (control.laser_freq_sync.index(), control.laser_en_sync);
+    let (rate, lit) = (control.laser_freq_sync, control.laser_en_sync);
     let independent =
         !device.spads.is_passive() && device.spads.is_armed() && even_period(device) == Some(CYCLE);
     independent.then_some((rate, lit))

@@ -11,8 +11,8 @@ pub(super) fn control_is_steady(top: &TofTop) -> bool {
     let released =
         |reset: &ResetSync, i: &reset_sync::In| !reset.rst_sync && reset.quiet(i, &()) == ASLEEP;
     !top.nets.rst_dsp
-        && released(&top.reset_sync_125, &Wires::reset_sync_125(top))
-        && released(&top.reset_sync_250, &Wires::reset_sync_250(top))
+        && released(&top.reset_sync_sys, &Wires::reset_sync_sys(top))
+        && released(&top.reset_sync_laser, &Wires::reset_sync_laser(top))
         && top.control_sync.quiet(&Wires::control_sync(top), &()) == ASLEEP
 }
 
@@ -44,13 +44,13 @@ pub(super) fn estimation_phase(top: &TofTop, p: &Params) -> Option<u64> {
     }
 }
 
-/// The period of `clk_125`, if it is a whole number of femtoseconds and no edge jitters.
+/// The period of `clk_sys`, if it is a whole number of femtoseconds and no edge jitters.
 pub(super) fn even_period(device: &Device) -> Option<Time> {
-    device.pll.clk_125.whole_period().filter(|_| device.jitter.is_none())
+    device.pll.clk_sys.whole_period().filter(|_| device.jitter.is_none())
 }
 
 /// Coming cycles that end before a control signal changes, or just then.
 pub(super) fn cycles_of_steady_control(device: &Device, period: Time) -> u64 {
-    let next = device.pll.clk_125.rise(device.cycle);
+    let next = device.pll.clk_sys.rise(device.cycle);
     device.timeline.next_event().since(next).fs() / period.fs()
 }

@@ -1,9 +1,8 @@
 //! What a setup's shots and an eye before it can expect, without a run.
 
-use crate::firmware::vcsel_driver::PERIODS;
 use crate::note::{Note, NoteCode};
+use crate::optics::Chances;
 use crate::optics::eye_safety::{Exposure, LONGEST_S};
-use crate::optics::{Bins, Chances};
 use crate::sim::fast::histogram::independent_shots;
 
 use super::{CYCLE, Setup};
@@ -15,16 +14,14 @@ impl Setup {
     /// [`independent_shots`].
     pub fn chances(&self) -> Option<Chances> {
         let (optics, outcomes) = independent_shots(self, "a chance").ok()?;
-        let tdc = &self.params.tdc;
-        let bins = Bins::of_chain(&tdc.delays, &tdc.decoder.cal, CYCLE);
         let [end, _of_the_last_shot] = outcomes.ends();
         let hazard = optics.hazard(self.scenario.firmware.laser_en);
-        Some(Chances::new(hazard, &bins, end))
+        Some(Chances::new(hazard, &self.bins(), end))
     }
 
     /// Period of the laser as the firmware drives it [s].
     pub fn laser_period_s(&self) -> f64 {
-        PERIODS[self.scenario.firmware.laser_freq as usize] as f64 * CYCLE.seconds()
+        self.laser_period() as f64 * CYCLE.seconds()
     }
 
     /// Laser pulses of a frame; of a pair they are all the lit one's [1].
@@ -44,8 +41,7 @@ impl Setup {
     ///
     /// With a preloaded histogram the firmware lets the laser rest for good; that is not counted on.
     pub fn exposure_to_frames(&self) -> Exposure {
-        let laser_freq = self.scenario.firmware.laser_freq as usize;
-        let frames_s = (self.frame_cycles(laser_freq) + 1) as f64 * CYCLE.seconds();
+        let frames_s = (self.frame_cycles(self.laser_period()) + 1) as f64 * CYCLE.seconds();
         let lit_s = self.pulses() * self.laser_period_s();
         let repeats_s = (self.frames_together() as f64 * frames_s).max(lit_s);
         let average_w = self.pulses() * self.budget.pulse_energy_j / repeats_s;

@@ -4,12 +4,11 @@ use crate::error::Result;
 use crate::firmware::tof_top::{Estimator, HistogramSource};
 use crate::kernel::Time;
 use crate::note::{Note, NoteCode, NoteValue};
-use crate::optics::Bins;
 use crate::optics::budget::LIGHT_M_S;
 use crate::sensor::light::Light;
 use crate::sim::domain;
 
-use super::{CYCLE, Setup};
+use super::Setup;
 
 /// Laser photons that a frame has to expect, for a depth to be one [1].
 const FAINTEST_FRAME: f64 = 1.0;
@@ -93,8 +92,7 @@ impl Setup {
     /// An echo that comes after the last bin. None comes after the next pulse: the scenario's farthest
     /// target is nearer than that.
     fn past_the_end(&self) -> Option<Note> {
-        let tdc = &self.params.tdc;
-        let bins = Bins::of_chain(&tdc.delays, &tdc.decoder.cal, CYCLE);
+        let bins = self.bins();
         let end = bins.spans().last().map_or(Time::ZERO, |span| span.until);
         if self.budget.mean_arrival < end {
             return None;

@@ -233,7 +233,7 @@ mod tests {
 
     #[test]
     fn a_map_is_read_as_it_is_written() {
-        let text = "clock = \"clk_250\"\nalign = \"trigger\"\n\n[[signal]]\n\
+        let text = "clock = \"clk_laser\"\nalign = \"trigger\"\n\n[[signal]]\n\
             a = [\"vcsel_driver.laser_pulse\"]\nb = [\"VCSEL_ON\"]\n";
         let map = SignalMap::parse("map.toml", text).unwrap();
         assert_eq!(map.to_toml(), text);

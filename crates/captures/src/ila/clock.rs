@@ -10,10 +10,10 @@ use tofsim::kernel::clock::Clock;
 /// A clock of the design, or one of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub enum AnalyserClock {
-    /// `clk_125`.
-    Clk125,
-    /// `clk_250`.
-    Clk250,
+    /// `clk_sys`.
+    System,
+    /// `clk_laser`.
+    Laser,
     /// `clk_200`.
     Clk200,
     /// One that has nothing to do with the design.
@@ -32,8 +32,8 @@ impl AnalyserClock {
     /// Its rising edges, without jitter.
     pub fn clock(&self, pll: &Pll) -> Clock {
         match self {
-            AnalyserClock::Clk125 => pll.clk_125.clone(),
-            AnalyserClock::Clk250 => pll.clk_250.clone(),
+            AnalyserClock::System => pll.clk_sys.clone(),
+            AnalyserClock::Laser => pll.clk_laser.clone(),
             AnalyserClock::Clk200 => pll.clk_200.clone(),
             AnalyserClock::Free { frequency_hz, phase } => Clock::new(*frequency_hz, 1, 1, *phase),
         }
@@ -44,11 +44,11 @@ impl FromStr for AnalyserClock {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        const EXPECTED: &str = "expected clk_125, clk_250, clk_200, or a frequency from 1 kHz to \
+        const EXPECTED: &str = "expected clk_sys, clk_laser, clk_200, or a frequency from 1 kHz to \
             1 GHz with the time of the first edge, such as 100MHz or 62.5 MHz + 250 ps";
         match text.trim() {
-            "clk_125" => return Ok(AnalyserClock::Clk125),
-            "clk_250" => return Ok(AnalyserClock::Clk250),
+            "clk_sys" => return Ok(AnalyserClock::System),
+            "clk_laser" => return Ok(AnalyserClock::Laser),
             "clk_200" => return Ok(AnalyserClock::Clk200),
             _ => {}
         }
@@ -76,8 +76,8 @@ pub(crate) fn quantity(text: &str, units: &[(&str, f64)]) -> Option<f64> {
 impl fmt::Display for AnalyserClock {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            AnalyserClock::Clk125 => f.write_str("clk_125"),
-            AnalyserClock::Clk250 => f.write_str("clk_250"),
+            AnalyserClock::System => f.write_str("clk_sys"),
+            AnalyserClock::Laser => f.write_str("clk_laser"),
             AnalyserClock::Clk200 => f.write_str("clk_200"),
             AnalyserClock::Free { frequency_hz, phase } => {
                 write!(f, "{frequency_hz} Hz + {} ps", phase.fs() as f64 / 1e3)
@@ -108,7 +108,7 @@ mod tests {
         let free =
             |frequency_hz, fs| AnalyserClock::Free { frequency_hz, phase: Time::from_fs(fs) };
         for (text, sampling) in [
-            ("clk_125", AnalyserClock::Clk125),
+            ("clk_sys", AnalyserClock::System),
             ("100MHz", free(100_000_000, 0)),
             ("62.5 MHz + 250 ps", free(62_500_000, 250_000)),
             ("1 GHz+1.5ns", free(1_000_000_000, 1_500_000)),

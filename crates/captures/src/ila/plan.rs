@@ -41,7 +41,7 @@ pub struct AnalyserPlan {
     pub arm_at: Time,
     /// Registers before the probes [edges].
     pub input_stages: u64,
-    /// Whether it has to see every change, not just the edges of `clk_125` and `clk_250`.
+    /// Whether it has to see every change, not just the edges of `clk_sys` and `clk_laser`.
     pub every_change: bool,
     /// Whether the run ends as soon as it is full.
     pub stop_when_full: bool,
@@ -75,7 +75,7 @@ impl AnalyserPlan {
             return Err(set_up.fault("input_stages", file.input_stages, "expected 0 to 6 [edges]"));
         }
         let oscillator = design.signal("clk_200").map(|bits| bits.id);
-        let at_edges = matches!(sampling, AnalyserClock::Clk125 | AnalyserClock::Clk250)
+        let at_edges = matches!(sampling, AnalyserClock::System | AnalyserClock::Laser)
             && bits.iter().chain(&operands).all(|bits| Ok(bits.id) != oscillator);
         Ok(AnalyserPlan {
             every_change: !at_edges,

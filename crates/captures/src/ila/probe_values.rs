@@ -124,7 +124,7 @@ impl Sink for Packed {
         self.put(id, |place| value >> place.low);
     }
 
-    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, group: usize) {
+    fn taps(&mut self, id: usize, value: &Thermometer, group: usize) {
         if self.places[id].is_empty() {
             return;
         }
@@ -154,8 +154,8 @@ mod tests {
             self.0[id] = BitVec::from_element(value);
         }
 
-        fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, group: usize) {
-            let mut taps = bitvec![u64, Lsb0; 0; N];
+        fn taps(&mut self, id: usize, value: &Thermometer, group: usize) {
+            let mut taps = bitvec![u64, Lsb0; 0; self.1.len()];
             for (place, &tap) in self.1.iter().enumerate() {
                 taps.set(tap as usize, value.tap(place));
             }

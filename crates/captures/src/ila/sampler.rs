@@ -1,6 +1,6 @@
 //! Samples a running simulation: the value just before each edge of the sampling clock.
 //!
-//! At the edges of `clk_125` and `clk_250` the run itself shows what the edge takes. Any other
+//! At the edges of `clk_sys` and `clk_laser` the run itself shows what the edge takes. Any other
 //! clock, and `clk_200` as a signal, needs every change of every signal in order of time.
 
 use std::sync::atomic::AtomicBool;
@@ -112,13 +112,13 @@ impl Analyser {
         self.core.sample(self.look.row(), triggers, qualifies);
     }
 
-    /// Whether it samples at this edge of `clk_250`.
+    /// Whether it samples at this edge of `clk_laser`.
     #[inline]
     fn looks_before(&self, edge: Edge) -> bool {
-        edge == Edge::Both || self.plan.sampling != AnalyserClock::Clk125
+        edge == Edge::Both || self.plan.sampling != AnalyserClock::System
     }
 
-    /// An edge of `clk_250`.
+    /// An edge of `clk_laser`.
     #[inline]
     fn edge(&mut self, edge: Edge, top: &TofTop) {
         if !self.looks_before(edge) {
@@ -139,14 +139,14 @@ impl Analyser {
         }
     }
 
-    /// Number of the sampling clock's first edge in a cycle of `clk_125`.
+    /// Number of the sampling clock's first edge in a cycle of `clk_sys`.
     fn first_of(&self, cycle: u64) -> u64 {
-        if self.plan.sampling == AnalyserClock::Clk125 { cycle } else { 2 * cycle }
+        if self.plan.sampling == AnalyserClock::System { cycle } else { 2 * cycle }
     }
 
     /// Whether the clock is one whose edges the run shows.
     fn is_shown(&self) -> bool {
-        matches!(self.plan.sampling, AnalyserClock::Clk125 | AnalyserClock::Clk250)
+        matches!(self.plan.sampling, AnalyserClock::System | AnalyserClock::Laser)
     }
 }
 
@@ -166,7 +166,7 @@ pub fn capture(
     }
 }
 
-/// Looks at every change, or else at the edges of `clk_125` and `clk_250`.
+/// Looks at every change, or else at the edges of `clk_sys` and `clk_laser`.
 struct Tap<'a, const EVERY: bool>(&'a mut Analyser);
 
 impl<const EVERY: bool> Tap<'_, EVERY> {

@@ -1,29 +1,21 @@
 //! Lists of photons and codes, from the shots that a capture shows.
 
 use std::fmt::Write;
+use std::ops::RangeInclusive;
 
 use tofsim::error::{Input, Result};
-use tofsim::firmware::tdc_decoder::{self, CYCLE};
-use tofsim::firmware::vcsel_driver::PERIODS;
 use tofsim::sim::setup::Setup;
 
 use super::kind::ReplayKind;
 use super::observed::{Observed, Pace, Shot};
-use super::timebase::CYCLE_PS;
-
-/// The TDC's unit of time [ps].
-const UNIT_PS: f64 = CYCLE_PS as f64 / CYCLE as f64;
-/// Cycles of a shot's window.
-const WINDOW: u64 = 8;
-/// Past the last code [ps].
-const RANGE_PS: f64 = 6400.0;
 
 /// When codes come after their shots in the firmware of the scenario: a hit is sampled an edge after the
 /// laser's at the earliest. Codes from a ROM come within the shot.
-pub(super) fn pace(setup: &Setup, kind: ReplayKind) -> Pace {
+pub(super) fn pace(setup: &Setup, kind: ReplayKind) -> Pace<'_> {
     let from_rom = kind == ReplayKind::Codes;
     let to_code = if from_rom { 0 } else { setup.params.tdc.decoder.latency() + 1 };
-    Pace { to_code, period: PERIODS[setup.scenario.firmware.laser_freq as usize] }
+    let periods = &setup.params.vcsel_driver.periods;
+    Pace { to_code, period: setup.laser_period(), periods }
 }
 
 /// Photons that give the codes, or else come when the detector's output rose; and how many.
@@ -44,7 +36,7 @@ pub(super) fn photons(
             let arrival = arrival(setup, code, edge);
             let Some(arrival) = arrival.or_else(|| {
                 elsewhere += 1;
-                (1..=WINDOW).find_map(|edge| self::arrival(setup, code, Some(edge)))
+                edges(setup).find_map(|edge| self::arrival(setup, code, Some(edge)))
             }) else {
                 let expected = format!(
                     "shot {}: the chain `{}` never gives this code; set tdc.profile",
@@ -57,7 +49,7 @@ pub(super) fn photons(
         }
         let stops = shot.stops.iter().skip(arrivals.len().min(shot.stops.len()));
         for &stop in stops {
-            arrivals.push(quantised_arrival(observed, shot, stop));
+            arrivals.push(quantised_arrival(observed, shot, stop, setup));
             quantised += 1;
         }
         for ps in arrivals {
@@ -93,32 +85,40 @@ fn edge(observed: &Observed, shot: &Shot, valid: i64, setup: &Setup) -> Option<u
     observed.timebase.steady.then_some((cycles - latency).max(0) as u64)
 }
 
+/// Edges of a shot's window after the laser's.
+fn edges(setup: &Setup) -> RangeInclusive<u64> {
+    1..=setup.params.tdc.coarse_counter.window()
+}
+
 /// An arrival that the TDC gives that code, sampled by the edge of that number if it is known: the
 /// middle of the tap next to the edge [ps].
 fn arrival(setup: &Setup, code: u64, edge: Option<u64>) -> Option<f64> {
-    let cal = &setup.params.tdc.decoder.cal;
+    let decoder = &setup.params.tdc.decoder;
+    let (cal, scale) = (&decoder.cal, &decoder.scale);
     let of_edge = |edge: u64| {
         let is_it = |n: &usize| {
-            tdc_decoder::code(edge - 1, *n, cal).is_some_and(|given| given.get() == code)
-                && cal[*n].get() as i64 - (cal[1].get() as i64) < CYCLE
+            decoder.code(edge - 1, *n).is_some_and(|given| given.get() == code)
+                && cal[*n].get() < cal[1].get() + scale.cycle()
         };
         let n = (1..cal.len()).find(is_it)?;
-        Some((CYCLE * edge as i64 - cal[n].get() as i64) as f64 * UNIT_PS)
+        Some(scale.ps((scale.cycle() * edge) as i64 - cal[n].get() as i64))
     };
     match edge {
-        Some(edge) => (1..=WINDOW).contains(&edge).then(|| of_edge(edge)).flatten(),
-        None => (1..=WINDOW).find_map(of_edge),
+        Some(edge) => edges(setup).contains(&edge).then(|| of_edge(edge)).flatten(),
+        None => edges(setup).find_map(of_edge),
     }
 }
 
 /// The middle of the step in which the detector's output rose; past the last code, where the shot has
 /// none, if the step reaches so far [ps].
-fn quantised_arrival(observed: &Observed, shot: &Shot, stop: i64) -> f64 {
+fn quantised_arrival(observed: &Observed, shot: &Shot, stop: i64, setup: &Setup) -> f64 {
+    let scale = &setup.params.tdc.decoder.scale;
+    let range_ps = scale.ps(scale.range() as i64);
     let step = observed.timebase.step_ps() as f64;
     let begin = (stop - shot.start) as f64 * step;
     let middle = begin + step / 2.0;
-    match begin + step > RANGE_PS && observed.has_codes {
-        true => middle.max((begin.max(RANGE_PS) + begin + step) / 2.0),
+    match begin + step > range_ps && observed.has_codes {
+        true => middle.max((begin.max(range_ps) + begin + step) / 2.0),
         false => middle,
     }
 }

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use tofsim::error::{Input, Result};
-use tofsim::firmware::vcsel_driver::PERIODS;
 use tofsim::hierarchy::TOP;
 
 use crate::compare::Probed;
@@ -32,13 +31,15 @@ pub(super) struct Shot {
 /// A code, and the first sample that sees it.
 type Code = (u64, i64);
 
-/// When codes come after their shots [cycles of clk_125].
+/// When codes come after their shots [cycles of clk_sys].
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pace {
+pub(super) struct Pace<'a> {
     /// From a shot to its code, at least.
     pub(super) to_code: u64,
     /// From shot to shot.
     pub(super) period: u64,
+    /// What that can be.
+    pub(super) periods: &'a [u64],
 }
 
 /// What a capture shows.
@@ -49,7 +50,7 @@ pub(super) struct Observed {
     /// Whether it shows codes.
     pub(super) has_codes: bool,
     pub(super) per_frame: Option<u64>,
-    /// Cycles between two shots, if they are all the same [cycles of clk_125].
+    /// Cycles between two shots, if they are all the same [cycles of clk_sys].
     pub(super) period: Option<u64>,
     /// What the windows begin with.
     pub(super) windows: Vec<Begin>,
@@ -110,7 +111,7 @@ pub(super) fn observe(
     kind: ReplayKind,
     timebase: Timebase,
     shots_per_frame: u64,
-    pace: Pace,
+    pace: Pace<'_>,
 ) -> Result<Option<Observed>> {
     let module = if kind == ReplayKind::Codes { "code_preload" } else { "tdc" };
     let [valid, code] = ["tdc_valid", "tdc_code"]
@@ -190,14 +191,14 @@ pub(super) fn observe(
         let expected = "shows no shot: vcsel_driver.start never rises in it";
         return Err(Input::new(&capture.name, expected).into());
     }
-    observed.period = period(&observed);
+    observed.period = period(&observed, pace.periods);
     observed.per_frame = numbers.per_frame.or_else(|| first_pause(&observed));
     observed.add_earlier(pace);
     observed.add_notes(counter.is_some() || numbers.begun, is_early);
     Ok(Some(observed))
 }
 
-impl Pace {
+impl Pace<'_> {
     /// The shot of a code that is seen at a sample, if it is among these. Where the samples do not tell the
     /// time, so many shots have begun since as usual.
     fn shot_of<'a>(
@@ -254,7 +255,7 @@ impl Observed {
     }
 
     /// Adds what the windows show of the shots before their first.
-    fn add_earlier(&mut self, pace: Pace) {
+    fn add_earlier(&mut self, pace: Pace<'_>) {
         let Some(period) = self.period else { return };
         for begin in self.windows.clone().into_iter().rev() {
             if begin.first < self.shots.len() {
@@ -265,7 +266,7 @@ impl Observed {
 
     /// Adds what a window shows of the shots before its first, and the code of another that the TDC still
     /// holds.
-    fn add_before(&mut self, pace: Pace, Begin { first: place, stops, codes, held }: Begin) {
+    fn add_before(&mut self, pace: Pace<'_>, Begin { first: place, stops, codes, held }: Begin) {
         let first = self.shots[place].clone();
         let last = place.checked_sub(1).map(|last| self.shots[last].number);
         let [to_code, period] =
@@ -310,7 +311,7 @@ fn first_pause(observed: &Observed) -> Option<u64> {
 }
 
 /// Cycles between shots that follow one another, if one of the laser's periods is the most common.
-fn period(observed: &Observed) -> Option<u64> {
+fn period(observed: &Observed, periods: &[u64]) -> Option<u64> {
     if !observed.timebase.steady {
         return None;
     }
@@ -320,5 +321,5 @@ fn period(observed: &Observed) -> Option<u64> {
         follows.then_some(apart)
     });
     let first = apart.min()?;
-    PERIODS.contains(&first).then_some(first)
+    periods.contains(&first).then_some(first)
 }

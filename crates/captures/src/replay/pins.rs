@@ -7,7 +7,7 @@ use crate::compare::Probed;
 
 /// The control signals.
 const NAMES: [&str; 6] = ["laser_freq", "mode", "laser_en", "dsp_en", "dsp_rst", "rst"];
-/// What `control_sync` delays them by [cycles of clk_125].
+/// What `control_sync` delays them by [cycles of clk_sys].
 const SYNCHRONISERS: u64 = 2;
 
 /// A control signal.

@@ -4,7 +4,7 @@ use tofsim::error::{Input, Result};
 
 use crate::compare::{SampleClock, SignalMap};
 
-/// Length of a cycle of `clk_125` [ps].
+/// Length of a cycle of `clk_sys` [ps].
 pub(super) const CYCLE_PS: u64 = 8000;
 
 /// When the samples of a capture are.
@@ -12,40 +12,41 @@ pub(super) const CYCLE_PS: u64 = 8000;
 pub(super) struct Timebase {
     /// The analyser's clock.
     pub(super) clock: SampleClock,
-    /// Samples in a cycle of `clk_125`.
+    /// Samples in a cycle of `clk_sys`.
     pub(super) per_cycle: u64,
     /// Whether every edge of the clock has a sample.
     pub(super) steady: bool,
 }
 
 impl Timebase {
-    /// Of a clock or else the map's or `clk_125`, whether or not all samples were stored.
+    /// Of a clock or else the map's or `clk_sys`, whether or not all samples were stored.
     ///
     /// # Errors
-    /// When it is neither `clk_125` nor `clk_250`.
+    /// When it is neither `clk_sys` nor `clk_laser`.
     pub(super) fn new(
         clock: Option<&SampleClock>,
         map: &SignalMap,
         qualified: bool,
     ) -> Result<Self> {
-        let text = map.clock.as_deref().unwrap_or("clk_125");
+        let text = map.clock.as_deref().unwrap_or("clk_sys");
         let fault = |expected: String| Input::new("clock", expected).value(text);
         let clock = clock.map_or_else(|| text.parse().map_err(fault), |clock| Ok(clock.clone()))?;
         let is_called = |name: &str| match &clock {
             SampleClock::Signal(signal) => signal.ends_with(name),
             SampleClock::Free { .. } => false,
         };
-        let per_cycle = if is_called("clk_125") {
+        let per_cycle = if is_called("clk_sys") {
             1
-        } else if is_called("clk_250") {
+        } else if is_called("clk_laser") {
             2
         } else {
-            let expected = "expected clk_125 or clk_250 for a replay: others do not see each cycle";
+            let expected =
+                "expected clk_sys or clk_laser for a replay: others do not see each cycle";
             return Err(Input::new("--clock", expected).value(format!("{clock:?}")).into());
         };
         let steady = !qualified && map.qualified_by.is_none();
         if !steady && per_cycle != 1 {
-            let expected = "expected clk_125 where not all samples were stored";
+            let expected = "expected clk_sys where not all samples were stored";
             return Err(Input::new("--clock", expected).into());
         }
         Ok(Timebase { clock, per_cycle, steady })

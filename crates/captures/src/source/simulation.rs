@@ -62,8 +62,8 @@ impl signals::Origin for Origin {
     fn read(&self, ids: &[usize], widths: &[u32]) -> Result<Cursor> {
         let Origin { setup, frames } = self.clone();
         let mut places = vec![Vec::new(); IDS];
-        for (signal, &id) in ids.iter().enumerate() {
-            places[id].push(signal);
+        for (signal, (&id, &width)) in ids.iter().zip(widths).enumerate() {
+            places[id].push((signal, u64::MAX >> (64 - width.min(64))));
         }
         Ok(Cursor::spawn(widths, move |feed| {
             let taps = TapDigits::new(setup.params.tdc.delays.order());
@@ -100,25 +100,25 @@ struct ChangeFeed<'a> {
 /// Where the values go.
 struct Values<'a> {
     feed: &'a mut Feed,
-    /// Signals of the cursor by id.
-    places: Vec<Vec<usize>>,
+    /// Signals of the cursor by id, each with a mask of its bits.
+    places: Vec<Vec<(usize, u64)>>,
     taps: TapDigits,
 }
 
 impl Sink for Values<'_> {
     fn word(&mut self, id: usize, value: u64) {
-        for &signal in &self.places[id] {
-            self.feed.change(signal, &[value], &[0]);
+        for &(signal, mask) in &self.places[id] {
+            self.feed.change(signal, &[value & mask], &[0]);
         }
     }
 
-    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, group: usize) {
+    fn taps(&mut self, id: usize, value: &Thermometer, group: usize) {
         if self.places[id].is_empty() {
             return;
         }
         let words = self.taps.bits(value, group).words;
         let unknown = vec![0; words.len()];
-        for &signal in &self.places[id] {
+        for &(signal, _) in &self.places[id] {
             self.feed.change(signal, words, &unknown);
         }
     }

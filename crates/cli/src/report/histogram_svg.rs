@@ -5,15 +5,12 @@ use std::ops::Range;
 use plotters::prelude::*;
 
 use tofsim::firmware::histogram_builder::BINS;
+use tofsim::scenario::Tdc;
 
 use crate::text::svg::{chart, legend, picture};
 
 use super::causes::{CAUSES, Causes};
 
-/// Width of a bin [ns].
-const BIN_NS: f64 = 0.025;
-/// Range of the histogram [ns].
-const RANGE_NS: f64 = BIN_NS * BINS as f64;
 /// Depth for a time of flight, half the speed of light [m/ns].
 const M_PER_NS: f64 = 0.149_896_229;
 
@@ -22,9 +19,12 @@ const M_PER_NS: f64 = 0.149_896_229;
 pub fn svg(
     title: &str,
     causes: &Causes,
+    tdc: &Tdc,
     true_depth_m: Option<f64>,
     depth_m: Option<f64>,
 ) -> Result<String, String> {
+    let (first_ns, bin_ns) = (tdc.first_bin_ps * 1e-3, tdc.bin_ps * 1e-3);
+    let end_ns = first_ns + bin_ns * BINS as f64;
     // Height of the first `layers` causes together, in each bin.
     let stack = |layers: usize| -> [u32; BINS] {
         std::array::from_fn(|bin| causes[..layers].iter().map(|counts| counts[bin]).sum())
@@ -33,15 +33,15 @@ pub fn svg(
         let top = stack(CAUSES.len());
         let peak = (0..BINS).max_by_key(|&bin| (top[bin], BINS - bin)).unwrap_or(0);
         let highest = top[peak] + top[peak] / 8 + 1;
-        let depth: Range<f64> = 0.0..RANGE_NS * M_PER_NS;
+        let depth: Range<f64> = first_ns * M_PER_NS..end_ns * M_PER_NS;
         let mut chart = chart(canvas, title)
             .top_x_label_area_size(40)
-            .build_cartesian_2d(0.0..RANGE_NS, 0..highest)?
+            .build_cartesian_2d(first_ns..end_ns, 0..highest)?
             .set_secondary_coord(depth, 0..highest);
         chart
             .configure_mesh()
             .x_desc("time from the laser edge [ns]")
-            .y_desc("hits in a bin of 25 ps")
+            .y_desc(format!("hits in a bin of {} ps", tdc.bin_ps))
             .x_labels(14)
             .light_line_style(TRANSPARENT)
             .bold_line_style(BLACK.mix(0.08))
@@ -56,8 +56,8 @@ pub fn svg(
             let (below, above) = (stack(layer), stack(layer + 1));
             let style = colour.filled();
             let bars = (0..BINS).filter(|&bin| above[bin] > below[bin]).map(|bin| {
-                let left = bin as f64 * BIN_NS;
-                let corners = [(left, below[bin]), (left + BIN_NS, above[bin])];
+                let left = first_ns + bin as f64 * bin_ns;
+                let corners = [(left, below[bin]), (left + bin_ns, above[bin])];
                 Rectangle::new(corners, style)
             });
             chart
@@ -65,7 +65,7 @@ pub fn svg(
                 .label(format!("{name}: {total}"))
                 .legend(move |(x, y)| Rectangle::new([(x, y - 5), (x + 12, y + 5)], style));
         }
-        let peak_ns = (peak as f64 + 0.5) * BIN_NS;
+        let peak_ns = first_ns + (peak as f64 + 0.5) * bin_ns;
         let peak_label = format!("peak: bin {peak}, {peak_ns:.4} ns");
         // The truth is broad and pale, so that an estimate over it is seen.
         let line = |ns: f64, style: ShapeStyle, label: String| (ns, style, label);

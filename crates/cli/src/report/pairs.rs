@@ -6,7 +6,6 @@ use tofsim::firmware::histogram_builder::BINS;
 use tofsim::network::Histogram;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
-use tofsim_learn::estimation::acquisition::BIN_PS;
 use tofsim_learn::estimation::subtraction::NAME;
 use tofsim_learn::estimation::{HistogramPair, Panel, Reading};
 
@@ -111,7 +110,8 @@ pub(super) fn right_of_echo(setup: &Setup) -> Option<usize> {
     setup.true_depth_m()?;
     let budget = &setup.budget;
     let echo_ps = budget.mean_arrival.fs() as f64 * 1e-3 + REACH * budget.pulse_sigma_ps;
-    let bin = (echo_ps / BIN_PS).ceil() as usize;
+    let tdc = &setup.scenario.tdc;
+    let bin = ((echo_ps - tdc.first_bin_ps) / tdc.bin_ps).ceil().max(0.0) as usize;
     (bin < BINS).then_some(bin)
 }
 

@@ -128,7 +128,13 @@ impl<'a> RunFiles<'a> {
             None => Some(frame.depth_m()),
             Some(_) => log.readings[self.shown as usize].iter().find_map(|one| one.depth_m),
         };
-        let svg = histogram_svg::svg(&title, &self.causes, setup.true_depth_m(), depth_m);
+        let svg = histogram_svg::svg(
+            &title,
+            &self.causes,
+            &setup.scenario.tdc,
+            setup.true_depth_m(),
+            depth_m,
+        );
         write_file(&folder.join(NAMES[0]), |file| summary.write(log, file))?;
         let csv = |text: String| self.record.comment_line() + &text;
         write_bytes(&folder.join(NAMES[1]), csv(histogram_csv(&frame.histogram)))?;

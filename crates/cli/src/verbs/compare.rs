@@ -41,9 +41,9 @@ use super::terminal::{Talk, print};
     after_help = "Examples:\n  \
     tofsim compare waves/kc705.vcd verilog.vcd\n  \
     tofsim compare waves/run.vcd board.ila --map fig_6_6\n  \
-    tofsim compare --scenario near board.csv --clock clk_125 --align correlation\n  \
+    tofsim compare --scenario near board.csv --clock clk_sys --align correlation\n  \
     tofsim compare a.fst board.ila --clock clk --beats 'valid && ready' --signals data\n  \
-    tofsim compare a.fst b.fst --clock clk_125 --latency depth=2 --waves both.vcd\n\n\
+    tofsim compare a.fst b.fst --clock clk_sys --latency depth=2 --waves both.vcd\n\n\
     Exit status: 0 same, 1 different, 2 cannot be compared."
 )]
 pub struct Args {

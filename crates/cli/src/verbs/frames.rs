@@ -1,12 +1,11 @@
 //! How many frames there can be.
 
 use tofsim::error::{Input, Result};
-use tofsim::firmware::vcsel_driver::PERIODS;
 use tofsim::sim::setup::{CYCLE, Setup};
 
 use crate::text::table::grouped;
 
-/// Cycles of a frame before its first shot and after its last, and some to spare [cycles of `clk_125`].
+/// Cycles of a frame before its first shot and after its last, and some to spare [cycles of `clk_sys`].
 const AROUND: u64 = 1000;
 /// Bits of a frame's number in the random streams.
 const NUMBER: u32 = 56;
@@ -17,10 +16,10 @@ const NUMBER: u32 = 56;
 /// When it does; the error names `option`.
 pub fn check(option: &str, frames: u64, setup: &Setup) -> Result<()> {
     // Who controls the firmware may choose any rate.
-    let own = PERIODS.get(setup.scenario.firmware.laser_freq as usize);
-    let slowest = PERIODS.iter().max();
-    let period = if setup.scenario.control.is_empty() { own.or(slowest) } else { slowest };
-    let cycles = AROUND + setup.shots(1) * period.copied().unwrap_or(1);
+    let slowest = setup.params.vcsel_driver.longest_period();
+    let period = if setup.scenario.control.is_empty() { setup.laser_period() } else { slowest };
+    let drain = setup.params.frame_ctrl.drain_cycles;
+    let cycles = AROUND + drain + setup.shots(1) * period;
     let most = u64::MAX / (cycles * CYCLE.fs()) / setup.frames_together();
     let reason = "simulated time, in 64 bits of femtoseconds, ends after five hours";
     within(option, frames, most, reason)

@@ -35,7 +35,7 @@ fn what_is_searched_for_begins_in_its_first_frame() {
     let folder = folder.path();
     capture(folder, &["--frames", "3", "--arm-at-us", "1"]);
     // It begins in the first frame and ends in the third.
-    let args = [&FRAMES[..3], &["--clock", "clk_125", "--align", "correlation"]].concat();
+    let args = [&FRAMES[..3], &["--clock", "clk_sys", "--align", "correlation"]].concat();
     write(
         folder,
         "map.toml",

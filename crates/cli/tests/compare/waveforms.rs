@@ -139,7 +139,7 @@ fn vcd_and_fst_of_one_run_are_the_same() {
     }
     let json = same(folder, &["kc705.vcd", "kc705.fst"]);
     assert!(json["signals"].as_array().unwrap().len() > 90, "{json:#}");
-    same(folder, &["kc705.vcd", "kc705.fst", "--clock", "tof_top.clk_125"]);
+    same(folder, &["kc705.vcd", "kc705.fst", "--clock", "tof_top.clk_sys"]);
     same(
         folder,
         &[

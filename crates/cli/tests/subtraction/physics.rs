@@ -2,8 +2,8 @@
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use tofsim::optics::{BinProbabilities, Bins, Hazard};
-use tofsim::sim::setup::{CYCLE, Setup};
+use tofsim::optics::{BinProbabilities, Hazard};
+use tofsim::sim::setup::Setup;
 
 use crate::common::{empty, setup};
 
@@ -14,8 +14,7 @@ const LEVEL: f64 = 1e-3;
 
 /// Probabilities of a code in the dark and with the laser.
 fn probabilities(setup: &Setup) -> [BinProbabilities; 2] {
-    let (delays, cal) = (&setup.params.tdc.delays, &setup.params.tdc.decoder.cal);
-    let bins = Bins::of_chain(delays, cal, CYCLE);
+    let bins = setup.bins();
     let hazards = [Hazard::dark(&setup.budget), Hazard::new(&setup.budget)];
     hazards.map(|hazard| BinProbabilities::new(&hazard, &bins))
 }

@@ -5,8 +5,6 @@ use std::fs;
 use serde_json::Value;
 
 use tofsim::network::Histogram;
-use tofsim::optics::Bins;
-use tofsim::sim::setup::CYCLE;
 use tofsim_learn::estimation::subtraction::Subtraction;
 use tofsim_learn::estimation::{Estimator, HistogramPair};
 
@@ -23,8 +21,7 @@ fn histogram(frame: &Value) -> Histogram {
 fn a_depth_comes_from_a_dark_and_a_lit_frame_at_every_fidelity() {
     let folder = empty();
     let setup = setup("kc705", &["firmware.dark_frames=true"]);
-    let (delays, cal) = (&setup.params.tdc.delays, &setup.params.tdc.decoder.cal);
-    let subtraction = Subtraction::of_bins(30_000, &Bins::of_chain(delays, cal, CYCLE)).unwrap();
+    let subtraction = Subtraction::of_bins(30_000, &setup.bins()).unwrap();
     for fidelity in ["cycle", "shot", "histogram"] {
         let run = pairs(folder.path(), &["--fidelity", fidelity, "--frames", "3"]);
         assert_eq!(run["schema"], "tofsim.run/1");

@@ -175,7 +175,7 @@ fn frames_alternate_however_a_run_is_stepped_and_an_abandoned_one_begins_again_a
 #[test]
 fn a_logic_analyser_sees_the_laser_of_lit_frames_only() {
     let folder = empty();
-    let set_up = "clock = \"clk_250\"\ndepth = 1024\nposition = 0\ntrigger = \"vcsel_driver.laser_pulse rising\"\n\
+    let set_up = "clock = \"clk_laser\"\ndepth = 1024\nposition = 0\ntrigger = \"vcsel_driver.laser_pulse rising\"\n\
         [[probe]]\nsignal = \"vcsel_driver.laser_pulse\"\n[[probe]]\nsignal = \"laser_en\"\n";
     fs::write(folder.path().join("ila.toml"), set_up).unwrap();
     let keys = ["-s", "firmware.dark_frames=true", "-s", "firmware.shots_per_frame=80"];

@@ -54,7 +54,7 @@ fn models(netlist: &Path) -> PathBuf {
 fn wrapper(vectors: &Vectors) -> String {
     let parameters: Vec<_> =
         vectors.parameters.iter().map(|(name, _)| format!("    parameter {name} = 0")).collect();
-    let ports = vectors.spec.ports(vectors.neurons);
+    let ports = vectors.spec.ports(&vectors.sizes);
     let declared: Vec<_> = ports
         .iter()
         .map(|port| {

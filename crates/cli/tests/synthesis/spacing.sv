@@ -3,7 +3,7 @@
 // No hit comes in the `Gap cycles after another, whatever acquire, rate and avalanches do, from the
 // TDC with any calibration or from its stand-in with any codes (`SOURCE).
 module spacing (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     input wire acquire,
     input wire [1:0] laser_freq,
@@ -12,10 +12,10 @@ module spacing (
     wire start, tdc_valid;
 
     vcsel_driver vcsel_driver (
-        .clk_125(clk_125),
-        .clk_250(1'b0),
+        .clk_sys(clk_sys),
+        .clk_laser(1'b0),
         .rst(rst),
-        .rst_250(1'b0),
+        .rst_laser(1'b0),
         .acquire(acquire),
         .laser_en(1'b0),
         .laser_freq(laser_freq),
@@ -23,7 +23,7 @@ module spacing (
     );
 
     `SOURCE source (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst),
         .start(start),
 `ifdef HAS_STOP
@@ -35,7 +35,7 @@ module spacing (
     reg first = 1'b1;                // the first cycle
     reg [`Gap-1:0] before = `Gap'd0; // tdc_valid in the last cycles
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         first <= 1'b0;
         before <= {before, tdc_valid};
     end

@@ -142,7 +142,7 @@ fn what_a_design_does_not_have_is_in_no_report_and_no_waveform() {
         let text = text
             .replace("coarse,  //", "coarse   //")
             .replace("reg window_next;", "reg window, window_next;");
-        text.replace("coarse + 3'd1", "coarse + 3'd2")
+        text.replace("coarse + 1'b1", "coarse + 2'd2")
     };
     let folder = changed(&["coarse_counter"], no_window);
     fs::write(folder.path().join("map.toml"), "[block.coarse_counter]\nignore = [\"window\"]\n")

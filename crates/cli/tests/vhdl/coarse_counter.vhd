@@ -5,7 +5,7 @@ use ieee.numeric_std.all;
 -- Counts the cycles of a shot, and closes the window after eight.
 entity coarse_counter is
   port (
-    clk_125 : in  std_logic;
+    clk_sys : in  std_logic;
     rst     : in  std_logic;
     start   : in  std_logic;
     coarse  : out std_logic_vector(2 downto 0) := "000";
@@ -20,9 +20,9 @@ begin
   coarse <= std_logic_vector(count);
   window <= open_now;
 
-  process (clk_125)
+  process (clk_sys)
   begin
-    if rising_edge(clk_125) then
+    if rising_edge(clk_sys) then
       if rst = '1' then
         count <= "000";
         open_now <= '0';

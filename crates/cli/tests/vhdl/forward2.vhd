@@ -32,7 +32,7 @@ entity forward2 is
     B2File : string := "b2.mem"
   );
   port (
-    clk_125 : in std_logic;
+    clk_sys : in std_logic;
     rst : in std_logic;
     pair : in std_logic_vector(2 downto 0);
     forward2_first : in std_logic;
@@ -74,10 +74,10 @@ begin
   );
   depth <= std_logic_vector(total);
 
-  process (clk_125)
+  process (clk_sys)
     variable begins : signed(35 downto 0);
   begin
-    if rising_edge(clk_125) then
+    if rising_edge(clk_sys) then
       for k in 0 to 1 loop
         a(k) <= activations(to_integer(unsigned(pair)) * 2 + k);
         b(k) <= Weights(to_integer(unsigned(pair)) * 2 + k);

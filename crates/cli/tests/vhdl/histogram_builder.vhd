@@ -5,7 +5,7 @@ use ieee.numeric_std.all;
 -- The histogram, with one address for clearing, counting and reading. Its names have capitals.
 entity Histogram_Builder is
   port (
-    Clk_125    : in  std_logic;
+    Clk_Sys    : in  std_logic;
     Clear      : in  std_logic;
     Clear_Addr : in  std_logic_vector(7 downto 0);
     Tdc_Valid  : in  std_logic;
@@ -28,9 +28,9 @@ begin
           unsigned(Read_Addr);
   Count <= std_logic_vector(ram(to_integer(addr))) when Read_En else (others => '0');
 
-  process (Clk_125)
+  process (Clk_Sys)
   begin
-    if rising_edge(Clk_125) then
+    if rising_edge(Clk_Sys) then
       hit_word <= ram(to_integer(addr));
       first <= Tdc_Valid and not Clear;
       second <= first and not Clear;

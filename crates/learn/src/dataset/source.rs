@@ -9,7 +9,7 @@ use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 use tofsim::scenario::Scenario;
 use tofsim::sensor::streams::{self, stream};
 use tofsim::sim::fast::histogram::independent_shots;
-use tofsim::sim::setup::{CYCLE, Setup};
+use tofsim::sim::setup::Setup;
 
 use crate::estimation::Acquisition;
 
@@ -146,9 +146,7 @@ impl Setting {
             let fault = Input::new(format!("scenario {}", setup.name), expected);
             return Err(fault.field("firmware.dark_frames").value(true).into());
         }
-        let tdc = &setup.params.tdc;
-        let bins = Bins::of_chain(&tdc.delays, &tdc.decoder.cal, CYCLE);
-        Ok(Setting { scenario: setup.scenario.clone(), bins })
+        Ok(Setting { scenario: setup.scenario.clone(), bins: setup.bins() })
     }
 
     fn shots(&self) -> u16 {

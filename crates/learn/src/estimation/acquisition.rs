@@ -3,7 +3,6 @@
 use std::f64::consts::SQRT_2;
 
 use tofsim::error::Input;
-use tofsim::firmware::vcsel_driver::PERIODS;
 use tofsim::kernel::Time;
 use tofsim::network::Histogram;
 use tofsim::optics::budget::LIGHT_M_S;
@@ -13,8 +12,6 @@ use tofsim::sim::setup::{CYCLE, Setup};
 
 /// Codes of the TDC [codes].
 const CODES: usize = 256;
-/// Width of a bin as the decoder's codes count it [ps].
-pub const BIN_PS: f64 = 25.0;
 /// Mean arrival of an echo for each metre of distance, 2 / c (eq. 3.23) [ps/m].
 pub const ARRIVAL_PS_PER_M: f64 = 2e12 / LIGHT_M_S;
 
@@ -66,7 +63,7 @@ impl FreeRunning {
     pub fn of(setup: &Setup) -> Option<Self> {
         let firmware = &setup.scenario.firmware;
         let delays = &setup.params.tdc.delays;
-        let cycles = PERIODS[firmware.laser_freq as usize] as f64;
+        let cycles = setup.laser_period() as f64;
         (firmware.mode == QuenchMode::FreeRunning).then(|| FreeRunning {
             period_ps: cycles * ps(CYCLE),
             dead_ps: setup.scenario.spad.dead_time_ns * 1e3,

@@ -93,15 +93,14 @@ impl EstimatorKind {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tofsim::kernel::Time;
+    use tofsim::firmware::tdc;
     use tofsim::optics::Bins;
     use tofsim::scenario::{builtin::Source, chain};
 
     #[test]
     fn every_estimator_answers_to_its_name() {
         let delays = chain::load("ideal", &Source::Folder("".into())).unwrap();
-        let period = Time::from_ns(8);
-        let bins = &Bins::of_chain(&delays, &delays.calibration(period), period);
+        let bins = &Bins::of_tdc(&tdc::Params::of_chain(delays));
         let network = &Network::builtin("ideal").unwrap().unwrap();
         let acquisition = Acquisition::new(bins, 30_000, 137.0);
         let centroid = &centroid_estimator::Params::default();

@@ -18,7 +18,7 @@ use statrs::function::erf::erfc_inv;
 use tofsim::error::Input;
 use tofsim::network::Histogram;
 
-use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, BIN_PS, Echo};
+use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo};
 use super::estimator::{Estimator, Failure, hits};
 use super::matched_filter::MatchedFilter;
 
@@ -53,6 +53,10 @@ const BACKGROUNDS: [f64; 6] = [1e-6, 3e-5, 1e-4, 2.5e-4, 6e-4, 1.5e-3];
 pub struct Likelihood {
     model: Model,
     start: MatchedFilter,
+    /// Time at which bin 0 begins [ps].
+    first_ps: f64,
+    /// Width of a bin [ps].
+    bin_ps: f64,
 }
 
 /// The most likely scene.
@@ -72,7 +76,8 @@ impl Likelihood {
     /// When [`Acquisition::check`] fails.
     pub fn new(acquisition: &Acquisition) -> Result<Self, Input> {
         let (model, start) = (Model::new(acquisition)?, MatchedFilter::new(acquisition)?);
-        Ok(Likelihood { model, start })
+        let (first_ps, bin_ps) = (acquisition.bins.first_ps(), acquisition.bins.bin_ps());
+        Ok(Likelihood { model, start, first_ps, bin_ps })
     }
 
     /// The most likely scene of a histogram.
@@ -108,7 +113,7 @@ impl Likelihood {
     /// scenes whose first photons come where the matched filter saw them, or in the fullest bin.
     fn free_starts(&self, histogram: &Histogram, seen_ps: f64) -> Vec<(f64, Echo)> {
         let fullest = (0..histogram.len()).max_by_key(|&code| histogram[code]).unwrap_or(0);
-        let places_ps = [seen_ps, (fullest as f64 + 0.5) * BIN_PS];
+        let places_ps = [seen_ps, self.first_ps + (fullest as f64 + 0.5) * self.bin_ps];
         let best = |signal: f64| {
             // Half of the shots have had a photon where S Phi is ln 2.
             let early = if signal > 2.0 * LN_2 { early_sigma(LN_2 / signal) } else { 0.0 };

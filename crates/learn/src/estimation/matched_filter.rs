@@ -1,7 +1,7 @@
 //! The matched filter: the place where the pulse explains most of the histogram.
 //!
 //! Coates's correction takes the pile-up out ([`super::coates`]), so that the hazard of a bin is
-//! N times its width plus S times the part of the pulse in it. For each arrival on a grid of 25 ps S
+//! N times its width plus S times the part of the pulse in it. For each arrival on a grid, a bin or a quarter of the pulse's deviation apart, S
 //! and N are fitted by least squares; a bin weighs as many shots as are still waiting after it, so
 //! that what is past a strong echo counts for little. The best place is where S times the square
 //! root of its weight is largest, and a parabola through three points of that finds it between the
@@ -15,12 +15,16 @@ use tofsim::network::Histogram;
 use tofsim::optics::Bins;
 use tofsim::optics::hazard::normal_cdf;
 
-use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, BIN_PS, Echo, spans_ps};
+use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo, spans_ps};
 use super::coates::{Corrected, correct};
 use super::estimator::{Estimator, Failure, hits};
 
 /// How far from its mean the pulse is taken into account [sigma].
 const REACH: f64 = 5.0;
+/// Steps of the grid of arrivals in the pulse's standard deviation, where bins are wider [1].
+const STEPS_IN_SIGMA: f64 = 4.0;
+/// Where bins are wider, no step of the grid is finer [ps].
+const FINEST_STEP_PS: f64 = 25.0;
 /// A pulse of which less than this part is weighed, by its square, is not tried [1].
 const FAINTEST: f64 = 1e-9;
 /// Signal that counts as one, in its own standard deviations [1].
@@ -39,7 +43,9 @@ pub struct MatchedFilter {
     range_ps: f64,
     /// Standard deviation of jitter, and the bins that are 3 to 6 of it long after the laser edge.
     jitter: (f64, Range<usize>),
-    /// For each arrival on the grid, every 25 ps from 0.
+    /// A step of the grid of arrivals [ps].
+    step_ps: f64,
+    /// For each arrival on the grid, from 0 on.
     pulses: Vec<Pulse>,
 }
 
@@ -119,14 +125,16 @@ impl MatchedFilter {
             pieces.partition_point(|bin| bin.spans[0][0] < t_ps)
         };
         let jitter = (acquisition.jitter_ps, bin_at(3.0)..bin_at(6.0));
-        let pulse = |place| Pulse::new(&pieces, place as f64 * BIN_PS, sigma_ps);
+        let step_ps = acquisition.bins.bin_ps().min(FINEST_STEP_PS.max(sigma_ps / STEPS_IN_SIGMA));
+        let pulse = |place| Pulse::new(&pieces, place as f64 * step_ps, sigma_ps);
         Ok(MatchedFilter {
             shots: acquisition.shots,
             codes: pieces.iter().map(|bin| bin.code).collect(),
             widths: pieces.iter().map(|bin| bin.width_ps() / range_ps).collect(),
             range_ps,
             jitter,
-            pulses: (0..=(end_ps / BIN_PS) as usize).map(pulse).collect(),
+            step_ps,
+            pulses: (0..=(end_ps / step_ps) as usize).map(pulse).collect(),
         })
     }
 
@@ -152,7 +160,7 @@ impl MatchedFilter {
             }
         }
         let echo = Echo {
-            arrival_ps: place * BIN_PS,
+            arrival_ps: place * self.step_ps,
             signal: fit.signal,
             background_per_ps: fit.background / self.range_ps,
         };

@@ -3,13 +3,13 @@
 //! The network's own limits are those of its training; they are not told here.
 
 use tofsim::firmware::tof_top::Estimator;
-use tofsim::optics::{BinProbabilities, Bins};
+use tofsim::optics::BinProbabilities;
 use tofsim::scenario::QuenchMode;
 use tofsim::sim::fast::histogram::independent_shots;
 use tofsim::sim::setup::{CYCLE, Setup};
 use tofsim::{Note, NoteCode, NoteValue};
 
-use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, BIN_PS, most_probable};
+use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, most_probable};
 use super::by_name::EstimatorKind;
 use super::centroid::Centroid;
 use super::estimator;
@@ -60,7 +60,7 @@ impl EstimatorKind {
             EstimatorKind::Centroid => teller
                 .expected(&Centroid(setup.params.centroid_estimator), "pile-up makes it early"),
             EstimatorKind::Peak => teller.range().or_else(|| {
-                let detection = PeakDetection::of_bins(teller.shots(), &teller.bins());
+                let detection = PeakDetection::of_bins(teller.shots(), &teller.setup.bins());
                 teller.expected(&detection, "its straight line knows neither signal nor background")
             }),
             EstimatorKind::Subtraction => teller.range(),
@@ -142,7 +142,7 @@ impl Teller<'_> {
 
     /// That the first bin comes before the pulse.
     fn first_bin(&self) -> Option<Note> {
-        let begin_ps = self.bins().spans().first()?.from.fs() as f64 * 1e-3;
+        let begin_ps = self.setup.bins().spans().first()?.from.fs() as f64 * 1e-3;
         let first_ps = begin_ps + TAIL_SIGMA * self.setup.scenario.laser.pulse_sigma_ps;
         let arrival_ps = self.setup.budget.mean_arrival.fs() as f64 * 1e-3;
         let expected = format!("{:.3} at least", first_ps / ARRIVAL_PS_PER_M);
@@ -154,7 +154,7 @@ impl Teller<'_> {
     /// That the first edge sees the echo, where that matters: in MODE 1, and with jitter.
     fn first_edge(&self) -> Option<Note> {
         let scenario = &self.setup.scenario;
-        let bins = self.bins();
+        let bins = self.setup.bins();
         let Acquisition { jitter_ps, free_running, .. } = Acquisition::of(self.setup, &bins, 1);
         let (edge_ps, text) = match free_running {
             Some(free) => (
@@ -178,7 +178,8 @@ impl Teller<'_> {
     /// That the centroid's window holds the pulse.
     fn window(&self) -> Option<Note> {
         let half = self.setup.scenario.estimator.centroid_half_width;
-        let needed = WINDOW_SIGMA * self.setup.scenario.laser.pulse_sigma_ps / BIN_PS;
+        let needed = WINDOW_SIGMA * self.setup.scenario.laser.pulse_sigma_ps
+            / self.setup.scenario.tdc.bin_ps;
         let text = "its window cuts the pulse off, or begins within it";
         let expected = format!("{:.0} at least, 4 sigma of the pulse", needed.ceil());
         let is_narrow = (half as f64) < needed.floor();
@@ -208,11 +209,6 @@ impl Teller<'_> {
         self.setup.params.frame_ctrl.shots_per_frame.into()
     }
 
-    fn bins(&self) -> Bins {
-        let tdc = &self.setup.params.tdc;
-        Bins::of_chain(&tdc.delays, &tdc.decoder.cal, CYCLE)
-    }
-
     /// That the estimator finds the distance in the histogram that is to be expected, where that has
     /// a closed form.
     fn expected(&self, estimator: &dyn estimator::Estimator, why: &str) -> Option<Note> {
@@ -220,7 +216,7 @@ impl Teller<'_> {
         let (optics, _) = independent_shots(setup, self.name).ok()?;
         let is_lit = setup.scenario.firmware.laser_en && setup.budget.signal_per_shot > 0.0;
         let truth_m = setup.true_depth_m().filter(|_| is_lit)?;
-        let codes = BinProbabilities::new(optics.hazard(true), &self.bins());
+        let codes = BinProbabilities::new(optics.hazard(true), &self.setup.bins());
         let histogram = most_probable(codes.of_code(), self.shots());
         let what = match estimator.estimate(&histogram) {
             Ok(found_m) if (found_m - truth_m).abs() <= WORTH_M => return None,

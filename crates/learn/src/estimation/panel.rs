@@ -4,8 +4,7 @@ use serde::Serialize;
 
 use tofsim::error::Result;
 use tofsim::network::Histogram;
-use tofsim::optics::Bins;
-use tofsim::sim::setup::{CYCLE, Setup};
+use tofsim::sim::setup::Setup;
 
 use super::acquisition::Acquisition;
 use super::by_name::{EstimatorInputs, EstimatorKind};
@@ -35,8 +34,7 @@ impl Panel {
     /// # Errors
     /// When they cannot be made for it.
     pub fn new(kinds: &[EstimatorKind], setup: &Setup) -> Result<Self> {
-        let tdc = &setup.params.tdc;
-        let bins = &Bins::of_chain(&tdc.delays, &tdc.decoder.cal, CYCLE);
+        let bins = &setup.bins();
         let estimator = |kind: &EstimatorKind| {
             let shots = match kind {
                 EstimatorKind::Subtraction => setup.scenario.firmware.shots_per_frame,

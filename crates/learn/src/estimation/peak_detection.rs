@@ -11,12 +11,12 @@
 //! The thesis takes every bin for 25 ps ([`PeakDetection::new`]). Where a chain's bins are two or
 //! three taps wide, the counts go up and down with them, and half of the histograms have several peaks
 //! (7,355 of 15,000 at 0.2 to 0.6 m, chain `uniform`). [`PeakDetection::of_bins`] puts every bin where
-//! it is and scales its count to 25 ps, and so fails about as often as on even bins.
+//! it is and scales its count to the width that codes count, and so fails about as often as on even bins.
 
 use tofsim::network::Histogram;
 use tofsim::optics::Bins;
 
-use super::acquisition::{ARRIVAL_PS_PER_M, BIN_PS, spans_ps};
+use super::acquisition::{ARRIVAL_PS_PER_M, spans_ps};
 use super::estimator::{Estimator, Failure, hits};
 use super::findpeaks::{Criteria, Peak, findpeaks};
 use super::spline::Spline;
@@ -46,9 +46,12 @@ struct Bin {
     code: u8,
     /// Middle of the times that give the code [ps].
     centre_ps: f64,
-    /// What makes a count that of 25 ps [1].
+    /// What makes a count that of a bin as codes count it [1].
     scale: f64,
 }
+
+/// The thesis's bins [ps].
+const BIN_PS: f64 = 25.0;
 
 impl PeakDetection {
     /// With the thesis's constants and its bins, 25 ps each.
@@ -74,10 +77,11 @@ impl PeakDetection {
             *width_ps += until_ps - from_ps;
             *moment += (until_ps - from_ps) * (from_ps + until_ps) / 2.0;
         }
+        let nominal_ps = bins.bin_ps();
         let bin = |(code, [width_ps, moment]): (u8, [f64; 2])| Bin {
             code,
             centre_ps: moment / width_ps,
-            scale: BIN_PS / width_ps,
+            scale: nominal_ps / width_ps,
         };
         let given = (0..=u8::MAX).zip(sums).filter(|(_, [width_ps, _])| *width_ps > 0.0);
         let mut bins: Vec<_> = given.map(bin).collect();
@@ -141,13 +145,13 @@ impl Estimator for PeakDetection {
 mod tests {
     use super::*;
     use tofsim::firmware::carry_chain::{Delays, TAPS};
+    use tofsim::firmware::tdc;
     use tofsim::kernel::Time;
 
     #[test]
     fn bins_of_a_chain_are_scaled_to_25_ps() {
         let delays = Delays::new(Time::from_fs(2_230_000), &[11_500; TAPS]).unwrap();
-        let period = Time::from_ns(8);
-        let bins = Bins::of_chain(&delays, &delays.calibration(period), period);
+        let bins = Bins::of_tdc(&tdc::Params::of_chain(delays));
         let mut counts = [0.0; 256];
         for span in bins.spans() {
             counts[span.code as usize] += (span.until - span.from).fs() as f64 * 1e-3;
@@ -163,8 +167,7 @@ mod tests {
     #[test]
     fn codes_that_no_time_gives_are_left_out() {
         let delays = Delays::new(Time::from_fs(2_000_000), &[40_000; TAPS]).unwrap();
-        let period = Time::from_ns(8);
-        let bins = Bins::of_chain(&delays, &delays.calibration(period), period);
+        let bins = Bins::of_tdc(&tdc::Params::of_chain(delays));
         let detection = PeakDetection::of_bins(30_000, &bins);
         assert!(detection.bins.len() < 256);
         assert!(detection.bins.windows(2).all(|pair| pair[0].centre_ps < pair[1].centre_ps));

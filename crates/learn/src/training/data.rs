@@ -5,10 +5,11 @@ use std::fmt;
 use tofsim::error::Input;
 use tofsim::files::digest::digest;
 use tofsim::network::Histogram;
+use tofsim::optics::Bins;
 
 use crate::dataset::grid::DISTANCE;
 use crate::dataset::{Grid, HistogramSource, Rows, Subset};
-use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, BIN_PS};
+use crate::estimation::acquisition::ARRIVAL_PS_PER_M;
 
 use super::basis::knots_between;
 use super::features::{FeatureBlock, Scaling, blocks};
@@ -66,8 +67,11 @@ pub trait TrainingMaterial: fmt::Debug + Sync {
 
     /// Places of the knots for these distances; none are the thesis's.
     fn knots(&self) -> Vec<f64> {
-        knots_of(self.distances_m())
+        knots_of(self.distances_m(), self.bins())
     }
+
+    /// Which times give which code, in the first of the settings.
+    fn bins(&self) -> &Bins;
 
     /// That there are several distances, and histograms for each in every stage.
     ///
@@ -125,10 +129,14 @@ impl TrainingMaterial for TrainingScenes<'_> {
     }
 
     fn knots(&self) -> Vec<f64> {
-        match self.training.is_thesis() {
+        match self.training.is_thesis() && self.bins().are_kc705() {
             true => Vec::new(),
-            false => knots_of(self.distances_m()),
+            false => knots_of(self.distances_m(), self.bins()),
         }
+    }
+
+    fn bins(&self) -> &Bins {
+        self.source.acquisition(0).bins
     }
 
     /// Equally many histograms at each distance.
@@ -153,10 +161,10 @@ impl TrainingMaterial for TrainingScenes<'_> {
 }
 
 /// Places of the knots for distances in rising order.
-fn knots_of(distances_m: &[f64]) -> Vec<f64> {
+fn knots_of(distances_m: &[f64], bins: &Bins) -> Vec<f64> {
     let ends = [distances_m.first(), distances_m.last()];
-    let bins = ends.map(|m| m.copied().unwrap_or_default() * ARRIVAL_PS_PER_M / BIN_PS);
-    knots_between(bins).to_vec()
+    let places = ends.map(|m| bins.place(m.copied().unwrap_or_default() * ARRIVAL_PS_PER_M));
+    knots_between(places).to_vec()
 }
 
 /// A number that changes with the chain's bins and anything in the scenario, or in one of a grid's.

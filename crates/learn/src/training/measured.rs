@@ -4,6 +4,7 @@
 use rand::RngExt;
 
 use tofsim::error::Input;
+use tofsim::optics::Bins;
 use tofsim::sensor::streams::{self, stream};
 
 use crate::dataset::Labelled;
@@ -27,14 +28,15 @@ pub struct MeasuredParts {
     choice: Samples,
     test: Samples,
     distances_m: Vec<f64>,
+    bins: Bins,
 }
 
 impl MeasuredParts {
-    /// Deals out histograms by a seed.
+    /// Deals out histograms of those bins by a seed.
     ///
     /// # Errors
     /// When there are fewer than ten histograms at a distance.
-    pub fn new(labelled: &Labelled, seed: u64) -> Result<Self, Input> {
+    pub fn new(labelled: &Labelled, bins: Bins, seed: u64) -> Result<Self, Input> {
         let seed = derived(seed, DEALING);
         let place = |row: usize| -> (f64, u64) {
             let mut random = stream(seed, streams::Source::Scene, row as u64);
@@ -47,6 +49,7 @@ impl MeasuredParts {
             choice: Samples::default(),
             test: Samples::default(),
             distances_m: Vec::new(),
+            bins,
         };
         for same in rows.chunk_by(|((a, _), _), ((b, _), _)| a == b) {
             let ((distance_m, _), _) = same[0];
@@ -82,6 +85,10 @@ impl TrainingMaterial for MeasuredParts {
         &self.distances_m
     }
 
+    fn bins(&self) -> &Bins {
+        &self.bins
+    }
+
     /// A stage has the training's histograms, or every so many one of them if it wants fewer.
     fn draw(&self, recipe: &Recipe, _: u64, purpose: Purpose) -> Samples {
         let stage = match purpose {
@@ -108,6 +115,7 @@ impl TrainingMaterial for MeasuredParts {
 mod tests {
     use super::*;
     use crate::dataset::Scene;
+    use tofsim::sim::setup::Setup;
 
     /// So many histograms at 0.3 and 0.2 m in turn, each unlike the others.
     fn labelled(count: u16) -> Labelled {
@@ -121,9 +129,13 @@ mod tests {
         }
     }
 
+    fn bins() -> Bins {
+        Setup::load("kc705", &[]).unwrap().bins()
+    }
+
     #[test]
     fn every_histogram_is_in_one_part_with_its_distance() {
-        let parts = MeasuredParts::new(&labelled(400), 1).unwrap();
+        let parts = MeasuredParts::new(&labelled(400), bins(), 1).unwrap();
         let recipe = Recipe::quick();
         let of = |purpose| parts.draw(&recipe, 1, purpose);
         let [stage, choice, test] = [Purpose::Stage(0), Purpose::Choice, Purpose::Test].map(of);
@@ -139,14 +151,14 @@ mod tests {
                 |(counts, m): (&[u16; 256], &f64)| *m == [0.3, 0.2][usize::from(counts[0] % 2)];
             assert!(part.counts.iter().zip(&part.distances_m).all(fits));
         }
-        let other = MeasuredParts::new(&labelled(400), 2).unwrap();
+        let other = MeasuredParts::new(&labelled(400), bins(), 2).unwrap();
         assert_ne!(other.draw(&recipe, 2, Purpose::Test), test);
         assert_ne!(other.digest(), parts.digest());
     }
 
     #[test]
     fn a_stage_that_wants_fewer_has_some_of_every_distance() {
-        let parts = MeasuredParts::new(&labelled(2000), 1).unwrap();
+        let parts = MeasuredParts::new(&labelled(2000), bins(), 1).unwrap();
         let recipe = Recipe::quick();
         let [a, b] = [0, 1].map(|stage| parts.draw(&recipe, 1, Purpose::Stage(stage)));
         assert_eq!((a.counts.len(), b.counts.len()), (603, 1005));
@@ -156,7 +168,7 @@ mod tests {
 
     #[test]
     fn few_histograms_of_a_distance_are_refused() {
-        let error = MeasuredParts::new(&labelled(19), 1).unwrap_err().to_string();
+        let error = MeasuredParts::new(&labelled(19), bins(), 1).unwrap_err().to_string();
         assert!(error.contains("9: histograms at 0.2 m, expected 10 or more"), "{error}");
     }
 }

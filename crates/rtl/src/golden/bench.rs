@@ -107,7 +107,7 @@ impl<'a> Bench<'a> {
     /// Its Verilog.
     fn text(&self) -> String {
         let (vectors, spec) = (self.vectors, self.vectors.spec);
-        let ports = spec.ports(vectors.neurons);
+        let ports = spec.ports(&vectors.sizes);
         let parameters: Vec<_> = self.set().map(parameter).collect();
         let connected: Vec<_> =
             ports.iter().map(|port| format!("    .{0}({0})", port.name)).collect();
@@ -200,6 +200,10 @@ fn parameter((name, value): &(&'static str, Parameter)) -> String {
             format!("    .{name}(64'd{number})")
         }
         Parameter::Number(number) => format!("    .{name}({number})"),
+        Parameter::Words(words) => {
+            let words: Vec<_> = words.iter().rev().map(|word| format!("16'd{word}")).collect();
+            format!("    .{name}({{{}}})", words.join(", "))
+        }
         Parameter::Memory(memory) => format!("    .{name}(\"{}\")", memory.name),
     }
 }

@@ -134,7 +134,7 @@ mod tests {
             let vectors = vectors(spec, 1, Some(1));
             let columns: Vec<_> = vectors.stimulus.columns().iter().map(|c| &c.name).collect();
             let inputs: Vec<_> =
-                spec.ports(vectors.neurons).into_iter().filter(|port| !port.output).collect();
+                spec.ports(&vectors.sizes).into_iter().filter(|port| !port.output).collect();
             for name in &columns {
                 let is_read = spec.glue.is_some_and(|glue| glue.verilog.contains(name.as_str()));
                 let is_late =

@@ -46,6 +46,11 @@ impl Cover {
     }
 }
 
+/// All numbers below `n`, or of many the first and the last eight.
+pub fn ends(n: u64) -> impl Iterator<Item = u64> + Clone {
+    (0..n.min(8)).chain((8..n).filter(move |k| n <= 16 || n - k <= 8))
+}
+
 /// Levels as the bits of a number, the first on top.
 pub fn bits<const N: usize>(levels: [bool; N]) -> u64 {
     levels.into_iter().fold(0, |bits, level| 2 * bits + u64::from(level))

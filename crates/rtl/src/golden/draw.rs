@@ -34,6 +34,15 @@ impl Draw {
         self.below(n) == 0
     }
 
+    /// A number from 0 to `n` - 1 of many: most of the time one of the first or the last eight.
+    pub fn near_ends(&mut self, n: u64) -> u64 {
+        match self.below(5) {
+            0 => self.below(n),
+            1..3 => self.below(8),
+            _ => n - 1 - self.below(8),
+        }
+    }
+
     /// A word, all values alike.
     pub fn word<const N: u32>(&mut self) -> U<N> {
         U::new(self.bits())

@@ -1,6 +1,6 @@
 //! The lines of a block's vectors as they come: its inputs, and the signals that a bench compares.
 
-use tofsim::hierarchy::{self, Entry, IDS, Kind, fitted};
+use tofsim::hierarchy::{self, Entry, IDS, Kind};
 use tofsim::kernel::signals::{Signal, Signals};
 use tofsim::waves::TapDigits;
 
@@ -34,7 +34,8 @@ impl<'a> Lines<'a> {
         wanted: impl Fn(&Entry) -> bool,
     ) -> Self {
         let (mut stimulus, mut places) = (Vec::new(), Vec::new());
-        for signal in inputs.into_iter().map(|signal| fitted(signal, setting.neurons())) {
+        let sizes = setting.setup.params.sizes();
+        for signal in inputs.into_iter().map(|signal| sizes.fitted(signal)) {
             places.push(signal.iter().map(|_| stimulus.len()).collect());
             stimulus.extend(signal.map(|Signal { name, width, .. }| Column::new(name, width)));
         }
@@ -83,7 +84,7 @@ impl<'a> Lines<'a> {
             spec,
             seed: setting.seed,
             source: setting.setup.name.clone(),
-            neurons: setting.neurons(),
+            sizes: setting.setup.params.sizes(),
             count_stages: setting.count_stages(),
             parameters: Vec::new(),
             stimulus,

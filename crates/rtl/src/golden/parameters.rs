@@ -2,8 +2,8 @@
 
 use tofsim::firmware::carry_chain::Delays;
 use tofsim::firmware::histogram_builder::BINS;
-use tofsim::firmware::tof_top::{CodeSource, Estimator, HistogramSource};
-use tofsim::firmware::{centroid_estimator, depth_estimator, forward2, tdc_decoder};
+use tofsim::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Sizes};
+use tofsim::firmware::{centroid_estimator, depth_estimator, forward2, tdc_decoder, vcsel_driver};
 use tofsim::kernel::U;
 use tofsim::network::mem::{self, Mem, lines};
 use tofsim::sim::setup::Setup;
@@ -13,6 +13,8 @@ use tofsim::sim::setup::Setup;
 pub enum Parameter {
     /// A number.
     Number(u64),
+    /// Words of 16 bits side by side, the first one lowest.
+    Words(Vec<u64>),
     /// The file name of a memory that the Verilog loads.
     Memory(Mem),
 }
@@ -37,6 +39,45 @@ pub fn count_stages(params: &tdc_decoder::Params) -> Option<(&'static str, Param
     (stages != tdc_decoder::COUNT_STAGES).then_some((COUNT_STAGES, Parameter::Number(stages)))
 }
 
+/// The parameters of some names that say how large things are, where they are not the default: as large
+/// another design need not have them.
+pub fn sized(params: &Params, names: &[&'static str]) -> Parameters {
+    let value = |sizes: &Sizes, laser: &vcsel_driver::Params, name: &str| match name {
+        LASER_PERIODS => Parameter::Words(laser.every_period().to_vec()),
+        "PulseHalfCycles" => Parameter::Number(sizes.pulse_half_cycles.into()),
+        "DrainCycles" => Parameter::Number(sizes.drain_cycles),
+        "Cycle" => Parameter::Number(sizes.cycle),
+        "Digits" => Parameter::Number(sizes.digits.into()),
+        name => Parameter::Number(sizes.width(name).unwrap_or_default().into()),
+    };
+    let usual = (Sizes::default(), vcsel_driver::Params::default());
+    let own = |name| {
+        let own = value(&params.sizes(), &params.vcsel_driver, name);
+        (own != value(&usual.0, &usual.1, name)).then_some((name, own))
+    };
+    names.iter().copied().filter_map(own).collect()
+}
+
+/// The parameter with the laser periods.
+const LASER_PERIODS: &str = "LaserPeriods";
+/// Of [`sized`], those on which widths of ports depend.
+pub const SHAPES: [&str; 5] = [NEURONS, "Taps", "CoarseBits", "RateBits", "Halves"];
+/// Of [`sized`], those of the decoder.
+pub const OF_DECODER: [&str; 5] = ["Taps", "CoarseBits", "Cycle", "Digits", "AgeBits"];
+/// Of [`sized`], those of the whole.
+const OF_TOP: [&str; 10] = [
+    "DrainCycles",
+    LASER_PERIODS,
+    "RateBits",
+    "PeriodBits",
+    "PulseHalfCycles",
+    "Taps",
+    "CoarseBits",
+    "Cycle",
+    "Digits",
+    "AgeBits",
+];
+
 /// Those of a block of the depth estimator: its memories, and how many neurons they are for.
 pub fn with_neurons(mut memories: Parameters, count: usize) -> Parameters {
     memories.extend(neurons(count));
@@ -55,7 +96,7 @@ pub fn files(
 pub fn memories(parameters: &Parameters) -> impl Iterator<Item = &Mem> {
     parameters.iter().filter_map(|(_, value)| match value {
         Parameter::Memory(memory) => Some(memory),
-        Parameter::Number(_) => None,
+        Parameter::Number(_) | Parameter::Words(_) => None,
     })
 }
 
@@ -85,11 +126,12 @@ pub fn tof_top(setup: &Setup) -> Parameters {
     ];
     list.extend(depth_estimator(&params.depth_estimator));
     list.extend([
-        ("CalFile", Memory(mem::tdc_decoder(&params.tdc.decoder.cal))),
+        ("CalFile", Memory(mem::tdc_decoder(&params.tdc.decoder))),
         ("DelaysFile", Memory(tap_delays(&params.tdc.delays))),
     ]);
     list.extend(neurons(params.depth_estimator.neurons()));
     list.extend(count_stages(&params.tdc.decoder));
+    list.extend(sized(params, &OF_TOP));
     let (preloads_codes, rom) = match &params.code_source {
         CodeSource::Tdc => (false, &[U::new(0)][..]),
         CodeSource::Preload(rom) => (true, &rom[..]),

@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use tofsim::firmware::tof_top::Sizes;
 use tofsim::hierarchy::{self, Entry, Kind};
 
 use super::parameters::{Parameter, Parameters};
@@ -22,8 +23,8 @@ pub struct Port {
 }
 
 impl Spec {
-    /// The block's ports with so many neurons, clocks and inputs before outputs.
-    pub fn ports(&self, neurons: usize) -> Vec<Port> {
+    /// The block's ports in a design of those sizes, clocks and inputs before outputs.
+    pub fn ports(&self, sizes: &Sizes) -> Vec<Port> {
         let path = self.path();
         let port = |entry: Entry| Port {
             width: entry.signal.width,
@@ -31,7 +32,7 @@ impl Spec {
             meaning: entry.signal.doc,
             name: entry.signal.name,
         };
-        let entries = hierarchy::every_entry_of(neurons).into_iter();
+        let entries = hierarchy::every_entry_of(sizes).into_iter();
         let own = entries.filter(|entry| entry.scope == path && entry.kind != Kind::Internal);
         let mut ports: Vec<_> = own.map(port).collect();
         let is_clock = |port: &Port| !port.output && port.name.starts_with("clk");
@@ -62,7 +63,7 @@ pub fn json(vectors: &Vectors) -> Value {
             "from": latency.from, "to": latency.to, "cycles": (latency.cycles)(vectors),
         })).collect::<Vec<_>>(),
         "parameters": parameters(&vectors.parameters),
-        "ports": spec.ports(vectors.neurons).iter().map(|port| json!({
+        "ports": spec.ports(&vectors.sizes).iter().map(|port| json!({
             "name": port.name,
             "width": port.width,
             "direction": if port.output { "output" } else { "input" },
@@ -80,6 +81,7 @@ pub fn json(vectors: &Vectors) -> Value {
 fn parameters(parameters: &Parameters) -> Value {
     let value = |parameter: &Parameter| match parameter {
         Parameter::Number(number) => json!(number),
+        Parameter::Words(words) => json!(words),
         Parameter::Memory(memory) => json!(memory.name),
     };
     parameters.iter().map(|(name, parameter)| ((*name).to_owned(), value(parameter))).collect()

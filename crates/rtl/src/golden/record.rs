@@ -23,7 +23,7 @@ impl<'a> Recorder<'a> {
     /// The block before the first edge. A line of the stimulus has `inputs`: its input ports, or what
     /// the bench makes them from.
     pub fn new(spec: &'static Spec, setting: &'a Setting, inputs: Vec<Signal>) -> Self {
-        let entries = hierarchy::every_entry_of(setting.neurons());
+        let entries = hierarchy::every_entry_of(&setting.setup.params.sizes());
         Recorder {
             top: TofTop::new(Pins::default()),
             draw: Draw::new(setting.seed, spec.stream()),

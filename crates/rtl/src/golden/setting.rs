@@ -78,7 +78,7 @@ impl Setting {
     /// Full-size chain and histogram, random control, the scenario's own seed.
     pub fn new(setup: Setup) -> Self {
         let seed = setup.scenario.seed;
-        let (taps, bins) = (TAPS, BINS as u64);
+        let (taps, bins) = (setup.params.tdc.delays.taps(), BINS as u64);
         Setting {
             setup,
             as_told: false,
@@ -112,6 +112,13 @@ impl Setting {
         let source = format!("scenario {}", self.setup.name);
         let expected = format!("expected what the constant {parameter} of the design holds");
         Input::new(source, expected).field(key).into()
+    }
+
+    /// Lines of a block whose stimulus sweeps through the taps: more for a longer chain than usual [clock
+    /// cycles].
+    pub fn cycles_of_chain(&self) -> usize {
+        let taps = self.setup.params.tdc.delays.taps();
+        self.cycles.unwrap_or(Self::CYCLES.max(Self::CYCLES / TAPS * taps))
     }
 
     /// Lines of a block [clock cycles].

@@ -1,6 +1,7 @@
 //! What a block is, and what its golden vectors are.
 
 use tofsim::error::Result;
+use tofsim::firmware::tof_top::Sizes;
 use tofsim::hierarchy;
 use tofsim::kernel::Time;
 use tofsim::network::mem::Mem;
@@ -10,7 +11,7 @@ use super::cover::Cover;
 use super::parameters::{Parameters, memories};
 use super::setting::Setting;
 use super::table::Table;
-use super::timing::{CLK_125, Timing};
+use super::timing::{CLK_SYS, Timing};
 
 /// How many clocks an effect takes at least, from the edge that takes the input to the one that
 /// changes the output: 0 for a plain register. A combinational path has none.
@@ -72,12 +73,12 @@ pub struct Spec {
 
 impl Spec {
     /// A block of that name and place which `record` steps: what it is unless its file says otherwise.
-    /// Plain registers of `clk_125`, no reset.
+    /// Plain registers of `clk_sys`, no reset.
     pub const fn new(name: &'static str, scope: &'static str, record: Record) -> Self {
         Spec {
             name,
             scope,
-            timing: CLK_125,
+            timing: CLK_SYS,
             reset: None,
             fast: &[],
             latency: &[],
@@ -114,8 +115,8 @@ pub struct Vectors {
     pub seed: u64,
     /// Name of the scenario.
     pub source: String,
-    /// Hidden neurons of the network.
-    pub neurons: usize,
+    /// Widths and numbers of signals of the design.
+    pub sizes: Sizes,
     /// Registers of the TDC's ones count.
     pub count_stages: u64,
     /// Verilog parameters.

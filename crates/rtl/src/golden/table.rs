@@ -130,7 +130,7 @@ impl Sink for LineSink<'_> {
         }
     }
 
-    fn taps<const N: usize>(&mut self, id: usize, value: &Thermometer<N>, group: usize) {
+    fn taps(&mut self, id: usize, value: &Thermometer, group: usize) {
         for &column in &self.places[id] {
             self.table.set_bits(column, self.taps.bits(value, group));
         }

@@ -62,9 +62,9 @@ const fn cycle(clock: &'static str, steps: &'static [Step]) -> Timing {
 }
 
 /// One clock of 125 MHz.
-pub const CLK_125: Timing = cycle(
-    "clk_125",
-    &[step(4000, false, &[("clk_125", false)]), step(4000, true, &[("clk_125", true)])],
+pub const CLK_SYS: Timing = cycle(
+    "clk_sys",
+    &[step(4000, false, &[("clk_sys", false)]), step(4000, true, &[("clk_sys", true)])],
 );
 
 /// One clock of 125 MHz in a module that serves any domain.
@@ -72,25 +72,25 @@ pub const CLK: Timing =
     cycle("clk", &[step(4000, false, &[("clk", false)]), step(4000, true, &[("clk", true)])]);
 
 /// One clock of 250 MHz, looked at in both halves.
-pub const CLK_250: Timing = cycle(
-    "clk_250",
-    &[step(2000, true, &[("clk_250", false)]), step(2000, true, &[("clk_250", true)])],
+pub const CLK_LASER: Timing = cycle(
+    "clk_laser",
+    &[step(2000, true, &[("clk_laser", false)]), step(2000, true, &[("clk_laser", true)])],
 );
 
-/// Both clocks, looked at in each half of `clk_250`.
+/// Both clocks, looked at in each half of `clk_laser`.
 pub const BOTH: Timing = cycle(
-    "clk_125",
+    "clk_sys",
     &[
-        step(2000, true, &[("clk_250", false)]),
-        step(2000, true, &[("clk_125", false), ("clk_250", true)]),
-        step(2000, true, &[("clk_250", false)]),
-        step(2000, true, &[("clk_125", true), ("clk_250", true)]),
+        step(2000, true, &[("clk_laser", false)]),
+        step(2000, true, &[("clk_sys", false), ("clk_laser", true)]),
+        step(2000, true, &[("clk_laser", false)]),
+        step(2000, true, &[("clk_sys", true), ("clk_laser", true)]),
     ],
 );
 
 /// The same cycle, with the clocks made by the block's own PLL.
 pub const OWN: Timing =
-    Timing { oscillator: true, ..cycle("clk_125", &[step(2000, true, &[]); 4]) };
+    Timing { oscillator: true, ..cycle("clk_sys", &[step(2000, true, &[]); 4]) };
 
 /// The same with a reset that the edge in the middle of the cycle sees too: it may change after it.
 pub const OWN_WITH_RESET: Timing = Timing {
@@ -117,6 +117,6 @@ mod tests {
         assert_eq!(BOTH.before_edge_ps(0), 6000);
         assert_eq!(BOTH.before_edge_ps(3), 0);
         assert_eq!((OWN_WITH_RESET.period_ps(), OWN_WITH_RESET.before_edge_ps(2)), (8000, 2000));
-        assert_eq!((CLK_125.samples(), CLK_125.before_edge_ps(0)), (1, 0));
+        assert_eq!((CLK_SYS.samples(), CLK_SYS.before_edge_ps(0)), (1, 0));
     }
 }

@@ -2,9 +2,10 @@
 
 use tofsim::error::{Input, Result};
 use tofsim::firmware::tof_top::{Pins, TofTop};
+use tofsim::firmware::vcsel_driver::Rate;
 use tofsim::hierarchy::{self, Entry, IDS, Part};
+use tofsim::kernel::Time;
 use tofsim::kernel::signals::Signals;
-use tofsim::kernel::{Time, U};
 use tofsim::signals;
 use tofsim::sim::Device;
 use tofsim::sim::device::{Off, SignalProbe};
@@ -26,7 +27,8 @@ signals! {
         /// SPAD quench mode.
         mode: bool,
         /// Laser repetition rate.
-        laser_freq: U<2>,
+        #[size("RateBits")]
+        laser_freq: Rate,
         /// Lets the laser fire.
         laser_en: bool,
         /// Lets the estimator start.

@@ -58,5 +58,5 @@ impl TimedBlock {
 
 /// What a clock has to reach [MHz]; a clock of another name is taken as the slower one.
 pub fn required_mhz(clock: &str) -> f64 {
-    if clock.contains("250") { 250.0 } else { 125.0 }
+    if clock.contains("laser") { 250.0 } else { 125.0 }
 }

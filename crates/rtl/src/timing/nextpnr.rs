@@ -262,7 +262,7 @@ mod tests {
     #[test]
     fn a_report_gives_each_clock_its_slowest_seed_and_that_ones_path() {
         let report = |mhz: f64, delay: f64| {
-            let clock = "$glbnet$clk_125$TRELLIS_IO_IN";
+            let clock = "$glbnet$clk_sys$TRELLIS_IO_IN";
             let place = |cell: &str| serde_json::json!({"cell": cell, "port": "Q", "loc": [1, 2]});
             let step = |kind: &str, net: &str| {
                 serde_json::json!({"type": kind, "delay": delay, "net": net,
@@ -283,7 +283,7 @@ mod tests {
         measurement.add(report(140.0, 1.0));
         measurement.add(report(126.0, 2.0));
         measurement.add(report(150.0, 0.5));
-        let clock = &measurement.clocks["clk_125"];
+        let clock = &measurement.clocks["clk_sys"];
         assert_eq!((clock.worst(), clock.best()), (126.0, 150.0));
         assert_eq!((clock.path.ns, clock.path.routing_ns), (6.0, 2.0));
         assert_eq!((clock.path.from.as_str(), clock.path.to.as_str()), ("sum", "depth.Q"));

@@ -122,7 +122,7 @@ impl Design<'_> {
             ECP5_LPF.to_owned()
         } else {
             let mut clocks = String::new();
-            for (clock, mhz) in [("clk_125", 125), ("clk_250", 250)] {
+            for (clock, mhz) in [("clk_sys", 125), ("clk_laser", 250)] {
                 clocks += &format!("FREQUENCY PORT \"{clock}\" {mhz} MHZ;\n");
             }
             // An output register in the pin's own cell needs a place for the pin.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use tofsim::firmware::forward2::NEURONS;
+use tofsim::firmware::tof_top::Sizes;
 
 use crate::golden::blocks;
 use crate::golden::ports::Port;
@@ -13,18 +13,18 @@ use super::block::TimedBlock;
 /// Name of the module.
 pub const TOP: &str = "between_registers";
 
-const CLOCKS: [&str; 2] = ["clk_125", "clk_250"];
+const CLOCKS: [&str; 2] = ["clk_sys", "clk_laser"];
 
 /// The clock that a port belongs to, by its name.
 fn clock(port: &str) -> &'static str {
-    if port.ends_with("_250") { CLOCKS[1] } else { CLOCKS[0] }
+    if port.ends_with("_laser") { CLOCKS[1] } else { CLOCKS[0] }
 }
 
 /// A module that has the block's modules under their own names, with a register before every input and
 /// behind every output, of the port's own clock.
 pub fn wrapper(block: &TimedBlock) -> String {
     let specs: Vec<_> = block.modules.iter().filter_map(|name| blocks::find(name)).collect();
-    let all: Vec<Port> = specs.iter().flat_map(|spec| spec.ports(NEURONS)).collect();
+    let all: Vec<Port> = specs.iter().flat_map(|spec| spec.ports(&Sizes::default())).collect();
     let is_driven = |name: &str| all.iter().any(|port| port.output && port.name == name);
     let is_read = |name: &str| all.iter().any(|port| !port.output && port.name == name);
     let (mut head, mut body, mut edges) = (Vec::new(), String::new(), BTreeMap::new());
@@ -58,8 +58,11 @@ pub fn wrapper(block: &TimedBlock) -> String {
         let _ = write!(body, "    always @(posedge {clock}) begin\n{edge}    end\n");
     }
     for spec in &specs {
-        let connected: Vec<_> =
-            spec.ports(NEURONS).iter().map(|port| format!(".{0}({0})", port.name)).collect();
+        let connected: Vec<_> = spec
+            .ports(&Sizes::default())
+            .iter()
+            .map(|port| format!(".{0}({0})", port.name))
+            .collect();
         let _ = writeln!(body, "    {0} {0} ({1});", spec.name, connected.join(", "));
     }
     format!("module {TOP} (\n{}\n);\n{body}endmodule\n", head.join(",\n"))
@@ -81,9 +84,9 @@ mod tests {
     #[test]
     fn a_port_has_the_register_of_its_own_clock_and_a_pin_has_none() {
         let text = wrapper(TimedBlock::find("vcsel_driver").unwrap());
-        let (slow, fast) = text.split_once("posedge clk_250").unwrap();
+        let (slow, fast) = text.split_once("posedge clk_laser").unwrap();
         assert!(
-            fast.contains("rst_250 <= rst_250_pin;") && !slow.contains("rst_250 <= "),
+            fast.contains("rst_laser <= rst_laser_pin;") && !slow.contains("rst_laser <= "),
             "{text}"
         );
         assert!(

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use tofsim::error::Result;
 use tofsim::files::output::write_bytes;
+use tofsim::firmware::tof_top::Sizes;
 
 use crate::golden::bench::Bench;
 use crate::golden::bench::allowances::Allowances;
@@ -36,7 +37,7 @@ impl BlockMap {
     fn width(&self, spec: &Spec, port: &Port) -> u32 {
         let bins = ["histogram_builder", "histogram_preload", "code_preload"];
         match port.name.as_str() {
-            "taps" | "hit_taps" => self.design.taps as u32,
+            "taps" | "hit_taps" => self.design.taps.map_or(port.width, |taps| taps as u32),
             "clear_addr" | "read_addr" | "tdc_code" if bins.contains(&spec.name) => {
                 usize::BITS - (self.design.bins - 1).leading_zeros()
             }
@@ -45,9 +46,9 @@ impl BlockMap {
     }
 
     /// The ports that their module has to have.
-    pub(super) fn wanted(&self, spec: &Spec, neurons: usize, found: &Interface) -> Vec<Port> {
+    pub(super) fn wanted(&self, spec: &Spec, sizes: &Sizes, found: &Interface) -> Vec<Port> {
         let mut wanted = Vec::new();
-        for port in spec.ports(neurons) {
+        for port in spec.ports(sizes) {
             let theirs = self.theirs(&port.name);
             let optional = self.ignore.contains(&port.name) && !found.ports.contains_key(theirs);
             if !optional && !self.is_made(&port.name) {
@@ -81,7 +82,7 @@ impl BlockMap {
             settle: self.settle,
             ..Allowances::default()
         };
-        for port in spec.ports(bench.vectors.neurons) {
+        for port in spec.ports(&bench.vectors.sizes) {
             let is_there = found.ports.contains_key(self.theirs(&port.name));
             if port.output && !is_there && !self.is_made(&port.name) {
                 bench.allowed.absent.insert(port.name.clone());
@@ -100,7 +101,7 @@ impl BlockMap {
 
     /// The adapter.
     fn text(&self, bench: &Bench, spec: &Spec, found: &Interface) -> String {
-        let ports = spec.ports(bench.vectors.neurons);
+        let ports = spec.ports(&bench.vectors.sizes);
         let declare = |port: &Port| {
             let direction = if port.output { "output" } else { "input" };
             format!("    {direction} wire {}{}", range(port.width), port.name)

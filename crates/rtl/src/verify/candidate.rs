@@ -6,9 +6,10 @@ use std::path::Path;
 use tofsim::error::{Input, Result};
 use tofsim::files::output::create_directory;
 use tofsim::firmware::forward2::MOST_NEURONS;
+use tofsim::firmware::tof_top::Sizes;
 
 use crate::golden::bench::Bench;
-use crate::golden::parameters::{NEURONS, Parameter};
+use crate::golden::parameters::{Parameter, SHAPES};
 use crate::golden::ports::Port;
 use crate::golden::spec::Vectors;
 
@@ -85,8 +86,8 @@ impl<'a> Candidate<'a> {
             generics.check_parameters(&rtl.source, named, names())?;
         }
         let wanted = |found: &Interface| -> Vec<Port> {
-            let ports = map.as_ref().map(|map| map.wanted(spec, vectors.neurons, found));
-            ports.unwrap_or_else(|| spec.ports(vectors.neurons))
+            let ports = map.as_ref().map(|map| map.wanted(spec, &vectors.sizes, found));
+            ports.unwrap_or_else(|| spec.ports(&vectors.sizes))
         };
         let ports: Vec<_> =
             wanted(&Interface::default()).into_iter().map(|port| port.name).collect();
@@ -98,8 +99,9 @@ impl<'a> Candidate<'a> {
                 return Ok(Err(reason));
             }
             found.check_parameters(&rtl.source, named, names())?;
-            if let Some(shape) = set.iter().find_map(shape) {
-                found = dut.simulator.interface(work, &module, &[shape], &rtl, limits)?;
+            let shapes: Vec<_> = set.iter().filter_map(shape).collect();
+            if !shapes.is_empty() {
+                found = dut.simulator.interface(work, &module, &shapes, &rtl, limits)?;
             }
         }
         found.check_ports(&rtl.source, &module, &wanted(&found))?;
@@ -109,22 +111,23 @@ impl<'a> Candidate<'a> {
 
 impl Candidate<'_> {
     /// The ports that it has for neurons past the last, where no map says what it has.
-    pub(super) fn past(&self, task: &Task, neurons: usize) -> Vec<Port> {
-        let used = task.spec.ports(neurons);
+    pub(super) fn past(&self, task: &Task, sizes: &Sizes) -> Vec<Port> {
+        let used = task.spec.ports(sizes);
         let is_past = |port: &Port| {
             let has = |found: &PortShape| (found.output, found.width) == (port.output, port.width);
             self.found.ports.get(&port.name).is_some_and(has)
                 && !used.iter().any(|used| used.name == port.name)
         };
-        let all = if self.map.is_none() { task.spec.ports(MOST_NEURONS) } else { Vec::new() };
+        let most = Sizes { neurons: MOST_NEURONS, ..*sizes };
+        let all = if self.map.is_none() { task.spec.ports(&most) } else { Vec::new() };
         all.into_iter().filter(is_past).collect()
     }
 }
 
-/// The parameter that ports depend on, if it is one.
+/// A parameter that ports depend on, if it is one.
 fn shape<'a>((ours, theirs, value): &Set<'a>) -> Option<(&'a str, u64)> {
     match value {
-        Parameter::Number(value) if *ours == NEURONS => Some((theirs, *value)),
+        Parameter::Number(value) if SHAPES.contains(ours) => Some((theirs, *value)),
         _ => None,
     }
 }

@@ -56,7 +56,7 @@ impl BlockCheck<'_> {
         }
         let mut bench = Bench::new(&vectors);
         bench.fixed = candidate.fixed;
-        bench.past = candidate.past(task, vectors.neurons);
+        bench.past = candidate.past(task, &vectors.sizes);
         let top = vectors.bench_module();
         let mut sources = vec![work.join(&top).with_extension("v")];
         if let Some(map) = &candidate.map {

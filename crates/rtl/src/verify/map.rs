@@ -8,9 +8,9 @@ use serde::Deserialize;
 
 use tofsim::error::{Input, Result, hint, read_text};
 use tofsim::files::toml::Checked;
-use tofsim::firmware::carry_chain::TAPS;
 use tofsim::firmware::forward2::MOST_NEURONS;
 use tofsim::firmware::histogram_builder::BINS;
+use tofsim::firmware::tof_top::Sizes;
 
 use crate::golden::blocks::{self, BLOCKS};
 use crate::golden::ports::Port;
@@ -37,9 +37,9 @@ pub struct Design {
     /// Shots of a frame, if they are a constant inside.
     #[schemars(range(min = 1, max = 65_535), extend("unit" = "shots"))]
     pub shots_per_frame: Option<u16>,
-    /// Taps of the delay line. With fewer than ours, the stimulus leaves out what they cannot show.
+    /// Taps of the delay line, if not ours. With fewer, the stimulus leaves out what they cannot show.
     #[schemars(range(min = 4, max = 4096), extend("unit" = "taps"))]
-    pub taps: usize,
+    pub taps: Option<usize>,
     /// Words of the histogram. With fewer than ours, the stimulus keeps to those.
     #[schemars(range(min = 2, max = 65_536), extend("unit" = "words"))]
     pub bins: usize,
@@ -47,7 +47,7 @@ pub struct Design {
 
 impl Default for Design {
     fn default() -> Self {
-        Design { parameters: true, shots_per_frame: None, taps: TAPS, bins: BINS }
+        Design { parameters: true, shots_per_frame: None, taps: None, bins: BINS }
     }
 }
 
@@ -124,7 +124,7 @@ impl RtlMap {
             false => Constants::All,
         };
         Setting {
-            taps: design.taps.min(TAPS),
+            taps: design.taps.map_or(setting.taps, |taps| setting.taps.min(taps)),
             bins: setting.bins.min(design.bins as u64),
             slack: latency.copied().max().unwrap_or(0).max(0) as u64,
             shots_per_frame: design.shots_per_frame,
@@ -149,7 +149,7 @@ fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> 
 impl BlockMap {
     /// Whether everything that is named exists in our block; `valid` has our names from then on.
     fn check(&mut self, spec: &Spec, fault: &dyn Fn(&str, String) -> Input) -> Result<()> {
-        let ports = spec.ports(MOST_NEURONS);
+        let ports = spec.ports(&Sizes { neurons: MOST_NEURONS, ..Sizes::default() });
         // Each name of a port of ours: where it stands, and whether it has to be an output.
         let place = |table: &str, name: &str| format!("{table}.{name}");
         let named = (self.ports.keys().map(|name| (place("ports", name), name, false)))
@@ -245,17 +245,17 @@ mod tests {
     #[test]
     fn a_map_names_what_there_is() {
         let text = "[design]\ntaps = 700\n[block.forward1]\nmodule = \"hidden\"\n\
-            invert = [\"rst\"]\nports = { clk_125 = \"clk\" }\nlatency = { l1_in_0 = 2 }\n";
+            invert = [\"rst\"]\nports = { clk_sys = \"clk\" }\nlatency = { l1_in_0 = 2 }\n";
         let map = RtlMap::parse("map.toml", text).unwrap();
         assert_eq!(map.block["forward1"].module("forward1"), "hidden");
-        assert_eq!(map.block["forward1"].design.taps, 700);
+        assert_eq!(map.block["forward1"].design.taps, Some(700));
     }
 
     #[test]
     fn what_there_is_not_is_refused_with_its_place() {
         let error = fault("[block.forward1.ports]\nclk_124 = \"clk\"\n");
         assert!(error.starts_with("map.toml:2:"), "{error}");
-        assert!(error.contains("unknown port (`clk_125`?)"), "{error}");
+        assert!(error.contains("unknown port (`clk_sys`?)"), "{error}");
         let error = fault("[block.forwrd1]\nmodule = \"a\"\n");
         assert!(error.contains("unknown block (`forward1`?)"), "{error}");
         let error = fault("[block.forward1]\nmodul = \"a\"\n");

@@ -116,6 +116,10 @@ fn synthesise(
     let script = format!("exec \"$@\" > {OUTPUT}");
     let set = generics.iter().map(|(name, value)| match value {
         Parameter::Number(number) => format!("-g{name}={number}"),
+        Parameter::Words(words) => {
+            let bits: String = words.iter().rev().map(|word| format!("{word:016b}")).collect();
+            format!("-g{name}={bits}")
+        }
         Parameter::Memory(memory) => format!("-g{name}={}", memory.name),
     });
     let args =

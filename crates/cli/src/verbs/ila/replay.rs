@@ -8,7 +8,6 @@ use tofsim::error::{Input, Result};
 use tofsim::files::folder::FolderLock;
 use tofsim::files::output::write_bytes;
 use tofsim::files::staged::StagedFolder;
-use tofsim::firmware::vcsel_driver::PERIODS;
 use tofsim::scenario::builtin::Source as Files;
 use tofsim::scenario::{Control, DEFAULT, Loaded, Scenario, load, show};
 use tofsim::sim::setup::Setup;
@@ -41,7 +40,7 @@ pub struct Args {
     /// What belongs together: a map file, or a set-up of `ila capture` by name or path
     #[arg(long, value_name = "FILE|NAME")]
     map: Option<String>,
-    /// The analyser's clock, clk_125 or clk_250 [default: the map's, or else clk_125]
+    /// The analyser's clock, clk_sys or clk_laser [default: the map's, or else clk_sys]
     #[arg(long, value_name = "CLOCK")]
     clock: Option<SampleClock>,
     /// Not all samples were stored (a capture condition that the map does not have)
@@ -163,8 +162,9 @@ fn replayed(base: Loaded, replay: &Replay, list: &str) -> Result<Scenario> {
         ReplayKind::Histogram => stimulus.histogram = list,
     }
     let firmware = &mut scenario.firmware;
+    let periods = &firmware.laser_periods;
     let of_period =
-        replay.period().and_then(|period| PERIODS.iter().position(|own| *own == period));
+        replay.period().and_then(|period| periods.iter().position(|own| *own == period));
     let Control { laser_freq, mode, laser_en, dsp_en, dsp_rst, rst, .. } = replay.begin();
     let laser_freq = laser_freq.or(of_period.map(|code| code as u64));
     firmware.laser_freq = laser_freq.unwrap_or(firmware.laser_freq);
@@ -189,7 +189,7 @@ fn next(args: &Args, located: &Located) -> String {
     words.extend(args.map.iter().map(|map| format!("--map {}", quoted(map.clone()))));
     match &args.clock {
         Some(SampleClock::Signal(clock)) => words.push(format!("--clock {clock}")),
-        _ if args.map.is_none() => words.push("--clock clk_125".to_owned()),
+        _ if args.map.is_none() => words.push("--clock clk_sys".to_owned()),
         _ => {}
     }
     if let Some(offset) = located.offset {

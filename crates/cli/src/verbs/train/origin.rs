@@ -21,7 +21,7 @@ pub enum Origin {
     /// They are in files.
     Measured {
         /// Dealt out.
-        parts: MeasuredParts,
+        parts: Box<MeasuredParts>,
         /// Least and largest value of what is known of them.
         ranges: Vec<(&'static str, [f64; 2])>,
         /// The scenario that they are of.
@@ -46,9 +46,10 @@ impl Origin {
             let loaded = load(&args.set)?;
             let labelled = Labelled::read(data, args.truth.as_deref())?;
             labelled.check(data, &loaded.scenario)?;
-            let parts = MeasuredParts::new(&labelled, args.seed)?;
+            let bins = Setup::new(loaded.clone())?.bins();
+            let parts = MeasuredParts::new(&labelled, bins, args.seed)?;
             return Ok(Origin::Measured {
-                parts,
+                parts: Box::new(parts),
                 ranges: labelled.ranges(),
                 loaded: Box::new(loaded),
             });
@@ -69,7 +70,7 @@ impl Origin {
     pub fn material(&self) -> Result<Box<dyn TrainingMaterial + '_>> {
         Ok(match self {
             Origin::Grid(scenes) => Box::new(drawn(scenes)?),
-            Origin::Measured { parts, .. } => Box::new(parts.clone()),
+            Origin::Measured { parts, .. } => parts.clone(),
         })
     }
 

@@ -3,7 +3,7 @@
 
 // The latch of a delay line of 700 taps.
 module tdc_latch (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     input wire start,
     input wire window,
@@ -23,9 +23,9 @@ module tdc_latch (
         hit_taps = 700'd0;
     end
 
-    always @(posedge clk_125) hit_taps <= taps;
+    always @(posedge clk_sys) hit_taps <= taps;
 
-    always @(posedge clk_125)
+    always @(posedge clk_sys)
         if (rst) begin
             hit <= 1'b0;
             hit_coarse <= 3'd0;

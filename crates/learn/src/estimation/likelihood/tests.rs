@@ -1,25 +1,24 @@
 use tofsim::firmware::carry_chain::{Delays, TAPS};
+use tofsim::firmware::tdc;
 use tofsim::kernel::Time;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 
 use super::super::acquisition::{FreeRunning, most_probable};
 use super::*;
 
-const PERIOD: Time = Time::from_ns(8);
-
 /// A chain of taps that are alike.
 fn even(tap_fs: i64, offset_ps: u64) -> Bins {
     let delays = Delays::new(Time::from_fs(offset_ps * 1000), &[tap_fs; TAPS]).unwrap();
-    Bins::of_chain(&delays, &delays.calibration(PERIOD), PERIOD)
+    Bins::of_tdc(&tdc::Params::of_chain(delays))
 }
 
 /// A chain whose taps are far from alike, and whose ROM leaves holes.
 fn uneven() -> Bins {
     let delays: Vec<_> = (0..TAPS as i64).map(|k| (k * k * 7919) % 44_000 - 10_000).collect();
     let delays = Delays::new(Time::from_fs(2_500_000), &delays).unwrap();
-    let mut cal = delays.calibration(PERIOD);
-    cal[300..310].fill(tofsim::kernel::U::new(0));
-    Bins::of_chain(&delays, &cal, PERIOD)
+    let mut params = tdc::Params::of_chain(delays);
+    params.decoder.cal[300..310].fill(tofsim::kernel::U::new(0));
+    Bins::of_tdc(&params)
 }
 
 fn likelihood(bins: &Bins) -> Likelihood {

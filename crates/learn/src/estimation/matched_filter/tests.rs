@@ -1,14 +1,13 @@
 use tofsim::firmware::carry_chain::{Delays, TAPS};
+use tofsim::firmware::tdc;
 use tofsim::kernel::Time;
 use tofsim::optics::{BinProbabilities, Budget, Hazard};
 
 use super::*;
 
-const PERIOD: Time = Time::from_ns(8);
-
 fn even(tap_fs: i64, offset_ps: u64) -> Bins {
     let delays = Delays::new(Time::from_fs(offset_ps * 1000), &[tap_fs; TAPS]).unwrap();
-    Bins::of_chain(&delays, &delays.calibration(PERIOD), PERIOD)
+    Bins::of_tdc(&tdc::Params::of_chain(delays))
 }
 
 fn filter(bins: &Bins) -> MatchedFilter {

@@ -16,7 +16,7 @@ use crate::golden::timing::{Step, Timing};
 /// When a generic is larger than VHDL's integers.
 pub fn text(vectors: &Vectors) -> Result<String> {
     let spec = vectors.spec;
-    let ports = spec.ports(vectors.neurons);
+    let ports = spec.ports(&vectors.sizes);
     let inputs = vectors.stimulus.columns();
     let generics: Vec<_> = vectors.parameters.iter().map(generic).collect::<Result<_>>()?;
     let generics = match generics.as_slice() {
@@ -83,6 +83,10 @@ fn generic((name, value): &(&'static str, Parameter)) -> Result<String> {
                 .into())
         }
         Parameter::Number(number) => Ok(format!("      {name} => {number}")),
+        Parameter::Words(words) => {
+            let bits: String = words.iter().rev().map(|word| format!("{word:016b}")).collect();
+            Ok(format!("      {name} => \"{bits}\""))
+        }
         Parameter::Memory(memory) => Ok(format!("      {name} => \"{}\"", memory.name)),
     }
 }

@@ -1,7 +1,7 @@
 //! Pulses of every width and distance, changes exactly on a clock edge and exactly on a tap's
 //! boundary, and several pulses in the chain at once.
 
-use tofsim::firmware::carry_chain::{CarryChain, Delays, TAPS};
+use tofsim::firmware::carry_chain::{CarryChain, Delays};
 
 use crate::golden::prelude::*;
 
@@ -13,12 +13,13 @@ pub(super) const SPEC: Spec = Spec {
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let delays = &setting.setup.params.tdc.delays;
     let arrivals = delays.arrivals();
-    let sampled = (0..=TAPS).filter(|&n| n == 0 || n == TAPS || arrivals[n - 1] < arrivals[n]);
+    let count = delays.taps();
+    let sampled = (0..=count).filter(|&n| n == 0 || n == count || arrivals[n - 1] < arrivals[n]);
     let mut ones = Cover::new("ones in the taps", sampled.map(|n| n as u64));
     let mut travelling = Cover::new("changes from tap to tap", 0..4);
     let mut run = Recorder::new(spec, setting, Vec::new());
     let mut stops = Stops::default();
-    for cycle in 0..setting.cycles() {
+    for cycle in 0..setting.cycles_of_chain() {
         if stops.last() <= stops::edge(cycle) {
             plan(&mut stops, cycle, delays, &ones, &mut run.draw);
         }
@@ -27,11 +28,12 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         stops.advance(now);
         let taps = stops.line.sample(now, delays);
         run.top.tdc.carry_chain = CarryChain { taps };
-        ones.see(taps.ones() as u64);
-        let changes = (1..TAPS).filter(|&tap| taps.tap(tap) != taps.tap(tap - 1)).count();
+        ones.see(taps.ones(count) as u64);
+        let changes = (1..count).filter(|&tap| taps.tap(tap) != taps.tap(tap - 1)).count();
         travelling.see(changes as u64);
     }
-    let parameters = files(["DelaysFile"], [parameters::tap_delays(delays)]);
+    let mut parameters = files(["DelaysFile"], [parameters::tap_delays(delays)]);
+    parameters.extend(parameters::sized(&setting.setup.params, &["Taps"]));
     let stops = stops.times().to_vec();
     Ok(Vectors { parameters, stops, settles: 1, ..run.vectors([ones, travelling]) })
 }

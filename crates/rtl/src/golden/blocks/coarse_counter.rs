@@ -11,19 +11,30 @@ pub(super) const SPEC: Spec = Spec {
 };
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let mut coarse = Cover::new("coarse", 0..8);
-    let mut started_at = Cover::new("start at coarse, or with the window closed (8)", 0..9);
+    let params = setting.setup.params.tdc.coarse_counter;
+    let window = params.window();
+    let mut coarse = Cover::new("coarse", ends(window));
+    let mut started_at =
+        Cover::new("start at coarse, or with the window closed (its length)", ends(window).chain([window]));
     let mut run = Recorder::new(spec, setting, In::list());
     let mut edges_until_start = 0;
-    for cycle in 0..setting.cycles() {
+    let lines = Setting::CYCLES.max(128 * window as usize);
+    for cycle in 0..setting.cycles.unwrap_or(lines) {
         let counter = run.top.tdc.coarse_counter;
         let start = edges_until_start == 0;
-        edges_until_start = if start { run.draw.below(14) } else { edges_until_start - 1 };
+        edges_until_start = match start {
+            // Of a long window mostly to its ends.
+            true if window > 16 && run.draw.one_in(2) => window - 9 + run.draw.below(14),
+            true => run.draw.below(window.min(16) + 6),
+            false => edges_until_start - 1,
+        };
         coarse.see_if(counter.window, counter.coarse.get());
-        started_at.see_if(start, if counter.window { counter.coarse.get() } else { 8 });
-        let i = In { rst: cycle == FIRST_RESET || run.draw.one_in(100), start };
+        started_at.see_if(start, if counter.window { counter.coarse.get() } else { window });
+        let rst = cycle == FIRST_RESET || run.draw.one_in(u64::max(100, 8 * window));
+        let i = In { rst, start };
         run.line(&i);
-        run.top.tdc.coarse_counter = counter.next(&i, &());
+        run.top.tdc.coarse_counter = counter.next(&i, &params);
     }
-    Ok(run.vectors([coarse, started_at]))
+    let parameters = parameters::sized(&setting.setup.params, &["CoarseBits"]);
+    Ok(Vectors { parameters, ..run.vectors([coarse, started_at]) })
 }

@@ -1,6 +1,7 @@
 //! Every pair of levels of the five signals one after the other, held for a few cycles or one.
 
 use tofsim::firmware::control_sync::In;
+use tofsim::firmware::vcsel_driver::Rate;
 
 use crate::golden::prelude::*;
 
@@ -17,7 +18,9 @@ pub(super) const SPEC: Spec = Spec {
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut pairs = Cover::new("mode, laser_en, dsp_en, dsp_rst as bits, from x 16 + to", 0..256);
-    let mut rates = Cover::new("laser_freq from x 4 + to", 0..16);
+    let rate_bits = setting.setup.params.sizes().width("RateBits").unwrap_or_default();
+    let codes = 1 << rate_bits;
+    let mut rates = Cover::new("laser_freq from x codes + to", 0..codes * codes);
     let mut alone = Cover::new("one signal, 0 to 4, changes alone", 0..5);
     let levels = |i: &In| bits([i.mode, i.laser_en, i.dsp_en, i.dsp_rst]);
     let mut run = Recorder::new(spec, setting, In::list());
@@ -34,13 +37,14 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         i.dsp_en = turn(i.dsp_en, 2);
         i.dsp_rst = turn(i.dsp_rst, 3);
         if (4..8).contains(&which) {
-            i.laser_freq = run.draw.word();
+            i.laser_freq = Rate::new(run.draw.bits() % codes);
         }
         pairs.see(levels(&before) * 16 + levels(&i));
-        rates.see(before.laser_freq.get() * 4 + i.laser_freq.get());
+        rates.see(before.laser_freq.get() * codes + i.laser_freq.get());
         alone.see_if(before != i, which);
         run.line(&i);
         run.top.control_sync = run.top.control_sync.next(&i, &());
     }
-    Ok(Vectors { settles: 2, ..run.vectors([pairs, rates, alone]) })
+    let parameters = parameters::sized(&setting.setup.params, &["RateBits"]);
+    Ok(Vectors { parameters, settles: 2, ..run.vectors([pairs, rates, alone]) })
 }

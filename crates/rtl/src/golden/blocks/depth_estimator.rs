@@ -13,7 +13,7 @@ mod histograms;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
-    latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| done(vectors.neurons) }],
+    latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| done(vectors.sizes.neurons) }],
     glue: Some(histograms::GLUE),
     configurations: &[NEURONS_16],
     ..Spec::new("depth_estimator", "depth_estimator", record)

@@ -12,7 +12,7 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[
         Latency { from: "algo_start", to: "read_en", cycles: |_| 0 },
-        Latency { from: "algo_start", to: "algo_done", cycles: |vectors| done(vectors.neurons) },
+        Latency { from: "algo_start", to: "algo_done", cycles: |vectors| done(vectors.sizes.neurons) },
     ],
     configurations: &[NEURONS_16],
     ..Spec::new("estimator_ctrl", "depth_estimator.estimator_ctrl", record)

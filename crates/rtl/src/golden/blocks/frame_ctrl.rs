@@ -9,10 +9,10 @@ use crate::golden::prelude::*;
 
 /// Few, so that all states recur.
 const SHOTS: u16 = 3;
+/// A longer Drain takes more lines [cycles].
+const FRAME: u64 = 100;
 /// Of more shots than these, nearly each cycle has one.
 const FEW: u16 = 50;
-/// Cycles of Drain.
-const DRAIN: u64 = 16;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
@@ -42,7 +42,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     // Of many shots, the first and the last ones.
     let places = (0..u64::from(shots)).filter(|shot| *shot < 2 || *shot + 2 >= u64::from(shots));
     let acquire = places.map(|shots| (State::Acquire, shots));
-    let drain = (0..=DRAIN).map(|cycle| (State::Drain, cycle));
+    let length = setting.setup.params.frame_ctrl.drain_cycles;
+    let drain = ends(length + 1).map(|cycle| (State::Drain, cycle));
     let estimate = (0..3).map(|cycle| (State::Estimate, cycle));
     let mut exits: Vec<_> = clear.chain(acquire).chain(drain).chain(estimate).collect();
     exits.retain(|&(state, _)| is_state(state));
@@ -52,19 +53,19 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let steps: &[u64] = if preloaded { &[3, 12] } else { &[1, 6, 11, 12] };
     let mut transitions = Cover::new("state from x 4 + to", steps.iter().copied());
     let mut resets = Cover::new(
-        "reset in state x 256 + place (word, shots, cycle)",
-        exits.iter().map(|(state, place)| state.bits() * 256 + place),
+        "reset in state x 2^17 + place (word, shots, cycle)",
+        exits.iter().map(|(state, place)| (state.bits() << 17) + place),
     );
     let mut kinds = Cover::new("state x 4 + rst x 2 + dsp_rst", each(4));
     let mut inputs = Cover::new("state x 8 + start, dsp_en, algo_done as bits", each(8));
 
-    let params = Params { shots_per_frame: shots, preloaded };
+    let params = Params { shots_per_frame: shots, preloaded, drain_cycles: length };
     let mut run = Recorder::new(spec, setting, In::list());
     // The state, cycles in it, whether this run is to be left at the exit of this turn, frames finished.
     let (mut last, mut phase, mut leaves, mut turn, mut frames) = (State::Clear, 0, false, 0, 0u64);
     // So that each exit comes up whatever the draws.
-    let lines = exits.len() * (600 + usize::from(shots));
-    let lines = if shots > FEW { Setting::CYCLES.max(2 * lines) } else { Setting::CYCLES };
+    let lines = exits.len() * (600 + usize::from(shots) + length as usize);
+    let lines = if shots > FEW || length > FRAME { Setting::CYCLES.max(2 * lines) } else { Setting::CYCLES };
     for cycle in 0..setting.cycles.unwrap_or(lines) {
         let (ctrl, draw) = (run.top.frame_ctrl, &mut run.draw);
         let state = ctrl.state();
@@ -72,7 +73,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let place = match state {
             State::Clear => ctrl.clear_addr.get(),
             State::Acquire => ctrl.shots(),
-            State::Drain => phase.min(DRAIN),
+            State::Drain => phase.min(length),
             State::Estimate => phase.min(2),
         };
         transitions.see(last.bits() * 4 + state.bits());
@@ -80,7 +81,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let leave = leaves && exit == (state, place);
         // 1, 2, 3: dsp_rst, rst, both.
         let kind = if leave { turn as u64 % 3 + 1 } else { 0 };
-        let held = leaves && exit == (State::Drain, DRAIN);
+        let held = leaves && exit == (State::Drain, length);
         let (start, dsp_en) = match state {
             State::Estimate => (frames.is_multiple_of(2), frames % 4 < 2),
             State::Acquire => (if shots > FEW { !draw.one_in(8) } else { draw.one_in(4) }, draw.one_in(2)),
@@ -93,7 +94,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             dsp_en: dsp_en && !held,
             algo_done: draw.one_in(4),
         };
-        resets.see_if(leave, state.bits() * 256 + place);
+        resets.see_if(leave, (state.bits() << 17) + place);
         kinds.see(state.bits() * 4 + kind);
         inputs.see(state.bits() * 8 + bits([i.start, i.dsp_en, i.algo_done]));
         turn += usize::from(leave);
@@ -105,9 +106,10 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.frame_ctrl = ctrl.next(&i, &params);
     }
-    let parameters = vec![
+    let mut parameters = vec![
         ("ShotsPerFrame", Parameter::Number(shots.into())),
         ("Preloaded", Parameter::Number(preloaded.into())),
     ];
+    parameters.extend(parameters::sized(&setting.setup.params, &["DrainCycles"]));
     Ok(Vectors { parameters, ..run.vectors([transitions, resets, kinds, inputs]) })
 }

@@ -6,7 +6,7 @@ use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     timing: timing::OWN,
-    fast: &["clk_125", "clk_250", "locked"],
+    fast: &["clk_sys", "clk_laser", "locked"],
     ..Spec::new("pll", "pll", record)
 };
 
@@ -18,15 +18,15 @@ fn level(clock: &Clock, at: Time) -> bool {
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let pll = setting.setup.pll();
-    let mut levels = Cover::new("locked, clk_125, clk_250 as bits", [0, 4, 5, 6, 7]);
+    let mut levels = Cover::new("locked, clk_sys, clk_laser as bits", [0, 4, 5, 6, 7]);
     let mut run = Recorder::new(spec, setting, Vec::new());
     for quarter in 1..=4 * setting.cycles() as u64 {
         let at = Time::from_ns(2 * quarter) - Time::from_fs(1000);
         let top = &mut run.top;
-        top.clocks.clk_125 = level(&pll.clk_125, at);
-        top.clocks.clk_250 = level(&pll.clk_250, at);
+        top.clocks.clk_sys = level(&pll.clk_sys, at);
+        top.clocks.clk_laser = level(&pll.clk_laser, at);
         top.pll.locked = at >= pll.locked_at;
-        levels.see(bits([top.pll.locked, top.clocks.clk_125, top.clocks.clk_250]));
+        levels.see(bits([top.pll.locked, top.clocks.clk_sys, top.clocks.clk_laser]));
         run.sample();
     }
     let parameters = vec![("LockTime", Parameter::Number(pll.locked_at.ps()))];

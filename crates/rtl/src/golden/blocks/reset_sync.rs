@@ -10,7 +10,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "rst", to: "rst_sync", cycles: |_| 1 },
         Latency { from: "locked", to: "rst_sync", cycles: |_| 1 },
     ],
-    ..Spec::new("reset_sync", "reset_sync_125", record)
+    ..Spec::new("reset_sync", "reset_sync_sys", record)
 };
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
@@ -24,7 +24,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         i.locked ^= run.draw.one_in(3);
         changes.see(levels(before) * 4 + levels(i));
         run.line(&i);
-        run.top.reset_sync_125 = run.top.reset_sync_125.next(&i, &());
+        run.top.reset_sync_sys = run.top.reset_sync_sys.next(&i, &());
     }
     Ok(Vectors { settles: 2, ..run.vectors([changes]) })
 }

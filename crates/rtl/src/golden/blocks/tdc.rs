@@ -3,8 +3,8 @@
 //! sweep through every number of taps that a hit can have.
 
 use tofsim::firmware::tdc::In;
-use tofsim::firmware::tdc_decoder::code;
 
+use crate::golden::parameters::OF_DECODER;
 use crate::golden::prelude::*;
 
 mod light;
@@ -38,37 +38,39 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let params = &setting.setup.params.tdc;
     let mut light = Light::new(&params.delays);
     let code_of = |ages: &Ages| {
-        Some(code(light::coarse(ages.first), ages.taps as usize, &params.decoder.cal)?.get())
+        Some(params.decoder.code(light::coarse(ages.first), ages.taps as usize)?.get())
     };
     let mut hits = Cover::new("taps of a hit", light.ages.iter().map(|ages| ages.taps));
     let mut codes = Cover::new("codes", light.ages.iter().filter_map(code_of));
-    let mut coarses = Cover::new("coarse of a hit", 0..8);
+    let window = params.coarse_counter.window();
+    let mut coarses = Cover::new("coarse of a hit", 0..window.min(8));
     let mut rises = Cover::new("edges from the one of start to the one that sees a rise", 0..10);
     let mut resets = Cover::new("reset in cycle after start", 0..=LAST_RESET as u64);
     let mut corners = Cover::new(
         "level held over, second hit, hit kept with start, last edge, equal codes",
-        0..5,
+        // Few shots are as long as a long window.
+        (0..5).filter(|corner| *corner != 3 || window <= 16),
     );
     let (tap_0, mut last_code) = (params.delays.tap_0_position(), None);
     let mut run = Recorder::new(spec, setting, Stimulus::list());
     // Cycle of the last start and of the next; cycle after a start in which the next reset comes.
     let (mut started, mut next, mut reset) = (0, 3, LAST_RESET);
-    for cycle in 0..setting.cycles() {
+    for cycle in 0..setting.cycles_of_chain() {
         let draw = &mut run.draw;
         let start = cycle == next;
         let since = if start { 0 } else { cycle - started };
         let rst = cycle == FIRST_RESET || since == reset && draw.one_in(6);
         let tdc = &run.top.tdc;
-        let (window, coarse) = (tdc.coarse_counter.window, tdc.coarse_counter.coarse);
+        let (open, coarse) = (tdc.coarse_counter.window, tdc.coarse_counter.coarse);
         let (used, before) = tdc.tdc_latch.before();
         let high = tdc.carry_chain.taps.tap(tap_0);
         let rise = high && !before && !rst;
         rises.see_if(rise && cycle > started, (cycle - started).saturating_sub(1) as u64);
         resets.see_if(rst, since as u64);
         corners.see_if(start && high && before, 0);
-        corners.see_if(rise && window && used, 1);
-        corners.see_if(rise && window && !used && start, 2);
-        corners.see_if(rise && window && coarse == 7, 3);
+        corners.see_if(rise && open && used, 1);
+        corners.see_if(rise && open && !used && start, 2);
+        corners.see_if(rise && open && coarse == window - 1, 3);
         if tdc.tdc_decoder.tdc_valid {
             let code = tdc.tdc_decoder.tdc_code.get();
             codes.see(code);
@@ -103,9 +105,10 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let i = In { rst, start, tdc_stop: stops.line.level() };
         run.top.tdc.rise(&i, params, &mut stops.line, now);
     }
-    let memories = [parameters::tap_delays(&params.delays), mem::tdc_decoder(&params.decoder.cal)];
+    let memories = [parameters::tap_delays(&params.delays), mem::tdc_decoder(&params.decoder)];
     let mut parameters = files(["DelaysFile", "CalFile"], memories);
     parameters.extend(parameters::count_stages(&params.decoder));
+    parameters.extend(parameters::sized(&setting.setup.params, &OF_DECODER));
     Ok(Vectors {
         parameters,
         stops: light.stops.times().to_vec(),

@@ -2,14 +2,15 @@
 //! calibration but for the last words, which give times exactly at both ends of the range.
 
 use tofsim::firmware::carry_chain::Taps;
-use tofsim::firmware::tdc_decoder::{CYCLE, In, code};
+use tofsim::firmware::tdc_decoder::{In, Params};
 
+use crate::golden::parameters::OF_DECODER;
 use crate::golden::prelude::*;
 
-/// Last time before the range, its first, its last, and the first after it [25/16 ps].
-const ENDS: [i64; 4] = [-1, 0, 4095, 4096];
-/// Coarse counts of which a word of 14 bits can make such a time.
-const COARSE: u64 = 3;
+/// Coarse counts that are swept with all ones counts.
+const SWEPT: u64 = 3;
+/// Coarse counts at which a word of the ROM makes each end of the range.
+const AT_ENDS: usize = 3;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
@@ -23,36 +24,39 @@ pub(super) const SPEC: Spec = Spec {
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let (mut params, taps) = (setting.setup.params.tdc.decoder.clone(), setting.places());
-    let cal = &mut params.cal;
-    let times = (0..COARSE).flat_map(|coarse| ENDS.map(|end| (coarse, end)));
+    let count = params.taps();
+    let window = setting.setup.params.tdc.coarse_counter.window();
+    let coarse_used = SWEPT.min(window);
     // Coarse and ones count for a time at an end of the range.
-    let mut ends = Vec::new();
-    let times = times.filter(|_| !setting.constants.has("CalFile"));
-    for (n, (coarse, end)) in (0..=taps).rev().zip(times) {
-        cal[n] = U::new((CYCLE * (coarse as i64 + 1) - end) as u64);
-        ends.push((coarse, n));
+    let mut edges = Vec::new();
+    let ages = ages_at_ends(&params, window);
+    let ages = ages.into_iter().filter(|_| !setting.constants.has("CalFile"));
+    for (n, (coarse, age)) in (0..=taps).rev().zip(ages) {
+        params.cal[n] = U::new(age);
+        edges.push((coarse, n));
     }
-    let all = (0..=taps).flat_map(|n| (0..COARSE).map(move |coarse| (coarse, n)));
-    let reachable = all.filter_map(|(coarse, n)| Some(code(coarse, n, cal)?.get()));
+    let all = (0..=taps).flat_map(|n| (0..coarse_used).map(move |coarse| (coarse, n)));
+    let reachable = all.filter_map(|(coarse, n)| Some(params.code(coarse, n)?.get()));
     let mut codes = Cover::new("codes", reachable);
     let mut ones = Cover::new("ones count", 0..=taps as u64);
-    let mut coarses = Cover::new("coarse", 0..8);
-    let mut times = Cover::new("coarse x 4 + time -1, 0, 4095, 4096", 0..ends.len() as u64);
+    let mut coarses = Cover::new("coarse", ends(window));
+    let mut times = Cover::new("times at both ends of the range", 0..edges.len() as u64);
     let mut situations = Cover::new("rst, hit, hit before as bits", 0..8);
     let mut run = Recorder::new(spec, setting, In::list());
     let mut hits_swept = 0;
     // Whether the line before had a hit, and the hits counted one and two lines ago.
     let (mut hit_before, mut counted) = (false, [None; 2]);
-    for cycle in 0..setting.cycles() {
+    for cycle in 0..setting.cycles_of_chain() {
         let (decoder, draw) = (run.top.tdc.tdc_decoder, &mut run.draw);
         let (rst, hit) = (cycle > 0 && draw.one_in(40), draw.one_in(2));
         let rst = rst || cycle == FIRST_RESET;
         let (round, n) = (hits_swept / (taps + 1), hits_swept % (taps + 1));
-        let special = if ends.is_empty() { 1 + draw.below(7) } else { draw.below(8) };
+        let special = if edges.is_empty() { 1 + draw.below(7) } else { draw.below(8) };
         let (coarse, n) = match special {
-            0 => ends[draw.below(ends.len() as u64) as usize],
-            1 => (draw.below(8), n),
-            _ => (round as u64 % COARSE, n),
+            0 => edges[draw.below(edges.len() as u64) as usize],
+            1 if window > 16 => (draw.near_ends(window), n),
+            1 => (draw.below(window), n),
+            _ => (round as u64 % coarse_used, n),
         };
         hits_swept += usize::from(hit && !rst && special > 1);
 
@@ -62,30 +66,47 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         if let Some((n, coarse)) = counted[1].filter(|_| !rst) {
             ones.see(n);
             coarses.see(coarse);
-            let ends = ends.iter().zip(0..).filter(|(end, _)| **end == (coarse, n as usize));
-            ends.for_each(|(_, case)| times.see(case));
+            let edges = edges.iter().zip(0..).filter(|(edge, _)| **edge == (coarse, n as usize));
+            edges.for_each(|(_, case)| times.see(case));
         }
         counted = if rst { [None; 2] } else { [decoder.counted(), counted[0]] };
-        let hit_taps = with_ones(n, taps, draw);
+        let hit_taps = with_ones(n, (taps, count), draw);
         let i = In { rst, hit, hit_coarse: U::new(coarse), hit_taps };
         run.line(&i);
         run.top.tdc.tdc_decoder = decoder.next(&i, &params);
     }
-    let mut parameters = files(["CalFile"], [mem::tdc_decoder(&params.cal)]);
+    let mut parameters = files(["CalFile"], [mem::tdc_decoder(&params)]);
     parameters.extend(parameters::count_stages(&params));
+    parameters.extend(parameters::sized(&setting.setup.params, &OF_DECODER));
     Ok(Vectors { parameters, ..run.vectors([ones, coarses, codes, times, situations]) })
 }
 
-/// So many ones among the first taps, in one run or two, with the gaps anywhere.
-fn with_ones(n: usize, taps: usize, draw: &mut Draw) -> Taps {
+/// Coarse counts, each with an age that makes the last time before the range, its first, its last, or the
+/// first after it.
+fn ages_at_ends(p: &Params, window: u64) -> Vec<(u64, u64)> {
+    let (cycle, range) = (p.scale.cycle() as i64, p.scale.range() as i64);
+    let mut ages: Vec<_> = [-1, 0, range - 1, range].into_iter()
+        .flat_map(|end| {
+            let age = move |coarse: u64| (coarse, cycle * (coarse as i64 + 1) - end);
+            let fits = |(_, age): &(u64, i64)| (0..1 << p.age_bits()).contains(age);
+            (0..window).map(age).filter(fits).take(AT_ENDS)
+        })
+        .map(|(coarse, age)| (coarse, age as u64))
+        .collect();
+    ages.sort_by_key(|(coarse, _)| *coarse);
+    ages
+}
+
+/// So many ones among the first `taps` of a chain of `count`, in one run or two, with the gaps anywhere.
+fn with_ones(n: usize, (taps, count): (usize, usize), draw: &mut Draw) -> Taps {
     let zeros = taps - n;
     let mut below = |n: usize| draw.below(n as u64 + 1) as usize;
     let (begin, first) = (below(zeros), below(n));
     let gap = below(zeros - begin);
     let second = begin + first + gap;
     match below(2) {
-        0 => Taps::new(true, [n]),
-        1 => Taps::new(false, [begin, begin + n]),
-        _ => Taps::new(false, [begin, begin + first, second, second + n - first]),
+        0 => Taps::clipped(count, true, [n]),
+        1 => Taps::clipped(count, false, [begin, begin + n]),
+        _ => Taps::clipped(count, false, [begin, begin + first, second, second + n - first]),
     }
 }

@@ -2,6 +2,7 @@
 //! old pulses beside the hit.
 
 use tofsim::firmware::carry_chain::Taps;
+use tofsim::firmware::coarse_counter::Coarse;
 use tofsim::firmware::tdc_latch::In;
 
 use crate::golden::prelude::*;
@@ -19,13 +20,15 @@ pub(super) const SPEC: Spec = Spec {
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     // Place of physical tap 0 in the order of arrival; taps that may be high, and those of the next hit.
     let (tap_0, taps) = (setting.setup.params.tdc.delays.tap_0_position(), setting.places());
+    let count = setting.setup.params.tdc.delays.taps();
     let mut rank = tap_0 + 1;
     let ranks = tap_0 as u64 + 1..=taps as u64;
     let mut hits = Cover::new("taps that the rise of a hit has reached", ranks);
-    let mut coarse = Cover::new("coarse of a hit", 0..8);
+    let window = setting.setup.params.tdc.coarse_counter.window();
+    let mut coarse = Cover::new("coarse of a hit", ends(window));
     let mut situations = Cover::new("rst, start, window, tap 0, before, used as bits", 0..64);
     let mut run = Recorder::new(spec, setting, In::list());
-    for cycle in 0..setting.cycles() {
+    for cycle in 0..setting.cycles_of_chain() {
         let (latch, draw) = (run.top.tdc.tdc_latch, &mut run.draw);
         let (used, before) = latch.before();
         // A hit at the first edge shows how the registers begin.
@@ -35,8 +38,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             rst: cycle == FIRST_RESET || !first && draw.one_in(10),
             start: draw.one_in(3),
             window: first || !draw.one_in(3),
-            coarse: draw.word(),
-            taps: pulses(high, if high { rank } else { tap_0 + 1 }, taps, draw),
+            coarse: any_coarse(window, draw),
+            taps: pulses(high, if high { rank } else { tap_0 + 1 }, (taps, count), draw),
         };
         situations.see(bits([i.rst, i.start, i.window, high, before, used]));
         if high && !before && i.window && !used && !i.rst {
@@ -47,19 +50,31 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.tdc.tdc_latch = latch.next(&i, &tap_0);
     }
-    Ok(run.vectors([hits, coarse, situations]))
+    let parameters = parameters::sized(&setting.setup.params, &["Taps", "CoarseBits"]);
+    Ok(Vectors { parameters, ..run.vectors([hits, coarse, situations]) })
 }
 
-/// Taps with tap 0 high or low as those up to `first`, and perhaps a pulse behind.
-fn pulses(high: bool, first: usize, taps: usize, draw: &mut Draw) -> Taps {
+/// A coarse count in a window of so many cycles.
+fn any_coarse(window: u64, draw: &mut Draw) -> Coarse {
+    Coarse::new(if window > 16 { draw.near_ends(window) } else { draw.bits() % window })
+}
+
+/// Taps with tap 0 high or low as those up to `first`, and perhaps a pulse behind, all among the first `taps`
+/// of a chain of `count`.
+fn pulses(
+    high: bool,
+    first: usize,
+    (taps, count): (usize, usize),
+    draw: &mut Draw,
+) -> Taps {
     let mut rank = || first + draw.below((taps - first + 1) as u64) as usize;
     let mut behind = [rank(), rank()];
     behind.sort();
     let [begin, end] = behind;
     match (high, draw.one_in(2)) {
-        (true, true) => Taps::new(true, [first]),
-        (true, false) => Taps::new(true, [first, begin, end]),
+        (true, true) => Taps::clipped(count, true, [first]),
+        (true, false) => Taps::clipped(count, true, [first, begin, end]),
         (false, true) => Taps::settled(false),
-        (false, false) => Taps::new(false, [begin, end]),
+        (false, false) => Taps::clipped(count, false, [begin, end]),
     }
 }

@@ -14,15 +14,17 @@ pub(super) const SPEC: Spec = Spec {
         "laser_on_lvds_p",
         "laser_on_lvds_n",
         "laser_on",
-        "rst_250",
-        "reset_sync_250.rst_sync",
-        "reset_sync_250.meta",
+        "rst_laser",
+        "reset_sync_laser.rst_sync",
+        "reset_sync_laser.meta",
         "vcsel_driver.fire_last",
         "vcsel_driver.pulse_0",
         "vcsel_driver.pulse_1",
         "vcsel_driver.laser_pulse",
+        "vcsel_driver.stretch",
         "vcsel_driver.laser_on",
         "vcsel_driver.ddr_output.q",
+        "vcsel_driver.ddr_output.second",
         "lvds_output.o",
         "lvds_output.ob",
     ],
@@ -90,17 +92,21 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     };
     let transitions = transitions.iter().map(|(from, to)| from * 4 + to);
     let mut states = Cover::new("states, from x 4 + to", transitions);
-    let mut rates = Cover::new("laser_freq in force, from x 4 + to", 0..16);
-    let mut coarse = Cover::new("coarse", 0..if hits { 8 } else { 0 });
+    let (laser, window) = (&params.vcsel_driver, params.tdc.coarse_counter.window());
+    let rates = 0..laser.periods.len() as u64;
+    let pairs = rates.clone().flat_map(|from| rates.clone().map(move |to| from * 8 + to));
+    let mut rates = Cover::new("laser_freq in force, from x 8 + to", pairs);
+    let last = window.min(laser.longest_period() - 1).min(8);
+    let mut coarse = Cover::new("coarse", 0..if hits { last } else { 0 });
     let mut resets = Cover::new("dsp_rst in state", in_states.iter().copied());
     let mut modes = Cover::new("mode of a hit", 0..if hits { 2 } else { 0 });
     let mut before = None;
     let vectors = top::record(spec, &setting, &mut |top| {
         let state = top.frame_ctrl.state();
-        let rate = top.vcsel_driver.registers.place().map_or(0, |place| place.0);
+        let rate = top.vcsel_driver.registers.place(laser).map_or(0, |place| place.0);
         if let Some((last, last_rate)) = before {
             states.see_if(last != state, last as u64 * 4 + state as u64);
-            rates.see(last_rate * 4 + rate);
+            rates.see(last_rate * 8 + rate);
         }
         let counter = &top.tdc.coarse_counter;
         coarse.see_if(counter.window, counter.coarse.get());
@@ -119,6 +125,9 @@ const PLANTED: usize = 28_000;
 /// Acquire.
 fn control(setting: &Setting, shots: u64) -> Vec<Control> {
     let mut draw = Draw::new(setting.seed, u64::MAX);
+    let laser = &setting.setup.params.vcsel_driver;
+    let codes = laser.periods.len() as u64;
+    let last = (codes - 1, laser.periods[laser.periods.len() - 1]);
     let mut changes = Vec::new();
     let first_us = setting.setup.pll().locked_at.fs() as f64 * 1e-9;
     let (mut at_ns, end_ns) = (0, 8 * setting.cycles().min(RANDOM) as u64);
@@ -126,7 +135,7 @@ fn control(setting: &Setting, shots: u64) -> Vec<Control> {
     while at_ns < end_ns {
         let mut change = Control {
             at_us: first_us + at_ns as f64 * 1e-3,
-            laser_freq: draw.one_in(2).then(|| draw.below(4)),
+            laser_freq: draw.one_in(2).then(|| draw.below(codes)),
             mode: draw.one_in(8).then(|| draw.below(2)).and_then(|code| code.try_into().ok()),
             laser_en: draw.one_in(8).then(|| !draw.one_in(4)),
             dsp_en: draw.one_in(4).then(|| !draw.one_in(4)),
@@ -147,7 +156,7 @@ fn control(setting: &Setting, shots: u64) -> Vec<Control> {
         }
     }
     while at_ns < 8 * setting.cycles() as u64 {
-        for (span_ns, change) in planted(shots, &mut draw) {
+        for (span_ns, change) in planted(shots, last, &mut draw) {
             changes.push(Control { at_us: first_us + at_ns as f64 * 1e-3, ..change });
             at_ns += span_ns;
         }
@@ -155,11 +164,11 @@ fn control(setting: &Setting, shots: u64) -> Vec<Control> {
     changes
 }
 
-/// A frame begun anew, and in it a short reset, another mode or a hold, in some cycle of the shots or
+/// A frame begun anew at a rate of that code and period, and in it a short reset, another mode or a hold, in some cycle of the shots or
 /// about the one that starts the estimator; each change and how long it lasts [ns].
-fn planted(shots: u64, draw: &mut Draw) -> [(u64, Control); 4] {
+fn planted(shots: u64, (rate, period): (u64, u64), draw: &mut Draw) -> [(u64, Control); 4] {
     let begin = Control {
-        laser_freq: Some(3),
+        laser_freq: Some(rate),
         mode: Some(QuenchMode::EachShot),
         laser_en: Some(true),
         dsp_en: Some(true),
@@ -167,7 +176,7 @@ fn planted(shots: u64, draw: &mut Draw) -> [(u64, Control); 4] {
         ..Control::default()
     };
     let go = Control { dsp_rst: Some(false), ..Control::default() };
-    let shots_ns = SHOTS_NS + draw.below(8 * 6 * shots);
+    let shots_ns = SHOTS_NS + draw.below(8 * period * shots);
     let kind = draw.below(9);
     let (wait_ns, span_ns, change) = match kind {
         0..4 => (shots_ns, 3 + draw.below(14), Control { rst: Some(true), ..Control::default() }),

@@ -1,58 +1,103 @@
 //! Every change of rate at every phase, acquisition and laser switched on and off, both resets, each in
 //! the last cycles before a laser edge too.
 
-use tofsim::firmware::vcsel_driver::{In, PERIODS};
+use tofsim::firmware::vcsel_driver::{In, Params, Rate};
 
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     timing: timing::BOTH,
     reset: Some("rst"),
-    fast: &["laser_on", "fire_last", "pulse_0", "pulse_1", "laser_pulse", "ddr_output.q"],
+    fast: &["laser_on", "fire_last", "pulse_0", "pulse_1", "laser_pulse", "stretch", "ddr_output.q", "ddr_output.second"],
     latency: &[Latency { from: "acquire", to: "start", cycles: |_| 5 }],
     ..Spec::new("vcsel_driver", "vcsel_driver", record)
 };
 
+/// Longer periods are left to the whole, if there are others [cycles].
+const LONG: u64 = 1000;
+/// What comes at random comes so often in this many cycles; in longer periods mostly near their ends.
+const USUAL: u64 = 25;
+
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let phases = PERIODS.iter().zip(0..);
-    let phases = phases.flat_map(|(&period, rate)| (0..period).map(move |n| rate * 32 + n));
-    let mut phases = Cover::new("laser_freq changes, rate x 32 + count", phases);
-    let mut changes = Cover::new("laser_freq from x 4 + to, taken at a wrap", 0..16);
+    let p = &setting.setup.params.vcsel_driver;
+    let codes = 1 << setting.setup.params.sizes().width("RateBits").unwrap_or_default();
+    let usable = usable(p, codes);
+    let longest = usable.iter().map(|&code| p.period(Rate::new(code))).max().unwrap_or_default();
+    let mut phases = Cover::new(
+        "laser_freq changes, rate x 2^16 + count",
+        rates(p, &usable).flat_map(|(rate, period)| ends_of(period).map(move |n| (rate << 16) + n)),
+    );
+    let mut changes = Cover::new(
+        "laser_freq from x codes + to, taken at a wrap",
+        rates(p, &usable).flat_map(|(from, _)| usable.iter().map(move |to| from * codes + to)),
+    );
     // Cycles to the laser edge x 8, and what comes.
-    let mut ends = Cover::new(
-        "cycles to the laser edge x 8 + rst, rst_250, acquire low as bits, one of them",
+    let mut endings = Cover::new(
+        "cycles to the laser edge x 8 + rst, rst_laser, acquire low as bits, one of them",
         (0..4).flat_map(|left| [1, 2, 4].map(|what| left * 8 + what)),
     );
     let mut run = Recorder::new(spec, setting, In::list());
-    let mut i =
-        In { rst: true, rst_250: true, acquire: true, laser_en: true, laser_freq: U::new(3) };
-    for cycle in 0..setting.cycles() {
+    let laser_freq = Rate::new(usable[usable.len() - 1]);
+    let mut i = In { rst: true, rst_laser: true, acquire: true, laser_en: true, laser_freq };
+    let lines = Setting::CYCLES.max((800 * longest).min(10 * USUAL * LONG) as usize);
+    for cycle in 0..setting.cycles.unwrap_or(lines) {
+        let place = run.top.vcsel_driver.registers.place(p);
+        let rare = place.map_or(1, |(rate, count, _)| rareness(p.periods[rate as usize], count));
         let before = i.laser_freq;
-        if run.draw.one_in(12) {
-            i.laser_freq = run.draw.word();
+        if run.draw.one_in(12 * rare) {
+            let any = run.draw.bits() % codes;
+            i.laser_freq = Rate::new(if usable.contains(&any) { any } else { usable[0] });
         }
         i.laser_en ^= run.draw.one_in(40);
-        i.acquire = if i.acquire { !run.draw.one_in(100) } else { run.draw.one_in(5) };
-        (i.rst, i.rst_250) = (run.draw.one_in(200), run.draw.one_in(200));
+        i.acquire = if i.acquire { !run.draw.one_in(100 * rare) } else { run.draw.one_in(5) };
+        (i.rst, i.rst_laser) = (run.draw.one_in(200 * rare), run.draw.one_in(200));
         if cycle == FIRST_RESET {
-            (i.rst, i.rst_250) = (true, true);
+            (i.rst, i.rst_laser) = (true, true);
         }
-        if let Some((rate, count, wraps)) = run.top.vcsel_driver.registers.place() {
-            changes.see_if(wraps && i.acquire, rate * 4 + i.laser_freq.get());
-            phases.see_if(before != i.laser_freq, rate * 32 + count);
-            let left = PERIODS[rate as usize] - 1 - count;
-            ends.see(left * 8 + bits([i.rst, i.rst_250, !i.acquire]));
+        if let Some((rate, count, wraps)) = place {
+            changes.see_if(wraps && i.acquire, rate * codes + i.laser_freq.get());
+            phases.see_if(before != i.laser_freq, (rate << 16) + count);
+            let left = p.periods[rate as usize] - 1 - count;
+            endings.see(left * 8 + bits([i.rst, i.rst_laser, !i.acquire]));
         }
         run.line(&i);
-        run.top.vcsel_driver.fall_250();
+        run.top.vcsel_driver.fall_laser();
         run.sample();
         if cycle > 0 {
-            run.top.vcsel_driver.rise_250(&i);
+            run.top.vcsel_driver.rise_laser(&i, p);
         }
         run.sample();
-        run.top.vcsel_driver.fall_250();
+        run.top.vcsel_driver.fall_laser();
         run.sample();
-        run.top.vcsel_driver.rise(&i);
+        run.top.vcsel_driver.rise(&i, p);
     }
-    Ok(run.vectors([changes, phases, ends]))
+    let names = ["LaserPeriods", "RateBits", "PeriodBits", "PulseHalfCycles"];
+    let parameters = parameters::sized(&setting.setup.params, &names);
+    Ok(Vectors { parameters, ..run.vectors([changes, phases, endings]) })
+}
+
+/// Codes whose periods are short enough to go through again and again.
+fn usable(p: &Params, codes: u64) -> Vec<u64> {
+    let shortest = p.periods.iter().copied().min().unwrap_or_default();
+    (0..codes).filter(|&code| p.period(Rate::new(code)) <= shortest.max(LONG)).collect()
+}
+
+/// The rates of those codes as the registers tell them, each with its period.
+fn rates<'a>(p: &'a Params, usable: &'a [u64]) -> impl Iterator<Item = (u64, u64)> + Clone + 'a {
+    let periods = p.periods.iter().zip(0..);
+    // Of equal periods the first is told.
+    let told = move |&(period, rate): &(&u64, usize)| !p.periods[..rate].contains(period);
+    let rates = periods.filter(told).map(|(&period, rate)| (rate as u64, period));
+    rates.filter(move |(rate, _)| usable.contains(rate))
+}
+
+/// Places in a period: all, or those near the ends of a long one.
+fn ends_of(period: u64) -> impl Iterator<Item = u64> + Clone {
+    (0..period).filter(move |&n| period <= 2 * USUAL || n < 8 || period - n <= 8)
+}
+
+/// How much less often than usual things come there.
+fn rareness(period: u64, count: u64) -> u64 {
+    let near = count < 8 || period - count <= 8;
+    if near || period <= 2 * USUAL { 1 } else { period / USUAL }
 }

@@ -4,7 +4,7 @@
     reg go = 1'b0;
     assign read_en = collecting;
     assign read_addr = word;
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         go <= collecting && word == 8'd255;
         if (collecting) begin
             vector[16 * word +: 16] <= count;

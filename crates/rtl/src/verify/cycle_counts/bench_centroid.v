@@ -4,11 +4,11 @@
 // Prints the centroid estimator's latency: for a start while it is idle, and for a start that is
 // held, which is taken again with algo_done.
 module bench_centroid;
-    reg clk_125 = 1'b0, rst = 1'b1, algo_start = 1'b0;
+    reg clk_sys = 1'b0, rst = 1'b1, algo_start = 1'b0;
     wire algo_done;
 
     centroid_estimator centroid_estimator (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst),
         .algo_start(algo_start),
         .count(16'd0),
@@ -20,8 +20,8 @@ module bench_centroid;
     task edge_with(input start);
         begin
             algo_start = start;
-            #4000 clk_125 = 1'b1;
-            #4000 clk_125 = 1'b0;
+            #4000 clk_sys = 1'b1;
+            #4000 clk_sys = 1'b0;
         end
     endtask
 

@@ -4,7 +4,7 @@
 // Prints the estimator's cycle counts: for a start while it is idle, and for a start that is held,
 // which is taken again with algo_done.
 module bench_estimator;
-    reg clk_125 = 1'b0, rst = 1'b1, algo_start = 1'b0;
+    reg clk_sys = 1'b0, rst = 1'b1, algo_start = 1'b0;
     wire algo_done, ctrl_done, forward1_en, tansig_en, forward2_en;
 
 `ifdef NEURONS
@@ -13,7 +13,7 @@ module bench_estimator;
 `endif
 
     depth_estimator depth_estimator (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst),
         .algo_start(algo_start),
         .count(16'd0),
@@ -21,7 +21,7 @@ module bench_estimator;
     );
 
     estimator_ctrl estimator_ctrl (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst),
         .algo_start(algo_start),
         .algo_done(ctrl_done),
@@ -36,8 +36,8 @@ module bench_estimator;
     task edge_with(input start);
         begin
             algo_start = start;
-            #4000 clk_125 = 1'b1;
-            #4000 clk_125 = 1'b0;
+            #4000 clk_sys = 1'b1;
+            #4000 clk_sys = 1'b0;
         end
     endtask
 

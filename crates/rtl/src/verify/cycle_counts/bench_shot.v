@@ -4,15 +4,15 @@
 // Prints the laser's and the SPAD reset's cycle counts and the pulse's times, for each code and
 // mode, from five shots each.
 module bench_shot;
-    reg clk_125 = 1'b0, clk_250 = 1'b0, rst = 1'b1, acquire = 1'b0, mode = 1'b0;
+    reg clk_sys = 1'b0, clk_laser = 1'b0, rst = 1'b1, acquire = 1'b0, mode = 1'b0;
     reg [1:0] laser_freq = 2'd0;
     wire pre_start, start, laser_on, spad_rst;
 
     vcsel_driver vcsel_driver (
-        .clk_125(clk_125),
-        .clk_250(clk_250),
+        .clk_sys(clk_sys),
+        .clk_laser(clk_laser),
         .rst(rst),
-        .rst_250(rst),
+        .rst_laser(rst),
         .acquire(acquire),
         .laser_en(1'b1),
         .laser_freq(laser_freq),
@@ -22,7 +22,7 @@ module bench_shot;
     );
 
     spad_control spad_control (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst),
         .mode(mode),
         .pre_start(pre_start),
@@ -57,12 +57,12 @@ module bench_shot;
 
     task cycle;
         begin
-            {clk_125, clk_250} = 2'b11;
-            #2000 clk_250 = 1'b0;
-            #2000 {clk_125, clk_250} = 2'b01;
+            {clk_sys, clk_laser} = 2'b11;
+            #2000 clk_laser = 1'b0;
+            #2000 {clk_sys, clk_laser} = 2'b01;
             look;
             k = k + 1;
-            #2000 clk_250 = 1'b0;
+            #2000 clk_laser = 1'b0;
             #2000;
         end
     endtask

@@ -6,7 +6,7 @@
 module check_centroid #(
     parameter Latency = 312  // cycle of algo_done, counted from the edge that takes a start
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     input wire algo_start,
     input wire [15:0] count
@@ -16,7 +16,7 @@ module check_centroid #(
     (* hierconn *) wire [8:0] \dut.step ;
 
     centroid_estimator dut (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst),
         .algo_start(algo_start),
         .count(count),
@@ -29,7 +29,7 @@ module check_centroid #(
     reg done = 1'b0;       // cycle eLatency
     reg [8:0] k = 9'd0;    // in cycle ek
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         first <= 1'b0;
         under_way <= !rst && (under_way ? k + 1 < Latency : algo_start);
         done <= !rst && under_way && k + 1 == Latency;

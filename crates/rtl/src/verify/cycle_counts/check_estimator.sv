@@ -22,7 +22,7 @@ module check_estimator #(
     parameter Tansig = 1,                    // cycles of tansig_en, from e258 on
     parameter Forward2 = (`NEURONS + 1) / 2  // cycles of forward2_en, from e262 on
 ) (
-    input wire clk_125,
+    input wire clk_sys,
     input wire rst,
     input wire algo_start,
     input wire [15:0] count
@@ -35,7 +35,7 @@ module check_estimator #(
     (* hierconn *) wire \dut.estimator_ctrl.forward2_en ;
 
     depth_estimator `PARAMETERS dut (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst),
         .algo_start(algo_start),
         .count(count),
@@ -48,7 +48,7 @@ module check_estimator #(
     reg done = 1'b0;       // cycle eLatency
     reg [8:0] k = 9'd0;    // in cycle ek
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         first <= 1'b0;
         under_way <= !rst && (under_way ? k + 1 < Latency : algo_start);
         done <= !rst && under_way && k + 1 == Latency;

@@ -1,29 +1,29 @@
 `default_nettype none
 
-// What holds of the laser pulse in every half cycle of clk_250, whatever the inputs do. One step
+// What holds of the laser pulse in every half cycle of clk_laser, whatever the inputs do. One step
 // of the proof is such a half cycle, 2 ns; `HOLDS names the property to prove. It is the output
 // register of synthesis that is proven; the one of simulation is what the bench measures.
 module check_pulse #(
     parameter Expected = 2000  // the number to prove [ps]
 ) (
     input wire rst,
-    input wire rst_250,
+    input wire rst_laser,
     input wire acquire,
     input wire laser_en,
     input wire [1:0] laser_freq
 );
     (* gclk *) wire step;
-    reg [1:0] half = 2'd3;  // half cycles since clk_125 rose; both clocks rise together
+    reg [1:0] half = 2'd3;  // half cycles since clk_sys rose; both clocks rise together
     always @(posedge step) half <= half + 2'd1;
-    wire clk_125 = !half[1];
-    wire clk_250 = !half[0];
+    wire clk_sys = !half[1];
+    wire clk_laser = !half[0];
     wire start, laser_on;
 
     vcsel_driver dut (
-        .clk_125(clk_125),
-        .clk_250(clk_250),
+        .clk_sys(clk_sys),
+        .clk_laser(clk_laser),
         .rst(rst),
-        .rst_250(rst_250),
+        .rst_laser(rst_laser),
         .acquire(acquire),
         .laser_en(laser_en),
         .laser_freq(laser_freq),
@@ -31,12 +31,12 @@ module check_pulse #(
         .laser_on(laser_on)
     );
 
-    reg first = 1'b1;           // the first cycle of clk_125
-    // The last three edges of clk_125 found acquire high and rst low.
+    reg first = 1'b1;           // the first cycle of clk_sys
+    // The last three edges of clk_sys found acquire high and rst low.
     reg [2:0] undisturbed = 3'd0;
     reg [13:0] width = 14'd0;   // time for which laser_on had been high [ps]
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         first <= 1'b0;
         undisturbed <= {undisturbed[1:0], acquire && !rst};
     end
@@ -48,7 +48,7 @@ module check_pulse #(
     wire laser_on_lag = !(laser_on && &undisturbed) || start && 2000 * half == Expected;
 
     always @* begin
-        if (first) assume (rst && rst_250);
+        if (first) assume (rst && rst_laser);
         else assert (`HOLDS);
     end
 endmodule

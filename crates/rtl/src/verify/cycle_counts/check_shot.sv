@@ -4,12 +4,12 @@
 // have been reset in the first. `HOLDS names the property to prove.
 module check_shot #(
     parameter Code = 0,      // the laser_freq of the property
-    parameter Expected = 25  // the number to prove [cycles of clk_125]
+    parameter Expected = 25  // the number to prove [cycles of clk_sys]
 ) (
-    input wire clk_125,
-    input wire clk_250,
+    input wire clk_sys,
+    input wire clk_laser,
     input wire rst,
-    input wire rst_250,
+    input wire rst_laser,
     input wire acquire,
     input wire laser_en,
     input wire [1:0] laser_freq,
@@ -18,10 +18,10 @@ module check_shot #(
     wire pre_start, start, spad_rst;
 
     vcsel_driver vcsel_driver (
-        .clk_125(clk_125),
-        .clk_250(clk_250),
+        .clk_sys(clk_sys),
+        .clk_laser(clk_laser),
         .rst(rst),
-        .rst_250(rst_250),
+        .rst_laser(rst_laser),
         .acquire(acquire),
         .laser_en(laser_en),
         .laser_freq(laser_freq),
@@ -30,7 +30,7 @@ module check_shot #(
     );
 
     spad_control spad_control (
-        .clk_125(clk_125),
+        .clk_sys(clk_sys),
         .rst(rst),
         .mode(mode),
         .pre_start(pre_start),
@@ -53,7 +53,7 @@ module check_shot #(
     reg [1:0] width = 2'd0;      // cycles for which spad_rst had been high, 3 at most
     reg [1:0] in_mode_1 = 2'd0;  // cycles of spad_rst since the last start or MODE 0, 3 at most
 
-    always @(posedge clk_125) begin
+    always @(posedge clk_sys) begin
         first <= 1'b0;
         found <= laser_freq;
         undisturbed <= {undisturbed[0], acquire && !rst};

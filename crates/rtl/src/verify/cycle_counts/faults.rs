@@ -30,16 +30,16 @@ fn a_fault_of_the_centroid_estimator_is_counted_and_not_proven() {
 #[test]
 fn a_fault_of_the_laser_is_counted_and_not_proven() {
     let laser = |from, to| [["vcsel_driver.v", from, to]];
-    fault("laser_period_0", &laser("5'd24", "5'd23"), 24);
-    fault("laser_period_1", &laser("5'd12", "5'd13"), 14);
-    fault("laser_period_2", &laser("5'd7", "5'd6"), 7);
+    fault("laser_period_0", &laser("16'd25}", "16'd24}"), 24);
+    fault("laser_period_1", &laser("16'd13", "16'd14"), 14);
+    fault("laser_period_2", &laser("16'd8", "16'd7"), 7);
+    fault("laser_period_3", &laser("{5{16'd6}}", "{5{16'd10}}"), 10);
     fault(
-        "laser_period_3",
-        &laser("default: last_of_freq = 5'd5", "default: last_of_freq = 5'd9"),
-        10,
+        "first_shot_3",
+        &laser("count_next = {PeriodBits{1'b0}}", "count_next = {4'd0, !acquire}"),
+        5,
     );
-    fault("first_shot_3", &laser("count_next = 5'd0", "count_next = {4'd0, !acquire}"), 5);
-    fault("pre_start_lead", &laser("count + 5'd2 == last", "count + 5'd3 == last"), 3);
+    fault("pre_start_lead", &laser("count + Two == last", "count + 5'd3 == last"), 3);
 }
 
 #[test]
@@ -47,11 +47,12 @@ fn a_fault_of_the_laser_is_counted_and_not_proven() {
 fn a_fault_of_the_spad_reset_or_of_the_pulse_is_counted_and_not_proven() {
     let laser = |from, to| [["vcsel_driver.v", from, to]];
     let twice = "(count + 5'd2 == last || count + 5'd3 == last)";
-    fault("spad_rst_lead", &laser("count + 5'd2 == last", "count + 5'd1 == last"), 0);
-    fault("spad_rst_width", &laser("count + 5'd2 == last", twice), 2);
+    let before = "count + Two == last";
+    fault("spad_rst_lead", &laser(before, "count + 5'd1 == last"), 0);
+    fault("spad_rst_width", &laser(before, twice), 2);
     fault("spad_rst_mode_1", &[["spad_control.v", "pre_start && !mode", "pre_start"]], 1);
     fault("laser_on_lag", &laser("fire && !fire_last", "fire"), 4000);
-    let simulated = ["ddr_output.v", "level <= clk_250 && d", "level <= clk_250 ? d : level"];
-    let synthesized = ["ddr_output.v", ".D2(1'b0)", ".D2(d)"];
+    let simulated = ["ddr_output.v", "clk_laser ? d[0] : second", "clk_laser ? d[0] : level"];
+    let synthesized = ["ddr_output.v", ".D2(d_second)", ".D2(d[0])"];
     fault("laser_on_width", &[simulated, synthesized], 4000);
 }

@@ -8,13 +8,13 @@ use tofsim::firmware::estimator_ctrl::EstimatorCtrl;
 use tofsim::firmware::forward1::BIAS_ROW;
 use tofsim::firmware::forward2::{MOST_NEURONS, Rom};
 use tofsim::firmware::spad_control::{self, SpadControl};
-use tofsim::firmware::vcsel_driver::{self, PERIODS, VcselDriver};
+use tofsim::firmware::vcsel_driver::{self, VcselDriver};
 use tofsim::kernel::{Clocked, S, U};
 use tofsim::network::roms::tansig_table;
 
 use super::measured::Measured;
 
-/// Half a cycle of `clk_250` [ps].
+/// Half a cycle of `clk_laser` [ps].
 const HALF: u64 = 2000;
 /// Cycles after which an estimation or five shots must be over.
 const PATIENCE: u64 = 1000;
@@ -25,7 +25,7 @@ pub fn measure(neurons: usize) -> Measured {
     estimator(neurons, &mut measured);
     centroid(&mut measured);
     for mode in [false, true] {
-        (0..PERIODS.len()).for_each(|code| shots(mode, code as u64, &mut measured));
+        (0..vcsel_driver::PERIODS.len()).for_each(|code| shots(mode, code as u64, &mut measured));
     }
     measured
 }
@@ -88,13 +88,18 @@ fn centroid(measured: &mut Measured) {
 /// Counts five shots from the rise of `acquire` on.
 fn shots(mode: bool, code: u64, measured: &mut Measured) {
     let laser_freq = U::new(code);
-    let mut i =
-        vcsel_driver::In { rst: false, rst_250: false, acquire: false, laser_en: true, laser_freq };
-    let mut driver = VcselDriver::default();
-    driver.rise(&i);
-    driver.fall_250();
-    driver.rise_250(&i);
-    driver.fall_250();
+    let mut i = vcsel_driver::In {
+        rst: false,
+        rst_laser: false,
+        acquire: false,
+        laser_en: true,
+        laser_freq,
+    };
+    let (mut driver, p) = (VcselDriver::default(), vcsel_driver::Params::default());
+    driver.rise(&i, &p);
+    driver.fall_laser();
+    driver.rise_laser(&i, &p);
+    driver.fall_laser();
     let mut spad = SpadControl::default();
     i.acquire = true;
     let (mut shots, mut start_at, mut pre_start_at, mut spad_rst_at) = (0, 0, 0, 0);
@@ -102,7 +107,7 @@ fn shots(mode: bool, code: u64, measured: &mut Measured) {
     for k in 1..PATIENCE {
         let pre_start = driver.registers.pre_start;
         spad = spad.next(&spad_control::In { rst: false, mode, pre_start }, &());
-        driver.rise(&i);
+        driver.rise(&i, &p);
         if driver.registers.pre_start {
             pre_start_at = k;
         }
@@ -124,8 +129,8 @@ fn shots(mode: bool, code: u64, measured: &mut Measured) {
         for half in 0..4 {
             match half {
                 0 => {}
-                2 => driver.rise_250(&i),
-                _ => driver.fall_250(),
+                2 => driver.rise_laser(&i, &p),
+                _ => driver.fall_laser(),
             }
             let now = (4 * k + half) * HALF;
             match (was_on, driver.laser_on()) {

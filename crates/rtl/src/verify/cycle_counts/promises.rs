@@ -23,7 +23,7 @@ pub struct Properties {
 
 impl Properties {
     const fn new(module: &'static str, text: &'static str) -> Self {
-        let (unit, step, steps) = ("cycles of clk_125", "async2sync", 4);
+        let (unit, step, steps) = ("cycles of clk_sys", "async2sync", 4);
         Properties { module, text, unit, open: &[], registers: &[], step, steps }
     }
 }

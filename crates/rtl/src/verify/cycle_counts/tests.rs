@@ -78,7 +78,7 @@ fn a_property_that_holds_of_two_numbers_is_vacuous() {
             never,
             [
                 "vcsel_driver.v",
-                "pre_start_next = acquire && count + 5'd2 == last",
+                "pre_start_next = acquire && count + Two == last",
                 "pre_start_next = 1'b0",
             ],
         ],

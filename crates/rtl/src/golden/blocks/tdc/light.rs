@@ -1,10 +1,10 @@
 //! The photons of a TDC's stimulus.
 
-use tofsim::firmware::carry_chain::{Delays, TAPS};
+use tofsim::firmware::carry_chain::Delays;
 
 use crate::golden::prelude::*;
 
-/// Period of `clk_125`.
+/// Period of `clk_sys`.
 const CYCLE: Time = Time::from_ns(8);
 /// Width of a pulse in MODE 1.
 const DEAD_TIME: Time = Time::from_ns(20);
@@ -24,7 +24,7 @@ fn ages(delays: &Delays) -> impl Iterator<Item = Ages> {
     let arrivals = delays.arrivals().iter().copied();
     let end = delays.tap_0() + CYCLE;
     let next = arrivals.clone().skip(1).chain([end]);
-    arrivals.zip(next).zip(1..=TAPS as u64).filter_map(move |((at, next), taps)| {
+    arrivals.zip(next).zip(1..=delays.taps() as u64).filter_map(move |((at, next), taps)| {
         let first = at.max(delays.tap_0());
         let last = next.min(end).since(Time::from_fs(1));
         (first <= last).then_some(Ages { taps, first, last })

@@ -1,0 +1,189 @@
+//! Instruments other than the KC705: drawn at random over what the firmware's parameters can be, each block
+//! and the whole in Verilog, and every way through time.
+
+use std::path::Path;
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use tofsim::sim::{Run, Stepping};
+
+use crate::common::{empty, refused, setup};
+use crate::lockstep::verified;
+
+/// Blocks that the parameters reach.
+const BLOCKS: [&str; 9] = [
+    "carry_chain",
+    "coarse_counter",
+    "control_sync",
+    "ddr_output",
+    "frame_ctrl",
+    "tdc",
+    "tdc_decoder",
+    "tdc_latch",
+    "vcsel_driver",
+];
+
+/// Period of clk_sys [ps].
+const CYCLE_PS: f64 = 8000.0;
+
+/// A number from `low` to `high`, small ones as often as large ones.
+fn log_uniform(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
+    (random.random_range(low.ln()..=high.ln())).exp()
+}
+
+/// The keys of an instrument, with a chain of its own in the folder.
+fn instrument(random: &mut ChaCha8Rng, folder: &Path, longest_period: f64) -> Vec<String> {
+    let taps = log_uniform(random, 16.0, 2000.0).round();
+    let offset_ps = random.random_range(300.0..7_000.0);
+    let tap_ps = random.random_range(8_300.0..15_900.0 - offset_ps) / taps;
+    let uneven = random.random_range(0.0..0.9);
+    let mut delays = Vec::new();
+    while (delays.len() as f64) < taps {
+        delays
+            .push((tap_ps * (1.0 + uneven * random.random_range(-1.0..1.0)) * 10.0).round() / 10.0);
+    }
+    let span: f64 = delays.iter().sum();
+    let stretch = tap_ps * taps / span;
+    delays.iter_mut().for_each(|delay| *delay = (*delay * stretch * 1000.0).round() / 1000.0);
+    let chain = folder.join("chain.toml");
+    std::fs::write(&chain, format!("offset_ps = {offset_ps:?}\ntap_delays_ps = {delays:?}\n"))
+        .unwrap();
+    let coarse_bits = random.random_range(1..=12);
+    let bin_ps = (log_uniform(random, 5.0, 800.0) * 1e3).round() / 1e3;
+    let most_first_ps = (CYCLE_PS * f64::from(1 << coarse_bits) - bin_ps).min(60_000.0);
+    let first_ps =
+        [0.0, random.random_range(0.0..most_first_ps).round()][random.random_range(0..2)];
+    // An edge that no code is later than.
+    let last = ((256.0 * bin_ps + first_ps) / CYCLE_PS).ceil() as u64 + 2;
+    let last = last.min(1 << coarse_bits);
+    let rates = random.random_range(1..=8);
+    let shortest = (last + 2).max(5);
+    let period =
+        |_| log_uniform(random, shortest as f64, shortest as f64 + longest_period).round() as u64;
+    let periods: Vec<_> = (0..rates).map(period).collect();
+    vec![
+        format!("tdc.profile={}", chain.display()),
+        format!("tdc.coarse_bits={coarse_bits}"),
+        format!("tdc.bin_ps={bin_ps}"),
+        format!("tdc.first_bin_ps={first_ps}"),
+        format!("tdc.count_stages={}", random.random_range(2..=3)),
+        format!("firmware.laser_periods={periods:?}"),
+        format!("firmware.laser_freq={}", random.random_range(0..rates)),
+        format!("firmware.pulse_half_cycles={}", random.random_range(1..=8)),
+        format!("firmware.drain_cycles={}", random.random_range(last + 8..last + 100)),
+        format!("firmware.mode={}", random.random_range(0..2)),
+        format!("seed={}", random.random_range(0..u32::MAX)),
+    ]
+}
+
+fn passes_in(simulator: &str, seeds: std::ops::Range<u64>) {
+    for seed in seeds {
+        let (mut random, folder) = (ChaCha8Rng::seed_from_u64(seed), empty());
+        let keys = instrument(&mut random, folder.path(), 40.0);
+        let set: Vec<_> = keys.iter().flat_map(|key| ["-s", key]).collect();
+        let blocks: Vec<_> = BLOCKS.iter().flat_map(|block| ["--block", block]).collect();
+        let base = ["--simulator", simulator];
+        let reports = verified(&[&base[..], &blocks, &set].concat());
+        for report in &reports {
+            let goals = ["met", "of"].map(|what| report["goals"][what].as_u64().unwrap());
+            // A draw may leave out rare cases.
+            assert!(goals[0] * 10 >= goals[1] * 9, "seed {seed}, {keys:?}: {report}");
+        }
+        let top = ["--top", "-s", "firmware.shots_per_frame=300"];
+        verified(&[&base[..], &top, &set].concat());
+    }
+}
+
+#[test]
+fn two_instruments_pass_in_icarus() {
+    passes_in("icarus", 0..2);
+}
+
+#[test]
+#[ignore = "long: ./check --full"]
+fn ten_instruments_pass_in_icarus_and_twenty_in_verilator() {
+    passes_in("icarus", 2..12);
+    passes_in("verilator", 12..32);
+}
+
+#[test]
+fn every_way_through_time_gives_the_same_frames() {
+    let mut hits = 0;
+    for seed in 100..130 {
+        let (mut random, folder) = (ChaCha8Rng::seed_from_u64(seed), empty());
+        let mut keys = instrument(&mut random, folder.path(), 300.0);
+        keys.push("firmware.shots_per_frame=200".to_owned());
+        let set: Vec<_> = keys.iter().map(String::as_str).collect();
+        let setup = setup("bright", &set);
+        let frames = |stepping| -> Vec<String> {
+            let frames = Run::new(&setup).stepping(stepping).frames(3).unwrap();
+            frames.iter().map(|frame| format!("{frame:?}")).collect()
+        };
+        let stepped = frames(Stepping::EveryCycle);
+        for stepping in [Stepping::SkipIdle, Stepping::LeapShots] {
+            assert_eq!(frames(stepping), stepped, "seed {seed}: {keys:?}");
+        }
+        hits += Run::new(&setup).frames(1).unwrap()[0].hits();
+    }
+    assert!(hits > 1_000, "{hits}");
+}
+
+#[test]
+fn what_does_not_fit_is_refused_with_what_would() {
+    let folder = empty();
+    let chain = |text: &str| {
+        std::fs::write(folder.path().join("chain.toml"), text).unwrap();
+        refused(folder.path(), &["run", "--waves", "none", "-s", "tdc.profile=./chain.toml"])
+    };
+    let key = |keys: &[&str]| {
+        let set = keys.iter().flat_map(|key| ["-s", key]);
+        refused(
+            folder.path(),
+            &["run", "--waves", "none"].into_iter().chain(set).collect::<Vec<_>>(),
+        )
+    };
+    for (found, expected) in [
+        (
+            key(&["firmware.laser_periods=[25, 3]"]),
+            "firmware.laser_periods.1 = 3: expected a whole number from 4",
+        ),
+        (key(&["firmware.laser_periods=[]"]), "expected a list of 1 to 8"),
+        (key(&["firmware.laser_periods=[9, 9, 9, 9, 9, 9, 9, 9, 9]"]), "expected a list of 1 to 8"),
+        (key(&["firmware.laser_periods=[70000]"]), "from 4 to 65535"),
+        (key(&["firmware.laser_periods=[10, 20]"]), "firmware.laser_freq = 3: expected 1 at most"),
+        (key(&["firmware.laser_freq=4"]), "expected 3 at most, the last of firmware.laser_periods"),
+        (
+            key(&["control=[{at_us=3, laser_freq=5}]"]),
+            "control.0.laser_freq = 5: expected 3 at most",
+        ),
+        (key(&["firmware.pulse_half_cycles=9"]), "from 1 to 8 [half cycles of clk_laser]"),
+        (
+            key(&["firmware.drain_cycles=9"]),
+            "firmware.drain_cycles = 9: expected 10 cycles or more",
+        ),
+        (key(&["tdc.bin_ps=4.9"]), "from 5.0 to 2000.0 [ps]"),
+        (
+            key(&["tdc.bin_ps=2000", "tdc.first_bin_ps=62001"]),
+            "tdc.first_bin_ps = 62001: expected 62000 ps at most, a bin less than the window that 3 bits count",
+        ),
+        (key(&["tdc.bin_ps=200"]), "firmware.laser_periods.2 = 8: expected 9 cycles or more"),
+        (key(&["tdc.coarse_bits=13"]), "from 1 to 12 [bit]"),
+        (key(&["tdc.coarse_bits=0"]), "from 1 to 12 [bit]"),
+        (chain("offset_ps = 2230\ntap_ps = 11.5\ntaps = 15"), "from 16 to 2000"),
+        (chain("offset_ps = 2230\ntap_ps = 11.5\ntaps = 400"), "the 400 taps take 4600 ps"),
+        (chain("offset_ps = 2230\ntap_ps = 11.5\ntaps = 2000"), "16 ns at most"),
+        (
+            chain(
+                "offset_ps = 2230\ntaps = 17\ntap_delays_ps = [600, 600, 600, 600, 600, 600, 600, 600, 600, 600, 600, 600, 600, 600, 600, 600]",
+            ),
+            "taps = 17: expected 16, as many as tap_delays_ps has",
+        ),
+        (
+            chain("offset_ps = 2230\ntap_ps = 11.5\n[[extra]]\ntap = 800\nps = 3"),
+            "extra.0.tap = 800: expected 799 at most",
+        ),
+    ] {
+        assert!(found.contains(expected), "{found}\n{expected}");
+    }
+}

@@ -1,0 +1,143 @@
+//! How wide words are and how many there are of each, where elaboration decides it.
+
+use crate::firmware::carry_chain::TAPS;
+use crate::firmware::coarse_counter::DEFAULT_COARSE_BITS;
+use crate::firmware::forward2::NEURONS;
+use crate::firmware::tdc_decoder::{CODES, TimeScale};
+use crate::firmware::{frame_ctrl, vcsel_driver};
+use crate::kernel::ones_width;
+use crate::kernel::signals::{Signal, SignalFormat};
+
+use super::ports::Params;
+
+/// What widths and numbers of signals follow from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sizes {
+    /// Taps of the chain.
+    pub taps: usize,
+    /// Bits of the coarse count.
+    pub coarse_bits: u32,
+    /// A clock period as times count it [units].
+    pub cycle: u64,
+    /// Binary digits of a time below a bin.
+    pub digits: u32,
+    /// Bits of the calibration ROM.
+    pub age_bits: u32,
+    /// Laser rates to choose from.
+    pub rates: usize,
+    /// The longest laser period [cycles of clk_sys].
+    pub longest_period: u64,
+    /// Length of the laser pulse [half cycles of clk_laser].
+    pub pulse_half_cycles: u32,
+    /// Length of Drain [cycles of clk_sys].
+    pub drain_cycles: u64,
+    /// Hidden neurons.
+    pub neurons: usize,
+}
+
+impl Default for Sizes {
+    /// The KC705's.
+    fn default() -> Self {
+        let (laser, scale) = (vcsel_driver::Params::default(), TimeScale::default());
+        Sizes {
+            taps: TAPS,
+            coarse_bits: DEFAULT_COARSE_BITS,
+            cycle: scale.cycle(),
+            digits: scale.digits(),
+            age_bits: 14,
+            rates: laser.periods.len(),
+            longest_period: laser.longest_period(),
+            pulse_half_cycles: laser.pulse_half_cycles,
+            drain_cycles: frame_ctrl::DRAIN_CYCLES,
+            neurons: NEURONS,
+        }
+    }
+}
+
+/// Bits of a word that counts up to `last`.
+fn bits_to(last: u64) -> u32 {
+    (u64::BITS - last.leading_zeros()).max(1)
+}
+
+impl Sizes {
+    /// The width of a word that is called that in [`Signal::size`]; 0 where there is no such word [bits].
+    pub fn width(&self, size: &str) -> Option<u32> {
+        let groups = |group: usize| (self.taps.div_ceil(group) * ones_width(group)) as u32;
+        Some(match size {
+            "Taps" => self.taps as u32,
+            "Sixteens" => groups(16),
+            "Hundreds" => groups(128),
+            "CountOfTaps" => bits_to(self.taps as u64),
+            "CoarseBits" => self.coarse_bits,
+            "AgeBits" => self.age_bits,
+            "TimeBits" => {
+                let edge_bits = bits_to(self.cycle) + self.coarse_bits;
+                let code_bits = CODES.ilog2() + self.digits;
+                edge_bits.max(self.age_bits).max(code_bits) + 1
+            }
+            "RateBits" => bits_to(self.rates as u64 - 1),
+            "PeriodBits" => bits_to(self.longest_period - 1),
+            "Halves" => self.pulse_half_cycles.min(2),
+            "SecondHalf" => u32::from(self.pulse_half_cycles > 1),
+            "Stretch" => self.pulse_half_cycles.div_ceil(2) - 1,
+            "DrainBits" => bits_to(self.drain_cycles - 1),
+            _ => return None,
+        })
+    }
+
+    /// A signal as a design of these sizes has it, if it has it.
+    pub fn fitted(&self, signal: Signal) -> Option<Signal> {
+        let Some(size) = signal.size else { return Some(signal) };
+        if size == "Neurons" {
+            let place = signal.name.rsplit('_').next()?.parse::<usize>().ok()?;
+            return (place < self.neurons).then_some(signal);
+        }
+        let width = self.width(size)?;
+        let format = match signal.format {
+            SignalFormat::Unsigned if width == 1 => SignalFormat::Bits,
+            format => format,
+        };
+        (width > 0).then_some(Signal { width, format, ..signal })
+    }
+}
+
+impl Params {
+    /// Widths and numbers that they come to.
+    pub fn sizes(&self) -> Sizes {
+        Sizes {
+            taps: self.tdc.delays.taps(),
+            coarse_bits: self.tdc.coarse_counter.coarse_bits,
+            cycle: self.tdc.decoder.scale.cycle(),
+            digits: self.tdc.decoder.scale.digits(),
+            age_bits: self.tdc.decoder.age_bits(),
+            rates: self.vcsel_driver.periods.len(),
+            longest_period: self.vcsel_driver.longest_period(),
+            pulse_half_cycles: self.vcsel_driver.pulse_half_cycles,
+            drain_cycles: self.frame_ctrl.drain_cycles,
+            neurons: self.depth_estimator.neurons(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_width_is_what_the_largest_value_needs() {
+        let kc705 = Sizes::default();
+        let widths = |sizes: Sizes, names: &[&str]| -> Vec<u32> {
+            names.iter().map(|name| sizes.width(name).unwrap()).collect()
+        };
+        let names =
+            ["Taps", "Sixteens", "Hundreds", "CountOfTaps", "TimeBits", "RateBits", "PeriodBits"];
+        assert_eq!(widths(kc705, &names), [800, 250, 56, 10, 17, 2, 5]);
+        let other = Sizes { taps: 17, coarse_bits: 12, rates: 1, longest_period: 65_535, ..kc705 };
+        assert_eq!(widths(other, &names), [17, 10, 8, 5, 26, 1, 16]);
+        let pulses = [1, 2, 3, 8].map(|pulse_half_cycles| {
+            let sizes = Sizes { pulse_half_cycles, ..kc705 };
+            widths(sizes, &["Halves", "SecondHalf", "Stretch"])
+        });
+        assert_eq!(pulses, [[1, 0, 0], [2, 1, 0], [2, 1, 1], [2, 1, 3]]);
+    }
+}
