@@ -118,15 +118,21 @@ impl Params {
         self.cal.len() - 1
     }
 
-    /// Width of the ROM: for an age of two clock periods, and the time from the laser edge to bin 0 [bits].
+    /// Width of the ROM: for an age of two clock periods, and the time from the laser edge to bin 0, or for the
+    /// oldest hit, which may leave the last tap later [bits].
     pub fn age_bits(&self) -> u32 {
-        self.scale.units(4 * self.scale.period().fs() + 2 * self.scale.first().fs()).ilog2() + 1
+        let periods = self.scale.units(4 * self.scale.period().fs() + 2 * self.scale.first().fs());
+        periods.max(self.oldest()).ilog2() + 1
+    }
+
+    /// The largest word of the ROM [units].
+    fn oldest(&self) -> u64 {
+        self.cal.iter().map(|age| age.get()).max().unwrap_or_default()
     }
 
     /// The last edge after the laser's at which a hit of some ones count has a time in range.
     pub fn last_coded(&self) -> u64 {
-        let oldest = self.cal.iter().map(|age| age.get()).max().unwrap_or_default();
-        (self.scale.range() + oldest - 1) / self.scale.cycle()
+        (self.scale.range() + self.oldest() - 1) / self.scale.cycle()
     }
 
     /// The ROM of a chain whose delays are known: for each ones count the middle of the interval of ages that
@@ -282,6 +288,18 @@ mod tests {
         assert_eq!(cal[482], 5132);
         assert_eq!(cal[0], 1280);
         assert_eq!(cal[800], 1280 + 8 * 800 - 4);
+    }
+
+    #[test]
+    fn a_word_of_the_rom_holds_a_hit_that_leaves_the_last_tap_late() {
+        let delays = Delays::new(Time::from_fs(800_000), &[1_000_000; 16]).unwrap();
+        let scale = TimeScale::new(Time::from_ns(8), Time::from_fs(15_700), Time::ZERO, 3);
+        let cal = Params::calibration(&delays, &scale);
+        let oldest = cal[16].get();
+        let two_periods = 2 * scale.cycle();
+        assert!(two_periods.ilog2() < oldest.ilog2(), "{two_periods}, {oldest}");
+        let bits = Params { cal, count_stages: 3, scale }.age_bits();
+        assert!(oldest < 1 << bits, "{oldest} in {bits} bits");
     }
 
     #[test]
