@@ -7,13 +7,10 @@ use rand::Rng;
 use rand_distr::{Binomial, Distribution};
 
 use crate::firmware::tdc;
-use crate::firmware::tdc_decoder::TimeScale;
+use crate::firmware::tdc_decoder::{CODES, TimeScale};
 use crate::kernel::Time;
 
 use super::hazard::Hazard;
-
-/// Codes of the TDC [codes].
-pub const CODES: usize = 256;
 
 /// A span of avalanche times that give one code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

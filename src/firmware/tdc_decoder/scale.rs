@@ -3,7 +3,7 @@
 use crate::kernel::Time;
 
 /// Codes of the converter [codes].
-pub const CODES: u64 = 256;
+pub const CODES: usize = 256;
 /// Fewest binary digits of a time below a bin [bits].
 const FEWEST_DIGITS: u32 = 4;
 
@@ -79,7 +79,7 @@ impl TimeScale {
     /// First time past the last bin, after the begin of the first [units].
     #[inline(always)]
     pub fn range(&self) -> u64 {
-        CODES << self.digits
+        (CODES as u64) << self.digits
     }
 
     /// Half of that many femtoseconds, rounded half up [units].

@@ -5,9 +5,9 @@
 //! spans of [`Bins`] and what lies between and after them.
 
 use crate::firmware::tdc;
+use crate::firmware::tdc_decoder::CODES;
 use crate::kernel::Time;
 use crate::optics::Bins;
-use crate::optics::closed_form::CODES;
 
 /// Result of a shot: a code from 0 to 255, or one of the constants here.
 pub type ShotOutcome = u16;

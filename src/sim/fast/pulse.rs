@@ -23,11 +23,15 @@ pub(super) struct Pulse {
     stepped: bool,
 }
 
+/// Whether pulses are too long to be replayed, or one is on its way whose begin was not seen.
+fn is_stepped(top: &TofTop, p: &Params) -> bool {
+    p.vcsel_driver.pulse_half_cycles > SHORT || top.vcsel_driver.has_pulse()
+}
+
 impl Pulse {
     /// At the beginning.
     pub(super) fn new(top: &TofTop, p: &Params) -> Self {
-        let is_long = p.vcsel_driver.pulse_half_cycles > SHORT;
-        Pulse { fired: None, stepped: is_long || top.vcsel_driver.has_pulse() }
+        Pulse { fired: None, stepped: is_stepped(top, p) }
     }
 
     /// The emitter's part of the cycle that ends as `device.cycle`, which begins at `now`.
@@ -52,8 +56,7 @@ impl Pulse {
         emit(&mut device.top, p);
         device.react(now, device.top.nets.laser_on && !lit);
         rest_of_cycle(&mut device.top, p);
-        let is_long = p.vcsel_driver.pulse_half_cycles > SHORT;
-        self.stepped = is_long || device.top.vcsel_driver.has_pulse();
+        self.stepped = is_stepped(&device.top, p);
     }
 
     /// Coming cycles in which nothing of the emitter would move but the laser's count.

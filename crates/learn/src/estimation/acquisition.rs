@@ -3,6 +3,7 @@
 use std::f64::consts::SQRT_2;
 
 use tofsim::error::Input;
+use tofsim::firmware::tdc_decoder::CODES;
 use tofsim::kernel::Time;
 use tofsim::network::Histogram;
 use tofsim::optics::budget::LIGHT_M_S;
@@ -10,8 +11,6 @@ use tofsim::optics::{Bins, Budget};
 use tofsim::scenario::QuenchMode;
 use tofsim::sim::setup::{CYCLE, Setup};
 
-/// Codes of the TDC [codes].
-const CODES: usize = 256;
 /// Mean arrival of an echo for each metre of distance, 2 / c (eq. 3.23) [ps/m].
 pub const ARRIVAL_PS_PER_M: f64 = 2e12 / LIGHT_M_S;
 
