@@ -21,6 +21,8 @@ const JITTER_PS: f64 = 20.0;
 const THESIS_SIGMA_PS: f64 = 137.0;
 /// A pulse that is that part wider or narrower is another one [1].
 const OTHER_PULSE: f64 = 0.02;
+/// A straight line that is that part steeper or flatter is that of other bins [1].
+const OTHER_SCALE: f64 = 0.2;
 /// The distances to which they are fitted (Table 5.2) [m].
 const THESIS_RANGE_M: [f64; 2] = [0.1, 0.6];
 /// Part of a pulse that a centroid's window has to hold to either side [sigma].
@@ -39,12 +41,14 @@ impl EstimatorKind {
     pub fn notes(self, setup: &Setup) -> Vec<Note> {
         let teller = Teller { name: self.name(), setup };
         let found = match self {
-            EstimatorKind::Network | EstimatorKind::NetworkFloat => [None, None, None],
-            EstimatorKind::Likelihood => [teller.dead_time(), teller.row(), teller.control()],
-            EstimatorKind::Matched => [teller.mode(), teller.jitter(0.0), teller.control()],
-            EstimatorKind::Centroid => [teller.mode(), teller.jitter(JITTER_PS), teller.window()],
+            EstimatorKind::Network | EstimatorKind::NetworkFloat => [None, None, None, None],
+            EstimatorKind::Likelihood => [teller.dead_time(), teller.row(), teller.control(), None],
+            EstimatorKind::Matched => [teller.mode(), teller.jitter(0.0), teller.control(), None],
+            EstimatorKind::Centroid => {
+                [teller.mode(), teller.jitter(JITTER_PS), teller.window(), teller.scale()]
+            }
             EstimatorKind::Peak | EstimatorKind::Subtraction => {
-                [teller.mode(), teller.jitter(JITTER_PS), teller.pulse()]
+                [teller.mode(), teller.jitter(JITTER_PS), teller.pulse(), teller.thesis_bins()]
             }
         };
         found.into_iter().flatten().collect()
@@ -80,6 +84,11 @@ pub fn notes_of_firmware(setup: &Setup) -> Vec<Note> {
         "network".clone_into(&mut note.expected);
     }
     notes
+}
+
+/// A distance, as a note expects it [m].
+fn about(distance_m: f64) -> String {
+    format!("about {distance_m:.6}")
 }
 
 /// Who says what of which scenario.
@@ -184,6 +193,34 @@ impl Teller<'_> {
         let expected = format!("{:.0} at least, 4 sigma of the pulse", needed.ceil());
         let is_narrow = (half as f64) < needed.floor();
         is_narrow.then(|| self.note("estimator.centroid_half_width", half, expected, text))
+    }
+
+    /// That the centroid's straight line is that of the bins: c/2 times their width, and times the begin of the
+    /// first. What it differs by to make up for pile-up is less.
+    fn scale(&self) -> Option<Note> {
+        let scenario = &self.setup.scenario;
+        let (estimator, bins) = (&scenario.estimator, self.setup.bins());
+        let bin_m = bins.bin_ps() / ARRIVAL_PS_PER_M;
+        let (slope_m, offset_m) = (estimator.centroid_slope_m, estimator.centroid_offset_m);
+        if (slope_m / bin_m - 1.0).abs() > OTHER_SCALE {
+            let text = "its distance of a bin is that of bins of another width";
+            return Some(self.note("estimator.centroid_slope_m", slope_m, about(bin_m), text));
+        }
+        let first_m = bins.first_ps() / ARRIVAL_PS_PER_M;
+        let is_other = first_m > 0.0 && (offset_m - first_m).abs() > OTHER_SCALE * first_m;
+        let text = "what it adds is not the distance at which the first bin begins";
+        is_other.then(|| self.note("estimator.centroid_offset_m", offset_m, about(first_m), text))
+    }
+
+    /// That the bins are those for which the peak detection has its constants.
+    fn thesis_bins(&self) -> Option<Note> {
+        let bins = self.setup.bins();
+        let text = "its constants are those of bins of 25 ps from the laser edge";
+        match (bins.bin_ps(), bins.first_ps()) {
+            _ if bins.are_kc705() => None,
+            (bin_ps, 0.0) => Some(self.note("tdc.bin_ps", bin_ps, "25", text)),
+            (_, first_ps) => Some(self.note("tdc.first_bin_ps", first_ps, "0", text)),
+        }
     }
 
     /// That the pulse is the one to which the straight line was fitted.

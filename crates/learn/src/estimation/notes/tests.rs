@@ -35,6 +35,10 @@ fn what_an_estimator_does_not_know_is_named() {
         (Matched, "target.distance_m=0.04", "target.distance_m"),
         (Likelihood, "target.distance_m=0.04", "target.distance_m"),
         (Centroid, "laser.pulse_sigma_ps=200", "estimator.centroid_half_width"),
+        (Centroid, "tdc.bin_ps=40", "estimator.centroid_slope_m"),
+        (Centroid, "tdc.first_bin_ps=1000", "estimator.centroid_offset_m"),
+        (Peak, "tdc.bin_ps=24", "tdc.bin_ps"),
+        (Subtraction, "tdc.first_bin_ps=1000", "tdc.first_bin_ps"),
         (Centroid, "target.distance_m=0.3", "--estimator"),
         (Peak, "target.distance_m=0.1", "--estimator"),
     ] {
@@ -50,6 +54,21 @@ fn what_an_estimator_does_not_know_is_named() {
     let found = keys(Likelihood, &["pll.jitter_rms_ps=50", "target.distance_m=0.86"]);
     assert_eq!(found, ["target.distance_m"]);
     assert_eq!(keys(Likelihood, &["spad.dead_time_ns=6"]), [""; 0]);
+}
+
+#[test]
+fn with_what_the_notes_expect_other_bins_are_known() {
+    let bins = ["tdc.bin_ps=40", "tdc.first_bin_ps=1000"];
+    let own = ["estimator.centroid_slope_m=0.005995849", "estimator.centroid_offset_m=0.1498962"];
+    let of_bins = |set: &[&str]| {
+        let scale = ["estimator.centroid_slope_m", "estimator.centroid_offset_m"];
+        let found = keys(EstimatorKind::Centroid, set);
+        found.into_iter().filter(|key| scale.contains(&key.as_str())).count()
+    };
+    assert_eq!((of_bins(&bins), of_bins(&[bins, own].concat())), (1, 0));
+    for kind in [EstimatorKind::Likelihood, EstimatorKind::Matched] {
+        assert!(keys(kind, &bins).is_empty(), "{kind:?}");
+    }
 }
 
 #[test]
