@@ -147,9 +147,8 @@ mod tests {
         {
             let setup = setup(&[&format!("laser.wavelength_nm={wavelength_nm}")]);
             let note = setup.eye_safety_note("a frame", &setup.exposure_to_a_frame());
-            let key = note.map(|note| note.key);
-            let expected = (!is_known).then_some("laser.wavelength_nm");
-            assert_eq!(key.as_deref(), expected, "{wavelength_nm} nm");
+            let is_of_wavelength = note.is_some_and(|note| note.key == "laser.wavelength_nm");
+            assert_eq!(is_of_wavelength, !is_known, "{wavelength_nm} nm");
         }
     }
 
