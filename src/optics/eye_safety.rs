@@ -1,7 +1,11 @@
 //! Class 1 limits of IEC 60825-1:2014 as the thesis has them (Table 3.1).
 
+use std::ops::RangeInclusive;
+
 /// Where Table 3.1 ends [s].
 pub const LONGEST_S: f64 = 10.0;
+/// Wavelengths for which C4 is that of Table 3.1 [nm].
+pub const C4_NM: RangeInclusive<f64> = 700.0..=1050.0;
 
 /// Accessible emission limit of a pulse or exposure of that length: Table 3.1 [J].
 ///
@@ -59,8 +63,7 @@ impl Exposure {
 
 /// C4 of IEC 60825-1: 3.02 at 940 nm.
 fn correction_c4(wavelength_nm: f64) -> Option<f64> {
-    let in_range = (700.0..=1050.0).contains(&wavelength_nm);
-    in_range.then(|| libm::pow(10.0, 0.002 * (wavelength_nm - 700.0)))
+    C4_NM.contains(&wavelength_nm).then(|| libm::pow(10.0, 0.002 * (wavelength_nm - 700.0)))
 }
 
 #[cfg(test)]

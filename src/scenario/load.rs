@@ -105,7 +105,7 @@ mod tests {
         assert_eq!(from_text("", &["tdc.profile=007"]).unwrap().tdc.profile, "007");
         let error = from_text("", &["target.distance_m=-.5"]).unwrap_err();
         assert!(
-            error.ends_with("target.distance_m = -0.5: expected a number from 0.001 to 6.9 [m]")
+            error.ends_with("target.distance_m = -0.5: expected a number from 0.001 to 1000.0 [m]")
         );
         let error = from_text("", &["firmware.shots_per_frame=.5"]).unwrap_err();
         assert!(error.contains("= 0.5: expected a whole number"), "{error}");
@@ -116,7 +116,7 @@ mod tests {
         let error = |text| from_text(text, &[]).unwrap_err();
         assert_eq!(
             error("[target]\ndistance_m = -0.5\n"),
-            "t.toml:2:14: target.distance_m = -0.5: expected a number from 0.001 to 6.9 [m]"
+            "t.toml:2:14: target.distance_m = -0.5: expected a number from 0.001 to 1000.0 [m]"
         );
         assert!(error("[target]\ndistance_m = nan").contains("expected a number"));
         assert!(error("[target]\ndistance_m = \"1\"").contains("expected a number from"));

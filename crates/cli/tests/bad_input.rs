@@ -26,7 +26,7 @@ fn a_scenario_that_cannot_be_used_is_refused_with_its_place() {
         scenario(b"[target]\ndistance_m = \"far\"\n")
             .contains("s.toml:2:14: target.distance_m = \"far\": expected a number")
     );
-    assert!(scenario(b"[target]\ndistance_m = -1\n").contains("from 0.001 to 6.9 [m]"));
+    assert!(scenario(b"[target]\ndistance_m = -1\n").contains("from 0.001 to 1000.0 [m]"));
     assert!(scenario(b"[target]\ndistance_m = nan\n").contains("distance_m = nan"));
     assert!(scenario(b"[firmware]\nshots_per_frame = 0\n").contains("from 1 to 65535"));
     assert!(scenario(b"[firmware]\nshots_per_frame = 70000\n").contains("from 1 to 65535"));

@@ -136,8 +136,8 @@ fn what_is_no_grid_is_refused() {
     let folder = empty();
     for (grid, expected) in [
         (
-            "target.distance_m=0.5..7:0.5",
-            "target.distance_m = 7: expected a number from 0.001 to 6.9",
+            "target.distance_m=500..1001:501",
+            "target.distance_m = 1001: expected a number from 0.001 to 1000.0",
         ),
         ("target.distance_m=0.1..0.5", "expected FROM..TO:STEP"),
         ("target.distance_m=0.1..0.5:1e-9", "no more than 1000000 values"),

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 table! {
     /// What is measured: a rectangle, perpendicular to the axis, centred on it.
     pub struct Target {
-        /// Distance from the sensor. An echo must arrive within the shortest laser period.
-        #[schemars(range(min = 0.001, max = 6.9), extend("unit" = "m", "source" = "Table 3.2: 0.1 .. 0.6"))]
+        /// Distance from the sensor. Light that comes after the next pulse is not simulated.
+        #[schemars(range(min = 0.001, max = 1000.0), extend("unit" = "m", "source" = "Table 3.2: 0.1 .. 0.6"))]
         pub distance_m: f64 = 0.5,
         /// Fraction of light that is diffused back.
         #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "Table 3.2: 0.08 .. 0.60"))]
@@ -64,8 +64,8 @@ table! {
         /// Rate at which the average power is stated. The firmware's rate is `firmware.laser_freq`.
         #[schemars(range(min = 1.0, max = 1e9), extend("unit" = "Hz", "source" = "Table 3.2"))]
         pub repetition_rate_hz: f64 = 40e6,
-        /// Wavelength.
-        #[schemars(range(min = 700.0, max = 1050.0), extend("unit" = "nm", "source" = "Table 3.2"))]
+        /// Wavelength. Limits of eye safety are known from 700 to 1050 nm.
+        #[schemars(range(min = 350.0, max = 1700.0), extend("unit" = "nm", "source" = "Table 3.2"))]
         pub wavelength_nm: f64 = 940.0,
         /// Standard deviation of the pulse as the detector times it.
         #[schemars(range(min = 1.0, max = 2000.0), extend("unit" = "ps", "source" = "fitted to Table 5.2"))]

@@ -2,7 +2,7 @@
 
 use crate::note::{Note, NoteCode};
 use crate::optics::Chances;
-use crate::optics::eye_safety::{Exposure, LONGEST_S};
+use crate::optics::eye_safety::{C4_NM, Exposure, LONGEST_S};
 use crate::sim::fast::histogram::independent_shots;
 
 use super::{CYCLE, Setup};
@@ -63,6 +63,13 @@ impl Setup {
             true => format!("{:.3} ms", exposure_s * 1e3),
             false => format!("{exposure_s} s"),
         };
+        if !C4_NM.contains(&laser.wavelength_nm) {
+            let expected = format!("{} to {}", C4_NM.start(), C4_NM.end());
+            let text =
+                format!("{what}: no Class 1 limit to tell, Table 3.1 has none for such light");
+            let (key, value) = ("laser.wavelength_nm", laser.wavelength_nm);
+            return Some(Note::new(NoteCode::EyeSafety, key, value, expected, text));
+        }
         let Some(limit_w) = limit_w else {
             let (key, value) = ("laser.repetition_rate_hz", laser.repetition_rate_hz);
             let expected = format!("{} or more", (self.pulses() / LONGEST_S).ceil());
@@ -130,6 +137,18 @@ mod tests {
             let (below, above) = (power(1.0), power(1.01));
             assert_eq!(below.eye_safety_note("it", &exposure(&below)), None);
             assert!(above.eye_safety_note("it", &exposure(&above)).is_some());
+        }
+    }
+
+    #[test]
+    fn of_light_that_table_3_1_does_not_know_it_is_said() {
+        for (wavelength_nm, is_known) in
+            [(699.0, false), (700.0, true), (1050.0, true), (1550.0, false)]
+        {
+            let setup = setup(&[&format!("laser.wavelength_nm={wavelength_nm}")]);
+            let note = setup.eye_safety_note("a frame", &setup.exposure_to_a_frame());
+            let is_of_wavelength = note.is_some_and(|note| note.key == "laser.wavelength_nm");
+            assert_eq!(is_of_wavelength, !is_known, "{wavelength_nm} nm");
         }
     }
 

@@ -89,17 +89,40 @@ impl Setup {
         note(key, value.into(), "a photon a frame at least")
     }
 
-    /// An echo that comes after the last bin. None comes after the next pulse: the scenario's farthest
-    /// target is nearer than that.
+    /// An echo that comes after the last bin, which is before the next pulse.
     fn past_the_end(&self) -> Option<Note> {
         let bins = self.bins();
         let end = bins.spans().last().map_or(Time::ZERO, |span| span.until);
-        if self.budget.mean_arrival < end {
+        let arrival = self.budget.mean_arrival;
+        if arrival < end {
             return None;
         }
         let (key, distance_m) = ("target.distance_m", self.scenario.target.distance_m);
         let expected = format!("below {:.3}", end.seconds() * LIGHT_M_S / 2.0);
-        let text = "the echo comes after the last bin, so the depth is not the target's";
+        let text = match arrival.seconds() < self.laser_period_s() {
+            true => "the echo comes after the last bin, so the depth is not the target's",
+            false => {
+                "the echo comes after the next pulse and is not simulated, so the depth is not the target's"
+            }
+        };
         Some(Note::new(NoteCode::EchoPastHistogram, key, distance_m, expected, text))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_echo_after_the_next_pulse_is_said_not_to_be_simulated() {
+        let text = |distance_m: &str| {
+            let wall = ["target.length_m=10", "target.width_m=10", distance_m];
+            let setup = Setup::load("kc705", &wall).unwrap();
+            setup.no_depth().map(|note| (note.code, note.text.contains("after the next pulse")))
+        };
+        // The laser's period is 48 ns, 7.19 m.
+        assert_eq!(text("target.distance_m=0.9"), None);
+        assert_eq!(text("target.distance_m=7.1"), Some((NoteCode::EchoPastHistogram, false)));
+        assert_eq!(text("target.distance_m=7.3"), Some((NoteCode::EchoPastHistogram, true)));
     }
 }

@@ -174,8 +174,8 @@ mod tests {
 
     #[test]
     fn what_the_scenario_does_not_have_is_refused_by_its_own_schema() {
-        let error = refused("target.distance_m=0.5..9:0.5");
-        let expected = "target.distance_m = 9: expected a number from 0.001 to 6.9 [m]";
+        let error = refused("target.distance_m=500..1001:500.5");
+        let expected = "target.distance_m = 1000.5: expected a number from 0.001 to 1000.0 [m]";
         assert!(error.contains(expected), "{error}");
         assert!(refused("target.distance=0.5").contains("did you mean `distance_m`?"));
         assert!(refused("tdc.profile=1").contains("a text in quotes"));

@@ -216,7 +216,7 @@ mod tests {
         for (text, expected) in [
             ("target.distance_m = true", "target.distance_m: expected \"FROM..TO:STEP\""),
             ("target.distance_m = [[1]]", "target.distance_m: expected \"FROM..TO:STEP\""),
-            ("target.distance_m = 9", "a number from 0.001 to 6.9"),
+            ("target.distance_m = 1001", "a number from 0.001 to 1000.0"),
             ("", "expected keys of the scenario"),
             ("a", "grid.toml:1:2"),
         ] {
