@@ -5,7 +5,7 @@
 //! a port that passes it on is an alias of the same id, found by the same connections that the
 //! simulation uses.
 
-use crate::firmware::histogram_builder::BINS;
+use crate::firmware::histogram_builder;
 use crate::firmware::tof_top::{Estimator, Params, Sizes};
 use crate::kernel::signals::{Signal, SignalFormat, View};
 
@@ -42,13 +42,13 @@ pub fn every_entry() -> Vec<Entry> {
     Build::entries(Estimator::default())
 }
 
-/// The words of the histogram's RAM, `histogram_builder.ram_0` to `ram_255`.
-pub fn ram_entries() -> Vec<Entry> {
+/// The words of the histogram's RAM, `histogram_builder.ram_0` to that of the last bin.
+pub fn ram_entries(size: &histogram_builder::Params) -> Vec<Entry> {
     let word = |bin| Entry {
         scope: format!("{TOP}.histogram_builder"),
         signal: Signal {
             name: format!("ram_{bin}"),
-            width: 16,
+            width: size.count_bits,
             size: None,
             format: SignalFormat::Unsigned,
             output: false,
@@ -58,7 +58,7 @@ pub fn ram_entries() -> Vec<Entry> {
         kind: Kind::Internal,
         id: RAM + bin,
     };
-    (0..BINS).map(word).collect()
+    (0..size.bins).map(word).collect()
 }
 
 /// Whether a dotted path lies in another or is the same.

@@ -18,5 +18,6 @@ mod write;
 pub use domain::Domain;
 pub use estimate::{Estimate, estimate};
 pub use file::Network;
-pub use histogram::{Histogram, MAX_HITS};
+pub use histogram::Histogram;
+pub use roms::blank;
 pub use weights::Weights;

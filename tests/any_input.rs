@@ -31,7 +31,7 @@ proptest! {
 
     #[test]
     fn histograms(text in nearly(&["bin,count", "\n", "0,", "1,5\n", "65535", "#x\n", "\"", " "])) {
-        let _ = histogram_file::parse_csv("h", &text);
+        let _ = histogram_file::parse_csv("h", &text, &Default::default());
         let _ = CsvInput::new("h", &text, &["bin", "count"]);
     }
 

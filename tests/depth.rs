@@ -15,19 +15,20 @@ fn histogram(random: &mut impl Rng) -> Histogram {
     let centre_ps = random.random_range(0.08..0.62) / 299_792_458.0 * 2e12;
     let sigma_ps = random.random_range(250.0..1000.0);
     let (echo, background) = (random.random_range(500.0..15_000.0), random.random_range(1.0..40.0));
-    std::array::from_fn(|bin| {
+    let count = |bin: usize| {
         let deviation = ((bin as f64 + 0.5) * bin_ps - centre_ps) / sigma_ps;
         let density =
             (-0.5 * deviation * deviation).exp() / (sigma_ps * (2.0 * std::f64::consts::PI).sqrt());
         let mean: f64 = background + echo * bin_ps * density;
-        Poisson::new(mean).unwrap().sample(random) as u16
-    })
+        Poisson::new(mean).unwrap().sample(random) as u32
+    };
+    (0..256).map(count).collect()
 }
 
 /// Root mean square and largest difference of the two depths [mm].
 fn differences(name: &str) -> (f64, f64) {
     let network = Network::builtin(name).unwrap().unwrap();
-    let (params, float) = (network.params(), network.twin());
+    let (params, float) = (network.params(&Default::default()), network.twin());
     let mut random = ChaCha8Rng::seed_from_u64(6);
     let (mut squares, mut worst) = (0.0, 0f64);
     for _ in 0..HISTOGRAMS {

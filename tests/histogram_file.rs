@@ -10,7 +10,7 @@ use crate::common::{csv, npy};
 
 /// The histogram of a file that has one.
 fn single(path: &Path) -> Result<Histogram> {
-    let mut histograms = histogram_file::open(path)?;
+    let mut histograms = histogram_file::open(path, Default::default())?;
     let first = histograms.next().expect("a histogram");
     assert!(histograms.next().is_none());
     first
@@ -20,9 +20,9 @@ fn single(path: &Path) -> Result<Histogram> {
 fn every_type_of_whole_number_reads_the_same_in_either_byte_order() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("h.npy");
-    let histogram: Histogram = std::array::from_fn(|bin| (bin % 100) as u16);
+    let histogram: Histogram = (0..256).map(|bin| bin % 100).collect();
     let check = |descr: &str, bytes: fn(u16) -> Vec<u8>| {
-        let data: Vec<u8> = histogram.iter().flat_map(|&count| bytes(count)).collect();
+        let data: Vec<u8> = histogram.iter().flat_map(|&count| bytes(count as u16)).collect();
         std::fs::write(&path, npy(descr, "(256,)", &data)).unwrap();
         assert!(single(&path).unwrap() == histogram, "{descr}");
     };
@@ -43,7 +43,7 @@ fn fault(bytes: &[u8]) -> String {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("h");
     std::fs::write(&path, bytes).unwrap();
-    let error = histogram_file::open(&path)
+    let error = histogram_file::open(&path, Default::default())
         .and_then(|mut list| list.find(Result::is_err).expect("a histogram in error").map(drop));
     let message = error.unwrap_err().to_string();
     let prefix = path.display().to_string();
@@ -52,7 +52,7 @@ fn fault(bytes: &[u8]) -> String {
 
 #[test]
 fn a_faulty_csv_is_refused_with_line_column_and_value() {
-    let good = csv(&[7; 256]);
+    let good = csv(&vec![7; 256]);
     let swap = |from: &str, to: &str| fault(good.replacen(from, to, 1).as_bytes());
     let contains = |message: String, parts: [&str; 2]| {
         assert!(parts.iter().all(|part| message.contains(part)), "{message}: {parts:?}");
@@ -86,7 +86,7 @@ fn a_faulty_csv_is_refused_with_line_column_and_value() {
 fn a_csv_may_have_comments_blank_lines_spaces_and_windows_line_ends() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("h.csv");
-    let histogram: Histogram = std::array::from_fn(|bin| (bin as u16 * 31) % 200);
+    let histogram: Histogram = (0..256).map(|bin| (bin * 31) % 200).collect();
     let text =
         csv(&histogram).replace(',', ", ").replace('\n', "\r\n").replace("\n77,", "\n\n#\n77,");
     std::fs::write(&path, format!("\u{feff}{text}")).unwrap();

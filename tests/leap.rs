@@ -83,7 +83,7 @@ fn the_staircase_of_outcomes_is_the_firmware_s_to_the_femtosecond() {
             );
             let setup = common::setup("kc705", &[&profile, &photons, &freq, &shots]);
             let frame = &common::frames(&setup, 1)[0];
-            let (mut histogram, mut tdc_hits) = ([0u16; 256], 0);
+            let (mut histogram, mut tdc_hits) = ([0u32; 256], 0);
             for fs in &arrivals {
                 let outcome = outcomes.of(Time::from_fs(*fs));
                 if let Some(count) = histogram.get_mut(outcome as usize) {

@@ -33,7 +33,7 @@ fn what_is_read_cycle_by_cycle_is_what_the_frame_has() {
         })
         .unwrap();
     assert_eq!(outcome.cycles, cycles);
-    assert_eq!(histogram, frame.histogram);
+    assert_eq!(frame.histogram, histogram);
     assert!(frame.hits() > 50);
     assert_eq!(depth, Some(frame.depth.get()));
 }

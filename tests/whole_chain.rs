@@ -67,7 +67,8 @@ fn closed_form(distance_m: f64, reflectance: f64) -> Depths {
     let mut rng = stream(2026, Source::Avalanche, (distance_m * 1e4 + reflectance * 1e2) as u64);
     let shots = setup.scenario.firmware.shots_per_frame;
     let depths = (0..2000).map(|_| {
-        let drawn: Histogram = probabilities.draw(shots, &mut rng).map(|count| count as u16);
+        let drawn = probabilities.draw(shots, &mut rng);
+        let drawn: Histogram = drawn.into_iter().map(|count| count as u32).collect();
         float.forward(&drawn)
     });
     Depths::of(&depths.collect::<Vec<_>>())
@@ -179,10 +180,10 @@ fn with_a_range_gate_the_first_bin_is_later() {
     let histogram = |first_ps: &str| {
         let gate = format!("tdc.first_bin_ps={first_ps}");
         let keys = ["tdc.profile=ideal", "firmware.shots_per_frame=20000", gate.as_str()];
-        common::frames(&scene(0.4, 0.6, &keys), 1)[0].histogram
+        common::frames(&scene(0.4, 0.6, &keys), 1).remove(0).histogram
     };
     let (open, gated) = (histogram("0"), histogram("2500"));
-    assert!(gated[..156].iter().map(|&count| u32::from(count)).sum::<u32>() > 500);
+    assert!(gated[..156].iter().sum::<u32>() > 500);
     assert_eq!(gated[..156], open[100..]);
     assert!(gated[160..].iter().any(|&count| count > 0), "light past 6.4 ns");
 }

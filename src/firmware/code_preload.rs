@@ -6,6 +6,8 @@
 use crate::kernel::{Clocked, U, asleep_if};
 use crate::signals;
 
+use super::histogram_builder::Bin;
+
 signals! {
     /// Input ports.
     pub struct In {
@@ -22,7 +24,8 @@ signals! {
         /// `tdc_code` is new; one cycle.
         pub tdc_valid: bool,
         /// Code of the shot [bins].
-        pub tdc_code: U<8>,
+        #[size("BinBits")]
+        pub tdc_code: Bin,
         /// `start`, an edge later.
         pending: bool,
         /// Next word of the ROM.
@@ -33,10 +36,10 @@ signals! {
 impl Clocked for CodePreload {
     type In = In;
     /// The ROM, 1 to 65,536 codes.
-    type Params = [U<8>];
+    type Params = [Bin];
 
     #[inline(always)]
-    fn next(&self, i: &In, rom: &[U<8>]) -> Self {
+    fn next(&self, i: &In, rom: &[Bin]) -> Self {
         let (q, mut d) = (self, *self);
         d.pending = i.start;
         d.tdc_valid = q.pending;
@@ -49,7 +52,7 @@ impl Clocked for CodePreload {
     }
 
     #[inline(always)]
-    fn quiet(&self, i: &In, _: &[U<8>]) -> u64 {
+    fn quiet(&self, i: &In, _: &[Bin]) -> u64 {
         asleep_if(!i.start && !self.pending && !self.tdc_valid && !i.rst)
     }
 }

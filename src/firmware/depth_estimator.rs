@@ -1,18 +1,19 @@
 //! The neural depth estimator: wires its four blocks (thesis Fig. 6.18).
 //!
 //! Mirrors `rtl_ref/depth_estimator.v`. Its ports are a socket (`algo_start count`, `read_en
-//! read_addr depth algo_done`) into which any other estimator fits. How many hidden neurons it has is a
-//! parameter: 259 and one cycle each from eight on, so 267 for the thesis's eight, 2.136 us
-//! (see [`estimator_ctrl`]).
+//! read_addr depth algo_done`) into which any other estimator fits. How many bins and hidden neurons it has are
+//! parameters: from eight neurons on, three cycles and one for each bin and each neuron, so 267 for the
+//! thesis's 256 and eight, 2.136 us (see [`estimator_ctrl`]).
 
 use std::sync::Arc;
 
-use crate::kernel::{Clocked, U};
+use crate::kernel::Clocked;
 use crate::{connect, signals};
 
 use super::estimator_ctrl::{self, EstimatorCtrl};
 use super::forward1::{self, Forward1};
 use super::forward2::{self, Forward2};
+use super::histogram_builder::Count;
 use super::tansig::{self, Tansig};
 
 signals! {
@@ -23,7 +24,8 @@ signals! {
         /// Starts an estimation.
         pub algo_start: bool,
         /// Word of the histogram at `read_addr` [hits].
-        pub count: U<16>,
+        #[size("CountBits")]
+        pub count: Count,
     }
 }
 
@@ -91,9 +93,14 @@ impl Params {
         self.forward2.neurons
     }
 
+    /// What the control's steps follow from.
+    pub fn ctrl(&self) -> estimator_ctrl::Params {
+        estimator_ctrl::Params { bins: self.forward1.w1.len(), neurons: self.neurons() }
+    }
+
     /// From the edge that takes a start to the depth [cycles of clk_sys].
     pub fn cycles(&self) -> u64 {
-        estimator_ctrl::done(self.neurons())
+        self.ctrl().done()
     }
 }
 
@@ -103,7 +110,7 @@ impl DepthEstimator {
         let (estimator_ctrl, forward1) = (Wires::estimator_ctrl(self, i), Wires::forward1(self, i));
         let (tansig, forward2) = (Wires::tansig(self, i), Wires::forward2(self, i));
 
-        self.estimator_ctrl.tick(&estimator_ctrl, &p.neurons());
+        self.estimator_ctrl.tick(&estimator_ctrl, &p.ctrl());
         self.forward1.tick(&forward1, &p.forward1);
         self.tansig.tick(&tansig, &p.tansig);
         self.forward2.tick(&forward2, &p.forward2);
@@ -114,7 +121,7 @@ impl DepthEstimator {
         fn rests<C: Clocked>(block: &C, i: &C::In, p: &C::Params) -> bool {
             block.next(i, p) == *block
         }
-        rests(&self.estimator_ctrl, &Wires::estimator_ctrl(self, i), &p.neurons())
+        rests(&self.estimator_ctrl, &Wires::estimator_ctrl(self, i), &p.ctrl())
             && rests(&self.forward2, &Wires::forward2(self, i), &p.forward2)
             && rests(&self.tansig, &Wires::tansig(self, i), &p.tansig)
             && rests(&self.forward1, &Wires::forward1(self, i), &p.forward1)

@@ -1,16 +1,17 @@
 //! Steps the estimator through its pipeline (U_CTRL of thesis Fig. 6.18).
 //!
-//! Mirrors `rtl_ref/estimator_ctrl.v`. Edge e0 takes `algo_start`. P are the pairs of neurons; the depth
-//! is there in cycle D, the larger of 259 + neurons and 263 + P: 267 with the thesis's eight neurons.
+//! Mirrors `rtl_ref/estimator_ctrl.v`. Edge e0 takes `algo_start`. B are the bins, P the pairs of neurons; the
+//! depth is there in cycle D, the larger of B + 3 + neurons and B + 7 + P: 267 with the thesis's 256 bins and
+//! eight neurons.
 //!
 //! ```text
-//! registers    read_addr   word, weight  product      l1_in        entry  l1_out
-//! loaded at    e0 .. e255  e1 .. e256    e2 .. e257   e3 .. e258   e259   e260
-//! control                                forward1_en               tansig_en
+//! registers    read_addr     word, weight  product      l1_in        entry  l1_out
+//! loaded at    e0 .. e(B-1)  e1 .. eB      .. e(B+1)    .. e(B+2)    e(B+3) e(B+4)
+//! control                                  forward1_en               tansig_en
 //!
-//! registers    activation, weight  product         sum             depth
-//! loaded at    e261 .. e260+P      e262 .. e261+P  e263 .. e262+P  D
-//! control      pair                                forward2_en     depth_en, algo_done
+//! registers    activation, weight  product      sum          depth
+//! loaded at    e(B+5) .. e(B+4+P)  .. e(B+5+P)  .. e(B+6+P)  D
+//! control      pair                             forward2_en  depth_en, algo_done
 //! ```
 //!
 //! From eight neurons on nothing waits for anything but the depth, which keeps the latency that one
@@ -19,29 +20,50 @@
 use crate::kernel::{Clocked, U};
 use crate::signals;
 
-use super::histogram_builder::BINS;
+use super::histogram_builder::Bin;
 
-/// Words of the histogram.
-const WORDS: u64 = BINS as u64;
 /// First cycle in which the hidden layer accumulates, counted from e0.
 const SUMS_1: u64 = 2;
-/// Cycle before the edge that looks up the activations.
-pub const TANSIG: u64 = SUMS_1 + WORDS;
-/// Cycle before the edge that makes operands of the first pair.
-const OPERANDS: u64 = TANSIG + 2;
-/// First cycle in which the output layer accumulates.
-const SUMS_2: u64 = OPERANDS + 2;
 
-/// Edges in which two neurons each are added.
-pub const fn pairs(neurons: usize) -> u64 {
-    neurons.div_ceil(2) as u64
+/// Verilog parameters: what the steps follow from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Params {
+    /// Words of the histogram.
+    pub bins: usize,
+    /// Hidden neurons.
+    pub neurons: usize,
 }
 
-/// Cycle in which the depth is ready with so many neurons: the estimator's latency [cycles of
-/// clk_sys].
-pub const fn done(neurons: usize) -> u64 {
-    let (sums_end, serial) = (SUMS_2 + pairs(neurons), TANSIG + neurons as u64);
-    (if sums_end > serial { sums_end } else { serial }) + 1
+impl Params {
+    /// Words of the histogram, each read in one cycle.
+    fn words(&self) -> u64 {
+        self.bins as u64
+    }
+
+    /// Edges in which two neurons each are added.
+    pub fn pairs(&self) -> u64 {
+        self.neurons.div_ceil(2) as u64
+    }
+
+    /// Cycle before the edge that looks up the activations, counted from e0.
+    pub fn tansig(&self) -> u64 {
+        SUMS_1 + self.words()
+    }
+
+    /// Cycle before the edge that makes operands of the first pair.
+    fn operands(&self) -> u64 {
+        self.tansig() + 2
+    }
+
+    /// First cycle in which the output layer accumulates.
+    fn sums_2(&self) -> u64 {
+        self.operands() + 2
+    }
+
+    /// Cycle in which the depth is ready: the estimator's latency [cycles of clk_sys].
+    pub fn done(&self) -> u64 {
+        (self.sums_2() + self.pairs()).max(self.tansig() + self.neurons as u64) + 1
+    }
 }
 
 signals! {
@@ -60,9 +82,11 @@ signals! {
         /// The histogram's word at `read_addr` is being read.
         pub read_en: bool,
         /// Word of the histogram.
-        pub read_addr: U<8>,
+        #[size("BinBits")]
+        pub read_addr: Bin,
         /// Row of weights to fetch: that of the coming word.
-        pub rom_addr: U<8>,
+        #[size("BinBits")]
+        pub rom_addr: Bin,
         /// The sums of the hidden layer begin.
         pub forward1_first: bool,
         /// The hidden layer accumulates.
@@ -85,31 +109,33 @@ signals! {
         /// An estimation is under way.
         pub(crate) busy: bool,
         /// Cycles since e0.
-        pub(crate) step: U<9>,
+        #[size("StepBits")]
+        pub(crate) step: U<11>,
     }
 }
 
 impl EstimatorCtrl {
-    /// Cycles since e0, up to the one of `algo_done`, with so many neurons.
-    pub fn phase(&self, neurons: usize) -> Option<u64> {
-        if self.algo_done { Some(done(neurons)) } else { self.busy.then(|| self.step.get()) }
+    /// Cycles since e0, up to the one of `algo_done`.
+    pub fn phase(&self, p: &Params) -> Option<u64> {
+        if self.algo_done { Some(p.done()) } else { self.busy.then(|| self.step.get()) }
     }
 
     /// In cycle `step` of an estimation.
-    pub(crate) fn at(step: u64, neurons: usize) -> Self {
-        let (done, pairs) = (done(neurons), pairs(neurons));
+    pub(crate) fn at(step: u64, p: &Params) -> Self {
+        let (done, pairs, words) = (p.done(), p.pairs(), p.words());
+        let (operands, sums_2) = (p.operands(), p.sums_2());
         let within = |first: u64, cycles: u64| (first..first + cycles).contains(&step);
         let place = |first: u64, end: u64| if within(first, end) { step - first } else { 0 };
         EstimatorCtrl {
-            read_en: within(0, WORDS),
-            read_addr: U::new(place(0, WORDS)),
-            rom_addr: U::new(if within(0, WORDS - 1) { step + 1 } else { 0 }),
+            read_en: within(0, words),
+            read_addr: U::new(place(0, words)),
+            rom_addr: U::new(if within(0, words - 1) { step + 1 } else { 0 }),
             forward1_first: step == SUMS_1,
-            forward1_en: within(SUMS_1, WORDS),
-            tansig_en: step == TANSIG,
-            pair: U::new(place(OPERANDS, pairs)),
-            forward2_first: step == SUMS_2,
-            forward2_en: within(SUMS_2, pairs),
+            forward1_en: within(SUMS_1, words),
+            tansig_en: step == p.tansig(),
+            pair: U::new(place(operands, pairs)),
+            forward2_first: step == sums_2,
+            forward2_en: within(sums_2, pairs),
             depth_en: step == done - 1,
             algo_done: step == done,
             busy: step < done,
@@ -120,15 +146,14 @@ impl EstimatorCtrl {
 
 impl Clocked for EstimatorCtrl {
     type In = In;
-    /// Hidden neurons.
-    type Params = usize;
+    type Params = Params;
 
     #[inline]
-    fn next(&self, i: &In, &neurons: &usize) -> Self {
+    fn next(&self, i: &In, p: &Params) -> Self {
         match self.busy {
             _ if i.rst => Self::default(),
-            true => Self::at(self.step.get() + 1, neurons),
-            false if i.algo_start => Self::at(0, neurons),
+            true => Self::at(self.step.get() + 1, p),
+            false if i.algo_start => Self::at(0, p),
             false => Self::default(),
         }
     }
@@ -141,13 +166,19 @@ mod tests {
     const GO: In = In { rst: false, algo_start: true };
     const IDLE: In = In { rst: false, algo_start: false };
 
+    const KC705: Params = Params { bins: 256, neurons: 8 };
+
+    fn with(bins: usize, neurons: usize) -> Params {
+        Params { bins, neurons }
+    }
+
     /// The control in each cycle from e0 on, `again` high in one of them.
-    fn cycles(neurons: usize, again: Option<usize>) -> Vec<EstimatorCtrl> {
-        let mut ctrl = EstimatorCtrl::default().next(&GO, &neurons);
-        (0..300)
+    fn cycles(p: &Params, again: Option<usize>) -> Vec<EstimatorCtrl> {
+        let mut ctrl = EstimatorCtrl::default().next(&GO, p);
+        (0..p.bins + 44)
             .map(|cycle| {
                 let now = ctrl;
-                ctrl = ctrl.next(if again == Some(cycle) { &GO } else { &IDLE }, &neurons);
+                ctrl = ctrl.next(if again == Some(cycle) { &GO } else { &IDLE }, p);
                 now
             })
             .collect()
@@ -159,31 +190,42 @@ mod tests {
 
     #[test]
     fn the_depth_is_ready_267_edges_after_the_start_is_taken_and_with_16_neurons_275() {
-        for (neurons, edges) in [(8, 267), (16, 275), (9, 268), (7, 267), (6, 266), (1, 264)] {
-            let cycles = cycles(neurons, None);
+        for (bins, neurons, edges) in [
+            (256, 8, 267),
+            (256, 16, 275),
+            (256, 9, 268),
+            (256, 7, 267),
+            (256, 6, 266),
+            (256, 1, 264),
+            (16, 8, 27),
+            (1024, 16, 1043),
+        ] {
+            let p = with(bins, neurons);
+            let cycles = cycles(&p, None);
             assert_eq!(high(&cycles, |ctrl| ctrl.algo_done), [edges]);
             assert_eq!(high(&cycles, |ctrl| ctrl.depth_en), [edges - 1]);
-            assert_eq!(cycles[edges].phase(neurons), Some(done(neurons)));
-            assert_eq!(cycles[299], EstimatorCtrl::default());
+            assert_eq!(cycles[edges].phase(&p), Some(p.done()));
+            assert_eq!(cycles[bins + 43], EstimatorCtrl::default());
         }
     }
 
     #[test]
     fn the_enables_follow_the_words_through_the_pipeline() {
-        for (neurons, pairs) in [(8, 4), (16, 8), (7, 4), (1, 1)] {
-            let cycles = cycles(neurons, None);
-            assert!(high(&cycles, |ctrl| ctrl.read_en).into_iter().eq(0..256));
-            assert!(high(&cycles, |ctrl| ctrl.forward1_en).into_iter().eq(2..258));
-            assert_eq!(high(&cycles, |ctrl| ctrl.tansig_en), [258]);
-            assert!(high(&cycles, |ctrl| ctrl.forward2_en).into_iter().eq(262..262 + pairs));
-            assert!((0..pairs).all(|pair| cycles[260 + pair].pair == pair as u64));
+        for (bins, neurons, pairs) in [(256, 8, 4), (64, 16, 8), (256, 7, 4), (1024, 1, 1)] {
+            let cycles = cycles(&with(bins, neurons), None);
+            assert!(high(&cycles, |ctrl| ctrl.read_en).into_iter().eq(0..bins));
+            assert!(high(&cycles, |ctrl| ctrl.forward1_en).into_iter().eq(2..bins + 2));
+            assert_eq!(high(&cycles, |ctrl| ctrl.tansig_en), [bins + 2]);
+            let sums_2 = bins + 6;
+            assert!(high(&cycles, |ctrl| ctrl.forward2_en).into_iter().eq(sums_2..sums_2 + pairs));
+            assert!((0..pairs).all(|pair| cycles[bins + 4 + pair].pair == pair as u64));
         }
     }
 
     #[test]
     fn a_start_while_busy_is_ignored_and_one_with_algo_done_is_taken() {
-        assert_eq!(cycles(8, Some(266)), cycles(8, None));
-        let again = cycles(8, Some(267));
+        assert_eq!(cycles(&KC705, Some(266)), cycles(&KC705, None));
+        let again = cycles(&KC705, Some(267));
         assert!(again[268].read_en && again[268].step == 0 && again[268].busy);
     }
 }

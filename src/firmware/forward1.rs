@@ -5,26 +5,44 @@
 //! the bias, so that no cycle is spent on it. Only the sums have a reset: nothing else is looked at
 //! without an enable.
 
-use crate::kernel::{Clocked, S, U};
+use crate::kernel::{Clocked, S};
 use crate::signals;
 
 use super::forward2::MOST_NEURONS;
-use super::histogram_builder::BINS;
+use super::histogram_builder::{self, Bin, Count};
 
-/// Row of the ROM with the biases, after the last weights.
-pub const BIAS_ROW: usize = BINS;
+/// Fewest bits of a sum: the thesis's.
+const FEWEST_SUM_BITS: u32 = 36;
+/// Bits of a sum beyond those of a count: of a weight, and one for the bias.
+const BEYOND_COUNT: u32 = 17;
 /// Aligns B1 (13 fraction bits) with the sum (23).
 const BIAS_SHIFT: u32 = 10;
 
 /// A weight or, in the last row, a bias, as an integer.
 pub type Weight = S<16>;
 /// A weight times a word.
-pub type Product = S<33>;
+pub type Product = S<41>;
 /// Accumulator of a neuron.
-pub type L1In = S<36, 23>;
-/// MEM1: 256 rows of weights and one of biases; `rom[row][neuron]`, zero past the last neuron, so that
-/// the units there stay at zero.
-pub type Rom = [[Weight; MOST_NEURONS]; BINS + 1];
+pub type L1In = S<41, 23>;
+/// A weight for each neuron, zero past the last one, so that the units there stay at zero.
+pub type Row = [Weight; MOST_NEURONS];
+
+/// MEM1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rom {
+    /// Weights, a row for each word of the histogram.
+    pub w1: Vec<Row>,
+    /// Biases.
+    pub b1: Row,
+    /// Width of a sum [bits].
+    sum_bits: u32,
+}
+
+/// Width of the sums of a histogram's words times weights of 16 bits, and of a bias: 36 as in the thesis, or
+/// as many as the largest sum has [bits].
+pub fn sum_bits(histogram: &histogram_builder::Params) -> u32 {
+    FEWEST_SUM_BITS.max(histogram.count_bits + BEYOND_COUNT)
+}
 
 signals! {
     /// Input ports.
@@ -36,9 +54,11 @@ signals! {
         /// Accumulates.
         pub forward1_en: bool,
         /// Row to fetch: that of the coming word.
-        pub rom_addr: U<8>,
+        #[size("BinBits")]
+        pub rom_addr: Bin,
         /// Word of the histogram [hits].
-        pub count: U<16>,
+        #[size("CountBits")]
+        pub count: Count,
     }
 }
 
@@ -46,11 +66,12 @@ signals! {
     /// Registers; the public ones are the output ports.
     pub struct Forward1 {
         /// Sums of the neurons.
-        #[size("Neurons")]
+        #[size("Neurons SumBits")]
         #[view(heading = "Hidden layer", curve = true, probe = true)]
         pub l1_in: [L1In; MOST_NEURONS],
         /// Word of the histogram [hits].
-        pub(crate) word: U<16>,
+        #[size("CountBits")]
+        pub(crate) word: Count,
         /// Output of the ROM.
         #[size("Neurons")]
         pub(crate) fetched: [Weight; MOST_NEURONS],
@@ -58,21 +79,36 @@ signals! {
         #[size("Neurons")]
         pub(crate) weight: [Weight; MOST_NEURONS],
         /// Their products, a cycle later.
-        #[size("Neurons")]
+        #[size("Neurons ProductBits")]
         pub(crate) product: [Product; MOST_NEURONS],
     }
 }
 
-/// What the sum of a neuron begins with.
-pub fn bias(rom: &Rom, neuron: usize) -> L1In {
-    L1In::new(rom[BIAS_ROW][neuron].get() << BIAS_SHIFT)
+impl Rom {
+    /// Of a network for such a histogram.
+    pub fn new(w1: Vec<Row>, b1: Row, histogram: &histogram_builder::Params) -> Self {
+        Rom { w1, b1, sum_bits: sum_bits(histogram) }
+    }
+
+    /// What the sum of a neuron begins with.
+    pub fn bias(&self, neuron: usize) -> L1In {
+        L1In::new(self.b1[neuron].get() << BIAS_SHIFT)
+    }
+
+    /// A sum that wraps as one of that width.
+    #[inline(always)]
+    pub fn sum(&self, sum: i64) -> L1In {
+        let surplus = i64::BITS - self.sum_bits;
+        L1In::new(sum << surplus >> surplus)
+    }
 }
 
 impl Forward1 {
     /// With those sums, while nothing is read: the same word has come for three cycles.
-    pub(crate) fn at_rest(l1_in: [L1In; MOST_NEURONS], word: U<16>, rom: &Rom) -> Self {
-        let product = rom[0].map(|weight| Product::new(weight.get() * word.get() as i64));
-        Forward1 { l1_in, word, fetched: rom[0], weight: rom[0], product }
+    pub(crate) fn at_rest(l1_in: [L1In; MOST_NEURONS], word: Count, rom: &Rom) -> Self {
+        let [first, ..] = rom.w1[..] else { return Forward1::default() };
+        let product = first.map(|weight| Product::new(weight.get() * word.get() as i64));
+        Forward1 { l1_in, word, fetched: first, weight: first, product }
     }
 }
 
@@ -84,14 +120,14 @@ impl Clocked for Forward1 {
     fn tick(&mut self, i: &In, rom: &Rom) {
         if i.forward1_en {
             for (neuron, l1_in) in self.l1_in.iter_mut().enumerate() {
-                let sum = if i.forward1_first { bias(rom, neuron) } else { *l1_in };
-                *l1_in = sum + self.product[neuron].get();
+                let sum = if i.forward1_first { rom.bias(neuron) } else { *l1_in };
+                *l1_in = rom.sum(sum.get() + self.product[neuron].get());
             }
         }
         let word = self.word.get() as i64;
         self.product = self.weight.map(|weight| Product::new(weight.get() * word));
         self.weight = self.fetched;
-        self.fetched = rom[i.rom_addr.index()];
+        self.fetched = rom.w1[i.rom_addr.index()];
         self.word = i.count;
         if i.rst {
             self.l1_in = Default::default();
@@ -102,13 +138,13 @@ impl Clocked for Forward1 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::U;
 
     #[test]
     fn a_sum_begins_with_the_bias_and_its_first_product_three_edges_after_the_word() {
-        let mut rom = [[S::new(0); MOST_NEURONS]; BINS + 1];
-        rom[0][2] = S::new(-3);
-        rom[1][2] = S::new(7);
-        rom[BIAS_ROW][2] = S::new(5);
+        let (mut w1, mut b1) = (vec![Row::default(); 16], Row::default());
+        (w1[0][2], w1[1][2], b1[2]) = (S::new(-3), S::new(7), S::new(5));
+        let rom = Rom::new(w1, b1, &histogram_builder::Params { bins: 16, count_bits: 16 });
         let mut block = Forward1 { l1_in: [S::new(77); MOST_NEURONS], ..Forward1::default() };
         // The address before the word, and the enable two cycles after it.
         let lines = [(0, 9, false), (1, 100, false), (0, 10, false), (0, 8, true), (0, 8, true)];

@@ -4,19 +4,20 @@
 //!
 //! ```text
 //! state     Clear      Acquire        Drain     Estimate      Clear
-//! cycles    256        shots x P + 1  16        268           256
+//! cycles    bins       shots x P + 1  drain     268           bins
 //! pulses    clear      acquire        -         algo_start^   ^frame_done
 //! ```
 //!
-//! `P` is the laser period, and Drain has as many cycles as elaboration says; 16 on the KC705. `dsp_en` low holds the machine before the estimator's start (in the
-//! last cycle of Drain) and keeps the histogram. With a preloaded histogram Acquire and Drain are
-//! skipped (thesis 6.7.4), and `dsp_en` low holds the last cycle of Clear.
+//! `P` is the laser period; the KC705 has 256 bins and a Drain of 16 cycles, and 268 are those of its network.
+//! `dsp_en` low holds the machine before the estimator's start (in the last cycle of Drain) and keeps the
+//! histogram. With a preloaded histogram Acquire and Drain are skipped (thesis 6.7.4), and `dsp_en` low holds
+//! the last cycle of Clear.
 
 use crate::kernel::{AWAKE, Clocked, U, asleep_if};
 use crate::{signals, states};
 
-/// Words of the histogram, each cleared in one cycle.
-pub(crate) const LAST_WORD: u64 = 255;
+use super::histogram_builder::{self, Bin};
+
 /// Length of Drain unless elaboration says otherwise: longer than what a photon of the last shot takes to
 /// its word of the histogram [cycles of clk_sys].
 pub const DRAIN_CYCLES: u64 = 16;
@@ -39,7 +40,9 @@ states! {
 #[derive(Clone, Copy, Debug)]
 pub struct Params {
     /// Shots in a frame, at least 1.
-    pub shots_per_frame: u16,
+    pub shots_per_frame: u32,
+    /// How large the histogram is.
+    pub histogram: histogram_builder::Params,
     /// The histogram comes from a ROM: nothing to acquire.
     pub preloaded: bool,
     /// Length of Drain, 1 to 65,536 [cycles of clk_sys].
@@ -76,7 +79,8 @@ signals! {
         /// Sets a word of the histogram to zero.
         pub clear: bool = true,
         /// Which word.
-        pub clear_addr: U<8>,
+        #[size("BinBits")]
+        pub clear_addr: Bin,
         /// Lets the laser's counter run.
         pub acquire: bool,
         /// Starts the estimator; one cycle.
@@ -87,8 +91,9 @@ signals! {
         #[view(heading = "Control", probe = true)]
         pub(crate) state: State,
         /// Shots begun in this frame.
+        #[size("CountBits")]
         #[view(heading = "Control", probe = true)]
-        pub(crate) shots: U<16>,
+        pub(crate) shots: U<24>,
         /// Cycles spent in Drain.
         #[size("DrainBits")]
         pub(crate) drain: U<16>,
@@ -117,7 +122,9 @@ impl Clocked for FrameCtrl {
         d.algo_start = false;
         d.frame_done = false;
         match q.state {
-            State::Clear if q.clear_addr != LAST_WORD => d.clear_addr = q.clear_addr + 1,
+            State::Clear if q.clear_addr != p.histogram.last_bin() => {
+                d.clear_addr = q.clear_addr + 1
+            }
             State::Clear if !p.preloaded => {
                 (d.clear, d.clear_addr) = (false, U::new(0));
                 (d.state, d.acquire, d.shots) = (State::Acquire, true, U::new(0));
@@ -172,8 +179,12 @@ impl Clocked for FrameCtrl {
 mod tests {
     use super::*;
 
-    const SHORT: Params =
-        Params { shots_per_frame: 2, preloaded: false, drain_cycles: DRAIN_CYCLES };
+    const SHORT: Params = Params {
+        shots_per_frame: 2,
+        histogram: histogram_builder::Params { bins: 256, count_bits: 16 },
+        preloaded: false,
+        drain_cycles: DRAIN_CYCLES,
+    };
     const ENABLED: In =
         In { rst: false, start: false, dsp_rst: false, dsp_en: true, algo_done: false };
 

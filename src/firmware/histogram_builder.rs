@@ -1,4 +1,4 @@
-//! The histogram: 256 words of 16 bits in distributed RAM.
+//! The histogram: words in distributed RAM, 256 of 16 bits on the KC705.
 //!
 //! Mirrors `rtl_ref/histogram_builder.v`. Asynchronous read, synchronous write, one address: clear goes
 //! before hit, hit before read. A hit takes the two cycles after that of `tdc_valid`: its word is read in
@@ -10,8 +10,53 @@ use crate::kernel::U;
 use crate::kernel::module::{Module, Visitor};
 use crate::signals;
 
-/// Words of the histogram.
+/// Words of the histogram unless elaboration says otherwise.
 pub const BINS: usize = 256;
+/// Most words that elaboration can ask for.
+pub const MOST_BINS: usize = 1024;
+/// Width of a word unless elaboration says otherwise [bits].
+pub const COUNT_BITS: u32 = 16;
+
+/// Number of a word.
+pub type Bin = U<10>;
+/// A word of the histogram [hits].
+pub type Count = U<24>;
+
+/// Verilog parameters: how large the histogram is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Params {
+    /// Words, a power of two from 16 to [`MOST_BINS`].
+    pub bins: usize,
+    /// Width of a word, 8 to 24 [bits].
+    pub count_bits: u32,
+}
+
+impl Default for Params {
+    /// The KC705's.
+    fn default() -> Self {
+        Params { bins: BINS, count_bits: COUNT_BITS }
+    }
+}
+
+impl Params {
+    /// Number of the last word.
+    #[inline(always)]
+    pub fn last_bin(&self) -> u64 {
+        self.bins as u64 - 1
+    }
+
+    /// The largest count that a word holds [hits].
+    #[inline(always)]
+    pub fn most_hits(&self) -> u64 {
+        (1 << self.count_bits) - 1
+    }
+
+    /// A word that wraps as one of that width.
+    #[inline(always)]
+    fn word(&self, hits: u64) -> Count {
+        Count::new(hits & self.most_hits())
+    }
+}
 
 signals! {
     /// Input ports.
@@ -19,15 +64,18 @@ signals! {
         /// Sets the word at `clear_addr` to zero.
         pub clear: bool,
         /// Word to clear.
-        pub clear_addr: U<8>,
+        #[size("BinBits")]
+        pub clear_addr: Bin,
         /// Counts a hit; low for the next two cycles.
         pub tdc_valid: bool,
         /// Word of the hit; holds for the next two cycles.
-        pub tdc_code: U<8>,
+        #[size("BinBits")]
+        pub tdc_code: Bin,
         /// Shows a word at `count`.
         pub read_en: bool,
         /// Word to show.
-        pub read_addr: U<8>,
+        #[size("BinBits")]
+        pub read_addr: Bin,
     }
 }
 
@@ -39,7 +87,8 @@ signals! {
         /// The second cycle of a hit.
         writing: bool,
         /// The word of the hit before it is counted [hits].
-        hit_word: U<16>,
+        #[size("CountBits")]
+        hit_word: Count,
     }
 }
 
@@ -49,13 +98,12 @@ pub struct HistogramBuilder {
     /// Registers.
     pub registers: Registers,
     /// Counts [hits].
-    pub ram: Box<[U<16>; BINS]>,
+    pub ram: Box<[Count]>,
 }
 
 impl Default for HistogramBuilder {
     fn default() -> Self {
-        let (registers, ram) = (Registers::default(), Box::new([U::new(0); BINS]));
-        HistogramBuilder { registers, ram }
+        HistogramBuilder::new(&Params::default())
     }
 }
 
@@ -70,9 +118,15 @@ impl Module for HistogramBuilder {
 }
 
 impl HistogramBuilder {
+    /// An empty histogram.
+    pub fn new(p: &Params) -> Self {
+        let ram = vec![Count::default(); p.bins].into();
+        HistogramBuilder { registers: Registers::default(), ram }
+    }
+
     /// Output port `count`: the word at the address, zero while `read_en` is low.
     #[inline(always)]
-    pub fn count(&self, i: &In) -> U<16> {
+    pub fn count(&self, i: &In) -> Count {
         if i.read_en { self.ram[self.address(i).index()] } else { U::new(0) }
     }
 
@@ -84,7 +138,7 @@ impl HistogramBuilder {
 
     /// The rising edge of `clk_sys`.
     #[inline(always)]
-    pub fn tick(&mut self, i: &In) {
+    pub fn tick(&mut self, i: &In, p: &Params) {
         let q = self.registers;
         let reading = q.counting && !q.writing;
         if i.clear | q.counting {
@@ -95,7 +149,7 @@ impl HistogramBuilder {
             if i.clear {
                 *word = U::new(0);
             } else if q.writing {
-                *word = q.hit_word + 1;
+                *word = p.word(q.hit_word.get() + 1);
             }
         }
         self.registers.counting = (i.tdc_valid || reading) && !i.clear;
@@ -104,13 +158,13 @@ impl HistogramBuilder {
 
     /// Stands for the three edges of a hit that meets no `clear`.
     #[inline(always)]
-    pub fn count_at_once(&mut self, code: U<8>) {
+    pub fn count_at_once(&mut self, code: Bin, p: &Params) {
         let word = &mut self.ram[code.index()];
-        (self.registers.hit_word, *word) = (*word, *word + 1);
+        (self.registers.hit_word, *word) = (*word, p.word(word.get() + 1));
     }
 
     #[inline(always)]
-    fn address(&self, i: &In) -> U<8> {
+    fn address(&self, i: &In) -> Bin {
         match (i.clear, self.registers.counting) {
             (true, _) => i.clear_addr,
             (false, true) => i.tdc_code,
@@ -136,7 +190,7 @@ mod tests {
     fn hit(histogram: &mut HistogramBuilder, cleared: Option<usize>) {
         for cycle in 0..3 {
             let (tdc_valid, clear) = (cycle == 0, cleared == Some(cycle));
-            histogram.tick(&In { tdc_valid, clear, ..READ_9 });
+            histogram.tick(&In { tdc_valid, clear, ..READ_9 }, &Params::default());
         }
     }
 
@@ -156,9 +210,21 @@ mod tests {
             histogram.ram[3] = U::new(70);
             histogram.ram[9] = U::new(5);
             hit(&mut histogram, Some(cycle));
-            histogram.tick(&READ_9);
+            histogram.tick(&READ_9, &Params::default());
             assert_eq!((histogram.ram[3].get(), histogram.ram[9].get()), (0, 5));
         }
+    }
+
+    #[test]
+    fn a_full_word_wraps() {
+        let p = Params { bins: 16, count_bits: 8 };
+        let mut histogram = HistogramBuilder::new(&p);
+        histogram.ram[9] = U::new(255);
+        for (cycle, counting) in [(0, false), (1, true), (2, true)] {
+            assert_eq!(histogram.has_hit(), counting);
+            histogram.tick(&In { tdc_valid: cycle == 0, ..READ_9 }, &p);
+        }
+        assert_eq!((histogram.ram.len(), histogram.ram[9].get()), (16, 0));
     }
 
     #[test]
@@ -166,7 +232,7 @@ mod tests {
         let mut histogram = HistogramBuilder::default();
         histogram.ram[9] = U::new(5);
         let elsewhere = In { read_addr: U::new(3), ..READ_9 };
-        histogram.tick(&In { tdc_valid: true, ..elsewhere });
+        histogram.tick(&In { tdc_valid: true, ..elsewhere }, &Params::default());
         assert_eq!(histogram.count(&elsewhere), 5);
     }
 }

@@ -2,16 +2,16 @@
 //!
 //! Mirrors `rtl_ref/histogram_preload.v`.
 
-use crate::kernel::U;
 use crate::signals;
 
-use super::histogram_builder::BINS;
+use super::histogram_builder::{Bin, Count};
 
 signals! {
     /// Input ports.
     pub struct In {
         /// Word to show.
-        pub read_addr: U<8>,
+        #[size("BinBits")]
+        pub read_addr: Bin,
     }
 }
 
@@ -21,9 +21,9 @@ signals! {
 }
 
 /// The ROM [hits].
-pub type Rom = [U<16>; BINS];
+pub type Rom = [Count];
 
 /// Output port `count`: the word at the address, as from the RAM's asynchronous read.
-pub fn count(i: &In, rom: &Rom) -> U<16> {
+pub fn count(i: &In, rom: &Rom) -> Count {
     rom[i.read_addr.index()]
 }

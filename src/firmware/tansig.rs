@@ -29,7 +29,7 @@ signals! {
         /// Looks up the activations.
         pub tansig_en: bool,
         /// Sums of the neurons.
-        #[size("Neurons")]
+        #[size("Neurons SumBits")]
         pub l1_in: [L1In; MOST_NEURONS],
     }
 }

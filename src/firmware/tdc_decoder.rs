@@ -10,7 +10,7 @@
 //!
 //! [`TimeScale`] says what a unit is: 25/16 ps on the KC705, of which `Cycle` is 5120. Time 0 is where bin 0
 //! begins; the ages in the ROM know by how much that is after the laser edge. With two steps, `n` counts
-//! the sixteens and all after it comes an edge earlier. A time outside 256 bins has no code, and `tdc_code`
+//! the sixteens and all after it comes an edge earlier. A time outside the bins has no code, and `tdc_code`
 //! keeps its value. Each register holds its last hit; only what says that a hit is new has a reset.
 
 mod params;
@@ -21,9 +21,10 @@ use crate::signals;
 
 use super::carry_chain::Taps;
 use super::coarse_counter::Coarse;
+use super::histogram_builder::Bin;
 use params::{Age, TimeWord};
 pub use params::{COUNT_STAGES, Calibration, Params};
-pub use scale::{CODES, TimeScale};
+pub use scale::TimeScale;
 
 signals! {
     /// Input ports.
@@ -47,7 +48,8 @@ signals! {
         /// `tdc_code` is new; one cycle.
         pub tdc_valid: bool,
         /// Time of the hit [bins].
-        pub tdc_code: U<8>,
+        #[size("BinBits")]
+        pub tdc_code: Bin,
         /// Ones among 16 taps each.
         #[size("Sixteens")]
         sixteens: PartialOnes<16>,

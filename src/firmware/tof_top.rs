@@ -172,8 +172,11 @@ connect! {
 
 impl TofTop {
     /// The firmware at power-up, with its control pins at `pins`.
-    pub fn new(pins: Pins) -> Self {
-        TofTop { pins, ..TofTop::default() }
+    pub fn new(pins: Pins, p: &Params) -> Self {
+        let histogram_builder = HistogramBuilder::new(&p.histogram);
+        let mut top = TofTop { pins, histogram_builder, ..TofTop::default() };
+        top.settle(p);
+        top
     }
 
     /// An edge at which `clk_sys` and `clk_laser` rise, at `now`. All inputs are read in the first
@@ -195,7 +198,7 @@ impl TofTop {
         self.vcsel_driver.rise(&vcsel_driver, &p.vcsel_driver);
         self.spad_control = spad_control;
         self.convert(p, &tdc, &code_preload, line, now);
-        self.histogram_builder.tick(&histogram_builder);
+        self.histogram_builder.tick(&histogram_builder, &p.histogram);
         self.estimate(p, &network, &centroid);
         self.settle(p);
     }

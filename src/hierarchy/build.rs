@@ -1,7 +1,7 @@
 //! Finds every name in every scope, on a way through the firmware.
 
 use crate::firmware::TofTop;
-use crate::firmware::tof_top::{Estimator, Pins};
+use crate::firmware::tof_top::Estimator;
 use crate::kernel::module::{Alias, Instance, Module, Visitor};
 use crate::kernel::signals::{Signal, Signals, View};
 
@@ -39,7 +39,7 @@ impl Build {
     /// Every name, with that estimator in the socket, in the order of the modules.
     pub(super) fn entries(estimator: Estimator) -> Vec<Entry> {
         let mut build = Build { scopes: vec![String::new()], ..Build::default() };
-        TofTop::new(Pins::default()).visit(None, &mut build);
+        TofTop::default().visit(None, &mut build);
         let aliases = build.aliases.iter().flat_map(|alias| build.shown(alias, estimator));
         let mut entries: Vec<_> = build.held.iter().cloned().chain(aliases).collect();
         entries.sort_by_key(|(scope, entry)| (*scope, entry.kind as u8));
@@ -197,7 +197,7 @@ mod tests {
     #[test]
     fn every_port_and_wire_shows_a_value_and_no_name_comes_twice() {
         let mut ports = Ports(TOP.to_owned(), Vec::new());
-        TofTop::new(Pins::default()).visit(None, &mut ports);
+        TofTop::default().visit(None, &mut ports);
         let mut paths: Vec<_> = every_entry().iter().map(Entry::path).collect();
         paths.sort_unstable();
         for path in &ports.1 {

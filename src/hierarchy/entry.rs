@@ -1,7 +1,7 @@
 //! One name in one scope of a waveform, and the ids of values.
 
 use crate::firmware::TofTop;
-use crate::firmware::histogram_builder::BINS;
+use crate::firmware::histogram_builder::MOST_BINS;
 use crate::kernel::module::Module;
 use crate::kernel::signals::Signal;
 
@@ -53,7 +53,7 @@ impl Entry {
 pub(super) const RAM: usize = TofTop::COUNT;
 
 /// Number of ids.
-pub const IDS: usize = RAM + BINS;
+pub const IDS: usize = RAM + MOST_BINS;
 
 /// A path without the top.
 pub fn below_top(path: &str) -> &str {

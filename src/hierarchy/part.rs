@@ -1,6 +1,6 @@
 //! Follows some of the signals: reports those that have changed.
 
-use crate::firmware::histogram_builder::BINS;
+use crate::firmware::histogram_builder::MOST_BINS;
 use crate::firmware::tof_top::TofTop;
 use crate::kernel::module::{Instance, Module, Visitor};
 use crate::kernel::signals::{Signals, Sink};
@@ -24,7 +24,7 @@ impl Part {
     pub fn of(ids: impl IntoIterator<Item = usize>) -> Self {
         let mut wanted = Box::new([false; IDS]);
         ids.into_iter().for_each(|id| wanted[id] = true);
-        let words = (0..BINS).filter(|bin| wanted[RAM + bin]).collect();
+        let words = (0..MOST_BINS).filter(|bin| wanted[RAM + bin]).collect();
         Part { wanted, words, writes: true, kept: None }
     }
 
@@ -144,6 +144,7 @@ mod tests {
 
     use super::*;
     use crate::firmware::carry_chain::TAPS;
+    use crate::firmware::histogram_builder::BINS;
     use crate::kernel::{Thermometer, Time};
     use crate::scenario::{self, Control, QuenchMode};
     use crate::sim::device::{Edge, Off, SignalProbe};
@@ -180,7 +181,7 @@ mod tests {
     impl Both {
         fn new(seed: u64) -> Self {
             Both {
-                part: Part::of(0..IDS),
+                part: Part::of(0..RAM + BINS),
                 followed: Values(vec![0; IDS]),
                 every_change: seed % 3 == 2,
                 middle: seed % 2 == 1,
@@ -291,10 +292,10 @@ mod tests {
     fn a_part_reports_nothing_of_what_it_leaves_out() {
         let setup = Setup::new(scenario::load("bright", &[]).unwrap()).unwrap();
         let mut device = setup.device();
-        let (mut part, mut values) = (Part::of([RAM + 3]), Values(vec![7; IDS]));
+        let (mut part, mut values) = (Part::of([RAM + 3]), Values(vec![7; RAM + BINS]));
         part.follow(&device.top, &mut values);
         assert!(!values.0.contains(&7), "at first it reports everything");
-        values = Values(vec![7; IDS]);
+        values = Values(vec![7; RAM + BINS]);
         device.power_up(&mut Off, &mut Off);
         for _ in 0..2000 {
             part.follow(&device.top, &mut values);

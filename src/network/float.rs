@@ -26,12 +26,12 @@ mod tests {
 
     #[test]
     fn one_bin_and_one_neuron_by_hand() {
-        let mut w1 = vec![[0.0; 256]; 8];
+        let mut w1 = vec![vec![0.0; 256]; 8];
         w1[3][7] = 0.001;
         let (mut b1, mut w2) = (vec![0.0; 8], vec![0.0; 8]);
         (b1[3], w2[3]) = (-0.5, 0.25);
         let float = Float { w1, b1, w2, b2: 0.3 };
-        let mut histogram = [0; 256];
+        let mut histogram = vec![0; 256];
         histogram[7] = 1500;
         assert!((float.forward(&histogram) - (0.25 * 1f64.tanh() + 0.3)).abs() < 1e-15);
     }

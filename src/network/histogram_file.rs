@@ -12,9 +12,9 @@ use crate::error::open::{self, Opened};
 use crate::error::{Error, Input, Result, line_and_column};
 use crate::files::csv::CsvInput;
 use crate::files::npy;
-use crate::firmware::histogram_builder::BINS;
+use crate::firmware::histogram_builder::Params;
 
-use super::histogram::{Histogram, MAX_HITS};
+use super::histogram::Histogram;
 
 /// First bytes of an `.npy` file.
 const MAGIC: &[u8; 6] = b"\x93NUMPY";
@@ -22,21 +22,18 @@ const MAGIC: &[u8; 6] = b"\x93NUMPY";
 const HEADER: [&str; 2] = ["bin", "count"];
 /// Longest CSV file [bytes].
 const CSV: u64 = 1 << 20;
-/// What a count has to be.
-const COUNT: &str = "expected a whole number from 0 to 65535";
-
 /// A file, its first bytes put back.
 type Reader = BufReader<Chain<Cursor<Vec<u8>>, Opened>>;
 /// A count, or what stands in its place.
-type Count = std::result::Result<u16, String>;
+type Count = std::result::Result<u32, String>;
 /// Elements of an array.
 type Elements = Box<dyn Iterator<Item = io::Result<Count>>>;
 
 /// The histograms of a file, one after another; after an error there is no sense in going on.
 pub type Histograms = Box<dyn Iterator<Item = Result<Histogram>>>;
 
-/// Opens a file of histograms.
-pub fn open(path: &Path) -> Result<Histograms> {
+/// Opens a file of histograms that are as large as elaboration says.
+pub fn open(path: &Path, p: Params) -> Result<Histograms> {
     let mut file = open::open(path)?;
     let mut first = Vec::with_capacity(MAGIC.len());
     let begin = (&mut file).take(MAGIC.len() as u64).read_to_end(&mut first);
@@ -45,55 +42,65 @@ pub fn open(path: &Path) -> Result<Histograms> {
     let reader = BufReader::with_capacity(1 << 16, Cursor::new(first).chain(file));
     let name = path.display().to_string();
     if !is_npy {
-        return Ok(Box::new(std::iter::once(csv(reader, &name))));
+        return Ok(Box::new(std::iter::once(csv(reader, &name, &p))));
     }
-    let (mut elements, rows) = array(reader, &name)?;
-    Ok(Box::new((0..rows).map(move |number| row(&mut elements, number, rows, &name))))
+    let (mut elements, rows) = array(reader, &name, &p)?;
+    Ok(Box::new((0..rows).map(move |number| row(&mut elements, number, rows, (&name, &p)))))
+}
+
+/// What a count has to be.
+fn count_range(p: &Params) -> String {
+    format!("expected a whole number from 0 to {}", p.most_hits())
 }
 
 /// A total that the estimator's words bear.
-fn checked(histogram: Histogram, path: &str, field: String) -> Result<Histogram> {
-    let total: u32 = histogram.iter().map(|&count| u32::from(count)).sum();
-    if total > MAX_HITS {
-        let expected = format!("the estimator's bit widths allow {MAX_HITS} hits in all");
+fn checked(histogram: Histogram, path: &str, field: String, p: &Params) -> Result<Histogram> {
+    let (total, most): (u64, u64) =
+        (histogram.iter().map(|&count| u64::from(count)).sum(), p.most_hits());
+    if total > most {
+        let expected = format!("the estimator's bit widths allow {most} hits in all");
         return Err(Input::new(path, expected).field(field).value(total).into());
     }
     Ok(histogram)
 }
 
 /// The histogram of a CSV text; `source` names it in errors.
-pub fn parse_csv(source: &str, text: &str) -> Result<Histogram> {
+pub fn parse_csv(source: &str, text: &str, p: &Params) -> Result<Histogram> {
     let mut input = CsvInput::new(source, text, &HEADER)?;
-    let mut histogram = [0; BINS];
-    let mut bins = 0;
+    let (bins, last) = (p.bins, p.last_bin());
+    let mut histogram = Histogram::with_capacity(bins);
     while input.advance()? {
-        if bins == BINS {
-            return Err(input.fault(0, "a row after bin 255, expected 256 rows").into());
-        }
-        if input.field(0) != Some(bins) {
-            let expected = format!("expected {bins}: bins 0 to 255, each once, in order");
+        let bin = histogram.len();
+        if bin == bins {
+            let expected = format!("a row after bin {last}, expected {bins} rows");
             return Err(input.fault(0, expected).into());
         }
-        histogram[bins] = input.field(1).ok_or_else(|| input.fault(1, COUNT))?;
-        bins += 1;
+        if input.field(0) != Some(bin) {
+            let expected = format!("expected {bin}: bins 0 to {last}, each once, in order");
+            return Err(input.fault(0, expected).into());
+        }
+        let count = input.field(1).filter(|&count: &u32| u64::from(count) <= p.most_hits());
+        histogram.push(count.ok_or_else(|| input.fault(1, count_range(p)))?);
     }
-    if bins < BINS {
-        return Err(Input::new(source, format!("{bins} rows, expected {BINS}")).into());
+    if histogram.len() < bins {
+        let expected = format!("{} rows, expected {bins}", histogram.len());
+        return Err(Input::new(source, expected).into());
     }
-    checked(histogram, source, "total".to_owned())
+    checked(histogram, source, "total".to_owned(), p)
 }
 
 /// Reads a CSV file to its end.
-fn csv(reader: Reader, path: &str) -> Result<Histogram> {
+fn csv(reader: Reader, path: &str, p: &Params) -> Result<Histogram> {
     let mut bytes = Vec::new();
     let read = reader.take(CSV + 1).read_to_end(&mut bytes);
     read.map_err(Error::io(Path::new(path), "read"))?;
     if bytes.len() as u64 > CSV {
-        let expected = "more than 1 MiB, expected CSV with 256 rows, or an .npy file";
+        let expected =
+            format!("more than 1 MiB, expected CSV with {} rows, or an .npy file", p.bins);
         return Err(Input::new(path, expected).into());
     }
     match std::str::from_utf8(&bytes) {
-        Ok(text) => parse_csv(path, text),
+        Ok(text) => parse_csv(path, text, p),
         Err(error) => {
             let valid = String::from_utf8_lossy(&bytes[..error.valid_up_to()]);
             let (line, column) = line_and_column(&valid, valid.len());
@@ -104,17 +111,17 @@ fn csv(reader: Reader, path: &str) -> Result<Histogram> {
 }
 
 /// Reads the header of an `.npy` file.
-fn array(mut reader: Reader, path: &str) -> Result<(Elements, u64)> {
+fn array(mut reader: Reader, path: &str, p: &Params) -> Result<(Elements, u64)> {
     let fault = |expected: String| Error::from(Input::new(path, expected));
     let header =
         npy::header(&mut reader).map_err(|error| fault(format!("unreadable .npy: {error}")))?;
-    let shape = header.shape().to_vec();
+    let (shape, wanted) = (header.shape().to_vec(), p.bins as u64);
     let rows = match shape[..] {
-        [bins] if bins == BINS as u64 => 1,
-        [rows, bins] if bins == BINS as u64 && rows > 0 => rows,
+        [bins] if bins == wanted => 1,
+        [rows, bins] if bins == wanted && rows > 0 => rows,
         _ => {
             let shape = format!("{shape:?}").replace('[', "(").replace(']', ")");
-            let expected = "expected (256) or (n, 256), n at least 1";
+            let expected = format!("expected ({wanted}) or (n, {wanted}), n at least 1");
             return Err(Input::new(path, expected).field("shape").value(shape).into());
         }
     };
@@ -134,7 +141,7 @@ fn elements(header: NpyHeader, reader: Reader) -> std::result::Result<Elements, 
     let dtype = header.dtype();
     let DType::Plain(plain) = &dtype else { return Err(dtype.descr()) };
     let file = NpyFile::with_header(header, reader);
-    let real = |x: f64| match x as u16 {
+    let real = |x: f64| match x as u32 {
         count if f64::from(count) == x => Ok(count),
         _ => Err(x.to_string()),
     };
@@ -157,7 +164,7 @@ fn elements(header: NpyHeader, reader: Reader) -> std::result::Result<Elements, 
 /// Whole numbers of a type as counts.
 fn whole<T>(file: NpyFile<Reader>) -> Option<Elements>
 where
-    T: Deserialize + TryInto<u16> + Display + Copy + 'static,
+    T: Deserialize + TryInto<u32> + Display + Copy + 'static,
 {
     counts(file, |x: T| x.try_into().map_err(|_| x.to_string()))
 }
@@ -171,14 +178,20 @@ fn counts<T: Deserialize + 'static>(
 }
 
 /// The histogram of a row.
-fn row(elements: &mut Elements, row: u64, rows: u64, path: &str) -> Result<Histogram> {
-    let mut histogram = [0; BINS];
+fn row(
+    elements: &mut Elements,
+    row: u64,
+    rows: u64,
+    (path, p): (&str, &Params),
+) -> Result<Histogram> {
+    let mut histogram = vec![0; p.bins];
     for (bin, count) in histogram.iter_mut().enumerate() {
         let field = || format!("histogram {row}, bin {bin}");
         *count = match elements.next() {
-            Some(Ok(Ok(count))) => count,
-            Some(Ok(Err(value))) => {
-                return Err(Input::new(path, COUNT).field(field()).value(value).into());
+            Some(Ok(Ok(count))) if u64::from(count) <= p.most_hits() => count,
+            Some(Ok(value)) => {
+                let value = value.map_or_else(|text| text, |count| count.to_string());
+                return Err(Input::new(path, count_range(p)).field(field()).value(value).into());
             }
             Some(Err(error)) if error.kind() != io::ErrorKind::UnexpectedEof => {
                 return Err(Error::io(Path::new(path), "read")(error));
@@ -189,5 +202,5 @@ fn row(elements: &mut Elements, row: u64, rows: u64, path: &str) -> Result<Histo
             }
         };
     }
-    checked(histogram, path, format!("total of histogram {row}"))
+    checked(histogram, path, format!("total of histogram {row}"), p)
 }

@@ -1,7 +1,7 @@
 //! The ROMs as texts for Verilog's `$readmemh`: one word a line, in hexadecimal.
 
 use crate::firmware::depth_estimator::Params;
-use crate::firmware::forward1::{BIAS_ROW, Rom, Weight};
+use crate::firmware::forward1::{Rom, Weight};
 use crate::firmware::forward2;
 use crate::firmware::tansig;
 use crate::firmware::tdc_decoder;
@@ -18,8 +18,8 @@ pub struct Mem {
 pub fn forward1(rom: &Rom, neurons: usize) -> [Mem; 2] {
     let row = |row: &[Weight]| words(&row[..neurons]);
     [
-        Mem { name: "w1.mem", text: rom[..BIAS_ROW].iter().map(|weights| row(weights)).collect() },
-        Mem { name: "b1.mem", text: row(&rom[BIAS_ROW]) },
+        Mem { name: "w1.mem", text: rom.w1.iter().map(|weights| row(weights)).collect() },
+        Mem { name: "b1.mem", text: row(&rom.b1) },
     ]
 }
 
@@ -77,7 +77,7 @@ mod tests {
     #[test]
     fn each_file_has_its_lines_and_digits() {
         let network = Network::builtin("uniform").unwrap().unwrap();
-        let params = network.params();
+        let params = network.params(&Default::default());
         let mut cal = vec![U::new(0x3abc); TAPS + 1];
         cal[0] = U::new(5);
         let decoder = tdc_decoder::Params { cal, count_stages: 3, scale: TimeScale::default() };

@@ -3,7 +3,6 @@
 use std::iter::Sum;
 use std::ops::{Add, Mul};
 
-use super::histogram::Histogram;
 use super::weights::Weights;
 
 /// What a hidden neuron comes to.
@@ -19,13 +18,13 @@ pub struct HiddenNeuron<T> {
 
 impl<T> Weights<T, T, T, T>
 where
-    T: Copy + From<u16> + Add<Output = T> + Mul<Output = T> + Sum,
+    T: Copy + From<u32> + Add<Output = T> + Mul<Output = T> + Sum,
 {
     /// The depth of a histogram. `activate` is the activation function; `record` is shown every
     /// neuron, in order.
     pub fn pass(
         &self,
-        histogram: &Histogram,
+        histogram: &[u32],
         mut activate: impl FnMut(T) -> T,
         mut record: impl FnMut(HiddenNeuron<T>),
     ) -> T {

@@ -3,9 +3,9 @@
 use std::sync::{Arc, LazyLock};
 
 use crate::firmware::depth_estimator::Params;
-use crate::firmware::forward1::{self, BIAS_ROW};
-use crate::firmware::forward2::{self, MOST_NEURONS};
-use crate::firmware::histogram_builder::BINS;
+use crate::firmware::forward1::{self, Row};
+use crate::firmware::forward2::{self, MOST_NEURONS, NEURONS};
+use crate::firmware::histogram_builder;
 use crate::firmware::tansig;
 use crate::kernel::S;
 
@@ -13,23 +13,38 @@ use super::file::Network;
 use super::formats::{Fixed, L1_OUT, Overflow, TANSIG_RANGE};
 
 impl Network {
-    /// The estimator's ROMs.
-    pub fn params(&self) -> Params {
-        let (hidden, output) = (hidden(&self.fixed), output(&self.fixed));
+    /// Whether it has as many inputs as the histogram has bins.
+    pub fn fits(&self, histogram: &histogram_builder::Params) -> bool {
+        self.fixed.bins() == histogram.bins
+    }
+
+    /// The estimator's ROMs, for such a histogram, which has as many bins as the network has inputs.
+    pub fn params(&self, histogram: &histogram_builder::Params) -> Params {
+        let (hidden, output) = (hidden(&self.fixed, histogram), output(&self.fixed));
         Params { forward1: Arc::new(hidden), tansig: tansig_table(), forward2: output }
     }
 }
 
-/// MEM1: a row of weights for each bin, and the biases.
-fn hidden(fixed: &Fixed) -> forward1::Rom {
-    let mut rom = [[S::new(0); MOST_NEURONS]; BINS + 1];
-    for (neuron, (row, bias)) in fixed.w1.iter().zip(&fixed.b1).enumerate() {
-        for (bin, weight) in row.iter().enumerate() {
-            rom[bin][neuron] = S::new(weight.to_bits().into());
-        }
-        rom[BIAS_ROW][neuron] = S::new(bias.to_bits().into());
+/// A network for such a histogram whose weights are all zero.
+pub fn blank(histogram: &histogram_builder::Params) -> Params {
+    let (w1, b1) = (vec![Row::default(); histogram.bins], Row::default());
+    Params {
+        forward1: Arc::new(forward1::Rom::new(w1, b1, histogram)),
+        tansig: tansig_table(),
+        forward2: forward2::Rom { neurons: NEURONS, w2: Default::default(), b2: S::new(0) },
     }
-    rom
+}
+
+/// MEM1: a row of weights for each bin, and the biases.
+fn hidden(fixed: &Fixed, histogram: &histogram_builder::Params) -> forward1::Rom {
+    let (mut w1, mut b1) = (vec![Row::default(); histogram.bins], Row::default());
+    for (neuron, (weights, bias)) in fixed.w1.iter().zip(&fixed.b1).enumerate() {
+        for (row, weight) in w1.iter_mut().zip(weights) {
+            row[neuron] = S::new(weight.to_bits().into());
+        }
+        b1[neuron] = S::new(bias.to_bits().into());
+    }
+    forward1::Rom::new(w1, b1, histogram)
 }
 
 /// MEM3.
@@ -74,14 +89,14 @@ mod tests {
     }
 
     #[test]
-    fn a_row_of_the_hidden_rom_is_a_bin_and_the_last_one_the_biases() {
+    fn a_row_of_the_hidden_rom_is_a_bin() {
         let network = Network::builtin("uniform").unwrap().unwrap();
-        let params = network.params();
+        let params = network.params(&histogram_builder::Params::default());
         let fixed = &network.fixed;
-        assert_eq!(params.forward1[5][2].get(), i64::from(fixed.w1[2][5].to_bits()));
-        assert_eq!(params.forward1[256][3].get(), i64::from(fixed.b1[3].to_bits()));
+        assert_eq!(params.forward1.w1[5][2].get(), i64::from(fixed.w1[2][5].to_bits()));
+        assert_eq!(params.forward1.b1[3].get(), i64::from(fixed.b1[3].to_bits()));
         assert_eq!(params.forward2.w2[7].get(), i64::from(fixed.w2[7].to_bits()));
         assert_eq!(params.forward2.b2.get(), i64::from(fixed.b2.to_bits()));
-        assert_eq!(params.forward1[5][8..], [S::new(0); 8]);
+        assert_eq!(params.forward1.w1[5][8..], [S::new(0); 8]);
     }
 }

@@ -1,7 +1,6 @@
 //! From weights in double precision to the words of the ROMs (thesis Table 6.4).
 
 use crate::error::{Input, Result};
-use crate::firmware::histogram_builder::BINS;
 
 use super::float::Float;
 use super::formats::{
@@ -26,12 +25,11 @@ impl Float {
         let mut rounding = Rounding { name, overflow, saturated: 0 };
         let mut w1 = Vec::new();
         for (neuron, row) in self.w1.iter().enumerate() {
-            let mut words = [HiddenWeight::ZERO; BINS];
-            for (bin, (word, &weight)) in words.iter_mut().zip(row).enumerate() {
+            let words = row.iter().enumerate().map(|(bin, &weight)| {
                 let bits = rounding.word(W1, weight, || format!("w1[{neuron}][{bin}]"))?;
-                *word = HiddenWeight::from_bits(bits.into());
-            }
-            w1.push(words);
+                Ok(HiddenWeight::from_bits(bits.into()))
+            });
+            w1.push(words.collect::<Result<_>>()?);
         }
         let b1 = rounding.list(B1, &self.b1, "b1")?.map(HiddenBias::from_bits).collect();
         let w2 = rounding.list(W2, &self.w2, "w2")?.map(OutputWeight::from_bits).collect();

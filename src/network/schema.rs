@@ -6,7 +6,6 @@ use serde::Deserialize;
 use crate::error::Result;
 use crate::files::toml::Checked;
 use crate::firmware::forward2::MOST_NEURONS;
-use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tansig::ADDRESS_BITS;
 
 use super::domain::Domain;
@@ -71,7 +70,7 @@ struct TansigFormat {
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Arrays<T> {
-    #[schemars(length(min = 1, max = MOST_NEURONS), inner(length(equal = BINS)))]
+    #[schemars(length(min = 1, max = MOST_NEURONS), inner(length(min = 16, max = 1024)))]
     w1: Vec<Vec<T>>,
     b1: Vec<T>,
     w2: Vec<T>,
@@ -79,15 +78,22 @@ struct Arrays<T> {
 }
 
 impl<T: Copy> Arrays<T> {
-    /// The weights, whose rows have the right length by now.
     fn weights(self) -> Weights<T, T, T, T> {
-        let row = |row: &Vec<T>| std::array::from_fn(|bin| row[bin]);
         let Arrays { w1, b1, w2, b2 } = self;
-        Weights { w1: w1.iter().map(row).collect(), b1, w2, b2 }
+        Weights { w1, b1, w2, b2 }
     }
 
-    /// That there is one of each for each of so many neurons.
-    fn check(&self, section: &str, neurons: usize, checked: &Checked) -> Result<()> {
+    /// That there is one of each for each of so many neurons, and for each a weight for so many bins.
+    fn check(
+        &self,
+        section: &str,
+        (neurons, bins): (usize, usize),
+        checked: &Checked,
+    ) -> Result<()> {
+        if let Some(row) = self.w1.iter().position(|row| row.len() != bins) {
+            let expected = format!("expected a list of {bins}, one a bin");
+            return Err(checked.fault(&format!("{section}.w1.{row}"), expected).into());
+        }
         for (key, found) in [("w1", self.w1.len()), ("b1", self.b1.len()), ("w2", self.w2.len())] {
             if found != neurons {
                 let expected = format!("expected {neurons}, one a neuron");
@@ -143,10 +149,15 @@ impl File {
             }
         }
         self.formats.check(checked)?;
-        let neurons = self.integers.w1.len();
-        self.integers.check("integers", neurons, checked)?;
+        let w1 = &self.integers.w1;
+        let size = (w1.len(), w1.first().map_or(0, Vec::len));
+        if !size.1.is_power_of_two() {
+            let expected = "expected a list of 16, 32, 64 and so on to 1024: a power of two";
+            return fault("integers.w1.0", expected.to_owned());
+        }
+        self.integers.check("integers", size, checked)?;
         if let Some(float) = &self.float {
-            float.check("float", neurons, checked)?;
+            float.check("float", size, checked)?;
         }
         let Some(accuracy) = &self.accuracy else { return Ok(()) };
         let distances = accuracy.distances_m.len();
@@ -229,7 +240,7 @@ mod tests {
         let (from, to) = first("");
         let message = fault(&from, &to);
         assert!(
-            message.contains("integers.w1.0 = a list of 255: expected a list of 256"),
+            message.contains("integers.w1.0 = a list of 255: expected a list of 16, 32, 64"),
             "{message}"
         );
     }
@@ -281,7 +292,11 @@ mod tests {
                 "w2 = [\n    1, ",
                 "integers.w2 = a list of 9: expected 8, one a neuron",
             ),
-            ("w1 = [\n  [", "w1 = [\n  [1],\n  [", "integers.w1.0 = [1]: expected a list of 256"),
+            (
+                "w1 = [\n  [",
+                "w1 = [\n  [1],\n  [",
+                "integers.w1.0 = [1]: expected a list of 16 to 1024",
+            ),
         ] {
             let message = fault(from, to);
             assert!(message.contains(expected), "{message}");

@@ -7,7 +7,7 @@ use rand::Rng;
 use rand_distr::{Binomial, Distribution};
 
 use crate::firmware::tdc;
-use crate::firmware::tdc_decoder::{CODES, TimeScale};
+use crate::firmware::tdc_decoder::TimeScale;
 use crate::kernel::Time;
 
 use super::hazard::Hazard;
@@ -20,7 +20,7 @@ pub struct Span {
     /// First time after it.
     pub until: Time,
     /// Code of the TDC [bins].
-    pub code: u8,
+    pub code: u16,
 }
 
 /// Which avalanche times give which code.
@@ -53,7 +53,7 @@ impl Bins {
                 let Some(code) = p.decoder.code(coarse, n) else { continue };
                 let from = ages.get(n).map_or(first, |&age| first_younger(age, edge).max(first));
                 let until = first_younger(ages[n - 1], edge).min(end);
-                push(&mut spans, Span { from, until, code: code.get() as u8 });
+                push(&mut spans, Span { from, until, code: code.get() as u16 });
             }
         }
         Bins { spans, scale: p.decoder.scale }
@@ -62,6 +62,11 @@ impl Bins {
     /// The spans of all codes, in order of time.
     pub fn spans(&self) -> &[Span] {
         &self.spans
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.scale.bins()
     }
 
     /// Width of a bin, as codes count it [ps].
@@ -81,12 +86,12 @@ impl Bins {
 
     /// Whether codes count what the KC705's do.
     pub fn are_kc705(&self) -> bool {
-        let usual = TimeScale::default();
-        (self.scale.bin(), self.scale.first()) == (usual.bin(), usual.first())
+        let kc705 = |scale: &TimeScale| (scale.bin(), scale.first(), scale.bins());
+        kc705(&self.scale) == kc705(&TimeScale::default())
     }
 
     /// Code of an avalanche at `t` from the laser edge.
-    pub fn code_at(&self, t: Time) -> Option<u8> {
+    pub fn code_at(&self, t: Time) -> Option<u16> {
         let next = self.spans.partition_point(|span| span.from <= t);
         let span = self.spans[..next].last()?;
         (t < span.until).then_some(span.code)
@@ -111,12 +116,12 @@ fn push(spans: &mut Vec<Span>, span: Span) {
 
 /// The probability of each code in one shot.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BinProbabilities([f64; CODES]);
+pub struct BinProbabilities(Vec<f64>);
 
 impl BinProbabilities {
     /// Of shots that are armed at the laser edge.
     pub fn new(hazard: &Hazard, bins: &Bins) -> Self {
-        let mut of_code = [0.0; CODES];
+        let mut of_code = vec![0.0; bins.count()];
         // Hazard, and probability of no avalanche, up to where we are.
         let (mut at, mut none_yet) = (0.0, 1.0);
         let mut advance = |t: Time| {
@@ -133,14 +138,15 @@ impl BinProbabilities {
         BinProbabilities(of_code)
     }
 
-    pub fn of_code(&self) -> &[f64; CODES] {
+    /// By code.
+    pub fn of_code(&self) -> &[f64] {
         &self.0
     }
 
     /// A histogram of `shots` shots: multinomial, as a binomial draw for each code from the shots
     /// that are left.
-    pub fn draw(&self, shots: u64, rng: &mut impl Rng) -> [u64; CODES] {
-        let mut histogram = [0; CODES];
+    pub fn draw(&self, shots: u64, rng: &mut impl Rng) -> Vec<u64> {
+        let mut histogram = vec![0; self.0.len()];
         let (mut shots_left, mut probability_left) = (shots, 1.0);
         for (count, &probability) in histogram.iter_mut().zip(&self.0) {
             if shots_left == 0 || probability == 0.0 {
@@ -185,7 +191,7 @@ pub(super) mod tests {
     }
 
     /// Code as the firmware finds it: edge by edge, tap by tap.
-    fn sampled(t: Time, p: &tdc::Params) -> Option<u8> {
+    fn sampled(t: Time, p: &tdc::Params) -> Option<u16> {
         let delays = &p.delays;
         let mut line = StopLine::default();
         line.toggle(t);
@@ -194,7 +200,7 @@ pub(super) mod tests {
             let taps = line.sample(edge.max(t), delays);
             if edge >= t && taps.tap(delays.tap_0_position()) {
                 let code = p.decoder.code(coarse, taps.ones(TAPS));
-                return code.map(|code| code.get() as u8);
+                return code.map(|code| code.get() as u16);
             }
         }
         None
@@ -269,7 +275,7 @@ pub(super) mod tests {
         with_holes.decoder.cal[300..310].fill(U::new(0));
         for params in [whole, with_holes] {
             let bins = Bins::of_tdc(&params);
-            let mut expected = [0.0; CODES];
+            let mut expected = vec![0.0; bins.count()];
             for span in bins.spans() {
                 let survival = |t| (-hazard.at(t)).exp();
                 expected[span.code as usize] += survival(span.from) - survival(span.until);
@@ -284,18 +290,18 @@ pub(super) mod tests {
     #[test]
     fn every_shot_is_drawn_once() {
         let mut rng = ChaCha8Rng::seed_from_u64(1);
-        let mut sure = [0.0; CODES];
+        let mut sure = vec![0.0; 256];
         (sure[3], sure[200]) = (0.25, 0.75);
         let histogram = BinProbabilities(sure).draw(30_000, &mut rng);
         assert_eq!(histogram[3] + histogram[200], 30_000);
         assert!((7_000..8_000).contains(&histogram[3]));
-        assert_eq!(BinProbabilities([0.0; CODES]).draw(30_000, &mut rng), [0; CODES]);
+        assert_eq!(BinProbabilities(vec![0.0; 256]).draw(30_000, &mut rng), [0; 256]);
     }
 
     #[test]
     fn without_any_rate_no_code_is_probable() {
         let hazard = Hazard::dark(&Budget::default());
         let none = BinProbabilities::new(&hazard, &bins(&uniform(11_500, 2_230)));
-        assert_eq!(none.of_code(), &[0.0; CODES]);
+        assert_eq!(none.of_code(), [0.0; 256]);
     }
 }

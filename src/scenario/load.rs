@@ -122,8 +122,8 @@ mod tests {
         assert!(error("[target]\ndistance_m = \"1\"").contains("expected a number from"));
         assert!(error("[targett]").contains("did you mean `target`?"));
         assert!(error("[target]\ndistanse_m = 1").starts_with("t.toml:2:1: target.distanse_m"));
-        assert!(error("[firmware]\nshots_per_frame = 0").contains("from 1 to 65535 [shots]"));
-        assert!(error("[firmware]\nshots_per_frame = 65536").contains("from 1 to 65535 [shots]"));
+        assert!(error("[firmware]\nshots_per_frame = 0").contains("from 1 to 16777215 [shots]"));
+        assert!(error("[firmware]\nshots_per_frame = 65536").contains("expected 65535 at most"));
         assert!(error("[firmware]\nshots_per_frame = 10.5").contains("a whole number"));
         assert!(error("a = [1,\n2").starts_with("t.toml:2:"));
         assert!(error("[ambient]\nmodel = \"fited\"").contains("`fitted`, `physical`"));

@@ -19,6 +19,7 @@ const VCO_HZ: std::ops::RangeInclusive<u64> = 800_000_000..=1_866_000_000;
 pub fn validate(scenario: &Scenario, checked: &Checked) -> Result<()> {
     clocks(scenario, checked)?;
     bins(scenario, checked)?;
+    counts(scenario, checked)?;
     stimulus(scenario, checked)?;
     spads(scenario, checked)?;
     laser(scenario, checked)?;
@@ -45,7 +46,12 @@ fn clocks(scenario: &Scenario, checked: &Checked) -> Result<()> {
 
 /// That the window of a shot holds the first bin.
 fn bins(scenario: &Scenario, checked: &Checked) -> Result<()> {
-    let Tdc { bin_ps, first_bin_ps, coarse_bits, .. } = scenario.tdc;
+    let Tdc { bins, bin_ps, first_bin_ps, coarse_bits, .. } = scenario.tdc;
+    if !bins.is_power_of_two() {
+        let (below, above) = (bins.next_power_of_two() / 2, bins.next_power_of_two());
+        let expected = format!("expected a power of two, such as {below} or {above}");
+        return Err(checked.fault("tdc.bins", expected).into());
+    }
     let window_ps = 1e12 / CLK_SYS_HZ as f64 * f64::from(1 << coarse_bits);
     let window = format!("the window that {coarse_bits} bits count (tdc.coarse_bits)");
     let fault =
@@ -60,6 +66,17 @@ fn bins(scenario: &Scenario, checked: &Checked) -> Result<()> {
         return fault("tdc.first_bin_ps", first_bin_ps, expected);
     }
     Ok(())
+}
+
+/// That a word of the histogram holds the shots of a frame.
+fn counts(scenario: &Scenario, checked: &Checked) -> Result<()> {
+    let Firmware { count_bits, shots_per_frame: shots, .. } = scenario.firmware;
+    let (most, enough) = ((1u64 << count_bits) - 1, u64::BITS - shots.leading_zeros());
+    let expected = format!(
+        "expected {most} at most, what a word of {count_bits} bits holds (firmware.count_bits; {enough} would do)"
+    );
+    let fault = checked.fault("firmware.shots_per_frame", expected).value(shots);
+    if shots > most { Err(fault.into()) } else { Ok(()) }
 }
 
 fn stimulus(scenario: &Scenario, checked: &Checked) -> Result<()> {

@@ -57,7 +57,8 @@ impl Run<'_> {
 
 /// Every signal, words of the RAM among them if there is one.
 fn entries(params: &Params) -> Vec<Entry> {
-    let (mut entries, ram) = (hierarchy::entries(params), hierarchy::ram_entries());
+    let (mut entries, ram) =
+        (hierarchy::entries(params), hierarchy::ram_entries(&params.histogram));
     if entries.iter().any(|entry| entry.scope == ram[0].scope) {
         entries.extend(ram);
     }

@@ -40,7 +40,7 @@ pub struct Device {
 impl Device {
     /// At power-up.
     pub fn new(
-        pins: Pins,
+        (pins, p): (Pins, &Params),
         pll: Pll,
         jitter: Option<Jitter>,
         mut light: Light,
@@ -48,7 +48,7 @@ impl Device {
         timeline: Timeline,
     ) -> Self {
         Device {
-            top: TofTop::new(pins),
+            top: TofTop::new(pins, p),
             line: StopLine::default(),
             spads: Spads::new(spads, dead_time, light.next_avalanche(Time::ZERO, 1.0)),
             light,

@@ -1,8 +1,8 @@
 //! Follows the firmware's frames: when they begin and end, and what they gave.
 
 use crate::firmware::forward2::Depth;
-use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tof_top::{HistogramSource, Params, TofTop};
+use crate::network::Histogram;
 
 /// One finished frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +18,7 @@ pub struct Frame {
     /// Hits that the TDC kept, with a code or without.
     pub tdc_hits: u64,
     /// The estimator's histogram [hits].
-    pub histogram: [u16; BINS],
+    pub histogram: Histogram,
     /// From the edge that takes `algo_start` to the one that raises `algo_done` [cycles of clk_sys].
     pub estimator_cycles: u64,
     /// From the edge that begins Clear to the one that raises `algo_done` [cycles of clk_sys].
@@ -105,7 +105,7 @@ impl Frames {
             depth: top.socket.depth,
             shots: ctrl.shots(),
             tdc_hits: self.tdc_hits,
-            histogram: std::array::from_fn(|bin| histogram[bin].get() as u16),
+            histogram: histogram.iter().map(|word| word.get() as u32).collect(),
             estimator_cycles: cycle - self.start_at,
             frame_cycles: cycle - self.clear_at,
         })

@@ -13,11 +13,11 @@ use crate::firmware::forward2::Depth;
 use crate::firmware::pll::{self, Pll};
 use crate::firmware::tdc_decoder::TimeScale;
 use crate::firmware::tof_top::{Estimator, HistogramSource, Params, Pins};
-use crate::firmware::{centroid_estimator, frame_ctrl, tdc, vcsel_driver};
+use crate::firmware::{centroid_estimator, frame_ctrl, histogram_builder, tdc, vcsel_driver};
 use crate::hierarchy;
 use crate::kernel::{S, Time, U};
 use crate::network::estimate::estimate;
-use crate::network::{Histogram, Network};
+use crate::network::{self, Network};
 use crate::note::Note;
 use crate::optics::{Bins, Budget, Hazard};
 use crate::scenario::builtin::Source;
@@ -34,10 +34,10 @@ use stimulus::stimulus;
 
 /// Period of `clk_sys`.
 pub const CYCLE: Time = Time::from_ns(8);
-/// Cycles of a frame beside its shots, Drain and the estimator: Clear and two hand-overs.
-const OVERHEAD: u64 = 256 + 1 + 1;
+/// Cycles of a frame beside its shots, Clear, Drain and the estimator: the hand-overs.
+const HAND_OVERS: u64 = 2;
 /// The same with a preloaded histogram.
-const OVERHEAD_PRELOADED: u64 = 256 + 1;
+const HAND_OVERS_PRELOADED: u64 = 1;
 
 /// Shots of the waveform when nothing else is asked for.
 const FIRST_SHOTS: u64 = 16;
@@ -83,22 +83,39 @@ impl Setup {
     /// Loads the files that the scenario names and works out what it sets.
     ///
     /// # Errors
-    /// When one of the files cannot be read or used.
+    /// When one of the files cannot be read or used, or the estimator is a network for another histogram.
     pub fn new(loaded: Loaded) -> Result<Self> {
+        let setup = Setup::of_counts(loaded)?;
+        match setup.params.estimator {
+            Estimator::Network => setup.check_network()?,
+            Estimator::Centroid => {}
+        }
+        Ok(setup)
+    }
+
+    /// The same for who wants histograms and not what the estimator makes of them: the network may be one for
+    /// another histogram, and finds nothing then.
+    ///
+    /// # Errors
+    /// When one of the files cannot be read or used.
+    pub fn of_counts(loaded: Loaded) -> Result<Self> {
         let Loaded { name, scenario, set, files } = loaded;
         let network = network(&scenario, &files)?;
         let pll_params = pll_params(&scenario);
+        let histogram = histogram_size(&scenario);
         let delays = chain::load(&scenario.tdc.profile, &files)?;
         let scale = time_scale(&scenario.tdc);
-        let (code_source, histogram_source, light) = stimulus(&scenario, &files)?;
+        let (code_source, histogram_source, light) = stimulus(&scenario, &files, &histogram)?;
         let budget = Budget::new(&scenario);
         let light = light.unwrap_or_else(|| {
             let (lit, dark) = (Hazard::new(&budget), Hazard::dark(&budget));
             Light::Optics(Box::new(Optics::new(lit, dark, scenario.seed)))
         });
         let params = Params {
+            histogram,
             frame_ctrl: frame_ctrl::Params {
-                shots_per_frame: scenario.firmware.shots_of_a_frame() as u16,
+                shots_per_frame: scenario.firmware.shots_of_a_frame() as u32,
+                histogram,
                 preloaded: matches!(histogram_source, HistogramSource::Preload(_)),
                 drain_cycles: scenario.firmware.drain_cycles,
             },
@@ -112,8 +129,11 @@ impl Setup {
                 scenario.tdc.coarse_bits,
                 scenario.tdc.count_stages,
             ),
-            depth_estimator: network.params(),
-            centroid_estimator: centroid(&scenario.estimator),
+            depth_estimator: match network.fits(&histogram) {
+                true => network.params(&histogram),
+                false => network::blank(&histogram),
+            },
+            centroid_estimator: centroid(&scenario.estimator, histogram),
             estimator: match scenario.estimator.kind {
                 EstimatorKind::Network => Estimator::Network,
                 EstimatorKind::Centroid => Estimator::Centroid,
@@ -129,6 +149,24 @@ impl Setup {
         Ok(Setup { no_depth: setup.why_no_depth(), ..setup })
     }
 
+    /// Whether the network has as many inputs as the histogram has bins.
+    ///
+    /// # Errors
+    /// When it has not.
+    pub fn check_network(&self) -> Result<()> {
+        let (network, bins) = (&self.network, self.params.histogram.bins);
+        if network.fits(&self.params.histogram) {
+            return Ok(());
+        }
+        let expected = format!(
+            "it has {} inputs, expected {bins} as tdc.bins says: train one with those keys, or set \
+             estimator.kind=centroid",
+            network.fixed.bins()
+        );
+        let source = format!("scenario {}", self.name);
+        Err(Input::new(source, expected).field("estimator.network").value(&network.name).into())
+    }
+
     /// The clocks.
     pub fn pll(&self) -> &Pll {
         &self.pll
@@ -139,16 +177,14 @@ impl Setup {
         let scenario = &self.scenario;
         let rms_ps = scenario.pll.jitter_rms_ps;
         let jitter = (rms_ps > 0.0).then(|| Jitter::new(rms_ps, scenario.seed));
-        let mut device = Device::new(
-            self.pins,
+        Device::new(
+            (self.pins, &self.params),
             self.pll.clone(),
             jitter,
             self.light.clone(),
             (scenario.spad.on_tdc as usize, Time::from_ps_f64(scenario.spad.dead_time_ns * 1e3)),
             Timeline::new(scenario),
-        );
-        device.top.settle(&self.params);
-        device
+        )
     }
 
     /// Period of the laser at power-up [cycles of clk_sys].
@@ -164,16 +200,17 @@ impl Setup {
     /// Length of an undisturbed frame with such a laser period: from the edge that begins Clear to the one
     /// that raises `algo_done` [cycles of clk_sys].
     pub fn frame_cycles(&self, laser_period: u64) -> u64 {
-        let (ctrl, estimator) = (&self.params.frame_ctrl, self.params.estimator_cycles());
+        let (ctrl, clear) = (&self.params.frame_ctrl, self.params.histogram.bins as u64);
+        let estimator = self.params.estimator_cycles();
         if ctrl.preloaded {
-            return OVERHEAD_PRELOADED + estimator;
+            return clear + HAND_OVERS_PRELOADED + estimator;
         }
         let shots = ctrl.shots_per_frame as u64 * laser_period;
-        shots + ctrl.drain_cycles + OVERHEAD + estimator
+        clear + shots + ctrl.drain_cycles + HAND_OVERS + estimator
     }
 
     /// The depth that the estimator in the socket finds in a histogram, without its clock.
-    pub fn depth(&self, histogram: &Histogram) -> Depth {
+    pub fn depth(&self, histogram: &[u32]) -> Depth {
         let p = &self.params;
         match p.estimator {
             Estimator::Network => estimate(&p.depth_estimator, histogram).depth,
@@ -247,7 +284,8 @@ impl Setup {
     pub fn waves(&self, path: &Path, format: WaveFormat, globs: &[&str]) -> Result<Waves> {
         let globs: Vec<_> = globs.iter().map(|&glob| glob.to_owned()).collect();
         let entries = hierarchy::entries(&self.params);
-        let entries = waves::select(entries, hierarchy::ram_entries(), &globs)?;
+        let entries =
+            waves::select(entries, hierarchy::ram_entries(&self.params.histogram), &globs)?;
         let order = self.params.tdc.delays.order();
         Waves::create(path, format, &entries, order, &self.provenance())
     }
@@ -295,9 +333,13 @@ fn network(scenario: &Scenario, files: &Source) -> Result<Network> {
 }
 
 /// The scale's words round half away from zero.
-fn centroid(keys: &scenario::Estimator) -> centroid_estimator::Params {
+fn centroid(
+    keys: &scenario::Estimator,
+    histogram: histogram_builder::Params,
+) -> centroid_estimator::Params {
     let word = |value: f64, fraction: u32| (value * (1u64 << fraction) as f64).round() as i64;
     centroid_estimator::Params {
+        histogram,
         half_width: keys.centroid_half_width,
         background: keys.centroid_background,
         slope: U::new(word(keys.centroid_slope_m, centroid_estimator::SLOPE_FRACTION) as u64),
@@ -305,9 +347,14 @@ fn centroid(keys: &scenario::Estimator) -> centroid_estimator::Params {
     }
 }
 
+fn histogram_size(scenario: &Scenario) -> histogram_builder::Params {
+    let (bins, count_bits) = (scenario.tdc.bins as usize, scenario.firmware.count_bits);
+    histogram_builder::Params { bins, count_bits }
+}
+
 fn time_scale(tdc: &scenario::Tdc) -> TimeScale {
     let [bin, first] = [tdc.bin_ps, tdc.first_bin_ps].map(Time::from_ps_f64);
-    TimeScale::new(CYCLE, bin, first, tdc.coarse_bits)
+    TimeScale::new(CYCLE, bin, first, tdc.coarse_bits, tdc.bins as usize)
 }
 
 fn pll_params(scenario: &Scenario) -> pll::Params {

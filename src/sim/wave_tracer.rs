@@ -1,7 +1,7 @@
 //! Writes the waveform while a window is open.
 
 use crate::error::{Input, Result};
-use crate::firmware::frame_ctrl::{self, FrameCtrl, LAST_WORD, State as FrameState};
+use crate::firmware::frame_ctrl::{self, FrameCtrl, State as FrameState};
 use crate::firmware::tof_top::{Params, TofTop};
 use crate::kernel::Time;
 use crate::scenario::window::{Moment, Window};
@@ -201,7 +201,7 @@ fn is_estimating(ctrl: &FrameCtrl, p: &frame_ctrl::Params) -> bool {
     const NEAR: u64 = 2;
     match ctrl.state {
         FrameState::Clear if ctrl.frame_done => true,
-        FrameState::Clear => p.preloaded && ctrl.clear_addr.get() + NEAR >= LAST_WORD,
+        FrameState::Clear => p.preloaded && ctrl.clear_addr.get() + NEAR >= p.histogram.last_bin(),
         FrameState::Acquire => false,
         FrameState::Drain => ctrl.drain.get() + NEAR >= p.last_drain(),
         FrameState::Estimate => true,

@@ -6,14 +6,15 @@ use crate::firmware::carry_chain::{Delays, StopLine, TAPS};
 use crate::firmware::forward2::{MOST_NEURONS, NEURONS};
 use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Pins, TofTop};
 use crate::firmware::{
-    centroid_estimator, depth_estimator, forward2, frame_ctrl, tdc, vcsel_driver,
+    centroid_estimator, depth_estimator, forward1, forward2, frame_ctrl, histogram_builder, tdc,
+    vcsel_driver,
 };
 use crate::kernel::{S, Time, U};
 
 use super::writer::Waves;
 
 /// Shots in a frame.
-pub(super) const SHOTS: u16 = 12;
+pub(super) const SHOTS: u32 = 12;
 
 /// A chain without bubbles, small ROMs, short frames.
 pub(super) fn params() -> Params {
@@ -27,11 +28,16 @@ pub(super) fn with_delays(taps: &[i64]) -> Params {
         true => S::new((row * 37 + neuron * 911) as i64 % 4001 - 2000),
         false => S::new(0),
     };
-    let rom = std::array::from_fn(|row| std::array::from_fn(|neuron| weight(row, neuron)));
+    let histogram = histogram_builder::Params::default();
+    let row = |row: usize| std::array::from_fn(|neuron| weight(row, neuron));
+    let w1 = (0..histogram.bins).map(row).collect();
+    let rom = forward1::Rom::new(w1, row(histogram.bins), &histogram);
     let tansig = std::array::from_fn(|address| S::new((address as i64 - 2048) * 8));
     Params {
+        histogram,
         frame_ctrl: frame_ctrl::Params {
             shots_per_frame: SHOTS,
+            histogram,
             preloaded: false,
             drain_cycles: frame_ctrl::DRAIN_CYCLES,
         },
@@ -68,7 +74,7 @@ impl Bench {
     /// At power-up, locked, the laser at its fastest.
     pub(super) fn new(params: Params) -> Self {
         let pins = Pins { laser_freq: U::new(3), laser_en: true, dsp_en: true, ..Pins::default() };
-        let mut top = TofTop::new(pins);
+        let mut top = TofTop::new(pins, &params);
         top.pll.locked = true;
         let line = StopLine::default();
         Bench { top, params, line, cycle: 0, shot: 0, photon: Time::NEVER }

@@ -75,7 +75,7 @@ fn a_file_says_where_it_comes_from() {
 fn a_sample_without_a_change_writes_nothing() {
     let directory = tempfile::tempdir().unwrap();
     let params = params();
-    let entries = [entries(&params), ram_entries()].concat();
+    let entries = [entries(&params), ram_entries(&Default::default())].concat();
     let mut bench = Bench::new(params.clone());
     for _ in 0..FRAME - 100 {
         bench.cycle(&mut |_, _| ());
@@ -83,7 +83,7 @@ fn a_sample_without_a_change_writes_nothing() {
     let size = |extra: u64| {
         let path = directory.path().join("run.vcd");
         let mut waves = create(&path, WaveFormat::Vcd, &entries, &params);
-        waves.begin(Time::ZERO, &TofTop::new(Pins::default()));
+        waves.begin(Time::ZERO, &TofTop::default());
         for k in 1..=1 + extra {
             waves.sample(Time::from_ns(k), &bench.top);
         }
@@ -99,7 +99,7 @@ fn time_is_rounded_down_and_never_goes_back() {
     let path = directory.path().join("run.vcd");
     let params = params();
     let mut waves = create(&path, WaveFormat::Vcd, &entries(&params), &params);
-    let mut top = TofTop::new(Pins::default());
+    let mut top = TofTop::default();
     waves.begin(Time::ZERO, &top);
     for fs in [5_999, 6_000, 6_999, 4_000] {
         top.pins.tdc_stop = !top.pins.tdc_stop;
@@ -118,7 +118,7 @@ fn an_unfinished_waveform_leaves_nothing_behind() {
     for format in FORMATS {
         let path = directory.path().join("run").with_extension(extension(format));
         let mut waves = create(&path, format, &entries(&params), &params);
-        waves.begin(Time::ZERO, &TofTop::new(Pins::default()));
+        waves.begin(Time::ZERO, &TofTop::default());
         drop(waves);
     }
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 0);
@@ -168,7 +168,7 @@ fn a_single_instant_and_the_end_of_the_run_are_kept() {
             let path = directory.path().join("run").with_extension(extension(format));
             let mut waves = create(&path, format, &entries(&params), &params);
             let pins = Pins { rst: true, ..Pins::default() };
-            waves.begin(Time::ZERO, &TofTop::new(pins));
+            waves.begin(Time::ZERO, &TofTop { pins, ..TofTop::default() });
             waves.finish(Time::from_ns(end)).unwrap();
             let mut wave = read(&path).unwrap();
             let last = *wave.time_table().last().unwrap();
@@ -185,7 +185,7 @@ fn a_file_with_a_gap_is_not_put_in_place() {
     for format in FORMATS {
         let path = directory.path().join("run").with_extension(extension(format));
         let mut waves = create(&path, format, &entries(&params), &params);
-        waves.begin(Time::ZERO, &TofTop::new(Pins::default()));
+        waves.begin(Time::ZERO, &TofTop::default());
         waves.failed = Some(io::Error::new(io::ErrorKind::StorageFull, "no space then"));
         let error = waves.finish(Time::from_ns(1)).unwrap_err().to_string();
         assert!(error.contains("no space then") && !path.exists(), "{error}");

@@ -100,7 +100,7 @@ mod tests {
 
     #[test]
     fn every_value_is_shown_once() {
-        let all = [entries(&params()), ram_entries()].concat();
+        let all = [entries(&params()), ram_entries(&Default::default())].concat();
         let ids: BTreeSet<_> = all.iter().map(|entry| entry.id).collect();
         let groups = groups(&all);
         let rows: Vec<_> = groups.iter().flat_map(|group| &group.rows).collect();
@@ -111,7 +111,7 @@ mod tests {
 
     #[test]
     fn every_name_in_the_flow_is_a_signal() {
-        let all = [every_entry(), ram_entries()].concat();
+        let all = [every_entry(), ram_entries(&Default::default())].concat();
         let is_name = |pattern: &&&str| **pattern != VIEWED;
         let patterns = FLOW.iter().flat_map(|(_, patterns)| *patterns).chain(&CURVES);
         for pattern in patterns.filter(is_name) {

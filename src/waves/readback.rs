@@ -30,7 +30,7 @@ pub(super) fn create(path: &Path, format: WaveFormat, entries: &[Entry], params:
 
 /// The run that most tests look at: from 0 on, or only two windows of it.
 pub(super) fn record(directory: &Path, windows: bool, params: Params) -> Vec<PathBuf> {
-    let entries = [entries(&params), ram_entries()].concat();
+    let entries = [entries(&params), ram_entries(&Default::default())].concat();
     let paths = FORMATS.map(|format| directory.join("run").with_extension(extension(format)));
     let mut waves: Vec<_> = FORMATS
         .iter()

@@ -35,7 +35,10 @@ mod tests {
 
     #[test]
     fn scopes_open_and_close_as_they_nest() {
-        let at = |scope: &str| Entry { scope: scope.into(), ..ram_entries()[0].clone() };
+        let at = |scope: &str| Entry {
+            scope: scope.into(),
+            ..ram_entries(&Default::default())[0].clone()
+        };
         let entries = ["a", "a.b.c", "a.b.c", "a.d"].map(at);
         let elements = elements(&entries);
         let text = elements.iter().map(|element| match element {

@@ -93,7 +93,7 @@ mod tests {
 
     fn chosen(globs: &[&str]) -> Result<Vec<String>> {
         let globs: Vec<_> = globs.iter().map(ToString::to_string).collect();
-        let entries = select(entries(&params()), ram_entries(), &globs)?;
+        let entries = select(entries(&params()), ram_entries(&Default::default()), &globs)?;
         Ok(entries.iter().map(Entry::path).collect())
     }
 
@@ -140,7 +140,7 @@ mod tests {
         params.histogram_source =
             crate::firmware::tof_top::HistogramSource::Preload(Box::new([U::new(0); 256]));
         let globs = ["ram_*".to_owned()];
-        assert!(select(entries(&params), ram_entries(), &globs).is_err());
+        assert!(select(entries(&params), ram_entries(&Default::default()), &globs).is_err());
     }
 
     #[test]

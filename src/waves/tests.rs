@@ -7,7 +7,6 @@ use wellen::simple::read;
 
 use crate::firmware::TofTop;
 use crate::firmware::carry_chain::TAPS;
-use crate::firmware::tof_top::Pins;
 use crate::hierarchy::{entries, ram_entries};
 use crate::kernel::Thermometer;
 use crate::kernel::Time;
@@ -22,7 +21,7 @@ use super::writer::WaveFormat;
 fn vcd_and_fst_hold_every_entry_and_the_same_changes() {
     let directory = tempfile::tempdir().unwrap();
     let params = params();
-    let expected = [entries(&params), ram_entries()].concat();
+    let expected = [entries(&params), ram_entries(&Default::default())].concat();
     let paths = record(directory.path(), false, params);
     let [vcd, fst] = [0, 1].map(|k| contents(&mut read(&paths[k]).unwrap()));
     assert_eq!(vcd.len(), expected.len());
@@ -99,7 +98,7 @@ fn taps_stand_in_their_physical_place() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("run.vcd");
     let mut waves = create(&path, WaveFormat::Vcd, &entries(&params), &params);
-    let mut top = TofTop::new(Pins::default());
+    let mut top = TofTop::default();
     top.tdc.carry_chain.taps = Thermometer::new(true, [3]);
     waves.begin(Time::ZERO, &top);
     waves.finish(Time::from_ns(1)).unwrap();
@@ -111,7 +110,7 @@ fn taps_stand_in_their_physical_place() {
 fn a_file_of_many_blocks_is_read_back_whole() {
     let directory = tempfile::tempdir().unwrap();
     let params = params();
-    let all = [entries(&params), ram_entries()].concat();
+    let all = [entries(&params), ram_entries(&Default::default())].concat();
     let paths =
         FORMATS.map(|format| directory.path().join("run").with_extension(extension(format)));
     let mut waves: Vec<_> = FORMATS

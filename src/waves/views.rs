@@ -98,7 +98,7 @@ mod tests {
     #[test]
     fn a_save_file_lists_what_was_written_and_nothing_else() {
         let folder = tempfile::tempdir().unwrap();
-        let mut some = [entries(&params()), ram_entries()].concat();
+        let mut some = [entries(&params()), ram_entries(&Default::default())].concat();
         some.retain(|entry| !entry.scope.contains(".tdc"));
         let files = written(folder.path(), WaveFormat::Vcd, &some);
         let save = file(&files, "run.gtkw");

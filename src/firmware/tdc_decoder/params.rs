@@ -1,6 +1,7 @@
 //! The decoder's ROM, and what it makes of a count.
 
 use crate::firmware::carry_chain::Delays;
+use crate::firmware::histogram_builder::Bin;
 use crate::kernel::{S, U};
 
 use super::scale::TimeScale;
@@ -73,7 +74,7 @@ impl Params {
 
     /// The code of a hit, if its time is in range.
     #[inline(always)]
-    pub fn code(&self, coarse: u64, n: usize) -> Option<U<8>> {
+    pub fn code(&self, coarse: u64, n: usize) -> Option<Bin> {
         self.code_of(self.time(coarse, self.cal[n]))
     }
 
@@ -90,7 +91,7 @@ impl Params {
 
     /// The code of a time, if it is in range.
     #[inline(always)]
-    pub(super) fn code_of(&self, t: TimeWord) -> Option<U<8>> {
+    pub(super) fn code_of(&self, t: TimeWord) -> Option<Bin> {
         let is_in_range = (0..self.scale.range() as i64).contains(&t.get());
         is_in_range.then(|| U::new(t.get() as u64 >> self.scale.digits()))
     }
@@ -123,7 +124,7 @@ mod tests {
     #[test]
     fn a_word_of_the_rom_holds_a_hit_that_leaves_the_last_tap_late() {
         let delays = Delays::new(Time::from_fs(800_000), &[1_000_000; 16]).unwrap();
-        let scale = TimeScale::new(Time::from_ns(8), Time::from_fs(15_700), Time::ZERO, 3);
+        let scale = TimeScale::new(Time::from_ns(8), Time::from_fs(15_700), Time::ZERO, 3, 256);
         let cal = Params::calibration(&delays, &scale);
         let oldest = cal[16].get();
         let two_periods = 2 * scale.cycle();

@@ -1,9 +1,8 @@
 //! The unit of the decoder's times.
 
+use crate::firmware::histogram_builder::BINS;
 use crate::kernel::Time;
 
-/// Codes of the converter [codes].
-pub const CODES: usize = 256;
 /// Fewest binary digits of a time below a bin [bits].
 const FEWEST_DIGITS: u32 = 4;
 
@@ -24,20 +23,22 @@ pub struct TimeScale {
     digits: u32,
     /// A clock period [units].
     cycle: u64,
+    /// Bins, and so codes.
+    bins: usize,
 }
 
 impl Default for TimeScale {
     /// The KC705's: 5120 units of 25/16 ps in 8 ns, which is exact.
     fn default() -> Self {
-        TimeScale::new(Time::from_ns(8), Time::from_fs(25_000), Time::ZERO, 3)
+        TimeScale::new(Time::from_ns(8), Time::from_fs(25_000), Time::ZERO, 3, BINS)
     }
 }
 
 impl TimeScale {
-    /// Of bins of that width, the first at that time, where windows have 2^`coarse_bits` clock periods.
-    pub fn new(period: Time, bin: Time, first: Time, coarse_bits: u32) -> Self {
+    /// Of so many bins of that width, the first at that time, where windows have 2^`coarse_bits` clock periods.
+    pub fn new(period: Time, bin: Time, first: Time, coarse_bits: u32, bins: usize) -> Self {
         let with = |digits: u32| {
-            let scale = TimeScale { period, bin, first, digits, cycle: 0 };
+            let scale = TimeScale { period, bin, first, digits, cycle: 0, bins };
             TimeScale { cycle: scale.units(2 * period.fs()), ..scale }
         };
         let holds = |digits: &u32| {
@@ -76,10 +77,16 @@ impl TimeScale {
         self.first
     }
 
+    /// Bins, and so codes.
+    #[inline(always)]
+    pub fn bins(&self) -> usize {
+        self.bins
+    }
+
     /// First time past the last bin, after the begin of the first [units].
     #[inline(always)]
     pub fn range(&self) -> u64 {
-        (CODES as u64) << self.digits
+        (self.bins as u64) << self.digits
     }
 
     /// Half of that many femtoseconds, rounded half up [units].
@@ -111,7 +118,7 @@ mod tests {
             for bin_fs in [5_000, 7_001, 12_500, 25_000, 43_000, 100_000, 2_000_000] {
                 for coarse_bits in 1..=12 {
                     let [period, bin] = [period_fs, bin_fs].map(Time::from_fs);
-                    let scale = TimeScale::new(period, bin, Time::ZERO, coarse_bits);
+                    let scale = TimeScale::new(period, bin, Time::ZERO, coarse_bits, BINS);
                     let units = (scale.cycle() << coarse_bits) as f64;
                     let exact = ((period_fs << coarse_bits) as f64 / bin_fs as f64)
                         * f64::powi(2.0, scale.digits() as i32);

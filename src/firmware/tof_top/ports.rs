@@ -1,9 +1,9 @@
 //! Pins, wires and parameters of the top.
 
 use crate::firmware::forward2::Depth;
+use crate::firmware::histogram_builder::{self, Bin, Count};
 use crate::firmware::vcsel_driver::{self, Rate};
 use crate::firmware::{centroid_estimator, depth_estimator, frame_ctrl, histogram_preload, tdc};
-use crate::kernel::U;
 use crate::signals;
 
 signals! {
@@ -45,11 +45,13 @@ signals! {
         /// Reset of the TDC and the estimator: the board's or the acquisition computer's.
         pub rst_dsp: bool = true,
         /// Code of a hit, from the source in use [bins].
-        pub tdc_code: U<8>,
+        #[size("BinBits")]
+        pub tdc_code: Bin,
         /// `tdc_code` is new.
         pub tdc_valid: bool,
         /// Word of the histogram, from the source in use [hits].
-        pub count: U<16>,
+        #[size("CountBits")]
+        pub count: Count,
         /// Single-ended laser pulse.
         pub laser_on: bool,
     }
@@ -61,7 +63,7 @@ pub enum CodeSource {
     /// The TDC.
     Tdc,
     /// A ROM, one code a shot (thesis 6.6.1).
-    Preload(Box<[U<8>]>),
+    Preload(Box<[Bin]>),
 }
 
 /// Where the estimator's histogram comes from.
@@ -99,7 +101,7 @@ pub struct Socket {
     /// The histogram's word at `read_addr` is being read.
     pub read_en: bool,
     /// Word of the histogram.
-    pub read_addr: U<8>,
+    pub read_addr: Bin,
     /// The depth, from `algo_done` until the next one.
     pub depth: Depth,
     /// The depth is ready; one cycle.
@@ -109,6 +111,8 @@ pub struct Socket {
 /// What elaboration fixes.
 #[derive(Clone, Debug)]
 pub struct Params {
+    /// How large the histogram is.
+    pub histogram: histogram_builder::Params,
     /// Frame length.
     pub frame_ctrl: frame_ctrl::Params,
     /// Laser periods and pulse.
@@ -151,7 +155,7 @@ impl Params {
     pub fn estimator_cycles(&self) -> u64 {
         match self.estimator {
             Estimator::Network => self.depth_estimator.cycles(),
-            Estimator::Centroid => centroid_estimator::DONE,
+            Estimator::Centroid => self.centroid_estimator.done(),
         }
     }
 }

@@ -3,8 +3,10 @@
 use crate::firmware::carry_chain::TAPS;
 use crate::firmware::coarse_counter::DEFAULT_COARSE_BITS;
 use crate::firmware::forward2::NEURONS;
-use crate::firmware::tdc_decoder::{CODES, TimeScale};
-use crate::firmware::{frame_ctrl, vcsel_driver};
+use crate::firmware::tdc_decoder::TimeScale;
+use crate::firmware::{
+    centroid_estimator, estimator_ctrl, forward1, frame_ctrl, histogram_builder, vcsel_driver,
+};
 use crate::kernel::ones_width;
 use crate::kernel::signals::{Signal, SignalFormat};
 
@@ -31,6 +33,8 @@ pub struct Sizes {
     pub pulse_half_cycles: u32,
     /// Length of Drain [cycles of clk_sys].
     pub drain_cycles: u64,
+    /// How large the histogram is.
+    pub histogram: histogram_builder::Params,
     /// Hidden neurons.
     pub neurons: usize,
 }
@@ -49,6 +53,7 @@ impl Default for Sizes {
             longest_period: laser.longest_period(),
             pulse_half_cycles: laser.pulse_half_cycles,
             drain_cycles: frame_ctrl::DRAIN_CYCLES,
+            histogram: histogram_builder::Params::default(),
             neurons: NEURONS,
         }
     }
@@ -62,6 +67,14 @@ fn bits_to(last: u64) -> u32 {
 impl Sizes {
     /// The width of a word that is called that in [`Signal::size`]; 0 where there is no such word [bits].
     pub fn width(&self, size: &str) -> Option<u32> {
+        let histogram = &self.histogram;
+        let (bin_bits, count_bits) = (histogram.bins.ilog2(), histogram.count_bits);
+        let network = estimator_ctrl::Params { bins: histogram.bins, neurons: self.neurons };
+        let centroid = centroid_estimator::Params {
+            histogram: *histogram,
+            ..centroid_estimator::Params::default()
+        };
+        let position_bits = centroid_estimator::position_bits(histogram);
         let groups = |group: usize| (self.taps.div_ceil(group) * ones_width(group)) as u32;
         Some(match size {
             "Taps" => self.taps as u32,
@@ -72,7 +85,7 @@ impl Sizes {
             "AgeBits" => self.age_bits,
             "TimeBits" => {
                 let edge_bits = bits_to(self.cycle) + self.coarse_bits;
-                let code_bits = CODES.ilog2() + self.digits;
+                let code_bits = bin_bits + self.digits;
                 edge_bits.max(self.age_bits).max(code_bits) + 1
             }
             "RateBits" => bits_to(self.rates as u64 - 1),
@@ -81,17 +94,34 @@ impl Sizes {
             "SecondHalf" => u32::from(self.pulse_half_cycles > 1),
             "Stretch" => self.pulse_half_cycles.div_ceil(2) - 1,
             "DrainBits" => bits_to(self.drain_cycles - 1),
+            "BinBits" => bin_bits,
+            "CountBits" => count_bits,
+            "ProductBits" => count_bits + 17,
+            "SumBits" => forward1::sum_bits(histogram),
+            "StepBits" => bits_to(network.done() - 1),
+            "CentroidStepBits" => bits_to(centroid.done() - 1),
+            "ChangeBits" => count_bits + 1,
+            "WindowBits" => count_bits + 6,
+            "AgesBits" => count_bits + 11,
+            "RemainderBits" => count_bits + 13,
+            "PositionBits" => position_bits,
+            "PositionCoarseBits" => position_bits - 1,
+            "DistanceBits" => position_bits + 10,
             _ => return None,
         })
     }
 
     /// A signal as a design of these sizes has it, if it has it.
     pub fn fitted(&self, signal: Signal) -> Option<Signal> {
-        let Some(size) = signal.size else { return Some(signal) };
-        if size == "Neurons" {
+        let mut sizes =
+            signal.size.unwrap_or_default().split(' ').filter(|size| !size.is_empty()).peekable();
+        if sizes.next_if_eq(&"Neurons").is_some() {
             let place = signal.name.rsplit('_').next()?.parse::<usize>().ok()?;
-            return (place < self.neurons).then_some(signal);
+            if place >= self.neurons {
+                return None;
+            }
         }
+        let Some(size) = sizes.next() else { return Some(signal) };
         let width = self.width(size)?;
         let format = match signal.format {
             SignalFormat::Unsigned if width == 1 => SignalFormat::Bits,
@@ -114,6 +144,7 @@ impl Params {
             longest_period: self.vcsel_driver.longest_period(),
             pulse_half_cycles: self.vcsel_driver.pulse_half_cycles,
             drain_cycles: self.frame_ctrl.drain_cycles,
+            histogram: self.histogram,
             neurons: self.depth_estimator.neurons(),
         }
     }

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::firmware::coarse_counter::DEFAULT_COARSE_BITS;
 use crate::firmware::frame_ctrl::DRAIN_CYCLES;
+use crate::firmware::histogram_builder::{BINS, COUNT_BITS};
 use crate::firmware::vcsel_driver::PERIODS;
 
 table! {
@@ -44,6 +45,9 @@ table! {
         /// Width of the coarse count: a shot's window has as many cycles as it can count, 8 with three bits.
         #[schemars(range(min = 1, max = 12), extend("unit" = "bit", "source" = "section 6.5"))]
         pub coarse_bits: u32 = DEFAULT_COARSE_BITS,
+        /// Bins of the histogram, and so codes: a power of two.
+        #[schemars(range(min = 16, max = 1024), extend("unit" = "bins", "source" = "section 6.6"))]
+        pub bins: u64 = BINS as u64,
         /// Width of a bin: what a code counts.
         #[schemars(range(min = 5.0, max = 2000.0), extend("unit" = "ps", "source" = "section 6.5: 256 bins in 6.4 ns"))]
         pub bin_ps: f64 = 25.0,
@@ -117,9 +121,12 @@ table! {
         /// Reset button of the board.
         #[schemars(extend("source" = "section 6.2"))]
         pub rst: bool = false,
-        /// Shots in a frame; a bin of 16 bits must hold them all. With `dark_frames`, those of a dark
-        /// and a lit frame together.
-        #[schemars(range(min = 1, max = 65_535), extend("unit" = "shots", "source" = "eq. 3.3"))]
+        /// Width of a word of the histogram.
+        #[schemars(range(min = 8, max = 24), extend("unit" = "bit", "source" = "section 6.6"))]
+        pub count_bits: u32 = COUNT_BITS,
+        /// Shots in a frame; a word of the histogram must hold them all (`count_bits`). With
+        /// `dark_frames`, those of a dark and a lit frame together.
+        #[schemars(range(min = 1, max = 16_777_215), extend("unit" = "shots", "source" = "eq. 3.3"))]
         pub shots_per_frame: u64 = 30_000,
         /// Frames come in pairs of half the shots each, the first one dark: the acquisition computer
         /// changes `laser_en` whenever it has taken a depth.

@@ -6,9 +6,10 @@
 
 use crate::firmware::centroid_estimator;
 use crate::firmware::depth_estimator::{self, DepthEstimator};
-use crate::firmware::estimator_ctrl::{self, EstimatorCtrl};
+use crate::firmware::estimator_ctrl::EstimatorCtrl;
 use crate::firmware::forward1::Forward1;
-use crate::firmware::frame_ctrl::{LAST_WORD, State};
+use crate::firmware::frame_ctrl::State;
+use crate::firmware::histogram_builder::Count;
 use crate::firmware::tof_top::{Estimator, HistogramSource, Params, TofTop};
 use crate::kernel::U;
 use crate::network::Histogram;
@@ -21,9 +22,10 @@ use super::steady::{control_is_steady, estimation_phase, estimator_rests};
 #[inline(always)]
 pub fn leap_frame_end(device: &mut Device, p: &Params) {
     let ctrl = &device.top.frame_ctrl;
-    let clearing = ctrl.state == State::Clear && ctrl.clear_addr != LAST_WORD;
+    let last_bin = p.histogram.last_bin();
+    let clearing = ctrl.state == State::Clear && ctrl.clear_addr != last_bin;
     let cycles = match clearing {
-        true => LAST_WORD - ctrl.clear_addr.get(),
+        true => last_bin - ctrl.clear_addr.get(),
         false if estimation_phase(&device.top, p) == Some(0) => p.estimator_cycles() - 1,
         false => return,
     };
@@ -37,7 +39,7 @@ pub fn leap_frame_end(device: &mut Device, p: &Params) {
         return;
     }
     match clearing {
-        true => land_in_clear(&mut device.top),
+        true => land_in_clear(&mut device.top, last_bin),
         false => land_in_estimation(&mut device.top, p),
     }
     device.top.settle(p);
@@ -45,10 +47,10 @@ pub fn leap_frame_end(device: &mut Device, p: &Params) {
 }
 
 /// Lands in the last cycle of Clear.
-fn land_in_clear(top: &mut TofTop) {
+fn land_in_clear(top: &mut TofTop, last_bin: u64) {
     let from = top.frame_ctrl.clear_addr.index();
-    top.histogram_builder.ram[from..LAST_WORD as usize].fill(U::new(0));
-    top.frame_ctrl.clear_addr = U::new(LAST_WORD);
+    top.histogram_builder.ram[from..last_bin as usize].fill(U::new(0));
+    top.frame_ctrl.clear_addr = U::new(last_bin);
 }
 
 /// Lands in the cycle before the depth is ready, from the first cycle of an estimation.
@@ -60,12 +62,12 @@ fn land_in_estimation(top: &mut TofTop, p: &Params) {
     };
     match p.estimator {
         Estimator::Network => {
-            let histogram = std::array::from_fn(|bin| words[bin].get() as u16);
+            let histogram: Histogram = words.iter().map(|word| word.get() as u32).collect();
             land_in_network(&mut top.depth_estimator, &histogram, idle, &p.depth_estimator);
         }
         Estimator::Centroid => {
             let centroid = &mut top.centroid_estimator;
-            for _ in 1..centroid_estimator::DONE {
+            for _ in 1..p.centroid_estimator.done() {
                 let count = words[centroid.registers.read_addr.index()];
                 let i = centroid_estimator::In { rst: false, algo_start: false, count };
                 centroid.rise(&i, &p.centroid_estimator);
@@ -77,15 +79,15 @@ fn land_in_estimation(top: &mut TofTop, p: &Params) {
 /// Lands in the cycle before the depth is ready: the hidden layer's sums at once, and then the plain step.
 fn land_in_network(
     network: &mut DepthEstimator,
-    words: &Histogram,
-    idle: U<16>,
+    words: &[u32],
+    idle: Count,
     p: &depth_estimator::Params,
 ) {
-    let neurons = p.neurons();
-    network.estimator_ctrl = EstimatorCtrl::at(estimator_ctrl::TANSIG, neurons);
+    let ctrl = p.ctrl();
+    network.estimator_ctrl = EstimatorCtrl::at(ctrl.tansig(), &ctrl);
     network.forward1 = Forward1::at_rest(estimate(p, words).l1_in, idle, &p.forward1);
     let idle = depth_estimator::In { rst: false, algo_start: false, count: idle };
-    for _ in estimator_ctrl::TANSIG + 1..estimator_ctrl::done(neurons) {
+    for _ in ctrl.tansig() + 1..ctrl.done() {
         network.rise(&idle, p);
     }
 }

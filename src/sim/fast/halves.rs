@@ -51,7 +51,7 @@ pub(super) fn rouses_converter(top: &TofTop, line: &StopLine) -> bool {
 /// The converter's part of an edge at which both clocks rise.
 #[inline(always)]
 pub(super) fn convert(top: &mut TofTop, p: &Params, line: &mut StopLine, now: Time) {
-    count(top);
+    count(top, p);
     top.convert(p, &tdc_inputs(top), &preload_inputs(top), line, now);
     top.take_code(p);
 }
@@ -117,7 +117,7 @@ pub(super) fn skip_sampling(top: &mut TofTop, p: &Params, cycles: u64) {
 pub(super) fn count_hits(top: &mut TofTop, p: &Params, cycles: u64) {
     let mut left = cycles;
     while left > 0 && (top.tdc.has_hit() | top.histogram_builder.has_hit()) {
-        count(top);
+        count(top, p);
         if let CodeSource::Tdc = p.code_source {
             top.tdc.decode(&tdc_inputs(top), &p.tdc);
             top.take_code(p);
@@ -128,10 +128,11 @@ pub(super) fn count_hits(top: &mut TofTop, p: &Params, cycles: u64) {
 
 /// The histogram's part of an edge while nothing is read.
 #[inline(always)]
-pub(super) fn count(top: &mut TofTop) {
+pub(super) fn count(top: &mut TofTop, p: &Params) {
     let (clear, read_en) = (false, false);
     let histogram = Wires::histogram_builder(top);
-    top.histogram_builder.tick(&histogram_builder::In { clear, read_en, ..histogram });
+    top.histogram_builder
+        .tick(&histogram_builder::In { clear, read_en, ..histogram }, &p.histogram);
 }
 
 #[inline(always)]

@@ -2,7 +2,7 @@
 //!
 //! Exact in distribution where a shot is its first avalanche alone, and shots are independent. The
 //! codes' probabilities are those of the closed form ([`crate::optics::closed_form`]); they are worked
-//! out once, and a frame is 257 binomial draws at most.
+//! out once, and a frame is a binomial draw for each bin and one more at most.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -10,6 +10,7 @@ use rand_distr::{Binomial, Distribution};
 
 use crate::error::{Input, Result};
 use crate::kernel::Time;
+use crate::network::Histogram;
 use crate::optics::BinProbabilities;
 use crate::scenario::QuenchMode;
 use crate::sensor::light::{Light, Optics};
@@ -122,7 +123,7 @@ impl<'a> Histograms<'a> {
         let counts = kind.codes.draw(self.shots, &mut random);
         let coded: u64 = counts.iter().sum();
         let tdc_hits = coded + self.hits_without_code(kind, self.shots - coded, &mut random);
-        let histogram = counts.map(|count| count as u16);
+        let histogram: Histogram = counts.into_iter().map(|count| count as u32).collect();
         Frame {
             index,
             laser_en: kind.lit,

@@ -95,7 +95,7 @@ impl Hits {
         if let Some(code) = p.tdc.decoder.code(coarse, ones) {
             top.tdc.tdc_decoder.tdc_code = code;
             top.nets.tdc_code = code;
-            top.histogram_builder.count_at_once(code);
+            top.histogram_builder.count_at_once(code, &p.histogram);
         }
     }
 }
@@ -111,7 +111,7 @@ fn come_to_rest(top: &mut TofTop, p: &Params, edges: u64) {
 
 /// An edge of all behind the latch.
 fn decode(top: &mut TofTop, p: &Params, i: &tdc_decoder::In) {
-    count(top);
+    count(top, p);
     top.tdc.tdc_decoder.tick(i, &p.tdc.decoder);
     top.take_code(p);
 }

@@ -4,22 +4,22 @@
 //! as long as nothing of the shot before is left in the chain: a staircase whose steps are the
 //! spans of [`Bins`] and what lies between and after them.
 
+use crate::firmware::histogram_builder::MOST_BINS;
 use crate::firmware::tdc;
-use crate::firmware::tdc_decoder::CODES;
 use crate::kernel::Time;
 use crate::optics::Bins;
 
-/// Result of a shot: a code from 0 to 255, or one of the constants here.
+/// Result of a shot: a code, or one of the constants here.
 pub type ShotOutcome = u16;
 
 /// The TDC keeps the hit, but it has no code.
-pub const NO_CODE: ShotOutcome = CODES as ShotOutcome;
+pub const NO_CODE: ShotOutcome = MOST_BINS as ShotOutcome;
 
 /// The TDC sees nothing.
 pub const NO_HIT: ShotOutcome = NO_CODE + 1;
 
 /// Number of outcomes.
-pub const OUTCOMES: usize = CODES + 2;
+pub const OUTCOMES: usize = MOST_BINS + 2;
 
 /// From the last edge whose hits may have codes to the next laser edge at least, so that the TDC has kept
 /// them by then: a leap counts what it has kept, however far it is from its word [cycles of clk_sys].
@@ -58,7 +58,7 @@ impl ShotOutcomes {
         let ends = [end(window.min(period - 1)), end(window)];
         let mut outcomes = ShotOutcomes { steps: vec![(Time::ZERO, NO_CODE)], ends };
         for span in bins.spans() {
-            outcomes.step(span.from, span.code.into());
+            outcomes.step(span.from, span.code);
             outcomes.step(span.until, NO_CODE);
         }
         outcomes.step(ends[0], NO_HIT);

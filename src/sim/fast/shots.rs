@@ -7,7 +7,6 @@
 use std::sync::Arc;
 
 use crate::firmware::carry_chain::StopLine;
-use crate::firmware::histogram_builder::BINS;
 use crate::firmware::tdc::Tdc;
 use crate::firmware::tof_top::{Params, TofTop};
 use crate::firmware::vcsel_driver::{MOST_RATES, Rate};
@@ -67,7 +66,7 @@ pub fn leap_shots(
         counts[draws.outcome(word) as usize % counts.len()] += 1;
     });
     hits.finish(&mut device.top, p);
-    land(&mut device.top, shots, &counts[..BINS]);
+    land(&mut device.top, shots, &counts);
     device.cycle += shots * period;
     let now = device.pll.clk_sys.rise(device.cycle - 1);
     device.light.begin_shot(now, lit);

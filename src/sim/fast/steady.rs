@@ -39,8 +39,8 @@ pub(super) fn estimator_rests(top: &TofTop, p: &Params) -> bool {
 /// Cycles since the edge that took `algo_start`, while the estimator in the socket works.
 pub(super) fn estimation_phase(top: &TofTop, p: &Params) -> Option<u64> {
     match p.estimator {
-        Estimator::Network => top.depth_estimator.estimator_ctrl.phase(p.depth_estimator.neurons()),
-        Estimator::Centroid => top.centroid_estimator.registers.phase(),
+        Estimator::Network => top.depth_estimator.estimator_ctrl.phase(&p.depth_estimator.ctrl()),
+        Estimator::Centroid => top.centroid_estimator.registers.phase(&p.centroid_estimator),
     }
 }
 

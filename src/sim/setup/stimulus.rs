@@ -2,7 +2,7 @@
 
 use crate::error::{Input, Result};
 use crate::files::csv::CsvInput;
-use crate::firmware::histogram_preload;
+use crate::firmware::histogram_builder::{self, Bin};
 use crate::firmware::tof_top::{CodeSource, HistogramSource};
 use crate::kernel::U;
 use crate::network::histogram_file;
@@ -15,6 +15,7 @@ use crate::sensor::photon_list::{Given, PhotonList};
 pub(super) fn stimulus(
     scenario: &Scenario,
     files: &Source,
+    size: &histogram_builder::Params,
 ) -> Result<(CodeSource, HistogramSource, Option<Light>)> {
     let stimulus = &scenario.stimulus;
     if let Some(name) = &stimulus.photons {
@@ -24,14 +25,14 @@ pub(super) fn stimulus(
     }
     if let Some(name) = &stimulus.codes {
         let (source, text) = files.read(name)?;
-        let codes = CodeSource::Preload(codes(&source, &text)?);
+        let codes = CodeSource::Preload(codes(&source, &text, size)?);
         return Ok((codes, HistogramSource::Builder, Some(Light::None)));
     }
     if let Some(name) = &stimulus.histogram {
         let (source, text) = files.read(name)?;
-        let counts = histogram_file::parse_csv(&source, &text)?;
-        let rom: histogram_preload::Rom = counts.map(|count| U::new(count as u64));
-        let rom = HistogramSource::Preload(Box::new(rom));
+        let counts = histogram_file::parse_csv(&source, &text, size)?;
+        let rom = counts.into_iter().map(|count| U::new(count.into())).collect();
+        let rom = HistogramSource::Preload(rom);
         return Ok((CodeSource::Tdc, rom, Some(Light::None)));
     }
     Ok((CodeSource::Tdc, HistogramSource::Builder, None))
@@ -40,16 +41,19 @@ pub(super) fn stimulus(
 /// Words of the code ROM.
 const CODES: usize = 1 << 16;
 
-fn codes(source: &str, text: &str) -> Result<Box<[U<8>]>> {
+fn codes(source: &str, text: &str, size: &histogram_builder::Params) -> Result<Box<[Bin]>> {
     let mut input = CsvInput::new(source, text, &["code"])?;
     let mut codes = Vec::new();
     while input.advance()? {
-        match input.field::<u8>(0) {
-            Some(code) if codes.len() < CODES => codes.push(U::new(code as u64)),
+        match input.field::<u64>(0).filter(|code| *code <= size.last_bin()) {
+            Some(code) if codes.len() < CODES => codes.push(U::new(code)),
             Some(_) => {
                 return Err(input.fault(0, format!("expected {CODES} codes at most")).into());
             }
-            None => return Err(input.fault(0, "expected a code from 0 to 255").into()),
+            None => {
+                let expected = format!("expected a code from 0 to {}", size.last_bin());
+                return Err(input.fault(0, expected).into());
+            }
         }
     }
     if codes.is_empty() {
