@@ -3,14 +3,15 @@
 
 // Stands in for the TDC: a code from a ROM for every shot.
 module code_preload #(
+    parameter integer BinBits = 8,            // of a code
     parameter integer Codes = 27756,          // words of the ROM, 1 to 65536
     parameter CodeFile = "rtl_ref/codes.mem"  // [bins]
 ) (
     input wire clk_sys,
     input wire rst,
-    input wire start,          // a shot begins
-    output reg tdc_valid,      // tdc_code is new; one cycle
-    output reg [7:0] tdc_code  // code of the shot [bins]
+    input wire start,                  // a shot begins
+    output reg tdc_valid,              // tdc_code is new; one cycle
+    output reg [BinBits-1:0] tdc_code  // code of the shot [bins]
 );
     localparam [15:0] LastCode = Codes[15:0] - 16'd1;
     localparam integer AddressBits = Codes > 1 ? $clog2(Codes) : 1;
@@ -19,17 +20,17 @@ module code_preload #(
     reg [15:0] rom_addr;  // next word of the ROM
 
     reg tdc_valid_next, pending_next;
-    reg [7:0] tdc_code_next;
+    reg [BinBits-1:0] tdc_code_next;
     reg [15:0] rom_addr_next;
 
-    reg [7:0] rom [0:Codes-1];
+    reg [BinBits-1:0] rom [0:Codes-1];
     initial $readmemh(CodeFile, rom);
 
-    wire [7:0] code = rom[rom_addr[AddressBits-1:0]];
+    wire [BinBits-1:0] code = rom[rom_addr[AddressBits-1:0]];
 
     initial begin
         {tdc_valid, pending} = 2'd0;
-        tdc_code = 8'd0;
+        tdc_code = {BinBits{1'b0}};
         rom_addr = 16'd0;
     end
 
@@ -47,7 +48,7 @@ module code_preload #(
     always @(posedge clk_sys) begin
         if (rst) begin
             tdc_valid <= 1'b0;
-            tdc_code <= 8'd0;
+            tdc_code <= {BinBits{1'b0}};
             pending <= 1'b0;
             rom_addr <= 16'd0;
         end else begin

@@ -4,8 +4,11 @@
 // The neural depth estimator: wires its four blocks.
 //
 // Its ports are a socket: any module with them, of any latency, can take its place. Its own latency is
-// 259 + Neurons cycles, from eight neurons on.
+// as many cycles as there are bins and neurons, and three, from eight neurons on.
 module depth_estimator #(
+    parameter integer BinBits = 8,               // see estimator_ctrl
+    parameter integer CountBits = 16,            // of a word of the histogram, 8 to 24
+    parameter integer SumBits = 36,              // see forward1
     parameter [4:0] Neurons = 5'd8,              // hidden neurons, 1 to 16
     parameter W1File = "rtl_ref/w1.mem",         // see forward1
     parameter B1File = "rtl_ref/b1.mem",
@@ -18,13 +21,13 @@ module depth_estimator #(
     input wire algo_start,            // starts an estimation
     // Histogram
     output wire read_en,              // the histogram's word at read_addr is being read
-    output wire [7:0] read_addr,      // word of the histogram
-    input wire [15:0] count,          // word of the histogram at read_addr [hits]
+    output wire [BinBits-1:0] read_addr,  // word of the histogram
+    input wire [CountBits-1:0] count,  // word of the histogram at read_addr [hits]
     // Result
     output wire signed [35:0] depth,  // from algo_done until the next one [2^-29 m]
     output wire algo_done             // the depth is ready; one cycle
 );
-    wire [7:0] rom_addr;
+    wire [BinBits-1:0] rom_addr;
     wire forward1_first;
     wire forward1_en;
     wire tansig_en;
@@ -32,12 +35,13 @@ module depth_estimator #(
     wire forward2_first;
     wire forward2_en;
     wire depth_en;
-    wire signed [35:0] l1_in_0, l1_in_1, l1_in_2, l1_in_3, l1_in_4, l1_in_5, l1_in_6, l1_in_7;
-    wire signed [35:0] l1_in_8, l1_in_9, l1_in_10, l1_in_11, l1_in_12, l1_in_13, l1_in_14, l1_in_15;
+    wire signed [SumBits-1:0] l1_in_0, l1_in_1, l1_in_2, l1_in_3, l1_in_4, l1_in_5, l1_in_6, l1_in_7;
+    wire signed [SumBits-1:0] l1_in_8, l1_in_9, l1_in_10, l1_in_11, l1_in_12, l1_in_13, l1_in_14, l1_in_15;
     wire signed [15:0] l1_out_0, l1_out_1, l1_out_2, l1_out_3, l1_out_4, l1_out_5, l1_out_6, l1_out_7;
     wire signed [15:0] l1_out_8, l1_out_9, l1_out_10, l1_out_11, l1_out_12, l1_out_13, l1_out_14, l1_out_15;
 
     estimator_ctrl #(
+        .BinBits(BinBits),
         .Neurons(Neurons)
     ) estimator_ctrl (
         .clk_sys(clk_sys),
@@ -57,6 +61,9 @@ module depth_estimator #(
     );
 
     forward1 #(
+        .BinBits(BinBits),
+        .CountBits(CountBits),
+        .SumBits(SumBits),
         .Neurons(Neurons),
         .W1File(W1File),
         .B1File(B1File)
@@ -86,6 +93,7 @@ module depth_estimator #(
     );
 
     tansig #(
+        .SumBits(SumBits),
         .Neurons(Neurons),
         .TansigFile(TansigFile)
     ) tansig (

@@ -5,8 +5,11 @@
 //
 //   word (A), weight (B)  ->  product (M)  ->  l1_in (P), which begins with the bias (C)
 module forward1 #(
+    parameter integer BinBits = 8,        // 2 to the power of which are the words of the histogram
+    parameter integer CountBits = 16,     // of a word
+    parameter integer SumBits = 36,       // 36, or CountBits + 17 where that is more
     parameter [4:0] Neurons = 5'd8,       // hidden neurons, 1 to 16
-    parameter W1File = "rtl_ref/w1.mem",  // 256 rows, a weight for each neuron [2^-23]
+    parameter W1File = "rtl_ref/w1.mem",  // a row for each word, a weight for each neuron [2^-23]
     parameter B1File = "rtl_ref/b1.mem"   // one row, a bias for each neuron [2^-13]
 ) (
     input wire clk_sys,
@@ -14,34 +17,36 @@ module forward1 #(
     // estimator_ctrl
     input wire forward1_first,   // the sums begin
     input wire forward1_en,      // accumulates
-    input wire [7:0] rom_addr,   // row to fetch: that of the coming word
+    input wire [BinBits-1:0] rom_addr,  // row to fetch: that of the coming word
     // Histogram
-    input wire [15:0] count,     // word of the histogram [hits]
+    input wire [CountBits-1:0] count,   // word of the histogram [hits]
     // Sums of the neurons; zero past the last [2^-23]
-    output wire signed [35:0] l1_in_0,
-    output wire signed [35:0] l1_in_1,
-    output wire signed [35:0] l1_in_2,
-    output wire signed [35:0] l1_in_3,
-    output wire signed [35:0] l1_in_4,
-    output wire signed [35:0] l1_in_5,
-    output wire signed [35:0] l1_in_6,
-    output wire signed [35:0] l1_in_7,
-    output wire signed [35:0] l1_in_8,
-    output wire signed [35:0] l1_in_9,
-    output wire signed [35:0] l1_in_10,
-    output wire signed [35:0] l1_in_11,
-    output wire signed [35:0] l1_in_12,
-    output wire signed [35:0] l1_in_13,
-    output wire signed [35:0] l1_in_14,
-    output wire signed [35:0] l1_in_15
+    output wire signed [SumBits-1:0] l1_in_0,
+    output wire signed [SumBits-1:0] l1_in_1,
+    output wire signed [SumBits-1:0] l1_in_2,
+    output wire signed [SumBits-1:0] l1_in_3,
+    output wire signed [SumBits-1:0] l1_in_4,
+    output wire signed [SumBits-1:0] l1_in_5,
+    output wire signed [SumBits-1:0] l1_in_6,
+    output wire signed [SumBits-1:0] l1_in_7,
+    output wire signed [SumBits-1:0] l1_in_8,
+    output wire signed [SumBits-1:0] l1_in_9,
+    output wire signed [SumBits-1:0] l1_in_10,
+    output wire signed [SumBits-1:0] l1_in_11,
+    output wire signed [SumBits-1:0] l1_in_12,
+    output wire signed [SumBits-1:0] l1_in_13,
+    output wire signed [SumBits-1:0] l1_in_14,
+    output wire signed [SumBits-1:0] l1_in_15
 );
+    localparam integer ProductBits = CountBits + 17;
+
     // Block RAM, or LUTs for gate-level simulation, since Yosys has no model of a block RAM.
 `ifdef ROM_IN_LUTS
     (* rom_style = "logic" *)
 `else
     (* rom_style = "block" *)
 `endif
-    reg [16*Neurons-1:0] rom [0:255];
+    reg [16*Neurons-1:0] rom [0:(1 << BinBits) - 1];
     reg [16*Neurons-1:0] bias_rom [0:0];
     initial begin
         $readmemh(W1File, rom);
@@ -55,9 +60,9 @@ module forward1 #(
     genvar group;
     generate
         for (group = 0; 4 * group < Neurons; group = group + 1) begin : groups
-            reg [15:0] word;
+            reg [CountBits-1:0] word;
 
-            initial word = 16'd0;
+            initial word = {CountBits{1'b0}};
 
 `ifdef ECP5
             (* keep *)
@@ -68,19 +73,19 @@ module forward1 #(
 
     // The registers of the units below, by their names; but for the sums they are for waveforms.
     /* verilator lint_off UNUSED */
-    wire [15:0] word = groups[0].word;
+    wire [CountBits-1:0] word = groups[0].word;
     wire signed [15:0] fetched_0, fetched_1, fetched_2, fetched_3, fetched_4, fetched_5, fetched_6;
     wire signed [15:0] fetched_7, fetched_8, fetched_9, fetched_10, fetched_11, fetched_12, fetched_13;
     wire signed [15:0] fetched_14, fetched_15;
     wire signed [15:0] weight_0, weight_1, weight_2, weight_3, weight_4, weight_5, weight_6, weight_7;
     wire signed [15:0] weight_8, weight_9, weight_10, weight_11, weight_12, weight_13, weight_14, weight_15;
-    wire signed [32:0] product_0, product_1, product_2, product_3, product_4, product_5, product_6;
-    wire signed [32:0] product_7, product_8, product_9, product_10, product_11, product_12, product_13;
-    wire signed [32:0] product_14, product_15;
+    wire signed [ProductBits-1:0] product_0, product_1, product_2, product_3, product_4, product_5, product_6;
+    wire signed [ProductBits-1:0] product_7, product_8, product_9, product_10, product_11, product_12, product_13;
+    wire signed [ProductBits-1:0] product_14, product_15;
     /* verilator lint_on UNUSED */
     wire [16*16-1:0] unit_fetched, unit_weight;
-    wire [33*16-1:0] unit_product;
-    wire [36*16-1:0] unit_l1_in;
+    wire [ProductBits*16-1:0] unit_product;
+    wire [SumBits*16-1:0] unit_l1_in;
     assign {fetched_15, fetched_14, fetched_13, fetched_12, fetched_11, fetched_10, fetched_9,
             fetched_8, fetched_7, fetched_6, fetched_5, fetched_4, fetched_3, fetched_2, fetched_1,
             fetched_0}
@@ -102,42 +107,42 @@ module forward1 #(
             if (k < Neurons) begin : used
                 reg signed [15:0] fetched;  // output of the ROM
                 reg signed [15:0] weight;   // weight of the word
-                reg signed [32:0] product;  // their product, a cycle later
-                reg signed [35:0] l1_in;
+                reg signed [ProductBits-1:0] product;  // their product, a cycle later
+                reg signed [SumBits-1:0] l1_in;
 
-                wire signed [35:0] bias = {{10{biases[16*k+15]}}, biases[16*k +: 16], 10'd0};
-                reg signed [35:0] l1_in_next;
+                wire signed [SumBits-1:0] bias = {{SumBits - 26{biases[16*k+15]}}, biases[16*k +: 16], 10'd0};
+                reg signed [SumBits-1:0] l1_in_next;
 
                 initial begin
                     fetched = 16'sd0;
                     weight = 16'sd0;
-                    product = 33'sd0;
-                    l1_in = 36'sd0;
+                    product = {ProductBits{1'b0}};
+                    l1_in = {SumBits{1'b0}};
                 end
 
                 always @* begin
                     l1_in_next = l1_in;
                     if (forward1_en)
-                        l1_in_next = (forward1_first ? bias : l1_in) + {{3{product[32]}}, product};
+                        l1_in_next = (forward1_first ? bias : l1_in) + {{SumBits - ProductBits{product[ProductBits-1]}}, product};
                 end
 
                 always @(posedge clk_sys) begin
                     fetched <= row[16*k +: 16];
                     weight <= fetched;
                     product <= weight * $signed({1'b0, groups[k / 4].word});
-                    if (rst) l1_in <= 36'sd0;
+                    if (rst) l1_in <= {SumBits{1'b0}};
                     else l1_in <= l1_in_next;
                 end
 
                 assign unit_fetched[16*k +: 16] = fetched;
                 assign unit_weight[16*k +: 16] = weight;
-                assign unit_product[33*k +: 33] = product;
-                assign unit_l1_in[36*k +: 36] = l1_in;
+                assign unit_product[ProductBits*k +: ProductBits] = product;
+                assign unit_l1_in[SumBits*k +: SumBits] = l1_in;
             end else begin : unused
                 assign unit_fetched[16*k +: 16] = 16'd0;
                 assign unit_weight[16*k +: 16] = 16'd0;
-                assign unit_product[33*k +: 33] = 33'd0;
-                assign unit_l1_in[36*k +: 36] = 36'd0;
+                assign unit_product[ProductBits*k +: ProductBits] = {ProductBits{1'b0}};
+                assign unit_l1_in[SumBits*k +: SumBits] = {SumBits{1'b0}};
             end
         end
     endgenerate

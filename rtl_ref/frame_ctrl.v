@@ -3,7 +3,9 @@
 
 // Runs a frame: clear the histogram, acquire, let the TDC drain, estimate, again.
 module frame_ctrl #(
-    parameter [15:0] ShotsPerFrame = 16'd30000,  // [shots]
+    parameter integer BinBits = 8,               // see histogram_builder
+    parameter integer CountBits = 16,
+    parameter [23:0] ShotsPerFrame = 24'd30000,  // [shots]
     parameter [0:0] Preloaded = 1'b0,            // skips Acquire and Drain
     parameter [16:0] DrainCycles = 17'd16        // longer than a photon's way to its word
 ) (
@@ -18,7 +20,7 @@ module frame_ctrl #(
     output reg frame_done,        // the frame has ended; one cycle
     // histogram_builder
     output reg clear,             // sets a word of the histogram to zero
-    output reg [7:0] clear_addr,  // which word
+    output reg [BinBits-1:0] clear_addr,  // which word
     // depth_estimator
     output reg algo_start,        // starts the estimator; one cycle
     input wire algo_done          // the estimator has finished
@@ -28,21 +30,21 @@ module frame_ctrl #(
     localparam [1:0] Clear = 2'd0, Acquire = 2'd1, Drain = 2'd2, Estimate = 2'd3;
 
     reg [1:0] state;   // state of the frame
-    reg [15:0] shots;  // shots begun in this frame
+    reg [CountBits-1:0] shots;  // shots begun in this frame
     reg [DrainBits-1:0] drain;  // cycles spent in Drain
 
     reg acquire_next, frame_done_next, clear_next, algo_start_next;
-    reg [7:0] clear_addr_next;
+    reg [BinBits-1:0] clear_addr_next;
     reg [1:0] state_next;
-    reg [15:0] shots_next;
+    reg [CountBits-1:0] shots_next;
     reg [DrainBits-1:0] drain_next;
 
     initial begin
         {acquire, frame_done, algo_start} = 3'd0;
         clear = 1'b1;
-        clear_addr = 8'd0;
+        clear_addr = {BinBits{1'b0}};
         state = Clear;
-        shots = 16'd0;
+        shots = {CountBits{1'b0}};
         drain = {DrainBits{1'b0}};
     end
 
@@ -57,25 +59,25 @@ module frame_ctrl #(
         drain_next = drain;
         case (state)
             Clear: begin
-                if (clear_addr != 8'd255) begin
-                    clear_addr_next = clear_addr + 8'd1;
+                if (!(&clear_addr)) begin
+                    clear_addr_next = clear_addr + 1'b1;
                 end else if (!Preloaded) begin
                     clear_next = 1'b0;
-                    clear_addr_next = 8'd0;
+                    clear_addr_next = {BinBits{1'b0}};
                     acquire_next = 1'b1;
-                    shots_next = 16'd0;
+                    shots_next = {CountBits{1'b0}};
                     state_next = Acquire;
                 end else if (dsp_en) begin
                     clear_next = 1'b0;
-                    clear_addr_next = 8'd0;
+                    clear_addr_next = {BinBits{1'b0}};
                     algo_start_next = 1'b1;
                     state_next = Estimate;
                 end
             end
             Acquire: begin
                 if (start) begin
-                    shots_next = shots + 16'd1;
-                    if (shots_next == ShotsPerFrame) begin
+                    shots_next = shots + 1'b1;
+                    if (shots_next == ShotsPerFrame[CountBits-1:0]) begin
                         acquire_next = 1'b0;
                         drain_next = {DrainBits{1'b0}};
                         state_next = Drain;
@@ -105,10 +107,10 @@ module frame_ctrl #(
             acquire <= 1'b0;
             frame_done <= 1'b0;
             clear <= 1'b1;
-            clear_addr <= 8'd0;
+            clear_addr <= {BinBits{1'b0}};
             algo_start <= 1'b0;
             state <= Clear;
-            shots <= 16'd0;
+            shots <= {CountBits{1'b0}};
             drain <= {DrainBits{1'b0}};
         end else begin
             acquire <= acquire_next;

@@ -3,12 +3,14 @@
 
 // Stands in for the histogram: a ROM with the same read port, not clocked.
 module histogram_preload #(
+    parameter integer BinBits = 8,                    // see histogram_builder
+    parameter integer CountBits = 16,
     parameter HistogramFile = "rtl_ref/histogram.mem"  // [hits]
 ) (
-    input wire [7:0] read_addr,  // word to show
-    output wire [15:0] count     // word of the histogram [hits]
+    input wire [BinBits-1:0] read_addr,  // word to show
+    output wire [CountBits-1:0] count    // word of the histogram [hits]
 );
-    reg [15:0] rom [0:255];
+    reg [CountBits-1:0] rom [0:(1 << BinBits) - 1];
     initial $readmemh(HistogramFile, rom);
 
     assign count = rom[read_addr];

@@ -5,6 +5,7 @@
 //
 //   l1_in, tansig_en  ->  entry, found  ->  l1_out
 module tansig #(
+    parameter integer SumBits = 36,               // see forward1
     parameter [4:0] Neurons = 5'd8,               // hidden neurons, 1 to 16
     parameter integer AddressBits = 12,           // size of the table, which covers +-4
     parameter integer Shift = 14,                 // fraction bits of l1_in that the address drops
@@ -14,22 +15,22 @@ module tansig #(
     input wire rst,
     input wire tansig_en,  // looks up the activations
     // Sums of the neurons; not looked at past the last [2^-23]
-    input wire signed [35:0] l1_in_0,
-    input wire signed [35:0] l1_in_1,
-    input wire signed [35:0] l1_in_2,
-    input wire signed [35:0] l1_in_3,
-    input wire signed [35:0] l1_in_4,
-    input wire signed [35:0] l1_in_5,
-    input wire signed [35:0] l1_in_6,
-    input wire signed [35:0] l1_in_7,
-    input wire signed [35:0] l1_in_8,
-    input wire signed [35:0] l1_in_9,
-    input wire signed [35:0] l1_in_10,
-    input wire signed [35:0] l1_in_11,
-    input wire signed [35:0] l1_in_12,
-    input wire signed [35:0] l1_in_13,
-    input wire signed [35:0] l1_in_14,
-    input wire signed [35:0] l1_in_15,
+    input wire signed [SumBits-1:0] l1_in_0,
+    input wire signed [SumBits-1:0] l1_in_1,
+    input wire signed [SumBits-1:0] l1_in_2,
+    input wire signed [SumBits-1:0] l1_in_3,
+    input wire signed [SumBits-1:0] l1_in_4,
+    input wire signed [SumBits-1:0] l1_in_5,
+    input wire signed [SumBits-1:0] l1_in_6,
+    input wire signed [SumBits-1:0] l1_in_7,
+    input wire signed [SumBits-1:0] l1_in_8,
+    input wire signed [SumBits-1:0] l1_in_9,
+    input wire signed [SumBits-1:0] l1_in_10,
+    input wire signed [SumBits-1:0] l1_in_11,
+    input wire signed [SumBits-1:0] l1_in_12,
+    input wire signed [SumBits-1:0] l1_in_13,
+    input wire signed [SumBits-1:0] l1_in_14,
+    input wire signed [SumBits-1:0] l1_in_15,
     // Activations of the neurons; zero past the last [2^-15]
     output wire signed [15:0] l1_out_0,
     output wire signed [15:0] l1_out_1,
@@ -54,12 +55,12 @@ module tansig #(
     // told from the bits of the sum, beside the addition and not after it: a sum that fits has equal bits
     // from the sign on, and no half step carries it out of the range.
     function [AddressBits-1:0] address;
-        input signed [35:0] l1_in;
+        input signed [SumBits-1:0] l1_in;
         reg carries, high, low;
         begin
             carries = &l1_in[Sign-1:Shift-1];
-            high = !l1_in[35] && (|l1_in[35:Sign] || carries);
-            low = l1_in[35] && !(&l1_in[35:Sign]);
+            high = !l1_in[SumBits-1] && (|l1_in[SumBits-1:Sign] || carries);
+            low = l1_in[SumBits-1] && !(&l1_in[SumBits-1:Sign]);
             address = l1_in[Sign:Shift] + {{AddressBits - 1{1'b0}}, l1_in[Shift-1]};
             if (high) address = {1'b0, {AddressBits - 1{1'b1}}};
             if (low) address = {1'b1, {AddressBits - 1{1'b0}}};
@@ -68,7 +69,7 @@ module tansig #(
 
     // The ports side by side.
     /* verilator lint_off UNUSED */
-    wire [36*16-1:0] l1_in = {l1_in_15, l1_in_14, l1_in_13, l1_in_12, l1_in_11, l1_in_10, l1_in_9,
+    wire [SumBits*16-1:0] l1_in = {l1_in_15, l1_in_14, l1_in_13, l1_in_12, l1_in_11, l1_in_10, l1_in_9,
                               l1_in_8, l1_in_7, l1_in_6, l1_in_5, l1_in_4, l1_in_3, l1_in_2, l1_in_1,
                               l1_in_0};
     /* verilator lint_on UNUSED */
@@ -107,7 +108,7 @@ module tansig #(
             initial $readmemh(TansigFile, rom);
 
             for (k = 2 * pair; k < 2 * pair + 2 && k < Neurons; k = k + 1) begin : unit
-                wire [AddressBits-1:0] place = address(l1_in[36*k +: 36]);
+                wire [AddressBits-1:0] place = address(l1_in[SumBits*k +: SumBits]);
 
                 reg signed [15:0] entry;   // output of the table
                 reg signed [15:0] l1_out;

@@ -11,6 +11,7 @@ module tdc #(
     parameter CalFile = "rtl_ref/tdc_cal.mem",        // see tdc_decoder
     parameter integer Taps = 800,
     parameter integer CoarseBits = 3,
+    parameter integer BinBits = 8,
     parameter integer Cycle = 5120,                   // [units]
     parameter integer Digits = 4,
     parameter integer AgeBits = 14,
@@ -20,8 +21,8 @@ module tdc #(
     input wire rst,
     input wire start,            // a shot begins
     input wire tdc_stop,         // output of the SPAD, asynchronous
-    output wire [7:0] tdc_code,  // time of the hit [bins]
-    output wire tdc_valid        // tdc_code is new; one cycle
+    output wire [BinBits-1:0] tdc_code,  // time of the hit [bins]
+    output wire tdc_valid                // tdc_code is new; one cycle
 );
     wire [Taps-1:0] taps;
     wire [CoarseBits-1:0] coarse;
@@ -67,6 +68,7 @@ module tdc #(
     tdc_decoder #(
         .Taps(Taps),
         .CoarseBits(CoarseBits),
+        .BinBits(BinBits),
         .Cycle(Cycle),
         .Digits(Digits),
         .AgeBits(AgeBits),

@@ -8,6 +8,7 @@
 module tdc_decoder #(
     parameter integer Taps = 800,               // of the chain, 16 to 2000
     parameter integer CoarseBits = 3,
+    parameter integer BinBits = 8,              // of a code
     parameter integer Cycle = 5120,             // a period of clk_sys [units, 25/16 ps]
     parameter integer Digits = 4,               // of a time below a bin, in binary
     parameter integer AgeBits = 14,             // of a word of CalFile
@@ -22,19 +23,19 @@ module tdc_decoder #(
     input wire [Taps-1:0] hit_taps,          // its taps
     // The code
     output reg tdc_valid,                    // tdc_code is new; one cycle
-    output reg [7:0] tdc_code                // time of the hit [bins]
+    output reg [BinBits-1:0] tdc_code        // time of the hit [bins]
 );
     // Groups of 16 and of 128 taps, and bits of what counts all of them and of a time.
     localparam integer Sixteens = (Taps + 15) / 16, Hundreds = (Taps + 127) / 128;
-    localparam integer CountBits = $clog2(Taps + 1), EdgeBits = $clog2(Cycle + 1) + CoarseBits;
+    localparam integer OnesBits = $clog2(Taps + 1), EdgeBits = $clog2(Cycle + 1) + CoarseBits;
     // A time is shorter than an edge's number of cycles, and than what it is compared with.
-    localparam integer CodeBits = 8 + Digits, LongBits = EdgeBits > AgeBits ? EdgeBits : AgeBits;
+    localparam integer CodeBits = BinBits + Digits, LongBits = EdgeBits > AgeBits ? EdgeBits : AgeBits;
     localparam integer TimeBits = 1 + (LongBits > CodeBits ? LongBits : CodeBits);
 
     // Each holds its last hit, is new for one cycle, and has that hit's coarse count.
     reg [5*Sixteens-1:0] sixteens;  // ones among 16 taps each
     reg [8*Hundreds-1:0] hundreds;  // ones among 128 taps each
-    reg [CountBits-1:0] n;          // taps that the hit had run through
+    reg [OnesBits-1:0] n;          // taps that the hit had run through
     reg [AgeBits-1:0] age;          // the time for that [units]
     // Its lowest bits are for the borrow.
     // verilator lint_off UNUSEDSIGNAL
@@ -46,7 +47,7 @@ module tdc_decoder #(
     reg [5*Sixteens-1:0] sixteens_next;
     reg [8*Hundreds-1:0] hundreds_next;
     reg tdc_valid_next;
-    reg [7:0] tdc_code_next;
+    reg [BinBits-1:0] tdc_code_next;
 
     // Block RAM, or LUTs for gate-level simulation, since Yosys has no model of a block RAM.
 `ifdef ROM_IN_LUTS
@@ -59,12 +60,12 @@ module tdc_decoder #(
 
     initial begin
         tdc_valid = 1'b0;
-        tdc_code = 8'd0;
+        tdc_code = {BinBits{1'b0}};
         {sixteens_valid, hundreds_valid, n_valid, age_valid, t_valid} = 5'd0;
         {sixteens_coarse, hundreds_coarse, n_coarse, age_coarse} = {4 * CoarseBits{1'b0}};
         sixteens = {5 * Sixteens{1'b0}};
         hundreds = {8 * Hundreds{1'b0}};
-        n = {CountBits{1'b0}};
+        n = {OnesBits{1'b0}};
         age = {AgeBits{1'b0}};
         t = {TimeBits{1'b0}};
     end
@@ -143,10 +144,10 @@ module tdc_decoder #(
     end
 
     always @* begin
-        // Within 256 bins; the highest bit is the sign.
+        // Within the bins; the highest bit is the sign.
         tdc_valid_next = t_valid && t[TimeBits-1:CodeBits] == {TimeBits - CodeBits{1'b0}};
         tdc_code_next = tdc_code;
-        if (tdc_valid_next) tdc_code_next = t[Digits +: 8];
+        if (tdc_valid_next) tdc_code_next = t[Digits +: BinBits];
     end
 
     always @(posedge clk_sys) begin
@@ -159,7 +160,7 @@ module tdc_decoder #(
             hundreds_coarse <= sixteens_coarse;
         end
         if (counted) begin
-            n <= count[CountBits-1:0];
+            n <= count[OnesBits-1:0];
             n_coarse <= counted_coarse;
         end
         if (n_valid) begin
@@ -169,7 +170,7 @@ module tdc_decoder #(
         if (age_valid) t <= edge_time - {{TimeBits - AgeBits{1'b0}}, age};
         if (rst) begin
             tdc_valid <= 1'b0;
-            tdc_code <= 8'd0;
+            tdc_code <= {BinBits{1'b0}};
             sixteens_valid <= 1'b0;
             hundreds_valid <= 1'b0;
             n_valid <= 1'b0;

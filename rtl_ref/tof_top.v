@@ -3,7 +3,10 @@
 
 // The device: its modules and the wires between them.
 module tof_top #(
-    parameter [15:0] ShotsPerFrame = 16'd30000,  // [shots]
+    parameter integer BinBits = 8,               // see histogram_builder
+    parameter integer CountBits = 16,
+    parameter integer SumBits = 36,              // see forward1
+    parameter [23:0] ShotsPerFrame = 24'd30000,  // [shots]
     parameter [16:0] DrainCycles = 17'd16,       // see frame_ctrl
     // See vcsel_driver; RateBits is the width of laser_freq, PeriodBits that of a period less one
     parameter [16*8-1:0] LaserPeriods = {{5{16'd6}}, 16'd8, 16'd13, 16'd25},
@@ -58,8 +61,8 @@ module tof_top #(
     output wire signed [35:0] depth,  // from algo_done until the next one [2^-29 m]
     output wire algo_done,            // the depth is ready; one cycle
     output wire hist_valid,           // a word of the histogram is being read
-    output wire [7:0] hist_bin,       // which word
-    output wire [15:0] hist_count,    // the word [hits]
+    output wire [BinBits-1:0] hist_bin,  // which word
+    output wire [CountBits-1:0] hist_count,  // the word [hits]
     output wire frame_done            // the frame has ended; one cycle
 );
     wire clk_sys, clk_laser;
@@ -67,17 +70,17 @@ module tof_top #(
     wire mode_sync, laser_en_sync, dsp_en_sync, dsp_rst_sync;
     wire [RateBits-1:0] laser_freq_sync;
     wire clear;
-    wire [7:0] clear_addr;
+    wire [BinBits-1:0] clear_addr;
     wire acquire, algo_start;
     wire pre_start, start, laser_on;
     wire read_en;
-    wire [7:0] read_addr;
+    wire [BinBits-1:0] read_addr;
 
     // Modules that a source leaves out stay in place, with constant inputs: a generate block would
     // put its own scope into their paths. Synthesis removes them, but for the carry chain.
-    wire [7:0] tdc_code, measured_code, preloaded_code;
+    wire [BinBits-1:0] tdc_code, measured_code, preloaded_code;
     wire tdc_valid, measured_valid, preloaded_valid;
-    wire [15:0] count, built_count, preloaded_count;
+    wire [CountBits-1:0] count, built_count, preloaded_count;
 
     assign tdc_code = CodeSource ? preloaded_code : measured_code;
     assign tdc_valid = CodeSource ? preloaded_valid : measured_valid;
@@ -85,7 +88,7 @@ module tof_top #(
 
     wire signed [35:0] network_depth, centroid_depth;
     wire network_done, network_read_en, centroid_done, centroid_read_en;
-    wire [7:0] network_read_addr, centroid_read_addr;
+    wire [BinBits-1:0] network_read_addr, centroid_read_addr;
 
     assign read_en = Estimator ? centroid_read_en : network_read_en;
     assign read_addr = Estimator ? centroid_read_addr : network_read_addr;
@@ -139,6 +142,8 @@ module tof_top #(
     );
 
     frame_ctrl #(
+        .BinBits(BinBits),
+        .CountBits(CountBits),
         .ShotsPerFrame(ShotsPerFrame),
         .Preloaded(HistogramSource),
         .DrainCycles(DrainCycles)
@@ -192,6 +197,7 @@ module tof_top #(
     tdc #(
         .Taps(Taps),
         .CoarseBits(CoarseBits),
+        .BinBits(BinBits),
         .Cycle(Cycle),
         .Digits(Digits),
         .AgeBits(AgeBits),
@@ -208,6 +214,7 @@ module tof_top #(
     );
 
     code_preload #(
+        .BinBits(BinBits),
         .Codes(Codes),
         .CodeFile(CodeFile)
     ) code_preload (
@@ -218,7 +225,10 @@ module tof_top #(
         .tdc_code(preloaded_code)
     );
 
-    histogram_builder histogram_builder (
+    histogram_builder #(
+        .BinBits(BinBits),
+        .CountBits(CountBits)
+    ) histogram_builder (
         .clk_sys(clk_sys),
         .clear(clear && !HistogramSource),
         .clear_addr(clear_addr),
@@ -230,6 +240,8 @@ module tof_top #(
     );
 
     histogram_preload #(
+        .BinBits(BinBits),
+        .CountBits(CountBits),
         .HistogramFile(HistogramFile)
     ) histogram_preload (
         .read_addr(read_addr),
@@ -237,6 +249,9 @@ module tof_top #(
     );
 
     depth_estimator #(
+        .BinBits(BinBits),
+        .CountBits(CountBits),
+        .SumBits(SumBits),
         .Neurons(Neurons),
         .W1File(W1File),
         .B1File(B1File),
@@ -255,6 +270,8 @@ module tof_top #(
     );
 
     centroid_estimator #(
+        .BinBits(BinBits),
+        .CountBits(CountBits),
         .HalfWidth(HalfWidth),
         .Background(Background),
         .Slope(Slope),

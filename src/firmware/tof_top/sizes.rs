@@ -65,15 +65,21 @@ fn bits_to(last: u64) -> u32 {
 }
 
 impl Sizes {
+    /// What the steps of the network's estimation follow from.
+    pub fn network(&self) -> estimator_ctrl::Params {
+        estimator_ctrl::Params { bins: self.histogram.bins, neurons: self.neurons }
+    }
+
+    /// A centroid estimator of such a histogram, with the KC705's window and scale.
+    pub fn centroid(&self) -> centroid_estimator::Params {
+        let histogram = self.histogram;
+        centroid_estimator::Params { histogram, ..centroid_estimator::Params::default() }
+    }
+
     /// The width of a word that is called that in [`Signal::size`]; 0 where there is no such word [bits].
     pub fn width(&self, size: &str) -> Option<u32> {
         let histogram = &self.histogram;
         let (bin_bits, count_bits) = (histogram.bins.ilog2(), histogram.count_bits);
-        let network = estimator_ctrl::Params { bins: histogram.bins, neurons: self.neurons };
-        let centroid = centroid_estimator::Params {
-            histogram: *histogram,
-            ..centroid_estimator::Params::default()
-        };
         let position_bits = centroid_estimator::position_bits(histogram);
         let groups = |group: usize| (self.taps.div_ceil(group) * ones_width(group)) as u32;
         Some(match size {
@@ -98,8 +104,8 @@ impl Sizes {
             "CountBits" => count_bits,
             "ProductBits" => count_bits + 17,
             "SumBits" => forward1::sum_bits(histogram),
-            "StepBits" => bits_to(network.done() - 1),
-            "CentroidStepBits" => bits_to(centroid.done() - 1),
+            "StepBits" => bits_to(self.network().done() - 1),
+            "CentroidStepBits" => bits_to(self.centroid().done() - 1),
             "ChangeBits" => count_bits + 1,
             "WindowBits" => count_bits + 6,
             "AgesBits" => count_bits + 11,

@@ -137,8 +137,8 @@ fn cycle_counts(args: &Args, rtl: &Rtl, limits: &Limits, talk: &Talk) -> Result<
         let path = path.display().to_string();
         return Err(Input::new("--cycle-counts", expected).value(path).into());
     }
-    let neurons = args.from.setting()?.neurons();
-    let counts = count::cycle_counts(rtl, neurons, limits, |count: &Count| {
+    let estimator = args.from.setting()?.setup.params.depth_estimator.ctrl();
+    let counts = count::cycle_counts(rtl, &estimator, limits, |count: &Count| {
         let word = if count.holds() { "holds" } else { "fails" };
         let word = coloured(word, count.holds(), &std::io::stderr());
         talk.note(format_args!("{}: {word}", count.what));

@@ -225,7 +225,7 @@ fn signals(vectors: &Vectors, ports: &[Port]) -> String {
             text += &format!("  reg {}{name} = {width}'d0;\n", range(*width as u32));
         }
     }
-    text += spec.glue.map_or("", |glue| glue.verilog);
+    text += &spec.glue.map_or(String::new(), |glue| (glue.verilog)(&vectors.sizes));
     if spec.timing.oscillator {
         text += "  always #2500 clk_200 = !clk_200;\n";
     }

@@ -60,6 +60,7 @@ mod tests {
     use crate::golden::setting::Setting;
     use crate::golden::spec::{FIRST_RESET, Vectors};
     use crate::golden::timing::Step;
+    use tofsim::firmware::tof_top::Sizes;
     use tofsim::scenario;
     use tofsim::sim::setup::Setup;
 
@@ -136,7 +137,9 @@ mod tests {
             let inputs: Vec<_> =
                 spec.ports(&vectors.sizes).into_iter().filter(|port| !port.output).collect();
             for name in &columns {
-                let is_read = spec.glue.is_some_and(|glue| glue.verilog.contains(name.as_str()));
+                let is_read = spec
+                    .glue
+                    .is_some_and(|glue| (glue.verilog)(&Sizes::default()).contains(name.as_str()));
                 let is_late =
                     |step: &Step| step.late.is_some_and(|(_, column)| column == name.as_str());
                 let is_read = is_read || spec.timing.steps.iter().any(is_late);

@@ -51,13 +51,18 @@ impl Draw {
     /// A signed word: any value, or one within a few bits of zero, or an end of the range, so that
     /// every size of number comes up.
     pub fn signed<const N: u32, const F: u32>(&mut self) -> S<N, F> {
+        S::new(self.signed_of(N))
+    }
+
+    /// The same, of a word of so many bits: what is above them is for the word to drop.
+    pub fn signed_of(&mut self, bits: u32) -> i64 {
         let any = self.bits() as i64;
-        S::new(match self.below(8) {
-            0 => i64::MAX >> (64 - N),
-            1 => i64::MIN >> (64 - N),
+        match self.below(8) {
+            0 => i64::MAX >> (64 - bits),
+            1 => i64::MIN >> (64 - bits),
             2 => any,
-            _ => any >> (64 - 1 - self.below(N as u64)),
-        })
+            _ => any >> (64 - 1 - self.below(bits.into())),
+        }
     }
 }
 

@@ -2,8 +2,7 @@
 
 use std::ops::Range;
 
-use tofsim::firmware::histogram_builder::BINS;
-use tofsim::kernel::U;
+use tofsim::firmware::histogram_builder::{Count, Params};
 use tofsim::network::mem::{Mem, lines};
 
 use super::cover::Cover;
@@ -12,12 +11,24 @@ use super::setting::Setting;
 use super::spec::FIRST_RESET;
 
 /// Words of a histogram [hits].
-pub type Histogram = [U<16>; BINS];
+pub type Histogram = Vec<Count>;
+
+/// Hexadecimal digits of a word of so many bits.
+pub fn digits(bits: u32) -> usize {
+    bits.div_ceil(4) as usize
+}
+
+/// Most hits of a histogram that is drawn hit by hit, and what each of them counts: a wider word is filled
+/// with as many draws.
+pub fn draws(size: &Params) -> (u64, u64) {
+    let each = 1 << size.count_bits.saturating_sub(16);
+    (size.most_hits() / each, each)
+}
 
 /// The memory from which the bench reads histograms, one after the other.
-pub fn memory(histograms: &[Histogram]) -> Mem {
+pub fn memory(histograms: &[Histogram], size: &Params) -> Mem {
     let words = histograms.iter().flatten().map(|count| count.get());
-    Mem { name: "histograms.mem", text: lines(words, 4) }
+    Mem { name: "histograms.mem", text: lines(words, digits(size.count_bits)) }
 }
 
 /// Parts of an estimation.

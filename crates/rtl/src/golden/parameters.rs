@@ -1,12 +1,14 @@
 //! Verilog parameters that the benches set, and the memories that some of them name.
 
 use tofsim::firmware::carry_chain::Delays;
-use tofsim::firmware::histogram_builder::BINS;
+use tofsim::firmware::histogram_builder::{self, Bin, Count};
 use tofsim::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Sizes};
 use tofsim::firmware::{centroid_estimator, depth_estimator, forward2, tdc_decoder, vcsel_driver};
 use tofsim::kernel::U;
 use tofsim::network::mem::{self, Mem, lines};
 use tofsim::sim::setup::Setup;
+
+use super::estimations::digits;
 
 /// A parameter's value.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,11 +63,15 @@ pub fn sized(params: &Params, names: &[&'static str]) -> Parameters {
 /// The parameter with the laser periods.
 const LASER_PERIODS: &str = "LaserPeriods";
 /// Of [`sized`], those on which widths of ports depend.
-pub const SHAPES: [&str; 5] = [NEURONS, "Taps", "CoarseBits", "RateBits", "Halves"];
+pub const SHAPES: [&str; 8] =
+    [NEURONS, "Taps", "CoarseBits", "RateBits", "Halves", "BinBits", "CountBits", "SumBits"];
 /// Of [`sized`], those of the decoder.
-pub const OF_DECODER: [&str; 5] = ["Taps", "CoarseBits", "Cycle", "Digits", "AgeBits"];
+pub const OF_DECODER: [&str; 6] = ["Taps", "CoarseBits", "BinBits", "Cycle", "Digits", "AgeBits"];
 /// Of [`sized`], those of the whole.
-const OF_TOP: [&str; 10] = [
+const OF_TOP: [&str; 13] = [
+    "BinBits",
+    "CountBits",
+    "SumBits",
     "DrainCycles",
     LASER_PERIODS,
     "RateBits",
@@ -78,9 +84,16 @@ const OF_TOP: [&str; 10] = [
     "AgeBits",
 ];
 
-/// Those of a block of the depth estimator: its memories, and how many neurons they are for.
-pub fn with_neurons(mut memories: Parameters, count: usize) -> Parameters {
+/// Those of a block of the depth estimator: its memories, how many neurons they are for, and its sizes of
+/// some names.
+pub fn with_neurons(
+    mut memories: Parameters,
+    count: usize,
+    params: &Params,
+    names: &[&'static str],
+) -> Parameters {
     memories.extend(neurons(count));
+    memories.extend(sized(params, names));
     memories
 }
 
@@ -137,15 +150,15 @@ pub fn tof_top(setup: &Setup) -> Parameters {
         CodeSource::Preload(rom) => (true, &rom[..]),
     };
     let (preloads_histogram, words) = match &params.histogram_source {
-        HistogramSource::Builder => (false, &[U::new(0); BINS][..]),
+        HistogramSource::Builder => (false, &vec![U::new(0); params.histogram.bins][..]),
         HistogramSource::Preload(rom) => (true, &rom[..]),
     };
     list.extend([
         ("CodeSource", Number(preloads_codes.into())),
         ("Codes", Number(rom.len() as u64)),
-        ("CodeFile", Memory(codes(rom))),
+        ("CodeFile", Memory(codes(rom, &params.histogram))),
         ("HistogramSource", Number(preloads_histogram.into())),
-        ("HistogramFile", Memory(histogram(words))),
+        ("HistogramFile", Memory(histogram(words, &params.histogram))),
     ]);
     if params.estimator == Estimator::Centroid {
         list.push(("Estimator", Number(1)));
@@ -164,11 +177,13 @@ pub fn tap_delays(delays: &Delays) -> Mem {
 }
 
 /// The ROM of `code_preload`.
-pub fn codes(rom: &[U<8>]) -> Mem {
-    Mem { name: "codes.mem", text: lines(rom.iter().map(|code| code.get()), 2) }
+pub fn codes(rom: &[Bin], size: &histogram_builder::Params) -> Mem {
+    let words = rom.iter().map(|code| code.get());
+    Mem { name: "codes.mem", text: lines(words, digits(size.bins.ilog2())) }
 }
 
 /// The ROM of `histogram_preload`.
-pub fn histogram(rom: &[U<16>]) -> Mem {
-    Mem { name: "histogram.mem", text: lines(rom.iter().map(|count| count.get()), 4) }
+pub fn histogram(rom: &[Count], size: &histogram_builder::Params) -> Mem {
+    let words = rom.iter().map(|count| count.get());
+    Mem { name: "histogram.mem", text: lines(words, digits(size.count_bits)) }
 }

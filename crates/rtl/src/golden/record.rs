@@ -25,7 +25,7 @@ impl<'a> Recorder<'a> {
     pub fn new(spec: &'static Spec, setting: &'a Setting, inputs: Vec<Signal>) -> Self {
         let entries = hierarchy::every_entry_of(&setting.setup.params.sizes());
         Recorder {
-            top: TofTop::new(Pins::default()),
+            top: TofTop::new(Pins::default(), &setting.setup.params),
             draw: Draw::new(setting.seed, spec.stream()),
             lines: Lines::new(spec, setting, inputs, &entries, |_| true),
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use tofsim::error::{Error, Input};
 use tofsim::firmware::carry_chain::TAPS;
-use tofsim::firmware::histogram_builder::BINS;
+use tofsim::firmware::histogram_builder;
 use tofsim::sim::setup::Setup;
 
 /// Parameters of ours that are constants inside a design. Its constant is what the scenario says, so
@@ -45,7 +45,7 @@ pub struct Setting {
     /// Words of the histogram, for a design with a smaller one.
     pub bins: u64,
     /// Shots of a frame, for a design that has them as a constant.
-    pub shots_per_frame: Option<u16>,
+    pub shots_per_frame: Option<u32>,
     /// What else it has as constants.
     pub constants: Constants,
     /// Whether the histogram has an address of its own for reading: then nothing is read while a word
@@ -70,6 +70,11 @@ impl Setting {
         self.setup.params.tdc.decoder.count_stages
     }
 
+    /// How large the histogram is.
+    pub fn histogram(&self) -> histogram_builder::Params {
+        self.setup.params.histogram
+    }
+
     /// Hidden neurons.
     pub fn neurons(&self) -> usize {
         self.setup.params.depth_estimator.neurons()
@@ -78,7 +83,7 @@ impl Setting {
     /// Full-size chain and histogram, random control, the scenario's own seed.
     pub fn new(setup: Setup) -> Self {
         let seed = setup.scenario.seed;
-        let (taps, bins) = (setup.params.tdc.delays.taps(), BINS as u64);
+        let (taps, bins) = (setup.params.tdc.delays.taps(), setup.params.histogram.bins as u64);
         Setting {
             setup,
             as_told: false,
@@ -101,7 +106,7 @@ impl Setting {
     }
 
     /// Shots of a frame: `few`, unless the design has them as a constant.
-    pub fn shots(&self, few: u16) -> u16 {
+    pub fn shots(&self, few: u32) -> u32 {
         let scenario = self.setup.params.frame_ctrl.shots_per_frame;
         let constant = self.constants.has("ShotsPerFrame").then_some(scenario);
         self.shots_per_frame.or(constant).unwrap_or(few)

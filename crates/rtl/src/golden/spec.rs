@@ -26,14 +26,14 @@ pub struct Latency {
 }
 
 /// An input that answers an output within the cycle, and so is no part of a line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Glue {
     /// The input port.
     pub drives: &'static str,
     /// Its declaration and driver in the bench.
-    pub verilog: &'static str,
+    pub verilog: fn(&Sizes) -> String,
     /// In a bench in VHDL, the declaration of the memory that it is read from, and its driver.
-    pub vhdl: (&'static str, &'static str),
+    pub vhdl: fn(&Sizes) -> [String; 2],
 }
 
 /// The line that resets a block: those before it show how its registers begin.

@@ -60,7 +60,7 @@ pub(super) fn record(
     let spacing = Time::from_fs(1000 * spec.timing.period_ps() / samples as u64);
     let mut sampler = Sampler {
         lines: Lines::new(spec, setting, Stimulus::list(), &entries, wanted),
-        current: TofTop::new(Pins::default()),
+        current: TofTop::new(Pins::default(), &setup.params),
         sampled: vec![Part::of(0..IDS); samples],
         next: setup.pll().locked_at + spacing,
         spacing,

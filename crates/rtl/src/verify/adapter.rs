@@ -12,7 +12,7 @@ use crate::golden::ports::Port;
 use crate::golden::spec::Spec;
 use crate::golden::verilog::{parameter_list, range};
 
-use super::interface::{COUNT, Interface, PortShape};
+use super::interface::{Interface, PortShape};
 use super::map::BlockMap;
 
 impl BlockMap {
@@ -33,13 +33,19 @@ impl BlockMap {
         adapted && ["read_en", "read_addr", "count"].contains(&name)
     }
 
+    /// Words of their histogram.
+    fn bins(&self, sizes: &Sizes) -> usize {
+        self.design.bins.unwrap_or(sizes.histogram.bins)
+    }
+
     /// Width of our port in a design of that size.
     fn width(&self, spec: &Spec, port: &Port) -> u32 {
         let bins = ["histogram_builder", "histogram_preload", "code_preload"];
         match port.name.as_str() {
             "taps" | "hit_taps" => self.design.taps.map_or(port.width, |taps| taps as u32),
             "clear_addr" | "read_addr" | "tdc_code" if bins.contains(&spec.name) => {
-                usize::BITS - (self.design.bins - 1).leading_zeros()
+                let width = |bins: usize| usize::BITS - (bins - 1).leading_zeros();
+                self.design.bins.map_or(port.width, width)
             }
             _ => port.width,
         }
@@ -56,7 +62,7 @@ impl BlockMap {
                 wanted.push(Port { name: theirs.to_owned(), width, ..port });
             }
         }
-        let whole = COUNT * self.design.bins as u32;
+        let whole = sizes.histogram.count_bits * self.bins(sizes) as u32;
         for (name, output) in [(&self.counts, true), (&self.vector, false)] {
             let meaning = "all counts";
             wanted.extend(name.clone().map(|name| Port { name, width: whole, output, meaning }));
@@ -119,19 +125,29 @@ impl BlockMap {
                 connected.push(format!("        .{theirs}({signal})"));
             }
         }
-        let whole = COUNT * self.design.bins as u32;
-        let range = range(whole);
+        let sizes = &bench.vectors.sizes;
+        let (bins, bits) = (self.bins(sizes), sizes.histogram.count_bits);
+        let whole = bits * bins as u32;
+        let (range, last, address) = (range(whole), bins - 1, bins.next_power_of_two().ilog2());
         if let Some(counts) = &self.counts {
             // All counts side by side, read as if they were a RAM.
-            lines += &format!(include_str!("adapter/counts.v"), range = range);
-            let (declared, signal) = words("counts", found.ports.get(counts));
+            lines += &format!(include_str!("adapter/counts.v"), range = range, bits = bits);
+            let (declared, signal) = words("counts", bits, found.ports.get(counts));
             lines += &declared;
             connected.push(format!("        .{counts}({signal})"));
         }
         if let Some(vector) = &self.vector {
             // Collects the histogram word by word, then starts the estimator.
-            lines += &format!(include_str!("adapter/vector.v"), range = range, whole = whole);
-            let (declared, signal) = words("vector", found.ports.get(vector));
+            lines += &format!(
+                include_str!("adapter/vector.v"),
+                range = range,
+                whole = whole,
+                bits = bits,
+                address = address,
+                last = last,
+                high = address - 1,
+            );
+            let (declared, signal) = words("vector", bits, found.ports.get(vector));
             lines += &declared;
             connected.push(format!("        .{vector}({signal})"));
         }
@@ -167,12 +183,13 @@ impl BlockMap {
 
 /// What is declared for a port with all counts, and what is connected to it: the vector of the
 /// adapter, or the words of an unpacked array, of which the one with the lowest index is bin 0.
-fn words(vector: &str, port: Option<&PortShape>) -> (String, String) {
+fn words(vector: &str, bits: u32, port: Option<&PortShape>) -> (String, String) {
     let Some(PortShape { output, words: Some((first, last)), .. }) = port else {
         return (String::new(), vector.to_owned());
     };
     let (lowest, bins) = (first.min(last), first.abs_diff(*last) + 1);
-    let [word, part] = [format!("{vector}_words[k + {lowest}]"), format!("{vector}[16 * k +: 16]")];
+    let [word, part] =
+        [format!("{vector}_words[k + {lowest}]"), format!("{vector}[{bits} * k +: {bits}]")];
     let [to, from] = if *output { [part, word] } else { [word, part] };
     let declared = format!(
         include_str!("adapter/words.v"),
@@ -180,6 +197,7 @@ fn words(vector: &str, port: Option<&PortShape>) -> (String, String) {
         first = first,
         last = last,
         bins = bins,
+        high = bits - 1,
         to = to,
         from = from,
     );

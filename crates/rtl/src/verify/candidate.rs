@@ -104,7 +104,8 @@ impl<'a> Candidate<'a> {
                 found = dut.simulator.interface(work, &module, &shapes, &rtl, limits)?;
             }
         }
-        found.check_ports(&rtl.source, &module, &wanted(&found))?;
+        let word = vectors.sizes.histogram.count_bits;
+        found.check_ports(&rtl.source, &module, (&wanted(&found), word))?;
         Ok(Ok(Candidate { rtl, found, map, fixed }))
     }
 }

@@ -21,6 +21,7 @@ use serde::Serialize;
 
 use tofsim::error::Result;
 use tofsim::files::staged::ScratchFolder;
+use tofsim::firmware::estimator_ctrl::Params;
 
 use crate::golden::blocks::CENTROID;
 
@@ -55,7 +56,7 @@ impl Count {
     }
 }
 
-/// Counts and proves everything for an estimator with so many neurons; `limits` are those of one run of
+/// Counts and proves everything for an estimator with so many bins and neurons; `limits` are those of one run of
 /// a tool, and `done` is told of each count when it is there.
 ///
 /// # Errors
@@ -63,27 +64,27 @@ impl Count {
 /// is missing), the simulation does not end, or the user stops.
 pub fn cycle_counts(
     rtl: &Rtl,
-    neurons: usize,
+    p: &Params,
     limits: &Limits,
     done: impl Fn(&Count),
 ) -> Result<Vec<Count>> {
-    let mut promises = promises::promises(neurons);
+    let mut promises = promises::promises(p);
     if rtl.has(CENTROID) {
-        promises.push(promises::centroid());
+        promises.push(promises::centroid(p));
     }
-    count(&promises, neurons, rtl, limits, done)
+    count(&promises, p, rtl, limits, done)
 }
 
 fn count(
     promises: &[Promise],
-    neurons: usize,
+    p: &Params,
     rtl: &Rtl,
     limits: &Limits,
     done: impl Fn(&Count),
 ) -> Result<Vec<Count>> {
     let folder = ScratchFolder::new()?;
-    let simulated = simulate::measure(rtl, neurons, folder.path(), limits)?;
-    let modelled = model::measure(neurons);
+    let simulated = simulate::measure(rtl, p, folder.path(), limits)?;
+    let modelled = model::measure(p);
     let count = |promise: &Promise| {
         let (key, expected) = (promise.key(), promise.expected);
         let reason = prove::prove(promise, rtl, folder.path(), limits)?;

@@ -9,9 +9,6 @@ use crate::golden::ports::Port;
 pub(super) mod icarus;
 pub(super) mod verilator;
 
-/// Bits of a count, the words of the only ports that may be arrays.
-pub(super) const COUNT: u32 = 16;
-
 /// A port as a simulator tells it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PortShape {
@@ -33,11 +30,16 @@ pub struct Interface {
 }
 
 impl Interface {
-    /// Whether it has the ports that are wanted of it.
+    /// Whether it has the ports that are wanted of it; the words of an array have `word` bits.
     ///
     /// # Errors
     /// Names the first port that is missing, or is no output, or has another width.
-    pub fn check_ports(&self, source: &str, module: &str, wanted: &[Port]) -> Result<()> {
+    pub fn check_ports(
+        &self,
+        source: &str,
+        module: &str,
+        (wanted, word): (&[Port], u32),
+    ) -> Result<()> {
         for port in wanted {
             let fault = |what: String| {
                 let field = format!("module {module}, port {}", port.name);
@@ -56,9 +58,9 @@ impl Interface {
                 return fault(format!("has {} bits, expected {}", real.width, port.width));
             }
             let words = real.words.map_or(1, |(first, last)| first.abs_diff(last) + 1);
-            if words > 1 && real.width / words != COUNT {
+            if words > 1 && real.width / words != word {
                 let bits = real.width / words;
-                return fault(format!("is an array of {bits} bits, expected words of {COUNT}"));
+                return fault(format!("is an array of {bits} bits, expected words of {word}"));
             }
         }
         Ok(())
@@ -107,7 +109,8 @@ mod tests {
 
     #[test]
     fn a_port_that_does_not_fit_is_named_with_what_there_is() {
-        let fault = |port| interface().check_ports("rtl", "a", &[port]).unwrap_err().to_string();
+        let fault =
+            |port| interface().check_ports("rtl", "a", (&[port], 16)).unwrap_err().to_string();
         assert_eq!(
             fault(port("dept", 36, true)),
             "rtl: module a, port dept: no such port (`depth`?); it has clk, depth"
@@ -120,7 +123,7 @@ mod tests {
             fault(port("clk", 1, true)),
             "rtl: module a, port clk: is an input, expected an output"
         );
-        assert!(interface().check_ports("rtl", "a", &[port("clk", 1, false)]).is_ok());
+        assert!(interface().check_ports("rtl", "a", (&[port("clk", 1, false)], 16)).is_ok());
     }
 
     #[test]

@@ -9,7 +9,6 @@ use serde::Deserialize;
 use tofsim::error::{Input, Result, hint, read_text};
 use tofsim::files::toml::Checked;
 use tofsim::firmware::forward2::MOST_NEURONS;
-use tofsim::firmware::histogram_builder::BINS;
 use tofsim::firmware::tof_top::Sizes;
 
 use crate::golden::blocks::{self, BLOCKS};
@@ -35,19 +34,19 @@ pub struct Design {
     /// constant inside: what the scenario says, unless it stands here.
     pub parameters: bool,
     /// Shots of a frame, if they are a constant inside.
-    #[schemars(range(min = 1, max = 65_535), extend("unit" = "shots"))]
-    pub shots_per_frame: Option<u16>,
+    #[schemars(range(min = 1, max = 16_777_215), extend("unit" = "shots"))]
+    pub shots_per_frame: Option<u32>,
     /// Taps of the delay line, if not ours. With fewer, the stimulus leaves out what they cannot show.
     #[schemars(range(min = 4, max = 4096), extend("unit" = "taps"))]
     pub taps: Option<usize>,
     /// Words of the histogram. With fewer than ours, the stimulus keeps to those.
     #[schemars(range(min = 2, max = 65_536), extend("unit" = "words"))]
-    pub bins: usize,
+    pub bins: Option<usize>,
 }
 
 impl Default for Design {
     fn default() -> Self {
-        Design { parameters: true, shots_per_frame: None, taps: None, bins: BINS }
+        Design { parameters: true, shots_per_frame: None, taps: None, bins: None }
     }
 }
 
@@ -125,7 +124,7 @@ impl RtlMap {
         };
         Setting {
             taps: design.taps.map_or(setting.taps, |taps| setting.taps.min(taps)),
-            bins: setting.bins.min(design.bins as u64),
+            bins: design.bins.map_or(setting.bins, |bins| setting.bins.min(bins as u64)),
             slack: latency.copied().max().unwrap_or(0).max(0) as u64,
             shots_per_frame: design.shots_per_frame,
             constants,
@@ -174,10 +173,10 @@ impl BlockMap {
                 return Err(fault(key, format!("only {block} has this adapter")).into());
             }
         }
-        if self.vector.is_some() && self.design.bins != BINS {
+        if self.vector.is_some() && self.design.bins.is_some() {
             let expected =
-                format!("expected design.bins = {BINS}: the network has that many inputs");
-            return Err(fault("vector", expected).into());
+                "expected no design.bins: the network has as many inputs as tdc.bins says";
+            return Err(fault("vector", expected.to_owned()).into());
         }
         Ok(())
     }
@@ -265,6 +264,6 @@ mod tests {
         let error = fault("[block.forward1]\ncounts = \"H\"\n");
         assert!(error.contains("only histogram_builder has this adapter"), "{error}");
         let error = fault("[design]\nbins = 128\n[block.depth_estimator]\nvector = \"H\"\n");
-        assert!(error.contains("expected design.bins = 256"), "{error}");
+        assert!(error.contains("expected no design.bins"), "{error}");
     }
 }

@@ -110,7 +110,7 @@ fn signals(vectors: &Vectors, ports: &[Port]) -> String {
     }
     if let Some(glue) = vectors.spec.glue {
         text += include_str!("words.vhd");
-        text += &format!("  {}\n", glue.vhdl.0);
+        text += &format!("  {}\n", (glue.vhdl)(&vectors.sizes)[0]);
     }
     text
 }
@@ -119,7 +119,7 @@ fn signals(vectors: &Vectors, ports: &[Port]) -> String {
 fn statements(vectors: &Vectors) -> String {
     let mut text = String::new();
     if let Some(glue) = vectors.spec.glue {
-        text += &format!("\n  {}\n", glue.vhdl.1);
+        text += &format!("\n  {}\n", (glue.vhdl)(&vectors.sizes)[1]);
     }
     if vectors.spec.timing.oscillator {
         text += "\n  clk_200 <= not clk_200 after 2500 ps;\n";

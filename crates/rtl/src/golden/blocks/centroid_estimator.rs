@@ -2,8 +2,7 @@
 //! empty, level, full, all hits in one bin at either end or next to it, equal maxima, random and as
 //! measured; starts while busy, and a reset in each part.
 
-use tofsim::firmware::centroid_estimator::{DIVIDE, DONE, In, PLACE};
-use tofsim::firmware::histogram_builder::BINS;
+use tofsim::firmware::centroid_estimator::In;
 use tofsim::sim::fast::centroid::locate;
 
 use crate::golden::estimations::{Estimations, memory};
@@ -14,7 +13,7 @@ mod histograms;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
-    latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |_| DONE }],
+    latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.centroid().done() }],
     glue: Some(histograms::GLUE),
     configurations: &[LEVEL],
     ..Spec::new("centroid_estimator", "centroid_estimator", record)
@@ -49,17 +48,19 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let params = setting.setup.params.centroid_estimator;
     let histograms = histograms::new(&params, &mut Draw::new(setting.seed, MEMORIES));
     // Words, no words, quotient, position and depth.
-    let bins = BINS as u64;
-    let parts = [0..bins, bins..DIVIDE, DIVIDE..PLACE, PLACE..DONE];
+    let (bins, done) = (params.histogram.bins as u64, params.done());
+    let (divide, place) = (params.divide(), params.place());
+    let parts = [0..bins, bins..divide, divide..place, place..done];
     let all = histograms.len();
     let mut estimations = Estimations::new(parts, all, all as u64, setting);
     let reachable = histograms::reachable(&params).into_iter().zip(0..).filter(|(is, _)| *is);
     let mut cases = Cover::new(histograms::CASES, reachable.map(|(_, case)| case));
     let mut run = Recorder::new(spec, setting, Stimulus::list());
     for _ in 0..setting.cycles() {
-        let phase = run.top.centroid_estimator.registers.phase();
-        if phase == Some(DONE) {
-            let words = histograms[estimations.histogram as usize].map(|count| count.get() as u16);
+        let phase = run.top.centroid_estimator.registers.phase(&params);
+        if phase == Some(done) {
+            let words = histograms[estimations.histogram as usize].iter();
+            let words: Vec<_> = words.map(|count| count.get() as u32).collect();
             let met = histograms::cases(&params, &words, &locate(&params, &words));
             met.into_iter().zip(0..).for_each(|(met, case)| cases.see_if(met, case));
         }
@@ -71,8 +72,12 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         estimator.rise(&In { rst, algo_start, count }, &params);
     }
     Ok(Vectors {
-        parameters: parameters::centroid_estimator(&params),
-        bench_memory: Some(memory(&histograms)),
+        parameters: [
+            parameters::centroid_estimator(&params),
+            parameters::sized(&setting.setup.params, &["BinBits", "CountBits"]),
+        ]
+        .concat(),
+        bench_memory: Some(memory(&histograms, &params.histogram)),
         ..run.vectors([vec![cases], estimations.coverage().into()].concat())
     })
 }

@@ -54,7 +54,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.code_preload = run.top.code_preload.next(&i, &rom);
     }
-    let file = Parameter::Memory(parameters::codes(&rom));
-    let parameters = vec![("Codes", Parameter::Number(codes)), ("CodeFile", file)];
+    let file = Parameter::Memory(parameters::codes(&rom, &setting.histogram()));
+    let mut parameters = vec![("Codes", Parameter::Number(codes)), ("CodeFile", file)];
+    parameters.extend(parameters::sized(&setting.setup.params, &["BinBits"]));
     Ok(Vectors { parameters, ..run.vectors([words, resets, phases]) })
 }

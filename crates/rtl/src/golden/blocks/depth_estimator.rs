@@ -3,7 +3,6 @@
 //! either end; starts while busy, and a reset in each layer.
 
 use tofsim::firmware::depth_estimator::In;
-use tofsim::firmware::estimator_ctrl::{TANSIG, done};
 use tofsim::firmware::tansig::{ENTRIES, address};
 
 use crate::golden::estimations::{Estimations, memory};
@@ -13,7 +12,7 @@ mod histograms;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
-    latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| done(vectors.sizes.neurons) }],
+    latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.network().done() }],
     glue: Some(histograms::GLUE),
     configurations: &[NEURONS_16],
     ..Spec::new("depth_estimator", "depth_estimator", record)
@@ -34,15 +33,17 @@ signals! {
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let (params, neurons) = (&setting.setup.params.depth_estimator, setting.neurons());
     let mut draw = Draw::new(setting.seed, MEMORIES);
-    let (histograms, special, ends) = histograms::new(params, &mut draw);
+    let (size, ctrl) = (setting.histogram(), params.ctrl());
+    let (histograms, special, ends) = histograms::new(params, &size, &mut draw);
     // Words, the products that they leave behind, tansig, output layer.
-    let layers = [0..256, 256..TANSIG, TANSIG..TANSIG + 2, TANSIG + 2..params.cycles()];
+    let (bins, tansig) = (size.bins as u64, ctrl.tansig());
+    let layers = [0..bins, bins..tansig, tansig..tansig + 2, tansig + 2..params.cycles()];
     let mut estimations = Estimations::new(layers, histograms.len(), special, setting);
     let mut ends = Cover::new("neuron x 4096 + address at either end of the tansig", ends);
     let mut run = Recorder::new(spec, setting, Stimulus::list());
     for _ in 0..setting.cycles() {
         let estimator = &mut run.top.depth_estimator;
-        let phase = estimator.estimator_ctrl.phase(neurons);
+        let phase = estimator.estimator_ctrl.phase(&ctrl);
         let (rst, algo_start) = estimations.next(phase, &mut run.draw);
         if estimator.estimator_ctrl.tansig_en && !rst {
             for (neuron, &l1_in) in estimator.forward1.l1_in[..neurons].iter().enumerate() {
@@ -58,8 +59,13 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         estimator.rise(&In { rst, algo_start, count }, params);
     }
     Ok(Vectors {
-        parameters: with_neurons(parameters::depth_estimator(params), neurons),
-        bench_memory: Some(memory(&histograms)),
+        parameters: with_neurons(
+            parameters::depth_estimator(params),
+            neurons,
+            &setting.setup.params,
+            &["BinBits", "CountBits", "SumBits"],
+        ),
+        bench_memory: Some(memory(&histograms, &size)),
         ..run.vectors([vec![ends], estimations.coverage().into()].concat())
     })
 }

@@ -1,14 +1,12 @@
 //! Histograms as the estimator feeds them, control signals in any order with every row, and one row
 //! over and over until the sums of all neurons have wrapped both ways.
 
-use tofsim::firmware::forward1::{BIAS_ROW, In};
+use tofsim::firmware::forward1::{In, sum_bits};
 
 use crate::golden::prelude::*;
 
 /// Cycles in one style.
 const STRETCH: u64 = 512;
-/// A change of a sum that is larger than any product: it has wrapped.
-const WRAP: i64 = 1 << 34;
 /// Cycles that a goal of wrapping may take; smaller weights would take longer.
 const PATIENCE: i64 = 1000;
 
@@ -24,37 +22,42 @@ pub(super) const SPEC: Spec = Spec {
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let (rom, neurons) = (&setting.setup.params.depth_estimator.forward1, setting.neurons());
+    let size = setting.histogram();
+    let (words, most) = (size.bins as u64, size.most_hits());
+    let stretch_of = STRETCH.max(2 * words);
+    // A change of a sum that is larger than any product: it has wrapped.
+    let wrap = 1i64 << (sum_bits(&size) - 2);
     let pull = |goal: u64, row: u64| {
-        let weight = rom[row as usize][goal as usize / 2].get();
+        let weight = rom.w1[row as usize][goal as usize / 2].get();
         if goal.is_multiple_of(2) { weight } else { -weight }
     };
     // Row of the strongest weight for each goal of `wraps`.
-    let best = |goal| (0..BIAS_ROW as u64).max_by_key(|&row| pull(goal, row)).unwrap_or_default();
+    let best = |goal| (0..words).max_by_key(|&row| pull(goal, row)).unwrap_or_default();
     let goals = 0..2 * neurons as u64;
     let strongest: Vec<_> = goals.clone().map(best).collect();
     let feasible =
-        |goal: &u64| pull(*goal, strongest[*goal as usize]) * PATIENCE * 65_535 > 2 * WRAP;
+        |goal: &u64| pull(*goal, strongest[*goal as usize]) * PATIENCE * most as i64 > 2 * wrap;
     let mut wraps = Cover::new("sum wraps, neuron x 2 + downwards", goals.filter(feasible));
-    let mut rows = Cover::new("rom_addr", 0..BIAS_ROW as u64);
+    let mut rows = Cover::new("rom_addr", 0..words);
     let mut situations = Cover::new("rst, forward1_first, forward1_en as bits", 0..8);
-    let mut sequence = Cover::new("words of a whole histogram", 0..BIAS_ROW as u64);
+    let mut sequence = Cover::new("words of a whole histogram", 0..words);
     let mut run = Recorder::new(spec, setting, In::list());
     for cycle in 0..setting.cycles() as u64 {
-        let (stretch, place, draw) = (cycle / STRETCH, cycle % STRETCH, &mut run.draw);
+        let (stretch, place, draw) = (cycle / stretch_of, cycle % stretch_of, &mut run.draw);
         let count = match draw.below(4) {
-            0 => U::MAX,
-            1 => U::new(draw.below(300)),
-            _ => draw.word(),
+            0 => U::new(most),
+            1 => U::new(draw.below(300) & most),
+            _ => U::new(draw.bits() & most),
         };
         let any = In {
             rst: draw.one_in(16),
             forward1_first: draw.one_in(3),
             forward1_en: !draw.one_in(3),
-            rom_addr: if draw.one_in(2) { U::new(cycle) } else { draw.word() },
+            rom_addr: U::new(if draw.one_in(2) { cycle } else { draw.bits() } % words),
             count,
         };
         let i = match (stretch % 4, wraps.missing().next()) {
-            (0, _) if place <= BIAS_ROW as u64 + 2 => {
+            (0, _) if place <= words + 2 => {
                 // A weight is fetched a cycle ahead of its word, and added with it two cycles later.
                 let added = place.checked_sub(3);
                 added.into_iter().for_each(|word| sequence.see(word));
@@ -62,7 +65,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
                     rst: false,
                     forward1_first: added == Some(0),
                     forward1_en: added.is_some(),
-                    rom_addr: U::new(place),
+                    rom_addr: U::new(place % words),
                     count,
                 }
             }
@@ -71,7 +74,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
                 forward1_first: false,
                 forward1_en: true,
                 rom_addr: U::new(strongest[goal as usize]),
-                count: U::MAX,
+                count: U::new(most),
             },
             _ => any,
         };
@@ -85,11 +88,12 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let goes_on = i.forward1_en && !i.rst && !i.forward1_first;
         for (neuron, (after, before)) in forward1.l1_in.iter().zip(before).enumerate() {
             let change = after.get() - before.get();
-            wraps.see_if(goes_on && change < -WRAP, 2 * neuron as u64);
-            wraps.see_if(goes_on && change > WRAP, 2 * neuron as u64 + 1);
+            wraps.see_if(goes_on && change < -wrap, 2 * neuron as u64);
+            wraps.see_if(goes_on && change > wrap, 2 * neuron as u64 + 1);
         }
     }
     let memories = files(["W1File", "B1File"], mem::forward1(rom, neurons));
-    let parameters = with_neurons(memories, neurons);
+    let parameters =
+        with_neurons(memories, neurons, &setting.setup.params, &["BinBits", "CountBits", "SumBits"]);
     Ok(Vectors { parameters, ..run.vectors([wraps, rows, situations, sequence]) })
 }

@@ -2,7 +2,6 @@
 //! until the depth has wrapped both ways by either unit; with the scenario's network, but the bias
 //! negative.
 
-use tofsim::firmware::estimator_ctrl::pairs;
 use tofsim::firmware::forward2::{In, MOST_NEURONS};
 
 use crate::golden::prelude::*;
@@ -32,7 +31,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     // Neuron of the strongest weight of each unit.
     let strength = |neuron: &usize| rom.w2[*neuron].get().abs();
     let strongest = |unit: usize| (unit..rom.neurons).step_by(2).max_by_key(strength);
-    let (units, pairs) = (rom.neurons.min(2) as u64, pairs(rom.neurons));
+    let (units, pairs) = (rom.neurons.min(2) as u64, rom.neurons.div_ceil(2) as u64);
     let mut situations = Cover::new(
         "rst, forward2_first, forward2_en, depth_en as bits x 8 + pair",
         0..16 * PAIRS,
@@ -97,6 +96,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             wraps.see_if(far && !i.rst, goal);
         }
     }
-    let parameters = with_neurons(files(["W2File", "B2File"], mem::forward2(&rom)), rom.neurons);
+    let parameters = with_neurons(files(["W2File", "B2File"], mem::forward2(&rom)), rom.neurons, &setting.setup.params, &[]);
     Ok(Vectors { parameters, ..run.vectors([situations, order, wraps]) })
 }

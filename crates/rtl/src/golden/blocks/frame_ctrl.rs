@@ -8,11 +8,11 @@ use crate::golden::configuration;
 use crate::golden::prelude::*;
 
 /// Few, so that all states recur.
-const SHOTS: u16 = 3;
+const SHOTS: u32 = 3;
 /// A longer Drain takes more lines [cycles].
 const FRAME: u64 = 100;
 /// Of more shots than these, nearly each cycle has one.
-const FEW: u16 = 50;
+const FEW: u32 = 50;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
@@ -37,7 +37,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let preloaded = setting.setup.params.frame_ctrl.preloaded;
     let is_state = |state| !preloaded || matches!(state, State::Clear | State::Estimate);
     // Where to leave, state and place in it; `turn` counts them.
-    let clear = (0..256).step_by(51).map(|word| (State::Clear, word));
+    let bins = setting.setup.params.histogram.bins;
+    let clear = (0..bins as u64).step_by(51.min(bins / 4)).map(|word| (State::Clear, word));
     let shots = setting.shots(SHOTS);
     // Of many shots, the first and the last ones.
     let places = (0..u64::from(shots)).filter(|shot| *shot < 2 || *shot + 2 >= u64::from(shots));
@@ -53,18 +54,19 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let steps: &[u64] = if preloaded { &[3, 12] } else { &[1, 6, 11, 12] };
     let mut transitions = Cover::new("state from x 4 + to", steps.iter().copied());
     let mut resets = Cover::new(
-        "reset in state x 2^17 + place (word, shots, cycle)",
-        exits.iter().map(|(state, place)| (state.bits() << 17) + place),
+        "reset in state x 2^25 + place (word, shots, cycle)",
+        exits.iter().map(|(state, place)| (state.bits() << 25) + place),
     );
     let mut kinds = Cover::new("state x 4 + rst x 2 + dsp_rst", each(4));
     let mut inputs = Cover::new("state x 8 + start, dsp_en, algo_done as bits", each(8));
 
-    let params = Params { shots_per_frame: shots, preloaded, drain_cycles: length };
+    let histogram = setting.histogram();
+    let params = Params { shots_per_frame: shots, histogram, preloaded, drain_cycles: length };
     let mut run = Recorder::new(spec, setting, In::list());
     // The state, cycles in it, whether this run is to be left at the exit of this turn, frames finished.
     let (mut last, mut phase, mut leaves, mut turn, mut frames) = (State::Clear, 0, false, 0, 0u64);
     // So that each exit comes up whatever the draws.
-    let lines = exits.len() * (600 + usize::from(shots) + length as usize);
+    let lines = exits.len() * (344 + bins + shots as usize + length as usize);
     let lines = if shots > FEW || length > FRAME { Setting::CYCLES.max(2 * lines) } else { Setting::CYCLES };
     for cycle in 0..setting.cycles.unwrap_or(lines) {
         let (ctrl, draw) = (run.top.frame_ctrl, &mut run.draw);
@@ -94,7 +96,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             dsp_en: dsp_en && !held,
             algo_done: draw.one_in(4),
         };
-        resets.see_if(leave, (state.bits() << 17) + place);
+        resets.see_if(leave, (state.bits() << 25) + place);
         kinds.see(state.bits() * 4 + kind);
         inputs.see(state.bits() * 8 + bits([i.start, i.dsp_en, i.algo_done]));
         turn += usize::from(leave);
@@ -110,6 +112,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         ("ShotsPerFrame", Parameter::Number(shots.into())),
         ("Preloaded", Parameter::Number(preloaded.into())),
     ];
-    parameters.extend(parameters::sized(&setting.setup.params, &["DrainCycles"]));
+    parameters.extend(parameters::sized(&setting.setup.params, &["BinBits", "CountBits", "DrainCycles"]));
     Ok(Vectors { parameters, ..run.vectors([transitions, resets, kinds, inputs]) })
 }

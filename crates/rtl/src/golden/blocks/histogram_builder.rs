@@ -2,14 +2,17 @@
 //! and different addresses; and then hits of one word until it wraps. After a hit there is none for two
 //! lines, and its code holds: that is what the TDC promises.
 
-use tofsim::firmware::histogram_builder::In;
+use tofsim::firmware::histogram_builder::{Bin, In};
 
 use crate::golden::prelude::*;
 
-/// Lines before one word is hit until it wraps.
+/// Lines before one word is hit until it wraps, and how many a bin at least.
 const MIXED: usize = 40_000;
-/// Lines in all, if not told otherwise.
-const LINES: usize = MIXED + HIT * 68_500;
+const MIXED_A_BIN: usize = 156;
+/// Bits of the widest word that is hit until it wraps: wider ones are not in the time.
+const WRAPS: u32 = 16;
+/// Hits in which a word of that width wraps, with those that are kept from it.
+const HITS: usize = 68_500;
 /// Hits of that word before it is cleared.
 const MANY: u64 = 600;
 /// Lines of a hit: the one of `tdc_valid` and two more.
@@ -44,8 +47,11 @@ fn phases(reads_apart: bool) -> Vec<u64> {
 }
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let cycles = setting.cycles.unwrap_or(LINES);
+    let size = setting.histogram();
     let (bins, words) = (setting.bins, 0..setting.bins);
+    let mixed = MIXED.max(MIXED_A_BIN * bins as usize);
+    let cycles = setting.cycles.unwrap_or(mixed + HIT * HITS);
+    let (most, many) = (size.most_hits(), MANY.min(size.most_hits() / 2));
     let mut cleared = Cover::new("words cleared that were not 0", words.clone());
     let mut hits = Cover::new("words hit", words.clone());
     let mut seen = Cover::new("words shown that are not 0", words);
@@ -60,7 +66,10 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     );
     // Apart from its hits, that word is looked at only now and then.
     let (apart, close) = if setting.reads_apart { (true, 512) } else { (false, 64) };
-    let mut sizes = Cover::new("bits of a count shown, or wrapped (17)", 1..=17);
+    let widest = u64::from(size.count_bits.min(WRAPS + 1));
+    let wrapped = u64::from(size.count_bits) + 1;
+    let wraps = (size.count_bits <= WRAPS).then_some(wrapped);
+    let mut sizes = Cover::new("bits of a count shown, or one more than it has: wrapped", (1..=widest).chain(wraps));
     let mut run = Recorder::new(spec, setting, In::list());
     // The word that counts on, and whether it has been seen close to its highest count.
     let (hot, mut full) = (setting.seed % bins, false);
@@ -79,14 +88,14 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             tdc_valid: draw.one_in(3),
             read_en: draw.one_in(2),
         };
-        let count = |address: U<8>| histogram.ram[address.index()].get();
+        let count = |address: Bin| histogram.ram[address.index()].get();
         // A count of each length, but not before every word has been cleared.
         let at_its_end = round > 0 && (count(U::new(hot)) + 1).is_power_of_two();
         let looks = apart && at_its_end && draw.one_in(2);
-        let hammers = cycle >= MIXED && !draw.one_in(64) && !looks;
+        let hammers = cycle >= mixed && !draw.one_in(64) && !looks;
         match round % 10 {
             _ if hammers => (i.clear, i.tdc_valid, i.tdc_code) = (false, true, U::new(hot)),
-            _ if looks || apart && cycle >= MIXED => {
+            _ if looks || apart && cycle >= mixed => {
                 (i.clear, i.tdc_valid) = (false, false);
                 (i.read_en, i.read_addr) = (true, U::new(hot));
             }
@@ -103,7 +112,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             _ => {}
         }
         // The word that counts on is cleared at first, and then not before it has many hits.
-        let may_clear = round == 0 || cycle < MIXED && count(U::new(hot)) >= MANY;
+        let may_clear = round == 0 || cycle < mixed && count(U::new(hot)) >= many;
         i.clear &= i.clear_addr != hot || may_clear;
 
         since += 1;
@@ -128,12 +137,13 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         sizes.see(64 - u64::from(shown.leading_zeros()));
         let shown_word = if is_counting { i.tdc_code } else { i.read_addr };
         let shows_hot = i.read_en && !clear && shown_word == hot;
-        sizes.see_if(full && shows_hot && shown < close, 17);
-        full |= shown >= (1 << 16) - close;
+        sizes.see_if(full && shows_hot && shown < close, wrapped);
+        full |= shown + close > most;
         overlaps.see(bits([i.clear, i.tdc_valid, i.read_en]) * 5 + equal(&i));
         run.top.nets.count = U::new(shown);
         run.line(&i);
-        run.top.histogram_builder.tick(&i);
+        run.top.histogram_builder.tick(&i, &size);
     }
-    Ok(Vectors { settles: bins as usize, ..run.vectors([cleared, hits, seen, overlaps, phases, spans, sizes]) })
+    let parameters = parameters::sized(&setting.setup.params, &["BinBits", "CountBits"]);
+    Ok(Vectors { parameters, settles: bins as usize, ..run.vectors([cleared, hits, seen, overlaps, phases, spans, sizes]) })
 }

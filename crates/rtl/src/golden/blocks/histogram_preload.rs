@@ -1,6 +1,5 @@
 //! Every address of a random histogram, in order and at random.
 
-use tofsim::firmware::histogram_builder::BINS;
 use tofsim::firmware::histogram_preload::{self, In};
 use tofsim::firmware::tof_top::HistogramSource;
 
@@ -13,8 +12,9 @@ pub(super) const SPEC: Spec = Spec {
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut draw = Draw::new(setting.seed, MEMORIES);
-    let (bins, mut rom) = (setting.bins, [U::new(0); BINS]);
-    rom[..bins as usize].fill_with(|| draw.word());
+    let (bins, size) = (setting.bins, setting.histogram());
+    let mut rom = vec![U::new(0); size.bins];
+    rom[..bins as usize].fill_with(|| U::new(draw.bits() & size.most_hits()));
     if setting.constants.has("HistogramFile") {
         let HistogramSource::Preload(words) = &setting.setup.params.histogram_source else {
             return Err(setting.lacks("HistogramFile", "stimulus.histogram"));
@@ -33,6 +33,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.top.nets.count = histogram_preload::count(&i, &rom);
         run.line(&i);
     }
-    let parameters = files(["HistogramFile"], [parameters::histogram(&rom)]);
+    let mut parameters = files(["HistogramFile"], [parameters::histogram(&rom, &size)]);
+    parameters.extend(parameters::sized(&setting.setup.params, &["BinBits", "CountBits"]));
     Ok(Vectors { parameters, ..run.vectors([words]) })
 }

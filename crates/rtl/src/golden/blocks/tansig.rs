@@ -1,7 +1,7 @@
 //! The lowest, the highest and any sum of each address, for each neuron apart from the others; sums
 //! beyond both ends of the table.
 
-use tofsim::firmware::forward1::L1In;
+use tofsim::firmware::forward1::{L1In, sum_bits};
 use tofsim::firmware::forward2::MOST_NEURONS;
 use tofsim::firmware::tansig::{ENTRIES, In, address};
 
@@ -11,9 +11,6 @@ use crate::golden::prelude::*;
 const STEP: i64 = 1 << 14;
 /// Addresses of either sign.
 const HALF: i64 = ENTRIES as i64 / 2;
-/// Just beyond the rounded ends of the table, and the ends of the word.
-const BEYOND: [i64; 4] =
-    [-HALF * STEP - STEP / 2 - 1, HALF * STEP - STEP / 2, -(1 << 35), (1 << 35) - 1];
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
@@ -24,6 +21,10 @@ pub(super) const SPEC: Spec = Spec {
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let (rom, neurons) = (&setting.setup.params.depth_estimator.tansig, setting.neurons());
+    let (width, sums) = (sum_bits(&setting.histogram()), &setting.setup.params.depth_estimator.forward1);
+    // Just beyond the rounded ends of the table, and the ends of the word.
+    let end = 1 << (width - 1);
+    let beyond_ends = [-HALF * STEP - STEP / 2 - 1, HALF * STEP - STEP / 2, -end, end - 1];
     let cases = (neurons * ENTRIES) as u64;
     let mut lowest = Cover::new("lowest sum of neuron x 4096 + address", 0..cases);
     let mut highest = Cover::new("highest sum of neuron x 4096 + address", 0..cases);
@@ -41,8 +42,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let mut l1_in = [S::new(0); MOST_NEURONS];
         for (neuron, sum) in l1_in[..neurons].iter_mut().enumerate() {
             *sum = match (special, draw.below(3)) {
-                (true, 0) => draw.signed(),
-                (true, _) => S::new(BEYOND[draw.below(BEYOND.len() as u64) as usize]),
+                (true, 0) => sums.sum(draw.signed_of(width)),
+                (true, _) => S::new(beyond_ends[draw.below(beyond_ends.len() as u64) as usize]),
                 (false, _) => sweep(swept, neuron, draw),
             };
         }
@@ -55,8 +56,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
                 let inside = (-HALF * STEP..HALF * STEP).contains(&(l1_in.get() + STEP / 2));
                 lowest.see_if(inside && offset == 0, case);
                 highest.see_if(inside && offset == STEP - 1, case);
-                if let Some(place) = BEYOND.iter().position(|&sum| sum == l1_in.get()) {
-                    beyond.see((neuron * BEYOND.len() + place) as u64);
+                if let Some(place) = beyond_ends.iter().position(|&sum| sum == l1_in.get()) {
+                    beyond.see((neuron * beyond_ends.len() + place) as u64);
                 }
             }
             swept += usize::from(!special);
@@ -65,7 +66,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.depth_estimator.tansig = run.top.depth_estimator.tansig.next(&i, rom);
     }
-    let parameters = with_neurons(files(["TansigFile"], [mem::tansig(rom)]), neurons);
+    let parameters = with_neurons(files(["TansigFile"], [mem::tansig(rom)]), neurons, &setting.setup.params, &["SumBits"]);
     Ok(Vectors { parameters, ..run.vectors([lowest, highest, beyond, situations]) })
 }
 

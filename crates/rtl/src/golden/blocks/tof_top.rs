@@ -70,7 +70,7 @@ const ESTIMATE_NS: u64 = 8 * 320;
 /// A whole frame [ns].
 const FRAME_NS: u64 = 5_000;
 /// Shots of a frame under random control.
-const SHOTS: u16 = 8;
+const SHOTS: u32 = 8;
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     if setting.as_told {

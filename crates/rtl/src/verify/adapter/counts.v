@@ -1,2 +1,2 @@
     wire {range}counts;
-    assign count = read_en ? counts[16 * read_addr +: 16] : 16'd0;
+    assign count = read_en ? counts[{bits} * read_addr +: {bits}] : {bits}'d0;

@@ -1,4 +1,4 @@
-    wire [15:0] {vector}_words [{first}:{last}];
+    wire [{high}:0] {vector}_words [{first}:{last}];
     generate
         for (genvar k = 0; k < {bins}; k = k + 1) begin : {vector}_word
             assign {to} = {from};

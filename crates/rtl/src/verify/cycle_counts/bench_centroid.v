@@ -7,6 +7,10 @@ module bench_centroid;
     reg clk_sys = 1'b0, rst = 1'b1, algo_start = 1'b0;
     wire algo_done;
 
+`ifdef BINS
+    defparam centroid_estimator.BinBits = $clog2(`BINS);
+`endif
+
     centroid_estimator centroid_estimator (
         .clk_sys(clk_sys),
         .rst(rst),
@@ -25,11 +29,11 @@ module bench_centroid;
         end
     endtask
 
-    // From the edge that takes a start to algo_done, or for 1000 cycles.
+    // From the edge that takes a start to algo_done, or for 2000 cycles.
     task estimation(input hold);
         begin
             k = -1;
-            while (k < 1000 && (k < 0 || algo_done !== 1'b1)) begin
+            while (k < 2000 && (k < 0 || algo_done !== 1'b1)) begin
                 edge_with(k < 0 || hold);
                 k = k + 1;
             end

@@ -11,6 +11,10 @@ module bench_estimator;
     defparam depth_estimator.Neurons = `NEURONS;
     defparam estimator_ctrl.Neurons = `NEURONS;
 `endif
+`ifdef BINS
+    defparam depth_estimator.BinBits = $clog2(`BINS);
+    defparam estimator_ctrl.BinBits = $clog2(`BINS);
+`endif
 
     depth_estimator depth_estimator (
         .clk_sys(clk_sys),
@@ -41,12 +45,12 @@ module bench_estimator;
         end
     endtask
 
-    // From the edge that takes a start to algo_done, or for 1000 cycles.
+    // From the edge that takes a start to algo_done, or for 2000 cycles.
     task estimation(input hold);
         begin
             k = -1;
             {forward1, tansig, forward2} = 96'd0;
-            while (k < 1000 && (k < 0 || algo_done !== 1'b1)) begin
+            while (k < 2000 && (k < 0 || algo_done !== 1'b1)) begin
                 edge_with(k < 0 || hold);
                 k = k + 1;
                 if (forward1_en === 1'b1) forward1 = forward1 + 1;

@@ -13,17 +13,17 @@ fn fault(key: &str, edits: &[Edit], measured: u64) {
 #[test]
 fn a_fault_of_the_estimator_is_counted_and_not_proven() {
     let control = |from, to| [["estimator_ctrl.v", from, to]];
-    fault("latency", &control("9'd258 + {4'd0, Neurons};", "9'd257 + {4'd0, Neurons};"), 266);
-    fault("forward1_cycles", &control("step < Tansig - 9'd1;", "step < Tansig - 9'd2;"), 255);
-    fault("tansig_cycles", &control("step == Tansig - 9'd1", "step >= Tansig - 9'd1"), 10);
+    fault("latency", &control("Bins + 2 + NeuronsHere", "Bins + 1 + NeuronsHere"), 266);
+    fault("forward1_cycles", &control("step < Tansig - 1'b1;", "step < Tansig - 2'd2;"), 255);
+    fault("tansig_cycles", &control("step == Tansig - 1'b1", "step >= Tansig - 1'b1"), 10);
     fault("forward2_cycles", &control("step >= Sums2", "step > Sums2"), 3);
 }
 
 #[test]
 fn a_fault_of_the_centroid_estimator_is_counted_and_not_proven() {
     let control = |from, to| [["centroid_estimator.v", from, to]];
-    fault("centroid_latency", &control("Last = 9'd311", "Last = 9'd312"), 313);
-    let shorter = control("Place = 9'd308, Last = 9'd311", "Place = 9'd307, Last = 9'd310");
+    fault("centroid_latency", &control("LastAt = Bins + 55", "LastAt = Bins + 56"), 313);
+    let shorter = control("LastAt = Bins + 55", "LastAt = Bins + 54");
     fault("centroid_latency", &shorter, 311);
 }
 

@@ -1,29 +1,26 @@
 //! Counts in the Rust model: steps it as the benches step the Verilog.
 
-use std::sync::Arc;
-
 use tofsim::firmware::centroid_estimator::{self, CentroidEstimator};
-use tofsim::firmware::depth_estimator::{self, DepthEstimator, Params};
-use tofsim::firmware::estimator_ctrl::EstimatorCtrl;
-use tofsim::firmware::forward1::BIAS_ROW;
-use tofsim::firmware::forward2::{MOST_NEURONS, Rom};
+use tofsim::firmware::depth_estimator::{self, DepthEstimator};
+use tofsim::firmware::estimator_ctrl::{EstimatorCtrl, Params};
+use tofsim::firmware::histogram_builder;
 use tofsim::firmware::spad_control::{self, SpadControl};
 use tofsim::firmware::vcsel_driver::{self, VcselDriver};
-use tofsim::kernel::{Clocked, S, U};
-use tofsim::network::roms::tansig_table;
+use tofsim::kernel::{Clocked, U};
+use tofsim::network;
 
 use super::measured::Measured;
 
 /// Half a cycle of `clk_laser` [ps].
 const HALF: u64 = 2000;
 /// Cycles after which an estimation or five shots must be over.
-const PATIENCE: u64 = 1000;
+const PATIENCE: u64 = 2000;
 
-/// Everything that the benches print, of an estimator with so many neurons.
-pub fn measure(neurons: usize) -> Measured {
+/// Everything that the benches print, of an estimator with so many bins and neurons.
+pub fn measure(p: &Params) -> Measured {
     let mut measured = Measured::default();
-    estimator(neurons, &mut measured);
-    centroid(&mut measured);
+    estimator(p, &mut measured);
+    centroid(p, &mut measured);
     for mode in [false, true] {
         (0..vcsel_driver::PERIODS.len()).for_each(|code| shots(mode, code as u64, &mut measured));
     }
@@ -46,12 +43,9 @@ fn estimations<T>(mut edge: impl FnMut(bool) -> T, done: fn(&T) -> bool) -> [Vec
 }
 
 /// Counts the cycles of the layers and of the whole.
-fn estimator(neurons: usize, measured: &mut Measured) {
-    let params = Params {
-        forward1: Arc::new([[S::new(0); MOST_NEURONS]; BIAS_ROW + 1]),
-        tansig: tansig_table(),
-        forward2: Rom { neurons, w2: [S::new(0); MOST_NEURONS], b2: S::new(0) },
-    };
+fn estimator(p: &Params, measured: &mut Measured) {
+    let mut params = network::blank(&histogram(p));
+    params.forward2.neurons = p.neurons;
     let mut estimator = DepthEstimator::default();
     let edge = |algo_start| {
         estimator.rise(&depth_estimator::In { rst: false, algo_start, count: U::new(0) }, &params);
@@ -71,11 +65,12 @@ fn estimator(neurons: usize, measured: &mut Measured) {
 }
 
 /// Counts the cycles of the centroid estimator.
-fn centroid(measured: &mut Measured) {
+fn centroid(p: &Params, measured: &mut Measured) {
+    let params = centroid_estimator::Params { histogram: histogram(p), ..Default::default() };
     let mut estimator = CentroidEstimator::default();
     let edge = |algo_start| {
         let i = centroid_estimator::In { rst: false, algo_start, count: U::new(0) };
-        estimator.rise(&i, &centroid_estimator::Params::default());
+        estimator.rise(&i, &params);
         estimator.registers.algo_done
     };
     for outputs in estimations(edge, |algo_done| *algo_done) {
@@ -83,6 +78,10 @@ fn centroid(measured: &mut Measured) {
             measured.add("centroid_latency", outputs.len() as u64 - 1);
         }
     }
+}
+
+fn histogram(p: &Params) -> histogram_builder::Params {
+    histogram_builder::Params { bins: p.bins, ..Default::default() }
 }
 
 /// Counts five shots from the rise of `acquire` on.

@@ -1,6 +1,9 @@
 //! What is promised, and which property in which Verilog says so.
 
+use tofsim::firmware::centroid_estimator;
+use tofsim::firmware::estimator_ctrl::Params;
 use tofsim::firmware::forward2::NEURONS;
+use tofsim::firmware::histogram_builder::{self, BINS};
 
 /// A Verilog module with properties of some modules of the design.
 #[derive(Debug)]
@@ -67,8 +70,8 @@ pub struct Promise {
     pub parameter: &'static str,
     /// The laser's code that it is about.
     pub code: Option<usize>,
-    /// Macro to set.
-    pub define: Option<[String; 2]>,
+    /// Macros to set.
+    pub defines: Vec<[String; 2]>,
     /// Another register without which there is no proof.
     pub register: Option<String>,
 }
@@ -81,8 +84,8 @@ impl Promise {
         what: impl Into<String>,
     ) -> Self {
         let (what, parameter) = (what.into(), "Expected");
-        let (code, define, register) = (None, None, None);
-        Promise { what, expected, properties, property, parameter, code, define, register }
+        let (code, defines, register) = (None, Vec::new(), None);
+        Promise { what, expected, properties, property, parameter, code, defines, register }
     }
 
     /// Its name where things are counted.
@@ -97,23 +100,32 @@ impl Promise {
     }
 }
 
-/// The macro that sets the number of neurons, where it is not the default: another design need not
-/// have that parameter.
-pub fn define(neurons: usize) -> Option<[String; 2]> {
-    (neurons != NEURONS).then(|| ["NEURONS".to_owned(), neurons.to_string()])
+/// The macros that set numbers of bins and neurons, where they are not the default: another design need not
+/// have those parameters.
+pub fn defines(p: &Params) -> Vec<[String; 2]> {
+    let sizes = [("NEURONS", p.neurons, NEURONS), ("BINS", p.bins, BINS)];
+    let others = sizes.into_iter().filter(|(_, own, usual)| own != usual);
+    others.map(|(name, own, _)| [name.to_owned(), own.to_string()]).collect()
 }
 
-/// What is promised of the estimator that a design may leave out.
-pub fn centroid() -> Promise {
+/// What is promised of the estimator that a design may leave out, with so many bins.
+pub fn centroid(p: &Params) -> Promise {
+    let histogram =
+        histogram_builder::Params { bins: p.bins, ..histogram_builder::Params::default() };
+    let done = centroid_estimator::Params { histogram, ..Default::default() }.done();
     let what = "centroid estimator: algo_start taken to algo_done";
-    Promise { parameter: "Latency", ..Promise::new(&CENTROID, "centroid_latency", 312, what) }
+    Promise {
+        parameter: "Latency",
+        defines: defines(p),
+        ..Promise::new(&CENTROID, "centroid_latency", done, what)
+    }
 }
 
-/// Everything else that is promised of a design whose estimator has so many neurons.
-pub fn promises(neurons: usize) -> Vec<Promise> {
+/// Everything else that is promised of a design whose estimator has so many bins and neurons.
+pub fn promises(p: &Params) -> Vec<Promise> {
     let estimator = |property, parameter, expected, what| Promise {
         parameter,
-        define: define(neurons),
+        defines: defines(p),
         ..Promise::new(&ESTIMATOR, property, expected, format!("estimator: {what}"))
     };
     let layer = |property, parameter, expected, enable| Promise {
@@ -121,10 +133,11 @@ pub fn promises(neurons: usize) -> Vec<Promise> {
         ..estimator(property, parameter, expected, format!("{enable} high"))
     };
     let latency = "algo_start taken to algo_done".to_owned();
-    let (neurons, pairs) = (neurons as u64, neurons.div_ceil(2) as u64);
+    let (bins, neurons) = (p.bins as u64, p.neurons as u64);
+    let pairs = neurons.div_ceil(2);
     let mut promises = vec![
-        estimator("latency", "Latency", (259 + neurons).max(263 + pairs), latency),
-        layer("forward1_cycles", "Forward1", 256, "forward1_en"),
+        estimator("latency", "Latency", bins + (3 + neurons).max(7 + pairs), latency),
+        layer("forward1_cycles", "Forward1", bins, "forward1_en"),
         layer("tansig_cycles", "Tansig", 1, "tansig_en"),
         layer("forward2_cycles", "Forward2", pairs, "forward2_en"),
     ];

@@ -68,11 +68,11 @@ fn script(promise: &Promise, number: u64) -> String {
     let Promise { properties, property, parameter, .. } = promise;
     let module = properties.module;
     let code = promise.code.map_or(String::new(), |code| format!("-chparam Code {code}"));
-    let define =
-        promise.define.as_ref().map_or(String::new(), |[name, value]| format!(" -D{name}={value}"));
+    let define = |[name, value]: &[String; 2]| format!(" -D{name}={value}");
+    let defines: String = promise.defines.iter().map(define).collect();
     let mut lines: Vec<_> = properties.open.iter().map(|open| format!("delete *{open}")).collect();
     lines.extend([
-        format!("read_verilog -sv -formal -DHOLDS={property}{define} {module}.sv"),
+        format!("read_verilog -sv -formal -DHOLDS={property}{defines} {module}.sv"),
         format!("hierarchy -top {module} -chparam {parameter} {number} {code}"),
         "proc; flatten".to_owned(),
     ]);

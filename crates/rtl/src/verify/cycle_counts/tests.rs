@@ -3,7 +3,7 @@
 use std::fs;
 use std::time::Duration;
 
-use tofsim::firmware::forward2::NEURONS;
+use tofsim::firmware::estimator_ctrl::Params;
 
 use super::*;
 
@@ -13,6 +13,8 @@ fn limits() -> Limits<'static> {
 
 /// A place in a file of ours, and what to put there.
 pub type Edit = [&'static str; 3];
+
+const KC705: Params = Params { bins: 256, neurons: 8 };
 
 /// The count of `key` in our Verilog after some edits.
 pub fn with_fault(key: &str, edits: &[Edit]) -> Count {
@@ -24,10 +26,10 @@ pub fn with_fault(key: &str, edits: &[Edit]) -> Count {
         assert!(text.contains(from), "{file} has no `{from}`");
         fs::write(&path, text.replace(from, to)).unwrap();
     }
-    let mut promises = promises::promises(NEURONS);
-    promises.push(promises::centroid());
+    let mut promises = promises::promises(&KC705);
+    promises.push(promises::centroid(&KC705));
     promises.retain(|promise| promise.key() == key);
-    count(&promises, NEURONS, &rtl, &limits(), |_| {}).unwrap().remove(0)
+    count(&promises, &KC705, &rtl, &limits(), |_| {}).unwrap().remove(0)
 }
 
 #[test]
@@ -35,29 +37,45 @@ pub fn with_fault(key: &str, edits: &[Edit]) -> Count {
 fn everything_that_is_promised_is_counted_and_proven() {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
-    let counts = cycle_counts(&rtl, NEURONS, &limits(), |_| {}).unwrap();
+    let counts = cycle_counts(&rtl, &KC705, &limits(), |_| {}).unwrap();
     assert_eq!(counts.len(), 19);
     for count in counts {
         assert!(count.holds(), "{count:?}");
     }
 }
 
-/// What is promised of an estimator with so many neurons, each counted and proven.
-fn proven(neurons: usize) -> Vec<u64> {
+/// What is promised of either estimator with so many bins and neurons, each counted and proven.
+fn proven(bins: usize, neurons: usize) -> Vec<u64> {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
-    let mut promises = promises::promises(neurons);
+    let p = Params { bins, neurons };
+    let mut promises = promises::promises(&p);
     promises.retain(|promise| promise.properties.module == "check_estimator");
-    let counts = count(&promises, neurons, &rtl, &limits(), |_| {}).unwrap();
+    promises.push(promises::centroid(&p));
+    let counts = count(&promises, &p, &rtl, &limits(), |_| {}).unwrap();
     for count in &counts {
-        assert!(count.holds(), "{neurons}: {count:?}");
+        assert!(count.holds(), "{p:?}: {count:?}");
     }
     counts.iter().map(|count| count.expected).collect()
 }
 
 #[test]
 fn sixteen_neurons_take_275_clocks() {
-    assert_eq!(proven(16), [275, 256, 1, 8]);
+    assert_eq!(proven(256, 16), [275, 256, 1, 8, 312]);
+}
+
+#[test]
+fn other_numbers_of_bins_take_a_clock_each() {
+    assert_eq!(proven(64, 4), [73, 64, 1, 2, 120]);
+    assert_eq!(proven(1024, 8), [1035, 1024, 1, 4, 1080]);
+}
+
+#[test]
+#[ignore = "long: ./check --full"]
+fn the_smallest_and_more_sizes_between_are_proven() {
+    assert_eq!(proven(16, 1), [24, 16, 1, 1, 72]);
+    assert_eq!(proven(32, 13), [48, 32, 1, 7, 88]);
+    assert_eq!(proven(512, 16), [531, 512, 1, 8, 568]);
 }
 
 #[test]
@@ -65,7 +83,7 @@ fn sixteen_neurons_take_275_clocks() {
 fn below_eight_neurons_the_pipeline_decides_and_from_there_on_a_clock_a_neuron() {
     for neurons in 1..16 {
         let latency = [264, 264, 265, 265, 266, 266].get(neurons - 1).copied();
-        assert_eq!(proven(neurons)[0], latency.unwrap_or(259 + neurons.max(8) as u64));
+        assert_eq!(proven(256, neurons)[0], latency.unwrap_or(259 + neurons.max(8) as u64));
     }
 }
 
@@ -102,7 +120,7 @@ fn a_design_may_leave_the_centroid_estimator_out() {
     let mut rtl = Rtl::own(folder.path()).unwrap();
     rtl.files.retain(|file| !file.path.ends_with("centroid_estimator.v"));
     assert!(!rtl.has(CENTROID));
-    let measured = simulate::measure(&rtl, NEURONS, folder.path(), &limits()).unwrap();
+    let measured = simulate::measure(&rtl, &KC705, folder.path(), &limits()).unwrap();
     assert_eq!(measured.count("latency", 267), Some(267));
     assert_eq!(measured.count("centroid_latency", 312), None);
 }
@@ -112,7 +130,7 @@ fn a_missing_module_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let mut rtl = Rtl::own(folder.path()).unwrap();
     rtl.files.retain(|file| !file.path.ends_with("spad_control.v"));
-    let error = cycle_counts(&rtl, NEURONS, &limits(), |_| {}).unwrap_err();
+    let error = cycle_counts(&rtl, &KC705, &limits(), |_| {}).unwrap_err();
     assert_eq!(error.to_string(), "rtl_ref: it has no module `spad_control`");
 }
 
@@ -123,7 +141,7 @@ fn what_the_compiler_refuses_comes_with_its_message() {
     let path = folder.path().join("spad_control.v");
     let text = fs::read_to_string(&path).unwrap().replace("spad_rst", "spad_reset");
     fs::write(&path, text).unwrap();
-    let error = cycle_counts(&rtl, NEURONS, &limits(), |_| {}).unwrap_err().to_string();
+    let error = cycle_counts(&rtl, &KC705, &limits(), |_| {}).unwrap_err().to_string();
     assert!(error.contains("bench_shot.v") && error.contains("spad_rst"), "{error}");
 }
 
@@ -136,7 +154,7 @@ fn a_simulation_that_never_ends_is_stopped() {
     fs::write(&path, text.replace("initial begin", "initial begin while (1) spad_sel = 40'd1;"))
         .unwrap();
     let limits = Limits::new(Duration::from_secs(2));
-    let error = cycle_counts(&rtl, NEURONS, &limits, |_| {}).unwrap_err().to_string();
+    let error = cycle_counts(&rtl, &KC705, &limits, |_| {}).unwrap_err().to_string();
     assert_eq!(error, "rtl_ref: bench_shot has not ended after 2 s of simulation");
 }
 
@@ -146,6 +164,6 @@ fn a_proof_that_takes_too_long_is_none() {
     let rtl = Rtl::own(folder.path()).unwrap();
     let limits = Limits::new(Duration::ZERO);
     let unproven =
-        prove::prove(&promises::promises(NEURONS)[0], &rtl, folder.path(), &limits).unwrap();
+        prove::prove(&promises::promises(&KC705)[0], &rtl, folder.path(), &limits).unwrap();
     assert_eq!(unproven.as_deref(), Some("Yosys has no answer after 0 s"));
 }
