@@ -1,7 +1,6 @@
 //! The network in double precision: what the fixed-point datapath approximates.
 
 use super::formats::Fixed;
-use super::histogram::Histogram;
 use super::weights::Weights;
 
 /// A network's weights before rounding.
@@ -14,7 +13,7 @@ impl Float {
     }
 
     /// Depth of a histogram [m].
-    pub fn forward(&self, histogram: &Histogram) -> f64 {
+    pub fn forward(&self, histogram: &[u32]) -> f64 {
         self.pass(histogram, libm::tanh, |_| ())
     }
 }

@@ -49,7 +49,7 @@ pub fn open(path: &Path, p: Params) -> Result<Histograms> {
 }
 
 /// What a count has to be.
-fn count_range(p: &Params) -> String {
+pub fn count_range(p: &Params) -> String {
     format!("expected a whole number from 0 to {}", p.most_hits())
 }
 

@@ -6,6 +6,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::firmware::histogram_builder;
+
 use super::window::Window;
 
 /// Declares one table of the scenario, with the defaults beside the keys.
@@ -65,6 +67,14 @@ table! {
         pub report: Report = Report::default(),
         /// Changes of the control signals during the run, in order of time.
         pub control: Vec<Control> = Vec::new(),
+    }
+}
+
+impl Scenario {
+    /// How large the histogram is.
+    pub fn histogram(&self) -> histogram_builder::Params {
+        let (bins, count_bits) = (self.tdc.bins as usize, self.firmware.count_bits);
+        histogram_builder::Params { bins, count_bits }
     }
 }
 

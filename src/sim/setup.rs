@@ -102,7 +102,7 @@ impl Setup {
         let Loaded { name, scenario, set, files } = loaded;
         let network = network(&scenario, &files)?;
         let pll_params = pll_params(&scenario);
-        let histogram = histogram_size(&scenario);
+        let histogram = scenario.histogram();
         let delays = chain::load(&scenario.tdc.profile, &files)?;
         let scale = time_scale(&scenario.tdc);
         let (code_source, histogram_source, light) = stimulus(&scenario, &files, &histogram)?;
@@ -345,11 +345,6 @@ fn centroid(
         slope: U::new(word(keys.centroid_slope_m, centroid_estimator::SLOPE_FRACTION) as u64),
         offset: S::new(word(keys.centroid_offset_m, 29)),
     }
-}
-
-fn histogram_size(scenario: &Scenario) -> histogram_builder::Params {
-    let (bins, count_bits) = (scenario.tdc.bins as usize, scenario.firmware.count_bits);
-    histogram_builder::Params { bins, count_bits }
 }
 
 fn time_scale(tdc: &scenario::Tdc) -> TimeScale {

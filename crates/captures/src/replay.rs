@@ -153,14 +153,14 @@ fn of_kind(
         let alone = "a preloaded histogram drives the estimator alone, frame after frame without \
             shots: only what the estimator does is the same";
         notes.push(alone.to_owned());
-        let words = histogram::readout(&mut probed, &mut notes)?;
+        let words = histogram::readout(&mut probed, setup.params.histogram.bins, &mut notes)?;
         let words = match words {
             None => from_sums(capture, setup, &mut probed, timebase, &mut notes)?,
             words => words,
         };
         let Some(words) = words else { return Ok(None) };
-        let list = histogram::list(capture, &words)?;
-        return Ok(Some(Replay { kind, list, entries: 256, notes, observed: None }));
+        let (list, entries) = (histogram::list(capture, &words)?, words.len() as u64);
+        return Ok(Some(Replay { kind, list, entries, notes, observed: None }));
     }
     let timebase = timebase?;
     let shots_per_frame = setup.scenario.firmware.shots_per_frame;
@@ -187,7 +187,7 @@ fn from_sums(
 ) -> Result<Option<histogram::Words>> {
     // A clock of one's own tells nothing of the cycles, but asks for nothing where there are no sums.
     let (per_cycle, steady) = timebase.map_or((1, false), |own| (own.per_cycle, own.steady));
-    let words = sums::words(capture, probed, per_cycle, &setup.params.depth_estimator.forward1)?;
+    let words = sums::words(capture, probed, per_cycle, &setup.params)?;
     if words.is_some() {
         if !steady {
             let expected = "expected all samples of clk_sys or clk_laser, to take the sums apart";

@@ -196,7 +196,7 @@ fn input_stages_shift_everything_by_so_many_edges() {
 /// Probes on about `count` signals of a design, a different choice for each `seed`.
 fn some_probes(setup: &Setup, count: usize, seed: usize) -> String {
     let mut entries = tofsim::hierarchy::entries(&setup.params);
-    entries.extend(tofsim::hierarchy::ram_entries());
+    entries.extend(tofsim::hierarchy::ram_entries(&setup.params.histogram));
     entries.retain(|entry| entry.signal.name != "clk_200");
     let preloaded = entries.iter().all(|entry| entry.scope != "tof_top.histogram_builder");
     entries.retain(|entry| !preloaded || !entry.signal.name.starts_with("ram_"));

@@ -30,7 +30,7 @@ fn table(folder: &Path) -> Vec<Sample> {
                 ref other => panic!("{other}"),
             }
         }
-        let histogram = std::array::from_fn(|bin| whole[2 + bin] as u16);
+        let histogram = (0..256).map(|bin| whole[2 + bin] as u32).collect();
         Sample { seed: whole[1], row: whole[0], scene: scene(&real), histogram }
     };
     rows.map(|row| sample(row.unwrap())).collect()
@@ -43,7 +43,8 @@ fn arrays(folder: &Path) -> Vec<Sample> {
     }
     let truth = values::<f64>(&folder.join("truth.npy"));
     let rows = values::<u64>(&folder.join("rows.npy"));
-    let histograms = histogram_file::open(&folder.join("histograms.npy")).unwrap();
+    let histograms =
+        histogram_file::open(&folder.join("histograms.npy"), Default::default()).unwrap();
     let truth = truth.chunks_exact(3).zip(rows.chunks_exact(2));
     let sample = |(histogram, (truth, row)): (tofsim::Result<_>, (&[f64], &[u64]))| Sample {
         seed: row[1],

@@ -25,7 +25,7 @@ fn random_networks_and_histograms_give_the_naive_integers() {
     for (k, naive) in networks.iter().enumerate() {
         let path = directory.path().join(format!("{k}.toml"));
         std::fs::write(&path, naive.toml()).unwrap();
-        let params = Network::load(&path).unwrap().params();
+        let params = Network::load(&path).unwrap().params(&Default::default());
         for (n, histogram) in histograms.iter().enumerate() {
             let (depth, sums) = naive.estimate(histogram);
             let found = estimate(&params, histogram);

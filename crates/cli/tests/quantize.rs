@@ -18,15 +18,15 @@ fn reference() -> Vec<(Histogram, f64)> {
     let rows = tree["histograms"].as_array().unwrap().iter();
     rows.zip(tree["depths_m"].as_array().unwrap())
         .map(|(row, depth)| {
-            let count = |bin: usize| row[bin].as_u64().unwrap() as u16;
-            (std::array::from_fn(count), depth.as_f64().unwrap())
+            let count = |bin: usize| row[bin].as_u64().unwrap() as u32;
+            ((0..256).map(count).collect(), depth.as_f64().unwrap())
         })
         .collect()
 }
 
 #[test]
 fn a_matlab_file_and_json_fold_to_what_matlab_computes() {
-    let (mat, json) = (import::read(Path::new(MAT)), import::read(Path::new(JSON)));
+    let (mat, json) = (import::read(Path::new(MAT), 256), import::read(Path::new(JSON), 256));
     let (mat, json) = (mat.unwrap(), json.unwrap());
     for (histogram, depth_m) in reference() {
         assert!((mat.forward(&histogram) - depth_m).abs() < 1e-12);
@@ -37,18 +37,18 @@ fn a_matlab_file_and_json_fold_to_what_matlab_computes() {
 #[test]
 fn a_folder_of_numpy_arrays_is_the_same_network() {
     let folder = tempfile::tempdir().unwrap();
-    let float = import::read(Path::new(JSON)).unwrap();
+    let float = import::read(Path::new(JSON), 256).unwrap();
     let put = |name: &str, shape: &str, values: &[f64]| {
         let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
         fs::write(folder.path().join(name), common::npy("<f8", shape, &bytes)).unwrap();
     };
-    put("IW.npy", "(8, 256)", float.w1.as_flattened());
+    put("IW.npy", "(8, 256)", &float.w1.concat());
     put("LW.npy", "(1, 8)", &float.w2);
     put("b1.npy", "(8,)", &float.b1);
     put("b2.npy", "(1,)", &[float.b2]);
-    assert_eq!(import::read(folder.path()).unwrap(), float);
+    assert_eq!(import::read(folder.path(), 256).unwrap(), float);
     put("b1.npy", "(7,)", &float.b1[..7]);
-    let error = import::read(folder.path()).unwrap_err().to_string();
+    let error = import::read(folder.path(), 256).unwrap_err().to_string();
     assert!(error.contains("IW: 8 x 256, expected 7 x 256"), "{error}");
 }
 
@@ -63,7 +63,7 @@ fn the_program_writes_a_network_that_runs_and_its_roms() {
     assert_eq!(report["files"].as_array().unwrap().len(), 6);
     let network = Network::load(Path::new(file)).unwrap();
     assert_eq!(network.training.chain, "ideal");
-    assert_eq!(network.float, Some(import::read(Path::new(MAT)).unwrap()));
+    assert_eq!(network.float, Some(import::read(Path::new(MAT), 256).unwrap()));
     let rom = fs::read_to_string(Path::new(roms).join("w1.mem")).unwrap();
     let word = format!("{:04x}", network.fixed.w1[0][9].to_bits() as u16);
     assert!(rom.lines().nth(9).unwrap().ends_with(&word));

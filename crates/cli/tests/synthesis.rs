@@ -89,7 +89,7 @@ fn every_block_synthesises_to_the_primitives_it_should() {
 fn sixteen_neurons_take_eighteen_multipliers() {
     let mut sources = yosys::rtl_ref();
     let network = Network::builtin("uniform-16").unwrap().unwrap();
-    for rom in mem::depth_estimator(&network.params()) {
+    for rom in mem::depth_estimator(&network.params(&Default::default())) {
         sources.insert(rom.name.to_owned(), rom.text);
     }
     let command = "chparam -set Neurons 16 depth_estimator";

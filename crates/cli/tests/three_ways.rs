@@ -21,7 +21,7 @@ use crate::common;
 
 const HISTOGRAMS: usize = 10_000;
 /// Most hits of a histogram.
-const HITS: u16 = u16::MAX;
+const HITS: u32 = u16::MAX as u32;
 
 const BENCH: &str = r#"`timescale 1ps / 1fs
 module bench;
@@ -65,12 +65,12 @@ endmodule
 /// words of any size.
 fn histograms() -> Vec<Histogram> {
     let mut random = ChaCha8Rng::seed_from_u64(7);
-    let one = |bin: usize, count| std::array::from_fn(|k| if k == bin { count } else { 0 });
-    let mut list =
-        vec![[0; 256], [255; 256], std::array::from_fn(|k| if k % 2 == 0 { 511 } else { 0 })];
+    let of = |word: &dyn Fn(usize) -> u32| (0..256).map(word).collect::<Histogram>();
+    let one = |bin: usize, count| of(&|k| if k == bin { count } else { 0 });
+    let mut list = vec![vec![0; 256], vec![255; 256], of(&|k| if k % 2 == 0 { 511 } else { 0 })];
     list.extend((0..256).flat_map(|bin| [one(bin, HITS), one(bin, 1)]));
     while list.len() < HISTOGRAMS {
-        let mut histogram = [0; 256];
+        let mut histogram = vec![0; 256];
         let mut left = random.random_range(0..=HITS);
         if list.len() % 2 == 0 {
             let (centre, sigma) =
@@ -162,7 +162,7 @@ fn agree(network: &str, edges: u64) {
     let histograms = histograms();
     assert_eq!(histograms.len(), HISTOGRAMS);
     let folder = common::empty();
-    let params = Network::builtin(network).unwrap().unwrap().params();
+    let params = Network::builtin(network).unwrap().unwrap().params(&Default::default());
     let stepped = stepped(&params, &histograms);
     assert!(stepped.iter().all(|(_, taken)| *taken == edges));
     assert!(stepped == simulated(folder.path(), &params, &histograms), "the Verilog differs");

@@ -2,7 +2,6 @@
 //! test grid.
 
 use tofsim::error::Result;
-use tofsim::network::Histogram;
 use tofsim::scenario;
 use tofsim::sim::Run;
 use tofsim::sim::frames::Frame;
@@ -23,7 +22,7 @@ impl Estimator for CentreOfGravity {
         "gravity"
     }
 
-    fn estimate(&self, histogram: &Histogram) -> std::result::Result<f64, Failure> {
+    fn estimate(&self, histogram: &[u32]) -> std::result::Result<f64, Failure> {
         let hits: f64 = histogram.iter().copied().map(f64::from).sum();
         if hits == 0.0 {
             return Err(Failure::NoHits);

@@ -48,7 +48,10 @@ fn grid(
         scenario.target.reflectance = 0.08 + 0.52 * (cell % 20) as f64 / 19.0;
         let budget = Budget::new(&scenario);
         let probabilities = BinProbabilities::new(&Hazard::new(&budget), bins);
-        let draw = |_| probabilities.draw(SHOTS, &mut random).map(|count| count as u16);
+        let draw = |_| -> Histogram {
+            let drawn = probabilities.draw(SHOTS, &mut random);
+            drawn.into_iter().map(|count| count as u32).collect()
+        };
         take(&budget, &mut (0..repeats).map(draw));
     }
 }

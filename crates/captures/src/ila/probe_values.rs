@@ -172,7 +172,7 @@ mod tests {
         let order = setup.params.tdc.delays.order();
         let mut bits: Vec<Bits> = entries(&setup.params)
             .into_iter()
-            .chain(ram_entries().into_iter().take(40))
+            .chain(ram_entries(&setup.params.histogram).into_iter().take(40))
             .map(|entry| Bits { id: entry.id, low: 0, width: entry.signal.width, signed: false })
             .collect();
         let slices = bits.iter().filter(|bits| bits.width > 4).copied();

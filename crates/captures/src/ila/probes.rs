@@ -37,7 +37,7 @@ impl Design {
     pub fn new(params: &Params) -> Self {
         let entries = hierarchy::entries(params);
         let has_ram = entries.iter().any(|entry| entry.scope.ends_with(".histogram_builder"));
-        let ram = hierarchy::ram_entries();
+        let ram = hierarchy::ram_entries(&params.histogram);
         let here = entries.into_iter().chain(ram.iter().filter(|_| has_ram).cloned());
         let signals: BTreeMap<_, _> =
             here.map(|entry| (below(&entry.path()), (entry.id, entry.signal))).collect();

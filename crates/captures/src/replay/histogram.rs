@@ -8,27 +8,29 @@ use tofsim::hierarchy::TOP;
 use crate::compare::Probed;
 use crate::source::Source;
 
-/// Words of a histogram.
-const BINS: usize = 256;
 /// Words that an error lists.
 const LISTED: usize = 4;
 
 /// The words of a histogram, as far as they are known.
-pub(super) type Words = [Option<u64>; BINS];
+pub(super) type Words = Vec<Option<u64>>;
 
-/// The words that the estimator reads, the first of each if they differ; `None` if its readout is not
+/// The words of so many bins that the estimator reads, the first of each if they differ; `None` if its readout is not
 /// probed.
 ///
 /// # Errors
 /// When the capture cannot be read.
-pub(super) fn readout(probed: &mut Probed, notes: &mut Vec<String>) -> Result<Option<Words>> {
+pub(super) fn readout(
+    probed: &mut Probed,
+    bins: usize,
+    notes: &mut Vec<String>,
+) -> Result<Option<Words>> {
     let port = |name: &str| probed.probe(&format!("{TOP}.{name}"));
     let (Some(valid), Some(bin), Some(count)) =
         (port("hist_valid"), port("hist_bin"), port("hist_count"))
     else {
         return Ok(None);
     };
-    let mut words = [None; BINS];
+    let mut words = vec![None; bins];
     let mut others = false;
     while probed.next()?.is_some() {
         if probed.value(valid) != Some(1) {
@@ -52,13 +54,14 @@ pub(super) fn readout(probed: &mut Probed, notes: &mut Vec<String>) -> Result<Op
 /// When a word is not known.
 pub(super) fn list(capture: &Source, words: &Words) -> Result<String> {
     let missing: Vec<String> =
-        (0..BINS).filter(|&bin| words[bin].is_none()).map(|bin| bin.to_string()).collect();
+        (0..words.len()).filter(|&bin| words[bin].is_none()).map(|bin| bin.to_string()).collect();
     if !missing.is_empty() {
         let list = missing[..missing.len().min(LISTED)].join(", ");
         let expected = format!(
-            "{} of {BINS} words of the histogram are never read in it ({list}, ...); let it begin \
+            "{} of {} words of the histogram are never read in it ({list}, ...); let it begin \
              before the estimator does",
-            missing.len()
+            missing.len(),
+            words.len()
         );
         return Err(Input::new(&capture.name, expected).into());
     }

@@ -1,18 +1,15 @@
 //! The histogram from the sums of the hidden layer: each clock adds a word times a weight.
 
 use tofsim::error::{Input, Result};
-use tofsim::firmware::forward1::{Rom, bias};
+use tofsim::firmware::forward1::sum_bits;
+use tofsim::firmware::forward2::MOST_NEURONS;
+use tofsim::firmware::tof_top::Params;
 use tofsim::hierarchy::TOP;
 
 use crate::compare::Probed;
 use crate::source::Source;
 
 use super::histogram::Words;
-
-/// Width of a sum [bits].
-const SUM: u32 = 36;
-/// Largest word.
-const LARGEST: i64 = 0xffff;
 
 /// The first histogram that all words were added of, by a network's weights; `None` if the sums are not
 /// probed.
@@ -23,23 +20,25 @@ pub(super) fn words(
     capture: &Source,
     probed: &mut Probed,
     per_cycle: u64,
-    rom: &Rom,
+    params: &Params,
 ) -> Result<Option<Words>> {
+    let rom = &params.depth_estimator.forward1;
+    let (width, largest) = (sum_bits(&params.histogram), params.histogram.most_hits());
     let port = |name: &str| probed.probe(&format!("{TOP}.depth_estimator.{name}"));
     let enable = port("estimator_ctrl.forward1_en");
-    let neurons: Vec<(usize, usize)> = (0..rom[0].len())
+    let neurons: Vec<(usize, usize)> = (0..MOST_NEURONS)
         .filter_map(|neuron| Some((neuron, port(&format!("forward1.l1_in_{neuron}"))?)))
         .collect();
     let (Some(enable), false) = (enable, neurons.is_empty()) else { return Ok(None) };
-    let mut words: Words = [None; 256];
+    let mut words: Words = vec![None; rom.w1.len()];
     // The samples since the unit was enabled, and the sums at the cycle before.
-    let biases = || neurons.iter().map(|&(neuron, _)| bias(rom, neuron).bits()).collect();
+    let biases = || neurons.iter().map(|&(neuron, _)| rom.bias(neuron).bits()).collect();
     let (mut samples, mut sums): (_, Vec<u64>) = (None, biases());
     let mut before = true;
     while let Some(sample) = probed.next()? {
         let enabled = probed.value(enable) == Some(1);
         if enabled && !before {
-            (samples, words) = (Some(0), [None; 256]);
+            (samples, words) = (Some(0), vec![None; rom.w1.len()]);
             sums = biases();
         }
         before = enabled;
@@ -52,11 +51,13 @@ pub(super) fn words(
         }
         let now: Option<Vec<u64>> = neurons.iter().map(|&(_, probe)| probed.value(probe)).collect();
         let added = now.as_ref().map(|now| {
-            let added = now.iter().zip(&sums).map(|(now, sum)| signed(now.wrapping_sub(*sum)));
+            let added =
+                now.iter().zip(&sums).map(|(now, sum)| signed(now.wrapping_sub(*sum), width));
             added.collect::<Vec<_>>()
         });
-        let weights = neurons.iter().map(|&(neuron, _)| rom[row as usize][neuron].get());
-        let Some(count) = added.and_then(|added| word(added.into_iter().zip(weights))) else {
+        let weights = neurons.iter().map(|&(neuron, _)| rom.w1[row as usize][neuron].get());
+        let Some(count) = added.and_then(|added| word(added.into_iter().zip(weights), largest))
+        else {
             let expected = format!(
                 "the sums at sample {} are not of the scenario's network; set estimator.network",
                 sample.index
@@ -69,16 +70,16 @@ pub(super) fn words(
     Ok(Some(words))
 }
 
-/// A difference of two sums in two's complement.
-fn signed(difference: u64) -> i64 {
-    ((difference << (64 - SUM)) as i64) >> (64 - SUM)
+/// A difference of two sums of so many bits in two's complement.
+fn signed(difference: u64, width: u32) -> i64 {
+    ((difference << (64 - width)) as i64) >> (64 - width)
 }
 
-/// The word of which the products with some weights were added; 0 where all of them are.
-fn word(added: impl Iterator<Item = (i64, i64)> + Clone) -> Option<u64> {
+/// The word, of up to `largest`, of which the products with some weights were added; 0 where all of them are.
+fn word(added: impl Iterator<Item = (i64, i64)> + Clone, largest: u64) -> Option<u64> {
     let first = added.clone().find(|&(_, weight)| weight != 0);
     let count = first.map_or(0, |(added, weight)| added / weight);
-    let fits = (0..=LARGEST).contains(&count);
+    let fits = (0..=largest as i64).contains(&count);
     (fits && added.into_iter().all(|(added, weight)| added == count * weight))
         .then_some(count as u64)
 }
@@ -89,10 +90,10 @@ mod tests {
 
     #[test]
     fn a_word_is_what_all_products_say() {
-        assert_eq!(word([(0, 0), (-21, -3), (14, 2)].into_iter()), Some(7));
-        assert_eq!(word([(-21, -3), (15, 2)].into_iter()), None);
-        assert_eq!(word([(-21, 3)].into_iter()), None);
-        assert_eq!(word([(0, 0)].into_iter()), Some(0));
-        assert_eq!(signed((1 << 36) - 5), -5);
+        assert_eq!(word([(0, 0), (-21, -3), (14, 2)].into_iter(), 65_535), Some(7));
+        assert_eq!(word([(-21, -3), (15, 2)].into_iter(), 65_535), None);
+        assert_eq!(word([(-21, 3)].into_iter(), 65_535), None);
+        assert_eq!(word([(0, 0)].into_iter(), 65_535), Some(0));
+        assert_eq!(signed((1 << 36) - 5, 36), -5);
     }
 }

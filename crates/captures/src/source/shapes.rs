@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
+use tofsim::firmware::histogram_builder::{MOST_BINS, Params};
 use tofsim::hierarchy;
 use tofsim::kernel::signals::SignalFormat as Shape;
 
@@ -13,7 +14,8 @@ const SHARED: usize = 2;
 
 /// The firmware's signals and their shapes, in the order of data flow.
 static SHAPES: LazyLock<Vec<(Name, Shape)>> = LazyLock::new(|| {
-    let entries = hierarchy::every_entry().into_iter().chain(hierarchy::ram_entries());
+    let most = Params { bins: MOST_BINS, ..Params::default() };
+    let entries = hierarchy::every_entry().into_iter().chain(hierarchy::ram_entries(&most));
     entries.map(|entry| (Name::new(entry.path()), entry.signal.format)).collect()
 });
 

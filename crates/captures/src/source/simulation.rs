@@ -33,7 +33,7 @@ struct Origin {
 pub(super) fn source(setup: Setup, frames: Option<u64>) -> Source {
     let mut entries = hierarchy::entries(&setup.params);
     if entries.iter().any(|entry| entry.scope == "tof_top.histogram_builder") {
-        entries.extend(hierarchy::ram_entries());
+        entries.extend(hierarchy::ram_entries(&setup.params.histogram));
     }
     let signals = entries.iter().map(|entry| Signal {
         name: Name::new(entry.path()),

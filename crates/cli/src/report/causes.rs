@@ -2,7 +2,6 @@
 
 use plotters::style::RGBColor;
 
-use tofsim::firmware::histogram_builder::BINS;
 use tofsim::optics::hazard::Cause;
 use tofsim::sim::shot_recorder::Shot;
 
@@ -15,7 +14,7 @@ pub const CAUSES: [(Option<Cause>, &str, RGBColor); 4] = [
 ];
 
 /// Counts of each bin for each of [`CAUSES`] [hits].
-pub type Causes = [[u32; BINS]; CAUSES.len()];
+pub type Causes = [Vec<u32>; CAUSES.len()];
 
 /// Counts a shot, if it has a code.
 pub fn count(causes: &mut Causes, shot: &Shot) {

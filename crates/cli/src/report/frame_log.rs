@@ -168,7 +168,7 @@ struct FrameSummary<'a> {
     hits: u64,
     /// Hits that the TDC kept, with a code or without.
     tdc_hits: u64,
-    histogram: &'a [u16],
+    histogram: &'a [u32],
     /// From the edge that takes `algo_start` to the one that raises `algo_done` [cycles].
     estimator_cycles: u64,
     /// From the edge that begins Clear to the one that raises `algo_done` [cycles].

@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use plotters::prelude::*;
 
-use tofsim::firmware::histogram_builder::BINS;
 use tofsim::scenario::Tdc;
 
 use crate::text::svg::{chart, legend, picture};
@@ -24,14 +23,16 @@ pub fn svg(
     depth_m: Option<f64>,
 ) -> Result<String, String> {
     let (first_ns, bin_ns) = (tdc.first_bin_ps * 1e-3, tdc.bin_ps * 1e-3);
-    let end_ns = first_ns + bin_ns * BINS as f64;
+    let end_ns = first_ns + bin_ns * tdc.bins as f64;
+    let bins = tdc.bins as usize;
     // Height of the first `layers` causes together, in each bin.
-    let stack = |layers: usize| -> [u32; BINS] {
-        std::array::from_fn(|bin| causes[..layers].iter().map(|counts| counts[bin]).sum())
+    let stack = |layers: usize| -> Vec<u32> {
+        let height = |bin: usize| causes[..layers].iter().map(|counts| counts[bin]).sum();
+        (0..bins).map(height).collect()
     };
     picture(|canvas| {
         let top = stack(CAUSES.len());
-        let peak = (0..BINS).max_by_key(|&bin| (top[bin], BINS - bin)).unwrap_or(0);
+        let peak = (0..bins).max_by_key(|&bin| (top[bin], bins - bin)).unwrap_or(0);
         let highest = top[peak] + top[peak] / 8 + 1;
         let depth: Range<f64> = first_ns * M_PER_NS..end_ns * M_PER_NS;
         let mut chart = chart(canvas, title)
@@ -55,7 +56,7 @@ pub fn svg(
             }
             let (below, above) = (stack(layer), stack(layer + 1));
             let style = colour.filled();
-            let bars = (0..BINS).filter(|&bin| above[bin] > below[bin]).map(|bin| {
+            let bars = (0..bins).filter(|&bin| above[bin] > below[bin]).map(|bin| {
                 let left = first_ns + bin as f64 * bin_ns;
                 let corners = [(left, below[bin]), (left + bin_ns, above[bin])];
                 Rectangle::new(corners, style)

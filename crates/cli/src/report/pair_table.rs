@@ -1,6 +1,5 @@
 //! Pairs of a dark and a lit frame as a table and as CSV.
 
-use tofsim::firmware::histogram_builder::BINS;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::{CYCLE, Setup};
 use tofsim_learn::estimation::subtraction::NAME;
@@ -83,15 +82,15 @@ pub fn lines(statistics: &PairStatistics) -> String {
     text
 }
 
-fn difference(dark: &Frame, lit: &Frame) -> [i32; BINS] {
-    HistogramPair { dark: dark.histogram, lit: lit.histogram }.difference()
+fn difference(dark: &Frame, lit: &Frame) -> Vec<i32> {
+    HistogramPair { dark: dark.histogram.clone(), lit: lit.histogram.clone() }.difference()
 }
 
-fn range(difference: &[i32; BINS]) -> (i32, i32) {
+fn range(difference: &[i32]) -> (i32, i32) {
     difference.iter().fold((0, 0), |(least, most), &hits| (least.min(hits), most.max(hits)))
 }
 
-/// A pair as CSV: `bin,dark,lit,difference`, 256 rows.
+/// A pair as CSV: `bin,dark,lit,difference`, a row for each bin.
 pub fn csv(dark: &Frame, lit: &Frame) -> String {
     let mut text = "bin,dark,lit,difference\n".to_owned();
     for (bin, hits) in difference(dark, lit).into_iter().enumerate() {

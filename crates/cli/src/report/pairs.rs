@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use tofsim::firmware::histogram_builder::BINS;
 use tofsim::network::Histogram;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
@@ -75,14 +74,14 @@ impl PairLog {
         let mut paired =
             PlaceInPair { pair: self.count, laser_en: frame.laser_en, difference: None };
         if !frame.laser_en {
-            self.dark = Some(frame.histogram);
+            self.dark = Some(frame.histogram.clone());
             return (Some(paired), Vec::new());
         }
         let Some(dark) = self.dark.take() else { return (Some(paired), Vec::new()) };
-        let pair = HistogramPair { dark, lit: frame.histogram };
+        let pair = HistogramPair { dark, lit: frame.histogram.clone() };
         let difference = pair.difference();
         let right_of_echo = self.right.map(|bin| mean(&difference[bin..]));
-        paired.difference = Some(Difference { difference: difference.to_vec(), right_of_echo });
+        paired.difference = Some(Difference { difference, right_of_echo });
         let readings = panel.read_pair(&pair);
         self.count += 1;
         right_of_echo.into_iter().for_each(|hits| self.rights.add(hits));
@@ -112,7 +111,7 @@ pub(super) fn right_of_echo(setup: &Setup) -> Option<usize> {
     let echo_ps = budget.mean_arrival.fs() as f64 * 1e-3 + REACH * budget.pulse_sigma_ps;
     let tdc = &setup.scenario.tdc;
     let bin = ((echo_ps - tdc.first_bin_ps) / tdc.bin_ps).ceil().max(0.0) as usize;
-    (bin < BINS).then_some(bin)
+    (bin < setup.params.histogram.bins).then_some(bin)
 }
 
 /// Mean of counts, signed [hits].
@@ -147,8 +146,8 @@ mod tests {
             assert_eq!((paired.difference.is_some(), readings.len()), (lit, 2 * lit as usize));
             if let Some(Difference { difference, .. }) = paired.difference {
                 let dark = histograms.frame(index - 1).histogram;
-                let summed = (0..BINS).map(|bin| difference[bin] + i32::from(dark[bin]));
-                assert!(summed.eq(frame.histogram.map(i32::from)));
+                let summed = difference.iter().zip(&dark).map(|(&more, &dark)| more + dark as i32);
+                assert!(summed.eq(frame.histogram.iter().map(|&count| count as i32)));
             }
         }
         assert_eq!(pairs.statistics().count, 3);

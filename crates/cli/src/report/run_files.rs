@@ -7,7 +7,6 @@ use serde_json::Value;
 
 use tofsim::error::{Input, Result};
 use tofsim::files::output::{write_bytes, write_file};
-use tofsim::firmware::histogram_builder::BINS;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 
@@ -62,7 +61,7 @@ impl<'a> RunFiles<'a> {
         let create = |path| Events::create(path, setup.has_pairs(), &record.line());
         let events = events.map(create).transpose()?;
         let (shown, wants_tdc) = (setup.frames_together() - 1, setup.scenario.report.tdc);
-        let causes = [[0; BINS]; CAUSES.len()];
+        let causes = std::array::from_fn(|_| vec![0; setup.params.histogram.bins]);
         let record = record.clone();
         Ok(RunFiles { folder, record, events, causes, shown, tdc: Vec::new(), wants_tdc })
     }
@@ -120,8 +119,8 @@ impl<'a> RunFiles<'a> {
         let older = older_files(folder, &names);
         let mut summary = summary.clone();
         summary.list(names);
-        if self.causes.as_flattened().iter().all(|&count| count == 0) {
-            self.causes[CAUSES.len() - 1] = frame.histogram.map(u32::from);
+        if self.causes.iter().flatten().all(|&count| count == 0) {
+            self.causes[CAUSES.len() - 1] = frame.histogram.clone();
         }
         let title = format!("{}, seed {}, {} shots", setup.name, setup.scenario.seed, frame.shots);
         let depth_m = match &log.pairs {
@@ -166,8 +165,8 @@ fn older_files(folder: &Path, names: &[String]) -> Vec<PathBuf> {
     older.map(|name| folder.join(name)).filter(|path| path.exists()).collect()
 }
 
-/// A histogram as CSV: `bin,count`, 256 rows.
-fn histogram_csv(histogram: &[u16; BINS]) -> String {
+/// A histogram as CSV: `bin,count`, a row for each bin.
+fn histogram_csv(histogram: &[u32]) -> String {
     let rows = histogram.iter().enumerate().map(|(bin, count)| format!("{bin},{count}\n"));
     "bin,count\n".to_owned() + &rows.collect::<String>()
 }

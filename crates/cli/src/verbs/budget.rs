@@ -28,7 +28,7 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
-    let setup = Setup::new(scenario::load(&args.scenario, &args.set)?)?;
+    let setup = Setup::of_counts(scenario::load(&args.scenario, &args.set)?)?;
     let findings = Findings::of(setup);
     let notes = findings.notes();
     match args.json {

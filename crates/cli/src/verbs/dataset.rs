@@ -63,7 +63,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     talk.heed(&notes)?;
     let (source, loaded) = (&scenes.source, &scenes.loaded[0]);
     let seed = loaded.scenario.seed;
-    let setup = Setup::new(loaded.clone())?;
+    let setup = Setup::of_counts(loaded.clone())?;
     let grid = Grid { repeats: args.repeats, ..scenes.grid };
     let rows = args.draws.rows(None, &grid, seed)?;
     let description = DatasetDescription::new(&setup, &talk.command, source, &rows, seed);

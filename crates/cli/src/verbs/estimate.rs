@@ -78,15 +78,17 @@ struct Numbers {
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let network = Network::find(&args.network, None)?;
-    let params = network.params();
     let setup = args.setup()?;
+    setup.check_network()?;
+    let size = setup.params.histogram;
+    let params = network.params(&size);
     let notes = args.notes(&setup)?;
     talk.heed(&notes)?;
     let panel = Panel::new(&args.estimator, &setup)?;
     let names: Vec<String> = args.files.iter().map(|file| file.display().to_string()).collect();
     let mut rows = Vec::new();
     for (path, file) in args.files.iter().zip(&names) {
-        for histogram in histograms(path)? {
+        for histogram in histograms(path, size)? {
             let histogram = histogram?;
             let numbers = Numbers::of(&estimate(&params, &histogram), params.neurons());
             let explanation = args.explain.then(|| explain(&network, &histogram));

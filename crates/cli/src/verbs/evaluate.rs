@@ -152,7 +152,7 @@ impl Args {
         for distance_m in scenes.grid.distances_m.range() {
             let mut loaded = scenes.loaded[middle].clone();
             loaded.scenario.target.distance_m = distance_m;
-            let setup = Setup::new(loaded)?;
+            let setup = Setup::of_counts(loaded)?;
             let of_scene = self.estimator.iter().flat_map(|kind| kind.notes_of_scene(&setup));
             notes.extend(of_scene.filter(|note| note.key == "target.distance_m"));
         }
@@ -169,6 +169,9 @@ impl Args {
     /// The estimators for the histograms of each setting.
     fn estimators(&self, scenes: &Scenes, network: &Network) -> Result<Vec<Estimators>> {
         let of_setting = |(k, setup): (usize, &Setup)| {
+            if self.measures_a_network() {
+                setup.check_network()?;
+            }
             let centroid = &setup.params.centroid_estimator;
             let needs =
                 EstimatorInputs { acquisition: scenes.source.acquisition(k), network, centroid };
@@ -199,7 +202,7 @@ impl Args {
     }
 }
 
-fn text(figures: &[Figures], shots: Option<u16>, checks: &[CrossCheck]) -> String {
+fn text(figures: &[Figures], shots: Option<u32>, checks: &[CrossCheck]) -> String {
     let mut text = String::new();
     if figures.iter().any(|one| one.name == subtraction::NAME) {
         let shots = shots.map_or("half the".to_owned(), |shots| (shots / 2).to_string());

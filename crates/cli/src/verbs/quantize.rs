@@ -6,6 +6,7 @@ use serde_json::json;
 
 use tofsim::error::{Error, Result};
 use tofsim::files::output::{create_directory, write_bytes};
+use tofsim::firmware::histogram_builder::Params;
 use tofsim::network::file::Training;
 use tofsim::network::formats::Overflow;
 use tofsim::network::{Network, mem};
@@ -91,7 +92,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
 
 fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
     let from = path.display().to_string();
-    let float = import::read(path)?;
+    let size = scenario::load(&args.scenario, &args.draws.set)?.scenario.histogram();
+    let float = import::read(path, size.bins)?;
     let overflow = if args.saturate { Overflow::Saturate } else { Overflow::Refuse };
     let rounded = float.round(&from, overflow)?;
     if rounded.saturated > 0 {
@@ -149,7 +151,8 @@ impl Args {
         let network = Network::find(network, None)?;
         let notes = domain::notes(&network, &loaded.scenario, &Grid::test().ranges())?;
         talk.heed(&notes)?;
-        let setup = Setup::new(loaded)?;
+        let setup = Setup::of_counts(loaded)?;
+        setup.check_network()?;
         let source = HistogramSource::new(&setup)?;
         let rows = self.draws.rows(Some(EXPLORED), &Grid::test(), seed)?;
         let (stop, data) = (stop_signal(), (&source, &rows, seed));
@@ -184,7 +187,8 @@ impl Args {
         }
         if let Some(folder) = &self.roms {
             create_directory(folder)?;
-            for rom in mem::depth_estimator(&network.params()) {
+            let size = Params { bins: network.fixed.bins(), ..Params::default() };
+            for rom in mem::depth_estimator(&network.params(&size)) {
                 put(folder.join(rom.name), &rom.text)?;
             }
         }

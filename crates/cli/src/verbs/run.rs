@@ -248,7 +248,8 @@ impl WavePlan {
             WaveFormat::Fst => "fst",
         };
         let entries = hierarchy::entries(&setup.params);
-        let entries = waves::select(entries, hierarchy::ram_entries(), &args.signals)?;
+        let entries =
+            waves::select(entries, hierarchy::ram_entries(&setup.params.histogram), &args.signals)?;
         let windows = setup.windows(&args.window, frames)?;
         let folder = args.output.as_deref().unwrap_or(Path::new("waves"));
         let path = folder.join(format!("{}.{ending}", setup.name));

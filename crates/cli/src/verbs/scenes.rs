@@ -45,7 +45,7 @@ impl Scenes {
             true => vec![base],
             false => (0..grid.settings() as usize).map(of_setting).collect::<Result<_>>()?,
         };
-        let setups = loaded.iter().cloned().map(Setup::new).collect::<Result<Vec<_>>>()?;
+        let setups = loaded.iter().cloned().map(Setup::of_counts).collect::<Result<Vec<_>>>()?;
         let source = HistogramSource::of_settings(&setups)?;
         Ok(Scenes { option, grid, loaded, setups, source })
     }
@@ -69,7 +69,7 @@ impl Scenes {
             let mut loaded = loaded.clone();
             loaded.scenario.target.distance_m = self.grid.distances_m.range()[1];
             loaded.scenario.target.reflectance = self.grid.reflectances.range()[0];
-            let setup = Setup::new(loaded)?;
+            let setup = Setup::of_counts(loaded)?;
             if setup.true_depth_m().is_some() {
                 continue;
             }

@@ -109,14 +109,15 @@ impl Naive {
 
 /// Hand-made extremes, then random histograms of at most 65,535 hits.
 pub fn histograms(random: &mut Random) -> Vec<Histogram> {
-    let one = |bin: usize, count| std::array::from_fn(|k| if k == bin { count } else { 0 });
-    let alternating = |odd| std::array::from_fn(|k| if k % 2 == odd { 500 } else { 0 });
-    let mut list = vec![[0; 256], one(0, 30_000), one(255, 30_000), one(100, 65_535)];
-    list.extend([alternating(0), alternating(1), [255; 256], one(128, 1)]);
+    let of = |word: &dyn Fn(usize) -> u32| (0..256).map(word).collect::<Histogram>();
+    let one = |bin: usize, count| of(&|k| if k == bin { count } else { 0 });
+    let alternating = |odd| of(&|k| if k % 2 == odd { 500 } else { 0 });
+    let mut list = vec![vec![0; 256], one(0, 30_000), one(255, 30_000), one(100, 65_535)];
+    list.extend([alternating(0), alternating(1), vec![255; 256], one(128, 1)]);
     for _ in 0..24 {
         let hits = random.below(65_536);
         let (first, span) = (random.below(200), 1 + random.below(56));
-        let mut histogram = [0; 256];
+        let mut histogram = vec![0; 256];
         for _ in 0..hits {
             histogram[(first + random.below(span)) as usize] += 1;
         }

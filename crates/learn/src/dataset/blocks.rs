@@ -16,7 +16,7 @@ pub const BLOCK: u64 = 2048;
 pub(super) const RUN: u64 = 64;
 
 /// A drawn row.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Sample {
     /// Seed of the row's random numbers.
     pub seed: u64,

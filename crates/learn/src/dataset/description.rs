@@ -42,12 +42,17 @@ pub struct DatasetDescription {
     /// Seed of every random stream.
     pub seed: u64,
     /// Shots of a histogram; none where the grid has several numbers of them.
-    pub shots_per_frame: Option<u16>,
+    pub shots_per_frame: Option<u32>,
     /// All keys of the scenario; those of the grid are not used.
     pub settings: Scenario,
 }
 
 impl DatasetDescription {
+    /// Bytes of a count in a file.
+    pub(super) fn count_bytes(&self) -> usize {
+        if self.settings.firmware.count_bits > 16 { 4 } else { 2 }
+    }
+
     /// Of the rows that a source, made of `setup`, draws with a seed for a command.
     pub fn new(
         setup: &Setup,

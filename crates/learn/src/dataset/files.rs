@@ -47,8 +47,9 @@ impl DatasetFiles {
         let text = text.map_err(|error| json.fault(error))?;
         writeln!(json, "{text}").map_err(|error| json.fault(error))?;
         let wants = |format| formats.contains(&format);
-        let parquet = || parquet_file::create(&folder.join(parquet_file::NAME), &text, grid);
-        let npy = || npy::create(folder, description.rows, grid);
+        let parquet =
+            || parquet_file::create(&folder.join(parquet_file::NAME), (description, &text), grid);
+        let npy = || npy::create(folder, description, grid);
         Ok(DatasetFiles {
             json,
             parquet: wants(DatasetFormat::Parquet).then(parquet).transpose()?,
@@ -65,7 +66,7 @@ impl DatasetFiles {
 
     /// Puts the files in place and returns their paths.
     pub fn finish(self) -> Result<Vec<PathBuf>> {
-        let mut files = self.npy;
+        let mut files = self.npy.files;
         files.extend(self.parquet.map(ParquetTable::finish).transpose()?);
         files.push(self.json);
         let paths = files.iter().map(|file| file.target().to_owned()).collect();

@@ -7,8 +7,8 @@ use std::io::Read;
 use std::path::Path;
 
 use tofsim::error::{Error, Input, Result, read_text};
-use tofsim::firmware::histogram_builder::BINS;
-use tofsim::network::{Histogram, MAX_HITS, histogram_file};
+use tofsim::firmware::histogram_builder::Params;
+use tofsim::network::{Histogram, histogram_file};
 use tofsim::scenario::Scenario;
 
 use super::files::DESCRIPTION;
@@ -16,8 +16,6 @@ use super::grid::Scene;
 use super::npy::numbers;
 use super::parquet_columns::{MAGIC, ParquetColumns};
 
-/// What a count has to be.
-const COUNT: &str = "expected a whole number from 0 to 65535";
 /// Table, histograms and truth in the folder of a dataset.
 const FILES: [&str; 3] = ["dataset.parquet", "histograms.npy", "truth.npy"];
 /// Columns of the truth, the first one necessary.
@@ -40,31 +38,31 @@ pub struct Labelled {
     pub shots: Option<u64>,
 }
 
-/// The histograms of a file: CSV, `.npy` or Parquet, told apart by content.
+/// The histograms of a file, which are as large as a scenario says: CSV, `.npy` or Parquet, told apart by content.
 ///
 /// # Errors
 /// When the file cannot be read, or a count is none.
-pub fn histograms(path: &Path) -> Result<histogram_file::Histograms> {
+pub fn histograms(path: &Path, size: Params) -> Result<histogram_file::Histograms> {
     if !is_parquet(path)? {
-        return histogram_file::open(path);
+        return histogram_file::open(path, size);
     }
-    let all = ParquetColumns::with(path, |columns| counts(path, columns))?;
+    let all = ParquetColumns::with(path, |columns| counts(path, columns, &size))?;
     Ok(Box::new(all.into_iter().map(Ok)))
 }
 
 impl Labelled {
-    /// Of a Parquet file with columns `b0` to `b255` and `distance_m`, of the folder of a dataset, or of an
+    /// Of a Parquet file with a column for each bin, `b0` and so on, and `distance_m`, of the folder of a dataset, or of an
     /// `.npy` file with the true distances in another.
     ///
     /// # Errors
     /// When a file cannot be read, a column is missing or a number makes no sense, or there are not as
     /// many distances as histograms.
-    pub fn read(path: &Path, truth: Option<&Path>) -> Result<Self> {
+    pub fn read(path: &Path, truth: Option<&Path>, size: &Params) -> Result<Self> {
         let [table, arrays, own_truth] = FILES.map(|name| path.join(name));
         if path.is_dir() {
             let labelled = match (table.exists(), arrays.exists(), truth) {
-                (true, _, None) => parquet(&table)?,
-                (_, true, _) => of_arrays(&arrays, truth.unwrap_or(&own_truth))?,
+                (true, _, None) => parquet(&table, size)?,
+                (_, true, _) => of_arrays(&arrays, truth.unwrap_or(&own_truth), size)?,
                 _ => {
                     let expected =
                         format!("expected {}, or {} and {} in it", FILES[0], FILES[1], FILES[2]);
@@ -78,8 +76,8 @@ impl Labelled {
             };
         }
         match (is_parquet(path)?, truth) {
-            (true, None) => parquet(path),
-            (false, Some(truth)) => of_arrays(path, truth),
+            (true, None) => parquet(path, size),
+            (false, Some(truth)) => of_arrays(path, truth, size),
             (true, Some(_)) => {
                 let expected = "expected none: a Parquet file has its column distance_m";
                 Err(Input::new("--truth", expected).into())
@@ -147,18 +145,19 @@ fn is_parquet(path: &Path) -> Result<bool> {
 }
 
 /// The counts of a table.
-fn counts(path: &Path, columns: &ParquetColumns) -> Result<Vec<Histogram>> {
+fn counts(path: &Path, columns: &ParquetColumns, size: &Params) -> Result<Vec<Histogram>> {
     let mut histograms: Vec<Histogram> = Vec::new();
-    for bin in 0..BINS {
+    for bin in 0..size.bins {
         let name = format!("b{bin}");
         let rows = columns.each(&name, |row, value| {
-            let count = value as u16;
-            if f64::from(count) != value {
+            let count = value as u32;
+            if f64::from(count) != value || u64::from(count) > size.most_hits() {
                 let field = format!("row {row}, column {name}");
-                return Err(Input::new(path.display(), COUNT).field(field).value(value).into());
+                let expected = histogram_file::count_range(size);
+                return Err(Input::new(path.display(), expected).field(field).value(value).into());
             }
             if bin == 0 {
-                histograms.push([0; BINS]);
+                histograms.push(vec![0; size.bins]);
             }
             match histograms.get_mut(row) {
                 Some(histogram) => histogram[bin] = count,
@@ -171,9 +170,10 @@ fn counts(path: &Path, columns: &ParquetColumns) -> Result<Vec<Histogram>> {
         }
     }
     for (row, histogram) in histograms.iter().enumerate() {
-        let total: u32 = histogram.iter().map(|&count| u32::from(count)).sum();
-        if total > MAX_HITS {
-            let expected = format!("the estimator's bit widths allow {MAX_HITS} hits in all");
+        let total: u64 = histogram.iter().map(|&count| u64::from(count)).sum();
+        let most = size.most_hits();
+        if total > most {
+            let expected = format!("the estimator's bit widths allow {most} hits in all");
             let fault = Input::new(path.display(), expected);
             return Err(fault.field(format!("total of row {row}")).value(total).into());
         }
@@ -182,9 +182,9 @@ fn counts(path: &Path, columns: &ParquetColumns) -> Result<Vec<Histogram>> {
 }
 
 /// A table with its truth.
-fn parquet(path: &Path) -> Result<Labelled> {
+fn parquet(path: &Path, size: &Params) -> Result<Labelled> {
     ParquetColumns::with(path, |columns| {
-        let histograms = counts(path, columns)?;
+        let histograms = counts(path, columns, size)?;
         let names = columns.names();
         let knows_light = TRUTH[1..].iter().all(|name| names.iter().any(|known| known == name));
         let mut truth = vec![[0.0; 3]; histograms.len()];
@@ -206,8 +206,8 @@ fn parquet(path: &Path) -> Result<Labelled> {
 }
 
 /// Arrays of histograms, and of true distances alone or with reflectances and irradiances.
-fn of_arrays(path: &Path, truth: &Path) -> Result<Labelled> {
-    let histograms = histogram_file::open(path)?.collect::<Result<Vec<_>>>()?;
+fn of_arrays(path: &Path, truth: &Path, size: &Params) -> Result<Labelled> {
+    let histograms = histogram_file::open(path, *size)?.collect::<Result<Vec<_>>>()?;
     let (width, numbers) = numbers(truth)?;
     let rows: Vec<[f64; 3]> = numbers
         .chunks(width)

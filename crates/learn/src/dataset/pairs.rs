@@ -56,7 +56,7 @@ impl<'a> Pairs<'a> {
             let [dark, lit] = [0, 1].map(|kind| {
                 let shots = u64::from(self.source.shots_of(&scene)) / 2;
                 let counts = codes[kind].draw(shots, &mut random);
-                counts.map(|count| count as u16)
+                counts.into_iter().map(|count| count as u32).collect()
             });
             HistogramPair { dark, lit }
         };
@@ -97,15 +97,16 @@ mod tests {
         let scene =
             Scene { distance_m: 0.5, reflectance: 0.34, irradiance_w_m2_nm: 0.2, setting: 0 };
         let rows = 400;
-        let sample = |row| Sample { seed: 1, row, scene, histogram: [0; 256] };
+        let sample = |row| Sample { seed: 1, row, scene, histogram: vec![0; 256] };
         let drawn = pairs.draw(&(0..rows).map(sample).collect::<Vec<_>>());
         let white = source.white(&scene);
         for lit in [false, true] {
             let codes = source.probabilities_with(&white, &scene, lit);
-            let of = |pair: &HistogramPair| if lit { pair.lit } else { pair.dark };
+            let of =
+                |pair: &HistogramPair, bin: usize| if lit { pair.lit[bin] } else { pair.dark[bin] };
             let (mut chi2, mut cells) = (0.0, 0.0);
             for (bin, p) in codes.of_code().iter().enumerate() {
-                let found: f64 = drawn.iter().map(|pair| f64::from(of(pair)[bin])).sum();
+                let found: f64 = drawn.iter().map(|pair| f64::from(of(pair, bin))).sum();
                 let expected = 15_000.0 * rows as f64 * p;
                 if expected > 25.0 {
                     (chi2, cells) = (chi2 + (found - expected).powi(2) / expected, cells + 1.0);

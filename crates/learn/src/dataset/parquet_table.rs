@@ -32,7 +32,7 @@ pub struct ParquetTable<R> {
 /// A group of rows, to be filled column by column.
 pub struct RowGroup<'a>(SerializedRowGroupWriter<'a, OutputFile>);
 
-impl<R: Copy> ParquetTable<R> {
+impl<R: Clone> ParquetTable<R> {
     /// Begins the file with the columns of `schema`, a key and its value in the metadata, and what
     /// writes the columns of some rows in order.
     pub fn create(
@@ -56,7 +56,7 @@ impl<R: Copy> ParquetTable<R> {
     /// Adds rows.
     pub fn write(&mut self, rows: &[R]) -> Result<()> {
         for row in rows {
-            self.rows.push(*row);
+            self.rows.push(row.clone());
             if self.rows.len() == GROUP {
                 self.write_group()?;
             }

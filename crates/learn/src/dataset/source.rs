@@ -4,6 +4,7 @@
 //! femtosecond: two taps of 12.5 ps to a bin.
 
 use tofsim::error::{Input, Result};
+use tofsim::firmware::histogram_builder;
 use tofsim::network::Histogram;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 use tofsim::scenario::Scenario;
@@ -43,29 +44,35 @@ impl HistogramSource {
     /// When the histograms of one have no closed form.
     pub fn of_settings(setups: &[Setup]) -> Result<Self> {
         let settings = setups.iter().map(Setting::new).collect::<Result<Vec<_>>>()?;
-        match settings.is_empty() {
-            true => Err(Input::new("grid", "expected one setting at least").into()),
-            false => Ok(HistogramSource { settings }),
+        let Some(first) = settings.first() else {
+            return Err(Input::new("grid", "expected one setting at least").into());
+        };
+        let bins = first.bins.count();
+        if let Some(other) = settings.iter().find(|setting| setting.bins.count() != bins) {
+            let expected = format!("expected {bins} for all: histograms of a grid are of one size");
+            let fault = Input::new("--grid", expected).field("tdc.bins");
+            return Err(fault.value(other.bins.count()).into());
         }
+        Ok(HistogramSource { settings })
     }
 
     fn setting(&self, scene: &Scene) -> &Setting {
         &self.settings[scene.setting]
     }
 
-    /// Shots of a histogram, 65,535 at most; of the first setting.
-    pub fn shots(&self) -> u16 {
+    /// Shots of a histogram; of the first setting.
+    pub fn shots(&self) -> u32 {
         self.settings[0].shots()
     }
 
     /// Shots of a histogram, where all settings have equally many.
-    pub fn shots_of_all(&self) -> Option<u16> {
+    pub fn shots_of_all(&self) -> Option<u32> {
         let same = self.settings.iter().all(|setting| setting.shots() == self.shots());
         same.then(|| self.shots())
     }
 
-    /// Shots of a scene's histogram, 65,535 at most.
-    pub fn shots_of(&self, scene: &Scene) -> u16 {
+    /// Shots of a scene's histogram.
+    pub fn shots_of(&self, scene: &Scene) -> u32 {
         self.setting(scene).shots()
     }
 
@@ -92,6 +99,11 @@ impl HistogramSource {
     /// The bins of the scenario's chain; of the first setting.
     pub fn bins(&self) -> &Bins {
         &self.settings[0].bins
+    }
+
+    /// How large the histograms are.
+    pub fn size(&self) -> histogram_builder::Params {
+        self.scenario().histogram()
     }
 
     /// How the histograms of a setting come about.
@@ -133,8 +145,9 @@ impl HistogramSource {
         row: u64,
     ) -> Histogram {
         let mut random = stream(seed, streams::Source::Dataset, row);
-        // A count is at most the number of shots, which 16 bits hold.
-        codes.draw(self.shots_of(scene).into(), &mut random).map(|count| count as u16)
+        // A count is at most the number of shots.
+        let counts = codes.draw(self.shots_of(scene).into(), &mut random);
+        counts.into_iter().map(|count| count as u32).collect()
     }
 }
 
@@ -149,8 +162,8 @@ impl Setting {
         Ok(Setting { scenario: setup.scenario.clone(), bins: setup.bins() })
     }
 
-    fn shots(&self) -> u16 {
-        self.scenario.firmware.shots_per_frame as u16
+    fn shots(&self) -> u32 {
+        self.scenario.firmware.shots_per_frame as u32
     }
 }
 

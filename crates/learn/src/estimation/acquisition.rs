@@ -3,7 +3,6 @@
 use std::f64::consts::SQRT_2;
 
 use tofsim::error::Input;
-use tofsim::firmware::tdc_decoder::CODES;
 use tofsim::kernel::Time;
 use tofsim::network::Histogram;
 use tofsim::optics::budget::LIGHT_M_S;
@@ -13,6 +12,9 @@ use tofsim::sim::setup::{CYCLE, Setup};
 
 /// Mean arrival of an echo for each metre of distance, 2 / c (eq. 3.23) [ps/m].
 pub const ARRIVAL_PS_PER_M: f64 = 2e12 / LIGHT_M_S;
+
+/// Most shots of a histogram: what the widest word holds [shots].
+const MOST_SHOTS: u64 = (1 << 24) - 1;
 
 /// How the histograms come about, as far as estimators know it.
 #[derive(Clone, Copy, Debug)]
@@ -92,14 +94,14 @@ impl<'a> Acquisition<'a> {
     /// Whether there is anything to estimate from.
     ///
     /// # Errors
-    /// For no bins, no shots or more than a bin of 16 bits holds, or a width that is no width.
+    /// For no bins, no shots or more than the widest word holds, or a width that is no width.
     pub fn check(&self) -> Result<(), Input> {
         let fault = |field, expected| Input::new("acquisition", expected).field(field);
         if self.bins.spans().is_empty() {
             return Err(fault("bins", "expected a chain that gives a code at all"));
         }
-        if !(1..=65_535).contains(&self.shots) {
-            return Err(fault("shots", "expected 1 to 65535").value(self.shots));
+        if !(1..=MOST_SHOTS).contains(&self.shots) {
+            return Err(fault("shots", "expected 1 to 16777215").value(self.shots));
         }
         if !(1.0..=1e6).contains(&self.pulse_sigma_ps) {
             let value = self.pulse_sigma_ps;
@@ -131,20 +133,21 @@ impl From<&Budget> for Echo {
 }
 
 /// Code, begin and end of each stretch of time that has a code, in order of time [code, ps, ps].
-pub fn spans_ps(bins: &Bins) -> impl Iterator<Item = (u8, f64, f64)> {
+pub fn spans_ps(bins: &Bins) -> impl Iterator<Item = (u16, f64, f64)> {
     bins.spans().iter().map(|span| (span.code, ps(span.from), ps(span.until)))
 }
 
 /// The histogram that codes of those probabilities make on average, to whole hits: what one bin loses
 /// by rounding the next one gets.
-pub fn most_probable(probabilities: &[f64; CODES], shots: u64) -> Histogram {
+pub fn most_probable(probabilities: &[f64], shots: u64) -> Histogram {
     let mut owed = 0.0;
-    probabilities.map(|p| {
+    let count = |&p: &f64| {
         owed += shots as f64 * p;
         let count = f64::round(owed);
         owed -= count;
-        count as u16
-    })
+        count as u32
+    };
+    probabilities.iter().map(count).collect()
 }
 
 fn ps(time: Time) -> f64 {

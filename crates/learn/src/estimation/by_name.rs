@@ -60,7 +60,7 @@ pub struct EstimatorInputs<'a> {
     pub acquisition: Acquisition<'a>,
     /// The network in the depth estimator.
     pub network: &'a Network,
-    /// The centroid estimator.
+    /// The centroid estimator, and how large the histogram is.
     pub centroid: &'a centroid_estimator::Params,
 }
 
@@ -79,8 +79,8 @@ impl EstimatorKind {
         acquisition.check()?;
         let (shots, bins) = (acquisition.shots, acquisition.bins);
         Ok(match self {
-            EstimatorKind::Network => Box::new(fixed(network)),
-            EstimatorKind::NetworkFloat => Box::new(float(network)),
+            EstimatorKind::Network => Box::new(fixed(network, &centroid.histogram)),
+            EstimatorKind::NetworkFloat => Box::new(float(network, &centroid.histogram)),
             EstimatorKind::Centroid => Box::new(Centroid(**centroid)),
             EstimatorKind::Peak => Box::new(PeakDetection::of_bins(shots, bins)),
             EstimatorKind::Subtraction => Box::new(Subtraction::of_bins(shots, bins)?),
@@ -109,7 +109,7 @@ mod tests {
             assert_eq!(kind.estimator(&needs).unwrap().name(), name);
         }
         for (shots, pulse_sigma_ps, field) in
-            [(0, 137.0, "shots = 0"), (65_536, 137.0, "shots"), (1, f64::NAN, "sigma_ps = NaN")]
+            [(0, 137.0, "shots = 0"), (1 << 24, 137.0, "shots"), (1, f64::NAN, "sigma_ps = NaN")]
         {
             let acquisition = Acquisition::new(bins, shots, pulse_sigma_ps);
             let needs = EstimatorInputs { acquisition, network, centroid };

@@ -1,7 +1,6 @@
 //! The firmware's other estimator: argmax with centroid correction, bit for bit.
 
 use tofsim::firmware::centroid_estimator::Params;
-use tofsim::network::Histogram;
 use tofsim::sim::fast::centroid::{Found, locate};
 
 use super::estimator::{Estimator, Failure, hits};
@@ -15,7 +14,7 @@ impl Estimator for Centroid {
         "centroid"
     }
 
-    fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure> {
+    fn estimate(&self, histogram: &[u32]) -> Result<f64, Failure> {
         hits(histogram, u32::MAX)?;
         match locate(&self.0, histogram) {
             Found { best: 0, .. } => Err(Failure::NoPeak),

@@ -17,9 +17,9 @@ pub struct Corrected {
 }
 
 /// The bins of `counts`, which are in order of time, of `shots` shots.
-pub fn correct(counts: impl IntoIterator<Item = u16>, shots: u64) -> Vec<Corrected> {
+pub fn correct(counts: impl IntoIterator<Item = u32>, shots: u64) -> Vec<Corrected> {
     let mut before = shots;
-    let bin = |count: u16| {
+    let bin = |count: u32| {
         let after = before.saturating_sub(count.into());
         let (had, waiting) = (before as f64, after as f64);
         before = after;
@@ -44,7 +44,7 @@ mod tests {
             .map(|_| {
                 let count = (waiting * hit).round();
                 waiting -= count;
-                count as u16
+                count as u32
             })
             .collect();
         for bin in correct(counts, 60_000) {

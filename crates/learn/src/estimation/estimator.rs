@@ -3,7 +3,7 @@
 use tofsim::network::Histogram;
 
 /// A dark and a lit histogram of equally many shots.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct HistogramPair {
     /// H1, with the laser off [hits].
     pub dark: Histogram,
@@ -13,8 +13,8 @@ pub struct HistogramPair {
 
 impl HistogramPair {
     /// H0 = H2 - H1, bin by bin [hits].
-    pub fn difference(&self) -> [i32; 256] {
-        std::array::from_fn(|bin| i32::from(self.lit[bin]) - i32::from(self.dark[bin]))
+    pub fn difference(&self) -> Vec<i32> {
+        self.lit.iter().zip(&self.dark).map(|(&lit, &dark)| lit as i32 - dark as i32).collect()
     }
 }
 
@@ -27,7 +27,7 @@ pub trait Estimator: Send + Sync {
     ///
     /// # Errors
     /// When the histogram does not show one.
-    fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure>;
+    fn estimate(&self, histogram: &[u32]) -> Result<f64, Failure>;
 
     /// Whether it has to have a dark histogram too.
     fn needs_dark(&self) -> bool {
@@ -73,8 +73,8 @@ pub enum Failure {
 }
 
 /// Sum of a histogram, which has to be 1 to `most` [hits].
-pub(super) fn hits(histogram: &Histogram, most: u32) -> Result<u32, Failure> {
-    match histogram.iter().map(|&count| u32::from(count)).sum() {
+pub(super) fn hits(histogram: &[u32], most: u32) -> Result<u32, Failure> {
+    match histogram.iter().sum() {
         0 => Err(Failure::NoHits),
         hits if hits > most => Err(Failure::TooManyHits { hits, most }),
         hits => Ok(hits),

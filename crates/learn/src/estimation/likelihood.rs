@@ -16,7 +16,6 @@ use std::f64::consts::{LN_2, SQRT_2};
 use statrs::function::erf::erfc_inv;
 
 use tofsim::error::Input;
-use tofsim::network::Histogram;
 
 use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo};
 use super::estimator::{Estimator, Failure, hits};
@@ -84,7 +83,7 @@ impl Likelihood {
     ///
     /// # Errors
     /// When there is no echo, or the climb does not end.
-    pub fn fit(&self, histogram: &Histogram) -> Result<Fit, Failure> {
+    pub fn fit(&self, histogram: &[u32]) -> Result<Fit, Failure> {
         hits(histogram, self.model.shots as u32)?;
         let start = self.start.best(histogram).ok_or(Failure::NoPeak)?.echo;
         match self.model.free_running {
@@ -94,7 +93,7 @@ impl Likelihood {
     }
 
     /// In MODE 1: the highest of the tops that are reached from the best starts.
-    fn free_fit(&self, histogram: &Histogram, seen_ps: f64) -> Result<Fit, Failure> {
+    fn free_fit(&self, histogram: &[u32], seen_ps: f64) -> Result<Fit, Failure> {
         let mut starts = self.free_starts(histogram, seen_ps);
         starts.sort_by(|a, b| b.0.total_cmp(&a.0));
         let mut best = Err(Failure::NoPeak);
@@ -111,7 +110,7 @@ impl Likelihood {
 
     /// Where climbs may begin in MODE 1, and how likely that is: for each signal the best of some
     /// scenes whose first photons come where the matched filter saw them, or in the fullest bin.
-    fn free_starts(&self, histogram: &Histogram, seen_ps: f64) -> Vec<(f64, Echo)> {
+    fn free_starts(&self, histogram: &[u32], seen_ps: f64) -> Vec<(f64, Echo)> {
         let fullest = (0..histogram.len()).max_by_key(|&code| histogram[code]).unwrap_or(0);
         let places_ps = [seen_ps, self.first_ps + (fullest as f64 + 0.5) * self.bin_ps];
         let best = |signal: f64| {
@@ -136,7 +135,7 @@ fn early_sigma(part: f64) -> f64 {
 }
 
 /// The top that is reached from `start`.
-fn climb(model: &Model, histogram: &Histogram, start: Echo) -> Result<Fit, Failure> {
+fn climb(model: &Model, histogram: &[u32], start: Echo) -> Result<Fit, Failure> {
     let mut at = model.coordinates(&start);
     let mut value = model.log_likelihood(&at, histogram);
     let mut damping = 0.0f64;
@@ -201,7 +200,7 @@ impl Estimator for Likelihood {
         "likelihood"
     }
 
-    fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure> {
+    fn estimate(&self, histogram: &[u32]) -> Result<f64, Failure> {
         Ok(self.fit(histogram)?.echo.arrival_ps / ARRIVAL_PS_PER_M)
     }
 }

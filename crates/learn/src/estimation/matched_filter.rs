@@ -11,7 +11,6 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 use tofsim::error::Input;
-use tofsim::network::Histogram;
 use tofsim::optics::Bins;
 use tofsim::optics::hazard::normal_cdf;
 
@@ -36,7 +35,7 @@ pub struct MatchedFilter {
     /// Shots of the histogram [shots].
     shots: u64,
     /// Codes in order of time.
-    codes: Vec<u8>,
+    codes: Vec<u16>,
     /// Width of each of their bins, as a part of all [1].
     widths: Vec<f64>,
     /// All bins together [ps].
@@ -51,7 +50,7 @@ pub struct MatchedFilter {
 
 /// A bin, which a chain may give in several pieces.
 struct Pieces {
-    code: u8,
+    code: u16,
     /// From and until [ps].
     spans: Vec<[f64; 2]>,
 }
@@ -139,7 +138,7 @@ impl MatchedFilter {
     }
 
     /// The most likely echo, however faint; `None` where no signal above zero fits.
-    pub fn best(&self, histogram: &Histogram) -> Option<Match> {
+    pub fn best(&self, histogram: &[u32]) -> Option<Match> {
         let counts = self.codes.iter().map(|&code| histogram[code as usize]);
         let bins = correct(counts, self.shots - self.lost(histogram));
         let flat = self.flat(&bins);
@@ -172,7 +171,7 @@ impl MatchedFilter {
 
     /// Shots whose hit jitter puts before the laser edge, where it has no code: so many as hits come
     /// in 0.4 deviations, J / sqrt(2 pi). Taken for waiting ones they would hide all that comes late.
-    fn lost(&self, histogram: &Histogram) -> u64 {
+    fn lost(&self, histogram: &[u32]) -> u64 {
         let (jitter_ps, early) = &self.jitter;
         let hits =
             self.codes[early.clone()].iter().map(|&code| u64::from(histogram[code as usize]));
@@ -252,7 +251,7 @@ impl Estimator for MatchedFilter {
         "matched"
     }
 
-    fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure> {
+    fn estimate(&self, histogram: &[u32]) -> Result<f64, Failure> {
         hits(histogram, self.shots as u32)?;
         match self.best(histogram) {
             Some(found) if found.significance >= SIGNIFICANCE => {

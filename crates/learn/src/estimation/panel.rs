@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use tofsim::error::Result;
-use tofsim::network::Histogram;
 use tofsim::sim::setup::Setup;
 
 use super::acquisition::Acquisition;
@@ -36,6 +35,9 @@ impl Panel {
     pub fn new(kinds: &[EstimatorKind], setup: &Setup) -> Result<Self> {
         let bins = &setup.bins();
         let estimator = |kind: &EstimatorKind| {
+            if matches!(kind, EstimatorKind::Network | EstimatorKind::NetworkFloat) {
+                setup.check_network()?;
+            }
             let shots = match kind {
                 EstimatorKind::Subtraction => setup.scenario.firmware.shots_per_frame,
                 _ => setup.params.frame_ctrl.shots_per_frame.into(),
@@ -63,7 +65,7 @@ impl Panel {
     }
 
     /// What each says of a frame, in the order in which they were named.
-    pub fn read(&self, histogram: &Histogram) -> Vec<Reading> {
+    pub fn read(&self, histogram: &[u32]) -> Vec<Reading> {
         self.each(|estimator| estimator.estimate(histogram))
     }
 
@@ -109,7 +111,7 @@ mod tests {
                 "own"
             }
 
-            fn estimate(&self, histogram: &Histogram) -> std::result::Result<f64, Failure> {
+            fn estimate(&self, histogram: &[u32]) -> std::result::Result<f64, Failure> {
                 Ok(f64::from(histogram[7]))
             }
         }

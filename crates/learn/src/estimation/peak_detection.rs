@@ -13,7 +13,7 @@
 //! (7,355 of 15,000 at 0.2 to 0.6 m, chain `uniform`). [`PeakDetection::of_bins`] puts every bin where
 //! it is and scales its count to the width that codes count, and so fails about as often as on even bins.
 
-use tofsim::network::Histogram;
+use tofsim::firmware::histogram_builder::BINS;
 use tofsim::optics::Bins;
 
 use super::acquisition::{ARRIVAL_PS_PER_M, spans_ps};
@@ -43,7 +43,7 @@ pub struct PeakDetection {
 /// A bin of the histogram.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Bin {
-    code: u8,
+    code: u16,
     /// Middle of the times that give the code [ps].
     centre_ps: f64,
     /// What makes a count that of a bin as codes count it [1].
@@ -56,7 +56,7 @@ const BIN_PS: f64 = 25.0;
 impl PeakDetection {
     /// With the thesis's constants and its bins, 25 ps each.
     pub fn new(shots: u64) -> Self {
-        let bin = |code: u8| Bin { code, centre_ps: (code as f64 + 0.5) * BIN_PS, scale: 1.0 };
+        let bin = |code: u16| Bin { code, centre_ps: (code as f64 + 0.5) * BIN_PS, scale: 1.0 };
         PeakDetection {
             shots,
             prominence: 0.003,
@@ -64,26 +64,26 @@ impl PeakDetection {
             points: 100,
             slope: 0.9496,
             offset_m: 0.0338,
-            bins: (0..=u8::MAX).map(bin).collect(),
+            bins: (0..BINS as u16).map(bin).collect(),
         }
     }
 
     /// With the thesis's constants and the bins of a chain; a code that no time gives is left out.
     pub fn of_bins(shots: u64, bins: &Bins) -> Self {
         // Of each code: how long it is given, and that times the middle.
-        let mut sums = [[0.0; 2]; 256];
+        let mut sums = vec![[0.0; 2]; bins.count()];
         for (code, from_ps, until_ps) in spans_ps(bins) {
             let [width_ps, moment] = &mut sums[code as usize];
             *width_ps += until_ps - from_ps;
             *moment += (until_ps - from_ps) * (from_ps + until_ps) / 2.0;
         }
         let nominal_ps = bins.bin_ps();
-        let bin = |(code, [width_ps, moment]): (u8, [f64; 2])| Bin {
+        let bin = |(code, [width_ps, moment]): (u16, [f64; 2])| Bin {
             code,
             centre_ps: moment / width_ps,
             scale: nominal_ps / width_ps,
         };
-        let given = (0..=u8::MAX).zip(sums).filter(|(_, [width_ps, _])| *width_ps > 0.0);
+        let given = (0..).zip(sums).filter(|(_, [width_ps, _])| *width_ps > 0.0);
         let mut bins: Vec<_> = given.map(bin).collect();
         bins.sort_by(|a, b| a.centre_ps.total_cmp(&b.centre_ps));
         bins.dedup_by_key(|bin| bin.centre_ps);
@@ -92,7 +92,7 @@ impl PeakDetection {
 
     /// Listing 5.1: abscissas [ps] and ordinates [hits] of the smoothed curve. `counts` are by code
     /// and may be negative; `None` for less than two bins, or counts that are not finite.
-    pub fn curve(&self, counts: &[f64; 256]) -> Option<(Vec<f64>, Vec<f64>)> {
+    pub fn curve(&self, counts: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let centres: Vec<_> = self.bins.iter().map(|bin| bin.centre_ps).collect();
         let counts = self.bins.iter().map(|bin| counts[bin.code as usize] * bin.scale);
         let spline = Spline::new(&centres, &counts.collect::<Vec<_>>())?;
@@ -106,7 +106,7 @@ impl PeakDetection {
     }
 
     /// Listing 5.2: the peaks of a histogram; locations and widths are in ps.
-    pub fn peaks(&self, counts: &[f64; 256]) -> Vec<Peak> {
+    pub fn peaks(&self, counts: &[f64]) -> Vec<Peak> {
         let (x, y) = self.curve(counts).unwrap_or_default();
         let min_prominence = self.prominence * self.shots as f64;
         findpeaks(&x, &y, &Criteria { min_prominence, max_width: self.max_width_ps })
@@ -121,7 +121,7 @@ impl PeakDetection {
     ///
     /// # Errors
     /// When there is not exactly one.
-    pub fn detect(&self, counts: &[f64; 256]) -> Result<f64, Failure> {
+    pub fn detect(&self, counts: &[f64]) -> Result<f64, Failure> {
         match self.peaks(counts)[..] {
             [] => Err(Failure::NoPeak),
             [peak] => Ok(self.distance_m(peak.location)),
@@ -135,9 +135,10 @@ impl Estimator for PeakDetection {
         "peak"
     }
 
-    fn estimate(&self, histogram: &Histogram) -> Result<f64, Failure> {
+    fn estimate(&self, histogram: &[u32]) -> Result<f64, Failure> {
         hits(histogram, u32::MAX)?;
-        self.detect(&histogram.map(f64::from))
+        let counts: Vec<_> = histogram.iter().copied().map(f64::from).collect();
+        self.detect(&counts)
     }
 }
 
@@ -175,11 +176,12 @@ mod tests {
     }
 
     /// A triangle of `height` around `centre`, 6 bins to either side, on `floor`.
-    fn triangle(centre: usize, height: u16, floor: u16) -> Histogram {
-        std::array::from_fn(|bin| {
-            let part = 12u16.saturating_sub(2 * bin.abs_diff(centre) as u16);
+    fn triangle(centre: usize, height: u32, floor: u32) -> Vec<u32> {
+        let count = |bin: usize| {
+            let part = 12u32.saturating_sub(2 * bin.abs_diff(centre) as u32);
             floor + height / 12 * part
-        })
+        };
+        (0..256).map(count).collect()
     }
 
     #[test]
@@ -215,8 +217,8 @@ mod tests {
 
     #[test]
     fn a_peak_wider_than_the_pulse_is_none() {
-        let hump: Histogram =
-            std::array::from_fn(|bin| 1000 - (bin as f64 - 128.0).powi(2) as u16 / 17);
+        let hump = |bin| 1000 - (f64::from(bin) - 128.0).powi(2) as u32 / 17;
+        let hump: Vec<_> = (0..256).map(hump).collect();
         let detection = PeakDetection::new(30_000);
         assert_eq!(detection.estimate(&hump), Err(Failure::NoPeak));
         let lenient = PeakDetection { max_width_ps: 1e4, ..detection };

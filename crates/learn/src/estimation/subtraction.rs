@@ -10,7 +10,6 @@
 //! pass for peaks (`tests/estimators` has both).
 
 use tofsim::error::Input;
-use tofsim::network::Histogram;
 use tofsim::optics::Bins;
 
 use super::estimator::{Estimator, Failure, HistogramPair, hits};
@@ -58,13 +57,14 @@ impl Estimator for Subtraction {
         true
     }
 
-    fn estimate(&self, _: &Histogram) -> Result<f64, Failure> {
+    fn estimate(&self, _: &[u32]) -> Result<f64, Failure> {
         Err(Failure::NoDarkFrame)
     }
 
     fn estimate_pair(&self, pair: &HistogramPair) -> Result<f64, Failure> {
         hits(&pair.lit, u32::MAX)?;
-        self.detection.detect(&pair.difference().map(f64::from))
+        let difference: Vec<_> = pair.difference().into_iter().map(f64::from).collect();
+        self.detection.detect(&difference)
     }
 }
 
@@ -74,24 +74,27 @@ mod tests {
 
     #[test]
     fn counts_are_signed() {
-        let (mut lit, mut dark) = ([10; 256], [10; 256]);
-        (lit[3], dark[3], lit[4], dark[5]) = (0, u16::MAX, u16::MAX, 11);
+        let (mut lit, mut dark) = (vec![10; 256], vec![10; 256]);
+        (lit[3], dark[3], lit[4], dark[5]) = (0, 65_535, 65_535, 11);
         assert_eq!(HistogramPair { dark, lit }.difference()[2..6], [0, -65_535, 65_525, -1]);
     }
 
     #[test]
     fn a_slope_with_an_echo_becomes_the_echo_alone() {
-        let dark: Histogram = std::array::from_fn(|bin| 1000 - 3 * bin as u16);
-        let mut lit = dark;
-        (150..170).for_each(|bin| lit[bin] += 40 * (10 - bin.abs_diff(160) as u16));
+        let dark: Vec<u32> = (0..256).map(|bin| 1000 - 3 * bin).collect();
+        let mut lit = dark.clone();
+        (150..170).for_each(|bin| lit[bin] += 40 * (10 - bin.abs_diff(160) as u32));
         let subtraction = Subtraction { detection: PeakDetection::new(30_000) };
-        let found = subtraction.estimate_pair(&HistogramPair { dark, lit }).unwrap();
+        let pair = HistogramPair { dark: dark.clone(), lit: lit.clone() };
+        let found = subtraction.estimate_pair(&pair).unwrap();
         assert!((found - subtraction.detection.distance_m(160.5 * 25.0)).abs() < 0.005);
-        let failure =
-            |dark, lit| subtraction.estimate_pair(&HistogramPair { dark, lit }).unwrap_err();
-        assert_eq!(failure(lit, dark), Failure::NoPeak, "dark and lit are not the same");
-        assert_eq!(failure(dark, dark), Failure::NoPeak);
-        assert_eq!(failure(dark, [0; 256]), Failure::NoHits);
+        let failure = |dark: &[u32], lit: &[u32]| {
+            let pair = HistogramPair { dark: dark.to_vec(), lit: lit.to_vec() };
+            subtraction.estimate_pair(&pair).unwrap_err()
+        };
+        assert_eq!(failure(&lit, &dark), Failure::NoPeak, "dark and lit are not the same");
+        assert_eq!(failure(&dark, &dark), Failure::NoPeak);
+        assert_eq!(failure(&dark, &[0; 256]), Failure::NoHits);
         assert_eq!(subtraction.estimate(&lit), Err(Failure::NoDarkFrame));
     }
 

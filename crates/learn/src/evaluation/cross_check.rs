@@ -58,8 +58,8 @@ impl CrossCheck {
         loaded.scenario.target.distance_m = scene.distance_m;
         loaded.scenario.target.reflectance = scene.reflectance;
         loaded.scenario.ambient.irradiance_w_m2_nm = scene.irradiance_w_m2_nm;
-        let setup = Setup::new(loaded)?;
-        let (mut sums, mut other_depths) = ([0u64; 256], 0);
+        let setup = Setup::of_counts(loaded)?;
+        let (mut sums, mut other_depths) = (vec![0u64; setup.params.histogram.bins], 0);
         let mut take = |frame: &Frame| {
             let same = setup.depth(&frame.histogram);
             other_depths += u64::from(same != frame.depth);
@@ -77,7 +77,7 @@ impl CrossCheck {
 }
 
 /// Of so many shots; those without a code are a cell too.
-fn p_value(sums: &[u64; 256], codes: &[f64; 256], shots: f64) -> f64 {
+fn p_value(sums: &[u64], codes: &[f64], shots: f64) -> f64 {
     let missed = shots - sums.iter().sum::<u64>() as f64;
     let expected_missed = shots * (1.0 - codes.iter().sum::<f64>());
     let cells = sums.iter().zip(codes).map(|(&sum, p)| (sum as f64, shots * p));

@@ -148,7 +148,7 @@ mod tests {
             "constant"
         }
 
-        fn estimate(&self, histogram: &Histogram) -> std::result::Result<f64, Failure> {
+        fn estimate(&self, histogram: &[u32]) -> std::result::Result<f64, Failure> {
             let hits: u32 = histogram.iter().map(|&count| u32::from(count)).sum();
             if hits < self.0 { Ok(0.3) } else { Err(Failure::NoPeak) }
         }

@@ -6,8 +6,8 @@ use std::sync::atomic::AtomicBool;
 use serde::Serialize;
 
 use tofsim::error::Result;
+use tofsim::network::Network;
 use tofsim::network::formats::WordFormat;
-use tofsim::network::{Histogram, Network};
 
 use crate::dataset::{HistogramSource, Rows};
 use crate::estimation::Estimator;
@@ -83,13 +83,14 @@ pub fn explore(
     stop: Option<&AtomicBool>,
     done: impl FnMut(u64),
 ) -> Result<Vec<ExploredDatapath>> {
-    let float = network.twin();
+    let (float, size) = (network.twin(), source.size());
     let circuits = datapaths.iter().map(|(_, datapath)| Circuit::new(&float, *datapath));
     let circuits = circuits.collect::<Result<Vec<_>>>()?;
-    let mut estimators: Vec<Box<dyn Estimator + '_>> = vec![Box::new(network::float(network))];
+    let mut estimators: Vec<Box<dyn Estimator + '_>> =
+        vec![Box::new(network::float(network, &size))];
     estimators.extend(circuits.iter().map(|circuit| {
-        let depth_m = |histogram: &Histogram| circuit.depth_m(histogram);
-        Box::new(NetworkEstimator::new("variant", depth_m)) as _
+        let depth_m = |histogram: &[u32]| circuit.depth_m(histogram);
+        Box::new(NetworkEstimator::new("variant", &size, depth_m)) as _
     }));
     let evaluation = Evaluation::new(source, rows, seed, &estimators, stop, done)?;
     let exact = &evaluation.columns[0];
@@ -109,7 +110,7 @@ pub fn explore(
             largest_to_float_mm: largest,
             saturated_weights: circuit.saturated_weights,
             saturated_sums: circuit.saturated_sums() as f64 / histograms,
-            sum_bits: circuit.sum_bits(),
+            sum_bits: circuit.sum_bits(size.most_hits()),
             cost: datapath.cost(network.fixed.neurons()),
         }
     });

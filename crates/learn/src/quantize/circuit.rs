@@ -3,10 +3,10 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use tofsim::error::Result;
+use tofsim::network::Weights;
 use tofsim::network::float::Float;
 use tofsim::network::formats::{Fixed, Overflow, WordFormat};
 use tofsim::network::pass::HiddenNeuron;
-use tofsim::network::{Histogram, MAX_HITS, Weights};
 
 use super::datapath::Datapath;
 
@@ -50,7 +50,11 @@ impl Circuit {
         let (align_hidden, align_output) =
             (w1.fraction - b1.fraction, w2.fraction + l1_out.fraction - b2.fraction);
         let words = Weights {
-            w1: float.w1.iter().map(|row| row.map(|weight| word(w1, weight))).collect(),
+            w1: float
+                .w1
+                .iter()
+                .map(|row| row.iter().map(|&weight| word(w1, weight)).collect())
+                .collect(),
             b1: float.b1.iter().map(|&bias| word(b1, bias) << align_hidden).collect(),
             w2: float.w2.iter().map(|&weight| word(w2, weight)).collect(),
             b2: word(b2, float.b2) << align_output,
@@ -74,7 +78,7 @@ impl Circuit {
     }
 
     /// Depth of a histogram as the word that it is; `record` is shown every neuron.
-    pub fn depth(&self, histogram: &Histogram, record: impl FnMut(HiddenNeuron<i64>)) -> i64 {
+    pub fn depth(&self, histogram: &[u32], record: impl FnMut(HiddenNeuron<i64>)) -> i64 {
         let (half, mut past_the_table) = (self.table.len() as i64 / 2, 0);
         let activate = |sum| {
             let (address, is_past) = self.address(sum);
@@ -87,7 +91,7 @@ impl Circuit {
     }
 
     /// Depth of a histogram [m].
-    pub fn depth_m(&self, histogram: &Histogram) -> f64 {
+    pub fn depth_m(&self, histogram: &[u32]) -> f64 {
         let fraction = self.datapath.w2.fraction + self.datapath.l1_out.fraction;
         self.depth(histogram, |_| ()) as f64 * (-f64::from(fraction)).exp2()
     }
@@ -97,12 +101,12 @@ impl Circuit {
         self.saturated_sums.load(Ordering::Relaxed)
     }
 
-    /// Bits, with sign, that no sum of a legal histogram exceeds: of the hidden layer and the depth.
-    pub fn sum_bits(&self) -> [u32; 2] {
+    /// Bits, with sign, that no sum of a histogram of so many hits exceeds: of the hidden layer and the depth.
+    pub fn sum_bits(&self, most_hits: u64) -> [u32; 2] {
         let Weights { w1, b1, w2, b2 } = &self.words;
         let largest = |row: &[i64]| row.iter().map(|weight| weight.abs()).max().unwrap_or(0);
         let hidden = w1.iter().zip(b1);
-        let hidden = hidden.map(|(row, bias)| i64::from(MAX_HITS) * largest(row) + bias.abs());
+        let hidden = hidden.map(|(row, bias)| most_hits as i64 * largest(row) + bias.abs());
         let one = self.datapath.l1_out.min().abs();
         let depth = w2.iter().map(|weight| weight.abs() * one).sum::<i64>() + b2.abs();
         [hidden.max().unwrap_or(0), depth].map(|most| i64::BITS - most.leading_zeros() + 1)
@@ -114,8 +118,8 @@ mod tests {
     use super::*;
     use tofsim::network::{Network, estimate};
 
-    fn peak(bin: usize, height: u16) -> Histogram {
-        std::array::from_fn(|k| height / (1 + k.abs_diff(bin) as u16))
+    fn peak(bin: usize, height: u32) -> Vec<u32> {
+        (0..256).map(|k: usize| height / (1 + k.abs_diff(bin) as u32)).collect()
     }
 
     #[test]
@@ -124,12 +128,13 @@ mod tests {
             let network = Network::builtin(name).unwrap().unwrap();
             let circuit = Circuit::new(&network.twin(), Datapath::default()).unwrap();
             for bin in (5..250).step_by(7) {
-                let histogram = peak(bin, 200 + 20 * bin as u16);
-                let expected = estimate(&network.params(), &histogram).depth.to_f64();
+                let histogram = peak(bin, 200 + 20 * bin as u32);
+                let expected =
+                    estimate(&network.params(&Default::default()), &histogram).depth.to_f64();
                 assert_eq!(circuit.depth_m(&histogram), expected);
             }
             assert_eq!(circuit.saturated_weights, 0);
-            let [hidden, depth] = circuit.sum_bits();
+            let [hidden, depth] = circuit.sum_bits(65_535);
             assert!(hidden <= 36 && depth <= 36, "{hidden} {depth}");
         }
     }

@@ -9,10 +9,10 @@
 use serde::Serialize;
 
 use tofsim::firmware::tansig::ADDRESS_BITS;
+use tofsim::network::Network;
 use tofsim::network::float::Float;
 use tofsim::network::formats::{B2, L1_OUT, TANSIG_RANGE};
 use tofsim::network::pass::HiddenNeuron;
-use tofsim::network::{Histogram, Network};
 
 use super::circuit::Circuit;
 
@@ -109,7 +109,7 @@ pub struct Explanation {
 }
 
 /// Explains the estimation of a histogram.
-pub fn explain(network: &Network, histogram: &Histogram) -> Explanation {
+pub fn explain(network: &Network, histogram: &[u32]) -> Explanation {
     let (circuit, float) = (Circuit::firmware(&network.fixed), network.twin());
     let (mut fixed, mut exact) = (Vec::new(), Vec::new());
     let word = circuit.depth(histogram, |neuron| fixed.push(neuron));
@@ -175,8 +175,8 @@ mod tests {
     use super::*;
     use tofsim::network::formats::{B1, W1};
 
-    fn peak(bin: usize, height: u16) -> Histogram {
-        std::array::from_fn(|k| height / (1 + 2 * k.abs_diff(bin) as u16))
+    fn peak(bin: usize, height: u32) -> Vec<u32> {
+        (0..256).map(|k: usize| height / (1 + 2 * k.abs_diff(bin) as u32)).collect()
     }
 
     #[test]

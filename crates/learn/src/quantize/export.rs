@@ -28,6 +28,6 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("network.json");
         std::fs::write(&path, json(&network.twin(), &network.training).to_string()).unwrap();
-        assert!(import::read(&path).unwrap() == network.twin());
+        assert!(import::read(&path, 256).unwrap() == network.twin());
     }
 }

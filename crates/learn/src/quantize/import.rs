@@ -17,15 +17,14 @@ use arrays::{Array, Arrays};
 
 use tofsim::error::{Input, Result};
 use tofsim::firmware::forward2::MOST_NEURONS;
-use tofsim::firmware::histogram_builder::BINS;
 use tofsim::network::float::Float;
 
-/// Reads a network's arrays: a MATLAB file (`.mat`), an object of JSON (`.json`), or a folder of
+/// Reads the arrays of a network of histograms of so many bins: a MATLAB file (`.mat`), an object of JSON (`.json`), or a folder of
 /// NumPy arrays (`IW.npy` and so on), told apart by the ending.
 ///
 /// # Errors
 /// When an array is missing, unknown, has another shape, or a number that is none.
-pub fn read(path: &Path) -> Result<Float> {
+pub fn read(path: &Path, bins: usize) -> Result<Float> {
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     let arrays = match ending.to_ascii_lowercase().as_str() {
         _ if path.is_dir() => npy::read(path)?,
@@ -36,14 +35,14 @@ pub fn read(path: &Path) -> Result<Float> {
             return Err(Input::new(path.display(), expected).into());
         }
     };
-    fold(arrays)
+    fold(arrays, bins)
 }
 
-/// The arrays' meaning.
-fn fold(mut arrays: Arrays) -> Result<Float> {
+/// The arrays' meaning, for histograms of `all` bins.
+fn fold(mut arrays: Arrays, all: usize) -> Result<Float> {
     let bins: Vec<usize> = match arrays.optional("x_keep") {
-        None => (0..BINS).collect(),
-        Some(keep) => kept(&arrays, &keep)?,
+        None => (0..all).collect(),
+        Some(keep) => kept(&arrays, &keep, all)?,
     };
     let columns = bins.len();
     let b1 = arrays.required("b1")?;
@@ -64,7 +63,7 @@ fn fold(mut arrays: Arrays) -> Result<Float> {
         return Err(Input::new(&arrays.name, expected).field("y_gain").value(0).into());
     }
 
-    let mut w1 = vec![[0.0; BINS]; neurons];
+    let mut w1 = vec![vec![0.0; all]; neurons];
     let mut biases = b1;
     for neuron in 0..neurons {
         let row = &hidden[neuron * columns..][..columns];
@@ -106,13 +105,13 @@ impl MapMinMax {
 }
 
 /// The bins that `removeconstantrows` kept, counted from 1 as MATLAB does.
-fn kept(arrays: &Arrays, keep: &Array) -> Result<Vec<usize>> {
+fn kept(arrays: &Arrays, keep: &Array, all: usize) -> Result<Vec<usize>> {
     let mut bins = Vec::new();
     for &place in &keep.values {
         let bin = place as usize;
         let is_next = bins.last().is_none_or(|&last| bin > last + 1);
-        if place.fract() != 0.0 || !(1..=BINS).contains(&bin) || !is_next {
-            let expected = format!("expected rising places from 1 to {BINS}");
+        if place.fract() != 0.0 || !(1..=all).contains(&bin) || !is_next {
+            let expected = format!("expected rising places from 1 to {all}");
             return Err(arrays.fault("x_keep", &expected).value(place).into());
         }
         bins.push(bin - 1);
@@ -124,10 +123,11 @@ fn kept(arrays: &Arrays, keep: &Array) -> Result<Vec<usize>> {
 mod tests {
     use super::*;
     use tofsim::firmware::forward2::NEURONS;
+    use tofsim::firmware::histogram_builder::BINS;
     use tofsim::network::Histogram;
 
     /// A network as MATLAB evaluates it.
-    fn by_matlab(arrays: &Arrays, histogram: &Histogram) -> f64 {
+    fn by_matlab(arrays: &Arrays, histogram: &[u32]) -> f64 {
         let get = |name: &str| arrays.arrays[name].values.clone();
         let (iw, lw, b1, b2) = (get("IW"), get("LW"), get("b1"), get("b2"));
         let (xo, xg, xm) = (get("x_xoffset"), get("x_gain"), get("x_ymin")[0]);
@@ -164,10 +164,10 @@ mod tests {
     #[test]
     fn the_folded_network_gives_what_matlab_gives() {
         let arrays = example();
-        let float = fold(arrays.clone()).unwrap();
+        let float = fold(arrays.clone(), BINS).unwrap();
         for seed in 0..20 {
             let histogram: Histogram =
-                std::array::from_fn(|bin| ((bin * (seed + 3) * 31 + seed) % 900) as u16);
+                (0..256).map(|bin| ((bin * (seed + 3) * 31 + seed) % 900) as u32).collect();
             let (ours, theirs) = (float.forward(&histogram), by_matlab(&arrays, &histogram));
             assert!((ours - theirs).abs() < 1e-12, "{ours} {theirs}");
         }
@@ -181,10 +181,12 @@ mod tests {
         arrays.put("b1", vec![NEURONS], vec![0.0; NEURONS]);
         arrays.put("b2", vec![1], vec![0.0]);
         arrays.put("x_keep", vec![2], vec![4.0, 200.0]);
-        let float = fold(arrays.clone()).unwrap();
+        let float = fold(arrays.clone(), BINS).unwrap();
         assert_eq!((float.w1[3][3], float.w1[3][199], float.w1[3][0]), (6.0, 7.0, 0.0));
         arrays.put("x_keep", vec![2], vec![4.0, 4.0]);
-        assert!(fold(arrays).unwrap_err().to_string().contains("x_keep = 4: expected rising"));
+        assert!(
+            fold(arrays, BINS).unwrap_err().to_string().contains("x_keep = 4: expected rising")
+        );
     }
 
     #[test]
@@ -192,7 +194,7 @@ mod tests {
         let fault = |change: &dyn Fn(&mut Arrays)| {
             let mut arrays = example();
             change(&mut arrays);
-            fold(arrays).unwrap_err().to_string()
+            fold(arrays, BINS).unwrap_err().to_string()
         };
         assert_eq!(fault(&|a| drop(a.optional("LW"))), "example: LW: missing");
         let message = fault(&|a| a.put("b1", vec![17], vec![0.0; 17]));

@@ -2,8 +2,6 @@
 
 use rayon::prelude::*;
 
-use tofsim::network::Histogram;
-
 use super::data::Samples;
 use super::weighting::Weighting;
 
@@ -25,9 +23,9 @@ pub struct DistanceErrors {
 /// Errors by distance, in the samples' order; those of one distance have to be neighbours.
 pub fn by_distance(
     samples: &Samples,
-    depth_m: impl Fn(&Histogram) -> f64 + Sync + Send,
+    depth_m: impl Fn(&[u32]) -> f64 + Sync + Send,
 ) -> Vec<DistanceErrors> {
-    let depths: Vec<f64> = samples.counts.par_iter().map(depth_m).collect();
+    let depths: Vec<f64> = samples.counts.par_iter().map(|counts| depth_m(counts)).collect();
     let pairs: Vec<_> = samples.distances_m.iter().copied().zip(depths).collect();
     pairs.chunk_by(|a, b| a.0 == b.0).map(row).collect()
 }
@@ -67,7 +65,7 @@ mod tests {
 
     #[test]
     fn rows_by_hand() {
-        let count = |count| [count; 256];
+        let count = |count| vec![count; 256];
         let counts = [100, 102, 104, 300].map(count).to_vec();
         let samples = Samples { counts, distances_m: vec![0.1, 0.1, 0.1, 0.4] };
         let rows = by_distance(&samples, |histogram| f64::from(histogram[0]) / 1000.0);

@@ -1,12 +1,12 @@
-//! Smooth hidden weights: linear between knots, so that few numbers stand for 256.
+//! Smooth hidden weights: linear between knots, so that few numbers stand for many.
 //!
 //! The knots are dense where the echo of a near target falls, which is narrow in time because the
-//! first photon decides, and sparse where only pile-up and ambient light are.
+//! first photon decides, and sparse where only pile-up and ambient light are. Where there are fewer bins than
+//! knots, each bin has a knot of its own, and those that are left have no bin.
 
 use std::sync::LazyLock;
 
 use tofsim::firmware::histogram_builder::BINS;
-use tofsim::network::Histogram;
 
 /// Number of knots.
 pub const KNOTS: usize = 71;
@@ -35,14 +35,18 @@ struct Mix {
     shares: [f64; 2],
 }
 
-/// Places of the knots for echoes from one bin to another: as dense as the thesis's range of distances
+/// Places of the knots for echoes from one of so many bins to another: as dense as the thesis's range of distances
 /// has them, in parts of the range. Where the range ends near the last bin, no knots are left for what
 /// comes behind it.
-pub fn knots_between([first, last]: [f64; 2]) -> [f64; KNOTS] {
+pub fn knots_between([first, last]: [f64; 2], bins: usize) -> [f64; KNOTS] {
+    if bins < BINS {
+        let spacing = ((bins - 1) as f64 / (KNOTS - 1) as f64).max(1.0);
+        return std::array::from_fn(|k| k as f64 * spacing);
+    }
     // The range of the dense knots, and by how much it reaches beyond the echoes of 0.1 to 0.6 m.
     let ((begin, _), (end, spacing)) = (SPACINGS[0], SPACINGS[3]);
     let (before, behind) = (ECHOES[0] - begin, end - ECHOES[1]);
-    let end_of_bins = BINS as f64 - 0.5;
+    let end_of_bins = bins as f64 - 0.5;
     let from = (first - before).clamp(LEAST_HEAD, end_of_bins - LEAST_TAIL);
     let until = (last + behind).min(end_of_bins);
     let has_tail = until <= end_of_bins - LEAST_TAIL;
@@ -77,24 +81,24 @@ const ECHOES: [f64; 2] = [26.7, 160.1];
 pub struct Basis(Vec<Mix>);
 
 impl Basis {
-    /// Of knots in rising order; of none, of the thesis's.
-    pub fn new(knots: &[f64]) -> Self {
+    /// Of so many bins with knots in rising order; of none, of the thesis's.
+    pub fn new(knots: &[f64], bins: usize) -> Self {
         match <[f64; KNOTS]>::try_from(knots) {
-            Ok(knots) => Basis(mixes(&knots)),
+            Ok(knots) => Basis(mixes(&knots, bins)),
             Err(_) => THESIS.clone(),
         }
     }
 
     /// Weights of all bins from those at the knots.
-    pub fn expand(&self, weights: &[f64]) -> [f64; BINS] {
+    pub fn expand(&self, weights: &[f64]) -> Vec<f64> {
         let at =
             |mix: &Mix| mix.shares[0] * weights[mix.knot] + mix.shares[1] * weights[mix.knot + 1];
-        std::array::from_fn(|bin| at(&self.0[bin]))
+        self.0.iter().map(at).collect()
     }
 
     /// Counts gathered at the knots, so that weights at knots times these are weights of bins times
     /// counts.
-    pub fn gather(&self, counts: &Histogram) -> [f64; KNOTS] {
+    pub fn gather(&self, counts: &[u32]) -> [f64; KNOTS] {
         let mut knots = [0.0; KNOTS];
         for (mix, &count) in self.0.iter().zip(counts) {
             knots[mix.knot] += mix.shares[0] * f64::from(count);
@@ -104,16 +108,16 @@ impl Basis {
     }
 }
 
-static THESIS: LazyLock<Basis> = LazyLock::new(|| Basis(mixes(&knots())));
+static THESIS: LazyLock<Basis> = LazyLock::new(|| Basis(mixes(&knots(), BINS)));
 
-fn mixes(knots: &[f64; KNOTS]) -> Vec<Mix> {
+fn mixes(knots: &[f64; KNOTS], bins: usize) -> Vec<Mix> {
     let mix = |bin| {
         let at = bin as f64;
         let knot = knots.partition_point(|&knot| knot <= at).clamp(1, KNOTS - 1) - 1;
         let share = (at - knots[knot]) / (knots[knot + 1] - knots[knot]);
         Mix { knot, shares: [1.0 - share, share] }
     };
-    (0..BINS).map(mix).collect()
+    (0..bins).map(mix).collect()
 }
 
 #[cfg(test)]
@@ -131,11 +135,11 @@ mod tests {
 
     #[test]
     fn knots_for_another_range_are_dense_there_and_hold_all_bins() {
-        let thesis = knots_between(ECHOES);
+        let thesis = knots_between(ECHOES, BINS);
         let apart = thesis.iter().zip(knots()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(apart < 1e-9, "{apart}");
         for range in [[13.3, 240.2], [1.0, 20.0], [100.0, 100.0], [0.0, 300.0], [250.0, 255.0]] {
-            let knots = knots_between(range);
+            let knots = knots_between(range, BINS);
             assert!(knots.is_sorted_by(|a, b| a < b), "{range:?}");
             assert!(knots[0] == 0.0 && knots[KNOTS - 1] >= 255.0, "{range:?} {}", knots[KNOTS - 1]);
             let inside = knots.iter().filter(|k| **k > range[0] - 24.0 && **k < range[1] + 24.0);
@@ -144,9 +148,25 @@ mod tests {
     }
 
     #[test]
+    fn few_bins_have_a_knot_each_and_many_are_held_by_the_knots() {
+        for bins in [16, 64, 128, 512, 1024] {
+            let knots = knots_between([0.1 * bins as f64, 0.9 * bins as f64], bins);
+            assert!(knots.is_sorted_by(|a, b| a < b), "{bins}");
+            assert!(knots[0] == 0.0 && knots[KNOTS - 1] >= (bins - 1) as f64, "{bins}: {knots:?}");
+            let line: Vec<_> = knots.iter().map(|knot| 3.0 - 0.5 * knot).collect();
+            let expanded = Basis::new(&knots, bins).expand(&line);
+            assert_eq!(expanded.len(), bins);
+            for (bin, weight) in expanded.into_iter().enumerate() {
+                assert!((weight - (3.0 - 0.5 * bin as f64)).abs() < 1e-9, "{bins}: {bin}");
+            }
+        }
+        assert_eq!(knots_between([2.0, 12.0], 16)[15], 15.0);
+    }
+
+    #[test]
     fn a_straight_line_stays_one() {
         let line = knots().map(|knot| 3.0 - 0.5 * knot);
-        for (bin, weight) in Basis::new(&[]).expand(&line).into_iter().enumerate() {
+        for (bin, weight) in Basis::new(&[], BINS).expand(&line).into_iter().enumerate() {
             assert!((weight - (3.0 - 0.5 * bin as f64)).abs() < 1e-12, "{bin}");
         }
     }
@@ -154,9 +174,9 @@ mod tests {
     #[test]
     fn weights_of_knots_and_of_bins_give_the_same_sums() {
         let weights: [f64; KNOTS] = std::array::from_fn(|k| (k as f64 * 0.9).sin());
-        let counts: Histogram = std::array::from_fn(|bin| (bin * bin % 997) as u16);
-        let basis = Basis::new(&knots_between([10.0, 240.0]));
-        let bins = basis.expand(&weights).into_iter().zip(counts).map(|(w, c)| w * f64::from(c));
+        let counts: Vec<_> = (0..256).map(|bin| (bin * bin % 997) as u32).collect();
+        let basis = Basis::new(&knots_between([10.0, 240.0], BINS), BINS);
+        let bins = basis.expand(&weights).into_iter().zip(&counts).map(|(w, &c)| w * f64::from(c));
         let knots = basis.gather(&counts).iter().zip(weights).map(|(c, w)| c * w).sum::<f64>();
         assert!((bins.sum::<f64>() - knots).abs() < 1e-9);
     }

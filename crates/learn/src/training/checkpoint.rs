@@ -12,6 +12,7 @@ use tofsim::files::output::write_file;
 use tofsim::files::toml::Checked;
 
 use super::basis::KNOTS;
+use super::features::Scaling;
 use super::recipe::Recipe;
 use super::state::TournamentState;
 use super::sums::parameters;
@@ -132,7 +133,7 @@ fn check(state: &TournamentState, recipe: &Recipe) -> std::result::Result<(), &'
         ("epochs", state.epochs < stage.epochs),
         ("candidates.made", state.candidates.iter().all(|one| one.made <= stage.epochs)),
         ("scaling", scaling.iter().all(|s| s.len() == KNOTS && s.iter().all(|x| x.is_finite()))),
-        ("scaling.knots", state.scaling.knots.is_empty() || are_knots(&state.scaling.knots)),
+        ("scaling.knots", state.scaling.knots.is_empty() || are_knots(&state.scaling)),
         ("candidates", state.candidates.len() == stage.candidates),
         ("candidates.lm.x", state.candidates.iter().all(|candidate| fits(&candidate.lm.x))),
         ("candidates.lm.least", least.all(|(_, x)| fits(x))),
@@ -144,17 +145,17 @@ fn check(state: &TournamentState, recipe: &Recipe) -> std::result::Result<(), &'
     }
 }
 
-/// Whether these can be the knots of a basis.
-fn are_knots(knots: &[f64]) -> bool {
+/// Whether its knots can be those of a basis.
+fn are_knots(scaling: &Scaling) -> bool {
+    let (knots, last_bin) = (&scaling.knots, scaling.bins as f64 - 1.0);
     let ends = (knots.first(), knots.last());
-    let holds_all = matches!(ends, (Some(&first), Some(&last)) if first == 0.0 && last >= 255.0);
+    let holds_all = matches!(ends, (Some(&first), Some(&last)) if first == 0.0 && last >= last_bin);
     knots.len() == KNOTS && holds_all && knots.is_sorted_by(|a, b| a < b)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::training::features::Scaling;
     use crate::training::lm::Lm;
     use crate::training::state::{BestBlock, Candidate};
 
@@ -176,7 +177,7 @@ mod tests {
             scaling: Scaling {
                 mean: vec![0.1; KNOTS],
                 inverse_sd: vec![1.0 / 3.0; KNOTS],
-                knots: Vec::new(),
+                ..Scaling::default()
             },
             candidates: (0..recipe.stages[0].candidates).map(candidate).collect(),
             best: Some(BestBlock {

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use tofsim::firmware::histogram_builder::BINS;
 use tofsim::network::Histogram;
 
 use super::basis::{Basis, KNOTS};
@@ -19,7 +20,7 @@ pub const BLOCK: usize = 256;
 pub type Tile = [f32; LANES];
 
 /// How counts at knots become inputs.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scaling {
     /// Mean at each knot [hits].
@@ -30,12 +31,27 @@ pub struct Scaling {
     /// Places of the knots; none are the thesis's [bins].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub knots: Vec<f64>,
+    /// Bins of the histograms.
+    #[serde(default = "usual_bins")]
+    pub bins: usize,
+}
+
+fn usual_bins() -> usize {
+    BINS
+}
+
+impl Default for Scaling {
+    /// Of nothing yet.
+    fn default() -> Self {
+        Scaling { mean: Vec::new(), inverse_sd: Vec::new(), knots: Vec::new(), bins: BINS }
+    }
 }
 
 impl Scaling {
     /// Of the histograms given, with knots at these places, or at the thesis's.
     pub fn of(counts: &[Histogram], knots: &[f64]) -> Self {
-        let basis = Basis::new(knots);
+        let bins = counts.first().map_or(BINS, Vec::len);
+        let basis = Basis::new(knots, bins);
         let n = counts.len().max(1) as f64;
         let mut mean = vec![0.0; KNOTS];
         let add = |sums: &mut [f64], term: &dyn Fn(usize, f64) -> f64| {
@@ -52,16 +68,21 @@ impl Scaling {
             if *variance > 1e-20 * (1.0 + mean * mean) { 1.0 / variance.sqrt() } else { 0.0 }
         };
         let inverse_sd = variance.iter().zip(&mean).map(inverse).collect();
-        Scaling { mean, inverse_sd, knots: knots.to_vec() }
+        Scaling { mean, inverse_sd, knots: knots.to_vec(), bins }
+    }
+
+    /// The basis of its knots.
+    pub fn basis(&self) -> Basis {
+        Basis::new(&self.knots, self.bins)
     }
 
     /// Inputs of a histogram, and a 1.
-    pub fn apply(&self, counts: &Histogram) -> [f32; COLUMNS] {
-        self.apply_on(&Basis::new(&self.knots), counts)
+    pub fn apply(&self, counts: &[u32]) -> [f32; COLUMNS] {
+        self.apply_on(&self.basis(), counts)
     }
 
     /// The same where the basis of its knots is known.
-    fn apply_on(&self, basis: &Basis, counts: &Histogram) -> [f32; COLUMNS] {
+    fn apply_on(&self, basis: &Basis, counts: &[u32]) -> [f32; COLUMNS] {
         let knots = basis.gather(counts);
         let input = |k: usize| ((knots[k] - self.mean[k]) * self.inverse_sd[k]) as f32;
         std::array::from_fn(|k| if k < KNOTS { input(k) } else { 1.0 })
@@ -73,7 +94,7 @@ pub type FeatureBlock = Vec<Tile>;
 
 /// Inputs of histograms, in blocks, of which the last ends in zeros.
 pub fn blocks(counts: &[Histogram], scaling: &Scaling) -> Vec<FeatureBlock> {
-    let basis = Basis::new(&scaling.knots);
+    let basis = scaling.basis();
     let block = |counts: &[Histogram]| {
         let mut block = vec![[0.0; LANES]; TILES * BLOCK];
         for (sample, histogram) in counts.iter().enumerate() {
@@ -99,7 +120,7 @@ mod tests {
     #[test]
     fn inputs_have_mean_0_and_standard_deviation_1() {
         let histogram = |s: usize| -> Histogram {
-            std::array::from_fn(|bin| ((s * 37 + bin * s) % 101) as u16)
+            (0..256).map(|bin| ((s * 37 + bin * s) % 101) as u32).collect()
         };
         let counts: Vec<_> = (0..300).map(histogram).collect();
         let scaling = Scaling::of(&counts, &[]);
@@ -113,7 +134,7 @@ mod tests {
 
     #[test]
     fn a_constant_bin_gives_0() {
-        let counts = vec![[1234; 256]; 3];
+        let counts = vec![vec![1234; 256]; 3];
         let scaling = Scaling::of(&counts, &[]);
         assert_eq!(scaling.inverse_sd, vec![0.0; KNOTS]);
         assert_eq!(scaling.apply(&counts[0])[..KNOTS], [0.0; KNOTS]);
@@ -122,7 +143,7 @@ mod tests {
 
     #[test]
     fn the_last_block_ends_in_zeros() {
-        let counts = vec![[1; 256]; BLOCK + 2];
+        let counts = vec![vec![1; 256]; BLOCK + 2];
         let blocks = blocks(&counts, &Scaling::of(&counts, &[]));
         assert_eq!(blocks.len(), 2);
         let last = tile(&blocks[1], TILES - 1);

@@ -2,7 +2,7 @@
 
 use tofsim::network::float::Float;
 
-use super::basis::{Basis, KNOTS};
+use super::basis::KNOTS;
 use super::features::{COLUMNS, Scaling};
 
 /// The weights of parameters `x`, with the scaling of the inputs taken into them.
@@ -15,7 +15,7 @@ pub fn fold(x: &[f64], neurons: usize, scaling: &Scaling) -> Float {
         let centre = raw(row).iter().zip(&scaling.mean).map(|(w, mean)| w * mean).sum::<f64>();
         row[KNOTS] - centre
     };
-    let (output, basis) = (&x[neurons * COLUMNS..], Basis::new(&scaling.knots));
+    let (output, basis) = (&x[neurons * COLUMNS..], scaling.basis());
     Float {
         w1: rows().map(|row| basis.expand(&raw(row))).collect(),
         b1: rows().map(bias).collect(),
@@ -35,12 +35,12 @@ mod tests {
         x.extend((0..8).map(|k| 0.1 * (k as f64 - 3.5)));
         x.push(0.2);
         let mean = (0..KNOTS).map(|k| 50.0 + k as f64).collect();
-        let knots = crate::training::basis::knots_between([13.0, 240.0]).to_vec();
-        (x, Scaling { mean, inverse_sd: vec![0.02; KNOTS], knots })
+        let knots = crate::training::basis::knots_between([13.0, 240.0], 256).to_vec();
+        (x, Scaling { mean, inverse_sd: vec![0.02; KNOTS], knots, ..Scaling::default() })
     }
 
     fn histogram(seed: usize) -> Histogram {
-        std::array::from_fn(|bin| ((bin * 31 + seed * 77) % 150) as u16)
+        (0..256).map(|bin| ((bin * 31 + seed * 77) % 150) as u32).collect()
     }
 
     #[test]

@@ -119,8 +119,8 @@ mod tests {
 
     #[test]
     fn sums_are_those_of_a_loop_over_the_samples() {
-        let histogram = |s: usize| -> [u16; 256] {
-            std::array::from_fn(|bin| ((s * 37 + bin * s) % 101) as u16)
+        let histogram = |s: usize| -> Vec<u32> {
+            (0..256).map(|bin| ((s * 37 + bin * s) % 101) as u32).collect()
         };
         let counts: Vec<_> = (0..BLOCK).map(histogram).collect();
         let scaling = Scaling::of(&counts, &[]);

@@ -65,7 +65,7 @@ impl MeasuredParts {
                     _ if k < 2 * part => &mut parts.test,
                     _ => &mut parts.training,
                 };
-                samples.counts.push(labelled.histograms[row]);
+                samples.counts.push(labelled.histograms[row].clone());
                 samples.distances_m.push(distance_m);
             }
             parts.distances_m.push(distance_m);
@@ -104,7 +104,7 @@ impl TrainingMaterial for MeasuredParts {
             .map(|k| ((k as u128 * all as u128 + first as u128) / wanted as u128) as usize);
         let mut samples = Samples::default();
         for place in places {
-            samples.counts.push(self.training.counts[place]);
+            samples.counts.push(self.training.counts[place].clone());
             samples.distances_m.push(self.training.distances_m[place]);
         }
         samples
@@ -118,12 +118,11 @@ mod tests {
     use tofsim::sim::setup::Setup;
 
     /// So many histograms at 0.3 and 0.2 m in turn, each unlike the others.
-    fn labelled(count: u16) -> Labelled {
-        let scene =
-            |k: u16| Scene { distance_m: [0.3, 0.2][usize::from(k % 2)], ..Scene::default() };
+    fn labelled(count: u32) -> Labelled {
+        let scene = |k: u32| Scene { distance_m: [0.3, 0.2][(k % 2) as usize], ..Scene::default() };
         let scenes = (0..count).map(scene).collect();
         Labelled {
-            histograms: (0..count).map(|k| [k; 256]).collect(),
+            histograms: (0..count).map(|k| vec![k; 256]).collect(),
             scenes,
             ..Labelled::default()
         }
@@ -147,8 +146,7 @@ mod tests {
         assert_eq!(seen.len(), 400);
         for part in [&stage, &choice, &test] {
             assert!(part.distances_m.is_sorted());
-            let fits =
-                |(counts, m): (&[u16; 256], &f64)| *m == [0.3, 0.2][usize::from(counts[0] % 2)];
+            let fits = |(counts, m): (&Vec<u32>, &f64)| *m == [0.3, 0.2][counts[0] as usize % 2];
             assert!(part.counts.iter().zip(&part.distances_m).all(fits));
         }
         let other = MeasuredParts::new(&labelled(400), bins(), 2).unwrap();

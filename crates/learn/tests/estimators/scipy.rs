@@ -54,7 +54,7 @@ fn sketch(seed: u64) -> Histogram {
             *count += height * (half - (k - centre).abs()).max(0) / half;
         }
     }
-    std::array::from_fn(|bin| counts[bin] as u16)
+    counts.into_iter().map(|count| count as u16).map(u32::from).collect()
 }
 
 #[test]
@@ -66,7 +66,8 @@ fn the_peaks_of_a_thousand_histograms_are_scipys() {
     }
     let detection = PeakDetection::new(SHOTS);
     for (seed, expected) in expected.iter().enumerate() {
-        let found = detection.peaks(&sketch(seed as u64).map(f64::from));
+        let found =
+            detection.peaks(&sketch(seed as u64).into_iter().map(f64::from).collect::<Vec<_>>());
         assert_eq!(found.len(), expected.len(), "{seed}: {found:?}");
         for (found, expected) in found.iter().zip(expected) {
             let found = [found.location, found.width, found.prominence];

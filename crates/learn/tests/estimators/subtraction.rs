@@ -25,17 +25,20 @@ fn subtraction_leaves_a_negative_tail_and_no_better_detection() {
         let mut random = stream(5, Source::Histogram, 0);
         let (mut left, mut right) = (0.0, 0.0);
         for _ in 0..100 {
-            let mut draw = |of: &BinProbabilities| of.draw(15_000, &mut random).map(|n| n as u16);
+            let mut draw = |of: &BinProbabilities| -> Vec<u32> {
+                of.draw(15_000, &mut random).into_iter().map(|n| n as u32).collect()
+            };
             let (on, off) = (draw(&on), draw(&off));
-            let difference = HistogramPair { dark: off, lit: on }.difference();
+            let pair = HistogramPair { dark: off, lit: on };
+            let difference = pair.difference();
             let mean = |part: &[i32]| part.iter().sum::<i32>() as f64 / part.len() as f64 / 100.0;
             left += mean(&difference[..140]);
             right += mean(&difference[180..]);
             let subtraction = Subtraction { detection: PeakDetection::new(2 * 15_000) };
-            let found = subtraction.estimate_pair(&HistogramPair { dark: off, lit: on });
+            let found = subtraction.estimate_pair(&pair);
             successes[0] += found.is_ok() as usize;
             let detection = PeakDetection::new(15_000);
-            successes[1] += detection.estimate(&on).is_ok() as usize;
+            successes[1] += detection.estimate(&pair.lit).is_ok() as usize;
         }
         assert!(left.abs() < 1.0, "{left}");
         tails.push(right);
@@ -59,7 +62,9 @@ fn failures_with_and_without_dark_shots(distance_m: f64, repeats: usize) -> [usi
         let hazards = [Hazard::dark(budget), Hazard::new(budget)];
         let codes = hazards.map(|hazard| BinProbabilities::new(&hazard, &bins));
         for histogram in histograms {
-            let mut draw = |k: usize| codes[k].draw(SHOTS / 2, &mut random).map(|n| n as u16);
+            let mut draw = |k: usize| -> Vec<u32> {
+                codes[k].draw(SHOTS / 2, &mut random).into_iter().map(|n| n as u32).collect()
+            };
             let pair = HistogramPair { dark: draw(0), lit: draw(1) };
             let found = [
                 of_all.estimate_pair(&pair),

@@ -22,8 +22,11 @@ use super::args::{Args, SHOWN};
 
 /// Evaluates what is in `data`.
 pub fn run(args: &Args, data: &Path, talk: &Talk) -> Result<()> {
-    let labelled = Labelled::read(data, args.truth.as_deref())?;
-    let setup = args.setup(data, &labelled)?;
+    let loaded = args.draws.load_with(&args.scenario, &args.network, &args.draws.set)?;
+    let size = loaded.scenario.histogram();
+    let labelled = Labelled::read(data, args.truth.as_deref(), &size)?;
+    labelled.check(data, &loaded.scenario)?;
+    let setup = Setup::of_counts(loaded)?;
     let notes = args.notes_on(&setup, &labelled)?;
     talk.heed(&notes)?;
     if args.estimator.contains(&EstimatorKind::Subtraction) {
@@ -91,13 +94,6 @@ fn figures(
 }
 
 impl Args {
-    /// What estimators know of the histograms, which has to be what the files say of them.
-    fn setup(&self, data: &Path, labelled: &Labelled) -> Result<Setup> {
-        let loaded = self.draws.load_with(&self.scenario, &self.network, &self.draws.set)?;
-        labelled.check(data, &loaded.scenario)?;
-        Setup::new(loaded)
-    }
-
     /// Where the histograms lie outside of what the network was trained for.
     fn notes_on(&self, setup: &Setup, labelled: &Labelled) -> Result<Vec<Note>> {
         match self.measures_a_network() {

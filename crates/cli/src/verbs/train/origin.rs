@@ -44,9 +44,10 @@ impl Origin {
         };
         if let Some(data) = &args.data {
             let loaded = load(&args.set)?;
-            let labelled = Labelled::read(data, args.truth.as_deref())?;
+            let labelled =
+                Labelled::read(data, args.truth.as_deref(), &loaded.scenario.histogram())?;
             labelled.check(data, &loaded.scenario)?;
-            let bins = Setup::new(loaded.clone())?.bins();
+            let bins = Setup::of_counts(loaded.clone())?.bins();
             let parts = MeasuredParts::new(&labelled, bins, args.seed)?;
             return Ok(Origin::Measured {
                 parts: Box::new(parts),
@@ -131,7 +132,7 @@ impl Origin {
     pub fn setup(&self) -> Result<Setup> {
         match self {
             Origin::Grid(scenes) => Ok(scenes.setups[0].clone()),
-            Origin::Measured { loaded, .. } => Setup::new((**loaded).clone()),
+            Origin::Measured { loaded, .. } => Setup::of_counts((**loaded).clone()),
         }
     }
 

@@ -19,7 +19,7 @@ fn the_bins_of_the_ideal_chain_are_those_of_the_thesis() {
     // An avalanche on a tap's border is seen by that tap: bins begin a femtosecond late.
     let edge = |k: usize| Time::from_fs(25_000 * k as u64 + u64::from(k > 0));
     for (k, span) in spans.iter().enumerate() {
-        assert_eq!((span.from, span.until, span.code), (edge(k), edge(k + 1), k as u8));
+        assert_eq!((span.from, span.until, span.code), (edge(k), edge(k + 1), k as u16));
     }
 }
 

@@ -16,14 +16,13 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use tofsim::error::Input;
-use tofsim::network::Histogram;
 use tofsim::optics::hazard::normal_cdf;
 
 use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo, FreeRunning};
 
 use super::arming::Arming;
 use super::solve::{Matrix, inverse_diagonal};
-use super::stretches::{CELLS, Stretch, Stretches};
+use super::stretches::{Stretch, Stretches};
 
 /// Background that is as good as none: hits of it in all shots [hits].
 const LEAST: f64 = 0.01;
@@ -40,7 +39,7 @@ pub struct Model {
     /// Stretches in order of time, from 0 on.
     stretches: Arc<[Stretch]>,
     /// Codes that have a cell of their own.
-    known: [bool; CELLS - 1],
+    known: Vec<bool>,
     /// Length of a stretch, if all have the same [ps].
     step_ps: f64,
     /// What decides which shots find the diode armed; all do without it.
@@ -55,8 +54,8 @@ pub struct Model {
 
 /// Probabilities of the cells and their derivatives by the coordinates.
 struct Cells {
-    of: [f64; CELLS],
-    by: [[f64; 3]; CELLS],
+    of: Vec<f64>,
+    by: Vec<[f64; 3]>,
 }
 
 impl Model {
@@ -70,6 +69,11 @@ impl Model {
         let (shots, sigma_ps) = (acquisition.shots, acquisition.pulse_sigma_ps);
         let free_running = acquisition.free_running;
         Ok(Model { stretches, known, step_ps, free_running, shots, sigma_ps, end_ps })
+    }
+
+    /// Cells: the codes, and last no code.
+    fn cell_count(&self) -> usize {
+        self.known.len() + 1
     }
 
     /// Lower limit of the third coordinate.
@@ -98,7 +102,7 @@ impl Model {
     }
 
     /// Logarithm of the histogram's probability, but for a constant.
-    pub fn log_likelihood(&self, at: &[f64; 3], histogram: &Histogram) -> f64 {
+    pub fn log_likelihood(&self, at: &[f64; 3], histogram: &[u32]) -> f64 {
         let terms = self.counts(histogram).zip(self.chances(at));
         terms
             .map(|(count, p)| if count > 0.0 { count * libm::log(p.max(IMPROBABLE)) } else { 0.0 })
@@ -106,10 +110,10 @@ impl Model {
     }
 
     /// Derivatives of the log likelihood, and Fisher's information.
-    pub fn slope(&self, at: &[f64; 3], histogram: &Histogram) -> ([f64; 3], Matrix) {
+    pub fn slope(&self, at: &[f64; 3], histogram: &[u32]) -> ([f64; 3], Matrix) {
         let cells = self.cells(at);
         let mut gradient = [0.0; 3];
-        for ((count, p), by) in self.counts(histogram).zip(cells.of).zip(&cells.by) {
+        for ((count, &p), by) in self.counts(histogram).zip(&cells.of).zip(&cells.by) {
             if count > 0.0 && p > IMPROBABLE {
                 gradient = [0, 1, 2].map(|k| gradient[k] + count * by[k] / p);
             }
@@ -127,15 +131,16 @@ impl Model {
     }
 
     /// The probability of each code, where it has a cell of its own; 0 elsewhere [1].
-    pub fn probabilities(&self, echo: &Echo) -> [f64; CELLS - 1] {
-        let chances = self.chances(&self.coordinates(echo));
-        std::array::from_fn(|code| chances[code])
+    pub fn probabilities(&self, echo: &Echo) -> Vec<f64> {
+        let mut chances = self.chances(&self.coordinates(echo));
+        chances.pop();
+        chances
     }
 
     /// Counts of the cells; last the shots without a code.
-    fn counts<'a>(&'a self, histogram: &'a Histogram) -> impl Iterator<Item = f64> + 'a {
-        let own = histogram.iter().zip(self.known);
-        let own = own.map(|(&count, known)| if known { u64::from(count) } else { 0 });
+    fn counts<'a>(&'a self, histogram: &'a [u32]) -> impl Iterator<Item = f64> + 'a {
+        let own = histogram.iter().zip(&self.known);
+        let own = own.map(|(&count, &known)| if known { u64::from(count) } else { 0 });
         let without = self.shots.saturating_sub(own.clone().sum()) as f64;
         own.map(|count| count as f64).chain([without])
     }
@@ -163,7 +168,7 @@ impl Model {
     }
 
     /// The probability of each cell.
-    fn chances(&self, at: &[f64; 3]) -> [f64; CELLS] {
+    fn chances(&self, at: &[f64; 3]) -> Vec<f64> {
         match &self.free_running {
             None => self.cells(at).of,
             Some(free) => self.free_chances(free, at),
@@ -174,7 +179,8 @@ impl Model {
         if let Some(free) = &self.free_running {
             return self.free_cells(free, at);
         }
-        let mut cells = Cells { of: [0.0; CELLS], by: [[0.0; 3]; CELLS] };
+        let mut cells =
+            Cells { of: vec![0.0; self.cell_count()], by: vec![[0.0; 3]; self.cell_count()] };
         let signal = libm::exp(at[1]);
         let (mut h, mut by) = (0.0, [0.0; 3]);
         for stretch in self.stretches.iter() {
@@ -190,12 +196,12 @@ impl Model {
             (h, by) = (next, next_by);
         }
         let none = libm::exp(-h);
-        cells.add(CELLS - 1, none, by.map(|by| -by * none));
+        cells.add(self.known.len(), none, by.map(|by| -by * none));
         cells
     }
 
     /// The probabilities in MODE 1, where the scene decides how often the diode is armed too.
-    fn free_chances(&self, free: &FreeRunning, at: &[f64; 3]) -> [f64; CELLS] {
+    fn free_chances(&self, free: &FreeRunning, at: &[f64; 3]) -> Vec<f64> {
         let (signal, mut h) = (libm::exp(at[1]), 0.0);
         let first = self.stretches.iter().map(|stretch| {
             let next = self.hazard(at, signal, stretch.until_ps).0;
@@ -205,11 +211,11 @@ impl Model {
         });
         let first: Vec<_> = first.collect();
         let arming = Arming::new(free, self.sigma_ps, self.step_ps, &self.echo(at));
-        let mut of = [0.0; CELLS];
+        let (last, mut of) = (self.known.len(), vec![0.0; self.cell_count()]);
         for (stretch, p) in self.stretches.iter().zip(arming.show(&first)) {
             stretch.cells.iter().for_each(|&(cell, part)| of[cell] += p * part);
         }
-        of[CELLS - 1] = (1.0 - of[..CELLS - 1].iter().sum::<f64>()).max(0.0);
+        of[last] = (1.0 - of[..last].iter().sum::<f64>()).max(0.0);
         of
     }
 
@@ -224,7 +230,7 @@ impl Model {
         let sides = [0, 1, 2].map(|k| [moved(k, steps[k]), moved(k, -steps[k])]);
         let slope =
             |cell: usize, k: usize| (sides[k][0][cell] - sides[k][1][cell]) / steps[k] / 2.0;
-        let by = std::array::from_fn(|cell| [0, 1, 2].map(|k| slope(cell, k)));
+        let by = (0..self.cell_count()).map(|cell| [0, 1, 2].map(|k| slope(cell, k))).collect();
         Cells { of: self.free_chances(free, at), by }
     }
 }

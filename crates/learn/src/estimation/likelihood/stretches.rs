@@ -12,8 +12,6 @@ use tofsim::optics::hazard::normal_cdf;
 
 use crate::estimation::acquisition::{Acquisition, spans_ps};
 
-/// Cells: the codes, and no code [1].
-pub const CELLS: usize = 257;
 /// Longest stretch where avalanches spread over cells [ps].
 const STEP_PS: f64 = 10.0;
 /// The same beside the pulse, of which pile-up leaves a narrower one [sigma].
@@ -26,7 +24,7 @@ const REACH: f64 = 6.0;
 pub struct Stretch {
     /// Its end [ps].
     pub until_ps: f64,
-    /// Cells of its avalanches, and the part in each [code or 256, 1].
+    /// Cells of its avalanches, and the part in each [code or one past the last, 1].
     pub cells: Vec<(usize, f64)>,
 }
 
@@ -36,7 +34,7 @@ pub struct Stretches {
     /// In order of time, from 0 on.
     pub stretches: Arc<[Stretch]>,
     /// Codes that have a cell of their own.
-    pub known: [bool; CELLS - 1],
+    pub known: Vec<bool>,
     /// Length of each, where all have the same [ps].
     pub step_ps: f64,
     /// End of the last bin [ps].
@@ -49,18 +47,24 @@ impl Stretches {
         let spans: Vec<_> = spans_ps(acquisition.bins).collect();
         let end_ps = spans.last().map_or(0.0, |&(.., until)| until);
         let limit_ps = acquisition.free_running.map_or(f64::INFINITY, |free| free.first_edge_ps());
-        let mut known = [true; CELLS - 1];
+        let none = acquisition.bins.count();
+        let mut known = vec![true; none];
         for &(code, _, until_ps) in &spans {
             known[code as usize] &= until_ps <= limit_ps;
         }
         if acquisition.jitter_ps == 0.0 && acquisition.free_running.is_none() {
-            return Stretches { stretches: sharp(&spans).into(), known, step_ps: 0.0, end_ps };
+            return Stretches {
+                stretches: sharp(&spans, none).into(),
+                known,
+                step_ps: 0.0,
+                end_ps,
+            };
         }
         let step_ps = STEP_PS.min(STEP * acquisition.pulse_sigma_ps);
         let reach_ps = REACH * acquisition.jitter_ps;
         let count = ((end_ps + reach_ps) / step_ps).ceil() as usize;
-        let cell = |&(code, from_ps, until_ps): &(u8, f64, f64)| {
-            (if known[code as usize] { code.into() } else { CELLS - 1 }, from_ps, until_ps)
+        let cell = |&(code, from_ps, until_ps): &(u16, f64, f64)| {
+            (if known[code as usize] { code.into() } else { none }, from_ps, until_ps)
         };
         let spans: Vec<_> = spans.iter().map(cell).collect();
         let stretch = |k: usize| {
@@ -68,20 +72,20 @@ impl Stretches {
             let around = spans.iter().filter(|(_, begin_ps, end_ps)| {
                 *end_ps > from_ps - reach_ps && *begin_ps < until_ps + reach_ps
             });
-            let cells = spread(around, [from_ps, until_ps], acquisition.jitter_ps);
+            let cells = spread(around, [from_ps, until_ps], acquisition.jitter_ps, none);
             Stretch { until_ps, cells }
         };
         Stretches { stretches: (0..count).map(stretch).collect(), known, step_ps, end_ps }
     }
 }
 
-/// A stretch for each span, and for each gap between them.
-fn sharp(spans: &[(u8, f64, f64)]) -> Vec<Stretch> {
+/// A stretch for each span, and for each gap between them, whose cell is `none`.
+fn sharp(spans: &[(u16, f64, f64)], none: usize) -> Vec<Stretch> {
     let mut stretches = Vec::new();
     let mut end_ps = 0.0;
     for &(code, from_ps, until_ps) in spans {
         if from_ps > end_ps {
-            stretches.push(Stretch { until_ps: from_ps, cells: vec![(CELLS - 1, 1.0)] });
+            stretches.push(Stretch { until_ps: from_ps, cells: vec![(none, 1.0)] });
         }
         stretches.push(Stretch { until_ps, cells: vec![(code.into(), 1.0)] });
         end_ps = until_ps;
@@ -89,11 +93,12 @@ fn sharp(spans: &[(u8, f64, f64)]) -> Vec<Stretch> {
     stretches
 }
 
-/// The cells that avalanches between two times are counted in.
+/// The cells that avalanches between two times are counted in; `none` is that of no code.
 fn spread<'a>(
     spans: impl Iterator<Item = &'a (usize, f64, f64)>,
     [from_ps, until_ps]: [f64; 2],
     jitter_ps: f64,
+    none: usize,
 ) -> Vec<(usize, f64)> {
     // The part of them that is seen before a time.
     let before = |t_ps: f64| {
@@ -107,7 +112,7 @@ fn spread<'a>(
         (cell, part)
     };
     let mut cells: Vec<_> = spans.map(part).filter(|&(_, part)| part > 0.0).collect();
-    cells.push((CELLS - 1, left.max(0.0)));
+    cells.push((none, left.max(0.0)));
     cells
 }
 

@@ -55,7 +55,7 @@ fn too_few_distances_or_histograms_are_refused() {
 
 #[test]
 fn the_digest_sees_every_count_and_distance() {
-    let samples = Samples { counts: vec![[7; 256]; 2], distances_m: vec![0.1, 0.2] };
+    let samples = Samples { counts: vec![vec![7; 256]; 2], distances_m: vec![0.1, 0.2] };
     let mut other = samples.clone();
     other.counts[1][255] += 1;
     assert_ne!(samples.digest(), other.digest());

@@ -13,7 +13,7 @@ use super::*;
 /// 300 histograms, so that the last block is not full, and a smooth network.
 fn counts() -> Vec<Histogram> {
     let one = |s: usize| -> Histogram {
-        std::array::from_fn(|bin| ((s * 37 + bin * s * 3 + bin * bin) % 401) as u16)
+        (0..256).map(|bin| ((s * 37 + bin * s * 3 + bin * bin) % 401) as u32).collect()
     };
     (0..300).map(one).collect()
 }
@@ -126,10 +126,11 @@ fn wider_vectors_change_no_bit() {
 
 #[test]
 fn bins_that_never_count_do_no_harm() {
-    let histogram = |s: usize| -> [u16; 256] {
-        std::array::from_fn(|bin| {
-            if (40..90).contains(&bin) { ((s * 7 + bin * s) % 31) as u16 } else { 0 }
-        })
+    let histogram = |s: usize| -> Vec<u32> {
+        let count = |bin: usize| {
+            if (40..90).contains(&bin) { ((s * 7 + bin * s) % 31) as u32 } else { 0 }
+        };
+        (0..256).map(count).collect()
     };
     let counts: Vec<_> = (0..400).map(histogram).collect();
     let distances_m: Vec<f64> =
