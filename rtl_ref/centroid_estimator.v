@@ -11,23 +11,23 @@
 //
 // for the word of cycle s and the window that ends before it.
 module centroid_estimator #(
-    parameter integer BinBits = 8,            // 2 to the power of which are the bins, 4 to 10
-    parameter integer CountBits = 16,         // of a word of the histogram, 8 to 24
-    parameter [4:0] HalfWidth = 5'd23,        // words to either side of the centre, 1 to 31 [bins]
-    parameter [0:0] Background = 1'b1,        // 1: height is counted from the window's first word
-    parameter [16:0] Slope = 17'd62871,       // distance of a bin [2^-24 m]
-    parameter signed [29:0] Offset = 30'sd0   // distance that is added [2^-29 m]
+    parameter integer BinBits = 8,           // 2 to the power of which are the bins, 4 to 10
+    parameter integer CountBits = 16,        // of a word of the histogram, 8 to 24
+    parameter [4:0] HalfWidth = 5'd23,       // words to either side of the centre, 1 to 31 [bins]
+    parameter [0:0] Background = 1'b1,       // 1: height is counted from the window's first word
+    parameter [16:0] Slope = 17'd62871,      // distance of a bin [2^-24 m]
+    parameter signed [29:0] Offset = 30'sd0  // distance that is added [2^-29 m]
 ) (
     input wire clk_sys,
     input wire rst,
-    input wire algo_start,           // starts an estimation
+    input wire algo_start,               // starts an estimation
     // Histogram
-    output reg read_en,              // the histogram's word at read_addr is being read
+    output reg read_en,                  // the histogram's word at read_addr is being read
     output reg [BinBits-1:0] read_addr,  // word of the histogram
-    input wire [CountBits-1:0] count,  // word of the histogram at read_addr [hits]
+    input wire [CountBits-1:0] count,    // word of the histogram at read_addr [hits]
     // Result
-    output reg signed [35:0] depth,  // when algo_done is high, and until the next one [2^-29 m]
-    output reg algo_done             // the depth is ready; one cycle
+    output reg signed [35:0] depth,      // when algo_done is high, and until the next one [2^-29 m]
+    output reg algo_done                 // the depth is ready; one cycle
 );
     // Cycles after the edge that takes algo_start: first one of the division, then the ones before
     // the edge that makes the position, and before the one that makes the depth.
@@ -41,28 +41,28 @@ module centroid_estimator #(
     localparam integer PlaceBits = BinBits > 7 ? BinBits : 7, PositionBits = PlaceBits + 12;
     localparam integer HighBits = PositionBits - 18, CoarseBits = HighBits + 17, DistanceBits = PositionBits + 10;
 
-    reg busy;              // an estimation is under way
-    reg [StepBits-1:0] step;  // cycles since e0
-    reg whole;             // the window has all its words
-    reg [5:0] first;       // place of its first word, of word 0 before that
-    reg [CountBits-1:0] entering;  // the word that enters the window [hits]
-    reg [CountBits-1:0] leaving;  // the word that leaves it [hits]
-    reg [CountBits-1:0] level;  // background at its centre [hits]
-    reg [CountBits-1:0] centre;  // the word at its centre [hits]
-    reg signed [CountBits:0] change;  // what entering and leaving change in sum [hits]
-    reg [WindowBits-1:0] weighted;  // leaving, as often as the window has words
-    reg [CountBits-1:0] height;  // centre above the level, 0 below it or where none is [hits]
-    reg [WindowBits-1:0] sum;  // hits in the window
-    reg [AgesBits-1:0] ages;  // hits in the window, each times the words that came after its own
-    reg [CountBits-1:0] best;  // height of the highest centre [hits]
-    reg [BinBits-1:0] peak;  // its bin
-    reg [WindowBits-1:0] best_sum;  // hits in its window: the divisor
+    reg busy;                           // an estimation is under way
+    reg [StepBits-1:0] step;            // cycles since e0
+    reg whole;                          // the window has all its words
+    reg [5:0] first;                    // place of its first word, of word 0 before that
+    reg [CountBits-1:0] entering;       // the word that enters the window [hits]
+    reg [CountBits-1:0] leaving;        // the word that leaves it [hits]
+    reg [CountBits-1:0] level;          // background at its centre [hits]
+    reg [CountBits-1:0] centre;         // the word at its centre [hits]
+    reg signed [CountBits:0] change;    // what entering and leaving change in sum [hits]
+    reg [WindowBits-1:0] weighted;      // leaving, as often as the window has words
+    reg [CountBits-1:0] height;         // centre above the level, 0 below it or where none is [hits]
+    reg [WindowBits-1:0] sum;           // hits in the window
+    reg [AgesBits-1:0] ages;            // hits in the window, each times the words that came after its own
+    reg [CountBits-1:0] best;           // height of the highest centre [hits]
+    reg [BinBits-1:0] peak;             // its bin
+    reg [WindowBits-1:0] best_sum;      // hits in its window: the divisor
     reg [RemainderBits-1:0] remainder;  // ages of its window, then what the division leaves of it
-    reg [17:0] quotient;  // mean age of the hits in its window [2^-12 bins]
-    reg [PositionBits-1:0] position;  // centroid from the begin of bin 0 [2^-12 bins]
-    reg [34:0] fine;  // low 18 bits of position times slope [2^-36 m]
-    reg [CoarseBits-1:0] coarse;  // those above them times slope [2^-18 m]
-    reg [DistanceBits-1:0] distance;  // position times slope [2^-29 m]
+    reg [17:0] quotient;                // mean age of the hits in its window [2^-12 bins]
+    reg [PositionBits-1:0] position;    // centroid from the begin of bin 0 [2^-12 bins]
+    reg [34:0] fine;                    // low 18 bits of position times slope [2^-36 m]
+    reg [CoarseBits-1:0] coarse;        // those above them times slope [2^-18 m]
+    reg [DistanceBits-1:0] distance;    // position times slope [2^-29 m]
 
     // The last words, each at its number plus one modulo 64, without reset: nothing is read before it
     // has been written.

@@ -3,8 +3,8 @@
 
 // Stands in for the TDC: a code from a ROM for every shot.
 module code_preload #(
-    parameter integer BinBits = 8,            // of a code
-    parameter integer Codes = 27756,          // words of the ROM, 1 to 65536
+    parameter integer BinBits = 8,    // of a code
+    parameter integer Codes = 27756,  // words of the ROM, 1 to 65536
     parameter CodeFile = "rtl_ref/codes.mem"  // [bins]
 ) (
     input wire clk_sys,

@@ -6,10 +6,10 @@
 // Its ports are a socket: any module with them, of any latency, can take its place. Its own latency is
 // as many cycles as there are bins and neurons, and three, from eight neurons on.
 module depth_estimator #(
-    parameter integer BinBits = 8,               // see estimator_ctrl
-    parameter integer CountBits = 16,            // of a word of the histogram, 8 to 24
-    parameter integer SumBits = 36,              // see forward1
-    parameter [4:0] Neurons = 5'd8,              // hidden neurons, 1 to 16
+    parameter integer BinBits = 8,     // see estimator_ctrl
+    parameter integer CountBits = 16,  // of a word of the histogram, 8 to 24
+    parameter integer SumBits = 36,    // see forward1
+    parameter [4:0] Neurons = 5'd8,    // hidden neurons, 1 to 16
     parameter W1File = "rtl_ref/w1.mem",         // see forward1
     parameter B1File = "rtl_ref/b1.mem",
     parameter W2File = "rtl_ref/w2.mem",         // see forward2
@@ -18,14 +18,14 @@ module depth_estimator #(
 ) (
     input wire clk_sys,
     input wire rst,
-    input wire algo_start,            // starts an estimation
+    input wire algo_start,                // starts an estimation
     // Histogram
-    output wire read_en,              // the histogram's word at read_addr is being read
+    output wire read_en,                  // the histogram's word at read_addr is being read
     output wire [BinBits-1:0] read_addr,  // word of the histogram
-    input wire [CountBits-1:0] count,  // word of the histogram at read_addr [hits]
+    input wire [CountBits-1:0] count,     // word of the histogram at read_addr [hits]
     // Result
-    output wire signed [35:0] depth,  // from algo_done until the next one [2^-29 m]
-    output wire algo_done             // the depth is ready; one cycle
+    output wire signed [35:0] depth,      // from algo_done until the next one [2^-29 m]
+    output wire algo_done                 // the depth is ready; one cycle
 );
     wire [BinBits-1:0] rom_addr;
     wire forward1_first;

@@ -17,20 +17,20 @@ module estimator_ctrl #(
 ) (
     input wire clk_sys,
     input wire rst,
-    input wire algo_start,       // starts an estimation; ignored while busy
-    output reg algo_done,        // the depth is ready; one cycle
+    input wire algo_start,               // starts an estimation; ignored while busy
+    output reg algo_done,                // the depth is ready; one cycle
     // Histogram
-    output reg read_en,          // the histogram's word at read_addr is being read
+    output reg read_en,                  // the histogram's word at read_addr is being read
     output reg [BinBits-1:0] read_addr,  // word of the histogram
     // Layers
-    output reg [BinBits-1:0] rom_addr,  // row of weights to fetch: that of the coming word
-    output reg forward1_first,   // the sums of the hidden layer begin
-    output reg forward1_en,      // the hidden layer accumulates
-    output reg tansig_en,        // the activations are looked up
-    output reg [2:0] pair,       // neurons whose activations become operands
-    output reg forward2_first,   // the sums of the output layer begin
-    output reg forward2_en,      // the output layer accumulates
-    output reg depth_en          // its sums become the depth
+    output reg [BinBits-1:0] rom_addr,   // row of weights to fetch: that of the coming word
+    output reg forward1_first,           // the sums of the hidden layer begin
+    output reg forward1_en,              // the hidden layer accumulates
+    output reg tansig_en,                // the activations are looked up
+    output reg [2:0] pair,               // neurons whose activations become operands
+    output reg forward2_first,           // the sums of the output layer begin
+    output reg forward2_en,              // the output layer accumulates
+    output reg depth_en                  // its sums become the depth
 );
     // In cycles since e0; what is high in a cycle is decoded in the one before.
     localparam integer Bins = 1 << BinBits, NeuronsHere = {27'd0, Neurons}, PairsHere = (NeuronsHere + 1) / 2;
@@ -40,7 +40,7 @@ module estimator_ctrl #(
     localparam [StepBits-1:0] Sums1 = 2, Tansig = LastWord + 3, Operands = LastWord + 5, Sums2 = LastWord + 7;
     localparam [StepBits-1:0] Pairs = PairsHere[StepBits-1:0], Add = AddAt[StepBits-1:0];
 
-    reg busy;        // an estimation is under way
+    reg busy;                 // an estimation is under way
     reg [StepBits-1:0] step;  // cycles since e0
 
     reg algo_done_next, read_en_next, forward1_first_next, forward1_en_next, tansig_en_next;

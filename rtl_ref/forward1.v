@@ -5,18 +5,18 @@
 //
 //   word (A), weight (B)  ->  product (M)  ->  l1_in (P), which begins with the bias (C)
 module forward1 #(
-    parameter integer BinBits = 8,        // 2 to the power of which are the words of the histogram
-    parameter integer CountBits = 16,     // of a word
-    parameter integer SumBits = 36,       // 36, or CountBits + 17 where that is more
-    parameter [4:0] Neurons = 5'd8,       // hidden neurons, 1 to 16
+    parameter integer BinBits = 8,     // 2 to the power of which are the words of the histogram
+    parameter integer CountBits = 16,  // of a word
+    parameter integer SumBits = 36,    // 36, or CountBits + 17 where that is more
+    parameter [4:0] Neurons = 5'd8,    // hidden neurons, 1 to 16
     parameter W1File = "rtl_ref/w1.mem",  // a row for each word, a weight for each neuron [2^-23]
     parameter B1File = "rtl_ref/b1.mem"   // one row, a bias for each neuron [2^-13]
 ) (
     input wire clk_sys,
     input wire rst,
     // estimator_ctrl
-    input wire forward1_first,   // the sums begin
-    input wire forward1_en,      // accumulates
+    input wire forward1_first,          // the sums begin
+    input wire forward1_en,             // accumulates
     input wire [BinBits-1:0] rom_addr,  // row to fetch: that of the coming word
     // Histogram
     input wire [CountBits-1:0] count,   // word of the histogram [hits]
@@ -105,8 +105,8 @@ module forward1 #(
     generate
         for (k = 0; k < 16; k = k + 1) begin : unit
             if (k < Neurons) begin : used
-                reg signed [15:0] fetched;  // output of the ROM
-                reg signed [15:0] weight;   // weight of the word
+                reg signed [15:0] fetched;             // output of the ROM
+                reg signed [15:0] weight;              // weight of the word
                 reg signed [ProductBits-1:0] product;  // their product, a cycle later
                 reg signed [SumBits-1:0] l1_in;
 

@@ -3,7 +3,7 @@
 
 // Runs a frame: clear the histogram, acquire, let the TDC drain, estimate, again.
 module frame_ctrl #(
-    parameter integer BinBits = 8,               // see histogram_builder
+    parameter integer BinBits = 8,  // see histogram_builder
     parameter integer CountBits = 16,
     parameter [23:0] ShotsPerFrame = 24'd30000,  // [shots]
     parameter [0:0] Preloaded = 1'b0,            // skips Acquire and Drain
@@ -12,24 +12,24 @@ module frame_ctrl #(
     input wire clk_sys,
     input wire rst,
     // vcsel_driver
-    input wire start,             // a shot begins
-    output reg acquire,           // lets the laser's counter run
+    input wire start,                     // a shot begins
+    output reg acquire,                   // lets the laser's counter run
     // Acquisition computer
-    input wire dsp_rst,           // abandons the frame
-    input wire dsp_en,            // lets the estimator start
-    output reg frame_done,        // the frame has ended; one cycle
+    input wire dsp_rst,                   // abandons the frame
+    input wire dsp_en,                    // lets the estimator start
+    output reg frame_done,                // the frame has ended; one cycle
     // histogram_builder
-    output reg clear,             // sets a word of the histogram to zero
+    output reg clear,                     // sets a word of the histogram to zero
     output reg [BinBits-1:0] clear_addr,  // which word
     // depth_estimator
-    output reg algo_start,        // starts the estimator; one cycle
-    input wire algo_done          // the estimator has finished
+    output reg algo_start,                // starts the estimator; one cycle
+    input wire algo_done                  // the estimator has finished
 );
     localparam integer DrainBits = $clog2(DrainCycles);
     localparam [16:0] LastDrain = DrainCycles - 17'd1;
     localparam [1:0] Clear = 2'd0, Acquire = 2'd1, Drain = 2'd2, Estimate = 2'd3;
 
-    reg [1:0] state;   // state of the frame
+    reg [1:0] state;            // state of the frame
     reg [CountBits-1:0] shots;  // shots begun in this frame
     reg [DrainBits-1:0] drain;  // cycles spent in Drain
 

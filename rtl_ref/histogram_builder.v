@@ -10,19 +10,19 @@ module histogram_builder #(
 ) (
     input wire clk_sys,
     // frame_ctrl
-    input wire clear,             // sets the word at clear_addr to zero
+    input wire clear,                     // sets the word at clear_addr to zero
     input wire [BinBits-1:0] clear_addr,  // word to clear
     // tdc
-    input wire tdc_valid,         // counts a hit; low for the next two cycles
-    input wire [BinBits-1:0] tdc_code,  // word of the hit; holds for the next two cycles
+    input wire tdc_valid,                 // counts a hit; low for the next two cycles
+    input wire [BinBits-1:0] tdc_code,    // word of the hit; holds for the next two cycles
     // depth_estimator
-    input wire read_en,           // shows a word at count
-    input wire [BinBits-1:0] read_addr,  // word to show
-    output wire [CountBits-1:0] count  // word of the histogram [hits]
+    input wire read_en,                   // shows a word at count
+    input wire [BinBits-1:0] read_addr,   // word to show
+    output wire [CountBits-1:0] count     // word of the histogram [hits]
 );
     (* ram_style = "distributed" *) reg [CountBits-1:0] ram [0:(1 << BinBits) - 1];
-    reg counting;         // either cycle of a hit: what the address waits for is one register
-    reg writing;          // the second
+    reg counting;                  // either cycle of a hit: what the address waits for is one register
+    reg writing;                   // the second
     reg [CountBits-1:0] hit_word;  // the word of the hit before it is counted [hits]
 
     integer i;

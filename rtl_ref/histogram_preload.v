@@ -3,7 +3,7 @@
 
 // Stands in for the histogram: a ROM with the same read port, not clocked.
 module histogram_preload #(
-    parameter integer BinBits = 8,                    // see histogram_builder
+    parameter integer BinBits = 8,  // see histogram_builder
     parameter integer CountBits = 16,
     parameter HistogramFile = "rtl_ref/histogram.mem"  // [hits]
 ) (

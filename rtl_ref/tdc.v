@@ -12,15 +12,15 @@ module tdc #(
     parameter integer Taps = 800,
     parameter integer CoarseBits = 3,
     parameter integer BinBits = 8,
-    parameter integer Cycle = 5120,                   // [units]
+    parameter integer Cycle = 5120,  // [units]
     parameter integer Digits = 4,
     parameter integer AgeBits = 14,
     parameter [1:0] CountStages = 2'd3
 ) (
     input wire clk_sys,
     input wire rst,
-    input wire start,            // a shot begins
-    input wire tdc_stop,         // output of the SPAD, asynchronous
+    input wire start,                    // a shot begins
+    input wire tdc_stop,                 // output of the SPAD, asynchronous
     output wire [BinBits-1:0] tdc_code,  // time of the hit [bins]
     output wire tdc_valid                // tdc_code is new; one cycle
 );

@@ -6,14 +6,14 @@
 //   edge      e+1       e+2       e+3       e+4  e+5  e+6  e+7
 //   register  hit_taps  sixteens  hundreds  n    age  t    tdc_code, tdc_valid
 module tdc_decoder #(
-    parameter integer Taps = 800,               // of the chain, 16 to 2000
+    parameter integer Taps = 800,  // of the chain, 16 to 2000
     parameter integer CoarseBits = 3,
-    parameter integer BinBits = 8,              // of a code
-    parameter integer Cycle = 5120,             // a period of clk_sys [units, 25/16 ps]
-    parameter integer Digits = 4,               // of a time below a bin, in binary
-    parameter integer AgeBits = 14,             // of a word of CalFile
+    parameter integer BinBits = 8,   // of a code
+    parameter integer Cycle = 5120,  // a period of clk_sys [units, 25/16 ps]
+    parameter integer Digits = 4,    // of a time below a bin, in binary
+    parameter integer AgeBits = 14,  // of a word of CalFile
     parameter CalFile = "rtl_ref/tdc_cal.mem",  // age of a hit for each ones count [units]
-    parameter [1:0] CountStages = 2'd3          // registers of the ones count; 2: n counts the sixteens
+    parameter [1:0] CountStages = 2'd3  // registers of the ones count; 2: n counts the sixteens
 ) (
     input wire clk_sys,
     input wire rst,
@@ -35,11 +35,11 @@ module tdc_decoder #(
     // Each holds its last hit, is new for one cycle, and has that hit's coarse count.
     reg [5*Sixteens-1:0] sixteens;  // ones among 16 taps each
     reg [8*Hundreds-1:0] hundreds;  // ones among 128 taps each
-    reg [OnesBits-1:0] n;          // taps that the hit had run through
+    reg [OnesBits-1:0] n;           // taps that the hit had run through
     reg [AgeBits-1:0] age;          // the time for that [units]
     // Its lowest bits are for the borrow.
     // verilator lint_off UNUSEDSIGNAL
-    reg signed [TimeBits-1:0] t;    // time from the begin of bin 0 [units]
+    reg signed [TimeBits-1:0] t;  // time from the begin of bin 0 [units]
     // verilator lint_on UNUSEDSIGNAL
     reg sixteens_valid, hundreds_valid, n_valid, age_valid, t_valid;
     reg [CoarseBits-1:0] sixteens_coarse, hundreds_coarse, n_coarse, age_coarse;

@@ -45,14 +45,19 @@ pub fn depth_estimator(params: &Params) -> Vec<Mem> {
 
 /// The decoder's calibration: line N is the time for N ones [units].
 pub fn tdc_decoder(params: &tdc_decoder::Params) -> Mem {
-    let digits = params.age_bits().div_ceil(4) as usize;
-    Mem { name: "tdc_cal.mem", text: lines(params.cal.iter().map(|age| age.get()), digits) }
+    let words = params.cal.iter().map(|age| age.get());
+    Mem { name: "tdc_cal.mem", text: lines(words, digits(params.age_bits())) }
 }
 
 /// Words side by side on a line, the first in the low bits.
 fn words(row: &[Weight]) -> String {
     let digits: String = row.iter().rev().map(|weight| format!("{:04x}", weight.bits())).collect();
     digits + "\n"
+}
+
+/// Hexadecimal digits of a word of so many bits.
+pub fn digits(bits: u32) -> usize {
+    bits.div_ceil(4) as usize
 }
 
 /// Words as lines of that many hexadecimal digits.

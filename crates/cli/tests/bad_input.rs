@@ -28,8 +28,8 @@ fn a_scenario_that_cannot_be_used_is_refused_with_its_place() {
     );
     assert!(scenario(b"[target]\ndistance_m = -1\n").contains("from 0.001 to 1000.0 [m]"));
     assert!(scenario(b"[target]\ndistance_m = nan\n").contains("distance_m = nan"));
-    assert!(scenario(b"[firmware]\nshots_per_frame = 0\n").contains("from 1 to 65535"));
-    assert!(scenario(b"[firmware]\nshots_per_frame = 70000\n").contains("from 1 to 65535"));
+    assert!(scenario(b"[firmware]\nshots_per_frame = 0\n").contains("from 1 to 16777215"));
+    assert!(scenario(b"[firmware]\nshots_per_frame = 70000\n").contains("expected 65535 at most, what a word of 16 bits"));
     assert!(scenario(b"[pll]\nmultiply = 6\n").contains("clk_sys would run at 150000000"));
     assert!(scenario(b"[pll]\nmultiply = 2\n").contains("VCO"));
     assert!(

@@ -26,7 +26,7 @@ use super::terminal::{Talk, print_json};
 /// Estimate depths of histograms, bit for bit as the firmware does
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// CSV with header bin,count and 256 rows, .npy of 256 or n x 256 whole numbers, or Parquet with columns
+    /// CSV with header bin,count and a row for each bin, .npy of 256 or n x 256 whole numbers, or Parquet with columns
     /// b0 to b255
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,

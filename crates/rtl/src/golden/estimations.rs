@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use tofsim::firmware::histogram_builder::{Count, Params};
-use tofsim::network::mem::{Mem, lines};
+use tofsim::network::mem::{Mem, digits, lines};
 
 use super::cover::Cover;
 use super::draw::Draw;
@@ -12,11 +12,6 @@ use super::spec::FIRST_RESET;
 
 /// Words of a histogram [hits].
 pub type Histogram = Vec<Count>;
-
-/// Hexadecimal digits of a word of so many bits.
-pub fn digits(bits: u32) -> usize {
-    bits.div_ceil(4) as usize
-}
 
 /// Most hits of a histogram that is drawn hit by hit, and what each of them counts: a wider word is filled
 /// with as many draws.

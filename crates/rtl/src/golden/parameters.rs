@@ -5,10 +5,8 @@ use tofsim::firmware::histogram_builder::{self, Bin, Count};
 use tofsim::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Sizes};
 use tofsim::firmware::{centroid_estimator, depth_estimator, forward2, tdc_decoder, vcsel_driver};
 use tofsim::kernel::U;
-use tofsim::network::mem::{self, Mem, lines};
+use tofsim::network::mem::{self, Mem, digits, lines};
 use tofsim::sim::setup::Setup;
-
-use super::estimations::digits;
 
 /// A parameter's value.
 #[derive(Clone, Debug, PartialEq)]

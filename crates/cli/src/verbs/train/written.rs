@@ -112,10 +112,10 @@ fn network(
         two_sd_mm: rows.iter().map(|row| report::hundredths(row.two_sd_mm)).collect(),
         mean_mm: Some(rows.iter().map(|row| report::hundredths(row.mean_mm)).collect()),
     };
-    let (neurons, chain) = (recipe.neurons, &training.chain);
+    let (bins, neurons, chain) = (fixed.bins(), recipe.neurons, &training.chain);
     Network {
         name: String::new(),
-        description: format!("256-{neurons}-1 depth network for the bins of chain {chain}"),
+        description: format!("{bins}-{neurons}-1 depth network for the bins of chain {chain}"),
         fixed,
         training,
         domain: None,
