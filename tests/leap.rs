@@ -6,7 +6,7 @@ use tofsim::scenario;
 use tofsim::sim::device::Off;
 use tofsim::sim::fast::{NO_HIT, ShotOutcomes, Tables, acquire, leap_shots};
 use tofsim::sim::frames::Frames;
-use tofsim::sim::setup::{CYCLE, Setup};
+use tofsim::sim::setup::Setup;
 
 use crate::common;
 
@@ -64,7 +64,7 @@ fn the_staircase_of_outcomes_is_the_firmware_s_to_the_femtosecond() {
         for (rate, period) in vcsel_driver::PERIODS.into_iter().enumerate() {
             let profile = format!("tdc.profile={chain}");
             let plain = common::setup("kc705", &[&profile]);
-            let outcomes = ShotOutcomes::new(&plain.params.tdc, period, CYCLE).unwrap();
+            let outcomes = ShotOutcomes::new(&plain.params.tdc, period).unwrap();
             let steps = outcomes
                 .steps()
                 .iter()
