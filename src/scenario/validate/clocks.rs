@@ -45,44 +45,47 @@ const ECP5: Limits = Limits {
 /// Most that a divider of an ECP5 divides by.
 const MOST_OF_ECP5: u64 = 128;
 
-/// Keys that may be changed to make the rest fit, and the values they can have.
-const KEYS: [(&str, fn(&mut Pll) -> &mut u64); 3] = [
-    ("pll.multiply", |pll| &mut pll.multiply),
-    ("pll.divide", |pll| &mut pll.divide),
-    ("pll.output_divide", |pll| &mut pll.output_divide),
-];
+/// A key of the table `pll`.
+struct Key {
+    name: &'static str,
+    field: fn(&mut Pll) -> &mut u64,
+}
+
+static INPUT: Key = Key { name: "pll.input_hz", field: |pll| &mut pll.input_hz };
+static MULTIPLY: Key = Key { name: "pll.multiply", field: |pll| &mut pll.multiply };
+static DIVIDE: Key = Key { name: "pll.divide", field: |pll| &mut pll.divide };
+static OUTPUT: Key = Key { name: "pll.output_divide", field: |pll| &mut pll.output_divide };
+
+/// Values of a divider.
 const VALUES: RangeInclusive<u64> = 1..=128;
 
 /// A key and what is expected of it.
-type Fault = (&'static str, String);
+type Fault = (&'static Key, String);
 
 /// Refuses dividers that the part does not have, or that have it run outside its limits.
 ///
 /// # Errors
-/// The key, its value, what was expected, and a value that fits if that of one key alone can.
+/// The key, its value, what was expected, and a value that fits if that of one divider alone can.
 pub(super) fn check(pll: &Pll, checked: &Checked) -> error::Result<()> {
     let Err((key, expected)) = limits(pll) else { return Ok(()) };
-    let expected = match fitting(pll, key) {
-        Some((key, value)) => format!("{expected}; {key} = {value} fits"),
+    let others = [key, &MULTIPLY, &DIVIDE, &OUTPUT];
+    let expected = match others.into_iter().find_map(|key| Some((key, fitting(pll, key)?))) {
+        Some((key, value)) => format!("{expected}; {} = {value} fits", key.name),
         None => expected,
     };
-    Err(checked.fault(key, expected).into())
+    let value = *(key.field)(&mut pll.clone());
+    Err(checked.fault(key.name, expected).value(value).into())
 }
 
-/// The value nearest to the present one that would make all fit, of that key or else of another.
-fn fitting(pll: &Pll, first: &str) -> Option<(&'static str, u64)> {
-    let nearest = |(key, field): &(&'static str, fn(&mut Pll) -> &mut u64)| {
-        let mut pll = pll.clone();
-        let now = *field(&mut pll);
-        let fits = |value: &u64| {
-            *field(&mut pll) = *value;
-            limits(&pll).is_ok()
-        };
-        let value = VALUES.filter(fits).min_by_key(|value| value.abs_diff(now))?;
-        Some((*key, value))
+/// The value of a divider nearest to the present one that would make all fit.
+fn fitting(pll: &Pll, key: &Key) -> Option<u64> {
+    let mut pll = pll.clone();
+    let now = *(key.field)(&mut pll);
+    let fits = |value: &u64| {
+        *(key.field)(&mut pll) = *value;
+        limits(&pll).is_ok()
     };
-    let own = KEYS.iter().filter(|(key, _)| *key == first);
-    own.chain(&KEYS).find_map(nearest)
+    VALUES.filter(fits).min_by_key(|value| value.abs_diff(now))
 }
 
 fn limits(pll: &Pll) -> Result<(), Fault> {
@@ -90,10 +93,10 @@ fn limits(pll: &Pll) -> Result<(), Fault> {
     let part = if pll.part == Part::Ecp5 { ECP5 } else { KINTEX_7 };
     let name = part.name;
     if !part.input_hz.contains(&input_hz) {
-        return Err(("pll.input_hz", format!("expected {} for {name}", in_mhz(&part.input_hz))));
+        return Err((&INPUT, format!("expected {} for {name}", in_mhz(&part.input_hz))));
     }
     for ((key, value), range) in
-        [("pll.multiply", multiply), ("pll.divide", divide)].into_iter().zip(&part.dividers)
+        [(&MULTIPLY, multiply), (&DIVIDE, divide)].into_iter().zip(&part.dividers)
     {
         if !range.contains(&value) {
             let expected = format!("expected {} to {} for {name}", range.start(), range.end());
@@ -102,9 +105,9 @@ fn limits(pll: &Pll) -> Result<(), Fault> {
     }
     if !output_divide.is_multiple_of(2) {
         let expected = "expected an even number: clk_laser has half of it";
-        return Err(("pll.output_divide", expected.to_owned()));
+        return Err((&OUTPUT, expected.to_owned()));
     }
-    let within = |key, what: &str, hz: f64, range: &RangeInclusive<u64>| {
+    let within = |key: &'static Key, what: &str, hz: f64, range: &RangeInclusive<u64>| {
         if (*range.start() as f64..=*range.end() as f64).contains(&hz) {
             return Ok(());
         }
@@ -113,15 +116,15 @@ fn limits(pll: &Pll) -> Result<(), Fault> {
         Err((key, format!("{what} would run at {mhz} MHz, expected {expected} for {name}")))
     };
     let hz = (input_hz * multiply) as f64 / divide as f64;
-    within("pll.multiply", "the VCO", hz, &part.vco_hz)?;
+    within(&MULTIPLY, "the VCO", hz, &part.vco_hz)?;
     let hz = 2.0 * hz / output_divide as f64;
-    within("pll.output_divide", "clk_laser", hz, &(0..=part.fastest_hz))?;
+    within(&OUTPUT, "clk_laser", hz, &(0..=part.fastest_hz))?;
     let detected = match pll.part {
         Part::Kintex7 => divide,
         Part::Ecp5 => ecp5_dividers(pll)?,
     };
     let hz = input_hz as f64 / detected as f64;
-    within("pll.divide", "the phase detector", hz, &part.detector_hz)
+    within(&DIVIDE, "the phase detector", hz, &part.detector_hz)
 }
 
 /// An ECP5's input divider. Its loop is closed over `clk_laser`, which is the oscillator times
@@ -136,7 +139,7 @@ fn ecp5_dividers(pll: &Pll) -> Result<u64, Fault> {
     let expected = format!(
         "clk_laser would be {feedback}/{input} of the input, expected numbers up to {MOST_OF_ECP5}"
     );
-    Err(("pll.multiply", format!("{expected}: CLKFB_DIV and CLKI_DIV of {}", ECP5.name)))
+    Err((&MULTIPLY, format!("{expected}: CLKFB_DIV and CLKI_DIV of {}", ECP5.name)))
 }
 
 fn greatest_common_divisor(a: u64, b: u64) -> u64 {
