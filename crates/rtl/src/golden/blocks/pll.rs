@@ -7,6 +7,7 @@ use crate::golden::top;
 
 pub(super) const SPEC: Spec = Spec {
     timing: timing::OWN,
+    configurations: &[CLOCKS],
     fast: &["clk_sys", "clk_laser", "locked"],
     ..Spec::new("pll", "pll", record)
 };
