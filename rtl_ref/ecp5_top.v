@@ -7,8 +7,8 @@
 `ifdef ECP5
 module ecp5_top (
     // Board
-    input wire clk_200,               // oscillator
-    output wire clk_200_en,           // its enable
+    input wire clk_in,                // oscillator, 200 MHz
+    output wire clk_in_en,            // its enable
     input wire reset_n,               // button, active low
     output wire locked_n,             // LED, active low: the clocks run
     // Laser
@@ -32,11 +32,17 @@ module ecp5_top (
 );
     wire locked;
 
-    assign clk_200_en = 1'b1;
+    assign clk_in_en = 1'b1;
     assign locked_n = !locked;
 
-    tof_top tof_top (
-        .clk_200(clk_200),
+    // The VCO at 500 MHz.
+    tof_top #(
+        .InputHz(200000000),
+        .Multiply(5),
+        .Divide(2),
+        .OutputDivide(4)
+    ) tof_top (
+        .clk_in(clk_in),
         .rst(!reset_n),
         .locked(locked),
         .laser_on_lvds_p(laser_on_lvds_p),

@@ -17,7 +17,7 @@ set_property -dict {PACKAGE_PIN AB8 IOSTANDARD LVCMOS15} [get_ports locked]
 
 # The PLL's outputs are derived from this clock by Vivado; clk_sys and clk_laser are synchronous, and
 # the path between them (fire to laser_pulse) has 4 ns.
-create_clock -period 5.000 -name clk_200 [get_ports sysclk_p]
+create_clock -period 5.000 -name clk_in [get_ports sysclk_p]
 
 # Asynchronous inputs: into the first flip-flops of the synchronisers, and into the carry chain,
 # which is longer than a clock period on purpose.

@@ -29,16 +29,16 @@ module kc705_top (
     output wire [15:0] hist_count,    // the word [hits]
     output wire frame_done            // the frame has ended; one cycle
 );
-    wire clk_200;
+    wire clk_in;
 
     IBUFDS ibufds (
         .I(sysclk_p),
         .IB(sysclk_n),
-        .O(clk_200)
+        .O(clk_in)
     );
 
     tof_top tof_top (
-        .clk_200(clk_200),
+        .clk_in(clk_in),
         .rst(cpu_reset),
         .locked(locked),
         .laser_on_lvds_p(laser_on_lvds_p),

@@ -1,17 +1,21 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// The clocks: 125 and 250 MHz from the board's 200 MHz oscillator, by a PLLE2 of the 7 series with its VCO at
-// 1 GHz (M = 5, D = 1, O = 8 and 4), or by an EHXPLLL of an ECP5 with its VCO at 500 MHz.
+// The clocks: clk_sys, and clk_laser twice as fast, by a PLLE2 of the 7 series or an EHXPLLL of an ECP5. Its own
+// oscillator, the VCO, runs at InputHz * Multiply / Divide. On the KC705 that is 1 GHz, from 200 MHz.
 module pll #(
-    // Not read by synthesis, nor by Verilator without --timing, which cannot run the model below.
+    // Not read by Verilator without --timing, which cannot run the model below, nor each of them by synthesis.
     // verilator lint_off UNUSEDPARAM
-    parameter [63:0] LockTime = 64'd1000000  // of the simulation model, from time 0 [ps]
+    parameter integer InputHz = 200000000,   // oscillator of the board [Hz]
+    parameter integer Multiply = 5,          // of the VCO, M
+    parameter integer Divide = 1,            // of the input, D
+    parameter integer OutputDivide = 8,      // of clk_sys, O, an even number; clk_laser has half of it
+    parameter [63:0] LockTime = 64'd1000000  // of the model, from time 0 [ps]
     // verilator lint_on UNUSEDPARAM
 ) (
-    // Not read by Verilator without --timing.
+    // Not read by the model.
     // verilator lint_off UNUSEDSIGNAL
-    input wire clk_200,   // oscillator of the board
+    input wire clk_in,    // oscillator of the board
     // verilator lint_on UNUSEDSIGNAL
     output wire clk_sys,
     output wire clk_laser,
@@ -19,19 +23,35 @@ module pll #(
 );
 `ifdef SYNTHESIS
 `ifdef ECP5
-    // 200 MHz / 4 is compared with CLKOP / 5. Both outputs begin with the last count of their dividers,
-    // so that each second edge of clk_laser is one of clk_sys.
+    function integer greatest_common_divisor;
+        input integer a, b;
+        integer rest;
+        begin
+            while (b != 0) begin
+                rest = a % b;
+                a = b;
+                b = rest;
+            end
+            greatest_common_divisor = a;
+        end
+    endfunction
+
+    // The loop is closed over clk_laser: the input by CLKI_DIV is compared with clk_laser by CLKFB_DIV.
+    localparam integer Common = greatest_common_divisor(2 * Multiply, Divide * OutputDivide);
+
+    // Both outputs begin with the last count of their dividers, so that each second edge of clk_laser is one
+    // of clk_sys.
     EHXPLLL #(
-        .CLKI_DIV(4),
-        .CLKFB_DIV(5),
+        .CLKI_DIV(Divide * OutputDivide / Common),
+        .CLKFB_DIV(2 * Multiply / Common),
         .FEEDBK_PATH("CLKOP"),
-        .CLKOP_DIV(2),
-        .CLKOP_CPHASE(1),
+        .CLKOP_DIV(OutputDivide / 2),
+        .CLKOP_CPHASE(OutputDivide / 2 - 1),
         .CLKOS_ENABLE("ENABLED"),
-        .CLKOS_DIV(4),
-        .CLKOS_CPHASE(3)
+        .CLKOS_DIV(OutputDivide),
+        .CLKOS_CPHASE(OutputDivide - 1)
     ) ehxplll (
-        .CLKI(clk_200),
+        .CLKI(clk_in),
         .CLKFB(clk_laser),
         .CLKOP(clk_laser),
         .CLKOS(clk_sys),
@@ -59,13 +79,13 @@ module pll #(
 
     // Before lock the outputs already run, at some frequency; reset_sync waits for locked.
     PLLE2_BASE #(
-        .CLKIN1_PERIOD(5),
-        .DIVCLK_DIVIDE(1),
-        .CLKFBOUT_MULT(5),
-        .CLKOUT0_DIVIDE(8),
-        .CLKOUT1_DIVIDE(4)
+        .CLKIN1_PERIOD(1.0e9 / InputHz),
+        .DIVCLK_DIVIDE(Divide),
+        .CLKFBOUT_MULT(Multiply),
+        .CLKOUT0_DIVIDE(OutputDivide),
+        .CLKOUT1_DIVIDE(OutputDivide / 2)
     ) plle2 (
-        .CLKIN1(clk_200),
+        .CLKIN1(clk_in),
         .CLKFBIN(feedback_in),
         .CLKFBOUT(feedback_out),
         .CLKOUT0(out_sys),
@@ -116,26 +136,25 @@ module pll #(
 `endif
 
 `ifndef PLL_WITHOUT_DELAYS
-    time first_edge;
-    time vco;  // period of the VCO [ps]
-
-    initial begin
-        vco = 1000;
-        @(posedge clk_200) first_edge = $time;
-        @(posedge clk_200) vco = ($time - first_edge) / 5;
-    end
+    // A quarter of clk_sys's period, rounded to a whole number [fs].
+    localparam [63:0] Multiplied = 64'd1 * InputHz * Multiply;
+    localparam [63:0] Divided = 64'd250000000000000 * Divide * OutputDivide;
+    localparam [63:0] Quarter = (Divided + Multiplied / 64'd2) / Multiplied;
+    // With a fifth of a femtosecond a simulator that cuts a delay off and one that rounds it agree [ps].
+    localparam real QuarterDelay = (Quarter + 0.2) / 1000.0;
+    localparam real CycleDelay = (64'd4 * Quarter + 0.2) / 1000.0;
 
     always begin
         // x at time 0, if this process comes before the initial one.
         if (lock !== 1'b1) begin
             #(LockTime) lock <= 1'b1;
-            #(8 * vco);
+            #(CycleDelay);
         end
         clocks <= 2'b11;
-        #(2 * vco) clocks <= 2'b10;
-        #(2 * vco) clocks <= 2'b01;
-        #(2 * vco) clocks <= 2'b00;
-        #(2 * vco);
+        #(QuarterDelay) clocks <= 2'b10;
+        #(QuarterDelay) clocks <= 2'b01;
+        #(QuarterDelay) clocks <= 2'b00;
+        #(QuarterDelay);
     end
 `endif
 `endif

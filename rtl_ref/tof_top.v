@@ -27,7 +27,11 @@ module tof_top #(
     parameter [0:0] Background = 1'b1,
     parameter [16:0] Slope = 17'd62871,
     parameter signed [29:0] Offset = 30'sd0,
-    parameter [63:0] LockTime = 64'd1000000,        // of the PLL in simulation [ps]
+    parameter integer InputHz = 200000000,       // see pll
+    parameter integer Multiply = 5,
+    parameter integer Divide = 1,
+    parameter integer OutputDivide = 8,
+    parameter [63:0] LockTime = 64'd1000000,
     parameter integer Codes = 27756,             // words in CodeFile
     // Contents of ROMs, and the simulated chain's delays
     parameter W1File = "rtl_ref/w1.mem",
@@ -42,7 +46,7 @@ module tof_top #(
     parameter HistogramFile = "rtl_ref/histogram.mem"
 ) (
     // Board
-    input wire clk_200,               // oscillator
+    input wire clk_in,                // oscillator
     input wire rst,                   // reset button, asynchronous
     output wire locked,               // the clocks run
     // Laser
@@ -103,9 +107,13 @@ module tof_top #(
     assign hist_count = count;
 
     pll #(
+        .InputHz(InputHz),
+        .Multiply(Multiply),
+        .Divide(Divide),
+        .OutputDivide(OutputDivide),
         .LockTime(LockTime)
     ) pll (
-        .clk_200(clk_200),
+        .clk_in(clk_in),
         .clk_sys(clk_sys),
         .clk_laser(clk_laser),
         .locked(locked)

@@ -8,6 +8,15 @@ use std::path::Path;
 use tofsim::network::Histogram;
 use tofsim::{Frame, Run, Setup};
 
+/// Oscillators with which clk_sys is of 125, 112.5, 143.75 and 162.5 MHz. The default first; the periods of the
+/// others are no whole picoseconds.
+pub const CLOCKS: [&str; 4] = [
+    "pll.input_hz=200000000",
+    "pll.input_hz=180000000",
+    "pll.input_hz=230000000",
+    "pll.input_hz=260000000",
+];
+
 /// A scenario with overrides, ready to run.
 pub fn setup(name: &str, overrides: &[&str]) -> Setup {
     Setup::load(name, overrides).unwrap()

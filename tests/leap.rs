@@ -6,7 +6,7 @@ use tofsim::scenario;
 use tofsim::sim::device::Off;
 use tofsim::sim::fast::{NO_HIT, ShotOutcomes, Tables, acquire, leap_shots};
 use tofsim::sim::frames::Frames;
-use tofsim::sim::setup::{CYCLE, Setup};
+use tofsim::sim::setup::Setup;
 
 use crate::common;
 
@@ -20,6 +20,7 @@ fn a_leap_lands_where_the_histogram_and_the_counts_are_what_stepping_gives() {
             format!("firmware.laser_freq={}", seed % 4),
             "firmware.shots_per_frame=400".to_owned(),
             format!("target.distance_m={}", [0.02, 0.3, 0.9][seed % 3]),
+            common::CLOCKS[seed % 4].to_owned(),
             format!("seed={seed}"),
         ];
         let setup = Setup::new(scenario::load("kc705", &keys).unwrap()).unwrap();
@@ -60,11 +61,17 @@ fn a_leap_lands_where_the_histogram_and_the_counts_are_what_stepping_gives() {
 #[test]
 fn the_staircase_of_outcomes_is_the_firmware_s_to_the_femtosecond() {
     let folder = tempfile::tempdir().unwrap();
-    for chain in ["uniform", "table6_3", "ideal"] {
+    for (chain, clock) in [
+        ("uniform", common::CLOCKS[0]),
+        ("table6_3", common::CLOCKS[0]),
+        ("ideal", common::CLOCKS[0]),
+        ("uniform", common::CLOCKS[1]),
+        ("ideal", common::CLOCKS[2]),
+    ] {
         for (rate, period) in vcsel_driver::PERIODS.into_iter().enumerate() {
             let profile = format!("tdc.profile={chain}");
-            let plain = common::setup("kc705", &[&profile]);
-            let outcomes = ShotOutcomes::new(&plain.params.tdc, period, CYCLE).unwrap();
+            let plain = common::setup("kc705", &[&profile, clock]);
+            let outcomes = ShotOutcomes::new(&plain.params.tdc, period).unwrap();
             let steps = outcomes
                 .steps()
                 .iter()
@@ -81,7 +88,7 @@ fn the_staircase_of_outcomes_is_the_firmware_s_to_the_femtosecond() {
                 format!("firmware.laser_freq={rate}"),
                 format!("firmware.shots_per_frame={}", arrivals.len() + 1),
             );
-            let setup = common::setup("kc705", &[&profile, &photons, &freq, &shots]);
+            let setup = common::setup("kc705", &[&profile, clock, &photons, &freq, &shots]);
             let frame = &common::frames(&setup, 1)[0];
             let (mut histogram, mut tdc_hits) = ([0u32; 256], 0);
             for fs in &arrivals {
@@ -91,8 +98,8 @@ fn the_staircase_of_outcomes_is_the_firmware_s_to_the_femtosecond() {
                 }
                 tdc_hits += u64::from(outcome != NO_HIT);
             }
-            assert_eq!(frame.histogram, histogram, "{chain} {rate}");
-            assert_eq!(frame.tdc_hits, tdc_hits, "{chain} {rate}");
+            assert_eq!(frame.histogram, histogram, "{chain} {clock} {rate}");
+            assert_eq!(frame.tdc_hits, tdc_hits, "{chain} {clock} {rate}");
         }
     }
 }

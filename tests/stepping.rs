@@ -9,6 +9,7 @@ use proptest::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use tofsim::Note;
+use tofsim::firmware::pll::Pll;
 use tofsim::scenario::{self, Control, QuenchMode};
 use tofsim::sim::frames::Frame;
 use tofsim::sim::run::Observers;
@@ -77,13 +78,14 @@ fn assert_all_alike(setup: &Setup, count: u64) -> std::result::Result<(), TestCa
 struct Case {
     keys: Vec<String>,
     control: Vec<(u64, i64, u8)>,
-    /// Photons: shot and arrival [fs].
-    photons: Option<Vec<(u64, u64)>>,
+    /// Photons: shot, edge of clk_sys after the laser's, and how long after that one [fs].
+    photons: Option<Vec<(u64, u64, i64)>>,
     /// Delays of a chain [fs].
     chain: Option<(u32, Vec<i64>)>,
     /// Whether every other frame is dark.
     pairs: bool,
     frames: u64,
+    clock: &'static str,
 }
 
 fn keys() -> impl Strategy<Value = Vec<String>> {
@@ -123,17 +125,13 @@ fn keys() -> impl Strategy<Value = Vec<String>> {
 }
 
 /// Photons of the first shots, many of them exactly on edges or where an edge just sees them.
-fn photons() -> impl Strategy<Value = Vec<(u64, u64)>> {
+fn photons() -> impl Strategy<Value = Vec<(u64, u64, i64)>> {
     let offset = prop_oneof![Just(0), Just(2_230_000), Just(2_236_000), Just(2_000_000)];
     let near = prop_oneof![Just(-1i64), Just(0), Just(1)];
-    let on_edge = (0..26u64, offset, near).prop_map(|(edge, before, near)| {
-        (edge * 8_000_000).saturating_sub(before).saturating_add_signed(near)
-    });
-    let arrival = prop_oneof![on_edge, 0..210_000_000u64];
-    prop::collection::vec((0..120u64, arrival), 0..80).prop_map(|mut photons| {
-        photons.sort_unstable();
-        photons
-    })
+    let on_edge = (0..26u64, offset, near).prop_map(|(edge, before, near)| (edge, near - before));
+    let arrival = prop_oneof![on_edge, (Just(0), 0..210_000_000i64)];
+    let photon = (0..120u64, arrival).prop_map(|(shot, (edge, after_fs))| (shot, edge, after_fs));
+    prop::collection::vec(photon, 0..80)
 }
 
 /// 800 delays, some of them negative: taps that are not reached in order.
@@ -153,14 +151,15 @@ prop_compose! {
         chain in prop::option::weighted(0.25, chain()),
         pairs in prop::bool::weighted(0.25),
         frames in 1..6u64,
+        clock in prop_oneof![3 => Just(0), 1 => 1..4usize],
     ) -> Case {
-        Case { keys, control, photons, chain, pairs, frames }
+        Case { keys, control, photons, chain, pairs, frames, clock: common::CLOCKS[clock] }
     }
 }
 
 /// A change of one signal near an edge of `clk_sys`.
-fn change(&(edge, offset_fs, what): &(u64, i64, u8)) -> Control {
-    let at_fs = (1_008_000_000 + 8_000_000 * edge).saturating_add_signed(offset_fs);
+fn change(&(edge, offset_fs, what): &(u64, i64, u8), pll: &Pll) -> Control {
+    let at_fs = pll.clk_sys.rise(edge).fs().saturating_add_signed(offset_fs);
     let mut change = Control { at_us: at_fs as f64 / 1e9, ..Control::default() };
     match what {
         0..=3 => change.laser_freq = Some(what.into()),
@@ -176,10 +175,10 @@ fn change(&(edge, offset_fs, what): &(u64, i64, u8)) -> Control {
 }
 
 /// The timeline, with everything that holds a frame up let go some time later.
-fn timeline(changes: &[(u64, i64, u8)]) -> Vec<Control> {
-    let mut timeline: Vec<_> = changes.iter().map(change).collect();
+fn timeline(changes: &[(u64, i64, u8)], pll: &Pll) -> Vec<Control> {
+    let mut timeline: Vec<_> = changes.iter().map(|it| change(it, pll)).collect();
     for &(edge, offset, what) in changes {
-        let mut after = change(&(edge + 1 + u64::from(what) * 9, offset, 8));
+        let mut after = change(&(edge + 1 + u64::from(what) * 9, offset, 8), pll);
         after.dsp_en = (what == 8).then_some(true);
         after.dsp_rst = (what == 9).then_some(false);
         after.rst = (what == 10).then_some(false);
@@ -192,8 +191,15 @@ fn timeline(changes: &[(u64, i64, u8)]) -> Vec<Control> {
 /// `None` where the scenario is refused: a chain may be too long.
 fn set_up(case: &Case, folder: &Path) -> Option<Setup> {
     let mut keys = case.keys.clone();
+    keys.push(case.clock.to_owned());
+    let clocks = scenario::load("kc705", &[case.clock.to_owned()]).unwrap();
+    let pll = Pll::new(&clocks.scenario.pll.params());
     if let Some(photons) = &case.photons {
         let mut text = "shot,arrival_ps\n".to_owned();
+        let arrival = |edge: u64, after_fs| (edge * pll.cycle.fs()).saturating_add_signed(after_fs);
+        let photons = photons.iter().map(|&(shot, edge, after_fs)| (shot, arrival(edge, after_fs)));
+        let mut photons: Vec<_> = photons.collect();
+        photons.sort_unstable();
         for (shot, fs) in photons {
             writeln!(text, "{shot},{}.{:03}", fs / 1000, fs % 1000).unwrap();
         }
@@ -211,7 +217,7 @@ fn set_up(case: &Case, folder: &Path) -> Option<Setup> {
     }
     let mut loaded = scenario::load("kc705", &keys).unwrap();
     let scenario = &mut loaded.scenario;
-    scenario.control = timeline(&case.control);
+    scenario.control = timeline(&case.control, &pll);
     if case.pairs {
         (scenario.firmware.dark_frames, scenario.firmware.laser_en) = (true, true);
         scenario.firmware.shots_per_frame *= 2;
@@ -227,8 +233,9 @@ proptest! {
     fn every_way_gives_the_same_in_random_scenarios(case in case()) {
         let folder = tempfile::tempdir().unwrap();
         let Some(setup) = set_up(&case, folder.path()) else {
-            prop_assert!(case.chain.is_some(), "only a chain may be refused");
-            return Err(TestCaseError::reject("the chain is too long"));
+            let may_be_refused = case.chain.is_some() || case.clock != common::CLOCKS[0];
+            prop_assert!(may_be_refused, "only a chain may be refused");
+            return Err(TestCaseError::reject("the chain does not fit the clock"));
         };
         assert_all_alike(&setup, case.frames)?;
     }

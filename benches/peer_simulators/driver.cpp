@@ -18,7 +18,7 @@ public:
     explicit Bench(const Arguments &arguments) : frames(arguments.frames), spad(arguments.photons) {
         top.laser_freq = arguments.laser_freq;
         top.laser_en = top.dsp_en = 1;
-        top.mode = top.dsp_rst = top.rst = top.tdc_stop = top.clk_200 = 0;
+        top.mode = top.dsp_rst = top.rst = top.tdc_stop = top.clk_in = 0;
         open(arguments.waveform);
         eval(0);
     }
@@ -88,7 +88,7 @@ private:
                 stop(true, at);
             } else {
                 show(oscillator);
-                top.clk_200 = !top.clk_200;
+                top.clk_in = !top.clk_in;
                 eval(oscillator);
                 oscillator += OSCILLATOR / 2;
             }
@@ -103,7 +103,7 @@ private:
     }
 
 #if defined(TRACE_VCD) || defined(TRACE_FST)
-    static constexpr int64_t OSCILLATOR = 5000000;  // period of clk_200 [fs]
+    static constexpr int64_t OSCILLATOR = 5000000;  // period of clk_in [fs]
     int64_t oscillator = OSCILLATOR / 2;
     int64_t instant = 0;  // not in the waveform yet [ps]
     Waveform waveform;

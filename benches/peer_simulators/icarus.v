@@ -6,7 +6,7 @@
 module bench;
     parameter [15:0] ShotsPerFrame = 16'd30000;
 
-    reg clk_200 = 1'b0;
+    reg clk_in = 1'b0;
     reg tdc_stop = 1'b0;
     reg [1:0] laser_freq;
     wire laser_on, spad_rst, algo_done;
@@ -33,12 +33,12 @@ module bench;
         $fflush;
     end
 
-    always #2500 clk_200 = !clk_200;
+    always #2500 clk_in = !clk_in;
 
     tof_top #(
         .ShotsPerFrame(ShotsPerFrame)
     ) tof_top (
-        .clk_200(clk_200),
+        .clk_in(clk_in),
         .rst(1'b0),
         .locked(),
         .laser_on_lvds_p(laser_on),

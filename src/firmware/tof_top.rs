@@ -100,7 +100,7 @@ connect! {
         output frame_done <- this.frame_ctrl.frame_done;
         output locked <- this.pll.locked;
     }
-    pll(clk_200): pll::In {} -> { clk_sys: this.clocks.clk_sys, clk_laser: this.clocks.clk_laser, }
+    pll(clk_in): pll::In {} -> { clk_sys: this.clocks.clk_sys, clk_laser: this.clocks.clk_laser, }
     reset_sync_sys(clk <- clk_sys): reset_sync::In {
         rst <- this.pins.rst;
         locked <- this.pll.locked;

@@ -109,7 +109,7 @@ impl Visitor for Build {
             self.fields.push(join(&join(&self.path, field), &signal.name));
             let kind = match (field, signal.output) {
                 ("pins", _) => Kind::Input,
-                ("clocks", _) if signal.name == "clk_200" => Kind::Input,
+                ("clocks", _) if signal.name == "clk_in" => Kind::Input,
                 ("clocks" | "nets", _) | (_, false) => Kind::Internal,
                 (_, true) => Kind::Output,
             };

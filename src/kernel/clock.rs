@@ -2,27 +2,40 @@
 
 use super::time::Time;
 
-/// A clock of `reference_hz * multiply / divide`, low until its first rising edge at `phase`.
+/// A clock that is low until its first rising edge at a `phase`.
 ///
 /// Edge `n` is computed from `n`, so that a period which is no whole number of femtoseconds
 /// does not drift.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Clock {
-    period_numerator: u128,
-    period_denominator: u128,
-    /// Half a period, if that is a whole number [fs].
-    whole_half: Option<u64>,
+    half: Half,
     phase: Time,
 }
 
+/// Half a period.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Half {
+    /// A whole number [fs].
+    Whole(u64),
+    /// Half of that of a frequency [Hz].
+    Of(u64),
+}
+
+/// A second [fs].
+const SECOND_FS: u64 = 1_000_000_000_000_000;
+
 impl Clock {
-    /// The clock with its first rising edge at `phase`.
-    pub fn new(reference_hz: u64, multiply: u64, divide: u64, phase: Time) -> Self {
-        let period_numerator = divide as u128 * 1_000_000_000_000_000;
-        let period_denominator = reference_hz as u128 * multiply as u128;
-        let is_whole = period_numerator.is_multiple_of(2 * period_denominator);
-        let whole_half = is_whole.then_some((period_numerator / (2 * period_denominator)) as u64);
-        Clock { period_numerator, period_denominator, whole_half, phase }
+    /// The clock of that frequency [Hz].
+    pub fn new(hz: u64, phase: Time) -> Self {
+        match SECOND_FS.is_multiple_of(2 * hz) {
+            true => Clock::of_half(Time::from_fs(SECOND_FS / (2 * hz)), phase),
+            false => Clock { half: Half::Of(hz), phase },
+        }
+    }
+
+    /// The clock with that half of a period.
+    pub fn of_half(half: Time, phase: Time) -> Self {
+        Clock { half: Half::Whole(half.fs()), phase }
     }
 
     /// Instant of rising edge `n`, counted from 0.
@@ -37,16 +50,11 @@ impl Clock {
         self.phase + self.half_periods(2 * n + 1)
     }
 
-    /// The period, if half of it is a whole number of femtoseconds.
-    pub fn whole_period(&self) -> Option<Time> {
-        self.whole_half.map(|half| Time::from_fs(2 * half))
-    }
-
     #[inline(always)]
     fn half_periods(&self, count: u64) -> Time {
-        Time::from_fs(match self.whole_half {
-            Some(half) => count * half,
-            None => (count as u128 * self.period_numerator / (2 * self.period_denominator)) as u64,
+        Time::from_fs(match self.half {
+            Half::Whole(half) => count * half,
+            Half::Of(hz) => (count as u128 * SECOND_FS as u128 / (2 * hz as u128)) as u64,
         })
     }
 }
@@ -57,14 +65,15 @@ mod tests {
 
     #[test]
     fn a_period_that_is_not_whole_does_not_drift() {
-        let clk = Clock::new(100_000_000, 3, 1, Time::ZERO);
+        let clk = Clock::new(300_000_000, Time::ZERO);
         assert_eq!(clk.rise(1).fs(), 3_333_333);
         assert_eq!(clk.rise(300_000_000), Time::from_ns(1_000_000_000));
     }
 
     #[test]
     fn the_falling_edge_is_half_a_period_later() {
-        let clk = Clock::new(200_000_000, 5, 8, Time::from_ns(10));
+        let clk = Clock::of_half(Time::from_ns(4), Time::from_ns(10));
+        assert_eq!(clk.rise(7), Clock::new(125_000_000, Time::from_ns(10)).rise(7));
         assert_eq!(clk.rise(2), Time::from_ns(26));
         assert_eq!(clk.fall(2), Time::from_ns(30));
     }

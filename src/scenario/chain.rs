@@ -46,21 +46,16 @@ pub struct Extra {
     pub ps: f64,
 }
 
-/// The longest chain: the fall that `spad_rst` makes must have left it when the first edge after the
-/// laser edge samples the next rise, and `cal` has 14 bits [ns].
-const LONGEST_NS: u64 = 16;
+/// Periods of `clk_sys` in which the last tap must be reached: the fall that `spad_rst` makes must have left
+/// the chain when the first edge after the laser edge samples the next rise, and the decoder's ages reach
+/// so far.
+const LONGEST: u64 = 2;
 
-/// The shortest chain, from tap 0 to the end of the last tap: a period of `clk_sys` [ns].
-///
-/// A hit is seen at the first edge after it reaches tap 0, at an age of up to a period more than tap 0's.
-/// What is older then than the chain is long has run through all taps, and the edge does not tell by how
-/// much.
-const SHORTEST_NS: u64 = 8;
-
-/// The chain called `name`: a built-in profile, or a file whose path is taken from `base`.
-pub fn load(name: &str, base: &Source) -> Result<Delays> {
+/// The chain called `name`: a built-in profile, or a file whose path is taken from `base`. It samples with
+/// a clock of the period `cycle`.
+pub fn load(name: &str, base: &Source, cycle: Time) -> Result<Delays> {
     if let Some(text) = builtin::chain(name) {
-        return parse(&format!("chain {name}"), text);
+        return parse(&format!("chain {name}"), text, cycle);
     }
     if !name.contains(['/', '.']) {
         let (hint, known) = hint(name, builtin::CHAINS.iter().map(|(name, _)| *name));
@@ -68,10 +63,10 @@ pub fn load(name: &str, base: &Source) -> Result<Delays> {
         return Err(Input::new("tdc.profile", expected).value(name).into());
     }
     let (source, text) = base.read(name)?;
-    parse(&source, &text)
+    parse(&source, &text, cycle)
 }
 
-fn parse(source: &str, text: &str) -> Result<Delays> {
+fn parse(source: &str, text: &str, cycle: Time) -> Result<Delays> {
     let checked = Checked::parse::<Chain>(source, text)?;
     let chain: Chain = checked.read()?;
     let taps_key = if chain.tap_ps.is_some() { "tap_ps" } else { "tap_delays_ps" };
@@ -104,24 +99,47 @@ fn parse(source: &str, text: &str) -> Result<Delays> {
         let expected = "a tap would be reached before `tdc_stop` changes";
         return Err(checked.fault("offset_ps", expected).into());
     };
-    if delays.longest() > Time::from_ns(LONGEST_NS) {
-        let expected = format!(
-            "the last tap is reached after {} ps, expected {LONGEST_NS} ns at most",
-            delays.longest().ps()
-        );
+    if let Some(expected) = too_long(&delays, cycle) {
         return Err(checked.fault("offset_ps", expected).into());
     }
-    let (span, shortest) = (delays.span(), Time::from_ns(SHORTEST_NS));
-    if span < shortest {
-        let (span_ps, missing_ps) = (in_ps(span), in_ps(shortest - span));
-        let expected = format!(
-            "the {} taps take {span_ps} ps, expected {SHORTEST_NS} ns or more, a period of clk_sys: \
-             hits of the other {missing_ps} ps would all have the same time",
-            delays.taps()
-        );
+    if let Some(expected) = too_short(&delays, cycle) {
         return Err(checked.fault(taps_key, expected).into());
     }
     Ok(delays)
+}
+
+/// Of a chain whose last tap is not reached within two periods of the clock: what would do.
+fn too_long(delays: &Delays, cycle: Time) -> Option<String> {
+    let (longest, most) = (delays.longest(), Time::from_fs(LONGEST * cycle.fs()));
+    if longest <= most {
+        return None;
+    }
+    let (longest_ps, most_ns) = (longest.ps(), in_ps(most) / 1e3);
+    let mhz = (LONGEST as f64 / longest.seconds() * 1e-3).floor() / 1e3;
+    Some(format!(
+        "the last tap is reached after {longest_ps} ps, expected {most_ns} ns at most, two periods of \
+         clk_sys: one of {mhz} MHz or less would do"
+    ))
+}
+
+/// Of a chain that takes less than a period of the clock from tap 0 to the end of the last tap: what would do.
+///
+/// A hit is seen at the first edge after it reaches tap 0, at an age of up to a period more than tap 0's.
+/// What is older then than the chain is long has run through all taps, and the edge does not tell by how
+/// much.
+fn too_short(delays: &Delays, cycle: Time) -> Option<String> {
+    let (taps, span) = (delays.taps(), delays.span());
+    if span >= cycle {
+        return None;
+    }
+    let (span_ps, cycle_ns, missing_ps) = (in_ps(span), in_ps(cycle) / 1e3, in_ps(cycle - span));
+    let factor = (in_ps(cycle) / span_ps * 1e3).ceil() / 1e3;
+    let mhz = (1.0 / span.seconds() * 1e-3).ceil() / 1e3;
+    Some(format!(
+        "the {taps} taps take {span_ps} ps, expected {cycle_ns} ns or more, a period of clk_sys: hits of the \
+         other {missing_ps} ps would all have the same time; a delay {factor} times as long would do, or a \
+         clk_sys of {mhz} MHz or more"
+    ))
 }
 
 fn in_ps(time: Time) -> f64 {
@@ -134,9 +152,31 @@ mod tests {
 
     use super::*;
 
+    const CYCLE: Time = Time::from_ns(8);
+
+    #[test]
+    fn a_chain_is_held_to_the_period_of_its_clock() {
+        let message = |cycle_fs: u64| {
+            let found = load("uniform", &Source::BuiltIn, Time::from_fs(cycle_fs));
+            found.map(drop).map_err(|error| error.to_string())
+        };
+        // From 2230 ps on, 9200 ps.
+        assert_eq!((message(9_200_000), message(5_710_000)), (Ok(()), Ok(())));
+        let error = message(10_000_000).unwrap_err();
+        let expected =
+            "9200 ps, expected 10 ns or more, a period of clk_sys: hits of the other 800 ps";
+        assert!(error.contains(expected), "{error}");
+        let expected = "a delay 1.087 times as long would do, or a clk_sys of 108.696 MHz or more";
+        assert!(error.contains(expected), "{error}");
+        let error = message(5_700_000).unwrap_err();
+        let expected = "after 11418 ps, expected 11.4 ns at most, two periods of clk_sys: one of 175.154 \
+            MHz or less would do";
+        assert!(error.contains(expected), "{error}");
+    }
+
     #[test]
     fn table_6_3_is_reproduced() {
-        let delays = load("table6_3", &Source::Folder(PathBuf::new())).unwrap();
+        let delays = load("table6_3", &Source::Folder(PathBuf::new()), CYCLE).unwrap();
         assert_eq!(delays.rank(Time::from_ns(8 - 2)), 328);
         assert_eq!(delays.rank(Time::from_ns(8 - 4)), 154);
         assert_eq!(delays.rank(Time::from_ns(16 - 8)), 492);
@@ -145,7 +185,7 @@ mod tests {
 
     #[test]
     fn a_fault_names_key_and_place() {
-        let message = |text| parse("c.toml", text).unwrap_err().to_string();
+        let message = |text| parse("c.toml", text, CYCLE).unwrap_err().to_string();
         assert_eq!(
             message("offset_ps = 2000\ntap_ps = -1"),
             "c.toml:2:10: tap_ps = -1: expected a number from 0.001 to 1000.0 [ps]"
@@ -161,11 +201,13 @@ mod tests {
 
     #[test]
     fn a_chain_shorter_than_a_clock_period_is_refused_by_how_much() {
-        let message = |text: &str| parse("c.toml", text).map(drop).map_err(|e| e.to_string());
+        let message =
+            |text: &str| parse("c.toml", text, CYCLE).map(drop).map_err(|e| e.to_string());
         assert_eq!(
             message("offset_ps = 2230\ntap_ps = 5").unwrap_err(),
             "c.toml:2:10: tap_ps = 5: the 800 taps take 4000 ps, expected 8 ns or more, a period of \
-             clk_sys: hits of the other 4000 ps would all have the same time"
+             clk_sys: hits of the other 4000 ps would all have the same time; a delay 2 times as \
+             long would do, or a clk_sys of 250 MHz or more"
         );
         assert_eq!(message("offset_ps = 2230\ntap_ps = 10"), Ok(()), "800 taps of 10 ps are 8 ns");
         let error = message("offset_ps = 7000\ntap_ps = 9.999").unwrap_err();
@@ -180,14 +222,15 @@ mod tests {
     #[test]
     fn every_built_in_chain_covers_a_clock_period() {
         for (name, _) in builtin::CHAINS {
-            let delays = load(name, &Source::BuiltIn).unwrap();
-            assert!(delays.span() > Time::from_ns(SHORTEST_NS), "{name}");
+            let delays = load(name, &Source::BuiltIn, CYCLE).unwrap();
+            assert!(delays.span() > CYCLE, "{name}");
         }
     }
 
     #[test]
     fn an_unknown_profile_lists_the_known_ones() {
-        let error = load("unifrom", &Source::Folder(PathBuf::new())).unwrap_err().to_string();
+        let error =
+            load("unifrom", &Source::Folder(PathBuf::new()), CYCLE).unwrap_err().to_string();
         assert!(error.contains("uniform, table6_3, ideal"), "{error}");
     }
 }

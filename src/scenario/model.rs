@@ -31,7 +31,7 @@ macro_rules! table {
 mod board;
 mod optics;
 
-pub use board::{Control, Estimator, EstimatorKind, Firmware, Pll, QuenchMode, Tdc};
+pub use board::{Control, Estimator, EstimatorKind, Firmware, Part, Pll, QuenchMode, Tdc};
 pub use optics::{Ambient, AmbientModel, Filter, Laser, Lens, Spad, Target};
 
 table! {

@@ -1,23 +1,25 @@
 //! What the scenario's keys must be to one another.
 
+mod clocks;
+
 use std::fmt::Display;
 
 use toml_edit::{Item, Table};
 
 use crate::error::Result;
 use crate::files::toml::Checked;
+use crate::firmware::tdc_decoder::TimeScale;
+use crate::kernel::Time;
 
-use super::model::{Control, Firmware, Pll, Scenario, Stimulus, Tdc};
+use super::model::{Control, Firmware, Scenario, Stimulus, Tdc};
 use super::window::Window;
 
-/// Frequency of the whole-cycle clock that the firmware is built for [Hz].
-const CLK_SYS_HZ: u64 = 125_000_000;
-/// Range of the PLL's oscillator, Kintex-7 speed grade -2 (DS182) [Hz].
-const VCO_HZ: std::ops::RangeInclusive<u64> = 800_000_000..=1_866_000_000;
+/// Most units of the decoder in a period of `clk_sys`: times and ages have 42 bits.
+const MOST_UNITS: u64 = 1 << 29;
 
 /// Checks what no single key shows.
 pub fn validate(scenario: &Scenario, checked: &Checked) -> Result<()> {
-    clocks(scenario, checked)?;
+    clocks::check(&scenario.pll, checked)?;
     bins(scenario, checked)?;
     counts(scenario, checked)?;
     stimulus(scenario, checked)?;
@@ -31,20 +33,7 @@ fn ensure(holds: bool, checked: &Checked, key: &str, expected: impl Display) -> 
     if holds { Ok(()) } else { Err(checked.fault(key, expected).into()) }
 }
 
-fn clocks(scenario: &Scenario, checked: &Checked) -> Result<()> {
-    let Pll { input_hz, multiply, divide, output_divide, .. } = scenario.pll;
-    let vco = input_hz * multiply / divide;
-    let expected = format!("the VCO would run at {vco} Hz, expected 800 to 1866 MHz");
-    ensure(VCO_HZ.contains(&vco), checked, "pll.multiply", expected)?;
-    let is_exact = input_hz * multiply == CLK_SYS_HZ * divide * output_divide;
-    let found_hz = vco as f64 / output_divide as f64;
-    let expected = format!("clk_sys would run at {found_hz} Hz, expected exactly {CLK_SYS_HZ}");
-    ensure(is_exact, checked, "pll.output_divide", expected)?;
-    let expected = "expected an even number: clk_laser has half of it";
-    ensure(output_divide.is_multiple_of(2), checked, "pll.output_divide", expected)
-}
-
-/// That the window of a shot holds the first bin.
+/// That the window of a shot holds the first bin, and the decoder its times.
 fn bins(scenario: &Scenario, checked: &Checked) -> Result<()> {
     let Tdc { bins, bin_ps, first_bin_ps, coarse_bits, .. } = scenario.tdc;
     if !bins.is_power_of_two() {
@@ -52,7 +41,8 @@ fn bins(scenario: &Scenario, checked: &Checked) -> Result<()> {
         let expected = format!("expected a power of two, such as {below} or {above}");
         return Err(checked.fault("tdc.bins", expected).into());
     }
-    let window_ps = 1e12 / CLK_SYS_HZ as f64 * f64::from(1 << coarse_bits);
+    let cycle = scenario.pll.params().cycle();
+    let window_ps = cycle.fs() as f64 / 1e3 * f64::from(1 << coarse_bits);
     let window = format!("the window that {coarse_bits} bits count (tdc.coarse_bits)");
     let fault =
         |key, value: f64, expected: String| Err(checked.fault(key, expected).value(value).into());
@@ -65,7 +55,18 @@ fn bins(scenario: &Scenario, checked: &Checked) -> Result<()> {
         let expected = format!("expected {most_ps} ps at most, a bin less than {window}");
         return fault("tdc.first_bin_ps", first_bin_ps, expected);
     }
-    Ok(())
+    let [bin, first] = [bin_ps, first_bin_ps].map(Time::from_ps_f64);
+    let holds = |bits: &u32| TimeScale::new(cycle, bin, first, *bits).cycle() <= MOST_UNITS;
+    match (1..=coarse_bits).rev().find(holds) {
+        Some(most) if most < coarse_bits => {
+            let expected = format!(
+                "expected {most} at most: with such bins and so long a period of clk_sys the decoder's \
+                 times have no more bits"
+            );
+            fault("tdc.coarse_bits", coarse_bits.into(), expected)
+        }
+        _ => Ok(()),
+    }
 }
 
 /// That a word of the histogram holds the shots of a frame.

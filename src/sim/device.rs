@@ -54,7 +54,7 @@ impl Device {
             light,
             timeline,
             quarter: pll.clk_laser.fall(0) - pll.clk_laser.rise(0),
-            oscillator: Oscillator::new(pll.clk_200.clone()),
+            oscillator: Oscillator::new(pll.clk_in.clone()),
             pll,
             jitter,
             cycle: 0,
@@ -158,7 +158,7 @@ impl Device {
 
     /// Brings the levels of the clocks up to date where tracing begins, before the next edge.
     pub fn resume_clocks(&mut self, now: Time) {
-        self.top.clocks.clk_200 = self.oscillator.seek(now);
+        self.top.clocks.clk_in = self.oscillator.seek(now);
         self.clocks(false, false);
     }
 
@@ -226,11 +226,11 @@ impl Device {
             if T::ON {
                 while self.oscillator.next_edge() < next.min(until) {
                     let now = self.oscillator.next_edge();
-                    self.top.clocks.clk_200 = self.oscillator.edge();
+                    self.top.clocks.clk_in = self.oscillator.edge();
                     probe.tick(now, &self.top);
                 }
                 if self.oscillator.next_edge() == next.min(until) {
-                    self.top.clocks.clk_200 = self.oscillator.edge();
+                    self.top.clocks.clk_in = self.oscillator.edge();
                 }
             }
             if next > until {

@@ -12,7 +12,7 @@ use crate::scenario::Scenario;
 
 /// Keys of the scenario that decide how the histograms of a frame are distributed. The laser's rate is
 /// none of them: in MODE 0 every shot begins with a reset.
-const KEYS: [&str; 27] = [
+const KEYS: [&str; 28] = [
     "target.distance_m",
     "target.reflectance",
     "target.length_m",
@@ -37,6 +37,7 @@ const KEYS: [&str; 27] = [
     "spad.dark_rate_hz",
     BIN,
     FIRST_BIN,
+    CLK_SYS,
     "pll.jitter_rms_ps",
     "firmware.mode",
     SHOTS,
@@ -44,8 +45,10 @@ const KEYS: [&str; 27] = [
 const ON_TDC: &str = "spad.on_tdc";
 const BIN: &str = "tdc.bin_ps";
 const FIRST_BIN: &str = "tdc.first_bin_ps";
+/// What the dividers come to, which no key of a file says [MHz].
+const CLK_SYS: &str = "pll.clk_sys_mhz";
 /// Keys that older files do not have, and the only value that there was.
-const LATER: [(&str, f64); 3] = [(ON_TDC, 1.0), (BIN, 25.0), (FIRST_BIN, 0.0)];
+const LATER: [(&str, f64); 4] = [(ON_TDC, 1.0), (BIN, 25.0), (FIRST_BIN, 0.0), (CLK_SYS, 125.0)];
 const CHAIN: &str = "tdc.profile";
 const DARK_RATE: &str = "spad.dark_rate_hz";
 const SHOTS: &str = "firmware.shots_per_frame";
@@ -150,6 +153,7 @@ impl<'a> Values<'a> {
         let fault = |error| Input::new("scenario", error);
         let mut shown = serde_json::to_value(scenario).map_err(fault)?;
         shown["firmware"]["shots_per_frame"] = scenario.firmware.shots_of_a_frame().into();
+        shown["pll"]["clk_sys_mhz"] = scenario.pll.clk_sys_mhz().into();
         let values = Values { scenario: shown, grid };
         match grid.iter().find(|(key, _)| values.at(key).is_none_or(|value| !value.is_number())) {
             Some((key, _)) => Err(Input::new("grid", "expected a number's key").value(key).into()),
@@ -216,6 +220,8 @@ mod tests {
         assert_eq!(keys(|s| s.lens.area_m2 *= 10.0), ["lens.area_m2"]);
         assert_eq!(keys(|s| s.tdc.profile = "ideal".into()), ["tdc.profile"]);
         assert_eq!(keys(|s| s.spad.dark_rate_hz = 0.0), [""; 0]);
+        assert_eq!(keys(|s| s.pll.output_divide = 10), ["pll.clk_sys_mhz"]);
+        assert_eq!(keys(|s| (s.pll.divide, s.pll.output_divide) = (2, 4)), [""; 0]);
         assert_eq!(keys(|s| s.firmware.laser_freq = 0), [""; 0]);
         let mode = |s: &mut Scenario| s.firmware.mode = crate::scenario::QuenchMode::FreeRunning;
         assert_eq!(keys(mode), ["firmware.mode"]);

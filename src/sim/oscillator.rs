@@ -3,7 +3,7 @@
 use crate::kernel::Time;
 use crate::kernel::clock::Clock;
 
-/// `clk_200` over time.
+/// `clk_in` over time.
 #[derive(Clone, Debug)]
 pub struct Oscillator {
     clock: Clock,

@@ -23,7 +23,7 @@ pub trait SignalProbe {
         Self::EDGES
     }
     /// The signals as the edge at `now` takes them: an asynchronous change at that very instant is
-    /// not there yet. Without [`SignalProbe::ON`], `clk_200` stands still.
+    /// not there yet. Without [`SignalProbe::ON`], `clk_in` stands still.
     #[inline(always)]
     fn before_edge(&mut self, _edge: Edge, _now: Time, _top: &TofTop) {}
 }

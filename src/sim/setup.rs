@@ -10,7 +10,7 @@ use std::path::Path;
 use crate::error::{Input, Result};
 use crate::files::digest::digest_of;
 use crate::firmware::forward2::Depth;
-use crate::firmware::pll::{self, Pll};
+use crate::firmware::pll::Pll;
 use crate::firmware::tdc_decoder::TimeScale;
 use crate::firmware::tof_top::{Estimator, HistogramSource, Params, Pins};
 use crate::firmware::{centroid_estimator, frame_ctrl, histogram_builder, tdc, vcsel_driver};
@@ -32,8 +32,6 @@ use super::jitter::Jitter;
 use super::timeline::{Timeline, pins_at_power_up};
 use stimulus::stimulus;
 
-/// Period of `clk_sys`.
-pub const CYCLE: Time = Time::from_ns(8);
 /// Cycles of a frame beside its shots, Clear, Drain and the estimator: the hand-overs.
 const HAND_OVERS: u64 = 2;
 /// The same with a preloaded histogram.
@@ -42,8 +40,8 @@ const HAND_OVERS_PRELOADED: u64 = 1;
 /// Shots of the waveform when nothing else is asked for.
 const FIRST_SHOTS: u64 = 16;
 
-/// Edges of `clk_sys` in 2.4 hours, well within what [`Time`] can count.
-const LONGEST: u64 = 1 << 40;
+/// 2.4 hours, well within what [`Time`] can count.
+const LONGEST: Time = Time::from_ns(8 << 40);
 
 /// A scenario, ready to run.
 #[derive(Clone, Debug)]
@@ -101,10 +99,10 @@ impl Setup {
     pub fn of_counts(loaded: Loaded) -> Result<Self> {
         let Loaded { name, scenario, set, files } = loaded;
         let network = network(&scenario, &files)?;
-        let pll_params = pll_params(&scenario);
+        let pll = Pll::new(&scenario.pll.params());
         let histogram = scenario.histogram();
-        let delays = chain::load(&scenario.tdc.profile, &files)?;
-        let scale = time_scale(&scenario.tdc);
+        let delays = chain::load(&scenario.tdc.profile, &files, pll.cycle)?;
+        let scale = time_scale(&scenario.tdc, pll.cycle);
         let (code_source, histogram_source, light) = stimulus(&scenario, &files, &histogram)?;
         let budget = Budget::new(&scenario);
         let light = light.unwrap_or_else(|| {
@@ -142,8 +140,7 @@ impl Setup {
             histogram_source,
         };
         fits::check(&name, &params)?;
-        let (pll, pins) = (Pll::new(&pll_params), pins_at_power_up(&scenario.firmware));
-        let no_depth = None;
+        let (pins, no_depth) = (pins_at_power_up(&scenario.firmware), None);
         let setup =
             Setup { name, scenario, set, budget, params, network, pll, light, pins, no_depth };
         Ok(Setup { no_depth: setup.why_no_depth(), ..setup })
@@ -170,6 +167,11 @@ impl Setup {
     /// The clocks.
     pub fn pll(&self) -> &Pll {
         &self.pll
+    }
+
+    /// Period of `clk_sys`.
+    pub fn cycle(&self) -> Time {
+        self.pll.cycle
     }
 
     /// The device at power-up.
@@ -244,7 +246,8 @@ impl Setup {
             return None;
         }
         let frame = self.frame_cycles(self.laser_period()) + 1;
-        let edge = frames.checked_mul(frame).filter(|edge| *edge < LONGEST)? + 2;
+        let longest = LONGEST.fs() / self.cycle().fs();
+        let edge = frames.checked_mul(frame).filter(|edge| *edge < longest)? + 2;
         Some(self.pll.clk_sys.rise(edge))
     }
 
@@ -320,7 +323,8 @@ impl Setup {
         let last_us = changes.last().map_or(0.0, |change| change.at_us);
         let longest_frame = self.frame_cycles(self.params.vcsel_driver.longest_period()) + 16;
         let begun = frames.saturating_add(changes.len() as u64 + 1);
-        begun.saturating_mul(longest_frame).saturating_add((last_us * 125.0) as u64)
+        let last = Time::from_ps_f64(last_us * 1e6).fs() / self.cycle().fs();
+        begun.saturating_mul(longest_frame).saturating_add(last)
     }
 }
 
@@ -347,18 +351,7 @@ fn centroid(
     }
 }
 
-fn time_scale(tdc: &scenario::Tdc) -> TimeScale {
+fn time_scale(tdc: &scenario::Tdc, cycle: Time) -> TimeScale {
     let [bin, first] = [tdc.bin_ps, tdc.first_bin_ps].map(Time::from_ps_f64);
-    TimeScale::new(CYCLE, bin, first, tdc.coarse_bits, tdc.bins as usize)
-}
-
-fn pll_params(scenario: &Scenario) -> pll::Params {
-    let pll = &scenario.pll;
-    pll::Params {
-        input_hz: pll.input_hz,
-        multiply: pll.multiply,
-        divide: pll.divide,
-        output_divide: pll.output_divide,
-        lock_time: Time::from_ps_f64(pll.lock_time_us * 1e6),
-    }
+    TimeScale::new(cycle, bin, first, tdc.coarse_bits, tdc.bins as usize)
 }

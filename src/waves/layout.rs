@@ -38,7 +38,7 @@ const FLOW: &[(&str, &[&str])] = &[
     ("Outputs", &["depth", "algo_done", "frame_done"]),
     (
         "Control pins",
-        &["rst", "dsp_en", "dsp_rst", "locked", "clk_200", "clear", "clear_addr", "acquire"],
+        &["rst", "dsp_en", "dsp_rst", "locked", "clk_in", "clear", "clear_addr", "acquire"],
     ),
     ("Hidden layer", &[VIEWED]),
     ("Histogram, word by word", &["histogram_builder.ram_*"]),

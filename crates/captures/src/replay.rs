@@ -102,7 +102,7 @@ impl Replay {
             let expected = format!("the simulation never comes to shot {}", shot.number);
             return Err(Input::new(&simulation.name, expected).into());
         };
-        let step_fs = timebase.step_ps() as i128 * 1000;
+        let step_fs = i128::from(timebase.step().fs());
         let when = |&(sample, late, ref change): &(u64, u64, Control)| {
             let edges = i128::from(sample) - i128::from(shot.start);
             let late = i128::from(2 * late * timebase.per_cycle + 1);
@@ -147,7 +147,8 @@ fn of_kind(
 ) -> Result<Option<Replay>> {
     let design = kind.design(setup);
     let mut probed = Probed::new(&design, capture, &options.map)?;
-    let timebase = Timebase::new(options.clock.as_ref(), &options.map, options.qualified);
+    let timebase =
+        Timebase::new(options.clock.as_ref(), &options.map, options.qualified, setup.cycle());
     let mut notes = Vec::new();
     if kind == ReplayKind::Histogram {
         let alone = "a preloaded histogram drives the estimator alone, frame after frame without \

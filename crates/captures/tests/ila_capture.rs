@@ -151,7 +151,7 @@ fn the_trigger_may_be_a_signal_that_is_no_probe() {
     let text = format!("position = 0\ntrigger = \"frame_ctrl.acquire falling\"{SHOTS}");
     let (capture, _) = capture(&short(), &text, 1);
     assert_eq!(values(&capture, "frame_ctrl/shots")[0], 200);
-    for trigger in ["clk_200", "tdc.carry_chain.taps[100]"] {
+    for trigger in ["clk_in", "tdc.carry_chain.taps[100]"] {
         let text = format!("position = 0\ntrigger = \"{trigger} rising\"{SHOTS}");
         assert_eq!(self::capture(&short(), &text, 1).1.len(), 1, "{trigger}");
     }
@@ -197,7 +197,7 @@ fn input_stages_shift_everything_by_so_many_edges() {
 fn some_probes(setup: &Setup, count: usize, seed: usize) -> String {
     let mut entries = tofsim::hierarchy::entries(&setup.params);
     entries.extend(tofsim::hierarchy::ram_entries(&setup.params.histogram));
-    entries.retain(|entry| entry.signal.name != "clk_200");
+    entries.retain(|entry| entry.signal.name != "clk_in");
     let preloaded = entries.iter().all(|entry| entry.scope != "tof_top.histogram_builder");
     entries.retain(|entry| !preloaded || !entry.signal.name.starts_with("ram_"));
     let step = (entries.len() / count).max(1);
@@ -208,7 +208,7 @@ fn some_probes(setup: &Setup, count: usize, seed: usize) -> String {
     text
 }
 
-const OSCILLATOR: &str = "[[probe]]\nname = \"last\"\nsignal = \"clk_200\"\n";
+const OSCILLATOR: &str = "[[probe]]\nname = \"last\"\nsignal = \"clk_in\"\n";
 
 #[test]
 fn looking_at_edges_only_is_looking_at_every_change() {
@@ -236,7 +236,7 @@ fn looking_at_edges_only_is_looking_at_every_change() {
                 assert!(same, "{scenario} {clock} sample {sample}");
             }
             let last = values(&full, "last");
-            assert!(last.contains(&0) && last.contains(&1), "clk_200 is seen");
+            assert!(last.contains(&0) && last.contains(&1), "clk_in is seen");
         }
     }
 }
@@ -258,11 +258,11 @@ fn a_free_clock_with_the_edges_of_clk_sys_takes_the_same_samples() {
 }
 
 #[test]
-fn clk_200_sees_itself_low_and_the_others_move() {
-    let text = "clock = \"clk_200\"\nposition = 0\n[[probe]]\nsignal = \"clk_200\"\n\
+fn clk_in_sees_itself_low_and_the_others_move() {
+    let text = "clock = \"clk_in\"\nposition = 0\n[[probe]]\nsignal = \"clk_in\"\n\
         [[probe]]\nsignal = \"pll.locked\"\n[[probe]]\nsignal = \"pll.clk_sys\"";
     let (capture, at) = capture(&short(), text, 1);
-    assert!(values(&capture, "clk_200").iter().all(|&level| level == 0));
+    assert!(values(&capture, "clk_in").iter().all(|&level| level == 0));
     assert_eq!(at[0], Time::from_fs(2_500_000), "half a period after power-up");
     // Locked at 1000 ns; edge 199 comes at 997.5 ns.
     assert_eq!(rises(&values(&capture, "pll/locked")), [200]);

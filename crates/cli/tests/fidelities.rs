@@ -64,6 +64,7 @@ fn random_setup(random: &mut ChaCha8Rng) -> Setup {
         format!("firmware.laser_en={}", random.random_bool(0.9)),
         format!("tdc.profile={chain}"),
         format!("seed={}", random.random_range(0..u32::MAX)),
+        format!("pll.input_hz={}000000", [200, 180, 230, 260][random.random_range(0..4)]),
     ];
     setup("kc705", &keys.each_ref().map(String::as_str))
 }

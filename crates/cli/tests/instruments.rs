@@ -12,20 +12,32 @@ use crate::common::{empty, refused, setup};
 use crate::lockstep::verified;
 
 /// Blocks that the parameters reach.
-const BLOCKS: [&str; 9] = [
+const BLOCKS: [&str; 10] = [
     "carry_chain",
     "coarse_counter",
     "control_sync",
     "ddr_output",
     "frame_ctrl",
+    "pll",
     "tdc",
     "tdc_decoder",
     "tdc_latch",
     "vcsel_driver",
 ];
 
-/// Period of clk_sys [ps].
-const CYCLE_PS: f64 = 8000.0;
+/// Part, oscillator [MHz], M, D and O, from 50 to 200 MHz of clk_sys.
+const CLOCKS: [(&str, u64, u64, u64, u64); 10] = [
+    ("kintex7", 200, 5, 1, 8),
+    ("kintex7", 200, 5, 1, 10),
+    ("kintex7", 200, 8, 1, 8),
+    ("kintex7", 100, 9, 1, 8),
+    ("kintex7", 150, 13, 2, 14),
+    ("kintex7", 33, 37, 1, 16),
+    ("ecp5", 25, 24, 1, 6),
+    ("ecp5", 200, 5, 2, 10),
+    ("ecp5", 12, 63, 1, 6),
+    ("ecp5", 33, 21, 1, 6),
+];
 
 /// A number from `low` to `high`, small ones as often as large ones.
 fn log_uniform(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
@@ -34,9 +46,12 @@ fn log_uniform(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
 
 /// The keys of an instrument, with a chain of its own in the folder.
 fn instrument(random: &mut ChaCha8Rng, folder: &Path, longest_period: f64) -> Vec<String> {
+    let (part, input_mhz, multiply, divide, output_divide) =
+        CLOCKS[random.random_range(0..CLOCKS.len())];
+    let cycle_ps = 1e6 * (divide * output_divide) as f64 / (input_mhz * multiply) as f64;
     let taps = log_uniform(random, 16.0, 2000.0).round();
-    let offset_ps = random.random_range(300.0..7_000.0);
-    let tap_ps = random.random_range(8_300.0..15_900.0 - offset_ps) / taps;
+    let offset_ps = random.random_range(300.0..0.87 * cycle_ps);
+    let tap_ps = random.random_range(1.04 * cycle_ps..1.99 * cycle_ps - offset_ps) / taps;
     let uneven = random.random_range(0.0..0.9);
     let mut delays = Vec::new();
     while (delays.len() as f64) < taps {
@@ -51,11 +66,11 @@ fn instrument(random: &mut ChaCha8Rng, folder: &Path, longest_period: f64) -> Ve
         .unwrap();
     let coarse_bits = random.random_range(1..=12);
     let bin_ps = (log_uniform(random, 5.0, 800.0) * 1e3).round() / 1e3;
-    let most_first_ps = (CYCLE_PS * f64::from(1 << coarse_bits) - bin_ps).min(60_000.0);
+    let most_first_ps = (cycle_ps * f64::from(1 << coarse_bits) - bin_ps).min(60_000.0);
     let first_ps =
         [0.0, random.random_range(0.0..most_first_ps).round()][random.random_range(0..2)];
     // An edge that no code is later than.
-    let last = ((256.0 * bin_ps + first_ps) / CYCLE_PS).ceil() as u64 + 2;
+    let last = ((256.0 * bin_ps + first_ps) / cycle_ps).ceil() as u64 + 2;
     let last = last.min(1 << coarse_bits);
     let rates = random.random_range(1..=8);
     let shortest = (last + 2).max(5);
@@ -63,6 +78,11 @@ fn instrument(random: &mut ChaCha8Rng, folder: &Path, longest_period: f64) -> Ve
         |_| log_uniform(random, shortest as f64, shortest as f64 + longest_period).round() as u64;
     let periods: Vec<_> = (0..rates).map(period).collect();
     vec![
+        format!("pll.part={part}"),
+        format!("pll.input_hz={}", input_mhz * 1_000_000),
+        format!("pll.multiply={multiply}"),
+        format!("pll.divide={divide}"),
+        format!("pll.output_divide={output_divide}"),
         format!("tdc.profile={}", chain.display()),
         format!("tdc.coarse_bits={coarse_bits}"),
         format!("tdc.bin_ps={bin_ps}"),

@@ -72,7 +72,7 @@ fn clocks_rise_together_every_8_ns() {
     assert!(gaps(&whole).iter().all(|&gap| gap == 8_000));
     assert!(gaps(&half).iter().all(|&gap| gap == 4_000));
     assert!(whole.iter().all(|rise| half.contains(rise)));
-    assert!(gaps(&wave.rises("clk_200")).iter().all(|&gap| gap == 5_000));
+    assert!(gaps(&wave.rises("clk_in")).iter().all(|&gap| gap == 5_000));
     assert!(gaps(&wave.falls("clk_sys")).iter().all(|&gap| gap == 8_000));
 }
 
@@ -151,7 +151,7 @@ fn nothing_moves_before_the_clocks_are_locked() {
     for name in wave.vars.keys() {
         let name = name.strip_prefix("tof_top.").unwrap();
         let last = name.rsplit('.').next().unwrap();
-        if ["clk_200", "tdc_stop", "locked"].contains(&last) {
+        if ["clk_in", "tdc_stop", "locked"].contains(&last) {
             continue;
         }
         let early: Vec<_> =
@@ -256,7 +256,7 @@ fn an_oscillator_without_a_whole_period_is_found_again_late_in_a_run() {
     let pll: Vec<_> = pll.iter().flat_map(|set| ["-s", set]).collect();
     run(folder.path(), &[&["--window", "1400us..1401us", "--signals", "clk_*"], &pll[..]].concat());
     let wave = Wave::open(&folder.path().join("kc705.vcd"));
-    let rises = wave.rises("clk_200");
+    let rises = wave.rises("clk_in");
     assert!(rises.len() > 140);
     for rise in rises {
         let edge = ((rise as f64 * 1e-12 * 150e6 - 0.5).round() + 0.5) / 150e6 * 1e12;

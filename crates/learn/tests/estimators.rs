@@ -6,6 +6,7 @@ mod scipy;
 mod subtraction;
 
 use tofsim::firmware::tdc;
+use tofsim::kernel::Time;
 use tofsim::network::Histogram;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 use tofsim::scenario::builtin::Source as Place;
@@ -24,7 +25,7 @@ const DISTANCES_M: [f64; 6] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
 const SHOTS: u64 = 30_000;
 
 fn bins(profile: &str) -> Bins {
-    let delays = chain::load(profile, &Place::Folder("".into())).unwrap();
+    let delays = chain::load(profile, &Place::Folder("".into()), Time::from_ns(8)).unwrap();
     Bins::of_tdc(&tdc::Params::of_chain(delays))
 }
 

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use tofsim::firmware::forward2::MOST_NEURONS;
 use tofsim::firmware::tof_top::Sizes;
-use tofsim::firmware::vcsel_driver;
+use tofsim::firmware::{pll, vcsel_driver};
 use tofsim::hierarchy::{Kind, every_entry_of};
 use tofsim_rtl::golden::BLOCKS;
 use tofsim_rtl::golden::ports::Port;
@@ -140,11 +140,15 @@ fn vendor_primitives_stay_in_their_files() {
 }
 
 /// Parameters that say how large things are, and what each is by default.
-fn defaults() -> [(&'static str, String); 11] {
+fn defaults() -> [(&'static str, String); 15] {
     let (sizes, laser) = (Sizes::default(), vcsel_driver::Params::default());
     let width = |name| sizes.width(name).unwrap().to_string();
     let [shortest, others @ ..] = [3, 2, 1, 0].map(|rate| format!("16'd{}", laser.periods[rate]));
     [
+        ("InputHz", pll::INPUT_HZ.to_string()),
+        ("Multiply", pll::MULTIPLY.to_string()),
+        ("Divide", pll::DIVIDE.to_string()),
+        ("OutputDivide", pll::OUTPUT_DIVIDE.to_string()),
         ("Taps", width("Taps")),
         ("CoarseBits", width("CoarseBits")),
         ("Cycle", sizes.cycle.to_string()),

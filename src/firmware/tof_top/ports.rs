@@ -31,7 +31,7 @@ signals! {
     /// Levels of the clocks; kept for waveforms, the simulation steps by edges.
     pub struct Clocks {
         /// Oscillator of the board.
-        pub clk_200: bool,
+        pub clk_in: bool,
         /// PLL output.
         pub clk_sys: bool,
         /// PLL output.

@@ -6,29 +6,67 @@ use serde::{Deserialize, Serialize};
 use crate::firmware::coarse_counter::DEFAULT_COARSE_BITS;
 use crate::firmware::frame_ctrl::DRAIN_CYCLES;
 use crate::firmware::histogram_builder::{BINS, COUNT_BITS};
+use crate::firmware::pll;
 use crate::firmware::vcsel_driver::PERIODS;
+use crate::kernel::Time;
+
+/// The FPGA, for what its PLL can do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Part {
+    /// A Kintex-7 of speed grade -2 (PLLE2).
+    #[default]
+    Kintex7,
+    /// An ECP5 (EHXPLLL).
+    Ecp5,
+}
 
 table! {
-    /// The clock generator. The outputs have to be 125 and 250 MHz.
+    /// The clock generator. Its oscillator (VCO) runs at `input_hz * multiply / divide`, `clk_sys` at that
+    /// by `output_divide`, and `clk_laser` twice as fast.
     pub struct Pll {
+        /// FPGA with the PLL: `kintex7` or `ecp5`.
+        #[schemars(extend("source" = "KC705; docs/model.md"))]
+        pub part: Part = Part::Kintex7,
         /// Oscillator of the board.
-        #[schemars(range(min = 19_000_000, max = 800_000_000), extend("unit" = "Hz", "source" = "KC705: SiT9102"))]
-        pub input_hz: u64 = 200_000_000,
-        /// Feedback divider M.
-        #[schemars(range(min = 2, max = 64), extend("unit" = "1", "source" = "PLLE2: VCO 1000 MHz"))]
-        pub multiply: u64 = 5,
+        #[schemars(range(min = 8_000_000, max = 800_000_000), extend("unit" = "Hz", "source" = "KC705: SiT9102"))]
+        pub input_hz: u64 = pll::INPUT_HZ,
+        /// Feedback divider M: of the VCO on a Kintex-7. An ECP5 closes its loop over `clk_laser`, and its
+        /// dividers follow.
+        #[schemars(range(min = 1, max = 128), extend("unit" = "1", "source" = "PLLE2: VCO 1000 MHz"))]
+        pub multiply: u64 = pll::MULTIPLY,
         /// Input divider D.
-        #[schemars(range(min = 1, max = 56), extend("unit" = "1", "source" = "PLLE2"))]
-        pub divide: u64 = 1,
-        /// Output divider O of `clk_sys`; `clk_laser` has half of it.
+        #[schemars(range(min = 1, max = 128), extend("unit" = "1", "source" = "PLLE2"))]
+        pub divide: u64 = pll::DIVIDE,
+        /// Output divider O of `clk_sys`, an even number; `clk_laser` has half of it. The period of `clk_sys`
+        /// is simulated to a multiple of 4 fs.
         #[schemars(range(min = 2, max = 128), extend("unit" = "1", "source" = "PLLE2"))]
-        pub output_divide: u64 = 8,
+        pub output_divide: u64 = pll::OUTPUT_DIVIDE,
         /// From power-up to lock; the part's limit is 100 us.
         #[schemars(range(min = 0.0, max = 1e6), extend("unit" = "us", "source" = "choice: short, to keep runs short"))]
         pub lock_time_us: f64 = 1.0,
         /// Jitter of each edge of the outputs, Gaussian; 0 switches it off (7.7 is the wizard's 107 ps peak to peak).
         #[schemars(range(min = 0.0, max = 100.0), extend("unit" = "ps rms", "source" = "choice: off"))]
         pub jitter_rms_ps: f64 = 0.0,
+    }
+}
+
+impl Pll {
+    /// Frequency of `clk_sys`, not rounded to whole femtoseconds [MHz].
+    pub fn clk_sys_mhz(&self) -> f64 {
+        let hz = (self.input_hz * self.multiply) as f64;
+        hz / (1_000_000 * self.divide * self.output_divide) as f64
+    }
+
+    /// What elaboration makes of it.
+    pub fn params(&self) -> pll::Params {
+        pll::Params {
+            input_hz: self.input_hz,
+            multiply: self.multiply,
+            divide: self.divide,
+            output_divide: self.output_divide,
+            lock_time: Time::from_ps_f64(self.lock_time_us * 1e6),
+        }
     }
 }
 

@@ -114,14 +114,14 @@ mod tests {
     use super::*;
     use crate::scenario;
     use crate::sensor::light::Light;
-    use crate::sim::setup::{CYCLE, Setup};
+    use crate::sim::setup::Setup;
 
     fn draws(keys: &[&str], rate: usize, lit: bool) -> Draws {
         let keys: Vec<_> = keys.iter().map(|&key| key.to_owned()).collect();
         let setup = Setup::new(scenario::load("kc705", &keys).unwrap()).unwrap();
         let Light::Optics(optics) = &setup.light else { panic!("optics") };
         let period = setup.params.vcsel_driver.periods[rate];
-        let outcomes = ShotOutcomes::new(&setup.params.tdc, period, CYCLE).unwrap();
+        let outcomes = ShotOutcomes::new(&setup.params.tdc, period).unwrap();
         Draws::new(outcomes, optics.hazard(lit).clone())
     }
 

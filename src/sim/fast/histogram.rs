@@ -17,7 +17,7 @@ use crate::sensor::light::{Light, Optics};
 use crate::sensor::streams::{Source, stream};
 use crate::sim::frames::Frame;
 use crate::sim::run::{Observers, Outcome};
-use crate::sim::setup::{CYCLE, Setup};
+use crate::sim::setup::Setup;
 use crate::sim::sinks::Sinks;
 use crate::waves::Marks;
 
@@ -60,7 +60,7 @@ pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics,
     let Light::Optics(optics) = &setup.light else {
         return Err(refusal("stimulus", "it needs the light of the link budget").into());
     };
-    let outcomes = ShotOutcomes::new(&setup.params.tdc, setup.laser_period(), CYCLE);
+    let outcomes = ShotOutcomes::new(&setup.params.tdc, setup.laser_period());
     let Some(outcomes) = outcomes else {
         let why = "the chain is so long that a shot reaches into the next one";
         let refused = refusal("tdc.profile", why).value(&setup.scenario.tdc.profile);

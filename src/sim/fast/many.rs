@@ -19,7 +19,7 @@ use crate::sensor::light::Light;
 use crate::sim::device::{Device, Off};
 use crate::sim::frames::Frame;
 use crate::sim::run::{Observers, Outcome, Run};
-use crate::sim::setup::{CYCLE, Setup};
+use crate::sim::setup::Setup;
 use crate::sim::shot_recorder::ShotRecorder;
 use crate::sim::sinks::{Sinks, Taker};
 use crate::waves::Marks;
@@ -37,8 +37,8 @@ impl Setup {
             && firmware.mode == QuenchMode::EachShot
             && matches!(self.params.code_source, CodeSource::Tdc)
             && !matches!(self.light, Light::List(_))
-            && delays.tap_0() <= CYCLE
-            && delays.longest() <= CYCLE + CYCLE
+            && delays.tap_0() <= self.cycle()
+            && delays.longest() <= self.cycle() + self.cycle()
     }
 }
 

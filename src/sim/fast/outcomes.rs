@@ -42,8 +42,8 @@ impl ShotOutcomes {
     /// `None` where a shot is not independent of the one before: if that one's pulse, which ends a
     /// cycle before the laser edge, may still be in the chain at the edge after it, or its code may
     /// come too late.
-    pub fn new(p: &tdc::Params, period: u64, cycle: Time) -> Option<Self> {
-        let tap_0 = p.delays.tap_0();
+    pub fn new(p: &tdc::Params, period: u64) -> Option<Self> {
+        let (tap_0, cycle) = (p.delays.tap_0(), p.decoder.scale.period());
         // First time of an avalanche that an edge is too early for.
         let end = |edge: u64| Time::from_fs(edge * cycle.fs() + 1).since(tap_0);
         let bins = Bins::of_tdc(p);

@@ -13,7 +13,6 @@ use crate::firmware::vcsel_driver::{MOST_RATES, Rate};
 use crate::sensor::light::Light;
 use crate::sim::device::Device;
 use crate::sim::frames::Frames;
-use crate::sim::setup::CYCLE;
 
 use super::draws::Draws;
 use super::hits::Hits;
@@ -32,7 +31,7 @@ impl Tables {
     fn find(&mut self, rate: Rate, lit: bool, p: &Params, light: &Light) -> Option<Arc<Draws>> {
         let Light::Optics(optics) = light else { return None };
         let make = || {
-            let outcomes = ShotOutcomes::new(&p.tdc, p.vcsel_driver.period(rate), CYCLE)?;
+            let outcomes = ShotOutcomes::new(&p.tdc, p.vcsel_driver.period(rate))?;
             Some(Arc::new(Draws::new(outcomes, optics.hazard(lit).clone())))
         };
         self.draws[rate.index()][lit as usize].get_or_insert_with(make).clone()
@@ -54,7 +53,7 @@ pub fn leap_shots(
     let period = p.vcsel_driver.period(rate);
     let in_frame = u64::from(p.frame_ctrl.shots_per_frame) - device.top.frame_ctrl.shots() - 1;
     let until = device.timeline.next_event().since(device.pll.clk_sys.rise(device.cycle));
-    let shots = in_frame.min(until.fs() / (period * CYCLE.fs()));
+    let shots = in_frame.min(until.fs() / (period * device.pll.cycle.fs()));
     if shots == 0 {
         return;
     }
@@ -83,7 +82,7 @@ fn independent_shot(device: &Device) -> Option<(Rate, bool)> {
     let control = &device.top.control_sync;
     let (rate, lit) = (control.laser_freq_sync, control.laser_en_sync);
     let independent =
-        !device.spads.is_passive() && device.spads.is_armed() && even_period(device) == Some(CYCLE);
+        !device.spads.is_passive() && device.spads.is_armed() && even_period(device).is_some();
     independent.then_some((rate, lit))
 }
 

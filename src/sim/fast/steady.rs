@@ -44,9 +44,9 @@ pub(super) fn estimation_phase(top: &TofTop, p: &Params) -> Option<u64> {
     }
 }
 
-/// The period of `clk_sys`, if it is a whole number of femtoseconds and no edge jitters.
+/// The period of `clk_sys`, if no edge jitters.
 pub(super) fn even_period(device: &Device) -> Option<Time> {
-    device.pll.clk_sys.whole_period().filter(|_| device.jitter.is_none())
+    device.jitter.is_none().then_some(device.pll.cycle)
 }
 
 /// Coming cycles that end before a control signal changes, or just then.

@@ -5,7 +5,7 @@ use crate::optics::Chances;
 use crate::optics::eye_safety::{C4_NM, Exposure, LONGEST_S};
 use crate::sim::fast::histogram::independent_shots;
 
-use super::{CYCLE, Setup};
+use super::Setup;
 
 impl Setup {
     /// Chances of a shot of an undisturbed frame, the lit one of a pair.
@@ -21,7 +21,7 @@ impl Setup {
 
     /// Period of the laser as the firmware drives it [s].
     pub fn laser_period_s(&self) -> f64 {
-        self.laser_period() as f64 * CYCLE.seconds()
+        self.laser_period() as f64 * self.cycle().seconds()
     }
 
     /// Laser pulses of a frame; of a pair they are all the lit one's [1].
@@ -41,7 +41,7 @@ impl Setup {
     ///
     /// With a preloaded histogram the firmware lets the laser rest for good; that is not counted on.
     pub fn exposure_to_frames(&self) -> Exposure {
-        let frames_s = (self.frame_cycles(self.laser_period()) + 1) as f64 * CYCLE.seconds();
+        let frames_s = (self.frame_cycles(self.laser_period()) + 1) as f64 * self.cycle().seconds();
         let lit_s = self.pulses() * self.laser_period_s();
         let repeats_s = (self.frames_together() as f64 * frames_s).max(lit_s);
         let average_w = self.pulses() * self.budget.pulse_energy_j / repeats_s;

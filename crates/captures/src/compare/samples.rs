@@ -99,7 +99,7 @@ impl Clocking {
                 }
             },
             Some(&SampleClock::Free { frequency_hz, phase }) => {
-                Ok(Clocking::Free { clock: Clock::new(frequency_hz, 1, 1, phase), tick })
+                Ok(Clocking::Free { clock: Clock::new(frequency_hz, phase), tick })
             }
             None => {
                 let expected = "a waveform has no samples; say which clock they are taken by \

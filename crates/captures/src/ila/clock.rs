@@ -14,8 +14,8 @@ pub enum AnalyserClock {
     System,
     /// `clk_laser`.
     Laser,
-    /// `clk_200`.
-    Clk200,
+    /// `clk_in`.
+    Input,
     /// One that has nothing to do with the design.
     Free {
         /// Frequency [Hz].
@@ -34,8 +34,8 @@ impl AnalyserClock {
         match self {
             AnalyserClock::System => pll.clk_sys.clone(),
             AnalyserClock::Laser => pll.clk_laser.clone(),
-            AnalyserClock::Clk200 => pll.clk_200.clone(),
-            AnalyserClock::Free { frequency_hz, phase } => Clock::new(*frequency_hz, 1, 1, *phase),
+            AnalyserClock::Input => pll.clk_in.clone(),
+            AnalyserClock::Free { frequency_hz, phase } => Clock::new(*frequency_hz, *phase),
         }
     }
 }
@@ -44,12 +44,12 @@ impl FromStr for AnalyserClock {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        const EXPECTED: &str = "expected clk_sys, clk_laser, clk_200, or a frequency from 1 kHz to \
+        const EXPECTED: &str = "expected clk_sys, clk_laser, clk_in, or a frequency from 1 kHz to \
             1 GHz with the time of the first edge, such as 100MHz or 62.5 MHz + 250 ps";
         match text.trim() {
             "clk_sys" => return Ok(AnalyserClock::System),
             "clk_laser" => return Ok(AnalyserClock::Laser),
-            "clk_200" => return Ok(AnalyserClock::Clk200),
+            "clk_in" => return Ok(AnalyserClock::Input),
             _ => {}
         }
         let (frequency, phase) = text.split_once('+').unwrap_or((text, "0ps"));
@@ -78,7 +78,7 @@ impl fmt::Display for AnalyserClock {
         match self {
             AnalyserClock::System => f.write_str("clk_sys"),
             AnalyserClock::Laser => f.write_str("clk_laser"),
-            AnalyserClock::Clk200 => f.write_str("clk_200"),
+            AnalyserClock::Input => f.write_str("clk_in"),
             AnalyserClock::Free { frequency_hz, phase } => {
                 write!(f, "{frequency_hz} Hz + {} ps", phase.fs() as f64 / 1e3)
             }
@@ -123,11 +123,11 @@ mod tests {
 
     #[test]
     fn the_first_edge_is_the_one_at_that_time_or_the_next() {
-        let clock = Clock::new(125_000_000, 1, 1, Time::from_ns(8));
+        let clock = Clock::new(125_000_000, Time::from_ns(8));
         for (ns, edge) in [(0, 0), (8, 0), (9, 1), (16, 1), (8_000_001, 1_000_000)] {
             assert_eq!(first_edge(&clock, Time::from_ns(ns)), edge, "{ns}");
         }
-        let slow = Clock::new(1000, 1, 1, Time::ZERO);
+        let slow = Clock::new(1000, Time::ZERO);
         assert_eq!(first_edge(&slow, Time::from_ns(1_000_000_000_000)), 1_000_000);
     }
 }

@@ -74,7 +74,7 @@ impl AnalyserPlan {
         if file.input_stages > 6 {
             return Err(set_up.fault("input_stages", file.input_stages, "expected 0 to 6 [edges]"));
         }
-        let oscillator = design.signal("clk_200").map(|bits| bits.id);
+        let oscillator = design.signal("clk_in").map(|bits| bits.id);
         let at_edges = matches!(sampling, AnalyserClock::System | AnalyserClock::Laser)
             && bits.iter().chain(&operands).all(|bits| Ok(bits.id) != oscillator);
         Ok(AnalyserPlan {

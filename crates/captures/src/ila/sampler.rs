@@ -1,7 +1,7 @@
 //! Samples a running simulation: the value just before each edge of the sampling clock.
 //!
 //! At the edges of `clk_sys` and `clk_laser` the run itself shows what the edge takes. Any other
-//! clock, and `clk_200` as a signal, needs every change of every signal in order of time.
+//! clock, and `clk_in` as a signal, needs every change of every signal in order of time.
 
 use std::sync::atomic::AtomicBool;
 
@@ -11,7 +11,7 @@ use tofsim::kernel::Time;
 use tofsim::kernel::clock::Clock;
 use tofsim::sim::device::{Edge, SignalProbe};
 use tofsim::sim::frames::Frames;
-use tofsim::sim::setup::{CYCLE, Setup};
+use tofsim::sim::setup::Setup;
 use tofsim::sim::{Device, Outcome, Run, WindowedProbe};
 
 use crate::condition::{Bound, Level};
@@ -172,7 +172,8 @@ struct Tap<'a, const EVERY: bool>(&'a mut Analyser);
 impl<const EVERY: bool> Tap<'_, EVERY> {
     /// Whether the first sample comes within the next two cycles; by then all clocks have turned.
     fn is_due(&self, device: &mut Device) -> bool {
-        EVERY && self.0.clock.rise(self.0.first) <= device.coming_cycle().1 + CYCLE
+        let (begin, end) = device.coming_cycle();
+        EVERY && self.0.clock.rise(self.0.first) <= end + (end - begin)
     }
 
     fn begin(&mut self, device: &mut Device, now: Time) {

@@ -28,7 +28,7 @@ pub struct AnalyserSetupFile {
     /// Frames to simulate at most, if the command line does not say.
     #[schemars(range(min = 1, max = 1_000_000), extend("unit" = "frames"))]
     pub frames: u64,
-    /// Sampling clock: `clk_sys`, `clk_laser`, `clk_200`, or one of its own as `100MHz + 250ps`,
+    /// Sampling clock: `clk_sys`, `clk_laser`, `clk_in`, or one of its own as `100MHz + 250ps`,
     /// frequency and time of the first rising edge.
     pub clock: String,
     /// Samples that the buffer holds, a power of two.

@@ -64,7 +64,7 @@ pub(super) fn photons(
         ));
     }
     if quantised > 0 {
-        let half = observed.timebase.step_ps() as f64 / 2e3;
+        let half = observed.timebase.step().fs() as f64 / 2e6;
         notes.push(format!(
             "{quantised} photons are placed by tdc_stop alone, to {half} ns; their hits and codes \
              may differ from the board's"
@@ -114,7 +114,7 @@ fn arrival(setup: &Setup, code: u64, edge: Option<u64>) -> Option<f64> {
 fn quantised_arrival(observed: &Observed, shot: &Shot, stop: i64, setup: &Setup) -> f64 {
     let scale = &setup.params.tdc.decoder.scale;
     let range_ps = scale.ps(scale.range() as i64);
-    let step = observed.timebase.step_ps() as f64;
+    let step = observed.timebase.step().fs() as f64 / 1e3;
     let begin = (stop - shot.start) as f64 * step;
     let middle = begin + step / 2.0;
     match begin + step > range_ps && observed.has_codes {

@@ -1,11 +1,9 @@
 //! When the samples of a capture are.
 
 use tofsim::error::{Input, Result};
+use tofsim::kernel::Time;
 
 use crate::compare::{SampleClock, SignalMap};
-
-/// Length of a cycle of `clk_sys` [ps].
-pub(super) const CYCLE_PS: u64 = 8000;
 
 /// When the samples of a capture are.
 #[derive(Clone, Debug)]
@@ -16,10 +14,13 @@ pub(super) struct Timebase {
     pub(super) per_cycle: u64,
     /// Whether every edge of the clock has a sample.
     pub(super) steady: bool,
+    /// Period of `clk_sys`.
+    cycle: Time,
 }
 
 impl Timebase {
-    /// Of a clock or else the map's or `clk_sys`, whether or not all samples were stored.
+    /// Of a clock or else the map's or `clk_sys`, whether or not all samples were stored, where `clk_sys` has
+    /// the period `cycle`.
     ///
     /// # Errors
     /// When it is neither `clk_sys` nor `clk_laser`.
@@ -27,6 +28,7 @@ impl Timebase {
         clock: Option<&SampleClock>,
         map: &SignalMap,
         qualified: bool,
+        cycle: Time,
     ) -> Result<Self> {
         let text = map.clock.as_deref().unwrap_or("clk_sys");
         let fault = |expected: String| Input::new("clock", expected).value(text);
@@ -49,11 +51,11 @@ impl Timebase {
             let expected = "expected clk_sys where not all samples were stored";
             return Err(Input::new("--clock", expected).into());
         }
-        Ok(Timebase { clock, per_cycle, steady })
+        Ok(Timebase { clock, per_cycle, steady, cycle })
     }
 
-    /// Time between two samples of a steady capture [ps].
-    pub(super) fn step_ps(&self) -> u64 {
-        CYCLE_PS / self.per_cycle
+    /// Time between two samples of a steady capture.
+    pub(super) fn step(&self) -> Time {
+        Time::from_fs(self.cycle.fs() / self.per_cycle)
     }
 }

@@ -1,7 +1,7 @@
 //! Pairs of a dark and a lit frame as a table and as CSV.
 
 use tofsim::sim::frames::Frame;
-use tofsim::sim::setup::{CYCLE, Setup};
+use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::subtraction::NAME;
 use tofsim_learn::estimation::{HistogramPair, Reading};
 
@@ -43,7 +43,7 @@ fn one_pair(setup: &Setup, dark: &Frame, lit: &Frame, readings: &[Reading]) -> S
         rows.push(("right of the echo", text));
     }
     let cycles = dark.frame_cycles + lit.frame_cycles + 1;
-    let board_ms = cycles as f64 * CYCLE.seconds() * 1e3;
+    let board_ms = cycles as f64 * setup.cycle().seconds() * 1e3;
     rows.extend([
         ("depth words", format!("{:09x} dark, {:09x} lit", dark.depth.bits(), lit.depth.bits())),
         ("estimator", format!("{} cycles", lit.estimator_cycles)),

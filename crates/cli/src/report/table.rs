@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use tofsim::sim::frames::Frame;
-use tofsim::sim::setup::{CYCLE, Setup};
+use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::Reading;
 
 use crate::text::table::{facts, grouped, number_or_dash, table};
@@ -54,7 +54,7 @@ fn one_frame(setup: &Setup, frame: &Frame, readings: &[Reading]) -> String {
     rows.push(("estimated", estimated));
     rows.extend(readings::rows(setup, readings));
     let cycles = grouped(frame.frame_cycles);
-    let board_ms = frame.frame_cycles as f64 * CYCLE.seconds() * 1e3;
+    let board_ms = frame.frame_cycles as f64 * setup.cycle().seconds() * 1e3;
     rows.extend([
         ("shots", grouped(frame.shots)),
         ("TDC hits", grouped(frame.tdc_hits)),

@@ -1,7 +1,7 @@
 //! How many frames there can be.
 
 use tofsim::error::{Input, Result};
-use tofsim::sim::setup::{CYCLE, Setup};
+use tofsim::sim::setup::Setup;
 
 use crate::text::table::grouped;
 
@@ -20,7 +20,7 @@ pub fn check(option: &str, frames: u64, setup: &Setup) -> Result<()> {
     let period = if setup.scenario.control.is_empty() { setup.laser_period() } else { slowest };
     let drain = setup.params.frame_ctrl.drain_cycles;
     let cycles = AROUND + drain + setup.shots(1) * period;
-    let most = u64::MAX / (cycles * CYCLE.fs()) / setup.frames_together();
+    let most = u64::MAX / (cycles * setup.cycle().fs()) / setup.frames_together();
     let reason = "simulated time, in 64 bits of femtoseconds, ends after five hours";
     within(option, frames, most, reason)
 }

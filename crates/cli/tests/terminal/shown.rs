@@ -54,14 +54,14 @@ fn a_bar_moves_and_fits_80_columns() {
 #[test]
 fn verdicts_have_colours_on_a_terminal_unless_the_user_minds() {
     let folder = empty();
-    let verify = "verify --block pll";
+    let verify = "verify --block reset_sync";
     let shown = on_terminal(folder.path(), verify, &[]);
     assert_eq!(shown.matches("\x1b[32mpass\x1b[0m").count(), 2, "{shown:?}");
     for environment in [[("NO_COLOR", "1")], [("TERM", "dumb")]] {
         let shown = on_terminal(folder.path(), verify, &environment);
         assert!(!shown.contains("\x1b[3") && shown.contains("pass"), "{shown:?}");
     }
-    let piped = output(folder.path(), &["verify", "--block", "pll"]);
+    let piped = output(folder.path(), &["verify", "--block", "reset_sync"]);
     assert!(!piped.stdout.contains(&0x1b) && !piped.stderr.contains(&0x1b));
 }
 

@@ -8,7 +8,7 @@ use tofsim::network::Histogram;
 use tofsim::optics::budget::LIGHT_M_S;
 use tofsim::optics::{Bins, Budget};
 use tofsim::scenario::QuenchMode;
-use tofsim::sim::setup::{CYCLE, Setup};
+use tofsim::sim::setup::Setup;
 
 /// Mean arrival of an echo for each metre of distance, 2 / c (eq. 3.23) [ps/m].
 pub const ARRIVAL_PS_PER_M: f64 = 2e12 / LIGHT_M_S;
@@ -66,9 +66,9 @@ impl FreeRunning {
         let delays = &setup.params.tdc.delays;
         let cycles = setup.laser_period() as f64;
         (firmware.mode == QuenchMode::FreeRunning).then(|| FreeRunning {
-            period_ps: cycles * ps(CYCLE),
+            period_ps: cycles * ps(setup.cycle()),
             dead_ps: setup.scenario.spad.dead_time_ns * 1e3,
-            cycle_ps: ps(CYCLE),
+            cycle_ps: ps(setup.cycle()),
             tap_0_ps: ps(delays.tap_0()),
             chain_ps: ps(delays.longest()),
         })

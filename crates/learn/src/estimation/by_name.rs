@@ -94,12 +94,13 @@ impl EstimatorKind {
 mod tests {
     use super::*;
     use tofsim::firmware::tdc;
+    use tofsim::kernel::Time;
     use tofsim::optics::Bins;
     use tofsim::scenario::{builtin::Source, chain};
 
     #[test]
     fn every_estimator_answers_to_its_name() {
-        let delays = chain::load("ideal", &Source::Folder("".into())).unwrap();
+        let delays = chain::load("ideal", &Source::Folder("".into()), Time::from_ns(8)).unwrap();
         let bins = &Bins::of_tdc(&tdc::Params::of_chain(delays));
         let network = &Network::builtin("ideal").unwrap().unwrap();
         let acquisition = Acquisition::new(bins, 30_000, 137.0);

@@ -6,7 +6,7 @@ use tofsim::firmware::tof_top::Estimator;
 use tofsim::optics::BinProbabilities;
 use tofsim::scenario::QuenchMode;
 use tofsim::sim::fast::histogram::independent_shots;
-use tofsim::sim::setup::{CYCLE, Setup};
+use tofsim::sim::setup::Setup;
 use tofsim::{Note, NoteCode, NoteValue};
 
 use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, most_probable};
@@ -135,7 +135,7 @@ impl Teller<'_> {
     fn dead_time(&self) -> Option<Note> {
         let dead_ns = self.setup.scenario.spad.dead_time_ns;
         // A shorter pulse can pass between two edges.
-        let shortest_ns = CYCLE.seconds() * 1e9;
+        let shortest_ns = self.setup.cycle().seconds() * 1e9;
         let is_worked_out = (shortest_ns..=LONGEST_DEAD_NS).contains(&dead_ns);
         let text = "in MODE 1 it takes the diode to rest for longer than a clock period";
         let expected = format!("{shortest_ns} to {LONGEST_DEAD_NS}");
@@ -173,7 +173,7 @@ impl Teller<'_> {
             None if jitter_ps > 0.0 => {
                 let tap_0 = self.setup.params.tdc.delays.tap_0();
                 let text = "which of two jittered edges sees a hit there hangs on both";
-                (CYCLE.since(tap_0).fs() as f64 * 1e-3, text)
+                (self.setup.cycle().since(tap_0).fs() as f64 * 1e-3, text)
             }
             None => return None,
         };

@@ -14,13 +14,14 @@ use allowances::{Allowances, RESETS};
 
 use tofsim::error::Result;
 use tofsim::files::output::{create_directory, write_bytes, write_file};
+use tofsim::kernel::Time;
 use tofsim::network::mem::lines;
 
 use super::parameters::Parameter;
 use super::ports::{self, Port};
 use super::spec::Vectors;
 use super::table::Column;
-use super::timing::{Step, Timing};
+use super::timing::{ASIDE, Step, of_quarters};
 use super::verilog::{parameter_list, place, range};
 
 /// With `+progress`, a bench says after so many cycles how far it is.
@@ -120,8 +121,9 @@ impl<'a> Bench<'a> {
         let allowances = columns.iter().map(|column| self.allowed.text(column, vectors));
         let inputs: Vec<_> = vectors.stimulus.columns().iter().map(|c| c.name.as_str()).collect();
         let inputs = inputs.join(", ");
-        let before = match vectors.first_edge_ps > spec.timing.period_ps() {
-            true => format!("    {{{inputs}}} = stimulus[0];\n    #(FirstEdge - Period);\n"),
+        let before = vectors.first_edge.since(vectors.period());
+        let before = match before > Time::ZERO {
+            true => format!("    {{{inputs}}} = stimulus[0];\n    {};\n", wait(before)),
             false => String::new(),
         };
         format!(
@@ -131,8 +133,8 @@ impl<'a> Bench<'a> {
             source = vectors.source,
             seed = vectors.seed,
             cycles = vectors.stimulus.rows(),
-            first_edge = vectors.first_edge_ps,
-            period = spec.timing.period_ps(),
+            first_edge = vectors.first_edge.fs(),
+            period = vectors.period().fs(),
             signals = signals(vectors, &ports) + &self.past_signals(),
             module = self.module,
             parameters = parameter_list(&parameters, "  "),
@@ -146,7 +148,7 @@ impl<'a> Bench<'a> {
             resets = self.resets(),
             show = show(vectors) + &self.show_past(),
             before = before,
-            steps = steps(&spec.timing, &inputs),
+            steps = steps(vectors, &inputs),
         )
     }
 
@@ -169,7 +171,8 @@ impl<'a> Bench<'a> {
             format!(
                 "    if ({name} !== {width}'d0)\n      \
                  $display(\"mismatch: cycle %0d, time %0d ps, {name}: expected %h, got %h\",\n        \
-                 cycle, FirstEdge + cycle * Period - 64'd1, {width}'d0, {name});\n",
+                 cycle, (FirstEdge + cycle * Period - 64'd{aside}) / 1000, {width}'d0, {name});\n",
+                aside = ASIDE.fs(),
             )
         };
         self.past_outputs().map(show).collect()
@@ -227,38 +230,52 @@ fn signals(vectors: &Vectors, ports: &[Port]) -> String {
     }
     text += &spec.glue.map_or(String::new(), |glue| (glue.verilog)(&vectors.sizes));
     if spec.timing.oscillator {
-        text += "  always #2500 clk_200 = !clk_200;\n";
+        text += &format!("  always {} clk_in = !clk_in;\n", wait(vectors.half_of_oscillator()));
     }
-    // The fifth of a femtosecond makes a simulator that rounds a delay and one that cuts it off
-    // agree; long waits are taken in steps of 1 us, because Verilator 5.006 has 32 bits for a delay
-    // that is no integer.
+    // Long waits are taken in steps of 1 us.
     if let Some(last) = vectors.stops.len().checked_sub(1) {
         text += &format!(include_str!("bench/stops.v"), last = last);
     }
     text
 }
 
+/// A delay.
+///
+/// The fifth of a femtosecond makes a simulator that rounds it and one that cuts it off agree. Whole
+/// picoseconds stand apart, because Verilator 5.006 has 32 bits for a delay that is no integer.
+fn wait(span: Time) -> String {
+    match (span.ps(), span.fs() % 1000) {
+        (ps, 0) => format!("#{ps}"),
+        (ps, fs) => format!("#{ps} #0.{fs:03}2"),
+    }
+}
+
 /// A cycle: the inputs 1 ps after the edge, then the parts of the timing.
-fn steps(timing: &Timing, inputs: &str) -> String {
+fn steps(vectors: &Vectors, inputs: &str) -> String {
+    let timing = &vectors.spec.timing;
     let mut text = match inputs {
         "" => "      #1;\n".to_owned(),
         inputs => format!("      #1 {{{inputs}}} = stimulus[cycle];\n"),
     };
     let mut sample = 0;
     for (k, step) in timing.steps.iter().enumerate() {
-        let rest = step.length_ps - u64::from(k == 0);
+        let mut rest = of_quarters(step.quarters, vectors.pll.cycle);
         let last = k + 1 == timing.steps.len();
+        if k == 0 {
+            rest = rest - ASIDE;
+        }
+        if let Some((input, column)) = step.late {
+            text += &format!("      #1;\n      {input} = {column};\n");
+            rest = rest - ASIDE;
+        }
         if step.sample {
             let compare = if last { "      compare;\n" } else { "" };
-            text += &format!("      #{} look_{sample};\n{compare}      #1", rest - 1);
+            text += &format!("      {} look_{sample};\n{compare}      #1", wait(rest - ASIDE));
             sample += 1;
         } else {
-            text += &format!("      #{rest}");
+            text += &format!("      {}", wait(rest));
         }
         text += &edges(step, last);
-        if let Some((input, column)) = step.late {
-            text += &format!("      {input} = {column};\n");
-        }
     }
     text
 }
@@ -301,11 +318,11 @@ fn looks(vectors: &Vectors) -> String {
 fn show(vectors: &Vectors) -> String {
     let show = |column: &Column| {
         let (place, name) = (place(column), &column.name);
-        let before = vectors.spec.timing.before_edge_ps(column.sample) + 1;
+        let before = vectors.before_edge(column.sample).fs();
         format!(
             "    if (got[{place}] !== want[{place}])\n      \
              $display(\"mismatch: cycle %0d, time %0d ps, {name}: expected %h, got %h\",\n        \
-             cycle, FirstEdge + cycle * Period - 64'd{before}, want[{place}], got[{place}]);\n",
+             cycle, (FirstEdge + cycle * Period - 64'd{before}) / 1000, want[{place}], got[{place}]);\n",
         )
     };
     vectors.expected.columns().iter().map(show).collect()

@@ -37,6 +37,14 @@ pub const COUNT_STAGES_2: Configuration = Configuration {
     ..DEFAULTS
 };
 
+/// A faster clock, whose quarter of a period is no whole number of femtoseconds.
+pub const CLOCKS: Configuration = Configuration {
+    name: "clocks",
+    set: &["pll.input_hz=150000000", "pll.multiply=13", "pll.divide=2", "pll.output_divide=6"],
+    parameters: &["InputHz", "Multiply", "Divide", "OutputDivide"],
+    ..DEFAULTS
+};
+
 /// Nothing else than usual.
 pub(super) const DEFAULTS: Configuration =
     Configuration { name: "", scenario: DEFAULT, set: &[], parameters: &[], module: None };

@@ -3,7 +3,9 @@
 use tofsim::firmware::carry_chain::Delays;
 use tofsim::firmware::histogram_builder::{self, Bin, Count};
 use tofsim::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Sizes};
-use tofsim::firmware::{centroid_estimator, depth_estimator, forward2, tdc_decoder, vcsel_driver};
+use tofsim::firmware::{
+    centroid_estimator, depth_estimator, forward2, pll, tdc_decoder, vcsel_driver,
+};
 use tofsim::kernel::U;
 use tofsim::network::mem::{self, Mem, digits, lines};
 use tofsim::sim::setup::Setup;
@@ -56,6 +58,18 @@ pub fn sized(params: &Params, names: &[&'static str]) -> Parameters {
         (own != value(&usual.0, &usual.1, name)).then_some((name, own))
     };
     names.iter().copied().filter_map(own).collect()
+}
+
+/// Oscillator and dividers of the PLL, where they are not the default.
+pub fn clocks(p: &pll::Params) -> Parameters {
+    let values = [
+        ("InputHz", p.input_hz, pll::INPUT_HZ),
+        ("Multiply", p.multiply, pll::MULTIPLY),
+        ("Divide", p.divide, pll::DIVIDE),
+        ("OutputDivide", p.output_divide, pll::OUTPUT_DIVIDE),
+    ];
+    let others = values.into_iter().filter(|(_, own, usual)| own != usual);
+    others.map(|(name, own, _)| (name, Parameter::Number(own))).collect()
 }
 
 /// The parameter with the laser periods.
@@ -135,6 +149,7 @@ pub fn tof_top(setup: &Setup) -> Parameters {
         ("ShotsPerFrame", Number(params.frame_ctrl.shots_per_frame.into())),
         ("LockTime", Number(setup.pll().locked_at.ps())),
     ];
+    list.extend(clocks(&setup.scenario.pll.params()));
     list.extend(depth_estimator(&params.depth_estimator));
     list.extend([
         ("CalFile", Memory(mem::tdc_decoder(&params.tdc.decoder))),

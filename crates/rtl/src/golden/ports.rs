@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 use tofsim::firmware::tof_top::Sizes;
 use tofsim::hierarchy::{self, Entry, Kind};
+use tofsim::kernel::Time;
 
 use super::parameters::{Parameter, Parameters};
 use super::spec::{Spec, Vectors};
@@ -55,8 +56,8 @@ pub fn json(vectors: &Vectors) -> Value {
         "cycles": vectors.stimulus.rows(),
         "clock": {
             "name": timing.clock,
-            "period_ps": timing.period_ps(),
-            "first_edge_ps": vectors.first_edge_ps,
+            "period_ps": in_ps(vectors.period()),
+            "first_edge_ps": in_ps(vectors.first_edge),
         },
         "reset": reset,
         "latency": spec.latency.iter().map(|latency| json!({
@@ -71,11 +72,16 @@ pub fn json(vectors: &Vectors) -> Value {
         })).collect::<Vec<_>>(),
         "stimulus": columns(&vectors.stimulus, |_, _| ()),
         "expected": columns(&vectors.expected, |column, value| {
-            value["before_edge_ps"] = json!(timing.before_edge_ps(column.sample) + 1);
+            value["before_edge_ps"] = in_ps(vectors.before_edge(column.sample));
             value["register"] = json!(column.internal);
         }),
         "roms": vectors.memories().map(|memory| memory.name).collect::<Vec<_>>(),
     })
+}
+
+/// Picoseconds, a whole number where it is one.
+fn in_ps(time: Time) -> Value {
+    if time.fs().is_multiple_of(1000) { json!(time.ps()) } else { json!(time.fs() as f64 / 1e3) }
 }
 
 fn parameters(parameters: &Parameters) -> Value {

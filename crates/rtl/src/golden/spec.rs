@@ -1,6 +1,7 @@
 //! What a block is, and what its golden vectors are.
 
 use tofsim::error::Result;
+use tofsim::firmware::pll::Pll;
 use tofsim::firmware::tof_top::Sizes;
 use tofsim::hierarchy;
 use tofsim::kernel::Time;
@@ -11,7 +12,7 @@ use super::cover::Cover;
 use super::parameters::{Parameters, memories};
 use super::setting::Setting;
 use super::table::Table;
-use super::timing::{CLK_SYS, Timing};
+use super::timing::{ASIDE, CLK_SYS, Timing};
 
 /// How many clocks an effect takes at least, from the edge that takes the input to the one that
 /// changes the output: 0 for a plain register. A combinational path has none.
@@ -125,8 +126,10 @@ pub struct Vectors {
     pub stimulus: Table,
     /// What comes out: line k is seen just before edge k.
     pub expected: Table,
-    /// Edge 0 [ps].
-    pub first_edge_ps: u64,
+    /// The clocks.
+    pub pll: Pll,
+    /// Edge 0.
+    pub first_edge: Time,
     /// When `tdc_stop` changes; it starts low.
     pub stops: Vec<Time>,
     /// A memory that the bench reads.
@@ -141,6 +144,26 @@ impl Vectors {
     /// Module of their bench, and the stem of its file.
     pub fn bench_module(&self) -> String {
         format!("tb_{}", self.spec.name)
+    }
+
+    /// Period of the clock that is counted.
+    pub fn period(&self) -> Time {
+        self.spec.timing.period(self.pll.cycle)
+    }
+
+    /// How long before the end of a cycle that sample of it is taken.
+    pub fn before_edge(&self, sample: usize) -> Time {
+        self.spec.timing.before_edge(sample, self.pll.cycle) + ASIDE
+    }
+
+    /// Half a period of the board's oscillator.
+    pub fn half_of_oscillator(&self) -> Time {
+        self.pll.clk_in.fall(0) - self.pll.clk_in.rise(0)
+    }
+
+    /// The edge that ends that cycle.
+    pub fn edge(&self, cycle: usize) -> Time {
+        self.first_edge + Time::from_fs(cycle as u64 * self.period().fs())
     }
 
     /// Memories that the Verilog or the bench loads.

@@ -5,14 +5,11 @@ use tofsim::kernel::Time;
 
 use super::draw::Draw;
 
-/// Instant of the edge that ends cycle `cycle` of a bench with a clock of 125 MHz.
-pub fn edge(cycle: usize) -> Time {
-    Time::from_ns(8 * (cycle as u64 + 1))
-}
-
 /// What has been planned, and how much of it has come to pass.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Stops {
+    /// Period of the clock.
+    pub cycle: Time,
     /// The wire.
     pub line: StopLine,
     times: Vec<Time>,
@@ -20,6 +17,16 @@ pub struct Stops {
 }
 
 impl Stops {
+    /// Nothing is planned yet, where the clock has that period.
+    pub fn new(cycle: Time) -> Self {
+        Stops { cycle, line: StopLine::default(), times: Vec::new(), applied: 0 }
+    }
+
+    /// Instant of the edge that ends a line.
+    pub fn edge(&self, line: usize) -> Time {
+        Time::from_fs(self.cycle.fs() * (line as u64 + 1))
+    }
+
     /// All changes, in order.
     pub fn times(&self) -> &[Time] {
         &self.times
@@ -49,16 +56,21 @@ impl Stops {
             self.applied += 1;
         }
     }
+
+    /// An instant before the edge at `edge`: such that a tap is reached exactly then, or 1 fs beside
+    /// that, or the edge itself, or any within the last two periods.
+    pub fn before(&self, edge: Time, delays: &Delays, draw: &mut Draw) -> Time {
+        let arrivals = delays.arrivals();
+        let age = match draw.below(4) {
+            0 => 0,
+            1 => draw.below(2 * self.cycle.fs()),
+            _ => arrivals[draw.below(arrivals.len() as u64) as usize].fs() + draw.below(3) - 1,
+        };
+        edge.since(Time::from_fs(age))
+    }
 }
 
-/// An instant before the edge at `edge`: such that a tap is reached exactly then, or 1 fs beside
-/// that, or the edge itself, or any within the last 16 ns.
-pub fn before(edge: Time, delays: &Delays, draw: &mut Draw) -> Time {
-    let arrivals = delays.arrivals();
-    let age = match draw.below(4) {
-        0 => 0,
-        1 => draw.below(16_000_000),
-        _ => arrivals[draw.below(arrivals.len() as u64) as usize].fs() + draw.below(3) - 1,
-    };
-    edge.since(Time::from_fs(age))
+/// So many eighths of a clock period: nanoseconds on the KC705.
+pub fn of_eighths(eighths: u64, cycle: Time) -> Time {
+    Time::from_fs(eighths * cycle.fs() / 8)
 }

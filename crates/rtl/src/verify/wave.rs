@@ -6,6 +6,7 @@ use std::path::Path;
 
 use tofsim::error::Result;
 use tofsim::files::output::{write_bytes, write_file};
+use tofsim::kernel::Time;
 use tofsim::waves::side_by_side::{
     HEXADECIMAL, Layout, SIDES, Scope, Shown, SideBySide, Value, View, range,
 };
@@ -69,12 +70,12 @@ fn body(
     let scopes: [Scope; 3] = sides.map(|(name, side)| (name, side.iter().map(signal).collect()));
     let mut wave = SideBySide::begin(file, &layout, &scopes)?;
 
-    let slot = timing.period_ps() / timing.samples() as u64;
+    let slot = Time::from_fs(vectors.period().fs() / timing.samples() as u64);
     let mut last = sides.map(|(_, side)| vec![String::new(); side.len()]);
     for cycle in cycles {
-        let end = vectors.first_edge_ps + cycle as u64 * timing.period_ps();
+        let end = vectors.edge(cycle);
         for sample in 0..timing.samples() {
-            wave.time(end - timing.before_edge_ps(sample) - slot)?;
+            wave.time((end - timing.before_edge(sample, vectors.pll.cycle) - slot).ps())?;
             if sample == 0 {
                 wave.bit(cycle > 0)?;
             } else if 2 * sample == timing.samples() {
@@ -96,7 +97,7 @@ fn body(
             }
         }
         if timing.samples() == 1 {
-            wave.time(end - timing.period_ps() / 2)?;
+            wave.time((end - Time::from_fs(vectors.period().fs() / 2)).ps())?;
             wave.bit(false)?;
         }
     }
@@ -139,7 +140,7 @@ fn save_file(wave: &str, vectors: &Vectors, observed: &Observed, first: &Mismatc
     let view = View {
         top: [&vectors.bench_module(), timing.clock],
         colour: None,
-        from: first.time_ps.saturating_sub(8 * timing.period_ps()),
+        from: first.time_ps.saturating_sub(8 * vectors.period().ps()),
         zoom: "-14.0".to_owned(),
         height: 700,
         columns: None,

@@ -72,7 +72,7 @@ pub struct Args {
 /// What goes before the set-up's keys.
 #[derive(Clone, Debug, clap::Args)]
 struct Instead {
-    /// Sampling clock: clk_sys, clk_laser, clk_200, or frequency and first edge as 100MHz+250ps
+    /// Sampling clock: clk_sys, clk_laser, clk_in, or frequency and first edge as 100MHz+250ps
     #[arg(long, value_name = "CLOCK")]
     clock: Option<String>,
     /// Samples of the buffer, a power of two from 1024 to 131072

@@ -7,8 +7,8 @@
 
 module tb_{name};
   localparam Cycles = {cycles};
-  localparam [63:0] FirstEdge = 64'd{first_edge}; // [ps]
-  localparam [63:0] Period = 64'd{period}; // [ps]
+  localparam [63:0] FirstEdge = 64'd{first_edge}; // [fs]
+  localparam [63:0] Period = 64'd{period}; // [fs]
 
 {signals}
   {module} {parameters}dut (

@@ -12,8 +12,8 @@ end entity;
 
 architecture bench of tb_{name} is
   constant Cycles : positive := {cycles};
-  constant FirstEdge : time := {first_edge} ps;
-  constant Period : time := {period} ps;
+  constant FirstEdge : time := {first_edge};
+  constant Period : time := {period};
 
 {signals}
 begin

@@ -1,6 +1,7 @@
 //! The same bench in VHDL-2008. It compares ports only: VHDL keeps its registers to itself.
 
 use tofsim::error::{Input, Result};
+use tofsim::kernel::Time;
 
 use super::allowances::{Allowances, RESETS};
 
@@ -8,7 +9,7 @@ use crate::golden::parameters::Parameter;
 use crate::golden::ports::Port;
 use crate::golden::spec::Vectors;
 use crate::golden::table::Column;
-use crate::golden::timing::{Step, Timing};
+use crate::golden::timing::{ASIDE, Step, of_quarters};
 
 /// The bench of an entity that has the block's name.
 ///
@@ -25,12 +26,11 @@ pub fn text(vectors: &Vectors) -> Result<String> {
     };
     let connected: Vec<_> =
         ports.iter().map(|Port { name, .. }| format!("      {name} => {name}")).collect();
-    let columns = vectors.expected.columns();
     let apply: String = inputs
         .iter()
         .map(|column| format!("{} <= {};\n", column.name, slice("stimulus", column)))
         .collect();
-    let before = match vectors.first_edge_ps > spec.timing.period_ps() {
+    let before = match vectors.first_edge > vectors.period() {
         true => format!("{}    wait for FirstEdge - Period;\n", indented(&apply, 4)),
         false => String::new(),
     };
@@ -41,8 +41,8 @@ pub fn text(vectors: &Vectors) -> Result<String> {
         source = vectors.source,
         seed = vectors.seed,
         cycles = vectors.stimulus.rows(),
-        first_edge = vectors.first_edge_ps,
-        period = spec.timing.period_ps(),
+        first_edge = physical(vectors.first_edge),
+        period = physical(vectors.period()),
         signals = signals(vectors, &ports),
         generics = generics,
         ports = connected.join(",\n"),
@@ -52,7 +52,7 @@ pub fn text(vectors: &Vectors) -> Result<String> {
         line_out = vectors.expected.width() - 1,
         quiet = Allowances::default().quiet(vectors),
         before = before,
-        steps = steps(&spec.timing, &apply, inputs, columns),
+        steps = steps(vectors, &apply),
     ))
 }
 
@@ -122,7 +122,8 @@ fn statements(vectors: &Vectors) -> String {
         text += &format!("\n  {}\n", (glue.vhdl)(&vectors.sizes)[1]);
     }
     if vectors.spec.timing.oscillator {
-        text += "\n  clk_200 <= not clk_200 after 2500 ps;\n";
+        let half = physical(vectors.half_of_oscillator());
+        text += &format!("\n  clk_in <= not clk_in after {half};\n");
     }
     if !vectors.stops.is_empty() {
         text += include_str!("stops.vhd");
@@ -130,41 +131,56 @@ fn statements(vectors: &Vectors) -> String {
     text
 }
 
+/// A span of time.
+fn physical(span: Time) -> String {
+    if span.fs().is_multiple_of(1000) {
+        format!("{} ps", span.ps())
+    } else {
+        format!("{} fs", span.fs())
+    }
+}
+
 /// A cycle: the inputs 1 ps after the edge, then the parts of the timing.
-fn steps(timing: &Timing, apply: &str, inputs: &[Column], columns: &[Column]) -> String {
+fn steps(vectors: &Vectors, apply: &str) -> String {
+    let (timing, columns) = (&vectors.spec.timing, vectors.expected.columns());
     let mut text = format!("wait for 1 ps;\n{apply}");
     let mut sample = 0;
     for (k, step) in timing.steps.iter().enumerate() {
-        let rest = step.length_ps - u64::from(k == 0);
+        let mut rest = of_quarters(step.quarters, vectors.pll.cycle);
         let last = k + 1 == timing.steps.len();
+        if k == 0 {
+            rest = rest - ASIDE;
+        }
+        if let Some((input, column)) = step.late {
+            text += &format!("wait for 1 ps;\n{input} <= {column};\n");
+            rest = rest - ASIDE;
+        }
         if step.sample {
-            text += &format!("wait for {} ps;\n", rest - 1);
+            text += &format!("wait for {};\n", physical(rest - ASIDE));
             let seen = columns.iter().filter(|column| column.sample == sample && !column.internal);
             let take = |column: &Column| format!("{} := {};\n", slice("got", column), column.name);
             text.extend(seen.map(take));
             if last {
-                text += &compare(timing, inputs, columns);
+                text += &compare(vectors);
             }
             text += "wait for 1 ps;\n";
             sample += 1;
         } else {
-            text += &format!("wait for {rest} ps;\n");
+            text += &format!("wait for {};\n", physical(rest));
         }
         text += &edges(step, last);
-        if let Some((input, column)) = step.late {
-            text += &format!("{input} <= {column};\n");
-        }
     }
     indented(&text, 6)
 }
 
 /// Counts a line that differs; the first one is shown, column by column.
-fn compare(timing: &Timing, inputs: &[Column], columns: &[Column]) -> String {
+fn compare(vectors: &Vectors) -> String {
+    let columns = vectors.expected.columns();
     let show = |column: &Column| {
         let (high, low) = (column.low + column.width - 1, column.low);
-        let before = timing.before_edge_ps(column.sample) + 1;
+        let before = physical(vectors.before_edge(column.sample));
         format!(
-            "    show(\"{}\", cycle, {before} ps, want({high} downto {low}), got({high} downto {low}));\n",
+            "    show(\"{}\", cycle, {before}, want({high} downto {low}), got({high} downto {low}));\n",
             column.name,
         )
     };
@@ -173,7 +189,7 @@ fn compare(timing: &Timing, inputs: &[Column], columns: &[Column]) -> String {
         "if quiet = 0 and got /= want then\n  if mismatches = 0 then\n{shown}  end if;\n  \
          mismatches := mismatches + 1;\nend if;\n\
          if quiet > 0 then\n  quiet := quiet - 1;\nend if;\n{}",
-        resets(inputs),
+        resets(vectors.stimulus.columns()),
     )
 }
 

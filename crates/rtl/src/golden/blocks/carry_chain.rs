@@ -18,13 +18,13 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut ones = Cover::new("ones in the taps", sampled.map(|n| n as u64));
     let mut travelling = Cover::new("changes from tap to tap", 0..4);
     let mut run = Recorder::new(spec, setting, Vec::new());
-    let mut stops = Stops::default();
-    for cycle in 0..setting.cycles_of_chain() {
-        if stops.last() <= stops::edge(cycle) {
-            plan(&mut stops, cycle, delays, &ones, &mut run.draw);
+    let mut stops = Stops::new(setting.setup.cycle());
+    for line in 0..setting.cycles_of_chain() {
+        if stops.last() <= stops.edge(line) {
+            plan(&mut stops, line, delays, &ones, &mut run.draw);
         }
         run.sample();
-        let now = stops::edge(cycle);
+        let now = stops.edge(line);
         stops.advance(now);
         let taps = stops.line.sample(now, delays);
         run.top.tdc.carry_chain = CarryChain { taps };
@@ -38,30 +38,31 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     Ok(Vectors { parameters, stops, settles: 1, ..run.vectors([ones, travelling]) })
 }
 
-/// Plans changes after the edge that ends a cycle, now that none is left.
-fn plan(stops: &mut Stops, cycle: usize, delays: &Delays, ones: &Cover, draw: &mut Draw) {
-    let edge = stops::edge(cycle);
+/// Plans changes after the edge that ends a line, now that none is left.
+fn plan(stops: &mut Stops, line: usize, delays: &Delays, ones: &Cover, draw: &mut Draw) {
+    let edge = stops.edge(line);
     // At that instant, or as soon after the last change as the chain can hold.
     let gap = Time::from_fs(delays.longest().fs() / 5);
     let toggle = |stops: &mut Stops, at: Time| {
         stops.toggle(at.max(stops.last() + gap).max(edge + Time::from_fs(1)));
     };
-    let coming = stops::edge(cycle + 2);
+    let coming = stops.edge(line + 2);
     let quiet = !stops.ends_high() && stops.last() + delays.longest() <= coming;
     match (draw.below(4), ones.missing().find(|ones| *ones > 0)) {
         (0, _) => {
-            let pause = Time::from_ns(draw.below(50));
-            toggle(stops, stops::before(coming, delays, draw) + pause);
+            let pause = stops::of_eighths(draw.below(50), stops.cycle);
+            toggle(stops, stops.before(coming, delays, draw) + pause);
         }
         (1, _) => {
             for _ in 0..4 {
-                toggle(stops, stops.last() + Time::from_fs(draw.below(4_000_000)));
+                let pause = Time::from_fs(draw.below(stops.cycle.fs() / 2));
+                toggle(stops, stops.last() + pause);
             }
         }
         (_, Some(ones)) if quiet => toggle(stops, coming - delays.arrivals()[ones as usize - 1]),
         _ => {
-            let coming = stops::edge(cycle + draw.below(3) as usize + 1);
-            toggle(stops, stops::before(coming, delays, draw));
+            let coming = stops.edge(line + draw.below(3) as usize + 1);
+            toggle(stops, stops.before(coming, delays, draw));
         }
     }
 }

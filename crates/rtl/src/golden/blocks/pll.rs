@@ -3,9 +3,11 @@
 use tofsim::kernel::clock::Clock;
 
 use crate::golden::prelude::*;
+use crate::golden::top;
 
 pub(super) const SPEC: Spec = Spec {
     timing: timing::OWN,
+    configurations: &[CLOCKS],
     fast: &["clk_sys", "clk_laser", "locked"],
     ..Spec::new("pll", "pll", record)
 };
@@ -17,11 +19,12 @@ fn level(clock: &Clock, at: Time) -> bool {
 }
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
+    top::check(&setting.setup)?;
     let pll = setting.setup.pll();
     let mut levels = Cover::new("locked, clk_sys, clk_laser as bits", [0, 4, 5, 6, 7]);
     let mut run = Recorder::new(spec, setting, Vec::new());
     for quarter in 1..=4 * setting.cycles() as u64 {
-        let at = Time::from_ns(2 * quarter) - Time::from_fs(1000);
+        let at = timing::of_quarters(quarter, pll.cycle) - timing::ASIDE;
         let top = &mut run.top;
         top.clocks.clk_sys = level(&pll.clk_sys, at);
         top.clocks.clk_laser = level(&pll.clk_laser, at);
@@ -29,6 +32,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         levels.see(bits([top.pll.locked, top.clocks.clk_sys, top.clocks.clk_laser]));
         run.sample();
     }
-    let parameters = vec![("LockTime", Parameter::Number(pll.locked_at.ps()))];
+    let mut parameters = vec![("LockTime", Parameter::Number(pll.locked_at.ps()))];
+    parameters.extend(parameters::clocks(&setting.setup.scenario.pll.params()));
     Ok(Vectors { parameters, ..run.vectors([levels]) })
 }

@@ -36,9 +36,9 @@ signals! {
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let params = &setting.setup.params.tdc;
-    let mut light = Light::new(&params.delays);
+    let mut light = Light::new(&params.delays, setting.setup.cycle());
     let code_of = |ages: &Ages| {
-        Some(params.decoder.code(light::coarse(ages.first), ages.taps as usize)?.get())
+        Some(params.decoder.code(light.coarse(ages.first), ages.taps as usize)?.get())
     };
     let mut hits = Cover::new("taps of a hit", light.ages.iter().map(|ages| ages.taps));
     let mut codes = Cover::new("codes", light.ages.iter().filter_map(code_of));
@@ -96,11 +96,11 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
                 _ => 3 + draw.below(3),
             };
             (started, next) = (cycle, cycle + period as usize);
-            let edge = |cycle: usize| Time::from_ns(8 * cycle as u64);
-            light.shoot(edge(started), edge(next), draw);
+            let [begin, end] = [started, next].map(|line| light.stops.edge(line - 1));
+            light.shoot(begin, end, draw);
         }
         run.line(&Stimulus { rst, start });
-        let (now, stops) = (stops::edge(cycle), &mut light.stops);
+        let (now, stops) = (light.stops.edge(cycle), &mut light.stops);
         stops.advance(now);
         let i = In { rst, start, tdc_stop: stops.line.level() };
         run.top.tdc.rise(&i, params, &mut stops.line, now);

@@ -28,7 +28,7 @@ pub(super) const SPEC: Spec = Spec {
         "lvds_output.o",
         "lvds_output.ob",
     ],
-    configurations: &[NEURONS_16, COUNT_STAGES_2, CENTROID, CODES, HISTOGRAM],
+    configurations: &[NEURONS_16, COUNT_STAGES_2, CLOCKS, CENTROID, CODES, HISTOGRAM],
     ..Spec::new("tof_top", "", record)
 };
 
@@ -62,13 +62,13 @@ const HISTOGRAM: Configuration = Configuration {
     ..configuration::DEFAULTS
 };
 
-/// A little more than Clear takes after a reset [ns].
-const ACQUIRE_NS: u64 = 2_120;
-/// From the end of `dsp_rst` to the first shot, and to the start of the estimator [ns].
-const SHOTS_NS: u64 = 2_040;
-const ESTIMATE_NS: u64 = 8 * 320;
-/// A whole frame [ns].
-const FRAME_NS: u64 = 5_000;
+/// A little more than Clear takes after a reset [eighths of a cycle].
+const ACQUIRE: u64 = 8 * 265;
+/// From the end of `dsp_rst` to the first shot, and to the start of the estimator [eighths of a cycle].
+const SHOTS_BEGIN: u64 = 8 * 255;
+const ESTIMATE: u64 = 8 * 320;
+/// A whole frame [eighths of a cycle].
+const FRAME: u64 = 8 * 625;
 /// Shots of a frame under random control.
 const SHOTS: u32 = 8;
 
@@ -129,12 +129,14 @@ fn control(setting: &Setting, shots: u64) -> Vec<Control> {
     let codes = laser.periods.len() as u64;
     let last = (codes - 1, laser.periods[laser.periods.len() - 1]);
     let mut changes = Vec::new();
-    let first_us = setting.setup.pll().locked_at.fs() as f64 * 1e-9;
-    let (mut at_ns, end_ns) = (0, 8 * setting.cycles().min(RANDOM) as u64);
+    let pll = setting.setup.pll();
+    // Times are in eighths of a cycle.
+    let at_us = |at| (pll.locked_at + stops::of_eighths(at, pll.cycle)).fs() as f64 * 1e-9;
+    let (mut at, end) = (0, 8 * setting.cycles().min(RANDOM) as u64);
     let mut again = false;
-    while at_ns < end_ns {
+    while at < end {
         let mut change = Control {
-            at_us: first_us + at_ns as f64 * 1e-3,
+            at_us: at_us(at),
             laser_freq: draw.one_in(2).then(|| draw.below(codes)),
             mode: draw.one_in(8).then(|| draw.below(2)).and_then(|code| code.try_into().ok()),
             laser_en: draw.one_in(8).then(|| !draw.one_in(4)),
@@ -144,28 +146,29 @@ fn control(setting: &Setting, shots: u64) -> Vec<Control> {
         };
         changes.push(change.clone());
         let pause = if draw.one_in(3) { 3000 } else { 200 };
-        at_ns += 1 + draw.below(pause);
+        at += 1 + draw.below(pause);
         if change.dsp_rst.is_some() || change.rst.is_some() {
-            change.at_us = first_us + at_ns as f64 * 1e-3;
+            change.at_us = at_us(at);
             (change.dsp_rst, change.rst) = (Some(false), Some(false));
             changes.push(change);
             again = draw.one_in(3);
-            at_ns += if again { ACQUIRE_NS + draw.below(600) } else { 1 + draw.below(12_000) };
+            at += if again { ACQUIRE + draw.below(600) } else { 1 + draw.below(12_000) };
         } else {
             again = false;
         }
     }
-    while at_ns < 8 * setting.cycles() as u64 {
-        for (span_ns, change) in planted(shots, last, &mut draw) {
-            changes.push(Control { at_us: first_us + at_ns as f64 * 1e-3, ..change });
-            at_ns += span_ns;
+    while at < 8 * setting.cycles() as u64 {
+        for (span, change) in planted(shots, last, &mut draw) {
+            changes.push(Control { at_us: at_us(at), ..change });
+            at += span;
         }
     }
     changes
 }
 
 /// A frame begun anew at a rate of that code and period, and in it a short reset, another mode or a hold, in some cycle of the shots or
-/// about the one that starts the estimator; each change and how long it lasts [ns].
+/// about the one that starts the estimator; each change and how long it lasts [eighths of a
+/// cycle].
 fn planted(shots: u64, (rate, period): (u64, u64), draw: &mut Draw) -> [(u64, Control); 4] {
     let begin = Control {
         laser_freq: Some(rate),
@@ -176,13 +179,13 @@ fn planted(shots: u64, (rate, period): (u64, u64), draw: &mut Draw) -> [(u64, Co
         ..Control::default()
     };
     let go = Control { dsp_rst: Some(false), ..Control::default() };
-    let shots_ns = SHOTS_NS + draw.below(8 * period * shots);
+    let shots = SHOTS_BEGIN + draw.below(8 * period * shots);
     let kind = draw.below(9);
-    let (wait_ns, span_ns, change) = match kind {
-        0..4 => (shots_ns, 3 + draw.below(14), Control { rst: Some(true), ..Control::default() }),
-        4..6 => (shots_ns, 8, Control { dsp_rst: Some(true), ..Control::default() }),
-        6 => (shots_ns, 8 + draw.below(90), Control { mode: Some(QuenchMode::FreeRunning), ..Control::default() }),
-        _ => (ESTIMATE_NS + 8 * draw.below(3), 80, Control { dsp_en: Some(false), ..Control::default() }),
+    let (wait, span, change) = match kind {
+        0..4 => (shots, 3 + draw.below(14), Control { rst: Some(true), ..Control::default() }),
+        4..6 => (shots, 8, Control { dsp_rst: Some(true), ..Control::default() }),
+        6 => (shots, 8 + draw.below(90), Control { mode: Some(QuenchMode::FreeRunning), ..Control::default() }),
+        _ => (ESTIMATE + 8 * draw.below(3), 80, Control { dsp_en: Some(false), ..Control::default() }),
     };
     let end = Control {
         rst: Some(false),
@@ -192,6 +195,6 @@ fn planted(shots: u64, (rate, period): (u64, u64), draw: &mut Draw) -> [(u64, Co
         ..Control::default()
     };
     // After another dsp_rst the frame is seen to its end.
-    let rest_ns = if (4..6).contains(&kind) { FRAME_NS } else { 400 + draw.below(300) };
-    [(24, begin), (wait_ns, go), (span_ns, change), (rest_ns, end)]
+    let rest = if (4..6).contains(&kind) { FRAME } else { 400 + draw.below(300) };
+    [(24, begin), (wait, go), (span, change), (rest, end)]
 }

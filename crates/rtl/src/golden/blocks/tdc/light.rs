@@ -4,10 +4,8 @@ use tofsim::firmware::carry_chain::Delays;
 
 use crate::golden::prelude::*;
 
-/// Period of `clk_sys`.
-const CYCLE: Time = Time::from_ns(8);
-/// Width of a pulse in MODE 1.
-const DEAD_TIME: Time = Time::from_ns(20);
+/// Width of a pulse in MODE 1 [eighths of a clock period].
+const DEAD_TIME: u64 = 20;
 
 /// First and last age of a hit that has so many taps high.
 #[derive(Clone, Copy, Debug)]
@@ -19,22 +17,16 @@ pub(super) struct Ages {
     last: Time,
 }
 
-/// For every number of taps that a hit can have.
-fn ages(delays: &Delays) -> impl Iterator<Item = Ages> {
+/// For every number of taps that a hit can have, where the clock has the period `cycle`.
+fn ages(delays: &Delays, cycle: Time) -> impl Iterator<Item = Ages> {
     let arrivals = delays.arrivals().iter().copied();
-    let end = delays.tap_0() + CYCLE;
+    let end = delays.tap_0() + cycle;
     let next = arrivals.clone().skip(1).chain([end]);
     arrivals.zip(next).zip(1..=delays.taps() as u64).filter_map(move |((at, next), taps)| {
         let first = at.max(delays.tap_0());
         let last = next.min(end).since(Time::from_fs(1));
         (first <= last).then_some(Ages { taps, first, last })
     })
-}
-
-/// Coarse count of a hit that has that age at the edge which samples it, if it is not before the
-/// laser edge.
-pub(super) fn coarse(age: Time) -> u64 {
-    (age.fs() - 1) / CYCLE.fs()
 }
 
 /// What the SPAD sees.
@@ -48,9 +40,15 @@ pub(super) struct Light {
 }
 
 impl Light {
-    pub(super) fn new(delays: &Delays) -> Self {
-        let ages = ages(delays).collect();
-        Light { stops: Stops::default(), ages, turn: 0, delays: delays.clone() }
+    pub(super) fn new(delays: &Delays, cycle: Time) -> Self {
+        let ages = ages(delays, cycle).collect();
+        Light { stops: Stops::new(cycle), ages, turn: 0, delays: delays.clone() }
+    }
+
+    /// Coarse count of a hit that has that age at the edge which samples it, if it is not before the
+    /// laser edge.
+    pub(super) fn coarse(&self, age: Time) -> u64 {
+        (age.fs() - 1) / self.stops.cycle.fs()
     }
 
     /// A hit with so many taps high has been counted: the sweep goes on if it was its own.
@@ -60,9 +58,9 @@ impl Light {
 
     /// Plans the shot between two laser edges.
     pub(super) fn shoot(&mut self, laser: Time, end: Time, draw: &mut Draw) {
-        let quiet = self.stops.last() + self.delays.longest() <= laser + CYCLE;
+        let quiet = self.stops.last() + self.delays.longest() <= laser + self.stops.cycle;
         match draw.below(8) {
-            _ if self.stops.ends_high() => self.toggle(laser, within(20, draw)),
+            _ if self.stops.ends_high() => self.toggle(laser, self.within(20, draw)),
             0..5 if quiet => self.sweep(laser, end, draw),
             0..6 => self.single(laser, end, draw),
             6 => self.pulses(laser, end, draw),
@@ -78,18 +76,20 @@ impl Light {
             1 => first + Time::from_fs(draw.below((last - first).fs() + 1)),
             _ => first,
         };
-        let edge = Time::from_fs((coarse(age) + 1) * CYCLE.fs());
+        let cycle = self.stops.cycle;
+        let edge = Time::from_fs((self.coarse(age) + 1) * cycle.fs());
         self.toggle(laser, edge - age);
-        self.toggle(laser, end - CYCLE - laser);
+        self.toggle(laser, end - cycle - laser);
     }
 
     /// MODE 0, anywhere in the shot or too late for it; then the level is held over.
     fn single(&mut self, laser: Time, end: Time, draw: &mut Draw) {
-        let cycles = (end - laser).fs() / CYCLE.fs();
-        let edge = Time::from_fs(laser.fs() + (1 + draw.below(cycles + 1)) * CYCLE.fs());
-        self.toggle(laser, stops::before(edge, &self.delays, draw).since(laser));
-        if self.stops.last() + CYCLE < end {
-            self.toggle(laser, end - CYCLE - laser);
+        let cycle = self.stops.cycle;
+        let cycles = (end - laser).fs() / cycle.fs();
+        let edge = Time::from_fs(laser.fs() + (1 + draw.below(cycles + 1)) * cycle.fs());
+        self.toggle(laser, self.stops.before(edge, &self.delays, draw).since(laser));
+        if self.stops.last() + cycle < end {
+            self.toggle(laser, end - cycle - laser);
         }
     }
 
@@ -97,9 +97,9 @@ impl Light {
     fn pulses(&mut self, laser: Time, end: Time, draw: &mut Draw) {
         while self.stops.last() < end {
             let armed = self.stops.last().since(laser);
-            self.toggle(laser, armed + within(30, draw));
+            self.toggle(laser, armed + self.within(30, draw));
             let rise = self.stops.last().since(laser);
-            self.toggle(laser, rise + DEAD_TIME);
+            self.toggle(laser, rise + stops::of_eighths(DEAD_TIME, self.stops.cycle));
         }
     }
 
@@ -107,7 +107,7 @@ impl Light {
     fn burst(&mut self, laser: Time, draw: &mut Draw) {
         for _ in 0..2 * (1 + draw.below(4)) {
             let armed = self.stops.last().since(laser);
-            self.toggle(laser, armed + within(6, draw));
+            self.toggle(laser, armed + self.within(6, draw));
         }
     }
 
@@ -116,9 +116,9 @@ impl Light {
         let gap = Time::from_fs(self.delays.longest().fs() / 5);
         self.stops.toggle((laser + after).max(self.stops.last() + gap));
     }
-}
 
-/// Up to so many nanoseconds.
-fn within(ns: u64, draw: &mut Draw) -> Time {
-    Time::from_fs(draw.below(ns * 1_000_000))
+    /// Up to so many eighths of a clock period.
+    fn within(&self, eighths: u64, draw: &mut Draw) -> Time {
+        Time::from_fs(draw.below(stops::of_eighths(eighths, self.stops.cycle).fs()))
+    }
 }
