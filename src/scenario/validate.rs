@@ -56,7 +56,8 @@ fn bins(scenario: &Scenario, checked: &Checked) -> Result<()> {
         return fault("tdc.first_bin_ps", first_bin_ps, expected);
     }
     let [bin, first] = [bin_ps, first_bin_ps].map(Time::from_ps_f64);
-    let holds = |bits: &u32| TimeScale::new(cycle, bin, first, *bits).cycle() <= MOST_UNITS;
+    let holds =
+        |bits: &u32| TimeScale::new(cycle, bin, first, *bits, bins as usize).cycle() <= MOST_UNITS;
     match (1..=coarse_bits).rev().find(holds) {
         Some(most) if most < coarse_bits => {
             let expected = format!(

@@ -84,7 +84,8 @@ fn the_program_prints_the_naive_integers() {
     expect(&json["histograms"][0], &histograms[9]);
 
     let many = directory.path().join("many.npy");
-    let data: Vec<u8> = histograms.iter().flatten().flat_map(|count| count.to_le_bytes()).collect();
+    let data: Vec<u8> =
+        histograms.iter().flatten().flat_map(|&count| (count as u16).to_le_bytes()).collect();
     std::fs::write(&many, npy("<u2", &format!("({}, 256)", histograms.len()), &data)).unwrap();
     let json = run(&[&single, &many, Path::new("--network"), &network]);
     assert!(json.get("depth_raw").is_none());
