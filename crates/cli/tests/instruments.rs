@@ -6,12 +6,16 @@ use std::path::Path;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use tofsim::network::Network;
+use tofsim::network::file::Training;
+use tofsim::network::float::Float;
+use tofsim::network::formats::Overflow;
 use tofsim::sim::{Run, Stepping};
 
 use crate::common::{empty, refused, setup};
 use crate::lockstep::verified;
 
-/// Blocks that the parameters reach.
+/// Blocks that clocks, chain and laser reach.
 const BLOCKS: [&str; 10] = [
     "carry_chain",
     "coarse_counter",
@@ -24,6 +28,20 @@ const BLOCKS: [&str; 10] = [
     "tdc_latch",
     "vcsel_driver",
 ];
+
+/// Blocks that the size of the histogram reaches.
+const OF_HISTOGRAM: [&str; 8] = [
+    "centroid_estimator",
+    "code_preload",
+    "depth_estimator",
+    "estimator_ctrl",
+    "forward1",
+    "histogram_builder",
+    "histogram_preload",
+    "tansig",
+];
+/// Clock cycles of each of them, enough to clear the largest histogram, and to fill and estimate it [cycles].
+const FEW: &str = "6000";
 
 /// Part, oscillator [MHz], M, D and O, from 50 to 200 MHz of clk_sys.
 const CLOCKS: [(&str, u64, u64, u64, u64); 10] = [
@@ -44,7 +62,27 @@ fn log_uniform(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     (random.random_range(low.ln()..=high.ln())).exp()
 }
 
-/// The keys of an instrument, with a chain of its own in the folder.
+/// The file of a network of random weights, of any size, for so many bins.
+fn network(random: &mut ChaCha8Rng, bins: usize, path: &Path) {
+    let neurons = random.random_range(1..=16);
+    let mut weights = |count: usize, most: f64| -> Vec<f64> {
+        (0..count).map(|_| random.random_range(-most..most)).collect()
+    };
+    let w1 = (0..neurons).map(|_| weights(bins, 0.0039)).collect();
+    let float = Float { w1, b1: weights(neurons, 3.9), w2: weights(neurons, 1.9), b2: 0.1 };
+    let network = Network {
+        name: String::new(),
+        description: "random weights".to_owned(),
+        training: Training::default(),
+        domain: None,
+        accuracy: None,
+        fixed: float.round("random", Overflow::Refuse).unwrap().fixed,
+        float: None,
+    };
+    std::fs::write(path, network.to_toml()).unwrap();
+}
+
+/// The keys of an instrument, with a chain and a network of its own in the folder.
 fn instrument(random: &mut ChaCha8Rng, folder: &Path, longest_period: f64) -> Vec<String> {
     let (part, input_mhz, multiply, divide, output_divide) =
         CLOCKS[random.random_range(0..CLOCKS.len())];
@@ -69,8 +107,11 @@ fn instrument(random: &mut ChaCha8Rng, folder: &Path, longest_period: f64) -> Ve
     let most_first_ps = (cycle_ps * f64::from(1 << coarse_bits) - bin_ps).min(60_000.0);
     let first_ps =
         [0.0, random.random_range(0.0..most_first_ps).round()][random.random_range(0..2)];
+    let bins = 1u32 << random.random_range(4..=10);
+    let count_bits = random.random_range(9..=24);
+    network(random, bins as usize, &folder.join("network.toml"));
     // An edge that no code is later than.
-    let last = ((256.0 * bin_ps + first_ps) / cycle_ps).ceil() as u64 + 2;
+    let last = ((f64::from(bins) * bin_ps + first_ps) / cycle_ps).ceil() as u64 + 2;
     let last = last.min(1 << coarse_bits);
     let rates = random.random_range(1..=8);
     let shortest = (last + 2).max(5);
@@ -85,6 +126,12 @@ fn instrument(random: &mut ChaCha8Rng, folder: &Path, longest_period: f64) -> Ve
         format!("pll.output_divide={output_divide}"),
         format!("tdc.profile={}", chain.display()),
         format!("tdc.coarse_bits={coarse_bits}"),
+        format!("tdc.bins={bins}"),
+        format!("firmware.count_bits={count_bits}"),
+        "firmware.shots_per_frame=400".to_owned(),
+        format!("estimator.network={}", folder.join("network.toml").display()),
+        format!("estimator.kind={}", ["network", "centroid"][random.random_range(0..2)]),
+        format!("estimator.centroid_half_width={}", random.random_range(1..=31)),
         format!("tdc.bin_ps={bin_ps}"),
         format!("tdc.first_bin_ps={first_ps}"),
         format!("tdc.count_stages={}", random.random_range(2..=3)),
@@ -110,6 +157,8 @@ fn passes_in(simulator: &str, seeds: std::ops::Range<u64>) {
             // A draw may leave out rare cases.
             assert!(goals[0] * 10 >= goals[1] * 9, "seed {seed}, {keys:?}: {report}");
         }
+        let few: Vec<_> = OF_HISTOGRAM.iter().flat_map(|block| ["--block", block]).collect();
+        verified(&[&base[..], &["--cycles", FEW], &few, &set].concat());
         let top = ["--top", "-s", "firmware.shots_per_frame=300"];
         verified(&[&base[..], &top, &set].concat());
     }

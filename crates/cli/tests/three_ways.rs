@@ -148,7 +148,7 @@ fn simulated(folder: &Path, params: &Params, histograms: &[Histogram]) -> Vec<(S
 /// Depth words of the program.
 fn estimated(folder: &Path, network: &str, histograms: &[Histogram]) -> Vec<String> {
     let bytes: Vec<u8> =
-        histograms.iter().flatten().flat_map(|count| count.to_le_bytes()).collect();
+        histograms.iter().flatten().flat_map(|&count| (count as u16).to_le_bytes()).collect();
     let mut shape = String::new();
     write!(shape, "({}, 256)", histograms.len()).unwrap();
     fs::write(folder.join("histograms.npy"), common::npy("<u2", &shape, &bytes)).unwrap();

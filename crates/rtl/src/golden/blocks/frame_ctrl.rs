@@ -2,6 +2,7 @@
 //! estimation and pauses of `dsp_en` also where they mean nothing.
 
 use tofsim::firmware::frame_ctrl::{In, Params, State};
+use tofsim::firmware::histogram_builder::BINS;
 use tofsim::kernel::signals::Word;
 
 use crate::golden::configuration;
@@ -67,7 +68,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let (mut last, mut phase, mut leaves, mut turn, mut frames) = (State::Clear, 0, false, 0, 0u64);
     // So that each exit comes up whatever the draws.
     let lines = exits.len() * (344 + bins + shots as usize + length as usize);
-    let lines = if shots > FEW || length > FRAME { Setting::CYCLES.max(2 * lines) } else { Setting::CYCLES };
+    let is_long = shots > FEW || length > FRAME || bins > BINS;
+    let lines = if is_long { Setting::CYCLES.max(2 * lines) } else { Setting::CYCLES };
     for cycle in 0..setting.cycles.unwrap_or(lines) {
         let (ctrl, draw) = (run.top.frame_ctrl, &mut run.draw);
         let state = ctrl.state();
