@@ -39,7 +39,7 @@ fn bins(scenario: &Scenario, checked: &Checked) -> Result<()> {
     if !bins.is_power_of_two() {
         let (below, above) = (bins.next_power_of_two() / 2, bins.next_power_of_two());
         let expected = format!("expected a power of two, such as {below} or {above}");
-        return Err(checked.fault("tdc.bins", expected).into());
+        return Err(checked.fault("tdc.bins", expected).value(bins).into());
     }
     let cycle = scenario.pll.params().cycle();
     let window_ps = cycle.fs() as f64 / 1e3 * f64::from(1 << coarse_bits);

@@ -119,7 +119,7 @@ fn the_description_says_where_the_rows_come_from() {
     let samples = table(&path);
     assert_eq!(samples[0].scene.distance_m, 0.1);
     assert_eq!(samples[59].scene.distance_m, 0.6);
-    let most = samples.iter().map(|s| s.histogram.iter().map(|&n| u32::from(n)).sum::<u32>()).max();
+    let most = samples.iter().map(|s| s.histogram.iter().sum::<u32>()).max();
     assert!((400..=500).contains(&most.unwrap()), "{most:?}");
 }
 

@@ -12,7 +12,7 @@ use tofsim::network::float::Float;
 use tofsim::network::formats::Overflow;
 use tofsim::sim::{Run, Stepping};
 
-use crate::common::{empty, refused, setup};
+use crate::common::{empty, json, refused, setup};
 use crate::lockstep::verified;
 
 /// Blocks that clocks, chain and laser reach.
@@ -199,6 +199,44 @@ fn every_way_through_time_gives_the_same_frames() {
 }
 
 #[test]
+fn a_network_for_other_bins_is_trained_estimates_and_is_measured() {
+    let folder = empty();
+    let keys = ["-s", "tdc.bins=64", "-s", "tdc.bin_ps=100", "-s", "firmware.count_bits=18"];
+    let run = |arguments: &[&str]| json(folder.path(), &[arguments, &keys].concat());
+    run(&["train", "--quick", "--json", "-o", "net"]);
+    let network = folder.path().join("net/network.toml");
+    let own = format!("estimator.network={}", network.display());
+    let frame = run(&["run", "--waves", "none", "--json", "-o", "out", "-s", &own]);
+    assert_eq!(frame["frames"][0]["estimator_cycles"], 75);
+    assert_eq!(frame["frames"][0]["histogram"].as_array().unwrap().len(), 64);
+    let depth_m = frame["frames"][0]["depth_m"].as_f64().unwrap();
+    assert!((depth_m - 0.5).abs() < 0.03, "{depth_m}");
+    let name = network.to_str().unwrap();
+    let estimate = run(&["estimate", "out/histogram.csv", "--network", name, "--json"]);
+    assert_eq!(estimate["depth_raw"], frame["frames"][0]["depth_raw"]);
+    run(&["dataset", "--rows", "1020", "--format", "parquet,npy", "--json", "-o", "data"]);
+    for data in ["data", "data/dataset.parquet"] {
+        let found = run(&[
+            "evaluate",
+            "--data",
+            data,
+            name,
+            "--estimator",
+            "network,matched",
+            "--json",
+        ]);
+        for estimator in found["estimators"].as_array().unwrap() {
+            let two_sd_mm = estimator["all"]["two_sd_mm"].as_f64().unwrap();
+            assert!(two_sd_mm < 40.0, "{data}: {estimator}");
+        }
+    }
+    let wide = run(&["dataset", "--rows", "510", "--format", "npy", "--json", "-o", "wide"]);
+    assert_eq!(wide["rows"], 510);
+    let bytes = std::fs::read(folder.path().join("wide/histograms.npy")).unwrap();
+    assert!(String::from_utf8_lossy(&bytes[..128]).contains("'<u4'"), "more than 16 bits");
+}
+
+#[test]
 fn what_does_not_fit_is_refused_with_what_would() {
     let folder = empty();
     let chain = |text: &str| {
@@ -230,6 +268,15 @@ fn what_does_not_fit_is_refused_with_what_would() {
         (
             key(&["firmware.drain_cycles=9"]),
             "firmware.drain_cycles = 9: expected 10 cycles or more",
+        ),
+        (key(&["tdc.bins=300"]), "tdc.bins = 300: expected a power of two, such as 256 or 512"),
+        (key(&["tdc.bins=8"]), "from 16 to 1024 [bins]"),
+        (key(&["tdc.bins=64"]), "estimator.network = uniform: it has 256 inputs, expected 64"),
+        (key(&["firmware.count_bits=25"]), "from 8 to 24 [bit]"),
+        (
+            key(&["firmware.count_bits=12"]),
+            "firmware.shots_per_frame = 30000: expected 4095 at most, what a word of 12 bits holds \
+             (firmware.count_bits; 15 would do)",
         ),
         (key(&["tdc.bin_ps=4.9"]), "from 5.0 to 2000.0 [ps]"),
         (

@@ -149,7 +149,7 @@ mod tests {
         }
 
         fn estimate(&self, histogram: &[u32]) -> std::result::Result<f64, Failure> {
-            let hits: u32 = histogram.iter().map(|&count| u32::from(count)).sum();
+            let hits: u32 = histogram.iter().sum();
             if hits < self.0 { Ok(0.3) } else { Err(Failure::NoPeak) }
         }
     }
