@@ -216,15 +216,8 @@ fn a_network_for_other_bins_is_trained_estimates_and_is_measured() {
     assert_eq!(estimate["depth_raw"], frame["frames"][0]["depth_raw"]);
     run(&["dataset", "--rows", "1020", "--format", "parquet,npy", "--json", "-o", "data"]);
     for data in ["data", "data/dataset.parquet"] {
-        let found = run(&[
-            "evaluate",
-            "--data",
-            data,
-            name,
-            "--estimator",
-            "network,matched",
-            "--json",
-        ]);
+        let found =
+            run(&["evaluate", "--data", data, name, "--estimator", "network,matched", "--json"]);
         for estimator in found["estimators"].as_array().unwrap() {
             let two_sd_mm = estimator["all"]["two_sd_mm"].as_f64().unwrap();
             assert!(two_sd_mm < 40.0, "{data}: {estimator}");
