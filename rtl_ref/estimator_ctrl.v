@@ -13,7 +13,7 @@
 //   control      pair                             forward2_en  depth_en, algo_done
 module estimator_ctrl #(
     parameter integer BinBits = 8,  // 2 to the power of which are the bins, 4 to 10
-    parameter [4:0] Neurons = 5'd8  // hidden neurons, 1 to 16
+    parameter integer Neurons = 8  // hidden neurons, 1 to 32
 ) (
     input wire clk_sys,
     input wire rst,
@@ -27,15 +27,15 @@ module estimator_ctrl #(
     output reg forward1_first,           // the sums of the hidden layer begin
     output reg forward1_en,              // the hidden layer accumulates
     output reg tansig_en,                // the activations are looked up
-    output reg [2:0] pair,               // neurons whose activations become operands
+    output reg [(Neurons > 16 ? 3 : 2):0] pair,  // neurons whose activations become operands
     output reg forward2_first,           // the sums of the output layer begin
     output reg forward2_en,              // the output layer accumulates
     output reg depth_en                  // its sums become the depth
 );
     // In cycles since e0; what is high in a cycle is decoded in the one before.
-    localparam integer Bins = 1 << BinBits, NeuronsHere = {27'd0, Neurons}, PairsHere = (NeuronsHere + 1) / 2;
-    localparam integer AddAt = NeuronsHere < 8 ? Bins + 6 + PairsHere : Bins + 2 + NeuronsHere;
-    localparam integer StepBits = $clog2(AddAt + 1);
+    localparam integer Bins = 1 << BinBits, PairsHere = (Neurons + 1) / 2;
+    localparam integer AddAt = Neurons < 8 ? Bins + 6 + PairsHere : Bins + 2 + Neurons;
+    localparam integer StepBits = $clog2(AddAt + 1), PairBits = Neurons > 16 ? 4 : 3;
     localparam [StepBits-1:0] LastWord = Bins[StepBits-1:0] - 1'b1;
     localparam [StepBits-1:0] Sums1 = 2, Tansig = LastWord + 3, Operands = LastWord + 5, Sums2 = LastWord + 7;
     localparam [StepBits-1:0] Pairs = PairsHere[StepBits-1:0], Add = AddAt[StepBits-1:0];
@@ -46,14 +46,14 @@ module estimator_ctrl #(
     reg algo_done_next, read_en_next, forward1_first_next, forward1_en_next, tansig_en_next;
     reg forward2_first_next, forward2_en_next, depth_en_next, busy_next;
     reg [BinBits-1:0] read_addr_next, rom_addr_next;
-    reg [2:0] pair_next;
+    reg [PairBits-1:0] pair_next;
     reg [StepBits-1:0] step_next;
 
     initial begin
         {algo_done, read_en, forward1_first, forward1_en, tansig_en, busy} = 6'd0;
         {forward2_first, forward2_en, depth_en} = 3'd0;
         {read_addr, rom_addr} = {2 * BinBits{1'b0}};
-        pair = 3'd0;
+        pair = {PairBits{1'b0}};
         step = {StepBits{1'b0}};
     end
 
@@ -65,7 +65,7 @@ module estimator_ctrl #(
         forward1_first_next = 1'b0;
         forward1_en_next = 1'b0;
         tansig_en_next = 1'b0;
-        pair_next = 3'd0;
+        pair_next = {PairBits{1'b0}};
         forward2_first_next = 1'b0;
         forward2_en_next = 1'b0;
         depth_en_next = 1'b0;
@@ -82,7 +82,7 @@ module estimator_ctrl #(
             forward1_en_next = step >= Sums1 - 1'b1 && step < Tansig - 1'b1;
             tansig_en_next = step == Tansig - 1'b1;
             if (step >= Operands - 1'b1 && step < Operands - 1'b1 + Pairs)
-                pair_next = step[2:0] - Operands[2:0] + 3'd1;
+                pair_next = step[PairBits-1:0] - Operands[PairBits-1:0] + 1'b1;
             forward2_first_next = step == Sums2 - 1'b1;
             forward2_en_next = step >= Sums2 - 1'b1 && step < Sums2 - 1'b1 + Pairs;
             depth_en_next = step == Add - 1'b1;
@@ -107,7 +107,7 @@ module estimator_ctrl #(
             forward1_first <= 1'b0;
             forward1_en <= 1'b0;
             tansig_en <= 1'b0;
-            pair <= 3'd0;
+            pair <= {PairBits{1'b0}};
             forward2_first <= 1'b0;
             forward2_en <= 1'b0;
             depth_en <= 1'b0;

@@ -21,7 +21,20 @@ module tof_top #(
     parameter [0:0] CodeSource = 1'b0,           // 0: tdc, 1: code_preload
     parameter [0:0] HistogramSource = 1'b0,      // 0: histogram_builder, 1: histogram_preload
     parameter [0:0] Estimator = 1'b0,            // 0: depth_estimator, 1: centroid_estimator
-    parameter [4:0] Neurons = 5'd8,              // hidden neurons of depth_estimator, 1 to 16
+    parameter integer Neurons = 8,              // hidden neurons of depth_estimator, 1 to 32
+    // Word formats and table of depth_estimator, see forward1, tansig and forward2
+    parameter integer W1Bits = 16,
+    parameter integer W1Fraction = 23,
+    parameter integer B1Bits = 16,
+    parameter integer B1Fraction = 13,
+    parameter integer AddressBits = 12,
+    parameter integer RangeLog2 = 2,
+    parameter integer ActivationBits = 16,
+    parameter integer ActivationFraction = 15,
+    parameter integer W2Bits = 16,
+    parameter integer W2Fraction = 14,
+    parameter integer B2Bits = 16,
+    parameter integer B2Fraction = 17,
     // See centroid_estimator
     parameter [4:0] HalfWidth = 5'd23,
     parameter [0:0] Background = 1'b1,
@@ -260,6 +273,18 @@ module tof_top #(
         .BinBits(BinBits),
         .CountBits(CountBits),
         .SumBits(SumBits),
+        .W1Bits(W1Bits),
+        .W1Fraction(W1Fraction),
+        .B1Bits(B1Bits),
+        .B1Fraction(B1Fraction),
+        .AddressBits(AddressBits),
+        .RangeLog2(RangeLog2),
+        .ActivationBits(ActivationBits),
+        .ActivationFraction(ActivationFraction),
+        .W2Bits(W2Bits),
+        .W2Fraction(W2Fraction),
+        .B2Bits(B2Bits),
+        .B2Fraction(B2Fraction),
         .Neurons(Neurons),
         .W1File(W1File),
         .B1File(B1File),

@@ -8,8 +8,10 @@ pub mod module;
 pub mod signals;
 pub(crate) mod thermometer;
 pub(crate) mod time;
+mod word_format;
 
 pub use bits::{S, U};
 pub use clocked::{ASLEEP, AWAKE, Clocked, asleep_if};
 pub use thermometer::{PartialOnes, Thermometer, ones_width, partial_ones};
 pub use time::Time;
+pub use word_format::{Overflow, WordFormat, wrapped};

@@ -5,6 +5,8 @@
 //! parameters: from eight neurons on, three cycles and one for each bin and each neuron, so 267 for the
 //! thesis's 256 and eight, 2.136 us (see [`estimator_ctrl`]).
 
+pub mod datapath;
+
 use std::sync::Arc;
 
 use crate::kernel::Clocked;

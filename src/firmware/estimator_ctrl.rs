@@ -96,7 +96,8 @@ signals! {
         #[view(heading = "Estimator", probe = true)]
         pub tansig_en: bool,
         /// Neurons whose activations become operands: twice this, and the next.
-        pub pair: U<3>,
+        #[size("PairBits")]
+        pub pair: U<4>,
         /// The sums of the output layer begin.
         pub forward2_first: bool,
         /// The output layer accumulates.
@@ -175,7 +176,7 @@ mod tests {
     /// The control in each cycle from e0 on, `again` high in one of them.
     fn cycles(p: &Params, again: Option<usize>) -> Vec<EstimatorCtrl> {
         let mut ctrl = EstimatorCtrl::default().next(&GO, p);
-        (0..p.bins + 44)
+        (0..p.bins + 60)
             .map(|cycle| {
                 let now = ctrl;
                 ctrl = ctrl.next(if again == Some(cycle) { &GO } else { &IDLE }, p);
@@ -193,6 +194,7 @@ mod tests {
         for (bins, neurons, edges) in [
             (256, 8, 267),
             (256, 16, 275),
+            (256, 32, 291),
             (256, 9, 268),
             (256, 7, 267),
             (256, 6, 266),
@@ -205,13 +207,15 @@ mod tests {
             assert_eq!(high(&cycles, |ctrl| ctrl.algo_done), [edges]);
             assert_eq!(high(&cycles, |ctrl| ctrl.depth_en), [edges - 1]);
             assert_eq!(cycles[edges].phase(&p), Some(p.done()));
-            assert_eq!(cycles[bins + 43], EstimatorCtrl::default());
+            assert_eq!(cycles[bins + 59], EstimatorCtrl::default());
         }
     }
 
     #[test]
     fn the_enables_follow_the_words_through_the_pipeline() {
-        for (bins, neurons, pairs) in [(256, 8, 4), (64, 16, 8), (256, 7, 4), (1024, 1, 1)] {
+        for (bins, neurons, pairs) in
+            [(256, 8, 4), (64, 16, 8), (64, 32, 16), (256, 7, 4), (1024, 1, 1)]
+        {
             let cycles = cycles(&with(bins, neurons), None);
             assert!(high(&cycles, |ctrl| ctrl.read_en).into_iter().eq(0..bins));
             assert!(high(&cycles, |ctrl| ctrl.forward1_en).into_iter().eq(2..bins + 2));

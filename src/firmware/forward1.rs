@@ -5,25 +5,22 @@
 //! the bias, so that no cycle is spent on it. Only the sums have a reset: nothing else is looked at
 //! without an enable.
 
-use crate::kernel::{Clocked, S};
+use crate::kernel::{Clocked, S, wrapped};
 use crate::signals;
 
+use super::depth_estimator::datapath::Datapath;
 use super::forward2::MOST_NEURONS;
 use super::histogram_builder::{self, Bin, Count};
 
-/// Fewest bits of a sum: the thesis's.
-const FEWEST_SUM_BITS: u32 = 36;
-/// Bits of a sum beyond those of a count: of a weight, and one for the bias.
-const BEYOND_COUNT: u32 = 17;
-/// Aligns B1 (13 fraction bits) with the sum (23).
-const BIAS_SHIFT: u32 = 10;
+/// Units that are worked on together: neurons come in groups of so many.
+const LANES: usize = 8;
 
 /// A weight or, in the last row, a bias, as an integer.
-pub type Weight = S<16>;
+pub type Weight = S<24>;
 /// A weight times a word.
-pub type Product = S<41>;
-/// Accumulator of a neuron.
-pub type L1In = S<41, 23>;
+pub type Product = S<49>;
+/// Accumulator of a neuron, with the fraction bits of its weights: 23 as in the thesis.
+pub type L1In = S<57, 23>;
 /// A weight for each neuron, zero past the last one, so that the units there stay at zero.
 pub type Row = [Weight; MOST_NEURONS];
 
@@ -34,14 +31,12 @@ pub struct Rom {
     pub w1: Vec<Row>,
     /// Biases.
     pub b1: Row,
+    /// Neurons, rounded up to whole groups.
+    lanes: usize,
     /// Width of a sum [bits].
     sum_bits: u32,
-}
-
-/// Width of the sums of a histogram's words times weights of 16 bits, and of a bias: 36 as in the thesis, or
-/// as many as the largest sum has [bits].
-pub fn sum_bits(histogram: &histogram_builder::Params) -> u32 {
-    FEWEST_SUM_BITS.max(histogram.count_bits + BEYOND_COUNT)
+    /// Aligns a bias with a sum.
+    bias_shift: u32,
 }
 
 signals! {
@@ -73,10 +68,10 @@ signals! {
         #[size("CountBits")]
         pub(crate) word: Count,
         /// Output of the ROM.
-        #[size("Neurons")]
+        #[size("Neurons W1Bits")]
         pub(crate) fetched: [Weight; MOST_NEURONS],
         /// Weights of the word.
-        #[size("Neurons")]
+        #[size("Neurons W1Bits")]
         pub(crate) weight: [Weight; MOST_NEURONS],
         /// Their products, a cycle later.
         #[size("Neurons ProductBits")]
@@ -85,21 +80,32 @@ signals! {
 }
 
 impl Rom {
-    /// Of a network for such a histogram.
-    pub fn new(w1: Vec<Row>, b1: Row, histogram: &histogram_builder::Params) -> Self {
-        Rom { w1, b1, sum_bits: sum_bits(histogram) }
+    /// Of a network of so many neurons, in such a datapath, for such a histogram.
+    pub fn new(
+        w1: Vec<Row>,
+        b1: Row,
+        neurons: usize,
+        datapath: &Datapath,
+        histogram: &histogram_builder::Params,
+    ) -> Self {
+        let (sum_bits, bias_shift) = (datapath.sum_bits(histogram), datapath.hidden_bias_shift());
+        Rom { w1, b1, lanes: neurons.next_multiple_of(LANES), sum_bits, bias_shift }
+    }
+
+    /// Width of a sum [bits].
+    pub fn sum_bits(&self) -> u32 {
+        self.sum_bits
     }
 
     /// What the sum of a neuron begins with.
     pub fn bias(&self, neuron: usize) -> L1In {
-        L1In::new(self.b1[neuron].get() << BIAS_SHIFT)
+        L1In::new(self.b1[neuron].get() << self.bias_shift)
     }
 
     /// A sum that wraps as one of that width.
     #[inline(always)]
     pub fn sum(&self, sum: i64) -> L1In {
-        let surplus = i64::BITS - self.sum_bits;
-        L1In::new(sum << surplus >> surplus)
+        L1In::new(wrapped(sum, self.sum_bits))
     }
 }
 
@@ -119,15 +125,20 @@ impl Clocked for Forward1 {
     #[inline]
     fn tick(&mut self, i: &In, rom: &Rom) {
         if i.forward1_en {
-            for (neuron, l1_in) in self.l1_in.iter_mut().enumerate() {
+            let sums = self.l1_in.iter_mut().zip(&self.product).take(rom.lanes);
+            for (neuron, (l1_in, product)) in sums.enumerate() {
                 let sum = if i.forward1_first { rom.bias(neuron) } else { *l1_in };
-                *l1_in = rom.sum(sum.get() + self.product[neuron].get());
+                *l1_in = rom.sum(sum.get() + product.get());
             }
         }
-        let word = self.word.get() as i64;
-        self.product = self.weight.map(|weight| Product::new(weight.get() * word));
-        self.weight = self.fetched;
-        self.fetched = rom.w1[i.rom_addr.index()];
+        let (word, row) = (self.word.get() as i64, &rom.w1[i.rom_addr.index()]);
+        for group in (0..rom.lanes).step_by(LANES) {
+            for unit in group..group + LANES {
+                self.product[unit] = Product::new(self.weight[unit].get() * word);
+                self.weight[unit] = self.fetched[unit];
+                self.fetched[unit] = row[unit];
+            }
+        }
         self.word = i.count;
         if i.rst {
             self.l1_in = Default::default();
@@ -144,8 +155,10 @@ mod tests {
     fn a_sum_begins_with_the_bias_and_its_first_product_three_edges_after_the_word() {
         let (mut w1, mut b1) = (vec![Row::default(); 16], Row::default());
         (w1[0][2], w1[1][2], b1[2]) = (S::new(-3), S::new(7), S::new(5));
-        let rom = Rom::new(w1, b1, &histogram_builder::Params { bins: 16, count_bits: 16 });
-        let mut block = Forward1 { l1_in: [S::new(77); MOST_NEURONS], ..Forward1::default() };
+        let histogram = histogram_builder::Params { bins: 16, count_bits: 16 };
+        let rom = Rom::new(w1, b1, 8, &Datapath::THESIS, &histogram);
+        let mut block = Forward1::default();
+        block.l1_in[..8].fill(S::new(77));
         // The address before the word, and the enable two cycles after it.
         let lines = [(0, 9, false), (1, 100, false), (0, 10, false), (0, 8, true), (0, 8, true)];
         for (line, (rom_addr, count, forward1_en)) in lines.into_iter().enumerate() {

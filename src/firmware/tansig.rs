@@ -1,25 +1,25 @@
 //! The activation of the hidden layer, from a table (U_S2 with MEM2).
 //!
 //! Mirrors `rtl_ref/tansig.v`. Two edges: the table's own register, then that of the activations. The
-//! address is the only rounding in the datapath: the sum, rounded half up to 9 fraction bits and
-//! saturated to +-4.
+//! address is the only rounding in the datapath: the sum, rounded half up to the table's step and
+//! saturated to its range; in the thesis to 9 fraction bits and +-4.
 
-use crate::kernel::Clocked;
+use crate::kernel::{Clocked, S};
 use crate::signals;
 
+use super::depth_estimator::datapath::Datapath;
 use super::forward1::L1In;
 use super::forward2::{L1Out, MOST_NEURONS};
 
-/// Address bits of the table.
-pub const ADDRESS_BITS: u32 = 12;
-/// Fraction bits that the address drops: 23 of the sum less 9.
-const SHIFT: u32 = 14;
-/// Entries of the table.
-pub const ENTRIES: usize = 1 << ADDRESS_BITS;
-
-/// MEM2, by address as an unsigned word: entry 0 is tanh(0) = 0, as unused units have it; entry 2048
-/// is the most negative.
-pub type Rom = [L1Out; ENTRIES];
+/// MEM2.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rom {
+    /// Activations by address as an unsigned word: entry 0 is tanh(0) = 0, as unused units have it; the one in
+    /// the middle is the most negative.
+    pub entries: Vec<L1Out>,
+    /// Fraction bits of a sum that the address drops.
+    pub shift: u32,
+}
 
 signals! {
     /// Input ports.
@@ -38,22 +38,35 @@ signals! {
     /// Registers; the public ones are the output ports.
     pub struct Tansig {
         /// Activations of the neurons.
-        #[size("Neurons")]
+        #[size("Neurons ActivationBits")]
         #[view(heading = "Hidden layer")]
         pub l1_out: [L1Out; MOST_NEURONS],
         /// Output of the table.
-        #[size("Neurons")]
+        #[size("Neurons ActivationBits")]
         entry: [L1Out; MOST_NEURONS],
         /// The entries are new.
         found: bool,
     }
 }
 
-/// Place in the table of the activation of `l1_in`.
-pub fn address(l1_in: L1In) -> usize {
-    let rounded = (l1_in.get() + (1 << (SHIFT - 1))) >> SHIFT;
-    let limit = 1 << (ADDRESS_BITS - 1);
-    rounded.clamp(-limit, limit - 1) as usize & (ENTRIES - 1)
+impl Rom {
+    /// The table of a datapath.
+    pub fn new(datapath: &Datapath) -> Self {
+        let entries = datapath.table().into_iter().map(S::new).collect();
+        Rom { entries, shift: datapath.shift() }
+    }
+
+    /// Place in the table of the activation of `l1_in`.
+    pub fn address(&self, l1_in: L1In) -> usize {
+        let rounded = (l1_in.get() + (1 << (self.shift - 1))) >> self.shift;
+        let limit = self.entries.len() as i64 / 2;
+        rounded.clamp(-limit, limit - 1) as usize & (self.entries.len() - 1)
+    }
+
+    /// The activation of `l1_in`.
+    pub fn activation(&self, l1_in: L1In) -> L1Out {
+        self.entries[self.address(l1_in)]
+    }
 }
 
 impl Clocked for Tansig {
@@ -68,7 +81,7 @@ impl Clocked for Tansig {
             self.l1_out = self.entry;
         }
         if i.tansig_en {
-            self.entry = i.l1_in.map(|l1_in| rom[address(l1_in)]);
+            self.entry = i.l1_in.map(|l1_in| rom.activation(l1_in));
         }
         self.found = i.tansig_en && !i.rst;
     }
@@ -77,11 +90,11 @@ impl Clocked for Tansig {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::S;
 
     #[test]
     fn the_address_rounds_half_up_and_saturates() {
-        let at = |l1_in: i64| address(S::new(l1_in));
+        let rom = Rom::new(&Datapath::THESIS);
+        let at = |l1_in: i64| rom.address(S::new(l1_in));
         assert_eq!(at(8191), 0);
         assert_eq!(at(8192), 1);
         assert_eq!(at(-8192), 0);

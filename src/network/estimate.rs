@@ -1,13 +1,10 @@
 //! The estimator without its clock: bit for bit what the firmware computes, as integer sums.
 //!
-//! The fixed-point types align the biases; a sum is exact and wraps when it enters its 36-bit word.
+//! A sum is exact and wraps when it enters its word.
 
 use crate::firmware::depth_estimator::Params;
 use crate::firmware::forward1;
 use crate::firmware::forward2::{self, MOST_NEURONS, NEURONS};
-use crate::firmware::tansig::address;
-
-use super::formats::{Activation, Depth, HiddenBias, HiddenWeight, L1In, OutputBias, OutputWeight};
 
 /// What an estimation leaves in the registers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -20,40 +17,37 @@ pub struct Estimate {
 
 /// The estimate of a histogram.
 pub fn estimate(params: &Params, histogram: &[u32]) -> Estimate {
-    let rom = &*params.forward1;
+    let (rom, output) = (&*params.forward1, &params.forward2);
     let mut l1_in = [forward1::L1In::default(); MOST_NEURONS];
     // So many sums that none waits for another, and no more than are wanted.
-    match params.neurons() <= NEURONS {
-        true => l1_in[..NEURONS].copy_from_slice(&hidden_sums::<NEURONS>(rom, histogram)),
-        false => l1_in = hidden_sums(rom, histogram),
+    for first in (0..params.neurons()).step_by(NEURONS) {
+        l1_in[first..first + NEURONS].copy_from_slice(&hidden_sums(rom, first, histogram));
     }
-    let mut depth = Depth::from(OutputBias::from_bits(params.forward2.b2.get() as i32));
-    for (l1_in, weight) in l1_in.iter().zip(&params.forward2.w2) {
-        let activation = Activation::from_bits(params.tansig[address(*l1_in)].get() as i16);
-        depth += Depth::from(OutputWeight::from_bits(weight.get() as i16).wide_mul(activation));
-    }
-    Estimate { depth: forward2::Depth::new(depth.to_bits()), l1_in }
+    let products = l1_in.iter().zip(&output.w2).take(params.neurons());
+    let terms = products.map(|(l1_in, w2)| params.tansig.activation(*l1_in).get() * w2.get());
+    let depth = output.datapath.depth(terms.sum::<i64>() + output.bias());
+    Estimate { depth: forward2::Depth::new(depth), l1_in }
 }
 
-/// Sums of the first neurons.
-fn hidden_sums<const N: usize>(rom: &forward1::Rom, histogram: &[u32]) -> [forward1::L1In; N] {
-    let bias = |bias: i64| L1In::from(HiddenBias::from_bits(bias as i16));
-    let mut sums: [L1In; N] = std::array::from_fn(|neuron| bias(rom.b1[neuron].get()));
+/// Sums of the neurons from `first` on.
+fn hidden_sums(rom: &forward1::Rom, first: usize, histogram: &[u32]) -> [forward1::L1In; NEURONS] {
+    let mut sums: [i64; NEURONS] = std::array::from_fn(|unit| rom.bias(first + unit).get());
     for (row, &count) in rom.w1.iter().zip(histogram) {
-        for (sum, weight) in sums.iter_mut().zip(row) {
-            *sum += L1In::from(HiddenWeight::from_bits(weight.get() as i32)) * i64::from(count);
+        for (sum, weight) in sums.iter_mut().zip(&row[first..first + NEURONS]) {
+            *sum += weight.get() * i64::from(count);
         }
     }
-    sums.map(|sum| rom.sum(sum.to_bits()))
+    sums.map(|sum| rom.sum(sum))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::firmware::depth_estimator::datapath::Datapath;
     use crate::firmware::depth_estimator::{DepthEstimator, In};
     use crate::firmware::histogram_builder;
-    use crate::kernel::{S, U};
-    use crate::network::{Network, blank};
+    use crate::kernel::{S, U, WordFormat};
+    use crate::network::{Network, Weights, roms};
     use proptest::prelude::*;
 
     /// The firmware's block, stepped from reset until `algo_done`, and the edges it took.
@@ -85,6 +79,14 @@ mod tests {
             row[..4].fill(S::new(-32768));
             row[4..neurons].fill(S::new(32767));
         }
+        let datapath = worst.forward2.datapath;
+        *rom = forward1::Rom::new(
+            std::mem::take(&mut rom.w1),
+            rom.b1,
+            neurons,
+            &datapath,
+            &histogram_builder::Params::default(),
+        );
         worst.forward2.neurons = neurons;
         worst.forward2.w2[..neurons].fill(S::new(-32768));
         worst.forward2.b2 = S::new(-32768);
@@ -92,10 +94,11 @@ mod tests {
     }
 
     #[test]
-    fn extreme_histograms_give_what_267_edges_of_the_firmware_give_or_275() {
+    fn extreme_histograms_give_what_267_edges_of_the_firmware_give_or_275_or_291() {
         let most = u32::from(u16::MAX);
         let one = |bin| std::array::from_fn(|k| if k == bin { most } else { 0 });
-        for (params, edges) in [(params("uniform"), 267), (worst(8), 267), (worst(16), 275)] {
+        let worst = [(worst(8), 267), (worst(16), 275), (worst(32), 291)];
+        for (params, edges) in [(params("uniform"), 267)].into_iter().chain(worst) {
             for histogram in [[0; 256], [most; 256], [255; 256], one(0), one(255)] {
                 let expected = (estimate(&params, &histogram), edges);
                 assert_eq!(step(&params, &histogram), expected);
@@ -113,29 +116,49 @@ mod tests {
         })
     }
 
+    /// Any number formats that can be built.
+    fn any_datapath() -> impl Strategy<Value = Datapath> {
+        let word =
+            || (2..=24u32, 0..=32u32).prop_map(|(width, fraction)| WordFormat { width, fraction });
+        let datapath = (word(), word(), word(), word(), word(), 4..=16u32, 0..=6u32).prop_map(
+            |(w1, b1, w2, b2, l1_out, address_bits, range_log2)| {
+                let b1 = WordFormat { fraction: b1.fraction.min(w1.fraction), ..b1 };
+                let b2 =
+                    WordFormat { fraction: b2.fraction.min(w2.fraction + l1_out.fraction), ..b2 };
+                Datapath { w1, b1, w2, b2, l1_out, address_bits, range_log2 }
+            },
+        );
+        datapath.prop_filter("formats that cannot be built", |datapath| datapath.fault().is_none())
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
         #[test]
         fn any_histogram_and_any_weights_give_what_the_firmware_gives(
             (bins, count_bits, histogram) in any_size(),
-            weights in prop::collection::vec(any::<i16>(), 1025 * 16),
-            output in prop::collection::vec(any::<i16>(), 17),
+            datapath in any_datapath(),
+            weights in prop::collection::vec(any::<i32>(), 1025 * 32),
+            output in prop::collection::vec(any::<i32>(), 33),
             shift in 0..16,
-            neurons in 1usize..=16,
+            neurons in 1usize..=32,
         ) {
             let size = histogram_builder::Params { bins, count_bits };
-            let mut params = blank(&size);
-            let rom = std::sync::Arc::make_mut(&mut params.forward1);
-            for (row, weights) in rom.w1.iter_mut().chain([&mut rom.b1]).zip(weights.chunks(16)) {
-                for (neuron, (place, weight)) in row.iter_mut().zip(weights).enumerate() {
-                    *place = S::new(if neuron < neurons { i64::from(weight >> shift) } else { 0 });
-                }
-            }
-            let w2 = |k: usize| if k < neurons { output[k].into() } else { 0 };
-            params.forward2.w2 = std::array::from_fn(|k| S::new(w2(k)));
-            params.forward2.b2 = S::new(output[16].into());
-            params.forward2.neurons = neurons;
+            let Datapath { w1, b1, w2, b2, .. } = datapath;
+            let word = |format: WordFormat, weight: i32| weight >> (32 - format.width);
+            let mut rows = weights.chunks(32);
+            let mut row = |format| {
+                let row = rows.next().into_iter().flatten().take(neurons);
+                row.map(|&weight| word(format, weight) >> shift).collect::<Vec<_>>()
+            };
+            let columns: Vec<_> = (0..bins).map(|_| row(w1)).collect();
+            let fixed = Weights {
+                w1: (0..neurons).map(|neuron| columns.iter().map(|row| row[neuron]).collect()).collect(),
+                b1: row(b1),
+                w2: output[..neurons].iter().map(|&weight| word(w2, weight)).collect(),
+                b2: word(b2, output[32]),
+            };
+            let params = roms::params(&fixed, &datapath, &size);
             let histogram: Vec<_> = histogram.iter().map(|&count| count >> shift).collect();
             let edges = (bins + 3 + neurons).max(bins + 7 + neurons.div_ceil(2));
             let expected = (estimate(&params, &histogram), edges);

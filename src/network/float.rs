@@ -1,15 +1,19 @@
 //! The network in double precision: what the fixed-point datapath approximates.
 
-use super::formats::Fixed;
-use super::weights::Weights;
+use crate::firmware::depth_estimator::datapath::Datapath;
+use crate::kernel::WordFormat;
+
+use super::weights::{Fixed, Weights};
 
 /// A network's weights before rounding.
 pub type Float = Weights<f64, f64, f64, f64>;
 
 impl Float {
     /// Values of the rounded weights.
-    pub fn from_fixed(fixed: &Fixed) -> Float {
-        fixed.map(f64::from, f64::from, f64::from, f64::from)
+    pub fn from_fixed(fixed: &Fixed, datapath: &Datapath) -> Float {
+        let of = |format: WordFormat| move |word: i32| f64::from(word) * format.lsb();
+        let Datapath { w1, b1, w2, b2, .. } = *datapath;
+        fixed.map(of(w1), of(b1), of(w2), of(b2))
     }
 
     /// Depth of a histogram [m].
@@ -40,7 +44,7 @@ mod tests {
         let mut network = Network::builtin("ideal").unwrap().unwrap();
         network.float = None;
         let (twin, fixed) = (network.twin(), &network.fixed);
-        assert_eq!(twin.b2, f64::from(fixed.b2.to_bits()) / 131_072.0);
-        assert_eq!(twin.w1[0][0], f64::from(fixed.w1[0][0].to_bits()) / 8_388_608.0);
+        assert_eq!(twin.b2, f64::from(fixed.b2) / 131_072.0);
+        assert_eq!(twin.w1[0][0], f64::from(fixed.w1[0][0]) / 8_388_608.0);
     }
 }

@@ -1,10 +1,12 @@
 //! The ROMs as texts for Verilog's `$readmemh`: one word a line, in hexadecimal.
 
 use crate::firmware::depth_estimator::Params;
+use crate::firmware::depth_estimator::datapath::Datapath;
 use crate::firmware::forward1::{Rom, Weight};
 use crate::firmware::forward2;
 use crate::firmware::tansig;
 use crate::firmware::tdc_decoder;
+use crate::kernel::WordFormat;
 
 /// A ROM's file.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,34 +15,38 @@ pub struct Mem {
     pub text: String,
 }
 
-/// MEM1: the weights, a line a bin with 16 bits for each neuron, then the biases, one such line. The
-/// last neuron is in the top 16 bits.
-pub fn forward1(rom: &Rom, neurons: usize) -> [Mem; 2] {
-    let row = |row: &[Weight]| words(&row[..neurons]);
+/// MEM1: the weights, a line a bin with a word for each neuron, then the biases, one such line. The
+/// last neuron is in the top bits.
+pub fn forward1(rom: &Rom, neurons: usize, datapath: &Datapath) -> [Mem; 2] {
+    let row = |row: &[Weight], format: WordFormat| words(&row[..neurons], format.width);
     [
-        Mem { name: "w1.mem", text: rom.w1.iter().map(|weights| row(weights)).collect() },
-        Mem { name: "b1.mem", text: row(&rom.b1) },
+        Mem { name: "w1.mem", text: rom.w1.iter().map(|bin| row(bin, datapath.w1)).collect() },
+        Mem { name: "b1.mem", text: row(&rom.b1, datapath.b1) },
     ]
 }
 
 /// MEM2: line k is address k as an unsigned word.
-pub fn tansig(rom: &tansig::Rom) -> Mem {
-    Mem { name: "tansig.mem", text: lines(rom.iter().map(|entry| entry.bits()), 4) }
+pub fn tansig(rom: &tansig::Rom, datapath: &Datapath) -> Mem {
+    let width = datapath.l1_out.width;
+    let entries = rom.entries.iter().map(|entry| low_bits(entry.get(), width));
+    Mem { name: "tansig.mem", text: lines(entries, digits(width)) }
 }
 
-/// MEM3: the weights, a line with the last neuron in the top 16 bits, and the bias.
+/// MEM3: the weights, a line with the last neuron in the top bits, and the bias.
 pub fn forward2(rom: &forward2::Rom) -> [Mem; 2] {
+    let Datapath { w2, b2, .. } = rom.datapath;
     [
-        Mem { name: "w2.mem", text: words(&rom.w2[..rom.neurons]) },
-        Mem { name: "b2.mem", text: lines([rom.b2.bits()], 4) },
+        Mem { name: "w2.mem", text: words(&rom.w2[..rom.neurons], w2.width) },
+        Mem { name: "b2.mem", text: words(&[rom.b2], b2.width) },
     ]
 }
 
 /// All of the estimator's ROMs.
 pub fn depth_estimator(params: &Params) -> Vec<Mem> {
-    let hidden = forward1(&params.forward1, params.neurons());
+    let datapath = &params.forward2.datapath;
+    let hidden = forward1(&params.forward1, params.neurons(), datapath);
     let output = forward2(&params.forward2);
-    hidden.into_iter().chain(output).chain([tansig(&params.tansig)]).collect()
+    hidden.into_iter().chain(output).chain([tansig(&params.tansig, datapath)]).collect()
 }
 
 /// The decoder's calibration: line N is the time for N ones [units].
@@ -49,10 +55,18 @@ pub fn tdc_decoder(params: &tdc_decoder::Params) -> Mem {
     Mem { name: "tdc_cal.mem", text: lines(words, digits(params.age_bits())) }
 }
 
-/// Words side by side on a line, the first in the low bits.
-fn words(row: &[Weight]) -> String {
-    let digits: String = row.iter().rev().map(|weight| format!("{:04x}", weight.bits())).collect();
-    digits + "\n"
+/// Words of so many bits side by side on a line, the first in the low bits.
+fn words(row: &[Weight], width: u32) -> String {
+    let bits = row.iter().flat_map(|word| (0..width).map(|bit| (word.get() >> bit & 1) as u8));
+    let bits: Vec<u8> = bits.collect();
+    let digit = |bits: &[u8]| bits.iter().rev().fold(0, |digit, bit| 2 * digit + bit);
+    let digits = bits.chunks(4).rev().map(|bits| format!("{:x}", digit(bits)));
+    digits.chain(["\n".to_owned()]).collect()
+}
+
+/// The low bits of a word in two's complement.
+fn low_bits(word: i64, width: u32) -> u64 {
+    word as u64 & (u64::MAX >> (u64::BITS - width))
 }
 
 /// Hexadecimal digits of a word of so many bits.
@@ -76,7 +90,8 @@ mod tests {
     #[test]
     fn the_last_neuron_is_in_the_top_16_bits() {
         let row: Vec<Weight> = (-1..7).map(S::new).collect();
-        assert_eq!(words(&row), "0006000500040003000200010000ffff\n");
+        assert_eq!(words(&row, 16), "0006000500040003000200010000ffff\n");
+        assert_eq!(words(&row[..3], 3), "047\n", "001 000 111");
     }
 
     #[test]
@@ -104,6 +119,6 @@ mod tests {
         assert_eq!(files.iter().map(shape).collect::<Vec<_>>(), expected);
         assert!(files[5].text.starts_with("0005\n3abc\n"));
         assert_eq!(files[4].text.lines().nth(2048), Some("8016"));
-        assert_eq!(files[3].text, format!("{:04x}\n", network.fixed.b2.to_bits()));
+        assert_eq!(files[3].text, format!("{:04x}\n", network.fixed.b2));
     }
 }

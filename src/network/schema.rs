@@ -5,15 +5,12 @@ use serde::Deserialize;
 
 use crate::error::Result;
 use crate::files::toml::Checked;
+use crate::firmware::depth_estimator::datapath::Datapath;
 use crate::firmware::forward2::MOST_NEURONS;
-use crate::firmware::tansig::ADDRESS_BITS;
+use crate::kernel::WordFormat;
 
 use super::domain::Domain;
 use super::file::{Accuracy, Network, Training};
-use super::formats::{
-    B1, B2, Fixed, HiddenBias, HiddenWeight, L1_OUT, OutputBias, OutputWeight, TANSIG_RANGE, W1,
-    W2, WordFormat,
-};
 use super::weights::Weights;
 
 /// Value of the key `schema`.
@@ -21,9 +18,6 @@ pub(super) const SCHEMA: &str = "tofsim.network/1";
 /// Keys of `[scaling]`, each with the one value that the firmware's arithmetic allows.
 pub(super) const SCALING: [(&str, &str); 3] =
     [("input", "counts"), ("output", "metres"), ("normalisation", "folded")];
-/// Keys of `[formats]`, but for `tansig`.
-pub(super) const FORMATS: [(&str, WordFormat); 5] =
-    [("w1", W1), ("b1", B1), ("w2", W2), ("b2", B2), ("l1_out", L1_OUT)];
 
 /// A network's file.
 #[derive(Deserialize, JsonSchema)]
@@ -36,7 +30,7 @@ struct File {
     accuracy: Option<Accuracy>,
     scaling: Scaling,
     formats: Formats,
-    integers: Arrays<i16>,
+    integers: Arrays<i32>,
     float: Option<Arrays<f64>>,
 }
 
@@ -63,7 +57,7 @@ struct Formats {
 #[serde(deny_unknown_fields)]
 struct TansigFormat {
     address_bits: u32,
-    range: i64,
+    range: u32,
 }
 
 /// `w1[neuron][bin]` and what goes with it.
@@ -108,26 +102,20 @@ impl Network {
     /// A network from the text of its file; messages name `source`.
     ///
     /// # Errors
-    /// When the text is no TOML, a key is missing, unknown or out of range, or the network is one
-    /// for other formats than the firmware's.
+    /// When the text is no TOML, a key is missing, unknown or out of range, or a weight is none of its
+    /// format.
     pub fn parse(text: &str, source: &str) -> Result<Network> {
         let checked = Checked::parse::<File>(source, text)?;
         let file: File = checked.read()?;
-        file.check(&checked)?;
-        let word = i32::from;
-        let fixed: Fixed = file.integers.weights().map(
-            |w1| HiddenWeight::from_bits(word(w1)),
-            HiddenBias::from_bits,
-            OutputWeight::from_bits,
-            |b2| OutputBias::from_bits(word(b2)),
-        );
+        let datapath = file.check(&checked)?;
         Ok(Network {
             name: source.to_owned(),
             description: file.description,
             training: file.training,
             domain: file.domain,
             accuracy: file.accuracy,
-            fixed,
+            datapath,
+            fixed: file.integers.weights(),
             float: file.float.map(Arrays::weights),
         })
     }
@@ -135,8 +123,8 @@ impl Network {
 
 impl File {
     /// What the types alone do not say.
-    fn check(&self, checked: &Checked) -> Result<()> {
-        let fault = |key: &str, expected: String| -> Result<()> {
+    fn check(&self, checked: &Checked) -> Result<Datapath> {
+        let fault = |key: &str, expected: String| -> Result<Datapath> {
             Err(checked.fault(key, expected).into())
         };
         if self.schema != SCHEMA {
@@ -148,7 +136,7 @@ impl File {
                 return fault(&format!("scaling.{key}"), format!("expected \"{word}\""));
             }
         }
-        self.formats.check(checked)?;
+        let datapath = self.formats.datapath(checked)?;
         let w1 = &self.integers.w1;
         let size = (w1.len(), w1.first().map_or(0, Vec::len));
         if !size.1.is_power_of_two() {
@@ -156,10 +144,11 @@ impl File {
             return fault("integers.w1.0", expected.to_owned());
         }
         self.integers.check("integers", size, checked)?;
+        self.integers.check_words(&datapath, checked)?;
         if let Some(float) = &self.float {
             float.check("float", size, checked)?;
         }
-        let Some(accuracy) = &self.accuracy else { return Ok(()) };
+        let Some(accuracy) = &self.accuracy else { return Ok(datapath) };
         let distances = accuracy.distances_m.len();
         let columns =
             [("two_sd_mm", Some(&accuracy.two_sd_mm)), ("mean_mm", accuracy.mean_mm.as_ref())];
@@ -169,31 +158,53 @@ impl File {
                 return fault(&format!("accuracy.{key}"), expected);
             }
         }
-        Ok(())
+        Ok(datapath)
     }
 }
 
+impl Arrays<i32> {
+    /// That each is an integer of its word.
+    fn check_words(&self, datapath: &Datapath, checked: &Checked) -> Result<()> {
+        let row = |(neuron, row): (usize, &Vec<i32>)| {
+            outside(datapath.w1, row).map(|place| (format!("w1.{neuron}.{place}"), datapath.w1))
+        };
+        let list = |key: &str, format: WordFormat, words: &[i32]| {
+            outside(format, words).map(|place| (format!("{key}.{place}"), format))
+        };
+        let b2 = || outside(datapath.b2, &[self.b2]).map(|_| ("b2".to_owned(), datapath.b2));
+        let found = self.w1.iter().enumerate().find_map(row);
+        let found = found.or_else(|| list("b1", datapath.b1, &self.b1));
+        let found = found.or_else(|| list("w2", datapath.w2, &self.w2)).or_else(b2);
+        let Some((key, format)) = found else { return Ok(()) };
+        let expected = format!("expected a whole number from {} to {}", format.min(), format.max());
+        Err(checked.fault(&format!("integers.{key}"), expected).into())
+    }
+}
+
+/// Place of the first integer that the word does not have.
+fn outside(format: WordFormat, words: &[i32]) -> Option<usize> {
+    words.iter().position(|&word| !(format.min()..=format.max()).contains(&word.into()))
+}
+
 impl Formats {
-    fn check(&self, checked: &Checked) -> Result<()> {
-        let words = [self.w1, self.b1, self.w2, self.b2, self.l1_out];
-        let tansig = [
-            (
-                "tansig.address_bits".to_owned(),
-                i64::from(self.tansig.address_bits),
-                ADDRESS_BITS.into(),
-            ),
-            ("tansig.range".to_owned(), self.tansig.range, TANSIG_RANGE),
-        ];
-        let pairs = words.into_iter().zip(FORMATS).flat_map(|(found, (key, own))| {
-            [
-                (format!("{key}.width"), found.width.into(), own.width.into()),
-                (format!("{key}.fraction"), found.fraction.into(), own.fraction.into()),
-            ]
-        });
-        match pairs.chain(tansig).find(|(_, found, own)| found != own) {
-            None => Ok(()),
-            Some((key, _, own)) => {
-                let expected = format!("expected {own}, as in the firmware");
+    /// The datapath of these formats, which can be built.
+    fn datapath(&self, checked: &Checked) -> Result<Datapath> {
+        let TansigFormat { address_bits, range } = self.tansig;
+        if !range.is_power_of_two() {
+            let expected = "expected 1, 2, 4 and so on to 64";
+            return Err(checked.fault("formats.tansig.range", expected).into());
+        }
+        let (w1, b1, w2, b2, l1_out) = (self.w1, self.b1, self.w2, self.b2, self.l1_out);
+        let range_log2 = range.ilog2();
+        let datapath = Datapath { w1, b1, w2, b2, l1_out, address_bits, range_log2 };
+        match datapath.fault() {
+            None => Ok(datapath),
+            Some((field, _, expected)) => {
+                let key = match field.as_str() {
+                    "address_bits" => "tansig.address_bits".to_owned(),
+                    "range_log2" => "tansig.range".to_owned(),
+                    _ => field,
+                };
                 Err(checked.fault(&format!("formats.{key}"), expected).into())
             }
         }
@@ -216,7 +227,7 @@ mod tests {
     fn first(word: &str) -> (String, String) {
         let network = Network::builtin("uniform").unwrap().unwrap();
         let begin = |word: &str| format!("w1 = [\n  [\n    {word}");
-        let old = format!("{}, ", network.fixed.w1[0][0].to_bits());
+        let old = format!("{}, ", network.fixed.w1[0][0]);
         (begin(&old), begin(word))
     }
 
@@ -246,11 +257,16 @@ mod tests {
     }
 
     #[test]
-    fn formats_other_than_the_firmware_s_are_refused() {
-        let message = fault("fraction = 23", "fraction = 22");
-        assert!(message.contains("formats.w1.fraction = 22: expected 23"), "{message}");
-        let message = fault("address_bits = 12", "address_bits = 10");
-        assert!(message.contains("formats.tansig.address_bits = 10: expected 12"), "{message}");
+    fn formats_that_cannot_be_built_are_refused() {
+        let message = fault("fraction = 23", "fraction = 12");
+        assert!(message.contains("formats.b1.fraction = 13: expected 0 to 12"), "{message}");
+        let message = fault("address_bits = 12", "address_bits = 20");
+        assert!(
+            message.contains("formats.tansig.address_bits = 20: expected 4 to 16"),
+            "{message}"
+        );
+        let message = fault("range = 4", "range = 5");
+        assert!(message.contains("formats.tansig.range = 5: expected 1, 2, 4"), "{message}");
     }
 
     #[test]

@@ -14,6 +14,9 @@ pub struct Weights<W1, B1, W2, B2> {
     pub b2: B2,
 }
 
+/// A network's weights as the ROMs hold them: integers, whose formats stand beside them.
+pub type Fixed = Weights<i32, i32, i32, i32>;
+
 impl<W1: Copy, B1: Copy, W2: Copy, B2: Copy> Weights<W1, B1, W2, B2> {
     /// Hidden neurons.
     pub fn neurons(&self) -> usize {

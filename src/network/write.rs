@@ -2,11 +2,10 @@
 
 use serde::Serialize;
 
-use crate::firmware::tansig::ADDRESS_BITS;
+use crate::kernel::WordFormat;
 
 use super::file::Network;
-use super::formats::{TANSIG_RANGE, WordFormat};
-use super::schema::{FORMATS, SCALING, SCHEMA};
+use super::schema::{SCALING, SCHEMA};
 use super::weights::Weights;
 
 /// Weights on a line.
@@ -39,18 +38,15 @@ impl Network {
         let word = |(key, WordFormat { width, fraction })| {
             format!("{key} = {{ width = {width}, fraction = {fraction} }}\n")
         };
-        text.extend(FORMATS.map(word));
+        text.extend(self.datapath.words().map(word));
         text += &format!(
-            "tansig = {{ address_bits = {ADDRESS_BITS}, range = {TANSIG_RANGE} }}\n\n\
-             # What the ROMs hold: w1[neuron][bin].\n[integers]\n"
+            "tansig = {{ address_bits = {}, range = {} }}\n\n\
+             # What the ROMs hold: w1[neuron][bin].\n[integers]\n",
+            self.datapath.address_bits,
+            1 << self.datapath.range_log2
         );
-        let bits = |word: i32| word.to_string();
-        let integers = self.fixed.map(
-            |w1| bits(w1.to_bits()),
-            |b1| bits(b1.to_bits().into()),
-            |w2| bits(w2.to_bits().into()),
-            |b2| bits(b2.to_bits()),
-        );
+        let integer = |word: i32| word.to_string();
+        let integers = self.fixed.map(integer, integer, integer, integer);
         text += &weights(&integers, INTEGERS_A_LINE);
         if let Some(float) = &self.float {
             let exact = |weight: f64| format!("{weight:?}");

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use crate::firmware::carry_chain::{Delays, StopLine, TAPS};
+use crate::firmware::depth_estimator::datapath::Datapath;
 use crate::firmware::forward2::{MOST_NEURONS, NEURONS};
 use crate::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Pins, TofTop};
 use crate::firmware::{
-    centroid_estimator, depth_estimator, forward1, forward2, frame_ctrl, histogram_builder, tdc,
-    vcsel_driver,
+    centroid_estimator, depth_estimator, forward1, forward2, frame_ctrl, histogram_builder, tansig,
+    tdc, vcsel_driver,
 };
 use crate::kernel::{S, Time, U};
 
@@ -31,8 +32,10 @@ pub(super) fn with_delays(taps: &[i64]) -> Params {
     let histogram = histogram_builder::Params::default();
     let row = |row: usize| std::array::from_fn(|neuron| weight(row, neuron));
     let w1 = (0..histogram.bins).map(row).collect();
-    let rom = forward1::Rom::new(w1, row(histogram.bins), &histogram);
-    let tansig = std::array::from_fn(|address| S::new((address as i64 - 2048) * 8));
+    let datapath = Datapath::THESIS;
+    let rom = forward1::Rom::new(w1, row(histogram.bins), NEURONS, &datapath, &histogram);
+    let entries = (0..4096).map(|address| S::new((address - 2048) * 8)).collect();
+    let tansig = tansig::Rom { entries, shift: datapath.shift() };
     Params {
         histogram,
         frame_ctrl: frame_ctrl::Params {
@@ -50,6 +53,7 @@ pub(super) fn with_delays(taps: &[i64]) -> Params {
                 neurons: NEURONS,
                 w2: [S::new(9000); MOST_NEURONS],
                 b2: S::new(700),
+                datapath,
             },
         },
         centroid_estimator: centroid_estimator::Params::default(),

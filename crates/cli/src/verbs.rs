@@ -8,6 +8,7 @@ mod design;
 pub mod draws;
 pub mod estimate;
 pub mod evaluate;
+mod formats;
 mod frames;
 pub mod ila;
 pub mod interrupt;

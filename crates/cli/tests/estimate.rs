@@ -15,10 +15,13 @@ use naive::{Naive, Random, activation, histograms};
 fn random_networks_and_histograms_give_the_naive_integers() {
     let directory = tempfile::tempdir().unwrap();
     let mut random = Random(1);
-    let ends = [(8, -32768), (8, 32767), (16, -32768), (16, 32767)];
-    let mut networks = Vec::from(ends.map(|(neurons, weight)| Naive::constant(neurons, weight)));
+    let ends = [8, 16, 32].map(|neurons| [(neurons, -32768), (neurons, 32767)]).concat();
+    let mut networks = ends
+        .into_iter()
+        .map(|(neurons, weight)| Naive::constant(neurons, weight))
+        .collect::<Vec<_>>();
     networks.extend((0..30).map(|k| Naive::random(&mut random, 8, k % 10)));
-    networks.extend((0..32).map(|k| Naive::random(&mut random, 1 + k as usize % 16, k % 10)));
+    networks.extend((0..32).map(|k| Naive::random(&mut random, 1 + k as usize % 32, k % 10)));
     let histograms = histograms(&mut random);
     let mut saturated = 0;
     let mut between = 0;
@@ -42,10 +45,10 @@ fn random_networks_and_histograms_give_the_naive_integers() {
 
 #[test]
 fn every_address_of_the_activation_table_is_the_naive_one() {
-    let table = tofsim::network::roms::tansig_table();
+    let table = tofsim::firmware::depth_estimator::datapath::Datapath::THESIS.table();
     for address in -2048..2048i128 {
         let place = address.rem_euclid(4096) as usize;
-        assert_eq!(i128::from(table[place].get()), activation(address), "address {address}");
+        assert_eq!(i128::from(table[place]), activation(address), "address {address}");
     }
 }
 

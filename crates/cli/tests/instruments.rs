@@ -6,10 +6,11 @@ use std::path::Path;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use tofsim::firmware::depth_estimator::datapath::Datapath;
+use tofsim::kernel::{Overflow, WordFormat};
 use tofsim::network::Network;
 use tofsim::network::file::Training;
 use tofsim::network::float::Float;
-use tofsim::network::formats::Overflow;
 use tofsim::sim::{Run, Stepping};
 
 use crate::common::{empty, json, refused, setup};
@@ -29,13 +30,14 @@ const BLOCKS: [&str; 10] = [
     "vcsel_driver",
 ];
 
-/// Blocks that the size of the histogram reaches.
-const OF_HISTOGRAM: [&str; 8] = [
+/// Blocks that the size of the histogram or the network reaches.
+const OF_HISTOGRAM: [&str; 9] = [
     "centroid_estimator",
     "code_preload",
     "depth_estimator",
     "estimator_ctrl",
     "forward1",
+    "forward2",
     "histogram_builder",
     "histogram_preload",
     "tansig",
@@ -62,21 +64,41 @@ fn log_uniform(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     (random.random_range(low.ln()..=high.ln())).exp()
 }
 
-/// The file of a network of random weights, of any size, for so many bins.
+/// Any number formats that can be built, a table of few entries as often as a large one.
+fn datapath(random: &mut ChaCha8Rng) -> Datapath {
+    loop {
+        let mut word = || WordFormat {
+            width: random.random_range(2..=24),
+            fraction: random.random_range(0..=32),
+        };
+        let (w1, b1, w2, b2, l1_out) = (word(), word(), word(), word(), word());
+        let (address_bits, range_log2) = (random.random_range(4..=16), random.random_range(0..=6));
+        let any = Datapath { w1, b1, w2, b2, l1_out, address_bits, range_log2 };
+        if any.fault().is_none() {
+            return any;
+        }
+    }
+}
+
+/// The file of a network of random weights, of any size and formats, for so many bins.
 fn network(random: &mut ChaCha8Rng, bins: usize, path: &Path) {
-    let neurons = random.random_range(1..=16);
-    let mut weights = |count: usize, most: f64| -> Vec<f64> {
+    let neurons = random.random_range(1..=32);
+    let datapath = if random.random() { datapath(random) } else { Datapath::THESIS };
+    let mut weights = |count: usize, format: WordFormat| -> Vec<f64> {
+        let most = 0.99 * format.range();
         (0..count).map(|_| random.random_range(-most..most)).collect()
     };
-    let w1 = (0..neurons).map(|_| weights(bins, 0.0039)).collect();
-    let float = Float { w1, b1: weights(neurons, 3.9), w2: weights(neurons, 1.9), b2: 0.1 };
+    let w1 = (0..neurons).map(|_| weights(bins, datapath.w1)).collect();
+    let (b1, w2) = (weights(neurons, datapath.b1), weights(neurons, datapath.w2));
+    let float = Float { w1, b1, w2, b2: weights(1, datapath.b2)[0] };
     let network = Network {
         name: String::new(),
         description: "random weights".to_owned(),
         training: Training::default(),
         domain: None,
         accuracy: None,
-        fixed: float.round("random", Overflow::Refuse).unwrap().fixed,
+        datapath,
+        fixed: float.round("random", &datapath, Overflow::Saturate).unwrap().fixed,
         float: None,
     };
     std::fs::write(path, network.to_toml()).unwrap();

@@ -65,7 +65,7 @@ fn the_program_writes_a_network_that_runs_and_its_roms() {
     assert_eq!(network.training.chain, "ideal");
     assert_eq!(network.float, Some(import::read(Path::new(MAT), 256).unwrap()));
     let rom = fs::read_to_string(Path::new(roms).join("w1.mem")).unwrap();
-    let word = format!("{:04x}", network.fixed.w1[0][9].to_bits() as u16);
+    let word = format!("{:04x}", network.fixed.w1[0][9] as u16);
     assert!(rom.lines().nth(9).unwrap().ends_with(&word));
     let set = format!("estimator.network={file}");
     json(

@@ -16,8 +16,9 @@ use std::fs;
 
 use cells::{Cells, table};
 
+use tofsim::firmware::depth_estimator::datapath::Datapath;
 use tofsim::network::{Network, mem};
-use tofsim_learn::quantize::datapath::Datapath;
+use tofsim_learn::quantize::Cost;
 use tofsim_rtl::verify::Verdict;
 
 const RESOURCES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/resources.md");
@@ -96,7 +97,7 @@ fn sixteen_neurons_take_eighteen_multipliers() {
     let cells = Cells::with(&sources, "depth_estimator", command);
     assert!(cells.odd().is_empty(), "{:?}", cells.odd());
     assert_eq!(cells.count("DSP48E1"), 16 + 2);
-    assert_eq!(cells.count("RAMB36E1"), u64::from(Datapath::default().cost(16).ramb36));
+    assert_eq!(cells.count("RAMB36E1"), u64::from(Cost::of(&Datapath::THESIS, 16).ramb36));
 }
 
 #[test]

@@ -77,7 +77,7 @@ fn a_training_that_was_stopped_ends_as_one_that_was_not() {
 
 #[test]
 #[ignore = "long: ./check --full"]
-fn formats_that_are_not_the_firmware_s_are_trained_for_and_written_as_arrays() {
+fn formats_that_are_not_the_thesis_s_are_trained_for_and_built() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let largest = |of: &[f64]| of.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
@@ -91,17 +91,18 @@ fn formats_that_are_not_the_firmware_s_are_trained_for_and_written_as_arrays() {
 
     // A word of W2 that ends at 1/8 keeps the weights there, or they would not fit.
     train("b", &["--lut-bits", "9", "--format", "w2=12.14", "--format", "w1=12.19"]);
-    let names = ["accuracy.csv", "checkpoint", "curve.csv", "curve.svg", "network.json"];
+    let names = ["accuracy.csv", "checkpoint", "curve.csv", "curve.svg", "network.toml"];
     assert_eq!(files(&folder.join("b")), names);
-    assert!(stdout(folder, &["rerun", "b/network.json"]).contains("the same"));
-    stdout(folder, &["quantize", "--from", "b/network.json", "-o", "b.toml"]);
-    let network = Network::load(&folder.join("b.toml")).unwrap();
+    assert!(stdout(folder, &["rerun", "b/network.toml"]).contains("the same"));
+    let network = Network::load(&folder.join("b/network.toml")).unwrap();
+    assert_eq!((network.datapath.address_bits, network.datapath.w1.width), (9, 12));
     let w2 = network.twin().w2;
     assert!(largest(&w2) < 0.125, "{w2:?}");
 
-    // The errors that are written are those with a table of 16 steps, and not with the firmware's.
+    // The errors that are written are those with a table of 16 steps, and not with one of 4096.
     train("c", &["--lut-bits", "4", "--with", "table_noise=0.0"]);
-    stdout(folder, &["quantize", "--from", "c/network.json", "-o", "c.toml"]);
+    let text = read(folder, "c/network.toml").replace("address_bits = 4", "address_bits = 12");
+    std::fs::write(folder.join("c.toml"), text).unwrap();
     let fine = json(folder, &["evaluate", "c.toml", "--rows", "5100", "--check", "0", "--json"]);
     let fine_mm = fine["estimators"][0]["all"]["two_sd_mm"].as_f64().unwrap();
     let table = read(folder, "c/accuracy.csv");
@@ -111,7 +112,7 @@ fn formats_that_are_not_the_firmware_s_are_trained_for_and_written_as_arrays() {
 
     for (option, expected) in [
         ("--lut-bits=17", "address_bits = 17: expected 4 to 16"),
-        ("--format=b1=16.24", "b1 = 24: expected no more fraction bits than w1"),
+        ("--format=b1=16.24", "b1.fraction = 24: expected 0 to 23, as w1 has"),
         ("--format=w3=16.24", "WORD one of w1, b1, w2, b2, l1_out"),
     ] {
         let error = refused(folder, &["train", "--quick", option]);
@@ -226,8 +227,8 @@ fn other_numbers_of_neurons_are_trained_and_run() {
     let set = ["-s", "estimator.network=four/network.toml", "-s", "firmware.shots_per_frame=50"];
     let run = json(folder, &[&["run", "--waves", "none", "--json"], &set[..]].concat());
     assert_eq!(run["frames"][0]["estimator_cycles"], 263 + 2);
-    let error = refused(folder, &["train", "--neurons", "17"]);
-    assert!(error.contains("neurons = 17: expected 16 at most"), "{error}");
+    let error = refused(folder, &["train", "--neurons", "33"]);
+    assert!(error.contains("neurons = 33: expected 32 at most"), "{error}");
 }
 
 #[test]
@@ -240,10 +241,8 @@ fn weights_that_fit_no_words_are_saturated_and_told() {
     assert!(done.status.success() && told.contains("do not fit their words"), "{told}");
     let network = Network::load(&folder.join("wide/network.toml")).unwrap();
     let fixed = &network.fixed;
-    let w1 = fixed.w1.iter().flatten().map(|weight| weight.to_bits());
-    let others = fixed.b1.iter().map(|bias| i32::from(bias.to_bits()));
-    let words = w1.chain(others).chain(fixed.w2.iter().map(|weight| i32::from(weight.to_bits())));
-    assert!(words.into_iter().any(|word| [-32768, 32767].contains(&word)));
+    let words = fixed.w1.iter().flatten().chain(&fixed.b1).chain(&fixed.w2);
+    assert!(words.into_iter().any(|word| [-32768, 32767].contains(word)));
 }
 
 #[test]

@@ -2,11 +2,10 @@
 //! rounding costs.
 
 pub mod circuit;
-pub mod datapath;
+pub mod cost;
 pub mod explain;
-pub mod export;
 pub mod import;
 
 pub use circuit::Circuit;
-pub use datapath::Datapath;
+pub use cost::Cost;
 pub use explain::{Explanation, explain};

@@ -2,10 +2,11 @@
 
 use crate::firmware::carry_chain::TAPS;
 use crate::firmware::coarse_counter::DEFAULT_COARSE_BITS;
+use crate::firmware::depth_estimator::datapath::Datapath;
 use crate::firmware::forward2::NEURONS;
 use crate::firmware::tdc_decoder::TimeScale;
 use crate::firmware::{
-    centroid_estimator, estimator_ctrl, forward1, frame_ctrl, histogram_builder, vcsel_driver,
+    centroid_estimator, estimator_ctrl, frame_ctrl, histogram_builder, vcsel_driver,
 };
 use crate::kernel::ones_width;
 use crate::kernel::signals::{Signal, SignalFormat};
@@ -37,6 +38,8 @@ pub struct Sizes {
     pub histogram: histogram_builder::Params,
     /// Hidden neurons.
     pub neurons: usize,
+    /// Number formats of the network.
+    pub datapath: Datapath,
 }
 
 impl Default for Sizes {
@@ -55,9 +58,13 @@ impl Default for Sizes {
             drain_cycles: frame_ctrl::DRAIN_CYCLES,
             histogram: histogram_builder::Params::default(),
             neurons: NEURONS,
+            datapath: Datapath::THESIS,
         }
     }
 }
+
+/// Fewest bits of what counts pairs of neurons: as many as eight neurons have had.
+const FEWEST_PAIR_BITS: u32 = 3;
 
 /// Bits of a word that counts up to `last`.
 fn bits_to(last: u64) -> u32 {
@@ -78,7 +85,7 @@ impl Sizes {
 
     /// The width of a word that is called that in [`Signal::size`]; 0 where there is no such word [bits].
     pub fn width(&self, size: &str) -> Option<u32> {
-        let histogram = &self.histogram;
+        let (histogram, datapath) = (&self.histogram, &self.datapath);
         let (bin_bits, count_bits) = (histogram.bins.ilog2(), histogram.count_bits);
         let position_bits = centroid_estimator::position_bits(histogram);
         let groups = |group: usize| (self.taps.div_ceil(group) * ones_width(group)) as u32;
@@ -102,8 +109,16 @@ impl Sizes {
             "DrainBits" => bits_to(self.drain_cycles - 1),
             "BinBits" => bin_bits,
             "CountBits" => count_bits,
-            "ProductBits" => count_bits + 17,
-            "SumBits" => forward1::sum_bits(histogram),
+            "W1Bits" => datapath.w1.width,
+            "B1Bits" => datapath.b1.width,
+            "W2Bits" => datapath.w2.width,
+            "B2Bits" => datapath.b2.width,
+            "ActivationBits" => datapath.l1_out.width,
+            "ProductBits" => datapath.product_bits(histogram),
+            "SumBits" => datapath.sum_bits(histogram),
+            "TermBits" => datapath.term_bits(),
+            "OutputSumBits" => datapath.output_sum_bits(),
+            "PairBits" => bits_to(self.neurons.div_ceil(2) as u64 - 1).max(FEWEST_PAIR_BITS),
             "StepBits" => bits_to(self.network().done() - 1),
             "CentroidStepBits" => bits_to(self.centroid().done() - 1),
             "ChangeBits" => count_bits + 1,
@@ -128,10 +143,19 @@ impl Sizes {
             }
         }
         let Some(size) = sizes.next() else { return Some(signal) };
-        let width = self.width(size)?;
-        let format = match signal.format {
-            SignalFormat::Unsigned if width == 1 => SignalFormat::Bits,
-            format => format,
+        let (width, datapath) = (self.width(size)?, &self.datapath);
+        let format = match (signal.format, size) {
+            (SignalFormat::Unsigned, _) if width == 1 => SignalFormat::Bits,
+            (SignalFormat::Signed { .. }, "SumBits") => {
+                SignalFormat::Signed { fraction: datapath.w1.fraction }
+            }
+            (SignalFormat::Signed { .. }, "ActivationBits") => {
+                SignalFormat::Signed { fraction: datapath.l1_out.fraction }
+            }
+            (SignalFormat::Signed { .. }, "TermBits" | "OutputSumBits") => {
+                SignalFormat::Signed { fraction: datapath.term_fraction() }
+            }
+            (format, _) => format,
         };
         (width > 0).then_some(Signal { width, format, ..signal })
     }
@@ -152,6 +176,7 @@ impl Params {
             drain_cycles: self.frame_ctrl.drain_cycles,
             histogram: self.histogram,
             neurons: self.depth_estimator.neurons(),
+            datapath: self.depth_estimator.forward2.datapath,
         }
     }
 }

@@ -1,7 +1,6 @@
 //! The histogram from the sums of the hidden layer: each clock adds a word times a weight.
 
 use tofsim::error::{Input, Result};
-use tofsim::firmware::forward1::sum_bits;
 use tofsim::firmware::forward2::MOST_NEURONS;
 use tofsim::firmware::tof_top::Params;
 use tofsim::hierarchy::TOP;
@@ -23,7 +22,7 @@ pub(super) fn words(
     params: &Params,
 ) -> Result<Option<Words>> {
     let rom = &params.depth_estimator.forward1;
-    let (width, largest) = (sum_bits(&params.histogram), params.histogram.most_hits());
+    let (width, largest) = (rom.sum_bits(), params.histogram.most_hits());
     let port = |name: &str| probed.probe(&format!("{TOP}.depth_estimator.{name}"));
     let enable = port("estimator_ctrl.forward1_en");
     let neurons: Vec<(usize, usize)> = (0..MOST_NEURONS)

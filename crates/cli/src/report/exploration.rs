@@ -69,7 +69,7 @@ fn summary(points: &[ExploredDatapath]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tofsim_learn::quantize::datapath::Cost;
+    use tofsim_learn::quantize::Cost;
 
     fn point(variant: &str, mm: f64, rams: (u32, u32), rms_to_float_mm: f64) -> ExploredDatapath {
         ExploredDatapath {

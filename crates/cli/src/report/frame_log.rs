@@ -7,7 +7,7 @@ use serde::Serialize;
 use tempfile::SpooledTempFile;
 
 use tofsim::error::{Error, Input, Result};
-use tofsim::network::formats::Depth;
+use tofsim::firmware::depth_estimator::datapath::DEPTH_FRACTION;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::{Panel, Reading};
@@ -148,7 +148,7 @@ fn moments_m(count: u64, (sum, squares): (i128, i128)) -> Option<(f64, f64)> {
     if count < 2 {
         return None;
     }
-    let lsb_m = 1.0 / (1u64 << Depth::FRAC_NBITS) as f64;
+    let lsb_m = 1.0 / (1u64 << DEPTH_FRACTION) as f64;
     let n = i128::from(count);
     let variance = (n * squares - sum * sum) as f64 / (n as f64 * (n - 1) as f64);
     let mean_m = sum as f64 / count as f64 * lsb_m;

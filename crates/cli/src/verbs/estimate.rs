@@ -71,7 +71,7 @@ struct Numbers {
     /// The 36-bit word in hexadecimal.
     depth_raw: String,
     depth_m: f64,
-    /// Sums of the hidden neurons as integers, 23 fraction bits.
+    /// Sums of the hidden neurons as integers, with the fraction bits of their weights.
     l1_in: Vec<i64>,
 }
 
@@ -101,7 +101,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     }
     if !args.json {
         return talk.report(
-            &rows.chunks(TABLE).map(|rows| table(rows, names.len() > 1)).collect::<String>(),
+            &rows
+                .chunks(TABLE)
+                .map(|rows| table(rows, network.datapath.w1.fraction, names.len() > 1))
+                .collect::<String>(),
         );
     }
     let mut report = json!({ "schema": "tofsim.estimate/1", "network": network.name });
@@ -153,8 +156,9 @@ fn explained(row: &Row) -> String {
 /// Rows of a table; what has more goes into several.
 const TABLE: usize = 10_000;
 
-fn table(rows: &[Row], several: bool) -> String {
-    let mut header = vec!["index", "depth_raw", "depth_m", "l1_in (23 fraction bits)"];
+fn table(rows: &[Row], fraction: u32, several: bool) -> String {
+    let sums = format!("l1_in ({fraction} fraction bits)");
+    let mut header = vec!["index", "depth_raw", "depth_m", &sums];
     let others = rows.first().map_or(&[][..], |row| &row.estimates);
     header.extend(others.iter().map(|reading| reading.estimator));
     header.extend(several.then_some("file"));

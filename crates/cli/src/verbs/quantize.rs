@@ -6,9 +6,10 @@ use serde_json::json;
 
 use tofsim::error::{Error, Result};
 use tofsim::files::output::{create_directory, write_bytes};
+use tofsim::firmware::depth_estimator::datapath::Datapath;
 use tofsim::firmware::histogram_builder::Params;
+use tofsim::kernel::Overflow;
 use tofsim::network::file::Training;
-use tofsim::network::formats::Overflow;
 use tofsim::network::{Network, mem};
 use tofsim::scenario;
 use tofsim::sim::domain;
@@ -22,6 +23,7 @@ use crate::report::exploration;
 use crate::text::table::{self, table};
 
 use super::draws::Draws;
+use super::formats::Formats;
 use super::terminal::{Talk, print_json, stop_signal};
 
 /// Histograms of an exploration, if nothing else is said: 200 at each distance.
@@ -30,7 +32,7 @@ const EXPLORED: u64 = 10_200;
 /// Fold and round a network that was trained elsewhere, or explore word lengths
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Arrays by name: IW (N x 256), LW (N), b1 (N), b2 (1), for N hidden neurons, 1 to 16, and the settings of\n\
+    after_help = "Arrays by name: IW (N x 256), LW (N), b1 (N), b2 (1), for N hidden neurons, 1 to 32, and the settings of\n\
     mapminmax on both sides if there are any: x_xoffset, x_gain (256 each), x_ymin, y_xoffset, y_gain, y_ymin; x_keep has the bins, from\n\
     1, that removeconstantrows kept. In MATLAB:\n\n  \
     s = net.inputs{1}.processSettings{2}; t = net.outputs{2}.processSettings{2};\n  \
@@ -57,6 +59,8 @@ pub struct Args {
     /// What the network is, for the file
     #[arg(long, value_name = "TEXT", default_value = "depth network, trained elsewhere")]
     description: String,
+    #[command(flatten)]
+    formats: Formats,
     /// Take the nearest word for a weight that does not fit, instead of an error
     #[arg(long)]
     saturate: bool,
@@ -78,7 +82,7 @@ struct Task {
     from: Option<PathBuf>,
     /// Sweep word lengths and the table of activations: accuracy against block RAMs and DSP slices;
     /// of 10,200 histograms unless --rows says how many
-    #[arg(long, value_name = "NETWORK", conflicts_with_all = ["output", "roms", "chain", "description", "saturate"])]
+    #[arg(long, value_name = "NETWORK", conflicts_with_all = ["output", "roms", "chain", "description", "saturate", "Formats"])]
     explore: Option<String>,
 }
 
@@ -95,7 +99,10 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
     let size = scenario::load(&args.scenario, &args.draws.set)?.scenario.histogram();
     let float = import::read(path, size.bins)?;
     let overflow = if args.saturate { Overflow::Saturate } else { Overflow::Refuse };
-    let rounded = float.round(&from, overflow)?;
+    let mut datapath = Datapath::THESIS;
+    args.formats.put_over(&mut datapath);
+    datapath.check("--format")?;
+    let rounded = float.round(&from, &datapath, overflow)?;
     if rounded.saturated > 0 {
         talk.note(format_args!("note: {} weights were saturated", rounded.saturated));
     }
@@ -103,10 +110,10 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
         |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |a, b| f64::max(a, b.abs()));
     // Largest magnitude of each kind of weights, and what its word holds.
     let largest = [
-        ("w1", magnitude(&mut float.w1.iter().flatten().copied()), (-8f64).exp2()),
-        ("b1", magnitude(&mut float.b1.iter().copied()), 4.0),
-        ("w2", magnitude(&mut float.w2.iter().copied()), 2.0),
-        ("b2", float.b2.abs(), 0.25),
+        ("w1", magnitude(&mut float.w1.iter().flatten().copied()), datapath.w1.range()),
+        ("b1", magnitude(&mut float.b1.iter().copied()), datapath.b1.range()),
+        ("w2", magnitude(&mut float.w2.iter().copied()), datapath.w2.range()),
+        ("b2", float.b2.abs(), datapath.b2.range()),
     ];
     let network = Network {
         name: from.clone(),
@@ -118,6 +125,7 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
         },
         domain: None,
         accuracy: None,
+        datapath,
         fixed: rounded.fixed,
         float: Some(float),
     };
@@ -157,7 +165,7 @@ impl Args {
         let rows = self.draws.rows(Some(EXPLORED), &Grid::test(), seed)?;
         let (stop, data) = (stop_signal(), (&source, &rows, seed));
         let points = self.draws.on_threads(rows.count(), talk, |done| {
-            explore(&network, &sweep(), data, stop.as_deref(), done)
+            explore(&network, &sweep(&network.datapath), data, stop.as_deref(), done)
         })?;
         let (name, rows) = (&network.name, rows.count());
         if self.json {

@@ -5,7 +5,6 @@ use std::time::{Duration, Instant};
 
 use tofsim::error::{Error, Input, Result, read_text};
 use tofsim::files::folder::FolderLock;
-use tofsim::network::formats::WordFormat;
 use tofsim::scenario;
 use tofsim::sim::domain;
 use tofsim_learn::training::checkpoint;
@@ -22,7 +21,6 @@ use super::terminal::{Talk, print, print_json, stop_signal};
 
 mod args;
 mod origin;
-mod word_format;
 mod written;
 
 pub use args::Args;
@@ -152,10 +150,7 @@ impl Args {
         };
         let mut recipe = Recipe::parse(&text, &base, &self.with, &name)?;
         recipe.neurons = self.neurons.unwrap_or(recipe.neurons);
-        recipe.formats.address_bits = self.lut_bits.unwrap_or(recipe.formats.address_bits);
-        for (word, format) in &self.formats {
-            recipe.formats.word(word).into_iter().for_each(|of_word| *of_word = *format);
-        }
+        self.formats.put_over(&mut recipe.formats);
         if let (Some(starts), Some(first)) = (self.starts, recipe.stages.first_mut()) {
             first.candidates = starts;
             for stage in &mut recipe.stages {
@@ -199,10 +194,7 @@ impl Args {
         self.recipe.iter().for_each(|path| add("--recipe ", &path.display()));
         self.with.iter().for_each(|with| add("--with ", with));
         self.neurons.iter().for_each(|neurons| add("--neurons ", neurons));
-        self.lut_bits.iter().for_each(|bits| add("--lut-bits ", bits));
-        for (word, WordFormat { width, fraction }) in &self.formats {
-            add("--format ", &format_args!("{word}={width}.{fraction}"));
-        }
+        self.formats.options().iter().for_each(|(option, value)| add(option, value));
         self.starts.iter().for_each(|starts| add("--starts ", starts));
         options
     }

@@ -6,14 +6,15 @@ use std::sync::atomic::AtomicBool;
 use serde::Serialize;
 
 use tofsim::error::Result;
+use tofsim::firmware::depth_estimator::datapath::Datapath;
+use tofsim::kernel::WordFormat;
 use tofsim::network::Network;
-use tofsim::network::formats::WordFormat;
 
 use crate::dataset::{HistogramSource, Rows};
 use crate::estimation::Estimator;
 use crate::estimation::network::{self, NetworkEstimator};
 use crate::quantize::circuit::Circuit;
-use crate::quantize::datapath::{Cost, Datapath};
+use crate::quantize::cost::Cost;
 
 use super::errors::Evaluation;
 use super::figures::Figures;
@@ -23,7 +24,7 @@ use super::thesis::DISTANCES_M;
 /// A datapath and what it does to the depth.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExploredDatapath {
-    /// What differs from the firmware's datapath.
+    /// What differs from the network's datapath.
     pub variant: String,
     /// Twice the standard deviation of the depth at the thesis's distances [mm].
     pub two_sd_mm: Vec<Option<f64>>,
@@ -42,15 +43,15 @@ pub struct ExploredDatapath {
     pub cost: Cost,
 }
 
-/// The datapaths that are swept: one thing at a time.
-pub fn sweep() -> Vec<(String, Datapath)> {
-    let firmware = Datapath::default();
-    let mut points = vec![("the firmware's".to_owned(), firmware)];
+/// The datapaths that are swept: one thing at a time, around a network's own.
+pub fn sweep(own: &Datapath) -> Vec<(String, Datapath)> {
+    let own = *own;
+    let mut points = vec![("the network's own".to_owned(), own)];
     for range_log2 in [2, 3] {
         for address_bits in 8..=14 {
             let range = 1 << range_log2;
             let name = format!("table of {address_bits} address bits over +-{range}");
-            points.push((name, Datapath { address_bits, range_log2, ..firmware }));
+            points.push((name, Datapath { address_bits, range_log2, ..own }));
         }
     }
     // A word that keeps its range has a fraction bit less for each bit less.
@@ -59,14 +60,14 @@ pub fn sweep() -> Vec<(String, Datapath)> {
         fraction: format.fraction + width - format.width,
     };
     for width in [10, 12, 14, 18] {
-        let w1 = shorter(firmware.w1, width);
-        let b1 = shorter(firmware.b1, width.min(16));
-        points.push((format!("w1 and b1 of {width} bits"), Datapath { w1, b1, ..firmware }));
-        let w2 = shorter(firmware.w2, width);
-        let b2 = shorter(firmware.b2, width.min(16));
-        points.push((format!("w2 and b2 of {width} bits"), Datapath { w2, b2, ..firmware }));
-        let l1_out = shorter(firmware.l1_out, width);
-        points.push((format!("activations of {width} bits"), Datapath { l1_out, ..firmware }));
+        let w1 = shorter(own.w1, width);
+        let b1 = shorter(own.b1, width.min(16));
+        points.push((format!("w1 and b1 of {width} bits"), Datapath { w1, b1, ..own }));
+        let w2 = shorter(own.w2, width);
+        let b2 = shorter(own.b2, width.min(16));
+        points.push((format!("w2 and b2 of {width} bits"), Datapath { w2, b2, ..own }));
+        let l1_out = shorter(own.l1_out, width);
+        points.push((format!("activations of {width} bits"), Datapath { l1_out, ..own }));
     }
     points
 }
@@ -84,7 +85,7 @@ pub fn explore(
     done: impl FnMut(u64),
 ) -> Result<Vec<ExploredDatapath>> {
     let (float, size) = (network.twin(), source.size());
-    let circuits = datapaths.iter().map(|(_, datapath)| Circuit::new(&float, *datapath));
+    let circuits = datapaths.iter().map(|(_, datapath)| Circuit::new(&float, datapath));
     let circuits = circuits.collect::<Result<Vec<_>>>()?;
     let mut estimators: Vec<Box<dyn Estimator + '_>> =
         vec![Box::new(network::float(network, &size))];
@@ -111,7 +112,7 @@ pub fn explore(
             saturated_weights: circuit.saturated_weights,
             saturated_sums: circuit.saturated_sums() as f64 / histograms,
             sum_bits: circuit.sum_bits(size.most_hits()),
-            cost: datapath.cost(network.fixed.neurons()),
+            cost: Cost::of(datapath, network.fixed.neurons()),
         }
     });
     Ok(points.collect())
@@ -131,7 +132,7 @@ mod tests {
         let network = Network::builtin("uniform").unwrap().unwrap();
         let rows = Rows::Subset(Subset::new(Grid::test(), 510, 1));
         let data = (&source.unwrap(), &rows, 2);
-        let points = explore(&network, &sweep(), data, None, |_| {}).unwrap();
+        let points = explore(&network, &sweep(&network.datapath), data, None, |_| {}).unwrap();
         let rms = |variant: &str| {
             points.iter().find(|point| point.variant == variant).unwrap().rms_to_float_mm
         };
@@ -141,7 +142,7 @@ mod tests {
             assert!((1.6..2.4).contains(&ratio), "{bits}: {ratio}");
         }
         assert_eq!(points[0].cost, Cost { ramb36: 10, ramb18: 0, dsp48: 10 });
-        assert_eq!(rms("the firmware's"), rms("table of 12 address bits over +-4"));
+        assert_eq!(rms("the network's own"), rms("table of 12 address bits over +-4"));
         assert!(points[0].saturated_sums > 0.5 && points[0].sum_bits[0] <= 36);
         assert!(rms("w1 and b1 of 10 bits") > 3.0 * rms("w1 and b1 of 14 bits"));
     }

@@ -3,12 +3,14 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use tofsim::error::Result;
+use tofsim::firmware::depth_estimator::datapath::{DEPTH_FRACTION, Datapath};
+use tofsim::firmware::forward1::L1In;
+use tofsim::firmware::tansig;
+use tofsim::kernel::{Overflow, wrapped};
+use tofsim::network::Fixed;
 use tofsim::network::Weights;
 use tofsim::network::float::Float;
-use tofsim::network::formats::{Fixed, Overflow, WordFormat};
 use tofsim::network::pass::HiddenNeuron;
-
-use super::datapath::Datapath;
 
 /// A network in a datapath.
 #[derive(Debug)]
@@ -17,7 +19,7 @@ pub struct Circuit {
     /// The words as integers, biases aligned with the products.
     words: Weights<i64, i64, i64, i64>,
     /// Activations by address.
-    table: Vec<i64>,
+    table: tansig::Rom,
     /// Weights that no word holds, and were saturated.
     pub saturated_weights: usize,
     /// Sums that lay past the table, of all histograms seen.
@@ -28,72 +30,52 @@ impl Circuit {
     /// Rounds the weights, halves away from zero; what no word holds is saturated.
     ///
     /// # Errors
-    /// When [`Datapath::check`] fails.
-    pub fn new(float: &Float, datapath: Datapath) -> Result<Self> {
-        datapath.check()?;
-        Ok(Circuit::rounded(float, datapath))
+    /// When the datapath cannot be built, or a weight is no number.
+    pub fn new(float: &Float, datapath: &Datapath) -> Result<Self> {
+        datapath.check("datapath")?;
+        let rounded = float.round("network", datapath, Overflow::Saturate)?;
+        let circuit = Circuit::of_words(&rounded.fixed, datapath);
+        Ok(Circuit { saturated_weights: rounded.saturated, ..circuit })
     }
 
-    /// A network in the firmware's own datapath, in whose words its integers already are.
-    pub fn firmware(fixed: &Fixed) -> Self {
-        Circuit::rounded(&Float::from_fixed(fixed), Datapath::default())
-    }
-
-    fn rounded(float: &Float, datapath: Datapath) -> Self {
-        let mut saturated_weights = 0;
-        let mut word = |format: WordFormat, value: f64| {
-            let fits = format.round(value, Overflow::Refuse);
-            saturated_weights += usize::from(fits.is_none());
-            fits.or_else(|| format.round(value, Overflow::Saturate)).unwrap_or_default()
-        };
-        let Datapath { w1, b1, w2, b2, l1_out, .. } = datapath;
-        let (align_hidden, align_output) =
-            (w1.fraction - b1.fraction, w2.fraction + l1_out.fraction - b2.fraction);
-        let words = Weights {
-            w1: float
-                .w1
-                .iter()
-                .map(|row| row.iter().map(|&weight| word(w1, weight)).collect())
-                .collect(),
-            b1: float.b1.iter().map(|&bias| word(b1, bias) << align_hidden).collect(),
-            w2: float.w2.iter().map(|&weight| word(w2, weight)).collect(),
-            b2: word(b2, float.b2) << align_output,
-        };
-        let half = 1i64 << (datapath.address_bits - 1);
-        let step = f64::from(1u32 << datapath.range_log2) / half as f64;
-        let entry = |address: i64| {
-            let value = libm::tanh(address as f64 * step);
-            l1_out.round(value, Overflow::Saturate).unwrap_or_default()
-        };
-        let (table, saturated_sums) = ((-half..half).map(entry).collect(), AtomicU64::new(0));
-        Circuit { datapath, words, table, saturated_weights, saturated_sums }
+    /// A network in the words of a datapath.
+    pub fn of_words(fixed: &Fixed, datapath: &Datapath) -> Self {
+        let shifts = (datapath.hidden_bias_shift(), datapath.output_bias_shift());
+        let word = i64::from;
+        let words =
+            fixed.map(word, |b1| i64::from(b1) << shifts.0, word, |b2| i64::from(b2) << shifts.1);
+        Circuit {
+            datapath: *datapath,
+            words,
+            table: tansig::Rom::new(datapath),
+            saturated_weights: 0,
+            saturated_sums: AtomicU64::new(0),
+        }
     }
 
     /// Address of a sum in the table of activations, signed, and whether the sum lies past the table.
     pub fn address(&self, sum: i64) -> (i64, bool) {
-        let (shift, half) = (self.datapath.shift(), self.table.len() as i64 / 2);
-        let rounded = (sum + (1 << (shift - 1))) >> shift;
-        let address = rounded.clamp(-half, half - 1);
+        let address =
+            wrapped(self.table.address(L1In::new(sum)) as i64, self.datapath.address_bits);
+        let rounded = (sum + (1 << (self.table.shift - 1))) >> self.table.shift;
         (address, address != rounded)
     }
 
-    /// Depth of a histogram as the word that it is; `record` is shown every neuron.
+    /// Depth of a histogram as the word that it is, not wrapped; `record` is shown every neuron.
     pub fn depth(&self, histogram: &[u32], record: impl FnMut(HiddenNeuron<i64>)) -> i64 {
-        let (half, mut past_the_table) = (self.table.len() as i64 / 2, 0);
+        let mut past_the_table = 0;
         let activate = |sum| {
-            let (address, is_past) = self.address(sum);
-            past_the_table += u64::from(is_past);
-            self.table[(address + half) as usize]
+            past_the_table += u64::from(self.address(sum).1);
+            self.table.activation(L1In::new(sum)).get()
         };
-        let depth = self.words.pass(histogram, activate, record);
+        let sum = self.words.pass(histogram, activate, record);
         self.saturated_sums.fetch_add(past_the_table, Ordering::Relaxed);
-        depth
+        self.datapath.depth(sum)
     }
 
     /// Depth of a histogram [m].
     pub fn depth_m(&self, histogram: &[u32]) -> f64 {
-        let fraction = self.datapath.w2.fraction + self.datapath.l1_out.fraction;
-        self.depth(histogram, |_| ()) as f64 * (-f64::from(fraction)).exp2()
+        self.depth(histogram, |_| ()) as f64 * (-f64::from(DEPTH_FRACTION)).exp2()
     }
 
     /// Sums that lay past the table, of all histograms seen.
@@ -126,7 +108,7 @@ mod tests {
     fn the_firmware_s_formats_give_what_the_firmware_gives() {
         for name in Network::builtin_names() {
             let network = Network::builtin(name).unwrap().unwrap();
-            let circuit = Circuit::new(&network.twin(), Datapath::default()).unwrap();
+            let circuit = Circuit::new(&network.twin(), &network.datapath).unwrap();
             for bin in (5..250).step_by(7) {
                 let histogram = peak(bin, 200 + 20 * bin as u32);
                 let expected =
@@ -143,8 +125,8 @@ mod tests {
     fn longer_words_come_nearer_to_float() {
         let float = Network::builtin("uniform").unwrap().unwrap().twin();
         let error = |address_bits| {
-            let datapath = Datapath { address_bits, range_log2: 3, ..Datapath::default() };
-            let circuit = Circuit::new(&float, datapath).unwrap();
+            let datapath = Datapath { address_bits, range_log2: 3, ..Datapath::THESIS };
+            let circuit = Circuit::new(&float, &datapath).unwrap();
             let errors = (5..250).map(|bin| {
                 let histogram = peak(bin, 3000);
                 (circuit.depth_m(&histogram) - float.forward(&histogram)).powi(2)
@@ -158,7 +140,7 @@ mod tests {
     fn a_weight_that_no_word_holds_is_saturated_and_counted() {
         let mut wild = Network::builtin("uniform").unwrap().unwrap().twin();
         wild.w1[0][0] = 1.0;
-        let circuit = Circuit::new(&wild, Datapath::default()).unwrap();
+        let circuit = Circuit::new(&wild, &Datapath::THESIS).unwrap();
         assert_eq!(circuit.saturated_weights, 1);
     }
 }

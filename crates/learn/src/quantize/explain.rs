@@ -8,20 +8,12 @@
 
 use serde::Serialize;
 
-use tofsim::firmware::tansig::ADDRESS_BITS;
+use tofsim::firmware::depth_estimator::datapath::{DEPTH_FRACTION, Datapath};
 use tofsim::network::Network;
 use tofsim::network::float::Float;
-use tofsim::network::formats::{B2, L1_OUT, TANSIG_RANGE};
 use tofsim::network::pass::HiddenNeuron;
 
 use super::circuit::Circuit;
-
-/// Fraction bits of a hidden neuron's sum.
-const L1_IN_FRACTION: u32 = 23;
-/// Fraction bits of a product of the output layer, and of the depth.
-const DEPTH_FRACTION: u32 = 29;
-/// A step of the activation's address [1].
-const ADDRESS_STEP: f64 = 2.0 * TANSIG_RANGE as f64 / (1 << ADDRESS_BITS) as f64;
 
 /// A value of the datapath and its twin.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -110,7 +102,8 @@ pub struct Explanation {
 
 /// Explains the estimation of a histogram.
 pub fn explain(network: &Network, histogram: &[u32]) -> Explanation {
-    let (circuit, float) = (Circuit::firmware(&network.fixed), network.twin());
+    let datapath = &network.datapath;
+    let (circuit, float) = (Circuit::of_words(&network.fixed, datapath), network.twin());
     let (mut fixed, mut exact) = (Vec::new(), Vec::new());
     let word = circuit.depth(histogram, |neuron| fixed.push(neuron));
     let depth_m = float.pass(histogram, libm::tanh, |neuron| exact.push(neuron));
@@ -118,21 +111,26 @@ pub fn explain(network: &Network, histogram: &[u32]) -> Explanation {
         let slope = w2 * (1.0 - exact.activation * exact.activation);
         let (address, saturated) = circuit.address(fixed.sum);
         ExplainedNeuron {
-            l1_in: WordAndTwin::new(fixed.sum, L1_IN_FRACTION, exact.sum, slope),
+            l1_in: WordAndTwin::new(fixed.sum, datapath.w1.fraction, exact.sum, slope),
             address,
             saturated,
-            l1_out: WordAndTwin::new(fixed.activation, L1_OUT.fraction, exact.activation, w2),
-            product: WordAndTwin::new(fixed.product, DEPTH_FRACTION, exact.product, 1.0),
+            l1_out: WordAndTwin::new(
+                fixed.activation,
+                datapath.l1_out.fraction,
+                exact.activation,
+                w2,
+            ),
+            product: WordAndTwin::new(fixed.product, datapath.term_fraction(), exact.product, 1.0),
         }
     };
     let neurons: Vec<_> = fixed.into_iter().zip(exact).zip(&float.w2).map(neuron).collect();
     let depth = WordAndTwin::new(word, DEPTH_FRACTION, depth_m, 1.0);
     Explanation {
         hits: histogram.iter().map(|&count| u64::from(count)).sum(),
-        bias: WordAndTwin::new(network.fixed.b2.to_bits().into(), B2.fraction, float.b2, 1.0),
+        bias: WordAndTwin::new(network.fixed.b2.into(), datapath.b2.fraction, float.b2, 1.0),
         first_parting: first_parting(&neurons, &depth),
         saturated: neurons.iter().filter(|neuron| neuron.saturated).count(),
-        budget: budget(&float, &neurons, &depth),
+        budget: budget(&float, datapath, &neurons, &depth),
         neurons,
         depth,
     }
@@ -152,7 +150,12 @@ fn first_parting(
 }
 
 /// The depth after each step from float to fixed point.
-fn budget(float: &Float, neurons: &[ExplainedNeuron], depth: &WordAndTwin) -> ErrorBudget {
+fn budget(
+    float: &Float,
+    datapath: &Datapath,
+    neurons: &[ExplainedNeuron],
+    depth: &WordAndTwin,
+) -> ErrorBudget {
     let output = |activation: &dyn Fn(&ExplainedNeuron) -> f64| {
         let products = neurons.iter().zip(&float.w2).map(|(neuron, w2)| activation(neuron) * w2);
         products.sum::<f64>() + float.b2
@@ -160,7 +163,7 @@ fn budget(float: &Float, neurons: &[ExplainedNeuron], depth: &WordAndTwin) -> Er
     let steps = [
         depth.float,
         output(&|neuron| libm::tanh(neuron.l1_in.fixed)),
-        output(&|neuron| libm::tanh(neuron.address as f64 * ADDRESS_STEP)),
+        output(&|neuron| libm::tanh(neuron.address as f64 * datapath.step())),
         output(&|neuron| neuron.l1_out.fixed),
         depth.fixed,
     ];
@@ -173,7 +176,6 @@ fn budget(float: &Float, neurons: &[ExplainedNeuron], depth: &WordAndTwin) -> Er
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tofsim::network::formats::{B1, W1};
 
     fn peak(bin: usize, height: u32) -> Vec<u32> {
         (0..256).map(|k: usize| height / (1 + 2 * k.abs_diff(bin) as u32)).collect()
@@ -194,7 +196,10 @@ mod tests {
             assert!((parts.iter().sum::<f64>() - budget.total_mm).abs() < 1e-9);
             assert_eq!(budget.total_mm, explained.depth.difference_mm);
             let products: i64 = explained.neurons.iter().map(|n| n.product.word).sum();
-            assert_eq!(products + (explained.bias.word << 12), explained.depth.word);
+            assert_eq!(
+                products + (explained.bias.word << network.datapath.output_bias_shift()),
+                explained.depth.word
+            );
         }
     }
 
@@ -213,10 +218,8 @@ mod tests {
     fn a_sum_past_the_table_is_counted_and_costs_what_the_address_loses() {
         let mut network = Network::builtin("uniform").unwrap().unwrap();
         network.float = None;
-        for weight in network.fixed.w1[2].iter_mut() {
-            *weight = tofsim::network::formats::HiddenWeight::from_bits(W1.max() as i32);
-        }
-        network.fixed.b1[2] = tofsim::network::formats::HiddenBias::from_bits(B1.max() as i16);
+        network.fixed.w1[2].fill(network.datapath.w1.max() as i32);
+        network.fixed.b1[2] = network.datapath.b1.max() as i32;
         let explained = explain(&network, &peak(100, 30_000));
         assert!(explained.neurons[2].saturated && explained.saturated >= 1);
         assert_eq!(explained.neurons[2].address, 2047);

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::quantize::datapath::Datapath;
+use tofsim::firmware::depth_estimator::datapath::Datapath;
 
 use super::basis::KNOTS;
 use super::features::{COLUMNS, Scaling};
@@ -123,7 +123,7 @@ impl Hinges {
 mod tests {
     use super::*;
     use crate::training::cholesky::Symmetric;
-    use tofsim::network::formats::WordFormat;
+    use tofsim::kernel::WordFormat;
 
     #[test]
     fn the_penalties_derivatives_are_their_differences() {
@@ -135,7 +135,7 @@ mod tests {
         x[COLUMNS + KNOTS] = -9.0;
         x.extend([2.1, -2.2, -0.3]);
         let (limits, size) =
-            (Hinges { limits: WordLimits::default(), words: Datapath::default() }, x.len());
+            (Hinges { limits: WordLimits::default(), words: Datapath::THESIS }, x.len());
         let zeros = Symmetric::zeros(size);
         let mut linear = NormalEquations { cost: 0.0, matrix: zeros, gradient: vec![0.0; size] };
         limits.add(&x, 2, &scaling, &mut linear);
@@ -158,9 +158,9 @@ mod tests {
             Scaling { mean: vec![10.0; KNOTS], inverse_sd: vec![0.1; KNOTS], ..Scaling::default() };
         let x = vec![0.001; 8 * COLUMNS + 9];
         let hinges = |words: Datapath| Hinges { limits: WordLimits::default(), words };
-        assert_eq!(hinges(Datapath::default()).cost(&x, 8, &scaling), 0.0);
+        assert_eq!(hinges(Datapath::THESIS).cost(&x, 8, &scaling), 0.0);
         // A word that ends at 6e-5, and a weight of 1e-4 for raw counts.
-        let short = Datapath { w1: WordFormat { width: 2, fraction: 15 }, ..Datapath::default() };
+        let short = Datapath { w1: WordFormat { width: 2, fraction: 15 }, ..Datapath::THESIS };
         assert!(hinges(short).cost(&x, 8, &scaling) > 0.0);
     }
 }

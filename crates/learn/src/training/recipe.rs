@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use tofsim::firmware::forward2::NEURONS;
 
-use crate::quantize::datapath::Datapath;
+use tofsim::firmware::depth_estimator::datapath::Datapath;
 
 use super::limits::WordLimits;
 use super::lm::LmSettings;
@@ -128,7 +128,7 @@ impl Default for Recipe {
                 neighbours: 1,
             },
             weighting: Weighting::default(),
-            formats: Datapath::default(),
+            formats: Datapath::THESIS,
             limits: WordLimits::default(),
             optimiser: LmSettings { mu_min: 1e-12, ..LmSettings::default() },
         }

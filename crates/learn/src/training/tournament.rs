@@ -238,7 +238,7 @@ impl<'a> Tournament<'a> {
         for candidate in &self.state.candidates {
             let (start, block) = (candidate.start, self.state.block + 1);
             let folded = fold(&candidate.lm.x, self.recipe.neurons, &self.state.scaling);
-            let circuit = Circuit::new(&folded, self.recipe.formats)?;
+            let circuit = Circuit::new(&folded, &self.recipe.formats)?;
             let saturated = circuit.saturated_weights > 0;
             let ratio = worst(&errors(&circuit, choice), &self.recipe.weighting);
             let point = self.state.curve.iter_mut().rev().find(|point| point.start == start);

@@ -50,6 +50,13 @@ pub fn sized(params: &Params, names: &[&'static str]) -> Parameters {
         "DrainCycles" => Parameter::Number(sizes.drain_cycles),
         "Cycle" => Parameter::Number(sizes.cycle),
         "Digits" => Parameter::Number(sizes.digits.into()),
+        "W1Fraction" => Parameter::Number(sizes.datapath.w1.fraction.into()),
+        "B1Fraction" => Parameter::Number(sizes.datapath.b1.fraction.into()),
+        "W2Fraction" => Parameter::Number(sizes.datapath.w2.fraction.into()),
+        "B2Fraction" => Parameter::Number(sizes.datapath.b2.fraction.into()),
+        "ActivationFraction" => Parameter::Number(sizes.datapath.l1_out.fraction.into()),
+        "AddressBits" => Parameter::Number(sizes.datapath.address_bits.into()),
+        "RangeLog2" => Parameter::Number(sizes.datapath.range_log2.into()),
         name => Parameter::Number(sizes.width(name).unwrap_or_default().into()),
     };
     let usual = (Sizes::default(), vcsel_driver::Params::default());
@@ -75,15 +82,48 @@ pub fn clocks(p: &pll::Params) -> Parameters {
 /// The parameter with the laser periods.
 const LASER_PERIODS: &str = "LaserPeriods";
 /// Of [`sized`], those on which widths of ports depend.
-pub const SHAPES: [&str; 8] =
-    [NEURONS, "Taps", "CoarseBits", "RateBits", "Halves", "BinBits", "CountBits", "SumBits"];
-/// Of [`sized`], those of the decoder.
-pub const OF_DECODER: [&str; 6] = ["Taps", "CoarseBits", "BinBits", "Cycle", "Digits", "AgeBits"];
-/// Of [`sized`], those of the whole.
-const OF_TOP: [&str; 13] = [
+pub const SHAPES: [&str; 9] = [
+    NEURONS,
+    "Taps",
+    "CoarseBits",
+    "RateBits",
+    "Halves",
     "BinBits",
     "CountBits",
     "SumBits",
+    "ActivationBits",
+];
+/// Of [`sized`], those of the decoder.
+pub const OF_DECODER: [&str; 6] = ["Taps", "CoarseBits", "BinBits", "Cycle", "Digits", "AgeBits"];
+/// Of [`sized`], those of the hidden layer.
+pub const OF_FORWARD1: [&str; 7] =
+    ["BinBits", "CountBits", "SumBits", "W1Bits", "W1Fraction", "B1Bits", "B1Fraction"];
+/// Of [`sized`], those of the activation.
+pub const OF_TANSIG: [&str; 5] =
+    ["SumBits", "W1Fraction", "AddressBits", "RangeLog2", "ActivationBits"];
+/// Of [`sized`], those of the output layer.
+pub const OF_FORWARD2: [&str; 6] =
+    ["ActivationBits", "ActivationFraction", "W2Bits", "W2Fraction", "B2Bits", "B2Fraction"];
+/// Of [`sized`], those of the network.
+pub const OF_NETWORK: [&str; 15] = [
+    "BinBits",
+    "CountBits",
+    "SumBits",
+    "W1Bits",
+    "W1Fraction",
+    "B1Bits",
+    "B1Fraction",
+    "AddressBits",
+    "RangeLog2",
+    "ActivationBits",
+    "ActivationFraction",
+    "W2Bits",
+    "W2Fraction",
+    "B2Bits",
+    "B2Fraction",
+];
+/// Of [`sized`], those of the whole beside the network's.
+const OF_TOP: [&str; 10] = [
     "DrainCycles",
     LASER_PERIODS,
     "RateBits",
@@ -157,6 +197,7 @@ pub fn tof_top(setup: &Setup) -> Parameters {
     ]);
     list.extend(neurons(params.depth_estimator.neurons()));
     list.extend(count_stages(&params.tdc.decoder));
+    list.extend(sized(params, &OF_NETWORK));
     list.extend(sized(params, &OF_TOP));
     let (preloads_codes, rom) = match &params.code_source {
         CodeSource::Tdc => (false, &[U::new(0)][..]),

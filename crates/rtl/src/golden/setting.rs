@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use tofsim::error::{Error, Input};
 use tofsim::firmware::carry_chain::TAPS;
+use tofsim::firmware::depth_estimator::datapath::Datapath;
 use tofsim::firmware::histogram_builder;
 use tofsim::sim::setup::Setup;
 
@@ -73,6 +74,11 @@ impl Setting {
     /// How large the histogram is.
     pub fn histogram(&self) -> histogram_builder::Params {
         self.setup.params.histogram
+    }
+
+    /// Number formats of the network.
+    pub fn datapath(&self) -> &Datapath {
+        &self.setup.params.depth_estimator.forward2.datapath
     }
 
     /// Hidden neurons.

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use tofsim::scenario;
 
-use super::word_format::{FormatOption, word_format};
+use crate::verbs::formats::Formats;
 
-/// Train a depth network on simulated histograms, within the firmware's number formats or others
+/// Train a depth network on simulated histograms, within the thesis's number formats or others
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim train --profile uniform --seed 1 -o mine\n  \
@@ -15,7 +15,7 @@ use super::word_format::{FormatOption, word_format};
     tofsim train --with finish.blocks=10 -o mine    with a number of the recipe changed\n  \
     tofsim train --grid target.distance_m=0.05..0.9:0.0025 --grid target.reflectance=0.05..0.9:0.05 -o far\n  \
     tofsim train --data measured --profile chain.toml -o mine   on histograms of one's own\n  \
-    tofsim train --lut-bits 10 --format w1=12.19    for a datapath that is not the firmware's\n  \
+    tofsim train --lut-bits 10 --format w1=12.19    in words that are not the thesis's\n  \
     tofsim run -s estimator.network=mine/network.toml")]
 pub struct Args {
     /// Built-in scenario or scenario file: optics, detector and shots; its scene does not matter
@@ -50,16 +50,11 @@ pub struct Args {
     /// Set a key of the recipe, such as finish.blocks=10 or table_noise=0; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     pub(super) with: Vec<String>,
-    /// Hidden neurons, 1 to 16 [default: 8, as in the thesis]
+    /// Hidden neurons, 1 to 32 [default: 8, as in the thesis]
     #[arg(long, value_name = "N")]
     pub(super) neurons: Option<usize>,
-    /// Address bits of the table of activations [default: 12, as in the thesis]
-    #[arg(long, value_name = "N")]
-    pub(super) lut_bits: Option<u32>,
-    /// Width and fraction bits of w1, b1, w2, b2 or l1_out (activations), such as w1=16.23; may be
-    /// repeated [default: those of the thesis's Table 6.4]
-    #[arg(long = "format", value_name = "WORD=WIDTH.FRACTION", value_parser = word_format)]
-    pub(super) formats: Vec<FormatOption>,
+    #[command(flatten)]
+    pub(super) formats: Formats,
     /// Starts that take part in the first stage
     #[arg(long, value_name = "N")]
     pub(super) starts: Option<usize>,
@@ -75,8 +70,7 @@ pub struct Args {
     /// Threads; the network is the same for any number [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(super) threads: Option<u16>,
-    /// Write network.toml, accuracy.csv, curve.csv, curve.svg and checkpoint there; for formats that are
-    /// not the firmware's, network.json for quantize --from instead of network.toml
+    /// Write network.toml, accuracy.csv, curve.csv, curve.svg and checkpoint there
     #[arg(short, long, value_name = "DIR", default_value = "training")]
     pub(super) output: PathBuf,
     /// Print one JSON object instead of a table

@@ -3,15 +3,14 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use serde_json::json;
-
 use tofsim::error::{Error, Result};
 use tofsim::files::output::write_bytes;
+use tofsim::kernel::Overflow;
+use tofsim::network::Fixed;
 use tofsim::network::file::{Accuracy, Training};
 use tofsim::network::float::Float;
-use tofsim::network::formats::{Fixed, Overflow};
 use tofsim::network::{Domain, Network};
-use tofsim_learn::quantize::{Circuit, Datapath, export};
+use tofsim_learn::quantize::Circuit;
 use tofsim_learn::training::accuracy::DistanceErrors;
 use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::tournament::Tournament;
@@ -56,19 +55,16 @@ pub fn write(
     let svg = svg.map_err(Error::io(&folder.join("curve.svg"), "write"))?;
     write("curve.svg", &made.record.in_svg(&svg))?;
     let float = tournament.result();
-    let is_firmware_s = recipe.formats == Datapath::default();
-    let fixed = is_firmware_s.then(|| float.round("trained network", Overflow::Saturate));
-    let fixed = fixed.transpose()?.map(|rounded| rounded.fixed);
-    let circuit = Circuit::new(&float, recipe.formats)?;
-    if circuit.saturated_weights > 0 {
+    let rounded = float.round("trained network", &recipe.formats, Overflow::Saturate)?;
+    if rounded.saturated > 0 {
         // The errors below are those with the saturated ones.
         talk.note(format_args!(
             "note: {} do not fit their words and are saturated (expected none: train longer, or with \
              a larger limits.penalty)",
-            counted(circuit.saturated_weights as u64, "weights")
+            counted(rounded.saturated as u64, "weights")
         ));
     }
-    let rows = tournament.test(&circuit);
+    let rows = tournament.test(&Circuit::of_words(&rounded.fixed, &recipe.formats));
     write("accuracy.csv", &(line.clone() + &report::csv(&rows)))?;
 
     let best = tournament.state.best.as_ref();
@@ -81,19 +77,9 @@ pub fn write(
         seed: Some(made.seed),
         data: Some(tournament.state.data.clone()),
     };
-    let path = match fixed {
-        Some(fixed) => {
-            let network = network(fixed, float, training, &rows, recipe);
-            let network = Network { domain: made.domain, ..network };
-            write("network.toml", &(line + &network.to_toml()))?
-        }
-        None => {
-            let mut network = export::json(&float, &training);
-            network["training"]["record"] = json!(made.record);
-            write("network.json", &format!("{network:#}\n"))?
-        }
-    };
-    Ok((path, rows))
+    let network = network(rounded.fixed, float, training, &rows, recipe);
+    let network = Network { domain: made.domain, ..network };
+    Ok((write("network.toml", &(line + &network.to_toml()))?, rows))
 }
 
 /// The file of the network in the firmware's words, with what is known of it.
@@ -116,6 +102,7 @@ fn network(
     Network {
         name: String::new(),
         description: format!("{bins}-{neurons}-1 depth network for the bins of chain {chain}"),
+        datapath: recipe.formats,
         fixed,
         training,
         domain: None,

@@ -1,12 +1,12 @@
 use tofsim::network::Histogram;
 
-use crate::quantize::datapath::Datapath;
 use crate::training::features::blocks;
 use crate::training::limits::{Hinges, WordLimits};
 use crate::training::lm::{Lm, LmSettings};
 use crate::training::recipe::Recipe;
 use crate::training::start::start;
 use crate::training::sums::parameters;
+use tofsim::firmware::depth_estimator::datapath::Datapath;
 
 use super::*;
 
@@ -32,7 +32,7 @@ fn with_problem<T>(neurons: usize, check: impl FnOnce(&NetworkProblem, &[f64]) -
         neurons,
         // Much, so that a fault in its derivatives shows.
         table_noise: 0.5,
-        hinges: Hinges { limits: WordLimits::default(), words: Datapath::default() },
+        hinges: Hinges { limits: WordLimits::default(), words: Datapath::THESIS },
         held_out: None,
     };
     let x: Vec<f64> = (0..parameters(neurons)).map(|k| (k as f64).sin() * 0.1).collect();
@@ -146,7 +146,7 @@ fn bins_that_never_count_do_no_harm() {
         weights: &weights,
         neurons: 2,
         table_noise: 0.0,
-        hinges: Hinges { limits: WordLimits::default(), words: Datapath::default() },
+        hinges: Hinges { limits: WordLimits::default(), words: Datapath::THESIS },
         held_out: None,
     };
     let mut lm = Lm::new(start(&recipe.start, 2, 1, 0), &LmSettings::default());

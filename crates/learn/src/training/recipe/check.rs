@@ -55,7 +55,7 @@ impl Recipe {
         }
         let expected = format!("expected finish.most = {} at most", finish.most);
         ensure(finish.least <= finish.most, "finish.least", finish.least, expected)?;
-        self.formats.check()?;
+        self.formats.check("formats")?;
         self.weighting.check()
     }
 

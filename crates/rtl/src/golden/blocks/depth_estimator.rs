@@ -3,9 +3,9 @@
 //! either end; starts while busy, and a reset in each layer.
 
 use tofsim::firmware::depth_estimator::In;
-use tofsim::firmware::tansig::{ENTRIES, address};
 
 use crate::golden::estimations::{Estimations, memory};
+use crate::golden::parameters::OF_NETWORK;
 use crate::golden::prelude::*;
 
 mod histograms;
@@ -39,7 +39,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let (bins, tansig) = (size.bins as u64, ctrl.tansig());
     let layers = [0..bins, bins..tansig, tansig..tansig + 2, tansig + 2..params.cycles()];
     let mut estimations = Estimations::new(layers, histograms.len(), special, setting);
-    let mut ends = Cover::new("neuron x 4096 + address at either end of the tansig", ends);
+    let mut ends = Cover::new("neuron x entries + address at either end of the tansig", ends);
     let mut run = Recorder::new(spec, setting, Stimulus::list());
     for _ in 0..setting.cycles() {
         let estimator = &mut run.top.depth_estimator;
@@ -47,7 +47,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let (rst, algo_start) = estimations.next(phase, &mut run.draw);
         if estimator.estimator_ctrl.tansig_en && !rst {
             for (neuron, &l1_in) in estimator.forward1.l1_in[..neurons].iter().enumerate() {
-                ends.see((neuron * ENTRIES + address(l1_in)) as u64);
+                let entries = params.tansig.entries.len();
+                ends.see((neuron * entries + params.tansig.address(l1_in)) as u64);
             }
         }
         let i = Stimulus { rst, algo_start, histogram: U::new(estimations.histogram) };
@@ -63,7 +64,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             parameters::depth_estimator(params),
             neurons,
             &setting.setup.params,
-            &["BinBits", "CountBits", "SumBits"],
+            &OF_NETWORK,
         ),
         bench_memory: Some(memory(&histograms, &size)),
         ..run.vectors([vec![ends], estimations.coverage().into()].concat())

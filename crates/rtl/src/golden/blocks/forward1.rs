@@ -1,8 +1,9 @@
 //! Histograms as the estimator feeds them, control signals in any order with every row, and one row
 //! over and over until the sums of all neurons have wrapped both ways.
 
-use tofsim::firmware::forward1::{In, sum_bits};
+use tofsim::firmware::forward1::In;
 
+use crate::golden::parameters::OF_FORWARD1;
 use crate::golden::prelude::*;
 
 /// Cycles in one style.
@@ -26,7 +27,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let (words, most) = (size.bins as u64, size.most_hits());
     let stretch_of = STRETCH.max(2 * words);
     // A change of a sum that is larger than any product: it has wrapped.
-    let wrap = 1i64 << (sum_bits(&size) - 2);
+    let wrap = 1i64 << (rom.sum_bits() - 2);
     let pull = |goal: u64, row: u64| {
         let weight = rom.w1[row as usize][goal as usize / 2].get();
         if goal.is_multiple_of(2) { weight } else { -weight }
@@ -92,8 +93,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             wraps.see_if(goes_on && change > wrap, 2 * neuron as u64 + 1);
         }
     }
-    let memories = files(["W1File", "B1File"], mem::forward1(rom, neurons));
+    let memories = files(["W1File", "B1File"], mem::forward1(rom, neurons, setting.datapath()));
     let parameters =
-        with_neurons(memories, neurons, &setting.setup.params, &["BinBits", "CountBits", "SumBits"]);
+        with_neurons(memories, neurons, &setting.setup.params, &OF_FORWARD1);
     Ok(Vectors { parameters, ..run.vectors([wraps, rows, situations, sequence]) })
 }

@@ -3,15 +3,17 @@
 //! negative.
 
 use tofsim::firmware::forward2::{In, MOST_NEURONS};
+use tofsim::kernel::wrapped;
 
+use crate::golden::parameters::OF_FORWARD2;
 use crate::golden::prelude::*;
 
 /// Cycles in one style.
 const STRETCH: usize = 512;
 /// A change of the depth that is larger than any two products: it has wrapped.
 const WRAP: i64 = 1 << 34;
-/// Values that `pair` can have.
-const PAIRS: u64 = MOST_NEURONS as u64 / 2;
+/// Cycles that a goal of wrapping may take; smaller weights would take longer.
+const PATIENCE: i64 = 1000;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
@@ -32,12 +34,19 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let strength = |neuron: &usize| rom.w2[*neuron].get().abs();
     let strongest = |unit: usize| (unit..rom.neurons).step_by(2).max_by_key(strength);
     let (units, pairs) = (rom.neurons.min(2) as u64, rom.neurons.div_ceil(2) as u64);
+    let activation = rom.datapath.l1_out;
+    let feasible = |goal: &u64| {
+        let weight = strongest(*goal as usize / 2).map_or(0, |neuron| rom.w2[neuron].get().abs());
+        rom.datapath.depth(weight * activation.max()) * PATIENCE > 2 * WRAP
+    };
+    // Values that `pair` can have.
+    let all_pairs = 1 << setting.setup.params.sizes().width("PairBits").unwrap_or_default();
     let mut situations = Cover::new(
-        "rst, forward2_first, forward2_en, depth_en as bits x 8 + pair",
-        0..16 * PAIRS,
+        "rst, forward2_first, forward2_en, depth_en as bits x pairs + pair",
+        0..16 * all_pairs,
     );
-    let mut order = Cover::new("pair from x 8 + to, added one after the other", 0..PAIRS * PAIRS);
-    let mut wraps = Cover::new("depth wraps, unit x 2 + downwards", 0..2 * units);
+    let mut order = Cover::new("pair from x pairs + to, added one after the other", 0..all_pairs * all_pairs);
+    let mut wraps = Cover::new("depth wraps, unit x 2 + downwards", (0..2 * units).filter(feasible));
     let mut run = Recorder::new(spec, setting, In::list());
     // Pair of the line before.
     let mut last = U::new(0);
@@ -45,13 +54,14 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let draw = &mut run.draw;
         let mut any = In {
             rst: draw.one_in(8),
-            pair: draw.word(),
+            pair: U::new(draw.bits() % all_pairs),
             forward2_first: draw.one_in(4),
             forward2_en: !draw.one_in(4),
             depth_en: draw.one_in(2),
             l1_out: [S::new(0); MOST_NEURONS],
         };
-        any.l1_out[..rom.neurons].fill_with(|| draw.signed());
+        let word = || S::new(wrapped(draw.signed_of(activation.width), activation.width));
+        any.l1_out[..rom.neurons].fill_with(word);
         let goal = wraps.missing().next().filter(|_| cycle / STRETCH % 4 > 1);
         let i = match (cycle / STRETCH % 4, goal) {
             (1, _) => {
@@ -69,7 +79,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
                 let neuron = strongest(goal as usize / 2).unwrap_or_default();
                 let up = (rom.w2[neuron].get() > 0) == goal.is_multiple_of(2);
                 any.l1_out = [S::new(0); MOST_NEURONS];
-                any.l1_out[neuron] = S::new(if up { 32_767 } else { -32_768 });
+                any.l1_out[neuron] = S::new(if up { activation.max() } else { activation.min() });
                 In {
                     rst: false,
                     pair: U::new(neuron as u64 / 2),
@@ -83,8 +93,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         };
         let i = In { rst: i.rst || cycle == FIRST_RESET, ..i };
         let control = bits([i.rst, i.forward2_first, i.forward2_en, i.depth_en]);
-        situations.see(control * PAIRS + i.pair.get());
-        order.see(last.get() * PAIRS + i.pair.get());
+        situations.see(control * all_pairs + i.pair.get());
+        order.see(last.get() * all_pairs + i.pair.get());
         last = i.pair;
         run.line(&i);
         let forward2 = &mut run.top.depth_estimator.forward2;
@@ -96,6 +106,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             wraps.see_if(far && !i.rst, goal);
         }
     }
-    let parameters = with_neurons(files(["W2File", "B2File"], mem::forward2(&rom)), rom.neurons, &setting.setup.params, &[]);
+    let parameters = with_neurons(files(["W2File", "B2File"], mem::forward2(&rom)), rom.neurons, &setting.setup.params, &OF_FORWARD2);
     Ok(Vectors { parameters, ..run.vectors([situations, order, wraps]) })
 }

@@ -1,16 +1,12 @@
 //! The lowest, the highest and any sum of each address, for each neuron apart from the others; sums
 //! beyond both ends of the table.
 
-use tofsim::firmware::forward1::{L1In, sum_bits};
+use tofsim::firmware::forward1::L1In;
 use tofsim::firmware::forward2::MOST_NEURONS;
-use tofsim::firmware::tansig::{ENTRIES, In, address};
+use tofsim::firmware::tansig::{In, Rom};
 
+use crate::golden::parameters::OF_TANSIG;
 use crate::golden::prelude::*;
-
-/// Sums of an address.
-const STEP: i64 = 1 << 14;
-/// Addresses of either sign.
-const HALF: i64 = ENTRIES as i64 / 2;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
@@ -21,13 +17,15 @@ pub(super) const SPEC: Spec = Spec {
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let (rom, neurons) = (&setting.setup.params.depth_estimator.tansig, setting.neurons());
-    let (width, sums) = (sum_bits(&setting.histogram()), &setting.setup.params.depth_estimator.forward1);
+    let sums = &setting.setup.params.depth_estimator.forward1;
+    let (width, entries) = (sums.sum_bits(), rom.entries.len());
+    let (half, step) = (entries as i64 / 2, 1i64 << rom.shift);
     // Just beyond the rounded ends of the table, and the ends of the word.
     let end = 1 << (width - 1);
-    let beyond_ends = [-HALF * STEP - STEP / 2 - 1, HALF * STEP - STEP / 2, -end, end - 1];
-    let cases = (neurons * ENTRIES) as u64;
-    let mut lowest = Cover::new("lowest sum of neuron x 4096 + address", 0..cases);
-    let mut highest = Cover::new("highest sum of neuron x 4096 + address", 0..cases);
+    let beyond_ends = [-half * step - step / 2 - 1, half * step - step / 2, -end, end - 1];
+    let cases = (neurons * entries) as u64;
+    let mut lowest = Cover::new("lowest sum of neuron x entries + address", 0..cases);
+    let mut highest = Cover::new("highest sum of neuron x entries + address", 0..cases);
     let mut beyond = Cover::new(
         "neuron x 4 + just below, just above, lowest, highest of all",
         0..neurons as u64 * 4,
@@ -44,18 +42,18 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             *sum = match (special, draw.below(3)) {
                 (true, 0) => sums.sum(draw.signed_of(width)),
                 (true, _) => S::new(beyond_ends[draw.below(beyond_ends.len() as u64) as usize]),
-                (false, _) => sweep(swept, neuron, draw),
+                (false, _) => sweep(rom, swept, neuron, draw),
             };
         }
         situations.see(bits([rst, tansig_en, before]));
         before = tansig_en && !rst;
         if tansig_en && !rst {
             for (neuron, &l1_in) in l1_in[..neurons].iter().enumerate() {
-                let case = (neuron * ENTRIES + address(l1_in)) as u64;
-                let offset = (l1_in.get() + STEP / 2).rem_euclid(STEP);
-                let inside = (-HALF * STEP..HALF * STEP).contains(&(l1_in.get() + STEP / 2));
+                let case = (neuron * entries + rom.address(l1_in)) as u64;
+                let offset = (l1_in.get() + step / 2).rem_euclid(step);
+                let inside = (-half * step..half * step).contains(&(l1_in.get() + step / 2));
                 lowest.see_if(inside && offset == 0, case);
-                highest.see_if(inside && offset == STEP - 1, case);
+                highest.see_if(inside && offset == step - 1, case);
                 if let Some(place) = beyond_ends.iter().position(|&sum| sum == l1_in.get()) {
                     beyond.see((neuron * beyond_ends.len() + place) as u64);
                 }
@@ -66,17 +64,18 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.depth_estimator.tansig = run.top.depth_estimator.tansig.next(&i, rom);
     }
-    let parameters = with_neurons(files(["TansigFile"], [mem::tansig(rom)]), neurons, &setting.setup.params, &["SumBits"]);
+    let parameters = with_neurons(files(["TansigFile"], [mem::tansig(rom, setting.datapath())]), neurons, &setting.setup.params, &OF_TANSIG);
     Ok(Vectors { parameters, ..run.vectors([lowest, highest, beyond, situations]) })
 }
 
 /// The sum of a neuron in a line of the sweep: other addresses for other neurons.
-fn sweep(line: usize, neuron: usize, draw: &mut Draw) -> L1In {
-    let place = (line * 5 + neuron * 517) % ENTRIES;
-    let offset = match line / ENTRIES {
-        0 => -STEP / 2,
-        1 => STEP / 2 - 1,
-        _ => draw.below(STEP as u64) as i64 - STEP / 2,
+fn sweep(rom: &Rom, line: usize, neuron: usize, draw: &mut Draw) -> L1In {
+    let (entries, step) = (rom.entries.len(), 1i64 << rom.shift);
+    let place = (line * 5 + neuron * 517) % entries;
+    let offset = match line / entries {
+        0 => -step / 2,
+        1 => step / 2 - 1,
+        _ => draw.below(step as u64) as i64 - step / 2,
     };
-    S::new((place as i64 - HALF) * STEP + offset)
+    S::new((place as i64 - entries as i64 / 2) * step + offset)
 }

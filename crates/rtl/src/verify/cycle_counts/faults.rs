@@ -13,7 +13,7 @@ fn fault(key: &str, edits: &[Edit], measured: u64) {
 #[test]
 fn a_fault_of_the_estimator_is_counted_and_not_proven() {
     let control = |from, to| [["estimator_ctrl.v", from, to]];
-    fault("latency", &control("Bins + 2 + NeuronsHere", "Bins + 1 + NeuronsHere"), 266);
+    fault("latency", &control("Bins + 2 + Neurons", "Bins + 1 + Neurons"), 266);
     fault("forward1_cycles", &control("step < Tansig - 1'b1;", "step < Tansig - 2'd2;"), 255);
     fault("tansig_cycles", &control("step == Tansig - 1'b1", "step >= Tansig - 1'b1"), 10);
     fault("forward2_cycles", &control("step >= Sums2", "step > Sums2"), 3);

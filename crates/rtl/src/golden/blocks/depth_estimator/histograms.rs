@@ -3,7 +3,6 @@
 use tofsim::firmware::depth_estimator::Params;
 use tofsim::firmware::forward2::NEURONS;
 use tofsim::firmware::histogram_builder;
-use tofsim::firmware::tansig::{ENTRIES, address};
 
 use crate::golden::estimations::{Histogram, draws};
 use crate::golden::prelude::*;
@@ -44,7 +43,7 @@ pub(super) const GLUE: Glue = Glue {
 
 /// Empty, level, random, all hits in the bin that drives each neuron to either end, more than there
 /// can be for sums of the whole width of eight neurons, and measured ones; how many of them are not
-/// just more of the last kind; and what of the tansig's ends they reach, as neuron x 4096 + address.
+/// just more of the last kind; and what of the tansig's ends they reach, as neuron x entries + address.
 pub(super) fn new(
     params: &Params,
     size: &histogram_builder::Params,
@@ -61,13 +60,14 @@ pub(super) fn new(
             most as i64 * rom.w1[*bin][neuron].get() + rom.bias(neuron).get()
         };
         let (low, high) = ((0..bins).min_by_key(sum), (0..bins).max_by_key(sum));
-        for (bin, end) in [(low, ENTRIES / 2), (high, ENTRIES / 2 - 1)] {
+        let entries = params.tansig.entries.len();
+        for (bin, end) in [(low, entries / 2), (high, entries / 2 - 1)] {
             let bin = bin.unwrap_or_default();
             let mut histogram = vec![U::new(0); bins];
             histogram[bin] = U::new(most);
             histograms.push(histogram);
-            if address(S::new(sum(&bin))) == end {
-                ends.push((neuron * ENTRIES + end) as u64);
+            if params.tansig.address(rom.sum(sum(&bin))) == end {
+                ends.push((neuron * entries + end) as u64);
             }
         }
     }

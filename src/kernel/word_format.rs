@@ -1,30 +1,7 @@
-//! The number formats of the estimator (thesis Table 6.4) as types, with one rounding.
+//! Two's complement words whose width and point are values, with one rounding.
 
-use fixed::types::extra::{U13, U14, U15, U17, U23, U29};
-use fixed::{FixedI16, FixedI32, FixedI64};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-use super::weights::Weights;
-
-/// W1: 16 bits, 23 of them fraction, so below 2^-8. Carried in 32 bits, because a `fixed` type
-/// has no more fraction bits than bits; [`W1`] has the range.
-pub type HiddenWeight = FixedI32<U23>;
-/// B1: 16 bits, 13 fraction.
-pub type HiddenBias = FixedI16<U13>;
-/// W2: 16 bits, 14 fraction [m].
-pub type OutputWeight = FixedI16<U14>;
-/// B2: 16 bits, 17 fraction, so below 1/4 [m]. Carried in 32 bits; [`B2`] has the range.
-pub type OutputBias = FixedI32<U17>;
-/// Output of a hidden neuron: 16 bits, 15 fraction.
-pub type Activation = FixedI16<U15>;
-/// Sum of a hidden neuron: 36 bits, 23 fraction; carried in 64.
-pub type L1In = FixedI64<U23>;
-/// Depth: 36 bits, 29 fraction; carried in 64 [m].
-pub type Depth = FixedI64<U29>;
-
-/// A network's weights as the ROMs hold them.
-pub type Fixed = Weights<HiddenWeight, HiddenBias, OutputWeight, OutputBias>;
 
 /// A two's complement word: how wide, and where its point is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -36,20 +13,6 @@ pub struct WordFormat {
     pub fraction: u32,
 }
 
-/// Format of [`HiddenWeight`].
-pub const W1: WordFormat = WordFormat { width: 16, fraction: 23 };
-/// Format of [`HiddenBias`].
-pub const B1: WordFormat = WordFormat { width: 16, fraction: 13 };
-/// Format of [`OutputWeight`].
-pub const W2: WordFormat = WordFormat { width: 16, fraction: 14 };
-/// Format of [`OutputBias`].
-pub const B2: WordFormat = WordFormat { width: 16, fraction: 17 };
-/// Format of [`Activation`].
-pub const L1_OUT: WordFormat = WordFormat { width: 16, fraction: 15 };
-
-/// Sums past this magnitude share the last entries of the activation table.
-pub const TANSIG_RANGE: i64 = 4;
-
 /// What to do with a value that the word cannot hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overflow {
@@ -57,6 +20,13 @@ pub enum Overflow {
     Saturate,
     /// Give none.
     Refuse,
+}
+
+/// The low bits of `value`, sign-extended: what a register of so many, 1 to 64, keeps.
+#[inline(always)]
+pub const fn wrapped(value: i64, bits: u32) -> i64 {
+    let surplus = i64::BITS - bits;
+    value << surplus >> surplus
 }
 
 impl WordFormat {
@@ -75,6 +45,11 @@ impl WordFormat {
         (f64::from(self.width) - 1.0 - f64::from(self.fraction)).exp2()
     }
 
+    /// What the last bit stands for.
+    pub fn lsb(self) -> f64 {
+        (-f64::from(self.fraction)).exp2()
+    }
+
     /// The integer that stands for `value`, halves rounded away from zero. There is none for what
     /// is not a number.
     pub fn round(self, value: f64, overflow: Overflow) -> Option<i64> {
@@ -90,6 +65,9 @@ impl WordFormat {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const W1: WordFormat = WordFormat { width: 16, fraction: 23 };
+    const B2: WordFormat = WordFormat { width: 16, fraction: 17 };
 
     #[test]
     fn halves_round_away_from_zero() {
@@ -110,5 +88,11 @@ mod tests {
         assert_eq!(B2.round(f64::NEG_INFINITY, Overflow::Saturate), Some(-32768));
         assert_eq!(B2.round(1e300, Overflow::Saturate), Some(32767));
         assert_eq!(B2.round(f64::NAN, Overflow::Saturate), None);
+    }
+
+    #[test]
+    fn a_register_keeps_its_low_bits_with_the_sign() {
+        assert_eq!(wrapped((1 << 35) + 3, 36), 3 - (1 << 35));
+        assert_eq!((wrapped(-1, 64), wrapped(9, 4)), (-1, -7));
     }
 }
