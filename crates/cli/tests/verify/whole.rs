@@ -69,7 +69,7 @@ fn outputs_past_the_last_neuron_have_to_stay_0() {
 #[test]
 fn what_a_design_cannot_be_is_not_run_and_no_fault() {
     let folder =
-        all("estimator_ctrl.v", "// hidden neurons, 1 to 16", "// units of the hidden layer");
+        all("estimator_ctrl.v", "// hidden neurons, 1 to 32", "// units of the hidden layer");
     let path = folder.path().join("estimator_ctrl.v");
     fs::write(&path, fs::read_to_string(&path).unwrap().replace("Neurons", "Units")).unwrap();
     let args = ["verify", "--rtl", ".", "--block", "estimator_ctrl", "--junit", "a.xml"];

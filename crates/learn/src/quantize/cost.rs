@@ -72,6 +72,7 @@ impl BlockRams {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tofsim::kernel::WordFormat;
 
     #[test]
     fn the_firmware_s_cost_is_that_of_its_synthesis() {
@@ -104,19 +105,5 @@ mod tests {
         assert_eq!(table(16, 16), (32, 0), "65536 x 16");
         let halves = Cost { ramb36: 1, ramb18: 3, dsp48: 0 };
         assert_eq!(halves.block_rams(), 2.5);
-    }
-
-    #[test]
-    fn what_cannot_be_aligned_is_refused() {
-        let fault = |datapath: Datapath| datapath.check().unwrap_err().to_string();
-        let b1 = WordFormat { width: 16, fraction: 24 };
-        assert!(fault(Datapath { b1, ..Datapath::THESIS }).contains("b1 = 24: expected"));
-        let fine = Datapath { address_bits: 30, ..Datapath::THESIS };
-        assert!(fault(fine).contains("address_bits = 30: expected 4 to 16"));
-        let w1 = WordFormat { width: 12, fraction: 8 };
-        let coarse = Datapath { w1, b1: w1, ..Datapath::THESIS };
-        assert!(fault(coarse).contains("address_bits = 12: expected steps"));
-        let b2 = WordFormat { width: 40, fraction: 14 };
-        assert!(fault(Datapath { b2, ..Datapath::THESIS }).contains("b2 = 40: expected a width"));
     }
 }

@@ -197,8 +197,8 @@ mod tests {
             fold(arrays, BINS).unwrap_err().to_string()
         };
         assert_eq!(fault(&|a| drop(a.optional("LW"))), "example: LW: missing");
-        let message = fault(&|a| a.put("b1", vec![17], vec![0.0; 17]));
-        assert!(message.contains("b1: 17 neurons, expected 1 to 16"), "{message}");
+        let message = fault(&|a| a.put("b1", vec![33], vec![0.0; 33]));
+        assert!(message.contains("b1: 33 neurons, expected 1 to 32"), "{message}");
         let message = fault(&|a| a.put("IW", vec![9, BINS], vec![0.0; 9 * BINS]));
         assert!(message.contains("IW: 9 x 256, expected 8 x 256"), "{message}");
         let message = fault(&|a| drop(a.optional("y_gain")));
