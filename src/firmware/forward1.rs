@@ -131,13 +131,12 @@ impl Clocked for Forward1 {
                 *l1_in = rom.sum(sum.get() + product.get());
             }
         }
-        let (word, row) = (self.word.get() as i64, &rom.w1[i.rom_addr.index()]);
-        for group in (0..rom.lanes).step_by(LANES) {
-            for unit in group..group + LANES {
-                self.product[unit] = Product::new(self.weight[unit].get() * word);
-                self.weight[unit] = self.fetched[unit];
-                self.fetched[unit] = row[unit];
-            }
+        let (word, row) = (self.word.get() as i64, &rom.w1[i.rom_addr.index()][..rom.lanes]);
+        let registers = self.product.iter_mut().zip(&mut self.weight).zip(&mut self.fetched);
+        for (((product, weight), fetched), next) in registers.zip(row) {
+            *product = Product::new(weight.get() * word);
+            *weight = *fetched;
+            *fetched = *next;
         }
         self.word = i.count;
         if i.rst {

@@ -1,6 +1,8 @@
 //! Instruments other than the KC705: drawn at random over what the firmware's parameters can be, each block
 //! and the whole in Verilog, and every way through time.
 
+mod files;
+
 use std::path::Path;
 
 use rand::{RngExt, SeedableRng};
@@ -84,6 +86,16 @@ fn datapath(random: &mut ChaCha8Rng) -> Datapath {
 fn network(random: &mut ChaCha8Rng, bins: usize, path: &Path) {
     let neurons = random.random_range(1..=32);
     let datapath = if random.random() { datapath(random) } else { Datapath::THESIS };
+    network_of(random, (bins, neurons), datapath, path);
+}
+
+/// The same for so many bins and of so many neurons, of these formats.
+fn network_of(
+    random: &mut ChaCha8Rng,
+    (bins, neurons): (usize, usize),
+    datapath: Datapath,
+    path: &Path,
+) {
     let mut weights = |count: usize, format: WordFormat| -> Vec<f64> {
         let most = 0.99 * format.range();
         (0..count).map(|_| random.random_range(-most..most)).collect()

@@ -101,20 +101,20 @@ fn what_is_wrong_is_named_and_nothing_is_written() {
 }
 
 #[test]
-fn an_exploration_has_the_firmware_s_datapath_and_its_neighbours() {
+fn an_exploration_has_the_network_s_datapath_and_its_neighbours() {
     let folder = tempfile::tempdir().unwrap();
     let arguments = ["quantize", "--explore", "uniform", "--rows", "510"];
     let report = json(folder.path(), &[&arguments[..], &["--json"]].concat());
     assert_eq!(report["schema"], "tofsim.exploration/1");
     let points = report["points"].as_array().unwrap();
     let point = |variant: &str| points.iter().find(|point| point["variant"] == variant).unwrap();
-    let firmware = point("the firmware's");
-    assert_eq!((&firmware["ramb36"], &firmware["dsp48"]), (&10.into(), &10.into()));
-    assert_eq!(firmware["saturated_weights"], 0);
+    let own = point("the network's own");
+    assert_eq!((&own["ramb36"], &own["dsp48"]), (&10.into(), &10.into()));
+    assert_eq!(own["saturated_weights"], 0);
     let rms = |point: &serde_json::Value| point["rms_to_float_mm"].as_f64().unwrap();
     let coarse = point("table of 9 address bits over +-4");
-    assert!(rms(coarse) > 4.0 * rms(firmware) && rms(firmware) < 0.5);
-    assert!(coarse["ramb36"].as_u64() < firmware["ramb36"].as_u64());
+    assert!(rms(coarse) > 4.0 * rms(own) && rms(own) < 0.5);
+    assert!(coarse["ramb36"].as_u64() < own["ramb36"].as_u64());
     let text = common::stdout(folder.path(), &arguments);
     assert!(text.contains("table of 14 address bits over +-8"), "{text}");
 

@@ -10,6 +10,7 @@ use tofsim::firmware::tof_top::Sizes;
 use tofsim::firmware::{pll, vcsel_driver};
 use tofsim::hierarchy::{Kind, every_entry_of};
 use tofsim_rtl::golden::BLOCKS;
+use tofsim_rtl::golden::parameters::NEURONS;
 use tofsim_rtl::golden::ports::Port;
 use tofsim_rtl::verify::interface::PortShape;
 use tofsim_rtl::verify::process::Limits;
@@ -101,8 +102,12 @@ fn ports_widths_and_directions_are_the_same() {
     let rust = rust_ports();
     assert!(rust.keys().eq(&modules()), "{:?}", rust.keys());
     for (module, ours) in &rust {
-        let verilog = Simulator::Icarus.interface(folder.path(), module, &[], &rtl, &limits);
-        let verilog = verilog.unwrap().ports;
+        let interface = |parameters: &[(&str, u64)]| {
+            Simulator::Icarus.interface(folder.path(), module, parameters, &rtl, &limits).unwrap()
+        };
+        let has_neurons = interface(&[]).parameters.contains(NEURONS);
+        let neurons = has_neurons.then_some((NEURONS, MOST_NEURONS as u64));
+        let verilog = interface(neurons.as_slice()).ports;
         let names: BTreeSet<_> = ours.keys().chain(verilog.keys()).collect();
         for name in names {
             let (left, right) = (verilog.get(name), ours.get(name));

@@ -41,8 +41,8 @@ fn of(list: &[(String, String)], name: &str) -> String {
 
 #[test]
 fn faults_that_only_another_configuration_shows_are_found() {
-    let narrow = "input wire signed [15:0] l1_out_15";
-    let folder = all("forward2.v", narrow, "input wire signed [14:0] l1_out_15");
+    let narrow = "input wire signed [ActivationBits-1:0] l1_out_15";
+    let folder = all("forward2.v", narrow, "input wire signed [ActivationBits-2:0] l1_out_15");
     let list = verdicts(folder.path(), &["--block", "depth_estimator", "--cycles", "2000"]);
     assert_eq!(of(&list, "depth_estimator"), "pass");
     assert_eq!(of(&list, "depth_estimator.neurons_16"), "differs");
