@@ -30,7 +30,8 @@ use origin::Origin;
 use written::TrainingOrigin;
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(given: &Args, talk: &Talk) -> Result<()> {
+    let args = &given.over(&scenario::load(&given.scenario, &given.set)?)?;
     let recipe = args.recipe(None)?;
     if args.print_recipe && args.grid.is_empty() && args.data.is_none() {
         return print_recipe(&recipe);
@@ -50,7 +51,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let mut settings: checkpoint::CheckpointSettings = recipe.settings()?.into_iter().collect();
     settings.insert("seed".to_owned(), args.seed.to_string());
     settings.extend(origin.settings());
-    let of = checkpoint::CheckpointOf { settings, options: args.options() };
+    let of = checkpoint::CheckpointOf { settings, options: given.options() };
 
     let path = args.output.join("checkpoint");
     let state = args.resume.then(|| checkpoint::load(&path, &of, &recipe)).transpose()?;
@@ -63,7 +64,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     }
     let scenario = origin.scenario();
     let chain = args.profile.clone().unwrap_or_else(|| scenario.tdc.profile.clone());
-    let (command, seed) = (args.command(), args.seed);
+    let (command, seed) = (given.command(), args.seed);
     let mut trained_for = scenario.clone();
     trained_for.tdc.profile.clone_from(&chain);
     let domain = Some(domain::of(&trained_for, &origin.ranges())?);

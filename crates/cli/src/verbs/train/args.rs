@@ -2,12 +2,17 @@
 
 use std::path::PathBuf;
 
-use tofsim::scenario;
+use tofsim::error::{Input, Result};
+use tofsim::scenario::builtin::Source;
+use tofsim::scenario::{self, Loaded};
 
 use super::word_format::{FormatOption, word_format};
 
 /// Train a depth network on simulated histograms, within the firmware's number formats or others
-#[derive(Debug, clap::Args)]
+///
+/// What the scenario's table [training] has of grid, recipe, neurons and formats holds where no option says
+/// otherwise.
+#[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim train --profile uniform --seed 1 -o mine\n  \
     tofsim train --profile chain.toml -o mine       on one's own chain\n  \
@@ -82,4 +87,43 @@ pub struct Args {
     /// Print one JSON object instead of a table
     #[arg(long)]
     pub(super) json: bool,
+}
+
+/// The word that stands for `--quick` in place of a recipe's path.
+const QUICK: &str = "quick";
+
+impl Args {
+    /// With what the scenario's own table says where no option does.
+    ///
+    /// # Errors
+    /// When the table has a number format that is none.
+    pub(super) fn over(&self, loaded: &Loaded) -> Result<Args> {
+        let mut args = self.clone();
+        let training = &loaded.scenario.training;
+        if args.grid.is_empty() && args.data.is_none() {
+            args.grid = training.grid_options();
+        }
+        if let (Some(recipe), false, None) = (&training.recipe, args.quick, &args.recipe) {
+            args.quick = recipe == QUICK;
+            let path = match &loaded.files {
+                Source::Folder(folder) => folder.join(recipe),
+                Source::BuiltIn => PathBuf::from(recipe),
+            };
+            args.recipe = (!args.quick).then_some(path);
+        }
+        args.neurons = args.neurons.or(training.neurons.map(|neurons| neurons as usize));
+        args.lut_bits = args.lut_bits.or(training.lut_bits);
+        let given = std::mem::take(&mut args.formats);
+        for (word, format) in training.formats.given() {
+            let read = word_format(&format!("{word}={format}")).map_err(|_| {
+                let source = format!("scenario {}", loaded.name);
+                let expected = "expected WIDTH.FRACTION, such as \"16.23\"";
+                Input::new(source, expected).field(format!("training.formats.{word}")).value(format)
+            })?;
+            args.formats.push(read);
+        }
+        // The last one of a word counts.
+        args.formats.extend(given);
+        Ok(args)
+    }
 }
