@@ -200,17 +200,7 @@ impl<'a> Bench<'a> {
 
 /// A parameter as the instance sets it.
 fn parameter((name, value): &(&'static str, Parameter)) -> String {
-    match value {
-        Parameter::Number(number) if *number > i32::MAX as u64 => {
-            format!("    .{name}(64'd{number})")
-        }
-        Parameter::Number(number) => format!("    .{name}({number})"),
-        Parameter::Words(words) => {
-            let words: Vec<_> = words.iter().rev().map(|word| format!("16'd{word}")).collect();
-            format!("    .{name}({{{}}})", words.join(", "))
-        }
-        Parameter::Memory(memory) => format!("    .{name}(\"{}\")", memory.name),
-    }
+    format!("    .{name}({})", value.literal())
 }
 
 /// Declarations of what is connected to the block, and their drivers.
