@@ -82,7 +82,8 @@ mod tests {
 
     #[test]
     fn an_ecp5_has_a_top_and_constraints_of_its_own() {
-        let clocks = ["pll.part=ecp5", "pll.input_hz=25000000", "pll.multiply=24", "pll.output_divide=6"];
+        let clocks =
+            ["pll.part=ecp5", "pll.input_hz=25000000", "pll.multiply=24", "pll.output_divide=6"];
         let setup = setup(&clocks);
         let (files, pins) = (verilog(&setup), constraints(&setup));
         let top = file(&files, "ecp5_top.v");

@@ -103,7 +103,9 @@ fn with_width(text: &str, &(port, usual, own): &(&str, u32, u32)) -> String {
         if line.contains(&format!("{port}[{}]", usual - 1)) {
             let more = usual..own;
             lines.extend(more.map(|bit| {
-                format!("# {port}[{bit}]: this board's file has no pin for it; give it one of yours")
+                format!(
+                    "# {port}[{bit}]: this board's file has no pin for it; give it one of yours"
+                )
             }));
         }
     }

@@ -52,7 +52,8 @@ fn luts(part: Part, cell: &str) -> (u64, bool) {
 impl Resources {
     /// Of so many primitives of each type.
     pub fn of(part: Part, cells: BTreeMap<String, u64>) -> Self {
-        let sum = |of: &dyn Fn(&str) -> u64| cells.iter().map(|(name, n)| n * of(name)).sum::<u64>();
+        let sum =
+            |of: &dyn Fn(&str) -> u64| cells.iter().map(|(name, n)| n * of(name)).sum::<u64>();
         let is = |wanted: bool| u64::from(wanted);
         let halves = |name: &str| match name {
             "RAMB36E1" | "DP16KD" => 2,
