@@ -124,7 +124,7 @@ impl Page<'_> {
         Ok(accuracy::section(&self.evaluation)?
             + &figure(
                 &errors,
-                "Errors by distance: median, quartiles, whiskers to the 2.5th and 97.5th percentile where the plot has them, and what lies beyond.",
+                "Errors by distance: boxes from quartile to quartile, with whiskers, and dots for what lies beyond. Black lines are what Table 5.2 of the thesis allows.",
             ))
     }
 

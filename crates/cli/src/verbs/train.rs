@@ -8,6 +8,7 @@ use tofsim::files::folder::FolderLock;
 use tofsim::network::formats::WordFormat;
 use tofsim::scenario;
 use tofsim::sim::domain;
+use tofsim_learn::dataset::{GridOption, GridPurpose};
 use tofsim_learn::training::checkpoint;
 use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::tournament::{Tournament, Watch};
@@ -80,6 +81,16 @@ pub fn run(given: &Args, talk: &Talk) -> Result<()> {
         }
         false => talk.report(&report::table(&rows, line)),
     }
+}
+
+/// That what a scenario says of its training is one.
+///
+/// # Errors
+/// When a number format, the recipe or the grid is none.
+pub fn check(loaded: &scenario::Loaded) -> Result<()> {
+    let args = Args::usual().over(loaded)?;
+    args.recipe(None)?;
+    GridOption::parse(&args.grid)?.grid(&loaded.scenario, GridPurpose::Training).map(drop)
 }
 
 /// Prints a recipe as TOML.

@@ -94,7 +94,7 @@ pub fn resources(
             format!("synth_xilinx -family xc7 -flatten -noiopad -noclkbuf -top {top}")
         }
     };
-    let script = format!("{synth}\ntee -q -o \"{}\" stat -json\n", stat.display());
+    let script = format!("{synth}\ntee -q -o {} stat -json\n", stat.display());
     let mut args: Vec<OsString> = vec!["-q".into()];
     args.extend(yosys::sources(rtl, top, folder, define)?);
     args.extend(["-p".into(), script.into()]);

@@ -16,13 +16,13 @@ pub fn range_m(setup: &Setup) -> String {
     let first = metres(tdc.first_bin_ps);
     let window_ps = setup.cycle().fs() as f64 / 1e3 * f64::from(1 << tdc.coarse_bits);
     let end = metres((tdc.first_bin_ps + tdc.bins as f64 * tdc.bin_ps).min(window_ps));
-    format!("{} to {} m", short(first), short(end))
+    format!("{} to {} m", short(first), short((end * 1e3).round() / 1e3))
 }
 
 /// Depths in a second.
 pub fn frame_rate(setup: &Setup) -> String {
     let cycles = setup.frame_cycles(setup.laser_period()) + 1;
-    format!("{} a second", short(1.0 / (cycles as f64 * setup.cycle().seconds())))
+    format!("{} per s", short(1.0 / (cycles as f64 * setup.cycle().seconds())))
 }
 
 /// A number with four digits that say something.

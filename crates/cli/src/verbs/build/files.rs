@@ -12,6 +12,7 @@ use tofsim::scenario::{self, EstimatorKind, Loaded, Scenario};
 /// The network's file in the folder.
 pub const NETWORK: &str = "network.toml";
 const CHAIN: &str = "chain.toml";
+const RECIPE: &str = "recipe.toml";
 /// Files that hold what a stimulus says, by key.
 const STIMULI: [&str; 3] = ["photons", "codes", "histogram"];
 
@@ -55,8 +56,8 @@ impl InstrumentFiles {
         }
         if let Some(recipe) = loaded.scenario.training.recipe.as_deref().filter(|it| *it != "quick")
         {
-            files.push(("recipe.toml".to_owned(), loaded.files.read(recipe)?.1));
-            set(&mut document, "training", "recipe", "recipe.toml");
+            files.push((RECIPE.to_owned(), loaded.files.read(recipe)?.1));
+            set(&mut document, "training", "recipe", RECIPE);
         }
         files.insert(0, (format!("{}.toml", loaded.name), document.to_string()));
         Ok(InstrumentFiles { loaded, files, original: PathBuf::from(name) })
@@ -72,6 +73,14 @@ impl InstrumentFiles {
             (Ok(copy), Ok(original)) => copy == original,
             _ => false,
         };
+        let taken = [NETWORK, CHAIN, RECIPE];
+        if let Some(name) = taken.into_iter().find(|name| *name == self.files[0].0) {
+            let expected = format!(
+                "expected another name than {}: a build has a {name} of its own",
+                taken.join(", ")
+            );
+            return Err(Input::new("INSTRUMENT", expected).value(self.original.display()).into());
+        }
         if is_same && self.loaded.scenario.estimator.network != NETWORK {
             let expected = "expected another folder than the file's own: its copy goes there";
             return Err(Input::new("--output", expected).value(folder.display()).into());

@@ -11,7 +11,7 @@ use tofsim_learn::estimation::notes::notes_of_firmware;
 
 use crate::record::command_line;
 use crate::verbs::terminal::Talk;
-use crate::verbs::{Cli, Verb};
+use crate::verbs::{Cli, Verb, train};
 
 use super::files::InstrumentFiles;
 use super::journal::Journal;
@@ -40,6 +40,7 @@ impl<'a> Site<'a> {
     pub fn new(files: &'a InstrumentFiles, quick: bool, talk: &'a Talk) -> Result<Self> {
         let loaded = files.with_any_network();
         let setup = Setup::of_counts(loaded.clone())?;
+        train::check(&loaded)?;
         let mut notes: Vec<Note> = setup.no_depth().cloned().into_iter().collect();
         notes.extend(notes_of_firmware(&setup));
         Ok(Site { files, loaded, setup, notes, quick, talk })

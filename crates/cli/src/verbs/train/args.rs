@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use clap::{Args as _, Command, FromArgMatches};
+
 use tofsim::error::{Input, Result};
 use tofsim::scenario::builtin::Source;
 use tofsim::scenario::{self, Loaded};
@@ -93,6 +95,13 @@ pub struct Args {
 const QUICK: &str = "quick";
 
 impl Args {
+    /// Those of a command line without any.
+    pub(super) fn usual() -> Args {
+        let command = Args::augment_args(Command::new("train"));
+        let matches = command.get_matches_from(["train"]);
+        Args::from_arg_matches(&matches).unwrap_or_else(|fault| fault.exit())
+    }
+
     /// With what the scenario's own table says where no option does.
     ///
     /// # Errors
