@@ -28,7 +28,7 @@ fn the_walk_through_leads_from_a_file_to_a_report() {
             _ => panic!("{line}"),
         }
     }
-    assert_eq!(commands, 6);
+    assert_eq!(commands, 4);
     assert!(folder.path().join("mine/report.html").exists());
 }
 

@@ -1,5 +1,7 @@
 //! Curves by distance.
 
+use plotters::coord::ranged1d::{Ranged, ValueFormatter};
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
 use crate::text::svg::{chart, legend, picture};
@@ -30,54 +32,48 @@ pub fn curves(
     let low = points().map(|(_, mm)| *mm).fold(f64::INFINITY, f64::min);
     let high = points().map(|(_, mm)| *mm).fold(f64::NEG_INFINITY, f64::max);
     picture(|canvas| {
+        let mut chart = chart(canvas, title);
         if by_factors {
             let (low, high) = (low.max(1e-6) / 1.5, high.max(1e-6) * 1.5);
-            let mut chart =
-                chart(canvas, title).build_cartesian_2d(x.clone(), (low..high).log_scale())?;
-            chart
-                .configure_mesh()
-                .x_desc("distance [m]")
-                .y_desc(quantity)
-                .light_line_style(TRANSPARENT)
-                .bold_line_style(BLACK.mix(0.08))
-                .label_style(("sans-serif", 14))
-                .draw()?;
-            for (curve, colour) in all.iter().zip(COLOURS) {
-                draw(&mut chart, curve, colour)?;
-            }
-            legend(&mut chart, SeriesLabelPosition::UpperLeft)
+            let chart = chart.build_cartesian_2d(x.clone(), (low..high).log_scale())?;
+            fill(chart, quantity, all)
         } else {
             let reach = low.abs().max(high.abs()).max(1e-6) * 1.1;
-            let mut chart = chart(canvas, title).build_cartesian_2d(x.clone(), -reach..reach)?;
-            chart
-                .configure_mesh()
-                .x_desc("distance [m]")
-                .y_desc(quantity)
-                .light_line_style(TRANSPARENT)
-                .bold_line_style(BLACK.mix(0.08))
-                .label_style(("sans-serif", 14))
-                .draw()?;
-            for (curve, colour) in all.iter().zip(COLOURS) {
-                draw(&mut chart, curve, colour)?;
-            }
-            Ok(())
+            fill(chart.build_cartesian_2d(x.clone(), -reach..reach)?, quantity, all)
         }
     })
 }
 
+type Axes<Y> = Cartesian2d<RangedCoordf64, Y>;
+type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
+
+/// Draws axes, curves and what they stand for.
+fn fill<'a, 'b: 'a, Y>(
+    mut chart: ChartContext<'a, SVGBackend<'b>, Axes<Y>>,
+    quantity: &str,
+    all: &[Curve],
+) -> Drawn
+where
+    Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
+{
+    let mut mesh = chart.configure_mesh();
+    mesh.x_desc("distance [m]").y_desc(quantity).label_style(("sans-serif", 14));
+    mesh.light_line_style(TRANSPARENT).bold_line_style(BLACK.mix(0.08)).draw()?;
+    for (curve, colour) in all.iter().zip(COLOURS) {
+        draw(&mut chart, curve, colour)?;
+    }
+    match all {
+        [_] => Ok(()),
+        _ => legend(&mut chart, SeriesLabelPosition::UpperLeft),
+    }
+}
+
 /// A line with a dot at each point.
-fn draw<'a, Y>(
-    chart: &mut ChartContext<
-        'a,
-        SVGBackend<'_>,
-        Cartesian2d<plotters::coord::types::RangedCoordf64, Y>,
-    >,
+fn draw<Y: Ranged<ValueType = f64>>(
+    chart: &mut ChartContext<SVGBackend, Axes<Y>>,
     curve: &Curve,
     colour: RGBColor,
-) -> Result<(), DrawingAreaErrorKind<std::io::Error>>
-where
-    Y: plotters::coord::ranged1d::Ranged<ValueType = f64>,
-{
+) -> Drawn {
     let line = LineSeries::new(curve.points.iter().copied(), colour.stroke_width(2));
     chart
         .draw_series(line)?

@@ -31,7 +31,12 @@ impl InstrumentFiles {
     /// # Errors
     /// When it is no scenario, or a file that it names cannot be read.
     pub fn read(name: &str) -> Result<Self> {
-        let loaded = scenario::load(name, &[])?;
+        let mut loaded = scenario::load(name, &[])?;
+        if let Source::Folder(folder) = &mut loaded.files {
+            // The build works in a folder of its own.
+            *folder = std::path::absolute(Path::new(".").join(&*folder))
+                .map_err(Error::io(folder, "read"))?;
+        }
         let text = match builtin::scenario(name) {
             Some(text) => text.to_owned(),
             None => read_text(Path::new(name))?,
@@ -124,9 +129,6 @@ impl InstrumentFiles {
     pub fn with_any_network(&self) -> Loaded {
         let mut loaded = self.loaded.clone();
         loaded.scenario.estimator.network = tofsim::network::Network::DEFAULT.to_owned();
-        if let Source::Folder(folder) = &loaded.files {
-            loaded.files = Source::Folder(std::path::absolute(folder).unwrap_or(folder.clone()));
-        }
         loaded
     }
 }
