@@ -10,19 +10,33 @@ use crate::firmware::histogram_builder;
 
 use super::window::Window;
 
-/// Declares one table of the scenario, with the defaults beside the keys.
+/// Declares one table of the scenario, with the defaults beside the keys. What no run depends on stands in
+/// `beside`, and not in the text that the scenario's hash is made of.
 macro_rules! table {
     ($(#[$meta:meta])* pub struct $name:ident {
         $($(#[$field_meta:meta])* pub $field:ident: $ty:ty = $default:expr,)*
-    }) => {
+    } $(beside {
+        $($(#[$beside_meta:meta])* pub $beside:ident: $beside_ty:ty,)*
+    })?) => {
         $(#[$meta])*
-        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[derive(Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
         #[serde(default, deny_unknown_fields)]
-        pub struct $name { $($(#[$field_meta])* pub $field: $ty,)* }
+        pub struct $name {
+            $($(#[$field_meta])* pub $field: $ty,)*
+            $($($(#[$beside_meta])* pub $beside: $beside_ty,)*)?
+        }
 
         impl Default for $name {
             fn default() -> Self {
-                $name { $($field: $default,)* }
+                $name { $($field: $default,)* $($($beside: Default::default(),)*)? }
+            }
+        }
+
+        impl std::fmt::Debug for $name {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                let mut shown = f.debug_struct(stringify!($name));
+                $(shown.field(stringify!($field), &self.$field);)*
+                shown.finish()
             }
         }
     };
@@ -30,9 +44,11 @@ macro_rules! table {
 
 mod board;
 mod optics;
+mod training;
 
 pub use board::{Control, Estimator, EstimatorKind, Firmware, Part, Pll, QuenchMode, Tdc};
 pub use optics::{Ambient, AmbientModel, Filter, Laser, Lens, Spad, Target};
+pub use training::{Training, WordFormats};
 
 table! {
     /// One experiment: target, light, sensor, firmware and what is recorded of it.
@@ -67,6 +83,10 @@ table! {
         pub report: Report = Report::default(),
         /// Changes of the control signals during the run, in order of time.
         pub control: Vec<Control> = Vec::new(),
+    } beside {
+        /// How `train` and `build` train this instrument's network, where no option says otherwise.
+        #[serde(skip_serializing_if = "Training::is_default")]
+        pub training: Training,
     }
 }
 

@@ -30,7 +30,9 @@ fn table(text: &mut String, root: &Json, schema: &Json, values: &Json, path: &st
     };
     let is_table = |key: &str| values[key].is_object();
     for (key, schema) in keys.iter().filter(|(key, _)| !is_table(key)) {
-        let (schema, value) = (with_description(schema, resolve(schema)), &values[key.as_str()]);
+        // What may be left out is, where it says nothing.
+        let Some(value) = values.get(key) else { continue };
+        let schema = with_description(schema, resolve(schema));
         match value {
             Json::Null if in_list => {}
             Json::Null => {
@@ -47,6 +49,11 @@ fn table(text: &mut String, root: &Json, schema: &Json, values: &Json, path: &st
                 let _ = writeln!(text, "# {}\n{key} = {}", comment(&schema), literal(value));
             }
         }
+    }
+    // A table whose keys are the user's own.
+    let own = values.as_object().into_iter().flatten().filter(|(key, _)| !keys.contains_key(*key));
+    for (key, value) in own {
+        let _ = writeln!(text, "{} = {}", literal(&Json::from(key.as_str())), literal(value));
     }
     for (key, schema) in keys.iter().filter(|(key, _)| is_table(key)) {
         let description = schema["description"].as_str().unwrap_or_default();

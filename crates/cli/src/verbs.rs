@@ -1,6 +1,7 @@
 //! The command line: one file per subcommand, each with its `Args` and `run`.
 
 pub mod budget;
+pub mod build;
 pub mod compare;
 pub mod completions;
 pub mod dataset;
@@ -59,6 +60,7 @@ enum Verb {
     Vectors(vectors::Args),
     Verify(verify::Args),
     Timing(timing::Args),
+    Build(build::Args),
     Ila(ila::Args),
     Compare(Box<compare::Args>),
     Dataset(dataset::Args),
@@ -98,6 +100,7 @@ impl Cli {
             Verb::Vectors(args) => vectors::run(args, talk),
             Verb::Verify(args) => return verify::run(args, talk),
             Verb::Timing(args) => return timing::run(args, talk),
+            Verb::Build(args) => return build::run(args, talk),
             Verb::Ila(args) => ila::run(args, talk),
             Verb::Compare(args) => return compare::run(args, talk),
             Verb::Dataset(args) => dataset::run(args, talk),

@@ -4,5 +4,6 @@
 //! a design to them ([`verify`]); and how fast it can be clocked ([`timing`]).
 
 pub mod golden;
+pub mod instrument;
 pub mod timing;
 pub mod verify;

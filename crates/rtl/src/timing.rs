@@ -8,6 +8,7 @@ mod netlist;
 pub mod nextpnr;
 mod paths;
 pub mod record;
+pub mod resources;
 mod synthesis;
 pub mod versions;
 mod wrapper;

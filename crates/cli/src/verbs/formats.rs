@@ -1,13 +1,15 @@
 //! Options that choose the number formats of the network.
 
 use tofsim::firmware::depth_estimator::datapath::Datapath;
+use tofsim::error::{Input, Result};
 use tofsim::kernel::WordFormat;
+use tofsim::scenario::Training;
 
 /// A word of the datapath and its format.
 type FormatOption = (&'static str, WordFormat);
 
 /// Number formats of the network, over those that are there.
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub struct Formats {
     /// Address bits of the table of activations, 4 to 16 [default: 12, as in the thesis]
     #[arg(long, value_name = "N")]
@@ -27,6 +29,26 @@ impl Formats {
         }
     }
 
+    /// Has what a scenario's table says of them, where no option says otherwise.
+    ///
+    /// # Errors
+    /// When the table has a number format that is none.
+    pub fn put_under(&mut self, training: &Training, scenario: &str) -> Result<()> {
+        self.lut_bits = self.lut_bits.or(training.lut_bits);
+        let given = std::mem::take(&mut self.formats);
+        for (word, format) in training.formats.given() {
+            let read = word_format(&format!("{word}={format}")).map_err(|_| {
+                let expected = "expected WIDTH.FRACTION, such as \"16.23\"";
+                let fault = Input::new(format!("scenario {scenario}"), expected);
+                fault.field(format!("training.formats.{word}")).value(format)
+            })?;
+            self.formats.push(read);
+        }
+        // The last one of a word counts.
+        self.formats.extend(given);
+        Ok(())
+    }
+
     /// The options, each as a command says it.
     pub fn options(&self) -> Vec<(&'static str, String)> {
         let bits = self.lut_bits.iter().map(|bits| ("--lut-bits ", bits.to_string()));
@@ -38,7 +60,7 @@ impl Formats {
 }
 
 /// Reads a format.
-fn word_format(text: &str) -> Result<FormatOption, String> {
+fn word_format(text: &str) -> std::result::Result<FormatOption, String> {
     let expected =
         || format!("expected WORD=WIDTH.FRACTION, WORD one of {}", Datapath::WORDS.join(", "));
     let (name, format) = text.split_once('=').ok_or_else(expected)?;

@@ -43,12 +43,21 @@ pub struct Talk {
     /// The verb and its options, for the record in outputs.
     #[arg(skip)]
     pub command: Vec<String>,
+    /// Whether another verb speaks for this one, which then keeps quiet unless more is asked for.
+    #[arg(skip)]
+    within: bool,
 }
 
 impl Talk {
+    /// That of a command which is a part of this one.
+    pub fn within(&self, command: Vec<String>) -> Talk {
+        let Talk { quiet, verbose, strict, .. } = *self;
+        Talk { quiet, verbose, strict, command, within: true }
+    }
+
     /// Something worth knowing.
     pub fn note(&self, text: impl std::fmt::Display) {
-        if !self.quiet {
+        if !self.quiet && (!self.within || self.verbose) {
             eprintln!("{text}");
         }
     }
@@ -81,7 +90,7 @@ impl Talk {
 
     /// Prints what came out, for people; what is for programs is [printed](print_json) in any case.
     pub fn report(&self, text: &str) -> Result<()> {
-        if self.quiet { Ok(()) } else { print(text) }
+        if self.quiet || self.within { Ok(()) } else { print(text) }
     }
 
     /// Something for who asked for it.

@@ -7,6 +7,7 @@ use tofsim::error::{Error, Input, Result, read_text};
 use tofsim::files::folder::FolderLock;
 use tofsim::scenario;
 use tofsim::sim::domain;
+use tofsim_learn::dataset::{GridOption, GridPurpose};
 use tofsim_learn::training::checkpoint;
 use tofsim_learn::training::recipe::Recipe;
 use tofsim_learn::training::tournament::{Tournament, Watch};
@@ -28,7 +29,8 @@ use origin::Origin;
 use written::TrainingOrigin;
 
 /// Runs the verb.
-pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+pub fn run(given: &Args, talk: &Talk) -> Result<()> {
+    let args = &given.over(&scenario::load(&given.scenario, &given.set)?)?;
     let recipe = args.recipe(None)?;
     if args.print_recipe && args.grid.is_empty() && args.data.is_none() {
         return print_recipe(&recipe);
@@ -48,7 +50,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let mut settings: checkpoint::CheckpointSettings = recipe.settings()?.into_iter().collect();
     settings.insert("seed".to_owned(), args.seed.to_string());
     settings.extend(origin.settings());
-    let of = checkpoint::CheckpointOf { settings, options: args.options() };
+    let of = checkpoint::CheckpointOf { settings, options: given.options() };
 
     let path = args.output.join("checkpoint");
     let state = args.resume.then(|| checkpoint::load(&path, &of, &recipe)).transpose()?;
@@ -61,7 +63,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     }
     let scenario = origin.scenario();
     let chain = args.profile.clone().unwrap_or_else(|| scenario.tdc.profile.clone());
-    let (command, seed) = (args.command(), args.seed);
+    let (command, seed) = (given.command(), args.seed);
     let mut trained_for = scenario.clone();
     trained_for.tdc.profile.clone_from(&chain);
     let domain = Some(domain::of(&trained_for, &origin.ranges())?);
@@ -77,6 +79,16 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         }
         false => talk.report(&report::table(&rows, line)),
     }
+}
+
+/// That what a scenario says of its training is one.
+///
+/// # Errors
+/// When a number format, the recipe or the grid is none.
+pub fn check(loaded: &scenario::Loaded) -> Result<()> {
+    let args = Args::usual().over(loaded)?;
+    args.recipe(None)?;
+    GridOption::parse(&args.grid)?.grid(&loaded.scenario, GridPurpose::Training).map(drop)
 }
 
 /// Prints a recipe as TOML.

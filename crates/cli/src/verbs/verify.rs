@@ -79,19 +79,35 @@ pub struct Args {
 
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
-    let map = args.map.as_deref().map(RtlMap::read).transpose()?;
-    strays::end();
-    let work = ScratchFolder::new()?;
-    let rtl = match args.design.is_ours() {
-        false => args.design.read(talk)?,
-        true => Rtl::own(work.path())?,
-    };
-    let stop = stop_signal();
-    let limits =
-        Limits { stop: stop.as_deref(), ..Limits::new(Duration::from_secs(args.time_limit)) };
     if args.cycle_counts {
-        return cycle_counts(args, &rtl, &limits, talk);
+        let (source, counts) = cycle_counts(args, talk)?;
+        match args.json {
+            true => print(&format!("{:#}\n", report::counts_json(&source, &counts)))?,
+            false => talk.report(&report::counts_text(&counts))?,
+        }
+        return Ok(ExitCode::from(u8::from(!counts.iter().all(Count::holds))));
     }
+    let (source, reports) = blocks(args, talk)?;
+    match args.json {
+        true => {
+            let json = report::json(&source, args.simulator.name(), &reports);
+            print(&format!("{json:#}\n"))?;
+        }
+        false => talk.report(&report::text(&reports))?,
+    }
+    Ok(ExitCode::from(u8::from(reports.iter().any(BlockReport::failed))))
+}
+
+/// Checks the blocks that are asked for; where the design comes from, and how each came out.
+///
+/// # Errors
+/// When one cannot be checked.
+pub fn blocks(args: &Args, talk: &Talk) -> Result<(String, Vec<BlockReport>)> {
+    let map = args.map.as_deref().map(RtlMap::read).transpose()?;
+    let work = ScratchFolder::new()?;
+    let rtl = args.rtl(&work, talk)?;
+    let stop = stop_signal();
+    let limits = args.limits(stop.as_deref());
     let tasks = tasks(args, map.as_ref(), &rtl, talk)?;
     let check = BlockCheck {
         dut: Dut { rtl: &rtl, map: map.as_ref(), simulator: args.simulator, limits },
@@ -123,31 +139,43 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     for wave in reports.iter().filter_map(|report| report.wave.as_ref()) {
         talk.wrote_wave(wave);
     }
-    match args.json {
-        true => print(&format!("{:#}\n", report::json(&rtl.source, simulator, &reports)))?,
-        false => talk.report(&report::text(&reports))?,
-    }
-    Ok(ExitCode::from(u8::from(reports.iter().any(BlockReport::failed))))
+    Ok((rtl.source, reports))
 }
 
-fn cycle_counts(args: &Args, rtl: &Rtl, limits: &Limits, talk: &Talk) -> Result<ExitCode> {
-    if let Some(path) = yosys::unread(rtl) {
+/// Counts cycles in the model and in the design, and proves them; where the design comes from, and each count.
+///
+/// # Errors
+/// When they cannot be counted.
+pub fn cycle_counts(args: &Args, talk: &Talk) -> Result<(String, Vec<Count>)> {
+    let work = ScratchFolder::new()?;
+    let rtl = args.rtl(&work, talk)?;
+    let stop = stop_signal();
+    let limits = args.limits(stop.as_deref());
+    if let Some(path) = yosys::unread(&rtl) {
         let expected =
             "expected Verilog sources only, without libraries: Yosys reads no others here";
         let path = path.display().to_string();
         return Err(Input::new("--cycle-counts", expected).value(path).into());
     }
     let estimator = args.from.setting()?.setup.params.depth_estimator.ctrl();
-    let counts = count::cycle_counts(rtl, &estimator, limits, |count: &Count| {
+    let counts = count::cycle_counts(&rtl, &estimator, &limits, |count: &Count| {
         let word = if count.holds() { "holds" } else { "fails" };
         let word = coloured(word, count.holds(), &std::io::stderr());
         talk.note(format_args!("{}: {word}", count.what));
     })?;
-    match args.json {
-        true => print(&format!("{:#}\n", report::counts_json(&rtl.source, &counts)))?,
-        false => talk.report(&report::counts_text(&counts))?,
+    Ok((rtl.source, counts))
+}
+
+impl Args {
+    /// The design; our own is put into `work`.
+    fn rtl(&self, work: &ScratchFolder, talk: &Talk) -> Result<Rtl> {
+        strays::end();
+        if self.design.is_ours() { Rtl::own(work.path()) } else { self.design.read(talk) }
     }
-    Ok(ExitCode::from(u8::from(!counts.iter().all(Count::holds))))
+
+    fn limits<'a>(&self, stop: Option<&'a AtomicBool>) -> Limits<'a> {
+        Limits { stop, ..Limits::new(Duration::from_secs(self.time_limit)) }
+    }
 }
 
 /// The blocks that are asked for and all that they can be, then the whole.

@@ -7,6 +7,7 @@ pub mod allowances;
 mod steps;
 mod vhdl;
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use serde_json::Value;
@@ -17,7 +18,7 @@ use steps::{steps, wait};
 use tofsim::error::Result;
 use tofsim::files::output::{create_directory, write_bytes, write_file};
 use tofsim::kernel::Time;
-use tofsim::network::mem::lines;
+use tofsim::network::mem::{Mem, lines};
 
 use super::parameters::Parameter;
 use super::ports::{self, Port};
@@ -53,6 +54,8 @@ pub struct Bench<'a> {
     /// Ports that the module has for neurons past the last: inputs that it does not look at, outputs that
     /// stay 0.
     pub past: Vec<Port>,
+    /// Parameters that are constants inside the module: it loads memories of its own for them.
+    pub constants: BTreeSet<&'static str>,
     /// What it is written in.
     pub language: Language,
     /// An object whose keys go into `ports.json` too: where the vectors come from.
@@ -65,7 +68,8 @@ impl<'a> Bench<'a> {
         let (allowed, about) = (Allowances::default(), Value::Null);
         let module = vectors.spec.name.to_owned();
         let (past, language) = (Vec::new(), Language::default());
-        Bench { vectors, allowed, module, fixed: false, past, language, about }
+        let constants = BTreeSet::new();
+        Bench { vectors, allowed, module, fixed: false, past, constants, language, about }
     }
 
     /// Names of the parameters that it sets.
@@ -85,7 +89,14 @@ impl<'a> Bench<'a> {
         create_directory(folder)?;
         let text = |name: &str, text: &str| write_bytes(&folder.join(name), text);
         let vectors = self.vectors;
-        for memory in vectors.memories() {
+        let is_inside = |memory: &&Mem| {
+            let own = |(name, value): &(&'static str, Parameter)| {
+                self.constants.contains(name)
+                    && matches!(value, Parameter::Memory(own) if own.name == memory.name)
+            };
+            vectors.parameters.iter().any(own)
+        };
+        for memory in vectors.memories().filter(|memory| !is_inside(memory)) {
             text(memory.name, &memory.text)?;
         }
         if !vectors.stops.is_empty() {
@@ -200,17 +211,7 @@ impl<'a> Bench<'a> {
 
 /// A parameter as the instance sets it.
 fn parameter((name, value): &(&'static str, Parameter)) -> String {
-    match value {
-        Parameter::Number(number) if *number > i32::MAX as u64 => {
-            format!("    .{name}(64'd{number})")
-        }
-        Parameter::Number(number) => format!("    .{name}({number})"),
-        Parameter::Words(words) => {
-            let words: Vec<_> = words.iter().rev().map(|word| format!("16'd{word}")).collect();
-            format!("    .{name}({{{}}})", words.join(", "))
-        }
-        Parameter::Memory(memory) => format!("    .{name}(\"{}\")", memory.name),
-    }
+    format!("    .{name}({})", value.literal())
 }
 
 /// Declarations of what is connected to the block, and their drivers.

@@ -21,6 +21,21 @@ pub enum Parameter {
     Memory(Mem),
 }
 
+impl Parameter {
+    /// As Verilog writes it.
+    pub fn literal(&self) -> String {
+        match self {
+            Parameter::Number(number) if *number > i32::MAX as u64 => format!("64'd{number}"),
+            Parameter::Number(number) => number.to_string(),
+            Parameter::Words(words) => {
+                let words: Vec<_> = words.iter().rev().map(|word| format!("16'd{word}")).collect();
+                format!("{{{}}}", words.join(", "))
+            }
+            Parameter::Memory(memory) => format!("\"{}\"", memory.name),
+        }
+    }
+}
+
 /// Names and values, in the order in which the benches set them.
 pub type Parameters = Vec<(&'static str, Parameter)>;
 
@@ -44,7 +59,17 @@ pub fn count_stages(params: &tdc_decoder::Params) -> Option<(&'static str, Param
 /// The parameters of some names that say how large things are, where they are not the default: as large
 /// another design need not have them.
 pub fn sized(params: &Params, names: &[&'static str]) -> Parameters {
-    let value = |sizes: &Sizes, laser: &vcsel_driver::Params, name: &str| match name {
+    let usual = (Sizes::default(), vcsel_driver::Params::default());
+    let own = |name| {
+        let own = size(&params.sizes(), &params.vcsel_driver, name);
+        (own != size(&usual.0, &usual.1, name)).then_some((name, own))
+    };
+    names.iter().copied().filter_map(own).collect()
+}
+
+/// The parameter of a name that says how large something is.
+fn size(sizes: &Sizes, laser: &vcsel_driver::Params, name: &str) -> Parameter {
+    match name {
         LASER_PERIODS => Parameter::Words(laser.every_period().to_vec()),
         "PulseHalfCycles" => Parameter::Number(sizes.pulse_half_cycles.into()),
         "DrainCycles" => Parameter::Number(sizes.drain_cycles),
@@ -58,25 +83,26 @@ pub fn sized(params: &Params, names: &[&'static str]) -> Parameters {
         "AddressBits" => Parameter::Number(sizes.datapath.address_bits.into()),
         "RangeLog2" => Parameter::Number(sizes.datapath.range_log2.into()),
         name => Parameter::Number(sizes.width(name).unwrap_or_default().into()),
-    };
-    let usual = (Sizes::default(), vcsel_driver::Params::default());
-    let own = |name| {
-        let own = value(&params.sizes(), &params.vcsel_driver, name);
-        (own != value(&usual.0, &usual.1, name)).then_some((name, own))
-    };
-    names.iter().copied().filter_map(own).collect()
+    }
 }
 
 /// Oscillator and dividers of the PLL, where they are not the default.
 pub fn clocks(p: &pll::Params) -> Parameters {
+    let usual = [pll::INPUT_HZ, pll::MULTIPLY, pll::DIVIDE, pll::OUTPUT_DIVIDE];
+    let others = every_clock(p).into_iter().zip(usual);
+    let others = others.filter(|((_, own), usual)| *own != Parameter::Number(*usual));
+    others.map(|(own, _)| own).collect()
+}
+
+/// Oscillator and dividers of the PLL.
+fn every_clock(p: &pll::Params) -> Parameters {
     let values = [
-        ("InputHz", p.input_hz, pll::INPUT_HZ),
-        ("Multiply", p.multiply, pll::MULTIPLY),
-        ("Divide", p.divide, pll::DIVIDE),
-        ("OutputDivide", p.output_divide, pll::OUTPUT_DIVIDE),
+        ("InputHz", p.input_hz),
+        ("Multiply", p.multiply),
+        ("Divide", p.divide),
+        ("OutputDivide", p.output_divide),
     ];
-    let others = values.into_iter().filter(|(_, own, usual)| own != usual);
-    others.map(|(name, own, _)| (name, Parameter::Number(own))).collect()
+    values.map(|(name, own)| (name, Parameter::Number(own))).into()
 }
 
 /// The parameter with the laser periods.
@@ -218,6 +244,23 @@ pub fn tof_top(setup: &Setup) -> Parameters {
         list.push(("Estimator", Number(1)));
         list.extend(centroid_estimator(&params.centroid_estimator));
     }
+    list
+}
+
+/// Those of the whole firmware, also where they are the default.
+pub fn tof_top_in_full(setup: &Setup) -> Parameters {
+    let params = &setup.params;
+    let mut list = tof_top(setup);
+    let mut all = every_clock(&setup.scenario.pll.params());
+    all.push((NEURONS, Parameter::Number(params.depth_estimator.neurons() as u64)));
+    all.push((COUNT_STAGES, Parameter::Number(params.tdc.decoder.count_stages)));
+    let (sizes, laser) = (params.sizes(), &params.vcsel_driver);
+    all.extend(OF_TOP.map(|name| (name, size(&sizes, laser, name))));
+    all.push(("Estimator", Parameter::Number(u64::from(params.estimator == Estimator::Centroid))));
+    all.extend(centroid_estimator(&params.centroid_estimator));
+    let is_new = |(name, _): &(&str, Parameter)| list.iter().all(|(known, _)| known != name);
+    let others: Vec<_> = all.into_iter().filter(is_new).collect();
+    list.extend(others);
     list
 }
 

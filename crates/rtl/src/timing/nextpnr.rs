@@ -113,10 +113,7 @@ struct Place {
 
 /// nextpnr on this machine, if there is one.
 pub fn installed() -> Option<Tool> {
-    let path = std::env::var_os("PATH")?;
-    let is_there =
-        |tool: &Tool| std::env::split_paths(&path).any(|it| it.join(tool.program).is_file());
-    NEXTPNR.into_iter().find(is_there)
+    NEXTPNR.into_iter().find(Tool::is_installed)
 }
 
 /// The netlist of a block for an ECP5, and a digest of it that is the same for the same netlist everywhere.

@@ -98,6 +98,8 @@ impl BlockMap {
                 bench.allowed.bits.insert(port.name, width as usize);
             }
         }
+        let parameters = bench.vectors.parameters.iter().map(|(ours, _)| *ours);
+        bench.constants = parameters.filter(|ours| self.parameter(ours).is_none()).collect();
         bench.module = format!("{}_adapter", spec.name);
         let path = folder.join(format!("{}.v", bench.module));
         let text = self.text(bench, spec, found);

@@ -92,6 +92,12 @@ impl Finished {
 }
 
 impl Tool {
+    /// Whether it is on the PATH.
+    pub fn is_installed(&self) -> bool {
+        let Some(path) = std::env::var_os("PATH") else { return false };
+        std::env::split_paths(&path).any(|it| it.join(self.program).is_file())
+    }
+
     /// Runs it in `folder` until it ends or its time is up; then it is killed with its children.
     ///
     /// # Errors

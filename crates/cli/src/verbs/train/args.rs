@@ -2,12 +2,19 @@
 
 use std::path::PathBuf;
 
-use tofsim::scenario;
+use clap::{Args as _, Command, FromArgMatches};
+
+use tofsim::error::Result;
+use tofsim::scenario::builtin::Source;
+use tofsim::scenario::{self, Loaded};
 
 use crate::verbs::formats::Formats;
 
 /// Train a depth network on simulated histograms, within the thesis's number formats or others
-#[derive(Debug, clap::Args)]
+///
+/// What the scenario's table [training] has of grid, recipe, neurons and formats holds where no option says
+/// otherwise.
+#[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim train --profile uniform --seed 1 -o mine\n  \
     tofsim train --profile chain.toml -o mine       on one's own chain\n  \
@@ -76,4 +83,39 @@ pub struct Args {
     /// Print one JSON object instead of a table
     #[arg(long)]
     pub(super) json: bool,
+}
+
+/// The word that stands for `--quick` in place of a recipe's path.
+const QUICK: &str = "quick";
+
+impl Args {
+    /// Those of a command line without any.
+    pub(super) fn usual() -> Args {
+        let command = Args::augment_args(Command::new("train"));
+        let matches = command.get_matches_from(["train"]);
+        Args::from_arg_matches(&matches).unwrap_or_else(|fault| fault.exit())
+    }
+
+    /// With what the scenario's own table says where no option does.
+    ///
+    /// # Errors
+    /// When the table has a number format that is none.
+    pub(super) fn over(&self, loaded: &Loaded) -> Result<Args> {
+        let mut args = self.clone();
+        let training = &loaded.scenario.training;
+        if args.grid.is_empty() && args.data.is_none() {
+            args.grid = training.grid_options();
+        }
+        if let (Some(recipe), false, None) = (&training.recipe, args.quick, &args.recipe) {
+            args.quick = recipe == QUICK;
+            let path = match &loaded.files {
+                Source::Folder(folder) => folder.join(recipe),
+                Source::BuiltIn => PathBuf::from(recipe),
+            };
+            args.recipe = (!args.quick).then_some(path);
+        }
+        args.neurons = args.neurons.or(training.neurons.map(|neurons| neurons as usize));
+        args.formats.put_under(&loaded.scenario.training, &loaded.name)?;
+        Ok(args)
+    }
 }

@@ -1,0 +1,204 @@
+//! The report of an instrument: one HTML file with all in it, and no scripts.
+
+mod accuracy;
+mod cost;
+mod facts;
+mod html;
+mod plot;
+mod verified;
+
+use serde_json::Value;
+
+use tofsim::sim::setup::Setup;
+
+use crate::record::Record;
+
+use html::{escaped, inlined, table};
+
+/// How the page looks, on a screen, in a narrow window and on paper.
+const STYLE: &str = include_str!("page/style.css");
+
+/// What the page shows; results are null where a step was not done.
+pub struct Page<'a> {
+    /// The instrument.
+    pub setup: &'a Setup,
+    /// Version, hash and seed.
+    pub record: Record,
+    /// Whether the build was a quick one.
+    pub quick: bool,
+    /// What its results lie outside of.
+    pub notes: Vec<String>,
+    /// What was done.
+    pub steps: Vec<StepRow>,
+    /// Where the network comes from.
+    pub network: Value,
+    /// `tofsim.evaluate/1`.
+    pub evaluation: Value,
+    /// Box plot of the errors, as SVG.
+    pub errors: Option<String>,
+    /// Histogram of the frame, as SVG.
+    pub histogram: Option<String>,
+    /// `tofsim.run/1`.
+    pub frame: Value,
+    /// `tofsim.cost/1`.
+    pub cost: Value,
+    /// `tofsim.verify/1`.
+    pub verify: Value,
+    /// `tofsim.cycle_counts/1`.
+    pub cycles: Value,
+}
+
+/// A step of the build.
+pub struct StepRow {
+    pub name: &'static str,
+    pub about: &'static str,
+    pub passed: bool,
+    pub summary: String,
+}
+
+impl Page<'_> {
+    /// The whole page; an error only if the plotting library fails.
+    pub fn html(&self) -> Result<String, String> {
+        let name = escaped(&self.setup.name);
+        let description = match self.setup.scenario.description.as_str() {
+            "" => String::new(),
+            text => format!("<p class=\"lead\">{}</p>\n", escaped(text)),
+        };
+        let quick = match self.quick {
+            true => {
+                "<p class=\"bad\">This was a quick build: its network is poor, and its figures rest on few \
+                 histograms and short vectors.</p>\n"
+            }
+            false => "",
+        };
+        let body = [
+            format!("<header>\n<h1>{name}</h1>\n{description}{quick}</header>\n"),
+            self.tiles(),
+            section("What it is", &facts::section(self.setup, &self.network)),
+            section("What it sees, how far and how exactly", &self.accuracy()?),
+            section("A frame", &self.a_frame()),
+            section("What it costs", &cost::section(&self.cost)),
+            section("What was verified", &verified::section(&self.verify, &self.cycles)),
+            section("Notes", &self.listed_notes()),
+            section("What made it", &self.origin()),
+        ];
+        Ok(format!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
+             <title>{name}: an instrument</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n{}</main>\n\
+             <!-- {} -->\n</body>\n</html>\n",
+            body.concat(),
+            self.record.line(),
+        ))
+    }
+
+    /// The numbers that a reader looks for first.
+    fn tiles(&self) -> String {
+        let all = &self.evaluation["estimators"][0]["all"];
+        let mm = |key: &str| all[key].as_f64().map_or("-".to_owned(), |mm| format!("{mm:.2} mm"));
+        let luts = self.cost["parts"]["kintex7"]["lut"].as_u64();
+        let blocks = self.verify["blocks"].as_array();
+        let verified = blocks.map_or("not run".to_owned(), |blocks| {
+            let passed = blocks.iter().filter(|block| block["verdict"] == "pass").count();
+            format!("{passed} of {}", blocks.len())
+        });
+        let tiles = [
+            ("range", facts::range_m(self.setup)),
+            ("2 sd over the grid", mm("two_sd_mm")),
+            ("mean error", mm("mean_mm")),
+            ("frames", facts::frame_rate(self.setup)),
+            ("LUTs of a Kintex-7", luts.map_or("-".to_owned(), |luts| luts.to_string())),
+            ("benches passed", verified),
+        ];
+        let tile = |(what, value): &(&str, String)| {
+            format!("<div><b>{}</b><span>{what}</span></div>\n", escaped(value))
+        };
+        format!("<div class=\"tiles\">\n{}</div>\n", tiles.iter().map(tile).collect::<String>())
+    }
+
+    fn accuracy(&self) -> Result<String, String> {
+        if self.evaluation.is_null() {
+            return Ok("<p class=\"bad\">This was not measured.</p>\n".to_owned());
+        }
+        let errors = self.errors.as_deref().map(inlined).unwrap_or_default();
+        Ok(accuracy::section(&self.evaluation)?
+            + &figure(
+                &errors,
+                "Errors by distance: boxes from quartile to quartile, with whiskers, and dots for what lies beyond. Black lines are what Table 5.2 of the thesis allows.",
+            ))
+    }
+
+    fn a_frame(&self) -> String {
+        let frame = &self.frame["frames"][0];
+        if frame.is_null() {
+            return "<p class=\"bad\">No frame was simulated.</p>\n".to_owned();
+        }
+        let m = |key: &str| frame[key].as_f64().map_or("none".to_owned(), |m| format!("{m:.6} m"));
+        let count = |key: &str| frame[key].as_u64().map_or("-".to_owned(), |n| n.to_string());
+        let rows = [
+            ("true distance", m("true_depth_m")),
+            ("depth found", m("depth_m")),
+            ("shots", count("shots")),
+            ("hits counted", count("hits")),
+            ("estimator [cycles of clk_sys]", count("estimator_cycles")),
+            ("frame [cycles of clk_sys]", count("frame_cycles")),
+        ];
+        let rows = rows.map(|(what, value)| [what.to_owned(), value]);
+        let picture = self.histogram.as_deref().map(inlined).unwrap_or_default();
+        table(&["", "one frame of the file's scene"], rows)
+            + &figure(
+                &picture,
+                "Its histogram, by what caused each count. Its waveform, and set-ups for GTKWave and Surfer, are in frame/.",
+            )
+    }
+
+    fn listed_notes(&self) -> String {
+        if self.notes.is_empty() {
+            return "<p>There are none: the scenario is one that this network was trained for.</p>\n".to_owned();
+        }
+        let item = |note: &String| format!("<li>{}</li>\n", escaped(note));
+        format!("<ul>\n{}</ul>\n", self.notes.iter().map(item).collect::<String>())
+    }
+
+    fn origin(&self) -> String {
+        let file = format!("{}.toml", self.setup.name);
+        let rows = [
+            ["tofsim", &self.record.version],
+            ["scenario", &file],
+            ["hash of the scenario", &self.record.hash],
+            ["seed", &self.record.seed.to_string()],
+        ];
+        let rows = rows.map(|row| row.map(str::to_owned));
+        let steps = self.steps.iter().map(|step| {
+            let state = if step.passed { "done" } else { "NOT DONE OR FAILED" };
+            [step.name.to_owned(), step.about.to_owned(), state.to_owned(), step.summary.clone()]
+        });
+        let quick = if self.quick { " --quick" } else { "" };
+        let commands = [
+            format!("tofsim build {file} -o again{quick}"),
+            format!("tofsim run {file}"),
+            format!("tofsim evaluate network.toml --scenario {file}"),
+            format!("tofsim verify --rtl rtl --scenario {file}"),
+            format!("tofsim verify --cycle-counts --rtl rtl --scenario {file}"),
+        ];
+        let commands: String = commands.iter().map(|line| escaped(line) + "\n").collect();
+        table(&["", ""], rows)
+            + "<h3>Steps</h3>\n"
+            + &table(&["step", "what it does", "state", "what it came to"], steps)
+            + "<h3>By hand, in the folder of this page</h3>\n"
+            + &format!("<pre>{commands}</pre>\n")
+    }
+}
+
+fn section(title: &str, inside: &str) -> String {
+    format!("<section>\n<h2>{title}</h2>\n{inside}</section>\n")
+}
+
+/// A picture with words below it; nothing without a picture.
+fn figure(svg: &str, words: &str) -> String {
+    if svg.is_empty() {
+        String::new()
+    } else {
+        format!("<figure>\n{svg}\n<figcaption>{words}</figcaption>\n</figure>\n")
+    }
+}

@@ -1,0 +1,172 @@
+//! `tofsim build`: everything of an instrument from one file.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+use serde_json::json;
+
+use tofsim::error::{Error, Input, Result};
+use tofsim::files::folder::FolderLock;
+use tofsim_rtl::verify::strays;
+
+use crate::choice::words;
+
+use super::draws::use_threads;
+use super::interrupt::look_no_more;
+use super::terminal::{Talk, print_json};
+
+mod accuracy;
+mod cost;
+mod files;
+mod frame;
+mod journal;
+mod network;
+mod page;
+mod proofs;
+mod site;
+mod step;
+mod vectors;
+mod verilog;
+
+use journal::{Journal, StepRecord};
+use site::Site;
+use step::{Outcome, Step};
+
+/// Build an instrument: network, Verilog, proofs, accuracy, cost and a report, from one scenario file
+///
+/// Each step is what its own verb does. A step whose inputs, version and outputs are those of an earlier build is
+/// not done again, so that an interrupted build goes on. DIR/report.html is a page to send to a colleague.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+    tofsim build mine.toml -o mine              all of it\n  \
+    tofsim build mine.toml -o mine --quick      in a minute or two, with a poor network\n  \
+    tofsim build mine.toml -o mine --steps network,accuracy,report\n\n\
+    Exit status: 0 all done and passed, 1 a step was not done or found a fault, 2 usage or input error.")]
+pub struct Args {
+    /// Scenario file, or the name of a built-in scenario
+    #[arg(value_name = "INSTRUMENT")]
+    instrument: String,
+    /// Folder for all that is made; the commands in the report are run in it
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Only these steps, separated by commas
+    #[arg(long, value_parser = words(&Step::CHOICES), value_delimiter = ',')]
+    steps: Vec<Step>,
+    /// A poor network trained in seconds, short vectors and few histograms
+    #[arg(long)]
+    quick: bool,
+    /// Do all steps anew
+    #[arg(long)]
+    force: bool,
+    /// Threads; the results are the same for any number [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the verb; the status says whether all was done and passed.
+pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+    let instrument = files::InstrumentFiles::read(&args.instrument)?;
+    let site = Site::new(&instrument, args.quick, talk)?;
+    talk.heed(&site.notes)?;
+    instrument.check_folder(&args.output)?;
+    let _held = FolderLock::take(&args.output)?;
+    use_threads(args.threads)?;
+    strays::end();
+    // What the steps record of themselves is the same wherever the folder is.
+    std::env::set_current_dir(&args.output).map_err(Error::io(&args.output, "open"))?;
+    instrument.write(Path::new("."))?;
+    let journal = Journal::read()?;
+    let mut build = Build { site, journal, args, talk };
+    let asked = if args.steps.is_empty() { Step::ALL.to_vec() } else { args.steps.clone() };
+    for step in Step::ALL.into_iter().filter(|step| asked.contains(step)) {
+        build.take(step)?;
+    }
+    let Build { journal, .. } = build;
+    let bad: Vec<_> = asked.iter().filter(|step| !journal.has_passed(**step)).collect();
+    let passed = bad.is_empty();
+    if args.json {
+        let mut report = json!(journal);
+        report["passed"] = json!(passed);
+        print_json(&report)?;
+    } else {
+        talk.report(&summary(&args.output, &journal, &asked))?;
+    }
+    Ok(if passed { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// A line for each step.
+fn summary(folder: &Path, journal: &Journal, asked: &[Step]) -> String {
+    let line = |step: &Step| {
+        let record = journal.steps.get(step.name());
+        let how = record.map_or_else(|| "not done".to_owned(), |record| record.summary.clone());
+        format!(" {:<12} {how}\n", step.name())
+    };
+    let lines: String = asked.iter().map(line).collect();
+    match asked.contains(&Step::Report) && journal.has_passed(Step::Report) {
+        true => format!("{lines}\n{} is the report\n", folder.join(page::FILE).display()),
+        false => lines,
+    }
+}
+
+/// A build under way, in its folder.
+struct Build<'a> {
+    site: Site<'a>,
+    journal: Journal,
+    args: &'a Args,
+    talk: &'a Talk,
+}
+
+impl Build<'_> {
+    /// Does a step, unless it has been done.
+    fn take(&mut self, step: Step) -> Result<()> {
+        for need in step.needs() {
+            if !self.journal.is_whole(*need) {
+                let expected = format!(
+                    "{step} needs {need}, which is not there: add it, or leave --steps out"
+                );
+                if step != Step::Report && self.journal.missing(*need).is_none() {
+                    return Err(Input::new("--steps", expected).value(step).into());
+                }
+            }
+        }
+        let lacking = step.tools().iter().find(|tool| !tool.is_installed());
+        if let Some(tool) = lacking {
+            let record = StepRecord::without(tool);
+            self.talk.note(format_args!("{step}: {}", record.summary));
+            return self.journal.put(step, record);
+        }
+        let input = self.site.input(step, &self.journal);
+        if !self.args.force && self.journal.is_done(step, &input) {
+            self.talk.note(format_args!("{step}: as before"));
+            return Ok(());
+        }
+        self.talk.note(format_args!("{step}: {}", step.about()));
+        let began = Instant::now();
+        let site = &self.site;
+        let outcome = match step {
+            Step::Network => network::run(site, self.args.force),
+            Step::Verilog => verilog::run(site),
+            Step::Constraints => verilog::constraints(site),
+            Step::Vectors => vectors::run(site),
+            Step::Cycles => proofs::cycles(site),
+            Step::Verify => proofs::verify(site),
+            Step::Frame => frame::run(site),
+            Step::Accuracy => accuracy::run(site),
+            Step::Cost => cost::run(site),
+            Step::Report => page::run(site, &self.journal),
+        };
+        look_no_more();
+        let Outcome { outputs, result, passed, summary } = outcome?;
+        let record = StepRecord::done(input, &outputs, result, passed, summary)?;
+        self.talk.note(format_args!(
+            "{step}: {} ({:.1} s)",
+            record.summary,
+            began.elapsed().as_secs_f64()
+        ));
+        self.journal.put(step, record)
+    }
+}

@@ -1,0 +1,135 @@
+//! What has been done in a build's folder: `build.json`.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use tofsim::error::{Error, Input, Result, read_text};
+use tofsim::files::digest::digest;
+use tofsim::files::output::write_bytes;
+use tofsim_rtl::verify::process::Tool;
+
+use super::step::Step;
+
+/// Its file.
+pub const FILE: &str = "build.json";
+const SCHEMA: &str = "tofsim.build/1";
+
+/// What has been done.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Journal {
+    schema: String,
+    /// Steps by their names.
+    pub steps: BTreeMap<String, StepRecord>,
+}
+
+/// What came of a step.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StepRecord {
+    /// Digest of all that decides what comes out; none of a step that could not be done.
+    pub input: Option<String>,
+    /// Its files, and a digest of each.
+    pub outputs: BTreeMap<PathBuf, String>,
+    /// Whether it found no fault.
+    pub passed: bool,
+    /// What it came to, in a line.
+    pub summary: String,
+    /// What the report shows of it.
+    pub result: Value,
+}
+
+fn digest_of_file(path: &Path) -> Result<String> {
+    let bytes = std::fs::read(path).map_err(Error::io(path, "read"))?;
+    Ok(format!("{:016x}", digest(0, &bytes)))
+}
+
+impl StepRecord {
+    /// Of a step that has been done.
+    ///
+    /// # Errors
+    /// When an output cannot be read.
+    pub fn done(
+        input: String,
+        outputs: &[PathBuf],
+        result: Value,
+        passed: bool,
+        summary: String,
+    ) -> Result<Self> {
+        let digests = outputs.iter().map(|path| Ok((path.clone(), digest_of_file(path)?)));
+        let outputs = digests.collect::<Result<_>>()?;
+        Ok(StepRecord { input: Some(input), outputs, passed, summary, result })
+    }
+
+    /// Of a step whose tool is missing.
+    pub fn without(tool: &Tool) -> Self {
+        let Tool { program, package } = tool;
+        let summary =
+            format!("not done: {program} is not on PATH; install it: apt-get install {package}");
+        let (outputs, result) = (BTreeMap::new(), Value::Null);
+        StepRecord { input: None, outputs, passed: false, summary, result }
+    }
+
+    /// Whether its files are as it left them.
+    fn is_whole(&self) -> bool {
+        let is_same = |(path, known): (&PathBuf, &String)| {
+            digest_of_file(path).is_ok_and(|found| found == *known)
+        };
+        self.input.is_some() && self.outputs.iter().all(is_same)
+    }
+}
+
+impl Journal {
+    /// That of the current folder, or an empty one.
+    ///
+    /// # Errors
+    /// When the file cannot be read, or is no such journal.
+    pub fn read() -> Result<Self> {
+        let path = Path::new(FILE);
+        if !path.exists() {
+            return Ok(Journal { schema: SCHEMA.to_owned(), steps: BTreeMap::new() });
+        }
+        let journal: Option<Journal> = serde_json::from_str(&read_text(path)?).ok();
+        journal.filter(|journal| journal.schema == SCHEMA).ok_or_else(|| {
+            Input::new(FILE, "expected what a build leaves; remove it to begin anew").into()
+        })
+    }
+
+    /// Keeps what came of a step.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn put(&mut self, step: Step, record: StepRecord) -> Result<()> {
+        self.steps.insert(step.name().to_owned(), record);
+        let text = serde_json::to_string_pretty(self).map_err(|error| Input::new(FILE, error))?;
+        write_bytes(Path::new(FILE), text + "\n")
+    }
+
+    /// What came of a step.
+    pub fn of(&self, step: Step) -> Option<&StepRecord> {
+        self.steps.get(step.name())
+    }
+
+    /// Whether a step has been done with that input, and all its files are there.
+    pub fn is_done(&self, step: Step, input: &str) -> bool {
+        let is_same = |record: &&StepRecord| record.input.as_deref() == Some(input);
+        self.of(step).filter(is_same).is_some_and(StepRecord::is_whole)
+    }
+
+    /// Whether a step has been done, and all its files are there.
+    pub fn is_whole(&self, step: Step) -> bool {
+        self.of(step).is_some_and(StepRecord::is_whole)
+    }
+
+    /// Why a step could not be done, if it was tried.
+    pub fn missing(&self, step: Step) -> Option<&str> {
+        let record = self.of(step).filter(|record| record.input.is_none())?;
+        Some(&record.summary)
+    }
+
+    /// Whether a step has been done and found no fault.
+    pub fn has_passed(&self, step: Step) -> bool {
+        self.of(step).is_some_and(|record| record.passed)
+    }
+}

@@ -1,0 +1,111 @@
+//! The folder of a build, and what its steps know of the instrument.
+
+use clap::{CommandFactory, FromArgMatches};
+
+use tofsim::Note;
+use tofsim::error::{Input, Result};
+use tofsim::files::digest::digest_of;
+use tofsim::scenario::{self, Loaded};
+use tofsim::sim::setup::Setup;
+use tofsim_learn::estimation::notes::notes_of_firmware;
+
+use crate::record::command_line;
+use crate::verbs::terminal::Talk;
+use crate::verbs::{Cli, Verb, train};
+
+use super::files::InstrumentFiles;
+use super::journal::Journal;
+use super::step::Step;
+
+/// The folder of a build, which is the current one, and what its steps know.
+pub struct Site<'a> {
+    /// The instrument's files.
+    pub files: &'a InstrumentFiles,
+    /// The scenario with any network.
+    pub loaded: Loaded,
+    /// The same, ready to run.
+    pub setup: Setup,
+    /// What the instrument's results lie outside of, whatever its network.
+    pub notes: Vec<Note>,
+    /// Whether all is to be quick.
+    pub quick: bool,
+    pub talk: &'a Talk,
+}
+
+impl<'a> Site<'a> {
+    /// Of an instrument.
+    ///
+    /// # Errors
+    /// When what its scenario says does not fit together.
+    pub fn new(files: &'a InstrumentFiles, quick: bool, talk: &'a Talk) -> Result<Self> {
+        let loaded = files.with_any_network();
+        let setup = Setup::of_counts(loaded.clone())?;
+        train::check(&loaded)?;
+        let mut notes: Vec<Note> = setup.no_depth().cloned().into_iter().collect();
+        notes.extend(notes_of_firmware(&setup));
+        Ok(Site { files, loaded, setup, notes, quick, talk })
+    }
+
+    /// The scenario's file in the folder.
+    pub fn scenario(&self) -> &str {
+        &self.files.files[0].0
+    }
+
+    /// The instrument with its own network.
+    ///
+    /// # Errors
+    /// When its files have gone.
+    pub fn with_network(&self) -> Result<Setup> {
+        Setup::new(scenario::load(self.scenario(), &[])?)
+    }
+
+    /// A command as its own verb has it, that says nothing but errors.
+    ///
+    /// # Errors
+    /// When there is no such command.
+    pub fn command(&self, words: &[&str]) -> Result<Cli> {
+        let mut command = Cli::command();
+        let line = ["tofsim"].iter().chain(words);
+        let of = |error| Input::new("build", error);
+        let matches = command.try_get_matches_from_mut(line).map_err(of)?;
+        let mut cli = Cli::from_arg_matches(&matches).map_err(of)?;
+        cli.talk = self.talk.within(command_line(&command, &matches));
+        Ok(cli)
+    }
+
+    /// The options of `verify`.
+    ///
+    /// # Errors
+    /// As [`Site::command`].
+    pub fn verify(&self, words: &[&str]) -> Result<(crate::verbs::verify::Args, Talk)> {
+        let Cli { verb, talk } = self.command(&[&["verify"], words].concat())?;
+        match verb {
+            Verb::Verify(args) => Ok((args, talk)),
+            _ => Err(Input::new("build", "expected verify").into()),
+        }
+    }
+
+    /// A digest of all that decides what a step comes to.
+    pub fn input(&self, step: Step, journal: &Journal) -> String {
+        let mut scenario = self.loaded.scenario.clone();
+        let (training, windows) = (scenario.training.clone(), std::mem::take(&mut scenario.report));
+        let description = std::mem::take(&mut scenario.description);
+        // What they say is in the files beside.
+        let beside = &self.files.files[1..];
+        let own = match step {
+            Step::Network => format!("{training:?} {:?}", self.files.network().ok().flatten()),
+            Step::Accuracy => format!("{:?}", training.grid),
+            Step::Frame => format!("{windows:?}"),
+            Step::Report => format!("{description} {:?}", self.files.files),
+            _ => String::new(),
+        };
+        let needs: Vec<_> = (step.needs().iter())
+            .map(|need| journal.of(*need).map(|record| (&record.outputs, &record.summary)))
+            .collect();
+        let version = env!("CARGO_PKG_VERSION");
+        let (name, quick) = (&self.loaded.name, self.quick);
+        let text =
+            format_args!("{version} {step} {name} {quick} {scenario:?} {beside:?} {own} {needs:?}");
+        format!("{:016x}", digest_of(text))
+    }
+}

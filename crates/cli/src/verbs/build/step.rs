@@ -1,0 +1,118 @@
+//! The steps of a build, in their order.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use serde_json::Value;
+
+use tofsim_rtl::verify::process::{IVERILOG, Tool, VVP, YOSYS};
+
+use crate::choice::Choice;
+
+/// A step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    Network,
+    Verilog,
+    Constraints,
+    Vectors,
+    Cycles,
+    Verify,
+    Frame,
+    Accuracy,
+    Cost,
+    Report,
+}
+
+/// What a step came to.
+pub struct Outcome {
+    /// The files that it has made.
+    pub outputs: Vec<PathBuf>,
+    /// What the report shows of it.
+    pub result: Value,
+    /// Whether it found no fault.
+    pub passed: bool,
+    /// What it came to, in a line.
+    pub summary: String,
+}
+
+impl Step {
+    /// All, in their order.
+    pub const ALL: [Step; 10] = [
+        Step::Network,
+        Step::Verilog,
+        Step::Constraints,
+        Step::Vectors,
+        Step::Cycles,
+        Step::Verify,
+        Step::Frame,
+        Step::Accuracy,
+        Step::Cost,
+        Step::Report,
+    ];
+
+    /// Their words on the command line.
+    pub const CHOICES: [Choice<Step>; 10] = [
+        ("network", Step::Network, "Takes the network that the file names, or trains one"),
+        ("verilog", Step::Verilog, "Writes the Verilog with its parameters set, and its ROMs"),
+        ("constraints", Step::Constraints, "Writes clocks and pins for the part's tools"),
+        ("vectors", Step::Vectors, "Writes golden vectors and a bench for each block"),
+        ("cycles", Step::Cycles, "Proves the cycle counts (Icarus, Yosys)"),
+        ("verify", Step::Verify, "Holds the Verilog to the model (Icarus)"),
+        ("frame", Step::Frame, "Simulates a frame, with a waveform and set-ups for its viewers"),
+        (
+            "accuracy",
+            Step::Accuracy,
+            "Measures the errors over the grid, beside the Cramer-Rao bound",
+        ),
+        ("cost", Step::Cost, "Counts what it takes of a Kintex-7 and an ECP5 (Yosys)"),
+        ("report", Step::Report, "Writes report.html"),
+    ];
+
+    /// Its word.
+    pub fn name(self) -> &'static str {
+        Step::CHOICES[self as usize].0
+    }
+
+    /// What it does.
+    pub fn about(self) -> &'static str {
+        Step::CHOICES[self as usize].2
+    }
+
+    /// Steps whose outputs it reads.
+    pub fn needs(self) -> &'static [Step] {
+        match self {
+            Step::Network | Step::Constraints => &[],
+            Step::Verilog | Step::Vectors | Step::Frame | Step::Accuracy => &[Step::Network],
+            Step::Cycles | Step::Cost => &[Step::Verilog],
+            Step::Verify => &[Step::Network, Step::Verilog],
+            Step::Report => &[
+                Step::Network,
+                Step::Verilog,
+                Step::Constraints,
+                Step::Vectors,
+                Step::Cycles,
+                Step::Verify,
+                Step::Frame,
+                Step::Accuracy,
+                Step::Cost,
+            ],
+        }
+    }
+
+    /// Programs that it calls.
+    pub fn tools(self) -> &'static [Tool] {
+        match self {
+            Step::Cycles => &[IVERILOG, VVP, YOSYS],
+            Step::Verify => &[IVERILOG, VVP],
+            Step::Cost => &[YOSYS],
+            _ => &[],
+        }
+    }
+}
+
+impl fmt::Display for Step {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
