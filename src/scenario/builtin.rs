@@ -20,7 +20,7 @@ pub const SCENARIOS: &[(&str, &str)] = files!("scenarios", "toml":
 );
 
 /// Name and text of each built-in chain.
-pub const CHAINS: &[(&str, &str)] = files!("chains", "toml": "uniform", "table6_3", "ideal");
+pub const CHAINS: &[(&str, &str)] = files!("chains", "toml": "uniform", "table6_3", "ideal", "ecp5");
 
 /// Files that built-in scenarios refer to.
 const STIMULI: &[(&str, &str)] = &[

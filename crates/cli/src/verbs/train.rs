@@ -35,6 +35,7 @@ pub fn run(given: &Args, talk: &Talk) -> Result<()> {
     if args.print_recipe && args.grid.is_empty() && args.data.is_none() {
         return print_recipe(&recipe);
     }
+    use_threads(args.threads)?;
     let origin = Origin::new(args)?;
     let material = origin.material()?;
     let recipe = match origin.weighting()? {
@@ -55,7 +56,6 @@ pub fn run(given: &Args, talk: &Talk) -> Result<()> {
     let path = args.output.join("checkpoint");
     let state = args.resume.then(|| checkpoint::load(&path, &of, &recipe)).transpose()?;
     let _held = FolderLock::take(&args.output)?;
-    use_threads(args.threads)?;
     let mut tournament = Tournament::new(&recipe, &*material, args.seed, state);
     if !args.train(&mut tournament, &path, &of, talk)? {
         talk.note(format_args!("stopped; {} has the state", path.display()));

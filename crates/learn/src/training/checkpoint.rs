@@ -11,7 +11,7 @@ use tofsim::error::{Error, Input, Result, read_text};
 use tofsim::files::output::write_file;
 use tofsim::files::toml::Checked;
 
-use super::basis::KNOTS;
+use super::basis::{KNOTS, fill_tiles};
 use super::features::Scaling;
 use super::recipe::Recipe;
 use super::state::TournamentState;
@@ -123,17 +123,17 @@ fn differing(begun: &[String], now: &[String]) -> String {
 fn check(state: &TournamentState, recipe: &Recipe) -> std::result::Result<(), &'static str> {
     let (stages, stage) = (recipe.stages.len(), recipe.stage(state.stage));
     let blocks = if state.stage == stages { recipe.finish.blocks } else { 0 };
-    let size = parameters(recipe.neurons);
+    let size = parameters(recipe.neurons, state.scaling.columns());
     let fits = |x: &[f64]| x.len() == size && x.iter().all(|x| x.is_finite());
     let mut least = state.candidates.iter().filter_map(|candidate| candidate.lm.least.as_ref());
-    let scaling = [&state.scaling.mean, &state.scaling.inverse_sd];
+    let (scaling, knots) = ([&state.scaling.mean, &state.scaling.inverse_sd], state.scaling.mean.len());
     let checks = [
         ("stage", state.stage <= stages),
         ("block", state.block <= blocks),
         ("epochs", state.epochs < stage.epochs),
         ("candidates.made", state.candidates.iter().all(|one| one.made <= stage.epochs)),
-        ("scaling", scaling.iter().all(|s| s.len() == KNOTS && s.iter().all(|x| x.is_finite()))),
-        ("scaling.knots", state.scaling.knots.is_empty() || are_knots(&state.scaling)),
+        ("scaling", scaling.iter().all(|s| s.len() == knots && s.iter().all(|x| x.is_finite()))),
+        ("scaling.knots", knots == KNOTS && state.scaling.knots.is_empty() || are_knots(&state.scaling)),
         ("candidates", state.candidates.len() == stage.candidates),
         ("candidates.lm.x", state.candidates.iter().all(|candidate| fits(&candidate.lm.x))),
         ("candidates.lm.least", least.all(|(_, x)| fits(x))),
@@ -150,7 +150,7 @@ fn are_knots(scaling: &Scaling) -> bool {
     let (knots, last_bin) = (&scaling.knots, scaling.bins as f64 - 1.0);
     let ends = (knots.first(), knots.last());
     let holds_all = matches!(ends, (Some(&first), Some(&last)) if first == 0.0 && last >= last_bin);
-    knots.len() == KNOTS && holds_all && knots.is_sorted_by(|a, b| a < b)
+    knots.len() == scaling.mean.len() && fill_tiles(knots.len()) && holds_all && knots.is_sorted_by(|a, b| a < b)
 }
 
 #[cfg(test)]
@@ -162,7 +162,7 @@ mod tests {
     fn state(recipe: &Recipe) -> TournamentState {
         // Numbers of all magnitudes, none of them round.
         let number = |k: usize| (k as f64 + 0.1).sqrt() * 10f64.powi(k as i32 % 600 - 300);
-        let x: Vec<f64> = (0..parameters(recipe.neurons)).map(number).collect();
+        let x: Vec<f64> = (0..parameters(recipe.neurons, KNOTS + 1)).map(number).collect();
         let candidate = |start| Candidate {
             start,
             made: 2,

@@ -11,7 +11,7 @@ use crate::dataset::grid::DISTANCE;
 use crate::dataset::{Grid, HistogramSource, Rows, Subset};
 use crate::estimation::acquisition::ARRIVAL_PS_PER_M;
 
-use super::basis::knots_between;
+use super::basis::{Echoes, knots_for};
 use super::features::{FeatureBlock, Scaling, blocks};
 use super::limits::Hinges;
 use super::network_problem::NetworkProblem;
@@ -69,10 +69,14 @@ pub trait TrainingMaterial: fmt::Debug + Sync {
     /// Distances of the training, in rising order [m].
     fn distances_m(&self) -> &[f64];
 
-    /// Places of the knots for these distances; none are the thesis's.
-    fn knots(&self) -> Vec<f64> {
-        knots_of(self.distances_m(), self.bins())
+    /// Places of the knots for these distances, so many if the recipe says; none are the thesis's.
+    fn knots(&self, recipe: &Recipe) -> Vec<f64> {
+        let bins = self.bins();
+        knots_for(&echoes(self.distances_m(), bins, self.pulse_sigma_ps()), bins.count(), recipe.knots)
     }
+
+    /// Standard deviation of the pulse, in the first of the settings [ps].
+    fn pulse_sigma_ps(&self) -> f64;
 
     /// Which times give which code, in the first of the settings.
     fn bins(&self) -> &Bins;
@@ -132,15 +136,20 @@ impl TrainingMaterial for TrainingScenes<'_> {
         &self.training.distances_m.values
     }
 
-    fn knots(&self) -> Vec<f64> {
-        match self.training.is_thesis() && self.bins().are_kc705() {
-            true => Vec::new(),
-            false => knots_of(self.distances_m(), self.bins()),
-        }
-    }
-
     fn bins(&self) -> &Bins {
         self.source.acquisition(0).bins
+    }
+
+    fn knots(&self, recipe: &Recipe) -> Vec<f64> {
+        let bins = self.bins();
+        if self.training.is_thesis() && bins.are_kc705() && recipe.knots.is_none() {
+            return Vec::new();
+        }
+        knots_for(&echoes(self.distances_m(), bins, self.pulse_sigma_ps()), bins.count(), recipe.knots)
+    }
+
+    fn pulse_sigma_ps(&self) -> f64 {
+        self.source.acquisition(0).pulse_sigma_ps
     }
 
     /// Equally many histograms at each distance.
@@ -164,11 +173,11 @@ impl TrainingMaterial for TrainingScenes<'_> {
     }
 }
 
-/// Places of the knots for distances in rising order.
-fn knots_of(distances_m: &[f64], bins: &Bins) -> Vec<f64> {
+/// Where the echoes of distances in rising order are expected.
+fn echoes(distances_m: &[f64], bins: &Bins, pulse_sigma_ps: f64) -> Echoes {
     let ends = [distances_m.first(), distances_m.last()];
     let places = ends.map(|m| bins.place(m.copied().unwrap_or_default() * ARRIVAL_PS_PER_M));
-    knots_between(places, bins.count()).to_vec()
+    Echoes { places, sigma: bins.place(pulse_sigma_ps) - bins.place(0.0) }
 }
 
 /// A number that changes with the chain's bins and anything in the scenario, or in one of a grid's.

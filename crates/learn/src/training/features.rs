@@ -5,14 +5,10 @@ use serde::{Deserialize, Serialize};
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::network::Histogram;
 
-use super::basis::{Basis, KNOTS};
+use super::basis::Basis;
 
 /// Columns that are worked on together.
 pub const LANES: usize = 8;
-/// A constant 1 for the bias comes after the knots.
-pub const COLUMNS: usize = KNOTS + 1;
-/// Groups of columns.
-pub const TILES: usize = COLUMNS / LANES;
 /// Samples that are worked on together.
 pub const BLOCK: usize = 256;
 
@@ -28,7 +24,7 @@ pub struct Scaling {
     /// One over the standard deviation at each knot; 0 where nothing varies, so that the input is
     /// 0 as well [1/hits].
     pub inverse_sd: Vec<f64>,
-    /// Places of the knots; none are the thesis's [bins].
+    /// Places of the knots, one less than whole tiles have columns; none are the thesis's [bins].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub knots: Vec<f64>,
     /// Bins of the histograms.
@@ -53,7 +49,7 @@ impl Scaling {
         let bins = counts.first().map_or(BINS, Vec::len);
         let basis = Basis::new(knots, bins);
         let n = counts.len().max(1) as f64;
-        let mut mean = vec![0.0; KNOTS];
+        let mut mean = vec![0.0; basis.knots()];
         let add = |sums: &mut [f64], term: &dyn Fn(usize, f64) -> f64| {
             for histogram in counts {
                 let knots = basis.gather(histogram);
@@ -61,7 +57,7 @@ impl Scaling {
             }
         };
         add(&mut mean, &|_, x| x);
-        let mut variance = vec![0.0; KNOTS];
+        let mut variance = vec![0.0; basis.knots()];
         add(&mut variance, &|k, x| (x - mean[k]) * (x - mean[k]));
         // Rounding leaves a constant a little to vary.
         let inverse = |(variance, mean): (&f64, &f64)| {
@@ -76,16 +72,22 @@ impl Scaling {
         Basis::new(&self.knots, self.bins)
     }
 
+    /// Inputs of a sample: one for each knot, and a constant 1 for the bias.
+    pub fn columns(&self) -> usize {
+        self.mean.len() + 1
+    }
+
     /// Inputs of a histogram, and a 1.
-    pub fn apply(&self, counts: &[u32]) -> [f32; COLUMNS] {
+    pub fn apply(&self, counts: &[u32]) -> Vec<f32> {
         self.apply_on(&self.basis(), counts)
     }
 
     /// The same where the basis of its knots is known.
-    fn apply_on(&self, basis: &Basis, counts: &[u32]) -> [f32; COLUMNS] {
-        let knots = basis.gather(counts);
-        let input = |k: usize| ((knots[k] - self.mean[k]) * self.inverse_sd[k]) as f32;
-        std::array::from_fn(|k| if k < KNOTS { input(k) } else { 1.0 })
+    fn apply_on(&self, basis: &Basis, counts: &[u32]) -> Vec<f32> {
+        let scales = self.mean.iter().zip(&self.inverse_sd);
+        let input = |(knot, (mean, inverse_sd)): (f64, (&f64, &f64))| (knot - mean) * inverse_sd;
+        let inputs = basis.gather(counts).into_iter().zip(scales).map(input);
+        inputs.map(|input| input as f32).chain([1.0]).collect()
     }
 }
 
@@ -96,7 +98,7 @@ pub type FeatureBlock = Vec<Tile>;
 pub fn blocks(counts: &[Histogram], scaling: &Scaling) -> Vec<FeatureBlock> {
     let basis = scaling.basis();
     let block = |counts: &[Histogram]| {
-        let mut block = vec![[0.0; LANES]; TILES * BLOCK];
+        let mut block = vec![[0.0; LANES]; scaling.columns() / LANES * BLOCK];
         for (sample, histogram) in counts.iter().enumerate() {
             for (tile, columns) in scaling.apply_on(&basis, histogram).chunks(LANES).enumerate() {
                 block[tile * BLOCK + sample].copy_from_slice(columns);
@@ -105,6 +107,12 @@ pub fn blocks(counts: &[Histogram], scaling: &Scaling) -> Vec<FeatureBlock> {
         block
     };
     counts.chunks(BLOCK).map(block).collect()
+}
+
+/// Groups of columns of a block.
+#[inline(always)]
+pub fn tiles(block: &FeatureBlock) -> usize {
+    block.len() / BLOCK
 }
 
 /// The samples of a tile in a block.
@@ -116,6 +124,7 @@ pub fn tile(block: &FeatureBlock, tile: usize) -> &[Tile] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::training::basis::KNOTS;
 
     #[test]
     fn inputs_have_mean_0_and_standard_deviation_1() {
@@ -146,7 +155,7 @@ mod tests {
         let counts = vec![vec![1; 256]; BLOCK + 2];
         let blocks = blocks(&counts, &Scaling::of(&counts, &[]));
         assert_eq!(blocks.len(), 2);
-        let last = tile(&blocks[1], TILES - 1);
+        let last = tile(&blocks[1], tiles(&blocks[1]) - 1);
         assert_eq!(last[1][LANES - 1], 1.0);
         assert!(last[2..].iter().all(|columns| *columns == [0.0; LANES]));
     }

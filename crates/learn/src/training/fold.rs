@@ -2,20 +2,20 @@
 
 use tofsim::network::float::Float;
 
-use super::basis::KNOTS;
-use super::features::{COLUMNS, Scaling};
+use super::features::Scaling;
 
 /// The weights of parameters `x`, with the scaling of the inputs taken into them.
 pub fn fold(x: &[f64], neurons: usize, scaling: &Scaling) -> Float {
-    let rows = || x.chunks_exact(COLUMNS).take(neurons);
+    let columns = scaling.columns();
+    let rows = || x.chunks_exact(columns).take(neurons);
     let raw = |row: &[f64]| -> Vec<f64> {
         row.iter().zip(&scaling.inverse_sd).map(|(weight, scale)| weight * scale).collect()
     };
     let bias = |row: &[f64]| {
         let centre = raw(row).iter().zip(&scaling.mean).map(|(w, mean)| w * mean).sum::<f64>();
-        row[KNOTS] - centre
+        row[columns - 1] - centre
     };
-    let (output, basis) = (&x[neurons * COLUMNS..], scaling.basis());
+    let (output, basis) = (&x[neurons * columns..], scaling.basis());
     Float {
         w1: rows().map(|row| basis.expand(&raw(row))).collect(),
         b1: rows().map(bias).collect(),
@@ -27,16 +27,19 @@ pub fn fold(x: &[f64], neurons: usize, scaling: &Scaling) -> Float {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::training::basis::{Echoes, knots_for};
     use tofsim::network::Histogram;
 
     /// Parameters of a plausible network, and the scaling of its inputs.
     fn parameters() -> (Vec<f64>, Scaling) {
-        let mut x: Vec<f64> = (0..8 * COLUMNS).map(|k| (k as f64 * 0.37).sin() * 0.05).collect();
+        let knots = knots_for(&Echoes { places: [13.0, 240.0], sigma: 5.48 }, 256, Some(87));
+        let columns = knots.len() + 1;
+        let mut x: Vec<f64> = (0..8 * columns).map(|k| (k as f64 * 0.37).sin() * 0.05).collect();
         x.extend((0..8).map(|k| 0.1 * (k as f64 - 3.5)));
         x.push(0.2);
-        let mean = (0..KNOTS).map(|k| 50.0 + k as f64).collect();
-        let knots = crate::training::basis::knots_between([13.0, 240.0], 256).to_vec();
-        (x, Scaling { mean, inverse_sd: vec![0.02; KNOTS], knots, ..Scaling::default() })
+        let mean = (0..knots.len()).map(|k| 50.0 + k as f64).collect();
+        let inverse_sd = vec![0.02; knots.len()];
+        (x, Scaling { mean, inverse_sd, knots, ..Scaling::default() })
     }
 
     fn histogram(seed: usize) -> Histogram {
@@ -46,15 +49,15 @@ mod tests {
     #[test]
     fn folding_changes_no_depth() {
         let (x, scaling) = parameters();
-        let folded = fold(&x, 8, &scaling);
+        let (folded, columns) = (fold(&x, 8, &scaling), scaling.columns());
         for seed in 0..20 {
             let inputs = scaling.apply(&histogram(seed));
             let hidden = |row: &[f64]| {
-                let products = row.iter().zip(inputs).map(|(w, x)| w * f64::from(x));
+                let products = row.iter().zip(&inputs).map(|(w, x)| w * f64::from(*x));
                 libm::tanh(products.sum())
             };
-            let hidden = x.chunks_exact(COLUMNS).take(8).map(hidden);
-            let output = &x[8 * COLUMNS..];
+            let hidden = x.chunks_exact(columns).take(8).map(hidden);
+            let output = &x[8 * columns..];
             let depth = hidden.zip(output).map(|(a, w)| a * w).sum::<f64>() + output[8];
             assert!((folded.forward(&histogram(seed)) - depth).abs() < 1e-6);
         }

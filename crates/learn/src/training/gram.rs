@@ -6,12 +6,10 @@
 //! sum has its own place in a register and takes its terms in order, without fused operations, so
 //! that every processor gives the same bits.
 
-use super::features::{BLOCK, FeatureBlock, LANES, TILES, Tile, tile};
+use super::features::{BLOCK, FeatureBlock, LANES, Tile, tile, tiles};
 
 /// Weights that are worked on together.
 pub const GROUP: usize = 12;
-/// Pairs of a column and a tile, each pair of columns at least once.
-const PAIRS: usize = LANES * TILES * (TILES + 1) / 2;
 /// Column of the constant 1, in the last tile.
 const ONE: usize = LANES - 1;
 
@@ -26,39 +24,56 @@ pub fn groups(count: usize) -> usize {
     count.div_ceil(GROUP)
 }
 
-/// Sums of weights times products of two inputs, so many products for each group of weights.
+/// Sums of weights times products of two inputs, so many places for each group of weights.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Products<const PLACES: usize> {
+struct Products {
+    places: usize,
     /// `[group][place]`.
     sums: Vec<Sums>,
 }
 
-/// Sums of weight times input times input, for many weights.
-pub type Gram = Products<PAIRS>;
-/// Sums of weight times input, for many weights; a place is a tile.
-pub type Moments = Products<TILES>;
-
-impl<const PLACES: usize> Products<PLACES> {
+impl Products {
     /// Zeros for `count` weights.
-    pub fn zeros(count: usize) -> Self {
-        Products { sums: vec![[[0.0; LANES]; GROUP]; groups(count) * PLACES] }
+    fn zeros(count: usize, places: usize) -> Self {
+        Products { places, sums: vec![[[0.0; LANES]; GROUP]; groups(count) * places] }
+    }
+
+    /// The sum for a weight and a lane of a place.
+    fn at(&self, weight: usize, place: usize, lane: usize) -> f64 {
+        self.sums[weight / GROUP * self.places + place][weight % GROUP][lane]
     }
 
     /// Adds other sums.
-    pub fn add(&mut self, other: &Self) {
+    fn add(&mut self, other: &Self) {
         let sums = self.sums.as_flattened_mut().as_flattened_mut().iter_mut();
         let others = other.sums.as_flattened().as_flattened();
         sums.zip(others).for_each(|(sum, other)| *sum += other);
     }
 }
 
+/// Sums of weight times input times input, for many weights; a place is a column and a tile, each pair of
+/// columns at least once.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gram(Products);
+
 impl Gram {
+    /// Zeros for `count` weights and so many tiles.
+    pub fn zeros(count: usize, tiles: usize) -> Self {
+        Gram(Products::zeros(count, LANES * tiles * (tiles + 1) / 2))
+    }
+
+    /// Adds other sums.
+    pub fn add(&mut self, other: &Self) {
+        self.0.add(&other.0);
+    }
+
     /// Adds a block.
     #[inline(always)]
     pub fn add_block(&mut self, block: &FeatureBlock, weights: &BlockWeights) {
-        for (weights, sums) in weights.iter().zip(self.sums.chunks_mut(PAIRS)) {
+        let Products { places, sums } = &mut self.0;
+        for (weights, sums) in weights.iter().zip(sums.chunks_mut(*places)) {
             let mut places = sums.iter_mut();
-            for t in 0..TILES {
+            for t in 0..tiles(block) {
                 for column in 0..(t + 1) * LANES {
                     let Some(sums) = places.next() else { return };
                     let (of, lane) = (tile(block, column / LANES), column % LANES);
@@ -72,25 +87,40 @@ impl Gram {
     pub fn at(&self, weight: usize, row: usize, column: usize) -> f64 {
         let (row, column) = (row.max(column), row.min(column));
         let t = row / LANES;
-        let place = LANES * t * (t + 1) / 2 + column;
-        self.sums[weight / GROUP * PAIRS + place][weight % GROUP][row % LANES]
+        self.0.at(weight, LANES * t * (t + 1) / 2 + column, row % LANES)
     }
 }
 
+/// Sums of weight times input, for many weights; a place is a tile.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moments(Products);
+
 impl Moments {
+    /// Zeros for `count` weights and so many tiles.
+    pub fn zeros(count: usize, tiles: usize) -> Self {
+        Moments(Products::zeros(count, tiles))
+    }
+
+    /// Adds other sums.
+    pub fn add(&mut self, other: &Self) {
+        self.0.add(&other.0);
+    }
+
     /// Adds a block.
     #[inline(always)]
     pub fn add_block(&mut self, block: &FeatureBlock, weights: &BlockWeights) {
-        for (weights, sums) in weights.iter().zip(self.sums.chunks_mut(TILES)) {
+        let Products { places, sums } = &mut self.0;
+        let ones = tile(block, *places - 1);
+        for (weights, sums) in weights.iter().zip(sums.chunks_mut(*places)) {
             for (t, sums) in sums.iter_mut().enumerate() {
-                multiply(tile(block, TILES - 1), ONE, tile(block, t), weights, sums);
+                multiply(ones, ONE, tile(block, t), weights, sums);
             }
         }
     }
 
     /// The sum for a weight and a column.
     pub fn at(&self, weight: usize, column: usize) -> f64 {
-        self.sums[weight / GROUP * TILES + column / LANES][weight % GROUP][column % LANES]
+        self.0.at(weight, column / LANES, column % LANES)
     }
 }
 
@@ -115,7 +145,7 @@ fn multiply(of: &[Tile], lane: usize, by: &[Tile], weights: &[[f32; GROUP]; BLOC
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::training::features::{COLUMNS, Scaling, blocks};
+    use crate::training::features::{Scaling, blocks};
 
     #[test]
     fn sums_are_those_of_a_loop_over_the_samples() {
@@ -130,7 +160,7 @@ mod tests {
         for (s, w) in (0..BLOCK).flat_map(|s| (0..14).map(move |w| (s, w))) {
             weights[w / GROUP][s][w % GROUP] = weight(s, w);
         }
-        let (mut gram, mut moments) = (Gram::zeros(14), Moments::zeros(14));
+        let (mut gram, mut moments) = (Gram::zeros(14, 9), Moments::zeros(14, 9));
         gram.add_block(block, &weights);
         moments.add_block(block, &weights);
         let once = gram.clone();
@@ -138,7 +168,7 @@ mod tests {
         let rows: Vec<_> = counts.iter().map(|counts| scaling.apply(counts)).collect();
         for w in [0, 11, 12, 13] {
             for (i, j) in [(0, 0), (3, 70), (70, 3), (64, 71), (71, 71), (9, 8)] {
-                let term = |(s, x): (usize, &[f32; COLUMNS])| f64::from(weight(s, w) * x[i] * x[j]);
+                let term = |(s, x): (usize, &Vec<f32>)| f64::from(weight(s, w) * x[i] * x[j]);
                 let expected: f64 = rows.iter().enumerate().map(term).sum();
                 let found = gram.at(w, i, j) / 2.0;
                 assert!((found - expected).abs() < 1e-2, "{w} {i} {j}: {found} {expected}");

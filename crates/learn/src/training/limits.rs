@@ -4,8 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use tofsim::firmware::depth_estimator::datapath::Datapath;
 
-use super::basis::KNOTS;
-use super::features::{COLUMNS, Scaling};
+use super::features::Scaling;
 use super::lm::NormalEquations;
 
 /// Where the penalties begin, a little inside the words' ranges, and how steep they are.
@@ -96,11 +95,12 @@ impl Hinges {
                 hinge(excess, slopes);
             }
         };
-        for (k, row) in x.chunks_exact(COLUMNS).take(neurons).enumerate() {
-            let first = k * COLUMNS;
+        let columns = scaling.columns();
+        for (k, row) in x.chunks_exact(columns).take(neurons).enumerate() {
+            let first = k * columns;
             // B1 is what the centring leaves of the bias.
-            let mut slopes = vec![(first + KNOTS, 1.0)];
-            let mut bias = row[KNOTS];
+            let mut slopes = vec![(first + columns - 1, 1.0)];
+            let mut bias = row[columns - 1];
             let of_raw = scaling.inverse_sd.iter().zip(&scaling.mean);
             for ((place, weight), (of_raw, mean)) in (first..).zip(row).zip(of_raw) {
                 let relative = of_raw / w1;
@@ -110,7 +110,7 @@ impl Hinges {
             }
             outside(bias, b1, 1.0, &mut slopes);
         }
-        let output = neurons * COLUMNS;
+        let output = neurons * columns;
         for (place, weight) in (output..).zip(&x[output..output + neurons]) {
             outside(*weight, w2_m, limits.w2_slope, &mut [(place, 1.0)]);
         }
@@ -127,12 +127,12 @@ mod tests {
 
     #[test]
     fn the_penalties_derivatives_are_their_differences() {
-        let mean = (0..KNOTS).map(|k| k as f64).collect();
-        let scaling = Scaling { mean, inverse_sd: vec![0.004; KNOTS], ..Scaling::default() };
+        let mean = (0..71).map(|k| k as f64).collect();
+        let scaling = Scaling { mean, inverse_sd: vec![0.004; 71], ..Scaling::default() };
         // Two neurons; every kind of hinge is above zero.
-        let mut x: Vec<f64> = (0..2 * COLUMNS).map(|k| (k as f64 * 0.37).sin() * 1.5).collect();
-        x[KNOTS] = 9.0;
-        x[COLUMNS + KNOTS] = -9.0;
+        let mut x: Vec<f64> = (0..2 * 72).map(|k| (k as f64 * 0.37).sin() * 1.5).collect();
+        x[71] = 9.0;
+        x[72 + 71] = -9.0;
         x.extend([2.1, -2.2, -0.3]);
         let (limits, size) =
             (Hinges { limits: WordLimits::default(), words: Datapath::THESIS }, x.len());
@@ -155,8 +155,8 @@ mod tests {
     #[test]
     fn a_network_well_inside_costs_nothing() {
         let scaling =
-            Scaling { mean: vec![10.0; KNOTS], inverse_sd: vec![0.1; KNOTS], ..Scaling::default() };
-        let x = vec![0.001; 8 * COLUMNS + 9];
+            Scaling { mean: vec![10.0; 71], inverse_sd: vec![0.1; 71], ..Scaling::default() };
+        let x = vec![0.001; 8 * 72 + 9];
         let hinges = |words: Datapath| Hinges { limits: WordLimits::default(), words };
         assert_eq!(hinges(Datapath::THESIS).cost(&x, 8, &scaling), 0.0);
         // A word that ends at 6e-5, and a weight of 1e-4 for raw counts.

@@ -29,14 +29,20 @@ pub struct MeasuredParts {
     test: Samples,
     distances_m: Vec<f64>,
     bins: Bins,
+    pulse_sigma_ps: f64,
 }
 
 impl MeasuredParts {
-    /// Deals out histograms of those bins by a seed.
+    /// Deals out histograms of those bins, of a pulse of that width [ps], by a seed.
     ///
     /// # Errors
     /// When there are fewer than ten histograms at a distance.
-    pub fn new(labelled: &Labelled, bins: Bins, seed: u64) -> Result<Self, Input> {
+    pub fn new(
+        labelled: &Labelled,
+        bins: Bins,
+        pulse_sigma_ps: f64,
+        seed: u64,
+    ) -> Result<Self, Input> {
         let seed = derived(seed, DEALING);
         let place = |row: usize| -> (f64, u64) {
             let mut random = stream(seed, streams::Source::Scene, row as u64);
@@ -50,6 +56,7 @@ impl MeasuredParts {
             test: Samples::default(),
             distances_m: Vec::new(),
             bins,
+            pulse_sigma_ps,
         };
         for same in rows.chunk_by(|((a, _), _), ((b, _), _)| a == b) {
             let ((distance_m, _), _) = same[0];
@@ -87,6 +94,10 @@ impl TrainingMaterial for MeasuredParts {
 
     fn bins(&self) -> &Bins {
         &self.bins
+    }
+
+    fn pulse_sigma_ps(&self) -> f64 {
+        self.pulse_sigma_ps
     }
 
     /// A stage has the training's histograms, or every so many one of them if it wants fewer.
@@ -134,7 +145,7 @@ mod tests {
 
     #[test]
     fn every_histogram_is_in_one_part_with_its_distance() {
-        let parts = MeasuredParts::new(&labelled(400), bins(), 1).unwrap();
+        let parts = MeasuredParts::new(&labelled(400), bins(), 137.0, 1).unwrap();
         let recipe = Recipe::quick();
         let of = |purpose| parts.draw(&recipe, 1, purpose);
         let [stage, choice, test] = [Purpose::Stage(0), Purpose::Choice, Purpose::Test].map(of);
@@ -149,14 +160,14 @@ mod tests {
             let fits = |(counts, m): (&Vec<u32>, &f64)| *m == [0.3, 0.2][counts[0] as usize % 2];
             assert!(part.counts.iter().zip(&part.distances_m).all(fits));
         }
-        let other = MeasuredParts::new(&labelled(400), bins(), 2).unwrap();
+        let other = MeasuredParts::new(&labelled(400), bins(), 137.0, 2).unwrap();
         assert_ne!(other.draw(&recipe, 2, Purpose::Test), test);
         assert_ne!(other.digest(), parts.digest());
     }
 
     #[test]
     fn a_stage_that_wants_fewer_has_some_of_every_distance() {
-        let parts = MeasuredParts::new(&labelled(2000), bins(), 1).unwrap();
+        let parts = MeasuredParts::new(&labelled(2000), bins(), 137.0, 1).unwrap();
         let recipe = Recipe::quick();
         let [a, b] = [0, 1].map(|stage| parts.draw(&recipe, 1, Purpose::Stage(stage)));
         assert_eq!((a.counts.len(), b.counts.len()), (603, 1005));
@@ -166,7 +177,7 @@ mod tests {
 
     #[test]
     fn few_histograms_of_a_distance_are_refused() {
-        let error = MeasuredParts::new(&labelled(19), bins(), 1).unwrap_err().to_string();
+        let error = MeasuredParts::new(&labelled(19), bins(), 137.0, 1).unwrap_err().to_string();
         assert!(error.contains("9: histograms at 0.2 m, expected 10 or more"), "{error}");
     }
 }

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::features::{BLOCK, COLUMNS, FeatureBlock, LANES, Scaling, TILES, tile};
+use super::features::{BLOCK, FeatureBlock, LANES, Scaling, tile};
 use super::gram::{BlockWeights, GROUP, groups};
 use super::limits::Hinges;
 use super::lm::{NormalEquations, Problem};
@@ -66,8 +66,8 @@ impl NetworkProblem<'_> {
     #[inline(always)]
     fn sum(block: &FeatureBlock, sample: usize, row: &[f64]) -> f64 {
         let mut sums = [0.0; LANES];
-        for t in 0..TILES {
-            let (inputs, weights) = (&tile(block, t)[sample], &row[t * LANES..][..LANES]);
+        for (t, weights) in row.chunks_exact(LANES).enumerate() {
+            let inputs = &tile(block, t)[sample];
             for lane in 0..LANES {
                 sums[lane] += weights[lane] * f64::from(inputs[lane]);
             }
@@ -89,10 +89,11 @@ impl NetworkProblem<'_> {
         sample: usize,
         activations: &mut [f64],
     ) -> f64 {
-        let output = &x[self.neurons * COLUMNS..];
+        let columns = self.scaling.columns();
+        let output = &x[self.neurons * columns..];
         let mut depth = output[self.neurons];
         for (k, activation) in activations.iter_mut().enumerate() {
-            *activation = libm::tanh(Self::sum(block, sample, &x[k * COLUMNS..][..COLUMNS]));
+            *activation = libm::tanh(Self::sum(block, sample, &x[k * columns..][..columns]));
             depth += output[k] * *activation;
         }
         depth
@@ -101,7 +102,7 @@ impl NetworkProblem<'_> {
     /// Squares of a block's residuals.
     #[inline(always)]
     fn block_cost(&self, x: &[f64], index: usize, activations: &mut [f64]) -> f64 {
-        let (block, w2) = (&self.blocks[index], &x[self.neurons * COLUMNS..]);
+        let (block, w2) = (&self.blocks[index], &x[self.neurons * self.scaling.columns()..]);
         let mut cost = 0.0;
         for (place, sample) in self.samples(index).enumerate() {
             let error = self.depth(x, block, place, activations) - self.distances_m[sample];
@@ -118,8 +119,8 @@ impl NetworkProblem<'_> {
     /// Adds a block to the sums.
     #[inline(always)]
     fn add_block(&self, x: &[f64], index: usize, scratch: &mut Scratch, sums: &mut Sums) {
-        let n = self.neurons;
-        let (block, w2) = (&self.blocks[index], &x[n * COLUMNS..]);
+        let (n, columns) = (self.neurons, self.scaling.columns());
+        let (block, w2) = (&self.blocks[index], &x[n * columns..]);
         let samples = self.samples(index);
         let used = samples.len();
         for weights in scratch.pairs.iter_mut().chain(&mut scratch.cross) {
@@ -155,18 +156,18 @@ impl NetworkProblem<'_> {
                     mixed += 1;
                 }
                 let along = slope * residual + by_sum * noise;
-                let gradient = &mut sums.gradient[k * COLUMNS..][..COLUMNS];
-                for t in 0..TILES {
+                let gradient = &mut sums.gradient[k * columns..][..columns];
+                for (t, gradient) in gradient.chunks_exact_mut(LANES).enumerate() {
                     let inputs = &tile(block, t)[place];
                     for lane in 0..LANES {
-                        gradient[t * LANES + lane] += along * f64::from(inputs[lane]);
+                        gradient[lane] += along * f64::from(inputs[lane]);
                     }
                 }
-                sums.gradient[n * COLUMNS + k] += by_w2 * noise;
+                sums.gradient[n * columns + k] += by_w2 * noise;
                 sums.corner[k * (n + 1) + k] += by_w2 * by_w2;
             }
             for (k, output) in outputs.iter().enumerate() {
-                sums.gradient[n * COLUMNS + k] += output * residual;
+                sums.gradient[n * columns + k] += output * residual;
                 for (l, other) in outputs.iter().enumerate() {
                     sums.corner[k * (n + 1) + l] += output * other;
                 }
@@ -177,7 +178,8 @@ impl NetworkProblem<'_> {
     }
 
     /// What `add_up` makes of each run of neighbouring blocks, in order, with vectors as wide as
-    /// `arch` has them; threads share the runs.
+    /// `arch` has them; threads share the runs. Loops in there are plain ones: the body of a `fold` or a
+    /// `for_each` may become a function of its own, and that one has narrow vectors.
     fn each_run<T: Send>(
         &self,
         arch: pulp::Arch,
@@ -200,8 +202,11 @@ impl NetworkProblem<'_> {
             arch,
             #[inline(always)]
             |run| {
-                let mut activations = vec![0.0; self.neurons];
-                run.fold(0.0, |cost, index| cost + self.block_cost(x, index, &mut activations))
+                let (mut cost, mut activations) = (0.0, vec![0.0; self.neurons]);
+                for index in run {
+                    cost += self.block_cost(x, index, &mut activations);
+                }
+                cost
             },
         )
     }
@@ -213,8 +218,10 @@ impl NetworkProblem<'_> {
             #[inline(always)]
             |run| {
                 let mut scratch = Scratch::new(self.neurons);
-                let mut sums = Sums::zeros(self.neurons);
-                run.for_each(|index| self.add_block(x, index, &mut scratch, &mut sums));
+                let mut sums = Sums::zeros(self.neurons, self.scaling.columns());
+                for index in run {
+                    self.add_block(x, index, &mut scratch, &mut sums);
+                }
                 sums
             },
         )
@@ -248,7 +255,7 @@ impl Problem for NetworkProblem<'_> {
 
     fn linearise(&self, x: &[f64]) -> NormalEquations {
         let parts = self.sums(pulp::Arch::new(), x);
-        let sums = parts.iter().fold(Sums::zeros(self.neurons), Sums::with);
+        let sums = parts.iter().fold(Sums::zeros(self.neurons, self.scaling.columns()), Sums::with);
         let mut linear = sums.assemble(self.neurons, self.distances_m.len());
         self.hinges.add(x, self.neurons, self.scaling, &mut linear);
         linear

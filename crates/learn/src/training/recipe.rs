@@ -29,6 +29,10 @@ pub struct Recipe {
     /// when its error on them has not fallen for `optimiser.max_fail` epochs, and goes back to where it
     /// was least; with 0 there is none.
     pub validation: u64,
+    /// Knots between which the hidden weights are straight: a multiple of 8 less one. Without it there are as
+    /// many as the width of the pulse asks for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub knots: Option<usize>,
     /// Noise of a neuron's sum from the activation table's steps [steps].
     pub table_noise: f64,
     /// Random starts.
@@ -107,6 +111,7 @@ impl Default for Recipe {
             checkpoint_epochs: 20,
             least_gain: 0.0,
             validation: 0,
+            knots: None,
             table_noise: 0.4096,
             start: RandomStart { lengths: vec![0.1, 0.3], bias: 1.0, output_m: 0.1 },
             stages: vec![

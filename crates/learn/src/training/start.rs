@@ -5,8 +5,6 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use tofsim::sensor::streams::uniform;
 
-use super::basis::KNOTS;
-use super::features::COLUMNS;
 use super::recipe::RandomStart;
 use super::sums::parameters;
 
@@ -21,14 +19,15 @@ pub fn derived(seed: u64, place: u64) -> u64 {
     word ^ (word >> 31)
 }
 
-/// Parameters to begin with; each start has random numbers of its own.
-pub fn start(settings: &RandomStart, neurons: usize, seed: u64, number: usize) -> Vec<f64> {
+/// Parameters of so many neurons with so many columns to begin with; each start has random numbers of its own.
+pub fn start(settings: &RandomStart, size: [usize; 2], seed: u64, number: usize) -> Vec<f64> {
+    let [neurons, columns] = size;
     let mut random = ChaCha8Rng::seed_from_u64(derived(seed, STARTS));
     random.set_stream(number as u64);
     let length = settings.lengths[number % settings.lengths.len()];
-    let mut x = Vec::with_capacity(parameters(neurons));
+    let mut x = Vec::with_capacity(parameters(neurons, columns));
     for k in 0..neurons {
-        let row: Vec<f64> = (0..KNOTS).map(|_| normal(&mut random)).collect();
+        let row: Vec<f64> = (1..columns).map(|_| normal(&mut random)).collect();
         let norm = row.iter().map(|weight| weight * weight).sum::<f64>().sqrt();
         x.extend(row.iter().map(|weight| weight / norm * length));
         let share = if neurons > 1 { k as f64 / (neurons - 1) as f64 } else { 0.5 };
@@ -36,7 +35,7 @@ pub fn start(settings: &RandomStart, neurons: usize, seed: u64, number: usize) -
     }
     x.extend((0..neurons).map(|_| settings.output_m * (2.0 * uniform(random.next_u64()) - 1.0)));
     x.push(0.0);
-    debug_assert_eq!(x.len(), neurons * (COLUMNS + 1) + 1);
+    debug_assert_eq!(x.len(), parameters(neurons, columns));
     x
 }
 
@@ -55,18 +54,18 @@ mod tests {
     fn a_start_is_as_the_recipe_says() {
         let settings = Recipe::default().start;
         for (number, length) in [(0, 0.1), (1, 0.3), (2, 0.1)] {
-            let x = start(&settings, 8, 1, number);
-            assert_eq!(x.len(), parameters(8));
-            for (k, row) in x.chunks_exact(COLUMNS).take(8).enumerate() {
-                let norm = row[..KNOTS].iter().map(|weight| weight * weight).sum::<f64>().sqrt();
+            let x = start(&settings, [8, 72], 1, number);
+            assert_eq!(x.len(), parameters(8, 72));
+            for (k, row) in x.chunks_exact(72).take(8).enumerate() {
+                let norm = row[..71].iter().map(|weight| weight * weight).sum::<f64>().sqrt();
                 assert!((norm - length).abs() < 1e-12);
-                assert!((row[KNOTS] - (k as f64 / 3.5 - 1.0)).abs() < 1e-12);
+                assert!((row[71] - (k as f64 / 3.5 - 1.0)).abs() < 1e-12);
             }
-            assert!(x[8 * COLUMNS..].iter().all(|weight| weight.abs() <= 0.1));
+            assert!(x[8 * 72..].iter().all(|weight| weight.abs() <= 0.1));
         }
-        assert_ne!(start(&settings, 8, 1, 0), start(&settings, 8, 1, 2));
-        assert_ne!(start(&settings, 8, 1, 0), start(&settings, 8, 2, 0));
-        assert_eq!(start(&settings, 1, 1, 0).len(), parameters(1));
+        assert_ne!(start(&settings, [8, 72], 1, 0), start(&settings, [8, 72], 1, 2));
+        assert_ne!(start(&settings, [8, 72], 1, 0), start(&settings, [8, 72], 2, 0));
+        assert_eq!(start(&settings, [1, 88], 1, 0).len(), parameters(1, 88));
     }
 
     #[test]

@@ -94,10 +94,11 @@ pub struct TournamentState {
 impl TournamentState {
     /// At the beginning.
     pub(super) fn new(recipe: &Recipe, seed: u64, scaling: Scaling) -> Self {
+        let size = [recipe.neurons, scaling.columns()];
         let candidate = |number| Candidate {
             start: number,
             made: 0,
-            lm: Lm::new(start(&recipe.start, recipe.neurons, seed, number), &recipe.optimiser),
+            lm: Lm::new(start(&recipe.start, size, seed, number), &recipe.optimiser),
             factors: Vec::new(),
         };
         let candidates = (0..recipe.stages[0].candidates).map(candidate).collect();

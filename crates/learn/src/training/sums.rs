@@ -1,14 +1,14 @@
 //! What an epoch sums up over all samples, and the normal equations that it gives.
 
 use super::cholesky::Symmetric;
-use super::features::COLUMNS;
+use super::features::LANES;
 use super::gram::{Gram, Moments};
 use super::lm::NormalEquations;
 
-/// Number of parameters of a network: for each neuron its knots and its bias, then the output
-/// layer's weights and its bias.
-pub fn parameters(neurons: usize) -> usize {
-    neurons * (COLUMNS + 1) + 1
+/// Number of parameters of a network with so many columns: for each neuron its knots and its bias, then the
+/// output layer's weights and its bias.
+pub fn parameters(neurons: usize, columns: usize) -> usize {
+    neurons * (columns + 1) + 1
 }
 
 /// Sums over samples.
@@ -27,14 +27,15 @@ pub struct Sums {
 }
 
 impl Sums {
-    /// Zeros.
-    pub fn zeros(neurons: usize) -> Self {
+    /// Zeros for so many columns.
+    pub fn zeros(neurons: usize, columns: usize) -> Self {
+        let tiles = columns / LANES;
         Sums {
             cost: 0.0,
-            gram: Gram::zeros(neurons * (neurons + 1) / 2),
-            cross: Moments::zeros(neurons * (neurons + 1)),
+            gram: Gram::zeros(neurons * (neurons + 1) / 2, tiles),
+            cross: Moments::zeros(neurons * (neurons + 1), tiles),
             corner: vec![0.0; (neurons + 1) * (neurons + 1)],
-            gradient: vec![0.0; parameters(neurons)],
+            gradient: vec![0.0; parameters(neurons, columns)],
         }
     }
 
@@ -50,22 +51,24 @@ impl Sums {
 
     /// J'J / n and J'r / n from the sums of so many samples.
     pub fn assemble(&self, neurons: usize, samples: usize) -> NormalEquations {
-        let (n, output) = (neurons, neurons * COLUMNS);
-        let mut matrix = Symmetric::zeros(parameters(n));
+        let (n, size) = (neurons, self.gradient.len());
+        let columns = (size - 1) / n - 1;
+        let output = n * columns;
+        let mut matrix = Symmetric::zeros(size);
         let mut pair = 0;
         for k in 0..n {
             for l in 0..=k {
-                for i in 0..COLUMNS {
+                for i in 0..columns {
                     // Of a neuron with itself the lower half is all there is.
-                    for j in 0..if l == k { i + 1 } else { COLUMNS } {
-                        matrix.add(k * COLUMNS + i, l * COLUMNS + j, self.gram.at(pair, i, j));
+                    for j in 0..if l == k { i + 1 } else { columns } {
+                        matrix.add(k * columns + i, l * columns + j, self.gram.at(pair, i, j));
                     }
                 }
                 pair += 1;
             }
             for l in 0..=n {
-                for i in 0..COLUMNS {
-                    matrix.add(output + l, k * COLUMNS + i, self.cross.at(k * (n + 1) + l, i));
+                for i in 0..columns {
+                    matrix.add(output + l, k * columns + i, self.cross.at(k * (n + 1) + l, i));
                 }
             }
         }

@@ -48,7 +48,8 @@ impl Origin {
                 Labelled::read(data, args.truth.as_deref(), &loaded.scenario.histogram())?;
             labelled.check(data, &loaded.scenario)?;
             let bins = Setup::of_counts(loaded.clone())?.bins();
-            let parts = MeasuredParts::new(&labelled, bins, args.seed)?;
+            let sigma_ps = loaded.scenario.laser.pulse_sigma_ps;
+            let parts = MeasuredParts::new(&labelled, bins, sigma_ps, args.seed)?;
             return Ok(Origin::Measured {
                 parts: Box::new(parts),
                 ranges: labelled.ranges(),

@@ -28,7 +28,10 @@ fn an_own_grid_is_trained_tested_and_chosen_on_with_draws_of_their_own() {
     assert!(test.distances_m.iter().all(|d| stage.distances_m.contains(d)));
     let shared = |a: &Samples, b: &Samples| a.counts.iter().any(|one| b.counts.contains(one));
     assert!(!shared(&test, &stage) && !shared(&test, &choice) && !shared(&choice, &stage));
-    assert!(scenes.knots()[60] > 200.0);
+    let knots = scenes.knots(&recipe);
+    assert!(knots.len() > 90 && knots[80] > 200.0, "{knots:?}");
+    let fewer = Recipe { knots: Some(31), ..recipe };
+    assert_eq!(scenes.knots(&fewer).len(), 31);
 }
 
 #[test]
@@ -37,7 +40,7 @@ fn the_thesis_s_grids_are_as_they_were() {
     let thesis = TrainingScenes::thesis(&source);
     let of = TrainingScenes::of_grids(&source, Grid::training(), Grid::test());
     assert_eq!((of.training, of.test), (thesis.training.clone(), thesis.test.clone()));
-    assert!(thesis.knots().is_empty());
+    assert!(thesis.knots(&Recipe::default()).is_empty());
 }
 
 #[test]

@@ -35,14 +35,14 @@ fn with_problem<T>(neurons: usize, check: impl FnOnce(&NetworkProblem, &[f64]) -
         hinges: Hinges { limits: WordLimits::default(), words: Datapath::THESIS },
         held_out: None,
     };
-    let x: Vec<f64> = (0..parameters(neurons)).map(|k| (k as f64).sin() * 0.1).collect();
+    let x: Vec<f64> = (0..parameters(neurons, scaling.columns())).map(|k| (k as f64).sin() * 0.1).collect();
     check(&problem, &x)
 }
 
 /// Residuals of all samples, each with those of its neurons.
 fn residuals(problem: &NetworkProblem, x: &[f64]) -> Vec<f64> {
     let mut activations = vec![0.0; problem.neurons];
-    let w2 = &x[problem.neurons * COLUMNS..];
+    let w2 = &x[problem.neurons * problem.scaling.columns()..];
     let mut residuals = Vec::new();
     for sample in 0..300 {
         let block = &problem.blocks[sample / BLOCK];
@@ -149,12 +149,12 @@ fn bins_that_never_count_do_no_harm() {
         hinges: Hinges { limits: WordLimits::default(), words: Datapath::THESIS },
         held_out: None,
     };
-    let mut lm = Lm::new(start(&recipe.start, 2, 1, 0), &LmSettings::default());
+    let mut lm = Lm::new(start(&recipe.start, [2, scaling.columns()], 1, 0), &LmSettings::default());
     lm.epoch(&problem, &LmSettings::default()).unwrap();
     let first = lm.cost;
     for _ in 0..10 {
         lm.epoch(&problem, &LmSettings::default()).unwrap();
     }
-    assert!(lm.x.len() == parameters(2) && lm.x.iter().all(|x| x.is_finite()));
+    assert!(lm.x.len() == parameters(2, scaling.columns()) && lm.x.iter().all(|x| x.is_finite()));
     assert!(lm.cost < 0.5 * first, "{} {first}", lm.cost);
 }

@@ -6,9 +6,14 @@ use tofsim::error::{Error, Input};
 use tofsim::firmware::forward2::MOST_NEURONS;
 
 use super::{Recipe, Stage};
+use crate::training::basis::fill_tiles;
 
 /// Histograms of a scene that the test grid has (thesis section 4.1).
 const MOST_CHOICE: u64 = 5;
+/// Least and largest number of knots: the ends and a few between, and a bin each.
+const LEAST_KNOTS: usize = 15;
+/// See [`LEAST_KNOTS`].
+const MOST_KNOTS: usize = 1031;
 /// Distances of the training grid; below that, some would be left out.
 const LEAST_SAMPLES: u64 = 201;
 
@@ -27,6 +32,10 @@ impl Recipe {
             at_least("validation", *validation, LEAST_SAMPLES)?;
             at_least("optimiser.max_fail", optimiser.max_fail.into(), 1)?;
         }
+        let knots = self.knots.unwrap_or(LEAST_KNOTS);
+        let fits = (LEAST_KNOTS..=MOST_KNOTS).contains(&knots) && fill_tiles(knots);
+        let expected = format!("expected {LEAST_KNOTS}, 23, 31 .. {MOST_KNOTS}, a multiple of 8 less one");
+        ensure(fits, "knots", knots, expected)?;
         ensure(!stages.is_empty(), "stages", 0, "expected one stage or more")?;
         ensure(!start.lengths.is_empty(), "start.lengths", "[]", "expected one length or more")?;
         self.check_stages()?;
@@ -109,6 +118,7 @@ mod tests {
             fault("", &["limits.b3=1"]).starts_with("--with limits.b3=1: limits.b3: unknown key")
         );
         assert!(fault("", &["neurons"]).contains("expected key=value"));
+        assert!(fault("", &["knots=72"]).contains("knots = 72: expected 15, 23, 31"));
         assert!(fault("", &["neurons=0"]).contains("neurons = 0: expected 1 or more"));
         assert!(fault("", &["finish.choice=6"]).contains("finish.choice = 6: expected 1 to 5"));
         assert!(fault("", &["finish.samples=5"]).contains("finish.samples = 5: expected 201"));
