@@ -255,7 +255,8 @@ pub fn tof_top_in_full(setup: &Setup) -> Parameters {
     all.push((NEURONS, Parameter::Number(params.depth_estimator.neurons() as u64)));
     all.push((COUNT_STAGES, Parameter::Number(params.tdc.decoder.count_stages)));
     let (sizes, laser) = (params.sizes(), &params.vcsel_driver);
-    all.extend(OF_TOP.map(|name| (name, size(&sizes, laser, name))));
+    let named = OF_NETWORK.iter().chain(&OF_TOP);
+    all.extend(named.map(|&name| (name, size(&sizes, laser, name))));
     all.push(("Estimator", Parameter::Number(u64::from(params.estimator == Estimator::Centroid))));
     all.extend(centroid_estimator(&params.centroid_estimator));
     let is_new = |(name, _): &(&str, Parameter)| list.iter().all(|(known, _)| known != name);

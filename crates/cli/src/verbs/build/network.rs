@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use tofsim::error::{Error, Input, Result, read_text};
+use tofsim::error::{Error, Result, read_text};
 use tofsim::files::output::write_bytes;
 use tofsim::network::Network;
 use tofsim::scenario::EstimatorKind;
@@ -42,13 +42,7 @@ pub fn run(site: &Site, anew: bool) -> Result<Outcome> {
     site.talk.note(format_args!("network: trained, because {reason}"));
     train(site, anew)?;
     let trained = Path::new(TRAINING).join(NETWORK);
-    let text = match read_text(&trained) {
-        Err(Error::Io { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => {
-            let expected = "the firmware has no such number formats: expected those of Table 6.4";
-            return Err(Input::new("training.formats", expected).into());
-        }
-        read => read?,
-    };
+    let text = read_text(&trained)?;
     write_bytes(Path::new(NETWORK), &text)?;
     let neurons = Network::parse(&text, NETWORK)?.fixed.neurons();
     let result = json!({ "how": "trained", "because": reason, "neurons": neurons });
