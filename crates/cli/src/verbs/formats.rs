@@ -1,7 +1,7 @@
 //! Options that choose the number formats of the network.
 
-use tofsim::firmware::depth_estimator::datapath::Datapath;
 use tofsim::error::{Input, Result};
+use tofsim::firmware::depth_estimator::datapath::Datapath;
 use tofsim::kernel::WordFormat;
 use tofsim::scenario::Training;
 

@@ -126,14 +126,18 @@ fn check(state: &TournamentState, recipe: &Recipe) -> std::result::Result<(), &'
     let size = parameters(recipe.neurons, state.scaling.columns());
     let fits = |x: &[f64]| x.len() == size && x.iter().all(|x| x.is_finite());
     let mut least = state.candidates.iter().filter_map(|candidate| candidate.lm.least.as_ref());
-    let (scaling, knots) = ([&state.scaling.mean, &state.scaling.inverse_sd], state.scaling.mean.len());
+    let (scaling, knots) =
+        ([&state.scaling.mean, &state.scaling.inverse_sd], state.scaling.mean.len());
     let checks = [
         ("stage", state.stage <= stages),
         ("block", state.block <= blocks),
         ("epochs", state.epochs < stage.epochs),
         ("candidates.made", state.candidates.iter().all(|one| one.made <= stage.epochs)),
         ("scaling", scaling.iter().all(|s| s.len() == knots && s.iter().all(|x| x.is_finite()))),
-        ("scaling.knots", knots == KNOTS && state.scaling.knots.is_empty() || are_knots(&state.scaling)),
+        (
+            "scaling.knots",
+            knots == KNOTS && state.scaling.knots.is_empty() || are_knots(&state.scaling),
+        ),
         ("candidates", state.candidates.len() == stage.candidates),
         ("candidates.lm.x", state.candidates.iter().all(|candidate| fits(&candidate.lm.x))),
         ("candidates.lm.least", least.all(|(_, x)| fits(x))),
@@ -150,7 +154,10 @@ fn are_knots(scaling: &Scaling) -> bool {
     let (knots, last_bin) = (&scaling.knots, scaling.bins as f64 - 1.0);
     let ends = (knots.first(), knots.last());
     let holds_all = matches!(ends, (Some(&first), Some(&last)) if first == 0.0 && last >= last_bin);
-    knots.len() == scaling.mean.len() && fill_tiles(knots.len()) && holds_all && knots.is_sorted_by(|a, b| a < b)
+    knots.len() == scaling.mean.len()
+        && fill_tiles(knots.len())
+        && holds_all
+        && knots.is_sorted_by(|a, b| a < b)
 }
 
 #[cfg(test)]

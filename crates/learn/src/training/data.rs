@@ -72,7 +72,11 @@ pub trait TrainingMaterial: fmt::Debug + Sync {
     /// Places of the knots for these distances, so many if the recipe says; none are the thesis's.
     fn knots(&self, recipe: &Recipe) -> Vec<f64> {
         let bins = self.bins();
-        knots_for(&echoes(self.distances_m(), bins, self.pulse_sigma_ps()), bins.count(), recipe.knots)
+        knots_for(
+            &echoes(self.distances_m(), bins, self.pulse_sigma_ps()),
+            bins.count(),
+            recipe.knots,
+        )
     }
 
     /// Standard deviation of the pulse, in the first of the settings [ps].
@@ -145,7 +149,11 @@ impl TrainingMaterial for TrainingScenes<'_> {
         if self.training.is_thesis() && bins.are_kc705() && recipe.knots.is_none() {
             return Vec::new();
         }
-        knots_for(&echoes(self.distances_m(), bins, self.pulse_sigma_ps()), bins.count(), recipe.knots)
+        knots_for(
+            &echoes(self.distances_m(), bins, self.pulse_sigma_ps()),
+            bins.count(),
+            recipe.knots,
+        )
     }
 
     fn pulse_sigma_ps(&self) -> f64 {

@@ -35,7 +35,8 @@ fn with_problem<T>(neurons: usize, check: impl FnOnce(&NetworkProblem, &[f64]) -
         hinges: Hinges { limits: WordLimits::default(), words: Datapath::THESIS },
         held_out: None,
     };
-    let x: Vec<f64> = (0..parameters(neurons, scaling.columns())).map(|k| (k as f64).sin() * 0.1).collect();
+    let x: Vec<f64> =
+        (0..parameters(neurons, scaling.columns())).map(|k| (k as f64).sin() * 0.1).collect();
     check(&problem, &x)
 }
 
@@ -149,7 +150,8 @@ fn bins_that_never_count_do_no_harm() {
         hinges: Hinges { limits: WordLimits::default(), words: Datapath::THESIS },
         held_out: None,
     };
-    let mut lm = Lm::new(start(&recipe.start, [2, scaling.columns()], 1, 0), &LmSettings::default());
+    let mut lm =
+        Lm::new(start(&recipe.start, [2, scaling.columns()], 1, 0), &LmSettings::default());
     lm.epoch(&problem, &LmSettings::default()).unwrap();
     let first = lm.cost;
     for _ in 0..10 {

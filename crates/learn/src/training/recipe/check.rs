@@ -34,7 +34,8 @@ impl Recipe {
         }
         let knots = self.knots.unwrap_or(LEAST_KNOTS);
         let fits = (LEAST_KNOTS..=MOST_KNOTS).contains(&knots) && fill_tiles(knots);
-        let expected = format!("expected {LEAST_KNOTS}, 23, 31 .. {MOST_KNOTS}, a multiple of 8 less one");
+        let expected =
+            format!("expected {LEAST_KNOTS}, 23, 31 .. {MOST_KNOTS}, a multiple of 8 less one");
         ensure(fits, "knots", knots, expected)?;
         ensure(!stages.is_empty(), "stages", 0, "expected one stage or more")?;
         ensure(!start.lengths.is_empty(), "start.lengths", "[]", "expected one length or more")?;
