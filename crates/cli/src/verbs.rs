@@ -32,7 +32,7 @@ use std::process::ExitCode;
 use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 use terminal::Talk;
 
-use tofsim::error::Result;
+use tofsim::error::{Input, Result};
 
 use crate::record::command_line;
 
@@ -87,6 +87,16 @@ impl Cli {
         Cli::command().disable_help_subcommand(true)
     }
 
+    /// Does what a command of another one's asks for, as [`Cli::run`].
+    fn run_within(words: &[&str], talk: &Talk) -> Result<ExitCode> {
+        let mut command = Cli::command().no_binary_name(true);
+        let fault = |error| Input::new("command", error);
+        let matches = command.try_get_matches_from_mut(words).map_err(fault)?;
+        let mut cli = Cli::from_arg_matches(&matches).map_err(fault)?;
+        cli.talk = talk.within(command_line(&command, &matches));
+        cli.run()
+    }
+
     /// Does what the command line asks for; the status says whether all was the same or fine.
     pub fn run(&self) -> Result<ExitCode> {
         let talk = &self.talk;
@@ -100,7 +110,7 @@ impl Cli {
             Verb::Vectors(args) => vectors::run(args, talk),
             Verb::Verify(args) => return verify::run(args, talk),
             Verb::Timing(args) => return timing::run(args, talk),
-            Verb::Build(args) => return build::run(args, talk),
+            Verb::Build(args) => return build::run(args, talk, Cli::run_within),
             Verb::Ila(args) => ila::run(args, talk),
             Verb::Compare(args) => return compare::run(args, talk),
             Verb::Dataset(args) => dataset::run(args, talk),

@@ -13,7 +13,7 @@ use tofsim::sim::setup::Setup;
 
 use crate::record::Record;
 
-use html::{escaped, inlined, table};
+use html::{escaped, figure, inlined, table};
 
 /// How the page looks, on a screen, in a narrow window and on paper.
 const STYLE: &str = include_str!("page/style.css");
@@ -192,13 +192,4 @@ impl Page<'_> {
 
 fn section(title: &str, inside: &str) -> String {
     format!("<section>\n<h2>{title}</h2>\n{inside}</section>\n")
-}
-
-/// A picture with words below it; nothing without a picture.
-fn figure(svg: &str, words: &str) -> String {
-    if svg.is_empty() {
-        String::new()
-    } else {
-        format!("<figure>\n{svg}\n<figcaption>{words}</figcaption>\n</figure>\n")
-    }
 }

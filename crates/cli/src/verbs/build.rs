@@ -30,7 +30,7 @@ mod vectors;
 mod verilog;
 
 use journal::{Journal, StepRecord};
-use site::Site;
+use site::{RunCommand, Site};
 use step::{Outcome, Step};
 
 /// Build an instrument: network, Verilog, proofs, accuracy, cost and a report, from one scenario file
@@ -67,10 +67,10 @@ pub struct Args {
     json: bool,
 }
 
-/// Runs the verb; the status says whether all was done and passed.
-pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+/// Runs the verb, with others' commands through `run_command`; the status says whether all was done and passed.
+pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode> {
     let instrument = files::InstrumentFiles::read(&args.instrument)?;
-    let site = Site::new(&instrument, args.quick, talk)?;
+    let site = Site::new(&instrument, args.quick, talk, run_command)?;
     talk.heed(&site.notes)?;
     instrument.check_folder(&args.output)?;
     let _held = FolderLock::take(&args.output)?;

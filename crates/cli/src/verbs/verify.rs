@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use clap::{Args as _, Command, FromArgMatches};
 use rayon::prelude::*;
 
 use tofsim::error::{Input, Result};
@@ -75,6 +76,19 @@ pub struct Args {
     junit: Option<PathBuf>,
     #[command(flatten)]
     from: From,
+}
+
+impl Args {
+    /// Those of a command line without the verb.
+    ///
+    /// # Errors
+    /// When there are no such options.
+    pub fn of(words: &[&str]) -> Result<Args> {
+        let command = Args::augment_args(Command::new("verify")).no_binary_name(true);
+        let fault = |error| Input::new("verify", error);
+        let matches = command.try_get_matches_from(words).map_err(fault)?;
+        Ok(Args::from_arg_matches(&matches).map_err(fault)?)
+    }
 }
 
 /// Runs the verb.

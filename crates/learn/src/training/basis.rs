@@ -10,8 +10,8 @@ use std::sync::LazyLock;
 
 use tofsim::firmware::histogram_builder::BINS;
 
-use super::features::LANES;
-
+/// Columns that are worked on together: the knots and a constant fill whole tiles of so many.
+pub const LANES: usize = 8;
 /// Number of the thesis's knots.
 pub const KNOTS: usize = 71;
 
@@ -30,7 +30,9 @@ pub fn knots() -> [f64; KNOTS] {
 
 /// The knot after another one, unless all stretches end before it.
 fn next(knot: f64, spacings: &[(f64, f64)]) -> Option<f64> {
-    spacings.iter().find_map(|(until, spacing)| (knot + spacing <= *until).then_some(knot + spacing))
+    spacings
+        .iter()
+        .find_map(|(until, spacing)| (knot + spacing <= *until).then_some(knot + spacing))
 }
 
 /// Where echoes are expected.
@@ -210,13 +212,17 @@ mod tests {
     #[test]
     fn knots_for_any_echoes_rise_hold_all_bins_and_fill_tiles() {
         for bins in [16, 64, 128, 256, 512, 1024] {
-            for range in [[0.05, 0.94], [0.0, 0.1], [0.4, 0.4], [0.0, 1.3], [0.98, 1.0], [1.2, 2.0]] {
+            for range in [[0.05, 0.94], [0.0, 0.1], [0.4, 0.4], [0.0, 1.3], [0.98, 1.0], [1.2, 2.0]]
+            {
                 for sigma in [0.001, 0.5, 2.0, 5.48, 30.0, 500.0] {
                     let knots = knots_of(range.map(|share| share * bins as f64), sigma, bins);
                     let about = format!("{bins} {range:?} {sigma}: {knots:?}");
                     assert!(fill_tiles(knots.len()) && knots.len() <= MOST, "{about}");
                     assert!(knots.windows(2).all(|pair| pair[1] - pair[0] >= 0.999), "{about}");
-                    assert!(knots[0] == 0.0 && knots[knots.len() - 1] >= (bins - 1) as f64, "{about}");
+                    assert!(
+                        knots[0] == 0.0 && knots[knots.len() - 1] >= (bins - 1) as f64,
+                        "{about}"
+                    );
                 }
             }
         }
@@ -232,7 +238,10 @@ mod tests {
             assert_eq!(knots_for(&echoes, 1024, Some(count)).len(), count);
         }
         // A bin each is the most that echoes of less than a bin can ask for.
-        assert_eq!(knots_of([2.0, 12.0], 0.1, 16)[..16], std::array::from_fn::<f64, 16, _>(|k| k as f64));
+        assert_eq!(
+            knots_of([2.0, 12.0], 0.1, 16)[..16],
+            std::array::from_fn::<f64, 16, _>(|k| k as f64)
+        );
     }
 
     #[test]

@@ -5,10 +5,8 @@ use serde::{Deserialize, Serialize};
 use tofsim::firmware::histogram_builder::BINS;
 use tofsim::network::Histogram;
 
-use super::basis::Basis;
+use super::basis::{Basis, LANES};
 
-/// Columns that are worked on together.
-pub const LANES: usize = 8;
 /// Samples that are worked on together.
 pub const BLOCK: usize = 256;
 

@@ -6,7 +6,8 @@
 //! sum has its own place in a register and takes its terms in order, without fused operations, so
 //! that every processor gives the same bits.
 
-use super::features::{BLOCK, FeatureBlock, LANES, Tile, tile, tiles};
+use super::basis::LANES;
+use super::features::{BLOCK, FeatureBlock, Tile, tile, tiles};
 
 /// Weights that are worked on together.
 pub const GROUP: usize = 12;

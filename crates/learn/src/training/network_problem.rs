@@ -9,7 +9,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::features::{BLOCK, FeatureBlock, LANES, Scaling, tile};
+use super::basis::LANES;
+use super::features::{BLOCK, FeatureBlock, Scaling, tile};
 use super::gram::{BlockWeights, GROUP, groups};
 use super::limits::Hinges;
 use super::lm::{NormalEquations, Problem};

@@ -1,7 +1,7 @@
 //! What an epoch sums up over all samples, and the normal equations that it gives.
 
+use super::basis::LANES;
 use super::cholesky::Symmetric;
-use super::features::LANES;
 use super::gram::{Gram, Moments};
 use super::lm::NormalEquations;
 

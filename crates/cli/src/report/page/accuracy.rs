@@ -4,8 +4,7 @@ use serde_json::Value;
 
 use tofsim_learn::dataset::axis::thinned;
 
-use super::figure;
-use super::html::{escaped, table};
+use super::html::{escaped, figure, table};
 use super::plot::{Curve, curves};
 
 /// Most distances of the table.

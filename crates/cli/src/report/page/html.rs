@@ -50,6 +50,15 @@ pub fn table<const N: usize>(
     format!("<div class=\"scroll\"><table>\n{head}<tbody>\n{body}</tbody>\n</table></div>\n")
 }
 
+/// A picture with words below it; nothing without a picture.
+pub fn figure(svg: &str, words: &str) -> String {
+    if svg.is_empty() {
+        String::new()
+    } else {
+        format!("<figure>\n{svg}\n<figcaption>{words}</figcaption>\n</figure>\n")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -37,7 +37,7 @@ pub fn run(site: &Site) -> Result<Outcome> {
     words.extend(["--estimator", estimator, "--check", "2"]);
     options.iter().for_each(|option| words.extend(["--grid", option]));
     rows.iter().for_each(|rows| words.extend(["--rows", rows]));
-    let agrees = site.command(&words)?.run()? == ExitCode::SUCCESS;
+    let agrees = site.run(&words)? == ExitCode::SUCCESS;
     let path = Path::new(FOLDER).join("evaluation.json");
     let result: Value = serde_json::from_str(&read_text(&path)?)
         .map_err(|error| Input::new(path.display(), error))?;

@@ -14,7 +14,7 @@ use super::step::Outcome;
 pub const FOLDER: &str = "frame";
 
 pub fn run(site: &Site) -> Result<Outcome> {
-    site.command(&["run", site.scenario(), "-o", FOLDER])?.run()?;
+    site.run(&["run", site.scenario(), "-o", FOLDER])?;
     let path = Path::new(FOLDER).join("summary.json");
     let result: Value = serde_json::from_str(&read_text(&path)?)
         .map_err(|error| Input::new(path.display(), error))?;

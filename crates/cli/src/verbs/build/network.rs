@@ -88,11 +88,11 @@ fn train(site: &Site, anew: bool) -> Result<()> {
     words.extend(site.quick.then_some("--quick"));
     let resumed = [&words[..], &["--resume"]].concat();
     if checkpoint.exists() && !anew {
-        match site.command(&resumed)?.run() {
+        match site.run(&resumed) {
             // It is another training's.
             Err(Error::Input(_)) => {}
             ended => return ended.map(drop),
         }
     }
-    site.command(&words)?.run().map(drop)
+    site.run(&words).map(drop)
 }

@@ -1,21 +1,23 @@
 //! The folder of a build, and what its steps know of the instrument.
 
-use clap::{CommandFactory, FromArgMatches};
+use std::process::ExitCode;
 
 use tofsim::Note;
-use tofsim::error::{Input, Result};
+use tofsim::error::Result;
 use tofsim::files::digest::digest_of;
 use tofsim::scenario::{self, Loaded};
 use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::notes::notes_of_firmware;
 
-use crate::record::command_line;
 use crate::verbs::terminal::Talk;
-use crate::verbs::{Cli, Verb, train};
+use crate::verbs::{train, verify};
 
 use super::files::InstrumentFiles;
 use super::journal::Journal;
 use super::step::Step;
+
+/// Does what a command line asks for, the first word of which is a verb, and speaks as another one's part.
+pub type RunCommand = fn(&[&str], &Talk) -> Result<ExitCode>;
 
 /// The folder of a build, which is the current one, and what its steps know.
 pub struct Site<'a> {
@@ -30,6 +32,7 @@ pub struct Site<'a> {
     /// Whether all is to be quick.
     pub quick: bool,
     pub talk: &'a Talk,
+    run_command: RunCommand,
 }
 
 impl<'a> Site<'a> {
@@ -37,13 +40,18 @@ impl<'a> Site<'a> {
     ///
     /// # Errors
     /// When what its scenario says does not fit together.
-    pub fn new(files: &'a InstrumentFiles, quick: bool, talk: &'a Talk) -> Result<Self> {
+    pub fn new(
+        files: &'a InstrumentFiles,
+        quick: bool,
+        talk: &'a Talk,
+        run_command: RunCommand,
+    ) -> Result<Self> {
         let loaded = files.with_any_network();
         let setup = Setup::of_counts(loaded.clone())?;
         train::check(&loaded)?;
         let mut notes: Vec<Note> = setup.no_depth().cloned().into_iter().collect();
         notes.extend(notes_of_firmware(&setup));
-        Ok(Site { files, loaded, setup, notes, quick, talk })
+        Ok(Site { files, loaded, setup, notes, quick, talk, run_command })
     }
 
     /// The scenario's file in the folder.
@@ -59,30 +67,20 @@ impl<'a> Site<'a> {
         Setup::new(scenario::load(self.scenario(), &[])?)
     }
 
-    /// A command as its own verb has it, that says nothing but errors.
+    /// Does what a command of another verb asks for, which says nothing but errors.
     ///
     /// # Errors
-    /// When there is no such command.
-    pub fn command(&self, words: &[&str]) -> Result<Cli> {
-        let mut command = Cli::command();
-        let line = ["tofsim"].iter().chain(words);
-        let of = |error| Input::new("build", error);
-        let matches = command.try_get_matches_from_mut(line).map_err(of)?;
-        let mut cli = Cli::from_arg_matches(&matches).map_err(of)?;
-        cli.talk = self.talk.within(command_line(&command, &matches));
-        Ok(cli)
+    /// When there is no such command, and its own.
+    pub fn run(&self, words: &[&str]) -> Result<ExitCode> {
+        (self.run_command)(words, self.talk)
     }
 
-    /// The options of `verify`.
+    /// The options of `verify`, and its voice.
     ///
     /// # Errors
-    /// As [`Site::command`].
-    pub fn verify(&self, words: &[&str]) -> Result<(crate::verbs::verify::Args, Talk)> {
-        let Cli { verb, talk } = self.command(&[&["verify"], words].concat())?;
-        match verb {
-            Verb::Verify(args) => Ok((args, talk)),
-            _ => Err(Input::new("build", "expected verify").into()),
-        }
+    /// When it has no such options.
+    pub fn verify(&self, words: &[&str]) -> Result<(verify::Args, Talk)> {
+        Ok((verify::Args::of(words)?, self.talk.within(Vec::new())))
     }
 
     /// A digest of all that decides what a step comes to.

@@ -16,7 +16,7 @@ const FOLDER: &str = "vectors";
 pub fn run(site: &Site) -> Result<Outcome> {
     let mut words = vec!["vectors", "all", "--scenario", site.scenario(), "-o", FOLDER];
     words.extend(if site.quick { &["--cycles", QUICK_CYCLES][..] } else { &[] });
-    site.command(&words)?.run()?;
+    site.run(&words)?;
     let outputs = folder::files_below(FOLDER.as_ref())?;
     let summary = format!("{} blocks in {FOLDER}/", BLOCKS.len());
     let result = json!({ "blocks": BLOCKS.len() });
