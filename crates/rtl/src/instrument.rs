@@ -64,6 +64,8 @@ mod tests {
             "tdc.bins=64",
             "tdc.bin_ps=100",
             "firmware.count_bits=18",
+            "estimator.kind=centroid",
+            "tdc.profile=ecp5",
             "firmware.laser_periods=[10]",
             "firmware.laser_freq=0",
             "pll.input_hz=100000000",
@@ -82,9 +84,13 @@ mod tests {
 
     #[test]
     fn an_ecp5_has_a_top_and_constraints_of_its_own() {
-        let clocks =
-            ["pll.part=ecp5", "pll.input_hz=25000000", "pll.multiply=24", "pll.output_divide=6"];
-        let setup = setup(&clocks);
+        let setup = setup(&[
+            "pll.part=ecp5",
+            "pll.input_hz=25000000",
+            "pll.multiply=24",
+            "pll.output_divide=6",
+            "tdc.profile=ecp5",
+        ]);
         let (files, pins) = (verilog(&setup), constraints(&setup));
         let top = file(&files, "ecp5_top.v");
         assert!(top.contains(".InputHz(25000000)") && !top.contains("200000000"), "{top}");

@@ -87,13 +87,13 @@ mod tests {
     #[test]
     fn the_summary_comes_first_and_every_line_fits() {
         let points = [
-            point("the firmware's", 10.0, (10, 0), 0.4),
+            point("the network's own", 10.0, (10, 0), 0.4),
             point("table of 10 address bits over +-4", 10.1, (2, 5), 0.9),
             point("table of 12 address bits over +-8", 12.5, (2, 0), 0.2),
         ];
         let text = text(&points, 80);
         assert!(
-            text.starts_with("built: the firmware's\n  10 block RAMs, 10 DSP slices, 0.400 mm")
+            text.starts_with("built: the network's own\n  10 block RAMs, 10 DSP slices, 0.400 mm")
         );
         assert!(
             text.contains("spread: table of 10 address bits over +-4\n  4.5 block RAMs"),

@@ -80,6 +80,6 @@ fn an_exploration_fits_80_columns_where_there_is_no_terminal() {
     let text = String::from_utf8(output.stdout).unwrap();
     let longest = text.lines().map(|line| line.chars().count()).max();
     assert!(longest <= Some(80), "{longest:?}: {text}");
-    let summary = text.find("built: the firmware's").unwrap();
+    let summary = text.find("built: the network's own").unwrap();
     assert!(summary < text.find("datapath").unwrap(), "{text}");
 }

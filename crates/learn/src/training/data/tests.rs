@@ -1,5 +1,6 @@
 use super::*;
 use crate::dataset::{Axis, GridPurpose};
+use crate::training::basis;
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 
@@ -29,7 +30,8 @@ fn an_own_grid_is_trained_tested_and_chosen_on_with_draws_of_their_own() {
     let shared = |a: &Samples, b: &Samples| a.counts.iter().any(|one| b.counts.contains(one));
     assert!(!shared(&test, &stage) && !shared(&test, &choice) && !shared(&choice, &stage));
     let knots = scenes.knots(&recipe);
-    assert!(knots.len() > 90 && knots[80] > 200.0, "{knots:?}");
+    let beyond = |knots: &[f64]| knots.iter().filter(|k| (200.0..256.0).contains(*k)).count();
+    assert!(beyond(&knots) > 2 * beyond(&basis::knots()), "{knots:?}");
     let fewer = Recipe { knots: Some(31), ..recipe };
     assert_eq!(scenes.knots(&fewer).len(), 31);
 }
