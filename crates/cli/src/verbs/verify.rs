@@ -171,8 +171,8 @@ pub fn cycle_counts(args: &Args, talk: &Talk) -> Result<(String, Vec<Count>)> {
         let path = path.display().to_string();
         return Err(Input::new("--cycle-counts", expected).value(path).into());
     }
-    let estimator = args.from.setting()?.setup.params.depth_estimator.ctrl();
-    let counts = count::cycle_counts(&rtl, &estimator, &limits, |count: &Count| {
+    let design = count::Design::of(&args.from.setting()?.setup);
+    let counts = count::cycle_counts(&rtl, &design, &limits, |count: &Count| {
         let word = if count.holds() { "holds" } else { "fails" };
         let word = coloured(word, count.holds(), &std::io::stderr());
         talk.note(format_args!("{}: {word}", count.what));

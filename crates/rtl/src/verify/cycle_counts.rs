@@ -5,6 +5,7 @@
 //! first cycle of reset. Numbers next to the promised one must not be provable: a property that
 //! is true of them too says nothing, and counts as not proven.
 
+mod design;
 #[cfg(test)]
 mod faults;
 mod measured;
@@ -15,13 +16,13 @@ mod simulate;
 #[cfg(test)]
 mod tests;
 
+pub use design::Design;
 use promises::Promise;
 
 use serde::Serialize;
 
 use tofsim::error::Result;
 use tofsim::files::staged::ScratchFolder;
-use tofsim::firmware::estimator_ctrl::Params;
 
 use crate::golden::blocks::CENTROID;
 
@@ -56,35 +57,35 @@ impl Count {
     }
 }
 
-/// Counts and proves everything for an estimator with so many bins and neurons; `limits` are those of one run of
-/// a tool, and `done` is told of each count when it is there.
+/// Counts and proves everything that such a design promises; `limits` are those of one run of a tool, and `done` is
+/// told of each count when it is there.
 ///
 /// # Errors
 /// When a tool is missing, Icarus Verilog cannot compile `rtl` with our bench (a module or a port
 /// is missing), the simulation does not end, or the user stops.
 pub fn cycle_counts(
     rtl: &Rtl,
-    p: &Params,
+    design: &Design,
     limits: &Limits,
     done: impl Fn(&Count),
 ) -> Result<Vec<Count>> {
-    let mut promises = promises::promises(p);
+    let mut promises = promises::promises(design);
     if rtl.has(CENTROID) {
-        promises.push(promises::centroid(p));
+        promises.push(promises::centroid(design));
     }
-    count(&promises, p, rtl, limits, done)
+    count(&promises, design, rtl, limits, done)
 }
 
 fn count(
     promises: &[Promise],
-    p: &Params,
+    design: &Design,
     rtl: &Rtl,
     limits: &Limits,
     done: impl Fn(&Count),
 ) -> Result<Vec<Count>> {
     let folder = ScratchFolder::new()?;
-    let simulated = simulate::measure(rtl, p, folder.path(), limits)?;
-    let modelled = model::measure(p);
+    let simulated = simulate::measure(rtl, design, folder.path(), limits)?;
+    let modelled = model::measure(design);
     let count = |promise: &Promise| {
         let (key, expected) = (promise.key(), promise.expected);
         let reason = prove::prove(promise, rtl, folder.path(), limits)?;

@@ -1,14 +1,18 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// Prints the laser's and the SPAD reset's cycle counts and the pulse's times, for each code and
-// mode, from five shots each.
+// Prints the laser's and the SPAD reset's cycle counts and the pulse's times, for each of `CODES codes and
+// either mode, from five shots each.
 module bench_shot;
     reg clk_sys = 1'b0, clk_laser = 1'b0, rst = 1'b1, acquire = 1'b0, mode = 1'b0;
-    reg [1:0] laser_freq = 2'd0;
+    reg [`RATE_BITS-1:0] laser_freq = 0;
     wire pre_start, start, laser_on, spad_rst;
 
+`ifdef LASER
+    vcsel_driver #(`LASER) vcsel_driver (
+`else
     vcsel_driver vcsel_driver (
+`endif
         .clk_sys(clk_sys),
         .clk_laser(clk_laser),
         .rst(rst),
@@ -58,12 +62,12 @@ module bench_shot;
     task cycle;
         begin
             {clk_sys, clk_laser} = 2'b11;
-            #2000 clk_laser = 1'b0;
-            #2000 {clk_sys, clk_laser} = 2'b01;
+            #`HALF clk_laser = 1'b0;
+            #`HALF {clk_sys, clk_laser} = 2'b01;
             look;
             k = k + 1;
-            #2000 clk_laser = 1'b0;
-            #2000;
+            #`HALF clk_laser = 1'b0;
+            #`HALF;
         end
     endtask
 
@@ -77,8 +81,9 @@ module bench_shot;
 
     integer setting;
     initial begin
-        for (setting = 0; setting < 8; setting = setting + 1) begin
-            {mode, laser_freq} = setting[2:0];
+        for (setting = 0; setting < 2 * `CODES; setting = setting + 1) begin
+            mode = setting >= `CODES;
+            laser_freq = setting % `CODES;
             {rst, acquire} = 2'b10;
             repeat (3) cycle;
             rst = 1'b0;
@@ -87,7 +92,7 @@ module bench_shot;
             acquire = 1'b1;
             k = 1;
             {shots, start_at, pre_start_at, spad_rst_at, spad_rst_cycles} = 160'd0;
-            while (k < 1000 && shots < 5) cycle;
+            while (k < `PATIENCE && shots < 5) cycle;
         end
         $finish;
     end

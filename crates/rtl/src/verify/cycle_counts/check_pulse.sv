@@ -1,7 +1,7 @@
 `default_nettype none
 
 // What holds of the laser pulse in every half cycle of clk_laser, whatever the inputs do. One step
-// of the proof is such a half cycle, 2 ns; `HOLDS names the property to prove. It is the output
+// of the proof is such a half cycle, `HALF; `HOLDS names the property to prove. It is the output
 // register of synthesis that is proven; the one of simulation is what the bench measures.
 module check_pulse #(
     parameter Expected = 2000  // the number to prove [ps]
@@ -10,7 +10,7 @@ module check_pulse #(
     input wire rst_laser,
     input wire acquire,
     input wire laser_en,
-    input wire [1:0] laser_freq
+    input wire [`RATE_BITS-1:0] laser_freq
 );
     (* gclk *) wire step;
     reg [1:0] half = 2'd3;  // half cycles since clk_sys rose; both clocks rise together
@@ -19,7 +19,11 @@ module check_pulse #(
     wire clk_laser = !half[0];
     wire start, laser_on;
 
+`ifdef LASER
+    vcsel_driver #(`LASER) dut (
+`else
     vcsel_driver dut (
+`endif
         .clk_sys(clk_sys),
         .clk_laser(clk_laser),
         .rst(rst),
@@ -34,18 +38,21 @@ module check_pulse #(
     reg first = 1'b1;           // the first cycle of clk_sys
     // The last three edges of clk_sys found acquire high and rst low.
     reg [2:0] undisturbed = 3'd0;
-    reg [13:0] width = 14'd0;   // time for which laser_on had been high [ps]
+    reg [1:0] resets = 2'd3;     // the last two edges of clk_laser found rst_laser high
+    reg [31:0] width = 32'd0;   // time for which laser_on had been high [ps]
 
     always @(posedge clk_sys) begin
         first <= 1'b0;
         undisturbed <= {undisturbed[1:0], acquire && !rst};
     end
-    always @(posedge step) width <= laser_on ? width + 14'd2000 : 14'd0;
+    always @(posedge clk_laser) resets <= {resets[0], rst_laser};
+    always @(posedge step) width <= laser_on ? width + `HALF : 32'd0;
 
-    // Whatever the edges find.
-    wire laser_on_width = width <= Expected && (laser_on || width == 0 || width == Expected);
+    // Whatever the edges find, but that rst_laser cuts a pulse short that is longer than a cycle of clk_laser.
+    wire is_cut = Expected > 2 * `HALF && |resets;
+    wire laser_on_width = width <= Expected && (laser_on || width == 0 || width == Expected || is_cut);
     // If neither rst nor the end of acquire comes between the request and the laser edge.
-    wire laser_on_lag = !(laser_on && &undisturbed) || start && 2000 * half == Expected;
+    wire laser_on_lag = !(laser_on && width == 0 && &undisturbed) || start && `HALF * half == Expected;
 
     always @* begin
         if (first) assume (rst && rst_laser);

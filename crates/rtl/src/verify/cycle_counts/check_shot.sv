@@ -12,12 +12,16 @@ module check_shot #(
     input wire rst_laser,
     input wire acquire,
     input wire laser_en,
-    input wire [1:0] laser_freq,
+    input wire [`RATE_BITS-1:0] laser_freq,
     input wire mode
 );
     wire pre_start, start, spad_rst;
 
+`ifdef LASER
+    vcsel_driver #(`LASER) vcsel_driver (
+`else
     vcsel_driver vcsel_driver (
+`endif
         .clk_sys(clk_sys),
         .clk_laser(clk_laser),
         .rst(rst),
@@ -40,11 +44,12 @@ module check_shot #(
     // A period begins with a start, or at an edge that finds acquire low. The laser_freq that this
     // edge finds is the code in force, whatever comes later.
     reg first = 1'b1;            // the first cycle
-    reg [1:0] found = 2'd0;      // the laser_freq that the last edge found
+    reg [`RATE_BITS-1:0] found = 0;  // the laser_freq that the last edge found
     reg known = 1'b0;            // a period has begun since the reset
     reg shot = 1'b0;             // with a start
-    reg [1:0] code = 2'd0;       // in force
-    reg [5:0] k = 6'd0;          // cycles since the period began
+    reg [`RATE_BITS-1:0] code = 0;   // in force
+    reg [`PERIOD_BITS:0] k = 0;      // cycles since the period began
+    localparam [`PERIOD_BITS:0] zero = 0, one = 1;
     // The two edges before this cycle, the later one first
     reg [1:0] undisturbed = 2'd0;  // found acquire high and rst low
     reg [1:0] mode_1 = 2'd0;       // found mode high
@@ -64,9 +69,9 @@ module check_shot #(
         if (start || !mode) in_mode_1 <= 2'd0;
         else if (spad_rst && mode_1[0] && !(&in_mode_1)) in_mode_1 <= in_mode_1 + 2'd1;
         if (rst) known <= 1'b0;
-        else if (!acquire) {known, shot, code, k} <= {2'b10, laser_freq, 6'd0};
-        else if (start) {known, shot, code, k} <= {2'b11, found, 6'd1};
-        else if (!(&k)) k <= k + 6'd1;
+        else if (!acquire) {known, shot, code, k} <= {2'b10, laser_freq, zero};
+        else if (start) {known, shot, code, k} <= {2'b11, found, one};
+        else if (!(&k)) k <= k + one;
     end
 
     // The period in force has had no start so far, and has one in cycle Expected.
@@ -86,8 +91,22 @@ module check_shot #(
     wire spad_rst_mode_1 = in_mode_1 + (spad_rst && mode_1[0]) <= Expected
         && !(start && &mode_1 && in_mode_1 != Expected);
 
+    // Of a laser with parameters the registers are known; they make the induction go through without unrolling
+    // a period.
+`ifdef LASER
+    (* hierconn *) wire [`PERIOD_BITS-1:0] \vcsel_driver.count ;
+    (* hierconn *) wire [`PERIOD_BITS-1:0] \vcsel_driver.last ;
+    localparam [127:0] Periods = `PERIODS;
+    wire [15:0] last_found = Periods[16*found +: 16] - 16'd1, last_code = Periods[16*code +: 16] - 16'd1;
+    wire in_step = !known || (start
+        ? \vcsel_driver.count == 0 && \vcsel_driver.last == last_found
+        : \vcsel_driver.count == k && \vcsel_driver.last == last_code && k <= last_code);
+`else
+    wire in_step = 1'b1;
+`endif
+
     always @* begin
         if (first) assume (rst);
-        else assert (`HOLDS);
+        else assert (in_step && `HOLDS);
     end
 endmodule

@@ -9,20 +9,20 @@ use tofsim::firmware::vcsel_driver::{self, VcselDriver};
 use tofsim::kernel::{Clocked, U};
 use tofsim::network;
 
+use super::design::Design;
 use super::measured::Measured;
 
-/// Half a cycle of `clk_laser` [ps].
-const HALF: u64 = 2000;
-/// Cycles after which an estimation or five shots must be over.
+/// Cycles after which an estimation must be over.
 const PATIENCE: u64 = 2000;
 
-/// Everything that the benches print, of an estimator with so many bins and neurons.
-pub fn measure(p: &Params) -> Measured {
+/// Everything that the benches print of such a design.
+pub fn measure(design: &Design) -> Measured {
     let mut measured = Measured::default();
-    estimator(p, &mut measured);
-    centroid(p, &mut measured);
+    estimator(&design.estimator, &mut measured);
+    centroid(&design.estimator, &mut measured);
     for mode in [false, true] {
-        (0..vcsel_driver::PERIODS.len()).for_each(|code| shots(mode, code as u64, &mut measured));
+        let codes = 0..design.laser.periods.len() as u64;
+        codes.for_each(|code| shots(design, mode, code, &mut measured));
     }
     measured
 }
@@ -85,7 +85,7 @@ fn histogram(p: &Params) -> histogram_builder::Params {
 }
 
 /// Counts five shots from the rise of `acquire` on.
-fn shots(mode: bool, code: u64, measured: &mut Measured) {
+fn shots(design: &Design, mode: bool, code: u64, measured: &mut Measured) {
     let laser_freq = U::new(code);
     let mut i = vcsel_driver::In {
         rst: false,
@@ -94,19 +94,19 @@ fn shots(mode: bool, code: u64, measured: &mut Measured) {
         laser_en: true,
         laser_freq,
     };
-    let (mut driver, p) = (VcselDriver::default(), vcsel_driver::Params::default());
-    driver.rise(&i, &p);
+    let (mut driver, p, half_ps) = (VcselDriver::default(), &design.laser, design.half_ps);
+    driver.rise(&i, p);
     driver.fall_laser();
-    driver.rise_laser(&i, &p);
+    driver.rise_laser(&i, p);
     driver.fall_laser();
     let mut spad = SpadControl::default();
     i.acquire = true;
     let (mut shots, mut start_at, mut pre_start_at, mut spad_rst_at) = (0, 0, 0, 0);
     let (mut spad_rst_cycles, mut was_on, mut laser_on_at) = (0, false, 0);
-    for k in 1..PATIENCE {
+    for k in 1..design.patience() {
         let pre_start = driver.registers.pre_start;
         spad = spad.next(&spad_control::In { rst: false, mode, pre_start }, &());
-        driver.rise(&i, &p);
+        driver.rise(&i, p);
         if driver.registers.pre_start {
             pre_start_at = k;
         }
@@ -128,15 +128,15 @@ fn shots(mode: bool, code: u64, measured: &mut Measured) {
         for half in 0..4 {
             match half {
                 0 => {}
-                2 => driver.rise_laser(&i, &p),
+                2 => driver.rise_laser(&i, p),
                 _ => driver.fall_laser(),
             }
-            let now = (4 * k + half) * HALF;
+            let now = (4 * k + half) * half_ps;
             match (was_on, driver.laser_on()) {
                 (false, true) => laser_on_at = now,
                 (true, false) => {
                     measured.add("laser_on_width", now - laser_on_at);
-                    measured.add("laser_on_lag", laser_on_at.abs_diff(4 * start_at * HALF));
+                    measured.add("laser_on_lag", laser_on_at.abs_diff(4 * start_at * half_ps));
                 }
                 _ => {}
             }

@@ -1,9 +1,9 @@
 //! What is promised, and which property in which Verilog says so.
 
 use tofsim::firmware::centroid_estimator;
-use tofsim::firmware::estimator_ctrl::Params;
-use tofsim::firmware::forward2::NEURONS;
-use tofsim::firmware::histogram_builder::{self, BINS};
+use tofsim::firmware::histogram_builder;
+
+use super::design::{Define, Design};
 
 /// A Verilog module with properties of some modules of the design.
 #[derive(Debug)]
@@ -71,7 +71,7 @@ pub struct Promise {
     /// The laser's code that it is about.
     pub code: Option<usize>,
     /// Macros to set.
-    pub defines: Vec<[String; 2]>,
+    pub defines: Vec<Define>,
     /// Another register without which there is no proof.
     pub register: Option<String>,
 }
@@ -100,40 +100,36 @@ impl Promise {
     }
 }
 
-/// The macros that set numbers of bins and neurons, where they are not the default: another design need not
-/// have those parameters.
-pub fn defines(p: &Params) -> Vec<[String; 2]> {
-    let sizes = [("NEURONS", p.neurons, NEURONS), ("BINS", p.bins, BINS)];
-    let others = sizes.into_iter().filter(|(_, own, usual)| own != usual);
-    others.map(|(name, own, _)| [name.to_owned(), own.to_string()]).collect()
-}
-
-/// What is promised of the estimator that a design may leave out, with so many bins.
-pub fn centroid(p: &Params) -> Promise {
-    let histogram =
-        histogram_builder::Params { bins: p.bins, ..histogram_builder::Params::default() };
+/// What is promised of the estimator that a design may leave out.
+pub fn centroid(design: &Design) -> Promise {
+    let bins = design.estimator.bins;
+    let histogram = histogram_builder::Params { bins, ..histogram_builder::Params::default() };
     let done = centroid_estimator::Params { histogram, ..Default::default() }.done();
     let what = "centroid estimator: algo_start taken to algo_done";
     Promise {
         parameter: "Latency",
-        defines: defines(p),
+        defines: design.of_estimator(),
         ..Promise::new(&CENTROID, "centroid_latency", done, what)
     }
 }
 
-/// Everything else that is promised of a design whose estimator has so many bins and neurons.
-pub fn promises(p: &Params) -> Vec<Promise> {
+/// Everything else that is promised of a design.
+pub fn promises(design: &Design) -> Vec<Promise> {
     let estimator = |property, parameter, expected, what| Promise {
         parameter,
-        defines: defines(p),
+        defines: design.of_estimator(),
         ..Promise::new(&ESTIMATOR, property, expected, format!("estimator: {what}"))
     };
     let layer = |property, parameter, expected, enable| Promise {
         register: Some(format!("estimator_ctrl.{enable}")),
         ..estimator(property, parameter, expected, format!("{enable} high"))
     };
+    let laser = |properties, property, expected, what| Promise {
+        defines: design.of_laser(),
+        ..Promise::new(properties, property, expected, what)
+    };
     let latency = "algo_start taken to algo_done".to_owned();
-    let (bins, neurons) = (p.bins as u64, p.neurons as u64);
+    let (bins, neurons) = (design.estimator.bins as u64, design.estimator.neurons as u64);
     let pairs = neurons.div_ceil(2);
     let mut promises = vec![
         estimator("latency", "Latency", bins + (3 + neurons).max(7 + pairs), latency),
@@ -144,18 +140,21 @@ pub fn promises(p: &Params) -> Vec<Promise> {
     for (property, span) in
         [("laser_period", "start to start"), ("first_shot", "acquire to the first start")]
     {
-        promises.extend([25, 13, 8, 6].into_iter().enumerate().map(|(code, period)| {
+        promises.extend(design.laser.periods.iter().enumerate().map(|(code, period)| {
             let what = format!("laser_freq {code}: {span}");
-            Promise { code: Some(code), ..Promise::new(&SHOT, property, period, what) }
+            Promise { code: Some(code), ..laser(&SHOT, property, *period, what) }
         }));
     }
+    let of_shot = |property, cycles, what: &str| laser(&SHOT, property, cycles, what.to_owned());
+    let of_pulse = |property, ps, what: &str| laser(&PULSE, property, ps, what.to_owned());
+    let width_ps = u64::from(design.laser.pulse_half_cycles) * design.half_ps;
     promises.extend([
-        Promise::new(&SHOT, "pre_start_lead", 2, "pre_start to start"),
-        Promise::new(&SHOT, "spad_rst_lead", 1, "MODE 0: spad_rst to start"),
-        Promise::new(&SHOT, "spad_rst_width", 1, "MODE 0: spad_rst high, each shot"),
-        Promise::new(&SHOT, "spad_rst_mode_1", 0, "MODE 1: spad_rst high, each shot"),
-        Promise::new(&PULSE, "laser_on_lag", 0, "start to laser_on"),
-        Promise::new(&PULSE, "laser_on_width", 2000, "laser_on high"),
+        of_shot("pre_start_lead", 2, "pre_start to start"),
+        of_shot("spad_rst_lead", 1, "MODE 0: spad_rst to start"),
+        of_shot("spad_rst_width", 1, "MODE 0: spad_rst high, each shot"),
+        of_shot("spad_rst_mode_1", 0, "MODE 1: spad_rst high, each shot"),
+        of_pulse("laser_on_lag", 0, "start to laser_on"),
+        of_pulse("laser_on_width", width_ps, "laser_on high"),
     ]);
     promises
 }

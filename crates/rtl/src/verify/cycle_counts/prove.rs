@@ -9,6 +9,7 @@ use crate::verify::process::{End, Finished, Limits, YOSYS};
 use crate::verify::rtl::Rtl;
 use crate::verify::yosys;
 
+use super::design::with_defines;
 use super::promises::Promise;
 
 /// What one run of Yosys says.
@@ -33,7 +34,7 @@ pub fn prove(
     limits: &Limits,
 ) -> Result<Option<String>> {
     let file = folder.join(promise.properties.module).with_extension("sv");
-    write_bytes(&file, promise.properties.text)?;
+    write_bytes(&file, with_defines(&promise.defines, promise.properties.text))?;
     match ask(promise, promise.expected, rtl, folder, limits)? {
         Answer::Holds => {}
         Answer::Fails(why) | Answer::Stuck(why) => return Ok(Some(why)),
@@ -68,11 +69,9 @@ fn script(promise: &Promise, number: u64) -> String {
     let Promise { properties, property, parameter, .. } = promise;
     let module = properties.module;
     let code = promise.code.map_or(String::new(), |code| format!("-chparam Code {code}"));
-    let define = |[name, value]: &[String; 2]| format!(" -D{name}={value}");
-    let defines: String = promise.defines.iter().map(define).collect();
     let mut lines: Vec<_> = properties.open.iter().map(|open| format!("delete *{open}")).collect();
     lines.extend([
-        format!("read_verilog -sv -formal -DHOLDS={property}{defines} {module}.sv"),
+        format!("read_verilog -sv -formal -DHOLDS={property} {module}.sv"),
         format!("hierarchy -top {module} -chparam {parameter} {number} {code}"),
         "proc; flatten".to_owned(),
     ]);

@@ -1,19 +1,17 @@
 //! Counts in a simulation of the Verilog.
 
-use std::io::Write;
 use std::path::Path;
 
 use tofsim::error::{Input, Result};
-use tofsim::files::output::write_file;
-use tofsim::firmware::estimator_ctrl::Params;
+use tofsim::files::output::write_bytes;
 
 use crate::golden::blocks::CENTROID;
 use crate::verify::process::{End, Limits};
 use crate::verify::rtl::Rtl;
 use crate::verify::simulator::Simulator;
 
+use super::design::{Design, with_defines};
 use super::measured::Measured;
-use super::promises::defines;
 
 /// The benches: name of the module, which is the file's stem, and text.
 const BENCHES: [(&str, &str); 3] = [
@@ -22,19 +20,17 @@ const BENCHES: [(&str, &str); 3] = [
     ("bench_centroid", include_str!("bench_centroid.v")),
 ];
 
-/// Runs the benches on `rtl`, whose estimator is to have so many bins and neurons.
+/// Runs the benches on `rtl`, which is to be such a design.
 ///
 /// # Errors
 /// When a tool is missing, the Verilog cannot be compiled with a bench, the simulation does not
 /// end, `folder` cannot be written, or the user stops.
-pub fn measure(rtl: &Rtl, p: &Params, folder: &Path, limits: &Limits) -> Result<Measured> {
+pub fn measure(rtl: &Rtl, design: &Design, folder: &Path, limits: &Limits) -> Result<Measured> {
     let mut measured = Measured::default();
     let left_out = if rtl.has(CENTROID) { None } else { Some("bench_centroid") };
     for (name, text) in BENCHES.into_iter().filter(|(name, _)| Some(*name) != left_out) {
         let bench = format!("{name}.v");
-        let define = |[name, value]: [String; 2]| format!("`define {name} {value}\n");
-        let defines: String = defines(p).into_iter().map(define).collect();
-        write_file(&folder.join(&bench), |file| write!(file, "{defines}{text}"))?;
+        write_bytes(&folder.join(&bench), with_defines(&design.defines(), text))?;
         let bench = [folder.join(bench)];
         let compiled = Simulator::Icarus.compile(folder, name, &bench, rtl, false, limits)?;
         let run = compiled.run(&[], limits)?;

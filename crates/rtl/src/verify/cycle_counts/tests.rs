@@ -4,6 +4,7 @@ use std::fs;
 use std::time::Duration;
 
 use tofsim::firmware::estimator_ctrl::Params;
+use tofsim::sim::setup::Setup;
 
 use super::*;
 
@@ -14,7 +15,13 @@ fn limits() -> Limits<'static> {
 /// A place in a file of ours, and what to put there.
 pub type Edit = [&'static str; 3];
 
-const KC705: Params = Params { bins: 256, neurons: 8 };
+fn kc705() -> Design {
+    of(&[])
+}
+
+fn of(set: &[&str]) -> Design {
+    Design::of(&Setup::load("kc705", set).unwrap())
+}
 
 /// The count of `key` in our Verilog after some edits.
 pub fn with_fault(key: &str, edits: &[Edit]) -> Count {
@@ -26,10 +33,10 @@ pub fn with_fault(key: &str, edits: &[Edit]) -> Count {
         assert!(text.contains(from), "{file} has no `{from}`");
         fs::write(&path, text.replace(from, to)).unwrap();
     }
-    let mut promises = promises::promises(&KC705);
-    promises.push(promises::centroid(&KC705));
+    let mut promises = promises::promises(&kc705());
+    promises.push(promises::centroid(&kc705()));
     promises.retain(|promise| promise.key() == key);
-    count(&promises, &KC705, &rtl, &limits(), |_| {}).unwrap().remove(0)
+    count(&promises, &kc705(), &rtl, &limits(), |_| {}).unwrap().remove(0)
 }
 
 #[test]
@@ -37,7 +44,7 @@ pub fn with_fault(key: &str, edits: &[Edit]) -> Count {
 fn everything_that_is_promised_is_counted_and_proven() {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
-    let counts = cycle_counts(&rtl, &KC705, &limits(), |_| {}).unwrap();
+    let counts = cycle_counts(&rtl, &kc705(), &limits(), |_| {}).unwrap();
     assert_eq!(counts.len(), 19);
     for count in counts {
         assert!(count.holds(), "{count:?}");
@@ -48,13 +55,14 @@ fn everything_that_is_promised_is_counted_and_proven() {
 fn proven(bins: usize, neurons: usize) -> Vec<u64> {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
-    let p = Params { bins, neurons };
-    let mut promises = promises::promises(&p);
+    let mut design = kc705();
+    design.estimator = Params { bins, neurons };
+    let mut promises = promises::promises(&design);
     promises.retain(|promise| promise.properties.module == "check_estimator");
-    promises.push(promises::centroid(&p));
-    let counts = count(&promises, &p, &rtl, &limits(), |_| {}).unwrap();
+    promises.push(promises::centroid(&design));
+    let counts = count(&promises, &design, &rtl, &limits(), |_| {}).unwrap();
     for count in &counts {
-        assert!(count.holds(), "{p:?}: {count:?}");
+        assert!(count.holds(), "{design:?}: {count:?}");
     }
     counts.iter().map(|count| count.expected).collect()
 }
@@ -84,6 +92,47 @@ fn below_eight_neurons_the_pipeline_decides_and_from_there_on_a_clock_a_neuron()
     for neurons in 1..16 {
         let latency = [264, 264, 265, 265, 266, 266].get(neurons - 1).copied();
         assert_eq!(proven(256, neurons)[0], latency.unwrap_or(259 + neurons.max(8) as u64));
+    }
+}
+
+/// What is promised of other lasers is counted and proven, each with its numbers.
+#[test]
+#[ignore = "long: ./check --full"]
+fn other_laser_periods_pulses_and_clocks_are_counted_and_proven() {
+    let folder = tempfile::tempdir().unwrap();
+    let rtl = Rtl::own(folder.path()).unwrap();
+    for (set, periods, width_ps) in [
+        (
+            &[
+                "firmware.laser_periods=[65535]",
+                "firmware.laser_freq=0",
+                "firmware.pulse_half_cycles=8",
+            ][..],
+            &[65535][..],
+            16000,
+        ),
+        (
+            &[
+                "firmware.laser_periods=[12, 300]",
+                "firmware.laser_freq=0",
+                "firmware.pulse_half_cycles=3",
+                "pll.output_divide=10",
+                "tdc.profile=ecp5",
+            ],
+            &[12, 300],
+            7500,
+        ),
+    ] {
+        let design = of(set);
+        let mut promises = promises::promises(&design);
+        promises.retain(|promise| promise.properties.module != "check_estimator");
+        let counts = count(&promises, &design, &rtl, &limits(), |_| {}).unwrap();
+        for count in &counts {
+            assert!(count.holds(), "{set:?}: {count:?}");
+        }
+        let expected: Vec<_> = counts.iter().map(|count| count.expected).collect();
+        let of_laser = [periods, periods, &[2, 1, 1, 0, 0, width_ps]].concat();
+        assert_eq!(expected, of_laser, "{set:?}");
     }
 }
 
@@ -120,7 +169,7 @@ fn a_design_may_leave_the_centroid_estimator_out() {
     let mut rtl = Rtl::own(folder.path()).unwrap();
     rtl.files.retain(|file| !file.path.ends_with("centroid_estimator.v"));
     assert!(!rtl.has(CENTROID));
-    let measured = simulate::measure(&rtl, &KC705, folder.path(), &limits()).unwrap();
+    let measured = simulate::measure(&rtl, &kc705(), folder.path(), &limits()).unwrap();
     assert_eq!(measured.count("latency", 267), Some(267));
     assert_eq!(measured.count("centroid_latency", 312), None);
 }
@@ -130,7 +179,7 @@ fn a_missing_module_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let mut rtl = Rtl::own(folder.path()).unwrap();
     rtl.files.retain(|file| !file.path.ends_with("spad_control.v"));
-    let error = cycle_counts(&rtl, &KC705, &limits(), |_| {}).unwrap_err();
+    let error = cycle_counts(&rtl, &kc705(), &limits(), |_| {}).unwrap_err();
     assert_eq!(error.to_string(), "rtl_ref: it has no module `spad_control`");
 }
 
@@ -141,7 +190,7 @@ fn what_the_compiler_refuses_comes_with_its_message() {
     let path = folder.path().join("spad_control.v");
     let text = fs::read_to_string(&path).unwrap().replace("spad_rst", "spad_reset");
     fs::write(&path, text).unwrap();
-    let error = cycle_counts(&rtl, &KC705, &limits(), |_| {}).unwrap_err().to_string();
+    let error = cycle_counts(&rtl, &kc705(), &limits(), |_| {}).unwrap_err().to_string();
     assert!(error.contains("bench_shot.v") && error.contains("spad_rst"), "{error}");
 }
 
@@ -154,7 +203,7 @@ fn a_simulation_that_never_ends_is_stopped() {
     fs::write(&path, text.replace("initial begin", "initial begin while (1) spad_sel = 40'd1;"))
         .unwrap();
     let limits = Limits::new(Duration::from_secs(2));
-    let error = cycle_counts(&rtl, &KC705, &limits, |_| {}).unwrap_err().to_string();
+    let error = cycle_counts(&rtl, &kc705(), &limits, |_| {}).unwrap_err().to_string();
     assert_eq!(error, "rtl_ref: bench_shot has not ended after 2 s of simulation");
 }
 
@@ -164,6 +213,6 @@ fn a_proof_that_takes_too_long_is_none() {
     let rtl = Rtl::own(folder.path()).unwrap();
     let limits = Limits::new(Duration::ZERO);
     let unproven =
-        prove::prove(&promises::promises(&KC705)[0], &rtl, folder.path(), &limits).unwrap();
+        prove::prove(&promises::promises(&kc705())[0], &rtl, folder.path(), &limits).unwrap();
     assert_eq!(unproven.as_deref(), Some("Yosys has no answer after 0 s"));
 }

@@ -1,0 +1,90 @@
+//! What cycle counts depend on: how large the estimator is, and how the laser fires.
+
+use tofsim::firmware::forward2::NEURONS;
+use tofsim::firmware::histogram_builder::BINS;
+use tofsim::firmware::{estimator_ctrl, vcsel_driver};
+use tofsim::sim::setup::Setup;
+
+use crate::golden::parameters::{Parameter, sized};
+
+/// Parameters of `vcsel_driver`.
+const OF_LASER: [&str; 4] = ["LaserPeriods", "RateBits", "PeriodBits", "PulseHalfCycles"];
+
+/// A macro: its name and its text.
+pub type Define = (&'static str, String);
+
+/// A design, as far as cycle counts depend on it.
+#[derive(Clone, Debug)]
+pub struct Design {
+    /// Bins and neurons.
+    pub estimator: estimator_ctrl::Params,
+    /// Periods and length of a pulse.
+    pub laser: vcsel_driver::Params,
+    /// Half a cycle of `clk_laser`, rounded down [ps].
+    pub half_ps: u64,
+    /// Parameters of the laser that are not the default.
+    parameters: String,
+    /// Bits of `laser_freq`, and of a count in the longest period.
+    rate_bits: u32,
+    period_bits: u32,
+}
+
+impl Design {
+    /// That of a scenario.
+    pub fn of(setup: &Setup) -> Self {
+        let (sizes, laser) = (setup.params.sizes(), setup.params.vcsel_driver.clone());
+        let own = sized(&setup.params, &OF_LASER);
+        let set = |(name, value): &(&str, Parameter)| format!(".{name}({})", value.literal());
+        let width = |name| sizes.width(name).unwrap_or_default();
+        Design {
+            estimator: setup.params.depth_estimator.ctrl(),
+            half_ps: setup.pll().cycle.fs() / 4000,
+            parameters: own.iter().map(set).collect::<Vec<_>>().join(", "),
+            rate_bits: width("RateBits"),
+            period_bits: width("PeriodBits"),
+            laser,
+        }
+    }
+
+    /// Cycles after which five shots must be over.
+    pub fn patience(&self) -> u64 {
+        6 * self.laser.longest_period() + 100
+    }
+
+    /// The macros that set numbers of bins and neurons, where they are not the default: another design need not
+    /// have those parameters.
+    pub fn of_estimator(&self) -> Vec<Define> {
+        let sizes =
+            [("NEURONS", self.estimator.neurons, NEURONS), ("BINS", self.estimator.bins, BINS)];
+        let others = sizes.into_iter().filter(|(_, own, usual)| own != usual);
+        others.map(|(name, own, _)| (name, own.to_string())).collect()
+    }
+
+    /// The macros that say how the laser fires, and set its parameters where they are not the default.
+    pub fn of_laser(&self) -> Vec<Define> {
+        let mut defines = vec![
+            ("CODES", self.laser.periods.len().to_string()),
+            ("RATE_BITS", self.rate_bits.to_string()),
+            ("PERIOD_BITS", self.period_bits.to_string()),
+            ("HALF", self.half_ps.to_string()),
+            ("PATIENCE", self.patience().to_string()),
+        ];
+        if !self.parameters.is_empty() {
+            let periods = Parameter::Words(self.laser.every_period().to_vec());
+            defines.push(("LASER", self.parameters.clone()));
+            defines.push(("PERIODS", periods.literal()));
+        }
+        defines
+    }
+
+    /// All macros.
+    pub fn defines(&self) -> Vec<Define> {
+        [self.of_estimator(), self.of_laser()].concat()
+    }
+}
+
+/// A text after the lines that define macros.
+pub fn with_defines(defines: &[Define], text: &str) -> String {
+    let line = |(name, value): &Define| format!("`define {name} {value}\n");
+    defines.iter().map(line).collect::<String>() + text
+}
