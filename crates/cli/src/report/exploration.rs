@@ -1,16 +1,16 @@
 //! Accuracy against cost as a table.
 
 use tofsim_learn::evaluation::exploration::ExploredDatapath;
-use tofsim_learn::evaluation::thesis::DISTANCES_M;
 
 use crate::text::table::{fitted, number_or_dash};
 
 /// A spread is as good as another if it is at most so many times as large at every distance.
 const AS_GOOD: f64 = 1.02;
 
-/// What the sweep found, and a row for each datapath, in lines of `width` characters.
-pub fn text(points: &[ExploredDatapath], width: usize) -> String {
-    let distances = DISTANCES_M.map(|distance_m| format!("{distance_m} m"));
+/// What the sweep found at some distances, and a row for each datapath, in lines of `width` characters.
+pub fn text(points: &[ExploredDatapath], distances_m: &[f64], width: usize) -> String {
+    let distances: Vec<_> =
+        distances_m.iter().map(|distance_m| format!("{distance_m} m")).collect();
     let costs =
         ["rms to float", "largest", "weights cut", "sums past table", "bits", "RAMs", "DSP48"];
     let header = [&["datapath".to_owned()], &distances[..], &costs.map(str::to_owned)].concat();
@@ -69,6 +69,7 @@ fn summary(points: &[ExploredDatapath]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tofsim_learn::evaluation::thesis::DISTANCES_M;
     use tofsim_learn::quantize::Cost;
 
     fn point(variant: &str, mm: f64, rams: (u32, u32), rms_to_float_mm: f64) -> ExploredDatapath {
@@ -91,7 +92,7 @@ mod tests {
             point("table of 10 address bits over +-4", 10.1, (2, 5), 0.9),
             point("table of 12 address bits over +-8", 12.5, (2, 0), 0.2),
         ];
-        let text = text(&points, 80);
+        let text = text(&points, &DISTANCES_M, 80);
         assert!(
             text.starts_with("built: the network's own\n  10 block RAMs, 10 DSP slices, 0.400 mm")
         );

@@ -38,7 +38,7 @@ pub struct Args {
     draws: Draws,
     /// Which scenes: thesis or train (201 distances, every 2.5 mm), test (51, every 10 mm), KEY=FROM..TO:STEP
     /// or KEY=A,B,C of any numeric key of the scenario (may be repeated), or a TOML file of those
-    /// [default: thesis]
+    /// [default: the scenario's training.grid, or else thesis]
     #[arg(long, value_name = "GRID")]
     grid: Vec<String>,
     /// Histograms of each scene, where all are drawn

@@ -42,10 +42,17 @@ impl Draws {
         Ok(loaded)
     }
 
-    /// A scenario with keys set, and with a network in it, by name or path.
-    pub fn load_with(&self, scenario: &str, network: &str, set: &[String]) -> Result<Loaded> {
+    /// A scenario with keys set, and with a network in place of its own, if one is given by name or path.
+    pub fn load_with(
+        &self,
+        scenario: &str,
+        network: Option<&str>,
+        set: &[String],
+    ) -> Result<Loaded> {
         let mut loaded = self.load(scenario, set)?;
-        loaded.scenario.estimator.network = from_here(network, &loaded)?;
+        if let Some(network) = network {
+            loaded.scenario.estimator.network = from_here(network, &loaded)?;
+        }
         Ok(loaded)
     }
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde_json::json;
 
 use tofsim::error::Result;
-use tofsim::network::{Estimate, Network, estimate};
+use tofsim::network::{Estimate, estimate};
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim::{Note, NoteCode};
@@ -30,9 +30,9 @@ pub struct Args {
     /// b0 to b255
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Built-in network (uniform, uniform-16, ideal) or network file
-    #[arg(long, value_name = "NAME|FILE", default_value = Network::DEFAULT)]
-    network: String,
+    /// Built-in network, such as uniform-16, or network file [default: the scenario's]
+    #[arg(long, value_name = "NAME|FILE")]
+    network: Option<String>,
     /// Estimators that see the same histograms too, separated by commas
     #[arg(long, value_parser = words(&EstimatorKind::ALL), value_delimiter = ',')]
     estimator: Vec<EstimatorKind>,
@@ -77,9 +77,8 @@ struct Numbers {
 
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
-    let network = Network::find(&args.network, None)?;
     let setup = args.setup()?;
-    setup.check_network()?;
+    let network = &setup.network;
     let size = setup.params.histogram;
     let params = network.params(&size);
     let notes = args.notes(&setup)?;
@@ -91,7 +90,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         for histogram in histograms(path, size)? {
             let histogram = histogram?;
             let numbers = Numbers::of(&estimate(&params, &histogram), params.neurons());
-            let explanation = args.explain.then(|| explain(&network, &histogram));
+            let explanation = args.explain.then(|| explain(network, &histogram));
             let estimates = panel.read(&histogram);
             rows.push(Row { index: rows.len(), file, numbers, estimates, explanation });
         }
@@ -121,8 +120,12 @@ impl Args {
     /// What the histograms are of, as far as it is known.
     fn setup(&self) -> Result<Setup> {
         let mut loaded = scenario::load(&self.scenario, &self.set)?;
-        loaded.scenario.estimator.network = from_here(&self.network, &loaded)?;
-        Setup::new(loaded)
+        if let Some(network) = &self.network {
+            loaded.scenario.estimator.network = from_here(network, &loaded)?;
+        }
+        let setup = Setup::of_counts(loaded)?;
+        setup.check_network()?;
+        Ok(setup)
     }
 
     /// What the depths lie outside of; the network's, only where it was said what the histograms are of.

@@ -42,16 +42,16 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
         measured::run(args, data, talk)?;
         return Ok(ExitCode::SUCCESS);
     }
-    let load = |set: &[String]| args.draws.load_with(&args.scenario, &args.network, set);
+    let load = |set: &[String]| args.draws.load_with(&args.scenario, args.network.as_deref(), set);
     let scenes = Scenes::new(&args.grid, &args.draws.set, GridPurpose::Test, load)?;
     let (grid, source) = (Grid { repeats: args.repeats, ..scenes.grid.clone() }, &scenes.source);
-    let network = Network::find(&args.network, None)?;
+    let network = &scenes.setups[0].network;
     let loaded = &scenes.loaded[0];
     let (seed, profile) = (loaded.scenario.seed, &loaded.scenario.tdc.profile);
-    let mut notes = args.notes(&scenes, &network)?;
+    let mut notes = args.notes(&scenes, network)?;
     notes.extend(args.notes_of_estimators(&scenes)?);
     talk.heed(&notes)?;
-    let estimators = args.estimators(&scenes, &network)?;
+    let estimators = args.estimators(&scenes, network)?;
     let rows = args.draws.rows(None, &grid, seed)?;
     let _held = args.output.as_deref().map(FolderLock::take).transpose()?;
     let look = |folder: &PathBuf| create_directory_for(folder, report::JSON);

@@ -13,9 +13,10 @@ use tofsim::network::file::Training;
 use tofsim::network::{Network, mem};
 use tofsim::scenario;
 use tofsim::sim::domain;
-use tofsim::sim::setup::Setup;
-use tofsim_learn::dataset::{Grid, GridOption, HistogramSource};
+use tofsim_learn::dataset::GridPurpose;
+use tofsim_learn::dataset::axis::thinned;
 use tofsim_learn::evaluation::exploration::{explore, sweep};
+use tofsim_learn::evaluation::thesis;
 use tofsim_learn::quantize::import;
 
 use crate::record::Record;
@@ -24,6 +25,7 @@ use crate::text::table::{self, table};
 
 use super::draws::Draws;
 use super::formats::Formats;
+use super::scenes::Scenes;
 use super::terminal::{Talk, print_json, stop_signal};
 
 /// Histograms of an exploration, if nothing else is said: 200 at each distance.
@@ -32,8 +34,8 @@ const EXPLORED: u64 = 10_200;
 /// Fold and round a network that was trained elsewhere, or explore word lengths
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Arrays by name: IW (N x 256), LW (N), b1 (N), b2 (1), for N hidden neurons, 1 to 32, and the settings of\n\
-    mapminmax on both sides if there are any: x_xoffset, x_gain (256 each), x_ymin, y_xoffset, y_gain, y_ymin; x_keep has the bins, from\n\
+    after_help = "Arrays by name: IW (N x bins), LW (N), b1 (N), b2 (1), for N hidden neurons, 1 to 32, and the settings of\n\
+    mapminmax on both sides if there are any: x_xoffset, x_gain (bins each), x_ymin, y_xoffset, y_gain, y_ymin; x_keep has the bins, from\n\
     1, that removeconstantrows kept. In MATLAB:\n\n  \
     s = net.inputs{1}.processSettings{2}; t = net.outputs{2}.processSettings{2};\n  \
     IW = net.IW{1,1}; LW = net.LW{2,1}; b1 = net.b{1}; b2 = net.b{2};\n  \
@@ -90,7 +92,7 @@ struct Task {
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     match (&args.task.from, &args.task.explore) {
         (Some(from), _) => quantize(args, from, talk),
-        (None, explore) => args.explore(explore.as_deref().unwrap_or(Network::DEFAULT), talk),
+        (None, explore) => args.explore(explore.as_deref(), talk),
     }
 }
 
@@ -152,20 +154,24 @@ fn quantize(args: &Args, path: &Path, talk: &Talk) -> Result<()> {
 }
 
 impl Args {
-    fn explore(&self, network: &str, talk: &Talk) -> Result<()> {
-        GridOption::Thesis.check_overrides(&self.draws.set)?;
-        let loaded = self.draws.load_with(&self.scenario, network, &self.draws.set)?;
-        let (seed, profile) = (loaded.scenario.seed, loaded.scenario.tdc.profile.clone());
-        let network = Network::find(network, None)?;
-        let notes = domain::notes(&network, &loaded.scenario, &Grid::test().ranges())?;
-        talk.heed(&notes)?;
-        let setup = Setup::of_counts(loaded)?;
+    fn explore(&self, network: Option<&str>, talk: &Talk) -> Result<()> {
+        let load = |set: &[String]| self.draws.load_with(&self.scenario, network, set);
+        let Scenes { grid, setups, source, .. } =
+            Scenes::new(&[], &self.draws.set, GridPurpose::Test, load)?;
+        let (setup, network) = (&setups[0], &setups[0].network);
         setup.check_network()?;
-        let source = HistogramSource::new(&setup)?;
-        let rows = self.draws.rows(Some(EXPLORED), &Grid::test(), seed)?;
+        let (seed, profile) = (setup.scenario.seed, &setup.scenario.tdc.profile);
+        let notes = domain::notes(network, &setup.scenario, &grid.ranges())?;
+        talk.heed(&notes)?;
+        let distances_m = match grid.is_thesis() {
+            true => thesis::DISTANCES_M.to_vec(),
+            false => thinned(&grid.distances_m.values, thesis::DISTANCES_M.len()),
+        };
+        let rows = self.draws.rows(Some(EXPLORED), &grid, seed)?;
         let (stop, data) = (stop_signal(), (&source, &rows, seed));
         let points = self.draws.on_threads(rows.count(), talk, |done| {
-            explore(&network, &sweep(&network.datapath), data, stop.as_deref(), done)
+            let datapaths = sweep(&network.datapath);
+            explore(network, &datapaths, data, &distances_m, stop.as_deref(), done)
         })?;
         let (name, rows) = (&network.name, rows.count());
         if self.json {
@@ -174,13 +180,14 @@ impl Args {
                 "network": name,
                 "profile": profile,
                 "rows": rows,
+                "distances_m": distances_m,
                 "points": points,
             });
-            Record::new(&setup, &talk.command).put_into(&mut object, &notes);
+            Record::new(setup, &talk.command).put_into(&mut object, &notes);
             return print_json(&object);
         }
         let head = format!("network {name}, chain {profile}, {rows} histograms, seed {seed}\n\n");
-        talk.report(&(head + &exploration::text(&points, table::width())))
+        talk.report(&(head + &exploration::text(&points, &distances_m, table::width())))
     }
 
     fn write(&self, network: &Network) -> Result<Vec<PathBuf>> {

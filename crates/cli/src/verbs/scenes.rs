@@ -21,7 +21,8 @@ pub struct Scenes {
 }
 
 impl Scenes {
-    /// From the options `--grid` and `-s`; `load` makes the scenario with keys set.
+    /// From the options `--grid` and `-s`, or the scenario's own grid for its training; `load` makes the scenario
+    /// with keys set.
     ///
     /// # Errors
     /// When an option is wrong, an override says what the grid says, or there is no closed form.
@@ -31,9 +32,10 @@ impl Scenes {
         purpose: GridPurpose,
         load: impl Fn(&[String]) -> Result<Loaded>,
     ) -> Result<Self> {
-        let option = GridOption::parse(options)?;
-        option.check_overrides(set)?;
         let base = load(set)?;
+        let own = base.scenario.training.grid_options();
+        let option = GridOption::parse(if options.is_empty() { &own } else { options })?;
+        option.check_overrides(set)?;
         let grid = option.grid(&base.scenario, purpose)?;
         let of_setting = |setting| {
             let keys = grid.setting(setting).into_iter();

@@ -19,14 +19,13 @@ use crate::quantize::cost::Cost;
 use super::errors::Evaluation;
 use super::figures::Figures;
 use super::spread::OUTLIER_M;
-use super::thesis::DISTANCES_M;
 
 /// A datapath and what it does to the depth.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExploredDatapath {
     /// What differs from the network's datapath.
     pub variant: String,
-    /// Twice the standard deviation of the depth at the thesis's distances [mm].
+    /// Twice the standard deviation of the depth at each of the distances asked for [mm].
     pub two_sd_mm: Vec<Option<f64>>,
     /// Root mean square of fixed point less float, over all histograms [mm].
     pub rms_to_float_mm: f64,
@@ -72,8 +71,8 @@ pub fn sweep(own: &Datapath) -> Vec<(String, Datapath)> {
     points
 }
 
-/// Lets a network in each datapath see the rows, on all threads of the current pool; the same for
-/// any number of threads.
+/// Lets a network in each datapath see the rows, on all threads of the current pool, for figures at some of their
+/// distances; the same for any number of threads.
 ///
 /// # Errors
 /// When a datapath makes no sense, or it is stopped.
@@ -81,6 +80,7 @@ pub fn explore(
     network: &Network,
     datapaths: &[(String, Datapath)],
     (source, rows, seed): (&HistogramSource, &Rows, u64),
+    distances_m: &[f64],
     stop: Option<&AtomicBool>,
     done: impl FnMut(u64),
 ) -> Result<Vec<ExploredDatapath>> {
@@ -106,7 +106,7 @@ pub fn explore(
         let histograms = column.errors_m.len().max(1) as f64;
         ExploredDatapath {
             variant: name.clone(),
-            two_sd_mm: DISTANCES_M.iter().map(two_sd).collect(),
+            two_sd_mm: distances_m.iter().map(two_sd).collect(),
             rms_to_float_mm: f64::sqrt(sum / histograms),
             largest_to_float_mm: largest,
             saturated_weights: circuit.saturated_weights,
@@ -122,6 +122,7 @@ pub fn explore(
 mod tests {
     use super::*;
     use crate::dataset::{Grid, Subset};
+    use crate::evaluation::thesis::DISTANCES_M;
     use tofsim::scenario;
     use tofsim::sim::setup::Setup;
 
@@ -132,7 +133,8 @@ mod tests {
         let network = Network::builtin("uniform").unwrap().unwrap();
         let rows = Rows::Subset(Subset::new(Grid::test(), 510, 1));
         let data = (&source.unwrap(), &rows, 2);
-        let points = explore(&network, &sweep(&network.datapath), data, None, |_| {}).unwrap();
+        let points =
+            explore(&network, &sweep(&network.datapath), data, &DISTANCES_M, None, |_| {}).unwrap();
         let rms = |variant: &str| {
             points.iter().find(|point| point.variant == variant).unwrap().rms_to_float_mm
         };

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use tofsim::network::Network;
 use tofsim::scenario;
 use tofsim_learn::estimation::EstimatorKind;
 
@@ -28,9 +27,9 @@ pub(super) const SHOWN: usize = 6;
     tofsim evaluate --grid target.distance_m=0.1..0.9:0.05 --grid laser.pulse_sigma_ps=100,137,200"
 )]
 pub struct Args {
-    /// Built-in network (uniform, uniform-16, ideal) or network file
-    #[arg(value_name = "NETWORK", default_value = Network::DEFAULT)]
-    pub(super) network: String,
+    /// Built-in network, such as uniform-16, or network file [default: the scenario's]
+    #[arg(value_name = "NETWORK")]
+    pub(super) network: Option<String>,
     /// Built-in scenario, or the path of a scenario file, for all but the scene
     #[arg(long, default_value = scenario::DEFAULT)]
     pub(super) scenario: String,
@@ -40,7 +39,8 @@ pub struct Args {
     #[arg(long, value_parser = words(&EstimatorKind::ALL), value_delimiter = ',', default_value = "network,network-float")]
     pub(super) estimator: Vec<EstimatorKind>,
     /// Which scenes: thesis or test (51 distances, every 10 mm), train (201), KEY=FROM..TO:STEP or KEY=A,B,C
-    /// of any numeric key of the scenario (may be repeated), or a TOML file of those [default: thesis]
+    /// of any numeric key of the scenario (may be repeated), or a TOML file of those [default: the scenario's
+    /// training.grid, or else thesis]
     #[arg(long, value_name = "GRID")]
     pub(super) grid: Vec<String>,
     /// Histograms of each scene, where all are drawn

@@ -22,7 +22,7 @@ use super::args::{Args, SHOWN};
 
 /// Evaluates what is in `data`.
 pub fn run(args: &Args, data: &Path, talk: &Talk) -> Result<()> {
-    let loaded = args.draws.load_with(&args.scenario, &args.network, &args.draws.set)?;
+    let loaded = args.draws.load_with(&args.scenario, args.network.as_deref(), &args.draws.set)?;
     let size = loaded.scenario.histogram();
     let labelled = Labelled::read(data, args.truth.as_deref(), &size)?;
     labelled.check(data, &loaded.scenario)?;
