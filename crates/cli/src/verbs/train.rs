@@ -24,7 +24,7 @@ mod args;
 mod origin;
 mod written;
 
-pub use args::Args;
+pub use args::{Args, QUICK};
 use origin::Origin;
 use written::TrainingOrigin;
 
@@ -157,7 +157,14 @@ impl Args {
         let weighting = weighting.unwrap_or_else(|| base.weighting.clone());
         let base = Recipe { weighting, ..base };
         let (text, name) = match &self.recipe {
-            Some(path) => (read_text(path)?, path.display().to_string()),
+            Some(path) => {
+                let name = path.display().to_string();
+                let text = match Recipe::builtin_text(&name) {
+                    Some(text) => text.to_owned(),
+                    None => read_text(path)?,
+                };
+                (text, name)
+            }
             None => (String::new(), "recipe".to_owned()),
         };
         let mut recipe = Recipe::parse(&text, &base, &self.with, &name)?;

@@ -8,6 +8,9 @@ use tofsim::error::{Error, Input, Result, read_text};
 use tofsim::files::output::write_bytes;
 use tofsim::scenario::builtin::{self, Source};
 use tofsim::scenario::{self, EstimatorKind, Loaded, Scenario};
+use tofsim_learn::training::recipe::Recipe;
+
+use crate::verbs::train;
 
 /// The network's file in the folder.
 pub const NETWORK: &str = "network.toml";
@@ -59,8 +62,9 @@ impl InstrumentFiles {
                 set(&mut document, "stimulus", key, &format!("{key}.csv"));
             }
         }
-        if let Some(recipe) = loaded.scenario.training.recipe.as_deref().filter(|it| *it != "quick")
-        {
+        let is_named = |it: &&str| *it == train::QUICK || Recipe::builtin_text(it).is_some();
+        let recipe = loaded.scenario.training.recipe.as_deref();
+        if let Some(recipe) = recipe.filter(|recipe| !is_named(recipe)) {
             files.push((RECIPE.to_owned(), loaded.files.read(recipe)?.1));
             set(&mut document, "training", "recipe", RECIPE);
         }

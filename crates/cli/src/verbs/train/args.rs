@@ -7,6 +7,7 @@ use clap::{Args as _, Command, FromArgMatches};
 use tofsim::error::Result;
 use tofsim::scenario::builtin::Source;
 use tofsim::scenario::{self, Loaded};
+use tofsim_learn::training::recipe::Recipe;
 
 use crate::verbs::formats::Formats;
 
@@ -51,8 +52,8 @@ pub struct Args {
     /// A training of seconds, whose network is poor
     #[arg(long)]
     pub(super) quick: bool,
-    /// TOML file with numbers of the recipe, over the built-in one's
-    #[arg(long, value_name = "FILE")]
+    /// Recipe: short (minutes), uniform-16, or a TOML file; what it does not say is the default one's
+    #[arg(long, value_name = "NAME|FILE")]
     pub(super) recipe: Option<PathBuf>,
     /// Set a key of the recipe, such as finish.blocks=10 or table_noise=0; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
@@ -86,7 +87,7 @@ pub struct Args {
 }
 
 /// The word that stands for `--quick` in place of a recipe's path.
-const QUICK: &str = "quick";
+pub const QUICK: &str = "quick";
 
 impl Args {
     /// Those of a command line without any.
@@ -109,8 +110,10 @@ impl Args {
         if let (Some(recipe), false, None) = (&training.recipe, args.quick, &args.recipe) {
             args.quick = recipe == QUICK;
             let path = match &loaded.files {
-                Source::Folder(folder) => folder.join(recipe),
-                Source::BuiltIn => PathBuf::from(recipe),
+                Source::Folder(folder) if Recipe::builtin_text(recipe).is_none() => {
+                    folder.join(recipe)
+                }
+                _ => PathBuf::from(recipe),
             };
             args.recipe = (!args.quick).then_some(path);
         }

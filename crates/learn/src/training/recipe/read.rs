@@ -7,7 +7,18 @@ use tofsim::files::toml::{Checked, assign, merge, read};
 
 use super::Recipe;
 
+/// Name and text of each recipe that comes with the program.
+const BUILTIN: &[(&str, &str)] = &[
+    ("short", include_str!("../../../../../stimuli/recipes/short.toml")),
+    ("uniform-16", include_str!("../../../../../stimuli/recipes/uniform-16.toml")),
+];
+
 impl Recipe {
+    /// The text of a recipe that comes with the program, with what it has over the default one.
+    pub fn builtin_text(name: &str) -> Option<&'static str> {
+        BUILTIN.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
+    }
+
     /// The recipe in the text of a file; messages name `source`.
     ///
     /// # Errors
@@ -63,6 +74,16 @@ mod tests {
         assert_eq!(recipe.finish.epochs, Recipe::default().finish.epochs);
         assert_eq!(parse("", &[]).unwrap(), Recipe::default());
         Recipe::quick().check().unwrap();
+    }
+
+    #[test]
+    fn the_built_in_recipes_are_ones() {
+        for (name, text) in BUILTIN {
+            assert_ne!(
+                Recipe::parse(text, &Recipe::default(), &[], name).unwrap(),
+                Recipe::default()
+            );
+        }
     }
 
     #[test]
