@@ -12,33 +12,34 @@ use tofsim::sim::{Run, Stepping};
 
 use crate::common::{json, refused, setup, stdout};
 
-/// Counts by outcome: 256 codes, hits without one, no hit.
-type Counts = Vec<u64>;
+/// Counts by outcome: every code, hits without one, no hit.
+pub type Counts = Vec<u64>;
 
-fn counts(frames: &[Frame]) -> Counts {
-    let mut counts = vec![0; 258];
+pub fn counts(frames: &[Frame]) -> Counts {
+    let bins = frames[0].histogram.len();
+    let mut counts = vec![0; bins + 2];
     for frame in frames {
         for (sum, &count) in counts.iter_mut().zip(&frame.histogram) {
             *sum += u64::from(count);
         }
-        counts[256] += frame.tdc_hits - frame.hits();
-        counts[257] += frame.shots - frame.tdc_hits;
+        counts[bins] += frame.tdc_hits - frame.hits();
+        counts[bins + 1] += frame.shots - frame.tdc_hits;
     }
     counts
 }
 
-fn shot_frames(setup: &Setup, count: u64) -> Vec<Frame> {
+pub fn shot_frames(setup: &Setup, count: u64) -> Vec<Frame> {
     Run::new(setup).stepping(Stepping::LeapShots).frames(count).unwrap()
 }
 
-fn drawn_frames(setup: &Setup, count: u64) -> Vec<Frame> {
+pub fn drawn_frames(setup: &Setup, count: u64) -> Vec<Frame> {
     let histograms = Histograms::new(setup).unwrap();
     (0..count).map(|index| histograms.frame(index)).collect()
 }
 
 /// Chance of a chi-square as large or larger between two samples of the same size. Neighbouring
 /// outcomes are taken together until 20 are expected in each sample.
-fn two_sample(a: &Counts, b: &Counts) -> f64 {
+pub fn two_sample(a: &Counts, b: &Counts) -> f64 {
     let (mut chi_square, mut cells, mut sums) = (0.0, 0.0, (0.0, 0.0));
     for (&a, &b) in a.iter().zip(b) {
         sums = (sums.0 + a as f64, sums.1 + b as f64);
@@ -70,7 +71,7 @@ fn random_setup(random: &mut ChaCha8Rng) -> Setup {
 }
 
 /// Level of each test below: a fault of chance once in 1,000 runs of this file, whose seeds are fixed.
-const LEVEL: f64 = 1e-3;
+pub const LEVEL: f64 = 1e-3;
 
 #[test]
 fn histograms_drawn_at_once_are_distributed_as_those_of_single_shots() {

@@ -13,9 +13,11 @@ use tofsim::kernel::{Overflow, WordFormat};
 use tofsim::network::Network;
 use tofsim::network::file::Training;
 use tofsim::network::float::Float;
+use tofsim::sim::fast::histogram::Histograms;
 use tofsim::sim::{Run, Stepping};
 
 use crate::common::{empty, json, refused, setup};
+use crate::fidelities::{LEVEL, counts, drawn_frames, shot_frames, two_sample};
 use crate::lockstep::verified;
 
 /// Blocks that clocks, chain and laser reach.
@@ -213,7 +215,7 @@ fn ten_instruments_pass_in_icarus_and_twenty_in_verilator() {
 #[test]
 fn every_way_through_time_gives_the_same_frames() {
     let mut hits = 0;
-    for seed in 100..130 {
+    for seed in 0..32 {
         let (mut random, folder) = (ChaCha8Rng::seed_from_u64(seed), empty());
         let mut keys = instrument(&mut random, folder.path(), 300.0);
         keys.push("firmware.shots_per_frame=200".to_owned());
@@ -230,6 +232,31 @@ fn every_way_through_time_gives_the_same_frames() {
         hits += Run::new(&setup).frames(1).unwrap()[0].hits();
     }
     assert!(hits > 1_000, "{hits}");
+}
+
+/// Of those whose shots are independent; the others are refused with the reason.
+#[test]
+fn histograms_drawn_at_once_are_distributed_as_those_of_the_instruments_shots() {
+    let (mut compared, instruments) = (0, 60);
+    for seed in 0..instruments {
+        let (mut random, folder) = (ChaCha8Rng::seed_from_u64(seed), empty());
+        let mut keys = instrument(&mut random, folder.path(), 300.0);
+        keys.push(format!("spad.on_tdc={}", [1, 3, 40][random.random_range(0..3)]));
+        let set: Vec<_> = keys.iter().map(String::as_str).collect();
+        let setup = setup("bright", &set);
+        if Histograms::new(&setup).is_err() {
+            continue;
+        }
+        let [shot, drawn] = [shot_frames(&setup, 8), drawn_frames(&setup, 8)];
+        for (shot, drawn) in shot.iter().zip(&drawn) {
+            assert_eq!(shot.frame_cycles, drawn.frame_cycles, "seed {seed}: {keys:?}");
+            assert_eq!(shot.estimator_cycles, drawn.estimator_cycles);
+        }
+        let chance = two_sample(&counts(&shot), &counts(&drawn));
+        assert!(chance > LEVEL / instruments as f64, "seed {seed}, {chance}: {keys:?}");
+        compared += 1;
+    }
+    assert!(compared >= 30, "{compared}");
 }
 
 #[test]
