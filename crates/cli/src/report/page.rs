@@ -9,6 +9,7 @@ mod verified;
 
 use serde_json::Value;
 
+use tofsim::scenario::Part;
 use tofsim::sim::setup::Setup;
 
 use crate::record::Record;
@@ -96,7 +97,11 @@ impl Page<'_> {
     fn tiles(&self) -> String {
         let all = &self.evaluation["estimators"][0]["all"];
         let mm = |key: &str| all[key].as_f64().map_or("-".to_owned(), |mm| format!("{mm:.2} mm"));
-        let luts = self.cost["parts"]["kintex7"]["lut"].as_u64();
+        let (part, luts_of) = match self.setup.scenario.pll.part {
+            Part::Kintex7 => ("kintex7", "LUTs of a Kintex-7"),
+            Part::Ecp5 => ("ecp5", "LUTs of an ECP5"),
+        };
+        let luts = self.cost["parts"][part]["lut"].as_u64();
         let blocks = self.verify["blocks"].as_array();
         let verified = blocks.map_or("not run".to_owned(), |blocks| {
             let passed = blocks.iter().filter(|block| block["verdict"] == "pass").count();
@@ -107,7 +112,7 @@ impl Page<'_> {
             ("2 sd over the grid", mm("two_sd_mm")),
             ("mean error", mm("mean_mm")),
             ("frames", facts::frame_rate(self.setup)),
-            ("LUTs of a Kintex-7", luts.map_or("-".to_owned(), |luts| luts.to_string())),
+            (luts_of, luts.map_or("-".to_owned(), |luts| luts.to_string())),
             ("benches passed", verified),
         ];
         let tile = |(what, value): &(&str, String)| {
