@@ -14,8 +14,10 @@ use super::observed::{Observed, Pace, Shot};
 pub(super) fn pace(setup: &Setup, kind: ReplayKind) -> Pace<'_> {
     let from_rom = kind == ReplayKind::Codes;
     let to_code = if from_rom { 0 } else { setup.params.tdc.decoder.latency() + 1 };
+    let frame = &setup.params.frame_ctrl;
+    let pause = setup.params.histogram.bins as u64 + frame.drain_cycles;
     let periods = &setup.params.vcsel_driver.periods;
-    Pace { to_code, period: setup.laser_period(), periods }
+    Pace { to_code, period: setup.laser_period(), periods, pause }
 }
 
 /// Photons that give the codes, or else come when the detector's output rose; and how many.

@@ -40,6 +40,8 @@ pub(super) struct Pace<'a> {
     pub(super) period: u64,
     /// What that can be.
     pub(super) periods: &'a [u64],
+    /// Clear and Drain, between frames.
+    pub(super) pause: u64,
 }
 
 /// What a capture shows.
@@ -192,7 +194,7 @@ pub(super) fn observe(
         return Err(Input::new(&capture.name, expected).into());
     }
     observed.period = period(&observed, pace.periods);
-    observed.per_frame = numbers.per_frame.or_else(|| first_pause(&observed));
+    observed.per_frame = numbers.per_frame.or_else(|| first_pause(&observed, pace));
     observed.add_earlier(pace);
     observed.add_notes(counter.is_some() || numbers.begun, is_early);
     Ok(Some(observed))
@@ -297,14 +299,11 @@ impl Observed {
 
 /// Shots from the one whose code is taken to be held as the capture begins to the first.
 const HELD_SINCE: i64 = 3;
-/// Cycles between frames, at least: Clear and Drain.
-const PAUSE: u64 = 256 + 16;
-
 /// Shots until the first pause between frames, where nothing else tells how many a frame has.
-fn first_pause(observed: &Observed) -> Option<u64> {
+fn first_pause(observed: &Observed, pace: Pace) -> Option<u64> {
     let apart = |shots: &[Shot]| {
-        observed.is_continuous()
-            && (shots[1].start - shots[0].start) as u64 / observed.timebase.per_cycle > PAUSE
+        let cycles = (shots[1].start - shots[0].start) as u64 / observed.timebase.per_cycle;
+        observed.is_continuous() && cycles > pace.pause && !pace.periods.contains(&cycles)
     };
     let last = observed.shots.windows(2).find(|shots| apart(shots))?;
     Some(last[0].number + 1)
