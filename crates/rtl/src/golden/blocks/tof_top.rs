@@ -62,13 +62,6 @@ const HISTOGRAM: Configuration = Configuration {
     ..configuration::DEFAULTS
 };
 
-/// A little more than Clear takes after a reset [eighths of a cycle].
-const ACQUIRE: u64 = 8 * 265;
-/// From the end of `dsp_rst` to the first shot, and to the start of the estimator [eighths of a cycle].
-const SHOTS_BEGIN: u64 = 8 * 255;
-const ESTIMATE: u64 = 8 * 320;
-/// A whole frame [eighths of a cycle].
-const FRAME: u64 = 8 * 625;
 /// Shots of a frame under random control.
 const SHOTS: u32 = 8;
 
@@ -133,7 +126,7 @@ fn control(setting: &Setting, shots: u64) -> Vec<Control> {
     // Times are in eighths of a cycle.
     let at_us = |at| (pll.locked_at + stops::of_eighths(at, pll.cycle)).fs() as f64 * 1e-9;
     let (mut at, end) = (0, 8 * setting.cycles().min(RANDOM) as u64);
-    let mut again = false;
+    let (mut again, times) = (false, FrameTimes::new(setting, shots));
     while at < end {
         let mut change = Control {
             at_us: at_us(at),
@@ -152,13 +145,13 @@ fn control(setting: &Setting, shots: u64) -> Vec<Control> {
             (change.dsp_rst, change.rst) = (Some(false), Some(false));
             changes.push(change);
             again = draw.one_in(3);
-            at += if again { ACQUIRE + draw.below(600) } else { 1 + draw.below(12_000) };
+            at += if again { times.acquire + draw.below(600) } else { 1 + draw.below(12_000) };
         } else {
             again = false;
         }
     }
     while at < 8 * setting.cycles() as u64 {
-        for (span, change) in planted(shots, last, &mut draw) {
+        for (span, change) in planted(shots, last, &times, &mut draw) {
             changes.push(Control { at_us: at_us(at), ..change });
             at += span;
         }
@@ -166,10 +159,38 @@ fn control(setting: &Setting, shots: u64) -> Vec<Control> {
     changes
 }
 
+/// When what comes in a frame of so many shots at the last rate [eighths of a cycle].
+struct FrameTimes {
+    /// A little more than Clear takes after a reset.
+    acquire: u64,
+    /// From the end of `dsp_rst` to the first shot.
+    shots_begin: u64,
+    /// From there to the start of the estimator.
+    estimate: u64,
+    /// The whole, and a little more.
+    whole: u64,
+}
+
+impl FrameTimes {
+    fn new(setting: &Setting, shots: u64) -> Self {
+        let params = &setting.setup.params;
+        let (bins, drain) = (params.histogram.bins as u64, params.frame_ctrl.drain_cycles);
+        let periods = &params.vcsel_driver.periods;
+        let estimate = 8 * (bins + shots * periods[periods.len() - 1] + drain);
+        let done = params.depth_estimator.ctrl().done();
+        FrameTimes { acquire: 8 * (bins + 9), shots_begin: 8 * (bins - 1), estimate, whole: estimate + 8 * (done + 38) }
+    }
+}
+
 /// A frame begun anew at a rate of that code and period, and in it a short reset, another mode or a hold, in some cycle of the shots or
 /// about the one that starts the estimator; each change and how long it lasts [eighths of a
 /// cycle].
-fn planted(shots: u64, (rate, period): (u64, u64), draw: &mut Draw) -> [(u64, Control); 4] {
+fn planted(
+    shots: u64,
+    (rate, period): (u64, u64),
+    times: &FrameTimes,
+    draw: &mut Draw,
+) -> [(u64, Control); 4] {
     let begin = Control {
         laser_freq: Some(rate),
         mode: Some(QuenchMode::EachShot),
@@ -179,13 +200,13 @@ fn planted(shots: u64, (rate, period): (u64, u64), draw: &mut Draw) -> [(u64, Co
         ..Control::default()
     };
     let go = Control { dsp_rst: Some(false), ..Control::default() };
-    let shots = SHOTS_BEGIN + draw.below(8 * period * shots);
+    let shots = times.shots_begin + draw.below(8 * period * shots);
     let kind = draw.below(9);
     let (wait, span, change) = match kind {
         0..4 => (shots, 3 + draw.below(14), Control { rst: Some(true), ..Control::default() }),
         4..6 => (shots, 8, Control { dsp_rst: Some(true), ..Control::default() }),
         6 => (shots, 8 + draw.below(90), Control { mode: Some(QuenchMode::FreeRunning), ..Control::default() }),
-        _ => (ESTIMATE + 8 * draw.below(3), 80, Control { dsp_en: Some(false), ..Control::default() }),
+        _ => (times.estimate + 8 * draw.below(3), 80, Control { dsp_en: Some(false), ..Control::default() }),
     };
     let end = Control {
         rst: Some(false),
@@ -195,6 +216,6 @@ fn planted(shots: u64, (rate, period): (u64, u64), draw: &mut Draw) -> [(u64, Co
         ..Control::default()
     };
     // After another dsp_rst the frame is seen to its end.
-    let rest = if (4..6).contains(&kind) { FRAME } else { 400 + draw.below(300) };
+    let rest = if (4..6).contains(&kind) { times.whole } else { 400 + draw.below(300) };
     [(24, begin), (wait, go), (span, change), (rest, end)]
 }
