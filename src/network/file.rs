@@ -66,6 +66,10 @@ const BUILTIN: &[(&str, &str)] = &[
     ("uniform", include_str!("../../stimuli/networks/uniform.toml")),
     ("ideal", include_str!("../../stimuli/networks/ideal.toml")),
     ("uniform-16", include_str!("../../stimuli/networks/uniform-16.toml")),
+    ("long", include_str!("../../stimuli/networks/long.toml")),
+    ("fine", include_str!("../../stimuli/networks/fine.toml")),
+    ("compact", include_str!("../../stimuli/networks/compact.toml")),
+    ("ecp5", include_str!("../../stimuli/networks/ecp5.toml")),
 ];
 
 impl Network {

@@ -13,14 +13,19 @@ macro_rules! files {
     };
 }
 
-/// Name and text of each built-in scenario.
-pub const SCENARIOS: &[(&str, &str)] = files!("scenarios", "toml":
-    "kc705", "near", "far", "bright",
+/// Name and text of each built-in instrument.
+const INSTRUMENTS: &[(&str, &str)] =
+    files!("instruments", "toml": "kc705", "long", "fine", "compact", "ecp5");
+
+/// Name and text of each other built-in scenario.
+const SCENARIOS: &[(&str, &str)] = files!("scenarios", "toml":
+    "near", "far", "bright",
     "spad_validation", "tdc_validation", "histogram_validation", "estimator_validation",
 );
 
 /// Name and text of each built-in chain.
-pub const CHAINS: &[(&str, &str)] = files!("chains", "toml": "uniform", "table6_3", "ideal", "ecp5");
+pub const CHAINS: &[(&str, &str)] =
+    files!("chains", "toml": "uniform", "table6_3", "ideal", "ecp5");
 
 /// Files that built-in scenarios refer to.
 const STIMULI: &[(&str, &str)] = &[
@@ -33,9 +38,15 @@ fn find(files: &[(&'static str, &'static str)], name: &str) -> Option<&'static s
     files.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
 }
 
+/// Name and text of each built-in scenario: of the KC705 first, other instruments' last.
+pub fn scenarios() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let (kc705, others) = INSTRUMENTS.split_at(1);
+    kc705.iter().chain(SCENARIOS).chain(others).copied()
+}
+
 /// The text of a built-in scenario.
 pub fn scenario(name: &str) -> Option<&'static str> {
-    find(SCENARIOS, name)
+    scenarios().find(|(known, _)| *known == name).map(|(_, text)| text)
 }
 
 /// The text of a built-in chain.

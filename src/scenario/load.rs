@@ -35,7 +35,7 @@ pub fn load(name: &str, overrides: &[String]) -> Result<Loaded> {
     }
     let path = Path::new(name);
     if !path.exists() && !name.contains(['/', '.']) {
-        let (hint, _) = hint(name, builtin::SCENARIOS.iter().map(|(name, _)| *name));
+        let (hint, _) = hint(name, builtin::scenarios().map(|(name, _)| name));
         let expected = format!("no such file or built-in scenario{hint}; see `scenario list`");
         return Err(Input::new("scenario", expected).value(name).into());
     }
@@ -81,7 +81,7 @@ mod tests {
 
     #[test]
     fn every_built_in_scenario_loads() {
-        for (name, _) in builtin::SCENARIOS {
+        for (name, _) in builtin::scenarios() {
             let loaded = load(name, &[]).unwrap();
             assert!(!loaded.scenario.description.is_empty(), "{name}");
         }

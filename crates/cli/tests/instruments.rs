@@ -1,6 +1,7 @@
 //! Instruments other than the KC705: drawn at random over what the firmware's parameters can be, each block
 //! and the whole in Verilog, and every way through time.
 
+mod built_in;
 mod files;
 
 use std::path::Path;

@@ -17,7 +17,7 @@ table! {
         #[schemars(extend("source" = "thesis ch. 5"))]
         #[serde(skip_serializing_if = "BTreeMap::is_empty")]
         pub grid: BTreeMap<String, String> = BTreeMap::new(),
-        /// `short` for a training of minutes, `quick` for one of seconds, whose network is poor, `uniform-16`, or
+        /// `short` for a training of minutes, `quick` for one of seconds, whose network is poor, `uniform-16`, `long`, or
         /// the path of a recipe.
         #[schemars(extend("source" = "docs/accuracy.md"))]
         #[serde(skip_serializing_if = "Option::is_none")]

@@ -83,8 +83,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
 
 fn list(as_json: bool) -> Result<()> {
     let mut rows = Vec::new();
-    for (name, _) in builtin::SCENARIOS {
-        rows.push((*name, scenario::load(name, &[])?.scenario.description));
+    for (name, _) in builtin::scenarios() {
+        rows.push((name, scenario::load(name, &[])?.scenario.description));
     }
     if as_json {
         let object = |(name, description): &(&str, String)| json!({ "name": name, "description": description });

@@ -98,10 +98,15 @@ impl Circuit {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tofsim::firmware::histogram_builder::Params;
     use tofsim::network::{Network, estimate};
 
     fn peak(bin: usize, height: u32) -> Vec<u32> {
-        (0..256).map(|k: usize| height / (1 + k.abs_diff(bin) as u32)).collect()
+        peak_of(256, bin, height)
+    }
+
+    fn peak_of(bins: usize, bin: usize, height: u32) -> Vec<u32> {
+        (0..bins).map(|k| height / (1 + k.abs_diff(bin) as u32)).collect()
     }
 
     #[test]
@@ -109,10 +114,10 @@ mod tests {
         for name in Network::builtin_names() {
             let network = Network::builtin(name).unwrap().unwrap();
             let circuit = Circuit::new(&network.twin(), &network.datapath).unwrap();
-            for bin in (5..250).step_by(7) {
-                let histogram = peak(bin, 200 + 20 * bin as u32);
-                let expected =
-                    estimate(&network.params(&Default::default()), &histogram).depth.to_f64();
+            let size = Params { bins: network.fixed.bins(), ..Params::default() };
+            for bin in (5..size.bins - 6).step_by(7) {
+                let histogram = peak_of(size.bins, bin, 200 + 20 * (bin % 250) as u32);
+                let expected = estimate(&network.params(&size), &histogram).depth.to_f64();
                 assert_eq!(circuit.depth_m(&histogram), expected);
             }
             assert_eq!(circuit.saturated_weights, 0);
