@@ -33,8 +33,22 @@ impl Scenes {
         load: impl Fn(&[String]) -> Result<Loaded>,
     ) -> Result<Self> {
         let base = load(set)?;
-        let own = base.scenario.training.grid_options();
-        let option = GridOption::parse(if options.is_empty() { &own } else { options })?;
+        if !options.is_empty() {
+            return Self::of_options(options, set, purpose, base, load);
+        }
+        let (own, name) = (base.scenario.training.grid_options(), base.name.clone());
+        let scenes = Self::of_options(&own, set, purpose, base, load);
+        scenes.map_err(|error| of_the_own_grid(error, &name))
+    }
+
+    fn of_options(
+        options: &[String],
+        set: &[String],
+        purpose: GridPurpose,
+        base: Loaded,
+        load: impl Fn(&[String]) -> Result<Loaded>,
+    ) -> Result<Self> {
+        let option = GridOption::parse(options)?;
         option.check_overrides(set)?;
         let grid = option.grid(&base.scenario, purpose)?;
         let of_setting = |setting| {
@@ -82,6 +96,20 @@ impl Scenes {
             }
         }
         Ok(notes)
+    }
+}
+
+/// What the grid in a scenario's own file is refused for.
+pub fn of_the_own_grid(error: Error, scenario: &str) -> Error {
+    match error {
+        Error::Input(input) => match input.source.strip_prefix("--grid") {
+            Some(key) => {
+                let source = format!("scenario {scenario}: training.grid{key}");
+                Input { source, ..*input }.into()
+            }
+            None => Error::Input(input),
+        },
+        other => other,
     }
 }
 

@@ -18,6 +18,7 @@ use crate::report::training as report;
 
 use super::draws::use_threads;
 use super::progress::Progress;
+use super::scenes::of_the_own_grid;
 use super::terminal::{Talk, print, print_json, stop_signal};
 
 mod args;
@@ -30,9 +31,11 @@ use written::TrainingOrigin;
 
 /// Runs the verb.
 pub fn run(given: &Args, talk: &Talk) -> Result<()> {
-    let args = &given.over(&scenario::load(&given.scenario, &given.set)?)?;
+    let loaded = scenario::load(&given.scenario, &given.set)?;
+    let args = &given.over(&loaded)?;
     let recipe = args.recipe(None)?;
-    if args.print_recipe && args.grid.is_empty() && args.data.is_none() {
+    let has_grid = !args.grid.is_empty() || !loaded.scenario.training.grid.is_empty();
+    if args.print_recipe && !has_grid && args.data.is_none() {
         return print_recipe(&recipe);
     }
     use_threads(args.threads)?;
@@ -88,7 +91,9 @@ pub fn run(given: &Args, talk: &Talk) -> Result<()> {
 pub fn check(loaded: &scenario::Loaded) -> Result<()> {
     let args = Args::usual().over(loaded)?;
     args.recipe(None)?;
-    GridOption::parse(&args.grid)?.grid(&loaded.scenario, GridPurpose::Training).map(drop)
+    let own = GridOption::parse(&loaded.scenario.training.grid_options());
+    let grid = own.and_then(|own| own.grid(&loaded.scenario, GridPurpose::Training));
+    grid.map(drop).map_err(|error| of_the_own_grid(error, &loaded.name))
 }
 
 /// Prints a recipe as TOML.
@@ -161,6 +166,12 @@ impl Args {
                 let name = path.display().to_string();
                 let text = match Recipe::builtin_text(&name) {
                     Some(text) => text.to_owned(),
+                    None if !path.exists() => {
+                        let names = Recipe::builtin_names().collect::<Vec<_>>().join(", ");
+                        let expected =
+                            format!("no such file; built-in recipes are {names}, {QUICK}");
+                        return Err(Input::new(name, expected).into());
+                    }
                     None => read_text(path)?,
                 };
                 (text, name)

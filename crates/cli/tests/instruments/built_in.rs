@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 
-use crate::common::{empty, json, output};
+use crate::common::{empty, json, output, refused};
 
 /// Name, bins, cycles of an estimation, width of a bin [ps].
 const INSTRUMENTS: [(&str, usize, u64, f64); 5] = [
@@ -72,5 +72,31 @@ fn a_build_takes_the_network_of_each_as_it_is() {
         assert_eq!(std::fs::read(own).unwrap(), std::fs::read(known).unwrap(), "{name}");
         let kind = if ["compact", "ecp5"].contains(&name) { "lpf" } else { "xdc" };
         assert!(folder.path().join(format!("out/constraints.{kind}")).exists(), "{name}");
+    }
+}
+
+#[test]
+fn what_a_file_says_of_its_training_is_refused_where_it_stands() {
+    let text = include_str!("../../../../stimuli/instruments/compact.toml");
+    for (from, to, expected) in [
+        (
+            "\"short\"",
+            "\"shrot\"",
+            "shrot: no such file; built-in recipes are short, long, uniform-16, quick",
+        ),
+        (
+            "0.15..0.6:0.0025",
+            "0.6..0.15:0.0025",
+            "scenario own: training.grid: target.distance_m = 0.6..0.15:0.0025",
+        ),
+        ("\"target.distance_m\"", "\"target.distnce_m\"", "did you mean `distance_m`?"),
+    ] {
+        let folder = empty();
+        assert!(text.contains(from), "{from}");
+        std::fs::write(folder.path().join("own.toml"), text.replace(from, to)).unwrap();
+        for verb in [&["build", "own.toml", "-o", "out"][..], &["train", "own.toml", "-o", "net"]] {
+            let error = refused(folder.path(), verb);
+            assert!(error.contains(expected), "{verb:?}: {error}");
+        }
     }
 }

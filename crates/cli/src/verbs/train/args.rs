@@ -52,7 +52,7 @@ pub struct Args {
     /// A training of seconds, whose network is poor
     #[arg(long)]
     pub(super) quick: bool,
-    /// Recipe: short (minutes), uniform-16, long, or a TOML file; what it does not say is the default one's
+    /// Recipe: short (minutes), quick (seconds), uniform-16, long, or a TOML file; what it does not say is the default one's
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) recipe: Option<PathBuf>,
     /// Set a key of the recipe, such as finish.blocks=10 or table_noise=0; may be repeated
@@ -104,8 +104,8 @@ impl Args {
     pub(super) fn over(&self, loaded: &Loaded) -> Result<Args> {
         let mut args = self.clone();
         let training = &loaded.scenario.training;
-        if args.grid.is_empty() && args.data.is_none() {
-            args.grid = training.grid_options();
+        if args.recipe.as_deref() == Some(QUICK.as_ref()) {
+            (args.quick, args.recipe) = (true, None);
         }
         if let (Some(recipe), false, None) = (&training.recipe, args.quick, &args.recipe) {
             args.quick = recipe == QUICK;

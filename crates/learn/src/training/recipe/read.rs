@@ -15,6 +15,11 @@ const BUILTIN: &[(&str, &str)] = &[
 ];
 
 impl Recipe {
+    /// Names of the recipes that come with the program.
+    pub fn builtin_names() -> impl Iterator<Item = &'static str> {
+        BUILTIN.iter().map(|(name, _)| *name)
+    }
+
     /// The text of a recipe that comes with the program, with what it has over the default one.
     pub fn builtin_text(name: &str) -> Option<&'static str> {
         BUILTIN.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
