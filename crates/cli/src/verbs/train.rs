@@ -96,6 +96,19 @@ pub fn check(loaded: &scenario::Loaded) -> Result<()> {
     grid.map(drop).map_err(|error| of_the_own_grid(error, &loaded.name))
 }
 
+/// The text of a recipe's file.
+///
+/// # Errors
+/// When it cannot be read; where there is none, with the names that it may have.
+pub fn read_recipe(path: &Path) -> Result<String> {
+    if path.exists() {
+        return read_text(path);
+    }
+    let names = Recipe::builtin_names().collect::<Vec<_>>().join(", ");
+    let expected = format!("no such file; built-in recipes are {names}, {QUICK}");
+    Err(Input::new(path.display(), expected).into())
+}
+
 /// Prints a recipe as TOML.
 fn print_recipe(recipe: &Recipe) -> Result<()> {
     let text = toml::to_string(recipe).map_err(|error| Input::new("recipe", error))?;
@@ -166,13 +179,7 @@ impl Args {
                 let name = path.display().to_string();
                 let text = match Recipe::builtin_text(&name) {
                     Some(text) => text.to_owned(),
-                    None if !path.exists() => {
-                        let names = Recipe::builtin_names().collect::<Vec<_>>().join(", ");
-                        let expected =
-                            format!("no such file; built-in recipes are {names}, {QUICK}");
-                        return Err(Input::new(name, expected).into());
-                    }
-                    None => read_text(path)?,
+                    None => read_recipe(path)?,
                 };
                 (text, name)
             }

@@ -65,7 +65,11 @@ impl InstrumentFiles {
         let is_named = |it: &&str| *it == train::QUICK || Recipe::builtin_text(it).is_some();
         let recipe = loaded.scenario.training.recipe.as_deref();
         if let Some(recipe) = recipe.filter(|recipe| !is_named(recipe)) {
-            files.push((RECIPE.to_owned(), loaded.files.read(recipe)?.1));
+            let path = match &loaded.files {
+                Source::Folder(folder) => folder.join(recipe),
+                Source::BuiltIn => PathBuf::from(recipe),
+            };
+            files.push((RECIPE.to_owned(), train::read_recipe(&path)?));
             set(&mut document, "training", "recipe", RECIPE);
         }
         files.insert(0, (format!("{}.toml", loaded.name), document.to_string()));
