@@ -118,7 +118,7 @@ fn what_cannot_be_built_is_refused_and_leaves_nothing() {
         ("./small_chain.toml", "./none.toml", "none.toml: cannot read"),
         ("\"target.distance_m\" =", "\"target.distanse_m\" =", "distanse_m"),
         ("0.2..0.7:0.1", "0.7..0.2:0.1", "0.7..0.2:0.1: expected FROM below TO"),
-        ("\"quick\"", "\"./none.toml\"", "none.toml: cannot read"),
+        ("\"quick\"", "\"./none.toml\"", "none.toml: no such file; built-in recipes are"),
         ("neurons = 2", "formats = { w3 = \"16.23\" }", "w3: unknown key"),
         (
             "neurons = 2",
