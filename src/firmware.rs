@@ -13,6 +13,7 @@ pub mod forward2;
 pub mod frame_ctrl;
 pub mod histogram_builder;
 pub mod histogram_preload;
+pub mod likelihood_estimator;
 pub mod lvds_output;
 pub mod pll;
 pub mod reset_sync;

@@ -69,6 +69,20 @@ impl Bins {
         self.scale.bins()
     }
 
+    /// Where each bin begins, and last where the last one ends, as far as codes follow time: a code that none has
+    /// is a bin without width [ps].
+    pub fn edges_ps(&self) -> Vec<f64> {
+        let mut edges = vec![0.0; self.count() + 1];
+        for span in &self.spans {
+            let end = &mut edges[span.code as usize + 1];
+            *end = f64::max(*end, span.until.fs() as f64 * 1e-3);
+        }
+        for bin in 1..edges.len() {
+            edges[bin] = edges[bin].max(edges[bin - 1]);
+        }
+        edges
+    }
+
     /// Width of a bin, as codes count it [ps].
     pub fn bin_ps(&self) -> f64 {
         self.scale.bin().fs() as f64 * 1e-3

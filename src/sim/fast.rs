@@ -11,6 +11,7 @@ mod halves;
 pub mod histogram;
 mod hits;
 mod idle;
+pub mod likelihood;
 mod many;
 mod outcomes;
 mod pulse;

@@ -2,6 +2,7 @@
 
 mod expectations;
 mod fits;
+mod likelihood;
 mod notes;
 mod stimulus;
 

@@ -1,0 +1,127 @@
+//! From an instrument to parameters and ROMs.
+
+use super::super::histogram_builder;
+use super::pulse::Pulse;
+use super::{DEPTH_FRACTION, Params, UNITS};
+
+/// The box, in deviations of the pulse: the part of a Gaussian in it is 0.84.
+const BOX_SIGMA: f64 = 2.8;
+/// Bits of the word that turns time into distance.
+const METRES_BITS: i32 = 24;
+/// Bits of an edge above those that bins have, in half units.
+const EDGE_BITS: u32 = 8;
+
+/// What an instrument is, as far as the estimator knows it.
+#[derive(Clone, Debug)]
+pub struct Wanted<'a> {
+    /// How large the histogram is.
+    pub histogram: histogram_builder::Params,
+    /// Shots of a histogram.
+    pub shots: u64,
+    /// Where bins begin, and last where the last one ends, from the laser edge [ps].
+    pub edges_ps: &'a [f64],
+    /// What a bin is meant to be [ps].
+    pub bin_ps: f64,
+    /// How arrivals of an echo are spread.
+    pub pulse: Pulse,
+    /// Distance for each time from laser edge to arrival, c / 2 [m/ps].
+    pub metres_per_ps: f64,
+}
+
+/// Why there is no estimator for an instrument.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Unfit {
+    /// The pulse is too short for the bins.
+    #[error("a pulse of {0} bins standard deviation, expected a half or more")]
+    Short(f64),
+    /// The pulse does not fit into the window.
+    #[error("a pulse {0} bins long, expected {1} at most")]
+    Long(usize, usize),
+    /// Bins end later than a word can say.
+    #[error("bins that end {0} bins late")]
+    Late(f64),
+    /// The window is longer than a depth can say.
+    #[error("a window of {0:.1} m, expected {1} at most")]
+    Far(f64, f64),
+}
+
+impl Params {
+    /// Bits of the words of the steps: those of a sum, [`Params::word_bits`].
+    pub fn word_bits(&self) -> u32 {
+        word_bits(&self.histogram)
+    }
+
+    /// Bits of an edge in half units.
+    pub fn edge_bits(&self) -> u32 {
+        self.histogram.bins.ilog2() + EDGE_BITS
+    }
+
+    /// An edge [units].
+    pub fn edge(&self, bin: usize) -> i64 {
+        i64::from(self.edges[bin] + 1 >> 1)
+    }
+
+    /// Width of a bin [units].
+    pub fn width(&self, bin: usize) -> i64 {
+        self.edge(bin + 1) - self.edge(bin)
+    }
+
+    /// Bins of a fit, but for the one that stands for all others.
+    pub fn fitted(&self) -> usize {
+        self.before + 1 + self.after
+    }
+
+    /// For an instrument.
+    ///
+    /// # Errors
+    /// When the pulse is too short or too long for the histogram, or the window too long for a depth.
+    pub fn new(wanted: &Wanted) -> Result<Self, Unfit> {
+        let Wanted { histogram, shots, edges_ps, bin_ps, pulse, metres_per_ps } = wanted;
+        let (bins, unit_ps) = (histogram.bins, bin_ps / UNITS as f64);
+        let (sigma_ps, [begin_ps, end_ps]) = (pulse.sigma_ps(), pulse.ends_ps());
+        let half = |ps: &f64| libm::floor(2.0 * ps / unit_ps + 0.5) as u32;
+        let edges: Vec<u32> = edges_ps.iter().map(half).collect();
+        let last = edges.iter().copied().max().unwrap_or(0);
+        if last >> (bins.ilog2() + EDGE_BITS) != 0 {
+            return Err(Unfit::Late(f64::from(last) / 2.0 / UNITS as f64 - bins as f64));
+        }
+        let metres = metres_per_ps * unit_ps;
+        let (window_m, most_m) = (
+            metres * f64::from(last) / 2.0,
+            ((word_bits(histogram) - 1 - DEPTH_FRACTION) as f64).exp2(),
+        );
+        if window_m >= most_m {
+            return Err(Unfit::Far(window_m, most_m));
+        }
+        if sigma_ps < 0.5 * bin_ps {
+            return Err(Unfit::Short(sigma_ps / bin_ps));
+        }
+        let reach = |ps: f64| libm::floor(ps / bin_ps) as usize + 2;
+        let (before, after) = (reach(-begin_ps), reach(end_ps));
+        if before + 1 + after > bins {
+            return Err(Unfit::Long(before + 1 + after, bins));
+        }
+        let step_log2 = pulse.step_log2(unit_ps);
+        let deviation = sigma_ps / unit_ps / f64::from(1u32 << step_log2) / 4.0;
+        let distance = metres / 16.0 * (DEPTH_FRACTION as f64).exp2();
+        let metres_shift = (METRES_BITS - 1) - libm::floor(libm::log2(distance)) as i32;
+        Ok(Params {
+            histogram: *histogram,
+            shots: *shots,
+            edges: edges.into(),
+            pulse: pulse.words(unit_ps, step_log2).into(),
+            step_log2,
+            before,
+            after,
+            box_bins: (libm::round(BOX_SIGMA * sigma_ps / bin_ps) as usize).clamp(2, bins / 2),
+            kappa: libm::round(16.0 * deviation * deviation) as i64,
+            sigma: libm::round(sigma_ps / unit_ps) as i64,
+            metres: libm::round(distance * (metres_shift as f64).exp2()) as i64,
+            metres_shift: metres_shift as u32,
+        })
+    }
+}
+
+fn word_bits(histogram: &histogram_builder::Params) -> u32 {
+    histogram.count_bits + 19
+}

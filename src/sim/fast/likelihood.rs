@@ -1,0 +1,81 @@
+//! Maximum likelihood in integers, without its clock: bit for bit what
+//! [`likelihood_estimator`](crate::firmware::likelihood_estimator) computes.
+
+mod arithmetic;
+mod histogram;
+mod scan;
+mod step;
+mod terms;
+mod verdict;
+
+use crate::firmware::forward2::Depth;
+use crate::firmware::likelihood_estimator::{Params, STEPS};
+
+use histogram::Shots;
+use step::{Information, Point, step};
+use verdict::verdict;
+
+/// What an estimation finds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Found {
+    /// Depth word [m].
+    pub depth: Depth,
+    /// Its standard deviation, with as many fraction bits [m].
+    pub sigma: u64,
+    /// Why not to believe it: bits of [`status`](crate::firmware::likelihood_estimator::status).
+    pub status: u8,
+    /// Sum of squared residuals over their variances, 8 fraction bits [1].
+    pub chi_square: u64,
+}
+
+impl Found {
+    /// Standard deviation of the depth [m].
+    pub fn sigma_m(&self) -> f64 {
+        self.sigma as f64 / (1u64 << 29) as f64
+    }
+
+    /// Chi-square of the fit [1].
+    pub fn chi_square(&self) -> f64 {
+        self.chi_square as f64 / 256.0
+    }
+}
+
+/// All on the way to an estimate.
+#[derive(Clone, Debug)]
+pub struct Stages {
+    /// Ambient hazard at the start, 30 fraction bits [1 / unit].
+    pub ambient: i64,
+    /// Where the box stands highest, and how high.
+    pub start: scan::Best,
+    /// Where each step began, and last where the last one ended.
+    pub points: Vec<Point>,
+    /// What the last step knew.
+    pub information: Information,
+    /// The highest box beside the fit.
+    pub other: scan::Best,
+    /// What comes out.
+    pub found: Found,
+}
+
+/// The estimate of a histogram.
+pub fn estimate(p: &Params, histogram: &[u32]) -> Found {
+    stages(p, histogram).found
+}
+
+/// The same, with all that is on the way.
+pub fn stages(p: &Params, histogram: &[u32]) -> Stages {
+    let shots = Shots::new(p, histogram);
+    let ambient = shots.ambient(p);
+    let start = scan::scan(p, &shots, ambient, 0..0);
+    let mut points = vec![Point::start(&start, ambient)];
+    let mut information = Information::default();
+    for _ in 0..STEPS {
+        let to;
+        (to, information) = step(p, &shots, &points[points.len() - 1]);
+        points.push(to);
+    }
+    let last = &points[STEPS];
+    let other = scan::scan(p, &shots, last.ambient, last.window(p));
+    let found = verdict(p, &shots, &start, &other, &points, &information);
+    Stages { ambient, start, points, information, other, found }
+}

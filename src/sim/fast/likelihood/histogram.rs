@@ -1,0 +1,81 @@
+//! Counts, the shots that wait at each bin, and the ambient hazard that they show.
+
+use crate::firmware::likelihood_estimator::{AMBIENT_FRACTION, Params, log2_64, reciprocal};
+
+use super::arithmetic::shifted;
+
+/// Blocks that the window is divided in to find the ambient hazard.
+const BLOCKS: usize = 8;
+/// A block counts with a 64th of the largest exposure, in 64ths of powers of two.
+const LEAST_EXPOSURE: i64 = 6 * 64;
+/// Fraction bits of a chance per bin.
+const CHANCE_FRACTION: u32 = 24;
+/// Most of a chance that is believed, a half.
+const MOST_CHANCE: i64 = 1 << (CHANCE_FRACTION - 1);
+/// What ambient light is of an echo, to begin with: a 16th.
+const ECHO_LOG2: u32 = 4;
+/// Largest word of a signal or an ambient hazard.
+pub const MOST: i64 = (1 << 24) - 1;
+
+/// A histogram as shots see it.
+#[derive(Clone, Debug)]
+pub struct Shots<'a> {
+    /// Shots that end in each bin.
+    pub ended: &'a [u32],
+    /// Shots that wait when each bin begins.
+    pub waiting: Vec<i64>,
+    /// Sum of the first.
+    pub all_ended: i64,
+    /// Sum of the second, each times its bin's width [shots units].
+    pub exposure: i64,
+}
+
+impl<'a> Shots<'a> {
+    /// Of a histogram.
+    pub fn new(p: &Params, ended: &'a [u32]) -> Self {
+        let mut left = p.shots as i64;
+        let waiting: Vec<i64> = ended
+            .iter()
+            .map(|&count| {
+                let before = left.max(0);
+                left -= i64::from(count);
+                before
+            })
+            .collect();
+        let exposure = (0..ended.len()).map(|bin| waiting[bin] * p.width(bin)).sum();
+        Shots { ended, waiting, all_ended: p.shots as i64 - left, exposure }
+    }
+
+    /// The hazard of ambient light: of eight blocks of bins, as far as shots are left, the one at 3/8
+    /// of the order [1 / unit, 30 fraction bits].
+    pub fn ambient(&self, p: &Params) -> i64 {
+        let length_of_block = self.ended.len() / BLOCKS;
+        let block = |k: usize| {
+            let bins = k * length_of_block..(k + 1) * length_of_block;
+            let ended: i64 = self.ended[bins.clone()].iter().map(|&count| i64::from(count)).sum();
+            let exposure: i64 = bins.map(|bin| self.waiting[bin] * p.width(bin)).sum();
+            (log2_64(ended) - log2_64(exposure), ended, exposure)
+        };
+        let blocks: [_; BLOCKS] = std::array::from_fn(block);
+        let most = blocks.iter().map(|(.., exposure)| log2_64(*exposure)).max().unwrap_or(0);
+        let exposed = |exposure: i64| log2_64(exposure) + LEAST_EXPOSURE > most;
+        let mut order: Vec<_> = blocks.iter().filter(|block| exposed(block.2)).collect();
+        order.sort_by_key(|block| block.0);
+        let (_, ended, exposure) = order[(order.len() - 1) * 3 / 8];
+        let (mantissa, bits) = reciprocal((*exposure).max(1));
+        // A chance in 64 units has 24 fraction bits where one in a unit has 30.
+        let chance =
+            shifted((ended << 16) * mantissa, i64::from(bits) + 32 - i64::from(AMBIENT_FRACTION));
+        // Where all shots end in one block, the echo is in it.
+        let chance = if order.len() == 1 { chance >> ECHO_LOG2 } else { chance };
+        hazard(chance.clamp(1, MOST_CHANCE))
+    }
+}
+
+/// -log(1 - p) as far as its third power, of a chance with 24 fraction bits.
+fn hazard(chance: i64) -> i64 {
+    let square = shifted(chance * chance, CHANCE_FRACTION.into());
+    let cube = shifted(square * chance, CHANCE_FRACTION.into());
+    let third = shifted(cube * 341, 10);
+    (chance + shifted(square, 1) + third).clamp(1, MOST)
+}

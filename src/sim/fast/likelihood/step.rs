@@ -1,0 +1,223 @@
+//! A step of Fisher scoring in (mu, log S, log b).
+
+use std::ops::Range;
+
+use crate::firmware::likelihood_estimator::{
+    AMBIENT_FRACTION, HAZARD_FRACTION, Params, QUOTIENT_FRACTION, RESIDUAL_FRACTION, UNITS,
+    WEIGHT_FRACTION, length, reciprocal,
+};
+
+use super::arithmetic::{clamped, product, shifted};
+use super::histogram::{MOST, Shots};
+use super::scan::Best;
+use super::terms::{Bin, Terms};
+
+/// Fraction bits of quotients.
+const Q: i64 = QUOTIENT_FRACTION as i64;
+/// One.
+const ONE: i64 = 1 << Q;
+/// One count as weights have it.
+const COUNT: i64 = 1 << WEIGHT_FRACTION;
+/// Bits of the 2 x 2 rest of the information.
+const REST_BITS: u32 = 16;
+/// Longest step: less than 32 of what z counts.
+const LONGEST_LOG2: u32 = 5;
+/// Smallest signal.
+const LEAST_SIGNAL: i64 = 16;
+
+/// What a fit knows of the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Arrival of the echo [units / 16].
+    pub arrival: i64,
+    /// S [photons a shot, 14 fraction bits].
+    pub signal: i64,
+    /// b [1 / unit, 30 fraction bits].
+    pub ambient: i64,
+}
+
+/// What a step knew, beside where it led.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Information {
+    /// The rest for log S and its exponent.
+    pub a22: i64,
+    /// The rest for mu.
+    pub a11: i64,
+    /// The determinant of the rest.
+    pub determinant: i64,
+    /// By how many bits the rest was shifted.
+    pub exponent: i64,
+    /// By how many bits the step was shortened.
+    pub cut: u32,
+    /// How far mu went [units / 16].
+    pub move_by: i64,
+}
+
+impl Point {
+    /// Where a box stands highest.
+    pub fn start(best: &Best, ambient: i64) -> Self {
+        let (from, until) = best.bins;
+        let (mantissa, bits) = reciprocal(best.waiting.max(1));
+        let rate = shifted((best.excess << 4) * mantissa, bits.into());
+        // 0.84 of the pulse are in the box, and 19/16 is one over that.
+        let signal = shifted(rate * (19 * (until - from) as i64), 17);
+        Point {
+            arrival: (from + until) as i64 * (UNITS / 2) * 16,
+            signal: signal.clamp(LEAST_SIGNAL, MOST),
+            ambient,
+        }
+    }
+
+    /// Arrival, rounded to a unit.
+    pub fn unit(&self) -> i64 {
+        self.arrival + 8 >> 4
+    }
+
+    /// Bins of the fit.
+    pub fn window(&self, p: &Params) -> Range<usize> {
+        let bins = p.histogram.bins;
+        let centre = ((self.unit() / UNITS) as usize).min(bins - 1);
+        centre.saturating_sub(p.before)..(centre + p.after + 1).min(bins)
+    }
+
+    /// A word of the pulse's ROM for an edge.
+    fn pulse(&self, p: &Params, edge: usize) -> [i64; 3] {
+        let place = i64::from(p.edges[edge]) - 2 * self.unit() >> (p.step_log2 + 1);
+        let word = p.pulse[(place.clamp(-1024, 1023) + 1024) as usize];
+        [word.part, word.slope, word.first]
+    }
+
+    /// What each bin of a fit says, with its z; last all others as one.
+    pub fn terms(&self, p: &Params, shots: &Shots) -> Vec<(Terms, i64)> {
+        let window = self.window(p);
+        let [mut part, mut slope, _] = match window.start {
+            0 => [0; 3],
+            first => self.pulse(p, first),
+        };
+        let (mut ended, mut exposure) = (shots.all_ended, shots.exposure);
+        let mut all = Vec::with_capacity(window.len() + 1);
+        for bin in window {
+            let [next, next_slope, first] = self.pulse(p, bin + 1);
+            let z = if bin == 0 { first } else { slope + next_slope >> 1 };
+            let (count, waiting, width) =
+                (i64::from(shots.ended[bin]), shots.waiting[bin], p.width(bin));
+            ended -= count;
+            exposure -= waiting * width;
+            let terms = match width {
+                0 => Terms::default(),
+                _ => self.bin(p, count, waiting, next - part, width),
+            };
+            all.push((terms, z));
+            (part, slope) = (next, next_slope);
+        }
+        all.push((self.bin(p, ended, exposure >> 6, 0, UNITS), 0));
+        all
+    }
+
+    fn bin(&self, p: &Params, ended: i64, waiting: i64, part: i64, width: i64) -> Terms {
+        let signal = shifted(self.signal * part, 17 + 14 - i64::from(HAZARD_FRACTION));
+        let ambient = shifted(self.ambient * width, i64::from(AMBIENT_FRACTION - HAZARD_FRACTION));
+        Bin { ended, waiting, signal, ambient }.terms(p.histogram.count_bits)
+    }
+}
+
+/// Sums over the bins: the information of (mu, log S, log b), and the score.
+#[derive(Clone, Copy, Debug)]
+struct Sums {
+    a11: i64,
+    a12: i64,
+    a13: i64,
+    a22: i64,
+    a23: i64,
+    a33: i64,
+    y1: i64,
+    y2: i64,
+    y3: i64,
+}
+
+impl Sums {
+    /// With a ridge of a count for log b and of a 16th for the others.
+    fn new(terms: &[(Terms, i64)]) -> Self {
+        let mut sums = Sums {
+            a11: COUNT >> 4 << 1,
+            a12: 0,
+            a13: 0,
+            a22: COUNT >> 4,
+            a23: 0,
+            a33: COUNT,
+            y1: 0,
+            y2: 0,
+            y3: 0,
+        };
+        for &(Terms { residual, weight, share, .. }, z) in terms {
+            let of = |value: i64| shifted(value * share, 12);
+            let (once, seen) = (of(weight), of(residual));
+            let twice = of(once);
+            sums.a11 += (twice * z >> 9) * z;
+            sums.a12 += twice * z;
+            sums.a13 += (once - twice) * z;
+            sums.a22 += twice;
+            sums.a23 += once - twice;
+            sums.a33 += weight - 2 * once + twice;
+            sums.y1 += seen * z;
+            sums.y2 += seen;
+            sums.y3 += residual - seen;
+        }
+        // mu counts in 32 of z, and residuals as weights do.
+        let residual = i64::from(WEIGHT_FRACTION - RESIDUAL_FRACTION);
+        sums.a11 = shifted(sums.a11, 1);
+        sums.a12 = shifted(sums.a12, 5);
+        sums.a13 = shifted(sums.a13, 5);
+        sums.y1 = shifted(sums.y1, 5 - residual);
+        sums.y2 <<= residual;
+        sums.y3 <<= residual;
+        sums
+    }
+}
+
+/// One step from a point.
+pub fn step(p: &Params, shots: &Shots, from: &Point) -> (Point, Information) {
+    let word = p.word_bits();
+    let times = |a: i64, b: i64| product(a, b, Q, word);
+    let Sums { mut a11, mut a12, a13, mut a22, a23, a33, y1, y2, y3 } =
+        Sums::new(&from.terms(p, shots));
+    // log b is eliminated.
+    let (over_a33, bits) = reciprocal(a33.max(1));
+    let by_a33 = |a: i64| product(a, over_a33, i64::from(bits) + 16 - Q, word);
+    let (f1, f2) = (by_a33(a13), by_a33(a23));
+    a11 = (a11 - times(f1, a13)).max(1);
+    a12 -= times(f1, a23);
+    a22 = (a22 - times(f2, a23)).max(1);
+    let (mut x1, mut x2) = (y1 - times(f1, y3), y2 - times(f2, y3));
+    // The rest is shifted to 16 bits, and solved by Cramer's rule.
+    let longest = length(a11 | a22 | x1.abs() | x2.abs());
+    let exponent = i64::from(longest.saturating_sub(REST_BITS));
+    for value in [&mut a11, &mut a12, &mut a22, &mut x1, &mut x2] {
+        *value = shifted(*value, exponent);
+    }
+    let determinant = clamped(a11 * a22 - a12 * a12, word).max(1);
+    let (over, bits) = reciprocal(determinant);
+    let solved = |a: i64| product(a, over, i64::from(bits) + 16 - Q, word);
+    let mut d1 = solved(clamped(a22 * x1 - a12 * x2, word));
+    let mut d2 = solved(clamped(a11 * x2 - a12 * x1, word));
+    let mut along = product(d1, p.kappa, 9, word);
+    // Steps that are too long are halved together.
+    let cut = length(along.abs() >> (Q + i64::from(LONGEST_LOG2))).max(length(d2.abs() >> Q));
+    for value in [&mut d1, &mut d2, &mut along] {
+        *value = shifted(*value, cut.into());
+    }
+    let d3 = by_a33(clamped(y3 - times(a13, d1) - times(a23, d2), word));
+    let start = from.unit() << 4;
+    let end = i64::from(p.edges[p.histogram.bins] >> 1) << 4;
+    let arrival = start + shifted(along, 8 - i64::from(p.step_log2));
+    let arrival = arrival.clamp(0, end);
+    let growth = ONE + d2 + shifted(times(d2, d2), 1);
+    let ambient_growth = ONE + d3.clamp(-3 * ONE / 4, 3 * ONE);
+    let to = Point {
+        arrival,
+        signal: times(from.signal, growth).clamp(LEAST_SIGNAL, MOST),
+        ambient: times(from.ambient, ambient_growth).clamp(1, MOST),
+    };
+    let move_by = (arrival - start).abs();
+    (to, Information { a22, a11, determinant, exponent, cut, move_by })
+}

@@ -1,0 +1,111 @@
+//! Depth, deviation and status, from what the last step knew.
+
+use crate::firmware::forward2::Depth;
+use crate::firmware::likelihood_estimator::{Params, WEIGHT_FRACTION, length, reciprocal, status};
+
+use super::Found;
+use super::arithmetic::{product, root, shifted};
+use super::histogram::Shots;
+use super::scan::Best;
+use super::step::{Information, Point};
+use super::terms::Terms;
+
+/// Bits of what the root is taken of.
+const ROOT_BITS: i64 = 50;
+/// Fraction bits of a variance of log S; one that is larger is the largest.
+const VARIANCE_FRACTION: i64 = 20;
+const MOST_VARIANCE: i64 = 1 << 24;
+/// 64 log2 of the squared excess that an echo has at least, of one that is sure, and of another echo.
+const LEAST_SCORE: i64 = 297;
+const SURE_SCORE: i64 = 425;
+const ANOTHER_SCORE: i64 = 331;
+/// Squared deviations that log S has to be away from nothing, and with a score that is not sure.
+const LEAST_SIGNAL: i64 = 16;
+const UNSURE_SIGNAL: i64 = 25;
+/// Shots that have to wait at the fit's first bin.
+const LEAST_WAITING: i64 = 32;
+/// A residual of so many squared deviations is no chance.
+const FAR: i64 = 25;
+/// The part of a chi-square's term that is kept: 16 bits and its fraction.
+const MOST_TERM: i64 = (1 << 24) - 1;
+
+/// What the estimation comes to.
+pub fn verdict(
+    p: &Params,
+    shots: &Shots,
+    start: &Best,
+    other: &Best,
+    points: &[Point],
+    information: &Information,
+) -> Found {
+    let (last, before) = (&points[points.len() - 1], &points[points.len() - 2]);
+    let Information { a11, a22, determinant, exponent, cut, move_by } = *information;
+    let (over, bits) = reciprocal(determinant);
+    let count = i64::from(WEIGHT_FRACTION);
+    // Variances have this many fraction bits.
+    let fraction = 16 + i64::from(bits) + exponent - count;
+    let scaled = |a: i64, to: i64, most: i64| {
+        let value = a * over;
+        match fraction - to {
+            down @ 0.. => shifted(value, down).min(most),
+            up if i64::from(length(value)) - up > 50 => most,
+            up => (value << -up).min(most),
+        }
+    };
+    let deviation = root(scaled(a22, 40, (1 << ROOT_BITS) - 1));
+    let word = p.word_bits();
+    // From 32 of z to 16ths of a unit.
+    let along = product(deviation, p.kappa, 9, word);
+    let sigma = shifted(along, 14 - i64::from(p.step_log2));
+    let variance = scaled(a11, VARIANCE_FRACTION, MOST_VARIANCE);
+    let to_depth = |sixteenths: i64| product(sixteenths, p.metres, p.metres_shift.into(), word);
+    let terms = last.terms(p, shots);
+    let (fit, rest) = terms.split_at(terms.len() - 1);
+    let far = fit.iter().any(|(terms, _)| terms.squared(p) > FAR * (terms.weight + (1 << count)));
+    let chi_square = fit.iter().chain(rest).map(|(terms, _)| terms.chi_square(p)).sum::<i64>();
+    let window = before.window(p);
+    let end = i64::from(p.edges[p.histogram.bins] >> 1) << 4;
+    let margin = p.sigma << 3;
+    let one = 1 << VARIANCE_FRACTION;
+    let unsure = variance * UNSURE_SIGNAL > one && start.score < SURE_SCORE;
+    let no_echo = unsure
+        || variance * LEAST_SIGNAL > one
+        || start.score < LEAST_SCORE
+        || sigma > p.sigma << 4;
+    let cut_off = last.arrival < margin || end - last.arrival < margin;
+    let reasons = [
+        (no_echo, status::NO_ECHO),
+        (cut_off, status::CUT_OFF),
+        (shots.waiting[window.start] < LEAST_WAITING, status::USED_UP),
+        (other.score > ANOTHER_SCORE, status::ANOTHER),
+        (cut > 0 || move_by > 2 * sigma, status::NOT_SETTLED),
+        (far, status::NO_FIT),
+    ];
+    Found {
+        depth: Depth::new(to_depth(last.arrival)),
+        sigma: to_depth(sigma) as u64,
+        status: reasons.iter().filter(|(holds, _)| *holds).map(|(_, bit)| bit).sum(),
+        chi_square: chi_square as u64,
+    }
+}
+
+impl Terms {
+    /// The residual's square, 6 fraction bits as weights have.
+    fn squared(&self, p: &Params) -> i64 {
+        let most = (1 << (p.histogram.count_bits + 1)) - 1;
+        let residual = self.residual.clamp(-most, most);
+        residual * residual >> 2
+    }
+
+    /// The residual's square over its variance, a quarter of a count more; 8 fraction bits.
+    fn chi_square(&self, p: &Params) -> i64 {
+        let variance = self.weight + 16;
+        let bits = i64::from(length(variance));
+        let mantissa = if bits > 7 { variance >> (bits - 7) } else { variance << (7 - bits) };
+        let square = self.squared(p);
+        // Over the variance's leading one, then over its mantissa.
+        let over = if bits > 9 { square >> (bits - 9) } else { square << (9 - bits) };
+        let reciprocal = crate::firmware::likelihood_estimator::Tables::reciprocal(mantissa, 6);
+        over.min(MOST_TERM) * reciprocal >> 10
+    }
+}
