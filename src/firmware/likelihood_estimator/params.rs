@@ -58,7 +58,7 @@ impl Params {
 
     /// An edge [units].
     pub fn edge(&self, bin: usize) -> i64 {
-        i64::from(self.edges[bin] + 1 >> 1)
+        i64::from((self.edges[bin] + 1) >> 1)
     }
 
     /// Width of a bin [units].

@@ -46,7 +46,7 @@ impl Tables {
     /// k(lambda) = lambda / (1 - exp(-lambda)) of a hazard below 16 with 22 fraction bits; 12 fraction bits.
     pub fn k(hazard: i64) -> i64 {
         let (place, part) = ((hazard >> 20) as usize, hazard >> 10 & 1023);
-        TABLES.k[place] + (TABLES.growth[place] * part >> 10)
+        TABLES.k[place] + ((TABLES.growth[place] * part) >> 10)
     }
 
     /// Reciprocal of a mantissa whose leading one is bit `top`; 10 fraction bits.

@@ -70,7 +70,7 @@ impl Point {
 
     /// Arrival, rounded to a unit.
     pub fn unit(&self) -> i64 {
-        self.arrival + 8 >> 4
+        (self.arrival + 8) >> 4
     }
 
     /// Bins of the fit.
@@ -82,7 +82,7 @@ impl Point {
 
     /// A word of the pulse's ROM for an edge.
     fn pulse(&self, p: &Params, edge: usize) -> [i64; 3] {
-        let place = i64::from(p.edges[edge]) - 2 * self.unit() >> (p.step_log2 + 1);
+        let place = (i64::from(p.edges[edge]) - 2 * self.unit()) >> (p.step_log2 + 1);
         let word = p.pulse[(place.clamp(-1024, 1023) + 1024) as usize];
         [word.part, word.slope, word.first]
     }
@@ -98,7 +98,7 @@ impl Point {
         let mut all = Vec::with_capacity(window.len() + 1);
         for bin in window {
             let [next, next_slope, first] = self.pulse(p, bin + 1);
-            let z = if bin == 0 { first } else { slope + next_slope >> 1 };
+            let z = if bin == 0 { first } else { (slope + next_slope) >> 1 };
             let (count, waiting, width) =
                 (i64::from(shots.ended[bin]), shots.waiting[bin], p.width(bin));
             ended -= count;
@@ -153,7 +153,7 @@ impl Sums {
             let of = |value: i64| shifted(value * share, 12);
             let (once, seen) = (of(weight), of(residual));
             let twice = of(once);
-            sums.a11 += (twice * z >> 9) * z;
+            sums.a11 += ((twice * z) >> 9) * z;
             sums.a12 += twice * z;
             sums.a13 += (once - twice) * z;
             sums.a22 += twice;

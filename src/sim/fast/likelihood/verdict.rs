@@ -94,7 +94,7 @@ impl Terms {
     fn squared(&self, p: &Params) -> i64 {
         let most = (1 << (p.histogram.count_bits + 1)) - 1;
         let residual = self.residual.clamp(-most, most);
-        residual * residual >> 2
+        (residual * residual) >> 2
     }
 
     /// The residual's square over its variance, a quarter of a count more; 8 fraction bits.
@@ -106,6 +106,6 @@ impl Terms {
         // Over the variance's leading one, then over its mantissa.
         let over = if bits > 9 { square >> (bits - 9) } else { square << (9 - bits) };
         let reciprocal = crate::firmware::likelihood_estimator::Tables::reciprocal(mantissa, 6);
-        over.min(MOST_TERM) * reciprocal >> 10
+        (over.min(MOST_TERM) * reciprocal) >> 10
     }
 }
