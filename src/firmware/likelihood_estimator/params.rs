@@ -56,6 +56,16 @@ impl Params {
         self.histogram.bins.ilog2() + EDGE_BITS
     }
 
+    /// 16 times `kappa`'s distance: what a step in mu is multiplied with [2^-17 units / 16].
+    pub fn stride(&self) -> i64 {
+        self.kappa << self.step_log2
+    }
+
+    /// Where the last bin ends [units / 16].
+    pub fn end(&self) -> i64 {
+        i64::from(self.edges[self.histogram.bins]) << 3
+    }
+
     /// An edge [units].
     pub fn edge(&self, bin: usize) -> i64 {
         i64::from((self.edges[bin] + 1) >> 1)

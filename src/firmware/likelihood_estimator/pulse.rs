@@ -146,8 +146,8 @@ impl Pulse {
         let step = f64::from(1u32 << step_log2);
         let deviation = sigma_ps / unit_ps / step / 4.0;
         let word = |k: usize| {
-            // The middle of the half units that share the word.
-            let middle = (k as f64 - 1024.0) * step + (step - 0.5) / 2.0;
+            // The middle of the 16ths of a unit that share the word.
+            let middle = (k as f64 - 1024.0) * step + (step - 1.0 / 16.0) / 2.0;
             let t_ps = middle * unit_ps;
             let (part, [density, growth]) = (self.part(t_ps), self.density(t_ps));
             let slope = |of: f64, over: f64| match over > 1e-30 {

@@ -1,13 +1,15 @@
 //! Counts, the shots that wait at each bin, and the ambient hazard that they show.
 
-use crate::firmware::likelihood_estimator::{AMBIENT_FRACTION, Params, log2_64, reciprocal};
+use crate::firmware::likelihood_estimator::{Params, log2_64, reciprocal};
 
 use super::arithmetic::shifted;
 
 /// Blocks that the window is divided in to find the ambient hazard.
 const BLOCKS: usize = 8;
-/// A block counts with a 64th of the largest exposure, in 64ths of powers of two.
+/// A block counts with a 64th of the first one's exposure, in 64ths of powers of two.
 const LEAST_EXPOSURE: i64 = 6 * 64;
+/// By how many bits hits are shifted up to be divided.
+const ENDED_LOG2: u32 = 16;
 /// Fraction bits of a chance per bin.
 const CHANCE_FRACTION: u32 = 24;
 /// Most of a chance that is believed, a half.
@@ -57,17 +59,15 @@ impl<'a> Shots<'a> {
             (log2_64(ended) - log2_64(exposure), ended, exposure)
         };
         let blocks: [_; BLOCKS] = std::array::from_fn(block);
-        let most = blocks.iter().map(|(.., exposure)| log2_64(*exposure)).max().unwrap_or(0);
-        let exposed = |exposure: i64| log2_64(exposure) + LEAST_EXPOSURE > most;
-        let mut order: Vec<_> = blocks.iter().filter(|block| exposed(block.2)).collect();
+        let least = log2_64(blocks[0].2) - LEAST_EXPOSURE;
+        let mut order: Vec<_> = blocks.iter().filter(|block| log2_64(block.2) > least).collect();
         order.sort_by_key(|block| block.0);
         let (_, ended, exposure) = order[(order.len() - 1) * 3 / 8];
+        // Where all shots end in one block, the echo is in it.
+        let ended = ended << if order.len() == 1 { ENDED_LOG2 - ECHO_LOG2 } else { ENDED_LOG2 };
         let (mantissa, bits) = reciprocal((*exposure).max(1));
         // A chance in 64 units has 24 fraction bits where one in a unit has 30.
-        let chance =
-            shifted((ended << 16) * mantissa, i64::from(bits) + 32 - i64::from(AMBIENT_FRACTION));
-        // Where all shots end in one block, the echo is in it.
-        let chance = if order.len() == 1 { chance >> ECHO_LOG2 } else { chance };
+        let chance = shifted(ended * mantissa, i64::from(bits) + 2);
         hazard(chance.clamp(1, MOST_CHANCE))
     }
 }
@@ -76,6 +76,5 @@ impl<'a> Shots<'a> {
 fn hazard(chance: i64) -> i64 {
     let square = shifted(chance * chance, CHANCE_FRACTION.into());
     let cube = shifted(square * chance, CHANCE_FRACTION.into());
-    let third = shifted(cube * 341, 10);
-    (chance + shifted(square, 1) + third).clamp(1, MOST)
+    (chance + shifted(square, 1) + shifted(cube * 341, 10)).clamp(1, MOST)
 }

@@ -20,8 +20,6 @@ const ONE: i64 = 1 << Q;
 const COUNT: i64 = 1 << WEIGHT_FRACTION;
 /// Bits of the 2 x 2 rest of the information.
 const REST_BITS: u32 = 16;
-/// Longest step: less than 32 of what z counts.
-const LONGEST_LOG2: u32 = 5;
 /// Smallest signal.
 const LEAST_SIGNAL: i64 = 16;
 
@@ -60,7 +58,7 @@ impl Point {
         let (mantissa, bits) = reciprocal(best.waiting.max(1));
         let rate = shifted((best.excess << 4) * mantissa, bits.into());
         // 0.84 of the pulse are in the box, and 19/16 is one over that.
-        let signal = shifted(rate * (19 * (until - from) as i64), 17);
+        let signal = shifted(shifted(rate * (until - from) as i64, 13) * 19, 4);
         Point {
             arrival: (from + until) as i64 * (UNITS / 2) * 16,
             signal: signal.clamp(LEAST_SIGNAL, MOST),
@@ -68,21 +66,16 @@ impl Point {
         }
     }
 
-    /// Arrival, rounded to a unit.
-    pub fn unit(&self) -> i64 {
-        (self.arrival + 8) >> 4
-    }
-
     /// Bins of the fit.
     pub fn window(&self, p: &Params) -> Range<usize> {
         let bins = p.histogram.bins;
-        let centre = ((self.unit() / UNITS) as usize).min(bins - 1);
+        let centre = ((self.arrival / UNITS / 16) as usize).min(bins - 1);
         centre.saturating_sub(p.before)..(centre + p.after + 1).min(bins)
     }
 
     /// A word of the pulse's ROM for an edge.
     fn pulse(&self, p: &Params, edge: usize) -> [i64; 3] {
-        let place = (i64::from(p.edges[edge]) - 2 * self.unit()) >> (p.step_log2 + 1);
+        let place = ((i64::from(p.edges[edge]) << 3) - self.arrival) >> (p.step_log2 + 4);
         let word = p.pulse[(place.clamp(-1024, 1023) + 1024) as usize];
         [word.part, word.slope, word.first]
     }
@@ -184,7 +177,7 @@ pub fn step(p: &Params, shots: &Shots, from: &Point) -> (Point, Information) {
     // log b is eliminated.
     let (over_a33, bits) = reciprocal(a33.max(1));
     let by_a33 = |a: i64| product(a, over_a33, i64::from(bits) + 16 - Q, word);
-    let (f1, f2) = (by_a33(a13), by_a33(a23));
+    let [f1, f2, f3] = [a13, a23, y3].map(by_a33);
     a11 = (a11 - times(f1, a13)).max(1);
     a12 -= times(f1, a23);
     a22 = (a22 - times(f2, a23)).max(1);
@@ -200,24 +193,19 @@ pub fn step(p: &Params, shots: &Shots, from: &Point) -> (Point, Information) {
     let solved = |a: i64| product(a, over, i64::from(bits) + 16 - Q, word);
     let mut d1 = solved(clamped(a22 * x1 - a12 * x2, word));
     let mut d2 = solved(clamped(a11 * x2 - a12 * x1, word));
-    let mut along = product(d1, p.kappa, 9, word);
-    // Steps that are too long are halved together.
-    let cut = length(along.abs() >> (Q + i64::from(LONGEST_LOG2))).max(length(d2.abs() >> Q));
-    for value in [&mut d1, &mut d2, &mut along] {
+    // Steps that are too long, of 32 of z or a whole log S, are halved together.
+    let along = product(d1, p.kappa, 14, word);
+    let cut = length(along.abs() | d2.abs()).saturating_sub(QUOTIENT_FRACTION);
+    for value in [&mut d1, &mut d2] {
         *value = shifted(*value, cut.into());
     }
-    let d3 = by_a33(clamped(y3 - times(a13, d1) - times(a23, d2), word));
-    let start = from.unit() << 4;
-    let end = i64::from(p.edges[p.histogram.bins] >> 1) << 4;
-    let arrival = start + shifted(along, 8 - i64::from(p.step_log2));
-    let arrival = arrival.clamp(0, end);
-    let growth = ONE + d2 + shifted(times(d2, d2), 1);
-    let ambient_growth = ONE + d3.clamp(-3 * ONE / 4, 3 * ONE);
+    let d3 = clamped(f3 - times(f1, d1) - times(f2, d2), word);
+    let move_by = product(d1, p.stride(), 17, word);
+    let growth = d2 + product(d2, d2, Q + 1, word);
     let to = Point {
-        arrival,
-        signal: times(from.signal, growth).clamp(LEAST_SIGNAL, MOST),
-        ambient: times(from.ambient, ambient_growth).clamp(1, MOST),
+        arrival: (from.arrival + move_by).clamp(0, p.end()),
+        signal: (from.signal + times(from.signal, growth)).clamp(LEAST_SIGNAL, MOST),
+        ambient: (from.ambient + times(from.ambient, d3.clamp(-ONE / 2, 3 * ONE))).clamp(1, MOST),
     };
-    let move_by = (arrival - start).abs();
     (to, Information { a22, a11, determinant, exponent, cut, move_by })
 }

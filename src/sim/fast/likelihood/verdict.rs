@@ -1,27 +1,28 @@
 //! Depth, deviation and status, from what the last step knew.
 
 use crate::firmware::forward2::Depth;
-use crate::firmware::likelihood_estimator::{Params, WEIGHT_FRACTION, length, reciprocal, status};
+use crate::firmware::likelihood_estimator::{
+    Params, Tables, WEIGHT_FRACTION, length, reciprocal, status,
+};
 
 use super::Found;
-use super::arithmetic::{product, root, shifted};
+use super::arithmetic::{product, root};
 use super::histogram::Shots;
 use super::scan::Best;
 use super::step::{Information, Point};
 use super::terms::Terms;
 
-/// Bits of what the root is taken of.
-const ROOT_BITS: i64 = 50;
-/// Fraction bits of a variance of log S; one that is larger is the largest.
-const VARIANCE_FRACTION: i64 = 20;
-const MOST_VARIANCE: i64 = 1 << 24;
+/// By how many bits a variance is shifted up for its root.
+const ROOT_LOG2: i64 = 16;
+/// Fraction bits of a variance of log S.
+const VARIANCE_FRACTION: i64 = 10;
 /// 64 log2 of the squared excess that an echo has at least, of one that is sure, and of another echo.
 const LEAST_SCORE: i64 = 297;
 const SURE_SCORE: i64 = 425;
 const ANOTHER_SCORE: i64 = 331;
-/// Squared deviations that log S has to be away from nothing, and with a score that is not sure.
-const LEAST_SIGNAL: i64 = 16;
-const UNSURE_SIGNAL: i64 = 25;
+/// Largest variance of log S, a 16th, and with a score that is not sure, a 25th.
+const MOST_VARIANCE: i64 = 64;
+const MOST_UNSURE: i64 = 40;
 /// Shots that have to wait at the fit's first bin.
 const LEAST_WAITING: i64 = 32;
 /// A residual of so many squared deviations is no chance.
@@ -38,47 +39,35 @@ pub fn verdict(
     points: &[Point],
     information: &Information,
 ) -> Found {
-    let (last, before) = (&points[points.len() - 1], &points[points.len() - 2]);
+    let last = &points[points.len() - 1];
     let Information { a11, a22, determinant, exponent, cut, move_by } = *information;
     let (over, bits) = reciprocal(determinant);
-    let count = i64::from(WEIGHT_FRACTION);
-    // Variances have this many fraction bits.
-    let fraction = 16 + i64::from(bits) + exponent - count;
-    let scaled = |a: i64, to: i64, most: i64| {
-        let value = a * over;
-        match fraction - to {
-            down @ 0.. => shifted(value, down).min(most),
-            up if i64::from(length(value)) - up > 50 => most,
-            up => (value << -up).min(most),
-        }
-    };
-    let deviation = root(scaled(a22, 40, (1 << ROOT_BITS) - 1));
     let word = p.word_bits();
-    // From 32 of z to 16ths of a unit.
-    let along = product(deviation, p.kappa, 9, word);
-    let sigma = shifted(along, 14 - i64::from(p.step_log2));
-    let variance = scaled(a11, VARIANCE_FRACTION, MOST_VARIANCE);
+    // Of a variance as a multiple of mantissas, and of its root.
+    let scale = 16 - i64::from(WEIGHT_FRACTION) + i64::from(bits) + exponent;
+    let odd = scale & 1;
+    let root = root((a22 * over) << (ROOT_LOG2 + odd));
+    let sigma = product(root, p.stride(), 11 + (scale + odd) / 2, word);
+    let variance = product(a11, over, scale - VARIANCE_FRACTION, word);
     let to_depth = |sixteenths: i64| product(sixteenths, p.metres, p.metres_shift.into(), word);
     let terms = last.terms(p, shots);
     let (fit, rest) = terms.split_at(terms.len() - 1);
-    let far = fit.iter().any(|(terms, _)| terms.squared(p) > FAR * (terms.weight + (1 << count)));
+    let far = fit
+        .iter()
+        .any(|(terms, _)| terms.squared(p) > FAR * (terms.weight + (1 << WEIGHT_FRACTION)));
     let chi_square = fit.iter().chain(rest).map(|(terms, _)| terms.chi_square(p)).sum::<i64>();
-    let window = before.window(p);
-    let end = i64::from(p.edges[p.histogram.bins] >> 1) << 4;
+    let window = last.window(p);
     let margin = p.sigma << 3;
-    let one = 1 << VARIANCE_FRACTION;
-    let unsure = variance * UNSURE_SIGNAL > one && start.score < SURE_SCORE;
-    let no_echo = unsure
-        || variance * LEAST_SIGNAL > one
-        || start.score < LEAST_SCORE
-        || sigma > p.sigma << 4;
-    let cut_off = last.arrival < margin || end - last.arrival < margin;
+    let unsure = variance > MOST_UNSURE && start.score < SURE_SCORE;
+    let no_echo =
+        unsure || variance > MOST_VARIANCE || start.score < LEAST_SCORE || sigma > p.sigma << 4;
+    let cut_off = last.arrival < margin || p.end() - last.arrival < margin;
     let reasons = [
         (no_echo, status::NO_ECHO),
         (cut_off, status::CUT_OFF),
         (shots.waiting[window.start] < LEAST_WAITING, status::USED_UP),
         (other.score > ANOTHER_SCORE, status::ANOTHER),
-        (cut > 0 || move_by > 2 * sigma, status::NOT_SETTLED),
+        (cut > 0 || move_by.abs() > 2 * sigma, status::NOT_SETTLED),
         (far, status::NO_FIT),
     ];
     Found {
@@ -105,7 +94,7 @@ impl Terms {
         let square = self.squared(p);
         // Over the variance's leading one, then over its mantissa.
         let over = if bits > 9 { square >> (bits - 9) } else { square << (9 - bits) };
-        let reciprocal = crate::firmware::likelihood_estimator::Tables::reciprocal(mantissa, 6);
+        let reciprocal = Tables::reciprocal(mantissa, 6);
         (over.min(MOST_TERM) * reciprocal) >> 10
     }
 }
