@@ -16,10 +16,12 @@ use std::sync::Arc;
 
 use super::histogram_builder;
 
+mod block;
 mod params;
 mod pulse;
 mod tables;
 
+pub use block::{In, LikelihoodEstimator, Registers, State, Wires};
 pub use params::{Unfit, Wanted};
 pub use pulse::{Pulse, PulseWord};
 pub use tables::{LOG2, Tables, length, log2_64, reciprocal};

@@ -8,6 +8,8 @@ use super::{DEPTH_FRACTION, Params, UNITS};
 const BOX_SIGMA: f64 = 2.8;
 /// Bits of the word that turns time into distance.
 const METRES_BITS: i32 = 24;
+/// Bits of a bin's width in units.
+pub const WIDTH_BITS: u32 = 10;
 /// Bits of an edge above those that bins have, in half units.
 const EDGE_BITS: u32 = 8;
 
@@ -40,6 +42,9 @@ pub enum Unfit {
     /// Bins end later than a word can say.
     #[error("bins that end {0} bins late")]
     Late(f64),
+    /// A bin is too wide.
+    #[error("a bin {0:.1} bins wide, expected less than 16")]
+    Wide(f64),
     /// The window is longer than a depth can say.
     #[error("a window of {0:.1} m, expected {1} at most")]
     Far(f64, f64),
@@ -95,6 +100,10 @@ impl Params {
         if last >> (bins.ilog2() + EDGE_BITS) != 0 {
             return Err(Unfit::Late(f64::from(last) / 2.0 / UNITS as f64 - bins as f64));
         }
+        let widest = edges.windows(2).map(|edges| (edges[1] + 1) / 2 - (edges[0] + 1) / 2).max();
+        if widest >= Some(1 << WIDTH_BITS) {
+            return Err(Unfit::Wide(f64::from(widest.unwrap_or(0)) / UNITS as f64));
+        }
         let metres = metres_per_ps * unit_ps;
         let (window_m, most_m) = (
             metres * f64::from(last) / 2.0,
@@ -132,6 +141,7 @@ impl Params {
     }
 }
 
+/// Enough for sums over a fit, and for the exposure of all bins.
 fn word_bits(histogram: &histogram_builder::Params) -> u32 {
-    histogram.count_bits + 19
+    histogram.count_bits + 19.max(histogram.bins.ilog2() + WIDTH_BITS + 1)
 }

@@ -79,3 +79,6 @@ pub fn stages(p: &Params, histogram: &[u32]) -> Stages {
     let found = verdict(p, &shots, &start, &other, &points, &information);
     Stages { ambient, start, points, information, other, found }
 }
+
+#[cfg(test)]
+mod tests;

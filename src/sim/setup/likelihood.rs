@@ -44,7 +44,7 @@ impl Setup {
                 Unfit::Short(_) | Unfit::Long(..) => {
                     ("laser.pulse_sigma_ps", scenario.laser.pulse_sigma_ps)
                 }
-                Unfit::Late(_) | Unfit::Far(..) => ("tdc.bin_ps", bins.bin_ps()),
+                Unfit::Late(_) | Unfit::Wide(_) | Unfit::Far(..) => ("tdc.bin_ps", bins.bin_ps()),
             };
             fault(field, value, format!("likelihood_estimator: {unfit}"))
         })

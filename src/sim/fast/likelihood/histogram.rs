@@ -63,6 +63,7 @@ impl<'a> Shots<'a> {
         let mut order: Vec<_> = blocks.iter().filter(|block| log2_64(block.2) > least).collect();
         order.sort_by_key(|block| block.0);
         let (_, ended, exposure) = order[(order.len() - 1) * 3 / 8];
+        let ended = (*ended).min(p.histogram.most_hits() as i64);
         // Where all shots end in one block, the echo is in it.
         let ended = ended << if order.len() == 1 { ENDED_LOG2 - ECHO_LOG2 } else { ENDED_LOG2 };
         let (mantissa, bits) = reciprocal((*exposure).max(1));

@@ -59,5 +59,5 @@ fn of_bin(p: &Params, shots: &Shots, ambient: i64, bin: usize) -> [i64; 3] {
     let ambient = shifted(ambient * p.width(bin), i64::from(AMBIENT_FRACTION - HAZARD_FRACTION));
     let terms = Bin { ended, waiting, signal: 0, ambient }.terms(p.histogram.count_bits);
     let added = if waiting > 0 { ADDED } else { 0 };
-    [(terms.residual << 4) - added, (terms.expected >> 4) + added, 2 * waiting - ended]
+    [(terms.residual << 4) - added, (terms.expected >> 4) + added, (2 * waiting - ended).max(0)]
 }

@@ -158,10 +158,10 @@ impl Sums {
         }
         // mu counts in 32 of z, and residuals as weights do.
         let residual = i64::from(WEIGHT_FRACTION - RESIDUAL_FRACTION);
-        sums.a11 = shifted(sums.a11, 1);
-        sums.a12 = shifted(sums.a12, 5);
-        sums.a13 = shifted(sums.a13, 5);
-        sums.y1 = shifted(sums.y1, 5 - residual);
+        sums.a11 >>= 1;
+        sums.a12 >>= 5;
+        sums.a13 >>= 5;
+        sums.y1 >>= 5 - residual;
         sums.y2 <<= residual;
         sums.y3 <<= residual;
         sums
@@ -171,37 +171,38 @@ impl Sums {
 /// One step from a point.
 pub fn step(p: &Params, shots: &Shots, from: &Point) -> (Point, Information) {
     let word = p.word_bits();
-    let times = |a: i64, b: i64| product(a, b, Q, word);
-    let Sums { mut a11, mut a12, a13, mut a22, a23, a33, y1, y2, y3 } =
-        Sums::new(&from.terms(p, shots));
+    let keep = |value: i64| clamped(value, word);
+    let times = |a: i64, b: i64| shifted(a.wrapping_mul(b), Q);
+    let Sums { a11, a12, a13, a22, a23, a33, y1, y2, y3 } = Sums::new(&from.terms(p, shots));
     // log b is eliminated.
     let (over_a33, bits) = reciprocal(a33.max(1));
     let by_a33 = |a: i64| product(a, over_a33, i64::from(bits) + 16 - Q, word);
     let [f1, f2, f3] = [a13, a23, y3].map(by_a33);
-    a11 = (a11 - times(f1, a13)).max(1);
-    a12 -= times(f1, a23);
-    a22 = (a22 - times(f2, a23)).max(1);
-    let (mut x1, mut x2) = (y1 - times(f1, y3), y2 - times(f2, y3));
+    let mut a11 = keep(a11 - times(a13, f1)).max(1);
+    let mut a12 = keep(a12 - times(a23, f1));
+    let mut a22 = keep(a22 - times(a23, f2)).max(1);
+    let (mut x1, mut x2) = (keep(y1 - times(y3, f1)), keep(y2 - times(y3, f2)));
     // The rest is shifted to 16 bits, and solved by Cramer's rule.
     let longest = length(a11 | a22 | x1.abs() | x2.abs());
     let exponent = i64::from(longest.saturating_sub(REST_BITS));
     for value in [&mut a11, &mut a12, &mut a22, &mut x1, &mut x2] {
         *value = shifted(*value, exponent);
     }
-    let determinant = clamped(a11 * a22 - a12 * a12, word).max(1);
+    let minus = |c: i64, a: i64, b: i64| keep(keep(c).wrapping_sub(a.wrapping_mul(b)));
+    let determinant = minus(a11 * a22, a12, a12).max(1);
     let (over, bits) = reciprocal(determinant);
     let solved = |a: i64| product(a, over, i64::from(bits) + 16 - Q, word);
-    let mut d1 = solved(clamped(a22 * x1 - a12 * x2, word));
-    let mut d2 = solved(clamped(a11 * x2 - a12 * x1, word));
+    let mut d1 = solved(minus(a22 * x1, a12, x2));
+    let mut d2 = solved(minus(a11 * x2, a12, x1));
     // Steps that are too long, of 32 of z or a whole log S, are halved together.
     let along = product(d1, p.kappa, 14, word);
     let cut = length(along.abs() | d2.abs()).saturating_sub(QUOTIENT_FRACTION);
     for value in [&mut d1, &mut d2] {
         *value = shifted(*value, cut.into());
     }
-    let d3 = clamped(f3 - times(f1, d1) - times(f2, d2), word);
+    let d3 = keep(f3 - times(f1, d1)) - times(f2, d2);
     let move_by = product(d1, p.stride(), 17, word);
-    let growth = d2 + product(d2, d2, Q + 1, word);
+    let growth = keep(d2 + shifted(d2 * d2, Q + 1));
     let to = Point {
         arrival: (from.arrival + move_by).clamp(0, p.end()),
         signal: (from.signal + times(from.signal, growth)).clamp(LEAST_SIGNAL, MOST),

@@ -56,7 +56,10 @@ pub fn verdict(
         .iter()
         .any(|(terms, _)| terms.squared(p) > FAR * (terms.weight + (1 << WEIGHT_FRACTION)));
     let chi_square = fit.iter().chain(rest).map(|(terms, _)| terms.chi_square(p)).sum::<i64>();
-    let window = last.window(p);
+    let used_up = last
+        .window(p)
+        .find(|&bin| p.width(bin) > 0)
+        .is_some_and(|bin| shots.waiting[bin] < LEAST_WAITING);
     let margin = p.sigma << 3;
     let unsure = variance > MOST_UNSURE && start.score < SURE_SCORE;
     let no_echo =
@@ -65,7 +68,7 @@ pub fn verdict(
     let reasons = [
         (no_echo, status::NO_ECHO),
         (cut_off, status::CUT_OFF),
-        (shots.waiting[window.start] < LEAST_WAITING, status::USED_UP),
+        (used_up, status::USED_UP),
         (other.score > ANOTHER_SCORE, status::ANOTHER),
         (cut > 0 || move_by.abs() > 2 * sigma, status::NOT_SETTLED),
         (far, status::NO_FIT),

@@ -1,0 +1,344 @@
+//! Counts, shots that wait and exposures, as the likelihood estimator goes through them.
+//!
+//! Mirrors `rtl_ref/likelihood_memory.v`. A load reads the histogram's words once, in order, and keeps of each bin
+//! the shots that end in it, those that wait when it begins, and these times its width. Of each eighth of the bins
+//! it gives the sums. A pass goes over bins from one to another, two cycles each (a beat, `phase` low and high):
+//! first a beat for the edge where it begins, then the bins, and last a beat that stands for all other bins as one
+//! or, in a scan, as many empty ones as let the box leave.
+//!
+//! ```text
+//! beat       k                 k + 1                      k + 2
+//! registers  index, kind       fetched, ended, waiting    word
+//! ```
+
+use crate::kernel::module::{Module, Visitor};
+use crate::kernel::U;
+use crate::signals;
+
+use super::histogram_builder::{Bin, Count, MOST_BINS};
+use super::likelihood_estimator::{Params, UNITS};
+
+/// A place between bins, from 0 to as many as there are.
+pub type Place = U<11>;
+/// Time of an edge from the laser edge [half units].
+pub type Edge = U<18>;
+/// Width of a bin [units].
+pub type Width = U<10>;
+/// Shots times units.
+pub type Exposure = U<44>;
+/// Shots, of several bins together.
+pub type Waiting = U<34>;
+
+signals! {
+    /// Input ports.
+    pub struct In {
+        /// Synchronous reset.
+        pub rst: bool,
+        /// Begins a load.
+        pub load: bool,
+        /// Word of the histogram at `read_addr` [hits].
+        #[size("CountBits")]
+        pub count: Count,
+        /// Begins a pass.
+        pub pass: bool,
+        /// The pass is a scan: over all bins, and those from `from` to `until` are blanked.
+        pub scan: bool,
+        /// Begin of the fit [bins].
+        #[size("PlaceBits")]
+        pub from: Place,
+        /// End of the fit [bins].
+        #[size("PlaceBits")]
+        pub until: Place,
+        /// Second cycle of a beat.
+        pub phase: bool,
+    }
+}
+
+signals! {
+    /// Registers; the public ones are the output ports.
+    pub struct Registers {
+        /// The histogram's word at `read_addr` is being read.
+        pub read_en: bool,
+        /// Word of the histogram.
+        #[size("BinBits")]
+        pub read_addr: Bin,
+        /// A block of bins is complete; one cycle.
+        pub block_done: bool,
+        /// Hits of the block, until the next one.
+        #[size("RestBits")]
+        pub block_ended: Waiting,
+        /// Its exposure [shots units].
+        #[size("ExposureBits")]
+        pub block_exposure: Exposure,
+        /// The word is a bin of the pass.
+        pub word_bin: bool,
+        /// It stands for all other bins.
+        pub word_rest: bool,
+        /// It is an edge alone.
+        pub word_edge: bool,
+        /// A box goes on with it.
+        pub word_slide: bool,
+        /// The word's bin is bin 0, or its edge the begin of bin 0.
+        pub word_first: bool,
+        /// Shots that end in it.
+        #[size("RestBits")]
+        pub word_ended: Waiting,
+        /// Shots that wait when it begins.
+        #[size("RestBits")]
+        pub word_waiting: Waiting,
+        /// Its width [units].
+        #[size("WidthBits")]
+        pub word_width: Width,
+        /// Where it ends [half units].
+        #[size("EdgeBits")]
+        pub word_end: Edge,
+        /// A word has been read in the last cycle.
+        taken: bool,
+        /// Its bin.
+        #[size("BinBits")]
+        taken_bin: Bin,
+        /// The word.
+        #[size("CountBits")]
+        taken_ended: Count,
+        /// Shots that waited.
+        #[size("CountBits")]
+        taken_waiting: Count,
+        /// Shots that are left.
+        #[size("CountBits")]
+        left: Count,
+        /// What it comes to is written.
+        written: bool,
+        /// To this word.
+        #[size("BinBits")]
+        written_bin: Bin,
+        /// Shots that ended.
+        #[size("CountBits")]
+        written_ended: Count,
+        /// Shots that waited.
+        #[size("CountBits")]
+        written_waiting: Count,
+        /// Those times its width [shots units].
+        #[size("ExposureBits")]
+        written_exposure: Exposure,
+        /// Hits of all bins.
+        #[size("RestBits")]
+        all_ended: Waiting,
+        /// Exposure of all bins.
+        #[size("ExposureBits")]
+        all_exposure: Exposure,
+        /// Width of the bin that is looked up.
+        #[size("WidthBits")]
+        fetched_width: Width,
+        /// Where it ends.
+        #[size("EdgeBits")]
+        fetched_end: Edge,
+        /// A pass is on the way.
+        passing: bool,
+        /// It is a scan.
+        scanning: bool,
+        /// Place of the edge that is looked up, one after its bin.
+        #[size("PlaceBits")]
+        index: Place,
+        /// Place of the last one.
+        #[size("PlaceBits")]
+        last: Place,
+        /// The first beat of a pass: an edge alone.
+        opening: bool,
+        /// The last bin has been.
+        tailing: bool,
+        /// Beats after it that are left.
+        #[size("PlaceBits")]
+        tail: Place,
+        /// A bin is looked up.
+        read_bin: bool,
+        /// The rest is.
+        read_rest: bool,
+        /// An edge alone is.
+        read_edge: bool,
+        /// A box goes on.
+        read_slide: bool,
+        /// That of bin 0.
+        read_first: bool,
+        /// Shots that end in the bin.
+        #[size("CountBits")]
+        read_ended: Count,
+        /// Shots that wait.
+        #[size("CountBits")]
+        read_waiting: Count,
+        /// Their exposure.
+        #[size("ExposureBits")]
+        read_exposure: Exposure,
+        /// Hits outside of the fit, when it has been gone through.
+        #[size("RestBits")]
+        rest_ended: Waiting,
+        /// Exposure outside of it.
+        #[size("ExposureBits")]
+        rest_exposure: Exposure,
+    }
+}
+
+/// A word of the memory.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Kept {
+    ended: Count,
+    waiting: Count,
+    exposure: Exposure,
+}
+
+/// Registers and memory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LikelihoodMemory {
+    /// Registers.
+    pub registers: Registers,
+    /// A word for each bin, without reset.
+    ram: Box<[Kept; MOST_BINS]>,
+}
+
+impl Default for LikelihoodMemory {
+    fn default() -> Self {
+        let ram = Box::new([Kept::default(); MOST_BINS]);
+        LikelihoodMemory { registers: Registers::default(), ram }
+    }
+}
+
+impl Module for LikelihoodMemory {
+    const COUNT: usize = <Registers as Module>::COUNT;
+
+    #[inline(always)]
+    fn visit(&self, then: Option<&mut Self>, visitor: &mut impl Visitor) {
+        visitor.signals("registers", &self.registers, then.map(|then| &mut then.registers));
+    }
+}
+
+impl LikelihoodMemory {
+    /// The rising edge of `clk_sys`.
+    pub fn rise(&mut self, i: &In, p: &Params) {
+        let q = self.registers;
+        let mut d = q;
+        q.load(i, p, &mut d);
+        q.sum(p, &mut d);
+        if i.phase {
+            q.word(&mut d);
+            q.read(&self.ram[q.index.index().wrapping_sub(1) % p.histogram.bins], i, &mut d);
+        }
+        q.pass(i, p, &mut d);
+        if i.phase || q.read_en {
+            let place = if q.read_en { q.read_addr.index() + 1 } else { q.index.index() };
+            (d.fetched_width, d.fetched_end) = p.rom_word(place);
+        }
+        if q.written {
+            self.ram[q.written_bin.index()] = Kept {
+                ended: q.written_ended,
+                waiting: q.written_waiting,
+                exposure: q.written_exposure,
+            };
+        }
+        self.registers = if i.rst { Registers::default() } else { d };
+    }
+}
+
+impl Params {
+    /// The ROM's word of a place: width of the bin before it, and its time.
+    pub fn rom_word(&self, place: usize) -> (Width, Edge) {
+        let width = if place == 0 { 0 } else { self.width(place - 1) };
+        (U::new(width as u64), U::new(self.edges[place].into()))
+    }
+
+    /// Beats of a scan after its last bin, less one.
+    pub fn scan_tail(&self) -> u64 {
+        (self.box_bins - self.box_bins / 2) as u64 - 1
+    }
+}
+
+impl Registers {
+    /// Reads the histogram.
+    fn load(&self, i: &In, p: &Params, d: &mut Self) {
+        let last = self.read_addr == p.histogram.last_bin();
+        if i.load {
+            (d.read_en, d.read_addr) = (true, U::new(0));
+            d.left = U::new(p.shots);
+        } else if self.read_en {
+            d.read_en = !last;
+            d.read_addr = U::new(if last { 0 } else { self.read_addr.get() + 1 });
+            d.left = U::new(self.left.get().saturating_sub(i.count.get()));
+        }
+        d.taken = self.read_en;
+        (d.taken_bin, d.taken_ended, d.taken_waiting) = (self.read_addr, i.count, self.left);
+        d.written = self.taken;
+        (d.written_bin, d.written_ended) = (self.taken_bin, self.taken_ended);
+        d.written_waiting = self.taken_waiting;
+        d.written_exposure = U::new(self.taken_waiting.get() * self.fetched_width.get());
+    }
+
+    /// Sums over a block, and over all bins.
+    fn sum(&self, p: &Params, d: &mut Self) {
+        let block = p.histogram.bins as u64 / 8;
+        let place = self.written_bin.get() % block;
+        d.block_done = self.written && place == block - 1;
+        if self.written {
+            let (ended, exposure) = (self.written_ended.get(), self.written_exposure.get());
+            let first = place == 0;
+            d.block_ended = U::new(if first { ended } else { self.block_ended.get() + ended });
+            d.block_exposure = U::new(if first { exposure } else { self.block_exposure.get() + exposure });
+            let first = self.written_bin == 0;
+            d.all_ended = U::new(if first { ended } else { self.all_ended.get() + ended });
+            d.all_exposure = U::new(if first { exposure } else { self.all_exposure.get() + exposure });
+        }
+    }
+
+    /// Goes on with a pass, or begins one.
+    fn pass(&self, i: &In, p: &Params, d: &mut Self) {
+        if i.pass {
+            (d.passing, d.opening, d.tailing, d.scanning) = (true, true, false, i.scan);
+            d.index = if i.scan { U::new(0) } else { i.from };
+            d.last = if i.scan { U::new(p.histogram.bins as u64) } else { i.until };
+            d.tail = U::new(if i.scan { p.scan_tail() } else { 0 });
+            (d.rest_ended, d.rest_exposure) = (self.all_ended, self.all_exposure);
+        } else if self.passing && i.phase {
+            d.opening = false;
+            if self.opening || self.index != self.last {
+                d.index = self.index + 1;
+            } else if !self.tailing {
+                d.tailing = true;
+            } else if self.tail == 0 {
+                d.passing = false;
+            } else {
+                d.tail = self.tail - 1;
+            }
+        }
+    }
+
+    /// Looks up a bin; one that is blanked is none.
+    fn read(&self, kept: &Kept, i: &In, d: &mut Self) {
+        let blanked = self.scanning && self.index > i.from && self.index <= i.until;
+        let bin = self.passing && !self.opening && !self.tailing;
+        d.read_bin = bin && !blanked;
+        d.read_rest = self.passing && self.tailing && !self.scanning;
+        d.read_edge = self.passing && self.opening;
+        d.read_slide = self.passing && self.scanning && !self.opening;
+        d.read_first = self.index == if self.opening { 0 } else { 1 };
+        (d.read_ended, d.read_waiting, d.read_exposure) = (kept.ended, kept.waiting, kept.exposure);
+        if self.read_bin {
+            d.rest_ended = self.rest_ended - self.read_ended.get();
+            d.rest_exposure = self.rest_exposure - self.read_exposure.get();
+        }
+    }
+
+    /// Hands a bin on, or all others; a bin without width is none.
+    fn word(&self, d: &mut Self) {
+        d.word_bin = self.read_bin && self.fetched_width != 0;
+        (d.word_rest, d.word_edge, d.word_first) = (self.read_rest, self.read_edge, self.read_first);
+        d.word_slide = self.read_slide;
+        d.word_end = self.fetched_end;
+        (d.word_ended, d.word_waiting, d.word_width) = match self.read_rest {
+            true => {
+                let waiting = self.rest_exposure.get() >> UNITS.ilog2();
+                (self.rest_ended, U::new(waiting), U::new(UNITS as u64))
+            }
+            false => {
+                let [ended, waiting] = [self.read_ended, self.read_waiting].map(|shots| U::new(shots.get()));
+                (ended, waiting, self.fetched_width)
+            }
+        };
+    }
+}

@@ -1,0 +1,83 @@
+//! The clocked block against the estimate at once.
+
+use rand::{Rng, RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::*;
+use crate::firmware::likelihood_estimator::{In, LikelihoodEstimator};
+use crate::kernel::U;
+use crate::optics::{BinProbabilities, Hazard};
+use crate::sim::setup::Setup;
+
+/// The block, stepped from a start until `algo_done`, and the edges it took.
+fn step(block: &mut LikelihoodEstimator, p: &Params, histogram: &[u32]) -> (Found, u64) {
+    let mut i = In { rst: false, algo_start: true, count: U::new(0) };
+    block.rise(&i, p);
+    i.algo_start = false;
+    let mut edges = 0;
+    while !block.registers.algo_done {
+        let word = histogram[block.likelihood_memory.registers.read_addr.index()];
+        block.rise(&In { count: U::new(word.into()), ..i }, p);
+        edges += 1;
+        assert!(edges < 20_000, "it does not end");
+    }
+    let now = &block.registers;
+    let found = Found {
+        depth: now.depth,
+        sigma: now.sigma.get(),
+        status: now.status.get() as u8,
+        chi_square: now.chi_square.get(),
+    };
+    (found, edges)
+}
+
+/// Histograms of a scenario, drawn from its closed form.
+fn drawn(setup: &Setup, shots: u64, rng: &mut impl Rng) -> Vec<u32> {
+    let chances = BinProbabilities::new(&Hazard::new(&setup.budget), &setup.bins());
+    chances.draw(shots, rng).into_iter().map(|count| count as u32).collect()
+}
+
+fn extremes(bins: usize, most: u32, rng: &mut impl RngExt) -> Vec<Vec<u32>> {
+    let of = |count: &mut dyn FnMut(usize) -> u32| (0..bins).map(count).collect::<Vec<_>>();
+    let full = rng.random_range(0..bins);
+    let edge = rng.random_range(0..bins);
+    let level = rng.random_range(0..most / bins as u32 + 2);
+    vec![
+        of(&mut |_| 0),
+        of(&mut |_| most),
+        of(&mut |bin| if bin == 0 { most } else { 0 }),
+        of(&mut |bin| if bin == full { most } else { 0 }),
+        of(&mut |bin| if bin == full { most / 3 } else { level }),
+        of(&mut |bin| if bin % 2 == 0 { most } else { 0 }),
+        of(&mut |bin| if bin % 2 == 1 { level } else { 0 }),
+        of(&mut |bin| if bin < edge { level } else { 0 }),
+        of(&mut |bin| if bin >= edge { most } else { 1 }),
+        of(&mut |_| rng.random_range(0..=most)),
+        of(&mut |_| rng.random_range(0..=level)),
+    ]
+}
+
+#[test]
+fn the_block_finds_the_same_in_as_many_cycles_whatever_it_sees() {
+    let mut rng = ChaCha8Rng::seed_from_u64(7);
+    for keys in [
+        &["tdc.profile=uniform"][..],
+        &["tdc.profile=table6_3", "laser.pulse_sigma_ps=400"],
+        &["tdc.profile=ideal", "laser.pulse_sigma_ps=80", "target.distance_m=0.07"],
+    ] {
+        let setup = Setup::load("kc705", keys).unwrap();
+        let p = setup.likelihood(30_000).unwrap();
+        let mut block = LikelihoodEstimator::default();
+        let mut took = None;
+        let mut all: Vec<_> = (0..40).map(|_| drawn(&setup, 30_000, &mut rng)).collect();
+        for _ in 0..4 {
+            all.extend(extremes(256, 65_535, &mut rng));
+        }
+        for histogram in all {
+            let (found, edges) = step(&mut block, &p, &histogram);
+            assert_eq!(found, estimate(&p, &histogram), "{keys:?} {histogram:?}");
+            assert_eq!(*took.get_or_insert(edges), edges, "{keys:?}");
+        }
+        eprintln!("{keys:?}: {took:?}");
+    }
+}
