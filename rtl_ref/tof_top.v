@@ -20,7 +20,7 @@ module tof_top #(
     parameter integer AgeBits = 14,
     parameter [0:0] CodeSource = 1'b0,           // 0: tdc, 1: code_preload
     parameter [0:0] HistogramSource = 1'b0,      // 0: histogram_builder, 1: histogram_preload
-    parameter [0:0] Estimator = 1'b0,            // 0: depth_estimator, 1: centroid_estimator
+    parameter [1:0] Estimator = 2'd0,            // 0: depth_estimator, 1: centroid_estimator, 2: likelihood_estimator
     parameter integer Neurons = 8,              // hidden neurons of depth_estimator, 1 to 32
     // Word formats and table of depth_estimator, see forward1, tansig and forward2
     parameter integer W1Bits = 16,
@@ -40,6 +40,16 @@ module tof_top #(
     parameter [0:0] Background = 1'b1,
     parameter [16:0] Slope = 17'd62871,
     parameter signed [29:0] Offset = 30'sd0,
+    // See likelihood_estimator
+    parameter integer BoxBins = 15,
+    parameter integer BinsBefore = 26,
+    parameter integer BinsAfter = 26,
+    parameter [31:0] Kappa = 32'd30751,
+    parameter integer StepLog2 = 1,
+    parameter [31:0] PulseSigma = 32'd351,
+    parameter [31:0] WindowEnd = 32'd262328,
+    parameter [31:0] Metres = 32'd16094985,
+    parameter integer MetresShift = 13,
     parameter integer InputHz = 200000000,       // see pll
     parameter integer Multiply = 5,
     parameter integer Divide = 1,
@@ -55,6 +65,10 @@ module tof_top #(
     parameter CalFile = "rtl_ref/tdc_cal.mem",
     parameter DelaysFile = "rtl_ref/tap_delays.mem",
     parameter [1:0] CountStages = 2'd3,
+    parameter EdgesFile = "rtl_ref/edges.mem",
+    parameter PulseFile = "rtl_ref/pulse.mem",
+    parameter HazardFile = "rtl_ref/hazard.mem",
+    parameter LogFile = "rtl_ref/log2.mem",
     parameter CodeFile = "rtl_ref/codes.mem",
     parameter HistogramFile = "rtl_ref/histogram.mem"
 ) (
@@ -103,14 +117,15 @@ module tof_top #(
     assign tdc_valid = CodeSource ? preloaded_valid : measured_valid;
     assign count = HistogramSource ? preloaded_count : built_count;
 
-    wire signed [35:0] network_depth, centroid_depth;
-    wire network_done, network_read_en, centroid_done, centroid_read_en;
-    wire [BinBits-1:0] network_read_addr, centroid_read_addr;
+    wire signed [35:0] network_depth, centroid_depth, likelihood_depth;
+    wire network_done, network_read_en, centroid_done, centroid_read_en, likelihood_done, likelihood_read_en;
+    wire [BinBits-1:0] network_read_addr, centroid_read_addr, likelihood_read_addr;
+    localparam [0:0] Centroid = Estimator == 2'd1, Likelihood = Estimator == 2'd2;
 
-    assign read_en = Estimator ? centroid_read_en : network_read_en;
-    assign read_addr = Estimator ? centroid_read_addr : network_read_addr;
-    assign depth = Estimator ? centroid_depth : network_depth;
-    assign algo_done = Estimator ? centroid_done : network_done;
+    assign read_en = Likelihood ? likelihood_read_en : Centroid ? centroid_read_en : network_read_en;
+    assign read_addr = Likelihood ? likelihood_read_addr : Centroid ? centroid_read_addr : network_read_addr;
+    assign depth = Likelihood ? likelihood_depth : Centroid ? centroid_depth : network_depth;
+    assign algo_done = Likelihood ? likelihood_done : Centroid ? centroid_done : network_done;
 
     // The acquisition computer's reset leaves the laser and the synchronisers alone.
     wire rst_dsp = rst_sys || dsp_rst_sync;
@@ -294,7 +309,7 @@ module tof_top #(
     ) depth_estimator (
         .clk_sys(clk_sys),
         .rst(rst_dsp),
-        .algo_start(algo_start && !Estimator),
+        .algo_start(algo_start && !Centroid && !Likelihood),
         .read_en(network_read_en),
         .read_addr(network_read_addr),
         .count(count),
@@ -312,11 +327,47 @@ module tof_top #(
     ) centroid_estimator (
         .clk_sys(clk_sys),
         .rst(rst_dsp),
-        .algo_start(algo_start && Estimator),
+        .algo_start(algo_start && Centroid),
         .read_en(centroid_read_en),
         .read_addr(centroid_read_addr),
         .count(count),
         .depth(centroid_depth),
         .algo_done(centroid_done)
+    );
+
+    likelihood_estimator #(
+        .Used(Likelihood),
+        .BinBits(BinBits),
+        .CountBits(CountBits),
+        .ShotsPerFrame(ShotsPerFrame),
+        .BoxBins(BoxBins),
+        .BinsBefore(BinsBefore),
+        .BinsAfter(BinsAfter),
+        .Kappa(Kappa),
+        .StepLog2(StepLog2),
+        .PulseSigma(PulseSigma),
+        .WindowEnd(WindowEnd),
+        .Metres(Metres),
+        .MetresShift(MetresShift),
+        .EdgesFile(EdgesFile),
+        .PulseFile(PulseFile),
+        .HazardFile(HazardFile),
+        .LogFile(LogFile)
+    ) likelihood_estimator (
+        .clk_sys(clk_sys),
+        .rst(rst_dsp),
+        .algo_start(algo_start && Likelihood),
+        .read_en(likelihood_read_en),
+        .read_addr(likelihood_read_addr),
+        .count(count),
+        .depth(likelihood_depth),
+        // The acquisition computer takes a depth alone.
+        // verilator lint_off PINCONNECTEMPTY
+        .sigma(),
+        .status(),
+        .chi_square(),
+        .valid(),
+        // verilator lint_on PINCONNECTEMPTY
+        .algo_done(likelihood_done)
     );
 endmodule

@@ -20,7 +20,8 @@ pub use part::{Part, changes, copy};
 
 /// Every name in every scope that those parameters have, without the RAM's words.
 pub fn entries(params: &Params) -> Vec<Entry> {
-    let absent = params.left_out().map(|module| format!("{TOP}.{module}"));
+    let absent: Vec<_> =
+        params.left_out().into_iter().map(|module| format!("{TOP}.{module}")).collect();
     let mut entries = fitted(Build::entries(params.estimator), &params.sizes());
     entries.retain(|entry| !absent.iter().any(|scope| within(&entry.scope, scope)));
     entries

@@ -11,12 +11,13 @@
 //! registers  index, kind       fetched, ended, waiting    word
 //! ```
 
-use crate::kernel::module::{Module, Visitor};
 use crate::kernel::U;
+use crate::kernel::module::{Module, Visitor};
 use crate::signals;
 
 use super::histogram_builder::{Bin, Count, MOST_BINS};
-use super::likelihood_estimator::{Params, UNITS};
+use super::likelihood_estimator::params::Params;
+use super::likelihood_estimator::words::UNITS;
 
 /// A place between bins, from 0 to as many as there are.
 pub type Place = U<11>;
@@ -41,14 +42,14 @@ signals! {
         pub count: Count,
         /// Begins a pass.
         pub pass: bool,
-        /// The pass is a scan: over all bins, and those from `from` to `until` are blanked.
+        /// The pass is a scan: over all bins, and those of the fit are blanked.
         pub scan: bool,
         /// Begin of the fit [bins].
         #[size("PlaceBits")]
-        pub from: Place,
+        pub fit_begin: Place,
         /// End of the fit [bins].
         #[size("PlaceBits")]
-        pub until: Place,
+        pub fit_end: Place,
         /// Second cycle of a beat.
         pub phase: bool,
     }
@@ -218,7 +219,7 @@ impl LikelihoodMemory {
         q.load(i, p, &mut d);
         q.sum(p, &mut d);
         if i.phase {
-            q.word(&mut d);
+            q.word(p, &mut d);
             q.read(&self.ram[q.index.index().wrapping_sub(1) % p.histogram.bins], i, &mut d);
         }
         q.pass(i, p, &mut d);
@@ -279,10 +280,12 @@ impl Registers {
             let (ended, exposure) = (self.written_ended.get(), self.written_exposure.get());
             let first = place == 0;
             d.block_ended = U::new(if first { ended } else { self.block_ended.get() + ended });
-            d.block_exposure = U::new(if first { exposure } else { self.block_exposure.get() + exposure });
+            d.block_exposure =
+                U::new(if first { exposure } else { self.block_exposure.get() + exposure });
             let first = self.written_bin == 0;
             d.all_ended = U::new(if first { ended } else { self.all_ended.get() + ended });
-            d.all_exposure = U::new(if first { exposure } else { self.all_exposure.get() + exposure });
+            d.all_exposure =
+                U::new(if first { exposure } else { self.all_exposure.get() + exposure });
         }
     }
 
@@ -290,8 +293,8 @@ impl Registers {
     fn pass(&self, i: &In, p: &Params, d: &mut Self) {
         if i.pass {
             (d.passing, d.opening, d.tailing, d.scanning) = (true, true, false, i.scan);
-            d.index = if i.scan { U::new(0) } else { i.from };
-            d.last = if i.scan { U::new(p.histogram.bins as u64) } else { i.until };
+            d.index = if i.scan { U::new(0) } else { i.fit_begin };
+            d.last = if i.scan { U::new(p.histogram.bins as u64) } else { i.fit_end };
             d.tail = U::new(if i.scan { p.scan_tail() } else { 0 });
             (d.rest_ended, d.rest_exposure) = (self.all_ended, self.all_exposure);
         } else if self.passing && i.phase {
@@ -310,7 +313,7 @@ impl Registers {
 
     /// Looks up a bin; one that is blanked is none.
     fn read(&self, kept: &Kept, i: &In, d: &mut Self) {
-        let blanked = self.scanning && self.index > i.from && self.index <= i.until;
+        let blanked = self.scanning && self.index > i.fit_begin && self.index <= i.fit_end;
         let bin = self.passing && !self.opening && !self.tailing;
         d.read_bin = bin && !blanked;
         d.read_rest = self.passing && self.tailing && !self.scanning;
@@ -325,18 +328,21 @@ impl Registers {
     }
 
     /// Hands a bin on, or all others; a bin without width is none.
-    fn word(&self, d: &mut Self) {
+    fn word(&self, p: &Params, d: &mut Self) {
         d.word_bin = self.read_bin && self.fetched_width != 0;
-        (d.word_rest, d.word_edge, d.word_first) = (self.read_rest, self.read_edge, self.read_first);
+        (d.word_rest, d.word_edge, d.word_first) =
+            (self.read_rest, self.read_edge, self.read_first);
         d.word_slide = self.read_slide;
         d.word_end = self.fetched_end;
         (d.word_ended, d.word_waiting, d.word_width) = match self.read_rest {
             true => {
-                let waiting = self.rest_exposure.get() >> UNITS.ilog2();
+                let most = (1 << (p.histogram.count_bits + p.histogram.bins.ilog2())) - 1;
+                let waiting = (self.rest_exposure.get() >> UNITS.ilog2()).min(most);
                 (self.rest_ended, U::new(waiting), U::new(UNITS as u64))
             }
             false => {
-                let [ended, waiting] = [self.read_ended, self.read_waiting].map(|shots| U::new(shots.get()));
+                let [ended, waiting] =
+                    [self.read_ended, self.read_waiting].map(|shots| U::new(shots.get()));
                 (ended, waiting, self.fetched_width)
             }
         };

@@ -17,7 +17,8 @@ use crate::kernel::{S, U};
 use crate::signals;
 
 use super::histogram_builder::{Count, MOST_BINS};
-use super::likelihood_estimator::{LOG2, Params, length};
+use super::likelihood_estimator::params::Params;
+use super::likelihood_estimator::tables::{LOG2, length};
 use super::likelihood_memory::{Exposure, Place, Waiting};
 use super::likelihood_terms::{Expected, Residual};
 
@@ -351,7 +352,7 @@ impl Registers {
         shift(&mut d.box_middle, U::new(middle));
         // The box ends with the bin that entered: its place is so many bins before.
         let back = (p.box_bins - p.box_bins / 2) as u64;
-        let place = self.count - back;
+        let place = U::new(self.count.get().saturating_sub(back));
         let within = self.count.get() >= back && place.get() < p.histogram.bins as u64;
         shift(&mut d.place, place);
         shift(&mut d.boxed, self.entered && within);

@@ -6,11 +6,12 @@
 //! Fisher scoring, and what comes out at the end.
 
 use crate::kernel::module::{Module, Visitor};
-use crate::kernel::{S, U};
+use crate::kernel::{S, U, wrapped};
 use crate::signals;
 
-use super::likelihood_estimator::{Params, length};
 use super::histogram_builder::Count;
+use super::likelihood_estimator::params::Params;
+use super::likelihood_estimator::tables::length;
 use super::likelihood_memory::{Exposure, Place};
 use super::likelihood_scan::Excess;
 
@@ -103,7 +104,7 @@ signals! {
         pub arrival: U<21>,
         /// S, 14 fraction bits [photons a shot].
         #[view(heading = "Likelihood", probe = true)]
-        pub signal: U<24>,
+        pub strength: U<24>,
         /// b, 30 fraction bits [1 / unit].
         #[view(heading = "Likelihood", probe = true)]
         pub ambient: U<24>,
@@ -208,6 +209,11 @@ impl Params {
 }
 
 impl LikelihoodSolver {
+    /// The instruction that it is at.
+    pub fn counter(&self) -> u64 {
+        self.registers.counter.get()
+    }
+
     /// The rising edge of `clk_sys`.
     pub fn rise(&mut self, i: &In, p: &Params) {
         let q = self.registers;
@@ -245,9 +251,10 @@ impl LikelihoodSolver {
             Some(constant) => p.constants()[constant as usize],
             None => self.words[place as usize].get(),
         };
-        d.a = S::new(i.first_operand(now.a).unwrap_or_else(|| word(now.a)));
+        let fit = |value: i64| S::new(wrapped(value, p.word_bits()));
+        d.a = fit(i.first_operand(now.a).unwrap_or_else(|| word(now.a)));
         d.b = S::new(word(now.b));
-        d.c = S::new(i.third_operand(now.c).unwrap_or_else(|| word(now.c)));
+        d.c = fit(i.third_operand(now.c).unwrap_or_else(|| word(now.c)));
     }
 
     /// Writes a result.
@@ -259,7 +266,7 @@ impl LikelihoodSolver {
         }
         match now.to {
             program::ARRIVAL => d.arrival = U::new(result as u64),
-            program::SIGNAL => d.signal = U::new(result as u64),
+            program::SIGNAL => d.strength = U::new(result as u64),
             program::AMBIENT => d.ambient = U::new(result as u64),
             _ => {}
         }

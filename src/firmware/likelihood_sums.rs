@@ -12,7 +12,9 @@
 use crate::kernel::{Clocked, S, U};
 use crate::signals;
 
-use super::likelihood_estimator::{Params, Tables, WEIGHT_FRACTION, length};
+use super::likelihood_estimator::params::Params;
+use super::likelihood_estimator::tables::{Tables, length};
+use super::likelihood_estimator::words::WEIGHT_FRACTION;
 use super::likelihood_terms::{Expected, Residual, Share, Slope};
 
 /// A weight, 6 fraction bits.
@@ -227,7 +229,8 @@ impl LikelihoodSums {
 
     /// The square over its variance, and whether it is far.
     fn compare(&self, i: &In, d: &mut Self) {
-        let (weight, square) = (self.weight[0].get(), self.seen[0].get() as u64);
+        let weight = self.weight[0].get();
+        let square = if i.check { self.seen[0].get() as u64 } else { 0 };
         let variance = weight + QUARTER;
         let bits = length(variance as i64);
         let over = match bits.checked_sub(9) {
@@ -237,7 +240,7 @@ impl LikelihoodSums {
         let aligned = if bits > 7 { variance >> (bits - 7) } else { variance << (7 - bits) };
         d.over = U::new(over.min(MOST_TERM));
         d.reciprocal = U::new(Tables::reciprocal(aligned as i64, 6) as u64);
-        if i.check && self.singles && square > FAR * (weight + COUNT as u64) {
+        if self.singles && square > FAR * (weight + COUNT as u64) {
             d.far = true;
         }
     }

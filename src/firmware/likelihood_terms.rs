@@ -11,7 +11,10 @@
 use crate::kernel::{Clocked, S, U};
 use crate::signals;
 
-use super::likelihood_estimator::{HAZARD_FRACTION, Params, PulseWord, Tables, length};
+use super::likelihood_estimator::params::Params;
+use super::likelihood_estimator::pulse::PulseWord;
+use super::likelihood_estimator::tables::{Tables, length};
+use super::likelihood_estimator::words::HAZARD_FRACTION;
 use super::likelihood_memory::{Edge, Waiting, Width};
 
 /// Bits of a hazard's mantissa.
@@ -46,7 +49,7 @@ signals! {
         #[size("ArrivalBits")]
         pub arrival: U<21>,
         /// S, 14 fraction bits [photons a shot].
-        pub signal: U<24>,
+        pub strength: U<24>,
         /// b, 30 fraction bits [1 / unit].
         pub ambient: U<24>,
         /// The word is a bin.
@@ -120,7 +123,21 @@ signals! {
         /// Width.
         #[size("WidthBits")]
         width: [Width; 2],
-        /// Part of the pulse before the word's end.
+        /// A word of the pulse's ROM: part before.
+        fetched_part: U<17>,
+        /// Slope.
+        fetched_slope: Slope,
+        /// Slope of that part.
+        fetched_first: Slope,
+        /// The same of the word before the time.
+        low_part: U<17>,
+        /// See there.
+        low_slope: Slope,
+        /// See there.
+        low_first: Slope,
+        /// How far the time is from it to the next [16ths].
+        sixteenths: U<4>,
+        /// Part of the pulse before the word's end, half a beat early.
         pulse_part: U<17>,
         /// Slope there.
         pulse_slope: Slope,
@@ -178,7 +195,7 @@ impl Clocked for LikelihoodTerms {
     fn next(&self, i: &In, p: &Params) -> Self {
         let mut d = *self;
         if i.phase {
-            self.look_up(i, p, &mut d);
+            self.carry(i, &mut d);
             self.cut_out(i, &mut d);
             self.add_up(&mut d);
             self.normalise(&mut d);
@@ -186,6 +203,7 @@ impl Clocked for LikelihoodTerms {
             self.expect(p, &mut d);
             self.give(p, &mut d);
         }
+        self.fetch(i, p, &mut d);
         self.multiply(i, &mut d);
         d
     }
@@ -201,12 +219,26 @@ fn rounded(value: u64, bits: u32) -> u64 {
 }
 
 impl LikelihoodTerms {
-    /// The pulse at the word's end.
-    fn look_up(&self, i: &In, p: &Params, d: &mut Self) {
+    /// The words of the pulse around the word's end, one in each cycle of a beat.
+    fn fetch(&self, i: &In, p: &Params, d: &mut Self) {
         let time = ((i.word_end.get() as i64) << 3) - i.arrival.get() as i64;
-        let place = (time >> (p.step_log2 + 4)).clamp(-1024, 1023) + 1024;
-        let PulseWord { part, slope, first } = p.pulse[place as usize];
-        (d.pulse_part, d.pulse_slope, d.pulse_first) = (U::new(part as u64), S::new(slope), S::new(first));
+        let place = (time >> (p.step_log2 + 4)).clamp(-1024, 1022) + 1024;
+        let PulseWord { part, slope, first } = p.pulse[place as usize + usize::from(i.phase)];
+        d.fetched_part = U::new(part as u64);
+        (d.fetched_slope, d.fetched_first) = (S::new(slope), S::new(first));
+        if i.phase {
+            d.sixteenths = U::new((time >> p.step_log2) as u64);
+            (d.low_part, d.low_slope) = (self.fetched_part, self.fetched_slope);
+            d.low_first = self.fetched_first;
+        } else {
+            let growth = (self.fetched_part - self.low_part.get()).get() * self.sixteenths.get();
+            d.pulse_part = self.low_part + (growth >> 4);
+            (d.pulse_slope, d.pulse_first) = (self.low_slope, self.low_first);
+        }
+    }
+
+    /// What goes along.
+    fn carry(&self, i: &In, d: &mut Self) {
         shift(&mut d.bin, i.word_bin);
         shift(&mut d.rest, i.word_rest);
         shift(&mut d.slides, i.word_slide);
@@ -294,7 +326,7 @@ impl LikelihoodTerms {
             d.lit = self.lit_first;
             shift(&mut d.ended_k, self.ended_k_first);
         } else {
-            let lit = rounded(i.signal.get() * self.part.get(), 9);
+            let lit = rounded(i.strength.get() * self.part.get(), 9);
             d.lit_first = U::new(lit.min(MOST_HAZARD));
             d.ended_k_first = U::new(self.ended[5].get() * self.k.get());
         }

@@ -15,6 +15,7 @@ use super::depth_estimator::{self, DepthEstimator};
 use super::frame_ctrl::{self, FrameCtrl};
 use super::histogram_builder::{self, HistogramBuilder};
 use super::histogram_preload::{self, HistogramPreload};
+use super::likelihood_estimator::{self, LikelihoodEstimator};
 use super::reset_sync::{self, ResetSync};
 use super::spad_control::{self, SpadControl};
 use super::tdc::{self, Tdc};
@@ -65,6 +66,8 @@ pub struct TofTop {
     pub depth_estimator: DepthEstimator,
     /// Its stand-in.
     pub centroid_estimator: CentroidEstimator,
+    /// Another.
+    pub likelihood_estimator: LikelihoodEstimator,
     /// What the one in use gives.
     pub socket: Socket,
 }
@@ -168,6 +171,11 @@ connect! {
         algo_start <- this.frame_ctrl.algo_start;
         count <- this.nets.count;
     }
+    likelihood_estimator(clk_sys): likelihood_estimator::In {
+        rst <- this.nets.rst_dsp;
+        algo_start <- this.frame_ctrl.algo_start;
+        count <- this.nets.count;
+    }
 }
 
 impl TofTop {
@@ -192,6 +200,7 @@ impl TofTop {
         let (tdc, code_preload) = (Wires::tdc(self), Wires::code_preload(self));
         let histogram_builder = Wires::histogram_builder(self);
         let (network, centroid) = (Wires::depth_estimator(self), Wires::centroid_estimator(self));
+        let likelihood = Wires::likelihood_estimator(self);
 
         (self.reset_sync_sys, self.reset_sync_laser) = (reset_sync_sys, reset_sync_laser);
         (self.control_sync, self.frame_ctrl) = (control_sync, frame_ctrl);
@@ -199,7 +208,7 @@ impl TofTop {
         self.spad_control = spad_control;
         self.convert(p, &tdc, &code_preload, line, now);
         self.histogram_builder.tick(&histogram_builder, &p.histogram);
-        self.estimate(p, &network, &centroid);
+        self.estimate(p, &network, &centroid, &likelihood);
         self.settle(p);
     }
 

@@ -12,6 +12,8 @@ use super::entry::{IDS, RAM};
 pub struct Part {
     /// Of each id whether it is one of them; a struct of signals is looked at as a whole.
     wanted: Box<[bool; IDS]>,
+    /// By the first id of a module of which none is, how many it has; of such that share it, the most.
+    unwanted: Box<[usize; IDS]>,
     /// Words of the RAM, each once and in order; there may be fewer.
     words: Vec<usize>,
     /// The edge of `clk_sys` before the coming look may write a word of the RAM.
@@ -25,7 +27,10 @@ impl Part {
         let mut wanted = Box::new([false; IDS]);
         ids.into_iter().for_each(|id| wanted[id] = true);
         let words = (0..MOST_BINS).filter(|bin| wanted[RAM + bin]).collect();
-        Part { wanted, words, writes: true, kept: None }
+        let mut unwanted = Unwanted { wanted: &wanted, counts: Box::new([0; IDS]), id: 0 };
+        TofTop::default().visit(None, &mut unwanted);
+        let unwanted = unwanted.counts;
+        Part { wanted, unwanted, words, writes: true, kept: None }
     }
 
     /// Reports every signal, as if for the first time, whichever ids were asked for.
@@ -45,7 +50,8 @@ impl Part {
     pub fn follow(&mut self, top: &TofTop, sink: &mut impl Sink) {
         let Some(kept) = &mut self.kept else { return self.show(top, sink) };
         let between = kept.clocks.clk_sys;
-        top.visit(Some(kept), &mut Look { wanted: Some(&*self.wanted), between, id: 0, sink });
+        let wanted = Some((&*self.wanted, &*self.unwanted));
+        top.visit(Some(kept), &mut Look { wanted, between, id: 0, sink });
         let writes = top.histogram_builder.has_hit() || top.frame_ctrl.clear;
         if std::mem::replace(&mut self.writes, writes) {
             let (now, then) = (&top.histogram_builder.ram, &mut kept.histogram_builder.ram);
@@ -87,8 +93,8 @@ pub fn copy(from: &TofTop, to: &mut TofTop) {
 
 /// Reports what differs and keeps it.
 struct Look<'a, S> {
-    /// Ids to look at, if not all.
-    wanted: Option<&'a [bool; IDS]>,
+    /// Ids to look at, if not all, and modules without any.
+    wanted: Option<(&'a [bool; IDS], &'a [usize; IDS])>,
     /// Whether modules that have no other clock than `clk_sys` are left out.
     between: bool,
     /// The coming signal.
@@ -104,7 +110,7 @@ impl<K: Sink> Visitor for Look<'_, K> {
         match then {
             None => now.changes(None, ids.start, self.sink),
             Some(then) if then != now => {
-                if self.wanted.is_none_or(|wanted| wanted[ids.clone()].contains(&true)) {
+                if self.wanted.is_none_or(|(wanted, _)| wanted[ids.clone()].contains(&true)) {
                     now.changes(Some(&*then), ids.start, self.sink);
                 }
                 *then = *now;
@@ -117,8 +123,33 @@ impl<K: Sink> Visitor for Look<'_, K> {
     fn module<M: Module>(&mut self, instance: &'static Instance, now: &M, then: Option<&mut M>) {
         match instance.clocks {
             [("clk_sys", _)] if self.between => self.id += M::COUNT,
+            _ if self.wanted.is_some_and(|(_, counts)| counts[self.id] >= M::COUNT) => {
+                self.id += M::COUNT;
+            }
             _ => now.visit(then, self),
         }
+    }
+}
+
+/// Finds the modules of which nothing is wanted.
+struct Unwanted<'a> {
+    wanted: &'a [bool; IDS],
+    counts: Box<[usize; IDS]>,
+    /// The coming signal.
+    id: usize,
+}
+
+impl Visitor for Unwanted<'_> {
+    fn signals<S: Signals>(&mut self, _: &'static str, _: &S, _: Option<&mut S>) {
+        self.id += S::COUNT;
+    }
+
+    fn module<M: Module>(&mut self, _: &'static Instance, now: &M, _: Option<&mut M>) {
+        let ids = self.id..self.id + M::COUNT;
+        if !self.wanted[ids.clone()].contains(&true) {
+            self.counts[ids.start] = self.counts[ids.start].max(M::COUNT);
+        }
+        now.visit(None, self);
     }
 }
 

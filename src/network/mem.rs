@@ -4,6 +4,10 @@ use crate::firmware::depth_estimator::Params;
 use crate::firmware::depth_estimator::datapath::Datapath;
 use crate::firmware::forward1::{Rom, Weight};
 use crate::firmware::forward2;
+use crate::firmware::likelihood_estimator;
+use crate::firmware::likelihood_estimator::params::WIDTH_BITS;
+use crate::firmware::likelihood_estimator::pulse::PulseWord;
+use crate::firmware::likelihood_estimator::tables::{LOG2, TABLES};
 use crate::firmware::tansig;
 use crate::firmware::tdc_decoder;
 use crate::kernel::WordFormat;
@@ -53,6 +57,29 @@ pub fn depth_estimator(params: &Params) -> Vec<Mem> {
 pub fn tdc_decoder(params: &tdc_decoder::Params) -> Mem {
     let words = params.cal.iter().map(|age| age.get());
     Mem { name: "tdc_cal.mem", text: lines(words, digits(params.age_bits())) }
+}
+
+/// The likelihood estimator's ROMs: of each place between bins the width of the bin before it and its time, the
+/// pulse, k and what it grows by, and the logarithm.
+pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> [Mem; 4] {
+    let edge_bits = params.edge_bits();
+    let edge = |place: usize| {
+        let (width, end) = params.rom_word(place);
+        width.get() << edge_bits | end.get()
+    };
+    let pulse = |word: &PulseWord| {
+        (word.part as u64) << 18 | low_bits(word.slope, 9) << 9 | low_bits(word.first, 9)
+    };
+    let edges = (0..=params.histogram.bins).map(edge);
+    let pulse = params.pulse.iter().map(pulse);
+    let hazard = (0..64).map(|quarter| (TABLES.k[quarter] << 11 | TABLES.growth[quarter]) as u64);
+    let log = LOG2.iter().map(|&log| log as u64);
+    [
+        Mem { name: "edges.mem", text: lines(edges, digits(edge_bits + WIDTH_BITS)) },
+        Mem { name: "pulse.mem", text: lines(pulse, digits(35)) },
+        Mem { name: "hazard.mem", text: lines(hazard, digits(28)) },
+        Mem { name: "log2.mem", text: lines(log, digits(7)) },
+    ]
 }
 
 /// Words of so many bits side by side on a line, the first in the low bits.

@@ -2,11 +2,12 @@
 
 mod expectations;
 mod fits;
-mod likelihood;
+mod instrument;
 mod notes;
 mod stimulus;
 
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::error::{Input, Result};
 use crate::files::digest::digest_of;
@@ -29,6 +30,7 @@ use crate::waves::{self, WaveFormat, Waves};
 
 use super::device::Device;
 use super::fast::centroid::locate;
+use super::fast::likelihood;
 use super::jitter::Jitter;
 use super::timeline::{Timeline, pins_at_power_up};
 use stimulus::stimulus;
@@ -88,6 +90,9 @@ impl Setup {
         match setup.params.estimator {
             Estimator::Network => setup.check_network()?,
             Estimator::Centroid => {}
+            Estimator::Likelihood => {
+                setup.likelihood(setup.params.frame_ctrl.shots_per_frame.into())?;
+            }
         }
         Ok(setup)
     }
@@ -133,17 +138,21 @@ impl Setup {
                 false => network::blank(&histogram),
             },
             centroid_estimator: centroid(&scenario.estimator, histogram),
+            likelihood_estimator: None,
             estimator: match scenario.estimator.kind {
                 EstimatorKind::Network => Estimator::Network,
                 EstimatorKind::Centroid => Estimator::Centroid,
+                EstimatorKind::Likelihood => Estimator::Likelihood,
             },
             code_source,
             histogram_source,
         };
         fits::check(&name, &params)?;
         let (pins, no_depth) = (pins_at_power_up(&scenario.firmware), None);
-        let setup =
+        let mut setup =
             Setup { name, scenario, set, budget, params, network, pll, light, pins, no_depth };
+        let shots = setup.params.frame_ctrl.shots_per_frame.into();
+        setup.params.likelihood_estimator = setup.likelihood(shots).ok().map(Arc::new);
         Ok(Setup { no_depth: setup.why_no_depth(), ..setup })
     }
 
@@ -218,6 +227,9 @@ impl Setup {
         match p.estimator {
             Estimator::Network => estimate(&p.depth_estimator, histogram).depth,
             Estimator::Centroid => locate(&p.centroid_estimator, histogram).depth,
+            Estimator::Likelihood => p
+                .likelihood()
+                .map_or_else(Depth::default, |p| likelihood::estimate(p, histogram).depth),
         }
     }
 

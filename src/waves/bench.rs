@@ -57,6 +57,7 @@ pub(super) fn with_delays(taps: &[i64]) -> Params {
             },
         },
         centroid_estimator: centroid_estimator::Params::default(),
+        likelihood_estimator: None,
         estimator: Estimator::Network,
         code_source: CodeSource::Tdc,
         histogram_source: HistogramSource::Builder,

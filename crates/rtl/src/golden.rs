@@ -10,6 +10,7 @@ pub mod configuration;
 pub mod cover;
 pub mod draw;
 mod estimations;
+mod likelihood;
 mod lines;
 pub mod parameters;
 pub mod ports;

@@ -1,17 +1,51 @@
 //! From an instrument to parameters and ROMs.
 
-use super::super::histogram_builder;
-use super::pulse::Pulse;
-use super::{DEPTH_FRACTION, Params, UNITS};
+use std::sync::Arc;
+
+use crate::firmware::histogram_builder;
+
+use super::pulse::{Pulse, PulseWord};
+use super::words::{DEPTH_FRACTION, UNITS};
 
 /// The box, in deviations of the pulse: the part of a Gaussian in it is 0.84.
 const BOX_SIGMA: f64 = 2.8;
 /// Bits of the word that turns time into distance.
 const METRES_BITS: i32 = 24;
+/// Fewest bits of a word of the solver: products of two of 16 bits, and 32 m.
+const FEWEST_WORD_BITS: u32 = 35;
 /// Bits of a bin's width in units.
 pub const WIDTH_BITS: u32 = 10;
 /// Bits of an edge above those that bins have, in half units.
 const EDGE_BITS: u32 = 8;
+
+/// Verilog parameters and what is in the ROMs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Params {
+    /// How large the histogram is.
+    pub histogram: histogram_builder::Params,
+    /// Shots of a histogram.
+    pub shots: u64,
+    /// Where bins begin, and last where the last one ends [half units].
+    pub edges: Arc<[u32]>,
+    /// The pulse, by the time from its middle.
+    pub pulse: Arc<[PulseWord]>,
+    /// Step of the pulse's ROM is 2 to the power of this [units].
+    pub step_log2: u32,
+    /// Bins of the fit before the one of the middle.
+    pub before: usize,
+    /// Bins of the fit after it.
+    pub after: usize,
+    /// Bins of the box that is slid over the histogram.
+    pub box_bins: usize,
+    /// 16 times the square of the pulse's deviation, which is 24 to 48 of what z counts.
+    pub kappa: i64,
+    /// The pulse's deviation [units].
+    pub sigma: i64,
+    /// Distance of a 16th of a unit, with `metres_shift` more fraction bits than a depth.
+    pub metres: i64,
+    /// See `metres`.
+    pub metres_shift: u32,
+}
 
 /// What an instrument is, as far as the estimator knows it.
 #[derive(Clone, Debug)]
@@ -141,7 +175,8 @@ impl Params {
     }
 }
 
-/// Enough for sums over a fit, and for the exposure of all bins.
-fn word_bits(histogram: &histogram_builder::Params) -> u32 {
-    histogram.count_bits + 19.max(histogram.bins.ilog2() + WIDTH_BITS + 1)
+/// Bits of a word of the solver: enough for sums over a fit, and for the exposure of all bins.
+pub fn word_bits(histogram: &histogram_builder::Params) -> u32 {
+    let counted = histogram.count_bits + 19.max(histogram.bins.ilog2() + WIDTH_BITS + 1);
+    counted.max(FEWEST_WORD_BITS)
 }

@@ -1,6 +1,6 @@
 //! The pulse as a ROM has it.
 //!
-//! A word holds the part of the pulse that came before, and two slopes: that of the logarithm of the pulse, for
+//! A word holds the part of the pulse that came before, between two words of which it is straight, and two slopes: that of the logarithm of the pulse, for
 //! a bin in it, and that of the logarithm of the part before, for bin 0. Only the parts have to be exact: with
 //! slopes that are a little wrong the residuals still are zero in the mean.
 
@@ -146,9 +146,7 @@ impl Pulse {
         let step = f64::from(1u32 << step_log2);
         let deviation = sigma_ps / unit_ps / step / 4.0;
         let word = |k: usize| {
-            // The middle of the 16ths of a unit that share the word.
-            let middle = (k as f64 - 1024.0) * step + (step - 1.0 / 16.0) / 2.0;
-            let t_ps = middle * unit_ps;
+            let t_ps = (k as f64 - 1024.0) * step * unit_ps;
             let (part, [density, growth]) = (self.part(t_ps), self.density(t_ps));
             let slope = |of: f64, over: f64| match over > 1e-30 {
                 true => -of / over * sigma_ps * deviation,

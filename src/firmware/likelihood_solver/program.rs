@@ -279,3 +279,16 @@ pub const PROGRAM: [Instruction; 64] = [
     times(SIGMA, N2, METRES, 0).by(By::Metres),
     END_OF_PROGRAM,
 ];
+
+/// From the cycle that begins a program to the one in which it has ended, both counted [cycles of clk_sys].
+pub fn program_cycles(entry: u64) -> u64 {
+    let instructions = PROGRAM[entry as usize..].iter();
+    let instructions = instructions.take_while(|instruction| instruction.op != Op::End);
+    let cycles = instructions.map(|instruction| match instruction.op {
+        Op::Alu => 5,
+        Op::Reciprocal => 5 + 18,
+        Op::Root => 5 + 26,
+        Op::Exponent | Op::Cut | Op::End => 1,
+    });
+    cycles.sum::<u64>() + 3
+}

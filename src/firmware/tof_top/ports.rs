@@ -1,9 +1,13 @@
 //! Pins, wires and parameters of the top.
 
+use std::sync::Arc;
+
 use crate::firmware::forward2::Depth;
 use crate::firmware::histogram_builder::{self, Bin, Count};
 use crate::firmware::vcsel_driver::{self, Rate};
-use crate::firmware::{centroid_estimator, depth_estimator, frame_ctrl, histogram_preload, tdc};
+use crate::firmware::{
+    centroid_estimator, depth_estimator, frame_ctrl, histogram_preload, likelihood_estimator, tdc,
+};
 use crate::signals;
 
 signals! {
@@ -83,14 +87,20 @@ pub enum Estimator {
     Network,
     /// [`centroid_estimator`].
     Centroid,
+    /// [`likelihood_estimator`].
+    Likelihood,
 }
 
 impl Estimator {
+    /// All of them, in the order of the parameter's values.
+    pub const ALL: [Self; 3] = [Self::Network, Self::Centroid, Self::Likelihood];
+
     /// Its module.
     pub fn module(self) -> &'static str {
         match self {
             Estimator::Network => "depth_estimator",
             Estimator::Centroid => "centroid_estimator",
+            Estimator::Likelihood => "likelihood_estimator",
         }
     }
 }
@@ -123,6 +133,8 @@ pub struct Params {
     pub depth_estimator: depth_estimator::Params,
     /// Window and scale of the centroid.
     pub centroid_estimator: centroid_estimator::Params,
+    /// Pulse, bins and ROMs of the likelihood, where its model holds for the instrument.
+    pub likelihood_estimator: Option<Arc<likelihood_estimator::params::Params>>,
     /// What finds the depth.
     pub estimator: Estimator,
     /// Where codes come from.
@@ -132,9 +144,15 @@ pub struct Params {
 }
 
 impl Params {
+    /// Those of the likelihood estimator, if there are any.
+    pub fn likelihood(&self) -> Option<&likelihood_estimator::params::Params> {
+        self.likelihood_estimator.as_deref()
+    }
+
     /// Modules of the top that are left out: stand-ins, or what they stand in for.
-    pub fn left_out(&self) -> [&'static str; 3] {
-        [
+    pub fn left_out(&self) -> Vec<&'static str> {
+        let others = Estimator::ALL.into_iter().filter(|other| *other != self.estimator);
+        let sources = [
             match self.code_source {
                 CodeSource::Tdc => "code_preload",
                 CodeSource::Preload(_) => "tdc",
@@ -143,11 +161,8 @@ impl Params {
                 HistogramSource::Builder => "histogram_preload",
                 HistogramSource::Preload(_) => "histogram_builder",
             },
-            match self.estimator {
-                Estimator::Network => Estimator::Centroid.module(),
-                Estimator::Centroid => Estimator::Network.module(),
-            },
-        ]
+        ];
+        sources.into_iter().chain(others.map(Estimator::module)).collect()
     }
 
     /// From the edge that takes `algo_start` to the one that raises `algo_done`, for the estimator in
@@ -156,6 +171,7 @@ impl Params {
         match self.estimator {
             Estimator::Network => self.depth_estimator.cycles(),
             Estimator::Centroid => self.centroid_estimator.done(),
+            Estimator::Likelihood => self.likelihood().map_or(0, |p| p.done()),
         }
     }
 }

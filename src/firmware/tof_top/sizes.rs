@@ -6,7 +6,8 @@ use crate::firmware::depth_estimator::datapath::Datapath;
 use crate::firmware::forward2::NEURONS;
 use crate::firmware::tdc_decoder::TimeScale;
 use crate::firmware::{
-    centroid_estimator, estimator_ctrl, frame_ctrl, histogram_builder, vcsel_driver,
+    centroid_estimator, estimator_ctrl, frame_ctrl, histogram_builder, likelihood_estimator,
+    vcsel_driver,
 };
 use crate::kernel::ones_width;
 use crate::kernel::signals::{Signal, SignalFormat};
@@ -40,6 +41,8 @@ pub struct Sizes {
     pub neurons: usize,
     /// Number formats of the network.
     pub datapath: Datapath,
+    /// Cycles of the likelihood estimator, if there is one [cycles of clk_sys].
+    pub likelihood_cycles: u64,
 }
 
 impl Default for Sizes {
@@ -59,6 +62,7 @@ impl Default for Sizes {
             histogram: histogram_builder::Params::default(),
             neurons: NEURONS,
             datapath: Datapath::THESIS,
+            likelihood_cycles: 0,
         }
     }
 }
@@ -88,6 +92,7 @@ impl Sizes {
         let (histogram, datapath) = (&self.histogram, &self.datapath);
         let (bin_bits, count_bits) = (histogram.bins.ilog2(), histogram.count_bits);
         let position_bits = centroid_estimator::position_bits(histogram);
+        let (rest_bits, weight_bits) = (count_bits + bin_bits, (count_bits + 8).max(24));
         let groups = |group: usize| (self.taps.div_ceil(group) * ones_width(group)) as u32;
         Some(match size {
             "Taps" => self.taps as u32,
@@ -125,6 +130,32 @@ impl Sizes {
             "WindowBits" => count_bits + 6,
             "AgesBits" => count_bits + 11,
             "RemainderBits" => count_bits + 13,
+            "PlaceBits" => bin_bits + 1,
+            "RestBits" => rest_bits,
+            "ExposureBits" => rest_bits + 10,
+            "WidthBits" => likelihood_estimator::params::WIDTH_BITS,
+            "EdgeBits" => bin_bits + 8,
+            "ArrivalBits" => bin_bits + 11,
+            "ResidualBits" => count_bits + 9,
+            "ExpectedBits" => count_bits + 18,
+            "MiddleBits" => rest_bits + 1,
+            "EndedBits" => rest_bits + 17,
+            "WaitingProductBits" => rest_bits + 14,
+            "WeightBits" => weight_bits,
+            "SeenBits" => 2 * count_bits + 3,
+            "SeenSlopeBits" => count_bits + 18,
+            "WeightSlopeBits" => weight_bits + 9,
+            "SquareSumBits" => count_bits + 20,
+            "SlopeSumBits" => count_bits + 24,
+            "SumWordBits" => count_bits + 19,
+            "ChiBits" => bin_bits + 25,
+            "ExcessBits" | "BoxExpectedBits" => rest_bits + 14,
+            "BoxMiddleBits" => rest_bits + 1 + bin_bits,
+            "BoxSumBits" => bin_bits + 2,
+            "WaitBits" => bin_bits + 3,
+            "WordBits" => likelihood_estimator::params::word_bits(histogram),
+            "LowProductBits" => likelihood_estimator::params::word_bits(histogram) + 18,
+            "ShiftedBits" => 64,
             "PositionBits" => position_bits,
             "PositionCoarseBits" => position_bits - 1,
             "DistanceBits" => position_bits + 10,
@@ -177,6 +208,7 @@ impl Params {
             histogram: self.histogram,
             neurons: self.depth_estimator.neurons(),
             datapath: self.depth_estimator.forward2.datapath,
+            likelihood_cycles: self.likelihood().map_or(0, |params| params.done()),
         }
     }
 }

@@ -1,7 +1,7 @@
-//! The estimator's socket: one of two has the clock, and its outputs are the socket's.
+//! The estimator's socket: one of three has the clock, and its outputs are the socket's.
 
 use crate::firmware::centroid_estimator::Registers;
-use crate::firmware::{centroid_estimator, depth_estimator};
+use crate::firmware::{centroid_estimator, depth_estimator, likelihood_estimator};
 
 use super::{Estimator, Params, Socket, TofTop};
 
@@ -13,10 +13,16 @@ impl TofTop {
         p: &Params,
         network: &depth_estimator::In,
         centroid: &centroid_estimator::In,
+        likelihood: &likelihood_estimator::In,
     ) {
         match p.estimator {
             Estimator::Network => self.depth_estimator.rise(network, &p.depth_estimator),
             Estimator::Centroid => self.centroid_estimator.rise(centroid, &p.centroid_estimator),
+            Estimator::Likelihood => {
+                if let Some(params) = p.likelihood() {
+                    self.likelihood_estimator.rise(likelihood, params);
+                }
+            }
         }
         self.take_depth(p);
     }
@@ -35,6 +41,12 @@ impl TofTop {
                 let Registers { read_en, read_addr, depth, algo_done, .. } =
                     self.centroid_estimator.registers;
                 Socket { read_en, read_addr, depth, algo_done }
+            }
+            Estimator::Likelihood => {
+                let memory = &self.likelihood_estimator.likelihood_memory.registers;
+                let (read_en, read_addr) = (memory.read_en, memory.read_addr);
+                let now = &self.likelihood_estimator.registers;
+                Socket { read_en, read_addr, depth: now.depth, algo_done: now.algo_done }
             }
         };
     }

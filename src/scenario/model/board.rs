@@ -193,12 +193,14 @@ pub enum EstimatorKind {
     Network,
     /// Argmax with centroid correction (`centroid_estimator`).
     Centroid,
+    /// Maximum likelihood in integers (`likelihood_estimator`).
+    Likelihood,
 }
 
 table! {
     /// The depth estimator.
     pub struct Estimator {
-        /// What is in the estimator's socket: `network` or `centroid`.
+        /// What is in the estimator's socket: `network`, `centroid` or `likelihood`.
         #[schemars(extend("source" = "thesis ch. 6; docs/model.md"))]
         pub kind: EstimatorKind = EstimatorKind::Network,
         /// Network: `uniform`, `uniform-16`, `ideal`, or the path of a network file.

@@ -4,13 +4,13 @@
 //! its cycle of Clear, and an estimation is sums of integers. The TDC's window is closed, so that it sees
 //! avalanches on the way with the next edges.
 
-use crate::firmware::centroid_estimator;
 use crate::firmware::depth_estimator::{self, DepthEstimator};
 use crate::firmware::estimator_ctrl::EstimatorCtrl;
 use crate::firmware::forward1::Forward1;
 use crate::firmware::frame_ctrl::State;
 use crate::firmware::histogram_builder::Count;
 use crate::firmware::tof_top::{Estimator, HistogramSource, Params, TofTop};
+use crate::firmware::{centroid_estimator, likelihood_estimator};
 use crate::kernel::U;
 use crate::network::Histogram;
 use crate::network::estimate::estimate;
@@ -71,6 +71,15 @@ fn land_in_estimation(top: &mut TofTop, p: &Params) {
                 let count = words[centroid.registers.read_addr.index()];
                 let i = centroid_estimator::In { rst: false, algo_start: false, count };
                 centroid.rise(&i, &p.centroid_estimator);
+            }
+        }
+        Estimator::Likelihood => {
+            let Some(params) = p.likelihood() else { return };
+            let likelihood = &mut top.likelihood_estimator;
+            for _ in 1..params.done() {
+                let count = words[likelihood.likelihood_memory.registers.read_addr.index()];
+                let i = likelihood_estimator::In { rst: false, algo_start: false, count };
+                likelihood.rise(&i, params);
             }
         }
     }

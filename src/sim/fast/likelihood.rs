@@ -8,37 +8,14 @@ mod step;
 mod terms;
 mod verdict;
 
-use crate::firmware::forward2::Depth;
-use crate::firmware::likelihood_estimator::{Params, STEPS};
+use crate::firmware::likelihood_estimator::params::Params;
+use crate::firmware::likelihood_estimator::words::STEPS;
 
 use histogram::Shots;
 use step::{Information, Point, step};
 use verdict::verdict;
 
-/// What an estimation finds.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Found {
-    /// Depth word [m].
-    pub depth: Depth,
-    /// Its standard deviation, with as many fraction bits [m].
-    pub sigma: u64,
-    /// Why not to believe it: bits of [`status`](crate::firmware::likelihood_estimator::status).
-    pub status: u8,
-    /// Sum of squared residuals over their variances, 8 fraction bits [1].
-    pub chi_square: u64,
-}
-
-impl Found {
-    /// Standard deviation of the depth [m].
-    pub fn sigma_m(&self) -> f64 {
-        self.sigma as f64 / (1u64 << 29) as f64
-    }
-
-    /// Chi-square of the fit [1].
-    pub fn chi_square(&self) -> f64 {
-        self.chi_square as f64 / 256.0
-    }
-}
+pub use verdict::Found;
 
 /// All on the way to an estimate.
 #[derive(Clone, Debug)]
@@ -67,7 +44,7 @@ pub fn stages(p: &Params, histogram: &[u32]) -> Stages {
     let shots = Shots::new(p, histogram);
     let ambient = shots.ambient(p);
     let start = scan::scan(p, &shots, ambient, 0..0);
-    let mut points = vec![Point::start(&start, ambient)];
+    let mut points = vec![Point::start(p, &start, ambient)];
     let mut information = Information::default();
     for _ in 0..STEPS {
         let to;

@@ -2,7 +2,7 @@
 
 use crate::firmware::reset_sync::{self, ResetSync};
 use crate::firmware::tof_top::{Estimator, Params, TofTop, Wires};
-use crate::firmware::{centroid_estimator, depth_estimator};
+use crate::firmware::{centroid_estimator, depth_estimator, likelihood_estimator};
 use crate::kernel::{ASLEEP, Clocked, Time};
 use crate::sim::device::Device;
 
@@ -33,6 +33,11 @@ pub(super) fn estimator_rests(top: &TofTop, p: &Params) -> bool {
             next.rise(&i, &p.centroid_estimator);
             next == top.centroid_estimator
         }
+        Estimator::Likelihood => p.likelihood().is_some_and(|params| {
+            let i =
+                likelihood_estimator::In { rst, algo_start, ..Wires::likelihood_estimator(top) };
+            top.likelihood_estimator.rests(&i, params)
+        }),
     }
 }
 
@@ -41,6 +46,7 @@ pub(super) fn estimation_phase(top: &TofTop, p: &Params) -> Option<u64> {
     match p.estimator {
         Estimator::Network => top.depth_estimator.estimator_ctrl.phase(&p.depth_estimator.ctrl()),
         Estimator::Centroid => top.centroid_estimator.registers.phase(&p.centroid_estimator),
+        Estimator::Likelihood => top.likelihood_estimator.begun(),
     }
 }
 

@@ -32,6 +32,12 @@ blocks! {
     frame_ctrl
     histogram_builder
     histogram_preload
+    likelihood_estimator
+    likelihood_memory
+    likelihood_scan
+    likelihood_solver
+    likelihood_sums
+    likelihood_terms
     lvds_output
     pll
     reset_sync

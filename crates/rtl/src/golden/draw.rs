@@ -19,6 +19,11 @@ impl Draw {
         Draw(stream(seed, Source::Stimulus, number))
     }
 
+    /// The stream itself.
+    pub fn rng(&mut self) -> &mut ChaCha8Rng {
+        &mut self.0
+    }
+
     /// 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.0.next_u64()

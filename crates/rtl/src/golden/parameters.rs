@@ -4,7 +4,8 @@ use tofsim::firmware::carry_chain::Delays;
 use tofsim::firmware::histogram_builder::{self, Bin, Count};
 use tofsim::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Sizes};
 use tofsim::firmware::{
-    centroid_estimator, depth_estimator, forward2, pll, tdc_decoder, vcsel_driver,
+    centroid_estimator, depth_estimator, forward2, likelihood_estimator, pll, tdc_decoder,
+    vcsel_driver,
 };
 use tofsim::kernel::U;
 use tofsim::network::mem::{self, Mem, digits, lines};
@@ -207,6 +208,35 @@ pub fn centroid_estimator(params: &centroid_estimator::Params) -> Parameters {
     ]
 }
 
+/// Those of the likelihood estimator, beside its shots.
+pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> Parameters {
+    let number = |value: u64| Parameter::Number(value);
+    let mut list = vec![
+        ("BoxBins", number(params.box_bins as u64)),
+        ("BinsBefore", number(params.before as u64)),
+        ("BinsAfter", number(params.after as u64)),
+        ("Kappa", number(params.kappa as u64)),
+        ("StepLog2", number(params.step_log2.into())),
+        ("PulseSigma", number(params.sigma as u64)),
+        ("WindowEnd", number(params.end() as u64)),
+        ("Metres", number(params.metres as u64)),
+        ("MetresShift", number(params.metres_shift.into())),
+    ];
+    let names = ["EdgesFile", "PulseFile", "HazardFile", "LogFile"];
+    list.extend(files(names, mem::likelihood_estimator(params)));
+    list
+}
+
+/// Those of a block of the likelihood estimator: of some names, and its sizes.
+pub fn of_likelihood(params: &Params, names: &[&'static str]) -> Parameters {
+    let mut list = sized(params, &["BinBits", "CountBits"]);
+    let shots = params.frame_ctrl.shots_per_frame.into();
+    let own = params.likelihood().map(likelihood_estimator).unwrap_or_default();
+    let all = [("ShotsPerFrame", Parameter::Number(shots))].into_iter().chain(own);
+    list.extend(all.filter(|(name, _)| names.contains(name)));
+    list
+}
+
 /// Those of the whole firmware. The memory of an unused stand-in is loaded too: zeros.
 pub fn tof_top(setup: &Setup) -> Parameters {
     use Parameter::{Memory, Number};
@@ -240,9 +270,16 @@ pub fn tof_top(setup: &Setup) -> Parameters {
         ("HistogramSource", Number(preloads_histogram.into())),
         ("HistogramFile", Memory(histogram(words, &params.histogram))),
     ]);
-    if params.estimator == Estimator::Centroid {
-        list.push(("Estimator", Number(1)));
-        list.extend(centroid_estimator(&params.centroid_estimator));
+    match params.estimator {
+        Estimator::Network => {}
+        Estimator::Centroid => {
+            list.push(("Estimator", Number(1)));
+            list.extend(centroid_estimator(&params.centroid_estimator));
+        }
+        Estimator::Likelihood => {
+            list.push(("Estimator", Number(2)));
+            list.extend(params.likelihood().map(likelihood_estimator).unwrap_or_default());
+        }
     }
     list
 }
@@ -257,8 +294,10 @@ pub fn tof_top_in_full(setup: &Setup) -> Parameters {
     let (sizes, laser) = (params.sizes(), &params.vcsel_driver);
     let named = OF_NETWORK.iter().chain(&OF_TOP);
     all.extend(named.map(|&name| (name, size(&sizes, laser, name))));
-    all.push(("Estimator", Parameter::Number(u64::from(params.estimator == Estimator::Centroid))));
+    let socket = Estimator::ALL.iter().position(|one| *one == params.estimator).unwrap_or_default();
+    all.push(("Estimator", Parameter::Number(socket as u64)));
     all.extend(centroid_estimator(&params.centroid_estimator));
+    all.extend(params.likelihood().map(likelihood_estimator).unwrap_or_default());
     let is_new = |(name, _): &(&str, Parameter)| list.iter().all(|(known, _)| known != name);
     let others: Vec<_> = all.into_iter().filter(is_new).collect();
     list.extend(others);

@@ -1,6 +1,7 @@
 //! Counts, the shots that wait at each bin, and the ambient hazard that they show.
 
-use crate::firmware::likelihood_estimator::{Params, log2_64, reciprocal};
+use crate::firmware::likelihood_estimator::params::Params;
+use crate::firmware::likelihood_estimator::tables::{log2_64, reciprocal};
 
 use super::arithmetic::shifted;
 

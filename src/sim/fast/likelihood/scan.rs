@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use crate::firmware::likelihood_estimator::{AMBIENT_FRACTION, HAZARD_FRACTION, Params, log2_64};
+use crate::firmware::likelihood_estimator::params::Params;
+use crate::firmware::likelihood_estimator::tables::log2_64;
+use crate::firmware::likelihood_estimator::words::{AMBIENT_FRACTION, HAZARD_FRACTION};
 
 use super::arithmetic::shifted;
 use super::histogram::Shots;

@@ -2,10 +2,12 @@
 
 use std::ops::Range;
 
-use crate::firmware::likelihood_estimator::{
-    AMBIENT_FRACTION, HAZARD_FRACTION, Params, QUOTIENT_FRACTION, RESIDUAL_FRACTION, UNITS,
-    WEIGHT_FRACTION, length, reciprocal,
+use crate::firmware::likelihood_estimator::params::Params;
+use crate::firmware::likelihood_estimator::tables::{length, reciprocal};
+use crate::firmware::likelihood_estimator::words::{
+    AMBIENT_FRACTION, HAZARD_FRACTION, QUOTIENT_FRACTION, RESIDUAL_FRACTION, UNITS, WEIGHT_FRACTION,
 };
+use crate::kernel::wrapped;
 
 use super::arithmetic::{clamped, product, shifted};
 use super::histogram::{MOST, Shots};
@@ -53,10 +55,11 @@ pub struct Information {
 
 impl Point {
     /// Where a box stands highest.
-    pub fn start(best: &Best, ambient: i64) -> Self {
+    pub fn start(p: &Params, best: &Best, ambient: i64) -> Self {
         let (from, until) = best.bins;
         let (mantissa, bits) = reciprocal(best.waiting.max(1));
-        let rate = shifted((best.excess << 4) * mantissa, bits.into());
+        let excess = wrapped(best.excess << 4, p.word_bits());
+        let rate = product(excess, mantissa, bits.into(), p.word_bits());
         // 0.84 of the pulse are in the box, and 19/16 is one over that.
         let signal = shifted(shifted(rate * (until - from) as i64, 13) * 19, 4);
         Point {
@@ -73,11 +76,15 @@ impl Point {
         centre.saturating_sub(p.before)..(centre + p.after + 1).min(bins)
     }
 
-    /// A word of the pulse's ROM for an edge.
+    /// The pulse at an edge: the part that came before, straight between two words of its ROM, and the slopes.
     fn pulse(&self, p: &Params, edge: usize) -> [i64; 3] {
-        let place = ((i64::from(p.edges[edge]) << 3) - self.arrival) >> (p.step_log2 + 4);
-        let word = p.pulse[(place.clamp(-1024, 1023) + 1024) as usize];
-        [word.part, word.slope, word.first]
+        let time = (i64::from(p.edges[edge]) << 3) - self.arrival;
+        let place = (time >> (p.step_log2 + 4)).clamp(-1024, 1022);
+        let word = |place: i64| p.pulse[(place + 1024) as usize];
+        let (low, high) = (word(place), word(place + 1));
+        let sixteenths = (time >> p.step_log2) & 15;
+        let part = low.part + (((high.part - low.part) * sixteenths) >> 4);
+        [part, low.slope, low.first]
     }
 
     /// What each bin of a fit says, with its z; last all others as one.
@@ -103,7 +110,8 @@ impl Point {
             all.push((terms, z));
             (part, slope) = (next, next_slope);
         }
-        all.push((self.bin(p, ended, exposure >> 6, 0, UNITS), 0));
+        let most = (1 << (p.histogram.count_bits + p.histogram.bins.ilog2())) - 1;
+        all.push((self.bin(p, ended, (exposure >> 6).min(most), 0, UNITS), 0));
         all
     }
 

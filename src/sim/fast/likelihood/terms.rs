@@ -1,6 +1,7 @@
 //! What a bin says of a point: its residual, its weight, and the signal's share in its hazard.
 
-use crate::firmware::likelihood_estimator::{HAZARD_FRACTION, RESIDUAL_FRACTION, Tables, length};
+use crate::firmware::likelihood_estimator::tables::{Tables, length};
+use crate::firmware::likelihood_estimator::words::{HAZARD_FRACTION, RESIDUAL_FRACTION};
 
 use super::arithmetic::{clamped, shifted};
 

@@ -1,11 +1,10 @@
 //! Depth, deviation and status, from what the last step knew.
 
 use crate::firmware::forward2::Depth;
-use crate::firmware::likelihood_estimator::{
-    Params, Tables, WEIGHT_FRACTION, length, reciprocal, status,
-};
+use crate::firmware::likelihood_estimator::params::Params;
+use crate::firmware::likelihood_estimator::tables::{Tables, length, reciprocal};
+use crate::firmware::likelihood_estimator::words::{WEIGHT_FRACTION, status};
 
-use super::Found;
 use super::arithmetic::{product, root};
 use super::histogram::Shots;
 use super::scan::Best;
@@ -29,6 +28,31 @@ const LEAST_WAITING: i64 = 32;
 const FAR: i64 = 25;
 /// The part of a chi-square's term that is kept: 16 bits and its fraction.
 const MOST_TERM: i64 = (1 << 24) - 1;
+
+/// What an estimation finds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Found {
+    /// Depth word [m].
+    pub depth: Depth,
+    /// Its standard deviation, with as many fraction bits [m].
+    pub sigma: u64,
+    /// Why not to believe it: bits of [`status`](crate::firmware::likelihood_estimator::words::status).
+    pub status: u8,
+    /// Sum of squared residuals over their variances, 8 fraction bits [1].
+    pub chi_square: u64,
+}
+
+impl Found {
+    /// Standard deviation of the depth [m].
+    pub fn sigma_m(&self) -> f64 {
+        self.sigma as f64 / (1u64 << 29) as f64
+    }
+
+    /// Chi-square of the fit [1].
+    pub fn chi_square(&self) -> f64 {
+        self.chi_square as f64 / 256.0
+    }
+}
 
 /// What the estimation comes to.
 pub fn verdict(

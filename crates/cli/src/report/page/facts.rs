@@ -73,6 +73,7 @@ fn facts(setup: &Setup) -> Vec<(&'static str, String)> {
         EstimatorKind::Centroid => {
             format!("centroid, {} bins to either side", estimator.centroid_half_width)
         }
+        EstimatorKind::Likelihood => "maximum likelihood".to_owned(),
     };
     let bin_mm = tdc.bin_ps * 1e-9 * LIGHT_M_S / 2.0;
     let period_ns = setup.laser_period() as f64 * cycle_ns;

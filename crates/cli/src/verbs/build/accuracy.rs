@@ -32,6 +32,7 @@ pub fn run(site: &Site) -> Result<Outcome> {
     let (network, estimator) = match scenario.estimator.kind {
         EstimatorKind::Network => (NETWORK, "network,network-float"),
         EstimatorKind::Centroid => (Network::DEFAULT, "centroid"),
+        EstimatorKind::Likelihood => (Network::DEFAULT, "likelihood_estimator"),
     };
     let mut words = vec!["evaluate", network, "--scenario", site.scenario(), "-o", FOLDER];
     words.extend(["--estimator", estimator, "--check", "2"]);

@@ -64,6 +64,7 @@ pub fn run(site: &Site, journal: &Journal) -> Result<Outcome> {
         errors: picture(Path::new(accuracy::FOLDER).join(match setup.scenario.estimator.kind {
             EstimatorKind::Network => "network_by_distance_m.svg",
             EstimatorKind::Centroid => "centroid_by_distance_m.svg",
+            EstimatorKind::Likelihood => "likelihood_estimator_by_distance_m.svg",
         })),
         histogram: picture(Path::new(frame::FOLDER).join("histogram.svg")),
         frame: ran,

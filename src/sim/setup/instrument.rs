@@ -1,7 +1,8 @@
 //! The likelihood estimator that an instrument would have.
 
 use crate::error::Input;
-use crate::firmware::likelihood_estimator::{Params, Pulse, Unfit, Wanted};
+use crate::firmware::likelihood_estimator::params::{Params, Unfit, Wanted};
+use crate::firmware::likelihood_estimator::pulse::Pulse;
 use crate::optics::budget::LIGHT_M_S;
 use crate::scenario::QuenchMode;
 

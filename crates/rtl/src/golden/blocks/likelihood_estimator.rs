@@ -1,0 +1,32 @@
+//! Whole estimations, as measured and extreme, starts while busy, and a reset in each state.
+
+use tofsim::firmware::likelihood_estimator::In;
+
+use crate::golden::likelihood::Estimations;
+use crate::golden::prelude::*;
+
+pub(super) const SPEC: Spec = Spec {
+    reset: Some("rst"),
+    latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.likelihood_cycles }],
+    ..Spec::new("likelihood_estimator", "likelihood_estimator", record)
+};
+
+/// Lines unless told otherwise: a reset in each of ten states, and as many whole estimations [clock cycles].
+const CYCLES: usize = 75_000;
+
+fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
+    let mut estimations = Estimations::new(setting, true)?;
+    let mut run = Recorder::new(spec, setting, In::list());
+    for _ in 0..setting.cycles.unwrap_or(CYCLES) {
+        let i = estimations.next(&run.top.likelihood_estimator, &mut run.draw);
+        run.line(&i);
+        let params = setting.setup.params.likelihood();
+        params.into_iter().for_each(|params| run.top.likelihood_estimator.rise(&i, params));
+    }
+    let all = [
+        "ShotsPerFrame", "BoxBins", "BinsBefore", "BinsAfter", "Kappa", "StepLog2", "PulseSigma", "WindowEnd",
+        "Metres", "MetresShift", "EdgesFile", "PulseFile", "HazardFile", "LogFile",
+    ];
+    let parameters = parameters::of_likelihood(&setting.setup.params, &all);
+    Ok(Vectors { parameters, ..run.vectors(estimations.coverage()) })
+}

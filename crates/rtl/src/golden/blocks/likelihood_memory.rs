@@ -1,0 +1,33 @@
+//! Loads, and passes over bins around echoes and over all of them.
+
+use tofsim::firmware::likelihood_estimator::Wires;
+use tofsim::firmware::likelihood_memory::In;
+
+use crate::golden::likelihood::Estimations;
+use crate::golden::prelude::*;
+
+pub(super) const SPEC: Spec = Spec {
+    reset: Some("rst"),
+    ..Spec::new("likelihood_memory", "likelihood_estimator.likelihood_memory", record)
+};
+
+fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
+    let mut estimations = Estimations::new(setting, false)?;
+    let mut run = Recorder::new(spec, setting, In::list());
+    let mut kinds = Cover::new("a bin, the rest, an edge, a blanked bin", 0..4);
+    for _ in 0..setting.cycles() {
+        let estimator = &mut run.top.likelihood_estimator;
+        let i = estimations.next(estimator, &mut run.draw);
+        let now = &run.top.likelihood_estimator.likelihood_memory.registers;
+        kinds.see_if(now.word_bin, 0);
+        kinds.see_if(now.word_rest, 1);
+        kinds.see_if(now.word_edge, 2);
+        kinds.see_if(now.word_slide && !now.word_bin, 3);
+        let own = Wires::likelihood_memory(&run.top.likelihood_estimator, &i);
+        run.line(&own);
+        let params = setting.setup.params.likelihood();
+        params.into_iter().for_each(|params| run.top.likelihood_estimator.rise(&i, params));
+    }
+    let parameters = parameters::of_likelihood(&setting.setup.params, &["ShotsPerFrame", "BoxBins", "EdgesFile"]);
+    Ok(Vectors { parameters, ..run.vectors([kinds]) })
+}

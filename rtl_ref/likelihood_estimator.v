@@ -1,0 +1,344 @@
+`timescale 1ps / 1fs
+`default_nettype none
+
+// Maximum likelihood, with the ports of depth_estimator: a depth, its deviation, and whether to believe it.
+//
+// A load of the histogram, a scan for the start, six passes over the bins around the echo with a step after each,
+// one to see how well they fit, and a scan of all others.
+// Words are extended and cut as what they are assigned to is wide; some bits are not needed.
+// verilator lint_off WIDTH
+// verilator lint_off UNUSEDSIGNAL
+module likelihood_estimator #(
+    parameter [0:0] Used = 1'b1,                 // 0: nothing starts it, and it has no ROMs
+    parameter integer BinBits = 8,               // 2 to the power of which are the bins, 4 to 10
+    parameter integer CountBits = 16,            // of a word of the histogram, 8 to 24
+    parameter [23:0] ShotsPerFrame = 24'd30000,  // shots of a histogram
+    parameter integer BoxBins = 15,              // bins of the box
+    parameter integer BinsBefore = 26,           // bins of the fit before the one of the echo
+    parameter integer BinsAfter = 26,            // bins after it
+    parameter [31:0] Kappa = 32'd30751,          // 16 times the square of the pulse's deviation in z
+    parameter integer StepLog2 = 1,              // step of the pulse is 2 to the power of this [units]
+    parameter [31:0] PulseSigma = 32'd351,       // deviation of the pulse [units]
+    parameter [31:0] WindowEnd = 32'd262328,     // where the last bin ends [units / 16]
+    parameter [31:0] Metres = 32'd16094985,      // distance of a 16th of a unit [2^-(29 + MetresShift) m]
+    parameter integer MetresShift = 13,
+    parameter EdgesFile = "rtl_ref/edges.mem",
+    parameter PulseFile = "rtl_ref/pulse.mem",
+    parameter HazardFile = "rtl_ref/hazard.mem",
+    parameter LogFile = "rtl_ref/log2.mem"
+) (
+    input wire clk_sys,
+    input wire rst,
+    input wire algo_start,                       // starts an estimation
+    // Histogram
+    output wire read_en,                         // the histogram's word at read_addr is being read
+    output wire [BinBits-1:0] read_addr,         // word of the histogram
+    input wire [CountBits-1:0] count,            // word of the histogram at read_addr [hits]
+    // Result
+    output reg signed [35:0] depth,              // when algo_done is high, and until the next one [2^-29 m]
+    output reg [35:0] sigma,                     // its standard deviation [2^-29 m]
+    output reg [5:0] status,                     // why not to believe it
+    output reg [BinBits+24:0] chi_square,        // of the fit [2^-8]
+    output reg valid,                            // the status says nothing against the depth
+    output reg algo_done                         // the depth is ready; one cycle
+);
+    localparam [3:0] Idle = 4'd0, Load = 4'd1, Ambient = 4'd2, Scan = 4'd3, Start = 4'd4, Fit = 4'd5, Step = 4'd6,
+        Check = 4'd7, Rescan = 4'd8, End = 4'd9;
+    localparam [6:0] AmbientProgram = 7'd0, StartProgram = 7'd7, StepProgram = 7'd13, EndProgram = 7'd49;
+    localparam integer Bins = 1 << BinBits, Beats = 18;
+    localparam integer ScanCycles = 2 * (Bins + BoxBins - BoxBins / 2 - 1 + Beats);
+    localparam integer FitCycles = 2 * (BinsBefore + 1 + BinsAfter + Beats), LoadCycles = Bins + 9;
+    localparam integer WaitBits = BinBits + 3;
+    localparam [BinBits:0] All = Bins, Before = BinsBefore, After = BinsAfter + 1;
+
+    reg [3:0] state;                  // what it does
+    reg [WaitBits-1:0] waited;   // cycles in this state
+    reg [2:0] steps;                  // steps taken
+    reg load, pass, sums;             // begins a load, a pass, the sums of a pass
+    reg scan, check;                  // a scan, a check is on the way
+    reg phase;                        // second cycle of a beat
+    reg run;                          // begins a program
+    reg [6:0] entry;                  // where it begins
+    reg [BinBits:0] fit_begin, fit_end;      // begin and end of the fit, and of what a scan blanks [bins]
+    reg signed [13:0] start_score;    // score of the first scan
+    reg seen;                         // a bin of the check has come
+    reg used_up;                      // few shots waited at the first
+
+    initial begin
+        {depth, sigma, status, chi_square, valid, algo_done} = 0;
+        {state, waited, steps, load, pass, sums, scan, check, phase, run, entry, fit_begin, fit_end} = 0;
+        {start_score, seen, used_up} = 0;
+    end
+
+    wire block_done, word_bin, word_rest, word_edge, word_slide, word_first;
+    wire [CountBits+BinBits-1:0] block_ended, word_ended, word_waiting;
+    wire [CountBits+BinBits+9:0] block_exposure, ambient_exposure;
+    wire [9:0] word_width;
+    wire [BinBits+7:0] word_end;
+    wire signed [CountBits+8:0] residual;
+    wire [CountBits+17:0] expected;
+    wire [12:0] gain, share;
+    wire signed [8:0] slope;
+    wire [CountBits+BinBits:0] middle;
+    wire waits, single, slide;
+    wire signed [CountBits+19:0] sum_11;
+    wire signed [CountBits+23:0] sum_12, sum_13, score_1;
+    wire signed [CountBits+18:0] sum_22, sum_23, sum_33, score_2, score_3;
+    wire [BinBits+24:0] sum_chi;
+    wire far, lone, ran;
+    wire signed [13:0] best_score;
+    wire signed [CountBits+BinBits+13:0] best_excess;
+    wire [CountBits+2*BinBits:0] best_middle;
+    wire [BinBits:0] box_length;
+    wire [BinBits+1:0] box_sum;
+    wire [CountBits-1:0] ambient_ended;
+    wire [BinBits+10:0] arrival;
+    wire [23:0] strength, ambient;
+    wire signed [35:0] solved_depth;
+    wire [35:0] solved_sigma;
+    wire [6:0] flags;
+    wire [5:0] cut;
+
+    // Bins around the arrival
+    wire [BinBits:0] bin = arrival[BinBits+10:10];
+    wire [BinBits:0] centre = bin < All ? bin : All - 1'b1;
+    wire [BinBits:0] next_begin = centre > Before ? centre - Before : {BinBits + 1{1'b0}};
+    wire [BinBits+1:0] window_end = {1'b0, centre} + {1'b0, After};
+    wire [BinBits:0] next_end = window_end > {1'b0, All} ? All : window_end[BinBits:0];
+
+    wire unsure = flags[1] && start_score < 14'sd425;
+    wire no_echo = unsure || flags[0] || flags[2] || start_score < 14'sd297;
+
+    // begin_pass: 1 a fit, 2 a scan; begin_program: its entry
+    reg [3:0] state_next;
+    reg begin_fit, begin_scan, begin_program;
+    always @* begin
+        state_next = state;
+        {begin_fit, begin_scan, begin_program} = 3'b000;
+        case (state)
+            Idle: if (algo_start) state_next = Load;
+            Load: if (waited == LoadCycles[WaitBits-1:0]) {state_next, begin_program} = {Ambient, 1'b1};
+            Ambient: if (ran) {state_next, begin_scan} = {Scan, 1'b1};
+            Scan: if (waited == ScanCycles[WaitBits-1:0]) {state_next, begin_program} = {Start, 1'b1};
+            Start: if (ran) {state_next, begin_fit} = {Fit, 1'b1};
+            Fit: if (waited == FitCycles[WaitBits-1:0]) {state_next, begin_program} = {Step, 1'b1};
+            Step: if (ran) {state_next, begin_fit} = {steps == 3'd5 ? Check : Fit, 1'b1};
+            Check: if (waited == FitCycles[WaitBits-1:0]) {state_next, begin_scan} = {Rescan, 1'b1};
+            Rescan: if (waited == ScanCycles[WaitBits-1:0]) {state_next, begin_program} = {End, 1'b1};
+            End: if (ran) state_next = Idle;
+            default: ;
+        endcase
+    end
+
+    always @(posedge clk_sys) begin
+        if (rst) begin
+            {depth, sigma, status, chi_square, valid, algo_done} <= 0;
+            {state, waited, steps, load, pass, sums, scan, check, phase, run, entry, fit_begin, fit_end} <= 0;
+            {start_score, seen, used_up} <= 0;
+        end else begin
+            state <= state_next;
+            waited <= state_next != state || begin_fit ? {WaitBits{1'b0}} : waited + 1'b1;
+            phase <= state != Idle && !pass && !phase;
+            load <= state == Idle && algo_start;
+            pass <= begin_fit || begin_scan;
+            sums <= begin_fit;
+            run <= begin_program;
+            algo_done <= state == End && ran;
+            if (state == Idle && algo_start) {fit_begin, fit_end, steps} <= {2 * BinBits + 5{1'b0}};
+            if (begin_fit) begin
+                fit_begin <= next_begin;
+                fit_end <= next_end;
+                check <= state_next == Check;
+                seen <= 1'b0;
+            end
+            if (begin_scan) {scan, check} <= 2'b10;
+            if (begin_program) begin
+                scan <= 1'b0;
+                entry <= state == Load ? AmbientProgram : state == Scan ? StartProgram
+                    : state == Fit ? StepProgram : EndProgram;
+            end
+            if (state == Scan && begin_program) start_score <= best_score;
+            if (state == Step && ran) steps <= steps + 3'd1;
+            if (state == Check && !begin_scan && word_bin && !seen) begin
+                seen <= 1'b1;
+                used_up <= word_waiting < 32;
+            end
+            if (state == End && ran) begin
+                depth <= solved_depth;
+                sigma <= solved_sigma;
+                chi_square <= sum_chi;
+                status <= {far, cut != 6'd0 || flags[5] || flags[6], best_score > 14'sd331, used_up,
+                           flags[3] || flags[4], no_echo};
+                valid <= !(far || cut != 6'd0 || flags[5] || flags[6] || best_score > 14'sd331 || used_up
+                           || flags[3] || flags[4] || no_echo);
+                scan <= 1'b0;
+            end
+        end
+    end
+
+    likelihood_memory #(
+        .Used(Used),
+        .BinBits(BinBits),
+        .CountBits(CountBits),
+        .ShotsPerFrame(ShotsPerFrame),
+        .BoxBins(BoxBins),
+        .EdgesFile(EdgesFile)
+    ) likelihood_memory (
+        .clk_sys(clk_sys),
+        .rst(rst),
+        .load(load),
+        .read_en(read_en),
+        .read_addr(read_addr),
+        .count(count),
+        .block_done(block_done),
+        .block_ended(block_ended),
+        .block_exposure(block_exposure),
+        .pass(pass),
+        .scan(scan),
+        .fit_begin(fit_begin),
+        .fit_end(fit_end),
+        .phase(phase),
+        .word_bin(word_bin),
+        .word_rest(word_rest),
+        .word_edge(word_edge),
+        .word_slide(word_slide),
+        .word_first(word_first),
+        .word_ended(word_ended),
+        .word_waiting(word_waiting),
+        .word_width(word_width),
+        .word_end(word_end)
+    );
+
+    likelihood_terms #(
+        .Used(Used),
+        .BinBits(BinBits),
+        .CountBits(CountBits),
+        .StepLog2(StepLog2),
+        .PulseFile(PulseFile),
+        .HazardFile(HazardFile)
+    ) likelihood_terms (
+        .clk_sys(clk_sys),
+        .phase(phase),
+        .scan(scan),
+        .arrival(arrival),
+        .strength(strength),
+        .ambient(ambient),
+        .word_bin(word_bin),
+        .word_rest(word_rest),
+        .word_edge(word_edge),
+        .word_slide(word_slide),
+        .word_first(word_first),
+        .word_ended(word_ended),
+        .word_waiting(word_waiting),
+        .word_width(word_width),
+        .word_end(word_end),
+        .residual(residual),
+        .expected(expected),
+        .gain(gain),
+        .share(share),
+        .slope(slope),
+        .middle(middle),
+        .waits(waits),
+        .single(single),
+        .slide(slide)
+    );
+
+    likelihood_sums #(
+        .BinBits(BinBits),
+        .CountBits(CountBits)
+    ) likelihood_sums (
+        .clk_sys(clk_sys),
+        .pass(sums),
+        .check(check),
+        .phase(phase),
+        .residual(residual),
+        .expected(expected),
+        .gain(gain),
+        .share(share),
+        .slope(slope),
+        .single(single),
+        .sum_11(sum_11),
+        .sum_12(sum_12),
+        .sum_13(sum_13),
+        .sum_22(sum_22),
+        .sum_23(sum_23),
+        .sum_33(sum_33),
+        .score_1(score_1),
+        .score_2(score_2),
+        .score_3(score_3),
+        .chi_square(sum_chi),
+        .far(far)
+    );
+
+    likelihood_scan #(
+        .Used(Used),
+        .BinBits(BinBits),
+        .CountBits(CountBits),
+        .BoxBins(BoxBins),
+        .LogFile(LogFile)
+    ) likelihood_scan (
+        .clk_sys(clk_sys),
+        .load(load),
+        .block_done(block_done),
+        .block_ended(block_ended),
+        .block_exposure(block_exposure),
+        .pass(pass),
+        .scan(scan),
+        .phase(phase),
+        .slide(slide),
+        .residual(residual),
+        .expected(expected),
+        .middle(middle),
+        .waits(waits),
+        .best_score(best_score),
+        .best_excess(best_excess),
+        .best_middle(best_middle),
+        .box_length(box_length),
+        .box_sum(box_sum),
+        .ambient_ended(ambient_ended),
+        .ambient_exposure(ambient_exposure),
+        .lone(lone)
+    );
+
+    likelihood_solver #(
+        .BinBits(BinBits),
+        .CountBits(CountBits),
+        .Kappa(Kappa),
+        .StepLog2(StepLog2),
+        .PulseSigma(PulseSigma),
+        .WindowEnd(WindowEnd),
+        .Metres(Metres),
+        .MetresShift(MetresShift)
+    ) likelihood_solver (
+        .clk_sys(clk_sys),
+        .rst(rst),
+        .run(run),
+        .entry(entry),
+        .ambient_ended(ambient_ended),
+        .ambient_exposure(ambient_exposure),
+        .lone(lone),
+        .best_excess(best_excess),
+        .best_middle(best_middle),
+        .box_length(box_length),
+        .box_sum(box_sum),
+        .sum_11(sum_11),
+        .sum_12(sum_12),
+        .sum_13(sum_13),
+        .sum_22(sum_22),
+        .sum_23(sum_23),
+        .sum_33(sum_33),
+        .score_1(score_1),
+        .score_2(score_2),
+        .score_3(score_3),
+        .ran(ran),
+        .arrival(arrival),
+        .strength(strength),
+        .ambient(ambient),
+        .depth(solved_depth),
+        .sigma(solved_sigma),
+        .flags(flags),
+        .cut(cut)
+    );
+endmodule
+// verilator lint_on UNUSEDSIGNAL
+// verilator lint_on WIDTH

@@ -1,0 +1,214 @@
+`timescale 1ps / 1fs
+`default_nettype none
+
+// Counts, shots that wait and exposures, as the likelihood estimator goes through them.
+//
+// A load reads the histogram once, in order. A pass goes over bins in beats of two cycles, phase low and high:
+// an edge, the bins after it, and then all other bins as one or, in a scan, what lets the box leave.
+// Words are extended and cut as what they are assigned to is wide; some bits are not needed.
+// verilator lint_off WIDTH
+// verilator lint_off UNUSEDSIGNAL
+module likelihood_memory #(
+    parameter [0:0] Used = 1'b1,                 // 0: nothing starts it, and it has no ROMs
+    parameter integer BinBits = 8,               // 2 to the power of which are the bins, 4 to 10
+    parameter integer CountBits = 16,            // of a word of the histogram, 8 to 24
+    parameter [23:0] ShotsPerFrame = 24'd30000,  // shots of a histogram
+    parameter integer BoxBins = 15,              // bins of the box
+    parameter EdgesFile = "rtl_ref/edges.mem"    // of each place the width of the bin before it [units], and its time
+) (
+    input wire clk_sys,
+    input wire rst,
+    input wire load,                             // begins a load
+    // Histogram
+    output reg read_en,                          // the histogram's word at read_addr is being read
+    output reg [BinBits-1:0] read_addr,          // word of the histogram
+    input wire [CountBits-1:0] count,            // word of the histogram at read_addr [hits]
+    // Blocks of an eighth of the bins
+    output reg block_done,                       // one is complete; one cycle
+    output reg [CountBits+BinBits-1:0] block_ended,      // its hits
+    output reg [CountBits+BinBits+9:0] block_exposure,   // its exposure [shots units]
+    // Passes
+    input wire pass,                             // begins a pass
+    input wire scan,                             // over all bins but those of the fit
+    input wire [BinBits:0] fit_begin,               // begin of the fit [bins]
+    input wire [BinBits:0] fit_end,                // end of the fit [bins]
+    input wire phase,                            // second cycle of a beat
+    output reg word_bin,                         // the word is a bin of the pass
+    output reg word_rest,                        // it stands for all other bins
+    output reg word_edge,                        // it is an edge alone
+    output reg word_slide,                       // a box goes on with it
+    output reg word_first,                       // of bin 0
+    output reg [CountBits+BinBits-1:0] word_ended,    // shots that end in it
+    output reg [CountBits+BinBits-1:0] word_waiting,  // shots that wait when it begins
+    output reg [9:0] word_width,                 // its width [units]
+    output reg [BinBits+7:0] word_end            // where it ends [half units]
+);
+    localparam integer Bins = 1 << BinBits, EdgeBits = BinBits + 8, RestBits = CountBits + BinBits;
+    localparam integer ExposureBits = RestBits + 10, KeptBits = 2 * CountBits + ExposureBits;
+    localparam [BinBits:0] All = Bins, Tail = BoxBins - BoxBins / 2 - 1;
+
+    reg taken;                              // a word has been read in the last cycle
+    reg [BinBits-1:0] taken_bin;            // its bin
+    reg [CountBits-1:0] taken_ended;        // the word
+    reg [CountBits-1:0] taken_waiting;      // shots that waited
+    reg [CountBits-1:0] left;               // shots that are left
+    reg written;                            // what it comes to is written
+    reg [BinBits-1:0] written_bin;          // to this word
+    reg [CountBits-1:0] written_ended;
+    reg [CountBits-1:0] written_waiting;
+    reg [ExposureBits-1:0] written_exposure;
+    reg [RestBits-1:0] all_ended;           // hits of all bins
+    reg [ExposureBits-1:0] all_exposure;    // exposure of all bins
+    reg [9:0] fetched_width;                // width of the bin that is looked up
+    reg [EdgeBits-1:0] fetched_end;         // where it ends
+    reg passing;                            // a pass is on the way
+    reg scanning;                           // it is a scan
+    reg [BinBits:0] index;                  // place of the edge that is looked up, one after its bin
+    reg [BinBits:0] last;                   // place of the last one
+    reg opening;                            // the first beat of a pass: an edge alone
+    reg tailing;                            // the last bin has been
+    reg [BinBits:0] tail;                   // beats after it that are left
+    reg read_bin, read_rest, read_edge;     // a bin is looked up, the rest, an edge alone
+    reg read_slide, read_first;             // a box goes on, that of bin 0
+    reg [CountBits-1:0] read_ended;
+    reg [CountBits-1:0] read_waiting;
+    reg [ExposureBits-1:0] read_exposure;
+    reg [RestBits-1:0] rest_ended;          // hits outside of the fit, when it has been gone through
+    reg [ExposureBits-1:0] rest_exposure;   // exposure outside of it
+
+`ifdef ROM_IN_LUTS
+    (* rom_style = "logic" *)
+`else
+    (* rom_style = "block" *)
+`endif
+    reg [EdgeBits+9:0] edges [0:Bins];
+    reg [KeptBits-1:0] ram [0:Bins-1];      // shots that end, that wait, and their exposure
+
+    integer i;
+    initial begin
+        if (Used) $readmemh(EdgesFile, edges);
+        for (i = 0; i < Bins; i = i + 1) ram[i] = {KeptBits{1'b0}};
+        {read_en, block_done, word_bin, word_rest, word_edge, word_slide, word_first} = 7'd0;
+        {read_addr, taken_bin, written_bin} = {3 * BinBits{1'b0}};
+        {block_ended, word_ended, word_waiting, all_ended, rest_ended} = {5 * RestBits{1'b0}};
+        {block_exposure, written_exposure, all_exposure} = {3 * ExposureBits{1'b0}};
+        {read_exposure, rest_exposure} = {2 * ExposureBits{1'b0}};
+        {taken, written, passing, scanning, opening, tailing} = 6'd0;
+        {read_bin, read_rest, read_edge, read_slide, read_first} = 5'd0;
+        {taken_ended, taken_waiting, left, written_ended, written_waiting} = {5 * CountBits{1'b0}};
+        {read_ended, read_waiting} = {2 * CountBits{1'b0}};
+        {word_width, fetched_width} = 20'd0;
+        {word_end, fetched_end} = {2 * EdgeBits{1'b0}};
+        {index, last, tail} = {3 * (BinBits + 1){1'b0}};
+    end
+
+    wire last_word = &read_addr;
+    wire [BinBits:0] place = read_en ? {1'b0, read_addr} + 1'b1 : index;
+    wire [EdgeBits+9:0] edge_word = edges[place];
+    wire [BinBits:0] bin = index - 1'b1;
+    wire first_of_all = written_bin == {BinBits{1'b0}};
+    wire first_of_block = written_bin[BinBits-4:0] == {BinBits - 3{1'b0}};
+    wire blanked = scanning && index > fit_begin && index <= fit_end;
+
+    wire [RestBits-1:0] rest_waiting
+        = rest_exposure[ExposureBits-1:RestBits+6] != 4'd0 ? {RestBits{1'b1}} : rest_exposure[RestBits+5:6];
+
+    // Shots times a width, in fabric: multipliers are needed elsewhere.
+    reg [ExposureBits-1:0] exposure;
+    always @* begin
+        exposure = {ExposureBits{1'b0}};
+        for (i = 0; i < 10; i = i + 1)
+            if (fetched_width[i]) exposure = exposure + ({{BinBits + 10{1'b0}}, taken_waiting} << i);
+    end
+
+    always @(posedge clk_sys) if (written) ram[written_bin] <= {written_exposure, written_waiting, written_ended};
+
+    always @(posedge clk_sys) begin
+        if (rst) begin
+            {read_en, block_done, word_bin, word_rest, word_edge, word_slide, word_first} <= 7'd0;
+            {read_addr, taken_bin, written_bin} <= {3 * BinBits{1'b0}};
+            {block_ended, word_ended, word_waiting, all_ended, rest_ended} <= {5 * RestBits{1'b0}};
+            {block_exposure, written_exposure, all_exposure} <= {3 * ExposureBits{1'b0}};
+            {read_exposure, rest_exposure} <= {2 * ExposureBits{1'b0}};
+            {taken, written, passing, scanning, opening, tailing} <= 6'd0;
+            {read_bin, read_rest, read_edge, read_slide, read_first} <= 5'd0;
+            {taken_ended, taken_waiting, left, written_ended, written_waiting} <= {5 * CountBits{1'b0}};
+            {read_ended, read_waiting} <= {2 * CountBits{1'b0}};
+            {word_width, fetched_width} <= 20'd0;
+            {word_end, fetched_end} <= {2 * EdgeBits{1'b0}};
+            {index, last, tail} <= {3 * (BinBits + 1){1'b0}};
+        end else begin
+            // The histogram, word by word
+            if (load) begin
+                read_en <= 1'b1;
+                read_addr <= {BinBits{1'b0}};
+                left <= ShotsPerFrame[CountBits-1:0];
+            end else if (read_en) begin
+                read_en <= !last_word;
+                read_addr <= read_addr + 1'b1;
+                left <= left > count ? left - count : {CountBits{1'b0}};
+            end
+            taken <= read_en;
+            taken_bin <= read_addr;
+            taken_ended <= count;
+            taken_waiting <= left;
+            written <= taken;
+            written_bin <= taken_bin;
+            written_ended <= taken_ended;
+            written_waiting <= taken_waiting;
+            written_exposure <= exposure;
+
+            // Sums over a block, and over all bins
+            block_done <= written && (&written_bin[BinBits-4:0]);
+            if (written) begin
+                block_ended <= (first_of_block ? {RestBits{1'b0}} : block_ended) + {{BinBits{1'b0}}, written_ended};
+                block_exposure <= (first_of_block ? {ExposureBits{1'b0}} : block_exposure) + written_exposure;
+                all_ended <= (first_of_all ? {RestBits{1'b0}} : all_ended) + {{BinBits{1'b0}}, written_ended};
+                all_exposure <= (first_of_all ? {ExposureBits{1'b0}} : all_exposure) + written_exposure;
+            end
+
+            // What is looked up, and what goes on
+            if (phase || read_en) {fetched_width, fetched_end} <= edge_word;
+            if (phase) begin
+                read_bin <= passing && !opening && !tailing && !blanked;
+                read_rest <= passing && tailing && !scanning;
+                read_edge <= passing && opening;
+                read_slide <= passing && scanning && !opening;
+                read_first <= index == (opening ? {BinBits + 1{1'b0}} : {{BinBits{1'b0}}, 1'b1});
+                {read_exposure, read_waiting, read_ended} <= ram[bin[BinBits-1:0]];
+                if (read_bin) begin
+                    rest_ended <= rest_ended - {{BinBits{1'b0}}, read_ended};
+                    rest_exposure <= rest_exposure - read_exposure;
+                end
+                word_bin <= read_bin && fetched_width != 10'd0;
+                word_rest <= read_rest;
+                word_edge <= read_edge;
+                word_slide <= read_slide;
+                word_first <= read_first;
+                word_end <= fetched_end;
+                word_ended <= read_rest ? rest_ended : {{BinBits{1'b0}}, read_ended};
+                word_waiting <= read_rest ? rest_waiting : {{BinBits{1'b0}}, read_waiting};
+                word_width <= read_rest ? 10'd64 : fetched_width;
+            end
+
+            // The pass
+            if (pass) begin
+                {passing, opening, tailing} <= 3'b110;
+                scanning <= scan;
+                index <= scan ? {BinBits + 1{1'b0}} : fit_begin;
+                last <= scan ? All : fit_end;
+                tail <= scan ? Tail : {BinBits + 1{1'b0}};
+                rest_ended <= all_ended;
+                rest_exposure <= all_exposure;
+            end else if (passing && phase) begin
+                opening <= 1'b0;
+                if (opening || index != last) index <= index + 1'b1;
+                else if (!tailing) tailing <= 1'b1;
+                else if (tail == {BinBits + 1{1'b0}}) passing <= 1'b0;
+                else tail <= tail - 1'b1;
+            end
+        end
+    end
+endmodule
+// verilator lint_on UNUSEDSIGNAL
+// verilator lint_on WIDTH
