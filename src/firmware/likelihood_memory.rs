@@ -11,8 +11,8 @@
 //! registers  index, kind       fetched, ended, waiting    word
 //! ```
 
-use crate::kernel::module::{Module, Visitor};
 use crate::kernel::U;
+use crate::kernel::module::{Module, Visitor};
 use crate::signals;
 
 use super::histogram_builder::{Bin, Count, MOST_BINS};
@@ -279,10 +279,12 @@ impl Registers {
             let (ended, exposure) = (self.written_ended.get(), self.written_exposure.get());
             let first = place == 0;
             d.block_ended = U::new(if first { ended } else { self.block_ended.get() + ended });
-            d.block_exposure = U::new(if first { exposure } else { self.block_exposure.get() + exposure });
+            d.block_exposure =
+                U::new(if first { exposure } else { self.block_exposure.get() + exposure });
             let first = self.written_bin == 0;
             d.all_ended = U::new(if first { ended } else { self.all_ended.get() + ended });
-            d.all_exposure = U::new(if first { exposure } else { self.all_exposure.get() + exposure });
+            d.all_exposure =
+                U::new(if first { exposure } else { self.all_exposure.get() + exposure });
         }
     }
 
@@ -327,7 +329,8 @@ impl Registers {
     /// Hands a bin on, or all others; a bin without width is none.
     fn word(&self, d: &mut Self) {
         d.word_bin = self.read_bin && self.fetched_width != 0;
-        (d.word_rest, d.word_edge, d.word_first) = (self.read_rest, self.read_edge, self.read_first);
+        (d.word_rest, d.word_edge, d.word_first) =
+            (self.read_rest, self.read_edge, self.read_first);
         d.word_slide = self.read_slide;
         d.word_end = self.fetched_end;
         (d.word_ended, d.word_waiting, d.word_width) = match self.read_rest {
@@ -336,7 +339,8 @@ impl Registers {
                 (self.rest_ended, U::new(waiting), U::new(UNITS as u64))
             }
             false => {
-                let [ended, waiting] = [self.read_ended, self.read_waiting].map(|shots| U::new(shots.get()));
+                let [ended, waiting] =
+                    [self.read_ended, self.read_waiting].map(|shots| U::new(shots.get()));
                 (ended, waiting, self.fetched_width)
             }
         };

@@ -9,8 +9,8 @@ use crate::kernel::module::{Module, Visitor};
 use crate::kernel::{S, U};
 use crate::signals;
 
-use super::likelihood_estimator::{Params, length};
 use super::histogram_builder::Count;
+use super::likelihood_estimator::{Params, length};
 use super::likelihood_memory::{Exposure, Place};
 use super::likelihood_scan::Excess;
 

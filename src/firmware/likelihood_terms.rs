@@ -206,7 +206,8 @@ impl LikelihoodTerms {
         let time = ((i.word_end.get() as i64) << 3) - i.arrival.get() as i64;
         let place = (time >> (p.step_log2 + 4)).clamp(-1024, 1023) + 1024;
         let PulseWord { part, slope, first } = p.pulse[place as usize];
-        (d.pulse_part, d.pulse_slope, d.pulse_first) = (U::new(part as u64), S::new(slope), S::new(first));
+        (d.pulse_part, d.pulse_slope, d.pulse_first) =
+            (U::new(part as u64), S::new(slope), S::new(first));
         shift(&mut d.bin, i.word_bin);
         shift(&mut d.rest, i.word_rest);
         shift(&mut d.slides, i.word_slide);

@@ -7,13 +7,16 @@ use crate::scenario::QuenchMode;
 
 use super::Setup;
 
+/// Bits of a count with which a depth of a metre fits into a word of the estimator.
+const LEAST_COUNT_BITS: u32 = 11;
+
 impl Setup {
     /// What the estimator's parameters and ROMs are for histograms of so many shots.
     ///
     /// # Errors
     /// When its model does not hold: hits before the first bin use up shots that no word counts
-    /// (`tdc.first_bin_ps`), the SPAD is not armed for each shot (`firmware.mode`), or the pulse or the window is
-    /// too long for its words.
+    /// (`tdc.first_bin_ps`), the SPAD is not armed for each shot (`firmware.mode`), or counts have few bits, or
+    /// the pulse or the window is too long for its words.
     pub fn likelihood(&self, shots: u64) -> Result<Params, Input> {
         let scenario = &self.scenario;
         let fault = |field: &str, value: f64, expected: String| {
@@ -30,6 +33,14 @@ impl Setup {
             let expected = "expected 0 for likelihood_estimator: hits before the first bin use up shots, and it \
                             does not hear of them";
             return Err(fault("tdc.first_bin_ps", bins.first_ps(), expected.to_owned()));
+        }
+        let count_bits = self.params.histogram.count_bits;
+        if count_bits < LEAST_COUNT_BITS {
+            let expected = format!(
+                "expected {LEAST_COUNT_BITS} or more for likelihood_estimator: its words grow with those of \
+                 counts, and a depth has to fit into one"
+            );
+            return Err(fault("firmware.count_bits", count_bits.into(), expected));
         }
         let wanted = Wanted {
             histogram: self.params.histogram,
