@@ -13,6 +13,7 @@
 //! | go faster where nobody looks at signals | [`Run::stepping`], [`Stepping`], [`Run::many`], [`HistogramRun`] |
 //! | know how much light comes back | [`Budget`], `setup.budget` |
 //! | estimate a depth without a run | [`Setup::depth`], [`Network`] |
+//! | know whether a frame's depth is to be believed | [`SecondOpinion`] |
 //!
 //! # A frame
 //!
@@ -127,6 +128,7 @@ pub use sim::fast::Stepping;
 pub use sim::fast::histogram::Histograms as HistogramRun;
 pub use sim::frames::Frame;
 pub use sim::run::{Observers, Outcome, Run};
+pub use sim::second_opinion::{Opinion, SecondOpinion};
 pub use sim::setup::Setup;
 pub use sim::shot_recorder::Shot;
 pub use sim::sinks::Taker;

@@ -21,6 +21,8 @@ pub enum NoteCode {
     EyeSafety,
     /// The run ended before all of an input came due.
     UnusedInput,
+    /// Two estimators part over the histogram of a frame, or the second one has nothing to say of it.
+    SecondOpinion,
     /// Two files could not be read or matched as they are.
     Comparison,
 }

@@ -12,6 +12,7 @@ pub mod exploration;
 pub mod frame_log;
 pub mod histogram_svg;
 pub mod learning_curve;
+pub mod opinions;
 pub mod page;
 pub mod pair_table;
 pub mod pairs;

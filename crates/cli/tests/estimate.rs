@@ -148,7 +148,10 @@ fn every_estimator_answers_on_csv_npy_and_parquet_alike() {
     let shape =
         ["--grid", "target.distance_m=0.2,0.5", "--repeats", "1", "--format", "npy,parquet"];
     stdout(folder, &[&["dataset", "-o", "d"], &shape[..]].concat());
-    let all = ["--estimator", "network,network-float,centroid,peak,likelihood,matched,subtraction"];
+    let all = [
+        "--estimator",
+        "network,network-float,centroid,peak,likelihood,likelihood_estimator,matched,subtraction",
+    ];
     let of = |file: &str| {
         let report = json(folder, &[&["estimate", file, "--json"], &all[..]].concat());
         report["histograms"].as_array().unwrap().clone()
@@ -160,10 +163,12 @@ fn every_estimator_answers_on_csv_npy_and_parquet_alike() {
         assert_eq!(npy[place]["depth_raw"], parquet[place]["depth_raw"]);
         let estimates = npy[place]["estimates"].as_array().unwrap();
         assert_eq!(estimates[0]["depth_m"], npy[place]["depth_m"]);
-        let likelihood = &estimates[4];
-        assert_eq!(likelihood["estimator"], "likelihood");
-        assert!((likelihood["depth_m"].as_f64().unwrap() - distance_m).abs() < 0.002);
-        assert_eq!(estimates[6]["failure"], "no dark frame");
+        for (likelihood, name) in estimates[4..].iter().zip(["likelihood", "likelihood_estimator"])
+        {
+            assert_eq!(likelihood["estimator"], name);
+            assert!((likelihood["depth_m"].as_f64().unwrap() - distance_m).abs() < 0.002);
+        }
+        assert_eq!(estimates[7]["failure"], "no dark frame");
     }
     // The chain decides what the likelihood makes of the same counts.
     let text = stdout(folder, &[&["estimate", "d/dataset.parquet"], &all[..]].concat());

@@ -22,7 +22,7 @@ fn at<'a>(report: &'a Value, estimator: &str, distance_m: f64) -> &'a Value {
 #[test]
 fn every_estimator_is_measured_on_the_same_histograms() {
     let folder = empty();
-    let all = "network,network-float,peak,likelihood,matched";
+    let all = "network,network-float,peak,likelihood,likelihood_estimator,matched";
     let report = json(folder.path(), &with(&["--estimator", all, "--json"]));
     assert_eq!(report["schema"], "tofsim.evaluate/1");
     assert_eq!((&report["rows"], &report["seed"]), (&2040.into(), &3.into()));
@@ -39,9 +39,12 @@ fn every_estimator_is_measured_on_the_same_histograms() {
         }
     }
     // 40 histograms a distance: 2 sd is good to some 12 %.
-    for (name, distance_m, most) in
-        [("network", 0.3, 4.5), ("likelihood", 0.3, 0.8), ("matched", 0.5, 1.6)]
-    {
+    for (name, distance_m, most) in [
+        ("network", 0.3, 4.5),
+        ("likelihood", 0.3, 0.8),
+        ("likelihood_estimator", 0.3, 0.8),
+        ("matched", 0.5, 1.6),
+    ] {
         let two_sd = at(&report, name, distance_m)["two_sd_mm"].as_f64().unwrap();
         assert!(two_sd > 0.1 && two_sd < most, "{name}: {two_sd} mm");
     }
@@ -207,6 +210,9 @@ fn an_estimator_says_what_it_does_not_know() {
     assert!(text.contains("[estimator-outside-model]"), "{text}");
     let (_, text) = told(&[&run[..], &["likelihood"]].concat());
     assert!(!text.contains("likelihood: "), "{text}");
+    let (status, text) = told(&[&run[..], &["likelihood_estimator"]].concat());
+    assert_eq!(status, Some(2));
+    assert!(text.contains("firmware.mode = 1: expected 0 for likelihood_estimator"), "{text}");
     let wide = ["--estimator", "peak", "-s", "laser.pulse_sigma_ps=200"];
     let (_, text) = told(&with(&wide));
     assert!(text.contains("note: laser.pulse_sigma_ps = 200: peak: "), "{text}");

@@ -24,6 +24,7 @@ mod measured;
 mod quantize;
 mod replay;
 mod rerun;
+mod second_opinion;
 mod sources;
 mod subtraction;
 mod synthesis;

@@ -8,6 +8,7 @@
 //! | `peak` | spline, one peak, straight line through the shift | Listings 5.1 to 5.3 |
 //! | `subtraction` | the same on a lit histogram less a dark one | Algorithm 2 |
 //! | `likelihood` | the most likely distance, with pile-up in the model | eq. 3.21 to 3.24 |
+//! | `likelihood_estimator` | the same in integers, bit for bit as the firmware would | eq. 3.21 to 3.24 |
 //! | `matched` | pile-up taken out, background out, correlation with the pulse | Coates 1968 |
 //!
 //! 2 sd of the distance [mm] at 0.1 .. 0.6 m, chain `ideal`, over the grid of thesis section 4.4
@@ -31,6 +32,7 @@ pub mod coates;
 pub mod estimator;
 pub mod findpeaks;
 pub mod likelihood;
+pub mod likelihood_estimator;
 pub mod matched_filter;
 pub mod network;
 pub mod notes;

@@ -13,8 +13,8 @@ impl Setup {
     ///
     /// # Errors
     /// When its model does not hold: hits before the first bin use up shots that no word counts
-    /// (`tdc.first_bin_ps`), the SPAD is not armed for each shot (`firmware.mode`), or the pulse or the window is
-    /// too long for its words.
+    /// (`tdc.first_bin_ps`), the SPAD is not armed for each shot (`firmware.mode`), or the pulse or the window
+    /// is too long for its words.
     pub fn likelihood(&self, shots: u64) -> Result<Params, Input> {
         let scenario = &self.scenario;
         let fault = |field: &str, value: f64, expected: String| {

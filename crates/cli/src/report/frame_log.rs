@@ -3,20 +3,27 @@
 use std::io::{self, Seek, Write};
 use std::path::Path;
 
+use rayon::prelude::*;
 use serde::Serialize;
 use tempfile::SpooledTempFile;
 
+use tofsim::Note;
 use tofsim::error::{Error, Input, Result};
 use tofsim::firmware::depth_estimator::datapath::DEPTH_FRACTION;
 use tofsim::sim::frames::Frame;
+use tofsim::sim::second_opinion::{Opinion, SecondOpinion};
 use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::{Panel, Reading};
 
+use super::opinions::{OpinionStatistics, Opinions};
 use super::pairs::{PairLog, PlaceInPair};
 use super::statistics::{EstimatorStatistics, Judge, Tally};
 
 /// Frames of which a table has rows.
 pub const ROWS: usize = 20;
+
+/// Frames that wait for each other, so that all threads give second opinions on them.
+const WAITING: usize = 64;
 
 /// JSON that is kept in memory; more of it goes to a temporary file [bytes].
 const KEPT: usize = 1 << 20;
@@ -42,6 +49,8 @@ pub struct FrameLog {
     pub rows: Vec<Frame>,
     /// What other estimators say of those.
     pub readings: Vec<Vec<Reading>>,
+    /// Second opinions on those.
+    pub opinions: Vec<Option<Opinion>>,
     /// How many frames.
     pub count: u64,
     /// The pairs that the frames make, if they make pairs.
@@ -50,40 +59,89 @@ pub struct FrameLog {
     judge: Judge,
     outliers: u64,
     tally: Tally,
+    second: Opinions,
+    waiting: Vec<Waiting>,
     /// Sums of the depth words and of their squares, which no order of summing changes.
     sums: (i128, i128),
     /// The frames as elements of a JSON array, if they are wanted.
     json: Option<SpooledTempFile>,
 }
 
+/// A frame of which all is known but the second opinion.
+struct Waiting {
+    frame: Frame,
+    paired: Option<PlaceInPair>,
+    estimates: Vec<Reading>,
+}
+
 impl FrameLog {
     /// Without frames of `setup`; `json` if [`FrameLog::copy_json`] will be called. The estimators of
     /// `panel` look at every frame or pair; a depth is an outlier that is further off than `limit_m`
-    /// [m].
-    pub fn new(setup: &Setup, json: bool, panel: Panel, limit_m: f64) -> Self {
+    /// [m]. `second` gives second opinions.
+    pub fn new(
+        setup: &Setup,
+        json: bool,
+        (panel, second): (Panel, Option<SecondOpinion>),
+        limit_m: f64,
+    ) -> Self {
         let json = json.then(|| SpooledTempFile::new(KEPT));
-        let (rows, readings) = (Vec::new(), Vec::new());
+        let (rows, readings, opinions) = (Vec::new(), Vec::new(), Vec::new());
         let pairs = setup.has_pairs().then(|| PairLog::new(setup));
         let (judge, tally) = (Judge { truth_m: setup.true_depth_m(), limit_m }, Tally::default());
         let (count, outliers, sums) = (0, 0, (0, 0));
-        FrameLog { rows, readings, count, pairs, panel, judge, outliers, tally, sums, json }
+        let (second, waiting) = (Opinions::new(second), Vec::new());
+        FrameLog {
+            rows,
+            readings,
+            opinions,
+            count,
+            pairs,
+            panel,
+            judge,
+            outliers,
+            tally,
+            second,
+            waiting,
+            sums,
+            json,
+        }
     }
 
-    /// Takes the next frame.
+    /// Takes the next frame; [`FrameLog::settle`] has to be called after the last one.
     ///
     /// # Errors
     /// When the temporary file cannot be written.
     pub fn push(&mut self, setup: &Setup, frame: &Frame) -> Result<()> {
-        let has_row = self.rows.len() < ROWS;
         let (paired, estimates) = match &mut self.pairs {
             Some(pairs) => pairs.take(frame, &self.panel),
             None => (None, self.panel.read(&frame.histogram)),
         };
+        self.waiting.push(Waiting { frame: frame.clone(), paired, estimates });
+        if self.waiting.len() < WAITING { Ok(()) } else { self.settle(setup) }
+    }
+
+    /// Takes the frames that still wait for others.
+    ///
+    /// # Errors
+    /// When the temporary file cannot be written.
+    pub fn settle(&mut self, setup: &Setup) -> Result<()> {
+        let waiting = std::mem::take(&mut self.waiting);
+        let opinion = |waiting: &Waiting| self.second.of(&waiting.frame);
+        let opinions: Vec<_> = waiting.par_iter().map(opinion).collect();
+        waiting.into_iter().zip(opinions).try_for_each(|(next, opinion)| {
+            self.second.add(&next.frame, opinion.as_ref());
+            self.take(setup, next, opinion)
+        })
+    }
+
+    fn take(&mut self, setup: &Setup, next: Waiting, opinion: Option<Opinion>) -> Result<()> {
+        let Waiting { frame, paired, estimates } = next;
         self.outliers += u64::from(self.judge.is_outlier(frame.depth_m()));
         self.tally.add(&estimates, &self.judge);
-        if has_row {
+        if self.rows.len() < ROWS {
             self.rows.push(frame.clone());
             self.readings.push(estimates.clone());
+            self.opinions.push(opinion.clone());
         }
         let depth = i128::from(frame.depth.get());
         self.sums = (self.sums.0 + depth, self.sums.1 + depth * depth);
@@ -99,6 +157,7 @@ impl FrameLog {
                 histogram: &frame.histogram,
                 estimator_cycles: frame.estimator_cycles,
                 frame_cycles: frame.frame_cycles,
+                second_opinion: opinion,
                 paired,
                 estimates,
             };
@@ -129,6 +188,16 @@ impl FrameLog {
     /// What other estimators made of two frames or pairs or more.
     pub fn estimators(&self) -> Vec<EstimatorStatistics> {
         self.tally.statistics(&self.judge)
+    }
+
+    /// What second opinions on two frames or more come to.
+    pub fn second_opinion(&self) -> Option<OpinionStatistics> {
+        self.second.statistics(&self.judge)
+    }
+
+    /// What a user has to know of the second opinions.
+    pub fn notes(&self) -> Vec<Note> {
+        self.second.notes()
     }
 
     /// Copies what has been written of the frames, between commas.
@@ -173,6 +242,8 @@ struct FrameSummary<'a> {
     estimator_cycles: u64,
     /// From the edge that begins Clear to the one that raises `algo_done` [cycles].
     frame_cycles: u64,
+    /// Null where nobody gives one.
+    second_opinion: Option<Opinion>,
     /// The frame's place in a pair, where frames come in pairs.
     #[serde(flatten)]
     paired: Option<PlaceInPair>,

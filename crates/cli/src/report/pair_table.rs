@@ -1,6 +1,7 @@
 //! Pairs of a dark and a lit frame as a table and as CSV.
 
 use tofsim::sim::frames::Frame;
+use tofsim::sim::second_opinion::Opinion;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::subtraction::NAME;
 use tofsim_learn::estimation::{HistogramPair, Reading};
@@ -9,20 +10,31 @@ use crate::text::table::{facts, grouped};
 
 use super::frame_log::FrameLog;
 use super::pairs::{PairStatistics, mean, right_of_echo};
-use super::readings;
+use super::{opinions, readings};
 
 /// The table of a run in pairs.
 pub fn table(setup: &Setup, log: &FrameLog) -> String {
     match (log.rows.as_slice(), log.readings.as_slice()) {
-        ([dark, lit], [_, readings]) => one_pair(setup, dark, lit, readings),
+        ([dark, lit], [_, readings]) => {
+            let opinion = log.opinions.last().and_then(Option::as_ref);
+            one_pair(setup, [dark, lit], readings, opinion)
+        }
         _ => many_pairs(log),
     }
 }
 
-fn one_pair(setup: &Setup, dark: &Frame, lit: &Frame, readings: &[Reading]) -> String {
+fn one_pair(
+    setup: &Setup,
+    [dark, lit]: [&Frame; 2],
+    readings: &[Reading],
+    opinion: Option<&Opinion>,
+) -> String {
     let mut rows = Vec::new();
     if let Some(truth) = setup.true_depth_m() {
         rows.push(("true depth", format!("{truth:.6} m")));
+    }
+    if let Some(opinion) = opinion {
+        rows.push(("second opinion", opinions::in_words(opinion, setup.true_depth_m())));
     }
     rows.extend(readings::rows(setup, readings));
     let both = |of: &dyn Fn(&Frame) -> u64| {

@@ -58,6 +58,9 @@ impl Summary {
         if let Some(depth) = log.spread() {
             head["depth"] = json!(depth);
         }
+        if let Some(second) = log.second_opinion() {
+            head["second_opinion"] = json!(second);
+        }
         let estimators = log.estimators();
         if !estimators.is_empty() {
             head["estimators"] = json!(estimators);

@@ -4,13 +4,12 @@ use std::time::Duration;
 
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
-use tofsim_learn::estimation::Reading;
 
 use crate::text::table::{facts, grouped, number_or_dash, table};
 
 use super::frame_log::{DepthSpread, FrameLog};
 use super::summary::TdcSummary;
-use super::{pair_table, readings};
+use super::{opinions, pair_table, readings};
 
 /// What came of a run, in a dozen lines.
 ///
@@ -23,11 +22,14 @@ pub fn run(setup: &Setup, log: &FrameLog, cycles: Option<u64>, wall: Duration) -
     };
     match log.rows.as_slice() {
         _ if log.pairs.is_some() => text += &pair_table::table(setup, log),
-        [frame] => text += &one_frame(setup, frame, &log.readings[0]),
+        [frame] => text += &one_frame(setup, frame, log),
         _ => text += &many_frames(log),
     }
     if let (Some(pairs), 3..) = (&log.pairs, log.count) {
         text += &format!("\n\n{}", pair_table::lines(&pairs.statistics()).trim_end());
+    }
+    if let Some(second) = log.second_opinion() {
+        text += &format!("\n\n{}", opinions::line(&second));
     }
     let wall_ms = wall.as_secs_f64() * 1e3;
     text += &match cycles {
@@ -44,7 +46,7 @@ pub fn run(setup: &Setup, log: &FrameLog, cycles: Option<u64>, wall: Duration) -
     text
 }
 
-fn one_frame(setup: &Setup, frame: &Frame, readings: &[Reading]) -> String {
+fn one_frame(setup: &Setup, frame: &Frame, log: &FrameLog) -> String {
     let mut rows = Vec::new();
     let mut estimated = format!("{:.6} m  {:09x}", frame.depth_m(), frame.depth.bits());
     if let Some(truth) = setup.true_depth_m() {
@@ -52,7 +54,10 @@ fn one_frame(setup: &Setup, frame: &Frame, readings: &[Reading]) -> String {
         estimated += &format!("  {:+.2} mm", (frame.depth_m() - truth) * 1e3);
     }
     rows.push(("estimated", estimated));
-    rows.extend(readings::rows(setup, readings));
+    if let Some(opinion) = &log.opinions[0] {
+        rows.push(("second opinion", opinions::in_words(opinion, setup.true_depth_m())));
+    }
+    rows.extend(readings::rows(setup, &log.readings[0]));
     let cycles = grouped(frame.frame_cycles);
     let board_ms = frame.frame_cycles as f64 * setup.cycle().seconds() * 1e3;
     rows.extend([

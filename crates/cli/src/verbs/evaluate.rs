@@ -172,9 +172,8 @@ impl Args {
             if self.measures_a_network() {
                 setup.check_network()?;
             }
-            let centroid = &setup.params.centroid_estimator;
             let needs =
-                EstimatorInputs { acquisition: scenes.source.acquisition(k), network, centroid };
+                EstimatorInputs { acquisition: scenes.source.acquisition(k), network, setup };
             let estimators = self.estimator.iter().map(|kind| kind.estimator(&needs));
             Ok(estimators.collect::<std::result::Result<Vec<_>, Input>>()?)
         };

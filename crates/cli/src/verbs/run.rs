@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use tofsim::Note;
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::folder::FolderLock;
 use tofsim::hierarchy;
@@ -11,6 +12,7 @@ use tofsim::scenario::window::Window;
 use tofsim::sim::fast::histogram::Histograms;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::run::Observers;
+use tofsim::sim::second_opinion::SecondOpinion;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 use tofsim::sim::{Run, Stepping};
@@ -73,6 +75,9 @@ pub struct Args {
     /// subtraction makes pairs of a dark and a lit frame (firmware.dark_frames), and all look at those
     #[arg(long, value_parser = words(&EstimatorKind::ALL), value_delimiter = ',')]
     estimator: Vec<EstimatorKind>,
+    /// Leave out what the likelihood estimator says of each frame's histogram beside the firmware's own
+    #[arg(long)]
+    no_second_opinion: bool,
     /// Count a depth as an outlier that is further than this from the truth
     #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = choice::millimetres)]
     outlier_limit_mm: f64,
@@ -114,7 +119,9 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let progress = talk.progress(frames, "frames");
     let panel = Panel::new(&args.estimator, &setup)?;
     let limit_m = 1e-3 * args.outlier_limit_mm;
-    let mut log = FrameLog::new(&setup, args.json || folder.is_some(), panel, limit_m);
+    let second = args.second_opinion(&setup, &mut notes, talk);
+    let json = args.json || folder.is_some();
+    let mut log = FrameLog::new(&setup, json, (panel, second), limit_m);
     let mut take_frame = |frame: &Frame| {
         progress.inc(1);
         log.push(&setup, frame)
@@ -142,8 +149,14 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     };
     let wall = began.elapsed();
     progress.finish_and_clear();
-    talk.heed(&outcome.notes)?;
-    notes.extend(outcome.notes);
+    log.settle(&setup)?;
+    let mut late = outcome.notes;
+    // What makes any depth impossible has been said.
+    if setup.no_depth().is_none() {
+        late.extend(log.notes());
+    }
+    talk.heed(&late)?;
+    notes.extend(late);
 
     let finish = |plan: &WavePlan| plan.finish(&outcome.marks);
     let written = plan.as_ref().map_or(Ok(Vec::new()), finish)?;
@@ -185,6 +198,27 @@ impl Args {
     fn overrides(&self) -> Vec<String> {
         let pairs = self.wants_pairs().then(|| "firmware.dark_frames=true".to_owned());
         pairs.into_iter().chain(self.set.iter().cloned()).collect()
+    }
+
+    /// Who gives second opinions; a note says why nobody does, which is no matter for `--strict`.
+    fn second_opinion(
+        &self,
+        setup: &Setup,
+        notes: &mut Vec<Note>,
+        talk: &Talk,
+    ) -> Option<SecondOpinion> {
+        if self.no_second_opinion {
+            return None;
+        }
+        let why = match SecondOpinion::new(setup) {
+            Ok(second) => return Some(second),
+            Err(why) => why,
+        };
+        if !notes.contains(&why) {
+            talk.note(&why);
+            notes.push(why);
+        }
+        None
     }
 
     fn wants_pairs(&self) -> bool {

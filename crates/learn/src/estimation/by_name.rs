@@ -1,13 +1,14 @@
 //! The estimators by the names that the command line has for them.
 
 use tofsim::error::Input;
-use tofsim::firmware::centroid_estimator;
 use tofsim::network::Network;
+use tofsim::sim::setup::Setup;
 
 use super::acquisition::Acquisition;
 use super::centroid::Centroid;
 use super::estimator::Estimator;
 use super::likelihood::Likelihood;
+use super::likelihood_estimator::{self, LikelihoodEstimator};
 use super::matched_filter::MatchedFilter;
 use super::network::{fixed, float};
 use super::peak_detection::PeakDetection;
@@ -28,13 +29,15 @@ pub enum EstimatorKind {
     Subtraction,
     /// Maximum likelihood with pile-up in the model
     Likelihood,
+    /// Maximum likelihood in integers, bit for bit as the firmware would
+    LikelihoodEstimator,
     /// Matched filter after Coates's correction of pile-up
     Matched,
 }
 
 impl EstimatorKind {
     /// All of them: the word on the command line, the kind, what it does.
-    pub const ALL: [(&'static str, Self, &'static str); 7] = [
+    pub const ALL: [(&'static str, Self, &'static str); 8] = [
         ("network", Self::Network, "The network in fixed point, bit for bit as the firmware"),
         ("network-float", Self::NetworkFloat, "The network in double precision"),
         (
@@ -49,6 +52,11 @@ impl EstimatorKind {
             "Peak detection on a lit histogram less a dark one, of half the shots each",
         ),
         ("likelihood", Self::Likelihood, "Maximum likelihood with pile-up in the model"),
+        (
+            likelihood_estimator::NAME,
+            Self::LikelihoodEstimator,
+            "Maximum likelihood in integers, bit for bit as the firmware would",
+        ),
         ("matched", Self::Matched, "Matched filter after Coates's correction of pile-up"),
     ];
 }
@@ -60,8 +68,8 @@ pub struct EstimatorInputs<'a> {
     pub acquisition: Acquisition<'a>,
     /// The network in the depth estimator.
     pub network: &'a Network,
-    /// The centroid estimator, and how large the histogram is.
-    pub centroid: &'a centroid_estimator::Params,
+    /// The instrument, whose scene does not matter.
+    pub setup: &'a Setup,
 }
 
 impl EstimatorKind {
@@ -73,18 +81,22 @@ impl EstimatorKind {
     /// The estimator of that name.
     ///
     /// # Errors
-    /// When [`Acquisition::check`] fails.
+    /// When [`Acquisition::check`] fails, or the estimator's model does not hold for the instrument.
     pub fn estimator(self, inputs: &EstimatorInputs) -> Result<Box<dyn Estimator>, Input> {
-        let EstimatorInputs { acquisition, network, centroid } = inputs;
+        let EstimatorInputs { acquisition, network, setup } = inputs;
         acquisition.check()?;
         let (shots, bins) = (acquisition.shots, acquisition.bins);
+        let size = &setup.params.histogram;
         Ok(match self {
-            EstimatorKind::Network => Box::new(fixed(network, &centroid.histogram)),
-            EstimatorKind::NetworkFloat => Box::new(float(network, &centroid.histogram)),
-            EstimatorKind::Centroid => Box::new(Centroid(**centroid)),
+            EstimatorKind::Network => Box::new(fixed(network, size)),
+            EstimatorKind::NetworkFloat => Box::new(float(network, size)),
+            EstimatorKind::Centroid => Box::new(Centroid(setup.params.centroid_estimator)),
             EstimatorKind::Peak => Box::new(PeakDetection::of_bins(shots, bins)),
             EstimatorKind::Subtraction => Box::new(Subtraction::of_bins(shots, bins)?),
             EstimatorKind::Likelihood => Box::new(Likelihood::new(acquisition)?),
+            EstimatorKind::LikelihoodEstimator => {
+                Box::new(LikelihoodEstimator::new(setup.likelihood(shots)?))
+            }
             EstimatorKind::Matched => Box::new(MatchedFilter::new(acquisition)?),
         })
     }
@@ -93,19 +105,13 @@ impl EstimatorKind {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tofsim::firmware::tdc;
-    use tofsim::kernel::Time;
-    use tofsim::optics::Bins;
-    use tofsim::scenario::{builtin::Source, chain};
-
     #[test]
     fn every_estimator_answers_to_its_name() {
-        let delays = chain::load("ideal", &Source::Folder("".into()), Time::from_ns(8)).unwrap();
-        let bins = &Bins::of_tdc(&tdc::Params::of_chain(delays));
+        let setup = &Setup::load("kc705", &["tdc.profile=ideal"]).unwrap();
+        let bins = &setup.bins();
         let network = &Network::builtin("ideal").unwrap().unwrap();
         let acquisition = Acquisition::new(bins, 30_000, 137.0);
-        let centroid = &centroid_estimator::Params::default();
-        let needs = EstimatorInputs { acquisition, network, centroid };
+        let needs = EstimatorInputs { acquisition, network, setup };
         for (name, kind, _) in EstimatorKind::ALL {
             assert_eq!(kind.estimator(&needs).unwrap().name(), name);
         }
@@ -113,7 +119,7 @@ mod tests {
             [(0, 137.0, "shots = 0"), (1 << 24, 137.0, "shots"), (1, f64::NAN, "sigma_ps = NaN")]
         {
             let acquisition = Acquisition::new(bins, shots, pulse_sigma_ps);
-            let needs = EstimatorInputs { acquisition, network, centroid };
+            let needs = EstimatorInputs { acquisition, network, setup };
             let fault = EstimatorKind::Peak.estimator(&needs).err().unwrap().to_string();
             assert!(fault.contains(field), "{fault}");
         }

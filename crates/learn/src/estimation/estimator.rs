@@ -1,5 +1,6 @@
 //! What finds the distance of a target from a histogram, and why there may be none.
 
+use tofsim::firmware::likelihood_estimator::words::status;
 use tofsim::network::Histogram;
 
 /// A dark and a lit histogram of equally many shots.
@@ -70,6 +71,9 @@ pub enum Failure {
     /// The iterations did not settle.
     #[error("no convergence")]
     NoConvergence,
+    /// The estimator does not believe it, for those reasons: bits of a [`status`].
+    #[error("{}", status::words(*.0).join(", "))]
+    NotBelieved(u8),
 }
 
 /// Sum of a histogram, which has to be 1 to `most` [hits].

@@ -43,6 +43,9 @@ impl EstimatorKind {
         let found = match self {
             EstimatorKind::Network | EstimatorKind::NetworkFloat => [None, None, None, None],
             EstimatorKind::Likelihood => [teller.dead_time(), teller.row(), teller.control(), None],
+            EstimatorKind::LikelihoodEstimator => {
+                [teller.jitter(0.0), teller.control(), None, None]
+            }
             EstimatorKind::Matched => [teller.mode(), teller.jitter(0.0), teller.control(), None],
             EstimatorKind::Centroid => {
                 [teller.mode(), teller.jitter(JITTER_PS), teller.window(), teller.scale()]

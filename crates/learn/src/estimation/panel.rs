@@ -43,12 +43,8 @@ impl Panel {
                 _ => setup.params.frame_ctrl.shots_per_frame.into(),
             };
             let acquisition = Acquisition::of(setup, bins, shots);
-            let centroid = &setup.params.centroid_estimator;
-            Ok(kind.estimator(&EstimatorInputs {
-                acquisition,
-                network: &setup.network,
-                centroid,
-            })?)
+            let network = &setup.network;
+            Ok(kind.estimator(&EstimatorInputs { acquisition, network, setup })?)
         };
         let estimators = kinds.iter().map(estimator);
         Ok(Panel { estimators: estimators.collect::<Result<_>>()? })

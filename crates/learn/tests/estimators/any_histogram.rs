@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 
-use tofsim::firmware::centroid_estimator::Params;
-use tofsim::network::{Histogram, Network};
+use tofsim::Setup;
+use tofsim::network::Histogram;
 use tofsim_learn::estimation::peak_detection::PeakDetection;
 use tofsim_learn::estimation::subtraction::Subtraction;
 use tofsim_learn::estimation::{Acquisition, EstimatorInputs, EstimatorKind};
@@ -35,10 +35,14 @@ proptest! {
         profile in prop::sample::select(vec!["ideal", "uniform", "table6_3"]),
         shots in prop::sample::select(vec![1u64, 500, 30_000, 65_535]),
     ) {
-        let (bins, network) = (bins(profile), Network::builtin("ideal").unwrap().unwrap());
+        let setup = &Setup::load("kc705", &[&format!("tdc.profile={profile}")]).unwrap();
+        let bins = bins(profile);
         let acquisition = Acquisition { shots, ..acquisition(&bins) };
-        let needs = EstimatorInputs { acquisition, network: &network, centroid: &Params::default() };
-        for kind in [EstimatorKind::Network, EstimatorKind::NetworkFloat, EstimatorKind::Peak, EstimatorKind::Likelihood, EstimatorKind::Matched] {
+        let needs = EstimatorInputs { acquisition, network: &setup.network, setup };
+        for (_, kind, _) in EstimatorKind::ALL {
+            if kind == EstimatorKind::Subtraction {
+                continue;
+            }
             match kind.estimator(&needs).unwrap().estimate(&histogram) {
                 Ok(distance_m) => prop_assert!(distance_m.abs() < 50.0, "{kind:?} {distance_m}"),
                 Err(failure) => prop_assert!(!failure.to_string().is_empty()),
@@ -52,9 +56,8 @@ proptest! {
 
 #[test]
 fn an_empty_histogram_has_no_distance() {
-    let (bins, network) = (bins("uniform"), Network::builtin("uniform").unwrap().unwrap());
-    let (acquisition, centroid) = (acquisition(&bins), &Params::default());
-    let needs = EstimatorInputs { acquisition, network: &network, centroid };
+    let (bins, setup) = (bins("uniform"), &Setup::load("kc705", &[]).unwrap());
+    let needs = EstimatorInputs { acquisition: acquisition(&bins), network: &setup.network, setup };
     for kind in [EstimatorKind::Peak, EstimatorKind::Likelihood, EstimatorKind::Matched] {
         assert_eq!(kind.estimator(&needs).unwrap().estimate(&[0; 256]), Err(Failure::NoHits));
     }

@@ -10,7 +10,12 @@ fn keys(kind: EstimatorKind, overrides: &[&str]) -> Vec<String> {
 
 #[test]
 fn an_estimator_within_its_model_says_nothing() {
-    for kind in [EstimatorKind::Network, EstimatorKind::Likelihood, EstimatorKind::Matched] {
+    for kind in [
+        EstimatorKind::Network,
+        EstimatorKind::Likelihood,
+        EstimatorKind::LikelihoodEstimator,
+        EstimatorKind::Matched,
+    ] {
         assert!(keys(kind, &[]).is_empty(), "{kind:?}");
         assert!(keys(kind, &["laser.pulse_sigma_ps=200"]).is_empty(), "{kind:?}");
     }
@@ -20,13 +25,14 @@ fn an_estimator_within_its_model_says_nothing() {
 
 #[test]
 fn what_an_estimator_does_not_know_is_named() {
-    use EstimatorKind::{Centroid, Likelihood, Matched, Peak, Subtraction};
+    use EstimatorKind::{Centroid, Likelihood, LikelihoodEstimator, Matched, Peak, Subtraction};
     for (kind, set, key) in [
         (Matched, "firmware.mode=1", "firmware.mode"),
         (Centroid, "firmware.mode=1", "firmware.mode"),
         (Peak, "firmware.mode=1", "firmware.mode"),
         (Matched, "pll.jitter_rms_ps=50", "pll.jitter_rms_ps"),
         (Matched, "pll.jitter_rms_ps=7.7", "pll.jitter_rms_ps"),
+        (LikelihoodEstimator, "pll.jitter_rms_ps=7.7", "pll.jitter_rms_ps"),
         (Centroid, "pll.jitter_rms_ps=50", "pll.jitter_rms_ps"),
         (Peak, "laser.pulse_sigma_ps=200", "laser.pulse_sigma_ps"),
         (Subtraction, "laser.pulse_sigma_ps=100", "laser.pulse_sigma_ps"),

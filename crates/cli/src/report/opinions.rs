@@ -1,0 +1,107 @@
+//! Second opinions on the frames of a run: what reports need of them.
+
+use serde::Serialize;
+
+use tofsim::Note;
+use tofsim::sim::frames::Frame;
+use tofsim::sim::partings::Partings;
+use tofsim::sim::second_opinion::{ESTIMATOR, Opinion, SecondOpinion};
+
+use super::statistics::{Judge, Moments};
+
+/// Who gives second opinions, if anybody does, and what they have come to.
+#[derive(Default)]
+pub struct Opinions {
+    second: Option<SecondOpinion>,
+    partings: Partings,
+    depths: Moments,
+}
+
+/// What they come to over two frames or more.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct OpinionStatistics {
+    /// Its name on the command line.
+    pub estimator: &'static str,
+    /// Mean of the depths that are to be believed [m].
+    pub mean_m: Option<f64>,
+    /// Two standard deviations of them, with n - 1 [m].
+    pub two_sd_m: Option<f64>,
+    /// Mean less the true distance [m].
+    pub mean_error_m: Option<f64>,
+    /// Frames of which there is an opinion.
+    pub frames: u64,
+    /// Frames whose depth in the firmware is further from it than their spreads allow.
+    pub parted: u64,
+    /// Frames of which no depth is to be believed.
+    pub unbelieved: u64,
+}
+
+impl Opinions {
+    /// Of that estimator, if there is one.
+    pub fn new(second: Option<SecondOpinion>) -> Self {
+        Opinions { second, ..Opinions::default() }
+    }
+
+    /// What it says of a frame.
+    pub fn of(&self, frame: &Frame) -> Option<Opinion> {
+        self.second.as_ref()?.of(frame)
+    }
+
+    /// Takes what it said of the next frame.
+    pub fn add(&mut self, frame: &Frame, opinion: Option<&Opinion>) {
+        let (Some(second), Some(opinion)) = (&self.second, opinion) else { return };
+        self.partings.add(second, frame, opinion);
+        if opinion.status.is_empty() {
+            self.depths.add(opinion.depth_m);
+        }
+    }
+
+    /// What a user has to know of them.
+    pub fn notes(&self) -> Vec<Note> {
+        self.second.as_ref().map_or(Vec::new(), |second| self.partings.notes(second))
+    }
+
+    /// What two of them or more come to.
+    pub fn statistics(&self, judge: &Judge) -> Option<OpinionStatistics> {
+        let Partings { frames, parted, unbelieved, .. } = self.partings;
+        let mean_m = self.depths.mean();
+        (frames > 1).then(|| OpinionStatistics {
+            estimator: ESTIMATOR,
+            mean_m,
+            two_sd_m: self.depths.two_sd(),
+            mean_error_m: mean_m.and_then(|mean_m| judge.error_m(mean_m)),
+            frames,
+            parted,
+            unbelieved,
+        })
+    }
+}
+
+/// An opinion on the only frame, with its error and its standard deviation.
+pub fn in_words(opinion: &Opinion, truth_m: Option<f64>) -> String {
+    let Opinion { depth_m, depth_raw, sigma_m, estimator, .. } = opinion;
+    let error = truth_m.map_or(String::new(), |m| format!("  {:+.2} mm", 1e3 * (depth_m - m)));
+    let why = match &opinion.status[..] {
+        [] => String::new(),
+        words => format!(", not to be believed: {}", words.join(", ")),
+    };
+    format!("{depth_m:.6} m  {depth_raw}{error}  {estimator}, sd {sigma_m:.6} m{why}")
+}
+
+/// What several come to, on one line.
+pub fn line(of: &OpinionStatistics) -> String {
+    let mut text = format!("second opinion: {}", of.estimator);
+    if let Some(mean_m) = of.mean_m {
+        text += &format!(", mean {mean_m:.6} m");
+    }
+    if let Some(error_m) = of.mean_error_m {
+        text += &format!(", error {:+.3} mm", 1e3 * error_m);
+    }
+    if let Some(two_sd_m) = of.two_sd_m {
+        text += &format!(", 2 sd {two_sd_m:.6} m");
+    }
+    let OpinionStatistics { frames, parted, unbelieved, .. } = of;
+    text + &format!(
+        "\nof {frames} depths {parted} part from it; of {unbelieved} frames it believes none"
+    )
+}

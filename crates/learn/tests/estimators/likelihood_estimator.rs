@@ -1,0 +1,154 @@
+//! The likelihood estimator in integers beside the Cramér-Rao bound, its own deviation and its status, over
+//! many histograms drawn from their closed form.
+
+mod instruments;
+mod no_light;
+mod other_pulse;
+mod thesis;
+mod twin;
+mod wide;
+
+use rand_chacha::ChaCha8Rng;
+
+use tofsim::Setup;
+use tofsim::firmware::likelihood_estimator::params::Params;
+use tofsim::firmware::likelihood_estimator::words::status;
+use tofsim::network::Histogram;
+use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
+use tofsim::sim::fast::likelihood::{Found, estimate};
+use tofsim_learn::estimation::Acquisition;
+use tofsim_learn::estimation::acquisition::Echo;
+use tofsim_learn::estimation::likelihood::Model;
+
+/// An instrument whose scene does not matter.
+struct Instrument {
+    setup: Setup,
+    bins: Bins,
+    params: Params,
+}
+
+/// Where the target is, and what light there is.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    distance_m: f64,
+    reflectance: f64,
+    irradiance_w_m2_nm: f64,
+}
+
+/// A place before an instrument.
+struct Scene<'a> {
+    instrument: &'a Instrument,
+    shots: u64,
+    codes: BinProbabilities,
+    /// Least standard deviation of an unbiased estimate [m].
+    bound_m: f64,
+}
+
+impl Instrument {
+    fn load(name: &str, set: &[&str]) -> Self {
+        let setup = Setup::load(name, set).unwrap();
+        let shots = setup.scenario.firmware.shots_per_frame;
+        let (bins, params) = (setup.bins(), setup.likelihood(shots).unwrap());
+        Instrument { setup, bins, params }
+    }
+
+    /// `None` where a histogram tells nothing.
+    fn scene(&self, place: Place, shots: u64) -> Option<Scene<'_>> {
+        let mut scenario = self.setup.scenario.clone();
+        scenario.target.distance_m = place.distance_m;
+        scenario.target.reflectance = place.reflectance;
+        scenario.ambient.irradiance_w_m2_nm = place.irradiance_w_m2_nm;
+        let budget = Budget::new(&scenario);
+        let acquisition = Acquisition::new(&self.bins, shots, scenario.laser.pulse_sigma_ps);
+        let bound_m = Model::new(&acquisition).unwrap().cramer_rao_m(&Echo::from(&budget))?;
+        let codes = BinProbabilities::new(&Hazard::new(&budget), &self.bins);
+        Some(Scene { instrument: self, shots, codes, bound_m })
+    }
+}
+
+impl Scene<'_> {
+    fn draw(&self, random: &mut ChaCha8Rng) -> Histogram {
+        self.codes.draw(self.shots, random).into_iter().map(|count| count as u32).collect()
+    }
+
+    fn look(&self, histogram: &[u32]) -> Found {
+        let params = Params { shots: self.shots, ..self.instrument.params.clone() };
+        estimate(&params, histogram)
+    }
+}
+
+/// What many estimates come to.
+#[derive(Clone, Copy, Debug, Default)]
+struct Tally {
+    drawn: f64,
+    raised: f64,
+    /// How often each reason was given.
+    reasons: [u32; 6],
+    kept: f64,
+    sum_m: f64,
+    squares: f64,
+    bounds: f64,
+    /// Squares of errors, each over its variance.
+    relative: f64,
+    /// Kept ones that are off by more than six of their standard deviations.
+    far: f64,
+}
+
+impl Tally {
+    fn add(&mut self, found: &Found, distance_m: f64, bound_m: f64) {
+        self.drawn += 1.0;
+        for (count, (bit, _)) in self.reasons.iter_mut().zip(status::ALL) {
+            *count += u32::from(found.status & bit != 0);
+        }
+        if found.status != 0 {
+            self.raised += 1.0;
+            return;
+        }
+        let error_m = found.depth.to_f64() - distance_m;
+        let deviations = error_m / found.sigma_m();
+        self.kept += 1.0;
+        self.sum_m += error_m;
+        self.squares += error_m * error_m;
+        self.bounds += bound_m * bound_m;
+        self.relative += deviations * deviations;
+        self.far += f64::from(deviations.abs() > 6.0);
+    }
+
+    /// Root mean square of the errors over that of the bounds.
+    fn ratio(&self) -> f64 {
+        (self.squares / self.bounds).sqrt()
+    }
+
+    /// Root mean square of the errors in standard deviations of their own.
+    fn own(&self) -> f64 {
+        (self.relative / self.kept).sqrt()
+    }
+
+    fn mean_mm(&self) -> f64 {
+        1e3 * self.sum_m / self.kept
+    }
+
+    /// Two standard deviations at the bound [mm].
+    fn bound_mm(&self) -> f64 {
+        2e3 * (self.bounds / self.kept).sqrt()
+    }
+
+    fn raised_part(&self) -> f64 {
+        self.raised / self.drawn
+    }
+
+    fn row(&self, name: &str) -> String {
+        let reasons = self.reasons.iter().zip(status::ALL).filter(|(count, _)| **count > 0);
+        let reasons: String = reasons.map(|(count, (_, why))| format!(", {count} {why}")).collect();
+        format!(
+            "{name:24} {:7} drawn, status {:5.2} %, ratio {:.3}, own {:.3}, mean {:+.3} mm, bound {:.2} mm, far {}{reasons}",
+            self.drawn,
+            100.0 * self.raised_part(),
+            self.ratio(),
+            self.own(),
+            self.mean_mm(),
+            self.bound_mm(),
+            self.far
+        )
+    }
+}

@@ -1,0 +1,159 @@
+//! What another estimator says of the histogram of a frame, so that a depth is seen to be wrong even where
+//! nobody knows the truth.
+
+use serde::Serialize;
+
+use crate::error::Input;
+use crate::firmware::likelihood_estimator::params::Params;
+use crate::firmware::likelihood_estimator::words::status;
+use crate::firmware::tof_top::Estimator;
+use crate::network::file::Accuracy;
+use crate::note::{Note, NoteCode, NoteValue};
+use crate::optics::budget::LIGHT_M_S;
+use crate::sensor::light::Light;
+
+use super::fast::likelihood::estimate;
+use super::frames::Frame;
+use super::setup::Setup;
+
+/// Who gives it.
+pub const ESTIMATOR: &str = "likelihood_estimator";
+/// Depths part that are further from each other than so many of their standard deviations.
+const MOST_DEVIATIONS: f64 = 6.0;
+/// Standard deviation of a depth of which nobody says how exact it is [bins].
+const UNKNOWN_BINS: f64 = 0.5;
+
+/// The estimator of second opinions, for the frames of a scenario.
+#[derive(Clone, Debug)]
+pub struct SecondOpinion {
+    params: Params,
+    /// Whether a dark frame comes before each lit one, and says nothing of the target.
+    has_pairs: bool,
+    socket: Socket,
+}
+
+/// What is in the firmware's socket.
+#[derive(Clone, Debug)]
+struct Socket {
+    name: &'static str,
+    /// How exact it is, if its file says.
+    accuracy: Option<Accuracy>,
+    /// Length of a bin [m].
+    bin_m: f64,
+}
+
+/// What it says of a frame.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Opinion {
+    /// Its name on the command line.
+    pub estimator: &'static str,
+    /// Distance of the target [m].
+    pub depth_m: f64,
+    /// The depth word's 36 bits in hexadecimal.
+    pub depth_raw: String,
+    /// Standard deviation of the depth [m].
+    pub sigma_m: f64,
+    /// Why the depth is not to be believed; nothing if it is.
+    pub status: Vec<&'static str>,
+    /// Sum of squared residuals over their variances, about one a bin of the fit [1].
+    pub chi_square: f64,
+}
+
+impl SecondOpinion {
+    /// For the frames of `setup`.
+    ///
+    /// # Errors
+    /// When the estimator's model does not hold for them: why not, as a note.
+    pub fn new(setup: &Setup) -> Result<Self, Note> {
+        if let (Light::List(_) | Light::None, Some(why)) = (&setup.light, setup.no_depth()) {
+            return Err(why.clone());
+        }
+        let scenario = &setup.scenario;
+        let changes = scenario.control.len() as u64;
+        if changes > 0 {
+            return Err(none("control", changes.into(), "no changes: all shots are alike"));
+        }
+        let jitter_ps = scenario.pll.jitter_rms_ps;
+        if jitter_ps > 0.0 {
+            return Err(none("pll.jitter_rms_ps", jitter_ps.into(), "0: it blurs the pulse"));
+        }
+        let params = setup.likelihood(setup.shots(1)).map_err(|fault| refused(&fault))?;
+        let (name, accuracy) = match setup.params.estimator {
+            Estimator::Network => ("network", setup.network.accuracy.clone()),
+            Estimator::Centroid => ("centroid", None),
+            Estimator::Likelihood => ("likelihood", None),
+        };
+        let bin_m = scenario.tdc.bin_ps * 1e-12 * LIGHT_M_S / 2.0;
+        let socket = Socket { name, accuracy, bin_m };
+        Ok(SecondOpinion { params, has_pairs: setup.has_pairs(), socket })
+    }
+
+    /// What it says of a frame; nothing of the dark one of a pair.
+    pub fn of(&self, frame: &Frame) -> Option<Opinion> {
+        if self.has_pairs && !frame.laser_en {
+            return None;
+        }
+        let found = estimate(&self.params, &frame.histogram);
+        Some(Opinion {
+            estimator: ESTIMATOR,
+            depth_m: found.depth.to_f64(),
+            depth_raw: format!("{:09x}", found.depth.bits()),
+            sigma_m: found.sigma_m(),
+            status: status::words(found.status),
+            chi_square: found.chi_square(),
+        })
+    }
+
+    /// Name of the estimator in the firmware's socket.
+    pub fn socket(&self) -> &'static str {
+        self.socket.name
+    }
+
+    /// How far the depth of the socket may be from that of an opinion: six standard deviations of their
+    /// difference [m].
+    pub fn allowed_m(&self, opinion: &Opinion) -> f64 {
+        MOST_DEVIATIONS * opinion.sigma_m.hypot(self.socket.deviation_m(opinion.depth_m))
+    }
+}
+
+impl Socket {
+    /// Standard deviation of what it says of a target at `depth_m`: that of the network's file, with its mean
+    /// error, straight between its distances and as at the nearest one beyond them; half a bin where no file
+    /// says it [m].
+    fn deviation_m(&self, depth_m: f64) -> f64 {
+        let unknown_m = UNKNOWN_BINS * self.bin_m;
+        let Some(accuracy) = &self.accuracy else { return unknown_m };
+        let at = |column: &[f64]| straight(&accuracy.distances_m, column, depth_m);
+        let mean_mm = accuracy.mean_mm.as_deref().map_or(Some(0.0), at);
+        let (Some(two_sd_mm), Some(mean_mm)) = (at(&accuracy.two_sd_mm), mean_mm) else {
+            return unknown_m;
+        };
+        1e-3 * (two_sd_mm / 2.0).hypot(mean_mm)
+    }
+}
+
+/// The value at `place` of what is known at some places, in rising order.
+fn straight(places: &[f64], values: &[f64], place: f64) -> Option<f64> {
+    let after = places.partition_point(|known| *known < place);
+    let (low, high) = (after.saturating_sub(1), after.min(places.len().checked_sub(1)?));
+    let (from, to) = (*values.get(low)?, *values.get(high)?);
+    let width = places[high] - places[low];
+    let part = if width > 0.0 { (place - places[low]) / width } else { 0.0 };
+    Some(from + part * (to - from))
+}
+
+/// That there is no second opinion, as `key` is not what it would have to be.
+fn none(key: &str, value: NoteValue, expected: &str) -> Note {
+    let text = format!("there is no second opinion by {ESTIMATOR}");
+    Note::new(NoteCode::SecondOpinion, key, value, expected, text)
+}
+
+fn refused(fault: &Input) -> Note {
+    let value = fault.value.as_deref().unwrap_or_default();
+    let value = value.parse().map_or_else(|_| value.into(), |number: f64| number.into());
+    let expected = fault.expected.trim_start_matches("expected ");
+    none(fault.field.as_deref().unwrap_or_default(), value, expected)
+}
+
+#[cfg(test)]
+mod tests;
