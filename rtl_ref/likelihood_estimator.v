@@ -76,7 +76,7 @@ module likelihood_estimator #(
     wire [9:0] word_width;
     wire [BinBits+7:0] word_end;
     wire signed [CountBits+8:0] residual;
-    wire [CountBits+17:0] expected;
+    wire [CountBits+17:0] predicted;
     wire [12:0] gain, share;
     wire signed [8:0] slope;
     wire [CountBits+BinBits:0] middle;
@@ -233,7 +233,7 @@ module likelihood_estimator #(
         .word_width(word_width),
         .word_end(word_end),
         .residual(residual),
-        .expected(expected),
+        .predicted(predicted),
         .gain(gain),
         .share(share),
         .slope(slope),
@@ -252,7 +252,7 @@ module likelihood_estimator #(
         .check(check),
         .phase(phase),
         .residual(residual),
-        .expected(expected),
+        .predicted(predicted),
         .gain(gain),
         .share(share),
         .slope(slope),
@@ -287,7 +287,7 @@ module likelihood_estimator #(
         .phase(phase),
         .slide(slide),
         .residual(residual),
-        .expected(expected),
+        .predicted(predicted),
         .middle(middle),
         .waits(waits),
         .best_score(best_score),

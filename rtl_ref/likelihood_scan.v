@@ -27,7 +27,7 @@ module likelihood_scan #(
     input wire phase,                            // second cycle of a beat
     input wire slide,                            // a bin of a scan, or a beat after the last one, comes
     input wire signed [CountBits+8:0] residual,  // n k - R lambda [2^-4 counts], 0 of what is no bin
-    input wire [CountBits+17:0] expected,        // R lambda [2^-12 counts]
+    input wire [CountBits+17:0] predicted,        // R lambda [2^-12 counts]
     input wire [CountBits+BinBits:0] middle,     // twice the shots that wait in the middle of the bin
     input wire waits,                            // shots wait at it
     // The highest box
@@ -162,7 +162,7 @@ module likelihood_scan #(
             entered <= slide;
             if (slide) begin
                 entering_excess <= $signed({residual, 4'd0}) - added;
-                entering_expected <= expected[CountBits+17:4] + $unsigned(added);
+                entering_expected <= predicted[CountBits+17:4] + $unsigned(added);
                 entering_middle <= middle;
                 {leaving_excess, leaving_expected, leaving_middle} <= full ? leaving : {KeptBits{1'b0}};
                 count <= count + 1'b1;

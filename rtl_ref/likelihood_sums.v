@@ -17,7 +17,7 @@ module likelihood_sums #(
     input wire phase,                            // second cycle of a beat
     // likelihood_terms
     input wire signed [CountBits+8:0] residual,  // v [2^-4 counts], 0 of what is no bin
-    input wire [CountBits+17:0] expected,        // R lambda [2^-12 counts]
+    input wire [CountBits+17:0] predicted,        // R lambda [2^-12 counts]
     input wire [12:0] gain,                      // lambda / (exp(lambda) - 1) [2^-12]
     input wire [12:0] share,                     // s, the signal's in the hazard [2^-12]
     input wire signed [8:0] slope,               // z
@@ -71,7 +71,7 @@ module likelihood_sums #(
     end
 
     // The first multiplier: a weight, then a share of the residual times its slope
-    wire [CountBits+12:0] expected_cut = expected[CountBits+17:5];
+    wire [CountBits+12:0] expected_cut = predicted[CountBits+17:5];
     wire [CountBits+7:0] expected_limited
         = |expected_cut[CountBits+12:CountBits+8] ? {CountBits + 8{1'b1}} : expected_cut[CountBits+7:0];
     wire signed [CountBits+8:0] first_a = phase ? $signed(seen_0[ResidualBits-1:0]) : $signed({1'b0, expected_limited});

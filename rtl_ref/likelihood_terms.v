@@ -31,7 +31,7 @@ module likelihood_terms #(
     input wire [9:0] word_width,                 // its width [units]
     input wire [BinBits+7:0] word_end,           // where it ends [half units]
     output reg signed [CountBits+8:0] residual,  // v [2^-4 counts], 0 of what is no bin
-    output reg [CountBits+17:0] expected,        // R lambda [2^-12 counts]
+    output reg [CountBits+17:0] predicted,        // R lambda [2^-12 counts]
     output reg [12:0] gain,                      // lambda / (exp(lambda) - 1) [2^-12]
     output reg [12:0] share,                     // the signal's in the hazard [2^-12]
     output reg signed [8:0] slope,               // of the pulse's logarithm
@@ -49,7 +49,7 @@ module likelihood_terms #(
     reg bin_0, bin_1, bin_2, bin_3, bin_4, bin_5, bin_6, bin_7;
     reg rest_0, rest_1, rest_2, rest_3, rest_4, rest_5, rest_6, rest_7;
     reg slides_0, slides_1, slides_2, slides_3, slides_4, slides_5, slides_6, slides_7;
-    reg edge_0, first;
+    reg edge_alone, first;
     reg [RestBits-1:0] ended_0, ended_1, ended_2, ended_3, ended_4, ended_5, ended_6, ended_7;
     reg [RestBits-1:0] waiting_0, waiting_1, waiting_2, waiting_3, waiting_4, waiting_5, waiting_6, waiting_7;
     reg [9:0] width_0, width_1;
@@ -93,11 +93,11 @@ module likelihood_terms #(
     end
 
     initial begin
-        {residual, expected, gain, share, slope, middle, waits, single, slide} = 0;
+        {residual, predicted, gain, share, slope, middle, waits, single, slide} = 0;
         {bin_0, bin_1, bin_2, bin_3, bin_4, bin_5, bin_6, bin_7} = 8'd0;
         {rest_0, rest_1, rest_2, rest_3, rest_4, rest_5, rest_6, rest_7} = 8'd0;
         {slides_0, slides_1, slides_2, slides_3, slides_4, slides_5, slides_6, slides_7} = 8'd0;
-        {edge_0, first} = 2'd0;
+        {edge_alone, first} = 2'd0;
         {ended_0, ended_1, ended_2, ended_3, ended_4, ended_5, ended_6, ended_7} = 0;
         {waiting_0, waiting_1, waiting_2, waiting_3, waiting_4, waiting_5, waiting_6, waiting_7} = 0;
         {width_0, width_1} = 20'd0;
@@ -125,7 +125,7 @@ module likelihood_terms #(
     end
 
     // What of it is in the bin, and the slope between its ends
-    wire none = edge_0 && first;
+    wire none = edge_alone && first;
     wire signed [9:0] slopes = {pulse_slope[8], pulse_slope} + {last_slope[8], last_slope};
 
     // Two multipliers
@@ -204,7 +204,7 @@ module likelihood_terms #(
             {waiting_7, waiting_6, waiting_5, waiting_4, waiting_3, waiting_2, waiting_1, waiting_0}
                 <= {waiting_6, waiting_5, waiting_4, waiting_3, waiting_2, waiting_1, waiting_0, word_waiting};
             {width_1, width_0} <= {width_0, word_width};
-            edge_0 <= word_edge;
+            edge_alone <= word_edge;
             first <= word_first;
 
             last_part <= none ? 17'd0 : pulse_part;
@@ -238,7 +238,7 @@ module likelihood_terms #(
                 : shifted[ExpectedBits-1:0];
 
             residual <= any ? surplus_limited : {ResidualBits{1'b0}};
-            expected <= any ? product_shifted : {ExpectedBits{1'b0}};
+            predicted <= any ? product_shifted : {ExpectedBits{1'b0}};
             gain <= gains_1;
             share <= shares_2;
             slope <= z_6;

@@ -187,7 +187,7 @@ connect! {
         check <- this.registers.check;
         phase <- this.registers.phase;
         residual <- this.likelihood_terms.residual;
-        expected <- this.likelihood_terms.expected;
+        predicted <- this.likelihood_terms.predicted;
         gain <- this.likelihood_terms.gain;
         share <- this.likelihood_terms.share;
         slope <- this.likelihood_terms.slope;
@@ -203,7 +203,7 @@ connect! {
         phase <- this.registers.phase;
         slide <- this.likelihood_terms.slide;
         residual <- this.likelihood_terms.residual;
-        expected <- this.likelihood_terms.expected;
+        predicted <- this.likelihood_terms.predicted;
         middle <- this.likelihood_terms.middle;
         waits <- this.likelihood_terms.waits;
     }

@@ -60,7 +60,7 @@ signals! {
         pub residual: Residual,
         /// R lambda.
         #[size("ExpectedBits")]
-        pub expected: Expected,
+        pub predicted: Expected,
         /// Twice the shots that wait in the middle of the bin.
         #[size("MiddleBits")]
         pub middle: U<35>,
@@ -170,7 +170,7 @@ signals! {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Kept {
     excess: Excess,
-    expected: U<48>,
+    predicted: U<48>,
     middle: U<35>,
 }
 
@@ -228,7 +228,7 @@ impl LikelihoodScan {
             if q.entered {
                 self.kept[q.count.index().wrapping_sub(1) % bins] = Kept {
                     excess: q.entering_excess,
-                    expected: q.entering_expected,
+                    predicted: q.entering_expected,
                     middle: q.entering_middle,
                 };
             }
@@ -329,12 +329,12 @@ impl Registers {
         }
         let added = if i.waits { ADDED } else { 0 };
         d.entering_excess = S::new((i.residual.get() << 4) - added);
-        d.entering_expected = U::new((i.expected.get() >> 4) + added as u64);
+        d.entering_expected = U::new((i.predicted.get() >> 4) + added as u64);
         d.entering_middle = i.middle;
         let full = self.count.get() >= p.box_bins as u64;
         let left = if full { *kept } else { Kept::default() };
         d.leaving_excess = left.excess;
-        (d.leaving_expected, d.leaving_middle) = (left.expected, left.middle);
+        (d.leaving_expected, d.leaving_middle) = (left.predicted, left.middle);
         d.count = self.count + 1;
     }
 
@@ -344,8 +344,8 @@ impl Registers {
         let mut middle = self.box_middle[0].get();
         if self.entered {
             excess += self.entering_excess.get() - self.leaving_excess.get();
-            let expected = self.box_expected.get() + self.entering_expected.get();
-            d.box_expected = U::new(expected - self.leaving_expected.get());
+            let predicted = self.box_expected.get() + self.entering_expected.get();
+            d.box_expected = U::new(predicted - self.leaving_expected.get());
             middle = middle + self.entering_middle.get() - self.leaving_middle.get();
         }
         shift(&mut d.excess, S::new(excess));

@@ -42,7 +42,7 @@ signals! {
         pub residual: Residual,
         /// R lambda.
         #[size("ExpectedBits")]
-        pub expected: Expected,
+        pub predicted: Expected,
         /// lambda / (exp(lambda) - 1), 12 fraction bits.
         pub gain: U<13>,
         /// s.
@@ -188,8 +188,8 @@ impl LikelihoodSums {
         if i.phase {
             return;
         }
-        let expected = (i.expected.get() >> 5).min((1 << (p.histogram.count_bits + 8)) - 1);
-        d.weight_first = U::new(rounded((expected * i.gain.get()) as i64, 13) as u64);
+        let predicted = (i.predicted.get() >> 5).min((1 << (p.histogram.count_bits + 8)) - 1);
+        d.weight_first = U::new(rounded((predicted * i.gain.get()) as i64, 13) as u64);
         let most = (1 << (p.histogram.count_bits + 1)) - 1;
         let near = i.residual.get().clamp(-most, most);
         d.seen_first = S::new(match i.check {

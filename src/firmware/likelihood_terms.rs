@@ -87,7 +87,7 @@ signals! {
         /// R lambda.
         #[size("ExpectedBits")]
         #[view(heading = "Likelihood", curve = true, probe = true)]
-        pub expected: Expected,
+        pub predicted: Expected,
         /// lambda / (exp(lambda) - 1), 12 fraction bits.
         pub gain: U<13>,
         /// s.
@@ -111,7 +111,7 @@ signals! {
         /// With which a box goes on.
         slides: [bool; 8],
         /// Of an edge, and of bin 0.
-        edge: bool,
+        edge_alone: bool,
         /// See there.
         first: bool,
         /// Shots that end.
@@ -242,7 +242,7 @@ impl LikelihoodTerms {
         shift(&mut d.bin, i.word_bin);
         shift(&mut d.rest, i.word_rest);
         shift(&mut d.slides, i.word_slide);
-        (d.edge, d.first) = (i.word_edge, i.word_first);
+        (d.edge_alone, d.first) = (i.word_edge, i.word_first);
         shift(&mut d.ended, i.word_ended);
         shift(&mut d.waiting, i.word_waiting);
         shift(&mut d.width, i.word_width);
@@ -250,7 +250,7 @@ impl LikelihoodTerms {
 
     /// What of it is in the bin.
     fn cut_out(&self, i: &In, d: &mut Self) {
-        let none = self.edge && self.first;
+        let none = self.edge_alone && self.first;
         d.last_part = if none { U::new(0) } else { self.pulse_part };
         d.last_slope = self.pulse_slope;
         let lit = self.bin[0] && !i.scan;
@@ -292,23 +292,23 @@ impl LikelihoodTerms {
     /// R lambda from its mantissa.
     fn expect(&self, p: &Params, d: &mut Self) {
         let most = (1 << (p.histogram.count_bits + 18)) - 1;
-        let expected = match 24 - self.bits[2].get() as i64 {
+        let predicted = match 24 - self.bits[2].get() as i64 {
             down @ 1.. => rounded(self.product.get(), down as u32),
             up => self.product.get() << -up,
         };
-        d.product_shifted = U::new(expected.min(most));
+        d.product_shifted = U::new(predicted.min(most));
     }
 
     /// What comes out.
     fn give(&self, p: &Params, d: &mut Self) {
         let any = self.bin[7] || self.rest[7];
-        let (ended_k, expected) = (self.ended_k[1].get() as i64, self.product_shifted.get());
-        let residual = ended_k - expected as i64;
+        let (ended_k, predicted) = (self.ended_k[1].get() as i64, self.product_shifted.get());
+        let residual = ended_k - predicted as i64;
         let residual = (residual >> 8) + (residual >> 7 & 1);
         let most = 1 << (p.histogram.count_bits + 8);
         let residual = residual.clamp(-most, most - 1);
         d.residual = S::new(if any { residual } else { 0 });
-        d.expected = U::new(if any { expected } else { 0 });
+        d.predicted = U::new(if any { predicted } else { 0 });
         d.gain = self.gains[1];
         (d.share, d.slope) = (self.shares[2], self.z[6]);
         let middle = (2 * self.waiting[7].get()).saturating_sub(self.ended[7].get());

@@ -50,13 +50,11 @@ fn it_is_near_the_bound_of_a_long_range() {
 }
 
 #[test]
-#[ignore = "half of the histograms raise `no fit`: a step of the pulse's ROM is a quarter of a bin"]
 fn it_is_near_the_bound_at_the_near_end_of_a_long_range() {
     is_near_the_bound("long", &[1.0, 2.5]);
 }
 
 #[test]
-#[ignore = "half of the histograms raise `not settled`: the determinant does not fit into a word of 31 bits"]
 fn it_is_near_the_bound_with_counts_of_few_bits() {
     is_near_the_bound("compact", &[0.15, 0.25, 0.4, 0.6]);
 }

@@ -151,7 +151,6 @@ fn a_pulse_with_a_short_tail_is_estimated_near_its_bound() {
 }
 
 #[test]
-#[ignore = "a fifth of the histograms raise `no fit`: a step of the pulse's ROM is an eighth of a bin"]
 fn a_pulse_with_a_long_tail_is_estimated_near_its_bound() {
     is_near_the_bound(150.0);
 }

@@ -13,13 +13,13 @@ pub(super) const SPEC: Spec = Spec {
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut estimations = Estimations::new(setting, false)?;
     let mut run = Recorder::new(spec, setting, In::list());
-    let mut expected = Cover::new("bits of an expected count", 0..27);
+    let mut predicted = Cover::new("bits of an expected count", 0..27);
     let mut shares = Cover::new("share in 16ths", 0..17);
     for _ in 0..setting.cycles() {
         let estimator = &mut run.top.likelihood_estimator;
         let i = estimations.next(estimator, &mut run.draw);
         let now = &run.top.likelihood_estimator.likelihood_terms;
-        expected.see(u64::from(u64::BITS - now.expected.get().leading_zeros()));
+        predicted.see(u64::from(u64::BITS - now.predicted.get().leading_zeros()));
         shares.see(now.share.get() >> 8);
         let own = Wires::likelihood_terms(&run.top.likelihood_estimator, &i);
         run.line(&own);
@@ -27,5 +27,5 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         params.into_iter().for_each(|params| run.top.likelihood_estimator.rise(&i, params));
     }
     let parameters = parameters::of_likelihood(&setting.setup.params, &["StepLog2", "PulseFile", "HazardFile"]);
-    Ok(Vectors { parameters, ..run.vectors([expected, shares]) })
+    Ok(Vectors { parameters, ..run.vectors([predicted, shares]) })
 }
