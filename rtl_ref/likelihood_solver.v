@@ -52,6 +52,7 @@ module likelihood_solver #(
 );
     localparam integer Counted = CountBits + (BinBits > 8 ? BinBits + 11 : 19);
     localparam integer WordBits = Counted > 35 ? Counted : 35, LowProductBits = WordBits + 18;
+    localparam integer ShiftedBits = WordBits + 2;
     localparam [2:0] Alu = 3'd0, Reciprocal = 3'd1, Root = 3'd2, Exponent = 3'd3, Cut = 3'd4, Stop = 3'd5;
     localparam [2:0] ByNothing = 3'd0, ByBits = 3'd1, ByExponent = 3'd2, ByCut = 3'd3, ByBoth = 3'd4, ByMetres = 3'd5;
     localparam [2:0] Whole = 3'd0, Positive = 3'd1, OfSignal = 3'd2, OfAmbient = 3'd3, OfChance = 3'd4,
@@ -76,7 +77,7 @@ module likelihood_solver #(
     reg signed [WordBits-1:0] a, b, c;         // operands
     reg signed [LowProductBits-1:0] low;       // a times the low bits of b
     reg signed [63:0] product;                 // a times b
-    reg signed [63:0] shifted;                 // the product as it is shifted, or a divisor
+    reg signed [ShiftedBits-1:0] shifted;               // the product as it is shifted, or a divisor
     reg [5:0] bits;                            // of what was divided by last, or half of those of a variance
     reg [5:0] exponent;                        // by how many bits the rest of the information is shifted
     reg [WordBits-1:0] magnitude;              // all magnitudes that were marked
@@ -223,6 +224,10 @@ module likelihood_solver #(
         for (i = 0; i < WordBits; i = i + 1) if (measured[i]) length = i + 1;
     end
 
+    // One multiplier: the low bits of b, then the others
+    wire signed [WordBits-18:0] part = cycle == 5'd1 ? $signed({1'b0, b[16:0]}) : $signed(b[WordBits-1:17]);
+    wire signed [LowProductBits-1:0] partial = a * part;
+
     // The shift; a divisor is not rounded
     reg [7:0] more;
     always @*
@@ -237,6 +242,9 @@ module likelihood_solver #(
     wire [7:0] all_shift = base + more;
     wire [5:0] shift = all_shift > 63 ? 6'd63 : all_shift;
     wire signed [64:0] down = $signed({product, 1'b0}) >>> shift;
+    wire signed [ShiftedBits-1:0] moved = $signed(down[ShiftedBits:1]) + $signed({1'b0, down[0] && op != Reciprocal});
+    // One place is left for the rounding.
+    wire moved_fits = down[64:ShiftedBits-1] == {66 - ShiftedBits{down[64]}};
     wire odd = bits[0] ^ exponent[0];
 
     // A bit of a reciprocal or of a root
@@ -245,7 +253,7 @@ module likelihood_solver #(
     wire fits = left >= against;
 
     // The sum, within its limits
-    wire signed [65:0] sum = minus ? c - shifted : c + shifted;
+    wire signed [ShiftedBits:0] sum = minus ? c - shifted : c + shifted;
     wire signed [WordBits-1:0] top = {1'b0, {WordBits - 1{1'b1}}};
     reg signed [WordBits-1:0] least, most;
     always @* begin
@@ -263,6 +271,7 @@ module likelihood_solver #(
     wire [4:0] last_cycle = op == Reciprocal ? 5'd22 : op == Root ? 5'd30 : 5'd4;
     wire ends = cycle == last_cycle;
     wire computes = op == Alu || op == Reciprocal || op == Root;
+    wire [6:0] marked = 7'd1 << mark[2:0];
     wire [WordBits-1:0] absolute = result < 0 ? -result : result;
 
     always @(posedge clk_sys)
@@ -297,13 +306,13 @@ module likelihood_solver #(
                             c <= from_c[5] ? other_c : words[from_c[4:0]];
                         end
                         5'd1: begin
-                            low <= a * $signed({1'b0, b[16:0]});
+                            low <= partial;
                             if (op == Reciprocal) bits <= length == 6'd0 ? 6'd1 : length;
                         end
-                        5'd2: product <= low + ((a * $signed(b[WordBits-1:17])) <<< 17);
+                        5'd2: product <= low + (partial <<< 17);
                         5'd3:
                             if (op == Root) product <= odd ? product <<< 17 : product <<< 16;
-                            else shifted <= op == Reciprocal ? down[64:1] : down[64:1] + {63'd0, down[0]};
+                            else shifted <= moved_fits ? moved : {down[64], {ShiftedBits - 1{!down[64]}}};
                         default: ;
                     endcase
                     if (op != Alu && cycle == 5'd4) begin
@@ -325,7 +334,7 @@ module likelihood_solver #(
                             default: ;
                         endcase
                         if (mark == Large) magnitude <= magnitude | absolute;
-                        if (mark[3]) flags[mark[2:0]] <= result < 0;
+                        if (mark[3]) flags <= (flags & ~marked) | (result < 0 ? marked : 7'd0);
                     end
                 end
             end

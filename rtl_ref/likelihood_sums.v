@@ -108,7 +108,8 @@ module likelihood_sums #(
     wire [SeenBits-1:0] square = check ? seen_0 : 0;
     wire [SeenBits+8:0] square_over = {square, 9'd0} >> bits;
     wire [WeightBits+7:0] aligned = {variance, 7'd0} >> bits;
-    wire is_far = square > 25 * ({5'd0, weight_0} + 64);
+    wire [WeightBits+5:0] counted = weight_0 + 64;
+    wire is_far = square > (counted << 4) + (counted << 3) + counted;
 
     always @(posedge clk_sys) begin
         if (!phase) begin

@@ -139,7 +139,7 @@ signals! {
         product: S<64>,
         /// The product as it is shifted, or a divisor.
         #[size("ShiftedBits")]
-        shifted: S<64>,
+        shifted: S<47>,
         /// Bits of what was divided by last, or half of those of a variance.
         bits: U<6>,
         /// By how many bits the rest of the information is shifted.
@@ -363,10 +363,18 @@ impl Registers {
             By::Metres => p.metres_shift.into(),
         };
         let bits = (u64::from(now.shift) + by).min(63);
-        let product = self.product.get();
-        match bits == 0 || now.op == Op::Reciprocal {
-            true => product >> bits,
-            false => (product >> bits) + (product >> (bits - 1) & 1),
+        let (product, width) = (self.product.get(), p.word_bits() + 2);
+        let (down, half) = match bits {
+            0 => (product, 0),
+            bits => (product >> bits, product >> (bits - 1) & 1),
+        };
+        // One place is left for the rounding.
+        let most = 1 << (width - 2);
+        match (-most..most).contains(&down) {
+            true if now.op == Op::Reciprocal => down,
+            true => down + half,
+            false if down < 0 => -2 * most,
+            false => 2 * most - 1,
         }
     }
 
@@ -410,7 +418,7 @@ impl Registers {
             return Some(self.quotient.get() as i64);
         }
         let (c, shifted) = (self.c.get(), self.shifted.get());
-        let sum = if now.minus { c.saturating_sub(shifted) } else { c.saturating_add(shifted) };
+        let sum = if now.minus { c - shifted } else { c + shifted };
         let [least, most] = p.limits(now.clamp);
         Some(sum.clamp(least, most))
     }

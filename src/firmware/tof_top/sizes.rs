@@ -155,7 +155,7 @@ impl Sizes {
             "WaitBits" => bin_bits + 3,
             "WordBits" => likelihood_estimator::params::word_bits(histogram),
             "LowProductBits" => likelihood_estimator::params::word_bits(histogram) + 18,
-            "ShiftedBits" => 64,
+            "ShiftedBits" => likelihood_estimator::params::word_bits(histogram) + 2,
             "PositionBits" => position_bits,
             "PositionCoarseBits" => position_bits - 1,
             "DistanceBits" => position_bits + 10,

@@ -62,7 +62,7 @@ impl<'a> Estimations<'a> {
             cuts,
             line: 0,
             starts: Cover::new("start in state", states.clone()),
-            resets: Cover::new("reset in state", states),
+            resets: Cover::new("reset in state but idle", states.skip(1)),
             seen: Cover::new("depths without and with a status", if cuts { 0..2 } else { 0..0 }),
         })
     }
@@ -102,7 +102,7 @@ impl<'a> Estimations<'a> {
             0 => self.extreme(draw),
             _ => self.drawn(draw),
         };
-        let place = self.begun / WHOLE % STATES;
+        let place = 1 + self.begun / WHOLE % (STATES - 1);
         let cut = self.cuts && !self.begun.is_multiple_of(WHOLE);
         self.cut = cut.then(|| (place, draw.below(12)));
     }

@@ -13,7 +13,7 @@ pub(super) const SPEC: Spec = Spec {
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut estimations = Estimations::new(setting, false)?;
     let mut run = Recorder::new(spec, setting, In::list());
-    let mut predicted = Cover::new("bits of an expected count", 0..27);
+    let mut predicted = Cover::new("bits of an expected count", [0].into_iter().chain(8..27));
     let mut shares = Cover::new("share in 16ths", 0..17);
     for _ in 0..setting.cycles() {
         let estimator = &mut run.top.likelihood_estimator;
