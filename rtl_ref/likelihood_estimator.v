@@ -12,7 +12,7 @@ module likelihood_estimator #(
     parameter [0:0] Used = 1'b1,                 // 0: nothing starts it, and it has no ROMs
     parameter integer BinBits = 8,               // 2 to the power of which are the bins, 4 to 10
     parameter integer CountBits = 16,            // of a word of the histogram, 8 to 24
-    parameter [23:0] ShotsPerFrame = 24'd30000,  // shots of a histogram
+    parameter [23:0] LikelihoodShots = 24'd30000,  // shots of a histogram
     parameter integer BoxBins = 15,              // bins of the box
     parameter integer BinsBefore = 26,           // bins of the fit before the one of the echo
     parameter integer BinsAfter = 26,            // bins after it
@@ -180,7 +180,7 @@ module likelihood_estimator #(
         .Used(Used),
         .BinBits(BinBits),
         .CountBits(CountBits),
-        .ShotsPerFrame(ShotsPerFrame),
+        .LikelihoodShots(LikelihoodShots),
         .BoxBins(BoxBins),
         .EdgesFile(EdgesFile)
     ) likelihood_memory (

@@ -12,7 +12,7 @@ module likelihood_memory #(
     parameter [0:0] Used = 1'b1,                 // 0: nothing starts it, and it has no ROMs
     parameter integer BinBits = 8,               // 2 to the power of which are the bins, 4 to 10
     parameter integer CountBits = 16,            // of a word of the histogram, 8 to 24
-    parameter [23:0] ShotsPerFrame = 24'd30000,  // shots of a histogram
+    parameter [23:0] LikelihoodShots = 24'd30000,  // shots of a histogram
     parameter integer BoxBins = 15,              // bins of the box
     parameter EdgesFile = "rtl_ref/edges.mem"    // of each place the width of the bin before it [units], and its time
 ) (
@@ -142,7 +142,7 @@ module likelihood_memory #(
             if (load) begin
                 read_en <= 1'b1;
                 read_addr <= {BinBits{1'b0}};
-                left <= ShotsPerFrame[CountBits-1:0];
+                left <= LikelihoodShots[CountBits-1:0];
             end else if (read_en) begin
                 read_en <= !last_word;
                 read_addr <= read_addr + 1'b1;

@@ -41,6 +41,7 @@ module tof_top #(
     parameter [16:0] Slope = 17'd62871,
     parameter signed [29:0] Offset = 30'sd0,
     // See likelihood_estimator
+    parameter [23:0] LikelihoodShots = 24'd30000,
     parameter integer BoxBins = 15,
     parameter integer BinsBefore = 26,
     parameter integer BinsAfter = 26,
@@ -339,7 +340,7 @@ module tof_top #(
         .Used(Likelihood),
         .BinBits(BinBits),
         .CountBits(CountBits),
-        .ShotsPerFrame(ShotsPerFrame),
+        .LikelihoodShots(LikelihoodShots),
         .BoxBins(BoxBins),
         .BinsBefore(BinsBefore),
         .BinsAfter(BinsAfter),

@@ -54,6 +54,7 @@ fn assert_same(found: &Device, expected: &Device, what: &str) {
     // What has no signals of its own.
     assert_eq!(found.top.histogram_builder, expected.top.histogram_builder, "{what}");
     assert_eq!(found.top.centroid_estimator, expected.top.centroid_estimator, "{what}");
+    assert!(found.top.likelihood_estimator == expected.top.likelihood_estimator, "{what}");
     assert_eq!(found.top.socket, expected.top.socket, "{what}");
 }
 
@@ -175,7 +176,9 @@ fn control(random: &mut ChaCha8Rng, cycles: u64) -> Vec<Control> {
 fn random_setup(seed: u64, cycles: u64) -> Setup {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let chain = ["uniform", "table6_3", "ideal"][random.random_range(0..3)];
-    let kind = ["network", "centroid"][random.random_range(0..2)];
+    let mode = u64::from(seed % 5 == 4);
+    // The likelihood estimator is for mode 0.
+    let kind = ["network", "centroid", "likelihood"][random.random_range(0..3 - mode as usize)];
     let stimulus = match seed % 8 {
         5 => "histogram_validation",
         6 => "estimator_validation",
@@ -187,7 +190,7 @@ fn random_setup(seed: u64, cycles: u64) -> Setup {
         format!("spad.on_tdc={on_tdc}"),
         format!("firmware.laser_freq={}", seed % 4),
         format!("firmware.pulse_half_cycles={}", [1, 1 + seed / 2 % 8][seed as usize % 2]),
-        format!("firmware.mode={}", u64::from(seed % 5 == 4)),
+        format!("firmware.mode={mode}"),
         format!("firmware.shots_per_frame={}", random.random_range(5..60)),
         format!("ambient.irradiance_w_m2_nm={}", [0.0, 0.05, 0.4][random.random_range(0..3)]),
         format!("tdc.profile={chain}"),

@@ -15,7 +15,9 @@ use crate::firmware::forward2::Depth;
 use crate::firmware::pll::Pll;
 use crate::firmware::tdc_decoder::TimeScale;
 use crate::firmware::tof_top::{Estimator, HistogramSource, Params, Pins};
-use crate::firmware::{centroid_estimator, frame_ctrl, histogram_builder, tdc, vcsel_driver};
+use crate::firmware::{
+    centroid_estimator, frame_ctrl, histogram_builder, likelihood_estimator, tdc, vcsel_driver,
+};
 use crate::hierarchy;
 use crate::kernel::{S, Time, U};
 use crate::network::estimate::estimate;
@@ -138,7 +140,9 @@ impl Setup {
                 false => network::blank(&histogram),
             },
             centroid_estimator: centroid(&scenario.estimator, histogram),
-            likelihood_estimator: None,
+            likelihood_estimator: Arc::new(likelihood_estimator::params::Params::stand_in(
+                histogram,
+            )),
             estimator: match scenario.estimator.kind {
                 EstimatorKind::Network => Estimator::Network,
                 EstimatorKind::Centroid => Estimator::Centroid,
@@ -152,7 +156,10 @@ impl Setup {
         let mut setup =
             Setup { name, scenario, set, budget, params, network, pll, light, pins, no_depth };
         let shots = setup.params.frame_ctrl.shots_per_frame.into();
-        setup.params.likelihood_estimator = setup.likelihood(shots).ok().map(Arc::new);
+        // One that the estimator is not for has a stand-in, which nothing starts.
+        if let Ok(own) = setup.likelihood(shots) {
+            setup.params.likelihood_estimator = Arc::new(own);
+        }
         Ok(Setup { no_depth: setup.why_no_depth(), ..setup })
     }
 
@@ -227,9 +234,7 @@ impl Setup {
         match p.estimator {
             Estimator::Network => estimate(&p.depth_estimator, histogram).depth,
             Estimator::Centroid => locate(&p.centroid_estimator, histogram).depth,
-            Estimator::Likelihood => p
-                .likelihood()
-                .map_or_else(Depth::default, |p| likelihood::estimate(p, histogram).depth),
+            Estimator::Likelihood => likelihood::estimate(&p.likelihood_estimator, histogram).depth,
         }
     }
 

@@ -41,6 +41,7 @@ const FLOW: &[(&str, &[&str])] = &[
         &["rst", "dsp_en", "dsp_rst", "locked", "clk_in", "clear", "clear_addr", "acquire"],
     ),
     ("Hidden layer", &[VIEWED]),
+    ("Likelihood", &[VIEWED]),
     ("Histogram, word by word", &["histogram_builder.ram_*"]),
 ];
 /// Stands for the signals whose view has the heading.

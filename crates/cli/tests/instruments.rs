@@ -36,7 +36,7 @@ const BLOCKS: [&str; 10] = [
 ];
 
 /// Blocks that the size of the histogram or the network reaches.
-const OF_HISTOGRAM: [&str; 9] = [
+const OF_HISTOGRAM: [&str; 10] = [
     "centroid_estimator",
     "code_preload",
     "depth_estimator",
@@ -45,6 +45,7 @@ const OF_HISTOGRAM: [&str; 9] = [
     "forward2",
     "histogram_builder",
     "histogram_preload",
+    "likelihood_estimator",
     "tansig",
 ];
 /// Clock cycles of each of them, enough to clear the largest histogram, and to fill and estimate it [cycles].

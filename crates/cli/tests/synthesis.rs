@@ -35,6 +35,7 @@ const EXPECTED: &[(&str, &str, u64)] = &[
     ("forward1", "DSP48E1", 8),
     ("forward2", "DSP48E1", 2),
     ("histogram_builder", "RAM256X1S", 16),
+    ("likelihood_estimator", "DSP48E1", 8),
     ("lvds_output", "OBUFDS", 1),
     ("pll", "PLLE2_BASE", 1),
     ("tof_top", "DSP48E1", 10),

@@ -1,5 +1,6 @@
 //! From an instrument to parameters and ROMs.
 
+use std::fmt;
 use std::sync::Arc;
 
 use crate::firmware::histogram_builder;
@@ -19,7 +20,7 @@ pub const WIDTH_BITS: u32 = 10;
 const EDGE_BITS: u32 = 8;
 
 /// Verilog parameters and what is in the ROMs.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Params {
     /// How large the histogram is.
     pub histogram: histogram_builder::Params,
@@ -84,7 +85,42 @@ pub enum Unfit {
     Far(f64, f64),
 }
 
+/// Without the ROMs, which follow from the rest and the chain.
+impl fmt::Debug for Params {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        let Params {
+            histogram,
+            shots,
+            step_log2,
+            before,
+            after,
+            box_bins,
+            kappa,
+            sigma,
+            metres,
+            ..
+        } = self;
+        let words = (step_log2, before, after, box_bins, kappa, sigma, metres);
+        out.debug_struct("Params")
+            .field("histogram", histogram)
+            .field("shots", shots)
+            .field("words", &words)
+            .finish()
+    }
+}
+
 impl Params {
+    /// For a histogram of bins of 25 ps and a pulse as long as one of them: fits into any, and is what an
+    /// instrument has that the estimator is not for.
+    pub fn stand_in(histogram: histogram_builder::Params) -> Self {
+        let bin_ps = 25.0;
+        let edges_ps: Vec<_> = (0..=histogram.bins).map(|bin| bin as f64 * bin_ps).collect();
+        let (shots, pulse) = (histogram.most_hits(), Pulse::Gaussian { sigma_ps: bin_ps });
+        let metres_per_ps = 1.5e-4;
+        let wanted = Wanted { histogram, shots, edges_ps: &edges_ps, bin_ps, pulse, metres_per_ps };
+        Params::of(&wanted)
+    }
+
     /// Bits of the words of the steps: those of a sum, [`Params::word_bits`].
     pub fn word_bits(&self) -> u32 {
         word_bits(&self.histogram)
@@ -125,53 +161,80 @@ impl Params {
     /// # Errors
     /// When the pulse is too short or too long for the histogram, or the window too long for a depth.
     pub fn new(wanted: &Wanted) -> Result<Self, Unfit> {
-        let Wanted { histogram, shots, edges_ps, bin_ps, pulse, metres_per_ps } = wanted;
-        let (bins, unit_ps) = (histogram.bins, bin_ps / UNITS as f64);
-        let (sigma_ps, [begin_ps, end_ps]) = (pulse.sigma_ps(), pulse.ends_ps());
-        let half = |ps: &f64| libm::floor(2.0 * ps / unit_ps + 0.5) as u32;
-        let edges: Vec<u32> = edges_ps.iter().map(half).collect();
-        let last = edges.iter().copied().max().unwrap_or(0);
-        if last >> (bins.ilog2() + EDGE_BITS) != 0 {
-            return Err(Unfit::Late(f64::from(last) / 2.0 / UNITS as f64 - bins as f64));
+        match wanted.fault() {
+            Some(unfit) => Err(unfit),
+            None => Ok(Params::of(wanted)),
         }
-        let widest = edges.windows(2).map(|edges| (edges[1] + 1) / 2 - (edges[0] + 1) / 2).max();
-        if widest >= Some(1 << WIDTH_BITS) {
-            return Err(Unfit::Wide(f64::from(widest.unwrap_or(0)) / UNITS as f64));
-        }
-        let metres = metres_per_ps * unit_ps;
-        let (window_m, most_m) = (
-            metres * f64::from(last) / 2.0,
-            ((word_bits(histogram) - 1 - DEPTH_FRACTION) as f64).exp2(),
-        );
-        if window_m >= most_m {
-            return Err(Unfit::Far(window_m, most_m));
-        }
-        if sigma_ps < 0.5 * bin_ps {
-            return Err(Unfit::Short(sigma_ps / bin_ps));
-        }
-        let reach = |ps: f64| libm::floor(ps / bin_ps) as usize + 2;
-        let (before, after) = (reach(-begin_ps), reach(end_ps));
-        if before + 1 + after > bins {
-            return Err(Unfit::Long(before + 1 + after, bins));
-        }
+    }
+
+    /// For one that it fits.
+    fn of(wanted: &Wanted) -> Self {
+        let Wanted { histogram, shots, bin_ps, pulse, metres_per_ps, .. } = wanted;
+        let (unit_ps, sigma_ps) = (wanted.unit_ps(), pulse.sigma_ps());
+        let [before, after] = wanted.reach();
         let step_log2 = pulse.step_log2(unit_ps);
         let deviation = sigma_ps / unit_ps / f64::from(1u32 << step_log2) / 4.0;
-        let distance = metres / 16.0 * (DEPTH_FRACTION as f64).exp2();
+        let distance = metres_per_ps * unit_ps / 16.0 * f64::from(DEPTH_FRACTION).exp2();
         let metres_shift = (METRES_BITS - 1) - libm::floor(libm::log2(distance)) as i32;
-        Ok(Params {
+        Params {
             histogram: *histogram,
             shots: *shots,
-            edges: edges.into(),
+            edges: wanted.edges().into(),
             pulse: pulse.words(unit_ps, step_log2).into(),
             step_log2,
             before,
             after,
-            box_bins: (libm::round(BOX_SIGMA * sigma_ps / bin_ps) as usize).clamp(2, bins / 2),
+            box_bins: (libm::round(BOX_SIGMA * sigma_ps / bin_ps) as usize)
+                .clamp(2, histogram.bins / 2),
             kappa: libm::round(16.0 * deviation * deviation) as i64,
             sigma: libm::round(sigma_ps / unit_ps) as i64,
             metres: libm::round(distance * (metres_shift as f64).exp2()) as i64,
             metres_shift: metres_shift as u32,
-        })
+        }
+    }
+}
+
+impl Wanted<'_> {
+    /// Unit of time [ps].
+    fn unit_ps(&self) -> f64 {
+        self.bin_ps / UNITS as f64
+    }
+
+    /// Edges of the bins [half units].
+    fn edges(&self) -> Vec<u32> {
+        let half = |ps: &f64| libm::floor(2.0 * ps / self.unit_ps() + 0.5) as u32;
+        self.edges_ps.iter().map(half).collect()
+    }
+
+    /// Bins of the pulse before and after the one with its middle.
+    fn reach(&self) -> [usize; 2] {
+        let [begin_ps, end_ps] = self.pulse.ends_ps();
+        [-begin_ps, end_ps].map(|ps| libm::floor(ps / self.bin_ps) as usize + 2)
+    }
+
+    /// Why there is no estimator for it.
+    fn fault(&self) -> Option<Unfit> {
+        let (bins, edges) = (self.histogram.bins, self.edges());
+        let last = edges.iter().copied().max().unwrap_or(0);
+        if last >> (bins.ilog2() + EDGE_BITS) != 0 {
+            return Some(Unfit::Late(f64::from(last) / 2.0 / UNITS as f64 - bins as f64));
+        }
+        let width = |edges: &[u32]| edges[1].div_ceil(2) - edges[0].div_ceil(2);
+        let widest = edges.windows(2).map(width).max().unwrap_or(0);
+        if widest >= 1 << WIDTH_BITS {
+            return Some(Unfit::Wide(f64::from(widest) / UNITS as f64));
+        }
+        let window_m = self.metres_per_ps * self.unit_ps() * f64::from(last) / 2.0;
+        let most_m = f64::from(word_bits(&self.histogram) - 1 - DEPTH_FRACTION).exp2();
+        if window_m >= most_m {
+            return Some(Unfit::Far(window_m, most_m));
+        }
+        let sigma_ps = self.pulse.sigma_ps();
+        if sigma_ps < 0.5 * self.bin_ps {
+            return Some(Unfit::Short(sigma_ps / self.bin_ps));
+        }
+        let long = self.reach().iter().sum::<usize>() + 1;
+        (long > bins).then_some(Unfit::Long(long, bins))
     }
 }
 

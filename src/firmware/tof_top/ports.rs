@@ -133,8 +133,8 @@ pub struct Params {
     pub depth_estimator: depth_estimator::Params,
     /// Window and scale of the centroid.
     pub centroid_estimator: centroid_estimator::Params,
-    /// Pulse, bins and ROMs of the likelihood, where its model holds for the instrument.
-    pub likelihood_estimator: Option<Arc<likelihood_estimator::params::Params>>,
+    /// Pulse, bins and ROMs of the likelihood.
+    pub likelihood_estimator: Arc<likelihood_estimator::params::Params>,
     /// What finds the depth.
     pub estimator: Estimator,
     /// Where codes come from.
@@ -144,11 +144,6 @@ pub struct Params {
 }
 
 impl Params {
-    /// Those of the likelihood estimator, if there are any.
-    pub fn likelihood(&self) -> Option<&likelihood_estimator::params::Params> {
-        self.likelihood_estimator.as_deref()
-    }
-
     /// Modules of the top that are left out: stand-ins, or what they stand in for.
     pub fn left_out(&self) -> Vec<&'static str> {
         let others = Estimator::ALL.into_iter().filter(|other| *other != self.estimator);
@@ -171,7 +166,7 @@ impl Params {
         match self.estimator {
             Estimator::Network => self.depth_estimator.cycles(),
             Estimator::Centroid => self.centroid_estimator.done(),
-            Estimator::Likelihood => self.likelihood().map_or(0, |p| p.done()),
+            Estimator::Likelihood => self.likelihood_estimator.done(),
         }
     }
 }

@@ -41,7 +41,7 @@ pub struct Sizes {
     pub neurons: usize,
     /// Number formats of the network.
     pub datapath: Datapath,
-    /// Cycles of the likelihood estimator, if there is one [cycles of clk_sys].
+    /// Cycles of the likelihood estimator [cycles of clk_sys].
     pub likelihood_cycles: u64,
 }
 
@@ -208,7 +208,7 @@ impl Params {
             histogram: self.histogram,
             neurons: self.depth_estimator.neurons(),
             datapath: self.depth_estimator.forward2.datapath,
-            likelihood_cycles: self.likelihood().map_or(0, |params| params.done()),
+            likelihood_cycles: self.likelihood_estimator.done(),
         }
     }
 }

@@ -19,9 +19,7 @@ impl TofTop {
             Estimator::Network => self.depth_estimator.rise(network, &p.depth_estimator),
             Estimator::Centroid => self.centroid_estimator.rise(centroid, &p.centroid_estimator),
             Estimator::Likelihood => {
-                if let Some(params) = p.likelihood() {
-                    self.likelihood_estimator.rise(likelihood, params);
-                }
+                self.likelihood_estimator.rise(likelihood, &p.likelihood_estimator);
             }
         }
         self.take_depth(p);

@@ -218,6 +218,12 @@ table! {
         /// Distance that is added to the centroid's.
         #[schemars(range(min = -0.99, max = 0.99), extend("unit" = "m", "source" = "choice: none, so that pile-up shows"))]
         pub centroid_offset_m: f64 = 0.0,
+        /// Standard deviation of the pulse that the likelihood estimator is told; 0: `laser.pulse_sigma_ps`.
+        #[schemars(range(min = 0.0, max = 1e6), extend("unit" = "ps", "source" = "choice: what it really is"))]
+        pub told_sigma_ps: f64 = 0.0,
+        /// Shots of a histogram that the likelihood estimator is told; 0: those of a frame.
+        #[schemars(range(min = 0, max = 16_777_215), extend("unit" = "shots", "source" = "choice: what they really are"))]
+        pub told_shots: u64 = 0,
     }
 }
 

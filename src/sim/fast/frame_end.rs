@@ -74,7 +74,7 @@ fn land_in_estimation(top: &mut TofTop, p: &Params) {
             }
         }
         Estimator::Likelihood => {
-            let Some(params) = p.likelihood() else { return };
+            let params = &p.likelihood_estimator;
             let likelihood = &mut top.likelihood_estimator;
             for _ in 1..params.done() {
                 let count = words[likelihood.likelihood_memory.registers.read_addr.index()];

@@ -33,11 +33,11 @@ pub(super) fn estimator_rests(top: &TofTop, p: &Params) -> bool {
             next.rise(&i, &p.centroid_estimator);
             next == top.centroid_estimator
         }
-        Estimator::Likelihood => p.likelihood().is_some_and(|params| {
+        Estimator::Likelihood => {
             let i =
                 likelihood_estimator::In { rst, algo_start, ..Wires::likelihood_estimator(top) };
-            top.likelihood_estimator.rests(&i, params)
-        }),
+            top.likelihood_estimator.rests(&i, &p.likelihood_estimator)
+        }
     }
 }
 

@@ -17,7 +17,6 @@ fn where_its_model_does_not_hold_it_says_why_there_is_none() {
         ("tdc.first_bin_ps=1000", "tdc.first_bin_ps"),
         ("pll.jitter_rms_ps=10", "pll.jitter_rms_ps"),
         ("laser.pulse_sigma_ps=5", "laser.pulse_sigma_ps"),
-        ("firmware.count_bits=8", "firmware.count_bits"),
     ] {
         let few = "firmware.shots_per_frame=200";
         let why = SecondOpinion::new(&Setup::load("kc705", &[set, few]).unwrap()).unwrap_err();

@@ -32,12 +32,16 @@ impl Setup {
                             does not hear of them";
             return Err(fault("tdc.first_bin_ps", bins.first_ps(), expected.to_owned()));
         }
+        let told = &scenario.estimator;
+        let or = |told: f64, own: f64| if told > 0.0 { told } else { own };
         let wanted = Wanted {
             histogram: self.params.histogram,
-            shots,
+            shots: if told.told_shots > 0 { told.told_shots } else { shots },
             edges_ps: &bins.edges_ps(),
             bin_ps: bins.bin_ps(),
-            pulse: Pulse::Gaussian { sigma_ps: scenario.laser.pulse_sigma_ps },
+            pulse: Pulse::Gaussian {
+                sigma_ps: or(told.told_sigma_ps, scenario.laser.pulse_sigma_ps),
+            },
             metres_per_ps: LIGHT_M_S / 2e12,
         };
         Params::new(&wanted).map_err(|unfit| {

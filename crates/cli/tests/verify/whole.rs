@@ -47,8 +47,8 @@ fn faults_that_only_another_configuration_shows_are_found() {
     assert_eq!(of(&list, "depth_estimator"), "pass");
     assert_eq!(of(&list, "depth_estimator.neurons_16"), "differs");
 
-    let started = "algo_start && Estimator)";
-    let folder = all("tof_top.v", started, "algo_start || Estimator)");
+    let started = "algo_start && Centroid)";
+    let folder = all("tof_top.v", started, "algo_start || Centroid)");
     let list = verdicts(folder.path(), &["--block", "tof_top", "--cycles", "2000"]);
     assert_eq!(of(&list, "tof_top"), "pass");
     assert_eq!(of(&list, "tof_top.centroid"), "differs");

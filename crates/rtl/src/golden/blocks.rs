@@ -53,6 +53,9 @@ blocks! {
 /// The estimator that the thesis does not have, and other people's designs need not.
 pub const CENTROID: &str = "centroid_estimator";
 
+/// Another such.
+pub const LIKELIHOOD: &str = "likelihood_estimator";
+
 /// The block called `name`.
 pub fn find(name: &str) -> Option<&'static Spec> {
     BLOCKS.iter().find(|spec| spec.name == name)

@@ -4,7 +4,6 @@
 //! them stand extreme ones: empty, full, all hits in one bin, every other bin full, random. Now and then an
 //! estimation is started while one is busy, or a reset cuts it short, in each state in turn.
 
-use tofsim::error::{Input, Result};
 use tofsim::firmware::likelihood_estimator::params::Params;
 use tofsim::firmware::likelihood_estimator::{In, LikelihoodEstimator, State};
 use tofsim::kernel::U;
@@ -40,20 +39,11 @@ pub struct Estimations<'a> {
 
 impl<'a> Estimations<'a> {
     /// Of the setting's instrument; with `cuts` some end early.
-    ///
-    /// # Errors
-    /// When the estimator's model does not hold for the instrument.
-    pub fn new(setting: &'a Setting, cuts: bool) -> Result<Self> {
+    pub fn new(setting: &'a Setting, cuts: bool) -> Self {
         let setup = &setting.setup;
-        let Some(params) = setup.params.likelihood() else {
-            let shots = setup.params.frame_ctrl.shots_per_frame.into();
-            let fault = setup.likelihood(shots).err();
-            return Err(fault
-                .unwrap_or_else(|| Input::new("likelihood_estimator", "no shots"))
-                .into());
-        };
+        let params = &*setup.params.likelihood_estimator;
         let states = if cuts { 0..STATES } else { 0..0 };
-        Ok(Estimations {
+        Estimations {
             setup,
             params,
             histogram: vec![0; params.histogram.bins],
@@ -64,7 +54,7 @@ impl<'a> Estimations<'a> {
             starts: Cover::new("start in state", states.clone()),
             resets: Cover::new("reset in state but idle", states.skip(1)),
             seen: Cover::new("depths without and with a status", if cuts { 0..2 } else { 0..0 }),
-        })
+        }
     }
 
     /// The input ports of a cycle.

@@ -208,10 +208,11 @@ pub fn centroid_estimator(params: &centroid_estimator::Params) -> Parameters {
     ]
 }
 
-/// Those of the likelihood estimator, beside its shots.
+/// Those of the likelihood estimator.
 pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> Parameters {
     let number = |value: u64| Parameter::Number(value);
     let mut list = vec![
+        ("LikelihoodShots", number(params.shots)),
         ("BoxBins", number(params.box_bins as u64)),
         ("BinsBefore", number(params.before as u64)),
         ("BinsAfter", number(params.after as u64)),
@@ -230,10 +231,8 @@ pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> Pa
 /// Those of a block of the likelihood estimator: of some names, and its sizes.
 pub fn of_likelihood(params: &Params, names: &[&'static str]) -> Parameters {
     let mut list = sized(params, &["BinBits", "CountBits"]);
-    let shots = params.frame_ctrl.shots_per_frame.into();
-    let own = params.likelihood().map(likelihood_estimator).unwrap_or_default();
-    let all = [("ShotsPerFrame", Parameter::Number(shots))].into_iter().chain(own);
-    list.extend(all.filter(|(name, _)| names.contains(name)));
+    let own = likelihood_estimator(&params.likelihood_estimator);
+    list.extend(own.into_iter().filter(|(name, _)| names.contains(name)));
     list
 }
 
@@ -278,7 +277,7 @@ pub fn tof_top(setup: &Setup) -> Parameters {
         }
         Estimator::Likelihood => {
             list.push(("Estimator", Number(2)));
-            list.extend(params.likelihood().map(likelihood_estimator).unwrap_or_default());
+            list.extend(likelihood_estimator(&params.likelihood_estimator));
         }
     }
     list
@@ -297,7 +296,7 @@ pub fn tof_top_in_full(setup: &Setup) -> Parameters {
     let socket = Estimator::ALL.iter().position(|one| *one == params.estimator).unwrap_or_default();
     all.push(("Estimator", Parameter::Number(socket as u64)));
     all.extend(centroid_estimator(&params.centroid_estimator));
-    all.extend(params.likelihood().map(likelihood_estimator).unwrap_or_default());
+    all.extend(likelihood_estimator(&params.likelihood_estimator));
     let is_new = |(name, _): &(&str, Parameter)| list.iter().all(|(known, _)| known != name);
     let others: Vec<_> = all.into_iter().filter(is_new).collect();
     list.extend(others);

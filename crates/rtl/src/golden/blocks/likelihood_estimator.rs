@@ -15,16 +15,15 @@ pub(super) const SPEC: Spec = Spec {
 const CYCLES: usize = 75_000;
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let mut estimations = Estimations::new(setting, true)?;
+    let mut estimations = Estimations::new(setting, true);
     let mut run = Recorder::new(spec, setting, In::list());
     for _ in 0..setting.cycles.unwrap_or(CYCLES) {
         let i = estimations.next(&run.top.likelihood_estimator, &mut run.draw);
         run.line(&i);
-        let params = setting.setup.params.likelihood();
-        params.into_iter().for_each(|params| run.top.likelihood_estimator.rise(&i, params));
+        run.top.likelihood_estimator.rise(&i, &setting.setup.params.likelihood_estimator);
     }
     let all = [
-        "ShotsPerFrame", "BoxBins", "BinsBefore", "BinsAfter", "Kappa", "StepLog2", "PulseSigma", "WindowEnd",
+        "LikelihoodShots", "BoxBins", "BinsBefore", "BinsAfter", "Kappa", "StepLog2", "PulseSigma", "WindowEnd",
         "Metres", "MetresShift", "EdgesFile", "PulseFile", "HazardFile", "LogFile",
     ];
     let parameters = parameters::of_likelihood(&setting.setup.params, &all);

@@ -12,7 +12,7 @@ pub(super) const SPEC: Spec = Spec {
 };
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let mut estimations = Estimations::new(setting, false)?;
+    let mut estimations = Estimations::new(setting, false);
     let mut run = Recorder::new(spec, setting, In::list());
     let mut kinds = Cover::new("a bin, the rest, an edge, a blanked bin", 0..4);
     for _ in 0..setting.cycles() {
@@ -25,9 +25,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         kinds.see_if(now.word_slide && !now.word_bin, 3);
         let own = Wires::likelihood_memory(&run.top.likelihood_estimator, &i);
         run.line(&own);
-        let params = setting.setup.params.likelihood();
-        params.into_iter().for_each(|params| run.top.likelihood_estimator.rise(&i, params));
+        run.top.likelihood_estimator.rise(&i, &setting.setup.params.likelihood_estimator);
     }
-    let parameters = parameters::of_likelihood(&setting.setup.params, &["ShotsPerFrame", "BoxBins", "EdgesFile"]);
+    let parameters = parameters::of_likelihood(&setting.setup.params, &["LikelihoodShots", "BoxBins", "EdgesFile"]);
     Ok(Vectors { parameters, ..run.vectors([kinds]) })
 }

@@ -13,7 +13,7 @@ pub(super) const SPEC: Spec = Spec {
 };
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let mut estimations = Estimations::new(setting, false)?;
+    let mut estimations = Estimations::new(setting, false);
     let mut run = Recorder::new(spec, setting, In::list());
     let mut counters = Cover::new("instruction", 0..PROGRAM.len() as u64);
     for _ in 0..setting.cycles() {
@@ -22,8 +22,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         counters.see(run.top.likelihood_estimator.likelihood_solver.counter());
         let own = Wires::likelihood_solver(&run.top.likelihood_estimator, &i);
         run.line(&own);
-        let params = setting.setup.params.likelihood();
-        params.into_iter().for_each(|params| run.top.likelihood_estimator.rise(&i, params));
+        run.top.likelihood_estimator.rise(&i, &setting.setup.params.likelihood_estimator);
     }
     let parameters = parameters::of_likelihood(&setting.setup.params, &["Kappa", "StepLog2", "PulseSigma", "WindowEnd", "Metres", "MetresShift"]);
     Ok(Vectors { parameters, ..run.vectors([counters]) })

@@ -11,7 +11,7 @@ pub(super) const SPEC: Spec = Spec {
 };
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let mut estimations = Estimations::new(setting, false)?;
+    let mut estimations = Estimations::new(setting, false);
     let mut run = Recorder::new(spec, setting, In::list());
     let mut checks = Cover::new("phase x 2 + check", 0..4);
     let mut fars = Cover::new("far", 0..2);
@@ -23,8 +23,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         let own = Wires::likelihood_sums(&run.top.likelihood_estimator, &i);
         checks.see(bits([own.phase, own.check]));
         run.line(&own);
-        let params = setting.setup.params.likelihood();
-        params.into_iter().for_each(|params| run.top.likelihood_estimator.rise(&i, params));
+        run.top.likelihood_estimator.rise(&i, &setting.setup.params.likelihood_estimator);
     }
     let parameters = parameters::of_likelihood(&setting.setup.params, &[]);
     Ok(Vectors { parameters, ..run.vectors([checks, fars]) })

@@ -11,9 +11,9 @@ pub(super) const SPEC: Spec = Spec {
 };
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let mut estimations = Estimations::new(setting, false)?;
+    let mut estimations = Estimations::new(setting, false);
     let mut run = Recorder::new(spec, setting, In::list());
-    let mut predicted = Cover::new("bits of an expected count", [0].into_iter().chain(8..27));
+    let mut predicted = Cover::new("bits of an expected count", [0].into_iter().chain(10..24));
     let mut shares = Cover::new("share in 16ths", 0..17);
     for _ in 0..setting.cycles() {
         let estimator = &mut run.top.likelihood_estimator;
@@ -23,8 +23,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         shares.see(now.share.get() >> 8);
         let own = Wires::likelihood_terms(&run.top.likelihood_estimator, &i);
         run.line(&own);
-        let params = setting.setup.params.likelihood();
-        params.into_iter().for_each(|params| run.top.likelihood_estimator.rise(&i, params));
+        run.top.likelihood_estimator.rise(&i, &setting.setup.params.likelihood_estimator);
     }
     let parameters = parameters::of_likelihood(&setting.setup.params, &["StepLog2", "PulseFile", "HazardFile"]);
     Ok(Vectors { parameters, ..run.vectors([predicted, shares]) })

@@ -28,7 +28,7 @@ pub(super) const SPEC: Spec = Spec {
         "lvds_output.o",
         "lvds_output.ob",
     ],
-    configurations: &[NEURONS_16, COUNT_STAGES_2, CLOCKS, CENTROID, CODES, HISTOGRAM],
+    configurations: &[NEURONS_16, COUNT_STAGES_2, CLOCKS, CENTROID, LIKELIHOOD, CODES, HISTOGRAM],
     ..Spec::new("tof_top", "", record)
 };
 
@@ -43,6 +43,15 @@ const CENTROID: Configuration = Configuration {
     ],
     parameters: &["Estimator", "HalfWidth", "Background", "Slope", "Offset"],
     module: Some(super::CENTROID),
+    ..configuration::DEFAULTS
+};
+
+/// The one without training.
+const LIKELIHOOD: Configuration = Configuration {
+    name: "likelihood",
+    set: &["estimator.kind=likelihood", "laser.pulse_sigma_ps=100"],
+    parameters: &["Estimator", "BoxBins", "BinsBefore", "Kappa", "EdgesFile", "PulseFile"],
+    module: Some(super::LIKELIHOOD),
     ..configuration::DEFAULTS
 };
 
