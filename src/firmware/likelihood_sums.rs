@@ -193,11 +193,11 @@ impl LikelihoodSums {
         let most = (1 << (p.histogram.count_bits + 1)) - 1;
         let near = i.residual.get().clamp(-most, most);
         d.seen_first = S::new(match i.check {
-            true => near * near >> 2,
+            true => (near * near) >> 2,
             false => rounded(i.residual.get() * i.share.get() as i64, 12),
         });
         let twice = match i.check {
-            true => self.over.get() * self.reciprocal.get() >> 10,
+            true => (self.over.get() * self.reciprocal.get()) >> 10,
             false => rounded((self.once[0].get() * self.shares[1].get()) as i64, 12) as u64,
         };
         d.twice_first = U::new(twice);
