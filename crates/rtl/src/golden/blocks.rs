@@ -52,6 +52,8 @@ blocks! {
 
 /// The estimator that the thesis does not have, and other people's designs need not.
 pub const CENTROID: &str = "centroid_estimator";
+/// As [`CENTROID`].
+pub const LIKELIHOOD: &str = "likelihood_estimator";
 
 /// The block called `name`.
 pub fn find(name: &str) -> Option<&'static Spec> {
