@@ -33,6 +33,7 @@ pub struct Estimations<'a> {
     cut: Option<(u64, u64)>,
     cuts: bool,
     line: usize,
+    over: bool,
     starts: Cover,
     resets: Cover,
     seen: Cover,
@@ -61,6 +62,7 @@ impl<'a> Estimations<'a> {
             cut: None,
             cuts,
             line: 0,
+            over: false,
             starts: Cover::new("start in state", states.clone()),
             resets: Cover::new("reset in state but idle", states.skip(1)),
             seen: Cover::new("depths without and with a status", if cuts { 0..2 } else { 0..0 }),
@@ -93,6 +95,13 @@ impl<'a> Estimations<'a> {
         let memory = &block.likelihood_memory.registers;
         let word = if memory.read_en { self.histogram[memory.read_addr.index()] } else { 0 };
         In { rst, algo_start, count: U::new(word.into()) }
+    }
+
+    /// Whether these lines and all that follow are drawn for one block alone: from the middle of so many on, once
+    /// the estimator is idle. A few histograms reach few of the limits that its words have.
+    pub fn over(&mut self, block: &LikelihoodEstimator, lines: usize) -> bool {
+        self.over |= self.line >= lines / 2 && block.state() == State::Idle;
+        self.over
     }
 
     /// Another histogram, and perhaps a state in which its estimation is cut short.
