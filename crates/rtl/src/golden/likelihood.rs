@@ -7,6 +7,7 @@
 
 use tofsim::error::{Input, Result};
 use tofsim::firmware::likelihood_estimator::params::Params;
+use tofsim::firmware::likelihood_estimator::words::status;
 use tofsim::firmware::likelihood_estimator::{In, LikelihoodEstimator, State};
 use tofsim::kernel::U;
 use tofsim::optics::{BinProbabilities, Budget, Hazard};
@@ -22,15 +23,17 @@ const STATES: u64 = State::End as u64 + 1;
 /// Every so many estimations is a whole one.
 const WHOLE: u64 = 2;
 /// Kinds of histograms, each of which shows one way in which an estimation ends.
-const KINDS: u64 = 9;
-const FAINT: u64 = 1;
+const KINDS: u64 = 11;
+const EXTREME: u64 = 1;
 const AT_END: u64 = 2;
 const AT_BEGIN: u64 = 3;
 const TWO: u64 = 4;
-const EXTREME: u64 = 5;
+const FAINT: u64 = 5;
 const USED_UP: u64 = 6;
 const RISING: u64 = 7;
 const FALLING: u64 = 8;
+const ODD: u64 = 9;
+const EMPTY: u64 = 10;
 /// So often a histogram is drawn that is of its kind.
 const TRIES: u64 = 100;
 /// Kinds of extreme histograms.
@@ -47,6 +50,7 @@ struct Outcome {
     waiting: Option<u64>,
     flags: u64,
     cut: bool,
+    status: u64,
 }
 
 impl Outcome {
@@ -60,6 +64,7 @@ impl Outcome {
             TWO => (332..=425).contains(&self.rescan),
             USED_UP => self.waiting.is_some_and(|waiting| (1..32).contains(&waiting)),
             RISING => flags(6) && !flags(5) && !self.cut,
+            ODD => self.status == u64::from(status::NO_FIT),
             FALLING => flags(5) && !flags(6) && !self.cut,
             _ => true,
         }
@@ -168,6 +173,7 @@ impl<'a> Estimations<'a> {
         match kind {
             EXTREME => self.extreme(draw),
             USED_UP => self.used_up(draw),
+            EMPTY => vec![0; self.params.histogram.bins],
             kind => self.drawn(kind, draw),
         }
     }
@@ -190,12 +196,13 @@ impl<'a> Estimations<'a> {
         }
         outcome.rescan = block.likelihood_scan.registers.best_score.get();
         outcome.flags = block.likelihood_solver.registers.flags.get();
+        outcome.status = block.registers.status.get();
         outcome.cut = block.likelihood_solver.registers.cut.get() != 0;
         outcome
     }
 
     /// A histogram of a scene: an ordinary one, a faint echo, one at either end of the window, or two, of which one is
-    /// faint or which are close together.
+    /// faint; or a bin of the fit has too many hits.
     fn drawn(&self, kind: u64, draw: &mut Draw) -> Vec<u32> {
         let part = |draw: &mut Draw| draw.below(1000) as f64 / 1000.0;
         let place = match kind {
@@ -210,10 +217,15 @@ impl<'a> Estimations<'a> {
         let ordinary = 0.03 + 0.9 * part(draw);
         let mut counts = match kind {
             FAINT => self.scene(place, faint(place, 0.0016, draw), 0.3, draw),
-            TWO => self.scene(place, faint(place, 0.02, draw), 0.3, draw),
+            TWO | ODD => self.scene(place, faint(place, 0.02, draw), 0.3, draw),
             AT_BEGIN => self.scene(place, faint(place, 0.2, draw), part(draw), draw),
             _ => self.scene(place, ordinary, part(draw), draw),
         };
+        if kind == ODD {
+            let peak = (0..counts.len()).max_by_key(|bin| counts[*bin]).unwrap_or(0);
+            let odd = (peak + 8).min(counts.len() - 1);
+            counts[odd] += counts[odd] / 4 + 100;
+        }
         let other = match kind {
             TWO => self.scene(1.1 - place, faint(1.1 - place, 0.005, draw), 0.3, draw),
             FALLING => self.scene(1.1 - place, faint(1.1 - place, 0.004, draw), 0.1, draw),
@@ -264,7 +276,7 @@ impl<'a> Estimations<'a> {
             7 => random % (most / bins + 1),
             _ => 0,
         };
-        let kind = draw.below(EXTREMES);
+        let kind = self.begun % EXTREMES;
         (0..bins).map(|bin| count(kind, bin, draw.bits()) as u32).collect()
     }
 

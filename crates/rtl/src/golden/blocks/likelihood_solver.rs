@@ -46,7 +46,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
 /// What a program may be given, and which.
 fn operands(histogram: &histogram_builder::Params, draw: &mut Draw) -> In {
     let (count, bin) = (histogram.count_bits, histogram.bins.ilog2());
-    let programs = [AMBIENT_PROGRAM, START_PROGRAM, STEP_PROGRAM, STEP_PROGRAM, END_PROGRAM];
+    let (start, step) = (START_PROGRAM, STEP_PROGRAM);
+    let programs = [AMBIENT_PROGRAM, start, start, step, step, step, END_PROGRAM];
     let mut slope = || S::new(draw.signed_within(count + 24));
     let (sum_12, sum_13, score_1) = (slope(), slope(), slope());
     let mut sum = || S::new(draw.signed_within(count + 19));
@@ -61,7 +62,7 @@ fn operands(histogram: &histogram_builder::Params, draw: &mut Draw) -> In {
         best_excess: S::new(draw.signed_within(count + bin + 14)),
         best_middle: U::new(draw.unsigned_of(count + 2 * bin + 1)),
         box_length: U::new(1 + draw.below(histogram.bins as u64)),
-        box_sum: U::new(draw.near_ends(2 * histogram.bins as u64)),
+        box_sum: U::new(if draw.one_in(2) { 0 } else { draw.near_ends(2 * histogram.bins as u64) }),
         sum_11: S::new(draw.unsigned_of(count + 19) as i64),
         sum_12,
         sum_13,
