@@ -52,8 +52,7 @@ blocks! {
 
 /// The estimator that the thesis does not have, and other people's designs need not.
 pub const CENTROID: &str = "centroid_estimator";
-
-/// Another such.
+/// As [`CENTROID`].
 pub const LIKELIHOOD: &str = "likelihood_estimator";
 
 /// The block called `name`.

@@ -53,6 +53,11 @@ impl Draw {
         U::new(self.bits())
     }
 
+    /// A number of so many bits, every size alike.
+    pub fn unsigned_of(&mut self, bits: u32) -> u64 {
+        self.bits() >> (63 - self.below(bits.into()))
+    }
+
     /// A signed word: any value, or one within a few bits of zero, or an end of the range, so that
     /// every size of number comes up.
     pub fn signed<const N: u32, const F: u32>(&mut self) -> S<N, F> {
@@ -68,6 +73,11 @@ impl Draw {
             2 => any,
             _ => any >> (64 - 1 - self.below(bits.into())),
         }
+    }
+
+    /// The same, without what is above them: for a port that is narrower than its word.
+    pub fn signed_within(&mut self, bits: u32) -> i64 {
+        self.signed_of(bits) << (64 - bits) >> (64 - bits)
     }
 }
 

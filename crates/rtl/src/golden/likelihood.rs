@@ -1,10 +1,12 @@
 //! Estimations of the likelihood estimator one after the other, for it and for each of its blocks.
 //!
-//! The histograms are drawn from scenes of the scenario's instrument, near and far, bright and dark, and between
-//! them stand extreme ones: empty, full, all hits in one bin, every other bin full, random. Now and then an
-//! estimation is started while one is busy, or a reset cuts it short, in each state in turn.
+//! The histograms are drawn from scenes of the scenario's instrument, near and far, bright and dark, until one shows
+//! what its kind is for: each reason not to believe a depth, alone. Between them stand extreme ones: empty, full, all
+//! hits in one bin, every other bin full, random. Now and then an estimation is started while one is busy, or a reset
+//! cuts it short, in each state in turn.
 
 use tofsim::firmware::likelihood_estimator::params::Params;
+use tofsim::firmware::likelihood_estimator::words::status;
 use tofsim::firmware::likelihood_estimator::{In, LikelihoodEstimator, State};
 use tofsim::kernel::U;
 use tofsim::optics::{BinProbabilities, Budget, Hazard};
@@ -19,8 +21,54 @@ use super::spec::FIRST_RESET;
 const STATES: u64 = State::End as u64 + 1;
 /// Every so many estimations is a whole one.
 const WHOLE: u64 = 2;
+/// Kinds of histograms, each of which shows one way in which an estimation ends.
+const KINDS: u64 = 11;
+const EXTREME: u64 = 1;
+const AT_END: u64 = 2;
+const AT_BEGIN: u64 = 3;
+const TWO: u64 = 4;
+const FAINT: u64 = 5;
+const USED_UP: u64 = 6;
+const RISING: u64 = 7;
+const FALLING: u64 = 8;
+const ODD: u64 = 9;
+const EMPTY: u64 = 10;
+/// So often a histogram is drawn that is of its kind.
+const TRIES: u64 = 100;
 /// Kinds of extreme histograms.
 const EXTREMES: u64 = 8;
+
+/// What comes of a histogram.
+#[derive(Default)]
+struct Outcome {
+    /// Score of the first scan.
+    start: i64,
+    /// Score of the second.
+    rescan: i64,
+    /// Shots that wait at the first bin of the check.
+    waiting: Option<u64>,
+    flags: u64,
+    cut: bool,
+    status: u64,
+}
+
+impl Outcome {
+    /// Whether it is of its kind: the reason that its status has, or misses, is the one.
+    fn is(&self, kind: u64) -> bool {
+        let flags = |which: u64| self.flags >> which & 1 != 0;
+        match kind {
+            FAINT => flags(1) && !flags(0) && !flags(2) && (297..425).contains(&self.start),
+            AT_END => flags(4),
+            AT_BEGIN => flags(3),
+            TWO => (332..=425).contains(&self.rescan),
+            USED_UP => self.waiting.is_some_and(|waiting| (1..32).contains(&waiting)),
+            RISING => flags(6) && !flags(5) && !self.cut,
+            ODD => self.status == u64::from(status::NO_FIT),
+            FALLING => flags(5) && !flags(6) && !self.cut,
+            _ => true,
+        }
+    }
+}
 
 /// Estimations under way.
 pub struct Estimations<'a> {
@@ -32,6 +80,7 @@ pub struct Estimations<'a> {
     cut: Option<(u64, u64)>,
     cuts: bool,
     line: usize,
+    over: bool,
     starts: Cover,
     resets: Cover,
     seen: Cover,
@@ -51,6 +100,7 @@ impl<'a> Estimations<'a> {
             cut: None,
             cuts,
             line: 0,
+            over: false,
             starts: Cover::new("start in state", states.clone()),
             resets: Cover::new("reset in state but idle", states.skip(1)),
             seen: Cover::new("depths without and with a status", if cuts { 0..2 } else { 0..0 }),
@@ -85,29 +135,120 @@ impl<'a> Estimations<'a> {
         In { rst, algo_start, count: U::new(word.into()) }
     }
 
+    /// Whether these lines and all that follow are drawn for one block alone: from the middle of so many on, once
+    /// the estimator is idle. A few histograms reach few of the limits that its words have.
+    pub fn over(&mut self, block: &LikelihoodEstimator, lines: usize) -> bool {
+        self.over |= self.line >= lines / 2 && block.state() == State::Idle;
+        self.over
+    }
+
     /// Another histogram, and perhaps a state in which its estimation is cut short.
     fn begin(&mut self, draw: &mut Draw) {
         self.begun += 1;
-        self.histogram = match self.begun % 3 {
-            0 => self.extreme(draw),
-            _ => self.drawn(draw),
+        let kind = self.begun / WHOLE % KINDS;
+        let mut tries = if self.cuts { TRIES } else { 1 };
+        self.histogram = loop {
+            let histogram = self.histogram(kind, draw);
+            tries -= 1;
+            if tries == 0 || self.outcome(&histogram).is(kind) {
+                break histogram;
+            }
         };
         let place = 1 + self.begun / WHOLE % (STATES - 1);
-        let cut = self.cuts && !self.begun.is_multiple_of(WHOLE);
+        let cut = self.cuts && self.begun < WHOLE * STATES && !self.begun.is_multiple_of(WHOLE);
         self.cut = cut.then(|| (place, draw.below(12)));
     }
 
-    fn drawn(&self, draw: &mut Draw) -> Vec<u32> {
-        let mut scenario = self.setup.scenario.clone();
+    fn histogram(&self, kind: u64, draw: &mut Draw) -> Vec<u32> {
+        match kind {
+            EXTREME => self.extreme(draw),
+            USED_UP => self.used_up(draw),
+            EMPTY => vec![0; self.params.histogram.bins],
+            kind => self.drawn(kind, draw),
+        }
+    }
+
+    /// What the model makes of a histogram.
+    fn outcome(&self, histogram: &[u32]) -> Outcome {
+        let (mut block, mut outcome) = (LikelihoodEstimator::default(), Outcome::default());
+        for line in 0..=self.params.done() {
+            let memory = &block.likelihood_memory.registers;
+            match block.state() {
+                State::Start => outcome.start = block.likelihood_scan.registers.best_score.get(),
+                State::Check if memory.word_bin && outcome.waiting.is_none() => {
+                    outcome.waiting = Some(memory.word_waiting.get());
+                }
+                _ => {}
+            }
+            let word = if memory.read_en { histogram[memory.read_addr.index()] } else { 0 };
+            let i = In { rst: false, algo_start: line == 0, count: U::new(word.into()) };
+            block.rise(&i, self.params);
+        }
+        outcome.rescan = block.likelihood_scan.registers.best_score.get();
+        outcome.flags = block.likelihood_solver.registers.flags.get();
+        outcome.status = block.registers.status.get();
+        outcome.cut = block.likelihood_solver.registers.cut.get() != 0;
+        outcome
+    }
+
+    /// A histogram of a scene: an ordinary one, a faint echo, one at either end of the window, or two, of which one is
+    /// faint; or a bin of the fit has too many hits.
+    fn drawn(&self, kind: u64, draw: &mut Draw) -> Vec<u32> {
         let part = |draw: &mut Draw| draw.below(1000) as f64 / 1000.0;
+        let place = match kind {
+            AT_END | RISING => 0.99 + 0.06 * part(draw),
+            AT_BEGIN => 0.002 + 0.009 * part(draw),
+            _ => 0.2 + 0.7 * part(draw),
+        };
+        // What comes back falls with the square of the distance.
+        let faint = |place: f64, level: f64, draw: &mut Draw| {
+            place * place * level * (1.0 + 0.5 * part(draw))
+        };
+        let ordinary = 0.03 + 0.9 * part(draw);
+        let mut counts = match kind {
+            FAINT => self.scene(place, faint(place, 0.0016, draw), 0.3, draw),
+            TWO | ODD => self.scene(place, faint(place, 0.02, draw), 0.3, draw),
+            AT_BEGIN => self.scene(place, faint(place, 0.2, draw), part(draw), draw),
+            _ => self.scene(place, ordinary, part(draw), draw),
+        };
+        if kind == ODD {
+            let peak = (0..counts.len()).max_by_key(|bin| counts[*bin]).unwrap_or(0);
+            let odd = (peak + 8).min(counts.len() - 1);
+            counts[odd] += counts[odd] / 4 + 100;
+        }
+        let other = match kind {
+            TWO => self.scene(1.1 - place, faint(1.1 - place, 0.005, draw), 0.3, draw),
+            FALLING => self.scene(1.1 - place, faint(1.1 - place, 0.004, draw), 0.1, draw),
+            _ => return counts,
+        };
+        counts.iter_mut().zip(other).for_each(|(count, other)| *count = (*count + other) / 2);
+        counts
+    }
+
+    /// A histogram of a target at a part of the window.
+    fn scene(&self, place: f64, reflectance: f64, irradiance: f64, draw: &mut Draw) -> Vec<u32> {
+        let mut scenario = self.setup.scenario.clone();
         let end_ps = *self.params.edges.last().unwrap_or(&0) as f64 / 128.0 * scenario.tdc.bin_ps;
-        scenario.target.distance_m = end_ps * 1.5e-4 * (0.04 + 0.9 * part(draw));
-        scenario.target.reflectance = 0.03 + 0.9 * part(draw);
-        scenario.ambient.irradiance_w_m2_nm = part(draw);
+        scenario.target.distance_m = end_ps * 1.5e-4 * place;
+        scenario.target.reflectance = reflectance;
+        scenario.ambient.irradiance_w_m2_nm = irradiance;
         let hazard = Hazard::new(&Budget::new(&scenario));
         let chances = BinProbabilities::new(&hazard, &self.setup.bins());
         let counts = chances.draw(self.params.shots, draw.rng());
         counts.into_iter().map(|count| count as u32).collect()
+    }
+
+    /// Ambient light that leaves few shots for the echo, which takes them all.
+    fn used_up(&self, draw: &mut Draw) -> Vec<u32> {
+        let bins = self.params.histogram.bins as u64;
+        let echo = bins / 2 + draw.below(bins / 3);
+        let mut left = self.params.shots as u32;
+        let count = |bin: u64| {
+            let now = if bin == echo { left } else { (left * 14 + 128) / bins as u32 };
+            left -= now.min(left);
+            now
+        };
+        (0..bins).map(count).collect()
     }
 
     fn extreme(&self, draw: &mut Draw) -> Vec<u32> {
@@ -125,7 +266,7 @@ impl<'a> Estimations<'a> {
             7 => random % (most / bins + 1),
             _ => 0,
         };
-        let kind = self.begun / 3 % EXTREMES;
+        let kind = self.begun % EXTREMES;
         (0..bins).map(|bin| count(kind, bin, draw.bits()) as u32).collect()
     }
 

@@ -24,7 +24,7 @@ use serde::Serialize;
 use tofsim::error::Result;
 use tofsim::files::staged::ScratchFolder;
 
-use crate::golden::blocks::CENTROID;
+use crate::golden::blocks::{CENTROID, LIKELIHOOD};
 
 use super::process::Limits;
 use super::rtl::Rtl;
@@ -72,6 +72,9 @@ pub fn cycle_counts(
     let mut promises = promises::promises(design);
     if rtl.has(CENTROID) {
         promises.push(promises::centroid(design));
+    }
+    if rtl.has(LIKELIHOOD) {
+        promises.extend(promises::likelihood(design));
     }
     count(&promises, design, rtl, limits, done)
 }

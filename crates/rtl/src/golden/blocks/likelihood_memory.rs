@@ -1,4 +1,4 @@
-//! Loads, and passes over bins around echoes and over all of them.
+//! Loads, and passes over bins around echoes and over all of them, some cut short by a reset.
 
 use tofsim::firmware::likelihood_estimator::Wires;
 use tofsim::firmware::likelihood_memory::In;
@@ -12,7 +12,7 @@ pub(super) const SPEC: Spec = Spec {
 };
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
-    let mut estimations = Estimations::new(setting, false);
+    let mut estimations = Estimations::new(setting, true);
     let mut run = Recorder::new(spec, setting, In::list());
     let mut kinds = Cover::new("a bin, the rest, an edge, a blanked bin", 0..4);
     for _ in 0..setting.cycles() {

@@ -1,6 +1,7 @@
-//! Blocks of loads, and bins of scans.
+//! Blocks of loads, and bins of scans, as measured and of every size, with many ties.
 
 use tofsim::firmware::likelihood_estimator::Wires;
+use tofsim::firmware::histogram_builder;
 use tofsim::firmware::likelihood_scan::In;
 
 use crate::golden::likelihood::Estimations;
@@ -15,16 +16,82 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut run = Recorder::new(spec, setting, In::list());
     let mut scores = Cover::new("score in 256ths, above none", 0..4);
     let mut lone = Cover::new("lone", 0..2);
+    let mut drawn = Drawn::default();
     for _ in 0..setting.cycles() {
-        let estimator = &mut run.top.likelihood_estimator;
-        let i = estimations.next(estimator, &mut run.draw);
-        let now = &run.top.likelihood_estimator.likelihood_scan.registers;
+        let estimator = &run.top.likelihood_estimator;
+        let now = &estimator.likelihood_scan.registers;
         scores.see((now.best_score.get().max(0) >> 8) as u64);
         lone.see(now.lone.into());
+        let params = &*setting.setup.params.likelihood_estimator;
+        if estimations.over(estimator, setting.cycles()) {
+            let own = drawn.next(&setting.setup.params.histogram, &mut run.draw);
+            run.line(&own);
+            let scan = &mut run.top.likelihood_estimator.likelihood_scan;
+            scan.rise(&own, params);
+            continue;
+        }
+        let i = estimations.next(estimator, &mut run.draw);
         let own = Wires::likelihood_scan(&run.top.likelihood_estimator, &i);
         run.line(&own);
-        run.top.likelihood_estimator.rise(&i, &setting.setup.params.likelihood_estimator);
+        run.top.likelihood_estimator.rise(&i, params);
     }
     let parameters = parameters::of_likelihood(&setting.setup.params, &["BoxBins", "LogFile"]);
     Ok(Vectors { parameters, ..run.vectors([scores, lone]) })
+}
+
+/// Loads and short scans that are drawn, in turn.
+#[derive(Default)]
+struct Drawn {
+    now: In,
+    /// Lines since the load began.
+    line: u64,
+    /// Lines of the load, and of it and the scan.
+    ends: [u64; 2],
+    /// Hits and exposure of an ordinary block.
+    block: [u64; 2],
+    /// Bits of a residual.
+    size: u32,
+}
+
+/// Lines from one block to the next.
+const APART: u64 = 4;
+
+impl Drawn {
+    fn next(&mut self, histogram: &histogram_builder::Params, draw: &mut Draw) -> In {
+        let (count, bin) = (histogram.count_bits, histogram.bins.ilog2());
+        if self.line == self.ends[1] {
+            let load = 9 * APART;
+            // One in three goes past the last bin.
+            let all = histogram.bins as u64;
+            let beats = if draw.one_in(3) { all + all / 16 } else { draw.below(80) };
+            (self.line, self.ends) = (0, [load, load + 2 + 2 * beats]);
+            self.block = [draw.unsigned_of(count), draw.unsigned_of(count + bin + 4)];
+            self.size = 4 + draw.below(u64::from(count) + 6) as u32;
+        }
+        let now = &mut self.now;
+        now.load = self.line == 0;
+        now.scan = self.line >= self.ends[0];
+        now.pass = self.line == self.ends[0];
+        now.phase = now.scan && !now.pass && !now.phase;
+        now.block_done = !now.load && !now.scan && self.line.is_multiple_of(APART);
+        if now.block_done {
+            let [ended, exposure] = self.block;
+            now.block_ended = U::new([ended, ended, 2 * ended, draw.unsigned_of(count + bin)][draw.below(4) as usize]);
+            // The first sets the bound for the others: a 64th of it.
+            let first = self.line == APART;
+            let others = [exposure, 2 * exposure, exposure / 2, draw.unsigned_of(count + bin + 10)];
+            now.block_exposure = U::new(if first { 64 * exposure } else { others[draw.below(4) as usize] });
+        }
+        if now.scan && !now.phase {
+            now.slide = !draw.one_in(16);
+            now.waits = !draw.one_in(4);
+            let most = i64::MAX >> (64 - self.size);
+            let high = self.ends[1] - self.line < 30;
+            now.residual = S::new(if high { most } else if draw.one_in(3) { 0 } else { draw.signed_within(self.size) });
+            now.predicted = U::new(if draw.one_in(3) { 0 } else { draw.unsigned_of(self.size + 9) });
+            now.middle = U::new(draw.unsigned_of(count + bin + 1));
+        }
+        self.line += 1;
+        *now
+    }
 }

@@ -1,8 +1,11 @@
-//! All programs, with what comes of loads, scans and fits.
+//! All programs, with what comes of loads, scans and fits, and with operands of every size.
 
 use tofsim::firmware::likelihood_estimator::Wires;
+use tofsim::firmware::histogram_builder;
 use tofsim::firmware::likelihood_solver::In;
-use tofsim::firmware::likelihood_solver::program::PROGRAM;
+use tofsim::firmware::likelihood_solver::program::{
+    AMBIENT_PROGRAM, END_PROGRAM, PROGRAM, START_PROGRAM, STEP_PROGRAM,
+};
 
 use crate::golden::likelihood::Estimations;
 use crate::golden::prelude::*;
@@ -16,14 +19,58 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut estimations = Estimations::new(setting, false);
     let mut run = Recorder::new(spec, setting, In::list());
     let mut counters = Cover::new("instruction", 0..PROGRAM.len() as u64);
+    let mut running = false;
     for _ in 0..setting.cycles() {
-        let estimator = &mut run.top.likelihood_estimator;
+        let estimator = &run.top.likelihood_estimator;
+        counters.see(estimator.likelihood_solver.counter());
+        let params = &*setting.setup.params.likelihood_estimator;
+        if estimations.over(estimator, setting.cycles()) {
+            running &= !estimator.likelihood_solver.registers.ran;
+            let mut own = operands(&setting.setup.params.histogram, &mut run.draw);
+            own.run = !running && run.draw.one_in(3);
+            running = (running || own.run) && !own.rst;
+            run.line(&own);
+            let solver = &mut run.top.likelihood_estimator.likelihood_solver;
+            solver.rise(&own, params);
+            continue;
+        }
         let i = estimations.next(estimator, &mut run.draw);
-        counters.see(run.top.likelihood_estimator.likelihood_solver.counter());
         let own = Wires::likelihood_solver(&run.top.likelihood_estimator, &i);
         run.line(&own);
-        run.top.likelihood_estimator.rise(&i, &setting.setup.params.likelihood_estimator);
+        run.top.likelihood_estimator.rise(&i, params);
     }
     let parameters = parameters::of_likelihood(&setting.setup.params, &["Kappa", "StepLog2", "PulseSigma", "WindowEnd", "Metres", "MetresShift"]);
     Ok(Vectors { parameters, ..run.vectors([counters]) })
+}
+
+/// What a program may be given, and which.
+fn operands(histogram: &histogram_builder::Params, draw: &mut Draw) -> In {
+    let (count, bin) = (histogram.count_bits, histogram.bins.ilog2());
+    let (start, step) = (START_PROGRAM, STEP_PROGRAM);
+    let programs = [AMBIENT_PROGRAM, start, start, step, step, step, END_PROGRAM];
+    let mut slope = || S::new(draw.signed_within(count + 24));
+    let (sum_12, sum_13, score_1) = (slope(), slope(), slope());
+    let mut sum = || S::new(draw.signed_within(count + 19));
+    let (sum_23, score_2, score_3) = (sum(), sum(), sum());
+    In {
+        rst: draw.one_in(1000),
+        run: false,
+        entry: U::new(programs[draw.below(programs.len() as u64) as usize]),
+        ambient_ended: U::new(draw.unsigned_of(count)),
+        ambient_exposure: U::new(draw.unsigned_of(count + bin + 10)),
+        lone: draw.one_in(2),
+        best_excess: S::new(draw.signed_within(count + bin + 14)),
+        best_middle: U::new(draw.unsigned_of(count + 2 * bin + 1)),
+        box_length: U::new(1 + draw.below(histogram.bins as u64)),
+        box_sum: U::new(if draw.one_in(2) { 0 } else { draw.near_ends(2 * histogram.bins as u64) }),
+        sum_11: S::new(draw.unsigned_of(count + 19) as i64),
+        sum_12,
+        sum_13,
+        sum_22: S::new(draw.unsigned_of(count + 18) as i64),
+        sum_23,
+        sum_33: S::new(draw.unsigned_of(count + 18) as i64),
+        score_1,
+        score_2,
+        score_3,
+    }
 }

@@ -1,6 +1,8 @@
-//! Bins of scans and fits, as the estimator's memory hands them on.
+//! Bins of scans and fits, as the estimator's memory hands them on, and bins around the ends of the pulse's ROM,
+//! with words of every size.
 
 use tofsim::firmware::likelihood_estimator::Wires;
+use tofsim::firmware::likelihood_estimator::params::Params;
 use tofsim::firmware::likelihood_terms::In;
 
 use crate::golden::likelihood::Estimations;
@@ -15,16 +17,61 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut run = Recorder::new(spec, setting, In::list());
     let mut predicted = Cover::new("bits of an expected count", [0].into_iter().chain(10..24));
     let mut shares = Cover::new("share in 16ths", 0..17);
+    let mut own = In::default();
     for _ in 0..setting.cycles() {
-        let estimator = &mut run.top.likelihood_estimator;
-        let i = estimations.next(estimator, &mut run.draw);
-        let now = &run.top.likelihood_estimator.likelihood_terms;
+        let estimator = &run.top.likelihood_estimator;
+        let now = &estimator.likelihood_terms;
         predicted.see(u64::from(u64::BITS - now.predicted.get().leading_zeros()));
         shares.see(now.share.get() >> 8);
-        let own = Wires::likelihood_terms(&run.top.likelihood_estimator, &i);
+        let params = &*setting.setup.params.likelihood_estimator;
+        if estimations.over(estimator, setting.cycles()) {
+            own.phase = !own.phase;
+            if !own.phase {
+                draw(&mut own, params, &mut run.draw);
+            }
+            run.line(&own);
+            let terms = &mut run.top.likelihood_estimator.likelihood_terms;
+            terms.tick(&own, params);
+            continue;
+        }
+        let i = estimations.next(estimator, &mut run.draw);
+        own = Wires::likelihood_terms(&run.top.likelihood_estimator, &i);
         run.line(&own);
-        run.top.likelihood_estimator.rise(&i, &setting.setup.params.likelihood_estimator);
+        run.top.likelihood_estimator.rise(&i, params);
     }
     let parameters = parameters::of_likelihood(&setting.setup.params, &["StepLog2", "PulseFile", "HazardFile"]);
     Ok(Vectors { parameters, ..run.vectors([predicted, shares]) })
+}
+
+/// Draws a word, and now and then another point.
+fn draw(own: &mut In, params: &Params, draw: &mut Draw) {
+    let (count, bin) = (params.histogram.count_bits, params.histogram.bins.ilog2());
+    let size = |bits: u32, draw: &mut Draw| match draw.one_in(3) {
+        true => draw.bits() >> (64 - bits),
+        false => draw.unsigned_of(bits),
+    };
+    if draw.one_in(12) {
+        own.scan = draw.one_in(8);
+        own.arrival = U::new(draw.below(params.end() as u64 + 1));
+        own.strength = U::new(size(24, draw));
+        own.ambient = U::new(size(24, draw));
+    }
+    let (step, arrival) = (8i64 << params.step_log2, own.arrival.get() as i64);
+    let steps = match draw.below(4) {
+        0 => draw.below(2048) as i64 - 1024,
+        1 => draw.below(7) as i64 - 1027,
+        2 => draw.below(7) as i64 + 1020,
+        _ => draw.below(64) as i64 - 32,
+    };
+    let end = (arrival + 2 * step * steps) / 8 + draw.below(step as u64) as i64;
+    own.word_end = U::new(end.clamp(0, (1 << (bin + 8)) - 1) as u64);
+    let kind = draw.below(8);
+    (own.word_edge, own.word_rest) = (kind == 0, kind == 1);
+    own.word_bin = kind > 2;
+    own.word_slide = own.scan && kind != 0;
+    own.word_first = draw.one_in(8);
+    let shots = count + if own.word_rest { bin } else { 0 };
+    own.word_ended = U::new(size(shots, draw));
+    own.word_waiting = U::new(size(shots, draw));
+    own.word_width = U::new(if draw.one_in(4) { draw.unsigned_of(10) } else { 48 + draw.below(32) });
 }

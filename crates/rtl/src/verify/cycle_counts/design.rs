@@ -2,6 +2,7 @@
 
 use tofsim::firmware::forward2::NEURONS;
 use tofsim::firmware::histogram_builder::BINS;
+use tofsim::firmware::likelihood_estimator::params::Params as Likelihood;
 use tofsim::firmware::{estimator_ctrl, vcsel_driver};
 use tofsim::sim::setup::Setup;
 
@@ -9,6 +10,10 @@ use crate::golden::parameters::{Parameter, sized};
 
 /// Parameters of `vcsel_driver`.
 const OF_LASER: [&str; 4] = ["LaserPeriods", "RateBits", "PeriodBits", "PulseHalfCycles"];
+
+/// Bins of the likelihood estimator's box, and of its fit before and after the one of the echo, unless set.
+const BOX: usize = 15;
+const BESIDE: usize = 26;
 
 /// A macro: its name and its text.
 pub type Define = (&'static str, String);
@@ -18,6 +23,8 @@ pub type Define = (&'static str, String);
 pub struct Design {
     /// Bins and neurons.
     pub estimator: estimator_ctrl::Params,
+    /// Bins, box and fit of the likelihood estimator, where its model holds.
+    pub likelihood: Option<Likelihood>,
     /// Periods and length of a pulse.
     pub laser: vcsel_driver::Params,
     /// Half a cycle of `clk_laser`, rounded down [ps].
@@ -38,6 +45,7 @@ impl Design {
         let width = |name| sizes.width(name).unwrap_or_default();
         Design {
             estimator: setup.params.depth_estimator.ctrl(),
+            likelihood: setup.likelihood(setup.params.frame_ctrl.shots_per_frame.into()).ok(),
             half_ps: setup.pll().cycle.fs() / 4000,
             parameters: own.iter().map(set).collect::<Vec<_>>().join(", "),
             rate_bits: width("RateBits"),
@@ -60,6 +68,32 @@ impl Design {
         others.map(|(name, own, _)| (name, own.to_string())).collect()
     }
 
+    /// The macros that say how large the likelihood estimator is, and set its parameters where they are not the
+    /// default.
+    pub fn of_likelihood(&self) -> Vec<Define> {
+        let Some(params) = &self.likelihood else { return Vec::new() };
+        let bins = params.histogram.bins;
+        let (before, after) = (params.before, params.after);
+        let sizes = [
+            ("BinBits", bins.ilog2() as usize, BINS.ilog2() as usize),
+            ("BoxBins", params.box_bins, BOX),
+            ("BinsBefore", before, BESIDE),
+            ("BinsAfter", after, BESIDE),
+        ];
+        let others = sizes.iter().filter(|(_, own, usual)| own != usual);
+        let own: Vec<_> = others.map(|(name, own, _)| format!(".{name}({own})")).collect();
+        let mut defines = vec![
+            ("LIKELIHOOD_BINS", bins.to_string()),
+            ("LIKELIHOOD_BOX", params.box_bins.to_string()),
+            ("LIKELIHOOD_BEFORE", before.to_string()),
+            ("LIKELIHOOD_AFTER", after.to_string()),
+        ];
+        if !own.is_empty() {
+            defines.push(("LIKELIHOOD", own.join(", ")));
+        }
+        defines
+    }
+
     /// The macros that say how the laser fires, and set its parameters where they are not the default.
     pub fn of_laser(&self) -> Vec<Define> {
         let mut defines = vec![
@@ -79,7 +113,7 @@ impl Design {
 
     /// All macros.
     pub fn defines(&self) -> Vec<Define> {
-        [self.of_estimator(), self.of_laser()].concat()
+        [self.of_estimator(), self.of_likelihood(), self.of_laser()].concat()
     }
 }
 

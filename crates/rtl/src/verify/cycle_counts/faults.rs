@@ -28,6 +28,20 @@ fn a_fault_of_the_centroid_estimator_is_counted_and_not_proven() {
 }
 
 #[test]
+fn a_fault_of_the_likelihood_estimator_is_counted_and_not_proven() {
+    let control = |from, to| [["likelihood_estimator.v", from, to]];
+    let solver = |from, to| [["likelihood_solver.v", from, to]];
+    fault("likelihood_latency", &control("Bins + 9", "Bins + 10"), 3826);
+    fault("likelihood_latency", &control("steps == 3'd5", "steps == 3'd4"), 3476);
+    let root = solver("5'd22 : op == Root ? 5'd30", "5'd22 : op == Root ? 5'd29");
+    fault("likelihood_latency", &root, 3824);
+    // What only one operand in a billion does is not counted, but neither is it proven.
+    let rare =
+        solver("ends = cycle == last_cycle", "ends = cycle == last_cycle || a === 987654321");
+    fault("likelihood_latency", &rare, 3825);
+}
+
+#[test]
 fn a_fault_of_the_laser_is_counted_and_not_proven() {
     let laser = |from, to| [["vcsel_driver.v", from, to]];
     fault("laser_period_0", &laser("16'd25}", "16'd24}"), 24);

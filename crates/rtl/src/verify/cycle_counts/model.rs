@@ -4,6 +4,8 @@ use tofsim::firmware::centroid_estimator::{self, CentroidEstimator};
 use tofsim::firmware::depth_estimator::{self, DepthEstimator};
 use tofsim::firmware::estimator_ctrl::{EstimatorCtrl, Params};
 use tofsim::firmware::histogram_builder;
+use tofsim::firmware::likelihood_estimator::params::Params as Likelihood;
+use tofsim::firmware::likelihood_estimator::{self, LikelihoodEstimator};
 use tofsim::firmware::spad_control::{self, SpadControl};
 use tofsim::firmware::vcsel_driver::{self, VcselDriver};
 use tofsim::kernel::{Clocked, U};
@@ -20,6 +22,7 @@ pub fn measure(design: &Design) -> Measured {
     let mut measured = Measured::default();
     estimator(&design.estimator, &mut measured);
     centroid(&design.estimator, &mut measured);
+    design.likelihood.iter().for_each(|params| likelihood(params, &mut measured));
     for mode in [false, true] {
         let codes = 0..design.laser.periods.len() as u64;
         codes.for_each(|code| shots(design, mode, code, &mut measured));
@@ -29,10 +32,14 @@ pub fn measure(design: &Design) -> Measured {
 
 /// The outputs of an estimator in each cycle of three estimations: one begins while it is idle, two
 /// with a held start, which is taken again with `algo_done`. `edge` gives the outputs after an edge.
-fn estimations<T>(mut edge: impl FnMut(bool) -> T, done: fn(&T) -> bool) -> [Vec<T>; 3] {
+fn estimations<T>(
+    patience: u64,
+    mut edge: impl FnMut(bool) -> T,
+    done: fn(&T) -> bool,
+) -> [Vec<T>; 3] {
     [false, true, true].map(|hold| {
         let mut outputs = vec![edge(true)];
-        while !outputs.last().is_some_and(done) && outputs.len() as u64 <= PATIENCE {
+        while !outputs.last().is_some_and(done) && outputs.len() as u64 <= patience {
             outputs.push(edge(hold));
         }
         if !hold {
@@ -51,7 +58,7 @@ fn estimator(p: &Params, measured: &mut Measured) {
         estimator.rise(&depth_estimator::In { rst: false, algo_start, count: U::new(0) }, &params);
         estimator.estimator_ctrl
     };
-    for outputs in estimations(edge, |ctrl| ctrl.algo_done) {
+    for outputs in estimations(PATIENCE, edge, |ctrl| ctrl.algo_done) {
         let cycles = |enable: fn(&EstimatorCtrl) -> bool| {
             outputs.iter().filter(|ctrl| enable(ctrl)).count() as u64
         };
@@ -73,9 +80,30 @@ fn centroid(p: &Params, measured: &mut Measured) {
         estimator.rise(&i, &params);
         estimator.registers.algo_done
     };
-    for outputs in estimations(edge, |algo_done| *algo_done) {
+    for outputs in estimations(PATIENCE, edge, |algo_done| *algo_done) {
         if outputs.last() == Some(&true) {
             measured.add("centroid_latency", outputs.len() as u64 - 1);
+        }
+    }
+}
+
+/// Counts the cycles of the likelihood estimator: of an empty histogram, of a full one, and of one in between.
+fn likelihood(params: &Likelihood, measured: &mut Measured) {
+    let mut estimator = LikelihoodEstimator::default();
+    let mut counts = [0, params.histogram.most_hits(), 40].into_iter();
+    let mut count = counts.next();
+    let edge = |algo_start| {
+        let count_now = U::new(count.unwrap_or(0));
+        let i = likelihood_estimator::In { rst: false, algo_start, count: count_now };
+        estimator.rise(&i, params);
+        if estimator.registers.algo_done {
+            count = counts.next();
+        }
+        estimator.registers.algo_done
+    };
+    for outputs in estimations(2 * params.done(), edge, |algo_done| *algo_done) {
+        if outputs.last() == Some(&true) {
+            measured.add("likelihood_latency", outputs.len() as u64 - 1);
         }
     }
 }

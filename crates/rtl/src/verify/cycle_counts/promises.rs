@@ -18,6 +18,8 @@ pub struct Properties {
     pub open: &'static [&'static str],
     /// Registers without which there is no proof, by their paths in its `dut`.
     pub registers: &'static [&'static str],
+    /// Yosys's pass that makes logic of processes.
+    pub logic: &'static str,
     /// Yosys's pass that makes one step of the proof of a clock cycle.
     pub step: &'static str,
     /// Longest induction.
@@ -27,7 +29,7 @@ pub struct Properties {
 impl Properties {
     const fn new(module: &'static str, text: &'static str) -> Self {
         let (unit, step, steps) = ("cycles of clk_sys", "async2sync", 4);
-        Properties { module, text, unit, open: &[], registers: &[], step, steps }
+        Properties { module, text, unit, open: &[], registers: &[], logic: "proc", step, steps }
     }
 }
 
@@ -40,6 +42,27 @@ static ESTIMATOR: Properties = Properties {
 static CENTROID: Properties = Properties {
     registers: &["busy", "step"],
     ..Properties::new("check_centroid", include_str!("check_centroid.sv"))
+};
+
+/// The solver's program is a large `case`, which `proc` would make a memory, and no proof reads memories. What only
+/// feeds the open blocks and the solver's memory is taken away: it is much, and what they do is anything already.
+static LIKELIHOOD: Properties = Properties {
+    open: &["likelihood_memory", "likelihood_terms", "likelihood_sums", "likelihood_scan"],
+    registers: &[
+        "state",
+        "waited",
+        "steps",
+        "run",
+        "entry",
+        "likelihood_solver.running",
+        "likelihood_solver.ran",
+        "likelihood_solver.counter",
+        "likelihood_solver.cycle",
+    ],
+    logic: "proc -norom; delete */t:likelihood_memory */t:likelihood_terms */t:likelihood_sums */t:likelihood_scan \
+            */t:$memwr*",
+    steps: 2,
+    ..Properties::new("check_likelihood", include_str!("check_likelihood.sv"))
 };
 
 static SHOT: Properties = Properties {
@@ -100,7 +123,7 @@ impl Promise {
     }
 }
 
-/// What is promised of the estimator that a design may leave out.
+/// What is promised of an estimator that a design may leave out.
 pub fn centroid(design: &Design) -> Promise {
     let bins = design.estimator.bins;
     let histogram = histogram_builder::Params { bins, ..histogram_builder::Params::default() };
@@ -111,6 +134,17 @@ pub fn centroid(design: &Design) -> Promise {
         defines: design.of_estimator(),
         ..Promise::new(&CENTROID, "centroid_latency", done, what)
     }
+}
+
+/// As [`centroid`], where the estimator's model holds.
+pub fn likelihood(design: &Design) -> Option<Promise> {
+    let done = design.likelihood.as_ref()?.done();
+    let what = "likelihood estimator: algo_start taken to algo_done";
+    Some(Promise {
+        parameter: "Latency",
+        defines: design.of_likelihood(),
+        ..Promise::new(&LIKELIHOOD, "likelihood_latency", done, what)
+    })
 }
 
 /// Everything else that is promised of a design.

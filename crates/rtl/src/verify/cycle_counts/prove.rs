@@ -73,7 +73,7 @@ fn script(promise: &Promise, number: u64) -> String {
     lines.extend([
         format!("read_verilog -sv -formal -DHOLDS={property} {module}.sv"),
         format!("hierarchy -top {module} -chparam {parameter} {number} {code}"),
-        "proc; flatten".to_owned(),
+        format!("{}; flatten", properties.logic),
     ]);
     // Something has to drive each register.
     let driven = |register: &str| format!("select -assert-min 1 w:dut.{register} %ci* c:* %i");

@@ -5,7 +5,7 @@ use std::path::Path;
 use tofsim::error::{Input, Result};
 use tofsim::files::output::write_bytes;
 
-use crate::golden::blocks::CENTROID;
+use crate::golden::blocks::{CENTROID, LIKELIHOOD};
 use crate::verify::process::{End, Limits};
 use crate::verify::rtl::Rtl;
 use crate::verify::simulator::Simulator;
@@ -14,10 +14,11 @@ use super::design::{Design, with_defines};
 use super::measured::Measured;
 
 /// The benches: name of the module, which is the file's stem, and text.
-const BENCHES: [(&str, &str); 3] = [
+const BENCHES: [(&str, &str); 4] = [
     ("bench_estimator", include_str!("bench_estimator.v")),
     ("bench_shot", include_str!("bench_shot.v")),
     ("bench_centroid", include_str!("bench_centroid.v")),
+    ("bench_likelihood", include_str!("bench_likelihood.v")),
 ];
 
 /// Runs the benches on `rtl`, which is to be such a design.
@@ -27,8 +28,12 @@ const BENCHES: [(&str, &str); 3] = [
 /// end, `folder` cannot be written, or the user stops.
 pub fn measure(rtl: &Rtl, design: &Design, folder: &Path, limits: &Limits) -> Result<Measured> {
     let mut measured = Measured::default();
-    let left_out = if rtl.has(CENTROID) { None } else { Some("bench_centroid") };
-    for (name, text) in BENCHES.into_iter().filter(|(name, _)| Some(*name) != left_out) {
+    let is_there = |(name, _): &(&str, &str)| match *name {
+        "bench_centroid" => rtl.has(CENTROID),
+        "bench_likelihood" => rtl.has(LIKELIHOOD) && design.likelihood.is_some(),
+        _ => true,
+    };
+    for (name, text) in BENCHES.into_iter().filter(is_there) {
         let bench = format!("{name}.v");
         write_bytes(&folder.join(&bench), with_defines(&design.defines(), text))?;
         let bench = [folder.join(bench)];

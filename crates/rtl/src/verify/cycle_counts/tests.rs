@@ -35,6 +35,7 @@ pub fn with_fault(key: &str, edits: &[Edit]) -> Count {
     }
     let mut promises = promises::promises(&kc705());
     promises.push(promises::centroid(&kc705()));
+    promises.extend(promises::likelihood(&kc705()));
     promises.retain(|promise| promise.key() == key);
     count(&promises, &kc705(), &rtl, &limits(), |_| {}).unwrap().remove(0)
 }
@@ -45,7 +46,7 @@ fn everything_that_is_promised_is_counted_and_proven() {
     let folder = tempfile::tempdir().unwrap();
     let rtl = Rtl::own(folder.path()).unwrap();
     let counts = cycle_counts(&rtl, &kc705(), &limits(), |_| {}).unwrap();
-    assert_eq!(counts.len(), 19);
+    assert_eq!(counts.len(), 20);
     for count in counts {
         assert!(count.holds(), "{count:?}");
     }
@@ -93,6 +94,34 @@ fn below_eight_neurons_the_pipeline_decides_and_from_there_on_a_clock_a_neuron()
         let latency = [264, 264, 265, 265, 266, 266].get(neurons - 1).copied();
         assert_eq!(proven(256, neurons)[0], latency.unwrap_or(259 + neurons.max(8) as u64));
     }
+}
+
+/// What is promised of the likelihood estimator of such an instrument, counted and proven.
+fn likelihood(set: &[&str]) -> u64 {
+    let folder = tempfile::tempdir().unwrap();
+    let rtl = Rtl::own(folder.path()).unwrap();
+    let design = of(set);
+    let promise = promises::likelihood(&design).unwrap();
+    let counts = count(&[promise], &design, &rtl, &limits(), |_| {}).unwrap();
+    assert!(counts[0].holds(), "{set:?}: {:?}", counts[0]);
+    counts[0].expected
+}
+
+#[test]
+fn a_likelihood_estimation_takes_3825_clocks() {
+    assert_eq!(likelihood(&[]), 3825);
+}
+
+#[test]
+#[ignore = "long: ./check --full"]
+fn a_likelihood_estimation_takes_as_long_as_bins_box_and_fit_say() {
+    let sizes = [(16, 30), (32, 30), (64, 100), (512, 100), (1024, 300)];
+    let cycles = sizes.map(|(bins, pulse_ps)| {
+        let (bins, pulse) =
+            (format!("tdc.bins={bins}"), format!("laser.pulse_sigma_ps={pulse_ps}"));
+        likelihood(&[&bins, &pulse, "estimator.kind=likelihood"])
+    });
+    assert_eq!(cycles, [2069, 2149, 2689, 4929, 8541]);
 }
 
 /// What is promised of other lasers is counted and proven, each with its numbers.
