@@ -47,6 +47,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
 fn operands(histogram: &histogram_builder::Params, draw: &mut Draw) -> In {
     let (count, bin) = (histogram.count_bits, histogram.bins.ilog2());
     let (start, step) = (START_PROGRAM, STEP_PROGRAM);
+    // Most arrivals are next to an end of the window, and a step leads out of it.
+    let last = 2 * histogram.bins as u64 - 1;
     let programs = [AMBIENT_PROGRAM, start, start, step, step, step, END_PROGRAM];
     let mut slope = || S::new(draw.signed_within(count + 24));
     let (sum_12, sum_13, score_1) = (slope(), slope(), slope());
@@ -62,7 +64,7 @@ fn operands(histogram: &histogram_builder::Params, draw: &mut Draw) -> In {
         best_excess: S::new(draw.signed_within(count + bin + 14)),
         best_middle: U::new(draw.unsigned_of(count + 2 * bin + 1)),
         box_length: U::new(1 + draw.below(histogram.bins as u64)),
-        box_sum: U::new(if draw.one_in(2) { 0 } else { draw.near_ends(2 * histogram.bins as u64) }),
+        box_sum: U::new([0, last, draw.near_ends(last + 1)][draw.below(3) as usize]),
         sum_11: S::new(draw.unsigned_of(count + 19) as i64),
         sum_12,
         sum_13,
