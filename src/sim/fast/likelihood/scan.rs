@@ -31,18 +31,23 @@ pub struct Best {
 /// Slides the box over all bins but those that are blanked; the first of the highest places is the one.
 pub fn scan(p: &Params, shots: &Shots, ambient: i64, blanked: Range<usize>) -> Best {
     let bins = shots.ended.len();
-    let each: Vec<[i64; 3]> = (0..bins)
-        .map(|bin| match blanked.contains(&bin) || p.width(bin) == 0 {
-            true => [0; 3],
-            false => of_bin(p, shots, ambient, bin),
-        })
-        .collect();
+    // What has come before each bin.
+    let mut before = Vec::with_capacity(bins + 1);
+    let mut sum = [0; 3];
+    before.push(sum);
+    for bin in 0..bins {
+        if !blanked.contains(&bin) && p.width(bin) > 0 {
+            let own = of_bin(p, shots, ambient, bin);
+            sum = [0, 1, 2].map(|which| sum[which] + own[which]);
+        }
+        before.push(sum);
+    }
     let half = p.box_bins / 2;
     let mut best = Best { score: i64::MIN, bins: (0, 0), excess: 0, waiting: 0 };
     for place in 0..bins {
         let from = place.saturating_sub(half);
         let until = (place + p.box_bins - half).min(bins);
-        let sum = |which: usize| each[from..until].iter().map(|bin| bin[which]).sum::<i64>();
+        let sum = |which: usize| before[until][which] - before[from][which];
         let (excess, expected) = (sum(0), sum(1).max(1));
         let score = match excess > 0 {
             true => 2 * log2_64(excess) - log2_64(expected) - 512,
