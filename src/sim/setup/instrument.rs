@@ -33,6 +33,11 @@ impl Setup {
             return Err(fault("tdc.first_bin_ps", bins.first_ps(), expected.to_owned()));
         }
         let told = &scenario.estimator;
+        let most = self.params.histogram.most_hits();
+        if told.told_shots > most {
+            let expected = format!("expected {most} or less, what a word of the histogram holds");
+            return Err(fault("estimator.told_shots", told.told_shots as f64, expected));
+        }
         let or = |told: f64, own: f64| if told > 0.0 { told } else { own };
         let wanted = Wanted {
             histogram: self.params.histogram,

@@ -57,25 +57,43 @@ fn extremes(bins: usize, most: u32, rng: &mut impl RngExt) -> Vec<Vec<u32>> {
     ]
 }
 
-#[test]
-fn the_block_finds_the_same_in_as_many_cycles_whatever_it_sees() {
+/// Instruments: a scenario's name and what is set.
+const INSTRUMENTS: [(&str, &[&str]); 5] = [
+    ("kc705", &[]),
+    ("kc705", &["tdc.profile=table6_3", "laser.pulse_sigma_ps=400"]),
+    ("kc705", &["tdc.profile=ideal", "laser.pulse_sigma_ps=80", "target.distance_m=0.07"]),
+    ("compact", &[]),
+    ("fine", &["target.distance_m=0.06", "ambient.irradiance_w_m2_nm=1"]),
+];
+
+/// Compares block and estimate on so many drawn histograms of each instrument, and as many extreme ones.
+fn compare(count: usize) {
     let mut rng = ChaCha8Rng::seed_from_u64(7);
-    for keys in [
-        &["tdc.profile=uniform"][..],
-        &["tdc.profile=table6_3", "laser.pulse_sigma_ps=400"],
-        &["tdc.profile=ideal", "laser.pulse_sigma_ps=80", "target.distance_m=0.07"],
-    ] {
-        let setup = Setup::load("kc705", keys).unwrap();
-        let p = setup.likelihood(30_000).unwrap();
+    for (name, set) in INSTRUMENTS {
+        let setup = Setup::load(name, set).unwrap();
+        let shots = setup.params.frame_ctrl.shots_per_frame.into();
+        let p = setup.likelihood(shots).unwrap();
+        let most = p.histogram.most_hits() as u32;
         let mut block = LikelihoodEstimator::default();
-        let mut all: Vec<_> = (0..40).map(|_| drawn(&setup, 30_000, &mut rng)).collect();
-        for _ in 0..4 {
-            all.extend(extremes(256, 65_535, &mut rng));
+        let mut all: Vec<_> = (0..count).map(|_| drawn(&setup, shots, &mut rng)).collect();
+        while all.len() < 2 * count {
+            all.extend(extremes(p.histogram.bins, most, &mut rng));
         }
         for histogram in all {
             let (found, edges) = step(&mut block, &p, &histogram);
-            assert_eq!(found, estimate(&p, &histogram), "{keys:?} {histogram:?}");
-            assert_eq!(edges, p.done(), "{keys:?}");
+            assert_eq!(found, estimate(&p, &histogram), "{name} {set:?} {histogram:?}");
+            assert_eq!(edges, p.done(), "{name} {set:?}");
         }
     }
+}
+
+#[test]
+fn the_block_finds_the_same_in_as_many_cycles_whatever_it_sees() {
+    compare(40);
+}
+
+#[test]
+#[ignore = "long: ./check --full"]
+fn the_block_finds_the_same_in_10_000_histograms() {
+    compare(1_000);
 }
