@@ -16,6 +16,7 @@ use crate::kernel::{Clocked, U};
 use crate::{connect, signals, states};
 
 pub mod params;
+pub mod pipeline;
 pub mod pulse;
 pub mod tables;
 pub mod words;

@@ -18,6 +18,7 @@ use crate::signals;
 
 use super::histogram_builder::{Count, MOST_BINS};
 use super::likelihood_estimator::params::Params;
+use super::likelihood_estimator::pipeline::shift;
 use super::likelihood_estimator::tables::{LOG2, length};
 use super::likelihood_memory::{Exposure, Place, Waiting};
 use super::likelihood_terms::{Expected, Residual};
@@ -242,11 +243,6 @@ impl LikelihoodScan {
         }
         self.registers = d;
     }
-}
-
-fn shift<T: Copy, const N: usize>(words: &mut [T; N], first: T) {
-    words.copy_within(..N - 1, 1);
-    words[0] = first;
 }
 
 impl Registers {

@@ -13,6 +13,7 @@ use crate::kernel::{Clocked, S, U};
 use crate::signals;
 
 use super::likelihood_estimator::params::Params;
+use super::likelihood_estimator::pipeline::shift;
 use super::likelihood_estimator::tables::{Tables, length};
 use super::likelihood_estimator::words::WEIGHT_FRACTION;
 use super::likelihood_terms::{Expected, Residual, Share, Slope};
@@ -161,11 +162,6 @@ impl Clocked for LikelihoodSums {
         }
         d
     }
-}
-
-fn shift<T: Copy, const N: usize>(words: &mut [T; N], first: T) {
-    words.copy_within(..N - 1, 1);
-    words[0] = first;
 }
 
 /// A product over 2^bits, half rounded up.

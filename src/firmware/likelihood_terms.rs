@@ -12,6 +12,7 @@ use crate::kernel::{Clocked, S, U};
 use crate::signals;
 
 use super::likelihood_estimator::params::Params;
+use super::likelihood_estimator::pipeline::shift;
 use super::likelihood_estimator::pulse::PulseWord;
 use super::likelihood_estimator::tables::{Tables, length};
 use super::likelihood_estimator::words::HAZARD_FRACTION;
@@ -207,11 +208,6 @@ impl Clocked for LikelihoodTerms {
         self.multiply(i, &mut d);
         d
     }
-}
-
-fn shift<T: Copy, const N: usize>(words: &mut [T; N], first: T) {
-    words.copy_within(..N - 1, 1);
-    words[0] = first;
 }
 
 fn rounded(value: u64, bits: u32) -> u64 {
