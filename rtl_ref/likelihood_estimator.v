@@ -137,7 +137,7 @@ module likelihood_estimator #(
             {start_score, seen, used_up} <= 0;
         end else begin
             state <= state_next;
-            waited <= state_next != state || begin_fit ? {WaitBits{1'b0}} : waited + 1'b1;
+            waited <= state_next == Idle || state_next != state || begin_fit ? {WaitBits{1'b0}} : waited + 1'b1;
             phase <= state != Idle && !pass && !phase;
             load <= state == Idle && algo_start;
             pass <= begin_fit || begin_scan;

@@ -33,7 +33,7 @@ use super::likelihood_sums::{self, LikelihoodSums};
 use super::likelihood_terms::{self, LikelihoodTerms};
 
 use params::Params;
-use words::{STEPS, status};
+use words::{ANOTHER_SCORE, LEAST_SCORE, LEAST_WAITING, STEPS, SURE_SCORE, status};
 
 states! {
     /// What the estimator does.
@@ -235,13 +235,6 @@ connect! {
 const BEATS: u64 = 18;
 /// Cycles from the last word of a load to the block that it completes.
 const LOADED: u64 = 9;
-/// Shots that have to wait at the fit's first bin.
-const LEAST_WAITING: u64 = 32;
-/// 64 log2 of the squared excess that an echo has at least, of one that is sure, and of another echo.
-const LEAST_SCORE: i64 = 297;
-const SURE_SCORE: i64 = 425;
-const ANOTHER_SCORE: i64 = 331;
-
 impl Params {
     /// Cycles of a load.
     pub fn load_cycles(&self) -> u64 {
@@ -295,12 +288,15 @@ impl LikelihoodEstimator {
 
     /// Whether no edge changes anything until an input does.
     pub fn rests(&self, i: &In, p: &Params) -> bool {
-        if self.registers.state != State::Idle {
-            return false;
-        }
-        let mut next = self.clone();
-        next.rise(i, p);
-        next == *self
+        self.registers.state == State::Idle
+            && self.next(i, p) == self.registers
+            && self.likelihood_solver.rests(&Wires::likelihood_solver(self, i))
+            && self.likelihood_memory.rests(&Wires::likelihood_memory(self, i), p)
+            && self.likelihood_scan.rests(&Wires::likelihood_scan(self, i), p)
+            && self.likelihood_terms.next(&Wires::likelihood_terms(self, i), p)
+                == self.likelihood_terms
+            && self.likelihood_sums.next(&Wires::likelihood_sums(self, i), p)
+                == self.likelihood_sums
     }
 
     /// Cycles since the edge that took `algo_start`, as far as there has been none to do anything.
@@ -341,7 +337,7 @@ impl LikelihoodEstimator {
             State::End if ran => self.give(&mut d),
             _ => {}
         }
-        if d.state != q.state || d.pass {
+        if d.state == State::Idle || d.state != q.state || d.pass {
             d.waited = U::new(0);
         }
         d

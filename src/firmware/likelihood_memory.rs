@@ -214,6 +214,23 @@ impl Module for LikelihoodMemory {
 impl LikelihoodMemory {
     /// The rising edge of `clk_sys`.
     pub fn rise(&mut self, i: &In, p: &Params) {
+        let (q, d) = (self.registers, self.next(i, p));
+        if q.written {
+            self.ram[q.written_bin.index()] = Kept {
+                ended: q.written_ended,
+                waiting: q.written_waiting,
+                exposure: q.written_exposure,
+            };
+        }
+        self.registers = d;
+    }
+
+    /// Whether no edge changes anything until an input does.
+    pub fn rests(&self, i: &In, p: &Params) -> bool {
+        !self.registers.written && self.next(i, p) == self.registers
+    }
+
+    fn next(&self, i: &In, p: &Params) -> Registers {
         let q = self.registers;
         let mut d = q;
         q.load(i, p, &mut d);
@@ -227,14 +244,7 @@ impl LikelihoodMemory {
             let place = if q.read_en { q.read_addr.index() + 1 } else { q.index.index() };
             (d.fetched_width, d.fetched_end) = p.rom_word(place);
         }
-        if q.written {
-            self.ram[q.written_bin.index()] = Kept {
-                ended: q.written_ended,
-                waiting: q.written_waiting,
-                exposure: q.written_exposure,
-            };
-        }
-        self.registers = if i.rst { Registers::default() } else { d };
+        if i.rst { Registers::default() } else { d }
     }
 }
 

@@ -208,6 +208,26 @@ impl Module for LikelihoodScan {
 impl LikelihoodScan {
     /// The rising edge of `clk_sys`.
     pub fn rise(&mut self, i: &In, p: &Params) {
+        let (q, d) = (self.registers, self.next(i, p));
+        if i.block_done {
+            self.blocks[q.block_count.index()] = (i.block_ended, i.block_exposure);
+        }
+        if i.phase && q.entered {
+            self.kept[q.count.index().wrapping_sub(1) % p.histogram.bins] = Kept {
+                excess: q.entering_excess,
+                predicted: q.entering_expected,
+                middle: q.entering_middle,
+            };
+        }
+        self.registers = d;
+    }
+
+    /// Whether no edge changes anything until an input does.
+    pub fn rests(&self, i: &In, p: &Params) -> bool {
+        !i.block_done && !i.phase && self.next(i, p) == self.registers
+    }
+
+    fn next(&self, i: &In, p: &Params) -> Registers {
         let q = self.registers;
         let mut d = q;
         q.log(i, &mut d);
@@ -217,22 +237,12 @@ impl LikelihoodScan {
         let most = p.histogram.most_hits();
         (d.ambient_ended, d.ambient_exposure) = (U::new(block.0.get().min(most)), block.1);
         d.lone = q.exposed == 1;
-        if i.block_done {
-            self.blocks[q.block_count.index()] = (i.block_ended, i.block_exposure);
-        }
         if i.phase {
             let bins = p.histogram.bins;
             let leaving = q.count.index().wrapping_sub(p.box_bins);
             q.enter(i, p, &self.kept[leaving % bins], &mut d);
             q.slide(p, &mut d);
             q.judge(&mut d);
-            if q.entered {
-                self.kept[q.count.index().wrapping_sub(1) % bins] = Kept {
-                    excess: q.entering_excess,
-                    predicted: q.entering_expected,
-                    middle: q.entering_middle,
-                };
-            }
         }
         let half = p.box_bins as u64 / 2;
         let from = q.best_place.get().saturating_sub(half);
@@ -241,7 +251,7 @@ impl LikelihoodScan {
         if i.pass && i.scan {
             d.begin();
         }
-        self.registers = d;
+        d
     }
 }
 

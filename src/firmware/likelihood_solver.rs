@@ -214,6 +214,11 @@ impl LikelihoodSolver {
         self.registers.counter.get()
     }
 
+    /// Whether no edge changes anything until an input does.
+    pub fn rests(&self, i: &In) -> bool {
+        !i.rst && !i.run && !self.registers.running && !self.registers.ran
+    }
+
     /// The rising edge of `clk_sys`.
     pub fn rise(&mut self, i: &In, p: &Params) {
         let q = self.registers;

@@ -20,6 +20,14 @@ pub const DEPTH_FRACTION: u32 = 29;
 pub const CHI_FRACTION: u32 = 8;
 /// Fisher steps of an estimation.
 pub const STEPS: usize = 6;
+/// Shots that have to wait at the fit's first bin.
+pub const LEAST_WAITING: u64 = 32;
+/// Score of the box that an echo has at least, 64 log2 of 25 squared deviations.
+pub const LEAST_SCORE: i64 = 297;
+/// Score of one that is sure, of 100.
+pub const SURE_SCORE: i64 = 425;
+/// Score above which something else is another echo, of 36.
+pub const ANOTHER_SCORE: i64 = 331;
 
 /// What an estimation says beside its depth: each bit a reason not to believe it.
 pub mod status {

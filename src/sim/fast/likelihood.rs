@@ -17,44 +17,17 @@ use verdict::verdict;
 
 pub use verdict::Found;
 
-/// All on the way to an estimate.
-#[derive(Clone, Debug)]
-pub struct Stages {
-    /// Ambient hazard at the start, 30 fraction bits [1 / unit].
-    pub ambient: i64,
-    /// Where the box stands highest, and how high.
-    pub start: scan::Best,
-    /// Where each step began, and last where the last one ended.
-    pub points: Vec<Point>,
-    /// What the last step knew.
-    pub information: Information,
-    /// The highest box beside the fit.
-    pub other: scan::Best,
-    /// What comes out.
-    pub found: Found,
-}
-
 /// The estimate of a histogram.
 pub fn estimate(p: &Params, histogram: &[u32]) -> Found {
-    stages(p, histogram).found
-}
-
-/// The same, with all that is on the way.
-pub fn stages(p: &Params, histogram: &[u32]) -> Stages {
     let shots = Shots::new(p, histogram);
     let ambient = shots.ambient(p);
     let start = scan::scan(p, &shots, ambient, 0..0);
-    let mut points = vec![Point::start(p, &start, ambient)];
-    let mut information = Information::default();
+    let (mut point, mut information) = (Point::start(p, &start, ambient), Information::default());
     for _ in 0..STEPS {
-        let to;
-        (to, information) = step(p, &shots, &points[points.len() - 1]);
-        points.push(to);
+        (point, information) = step(p, &shots, &point);
     }
-    let last = &points[STEPS];
-    let other = scan::scan(p, &shots, last.ambient, last.window(p));
-    let found = verdict(p, &shots, &start, &other, &points, &information);
-    Stages { ambient, start, points, information, other, found }
+    let other = scan::scan(p, &shots, point.ambient, point.window(p));
+    verdict(p, &shots, &start, &other, &point, &information)
 }
 
 #[cfg(test)]

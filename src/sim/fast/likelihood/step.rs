@@ -5,7 +5,8 @@ use std::ops::Range;
 use crate::firmware::likelihood_estimator::params::Params;
 use crate::firmware::likelihood_estimator::tables::{length, reciprocal};
 use crate::firmware::likelihood_estimator::words::{
-    AMBIENT_FRACTION, HAZARD_FRACTION, QUOTIENT_FRACTION, RESIDUAL_FRACTION, UNITS, WEIGHT_FRACTION,
+    AMBIENT_FRACTION, HAZARD_FRACTION, QUOTIENT_FRACTION, RESIDUAL_FRACTION, SIGNAL_FRACTION,
+    UNITS, WEIGHT_FRACTION,
 };
 use crate::kernel::wrapped;
 
@@ -116,7 +117,7 @@ impl Point {
     }
 
     fn bin(&self, p: &Params, ended: i64, waiting: i64, part: i64, width: i64) -> Terms {
-        let signal = shifted(self.signal * part, 17 + 14 - i64::from(HAZARD_FRACTION));
+        let signal = shifted(self.signal * part, i64::from(17 + SIGNAL_FRACTION - HAZARD_FRACTION));
         let ambient = shifted(self.ambient * width, i64::from(AMBIENT_FRACTION - HAZARD_FRACTION));
         Bin { ended, waiting, signal, ambient }.terms(p.histogram.count_bits)
     }

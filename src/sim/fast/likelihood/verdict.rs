@@ -3,7 +3,10 @@
 use crate::firmware::forward2::Depth;
 use crate::firmware::likelihood_estimator::params::Params;
 use crate::firmware::likelihood_estimator::tables::{Tables, length, reciprocal};
-use crate::firmware::likelihood_estimator::words::{WEIGHT_FRACTION, status};
+use crate::firmware::likelihood_estimator::words::{
+    ANOTHER_SCORE, CHI_FRACTION, DEPTH_FRACTION, LEAST_SCORE, LEAST_WAITING, SURE_SCORE,
+    WEIGHT_FRACTION, status,
+};
 
 use super::arithmetic::{product, root};
 use super::histogram::Shots;
@@ -15,15 +18,9 @@ use super::terms::Terms;
 const ROOT_LOG2: i64 = 16;
 /// Fraction bits of a variance of log S.
 const VARIANCE_FRACTION: i64 = 10;
-/// 64 log2 of the squared excess that an echo has at least, of one that is sure, and of another echo.
-const LEAST_SCORE: i64 = 297;
-const SURE_SCORE: i64 = 425;
-const ANOTHER_SCORE: i64 = 331;
 /// Largest variance of log S, a 16th, and with a score that is not sure, a 25th.
 const MOST_VARIANCE: i64 = 64;
 const MOST_UNSURE: i64 = 40;
-/// Shots that have to wait at the fit's first bin.
-const LEAST_WAITING: i64 = 32;
 /// A residual of so many squared deviations is no chance.
 const FAR: i64 = 25;
 /// The part of a chi-square's term that is kept: 16 bits and its fraction.
@@ -45,12 +42,12 @@ pub struct Found {
 impl Found {
     /// Standard deviation of the depth [m].
     pub fn sigma_m(&self) -> f64 {
-        self.sigma as f64 / (1u64 << 29) as f64
+        self.sigma as f64 / (1u64 << DEPTH_FRACTION) as f64
     }
 
     /// Chi-square of the fit [1].
     pub fn chi_square(&self) -> f64 {
-        self.chi_square as f64 / 256.0
+        self.chi_square as f64 / f64::from(1 << CHI_FRACTION)
     }
 }
 
@@ -60,10 +57,9 @@ pub fn verdict(
     shots: &Shots,
     start: &Best,
     other: &Best,
-    points: &[Point],
+    last: &Point,
     information: &Information,
 ) -> Found {
-    let last = &points[points.len() - 1];
     let Information { a11, a22, determinant, exponent, cut, move_by } = *information;
     let (over, bits) = reciprocal(determinant);
     let word = p.word_bits();
@@ -83,7 +79,7 @@ pub fn verdict(
     let used_up = last
         .window(p)
         .find(|&bin| p.width(bin) > 0)
-        .is_some_and(|bin| shots.waiting[bin] < LEAST_WAITING);
+        .is_some_and(|bin| shots.waiting[bin] < LEAST_WAITING as i64);
     let margin = p.sigma << 3;
     let unsure = variance > MOST_UNSURE && start.score < SURE_SCORE;
     let no_echo =
