@@ -57,6 +57,10 @@ module ecp5_top (
         .dsp_rst(dsp_rst),
         .depth(depth),
         .algo_done(algo_done),
+        // Left open as on the KC705; an ILA shows them.
+        .sigma(),
+        .status(),
+        .valid(),
         .hist_valid(hist_valid),
         .hist_bin(hist_bin),
         .hist_count(hist_count),

@@ -53,6 +53,10 @@ module kc705_top (
         .dsp_rst(dsp_rst),
         .depth(depth),
         .algo_done(algo_done),
+        // The FMC connectors have no pins left for them; an ILA shows them.
+        .sigma(),
+        .status(),
+        .valid(),
         .hist_valid(hist_valid),
         .hist_bin(hist_bin),
         .hist_count(hist_count),

@@ -22,6 +22,7 @@ module likelihood_estimator #(
     parameter [31:0] WindowEnd = 32'd262328,     // where the last bin ends [units / 16]
     parameter [31:0] Metres = 32'd16094985,      // distance of a 16th of a unit [2^-(29 + MetresShift) m]
     parameter integer MetresShift = 13,
+    parameter [31:0] LaserDelay = 32'd0,         // distance of the light's delay after the laser edge [2^-29 m]
     parameter EdgesFile = "rtl_ref/edges.mem",
     parameter PulseFile = "rtl_ref/pulse.mem",
     parameter HazardFile = "rtl_ref/hazard.mem",
@@ -30,6 +31,7 @@ module likelihood_estimator #(
     input wire clk_sys,
     input wire rst,
     input wire algo_start,                       // starts an estimation
+    input wire mode,                             // SPADs come back by themselves
     // Histogram
     output wire read_en,                         // the histogram's word at read_addr is being read
     output wire [BinBits-1:0] read_addr,         // word of the histogram
@@ -37,7 +39,7 @@ module likelihood_estimator #(
     // Result
     output reg signed [35:0] depth,              // when algo_done is high, and until the next one [2^-29 m]
     output reg [35:0] sigma,                     // its standard deviation [2^-29 m]
-    output reg [5:0] status,                     // why not to believe it
+    output reg [6:0] status,                     // why not to believe it
     output reg [BinBits+24:0] chi_square,        // of the fit [2^-8]
     output reg valid,                            // the status says nothing against the depth
     output reg algo_done                         // the depth is ready; one cycle
@@ -45,9 +47,9 @@ module likelihood_estimator #(
     localparam [3:0] Idle = 4'd0, Load = 4'd1, Ambient = 4'd2, Scan = 4'd3, Start = 4'd4, Fit = 4'd5, Step = 4'd6,
         Check = 4'd7, Rescan = 4'd8, End = 4'd9;
     localparam [6:0] AmbientProgram = 7'd0, StartProgram = 7'd7, StepProgram = 7'd13, EndProgram = 7'd49;
-    localparam integer Bins = 1 << BinBits, Beats = 18;
+    localparam integer Bins = 1 << BinBits, Beats = 29;
     localparam integer ScanCycles = 2 * (Bins + BoxBins - BoxBins / 2 - 1 + Beats);
-    localparam integer FitCycles = 2 * (BinsBefore + 1 + BinsAfter + Beats), LoadCycles = Bins + 9;
+    localparam integer FitCycles = 2 * (BinsBefore + 1 + BinsAfter + Beats), LoadCycles = Bins + 12;
     localparam integer WaitBits = BinBits + 3;
     localparam [BinBits:0] All = Bins, Before = BinsBefore, After = BinsAfter + 1;
 
@@ -56,18 +58,20 @@ module likelihood_estimator #(
     reg [2:0] steps;                  // steps taken
     reg load, pass, sums;             // begins a load, a pass, the sums of a pass
     reg scan, check;                  // a scan, a check is on the way
-    reg phase;                        // second cycle of a beat
+    reg phase;                        // second cycle of a beat; there are none but in a pass
     reg run;                          // begins a program
     reg [6:0] entry;                  // where it begins
     reg [BinBits:0] fit_begin, fit_end;      // begin and end of the fit, and of what a scan blanks [bins]
     reg signed [13:0] start_score;    // score of the first scan
     reg seen;                         // a bin of the check has come
     reg used_up;                      // few shots waited at the first
+    reg free;                         // mode was high since the last estimation began
+    reg unarmed;                      // the same of the shots of this estimation
 
     initial begin
         {depth, sigma, status, chi_square, valid, algo_done} = 0;
         {state, waited, steps, load, pass, sums, scan, check, phase, run, entry, fit_begin, fit_end} = 0;
-        {start_score, seen, used_up} = 0;
+        {start_score, seen, used_up, free, unarmed} = 0;
     end
 
     wire block_done, word_bin, word_rest, word_edge, word_slide, word_first;
@@ -79,16 +83,15 @@ module likelihood_estimator #(
     wire [CountBits+17:0] predicted;
     wire [12:0] gain, share;
     wire signed [8:0] slope;
-    wire [CountBits+BinBits:0] middle;
+    wire [CountBits:0] middle;
     wire waits, single, slide;
-    wire signed [CountBits+19:0] sum_11;
-    wire signed [CountBits+23:0] sum_12, sum_13, score_1;
+    wire signed [CountBits+23:0] sum_11, sum_12, sum_13, score_1;
     wire signed [CountBits+18:0] sum_22, sum_23, sum_33, score_2, score_3;
     wire [BinBits+24:0] sum_chi;
     wire far, lone, ran;
     wire signed [13:0] best_score;
     wire signed [CountBits+BinBits+13:0] best_excess;
-    wire [CountBits+2*BinBits:0] best_middle;
+    wire [CountBits+BinBits:0] best_middle;
     wire [BinBits:0] box_length;
     wire [BinBits+1:0] box_sum;
     wire [CountBits-1:0] ambient_ended;
@@ -134,17 +137,21 @@ module likelihood_estimator #(
         if (rst) begin
             {depth, sigma, status, chi_square, valid, algo_done} <= 0;
             {state, waited, steps, load, pass, sums, scan, check, phase, run, entry, fit_begin, fit_end} <= 0;
-            {start_score, seen, used_up} <= 0;
+            {start_score, seen, used_up, free, unarmed} <= 0;
         end else begin
             state <= state_next;
             waited <= state_next == Idle || state_next != state || begin_fit ? {WaitBits{1'b0}} : waited + 1'b1;
-            phase <= state != Idle && !pass && !phase;
+            phase <= (state == Scan || state == Fit || state == Check || state == Rescan) && !pass && !phase;
             load <= state == Idle && algo_start;
             pass <= begin_fit || begin_scan;
             sums <= begin_fit;
             run <= begin_program;
             algo_done <= state == End && ran;
-            if (state == Idle && algo_start) {fit_begin, fit_end, steps} <= {2 * BinBits + 5{1'b0}};
+            free <= mode || free && !(state == Idle && algo_start);
+            if (state == Idle && algo_start) begin
+                {fit_begin, fit_end, steps} <= {2 * BinBits + 5{1'b0}};
+                unarmed <= free || mode;
+            end
             if (begin_fit) begin
                 fit_begin <= next_begin;
                 fit_end <= next_end;
@@ -164,12 +171,13 @@ module likelihood_estimator #(
                 used_up <= word_waiting < 32;
             end
             if (state == End && ran) begin
-                depth <= solved_depth;
+                // An arrival counts from the laser edge, a depth from where the light leaves.
+                depth <= solved_depth - $signed({4'd0, LaserDelay});
                 sigma <= solved_sigma;
                 chi_square <= sum_chi;
-                status <= {far, cut != 6'd0 || flags[5] || flags[6], best_score > 14'sd331, used_up,
+                status <= {unarmed, far, cut != 6'd0 || flags[5] || flags[6], best_score > 14'sd331, used_up,
                            flags[3] || flags[4], no_echo};
-                valid <= !(far || cut != 6'd0 || flags[5] || flags[6] || best_score > 14'sd331 || used_up
+                valid <= !(unarmed || far || cut != 6'd0 || flags[5] || flags[6] || best_score > 14'sd331 || used_up
                            || flags[3] || flags[4] || no_echo);
                 scan <= 1'b0;
             end

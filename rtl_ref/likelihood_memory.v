@@ -52,22 +52,31 @@ module likelihood_memory #(
     reg [CountBits-1:0] taken_ended;        // the word
     reg [CountBits-1:0] taken_waiting;      // shots that waited
     reg [CountBits-1:0] left;               // shots that are left
+    reg begun;                              // its exposure is begun
+    reg [BinBits-1:0] begun_bin;
+    reg [CountBits-1:0] begun_ended;
+    reg [CountBits-1:0] begun_waiting;
+    reg [CountBits+1:0] begun_three;        // three times these
+    reg [5:0] begun_width;                  // the bits of the width that are left
+    reg [CountBits+3:0] begun_exposure;     // the exposure of its low bits
     reg written;                            // what it comes to is written
     reg [BinBits-1:0] written_bin;          // to this word
     reg [CountBits-1:0] written_ended;
     reg [CountBits-1:0] written_waiting;
     reg [ExposureBits-1:0] written_exposure;
-    reg [RestBits-1:0] all_ended;           // hits of all bins
-    reg [ExposureBits-1:0] all_exposure;    // exposure of all bins
+    reg summed;                             // a block has been added to all bins in the last cycle
+    reg [RestBits-1:0] all_ended;           // hits of all bins; in the second cycle of a beat of a bin, of the rest
+    reg [ExposureBits-1:0] all_exposure;    // their exposure
     reg [9:0] fetched_width;                // width of the bin that is looked up
     reg [EdgeBits-1:0] fetched_end;         // where it ends
     reg passing;                            // a pass is on the way
     reg scanning;                           // it is a scan
     reg [BinBits:0] index;                  // place of the edge that is looked up, one after its bin
-    reg [BinBits:0] last;                   // place of the last one
+    reg [BinBits-1:0] bin;                  // that bin
+    reg blank;                              // it is one of the fit in a scan
     reg opening;                            // the first beat of a pass: an edge alone
     reg tailing;                            // the last bin has been
-    reg [BinBits:0] tail;                   // beats after it that are left
+    reg [BinBits:0] tail;                   // beats after it that have been
     reg read_bin, read_rest, read_edge;     // a bin is looked up, the rest, an edge alone
     reg read_slide, read_first;             // a box goes on, that of bin 0
     reg [CountBits-1:0] read_ended;
@@ -89,54 +98,75 @@ module likelihood_memory #(
         if (Used) $readmemh(EdgesFile, edges);
         for (i = 0; i < Bins; i = i + 1) ram[i] = {KeptBits{1'b0}};
         {read_en, block_done, word_bin, word_rest, word_edge, word_slide, word_first} = 7'd0;
-        {read_addr, taken_bin, written_bin} = {3 * BinBits{1'b0}};
+        {begun, begun_bin, begun_ended, begun_waiting, begun_three, begun_width, begun_exposure} = 0;
+        {read_addr, taken_bin, written_bin, bin} = {4 * BinBits{1'b0}};
         {block_ended, word_ended, word_waiting, all_ended, rest_ended} = {5 * RestBits{1'b0}};
         {block_exposure, written_exposure, all_exposure} = {3 * ExposureBits{1'b0}};
         {read_exposure, rest_exposure} = {2 * ExposureBits{1'b0}};
-        {taken, written, passing, scanning, opening, tailing} = 6'd0;
+        {taken, written, summed, passing, scanning, opening, tailing, blank} = 8'd0;
         {read_bin, read_rest, read_edge, read_slide, read_first} = 5'd0;
         {taken_ended, taken_waiting, left, written_ended, written_waiting} = {5 * CountBits{1'b0}};
         {read_ended, read_waiting} = {2 * CountBits{1'b0}};
         {word_width, fetched_width} = 20'd0;
         {word_end, fetched_end} = {2 * EdgeBits{1'b0}};
-        {index, last, tail} = {3 * (BinBits + 1){1'b0}};
+        {index, tail} = {2 * (BinBits + 1){1'b0}};
     end
 
     wire last_word = &read_addr;
     wire [BinBits:0] place = read_en ? {1'b0, read_addr} + 1'b1 : index;
     wire [EdgeBits+9:0] edge_word = edges[place];
-    wire [BinBits:0] bin = index - 1'b1;
-    wire first_of_all = written_bin == {BinBits{1'b0}};
     wire first_of_block = written_bin[BinBits-4:0] == {BinBits - 3{1'b0}};
-    wire blanked = scanning && index > fit_begin && index <= fit_end;
+    wire [CountBits:0] less = {1'b0, left} - {1'b0, count};
+    wire at_begin = index == fit_begin, at_end = index == fit_end;
+    wire last = scanning ? index == All : at_end;
+    wire last_tail = !scanning || tail == Tail;
+
+    // Written as differences, as those of likelihood_sums are.
+    wire [RestBits:0] rest_ended_next = {rest_ended, 1'b0} - {block_done ? ~block_ended
+        : phase ? {RestBits{1'b0}} : {{BinBits{1'b0}}, read_ended}, block_done};
+    wire [ExposureBits:0] rest_exposure_next = {rest_exposure, 1'b0} - {block_done ? ~block_exposure
+        : phase ? {ExposureBits{1'b0}} : read_exposure, block_done};
 
     wire [RestBits-1:0] rest_waiting
         = rest_exposure[ExposureBits-1:RestBits+6] != 4'd0 ? {RestBits{1'b1}} : rest_exposure[RestBits+5:6];
 
-    // Shots times a width, in fabric: multipliers are needed elsewhere.
-    reg [ExposureBits-1:0] exposure;
+    // Shots times a width, in fabric, as multipliers are needed elsewhere: two bits of the width at a time, and the
+    // lowest bits of the sum are done with. Two rows come before a register, three after it.
+    wire [CountBits+1:0] three = taken_waiting + {taken_waiting, 1'b0};
+    wire [CountBits+1:0] first_row = row(fetched_width[1:0], taken_waiting, three);
+    wire [CountBits+1:0] first_rows = (first_row >> 2) + row(fetched_width[3:2], taken_waiting, three);
+    reg [CountBits+1:0] rest;
+    reg [CountBits+9:0] exposure;
     always @* begin
-        exposure = {ExposureBits{1'b0}};
-        for (i = 0; i < 10; i = i + 1)
-            if (fetched_width[i]) exposure = exposure + ({{BinBits + 10{1'b0}}, taken_waiting} << i);
+        rest = begun_exposure >> 2;
+        exposure[3:0] = begun_exposure[3:0];
+        for (i = 0; i < 6; i = i + 2) begin
+            rest = (rest >> 2) + row(begun_width[i +: 2], begun_waiting, begun_three);
+            exposure[4 + i +: 2] = rest[1:0];
+        end
+        exposure[CountBits+9:10] = rest[CountBits+1:2];
     end
+    function [CountBits+1:0] row(input [1:0] two, input [CountBits-1:0] once, input [CountBits+1:0] thrice);
+        row = !two[1] ? (two[0] ? once : {CountBits + 2{1'b0}}) : two[0] ? thrice : {once, 1'b0};
+    endfunction
 
     always @(posedge clk_sys) if (written) ram[written_bin] <= {written_exposure, written_waiting, written_ended};
 
     always @(posedge clk_sys) begin
         if (rst) begin
             {read_en, block_done, word_bin, word_rest, word_edge, word_slide, word_first} <= 7'd0;
-            {read_addr, taken_bin, written_bin} <= {3 * BinBits{1'b0}};
+            {begun, begun_bin, begun_ended, begun_waiting, begun_three, begun_width, begun_exposure} <= 0;
+            {read_addr, taken_bin, written_bin, bin} <= {4 * BinBits{1'b0}};
             {block_ended, word_ended, word_waiting, all_ended, rest_ended} <= {5 * RestBits{1'b0}};
             {block_exposure, written_exposure, all_exposure} <= {3 * ExposureBits{1'b0}};
             {read_exposure, rest_exposure} <= {2 * ExposureBits{1'b0}};
-            {taken, written, passing, scanning, opening, tailing} <= 6'd0;
+            {taken, written, summed, passing, scanning, opening, tailing, blank} <= 8'd0;
             {read_bin, read_rest, read_edge, read_slide, read_first} <= 5'd0;
             {taken_ended, taken_waiting, left, written_ended, written_waiting} <= {5 * CountBits{1'b0}};
             {read_ended, read_waiting} <= {2 * CountBits{1'b0}};
             {word_width, fetched_width} <= 20'd0;
             {word_end, fetched_end} <= {2 * EdgeBits{1'b0}};
-            {index, last, tail} <= {3 * (BinBits + 1){1'b0}};
+            {index, tail} <= {2 * (BinBits + 1){1'b0}};
         end else begin
             // The histogram, word by word
             if (load) begin
@@ -146,40 +176,51 @@ module likelihood_memory #(
             end else if (read_en) begin
                 read_en <= !last_word;
                 read_addr <= read_addr + 1'b1;
-                left <= left > count ? left - count : {CountBits{1'b0}};
+                left <= less[CountBits] ? {CountBits{1'b0}} : less[CountBits-1:0];
             end
             taken <= read_en;
             taken_bin <= read_addr;
             taken_ended <= count;
             taken_waiting <= left;
-            written <= taken;
-            written_bin <= taken_bin;
-            written_ended <= taken_ended;
-            written_waiting <= taken_waiting;
+            begun <= taken;
+            begun_bin <= taken_bin;
+            begun_ended <= taken_ended;
+            begun_waiting <= taken_waiting;
+            begun_three <= three;
+            begun_width <= fetched_width[9:4];
+            begun_exposure <= {first_rows, first_row[1:0]};
+            written <= begun;
+            written_bin <= begun_bin;
+            written_ended <= begun_ended;
+            written_waiting <= begun_waiting;
             written_exposure <= exposure;
 
-            // Sums over a block, and over all bins
+            // Sums over a block
             block_done <= written && (&written_bin[BinBits-4:0]);
             if (written) begin
-                block_ended <= (first_of_block ? {RestBits{1'b0}} : block_ended) + {{BinBits{1'b0}}, written_ended};
-                block_exposure <= (first_of_block ? {ExposureBits{1'b0}} : block_exposure) + written_exposure;
-                all_ended <= (first_of_all ? {RestBits{1'b0}} : all_ended) + {{BinBits{1'b0}}, written_ended};
-                all_exposure <= (first_of_all ? {ExposureBits{1'b0}} : all_exposure) + written_exposure;
+                block_ended <= {{BinBits{1'b0}}, written_ended} + (first_of_block ? {RestBits{1'b0}} : block_ended);
+                block_exposure <= written_exposure + (first_of_block ? {ExposureBits{1'b0}} : block_exposure);
             end
+
+            // Sums over all bins and over the rest of them, with one adder: blocks are added to all. With a bin of a
+            // pass they change places twice, and it is subtracted from the rest on the way.
+            summed <= block_done;
+            if (block_done || read_bin) begin
+                all_ended <= rest_ended_next[RestBits:1];
+                all_exposure <= rest_exposure_next[ExposureBits:1];
+            end
+            if (summed || pass || read_bin) {rest_ended, rest_exposure} <= {all_ended, all_exposure};
+            if (load) {all_ended, all_exposure, rest_ended, rest_exposure} <= {2 * (RestBits + ExposureBits){1'b0}};
 
             // What is looked up, and what goes on
             if (phase || read_en) {fetched_width, fetched_end} <= edge_word;
             if (phase) begin
-                read_bin <= passing && !opening && !tailing && !blanked;
+                read_bin <= passing && !opening && !tailing && !blank;
                 read_rest <= passing && tailing && !scanning;
                 read_edge <= passing && opening;
                 read_slide <= passing && scanning && !opening;
                 read_first <= index == (opening ? {BinBits + 1{1'b0}} : {{BinBits{1'b0}}, 1'b1});
-                {read_exposure, read_waiting, read_ended} <= ram[bin[BinBits-1:0]];
-                if (read_bin) begin
-                    rest_ended <= rest_ended - {{BinBits{1'b0}}, read_ended};
-                    rest_exposure <= rest_exposure - read_exposure;
-                end
+                {read_exposure, read_waiting, read_ended} <= ram[bin];
                 word_bin <= read_bin && fetched_width != 10'd0;
                 word_rest <= read_rest;
                 word_edge <= read_edge;
@@ -193,19 +234,19 @@ module likelihood_memory #(
 
             // The pass
             if (pass) begin
-                {passing, opening, tailing} <= 3'b110;
+                {passing, opening, tailing, blank} <= 4'b1100;
                 scanning <= scan;
                 index <= scan ? {BinBits + 1{1'b0}} : fit_begin;
-                last <= scan ? All : fit_end;
-                tail <= scan ? Tail : {BinBits + 1{1'b0}};
-                rest_ended <= all_ended;
-                rest_exposure <= all_exposure;
+                tail <= {BinBits + 1{1'b0}};
             end else if (passing && phase) begin
                 opening <= 1'b0;
-                if (opening || index != last) index <= index + 1'b1;
-                else if (!tailing) tailing <= 1'b1;
-                else if (tail == {BinBits + 1{1'b0}}) passing <= 1'b0;
-                else tail <= tail - 1'b1;
+                if (opening || !last) begin
+                    index <= index + 1'b1;
+                    bin <= index[BinBits-1:0];
+                    if (at_begin || at_end) blank <= scanning && !at_end;
+                end else if (!tailing) tailing <= 1'b1;
+                else if (last_tail) passing <= 1'b0;
+                else tail <= tail + 1'b1;
             end
         end
     end

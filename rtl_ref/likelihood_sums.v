@@ -3,7 +3,7 @@
 
 // Sums over the bins of a fit: information and score of (mu, log S, log b), or how well the fit does.
 //
-// What a bin says goes through five registers, a beat of two cycles each; four multipliers work twice a beat.
+// What a bin says goes on for nine beats of two cycles each; four multipliers work twice a beat.
 // Words are extended and cut as what they are assigned to is wide; some bits are not needed.
 // verilator lint_off WIDTH
 // verilator lint_off UNUSEDSIGNAL
@@ -23,7 +23,7 @@ module likelihood_sums #(
     input wire signed [8:0] slope,               // z
     input wire single,                           // the residual is that of a single bin
     // Sums; w has 6 fraction bits
-    output reg signed [CountBits+19:0] sum_11,   // of w s s z z [2^-9]
+    output reg signed [CountBits+23:0] sum_11,   // of w s s z z [2^-9]
     output reg signed [CountBits+23:0] sum_12,   // of w s s z
     output reg signed [CountBits+23:0] sum_13,   // of w s (1 - s) z
     output reg signed [CountBits+18:0] sum_22,   // of w s s
@@ -32,28 +32,51 @@ module likelihood_sums #(
     output reg signed [CountBits+23:0] score_1,  // of v s z
     output reg signed [CountBits+18:0] score_2,  // of v s
     output reg signed [CountBits+18:0] score_3,  // of v (1 - s)
-    output reg [BinBits+24:0] chi_square,        // [2^-8]
+    output reg [BinBits+24:0] chi_square,        // of a check [2^-8]
     output reg far                               // a bin is far from what the fit has
 );
     localparam integer WeightBits = CountBits + 8 > 24 ? CountBits + 8 : 24, ResidualBits = CountBits + 9;
-    localparam integer SeenBits = 2 * CountBits + 3, NearBits = CountBits + 2, SeenSlopeBits = ResidualBits + 9;
+    localparam integer SquareBits = 2 * CountBits, NearBits = CountBits + 2, SeenSlopeBits = ResidualBits + 9;
     localparam integer WeightSlopeBits = WeightBits + 9, WordBits = CountBits + 19;
     localparam integer FactorBits = NearBits > 14 ? NearBits : 14;
+    localparam integer LastBits = (WordBits > BinBits + 25 ? WordBits : BinBits + 25) + 1;
     localparam [WordBits-1:0] Count = 64, Sixteenth = 4;
     localparam [NearBits-1:0] Nearest = {2'b01, {CountBits{1'b1}}};
+    localparam signed [12:0] Half = 2048;   // of what is cut off a product, to round it
+    localparam signed [9:0] Far = 25;       // squared deviations that are no chance
 
-    reg [WeightBits-1:0] weight_first, weight_0, weight_1, weight_2, weight_3;  // w
-    reg signed [SeenBits-1:0] seen_first, seen_0, seen_1, seen_2, seen_3;       // v s, or the square of v
-    reg signed [ResidualBits-1:0] residuals_0, residuals_1, residuals_2, residuals_3;
-    reg [12:0] shares_0, shares_1;
-    reg signed [8:0] z_0, z_1, z_2;
-    reg singles;
+    reg changed;                   // the sums of each pair have changed places
+    reg signed [LastBits-1:0] last_sum;  // of w (1 - s) (1 - s), or in a check the chi-square
+    reg signed [ResidualBits-1:0] first_a;                                      // operands and products
+    reg signed [13:0] first_b, third_b;
+    reg signed [CountBits+22:0] first_product;
+    reg signed [WeightBits:0] second_a, third_a, fourth_a;
+    reg signed [FactorBits-1:0] second_b;
+    reg signed [WeightBits+FactorBits:0] second_product;
+    reg signed [WeightBits+14:0] third_product;
+    reg signed [9:0] fourth_b;
+    reg signed [WeightBits+9:0] fourth_product;
+    reg [WeightBits-1:0] weight_first, weight_0, weight_1;                      // w
+    reg signed [ResidualBits-1:0] seen_first, seen;                             // v s
+    reg [SquareBits-1:0] square_first, square_0, square_1, square_2;            // the square of v
+    reg signed [ResidualBits-1:0] residuals;
+    reg signed [ResidualBits:0] unseen;                                         // v (1 - s)
+    reg [12:0] shares_0, shares_1, shares_2;
+    reg signed [8:0] z_0, z_1, z_2, z_3, z_4, z_5;
+    reg singles_0, singles_1, singles_2, singles_3;
     reg [WeightBits-1:0] once_0, once_1, once_2;                      // w s
-    reg signed [SeenSlopeBits-1:0] seen_z_0, seen_z_1, seen_z_2;      // v s z
+    reg signed [WeightBits:0] others;                                 // w (1 - s)
+    reg signed [SeenSlopeBits-1:0] seen_z;                            // v s z
+    reg [WeightBits:0] variances_0, variances_1;  // v's variance, with a quarter of a count more
+    reg [5:0] bits;                // of it
+    reg [SquareBits+8:0] square_over;  // the square after the longest shifts
+    reg [5:0] aligned;             // the variance below its leading one
     reg [23:0] over;               // the square over its variance's leading one [2^-8]
     reg [9:0] reciprocal;          // of that variance's mantissa
-    reg [WeightBits-1:0] twice_first, twice_0, twice_1;               // w s s, or a term of the chi-square
-    reg signed [WeightSlopeBits-1:0] tz_first, tz, tzz, oz;           // w s s z, w s s z z, w s (1 - s) z
+    reg [WeightBits-1:0] twice_first, twice;                          // w s s, or a term of the chi-square
+    reg signed [WeightBits:0] mixed;                                  // w s (1 - s)
+    reg signed [WeightSlopeBits-1:0] tz_first, tz, oz;                // w s s z, w s (1 - s) z
+    reg signed [WeightSlopeBits-1:0] tzz;                             // w s s z z, or the square that is not yet far
 
     reg [9:0] reciprocals [0:63];
 
@@ -61,102 +84,143 @@ module likelihood_sums #(
     initial begin
         // 1024 over 1 + (i + 1/2) / 64, rounded
         for (i = 0; i < 64; i = i + 1) reciprocals[i] = (262144 + 129 + 2 * i) / (2 * (129 + 2 * i));
-        {sum_12, sum_13, sum_23, score_1, score_2, score_3, chi_square, far} = 0;
+        {sum_12, sum_13, sum_23, score_1, score_2, score_3, chi_square, far, changed} = 0;
         {sum_11, sum_22, sum_33} = 0;
-        {weight_first, weight_0, weight_1, weight_2, weight_3} = 0;
-        {seen_first, seen_0, seen_1, seen_2, seen_3} = 0;
-        {residuals_0, residuals_1, residuals_2, residuals_3, shares_0, shares_1, z_0, z_1, z_2, singles} = 0;
-        {once_0, once_1, once_2, seen_z_0, seen_z_1, seen_z_2, over, reciprocal} = 0;
-        {twice_first, twice_0, twice_1, tz_first, tz, tzz, oz} = 0;
+        {first_a, first_b, first_product, second_a, second_b, second_product} = 0;
+        {third_a, third_b, third_product, fourth_a, fourth_b, fourth_product} = 0;
+        {weight_first, weight_0, weight_1, seen_first, seen} = 0;
+        {square_first, square_0, square_1, square_2, residuals, unseen} = 0;
+        {shares_0, shares_1, shares_2, z_0, z_1, z_2, z_3, z_4, z_5} = 0;
+        {singles_0, singles_1, singles_2, singles_3} = 0;
+        {once_0, once_1, once_2, others, seen_z, variances_0, variances_1, bits} = 0;
+        {square_over, aligned, over, reciprocal} = 0;
+        {twice_first, twice, mixed, last_sum, tz_first, tz, tzz, oz} = 0;
     end
 
-    // The first multiplier: a weight, then a share of the residual times its slope
+    // Each multiplier has registers before and after the product, and one after what is added to it.
+    // The first: a weight, then a share of the residual times its slope
     wire [CountBits+12:0] expected_cut = predicted[CountBits+17:5];
     wire [CountBits+7:0] expected_limited
         = |expected_cut[CountBits+12:CountBits+8] ? {CountBits + 8{1'b1}} : expected_cut[CountBits+7:0];
-    wire signed [CountBits+8:0] first_a = phase ? $signed(seen_0[ResidualBits-1:0]) : $signed({1'b0, expected_limited});
-    wire signed [13:0] first_b = phase ? {{5{z_0[8]}}, z_0} : $signed({1'b0, gain});
-    wire signed [CountBits+22:0] first = first_a * first_b;
+    wire signed [13:0] first_half = phase ? 14'sd0 : Half <<< 1;
+    wire signed [CountBits+22:0] first = first_product + first_half;
 
     // The second: a share of the residual or its square, then a share of the weight
-    wire is_near = residual <= $signed(Nearest) && residual >= -$signed(Nearest);
+    wire is_near = residual[ResidualBits-1:NearBits-1] == {ResidualBits - NearBits + 1{residual[ResidualBits-1]}}
+        && !(residual[ResidualBits-1] && residual[NearBits-2:0] == {NearBits - 1{1'b0}});
     wire signed [NearBits-1:0] near
         = is_near ? residual[NearBits-1:0] : residual[ResidualBits-1] ? -$signed(Nearest) : $signed(Nearest);
-    wire signed [WeightBits:0] second_a
-        = phase ? $signed({1'b0, weight_0}) : check ? near : residual;
-    wire signed [FactorBits-1:0] second_b = phase ? $signed({1'b0, shares_0}) : check ? near : $signed({1'b0, share});
-    wire signed [WeightBits+FactorBits:0] second = second_a * second_b;
+    wire signed [12:0] second_half = check && !phase ? 13'sd0 : Half;
+    wire signed [WeightBits+FactorBits:0] second = second_product + second_half;
 
     // The third: a share of that share or a term of the chi-square, then the other share times its slope
-    wire signed [WeightBits:0] difference = $signed({1'b0, once_1}) - $signed({1'b0, twice_0});
-    wire signed [WeightBits:0] third_a = phase ? difference : check ? $signed({1'b0, over}) : $signed({1'b0, once_0});
-    wire signed [13:0] third_b = phase ? {{5{z_2[8]}}, z_2}
-        : check ? $signed({4'd0, reciprocal}) : $signed({1'b0, shares_1});
-    wire signed [WeightBits+14:0] third = third_a * third_b;
+    wire signed [WeightBits:0] difference = $signed({1'b0, once_2}) - $signed({1'b0, twice});
+    wire signed [12:0] third_half = check || phase ? 13'sd0 : Half;
+    wire signed [WeightBits+14:0] third = third_product + third_half;
 
-    // The fourth: a share of the share times its slope, and times it again
-    wire signed [WeightBits:0] fourth_a = phase ? tz_first >>> 9 : $signed({1'b0, twice_0});
-    wire signed [WeightBits+9:0] fourth = fourth_a * z_2;
+    // The fourth: a share of the share times its slope, and times it again, or how far a square may be
+    wire signed [16:0] nearest = check ? Far * $signed(Count[7:0]) : 17'sd0;
+    wire signed [WeightBits+9:0] fourth = fourth_product + nearest;
 
-    // The square over its variance
-    wire [WeightBits:0] variance = weight_0 + 16;
-    reg [5:0] bits;
+    // The square over its variance. Shifts go in steps, the longest first: the others have fewer bits to look at.
+    reg [5:0] length;
+    reg [SquareBits+8:0] square_over_next, square_cut;
+    reg [WeightBits+7:0] aligned_next;
     always @* begin
-        bits = 6'd0;
-        for (i = 0; i <= WeightBits; i = i + 1) if (variance[i]) bits = i[5:0] + 6'd1;
+        length = 6'd0;
+        for (i = 0; i <= WeightBits; i = i + 1) if (variances_0[i]) length = i[5:0] + 6'd1;
+        square_over_next = {square_2, 9'd0};
+        square_cut = square_over;
+        aligned_next = {variances_1, 7'd0};
+        for (i = 5; i >= 3; i = i - 1) if (bits[i]) square_over_next = square_over_next >> (1 << i);
+        for (i = 2; i >= 0; i = i - 1) if (bits[i]) square_cut = square_cut >> (1 << i);
+        for (i = 5; i >= 0; i = i - 1) if (bits[i]) aligned_next = aligned_next >> (1 << i);
     end
-    wire [SeenBits-1:0] square = check ? seen_0 : 0;
-    wire [SeenBits+8:0] square_over = {square, 9'd0} >> bits;
-    wire [WeightBits+7:0] aligned = {variance, 7'd0} >> bits;
-    wire [WeightBits+5:0] counted = weight_0 + 64;
-    wire is_far = square > (counted << 4) + (counted << 3) + counted;
+    // One adder for the sums of a pair. It is written as a difference: of an addition synthesis may swap the operands,
+    // and one that is selected takes a LUT a bit more where the carries have the other.
+    function signed [CountBits+23:0] plus(input signed [CountBits+23:0] sum, input signed [CountBits+23:0] more);
+        reg signed [CountBits+24:0] doubled;
+        begin
+            doubled = {sum, 1'b0} - {~more, 1'b1};
+            plus = doubled[CountBits+24:1];
+        end
+    endfunction
+
+    // To the last sum w (1 - s) comes first, and then w s (1 - s) leaves it; in a check a term of the chi-square comes.
+    wire signed [LastBits-1:0] comes = check ? $signed({1'b0, twice}) : others;
+    wire signed [LastBits-1:0] changes = phase ? comes : check ? {LastBits{1'b1}} : ~mixed;
+    wire [LastBits:0] last_doubled = {last_sum, 1'b0} - {~changes, phase};
+
+    wire is_far = $signed({1'b0, square_2}) > tzz;
 
     always @(posedge clk_sys) begin
-        if (!phase) begin
-            weight_first <= (first >>> 13) + $signed({1'b0, first[12]});
-            seen_first <= check ? second >>> 2 : (second >>> 12) + $signed({1'b0, second[11]});
-            twice_first <= check ? third >>> 10 : (third >>> 12) + $signed({1'b0, third[11]});
-            tz_first <= fourth;
-        end else begin
-            {weight_3, weight_2, weight_1, weight_0} <= {weight_2, weight_1, weight_0, weight_first};
-            {seen_3, seen_2, seen_1, seen_0} <= {seen_2, seen_1, seen_0, seen_first};
-            {residuals_3, residuals_2, residuals_1, residuals_0}
-                <= {residuals_2, residuals_1, residuals_0, residual};
-            {shares_1, shares_0} <= {shares_0, share};
-            {z_2, z_1, z_0} <= {z_1, z_0, slope};
-            singles <= single;
-            once_0 <= (second >>> 12) + $signed({1'b0, second[11]});
-            {once_2, once_1} <= {once_1, once_0};
-            seen_z_0 <= check ? 0 : first;
-            {seen_z_2, seen_z_1} <= {seen_z_1, seen_z_0};
-            over <= |square_over[SeenBits+8:24] ? 24'hffffff : square_over[23:0];
-            reciprocal <= reciprocals[aligned[5:0]];
-            {twice_1, twice_0} <= {twice_0, twice_first};
+        first_a <= phase ? seen_first : $signed({1'b0, expected_limited});
+        first_b <= phase ? {{5{z_0[8]}}, z_0} : $signed({1'b0, gain});
+        second_a <= phase ? $signed({1'b0, weight_first}) : check ? near : residual;
+        second_b <= phase ? $signed({1'b0, shares_0}) : check ? near : $signed({1'b0, share});
+        third_a <= phase ? difference : check ? $signed({1'b0, over}) : $signed({1'b0, once_0});
+        third_b <= phase ? {{5{z_4[8]}}, z_4}
+            : check ? $signed({2'd0, reciprocal, 2'd0}) : $signed({1'b0, shares_2});
+        fourth_a <= check ? $signed({1'b0, weight_0}) : phase ? tz_first >>> 9 : $signed({1'b0, twice});
+        fourth_b <= check ? Far : phase ? z_5 : z_4;
+        first_product <= first_a * first_b;
+        second_product <= second_a * second_b;
+        third_product <= third_a * third_b;
+        fourth_product <= fourth_a * fourth_b;
+        weight_first <= first >>> 13;
+        seen_first <= second >>> 12;
+        square_first <= second >>> 2;
+        twice_first <= third >>> 12;
+        tz_first <= fourth;
+        square_over <= square_over_next;
+        aligned <= aligned_next[5:0];
+        if (phase) begin
+            {weight_1, weight_0} <= {weight_0, weight_first};
+            seen <= seen_first;
+            {square_2, square_1, square_0} <= {square_1, square_0, square_first};
+            residuals <= residual;
+            unseen <= residuals - seen_first;
+            {shares_2, shares_1, shares_0} <= {shares_1, shares_0, share};
+            {z_5, z_4, z_3, z_2, z_1, z_0} <= {z_4, z_3, z_2, z_1, z_0, slope};
+            {singles_3, singles_2, singles_1, singles_0} <= {singles_2, singles_1, singles_0, single};
+            {once_2, once_1, once_0} <= {once_1, once_0, second[WeightBits+11:12]};
+            others <= $signed({1'b0, weight_1}) - $signed({1'b0, once_0});
+            seen_z <= first;
+            {variances_1, variances_0} <= {variances_0, {1'b0, weight_0} + 5'd16};
+            bits <= length;
+            over <= |square_cut[SquareBits+8:24] ? 24'hffffff : square_cut[23:0];
+            reciprocal <= reciprocals[aligned];
+            twice <= twice_first;
+            mixed <= difference;
             oz <= third;
             tzz <= fourth;
             tz <= tz_first;
-            if (check) begin
-                chi_square <= chi_square + twice_1;
-                if (singles && is_far) far <= 1'b1;
-            end else begin
-                sum_11 <= sum_11 + tzz;
-                sum_12 <= sum_12 + tz;
-                sum_13 <= sum_13 + oz;
-                sum_22 <= sum_22 + $signed({1'b0, twice_1});
-                sum_23 <= sum_23 + $signed({1'b0, once_2}) - $signed({1'b0, twice_1});
-                sum_33 <= sum_33 + $signed({1'b0, weight_3}) - $signed({1'b0, once_2, 1'b0}) + $signed({1'b0, twice_1});
-                score_1 <= score_1 + seen_z_2;
-                score_2 <= score_2 + seen_3;
-                score_3 <= score_3 + residuals_3 - seen_3;
-            end
+            if (check && singles_3 && is_far) far <= 1'b1;
         end
+        // What is added goes to the one that stands second, and they change places.
+        changed <= phase;
+        if (phase || changed) begin
+            sum_13 <= sum_12;
+            sum_12 <= plus(sum_13, phase ? oz : tz);
+            sum_11 <= score_1;
+            score_1 <= plus(sum_11, phase ? tzz : seen_z);
+            sum_23 <= sum_22;
+            sum_22 <= plus(sum_23, phase ? mixed : $signed({1'b0, twice}));
+            score_3 <= score_2;
+            score_2 <= plus(score_3, phase ? unseen : seen);
+            last_sum <= last_doubled[LastBits:1];
+        end
+        sum_33 <= last_sum[CountBits+18:0];
+        if (check) chi_square <= last_sum[BinBits+24:0];
         if (pass) begin
+            changed <= 1'b0;
             sum_11 <= {Sixteenth, 1'b0};
             {sum_12, sum_13, sum_23, score_1, score_2, score_3} <= 0;
             sum_22 <= Sixteenth;
-            sum_33 <= Count;
-            chi_square <= 0;
+            last_sum <= check ? 0 : Count;
             far <= 1'b0;
+            // What is on the way from a pass that was no check is no square.
+            {square_0, square_1, square_2, reciprocal, twice_first} <= 0;
         end
     end
 endmodule

@@ -3,7 +3,7 @@
 
 // What a bin says of a point, in the likelihood estimator: residual, what is expected, and the signal's share.
 //
-// A bin goes through nine registers, a beat of two cycles each; two multipliers work twice a beat.
+// A bin goes on for sixteen beats of two cycles each; two multipliers work twice a beat.
 // Words are extended and cut as what they are assigned to is wide; some bits are not needed.
 // verilator lint_off WIDTH
 // verilator lint_off UNUSEDSIGNAL
@@ -35,7 +35,7 @@ module likelihood_terms #(
     output reg [12:0] gain,                      // lambda / (exp(lambda) - 1) [2^-12]
     output reg [12:0] share,                     // the signal's in the hazard [2^-12]
     output reg signed [8:0] slope,               // of the pulse's logarithm
-    output reg [CountBits+BinBits:0] middle,     // twice the shots that wait in the middle of a bin
+    output reg [CountBits:0] middle,             // twice the shots that wait in the middle of a bin
     output reg waits,                            // shots wait at it
     output reg single,                           // the residual is that of a single bin
     output reg slide                             // a box goes on with it
@@ -43,37 +43,68 @@ module likelihood_terms #(
     localparam integer RestBits = CountBits + BinBits, TimeBits = BinBits + 12;
     localparam integer EndedBits = RestBits + 17, WaitingProductBits = RestBits + 14;
     localparam integer ExpectedBits = CountBits + 18, ResidualBits = CountBits + 9;
-    localparam [25:0] LeastHazard = 26'd4, MostHazard = 26'h3ffffff;
+    localparam [25:0] MostHazard = 26'h3ffffff;
 
     // Words on the way
-    reg bin_0, bin_1, bin_2, bin_3, bin_4, bin_5, bin_6, bin_7;
-    reg rest_0, rest_1, rest_2, rest_3, rest_4, rest_5, rest_6, rest_7;
-    reg slides_0, slides_1, slides_2, slides_3, slides_4, slides_5, slides_6, slides_7;
-    reg edge_alone, first;
-    reg [RestBits-1:0] ended_0, ended_1, ended_2, ended_3, ended_4, ended_5, ended_6, ended_7;
-    reg [RestBits-1:0] waiting_0, waiting_1, waiting_2, waiting_3, waiting_4, waiting_5, waiting_6, waiting_7;
-    reg [9:0] width_0, width_1;
-    reg [16:0] fetched_part, low_part;           // of the words of the pulse around a time
-    reg signed [8:0] fetched_slope, fetched_first, low_slope, low_first;
-    reg [3:0] sixteenths;                        // how far the time is from one to the other
+    reg bin_0, bin_1, bin_2, bin_3, bin_4, bin_5, bin_6, bin_7, bin_8, bin_9, bin_10, bin_11, bin_12, bin_13,
+        bin_14;
+    reg rest_0, rest_1, rest_2, rest_3, rest_4, rest_5, rest_6, rest_7, rest_8, rest_9, rest_10, rest_11,
+        rest_12, rest_13, rest_14;
+    reg slides_0, slides_1, slides_2, slides_3, slides_4, slides_5, slides_6, slides_7, slides_8, slides_9,
+        slides_10, slides_11, slides_12, slides_13, slides_14;
+    reg edge_alone_0, edge_alone_1, edge_alone_2, first_0, first_1, first_2;
+    reg [RestBits-1:0] ended_0, ended_1, ended_2, ended_3, ended_4, ended_5, ended_6, ended_7, ended_8, ended_9,
+        ended_10, ended_11;
+    reg [RestBits-1:0] waiting_0, waiting_1, waiting_2, waiting_3, waiting_4, waiting_5, waiting_6, waiting_7,
+        waiting_8, waiting_9, waiting_10, waiting_11;
+    reg [9:0] width_0, width_1, width_2, width_3;
+    reg [CountBits:0] middles_0, middles_1, middles_2;
+    reg awaited_0, awaited_1, awaited_2;
+    reg signed [TimeBits-1:0] from_arrival;      // where a word ends [units / 16]
+    reg [10:0] place;                            // of a word of the pulse around that time
+    reg [16:0] fetched_part, low_part_0, low_part_1;  // of these words
+    reg signed [8:0] fetched_slope, fetched_first, low_slope_0, low_slope_1, low_first_0, low_first_1;
+    reg [3:0] sixteenths_0, sixteenths_1;        // how far the time is from one to the other
+    reg [16:0] rise;                             // from the one part to the other
+    reg [20:0] risen;                            // up to the time [1 / 16]
     reg [16:0] pulse_part;                       // part of the pulse before the word's end
     reg signed [8:0] pulse_slope, pulse_first;   // slope there, and that of the part
     reg [16:0] last_part;                        // the same at the end of the bin before
     reg signed [8:0] last_slope;
     reg [16:0] part;                             // part of the pulse in the bin
-    reg signed [8:0] z_0, z_1, z_2, z_3, z_4, z_5, z_6;
-    reg [25:0] lit_first, lit, dim;              // hazards of the signal and of ambient light
-    reg [25:0] hazard_0, hazard_1, hazard_2;     // of both, within its limits
-    reg [25:0] signal_hazard;
-    reg [4:0] bits_0, bits_1, bits_2;            // of the hazard
-    reg [13:0] mantissa_0, mantissa_1;           // the hazard's
+    reg signed [8:0] z_0, z_1, z_2, z_3, z_4, z_5, z_6, z_7, z_8, z_9, z_10, z_11;
+    reg [23:0] level;                            // of the signal and of ambient light in turn
+    reg [16:0] amount;                           // of it in the bin
+    reg [40:0] level_product;                    // their product
+    reg [41:0] level_times;                      // and half of what is cut off it
+    reg [25:0] light, lit_first, lit;            // hazards of both in turn, and of the signal
+    reg [26:0] sum;                              // of both
+    reg [25:0] hazard_0, hazard_1, hazard_2, hazard_3, hazard_4;  // within its limits
+    reg [25:0] signal_hazard_0, signal_hazard_1;
+    reg [4:0] bits_0, bits_1, bits_2, bits_3, bits_4;  // of the hazard
+    reg [13:0] mantissa_first, mantissa_0, mantissa_1, mantissa_2;  // the hazard's
     reg [13:0] aligned;                          // the signal's hazard, as it is shifted
-    reg [16:0] k;                                // lambda / (1 - exp(-lambda)) [2^-12]
-    reg [12:0] gains_0, gains_1;
-    reg [12:0] shares_0, shares_1, shares_2;
-    reg [EndedBits-1:0] ended_k_first, ended_k_0, ended_k_1;
-    reg [WaitingProductBits-1:0] product;        // R times the mantissa
+    reg [9:0] few;                               // factors of what k grows by and of the share in turn
+    reg [16:0] many;
+    reg [18:0] triple;                           // three times the second
+    reg [22:0] begun;                            // product with the low six bits of the first
+    reg [3:0] few_left;                          // the others
+    reg [16:0] many_left;
+    reg [18:0] triple_left;
+    reg [23:0] grown;                            // what k grows by within a quarter, and then the share
+    reg [16:0] k_before, k;                      // lambda / (1 - exp(-lambda)) [2^-12], and at the quarter before
+    reg [12:0] gains_0, gains_1, gains_2;
+    reg [12:0] share_first, shares_0, shares_1, shares_2;
+    reg [RestBits-1:0] shots;                    // that end and that wait in turn
+    reg [16:0] factor;                           // k and the mantissa in turn
+    reg [EndedBits-1:0] shots_product;           // their product
+    reg [23:0] half;                             // half of what is cut off it
+    reg [EndedBits-1:0] ended_k_first, ended_k_0, ended_k_1;  // n k, and half of what is cut off
+    reg [WaitingProductBits-1:0] product;        // R times the mantissa, and half of what is cut off
+    reg [4:0] down;                              // by how much that is shifted
+    reg [WaitingProductBits+1:0] expected_first; // the product after the longest shifts
     reg [ExpectedBits-1:0] product_shifted;      // R lambda
+    reg signed [EndedBits:0] surplus;            // n k less that
 
 `ifdef ROM_IN_LUTS
     (* rom_style = "logic" *)
@@ -94,158 +125,208 @@ module likelihood_terms #(
 
     initial begin
         {residual, predicted, gain, share, slope, middle, waits, single, slide} = 0;
-        {bin_0, bin_1, bin_2, bin_3, bin_4, bin_5, bin_6, bin_7} = 8'd0;
-        {rest_0, rest_1, rest_2, rest_3, rest_4, rest_5, rest_6, rest_7} = 8'd0;
-        {slides_0, slides_1, slides_2, slides_3, slides_4, slides_5, slides_6, slides_7} = 8'd0;
-        {edge_alone, first} = 2'd0;
-        {ended_0, ended_1, ended_2, ended_3, ended_4, ended_5, ended_6, ended_7} = 0;
-        {waiting_0, waiting_1, waiting_2, waiting_3, waiting_4, waiting_5, waiting_6, waiting_7} = 0;
-        {width_0, width_1} = 20'd0;
+        {bin_0, bin_1, bin_2, bin_3, bin_4, bin_5, bin_6, bin_7, bin_8, bin_9, bin_10, bin_11, bin_12, bin_13, bin_14}
+            = 0;
+        {rest_0, rest_1, rest_2, rest_3, rest_4, rest_5, rest_6, rest_7, rest_8, rest_9, rest_10, rest_11, rest_12,
+            rest_13, rest_14} = 0;
+        {slides_0, slides_1, slides_2, slides_3, slides_4, slides_5, slides_6, slides_7, slides_8, slides_9,
+            slides_10, slides_11, slides_12, slides_13, slides_14} = 0;
+        {edge_alone_0, edge_alone_1, edge_alone_2, first_0, first_1, first_2, width_0, width_1, width_2, width_3,
+            middles_0, middles_1, middles_2, awaited_0, awaited_1, awaited_2} = 0;
+        {ended_0, ended_1, ended_2, ended_3, ended_4, ended_5, ended_6, ended_7, ended_8, ended_9, ended_10, ended_11}
+            = 0;
+        {waiting_0, waiting_1, waiting_2, waiting_3, waiting_4, waiting_5, waiting_6, waiting_7, waiting_8, waiting_9,
+            waiting_10, waiting_11} = 0;
+        {from_arrival, place, fetched_part, low_part_0, low_part_1, fetched_slope, fetched_first, low_slope_0,
+            low_slope_1, low_first_0, low_first_1, sixteenths_0, sixteenths_1, rise, risen} = 0;
         {pulse_part, pulse_slope, pulse_first, last_part, last_slope, part} = 0;
-        {fetched_part, fetched_slope, fetched_first, low_part, low_slope, low_first, sixteenths} = 0;
-        {z_0, z_1, z_2, z_3, z_4, z_5, z_6} = 0;
-        {lit_first, lit, dim, hazard_0, hazard_1, hazard_2, signal_hazard} = 0;
-        {bits_0, bits_1, bits_2, mantissa_0, mantissa_1, aligned, k} = 0;
-        {gains_0, gains_1, shares_0, shares_1, shares_2} = 0;
-        {ended_k_first, ended_k_0, ended_k_1, product, product_shifted} = 0;
+        {z_0, z_1, z_2, z_3, z_4, z_5, z_6, z_7, z_8, z_9, z_10, z_11} = 0;
+        {level, amount, level_product, level_times, light, lit_first, lit, sum, hazard_0, hazard_1, hazard_2,
+            hazard_3, hazard_4, signal_hazard_0, signal_hazard_1} = 0;
+        {bits_0, bits_1, bits_2, bits_3, bits_4, mantissa_first, mantissa_0, mantissa_1, mantissa_2, aligned, few,
+            many, triple, begun, few_left, many_left, triple_left} = 0;
+        {grown, k_before, k, gains_0, gains_1, gains_2, share_first, shares_0, shares_1, shares_2} = 0;
+        {shots, factor, shots_product, half, ended_k_first, ended_k_0, ended_k_1, product, down, expected_first,
+            product_shifted, surplus} = 0;
     end
 
     // The pulse at the word's end
-    wire signed [TimeBits-1:0] time_from = $signed({1'b0, word_end, 3'd0}) - $signed({1'b0, arrival});
-    wire signed [TimeBits-1:0] steps = time_from >>> (StepLog2 + 4);
-    wire below = steps < -1024, above = steps > 1022;
-    wire [10:0] place = below ? 11'd0 : above ? 11'd2046 : {!steps[10], steps[9:0]};
-    wire [10:0] fetched_place = place + {10'd0, phase};
-    wire signed [TimeBits-1:0] fine_steps = time_from >>> StepLog2;
-    wire [16:0] rise = fetched_part - low_part;
-    reg [20:0] risen;
-    always @* begin
-        risen = 21'd0;
-        for (i = 0; i < 4; i = i + 1) if (sixteenths[i]) risen = risen + ({4'd0, rise} << i);
-    end
+    wire signed [TimeBits-1:0] steps = from_arrival >>> (StepLog2 + 4);
+    wire below = steps[TimeBits-1] && !(&steps[TimeBits-2:10]);
+    wire above = !steps[TimeBits-1] && (|steps[TimeBits-2:10] || &steps[9:0]);
+    wire [10:0] low_place = below ? 11'd0 : above ? 11'd2046 : {!steps[10], steps[9:0]};
+    wire signed [TimeBits-1:0] fine_steps = from_arrival >>> StepLog2;
+
+    // In fabric, two bits of a factor at a time
+    wire [18:0] thrice_rise = rise + {rise, 1'b0};
+    wire [18:0] rise_low = row(sixteenths_1[1:0], rise, thrice_rise);
+    wire [18:0] rise_high = (rise_low >> 2) + row(sixteenths_1[3:2], rise, thrice_rise);
 
     // What of it is in the bin, and the slope between its ends
-    wire none = edge_alone && first;
+    wire none = edge_alone_2 && first_2;
     wire signed [9:0] slopes = {pulse_slope[8], pulse_slope} + {last_slope[8], last_slope};
 
-    // Two multipliers
-    wire [23:0] level = phase ? ambient : strength;
-    wire [16:0] amount = phase ? {7'd0, width_1} : part;
-    wire [40:0] light = level * amount;
-    wire [40:0] light_rounded = phase ? (light >> 8) + {40'd0, light[7]} : (light >> 9) + {40'd0, light[8]};
-    wire [25:0] light_limited = |light_rounded[40:26] ? MostHazard : light_rounded[25:0];
-    wire [RestBits-1:0] shots = phase ? waiting_5 : ended_5;
-    wire [16:0] factor = phase ? {3'd0, mantissa_1} : k;
-    wire [EndedBits-1:0] times = shots * factor;
-
     // The hazard
-    wire [26:0] sum = {1'b0, lit} + {1'b0, dim};
-    wire [25:0] limited = sum[26] ? MostHazard : sum[25:0] < LeastHazard ? LeastHazard : sum[25:0];
+    wire [25:0] light_limited = |level_times[41:35] ? MostHazard : level_times[34:9];
+    wire too_low = sum[26:2] == 25'd0;  // below 4, the least that it may be
+    wire [25:0] limited = sum[26] ? MostHazard : {sum[25:3], too_low || sum[2], too_low ? 2'd0 : sum[1:0]};
 
-    // Its mantissa
+    // Its mantissa, then the signal's part as it is shifted. Shifts go in steps, the longest first: the others have
+    // fewer bits to look at.
     reg [4:0] length;
+    reg [51:0] shifted;
     always @* begin
         length = 5'd0;
         for (i = 0; i < 26; i = i + 1) if (hazard_0[i]) length = i[4:0] + 5'd1;
+        shifted = {phase ? signal_hazard_1 : hazard_1, 26'd0};
+        for (i = 4; i >= 0; i = i - 1) if (bits_0[i]) shifted = shifted >> (1 << i);
     end
-    wire [51:0] hazard_aligned = {hazard_0, 26'd0} >> length;
-    wire [51:0] signal_aligned = {signal_hazard, 26'd0} >> length;
 
-    // k and the share, in fabric
-    wire [27:0] hazard_word = hazards[hazard_1[25:20]];
-    reg [20:0] growth;
-    always @* begin
-        growth = 21'd0;
-        for (i = 0; i < 10; i = i + 1) if (hazard_1[10 + i]) growth = growth + ({10'd0, hazard_word[10:0]} << i);
-    end
+    // In fabric, where multipliers are needed elsewhere: what k grows by, then the share. Two bits of a factor are
+    // taken at a time, and the lowest bits of the sum are done with; three such rows come before a register.
+    wire [27:0] hazard_word = hazards[hazard_2[25:20]];
     wire [9:0] reciprocal = reciprocals[mantissa_0[12:7]];
-    reg [23:0] share_product;
+    wire [16:0] many_next = phase ? {3'd0, aligned} : {6'd0, hazard_word[10:0]};
+    reg [18:0] sums_low, sums_high;
+    reg [22:0] begun_next;
+    reg [26:0] grown_next;
     always @* begin
-        share_product = 24'd1024;
-        for (i = 0; i < 10; i = i + 1) if (reciprocal[i]) share_product = share_product + ({10'd0, aligned} << i);
+        sums_low = 19'd0;
+        begun_next = 23'd0;
+        for (i = 0; i < 6; i = i + 2) begin
+            sums_low = (sums_low >> 2) + row(few[i +: 2], many, triple);
+            begun_next[i +: 2] = sums_low[1:0];
+        end
+        begun_next[22:6] = sums_low[18:2];
+        sums_high = begun[22:6] + row(few_left[1:0], many_left, triple_left);
+        grown_next[7:0] = {sums_high[1:0], begun[5:0]};
+        sums_high = (sums_high >> 2) + row(few_left[3:2], many_left, triple_left);
+        grown_next[26:8] = sums_high;
     end
+    function [18:0] row(input [1:0] two, input [16:0] once, input [18:0] thrice);
+        row = !two[1] ? (two[0] ? once : 19'd0) : two[0] ? thrice : {once, 1'b0};
+    endfunction
+    wire [13:0] share_rounded = {1'b0, grown[23:11]} + {13'd0, grown[10]};
+
+    // Shots times k or the mantissa
+    wire [EndedBits-1:0] times = shots_product + half;
 
     // R lambda from its mantissa
-    wire [4:0] down = bits_2 >= 5'd24 ? 5'd0 : 5'd24 - bits_2;
-    wire [WaitingProductBits:0] down_shifted = {product, 1'b0} >> down;
-    wire [WaitingProductBits+1:0] shifted
-        = bits_2 > 5'd24 ? {2'd0, product} << (bits_2 - 5'd24)
-        : {2'd0, down_shifted[WaitingProductBits:1]} + {{WaitingProductBits + 1{1'b0}}, down_shifted[0]};
+    reg [WaitingProductBits+1:0] expected_next, expected;
+    always @* begin
+        expected_next = {product, 2'd0};
+        for (i = 4; i >= 3; i = i - 1) if (down[i]) expected_next = expected_next >> (1 << i);
+        expected = expected_first;
+        for (i = 2; i >= 0; i = i - 1) if (down[i]) expected = expected >> (1 << i);
+    end
 
     // The residual
-    wire any = bin_7 || rest_7;
-    wire signed [EndedBits:0] surplus
-        = $signed({1'b0, ended_k_1}) - $signed({{EndedBits - ExpectedBits + 1{1'b0}}, product_shifted});
-    wire signed [EndedBits-7:0] surplus_rounded
-        = $signed({surplus[EndedBits], surplus[EndedBits:8]}) + $signed({{EndedBits - 7{1'b0}}, surplus[7]});
-    wire surplus_fits = surplus_rounded[EndedBits-7:ResidualBits-1] == {EndedBits - 5 - ResidualBits{surplus_rounded[EndedBits-7]}};
-    wire [ResidualBits-1:0] surplus_limited = surplus_fits ? surplus_rounded[ResidualBits-1:0]
-        : {surplus_rounded[EndedBits-7], {ResidualBits - 1{!surplus_rounded[EndedBits-7]}}};
-    wire [RestBits:0] twice = {waiting_7, 1'b0};
+    wire any = bin_14 || rest_14;
+    wire surplus_fits = surplus[EndedBits:ResidualBits+7] == {EndedBits - 6 - ResidualBits{surplus[EndedBits]}};
+    wire [ResidualBits-1:0] surplus_limited = surplus_fits ? surplus[ResidualBits+7:8]
+        : {surplus[EndedBits], {ResidualBits - 1{!surplus[EndedBits]}}};
+    wire [CountBits:0] twice = {waiting_11[CountBits-1:0], 1'b0};
+    wire [CountBits:0] once = ended_11[CountBits-1:0];
+    wire [CountBits+1:0] between = {1'b0, twice} - {1'b0, once};
 
     always @(posedge clk_sys) begin
-        {fetched_part, fetched_slope, fetched_first} <= pulse[fetched_place];
-        if (!phase) begin
-            pulse_part <= low_part + risen[20:4];
-            {pulse_slope, pulse_first} <= {low_slope, low_first};
-            lit_first <= light_limited;
-            ended_k_first <= times;
-        end else begin
-            sixteenths <= fine_steps[3:0];
-            {low_part, low_slope, low_first} <= {fetched_part, fetched_slope, fetched_first};
-            {bin_7, bin_6, bin_5, bin_4, bin_3, bin_2, bin_1, bin_0}
-                <= {bin_6, bin_5, bin_4, bin_3, bin_2, bin_1, bin_0, word_bin};
-            {rest_7, rest_6, rest_5, rest_4, rest_3, rest_2, rest_1, rest_0}
-                <= {rest_6, rest_5, rest_4, rest_3, rest_2, rest_1, rest_0, word_rest};
-            {slides_7, slides_6, slides_5, slides_4, slides_3, slides_2, slides_1, slides_0}
-                <= {slides_6, slides_5, slides_4, slides_3, slides_2, slides_1, slides_0, word_slide};
-            {ended_7, ended_6, ended_5, ended_4, ended_3, ended_2, ended_1, ended_0}
-                <= {ended_6, ended_5, ended_4, ended_3, ended_2, ended_1, ended_0, word_ended};
-            {waiting_7, waiting_6, waiting_5, waiting_4, waiting_3, waiting_2, waiting_1, waiting_0}
-                <= {waiting_6, waiting_5, waiting_4, waiting_3, waiting_2, waiting_1, waiting_0, word_waiting};
-            {width_1, width_0} <= {width_0, word_width};
-            edge_alone <= word_edge;
-            first <= word_first;
+        // What the first cycle of a beat comes to is taken over in the second.
+        from_arrival <= $signed({1'b0, word_end, 3'd0}) - $signed({1'b0, arrival});
+        place <= low_place + {10'd0, !phase};
+        {fetched_part, fetched_slope, fetched_first} <= pulse[place];
+        rise <= fetched_part - low_part_0;
+        risen <= {rise_high, rise_low[1:0]};
+        pulse_part <= low_part_1 + risen[20:4];
+        {pulse_slope, pulse_first} <= {low_slope_1, low_first_1};
+        level <= phase ? ambient : strength;
+        amount <= phase ? {6'd0, width_3, 1'b0} : part;
+        level_product <= level * amount;
+        level_times <= level_product + 9'd256;
+        light <= light_limited;
+        lit_first <= light;
+        mantissa_first <= shifted[25:12];
+        few <= phase ? reciprocal : hazard_2[19:10];
+        many <= many_next;
+        triple <= many_next + {many_next, 1'b0};
+        begun <= begun_next;
+        few_left <= few[9:6];
+        {many_left, triple_left} <= {many, triple};
+        grown <= grown_next[23:0];
+        share_first <= share_rounded > 14'd4096 ? 13'd4096 : share_rounded[12:0];
+        shots <= phase ? waiting_11 : ended_11;
+        factor <= phase ? {3'd0, mantissa_2} : k;
+        shots_product <= shots * factor;
+        half <= phase ? 24'd128 : 24'd1 << (5'd23 - bits_4);
+        ended_k_first <= times;
+        expected_first <= expected_next;
+        surplus <= $signed({1'b0, ended_k_1}) - $signed({{EndedBits - ExpectedBits + 1{1'b0}}, product_shifted});
+        if (phase) begin
+            {sixteenths_1, sixteenths_0} <= {sixteenths_0, fine_steps[3:0]};
+            {low_part_1, low_slope_1, low_first_1} <= {low_part_0, low_slope_0, low_first_0};
+            {low_part_0, low_slope_0, low_first_0} <= {fetched_part, fetched_slope, fetched_first};
+            {bin_14, bin_13, bin_12, bin_11, bin_10, bin_9, bin_8, bin_7, bin_6, bin_5, bin_4, bin_3, bin_2, bin_1,
+                    bin_0}
+                <= {bin_13, bin_12, bin_11, bin_10, bin_9, bin_8, bin_7, bin_6, bin_5, bin_4, bin_3, bin_2, bin_1,
+                    bin_0, word_bin};
+            {rest_14, rest_13, rest_12, rest_11, rest_10, rest_9, rest_8, rest_7, rest_6, rest_5, rest_4, rest_3,
+                    rest_2, rest_1, rest_0}
+                <= {rest_13, rest_12, rest_11, rest_10, rest_9, rest_8, rest_7, rest_6, rest_5, rest_4, rest_3, rest_2,
+                    rest_1, rest_0, word_rest};
+            {slides_14, slides_13, slides_12, slides_11, slides_10, slides_9, slides_8, slides_7, slides_6, slides_5,
+                    slides_4, slides_3, slides_2, slides_1, slides_0}
+                <= {slides_13, slides_12, slides_11, slides_10, slides_9, slides_8, slides_7, slides_6, slides_5,
+                    slides_4, slides_3, slides_2, slides_1, slides_0, word_slide};
+            {ended_11, ended_10, ended_9, ended_8, ended_7, ended_6, ended_5, ended_4, ended_3, ended_2, ended_1,
+                    ended_0}
+                <= {ended_10, ended_9, ended_8, ended_7, ended_6, ended_5, ended_4, ended_3, ended_2, ended_1, ended_0,
+                    word_ended};
+            {waiting_11, waiting_10, waiting_9, waiting_8, waiting_7, waiting_6, waiting_5, waiting_4, waiting_3,
+                    waiting_2, waiting_1, waiting_0}
+                <= {waiting_10, waiting_9, waiting_8, waiting_7, waiting_6, waiting_5, waiting_4, waiting_3, waiting_2,
+                    waiting_1, waiting_0, word_waiting};
+            {width_3, width_2, width_1, width_0} <= {width_2, width_1, width_0, word_width};
+            {edge_alone_2, edge_alone_1, edge_alone_0} <= {edge_alone_1, edge_alone_0, word_edge};
+            {first_2, first_1, first_0} <= {first_1, first_0, word_first};
 
             last_part <= none ? 17'd0 : pulse_part;
             last_slope <= pulse_slope;
-            part <= bin_0 && !scan ? pulse_part - last_part : 17'd0;
-            z_0 <= rest_0 ? 9'sd0 : first ? pulse_first : slopes[9:1];
-            {z_6, z_5, z_4, z_3, z_2, z_1} <= {z_5, z_4, z_3, z_2, z_1, z_0};
+            part <= bin_2 && !scan ? pulse_part - last_part : 17'd0;
+            z_0 <= rest_2 ? 9'sd0 : first_2 ? pulse_first : slopes[9:1];
+            {z_11, z_10, z_9, z_8, z_7, z_6, z_5, z_4, z_3, z_2, z_1}
+                <= {z_10, z_9, z_8, z_7, z_6, z_5, z_4, z_3, z_2, z_1, z_0};
 
             lit <= lit_first;
-            dim <= light_limited;
-            hazard_0 <= limited;
-            {hazard_2, hazard_1} <= {hazard_1, hazard_0};
-            signal_hazard <= lit < limited ? lit : limited;
+            sum <= {1'b0, lit_first} + {1'b0, light};
+            {hazard_4, hazard_3, hazard_2, hazard_1, hazard_0} <= {hazard_3, hazard_2, hazard_1, hazard_0, limited};
+            {signal_hazard_1, signal_hazard_0} <= {signal_hazard_0, lit};
 
-            bits_0 <= length;
-            {bits_2, bits_1} <= {bits_1, bits_0};
-            mantissa_0 <= hazard_aligned[25:12];
-            mantissa_1 <= mantissa_0;
-            aligned <= signal_aligned[25:12];
+            {bits_4, bits_3, bits_2, bits_1, bits_0} <= {bits_3, bits_2, bits_1, bits_0, length};
+            {mantissa_2, mantissa_1, mantissa_0} <= {mantissa_1, mantissa_0, mantissa_first};
+            aligned <= shifted[25:12];
 
-            k <= hazard_word[27:11] + {6'd0, growth[20:10]};
-            gains_0 <= {1'b0, hazard_2[25:10]} > k ? 13'd0 : k[12:0] - hazard_2[22:10];
-            gains_1 <= gains_0;
-            shares_0 <= share_product[23:11] > 13'd4096 ? 13'd4096 : share_product[23:11];
-            {shares_2, shares_1} <= {shares_1, shares_0};
+            k_before <= hazard_word[27:11];
+            k <= k_before + grown[20:10];
+            {gains_2, gains_1} <= {gains_1, gains_0};
+            gains_0 <= k[12:0] - hazard_4[22:10];
+            {shares_2, shares_1, shares_0} <= {shares_1, shares_0, share_first};
 
-            ended_k_0 <= ended_k_first;
-            ended_k_1 <= ended_k_0;
+            {ended_k_1, ended_k_0} <= {ended_k_0, ended_k_first};
             product <= times[WaitingProductBits-1:0];
-            product_shifted <= |shifted[WaitingProductBits+1:ExpectedBits] ? {ExpectedBits{1'b1}}
-                : shifted[ExpectedBits-1:0];
+            down <= 5'd26 - bits_4;
+            product_shifted <= |expected[WaitingProductBits+1:ExpectedBits] ? {ExpectedBits{1'b1}}
+                : expected[ExpectedBits-1:0];
 
             residual <= any ? surplus_limited : {ResidualBits{1'b0}};
             predicted <= any ? product_shifted : {ExpectedBits{1'b0}};
-            gain <= gains_1;
+            gain <= gains_2;
             share <= shares_2;
-            slope <= z_6;
-            middle <= !any || twice < {1'b0, ended_7} ? {RestBits + 1{1'b0}} : twice - {1'b0, ended_7};
-            waits <= any && |waiting_7;
-            single <= bin_7;
-            slide <= slides_7;
+            slope <= z_11;
+            {middle, middles_2, middles_1} <= {middles_2, middles_1, middles_0};
+            middles_0 <= !bin_11 || between[CountBits+1] ? {CountBits + 1{1'b0}} : between[CountBits:0];
+            {waits, awaited_2, awaited_1} <= {awaited_2, awaited_1, awaited_0};
+            awaited_0 <= (bin_11 || rest_11) && |waiting_11;
+            single <= bin_14;
+            slide <= slides_14;
         end
     end
 endmodule

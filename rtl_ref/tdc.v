@@ -15,7 +15,9 @@ module tdc #(
     parameter integer Cycle = 5120,  // [units]
     parameter integer Digits = 4,
     parameter integer AgeBits = 14,
-    parameter [1:0] CountStages = 2'd3
+    parameter [1:0] CountStages = 2'd3,
+    parameter [1:0] Decoder = 2'd0,
+    parameter [16*Taps-1:0] Order = 0
 ) (
     input wire clk_sys,
     input wire rst,
@@ -73,7 +75,9 @@ module tdc #(
         .Digits(Digits),
         .AgeBits(AgeBits),
         .CalFile(CalFile),
-        .CountStages(CountStages)
+        .CountStages(CountStages),
+        .Decoder(Decoder),
+        .Order(Order)
     ) tdc_decoder (
         .clk_sys(clk_sys),
         .rst(rst),

@@ -1,8 +1,7 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// Turns a hit into a code: counts its high taps in steps, then looks up and subtracts their time.
-//
+// Turns a hit into a code: counts its high taps in steps, or finds the highest, then looks up and subtracts the time.
 //   edge      e+1       e+2       e+3       e+4  e+5  e+6  e+7
 //   register  hit_taps  sixteens  hundreds  n    age  t    tdc_code, tdc_valid
 module tdc_decoder #(
@@ -12,8 +11,10 @@ module tdc_decoder #(
     parameter integer Cycle = 5120,  // a period of clk_sys [units, 25/16 ps]
     parameter integer Digits = 4,    // of a time below a bin, in binary
     parameter integer AgeBits = 14,  // of a word of CalFile
-    parameter CalFile = "rtl_ref/tdc_cal.mem",  // age of a hit for each ones count [units]
-    parameter [1:0] CountStages = 2'd3  // registers of the ones count; 2: n counts the sixteens
+    parameter CalFile = "rtl_ref/tdc_cal.mem",  // age of a hit for each n [units]
+    parameter [1:0] CountStages = 2'd3,  // registers from the taps to n; 2: n comes of the sixteens
+    parameter [1:0] Decoder = 2'd0,  // 0: ones count, 1: highest tap that is one, 2: the same once taps are in Order
+    parameter [16*Taps-1:0] Order = 0  // tap that is reached at each place less the place, in words of 16 bits
 ) (
     input wire clk_sys,
     input wire rst,
@@ -33,9 +34,9 @@ module tdc_decoder #(
     localparam integer TimeBits = 1 + (LongBits > CodeBits ? LongBits : CodeBits);
 
     // Each holds its last hit, is new for one cycle, and has that hit's coarse count.
-    reg [5*Sixteens-1:0] sixteens;  // ones among 16 taps each
-    reg [8*Hundreds-1:0] hundreds;  // ones among 128 taps each
-    reg [OnesBits-1:0] n;           // taps that the hit had run through
+    reg [5*Sixteens-1:0] sixteens;  // ones among 16 taps each, or the place of the highest
+    reg [8*Hundreds-1:0] hundreds;  // ones among 128 taps each, or the place of the highest
+    reg [OnesBits-1:0] n;           // taps that the hit had run through, by the decoder
     reg [AgeBits-1:0] age;          // the time for that [units]
     // Its lowest bits are for the borrow.
     // verilator lint_off UNUSEDSIGNAL
@@ -43,7 +44,6 @@ module tdc_decoder #(
     // verilator lint_on UNUSEDSIGNAL
     reg sixteens_valid, hundreds_valid, n_valid, age_valid, t_valid;
     reg [CoarseBits-1:0] sixteens_coarse, hundreds_coarse, n_coarse, age_coarse;
-
     reg [5*Sixteens-1:0] sixteens_next;
     reg [8*Hundreds-1:0] hundreds_next;
     reg tdc_valid_next;
@@ -107,10 +107,10 @@ module tdc_decoder #(
     // verilator lint_on UNUSEDSIGNAL
 
     integer i;
-    always @* begin
+    generate if (Decoder == 2'd0) always @* begin
         for (i = 0; i < Sixteens; i = i + 1) sixteens_next[5*i +: 5] = ones_of_16(all_taps[16*i +: 16]);
         for (i = 0; i < Hundreds; i = i + 1) hundreds_next[8*i +: 8] = sum_of_8(all_sixteens[40*i +: 40]);
-    end
+    end endgenerate
 
     wire counted;
     wire [CoarseBits-1:0] counted_coarse;
@@ -126,10 +126,10 @@ module tdc_decoder #(
             assign counted_coarse = hundreds_coarse;
         end
     endgenerate
-
     // 2000 taps at most.
     // verilator lint_off UNUSEDSIGNAL
-    wire [11:0] count = sum_of_16(last_sums[127:0]);
+    wire [11:0] count;
+    generate if (Decoder == 2'd0) assign count = sum_of_16(last_sums[127:0]); endgenerate
     // verilator lint_on UNUSEDSIGNAL
 
     // The bits of Cycle say which multiples of the edge's number make its time.
@@ -186,4 +186,68 @@ module tdc_decoder #(
             t_valid <= age_valid;
         end
     end
+
+    // In the place of counts: places from 1 on of the highest one, or 0 where there is none.
+    generate
+        if (Decoder != 2'd0) begin : leading
+            wire [16*Sixteens-1:0] in_order;
+            if (Decoder == 2'd1) assign in_order = all_taps[16*Sixteens-1:0];
+            genvar place;
+            for (place = 0; place < 16 * Sixteens; place = place + 1) if (Decoder == 2'd2) begin : places
+                if (place >= Taps) assign in_order[place] = 1'b0;
+                else assign in_order[place] = hit_taps[(Order[16*place +: 16] + place) % 65536];
+            end
+
+            always @* begin
+                for (i = 0; i < Sixteens; i = i + 1)
+                    sixteens_next[5*i +: 5] = highest_of_16(in_order[16*i +: 16]);
+                for (i = 0; i < Hundreds; i = i + 1)
+                    hundreds_next[8*i +: 8] = highest_of_8_groups(all_sixteens[40*i +: 40]);
+            end
+            assign count = highest_of_16_groups(last_sums[127:0]);
+        end
+    endgenerate
+
+    function [2:0] highest_of_4;
+        input [3:0] taps;
+        highest_of_4 = taps[3] ? 3'd4 : taps[2] ? 3'd3 : taps[1] ? 3'd2 : {2'd0, taps[0]};
+    endfunction
+
+    function [4:0] highest_of_16;
+        input [15:0] taps;
+        highest_of_16 = taps[15:12] != 4'd0 ? 5'd12 + {2'd0, highest_of_4(taps[15:12])}
+            : taps[11:8] != 4'd0 ? 5'd8 + {2'd0, highest_of_4(taps[11:8])}
+            : taps[7:4] != 4'd0 ? 5'd4 + {2'd0, highest_of_4(taps[7:4])}
+            : {2'd0, highest_of_4(taps[3:0])};
+    endfunction
+
+    // Of groups, the places in the highest group that has one.
+    function [5:0] highest_of_2_groups;
+        input [5*2-1:0] s;
+        highest_of_2_groups = s[5 +: 5] != 5'd0 ? 6'd16 + {1'b0, s[5 +: 5]} : {1'b0, s[0 +: 5]};
+    endfunction
+
+    function [7:0] highest_of_8_groups;
+        input [5*8-1:0] s;
+        highest_of_8_groups = s[30 +: 10] != 10'd0 ? 8'd96 + {2'd0, highest_of_2_groups(s[30 +: 10])}
+            : s[20 +: 10] != 10'd0 ? 8'd64 + {2'd0, highest_of_2_groups(s[20 +: 10])}
+            : s[10 +: 10] != 10'd0 ? 8'd32 + {2'd0, highest_of_2_groups(s[10 +: 10])}
+            : {2'd0, highest_of_2_groups(s[0 +: 10])};
+    endfunction
+
+    function [9:0] highest_of_4_groups;
+        input [8*4-1:0] s;
+        highest_of_4_groups = s[24 +: 8] != 8'd0 ? 10'd384 + {2'd0, s[24 +: 8]}
+            : s[16 +: 8] != 8'd0 ? 10'd256 + {2'd0, s[16 +: 8]}
+            : s[8 +: 8] != 8'd0 ? 10'd128 + {2'd0, s[8 +: 8]}
+            : {2'd0, s[0 +: 8]};
+    endfunction
+
+    function [11:0] highest_of_16_groups;
+        input [8*16-1:0] s;
+        highest_of_16_groups = s[96 +: 32] != 32'd0 ? 12'd1536 + {2'd0, highest_of_4_groups(s[96 +: 32])}
+            : s[64 +: 32] != 32'd0 ? 12'd1024 + {2'd0, highest_of_4_groups(s[64 +: 32])}
+            : s[32 +: 32] != 32'd0 ? 12'd512 + {2'd0, highest_of_4_groups(s[32 +: 32])}
+            : {2'd0, highest_of_4_groups(s[0 +: 32])};
+    endfunction
 endmodule

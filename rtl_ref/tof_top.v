@@ -51,6 +51,7 @@ module tof_top #(
     parameter [31:0] WindowEnd = 32'd262328,
     parameter [31:0] Metres = 32'd16094985,
     parameter integer MetresShift = 13,
+    parameter [31:0] LaserDelay = 32'd0,
     parameter integer InputHz = 200000000,       // see pll
     parameter integer Multiply = 5,
     parameter integer Divide = 1,
@@ -66,6 +67,8 @@ module tof_top #(
     parameter CalFile = "rtl_ref/tdc_cal.mem",
     parameter DelaysFile = "rtl_ref/tap_delays.mem",
     parameter [1:0] CountStages = 2'd3,
+    parameter [1:0] Decoder = 2'd0,              // see tdc_decoder
+    parameter [16*Taps-1:0] Order = 0,
     parameter EdgesFile = "rtl_ref/edges.mem",
     parameter PulseFile = "rtl_ref/pulse.mem",
     parameter HazardFile = "rtl_ref/hazard.mem",
@@ -91,6 +94,9 @@ module tof_top #(
     input wire dsp_en,                // lets the estimator start, asynchronous
     input wire dsp_rst,               // abandons the frame, asynchronous
     output wire signed [35:0] depth,  // from algo_done until the next one [2^-29 m]
+    output wire [35:0] sigma,         // its standard deviation, from likelihood_estimator only [2^-29 m]
+    output wire [6:0] status,         // why not to believe it; likewise
+    output wire valid,                // the status says nothing against it; likewise
     output wire algo_done,            // the depth is ready; one cycle
     output wire hist_valid,           // a word of the histogram is being read
     output wire [BinBits-1:0] hist_bin,  // which word
@@ -120,6 +126,9 @@ module tof_top #(
 
     wire signed [35:0] network_depth, centroid_depth, likelihood_depth;
     wire network_done, network_read_en, centroid_done, centroid_read_en, likelihood_done, likelihood_read_en;
+    wire [35:0] likelihood_sigma;
+    wire [6:0] likelihood_status;
+    wire likelihood_valid;
     wire [BinBits-1:0] network_read_addr, centroid_read_addr, likelihood_read_addr;
     localparam [0:0] Centroid = Estimator == 2'd1, Likelihood = Estimator == 2'd2;
 
@@ -127,6 +136,10 @@ module tof_top #(
     assign read_addr = Likelihood ? likelihood_read_addr : Centroid ? centroid_read_addr : network_read_addr;
     assign depth = Likelihood ? likelihood_depth : Centroid ? centroid_depth : network_depth;
     assign algo_done = Likelihood ? likelihood_done : Centroid ? centroid_done : network_done;
+    // 0 with the others, so that synthesis removes a likelihood estimator that is not in use.
+    assign sigma = Likelihood ? likelihood_sigma : 36'd0;
+    assign status = Likelihood ? likelihood_status : 7'd0;
+    assign valid = Likelihood && likelihood_valid;
 
     // The acquisition computer's reset leaves the laser and the synchronisers alone.
     wire rst_dsp = rst_sys || dsp_rst_sync;
@@ -240,6 +253,8 @@ module tof_top #(
         .AgeBits(AgeBits),
         .DelaysFile(DelaysFile),
         .CountStages(CountStages),
+        .Decoder(Decoder),
+        .Order(Order),
         .CalFile(CalFile)
     ) tdc (
         .clk_sys(clk_sys),
@@ -350,6 +365,7 @@ module tof_top #(
         .WindowEnd(WindowEnd),
         .Metres(Metres),
         .MetresShift(MetresShift),
+        .LaserDelay(LaserDelay),
         .EdgesFile(EdgesFile),
         .PulseFile(PulseFile),
         .HazardFile(HazardFile),
@@ -358,17 +374,17 @@ module tof_top #(
         .clk_sys(clk_sys),
         .rst(rst_dsp),
         .algo_start(algo_start && Likelihood),
+        .mode(mode_sync),
         .read_en(likelihood_read_en),
         .read_addr(likelihood_read_addr),
         .count(count),
         .depth(likelihood_depth),
-        // The acquisition computer takes a depth alone.
+        .sigma(likelihood_sigma),
+        .status(likelihood_status),
         // verilator lint_off PINCONNECTEMPTY
-        .sigma(),
-        .status(),
         .chi_square(),
-        .valid(),
         // verilator lint_on PINCONNECTEMPTY
+        .valid(likelihood_valid),
         .algo_done(likelihood_done)
     );
 endmodule

@@ -5,6 +5,7 @@ pub mod clock;
 mod clocked;
 pub mod connect;
 pub mod module;
+pub mod pulse;
 pub mod signals;
 pub(crate) mod thermometer;
 pub(crate) mod time;
@@ -12,6 +13,6 @@ mod word_format;
 
 pub use bits::{S, U};
 pub use clocked::{ASLEEP, AWAKE, Clocked, asleep_if};
-pub use thermometer::{PartialOnes, Thermometer, ones_width, partial_ones};
+pub use thermometer::{PartialOnes, Thermometer, ones_width, partial_highest, partial_ones};
 pub use time::Time;
 pub use word_format::{Overflow, WordFormat, wrapped};

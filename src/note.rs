@@ -17,12 +17,18 @@ pub enum NoteCode {
     NoLight,
     /// An estimator takes for granted what the scenario does not have.
     EstimatorOutsideModel,
+    /// The chain is not as it was when the TDC was calibrated.
+    ChainDrifted,
     /// The laser is above a limit, or there is none to tell.
     EyeSafety,
     /// The run ended before all of an input came due.
     UnusedInput,
     /// Two estimators part over the histogram of a frame, or the second one has nothing to say of it.
     SecondOpinion,
+    /// A model does not describe what it was fitted to.
+    DoubtfulFit,
+    /// What was measured comes of too few hits to be known well.
+    FewHits,
     /// Two files could not be read or matched as they are.
     Comparison,
 }

@@ -3,9 +3,11 @@
 pub mod budget;
 pub mod chances;
 pub(crate) mod closed_form;
+pub mod dark;
 pub mod eye_safety;
 mod geometry;
 pub mod hazard;
+pub mod variation;
 
 pub use budget::Budget;
 pub use chances::Chances;

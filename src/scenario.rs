@@ -3,10 +3,16 @@
 #[doc(hidden)]
 pub mod builtin;
 #[doc(hidden)]
+pub mod calibration;
+#[doc(hidden)]
 pub mod chain;
+#[doc(hidden)]
+pub mod drift;
 mod illuminance;
 mod load;
 mod model;
+#[doc(hidden)]
+pub mod pulse;
 #[doc(hidden)]
 pub mod show;
 mod validate;

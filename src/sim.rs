@@ -5,6 +5,7 @@ pub mod device;
 pub mod domain;
 pub mod fast;
 pub mod frames;
+pub mod free_running;
 mod jitter;
 mod oscillator;
 pub mod partings;

@@ -29,6 +29,34 @@ pub fn frames(setup: &Setup, count: u64) -> Vec<Frame> {
     frames
 }
 
+/// Chains and calibrations that differ: equal taps, an uneven chain in order, and one whose taps are reached out of
+/// order, with a ROM of each kind, the last of which is not in order of age.
+pub const CONVERTERS: [[&str; 2]; 6] = [
+    ["uniform", "true"],
+    ["table6_3", "true"],
+    ["ideal", "true"],
+    ["kintex7", "true"],
+    ["kintex7", "uniform"],
+    ["kintex7", "jumbled"],
+];
+
+/// The keys of one of [`CONVERTERS`]; a file that it needs is written into `folder`.
+pub fn converter([chain, calibration]: [&str; 2], folder: &Path) -> [String; 2] {
+    let profile = format!("tdc.profile={chain}");
+    if calibration != "jumbled" {
+        return [profile, format!("tdc.calibration={calibration}")];
+    }
+    let delays = setup("kc705", &[&profile]).params.tdc.delays;
+    let mut text = String::from("n,age_ps,age_se_ps\n");
+    for n in 0..=delays.taps() {
+        let jumble = (n * 37 % 11) as f64 * 20.0;
+        writeln!(text, "{n},{},0", delays.boundary(n).fs() as f64 * 1e-3 + jumble).unwrap();
+    }
+    let path = folder.join("jumbled.csv");
+    fs::write(&path, text).unwrap();
+    [profile, format!("tdc.calibration={:?}", path.display().to_string())]
+}
+
 /// Names of the files in a folder, hidden ones too.
 pub fn files(folder: &Path) -> Vec<String> {
     let mut names: Vec<_> = fs::read_dir(folder)

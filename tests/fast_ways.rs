@@ -17,6 +17,8 @@ use tofsim::sim::fast::{acquire, leap_frame_end, skip_idle};
 use tofsim::sim::frames::Frames;
 use tofsim::sim::setup::Setup;
 
+use crate::common;
+
 /// Edges that are tried at most from one state.
 const EDGES: u64 = 40;
 
@@ -175,7 +177,9 @@ fn control(random: &mut ChaCha8Rng, cycles: u64) -> Vec<Control> {
 
 fn random_setup(seed: u64, cycles: u64) -> Setup {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let chain = ["uniform", "table6_3", "ideal"][random.random_range(0..3)];
+    let folder = common::empty();
+    let converter = common::CONVERTERS[random.random_range(0..common::CONVERTERS.len())];
+    let [profile, calibration] = common::converter(converter, folder.path());
     let mode = u64::from(seed % 5 == 4);
     // The likelihood estimator is for mode 0.
     let kind = ["network", "centroid", "likelihood"][random.random_range(0..3 - mode as usize)];
@@ -188,12 +192,18 @@ fn random_setup(seed: u64, cycles: u64) -> Setup {
     let on_tdc = if stimulus == "tdc_validation" { 1 } else { 1 + 6 * (seed / 2 % 3) };
     let keys = [
         format!("spad.on_tdc={on_tdc}"),
+        format!("spad.afterpulse_probability={}", [0.0, 0.5, 0.1][seed as usize % 3]),
+        format!("laser.delay_ps={}", [0, 700, 0][seed as usize % 3]),
+        format!("spad.dead_time_kind={}", ["fixed", "paralysable"][seed as usize / 3 % 2]),
+        format!("spad.crosstalk_probability={}", [0.0, 0.2][seed as usize / 2 % 2]),
+        format!("spad.dark_spread={}", [0.0, 1.0][seed as usize / 4 % 2]),
         format!("firmware.laser_freq={}", seed % 4),
         format!("firmware.pulse_half_cycles={}", [1, 1 + seed / 2 % 8][seed as usize % 2]),
         format!("firmware.mode={mode}"),
         format!("firmware.shots_per_frame={}", random.random_range(5..60)),
         format!("ambient.irradiance_w_m2_nm={}", [0.0, 0.05, 0.4][random.random_range(0..3)]),
-        format!("tdc.profile={chain}"),
+        profile,
+        calibration,
         format!("estimator.kind={kind}"),
         format!("seed={seed}"),
     ];

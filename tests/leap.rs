@@ -15,8 +15,13 @@ const DRAIN: u64 = 16;
 
 #[test]
 fn a_leap_lands_where_the_histogram_and_the_counts_are_what_stepping_gives() {
+    let folder = common::empty();
     for seed in 0..8 {
+        let converter = common::CONVERTERS[[0, 3, 0, 4, 0, 5, 1, 2][seed]];
+        let [profile, calibration] = common::converter(converter, folder.path());
         let keys = [
+            profile,
+            calibration,
             format!("firmware.laser_freq={}", seed % 4),
             "firmware.shots_per_frame=400".to_owned(),
             format!("target.distance_m={}", [0.02, 0.3, 0.9][seed % 3]),
@@ -61,16 +66,20 @@ fn a_leap_lands_where_the_histogram_and_the_counts_are_what_stepping_gives() {
 #[test]
 fn the_staircase_of_outcomes_is_the_firmware_s_to_the_femtosecond() {
     let folder = tempfile::tempdir().unwrap();
-    for (chain, clock) in [
-        ("uniform", common::CLOCKS[0]),
-        ("table6_3", common::CLOCKS[0]),
-        ("ideal", common::CLOCKS[0]),
-        ("uniform", common::CLOCKS[1]),
-        ("ideal", common::CLOCKS[2]),
+    for ([chain, calibration], clock) in [
+        (["uniform", "true"], common::CLOCKS[0]),
+        (["table6_3", "true"], common::CLOCKS[0]),
+        (["ideal", "true"], common::CLOCKS[0]),
+        (["uniform", "true"], common::CLOCKS[1]),
+        (["ideal", "true"], common::CLOCKS[2]),
+        (["kintex7", "true"], common::CLOCKS[0]),
+        (["kintex7", "uniform"], common::CLOCKS[0]),
+        (["kintex7", "jumbled"], common::CLOCKS[0]),
     ] {
+        let keys = common::converter([chain, calibration], folder.path());
+        let [profile, calibration] = keys.each_ref().map(String::as_str);
         for (rate, period) in vcsel_driver::PERIODS.into_iter().enumerate() {
-            let profile = format!("tdc.profile={chain}");
-            let plain = common::setup("kc705", &[&profile, clock]);
+            let plain = common::setup("kc705", &[profile, calibration, clock]);
             let outcomes = ShotOutcomes::new(&plain.params.tdc, period).unwrap();
             let steps = outcomes
                 .steps()
@@ -88,7 +97,8 @@ fn the_staircase_of_outcomes_is_the_firmware_s_to_the_femtosecond() {
                 format!("firmware.laser_freq={rate}"),
                 format!("firmware.shots_per_frame={}", arrivals.len() + 1),
             );
-            let setup = common::setup("kc705", &[&profile, clock, &photons, &freq, &shots]);
+            let keys = [profile, calibration, clock, &photons, &freq, &shots];
+            let setup = common::setup("kc705", &keys);
             let frame = &common::frames(&setup, 1)[0];
             let (mut histogram, mut tdc_hits) = ([0u32; 256], 0);
             for fs in &arrivals {
@@ -98,8 +108,8 @@ fn the_staircase_of_outcomes_is_the_firmware_s_to_the_femtosecond() {
                 }
                 tdc_hits += u64::from(outcome != NO_HIT);
             }
-            assert_eq!(frame.histogram, histogram, "{chain} {clock} {rate}");
-            assert_eq!(frame.tdc_hits, tdc_hits, "{chain} {clock} {rate}");
+            assert_eq!(frame.histogram, histogram, "{chain} {calibration} {clock} {rate}");
+            assert_eq!(frame.tdc_hits, tdc_hits, "{chain} {calibration} {clock} {rate}");
         }
     }
 }

@@ -10,5 +10,6 @@ mod layers;
 mod leap;
 mod physics;
 mod public_face;
+mod spad;
 mod stepping;
 mod whole_chain;

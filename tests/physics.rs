@@ -8,11 +8,14 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use tofsim::firmware::carry_chain::{Delays, TAPS};
 use tofsim::firmware::tdc;
 use tofsim::kernel::Time;
+use tofsim::kernel::pulse::Pulse;
 use tofsim::optics::eye_safety::maximum_average_power_w;
+use tofsim::optics::variation::Variation;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 use tofsim::scenario::{AmbientModel, Scenario};
+use tofsim::sensor::light::Light;
 use tofsim::sensor::spad::Spads;
-use tofsim::sensor::streams::exponential;
+use tofsim::sensor::streams::{exponential, normal};
 
 /// Distances of the thesis's tables [m].
 const DISTANCES_M: [f64; 6] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
@@ -29,16 +32,29 @@ fn scene(distance_m: f64, reflectance: f64, irradiance_w_m2_nm: f64) -> Scenario
     scenario
 }
 
-/// Near (some photons would come before the laser edge), bright, dim, dark, and laser off.
-fn scenes() -> [(&'static str, Budget); 5] {
-    let mut off = Budget::new(&scene(0.5, 0.34, 0.2));
+fn budget(scenario: &Scenario) -> Budget {
+    Budget::new(scenario, Pulse::default())
+}
+
+/// Near (some photons would come before the laser edge), bright, dim, dark, laser off, a pulse with a tail,
+/// a laser that jitters, near and far, and light that leaves late.
+fn scenes() -> [(&'static str, Budget); 9] {
+    let tailed = Pulse::tailed(100.0, 250.0);
+    let variation = Variation { timing_ps: 200.0, energy: 0.4 };
+    let mut off = budget(&scene(0.5, 0.34, 0.2));
     off.signal_per_shot = 0.0;
+    let mut late = scene(0.1, 0.60, 0.4);
+    late.laser.delay_ps = 1800.0;
     [
-        ("near", Budget::new(&scene(0.1, 0.60, 0.4))),
-        ("bright", Budget::new(&scene(0.6, 0.60, 0.4))),
-        ("dim", Budget::new(&scene(0.6, 0.08, 0.05))),
-        ("dark", Budget::new(&scene(0.5, 0.34, 0.0))),
+        ("near", budget(&scene(0.1, 0.60, 0.4))),
+        ("bright", budget(&scene(0.6, 0.60, 0.4))),
+        ("dim", budget(&scene(0.6, 0.08, 0.05))),
+        ("dark", budget(&scene(0.5, 0.34, 0.0))),
         ("laser off", off),
+        ("jitter, near", Budget { variation, ..budget(&scene(0.1, 0.60, 0.4)) }),
+        ("jitter", Budget { variation, ..budget(&scene(0.4, 0.60, 0.1)) }),
+        ("tail", Budget { pulse: tailed, ..budget(&scene(0.3, 0.60, 0.1)) }),
+        ("delay", budget(&late)),
     ]
 }
 
@@ -54,7 +70,7 @@ fn signal_photons_per_shot_are_the_thesis_link_budget() {
     ];
     for (reflectance, row) in expected {
         for (distance_m, expected) in DISTANCES_M.into_iter().zip(row) {
-            let found = Budget::new(&scene(distance_m, reflectance, 0.0)).signal_per_shot;
+            let found = budget(&scene(distance_m, reflectance, 0.0)).signal_per_shot;
             assert_close(found, expected, 1e-3);
         }
     }
@@ -64,13 +80,13 @@ fn signal_photons_per_shot_are_the_thesis_link_budget() {
 fn the_fitted_ambient_rate_is_proportional_to_irradiance_and_reflectance() {
     for (irradiance, reflectance) in [(0.4, 0.60), (0.1, 0.08)] {
         for distance_m in DISTANCES_M {
-            let found = Budget::new(&scene(distance_m, reflectance, irradiance)).ambient_rate_hz;
+            let found = budget(&scene(distance_m, reflectance, irradiance)).ambient_rate_hz;
             assert_close(found, 3.968e9 * irradiance * reflectance, 1e-3);
         }
     }
     let mut twice = scene(0.5, 0.60, 0.4);
     twice.spad.pdp *= 2.0;
-    assert_close(Budget::new(&twice).ambient_rate_hz, 2.0 * 0.9523e9, 1e-3);
+    assert_close(budget(&twice).ambient_rate_hz, 2.0 * 0.9523e9, 1e-3);
 }
 
 #[test]
@@ -79,7 +95,7 @@ fn the_physical_ambient_rate_falls_where_the_target_does_not_fill_the_view() {
     for (distance_m, expected) in DISTANCES_M.into_iter().zip(expected) {
         let mut scenario = scene(distance_m, 0.60, 0.4);
         scenario.ambient.model = AmbientModel::Physical;
-        assert_close(Budget::new(&scenario).ambient_rate_hz, expected, 5e-3);
+        assert_close(budget(&scenario).ambient_rate_hz, expected, 5e-3);
     }
 }
 
@@ -109,7 +125,14 @@ fn histogram(shots: u64, bins: &Bins, mut arrival: impl FnMut() -> Time) -> Vec<
 
 /// One avalanche by inversion of the cumulative hazard.
 fn inverted(hazard: &Hazard, rng: &mut impl Rng) -> Time {
-    hazard.inverse(exponential(rng.next_u64()))
+    let word = rng.next_u64();
+    match hazard.variation().is_none() {
+        true => hazard.inverse(exponential(word)),
+        false => {
+            let pulse = [(); 2].map(|()| normal(rng.next_u64()));
+            hazard.varied(pulse).inverse(exponential(word))
+        }
+    }
 }
 
 /// One avalanche, photon by photon: Poisson many from the pulse, the first of the ambient ones.
@@ -119,11 +142,22 @@ fn photon_by_photon(budget: &Budget, rng: &mut impl Rng) -> Time {
         first_ps = Exp::new(budget.background_rate_hz() * 1e-12).unwrap().sample(rng);
     }
     if budget.signal_per_shot > 0.0 {
-        let mean_ps = budget.mean_arrival.fs() as f64 * 1e-3;
-        let pulse = Normal::new(mean_ps, budget.pulse_sigma_ps).unwrap();
-        let photons: f64 = Poisson::new(budget.signal_per_shot).unwrap().sample(rng);
+        let Variation { timing_ps, energy } = budget.variation;
+        let mut scatter = || Normal::new(0.0, 1.0).unwrap().sample(rng);
+        let mean_ps = budget.mean_arrival.fs() as f64 * 1e-3 + timing_ps * scatter();
+        let signal = budget.signal_per_shot * (1.0 + energy * scatter()).max(0.0);
+        let (sigma_ps, tail_ps) = match budget.pulse {
+            Pulse::Tailed { sigma_ps, tail_ps } => (sigma_ps, tail_ps),
+            _ => (budget.pulse.sigma_ps(), 0.0),
+        };
+        let pulse = Normal::new(mean_ps - tail_ps, sigma_ps).unwrap();
+        let tail = |rng: &mut _| tail_ps * Exp::new(1.0).unwrap().sample(rng);
+        let photons = match signal > 0.0 {
+            true => Poisson::new(signal).unwrap().sample(rng),
+            false => 0.0,
+        };
         for _ in 0..photons as u64 {
-            first_ps = first_ps.min(pulse.sample(rng).max(0.0));
+            first_ps = first_ps.min((pulse.sample(rng) + tail(rng)).max(0.0));
         }
     }
     Time::from_fs((first_ps * 1e3) as u64)
@@ -216,7 +250,7 @@ fn inverted_draws_agree_with_photon_by_photon() {
 
 #[test]
 fn causes_come_in_proportion_to_their_hazards() {
-    let mut budget = Budget::new(&scene(0.6, 0.60, 0.1));
+    let mut budget = budget(&scene(0.6, 0.60, 0.1));
     budget.dark_rate_hz = 2e8;
     let hazard = Hazard::new(&budget);
     let mut rng = ChaCha8Rng::seed_from_u64(300);
@@ -230,7 +264,7 @@ fn causes_come_in_proportion_to_their_hazards() {
                 signal_per_shot: signal,
                 ambient_rate_hz: ambient,
                 dark_rate_hz: dark,
-                ..budget
+                ..budget.clone()
             };
             photon_by_photon(&one, &mut rng)
         };
@@ -266,7 +300,7 @@ fn outputs_of_a_row_are_low_together_as_often_as_independent_diodes_are() {
                 low_fs += (now - last).fs();
             }
             last = now;
-            spads.event();
+            spads.event(&mut Light::None);
             rises += u32::from(spads.output() && !output);
             if spads.waits() {
                 spads.arm(now + wait(spads.share()));

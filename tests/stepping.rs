@@ -95,7 +95,7 @@ fn keys() -> impl Strategy<Value = Vec<String>> {
         prop_oneof![Just(100.0), Just(0.0), 0.0..1e9f64],
     );
     let firmware = (0..4u8, 0..4u8, 1..70u16, 0..10u8);
-    let chain = prop_oneof![Just("uniform"), Just("table6_3"), Just("ideal")];
+    let chain = prop_oneof![Just("uniform"), Just("table6_3"), Just("ideal"), Just("kintex7")];
     (scene, light, firmware, chain, 0..5u8, any::<u32>()).prop_map(
         |(
             (distance, reflectance, ambient),
@@ -110,12 +110,32 @@ fn keys() -> impl Strategy<Value = Vec<String>> {
                 format!("target.reflectance={reflectance:?}"),
                 format!("ambient.irradiance_w_m2_nm={ambient:?}"),
                 format!("laser.pulse_sigma_ps={sigma:?}"),
+                format!("laser.pulse_tail_ps={}", if seed % 4 == 1 { 90 } else { 0 }),
+                format!("laser.delay_ps={}", [0, 0, 900, 30_000][seed as usize / 1024 % 4]),
+                format!("laser.timing_jitter_ps={}", if seed % 5 == 1 { 150 } else { 0 }),
+                format!("laser.energy_jitter={}", if seed % 5 < 2 { 0.3 } else { 0.0 }),
                 format!("spad.dark_rate_hz={dark:?}"),
+                format!(
+                    "spad.afterpulse_probability={}",
+                    [0.0, 0.6, 0.05, 0.0][seed as usize / 16 % 4]
+                ),
+                format!("spad.afterpulse_ns={}", [20, 400][seed as usize / 64 % 2]),
+                format!("spad.afterpulse_second_share={}", [0.0, 0.4][seed as usize / 2048 % 2]),
+                format!(
+                    "spad.dead_time_kind={}",
+                    ["fixed", "paralysable"][seed as usize / 128 % 2]
+                ),
+                format!("spad.temperature_c={}", 20 + seed / 256 % 2 * 30),
                 format!("firmware.laser_freq={freq}"),
                 format!("firmware.mode={}", u8::from(mode == 3)),
                 format!("firmware.shots_per_frame={shots}"),
                 format!("firmware.laser_en={}", laser > 0),
                 format!("tdc.profile=\"{chain}\""),
+                format!("tdc.calibration={}", ["true", "uniform"][usize::from(jitter == 1)]),
+                format!(
+                    "tdc.decoder={}",
+                    ["ones", "leading", "reordered"][seed as usize / 512 % 3]
+                ),
                 format!("pll.jitter_rms_ps={}", if jitter == 0 { 7.7 } else { 0.0 }),
                 format!("estimator.kind={}", if seed % 3 == 0 { "centroid" } else { "network" }),
                 format!("seed={seed}"),
@@ -126,7 +146,8 @@ fn keys() -> impl Strategy<Value = Vec<String>> {
 
 /// Photons of the first shots, many of them exactly on edges or where an edge just sees them.
 fn photons() -> impl Strategy<Value = Vec<(u64, u64, i64)>> {
-    let offset = prop_oneof![Just(0), Just(2_230_000), Just(2_236_000), Just(2_000_000)];
+    let offset =
+        prop_oneof![Just(0), Just(2_230_000), Just(2_236_000), Just(2_000_000), Just(2_158_000)];
     let near = prop_oneof![Just(-1i64), Just(0), Just(1)];
     let on_edge = (0..26u64, offset, near).prop_map(|(edge, before, near)| (edge, near - before));
     let arrival = prop_oneof![on_edge, (Just(0), 0..210_000_000i64)];

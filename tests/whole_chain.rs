@@ -6,7 +6,7 @@ use std::thread;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use tofsim::network::Histogram;
-use tofsim::optics::{BinProbabilities, Budget, Hazard};
+use tofsim::optics::{BinProbabilities, Hazard};
 use tofsim::sensor::streams::{Source, stream};
 use tofsim::sim::setup::Setup;
 
@@ -42,7 +42,7 @@ impl Depths {
 }
 
 fn probabilities(setup: &Setup) -> BinProbabilities {
-    BinProbabilities::new(&Hazard::new(&Budget::new(&setup.scenario)), &setup.bins())
+    BinProbabilities::new(&Hazard::new(&setup.budget), &setup.bins())
 }
 
 fn scene(distance_m: f64, reflectance: f64, more: &[&str]) -> Setup {

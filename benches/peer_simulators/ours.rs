@@ -79,8 +79,8 @@ fn histogram(setup: &Setup, frames: u64) -> Result<()> {
 /// Every cycle, every signal of the whole run in a waveform.
 fn waveform(setup: &Setup, frames: u64, format: WaveFormat, path: Option<&Path>) -> Result<()> {
     let path = path.ok_or("a waveform needs a path")?;
-    let (entries, order) = (hierarchy::entries(&setup.params), setup.params.tdc.delays.order());
-    let waves = Waves::create(path, format, &entries, order, &[])?;
+    let (entries, encoder) = (hierarchy::entries(&setup.params), &setup.params.tdc.decoder.encoder);
+    let waves = Waves::create(path, format, &entries, encoder, &[])?;
     let to = setup.end(frames).unwrap_or(Time::NEVER);
     let windows = vec![Window::Span { from: Time::ZERO, to }];
     let watch = Observers { waves: Some((waves, windows)), ..Observers::default() };

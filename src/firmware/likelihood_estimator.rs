@@ -68,6 +68,8 @@ signals! {
         pub rst: bool,
         /// Starts an estimation.
         pub algo_start: bool,
+        /// SPADs come back by themselves (MODE 1).
+        pub mode: bool,
         /// Word of the histogram at `read_addr` [hits].
         #[size("CountBits")]
         pub count: Count,
@@ -84,7 +86,7 @@ signals! {
         pub sigma: U<36>,
         /// Why not to believe it; see [`status`].
         #[view(heading = "Estimator", probe = true)]
-        pub status: U<6>,
+        pub status: U<7>,
         /// Chi-square of the fit, 8 fraction bits.
         #[size("ChiBits")]
         #[view(heading = "Estimator", probe = true)]
@@ -112,7 +114,7 @@ signals! {
         pub(crate) scan: bool,
         /// A check is on the way.
         pub(crate) check: bool,
-        /// Second cycle of a beat.
+        /// Second cycle of a beat; there are none but in a pass.
         pub(crate) phase: bool,
         /// Begins a program.
         pub(crate) run: bool,
@@ -130,6 +132,10 @@ signals! {
         pub(crate) seen: bool,
         /// Few shots waited at the first.
         pub(crate) used_up: bool,
+        /// `mode` was high since the last estimation began.
+        pub(crate) free: bool,
+        /// The same of the shots of this estimation.
+        pub(crate) unarmed: bool,
     }
 }
 
@@ -232,9 +238,9 @@ connect! {
 }
 
 /// Beats from a bin in the memory to the sums, or to the highest box, with one for the edge.
-const BEATS: u64 = 18;
+const BEATS: u64 = 29;
 /// Cycles from the last word of a load to the block that it completes.
-const LOADED: u64 = 9;
+const LOADED: u64 = 12;
 impl Params {
     /// Cycles of a load.
     pub fn load_cycles(&self) -> u64 {
@@ -290,7 +296,7 @@ impl LikelihoodEstimator {
     pub fn rests(&self, i: &In, p: &Params) -> bool {
         self.registers.state == State::Idle
             && self.next(i, p) == self.registers
-            && self.likelihood_solver.rests(&Wires::likelihood_solver(self, i))
+            && self.likelihood_solver.rests(&Wires::likelihood_solver(self, i), p)
             && self.likelihood_memory.rests(&Wires::likelihood_memory(self, i), p)
             && self.likelihood_scan.rests(&Wires::likelihood_scan(self, i), p)
             && self.likelihood_terms.next(&Wires::likelihood_terms(self, i), p)
@@ -309,7 +315,9 @@ impl LikelihoodEstimator {
         let q = &self.registers;
         let mut d = *q;
         (d.load, d.pass, d.sums, d.run, d.algo_done) = Default::default();
-        d.phase = q.state != State::Idle && !q.pass && !q.phase;
+        d.free |= i.mode;
+        let passes = [State::Scan, State::Fit, State::Check, State::Rescan].contains(&q.state);
+        d.phase = passes && !q.pass && !q.phase;
         d.waited = q.waited + 1;
         let after = |cycles: u64| q.waited == cycles;
         let ran = self.likelihood_solver.registers.ran;
@@ -317,6 +325,7 @@ impl LikelihoodEstimator {
             State::Idle if i.algo_start => {
                 (d.state, d.load) = (State::Load, true);
                 (d.fit_begin, d.fit_end, d.steps) = Default::default();
+                (d.unarmed, d.free) = (d.free, i.mode);
             }
             State::Load if after(p.load_cycles()) => d.solve(State::Ambient, AMBIENT_PROGRAM),
             State::Ambient if ran => d.slide(State::Scan),
@@ -334,7 +343,7 @@ impl LikelihoodEstimator {
             State::Check if after(p.fit_cycles()) => d.slide(State::Rescan),
             State::Check => self.look(&mut d),
             State::Rescan if after(p.scan_cycles()) => d.solve(State::End, END_PROGRAM),
-            State::End if ran => self.give(&mut d),
+            State::End if ran => self.give(p, &mut d),
             _ => {}
         }
         if d.state == State::Idle || d.state != q.state || d.pass {
@@ -364,7 +373,7 @@ impl LikelihoodEstimator {
     }
 
     /// Gives what has come out.
-    fn give(&self, d: &mut Registers) {
+    fn give(&self, p: &Params, d: &mut Registers) {
         let solver = &self.likelihood_solver.registers;
         let flag = |flag: u64| solver.flags.get() >> flag & 1 != 0;
         let unsure = flag(1) && d.start_score.get() < SURE_SCORE;
@@ -376,11 +385,13 @@ impl LikelihoodEstimator {
             (self.likelihood_scan.registers.best_score.get() > ANOTHER_SCORE, status::ANOTHER),
             (solver.cut != 0 || flag(5) || flag(6), status::NOT_SETTLED),
             (self.likelihood_sums.far, status::NO_FIT),
+            (d.unarmed, status::UNARMED),
         ];
         let status = reasons.iter().filter(|(holds, _)| *holds);
         d.status = U::new(status.map(|(_, bit)| u64::from(*bit)).sum());
         d.valid = d.status == 0;
-        (d.depth, d.sigma) = (solver.depth, solver.sigma);
+        // An arrival counts from the laser edge, a depth from where the light leaves.
+        (d.depth, d.sigma) = (Depth::new(solver.depth.get() - p.delay), solver.sigma);
         d.chi_square = self.likelihood_sums.chi_square;
         (d.algo_done, d.scan, d.state) = (true, false, State::Idle);
     }

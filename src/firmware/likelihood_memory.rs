@@ -107,6 +107,25 @@ signals! {
         /// Shots that are left.
         #[size("CountBits")]
         left: Count,
+        /// Its exposure is begun.
+        begun: bool,
+        /// Of this bin.
+        #[size("BinBits")]
+        begun_bin: Bin,
+        /// The word.
+        #[size("CountBits")]
+        begun_ended: Count,
+        /// Shots that waited.
+        #[size("CountBits")]
+        begun_waiting: Count,
+        /// Three times these.
+        #[size("ThreeBits")]
+        begun_three: U<26>,
+        /// The bits of the width that are left.
+        begun_width: U<6>,
+        /// The exposure of its low four bits.
+        #[size("BegunBits")]
+        begun_exposure: U<28>,
         /// What it comes to is written.
         written: bool,
         /// To this word.
@@ -121,10 +140,12 @@ signals! {
         /// Those times its width [shots units].
         #[size("ExposureBits")]
         written_exposure: Exposure,
-        /// Hits of all bins.
+        /// A block has been added to all bins in the last cycle.
+        summed: bool,
+        /// Hits of all bins; in the second cycle of a beat with a bin, of the rest.
         #[size("RestBits")]
         all_ended: Waiting,
-        /// Exposure of all bins.
+        /// Their exposure.
         #[size("ExposureBits")]
         all_exposure: Exposure,
         /// Width of the bin that is looked up.
@@ -140,14 +161,16 @@ signals! {
         /// Place of the edge that is looked up, one after its bin.
         #[size("PlaceBits")]
         index: Place,
-        /// Place of the last one.
-        #[size("PlaceBits")]
-        last: Place,
+        /// That bin.
+        #[size("BinBits")]
+        bin: Bin,
+        /// It is one of the fit in a scan.
+        blank: bool,
         /// The first beat of a pass: an edge alone.
         opening: bool,
         /// The last bin has been.
         tailing: bool,
-        /// Beats after it that are left.
+        /// Beats after it that have been.
         #[size("PlaceBits")]
         tail: Place,
         /// A bin is looked up.
@@ -235,9 +258,10 @@ impl LikelihoodMemory {
         let mut d = q;
         q.load(i, p, &mut d);
         q.sum(p, &mut d);
+        q.subtract(i, &mut d);
         if i.phase {
             q.word(p, &mut d);
-            q.read(&self.ram[q.index.index().wrapping_sub(1) % p.histogram.bins], i, &mut d);
+            q.read(&self.ram[q.bin.index()], &mut d);
         }
         q.pass(i, p, &mut d);
         if i.phase || q.read_en {
@@ -257,7 +281,12 @@ impl Params {
 
     /// Beats of a scan after its last bin, less one.
     pub fn scan_tail(&self) -> u64 {
-        (self.box_bins - self.box_bins / 2) as u64 - 1
+        self.box_back() as u64 - 1
+    }
+
+    /// Bins from the middle of a box to the one after its last.
+    pub fn box_back(&self) -> usize {
+        self.box_bins - self.box_bins / 2
     }
 }
 
@@ -275,13 +304,21 @@ impl Registers {
         }
         d.taken = self.read_en;
         (d.taken_bin, d.taken_ended, d.taken_waiting) = (self.read_addr, i.count, self.left);
-        d.written = self.taken;
-        (d.written_bin, d.written_ended) = (self.taken_bin, self.taken_ended);
-        d.written_waiting = self.taken_waiting;
-        d.written_exposure = U::new(self.taken_waiting.get() * self.fetched_width.get());
+        d.begun = self.taken;
+        (d.begun_bin, d.begun_ended) = (self.taken_bin, self.taken_ended);
+        (d.begun_waiting, d.begun_three) =
+            (self.taken_waiting, U::new(3 * self.taken_waiting.get()));
+        let width = self.fetched_width.get();
+        d.begun_width = U::new(width >> 4);
+        d.begun_exposure = U::new(self.taken_waiting.get() * (width & 15));
+        d.written = self.begun;
+        (d.written_bin, d.written_ended) = (self.begun_bin, self.begun_ended);
+        d.written_waiting = self.begun_waiting;
+        let exposure = (self.begun_waiting.get() * self.begun_width.get()) << 4;
+        d.written_exposure = U::new(exposure + self.begun_exposure.get());
     }
 
-    /// Sums over a block, and over all bins.
+    /// Sums over a block.
     fn sum(&self, p: &Params, d: &mut Self) {
         let block = p.histogram.bins as u64 / 8;
         let place = self.written_bin.get() % block;
@@ -292,10 +329,27 @@ impl Registers {
             d.block_ended = U::new(if first { ended } else { self.block_ended.get() + ended });
             d.block_exposure =
                 U::new(if first { exposure } else { self.block_exposure.get() + exposure });
-            let first = self.written_bin == 0;
-            d.all_ended = U::new(if first { ended } else { self.all_ended.get() + ended });
-            d.all_exposure =
-                U::new(if first { exposure } else { self.all_exposure.get() + exposure });
+        }
+    }
+
+    /// Sums over all bins and over the rest of them, with one adder: blocks are added to all. With a bin of a pass they
+    /// change places twice, and it is subtracted from the rest on the way.
+    fn subtract(&self, i: &In, d: &mut Self) {
+        d.summed = self.block_done;
+        if self.block_done {
+            d.all_ended = self.rest_ended + self.block_ended.get();
+            d.all_exposure = self.rest_exposure + self.block_exposure.get();
+        } else if self.read_bin {
+            let part = |word: u64| if i.phase { 0 } else { word };
+            d.all_ended = self.rest_ended - part(self.read_ended.get());
+            d.all_exposure = self.rest_exposure - part(self.read_exposure.get());
+        }
+        if self.summed || i.pass || self.read_bin {
+            (d.rest_ended, d.rest_exposure) = (self.all_ended, self.all_exposure);
+        }
+        if i.load {
+            (d.all_ended, d.all_exposure) = Default::default();
+            (d.rest_ended, d.rest_exposure) = Default::default();
         }
     }
 
@@ -303,38 +357,38 @@ impl Registers {
     fn pass(&self, i: &In, p: &Params, d: &mut Self) {
         if i.pass {
             (d.passing, d.opening, d.tailing, d.scanning) = (true, true, false, i.scan);
+            d.blank = false;
             d.index = if i.scan { U::new(0) } else { i.fit_begin };
-            d.last = if i.scan { U::new(p.histogram.bins as u64) } else { i.fit_end };
-            d.tail = U::new(if i.scan { p.scan_tail() } else { 0 });
-            (d.rest_ended, d.rest_exposure) = (self.all_ended, self.all_exposure);
+            d.tail = U::new(0);
         } else if self.passing && i.phase {
             d.opening = false;
-            if self.opening || self.index != self.last {
+            let (at_begin, at_end) = (self.index == i.fit_begin, self.index == i.fit_end);
+            let last = if self.scanning { self.index == p.histogram.bins as u64 } else { at_end };
+            if self.opening || !last {
                 d.index = self.index + 1;
+                d.bin = U::new(self.index.get() % p.histogram.bins as u64);
+                if at_begin || at_end {
+                    d.blank = self.scanning && !at_end;
+                }
             } else if !self.tailing {
                 d.tailing = true;
-            } else if self.tail == 0 {
+            } else if !self.scanning || self.tail == p.scan_tail() {
                 d.passing = false;
             } else {
-                d.tail = self.tail - 1;
+                d.tail = self.tail + 1;
             }
         }
     }
 
     /// Looks up a bin; one that is blanked is none.
-    fn read(&self, kept: &Kept, i: &In, d: &mut Self) {
-        let blanked = self.scanning && self.index > i.fit_begin && self.index <= i.fit_end;
+    fn read(&self, kept: &Kept, d: &mut Self) {
         let bin = self.passing && !self.opening && !self.tailing;
-        d.read_bin = bin && !blanked;
+        d.read_bin = bin && !self.blank;
         d.read_rest = self.passing && self.tailing && !self.scanning;
         d.read_edge = self.passing && self.opening;
         d.read_slide = self.passing && self.scanning && !self.opening;
         d.read_first = self.index == if self.opening { 0 } else { 1 };
         (d.read_ended, d.read_waiting, d.read_exposure) = (kept.ended, kept.waiting, kept.exposure);
-        if self.read_bin {
-            d.rest_ended = self.rest_ended - self.read_ended.get();
-            d.rest_exposure = self.rest_exposure - self.read_exposure.get();
-        }
     }
 
     /// Hands a bin on, or all others; a bin without width is none.

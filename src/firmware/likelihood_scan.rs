@@ -1,11 +1,12 @@
 //! Where a box stands highest above ambient light, in the likelihood estimator, and how much of that there is.
 //!
 //! Mirrors `rtl_ref/likelihood_scan.v`. In a scan a box slides over the bins. The memory keeps what entered it
-//! until it leaves. One unit takes logarithms: of a box's excess in the first cycle of a beat and of what is
-//! expected in the second, and in a load those of a block of bins.
+//! until it leaves. What enters is added to the box in the first cycle of a beat, and what leaves is subtracted in
+//! the second. One unit takes logarithms: of a box's excess in the first cycle of a beat and of what is expected in
+//! the second, and in a load those of a block of bins.
 //!
 //! ```text
-//! beat       k           k + 1               k + 2     k + 3   k + 4
+//! beat       k           k + 1               k + 3     k + 4   k + 5
 //! registers  entering    excess, expected    logs      score   best
 //! ```
 //!
@@ -16,10 +17,10 @@ use crate::kernel::module::{Module, Visitor};
 use crate::kernel::{S, U};
 use crate::signals;
 
-use super::histogram_builder::{Count, MOST_BINS};
+use super::histogram_builder::{Bin, Count, MOST_BINS};
 use super::likelihood_estimator::params::Params;
 use super::likelihood_estimator::pipeline::shift;
-use super::likelihood_estimator::tables::{LOG2, length};
+use super::likelihood_estimator::tables::LOG2;
 use super::likelihood_memory::{Exposure, Place, Waiting};
 use super::likelihood_terms::{Expected, Residual};
 
@@ -29,6 +30,9 @@ const NONE: i64 = -4096;
 const ADDED: i64 = 26;
 /// A block counts with a 64th of the first one's exposure.
 const LEAST_EXPOSURE: i64 = 6 * 64;
+
+/// Bits that are kept of a number whose logarithm is taken, of which the upper 16 have its leading one.
+const TOP_BITS: u32 = 22;
 
 /// 64 times a logarithm to base 2, or a sum of such.
 pub type Log = S<14>;
@@ -64,7 +68,7 @@ signals! {
         pub predicted: Expected,
         /// Twice the shots that wait in the middle of the bin.
         #[size("MiddleBits")]
-        pub middle: U<35>,
+        pub middle: U<25>,
         /// Shots wait at it.
         pub waits: bool,
     }
@@ -82,7 +86,7 @@ signals! {
         pub best_excess: Excess,
         /// Twice the shots that wait in the middle of a bin, over its bins.
         #[size("BoxMiddleBits")]
-        pub best_middle: U<45>,
+        pub best_middle: U<35>,
         /// Bins in it.
         #[size("PlaceBits")]
         pub box_length: Place,
@@ -100,58 +104,91 @@ signals! {
         /// Bins that have come.
         #[size("PlaceBits")]
         count: Place,
+        /// The last of them.
+        #[size("BinBits")]
+        newest: Bin,
+        /// First bin of the box, negative before bin 0.
+        #[size("BoxSumBits")]
+        oldest: S<12>,
+        /// Its middle.
+        #[size("BoxSumBits")]
+        centre: S<12>,
         /// A bin has come.
         entered: bool,
         /// Its excess.
-        #[size("ExcessBits")]
-        entering_excess: Excess,
+        #[size("BoxTermBits")]
+        entering_excess: S<39, 8>,
         /// What is expected in it, 8 fraction bits.
-        #[size("BoxExpectedBits")]
-        entering_expected: U<48>,
+        #[size("BoxTermBits")]
+        entering_expected: U<39>,
         /// Twice the shots that wait in its middle.
         #[size("MiddleBits")]
-        entering_middle: U<35>,
+        entering_middle: U<25>,
         /// What leaves the box: its excess.
-        #[size("ExcessBits")]
-        leaving_excess: Excess,
+        #[size("BoxTermBits")]
+        leaving_excess: S<39, 8>,
         /// Expected.
-        #[size("BoxExpectedBits")]
-        leaving_expected: U<48>,
+        #[size("BoxTermBits")]
+        leaving_expected: U<39>,
         /// Twice the shots that wait.
         #[size("MiddleBits")]
-        leaving_middle: U<35>,
+        leaving_middle: U<25>,
         /// Excess of the box, and as it goes along.
         #[size("ExcessBits")]
-        excess: [Excess; 3],
+        excess: [Excess; 4],
         /// Expected in the box.
         #[size("BoxExpectedBits")]
         box_expected: U<48>,
         /// Twice the shots that wait, and as they go along.
         #[size("BoxMiddleBits")]
-        box_middle: [U<45>; 3],
+        box_middle: [U<35>; 4],
+        /// The box as it was in the first cycle of the beat: its excess.
+        #[size("ExcessBits")]
+        held_excess: Excess,
+        /// Expected.
+        #[size("BoxExpectedBits")]
+        held_expected: U<48>,
+        /// Twice the shots that wait.
+        #[size("BoxMiddleBits")]
+        held_middle: U<35>,
         /// The box is within the histogram.
-        boxed: [bool; 3],
-        /// Its middle.
+        boxed: [bool; 4],
+        /// Its first bin in the histogram.
         #[size("PlaceBits")]
-        place: [Place; 3],
-        /// Bits of the number whose logarithm is taken.
-        log_bits: U<6>,
-        /// The six bits after its leading one.
-        log_part: U<6>,
+        from: [Place; 4],
+        /// The one after its last.
+        #[size("PlaceBits")]
+        until: [Place; 4],
+        /// The number whose logarithm is taken.
+        #[size("BoxExpectedBits")]
+        log_number: U<48>,
+        /// Top of the number whose logarithm is taken, raised until its leading one is in the upper 16 bits.
+        log_value: U<22>,
+        /// High bits of the place of its leading one.
+        log_high: U<2>,
+        /// That top, raised until its leading one is in the upper 4 bits.
+        log_mantissa: U<22>,
+        /// All but the low bits of that one's place.
+        log_middle: U<4>,
+        /// It is what is expected, of which 1 is the least.
+        log_expected: [bool; 3],
         /// Logarithm of an excess or of hits.
         upper_log: Log,
         /// Logarithm of what is expected or of an exposure.
         lower_log: Log,
         /// Score of the box.
         score: Log,
-        /// Middle of the highest box.
+        /// First bin of the highest box.
         #[size("PlaceBits")]
-        best_place: Place,
+        best_from: Place,
+        /// The one after its last.
+        #[size("PlaceBits")]
+        best_until: Place,
         /// Exposure of the block.
         #[size("ExposureBits")]
         held_exposure: Exposure,
         /// A block is in the logarithms.
-        block: [bool; 3],
+        block: [bool; 5],
         /// Blocks that have come.
         block_count: U<3>,
         /// Blocks whose hazards are known.
@@ -170,9 +207,9 @@ signals! {
 /// What enters and leaves a box.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Kept {
-    excess: Excess,
-    predicted: U<48>,
-    middle: U<35>,
+    excess: S<39, 8>,
+    predicted: U<39>,
+    middle: U<25>,
 }
 
 /// Registers and memories.
@@ -213,7 +250,7 @@ impl LikelihoodScan {
             self.blocks[q.block_count.index()] = (i.block_ended, i.block_exposure);
         }
         if i.phase && q.entered {
-            self.kept[q.count.index().wrapping_sub(1) % p.histogram.bins] = Kept {
+            self.kept[q.newest.index()] = Kept {
                 excess: q.entering_excess,
                 predicted: q.entering_expected,
                 middle: q.entering_middle,
@@ -230,26 +267,24 @@ impl LikelihoodScan {
     fn next(&self, i: &In, p: &Params) -> Registers {
         let q = self.registers;
         let mut d = q;
-        q.log(i, &mut d);
+        q.log(i, p, &mut d);
         q.blocks(i, &mut d);
         let pick = (q.exposed.get().wrapping_sub(1) & 15) * 3 / 8;
         let block = self.blocks[q.which[(pick as usize).min(2)].index()];
         let most = p.histogram.most_hits();
         (d.ambient_ended, d.ambient_exposure) = (U::new(block.0.get().min(most)), block.1);
         d.lone = q.exposed == 1;
+        q.change(i, &mut d);
         if i.phase {
-            let bins = p.histogram.bins;
-            let leaving = q.count.index().wrapping_sub(p.box_bins);
-            q.enter(i, p, &self.kept[leaving % bins], &mut d);
+            let leaving = q.oldest.get().rem_euclid(p.histogram.bins as i64);
+            q.enter(i, p, &self.kept[leaving as usize], &mut d);
             q.slide(p, &mut d);
             q.judge(&mut d);
         }
-        let half = p.box_bins as u64 / 2;
-        let from = q.best_place.get().saturating_sub(half);
-        let until = (q.best_place.get() + p.box_bins as u64 - half).min(p.histogram.bins as u64);
-        (d.box_length, d.box_sum) = (U::new(until - from), U::new(from + until));
+        let (from, until) = (q.best_from.get(), q.best_until.get());
+        (d.box_length, d.box_sum) = (U::new(until.wrapping_sub(from)), U::new(from + until));
         if i.pass && i.scan {
-            d.begin();
+            d.begin(p);
         }
         d
     }
@@ -257,32 +292,51 @@ impl LikelihoodScan {
 
 impl Registers {
     /// Begins a scan.
-    fn begin(&mut self) {
+    fn begin(&mut self, p: &Params) {
         (self.count, self.entered) = (U::new(0), false);
-        self.boxed = [false; 3];
-        (self.excess[0], self.box_expected, self.box_middle[0]) = Default::default();
+        (self.oldest, self.centre) = (S::new(-(p.box_bins as i64)), S::new(-(p.box_back() as i64)));
+        self.boxed = [false; 4];
+        (self.from, self.until) = Default::default();
+        (self.excess[0], self.box_expected, self.box_middle) = Default::default();
         self.best_score = S::new(i64::from(i16::MIN) / 4);
     }
 
     /// The unit that takes logarithms.
-    fn log(&self, i: &In, d: &mut Self) {
+    fn log(&self, i: &In, p: &Params, d: &mut Self) {
         let value = match (i.scan, i.block_done, i.phase) {
             (false, true, _) => i.block_ended.get(),
             (false, false, _) => self.held_exposure.get(),
-            (true, _, false) => self.excess[0].get().max(0) as u64,
-            (true, _, true) => self.box_expected.get().max(1),
+            // That of a negative one is of no use.
+            (true, _, false) => {
+                let bits = p.histogram.count_bits + p.histogram.bins.ilog2() + 14;
+                self.excess[0].get() as u64 & (u64::MAX >> (64 - bits))
+            }
+            (true, _, true) => self.held_expected.get(),
         };
-        let bits = length(value as i64);
-        let aligned = if bits > 7 { value >> (bits - 7) } else { value << (7 - bits) };
-        (d.log_bits, d.log_part) = (U::new(bits.into()), U::new(aligned));
-        let log = match self.log_bits.get() as i64 {
-            0 => -64,
-            bits => (bits - 1) * 64 + LOG2[self.log_part.index()],
+        d.log_number = U::new(value);
+        let number = self.log_number.get();
+        let high = number.max(1).ilog2() / 16;
+        d.log_value = U::new(number << (48 - 16 * high) >> (u64::BITS - TOP_BITS));
+        d.log_high = U::new(high.into());
+        let value = self.log_value.get();
+        let middle = (value >> (TOP_BITS - 16)).max(1).ilog2() / 4;
+        d.log_mantissa = U::new(value << (12 - 4 * middle));
+        d.log_middle = U::new(self.log_high.get() * 4 + u64::from(middle));
+        shift(&mut d.log_expected, i.scan && i.phase);
+        let value = self.log_mantissa.get();
+        let low = (value >> (TOP_BITS - 4)).max(1).ilog2();
+        let aligned = value << (3 - low) >> (TOP_BITS - 7);
+        let log = match value {
+            0 if !self.log_expected[2] => -64,
+            _ => {
+                (self.log_middle.get() as i64 * 4 + i64::from(low)) * 64
+                    + LOG2[(aligned & 63) as usize]
+            }
         };
-        if if i.scan { i.phase } else { self.block[0] } {
+        if if i.scan { i.phase } else { self.block[2] } {
             d.upper_log = S::new(log);
         }
-        if if i.scan { !i.phase } else { self.block[1] } {
+        if if i.scan { !i.phase } else { self.block[3] } {
             d.lower_log = S::new(log);
         }
     }
@@ -294,7 +348,7 @@ impl Registers {
         if i.block_done {
             d.block_count = self.block_count + 1;
         }
-        if self.block[2] {
+        if self.block[4] {
             self.insert(d);
         }
         if i.load {
@@ -337,41 +391,52 @@ impl Registers {
         d.entering_excess = S::new((i.residual.get() << 4) - added);
         d.entering_expected = U::new((i.predicted.get() >> 4) + added as u64);
         d.entering_middle = i.middle;
-        let full = self.count.get() >= p.box_bins as u64;
-        let left = if full { *kept } else { Kept::default() };
+        let left = if self.oldest.get() >= 0 { *kept } else { Kept::default() };
         d.leaving_excess = left.excess;
         (d.leaving_expected, d.leaving_middle) = (left.predicted, left.middle);
+        d.newest = U::new(self.count.get() % p.histogram.bins as u64);
         d.count = self.count + 1;
+        (d.oldest, d.centre) = (self.oldest + 1, self.centre + 1);
+    }
+
+    /// Adds what enters to the box, and in the second cycle of a beat subtracts what leaves.
+    fn change(&self, i: &In, d: &mut Self) {
+        (d.held_excess, d.held_expected) = (self.excess[0], self.box_expected);
+        d.held_middle = self.box_middle[0];
+        if !self.entered {
+            return;
+        }
+        let more = |enters: i64, leaves: i64| if i.phase { -leaves } else { enters };
+        d.excess[0] = self.excess[0] + more(self.entering_excess.get(), self.leaving_excess.get());
+        let [entering, leaving] =
+            [self.entering_expected, self.leaving_expected].map(|word| word.get() as i64);
+        d.box_expected = self.box_expected + more(entering, leaving) as u64;
+        let [entering, leaving] =
+            [self.entering_middle, self.leaving_middle].map(|word| word.get() as i64);
+        d.box_middle[0] = self.box_middle[0] + more(entering, leaving) as u64;
     }
 
     /// Slides the box on.
     fn slide(&self, p: &Params, d: &mut Self) {
-        let mut excess = self.excess[0].get();
-        let mut middle = self.box_middle[0].get();
-        if self.entered {
-            excess += self.entering_excess.get() - self.leaving_excess.get();
-            let predicted = self.box_expected.get() + self.entering_expected.get();
-            d.box_expected = U::new(predicted - self.leaving_expected.get());
-            middle = middle + self.entering_middle.get() - self.leaving_middle.get();
-        }
-        shift(&mut d.excess, S::new(excess));
-        shift(&mut d.box_middle, U::new(middle));
-        // The box ends with the bin that entered: its place is so many bins before.
-        let back = (p.box_bins - p.box_bins / 2) as u64;
-        let place = U::new(self.count.get().saturating_sub(back));
-        let within = self.count.get() >= back && place.get() < p.histogram.bins as u64;
-        shift(&mut d.place, place);
-        shift(&mut d.boxed, self.entered && within);
+        (d.excess[1], d.excess[2], d.excess[3]) =
+            (self.held_excess, self.excess[1], self.excess[2]);
+        (d.box_middle[1], d.box_middle[2], d.box_middle[3]) =
+            (self.held_middle, self.box_middle[1], self.box_middle[2]);
+        // The box ends with the bin that entered.
+        let bins = p.histogram.bins as i64;
+        shift(&mut d.from, U::new(self.oldest.get().max(0) as u64));
+        shift(&mut d.until, U::new(self.count.get().min(bins as u64)));
+        shift(&mut d.boxed, self.entered && (0..bins).contains(&self.centre.get()));
     }
 
     /// Compares a box with the highest one.
     fn judge(&self, d: &mut Self) {
-        let above = self.excess[1].get() > 0;
+        let above = self.excess[2].get() > 0;
         let score = 2 * self.upper_log.get() - self.lower_log.get() - 512;
         d.score = S::new(if above { score } else { NONE });
-        if self.boxed[2] && self.score.get() > self.best_score.get() {
-            (d.best_score, d.best_place) = (self.score, self.place[2]);
-            (d.best_excess, d.best_middle) = (self.excess[2], self.box_middle[2]);
+        if self.boxed[3] && self.score.get() > self.best_score.get() {
+            (d.best_score, d.best_from, d.best_until) = (self.score, self.from[3], self.until[3]);
+            (d.best_excess, d.best_middle) = (self.excess[3], self.box_middle[3]);
         }
     }
 }

@@ -1,8 +1,9 @@
 //! The arithmetic between the passes of the likelihood estimator: a small machine with one multiplier.
 //!
-//! Mirrors `rtl_ref/likelihood_solver.v`. An instruction takes five cycles: it reads its operands, multiplies with
-//! the low 17 bits of `b` and with the others, shifts, and adds. A reciprocal takes 17 more, a root 25, a bit of
-//! each at a time. The programs are in [`program`]: the ambient light of a block, a point from the box, a step of
+//! Mirrors `rtl_ref/likelihood_solver.v`. An instruction goes through nine cycles: operands, products with the low
+//! 17 bits of `b` and with the others, their sum, two shifts, the sum with `c`, its limits, and the memory. Others begin
+//! before, as far as they do not need what it gives: each says when the next one begins. A reciprocal takes 17 cycles
+//! more, a root 25, a bit of each at a time. The programs are in [`program`]: the ambient light of a block, a point from the box, a step of
 //! Fisher scoring, and what comes out at the end.
 
 use crate::kernel::module::{Module, Visitor};
@@ -25,6 +26,9 @@ pub type Word = S<45>;
 const WORDS: usize = 32;
 /// Bits of `b` that the multiplier takes first.
 const LOW_BITS: u32 = 17;
+/// Bits of a magnitude that are not kept: a step is shifted if it has more of them, and the information if it has
+/// two more.
+const LEAST_MAGNITUDE: u32 = 14;
 /// Largest S or b.
 const MOST: i64 = (1 << 24) - 1;
 /// Smallest S.
@@ -56,7 +60,7 @@ signals! {
         pub best_excess: Excess,
         /// Twice the shots that wait in the middle of a bin, over its bins.
         #[size("BoxMiddleBits")]
-        pub best_middle: U<45>,
+        pub best_middle: U<35>,
         /// Bins in it.
         #[size("PlaceBits")]
         pub box_length: Place,
@@ -64,8 +68,8 @@ signals! {
         #[size("BoxSumBits")]
         pub box_sum: U<12>,
         /// Sums of the last pass.
-        #[size("SquareSumBits")]
-        pub sum_11: S<44>,
+        #[size("SlopeSumBits")]
+        pub sum_11: S<48>,
         /// See there.
         #[size("SlopeSumBits")]
         pub sum_12: S<48>,
@@ -121,8 +125,28 @@ signals! {
         /// Its instruction.
         #[view(heading = "Likelihood", probe = true)]
         counter: U<7>,
-        /// Cycle of it.
-        cycle: U<5>,
+        /// Cycles until that one begins.
+        pause: U<6>,
+        /// There is an instruction in that cycle of it.
+        at: [bool; 9],
+        /// Which one.
+        number: [U<6>; 8],
+        /// Where its operands are.
+        from_a: U<6>,
+        /// See there.
+        from_b: U<6>,
+        /// See there.
+        from_c: U<6>,
+        /// By how many bits its product is shifted.
+        base: U<5>,
+        /// What is added to that, in the order of [`By`].
+        by: U<3>,
+        /// It is no division and no root.
+        alu: bool,
+        /// Where its result goes.
+        to: U<6>,
+        /// What else is kept of it: 1 its magnitude, 8 and more its sign as a flag.
+        mark: U<4>,
         /// Operands.
         #[size("WordBits")]
         a: Word,
@@ -132,21 +156,68 @@ signals! {
         /// See there.
         #[size("WordBits")]
         c: Word,
+        /// The low bits of a times those of b, or its others.
+        #[size("LowTermBits")]
+        low_product: S<46>,
+        /// The others times that.
+        #[size("HighTermBits")]
+        high_product: S<56>,
         /// a times the low bits of b.
         #[size("LowProductBits")]
         low: S<63>,
         /// a times b.
         product: S<64>,
+        /// By how many bits it is shifted.
+        shift: U<6>,
+        /// The low bits of that, a cycle later.
+        shift_low: U<4>,
+        /// The product after the longest shifts, with half of its lowest place.
+        #[size("FineBits")]
+        coarse: S<63>,
+        /// Its sign.
+        negative: bool,
+        /// That is the sign of all that is left out.
+        coarse_fits: bool,
         /// The product as it is shifted, or a divisor.
         #[size("ShiftedBits")]
         shifted: S<47>,
+        /// And half of its lowest place.
+        half: bool,
+        /// It has only its sign: the product is beyond all limits.
+        beyond: bool,
+        /// It is subtracted.
+        minus: bool,
+        /// The instruction is a reciprocal or a root.
+        divides: bool,
+        /// It is a root.
+        roots: bool,
+        /// Sum of the product and c.
+        #[size("SumOfWordBits")]
+        sum: S<48>,
+        /// It is beyond all limits.
+        past: bool,
+        /// On that side.
+        opposite: bool,
+        /// Its limits, in the order of [`Clamp`].
+        limits: U<3>,
+        /// What the instruction comes to.
+        #[size("WordBits")]
+        result: Word,
+        /// A reciprocal or a root is on the way.
+        dividing: bool,
+        /// It has ended.
+        divided: bool,
+        /// Its next bit.
+        digit: U<5>,
+        /// What a root takes for this one.
+        pair: U<2>,
         /// Bits of what was divided by last, or half of those of a variance.
         bits: U<6>,
         /// By how many bits the rest of the information is shifted.
         exponent: U<6>,
-        /// All magnitudes that were marked.
-        #[size("WordBits")]
-        magnitude: U<45>,
+        /// All magnitudes that were marked, without their lowest 14 bits: on those no shift depends.
+        #[size("MagnitudeBits")]
+        magnitude: U<31>,
         /// What a division or a root leaves.
         remainder: U<28>,
         /// What it has come to.
@@ -178,8 +249,10 @@ impl Module for LikelihoodSolver {
     }
 }
 
-/// Cycles of an instruction: operands, both parts of the product, the shift, and the sum.
-const ADD: u64 = 4;
+/// Numbers of marks: a magnitude, and the first flag.
+const MAGNITUDE: u64 = 1;
+/// See there.
+const FLAGS: u64 = 8;
 /// Bits of a reciprocal, and of a root.
 const RECIPROCAL_BITS: u64 = 17;
 /// See there.
@@ -215,75 +288,76 @@ impl LikelihoodSolver {
     }
 
     /// Whether no edge changes anything until an input does.
-    pub fn rests(&self, i: &In) -> bool {
-        !i.rst && !i.run && !self.registers.running && !self.registers.ran
+    pub fn rests(&self, i: &In, p: &Params) -> bool {
+        let still = !i.rst && !i.run && !self.registers.running && !self.registers.ran;
+        still && {
+            let mut next = *self;
+            next.rise(i, p);
+            next == *self
+        }
     }
 
     /// The rising edge of `clk_sys`.
     pub fn rise(&mut self, i: &In, p: &Params) {
         let q = self.registers;
         let mut d = q;
-        d.ran = false;
-        if i.run {
-            (d.running, d.counter, d.cycle) = (true, i.entry, U::new(0));
-            d.magnitude = U::new(0);
-        } else if q.running {
-            let now = &PROGRAM[q.counter.index() % PROGRAM.len()];
-            match now.op {
-                Op::End => (d.running, d.ran) = (false, true),
-                Op::Exponent | Op::Cut => q.measure(now.op, &mut d),
-                Op::Alu | Op::Reciprocal | Op::Root => {
-                    d.cycle = q.cycle + 1;
-                    self.fetch(now, i, p, &mut d);
-                    q.multiply(now, p, &mut d);
-                    q.digit(now.op, &mut d);
-                    if let Some(result) = q.result(now, p) {
-                        (d.cycle, d.counter) = (U::new(0), q.counter + 1);
-                        self.keep(now, result, &mut d);
-                    }
-                }
-            }
-        }
+        q.begin(i, &mut d);
+        q.go_on(&mut d);
+        self.fetch(i, p, &mut d);
+        q.multiply(p, &mut d);
+        q.shift(p, &mut d);
+        q.add(p, &mut d);
+        q.divide(&mut d);
+        self.keep(i, &mut d);
         self.registers = if i.rst { Registers::default() } else { d };
     }
 
-    /// Reads the operands.
-    fn fetch(&self, now: &Instruction, i: &In, p: &Params, d: &mut Registers) {
-        if self.registers.cycle != 0 {
-            return;
-        }
+    /// Reads the operands; c comes late.
+    fn fetch(&self, i: &In, p: &Params, d: &mut Registers) {
+        let q = &self.registers;
         let word = |place: u8| match place.checked_sub(ONE) {
             Some(constant) => p.constants()[constant as usize],
             None => self.words[place as usize].get(),
         };
         let fit = |value: i64| S::new(wrapped(value, p.word_bits()));
-        d.a = fit(i.first_operand(now.a).unwrap_or_else(|| word(now.a)));
-        d.b = S::new(word(now.b));
-        d.c = fit(i.third_operand(now.c).unwrap_or_else(|| word(now.c)));
+        if q.at[0] {
+            let (a, b) = (q.from_a.get() as u8, q.from_b.get() as u8);
+            d.a = fit(i.first_operand(a).unwrap_or_else(|| word(a)));
+            d.b = S::new(word(b));
+        }
+        if q.at[5] {
+            let c = q.from_c.get() as u8;
+            d.c = fit(i.third_operand(c).unwrap_or_else(|| word(c)));
+            let now = q.instruction(5);
+            (d.minus, d.divides, d.roots) = (now.minus, !q.alu, now.op == Op::Root);
+        }
     }
 
     /// Writes a result.
-    fn keep(&mut self, now: &Instruction, result: i64, d: &mut Registers) {
-        match now.to {
+    fn keep(&mut self, i: &In, d: &mut Registers) {
+        let q = self.registers;
+        if !q.at[8] {
+            return;
+        }
+        let (to, result) = (q.to.get() as u8, q.result.get());
+        match to {
             program::DEPTH => d.depth = S::new(result),
             program::SIGMA => d.sigma = U::new(result as u64),
             to => self.words[to as usize] = S::new(result),
         }
-        match now.to {
+        match to {
             program::ARRIVAL => d.arrival = U::new(result as u64),
             program::SIGNAL => d.strength = U::new(result as u64),
             program::AMBIENT => d.ambient = U::new(result as u64),
             _ => {}
         }
-        match now.mark {
-            Mark::Nothing => {}
-            Mark::Magnitude => {
-                d.magnitude = U::new(self.registers.magnitude.get() | result.unsigned_abs());
-            }
-            Mark::Flag(flag) => {
-                let others = self.registers.flags.get() & !(1 << flag);
-                d.flags = U::new(others | u64::from(result < 0) << flag);
-            }
+        if q.mark == MAGNITUDE && !i.run && !q.measures() {
+            let high = result.unsigned_abs() >> LEAST_MAGNITUDE;
+            d.magnitude = U::new(q.magnitude.get() | high);
+        }
+        if let Some(flag) = q.mark.get().checked_sub(FLAGS) {
+            let others = q.flags.get() & !(1 << flag);
+            d.flags = U::new(others | u64::from(result < 0) << flag);
         }
     }
 }
@@ -319,47 +393,109 @@ impl In {
 }
 
 impl Registers {
-    /// How large what has been marked is.
-    fn measure(&self, op: Op, d: &mut Self) {
-        let bits = u64::from(length(self.magnitude.get() as i64));
-        match op {
-            Op::Cut => d.cut = U::new(bits.saturating_sub(14)),
-            _ => d.exponent = U::new(bits.saturating_sub(16)),
-        }
-        d.magnitude = U::new(0);
-        d.counter = self.counter + 1;
+    /// The instruction that is in a cycle.
+    fn instruction(&self, cycle: usize) -> &'static Instruction {
+        &PROGRAM[self.number[cycle].index()]
     }
 
-    /// The product, and the shift.
-    fn multiply(&self, now: &Instruction, p: &Params, d: &mut Self) {
-        let (a, b) = (self.a.get(), self.b.get());
-        match self.cycle.get() {
-            1 => {
-                d.low = S::new(a * (b & ((1 << LOW_BITS) - 1)));
-                if now.op == Op::Reciprocal {
-                    d.bits = U::new(length(a.max(1)).into());
-                }
+    /// The next one.
+    fn next_one(&self) -> &'static Instruction {
+        &PROGRAM[self.counter.index() % PROGRAM.len()]
+    }
+
+    /// Whether it begins.
+    fn begins(&self) -> bool {
+        self.running && self.pause == 0
+    }
+
+    /// Whether it measures what has been marked.
+    fn measures(&self) -> bool {
+        self.begins() && matches!(self.next_one().op, Op::Exponent | Op::Cut)
+    }
+
+    /// Begins an instruction; one that measures is done at once.
+    fn begin(&self, i: &In, d: &mut Self) {
+        (d.ran, d.at[0]) = (false, false);
+        if i.run {
+            (d.running, d.counter, d.pause) = (true, i.entry, U::new(0));
+            d.magnitude = U::new(0);
+            return;
+        }
+        if !self.begins() {
+            if self.running {
+                d.pause = self.pause - 1;
             }
-            2 => {
-                let high = a.wrapping_mul(b >> LOW_BITS).wrapping_mul(1 << LOW_BITS);
-                d.product = S::new(self.low.get().wrapping_add(high));
-            }
-            3 if now.op == Op::Root => {
-                d.product = S::new(self.product.get() << (16 + self.odd()));
-            }
-            3 => d.shifted = S::new(self.shift(now, p)),
+            return;
+        }
+        let now = self.next_one();
+        d.pause = U::new(u64::from(now.wait) - 1);
+        d.number[0] = U::new(self.counter.get());
+        (d.from_a, d.from_b) = (U::new(now.a.into()), U::new(now.b.into()));
+        match now.op {
+            Op::End => (d.running, d.ran) = (false, true),
+            _ => d.counter = self.counter + 1,
+        }
+        let bits = u64::from(length((self.magnitude.get() << LEAST_MAGNITUDE) as i64));
+        match now.op {
+            Op::Cut => d.cut = U::new(bits.saturating_sub(14)),
+            Op::Exponent => d.exponent = U::new(bits.saturating_sub(16)),
             _ => {}
         }
+        if self.measures() {
+            d.magnitude = U::new(0);
+        }
+        d.at[0] = matches!(now.op, Op::Alu | Op::Reciprocal | Op::Root);
     }
 
-    /// Whether a variance's exponent is odd.
-    fn odd(&self) -> u64 {
-        (self.bits.get() + self.exponent.get()) & 1
+    /// Moves instructions on; a reciprocal or a root waits until it has its bits.
+    fn go_on(&self, d: &mut Self) {
+        for cycle in 1..8 {
+            d.number[cycle] = self.number[cycle - 1];
+        }
+        for cycle in 1..9 {
+            d.at[cycle] = self.at[cycle - 1];
+        }
+        d.at[7] = self.at[6] && !self.divides;
+        d.at[8] = self.at[7] || self.divided;
+        if !self.at[6] {
+            d.number[7] = self.number[7];
+        }
+        let now = self.instruction(2);
+        (d.base, d.by) = (U::new(now.shift.into()), U::new(now.by as u64));
+        let now = self.instruction(4);
+        (d.from_c, d.alu) = (U::new(now.c.into()), now.op == Op::Alu);
+        let now = self.instruction(7);
+        d.to = U::new(now.to.into());
+        d.mark = U::new(match now.mark {
+            Mark::Nothing => 0,
+            Mark::Magnitude => MAGNITUDE,
+            Mark::Flag(flag) => FLAGS + u64::from(flag),
+        });
+    }
+
+    /// The product.
+    fn multiply(&self, p: &Params, d: &mut Self) {
+        let (a, b, low) = (self.a.get(), self.b.get(), (1 << LOW_BITS) - 1);
+        let part = if self.at[1] { b & low } else { b >> LOW_BITS };
+        d.low_product = S::new((a & low) * part);
+        d.high_product = S::new((a >> LOW_BITS) * part);
+        let lower = self.low_product.get() + (self.low.get() >> LOW_BITS);
+        let upper = self.high_product.get() + (lower >> LOW_BITS);
+        let partial = upper.wrapping_shl(LOW_BITS) | lower & low;
+        let size = p.word_bits() + 18;
+        d.low = S::new(if self.at[2] { wrapped(partial, size) } else { 0 });
+        if self.at[3] {
+            let whole = partial.wrapping_shl(LOW_BITS) | self.low.get() & low;
+            d.product = S::new(whole);
+        }
+        if self.at[1] && self.instruction(1).op == Op::Reciprocal {
+            d.bits = U::new(length(a.max(1)).into());
+        }
     }
 
     /// The product as the instruction shifts it; a divisor is not rounded.
-    fn shift(&self, now: &Instruction, p: &Params) -> i64 {
-        let by = match now.by {
+    fn shift(&self, p: &Params, d: &mut Self) {
+        let by = match By::ALL[self.by.index() % By::ALL.len()] {
             By::Nothing => 0,
             By::Bits => self.bits.get(),
             By::Exponent => self.exponent.get(),
@@ -367,64 +503,82 @@ impl Registers {
             By::Both => self.bits.get() + self.exponent.get(),
             By::Metres => p.metres_shift.into(),
         };
-        let bits = (u64::from(now.shift) + by).min(63);
-        let (product, width) = (self.product.get(), p.word_bits() + 2);
-        let (down, half) = match bits {
-            0 => (product, 0),
-            bits => (product >> bits, product >> (bits - 1) & 1),
-        };
-        // One place is left for the rounding.
-        let most = 1 << (width - 2);
-        match (-most..most).contains(&down) {
-            true if now.op == Op::Reciprocal => down,
-            true => down + half,
-            false if down < 0 => -2 * most,
-            false => 2 * most - 1,
-        }
-    }
+        d.shift = U::new((self.base.get() + by).min(63));
+        d.shift_low = U::new(self.shift.get() & 15);
 
-    /// A bit of a reciprocal or of a root.
-    fn digit(&self, op: Op, d: &mut Self) {
-        if op == Op::Alu || self.cycle.get() < ADD {
+        let width = p.word_bits() + 2;
+        let down = (i128::from(self.product.get()) << 1) >> (self.shift.get() & 48);
+        let most = 1 << (width + 15);
+        d.coarse = S::new(wrapped(down as i64, width + 16));
+        d.negative = down < 0;
+        d.coarse_fits = (-most..most).contains(&down);
+        if !self.at[5] {
             return;
         }
-        let (left, against) = match op {
-            Op::Root => {
-                let next = (self.product.get() as u64) >> 48 & 3;
-                d.product = S::new(self.product.get() << 2);
-                (self.remainder.get() << 2 | next, self.quotient.get() << 2 | 1)
+        let fine = self.coarse.get() >> self.shift_low.get();
+        let sign = if self.negative { -(1 << (width - 1)) } else { 0 };
+        d.shifted = S::new(sign + (fine >> 1 & ((1 << (width - 1)) - 1)));
+        d.half = fine & 1 != 0 && self.alu;
+        // One place is left for the rounding.
+        let most = 1 << (width - 1);
+        let same = (fine < 0) == self.negative;
+        d.beyond = !(self.coarse_fits && same && (-most..most).contains(&fine));
+    }
+
+    /// The sum, and its limits.
+    fn add(&self, p: &Params, d: &mut Self) {
+        let (c, shifted) = (self.c.get(), self.shifted.get() + i64::from(self.half));
+        d.sum = S::new(if self.minus { c - shifted } else { c + shifted });
+        (d.past, d.opposite) = (self.beyond, (self.shifted.get() < 0) != self.minus);
+        d.limits = U::new(self.instruction(6).clamp as u64);
+
+        let [least, most] = p.limits(Clamp::ALL[self.limits.index()]);
+        d.result = S::new(match (self.divided, self.past, self.opposite) {
+            (true, ..) => self.quotient.get() as i64,
+            (_, true, true) => least,
+            (_, true, false) => most,
+            _ => self.sum.get().clamp(least, most),
+        });
+    }
+
+    /// Whether a variance's exponent is odd.
+    fn odd(&self) -> u64 {
+        (self.bits.get() + self.exponent.get()) & 1
+    }
+
+    /// A bit of a reciprocal or of a root, which takes two bits of the product each time.
+    fn divide(&self, d: &mut Self) {
+        let last = self.digit == if self.roots { ROOT_BITS } else { RECIPROCAL_BITS };
+        d.dividing = self.at[6] && self.divides || self.dividing && !last;
+        d.divided = self.dividing && last;
+        if self.divided && self.roots {
+            d.bits = U::new((10 + self.bits.get() + self.exponent.get() + self.odd()) / 2);
+        }
+        let pairs = (self.product.get() as u64 & ((1 << 34) - 1)) << self.odd();
+        d.pair = U::new(pairs.checked_shl(2 * self.digit.get() as u32).unwrap_or(0) >> 32);
+        d.digit = U::new(match (self.at[6], self.dividing) {
+            (true, _) => 1,
+            (_, true) => self.digit.get() + 1,
+            _ => 0,
+        });
+        if self.at[6] {
+            d.remainder = U::new(if self.roots { 0 } else { (1 << 16) - 1 });
+            d.quotient = U::new(0);
+            return;
+        }
+        if !self.dividing {
+            return;
+        }
+        let (left, against) = match self.roots {
+            true => (self.remainder.get() << 2 | self.pair.get(), self.quotient.get() << 2 | 1),
+            false => {
+                let divisor = self.shifted.get() as u64 & U::<28>::MAX.get();
+                (self.remainder.get() << 1 | 1, divisor)
             }
-            _ => (self.remainder.get() << 1 | 1, self.shifted.get() as u64),
         };
+        let left = U::<28>::new(left).get();
         let fits = left >= against;
         d.remainder = U::new(if fits { left - against } else { left });
         d.quotient = U::new(self.quotient.get() << 1 | u64::from(fits));
-        if self.cycle == ADD {
-            d.product = self.product;
-            d.remainder = U::new(if op == Op::Root { 0 } else { (1 << 16) - 1 });
-            d.quotient = U::new(0);
-        }
-        if op == Op::Root && self.cycle == ADD + 1 + ROOT_BITS {
-            d.bits = U::new((10 + self.bits.get() + self.exponent.get() + self.odd()) / 2);
-        }
-    }
-
-    /// The result, in the last cycle of an instruction.
-    fn result(&self, now: &Instruction, p: &Params) -> Option<i64> {
-        let cycles = match now.op {
-            Op::Reciprocal => ADD + 1 + RECIPROCAL_BITS,
-            Op::Root => ADD + 1 + ROOT_BITS,
-            _ => ADD,
-        };
-        if self.cycle != cycles {
-            return None;
-        }
-        if now.op != Op::Alu {
-            return Some(self.quotient.get() as i64);
-        }
-        let (c, shifted) = (self.c.get(), self.shifted.get());
-        let sum = if now.minus { c - shifted } else { c + shifted };
-        let [least, most] = p.limits(now.clamp);
-        Some(sum.clamp(least, most))
     }
 }

@@ -13,7 +13,7 @@ use crate::{connect, signals};
 
 use super::carry_chain::{self, CarryChain, Delays, StopLine};
 use super::coarse_counter::{self, CoarseCounter, DEFAULT_COARSE_BITS};
-use super::tdc_decoder::{self, TdcDecoder, TimeScale};
+use super::tdc_decoder::{self, Decoder, Encoder, TdcDecoder, TimeScale};
 use super::tdc_latch::{self, TdcLatch};
 
 signals! {
@@ -35,20 +35,47 @@ pub struct Params {
     pub delays: Delays,
     /// Length of the window.
     pub coarse_counter: coarse_counter::Params,
-    /// ROM of the decoder, and steps of its ones count.
+    /// ROM of the decoder, how it counts, and in how many steps.
     pub decoder: tdc_decoder::Params,
     /// Place of physical tap 0 in the order of arrival.
     tap_0: usize,
 }
 
 impl Params {
-    /// For a chain, with the ROM that goes with it, what times count, a coarse count of so many bits, and 2 or
-    /// 3 registers of the ones count.
+    /// For a chain, with the ones count and the ROM that goes with it, what times count, a coarse count of so many
+    /// bits, and 2 or 3 registers of the ones count.
     pub fn new(delays: Delays, scale: TimeScale, coarse_bits: u32, count_stages: u64) -> Self {
         let tap_0 = delays.tap_0_position();
-        let cal = tdc_decoder::Params::calibration(&delays, &scale);
-        let decoder = tdc_decoder::Params { cal, count_stages, scale };
+        let cal = tdc_decoder::Params::calibration(&delays, Decoder::Ones, &scale);
+        let encoder = Encoder::new(Decoder::Ones, &delays);
+        let decoder = tdc_decoder::Params { cal, count_stages, scale, encoder };
         Params { delays, coarse_counter: coarse_counter::Params { coarse_bits }, decoder, tap_0 }
+    }
+
+    /// The same with another decoder, and the ROM that goes with the chain and it.
+    pub fn with_decoder(self, decoder: Decoder) -> Self {
+        let cal = tdc_decoder::Params::calibration(&self.delays, decoder, &self.decoder.scale);
+        let encoder = Encoder::new(decoder, &self.delays);
+        Params { decoder: tdc_decoder::Params { cal, encoder, ..self.decoder }, ..self }
+    }
+
+    /// The same with another ROM, as long as the chain's own.
+    pub fn with_calibration(self, cal: tdc_decoder::Calibration) -> Self {
+        Params { decoder: tdc_decoder::Params { cal, ..self.decoder }, ..self }
+    }
+
+    /// The same ROM behind a chain of as many taps with other delays.
+    pub fn with_delays(self, delays: Delays) -> Self {
+        let encoder = Encoder::new(self.decoder.encoder.decoder(), &delays);
+        let decoder = tdc_decoder::Params { encoder, ..self.decoder };
+        Params { tap_0: delays.tap_0_position(), delays, decoder, ..self }
+    }
+
+    /// The same ROM behind a chain of as many taps that come in the order of their numbers.
+    pub fn in_order(self, delays: Delays) -> Self {
+        let encoder = Encoder::new(Decoder::Ones, &delays);
+        let decoder = tdc_decoder::Params { encoder, ..self.decoder };
+        Params { tap_0: delays.tap_0_position(), delays, decoder, ..self }
     }
 
     /// The KC705's but for the chain.

@@ -1,6 +1,6 @@
 //! Turns a hit into a code, of 25 ps on the KC705.
 //!
-//! Mirrors `rtl_ref/tdc_decoder.v`. The ones count in two or three steps, its time, and the code:
+//! Mirrors `rtl_ref/tdc_decoder.v`. The number of the taps in two or three steps, its time, and the code:
 //!
 //! ```text
 //! edge       e+1       e+2       e+3       e+4  e+5       e+6  e+7
@@ -11,8 +11,10 @@
 //! [`TimeScale`] says what a unit is: 25/16 ps on the KC705, of which `Cycle` is 5120. Time 0 is where bin 0
 //! begins; the ages in the ROM know by how much that is after the laser edge. With two steps, `n` counts
 //! the sixteens and all after it comes an edge earlier. A time outside the bins has no code, and `tdc_code`
-//! keeps its value. Each register holds its last hit; only what says that a hit is new has a reset.
+//! keeps its value. What `n` is of the taps, [`Decoder`] says: their ones count, or the place of the highest one.
+//! Each register holds its last hit; only what says that a hit is new has a reset.
 
+mod encoder;
 mod params;
 mod scale;
 
@@ -22,6 +24,7 @@ use crate::signals;
 use super::carry_chain::Taps;
 use super::coarse_counter::Coarse;
 use super::histogram_builder::Bin;
+pub use encoder::{Decoder, Encoder};
 use params::{Age, TimeWord};
 pub use params::{COUNT_STAGES, Calibration, Params};
 pub use scale::TimeScale;
@@ -50,7 +53,7 @@ signals! {
         /// Time of the hit [bins].
         #[size("BinBits")]
         pub tdc_code: Bin,
-        /// Ones among 16 taps each.
+        /// Ones among 16 taps each, or the place of the highest.
         #[size("Sixteens")]
         sixteens: PartialOnes<16>,
         /// `sixteens` is new.
@@ -58,7 +61,7 @@ signals! {
         /// Coarse count of `sixteens`.
         #[size("CoarseBits")]
         sixteens_coarse: Coarse,
-        /// Ones among 128 taps each.
+        /// Ones among 128 taps each, or the place of the highest.
         #[size("Hundreds")]
         hundreds: PartialOnes<128>,
         /// `hundreds` is new.
@@ -66,7 +69,7 @@ signals! {
         /// Coarse count of `hundreds`.
         #[size("CoarseBits")]
         hundreds_coarse: Coarse,
-        /// Taps that the last hit had run through.
+        /// Taps that the last hit had run through, by the decoder.
         #[size("CountOfTaps")]
         #[view(heading = "TDC", probe = true)]
         n: U<11>,
@@ -92,7 +95,7 @@ signals! {
 }
 
 impl TdcDecoder {
-    /// The hit that has just been counted: ones count and coarse count.
+    /// The hit that has just been counted: `n` and coarse count.
     pub fn counted(&self) -> Option<(u64, u64)> {
         self.n_valid.then_some((self.n.get(), self.n_coarse.get()))
     }
@@ -137,7 +140,7 @@ impl Clocked for TdcDecoder {
         };
         self.n_valid = counted;
         if counted {
-            (self.n, self.n_coarse) = (U::new(taps.ones(p.taps()) as u64), coarse);
+            (self.n, self.n_coarse) = (U::new(p.number(taps) as u64), coarse);
         }
         self.hundreds_valid = self.sixteens_valid;
         if self.sixteens_valid {
@@ -167,7 +170,7 @@ mod tests {
     use super::*;
 
     fn params(cal: Calibration, count_stages: u64) -> Params {
-        Params { cal, count_stages, scale: TimeScale::default() }
+        Params { cal, count_stages, scale: TimeScale::default(), encoder: Encoder::default() }
     }
 
     fn decode(coarse: u64, n: usize, p: &Params) -> (bool, u64) {

@@ -96,6 +96,9 @@ connect! {
         output spad_rst <- this.spad_control.spad_rst;
         output spad_sel <- this.spad_control.spad_sel;
         output depth <- this.socket.depth;
+        output sigma <- this.likelihood_estimator.registers.sigma;
+        output status <- this.likelihood_estimator.registers.status;
+        output valid <- this.likelihood_estimator.registers.valid;
         output algo_done <- this.socket.algo_done;
         output hist_valid <- this.socket.read_en;
         output hist_bin <- this.socket.read_addr;
@@ -174,6 +177,7 @@ connect! {
     likelihood_estimator(clk_sys): likelihood_estimator::In {
         rst <- this.nets.rst_dsp;
         algo_start <- this.frame_ctrl.algo_start;
+        mode <- this.control_sync.mode_sync;
         count <- this.nets.count;
     }
 }

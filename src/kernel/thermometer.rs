@@ -1,5 +1,7 @@
 //! The state of a tapped delay line, kept as the ranks of the transitions travelling in it.
 
+use std::ops::Range;
+
 use bitvec::prelude::*;
 
 /// Transitions that a [`Thermometer`] can hold.
@@ -109,6 +111,17 @@ impl Thermometer {
         if level { ones + count - start } else { ones }
     }
 
+    /// The runs of high ones among `count` taps, in order of arrival.
+    pub fn high_runs(&self, count: usize) -> impl Iterator<Item = Range<usize>> {
+        let ends = self.ranks().chain([count]);
+        let runs = ends.scan((0, self.level()), |(start, level), end| {
+            let run = level.then_some(*start..end);
+            (*start, *level) = (end, !*level);
+            Some(run)
+        });
+        runs.flatten()
+    }
+
     /// Writes the taps as bits, in order of arrival, into `out`, which is as long as the line.
     pub fn expand(&self, out: &mut BitSlice<u64, Lsb0>) {
         let (mut start, mut level) = (0, self.level());
@@ -142,7 +155,8 @@ impl Thermometer {
     }
 }
 
-/// The ones among each `GROUP` of taps, side by side: a register of a ones count on its way.
+/// The ones among each `GROUP` of taps, or the place of the highest among them, side by side: a register of a
+/// decoder on its way.
 ///
 /// It holds the taps themselves: the model needs no more, and who shows it groups them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -158,6 +172,14 @@ pub const fn ones_width(group: usize) -> usize {
 pub fn partial_ones(taps: &BitSlice<u64, Lsb0>, group: usize, out: &mut BitSlice<u64, Lsb0>) {
     for (taps, out) in taps.chunks(group).zip(out.chunks_mut(ones_width(group))) {
         out.store_le(taps.count_ones());
+    }
+}
+
+/// Writes the place of the highest one in each `group` of `taps`, from 1 on, or 0 if there is none, into `out`,
+/// which is as long as ones counts are.
+pub fn partial_highest(taps: &BitSlice<u64, Lsb0>, group: usize, out: &mut BitSlice<u64, Lsb0>) {
+    for (taps, out) in taps.chunks(group).zip(out.chunks_mut(ones_width(group))) {
+        out.store_le(taps.last_one().map_or(0, |place| place + 1));
     }
 }
 
@@ -212,12 +234,23 @@ mod tests {
     }
 
     #[test]
+    fn places_of_the_highest_stand_in_the_same_bits() {
+        let taps = bits![u64, Lsb0; 1, 1, 0, 1, 0, 1, 0, 0, 0, 0];
+        let mut out = bitvec![u64, Lsb0; 1; 3 * 3];
+        partial_highest(taps, 4, &mut out);
+        assert_eq!(out.load_le::<u64>(), 4 | 2 << 3);
+    }
+
+    #[test]
     fn ones_agree_with_the_bits() {
         for code in 0..12usize.pow(3) {
             let ranks = [code % 12, code / 12 % 12, code / 144];
             if ranks.is_sorted() {
                 let taps = Thermometer::new(code % 5 > 2, ranks);
                 assert_eq!(taps.ones(12), bits(&taps).matches('1').count(), "{ranks:?}");
+                let mut high = ['0'; 12];
+                taps.high_runs(12).for_each(|run| high[run].fill('1'));
+                assert_eq!(String::from_iter(high), bits(&taps));
             }
         }
     }

@@ -110,6 +110,7 @@ pub fn lines(words: impl IntoIterator<Item = u64>, digits: usize) -> String {
 mod tests {
     use super::*;
     use crate::firmware::carry_chain::TAPS;
+    use crate::firmware::tdc_decoder::Encoder;
     use crate::firmware::tdc_decoder::TimeScale;
     use crate::kernel::{S, U};
     use crate::network::Network;
@@ -127,7 +128,12 @@ mod tests {
         let params = network.params(&Default::default());
         let mut cal = vec![U::new(0x3abc); TAPS + 1];
         cal[0] = U::new(5);
-        let decoder = tdc_decoder::Params { cal, count_stages: 3, scale: TimeScale::default() };
+        let decoder = tdc_decoder::Params {
+            cal,
+            count_stages: 3,
+            scale: TimeScale::default(),
+            encoder: Encoder::default(),
+        };
         let mut files = depth_estimator(&params);
         files.push(tdc_decoder(&decoder));
         let shape = |mem: &Mem| {

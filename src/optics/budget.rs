@@ -3,9 +3,12 @@
 use std::f64::consts::PI;
 
 use crate::kernel::Time;
+use crate::kernel::pulse::Pulse;
 use crate::scenario::{AmbientModel, Filter, Scenario};
 
+use super::dark::dark_rate_on_tdc_hz;
 use super::geometry;
+use super::variation::Variation;
 
 /// Planck constant, exact in the SI [J s].
 pub const PLANCK_J_S: f64 = 6.626_070_15e-34;
@@ -17,7 +20,7 @@ const FITTED_EFFICIENCY: f64 = 0.003;
 const FARTHEST_FITTED_M: f64 = 0.6;
 
 /// What the SPADs on the TDC can expect of the scene together.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Budget {
     /// Mean number of detected laser photons per shot, S_p of eq. 3.14 [1].
     pub signal_per_shot: f64,
@@ -27,28 +30,44 @@ pub struct Budget {
     pub dark_rate_hz: f64,
     /// Energy of a laser pulse [J].
     pub pulse_energy_j: f64,
-    /// Mean time of flight from the laser edge, eq. 3.23.
+    /// Mean arrival of the echo, from the laser edge: eq. 3.23 after the laser's delay.
     pub mean_arrival: Time,
-    /// Standard deviation of the pulse as the detector times it [ps].
-    pub pulse_sigma_ps: f64,
+    /// How long after the laser edge the light leaves.
+    pub delay: Time,
+    /// The pulse as the detector times it.
+    pub pulse: Pulse,
+    /// How shots differ.
+    pub variation: Variation,
 }
 
 impl Budget {
-    /// Of a scene.
-    pub fn new(scenario: &Scenario) -> Self {
+    /// Of a scene, with the pulse that its laser has.
+    pub fn new(scenario: &Scenario, pulse: Pulse) -> Self {
         let on_tdc = f64::from(scenario.spad.on_tdc);
         let ambient_rate_hz = match scenario.ambient.model {
             AmbientModel::Fitted => fitted_ambient_rate_hz(scenario),
             AmbientModel::Physical => physical_ambient_rate_hz(scenario),
         };
+        let delay = Time::from_ps_f64(scenario.laser.delay_ps);
+        let flight = Time::from_ps_f64(2e12 * scenario.target.distance_m / LIGHT_M_S);
         Budget {
             signal_per_shot: on_tdc * signal_per_shot(scenario),
             ambient_rate_hz: on_tdc * ambient_rate_hz,
-            dark_rate_hz: on_tdc * scenario.spad.dark_rate_hz,
+            dark_rate_hz: dark_rate_on_tdc_hz(&scenario.spad),
             pulse_energy_j: scenario.laser.pulse_energy_j(),
-            mean_arrival: Time::from_ps_f64(2e12 * scenario.target.distance_m / LIGHT_M_S),
-            pulse_sigma_ps: scenario.laser.pulse_sigma_ps,
+            mean_arrival: delay + flight,
+            delay,
+            pulse,
+            variation: Variation {
+                timing_ps: scenario.laser.timing_jitter_ps,
+                energy: scenario.laser.energy_jitter,
+            },
         }
+    }
+
+    /// Mean time of flight, eq. 3.23.
+    pub fn flight(&self) -> Time {
+        self.mean_arrival - self.delay
     }
 
     /// Rate of avalanches that no laser photon causes [1/s].

@@ -32,7 +32,7 @@ impl Chances {
             counted_signal += hazard.signal_first(until) - hazard.signal_first(first.from);
         }
         Chances {
-            hit: -libm::expm1(-hazard.at(end)),
+            hit: hit(hazard, end),
             signal_first: hazard.signal_first(end),
             counted: BinProbabilities::new(hazard, bins).of_code().iter().sum(),
             counted_signal,
@@ -44,6 +44,14 @@ impl Chances {
         let noise = self.counted - self.counted_signal;
         // Below this it is what sums of a thousand terms leave over.
         (noise > 1e-13).then(|| self.counted_signal / noise)
+    }
+}
+
+/// Chance of an avalanche before `end`.
+fn hit(hazard: &Hazard, end: Time) -> f64 {
+    match hazard.variation().is_none() {
+        true => -libm::expm1(-hazard.at(end)),
+        false => 1.0 - hazard.none_before(end),
     }
 }
 

@@ -1,31 +1,28 @@
 //! The avalanche process of one shot: its cumulative hazard and the inverse of that.
 //!
-//! `H(t) = N t + S Phi((t - mu) / sigma)`, t from the laser edge: N the ambient and dark rate
-//! (eq. 3.24), S the signal (eq. 3.21), mu and sigma those of eq. 3.22. The probability of no
-//! avalanche from a to b is exp(H(a) - H(b)), so that the next one after a is at
-//! `inverse(at(a) + e)` with an exponential `e`: exact, at one draw an avalanche.
+//! `H(t) = N t + S F(t - mu)`, t from the laser edge: N the ambient and dark rate (eq. 3.24), S the
+//! signal (eq. 3.21), mu the mean arrival, and F the part of the pulse that has come, Phi(t / sigma)
+//! in eq. 3.22. The probability of no avalanche from a to b is exp(H(a) - H(b)), so that the next one
+//! after a is at `inverse(at(a) + e)` with an exponential `e`: exact, at one draw an avalanche.
 //!
-//! H(0) is 0: a photon that the Gaussian puts before the laser edge arrives at it, and H jumps at 0.
+//! H(0) is 0: a photon that the pulse puts before the laser edge arrives at it, and H jumps at 0.
 //!
-//! Phi is a broken line of 1024 pieces from -8 to 8 sigma, 0 before and 1 after, in `at` and
-//! `inverse` alike. Against the exact function H is off by 7.4e-6 S at most, and an arrival by
-//! 3e-5 |z| sigma at z sigma from the mean: 4 fs at 1 sigma of 137 ps, 21 fs at 5.
+//! F is a broken line of 1024 pieces, 0 before and 1 after, in `at` and `inverse` alike. That of a Gaussian
+//! goes from -8 to 8 sigma: against the exact function H is off by 7.4e-6 S at most, and an arrival by
+//! 3e-5 |z| sigma at z sigma from the mean: 4 fs at 1 sigma of 137 ps, 21 fs at 5. That of another
+//! pulse is as long as the pulse is; with a tail as long as sigma H is off by 5e-5 S at most.
 
 use std::hint::select_unpredictable;
-use std::sync::LazyLock;
+use std::sync::Arc;
 
 use crate::kernel::Time;
 
 use super::budget::Budget;
+use super::variation::Variation;
+use line::{Line, PIECES};
 
-mod signal_first;
-
-/// Pieces of the broken line to a sigma [1].
-const PER_SIGMA: usize = 64;
-/// Where the broken line ends, either side [sigma].
-const REACH: usize = 8;
-/// Pieces of the broken line [1].
-const PIECES: usize = 2 * REACH * PER_SIGMA;
+mod line;
+pub mod varied;
 
 /// A signal too faint to be told from none, in any number of shots [1].
 const FAINTEST: f64 = 1e-100;
@@ -41,15 +38,6 @@ const PAST: f64 = 1.0 + 2.0 / (1 << CELL_BITS) as f64;
 /// Cells of the guide: 14 octaves up to the last node, its own, and those up to `PAST` [1].
 const CELLS: usize = (14 << CELL_BITS) + 3;
 
-/// The broken line of Phi: its nodes, every 1/64 sigma.
-static NORMAL: LazyLock<[f64; PIECES + 1]> = LazyLock::new(|| {
-    std::array::from_fn(|node| match node {
-        0 => 0.0,
-        PIECES => 1.0,
-        _ => normal_cdf((node as f64 - (PIECES / 2) as f64) / PER_SIGMA as f64),
-    })
-});
-
 /// What caused an avalanche.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Cause {
@@ -59,6 +47,8 @@ pub enum Cause {
     Ambient,
     /// No light at all.
     Dark,
+    /// A carrier that an earlier avalanche left in a trap.
+    Afterpulse,
 }
 
 /// The avalanche process of one shot.
@@ -83,8 +73,10 @@ pub struct Hazard {
     nodes: Vec<f64>,
     /// For each cell the number of nodes in the cells before it.
     guide: Vec<u16>,
-    /// The standard normal distribution at the nodes.
-    normal: &'static [f64; PIECES + 1],
+    /// The part of the pulse that has come, at the nodes [1].
+    parts: Arc<[f64]>,
+    /// How shots differ from this one.
+    variation: Variation,
 }
 
 /// An end of the broken line.
@@ -105,13 +97,14 @@ impl Hazard {
     pub fn new(budget: &Budget) -> Self {
         let mut hazard = Hazard::dark(budget);
         if budget.signal_per_shot > FAINTEST {
-            let sigma = budget.pulse_sigma_ps * 1e3;
-            let start = budget.mean_arrival.fs() as f64 - REACH as f64 * sigma;
+            let Line { from, step, parts } = Line::of(&budget.pulse);
+            let start = budget.mean_arrival.fs() as f64 + from;
             hazard.signal = budget.signal_per_shot;
-            hazard.step = sigma / PER_SIGMA as f64;
+            (hazard.step, hazard.parts) = (step, parts);
+            hazard.variation = budget.variation;
             let node = |node: usize| {
                 let time = start + node as f64 * hazard.step;
-                Node { time, h: hazard.background * time + hazard.signal * hazard.normal[node] }
+                Node { time, h: hazard.background * time + hazard.signal * hazard.parts[node] }
             };
             hazard.nodes = (0..=PIECES).map(|k| node(k).h).chain([f64::NAN]).collect();
             (hazard.first, hazard.last) = (node(0), node(PIECES));
@@ -134,7 +127,8 @@ impl Hazard {
             last: Node::NEVER,
             nodes: Vec::new(),
             guide: Vec::new(),
-            normal: &NORMAL,
+            parts: Arc::default(),
+            variation: Variation::default(),
         }
     }
 
@@ -160,10 +154,15 @@ impl Hazard {
         }
     }
 
+    /// How shots differ.
+    pub fn variation(&self) -> Variation {
+        self.variation
+    }
+
     /// Largest rate of avalanches [1/fs].
     pub fn steepest_per_fs(&self) -> f64 {
         let steepest = |piece: &[f64]| self.signal * (piece[1] - piece[0]) / self.step;
-        let signal = self.normal.windows(2).map(steepest).fold(0.0, f64::max);
+        let signal = self.parts.windows(2).map(steepest).fold(0.0, f64::max);
         self.background + signal
     }
 
@@ -217,11 +216,11 @@ impl Hazard {
         guide
     }
 
-    /// Rate of signal avalanches at `t`, S phi((t - mu) / sigma) / sigma [1/s].
+    /// Rate of signal avalanches at `t`, S times the density of the pulse [1/s].
     pub fn signal_rate_hz(&self, t: Time) -> f64 {
         let place = (t.fs() as f64 - self.first.time) / self.step;
         let node = place as usize;
-        match self.normal.get(node..node.saturating_add(2)) {
+        match self.parts.get(node..node.saturating_add(2)) {
             Some(piece) if place >= 0.0 => self.signal * (piece[1] - piece[0]) / self.step * 1e15,
             _ => 0.0,
         }
@@ -230,10 +229,28 @@ impl Hazard {
     /// What caused an avalanche at `t`, in proportion to the rates there; `uniform` is a draw from
     /// 0 .. 1. At time 0 nearly all are signal that would have come before the laser edge.
     pub fn cause(&self, t: Time, uniform: f64) -> Cause {
-        let mut signal = self.signal_rate_hz(t) * 1e-15;
-        if t == Time::ZERO {
-            signal += self.after(0.0);
-        }
+        self.cause_beside(self.signal_per_fs(t), uniform)
+    }
+
+    /// The part of the rate at `t` that comes without any light [1].
+    pub fn dark_part(&self, t: Time) -> f64 {
+        self.dark_beside(self.signal_per_fs(t))
+    }
+
+    /// Rate of laser photons' avalanches at `t` [1/fs].
+    fn signal_per_fs(&self, t: Time) -> f64 {
+        let signal = self.signal_rate_hz(t) * 1e-15;
+        if t == Time::ZERO { signal + self.after(0.0) } else { signal }
+    }
+
+    /// The part of the dark beside such a rate of laser photons' avalanches [1/fs].
+    fn dark_beside(&self, signal: f64) -> f64 {
+        let all = signal + self.background;
+        if all > 0.0 { (self.background - self.ambient) / all } else { 0.0 }
+    }
+
+    /// The same beside such a rate of laser photons' avalanches [1/fs].
+    fn cause_beside(&self, signal: f64, uniform: f64) -> Cause {
         let draw = uniform * (signal + self.background);
         if draw < signal {
             Cause::Signal
@@ -243,11 +260,6 @@ impl Hazard {
             Cause::Dark
         }
     }
-}
-
-/// Standard normal distribution function.
-pub fn normal_cdf(z: f64) -> f64 {
-    0.5 * libm::erfc(-z * std::f64::consts::FRAC_1_SQRT_2)
 }
 
 #[cfg(test)]

@@ -25,7 +25,7 @@ const SCENARIOS: &[(&str, &str)] = files!("scenarios", "toml":
 
 /// Name and text of each built-in chain.
 pub const CHAINS: &[(&str, &str)] =
-    files!("chains", "toml": "uniform", "table6_3", "ideal", "ecp5");
+    files!("chains", "toml": "uniform", "table6_3", "ideal", "kintex7", "ecp5");
 
 /// Files that built-in scenarios refer to.
 const STIMULI: &[(&str, &str)] = &[

@@ -44,10 +44,13 @@ macro_rules! table {
 
 mod board;
 mod optics;
+mod tdc;
 mod training;
 
-pub use board::{Control, Estimator, EstimatorKind, Firmware, Part, Pll, QuenchMode, Tdc};
-pub use optics::{Ambient, AmbientModel, Filter, Laser, Lens, Spad, Target};
+pub use crate::firmware::tdc_decoder::Decoder;
+pub use board::{Control, Estimator, EstimatorKind, Firmware, Part, Pll, QuenchMode};
+pub use optics::{Ambient, AmbientModel, DeadTimeKind, Filter, Laser, Lens, Spad, Target};
+pub use tdc::{Tdc, TdcCalibration};
 pub use training::{Training, WordFormats};
 
 table! {

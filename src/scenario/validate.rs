@@ -100,6 +100,14 @@ fn stimulus(scenario: &Scenario, checked: &Checked) -> Result<()> {
 
 fn spads(scenario: &Scenario, checked: &Checked) -> Result<()> {
     let (on_tdc, count) = (scenario.spad.on_tdc, scenario.spad.count);
+    let afterpulses = scenario.spad.afterpulse_probability;
+    if afterpulses >= 1.0 {
+        let expected = "expected less than 1: with 1 the afterpulses of an avalanche never die out";
+        return Err(checked
+            .fault("spad.afterpulse_probability", expected)
+            .value(afterpulses)
+            .into());
+    }
     let fault = |expected: &str| {
         Err(checked.fault("spad.on_tdc", format!("expected {expected}")).value(on_tdc).into())
     };
@@ -112,9 +120,14 @@ fn spads(scenario: &Scenario, checked: &Checked) -> Result<()> {
     Ok(())
 }
 
-/// Codes of rates that there are.
+/// One pulse, and codes of rates that there are.
 fn laser(scenario: &Scenario, checked: &Checked) -> Result<()> {
-    let firmware = &scenario.firmware;
+    let (firmware, laser) = (&scenario.firmware, &scenario.laser);
+    if laser.pulse_file.is_some() && laser.pulse_tail_ps > 0.0 {
+        let expected = "expected 0: laser.pulse_file says what the pulse is";
+        let fault = checked.fault("laser.pulse_tail_ps", expected).value(laser.pulse_tail_ps);
+        return Err(fault.into());
+    }
     let last = firmware.laser_periods.len() as u64 - 1;
     let own = ("firmware.laser_freq".to_owned(), Some(firmware.laser_freq));
     let change =

@@ -10,10 +10,11 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 
 use crate::kernel::Time;
+use crate::optics::hazard::varied::Varied;
 use crate::optics::hazard::{Cause, Hazard};
 
 use super::photon_list::Given;
-use super::streams::{Source, exponential, seek, stream, uniform};
+use super::streams::{Source, exponential, normal, seek, stream, uniform};
 
 /// What reaches the detector.
 #[derive(Clone, Debug)]
@@ -54,6 +55,25 @@ impl Light {
         }
     }
 
+    /// What came at `at` is used up.
+    pub fn take(&mut self, at: Time) {
+        match self {
+            Light::Optics(optics) => optics.taken = Some((at, optics.reached)),
+            Light::List(given) => {
+                given.next_photon(at.saturating_add(Time::from_fs(1)));
+            }
+            Light::None => {}
+        }
+    }
+
+    /// The part of the rate at `at` that comes without any light [1].
+    pub fn dark_part(&self, at: Time) -> f64 {
+        match self {
+            Light::Optics(optics) => optics.dark_part(at),
+            Light::List(_) | Light::None => 0.0,
+        }
+    }
+
     /// Given photons of shots that have not begun.
     pub fn left(&self) -> usize {
         match self {
@@ -80,6 +100,9 @@ pub struct Optics {
     first: ChaCha8Rng,
     further: ChaCha8Rng,
     causes: ChaCha8Rng,
+    pulses: ChaCha8Rng,
+    /// How many deviations the pulse of the present shot is late, and above the mean energy, if shots differ.
+    pulse: Option<[f64; 2]>,
     /// Whether the present shot has the laser.
     lit: bool,
     /// Begin of the present shot.
@@ -88,6 +111,10 @@ pub struct Optics {
     shot: u64,
     /// Word of the shot's first avalanche, until used.
     word: Option<u64>,
+    /// H at the avalanche that was drawn last [1].
+    reached: f64,
+    /// The carrier that was taken last, until the next draw: when, and H there.
+    taken: Option<(Time, f64)>,
     /// Further avalanches drawn in this shot, and causes.
     further_drawn: u64,
     causes_drawn: u64,
@@ -102,10 +129,14 @@ impl Optics {
             first: stream(seed, Source::Avalanche, 0),
             further: stream(seed, Source::FurtherAvalanches, 0),
             causes: stream(seed, Source::Cause, 0),
+            pulses: stream(seed, Source::LaserPulse, 0),
+            pulse: None,
             lit: false,
             origin: Time::ZERO,
             shot: 0,
             word: None,
+            reached: 0.0,
+            taken: None,
             further_drawn: 0,
             causes_drawn: 0,
         }
@@ -115,15 +146,28 @@ impl Optics {
         self.first = stream(self.seed, Source::Avalanche, frame);
         self.further = stream(self.seed, Source::FurtherAvalanches, frame);
         self.causes = stream(self.seed, Source::Cause, frame);
+        self.pulses = stream(self.seed, Source::LaserPulse, frame);
         (self.shot, self.further_drawn, self.causes_drawn) = (0, 0, 0);
     }
 
     #[inline(always)]
     fn begin_shot(&mut self, now: Time, laser: bool) {
         (self.origin, self.lit) = (now, laser);
+        self.taken = None;
         self.shot += 1;
         self.word = Some(self.first.next_u64());
         (self.further_drawn, self.causes_drawn) = (0, 0);
+        if !self.hazards[1].variation().is_none() {
+            self.draw_pulse();
+        }
+    }
+
+    /// Draws the pulse of a shot, whether it is lit or not.
+    #[cold]
+    fn draw_pulse(&mut self) {
+        seek(&mut self.pulses, self.shot, 0);
+        let drawn = [(); 2].map(|()| normal(self.pulses.next_u64()));
+        self.pulse = self.lit.then_some(drawn);
     }
 
     /// The hazard of a shot with the laser, or of one without.
@@ -145,9 +189,32 @@ impl Optics {
             Some(word) => word,
             None => self.further_word(),
         };
+        if self.pulse.is_some() || self.taken.is_some() {
+            return self.next_of(now, exponential(word) * share);
+        }
         let hazard = &self.hazards[self.lit as usize];
-        let reached = hazard.at(now.since(self.origin)) + exponential(word) * share;
-        self.origin.saturating_add(hazard.inverse(reached)).max(now)
+        self.reached = hazard.at(now.since(self.origin)) + exponential(word) * share;
+        self.origin.saturating_add(hazard.inverse(self.reached)).max(now)
+    }
+
+    /// The same in a shot that differs from the others, or after a carrier that was taken: the next one may
+    /// come at the same instant, as several that the pulse puts before the laser edge do.
+    #[cold]
+    fn next_of(&mut self, now: Time, further: f64) -> Time {
+        let hazard = &self.hazards[self.lit as usize];
+        let varied: Option<Varied> = self.pulse.map(|pulse| hazard.varied(pulse));
+        let since = now.since(self.origin);
+        let begin = match (self.taken.take(), &varied) {
+            (Some((at, reached)), _) if at == now => reached,
+            (_, Some(shot)) => shot.at(since),
+            (_, None) => hazard.at(since),
+        };
+        self.reached = begin + further;
+        let next = match &varied {
+            Some(shot) => shot.inverse(self.reached),
+            None => hazard.inverse(self.reached),
+        };
+        self.origin.saturating_add(next).max(now)
     }
 
     #[cold]
@@ -159,116 +226,26 @@ impl Optics {
         self.further.next_u64()
     }
 
+    fn dark_part(&self, at: Time) -> f64 {
+        let hazard = &self.hazards[self.lit as usize];
+        let since = at.since(self.origin);
+        match self.pulse {
+            Some(pulse) => hazard.varied(pulse).dark_part(since),
+            None => hazard.dark_part(since),
+        }
+    }
+
     fn cause(&mut self, at: Time) -> Cause {
         seek(&mut self.causes, self.shot, self.causes_drawn);
         self.causes_drawn += 1;
         let hazard = &self.hazards[self.lit as usize];
-        hazard.cause(at.since(self.origin), uniform(self.causes.next_u64()))
+        let (since, draw) = (at.since(self.origin), uniform(self.causes.next_u64()));
+        match self.pulse {
+            Some(pulse) => hazard.varied(pulse).cause(since, draw),
+            None => hazard.cause(since, draw),
+        }
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::optics::Budget;
-
-    fn optics() -> Light {
-        let ambient_rate_hz = 0.27e9;
-        let mean_arrival = Time::from_ns(3);
-        let budget = Budget {
-            signal_per_shot: 0.9,
-            ambient_rate_hz,
-            mean_arrival,
-            pulse_sigma_ps: 137.0,
-            ..Budget::default()
-        };
-        Light::Optics(Box::new(Optics::new(Hazard::new(&budget), Hazard::dark(&budget), 1)))
-    }
-
-    /// First avalanches of ten shots, with `more` further ones drawn in each, and causes or not.
-    fn first_avalanches(more: usize, causes: bool) -> Vec<Time> {
-        let mut light = optics();
-        light.begin_frame(3);
-        let shot = |shot: u64| {
-            let begun = Time::from_ns(48 * shot);
-            light.begin_shot(begun, true);
-            let first = light.next_avalanche(begun, 1.0);
-            for _ in 0..more {
-                assert!(light.next_avalanche(begun + Time::from_ns(20), 1.0) > begun);
-            }
-            if causes {
-                light.cause(first);
-            }
-            first
-        };
-        (0..10).map(shot).collect()
-    }
-
-    #[test]
-    fn further_avalanches_and_causes_do_not_move_the_first_ones_of_later_shots() {
-        let alone = first_avalanches(0, false);
-        assert_eq!(first_avalanches(5, false), alone);
-        assert_eq!(first_avalanches(0, true), alone);
-    }
-
-    #[test]
-    fn further_avalanches_depend_on_the_shot_alone() {
-        let further = |skipped: u64| {
-            let mut light = optics();
-            for shot in 0..5 {
-                light.begin_shot(Time::from_ns(48 * shot), true);
-                light.next_avalanche(Time::from_ns(48 * shot), 1.0);
-                if shot >= skipped {
-                    light.next_avalanche(Time::from_ns(48 * shot + 20), 1.0);
-                }
-            }
-            light.next_avalanche(Time::from_ns(48 * 4 + 40), 1.0)
-        };
-        assert_eq!(further(0), further(4));
-    }
-
-    /// Times from re-arming, 20 ns into a shot, to the next avalanche [ns].
-    fn waits_after_dead_time(shots: u64) -> Vec<f64> {
-        let mut light = optics();
-        let wait = |shot: u64| {
-            let begun = Time::from_ns(1000 * shot);
-            light.begin_shot(begun, true);
-            light.next_avalanche(begun, 1.0);
-            let armed = begun + Time::from_ns(20);
-            (light.next_avalanche(armed, 1.0) - armed).seconds() * 1e9
-        };
-        (0..shots).map(wait).collect()
-    }
-
-    #[test]
-    fn an_avalanche_after_the_dead_time_waits_for_ambient_light_alone() {
-        let waits = waits_after_dead_time(20_000);
-        let mean_ns = waits.iter().sum::<f64>() / waits.len() as f64;
-        let expected_ns = 1.0 / 0.27;
-        assert!((mean_ns / expected_ns - 1.0).abs() < 4.0 / 141.0, "{mean_ns} ns");
-        let late = waits.iter().filter(|&&wait| wait > expected_ns).count() as f64 / 20_000.0;
-        assert!((late - (-1.0f64).exp()).abs() < 4.0 * 0.0034, "{late}");
-    }
-
-    #[test]
-    fn further_avalanches_differ_from_shot_to_shot() {
-        let mut waits = waits_after_dead_time(100);
-        waits.sort_by(f64::total_cmp);
-        waits.dedup();
-        assert_eq!(waits.len(), 100);
-    }
-
-    #[test]
-    fn causes_differ_from_shot_to_shot() {
-        let mut light = optics();
-        let at_peak = |shot: u64| {
-            let begun = Time::from_ns(1000 * shot);
-            light.begin_shot(begun, true);
-            light.cause(begun + Time::from_fs(3_300_000))
-        };
-        let causes: Vec<_> = (0..200).map(at_peak).collect();
-        for cause in [Cause::Signal, Cause::Ambient] {
-            assert!(causes.iter().filter(|&&found| found == Some(cause)).count() > 5, "{cause:?}");
-        }
-    }
-}
+mod tests;

@@ -5,18 +5,27 @@
 //! has passed, when it is armed again (MODE 1, passive quenching). `tdc_stop` is high while any output
 //! is (thesis Fig. 4.3). In MODE 0 nobody sees the avalanches after a first one, so they are left out:
 //! where MODE 1 begins behind it, all diodes but that one are taken as armed.
+//!
+//! What diodes do beside that, and which of them, is the matter of a [`Row`].
 
 use std::collections::VecDeque;
 
 use crate::kernel::Time;
+
+use super::light::Light;
+use super::row::{Effects, Row};
 
 /// What a diode does at an instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
     /// An avalanche.
     Avalanche,
+    /// One that a trapped carrier sets off.
+    Afterpulse,
     /// The dead time of one has passed.
     Recovery,
+    /// A carrier came to a diode at rest, or to another one while `tdc_stop` was high.
+    Unseen,
 }
 
 /// Diodes of one row. An avalanche is drawn for all armed ones together ([`Spads::share`]).
@@ -32,8 +41,12 @@ pub struct Spads {
     fired: VecDeque<Time>,
     /// The next avalanche of one that is armed; never until it has been drawn.
     avalanche: Time,
-    /// The next avalanche or recovery.
+    /// The next avalanche, recovery or release.
     next: Time,
+    /// So many have fired that nobody sees the next avalanche.
+    most: usize,
+    /// The diodes one by one, where they do more than fire.
+    row: Option<Box<Row>>,
 }
 
 impl Spads {
@@ -47,6 +60,34 @@ impl Spads {
             fired: VecDeque::new(),
             avalanche: first,
             next: first,
+            most: 1,
+            row: None,
+        }
+    }
+
+    /// The same with what they do beside firing.
+    pub fn with_effects(mut self, effects: Effects, seed: u64) -> Self {
+        if !effects.are_none(self.count) {
+            self.row = Some(Box::new(Row::new(self.count, effects, seed)));
+            self.most = self.most();
+        }
+        self
+    }
+
+    /// The diodes one by one, if they do more than fire.
+    #[inline(always)]
+    pub fn row(&mut self) -> Option<&mut Row> {
+        self.row.as_deref_mut()
+    }
+
+    /// How many may fire before nobody sees what comes. A trap is filled by avalanches that
+    /// nobody sees, and a dead time starts again in a diode at rest.
+    fn most(&self) -> usize {
+        match &self.row {
+            Some(row) if self.passive && row.effects().paralysable => usize::MAX,
+            Some(row) if row.effects().afterpulse_probability > 0.0 => self.count,
+            _ if self.passive => self.count,
+            _ => 1,
         }
     }
 
@@ -58,7 +99,10 @@ impl Spads {
 
     /// Does what is due at [`Spads::next_event`]. If diodes wait for an avalanche then, [`Spads::arm`]
     /// has to follow.
-    pub fn event(&mut self) -> Event {
+    pub fn event(&mut self, light: &mut Light) -> Event {
+        if self.row.is_some() {
+            return self.event_of_row(light);
+        }
         let now = self.next;
         let recovers = self.recovery() == now;
         if recovers {
@@ -71,19 +115,45 @@ impl Spads {
         if recovers { Event::Recovery } else { Event::Avalanche }
     }
 
+    /// The same where the diodes are told apart.
+    #[cold]
+    fn event_of_row(&mut self, light: &mut Light) -> Event {
+        let (now, was_high) = (self.next, self.output());
+        let recovers = self.recovery() == now;
+        let Some(row) = &mut self.row else { return Event::Unseen };
+        let again = self.passive && row.effects().paralysable;
+        let dead_time = self.dead_time;
+        let (fires, seen) = if recovers {
+            row.recover(now);
+            (true, Event::Recovery)
+        } else if row.release() == now {
+            let diode = row.released().filter(|_| !self.is_off);
+            let fires = diode.is_some_and(|diode| row.carrier(diode, now, dead_time, again));
+            (fires && !was_high, Event::Afterpulse)
+        } else {
+            self.avalanche = Time::NEVER;
+            light.take(now);
+            let diode = row.pick(light.dark_part(now));
+            let fires = row.carrier(diode, now, dead_time, again);
+            (fires && !was_high, Event::Avalanche)
+        };
+        self.fired.clear();
+        self.fired.extend(row.fired());
+        let kept = if self.is_armed() { self.avalanche } else { Time::NEVER };
+        self.arm(kept);
+        if fires { seen } else { Event::Unseen }
+    }
+
     /// Whether `tdc_stop` is high.
     #[inline(always)]
     pub fn output(&self) -> bool {
         !self.fired.is_empty()
     }
 
-    /// Whether an avalanche of an armed diode would be seen.
+    /// Whether an avalanche of an armed diode would be seen, or matters otherwise.
     #[inline(always)]
     pub fn is_armed(&self) -> bool {
-        match self.passive {
-            true => !self.is_off && self.fired.len() < self.count,
-            false => !self.is_off && self.fired.is_empty(),
-        }
+        !self.is_off && self.fired.len() < self.most
     }
 
     /// Whether one would be seen and has not been drawn.
@@ -95,6 +165,9 @@ impl Spads {
     /// How much less often one of those that are armed fires than one of all would [1].
     #[inline(always)]
     pub fn share(&self) -> f64 {
+        if self.row.is_some() {
+            return 1.0;
+        }
         self.count as f64 / (self.count - self.fired.len()) as f64
     }
 
@@ -115,31 +188,46 @@ impl Spads {
     pub fn arm(&mut self, next: Time) {
         self.avalanche = next;
         self.next = next.min(self.recovery());
+        if let Some(row) = &self.row {
+            self.next = self.next.min(row.release());
+        }
     }
 
     /// All are ready to fire, the first at `next`.
     pub fn arm_all(&mut self, next: Time) {
         self.is_off = false;
-        self.fired.clear();
+        self.forget();
         self.arm(next);
     }
 
     /// `spad_rst` rises.
     pub fn hold(&mut self) {
         self.is_off = true;
-        self.fired.clear();
+        self.forget();
         self.arm(Time::NEVER);
+    }
+
+    /// None has fired.
+    #[inline(always)]
+    fn forget(&mut self) {
+        self.fired.clear();
+        if let Some(row) = &mut self.row {
+            row.arm_all();
+        }
     }
 
     /// The quench mode changes at `now`. An output that has been high for longer than the dead
     /// time falls as MODE 1 begins. If diodes wait for an avalanche then, [`Spads::arm`] has to follow.
     pub fn set_passive(&mut self, passive: bool, now: Time) {
         self.passive = passive;
+        self.most = self.most();
         for until in &mut self.fired {
             *until = now.max(*until);
         }
-        let unseen = !passive && self.output();
-        self.arm(if unseen { Time::NEVER } else { self.avalanche });
+        if let Some(row) = &mut self.row {
+            row.not_before(now);
+        }
+        self.arm(if self.is_armed() { self.avalanche } else { Time::NEVER });
     }
 
     #[inline(always)]
@@ -152,72 +240,4 @@ impl Spads {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const DEAD: Time = Time::from_ns(20);
-
-    fn one() -> Spads {
-        Spads::new(1, DEAD, Time::from_ns(5))
-    }
-
-    #[test]
-    fn in_mode_0_the_output_stays_high_until_the_reset() {
-        for count in [1, 40] {
-            let mut spads = Spads::new(count, DEAD, Time::from_ns(5));
-            assert_eq!(spads.event(), Event::Avalanche);
-            assert!(spads.output() && !spads.is_armed());
-            assert_eq!(spads.next_event(), Time::NEVER);
-            spads.hold();
-            assert!(spads.is_off() && !spads.output() && !spads.is_armed());
-            spads.arm_all(Time::from_ns(70));
-            assert!(spads.is_armed() && !spads.waits());
-            assert_eq!(spads.next_event(), Time::from_ns(70));
-        }
-    }
-
-    #[test]
-    fn in_mode_1_it_recovers_after_the_dead_time() {
-        let mut spad = one();
-        spad.set_passive(true, Time::ZERO);
-        spad.event();
-        assert!(!spad.is_armed());
-        assert_eq!(spad.next_event(), Time::from_ns(25));
-        assert_eq!(spad.event(), Event::Recovery);
-        assert!(spad.waits());
-        spad.arm(Time::from_ns(40));
-        assert_eq!(spad.next_event(), Time::from_ns(40));
-    }
-
-    #[test]
-    fn in_mode_1_the_others_stay_armed_and_the_last_to_recover_ends_the_output() {
-        let mut spads = Spads::new(3, DEAD, Time::from_ns(5));
-        spads.set_passive(true, Time::ZERO);
-        for (at, share) in [(5, 1.5), (9, 3.0)] {
-            assert_eq!(spads.next_event(), Time::from_ns(at));
-            assert_eq!(spads.event(), Event::Avalanche);
-            assert!(spads.waits());
-            assert_eq!(spads.share(), share);
-            spads.arm(Time::from_ns(9 + 100 * u64::from(at == 9)));
-        }
-        for (at, output) in [(25, true), (29, false)] {
-            assert_eq!(spads.next_event(), Time::from_ns(at));
-            assert_eq!(spads.event(), Event::Recovery);
-            assert_eq!(spads.output(), output);
-            spads.arm(Time::from_ns(109));
-        }
-        assert_eq!(spads.next_event(), Time::from_ns(109));
-    }
-
-    #[test]
-    fn a_change_of_mode_finds_a_diode_that_has_fired() {
-        let mut spad = one();
-        spad.event();
-        spad.set_passive(true, Time::from_ns(10));
-        assert_eq!(spad.next_event(), Time::from_ns(25));
-        spad.set_passive(false, Time::from_ns(12));
-        assert_eq!(spad.next_event(), Time::NEVER);
-        spad.set_passive(true, Time::from_ns(90));
-        assert_eq!(spad.next_event(), Time::from_ns(90));
-    }
-}
+mod tests;

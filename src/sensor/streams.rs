@@ -4,7 +4,9 @@
 //! nothing, and no source, frame or thread moves another.
 
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+use crate::kernel::pulse::normal_quantile;
 
 /// What a stream is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +31,16 @@ pub enum Source {
     /// A dark and a lit histogram for a dataset's row, in this order; the frame's place is the row
     /// number's.
     DatasetPair = 9,
+    /// How late and how strong the laser pulse of a shot is; each shot has its own stretch.
+    LaserPulse = 10,
+    /// Whether an avalanche traps a carrier, and for how long; each shot has its own stretch.
+    Afterpulse = 11,
+    /// Whether an avalanche sets off a neighbour; each shot has its own stretch.
+    Crosstalk = 12,
+    /// Which diode of a row a carrier comes to; each shot has its own stretch.
+    Diode = 13,
+    /// Hits of a code-density test of the TDC; the frame's place is the test's.
+    CodeDensity = 14,
 }
 
 /// Words of 32 bits that a shot may take from its stretch.
@@ -48,6 +60,46 @@ pub fn seek(stream: &mut ChaCha8Rng, shot: u64, nth: u64) {
     stream.set_word_pos(shot as u128 * STRETCH + 2 * nth as u128);
 }
 
+/// A source that takes any number of words in each shot, from the shot's own stretch.
+#[derive(Clone, Debug)]
+pub struct Stretches {
+    seed: u64,
+    source: Source,
+    words: ChaCha8Rng,
+    /// Shots of this frame, the time before its first one counted as shot 0.
+    shot: u64,
+    /// Whether the stream stands in the shot's stretch.
+    is_there: bool,
+}
+
+impl Stretches {
+    /// Before the first shot of the first frame.
+    pub fn new(seed: u64, source: Source) -> Self {
+        Stretches { seed, source, words: stream(seed, source, 0), shot: 0, is_there: true }
+    }
+
+    /// A frame begins.
+    pub fn begin_frame(&mut self, frame: u64) {
+        (self.words, self.shot) = (stream(self.seed, self.source, frame), 0);
+        self.is_there = true;
+    }
+
+    /// A shot begins.
+    pub fn begin_shot(&mut self) {
+        self.shot += 1;
+        self.is_there = false;
+    }
+
+    /// The shot's next word.
+    pub fn next_u64(&mut self) -> u64 {
+        if !self.is_there {
+            seek(&mut self.words, self.shot, 0);
+            self.is_there = true;
+        }
+        self.words.next_u64()
+    }
+}
+
 /// A number between 0 and 1 from a word: its upper 52 bits choose the middle of one of 2^52 equal
 /// parts, which is exact in an `f64` and never 0 or 1.
 #[inline]
@@ -61,10 +113,14 @@ pub fn exponential(word: u64) -> f64 {
     -libm::log(uniform(word))
 }
 
+/// A normal draw of deviation 1 from a word.
+pub fn normal(word: u64) -> f64 {
+    normal_quantile(uniform(word))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rand_chacha::rand_core::Rng;
 
     #[test]
     fn sources_and_frames_have_streams_of_their_own() {

@@ -8,6 +8,7 @@ use crate::firmware::pll::Pll;
 use crate::firmware::tof_top::{Params, Pins, TofTop};
 use crate::kernel::Time;
 use crate::note::{Note, NoteCode};
+use crate::optics::hazard::Cause;
 use crate::sensor::light::Light;
 use crate::sensor::spad::{Event, Spads};
 
@@ -44,13 +45,14 @@ impl Device {
         pll: Pll,
         jitter: Option<Jitter>,
         mut light: Light,
-        (spads, dead_time): (usize, Time),
+        mut spads: Spads,
         timeline: Timeline,
     ) -> Self {
+        spads.arm_all(light.next_avalanche(Time::ZERO, 1.0));
         Device {
             top: TofTop::new(pins, p),
             line: StopLine::default(),
-            spads: Spads::new(spads, dead_time, light.next_avalanche(Time::ZERO, 1.0)),
+            spads,
             light,
             timeline,
             quarter: pll.clk_laser.fall(0) - pll.clk_laser.rise(0),
@@ -253,13 +255,26 @@ impl Device {
         }
     }
 
+    /// A new frame begins: its random numbers are taken up with the next shot.
+    pub(super) fn begin_frame(&mut self, frame: u64) {
+        self.light.begin_frame(frame);
+        if let Some(row) = self.spads.row() {
+            row.begin_frame(frame);
+        }
+    }
+
     /// The detector does what is due.
     #[inline(always)]
     pub(super) fn detect<R: AvalancheListener>(&mut self, listener: &mut R) {
         let now = self.spads.next_event();
         let output = self.spads.output();
-        if self.spads.event() == Event::Avalanche && R::ON {
-            listener.avalanche(now, self.light.cause(now));
+        let event = self.spads.event(&mut self.light);
+        if R::ON {
+            match event {
+                Event::Avalanche => listener.avalanche(now, self.light.cause(now)),
+                Event::Afterpulse => listener.avalanche(now, Some(Cause::Afterpulse)),
+                Event::Recovery | Event::Unseen => {}
+            }
         }
         if self.spads.waits() {
             self.draw(now);
@@ -284,6 +299,9 @@ impl Device {
         let hold = self.top.spad_control.spad_rst;
         if start || laser {
             self.light.begin_shot(now, laser);
+            if let Some(row) = self.spads.row() {
+                row.begin_shot();
+            }
             if self.spads.is_armed() {
                 self.draw(now);
             }

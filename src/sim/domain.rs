@@ -8,11 +8,13 @@ use crate::error::{Input, Result};
 use crate::network::Network;
 use crate::network::domain::{Domain, holds, in_words};
 use crate::note::{Note, NoteCode, NoteValue};
+use crate::optics::dark::STATED_AT_C;
 use crate::scenario::Scenario;
+use crate::scenario::drift::REFERENCE_C;
 
 /// Keys of the scenario that decide how the histograms of a frame are distributed. The laser's rate is
 /// none of them: in MODE 0 every shot begins with a reset.
-const KEYS: [&str; 28] = [
+const KEYS: [&str; 42] = [
     "target.distance_m",
     "target.reflectance",
     "target.length_m",
@@ -24,6 +26,10 @@ const KEYS: [&str; 28] = [
     "laser.repetition_rate_hz",
     "laser.wavelength_nm",
     "laser.pulse_sigma_ps",
+    TAIL,
+    DELAY,
+    TIMING,
+    ENERGY,
     "laser.field_of_illumination_deg",
     "lens.area_m2",
     "lens.efficiency",
@@ -35,21 +41,79 @@ const KEYS: [&str; 28] = [
     ON_TDC,
     "spad.field_of_view_deg",
     "spad.dark_rate_hz",
+    TEMPERATURE,
+    DOUBLING,
+    SPREAD,
+    AFTERPULSES,
     BIN,
     FIRST_BIN,
+    DIE,
+    SUPPLY,
+    DIE_THEN,
+    SUPPLY_THEN,
+    PER_C,
+    PER_MV,
     CLK_SYS,
     "pll.jitter_rms_ps",
     "firmware.mode",
     SHOTS,
 ];
+const TAIL: &str = "laser.pulse_tail_ps";
+const DELAY: &str = "laser.delay_ps";
+const TIMING: &str = "laser.timing_jitter_ps";
+const ENERGY: &str = "laser.energy_jitter";
+const PULSE_FILE: &str = "laser.pulse_file";
 const ON_TDC: &str = "spad.on_tdc";
+const TEMPERATURE: &str = "spad.temperature_c";
+const DOUBLING: &str = "spad.dark_doubling_c";
+const SPREAD: &str = "spad.dark_spread";
+const AFTERPULSES: &str = "spad.afterpulse_probability";
 const BIN: &str = "tdc.bin_ps";
 const FIRST_BIN: &str = "tdc.first_bin_ps";
+const DIE: &str = "tdc.temperature_c";
+const SUPPLY: &str = "tdc.supply_mv";
+const DIE_THEN: &str = "tdc.calibrated_at_c";
+const SUPPLY_THEN: &str = "tdc.calibrated_at_mv";
+const PER_C: &str = "tdc.delay_per_c";
+const PER_MV: &str = "tdc.delay_per_mv";
+/// What a drift of the chain is of.
+pub(crate) const OF_DRIFT: [&str; 6] = [DIE, SUPPLY, DIE_THEN, SUPPLY_THEN, PER_C, PER_MV];
+/// Keys that say what follows from others, and decide nothing while these are all at a reference.
+const FOLLOWING: [(&str, &[&str], f64); 3] = [
+    (DOUBLING, &[TEMPERATURE], STATED_AT_C),
+    (PER_C, &[DIE, DIE_THEN], REFERENCE_C),
+    (PER_MV, &[SUPPLY, SUPPLY_THEN], 0.0),
+];
 /// What the dividers come to, which no key of a file says [MHz].
 const CLK_SYS: &str = "pll.clk_sys_mhz";
 /// Keys that older files do not have, and the only value that there was.
-const LATER: [(&str, f64); 4] = [(ON_TDC, 1.0), (BIN, 25.0), (FIRST_BIN, 0.0), (CLK_SYS, 125.0)];
+const LATER: [(&str, f64); 18] = [
+    (TAIL, 0.0),
+    (DELAY, 0.0),
+    (TIMING, 0.0),
+    (ENERGY, 0.0),
+    (ON_TDC, 1.0),
+    (TEMPERATURE, 20.0),
+    (DOUBLING, 8.0),
+    (SPREAD, 0.0),
+    (AFTERPULSES, 0.0),
+    (BIN, 25.0),
+    (FIRST_BIN, 0.0),
+    (DIE, 25.0),
+    (SUPPLY, 0.0),
+    (DIE_THEN, 25.0),
+    (SUPPLY_THEN, 0.0),
+    (PER_C, 0.001),
+    (PER_MV, -0.001),
+    (CLK_SYS, 125.0),
+];
 const CHAIN: &str = "tdc.profile";
+const CALIBRATION: &str = "tdc.calibration";
+const DECODER: &str = "tdc.decoder";
+/// What files say nothing of: the only calibration and the only decoder that there was.
+const UNSAID: [(&str, &str); 2] = [(CALIBRATION, OWN_DELAYS), (DECODER, ONES)];
+const OWN_DELAYS: &str = "true";
+const ONES: &str = "ones";
 const DARK_RATE: &str = "spad.dark_rate_hz";
 const SHOTS: &str = "firmware.shots_per_frame";
 
@@ -67,8 +131,9 @@ pub type GridRange<'a> = (&'a str, [f64; 2]);
 pub fn of(scenario: &Scenario, grid: &[GridRange]) -> Result<Domain> {
     let values = Values::new(scenario, grid)?;
     let mut domain = Domain::default();
-    for key in KEYS.into_iter().chain([CHAIN]) {
+    for key in KEYS.into_iter().chain([CHAIN, CALIBRATION, DECODER, PULSE_FILE]) {
         match values.get(key) {
+            Some(Found::Word(word)) if UNSAID.contains(&(key, word.as_str())) => {}
             Some(Found::Range([_, most])) if key == DARK_RATE => {
                 // Fewer dark counts are no other histograms: there is one in some 10,000 shots.
                 domain.ranges.insert(key.to_owned(), [0.0, most]);
@@ -110,6 +175,7 @@ pub fn notes(network: &Network, scenario: &Scenario, grid: &[GridRange]) -> Resu
     for (key, range) in ranges.chain(later.map(|(key, only)| (key, [only; 2]))) {
         match values.get(key) {
             Some(Found::Range(found)) if holds(range, found) => {}
+            _ if values.decides_nothing(key) => {}
             Some(Found::Range([least, largest])) if least == largest => {
                 notes.push(outside(key, least.into(), in_words(range)));
             }
@@ -119,9 +185,24 @@ pub fn notes(network: &Network, scenario: &Scenario, grid: &[GridRange]) -> Resu
             _ => notes.push(outside(key, NoteValue::None, in_words(range))),
         }
     }
+    if let (Some(file), false) = (&scenario.laser.pulse_file, domain.words.contains_key(PULSE_FILE))
+    {
+        notes.push(outside(PULSE_FILE, file.as_str().into(), "none".to_owned()));
+    }
+    let trained = domain.words.get(CALIBRATION).map_or(OWN_DELAYS, String::as_str);
+    let own = scenario.tdc.calibration.to_string();
+    if file_name(trained) != file_name(&own) {
+        notes.push(outside(CALIBRATION, own.as_str().into(), trained.to_owned()));
+    }
+    let trained = domain.words.get(DECODER).map_or(ONES, String::as_str);
+    let own = scenario.tdc.decoder.name();
+    if trained != own {
+        notes.push(outside(DECODER, own.into(), trained.to_owned()));
+    }
     for (key, trained) in &domain.words {
         match values.get(key) {
             _ if key == CHAIN => notes.extend(chain(trained)),
+            _ if key == CALIBRATION || key == DECODER => {}
             Some(Found::Word(word)) if word == *trained => {}
             Some(Found::Word(word)) => {
                 notes.push(outside(key, word.as_str().into(), trained.clone()))
@@ -153,6 +234,10 @@ impl<'a> Values<'a> {
         let fault = |error| Input::new("scenario", error);
         let mut shown = serde_json::to_value(scenario).map_err(fault)?;
         shown["firmware"]["shots_per_frame"] = scenario.firmware.shots_of_a_frame().into();
+        let tdc = &scenario.tdc;
+        let then = [tdc.calibrated_at_c, tdc.calibrated_at_mv];
+        shown["tdc"]["calibrated_at_c"] = then[0].unwrap_or(tdc.temperature_c).into();
+        shown["tdc"]["calibrated_at_mv"] = then[1].unwrap_or(tdc.supply_mv).into();
         shown["pll"]["clk_sys_mhz"] = scenario.pll.clk_sys_mhz().into();
         let values = Values { scenario: shown, grid };
         match grid.iter().find(|(key, _)| values.at(key).is_none_or(|value| !value.is_number())) {
@@ -163,6 +248,16 @@ impl<'a> Values<'a> {
 
     fn at(&self, key: &str) -> Option<&Value> {
         self.scenario.pointer(&format!("/{}", key.replace('.', "/")))
+    }
+
+    /// Whether all that the key would have an effect by is at the reference.
+    fn decides_nothing(&self, key: &str) -> bool {
+        let following = FOLLOWING.iter().find(|(following, ..)| *following == key);
+        following.is_some_and(|(_, causes, reference)| {
+            let is_there =
+                |cause| matches!(self.get(cause), Some(Found::Range(range)) if range == [*reference; 2]);
+            causes.iter().all(|cause| is_there(cause))
+        })
     }
 
     fn get(&self, key: &str) -> Option<Found> {
@@ -179,78 +274,4 @@ impl<'a> Values<'a> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scenario::{self, builtin};
-
-    const THESIS: [GridRange; 3] = [
-        ("target.distance_m", [0.1, 0.6]),
-        ("target.reflectance", [0.08, 0.6]),
-        ("ambient.irradiance_w_m2_nm", [0.0, 0.4]),
-    ];
-
-    fn network() -> Network {
-        Network::builtin("uniform").unwrap().unwrap()
-    }
-
-    fn keys(change: impl FnOnce(&mut Scenario)) -> Vec<String> {
-        let mut scenario = Scenario::default();
-        change(&mut scenario);
-        let notes = notes(&network(), &scenario, &[]).unwrap();
-        assert!(notes.iter().all(|note| note.code == NoteCode::OutsideTraining));
-        notes.into_iter().map(|note| note.key).collect()
-    }
-
-    #[test]
-    fn the_shipped_files_state_the_domain_of_their_training() {
-        for name in Network::builtin_names() {
-            let network = Network::builtin(name).unwrap().unwrap();
-            if builtin::scenario(name).is_some() {
-                let scenario = scenario::load(name, &[]).unwrap().scenario;
-                assert!(network.domain.is_some(), "{name}");
-                assert_eq!(notes(&network, &scenario, &[]).unwrap(), [], "{name}");
-                continue;
-            }
-            let mut scenario = Scenario::default();
-            scenario.tdc.profile = network.training.chain.clone();
-            assert_eq!(network.domain, Some(of(&scenario, &THESIS).unwrap()), "{name}");
-        }
-    }
-
-    #[test]
-    fn each_thing_that_the_network_was_not_trained_for_is_named() {
-        assert_eq!(keys(|_| {}), [""; 0]);
-        assert_eq!(keys(|s| s.target.distance_m = 0.65), ["target.distance_m"]);
-        assert_eq!(keys(|s| s.target.reflectance = 0.03), ["target.reflectance"]);
-        assert_eq!(keys(|s| s.firmware.shots_per_frame = 10_000), ["firmware.shots_per_frame"]);
-        assert_eq!(keys(|s| s.firmware.dark_frames = true), ["firmware.shots_per_frame"]);
-        assert_eq!(keys(|s| s.lens.area_m2 *= 10.0), ["lens.area_m2"]);
-        assert_eq!(keys(|s| s.tdc.profile = "ideal".into()), ["tdc.profile"]);
-        assert_eq!(keys(|s| s.spad.dark_rate_hz = 0.0), [""; 0]);
-        assert_eq!(keys(|s| s.pll.output_divide = 10), ["pll.clk_sys_mhz"]);
-        assert_eq!(keys(|s| (s.pll.divide, s.pll.output_divide) = (2, 4)), [""; 0]);
-        assert_eq!(keys(|s| s.firmware.laser_freq = 0), [""; 0]);
-        let mode = |s: &mut Scenario| s.firmware.mode = crate::scenario::QuenchMode::FreeRunning;
-        assert_eq!(keys(mode), ["firmware.mode"]);
-    }
-
-    #[test]
-    fn a_grid_is_held_to_the_domain_as_a_whole() {
-        let (network, scenario) = (network(), Scenario::default());
-        assert_eq!(notes(&network, &scenario, &THESIS).unwrap(), []);
-        let wide = [("target.distance_m", [0.05, 0.6])];
-        let notes = notes(&network, &scenario, &wide).unwrap();
-        assert_eq!(notes.len(), 1);
-        assert_eq!(notes[0].value, NoteValue::Text("0.05 to 0.6".to_owned()));
-        assert_eq!(notes[0].expected, "0.1 to 0.6");
-        assert!(of(&scenario, &[("target.distance", [0.0, 1.0])]).is_err());
-    }
-
-    #[test]
-    fn a_file_that_does_not_say_is_said_to_be_silent() {
-        let silent = Network { domain: None, ..network() };
-        let notes = notes(&silent, &Scenario::default(), &[]).unwrap();
-        assert_eq!(notes.len(), 1);
-        assert_eq!(notes[0].key, "estimator.network");
-    }
-}
+mod tests;

@@ -2,10 +2,9 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
-use statrs::function::erf::erfc_inv;
 
 use crate::kernel::Time;
-use crate::sensor::streams::{Source, seek, stream, uniform};
+use crate::sensor::streams::{Source, normal, seek, stream};
 
 /// The source, with the last edge asked for.
 #[derive(Clone, Debug)]
@@ -30,9 +29,8 @@ impl Jitter {
             if self.position != n {
                 seek(&mut self.stream, 0, n);
             }
-            let normal =
-                -std::f64::consts::SQRT_2 * erfc_inv(2.0 * uniform(self.stream.next_u64()));
-            self.last = (n, (normal * self.rms_fs).round() as i64);
+            let late = normal(self.stream.next_u64());
+            self.last = (n, (late * self.rms_fs).round() as i64);
             self.position = n + 1;
         }
         Time::from_fs(ideal.fs().saturating_add_signed(self.last.1))

@@ -183,7 +183,7 @@ impl<'a> Run<'a> {
             let done = self.frames.done();
             if done > ended && !self.device.top.socket.algo_done {
                 ended = done;
-                self.device.light.begin_frame(done);
+                self.device.begin_frame(done);
                 recorder.pass_on(sinks)?;
                 recorder.begin_frame(done);
                 if done >= count {

@@ -77,6 +77,20 @@ impl SecondOpinion {
         if jitter_ps > 0.0 {
             return Err(none("pll.jitter_rms_ps", jitter_ps.into(), "0: it blurs the pulse"));
         }
+        let laser = &scenario.laser;
+        for (key, value) in [
+            ("laser.timing_jitter_ps", laser.timing_jitter_ps),
+            ("laser.energy_jitter", laser.energy_jitter),
+        ] {
+            if value > 0.0 {
+                return Err(none(key, value.into(), "0: pulses of all shots that are alike"));
+            }
+        }
+        let afterpulses = scenario.spad.afterpulse_probability;
+        if afterpulses > 0.0 {
+            let (key, expected) = ("spad.afterpulse_probability", "0: shots are independent");
+            return Err(none(key, afterpulses.into(), expected));
+        }
         let params = setup.likelihood(setup.shots(1)).map_err(|fault| refused(&fault))?;
         let (name, accuracy) = match setup.params.estimator {
             Estimator::Network => ("network", setup.network.accuracy.clone()),

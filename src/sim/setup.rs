@@ -11,6 +11,7 @@ use std::sync::Arc;
 
 use crate::error::{Input, Result};
 use crate::files::digest::digest_of;
+use crate::firmware::carry_chain::Delays;
 use crate::firmware::forward2::Depth;
 use crate::firmware::pll::Pll;
 use crate::firmware::tdc_decoder::TimeScale;
@@ -23,11 +24,17 @@ use crate::kernel::{S, Time, U};
 use crate::network::estimate::estimate;
 use crate::network::{self, Network};
 use crate::note::Note;
+use crate::optics::dark::dark_spread;
 use crate::optics::{Bins, Budget, Hazard};
 use crate::scenario::builtin::Source;
+use crate::scenario::drift::Drifted;
 use crate::scenario::window::Window;
-use crate::scenario::{self, EstimatorKind, Loaded, Scenario, chain};
+use crate::scenario::{
+    self, DeadTimeKind, EstimatorKind, Loaded, Scenario, calibration, chain, pulse,
+};
 use crate::sensor::light::{Light, Optics};
+use crate::sensor::row::Effects;
+use crate::sensor::spad::Spads;
 use crate::waves::{self, WaveFormat, Waves};
 
 use super::device::Device;
@@ -62,6 +69,10 @@ pub struct Setup {
     /// What elaboration fixes in the firmware.
     #[doc(hidden)]
     pub params: Params,
+    /// The delays that the TDC was calibrated by, if it has drifted since.
+    calibrated: Option<Delays>,
+    /// The converter as its calibration has it, if it is another.
+    known_tdc: Option<tdc::Params>,
     /// The network in the estimator.
     pub network: Network,
     /// Why no depth of a run can be that of the target, if none can.
@@ -109,14 +120,32 @@ impl Setup {
         let network = network(&scenario, &files)?;
         let pll = Pll::new(&scenario.pll.params());
         let histogram = scenario.histogram();
-        let delays = chain::load(&scenario.tdc.profile, &files, pll.cycle)?;
+        let own = chain::load(&scenario.tdc.profile, &files, pll.cycle)?;
+        let chain = Drifted::new(own, &scenario.tdc, pll.cycle)?;
         let scale = time_scale(&scenario.tdc, pll.cycle);
+        let rom = calibration::load(
+            &scenario.tdc.calibration,
+            &files,
+            (chain.known(), scenario.tdc.decoder),
+            &scale,
+        )?;
         let (code_source, histogram_source, light) = stimulus(&scenario, &files, &histogram)?;
-        let budget = Budget::new(&scenario);
+        let budget = Budget::new(&scenario, pulse::load(&scenario.laser, &files)?);
         let light = light.unwrap_or_else(|| {
             let (lit, dark) = (Hazard::new(&budget), Hazard::dark(&budget));
             Light::Optics(Box::new(Optics::new(lit, dark, scenario.seed)))
         });
+        let (coarse_bits, count_stages) = (scenario.tdc.coarse_bits, scenario.tdc.count_stages);
+        let tdc = tdc::Params::new(chain.now, scale, coarse_bits, count_stages)
+            .with_decoder(scenario.tdc.decoder)
+            .with_calibration(rom.cal);
+        let calibrated = chain.calibrated;
+        let known_tdc = match (rom.chain, &calibrated) {
+            // In order, and so that each decoder has the same.
+            (Some(chain), _) => Some(tdc.clone().in_order(chain)),
+            (None, Some(delays)) => Some(tdc.clone().with_delays(delays.clone())),
+            (None, None) => None,
+        };
         let params = Params {
             histogram,
             frame_ctrl: frame_ctrl::Params {
@@ -129,12 +158,7 @@ impl Setup {
                 periods: scenario.firmware.laser_periods.clone(),
                 pulse_half_cycles: scenario.firmware.pulse_half_cycles,
             },
-            tdc: tdc::Params::new(
-                delays,
-                scale,
-                scenario.tdc.coarse_bits,
-                scenario.tdc.count_stages,
-            ),
+            tdc,
             depth_estimator: match network.fits(&histogram) {
                 true => network.params(&histogram),
                 false => network::blank(&histogram),
@@ -153,8 +177,20 @@ impl Setup {
         };
         fits::check(&name, &params)?;
         let (pins, no_depth) = (pins_at_power_up(&scenario.firmware), None);
-        let mut setup =
-            Setup { name, scenario, set, budget, params, network, pll, light, pins, no_depth };
+        let mut setup = Setup {
+            name,
+            scenario,
+            set,
+            budget,
+            params,
+            calibrated,
+            known_tdc,
+            network,
+            pll,
+            light,
+            pins,
+            no_depth,
+        };
         let shots = setup.params.frame_ctrl.shots_per_frame.into();
         // One that the estimator is not for has a stand-in, which nothing starts.
         if let Ok(own) = setup.likelihood(shots) {
@@ -201,9 +237,17 @@ impl Setup {
             self.pll.clone(),
             jitter,
             self.light.clone(),
-            (scenario.spad.on_tdc as usize, Time::from_ps_f64(scenario.spad.dead_time_ns * 1e3)),
+            self.spads(),
             Timeline::new(scenario),
         )
+    }
+
+    /// The diodes on the TDC at power-up.
+    fn spads(&self) -> Spads {
+        let spad = &self.scenario.spad;
+        let dead_time = Time::from_ps_f64(spad.dead_time_ns * 1e3);
+        Spads::new(spad.on_tdc as usize, dead_time, Time::NEVER)
+            .with_effects(effects(spad), self.scenario.seed)
     }
 
     /// Period of the laser at power-up [cycles of clk_sys].
@@ -214,6 +258,22 @@ impl Setup {
     /// Which avalanche times give which code.
     pub fn bins(&self) -> Bins {
         Bins::of_tdc(&self.params.tdc)
+    }
+
+    /// The same as the calibration has it, for who reckons with the bins: not what they have drifted to, nor what a
+    /// code density could not see.
+    pub fn known_bins(&self) -> Bins {
+        self.known_tdc.as_ref().map_or_else(|| self.bins(), Bins::of_tdc)
+    }
+
+    /// Whether the chain has drifted since its calibration.
+    pub fn has_drifted(&self) -> bool {
+        self.calibrated.is_some()
+    }
+
+    /// The delays that the TDC was calibrated by.
+    pub fn known_delays(&self) -> &Delays {
+        self.calibrated.as_ref().unwrap_or(&self.params.tdc.delays)
     }
 
     /// Length of an undisturbed frame with such a laser period: from the edge that begins Clear to the one
@@ -307,8 +367,8 @@ impl Setup {
         let entries = hierarchy::entries(&self.params);
         let entries =
             waves::select(entries, hierarchy::ram_entries(&self.params.histogram), &globs)?;
-        let order = self.params.tdc.delays.order();
-        Waves::create(path, format, &entries, order, &self.provenance())
+        let encoder = &self.params.tdc.decoder.encoder;
+        Waves::create(path, format, &entries, encoder, &self.provenance())
     }
 
     /// What a file that comes of it says of where it comes from, a line each.
@@ -331,7 +391,8 @@ impl Setup {
             Light::List(list) => Some(list),
             Light::Optics(_) | Light::None => None,
         };
-        format!("{:016x}", digest_of(format_args!("{scenario:?} {params:?} {given:?}")))
+        let pulse = &self.budget.pulse;
+        format!("{:016x}", digest_of(format_args!("{scenario:?} {params:?} {given:?} {pulse:?}")))
     }
 
     /// A number of cycles that no run of `frames` frames reaches unless its control signals keep
@@ -343,6 +404,19 @@ impl Setup {
         let begun = frames.saturating_add(changes.len() as u64 + 1);
         let last = Time::from_ps_f64(last_us * 1e6).fs() / self.cycle().fs();
         begun.saturating_mul(longest_frame).saturating_add(last)
+    }
+}
+
+/// What a scenario's diodes do beside firing.
+pub(super) fn effects(spad: &scenario::Spad) -> Effects {
+    Effects {
+        afterpulse_probability: spad.afterpulse_probability,
+        afterpulse_fs: spad.afterpulse_ns * 1e6,
+        afterpulse_second_fs: spad.afterpulse_second_ns * 1e6,
+        afterpulse_second_share: spad.afterpulse_second_share,
+        paralysable: spad.dead_time_kind == DeadTimeKind::Paralysable,
+        crosstalk_probability: spad.crosstalk_probability,
+        dark_rates: dark_spread(spad),
     }
 }
 

@@ -2,7 +2,8 @@
 
 use bitvec::prelude::*;
 
-use crate::kernel::{Thermometer, ones_width, partial_ones};
+use crate::firmware::tdc_decoder::{Decoder, Encoder};
+use crate::kernel::{Thermometer, ones_width, partial_highest, partial_ones};
 
 /// The binary digits of a byte, the highest first.
 #[inline(always)]
@@ -29,8 +30,9 @@ pub struct TapDigits {
     arrived: BitVec<u64>,
     /// In their physical places, if those are others.
     taps: BitVec<u64>,
-    /// Ones counts of groups of taps.
+    /// What the decoder makes of groups of taps.
     counts: BitVec<u64>,
+    decoder: Decoder,
 }
 
 /// Bits in words, the first one lowest.
@@ -42,15 +44,16 @@ pub struct Bits<'a> {
 }
 
 impl TapDigits {
-    /// For lines whose taps are reached in `order`.
-    pub fn new(order: &[u16]) -> Self {
+    /// For lines whose taps such a decoder reads.
+    pub fn new(encoder: &Encoder) -> Self {
+        let (order, decoder) = (encoder.order(), encoder.decoder());
         let arrived = bitvec![u64, Lsb0; 0; order.len()];
         let order = if order.is_sorted() { Vec::new() } else { order.to_vec() };
         let taps = bitvec![u64, Lsb0; 0; order.len()];
-        TapDigits { taps, order, arrived, counts: BitVec::new() }
+        TapDigits { taps, order, arrived, counts: BitVec::new(), decoder }
     }
 
-    /// The taps, physical tap 0 first, or the ones counts of each `group` of them.
+    /// The taps, physical tap 0 first, or what the decoder makes of each `group` of them.
     pub fn bits(&mut self, value: &Thermometer, group: usize) -> Bits<'_> {
         let count = self.arrived.len();
         value.expand(&mut self.arrived);
@@ -65,7 +68,11 @@ impl TapDigits {
         self.counts.clear();
         self.counts.resize(width, false);
         self.counts.set_uninitialized(false);
-        partial_ones(taps, group, &mut self.counts);
+        match self.decoder {
+            Decoder::Ones => partial_ones(taps, group, &mut self.counts),
+            Decoder::Leading => partial_highest(taps, group, &mut self.counts),
+            Decoder::Reordered => partial_highest(&self.arrived, group, &mut self.counts),
+        }
         Bits { words: self.counts.as_raw_slice(), width }
     }
 }
@@ -73,6 +80,22 @@ impl TapDigits {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn digits(order: &[u16]) -> TapDigits {
+        TapDigits::new(&Encoder::of_order(Decoder::Ones, order))
+    }
+
+    #[test]
+    fn a_register_of_the_decoder_shows_what_it_makes_of_a_group() {
+        // Of eight taps, 2, 0 and 3 are high, the first three that are reached.
+        let (order, taps) = ([2, 0, 3, 1, 5, 4, 7, 6], Thermometer::new(true, [3]));
+        let shown = Decoder::ALL.map(|decoder| {
+            let mut digits = TapDigits::new(&Encoder::of_order(decoder, &order));
+            let Bits { words, width } = digits.bits(&taps, 4);
+            (words[0] & 7, words[0] >> 3, width)
+        });
+        assert_eq!(shown, [(3, 0, 6), (4, 0, 6), (3, 0, 6)]);
+    }
 
     /// Physical tap 0 last.
     fn text(digits: &mut TapDigits, taps: &Thermometer) -> String {
@@ -87,31 +110,31 @@ mod tests {
     fn tap_0_is_the_last_digit() {
         let taps = Thermometer::new(true, [3]);
         let order: Vec<u16> = (0..70).collect();
-        assert_eq!(text(&mut TapDigits::new(&order), &taps), format!("{:070b}", 7));
+        assert_eq!(text(&mut digits(&order), &taps), format!("{:070b}", 7));
     }
 
     #[test]
     fn taps_reached_out_of_order_stand_in_their_physical_place() {
-        let mut digits = TapDigits::new(&[2, 0, 3, 1]);
-        assert_eq!(text(&mut digits, &Thermometer::new(true, [1])), "0100");
-        assert_eq!(text(&mut digits, &Thermometer::new(true, [3])), "1101");
-        assert_eq!(text(&mut digits, &Thermometer::new(false, [2])), "1010");
-        assert_eq!(text(&mut digits, &Thermometer::new(true, [1, 3])), "0110");
-        assert_eq!(text(&mut digits, &Thermometer::settled(true)), "1111");
-        assert_eq!(text(&mut digits, &Thermometer::settled(false)), "0000");
+        let mut own = digits(&[2, 0, 3, 1]);
+        assert_eq!(text(&mut own, &Thermometer::new(true, [1])), "0100");
+        assert_eq!(text(&mut own, &Thermometer::new(true, [3])), "1101");
+        assert_eq!(text(&mut own, &Thermometer::new(false, [2])), "1010");
+        assert_eq!(text(&mut own, &Thermometer::new(true, [1, 3])), "0110");
+        assert_eq!(text(&mut own, &Thermometer::settled(true)), "1111");
+        assert_eq!(text(&mut own, &Thermometer::settled(false)), "0000");
     }
 
     #[test]
     fn many_taps_out_of_order_stand_where_one_by_one_would_put_them() {
         let order: Vec<u16> = (0..130).map(|place| place * 37 % 130).collect();
-        let mut digits = TapDigits::new(&order);
+        let mut own = digits(&order);
         for (level, ranks) in [(true, [1, 64, 65]), (false, [63, 100, 129]), (true, [7, 8, 9])] {
             let taps = Thermometer::new(level, ranks);
             let mut expected = ['0'; 130];
             for (place, &tap) in order.iter().enumerate() {
                 expected[129 - tap as usize] = if taps.tap(place) { '1' } else { '0' };
             }
-            assert_eq!(text(&mut digits, &taps), String::from_iter(expected));
+            assert_eq!(text(&mut own, &taps), String::from_iter(expected));
         }
     }
 }

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
 use crate::files::output::OutputFile;
+use crate::firmware::tdc_decoder::Encoder;
 use crate::hierarchy::Entry;
 use crate::kernel::Thermometer;
 use crate::kernel::signals::Sink;
@@ -48,7 +49,7 @@ impl Fst {
     pub(super) fn create(
         path: &Path,
         entries: &[Entry],
-        order: &[u16],
+        encoder: &Encoder,
         provenance: &[String],
     ) -> Result<Self> {
         let hierarchy = Hierarchy::new(entries);
@@ -66,7 +67,7 @@ impl Fst {
             provenance: provenance.join("\n"),
             changes: Changes::new(file, header, &hierarchy.widths),
             signals: hierarchy.signals,
-            taps: TapDigits::new(order),
+            taps: TapDigits::new(encoder),
             bytes: Vec::new(),
             pending: None,
             fault: None,

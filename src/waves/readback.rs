@@ -25,7 +25,7 @@ pub(super) fn extension(format: WaveFormat) -> &'static str {
 /// Begins a file with some provenance.
 pub(super) fn create(path: &Path, format: WaveFormat, entries: &[Entry], params: &Params) -> Waves {
     let provenance = ["scenario kc705".to_owned(), "seed 1".to_owned()];
-    Waves::create(path, format, entries, params.tdc.delays.order(), &provenance).unwrap()
+    Waves::create(path, format, entries, &params.tdc.decoder.encoder, &provenance).unwrap()
 }
 
 /// The run that most tests look at: from 0 on, or only two windows of it.

@@ -11,6 +11,7 @@ use vcd::{IdCode, ReferenceIndex, TimescaleUnit, VarType};
 use crate::error::Result;
 use crate::files::date;
 use crate::files::output::OutputFile;
+use crate::firmware::tdc_decoder::Encoder;
 use crate::hierarchy::{Entry, IDS, Kind};
 use crate::kernel::Thermometer;
 use crate::kernel::signals::{SignalFormat, Sink};
@@ -47,7 +48,7 @@ impl Vcd {
     pub(super) fn create(
         path: &Path,
         entries: &[Entry],
-        order: &[u16],
+        encoder: &Encoder,
         provenance: &[String],
     ) -> Result<Self> {
         let mut signals = Box::new([Signal::default(); IDS]);
@@ -57,7 +58,7 @@ impl Vcd {
             .map_err(|error| file.fault(error))?;
         let longest = signals.iter().map(|signal| 1 + signal.width as usize + signal.tail.len());
         let text = Text::new(longest.sum());
-        Ok(Vcd { file, text, signals, taps: TapDigits::new(order), stamped: u64::MAX })
+        Ok(Vcd { file, text, signals, taps: TapDigits::new(encoder), stamped: u64::MAX })
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
 use crate::firmware::TofTop;
+use crate::firmware::tdc_decoder::Encoder;
 use crate::hierarchy::{Entry, Part};
 use crate::kernel::Time;
 
@@ -58,15 +59,15 @@ impl Waves {
         path: &Path,
         format: WaveFormat,
         entries: &[Entry],
-        order: &[u16],
+        encoder: &Encoder,
         provenance: &[String],
     ) -> Result<Waves> {
         let writer = match format {
             WaveFormat::Vcd => {
-                Writer::Vcd(Box::new(Vcd::create(path, entries, order, provenance)?))
+                Writer::Vcd(Box::new(Vcd::create(path, entries, encoder, provenance)?))
             }
             WaveFormat::Fst => {
-                Writer::Fst(Box::new(Fst::create(path, entries, order, provenance)?))
+                Writer::Fst(Box::new(Fst::create(path, entries, encoder, provenance)?))
             }
         };
         let shown = Box::new(Part::of(entries.iter().map(|entry| entry.id)));

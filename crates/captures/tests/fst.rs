@@ -23,9 +23,9 @@ fn simulated(folder: &Path, name: &str, seed: u64) -> PathBuf {
     let seed = format!("seed={seed}");
     let setup = common::setup("kc705", &["firmware.shots_per_frame=30", &seed]);
     let entries = hierarchy::entries(&setup.params);
-    let order = setup.params.tdc.delays.order();
+    let encoder = &setup.params.tdc.decoder.encoder;
     let format = if name.ends_with("fst") { WaveFormat::Fst } else { WaveFormat::Vcd };
-    let waves = Waves::create(&path, format, &entries, order, &[]).unwrap();
+    let waves = Waves::create(&path, format, &entries, encoder, &[]).unwrap();
     let windows = setup.windows(&[], 1).unwrap();
     let watch = Observers { waves: Some((waves, windows)), ..Observers::default() };
     Run::new(&setup).observe(1, watch).unwrap();

@@ -32,13 +32,15 @@ fn rises(values: &[u64]) -> Vec<usize> {
 
 fn built_in(name: &str) -> (Capture, Vec<Time>) {
     let set_up = AnalyserSetup::load(name).unwrap();
-    let setup = setup(&set_up.file.scenario, &[]);
+    let set: Vec<_> = set_up.file.set.iter().map(String::as_str).collect();
+    let setup = setup(&set_up.file.scenario, &set);
     let mut analyser = Analyser::new(&AnalyserPlan::new(&set_up, &setup).unwrap(), &setup);
     sampler::capture(Run::new(&setup), set_up.file.frames, &mut analyser, None).unwrap();
     assert!(analyser.is_full(), "{name}");
     let triggers = analyser.triggers();
     let capture = analyser.finish();
-    assert_eq!((capture.samples(), triggers.len()), (1024, 1), "{name}");
+    let samples = set_up.file.depth as usize;
+    assert_eq!((capture.samples(), triggers.len()), (samples, 1), "{name}");
     (capture, triggers)
 }
 
@@ -97,6 +99,30 @@ fn fig_6_21_shows_the_three_steps_and_the_depth() {
     let start = values(&capture, "FORWARD2_EN").iter().position(|&level| level == 1).unwrap();
     assert_eq!(start, 16 + 260);
     assert_eq!(capture.probes.iter().filter(|p| p.head().starts_with("L1_IN[")).count(), 8);
+}
+
+#[test]
+fn likelihood_estimator_shows_where_each_step_leads_and_what_comes_out() {
+    let (capture, _) = built_in("likelihood_estimator");
+    let of = |name| values(&capture, name);
+    let (steps, done) = (of("STEPS"), of("ALGO_DONE"));
+    let at = done.iter().position(|&level| level == 1).unwrap();
+    assert_eq!((of("ALGO_START")[16], at), (1, 16 + 3826), "a cycle until it is taken");
+    let setup = setup("estimator_validation", &["estimator.kind=likelihood"]);
+    let histogram = &common::frames(&setup, 1)[0].histogram;
+    let params = setup.likelihood(setup.params.frame_ctrl.shots_per_frame.into()).unwrap();
+    let expected = tofsim::sim::fast::likelihood::trace(&params, histogram);
+    let words = ["ARRIVAL", "STRENGTH", "AMBIENT", "CUT"].map(of);
+    for (taken, (point, information)) in (1..).zip(expected.steps) {
+        let sample = steps.iter().position(|&steps| steps == taken).unwrap();
+        let wanted = [point.arrival, point.signal, point.ambient, information.cut.into()];
+        let found = [0, 1, 2, 3].map(|word: usize| words[word][sample] as i64);
+        assert_eq!(found, wanted, "step {taken}");
+    }
+    let found = expected.found;
+    let wanted = [found.depth.bits(), found.sigma, found.status.into(), found.chi_square, 1];
+    let ends = ["Depth", "SIGMA", "STATUS", "CHI_SQUARE", "VALID"].map(|name| of(name)[at]);
+    assert_eq!(ends, wanted);
 }
 
 const SHOTS: &str = "

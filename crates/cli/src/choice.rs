@@ -7,6 +7,7 @@ use tofsim_captures::compare::Unknowns;
 use tofsim_captures::ila::Radix;
 use tofsim_captures::ila::export::CaptureFormat;
 use tofsim_captures::replay::ReplayKind;
+use tofsim_learn::calibration::candidates::Kind;
 use tofsim_learn::dataset::files::DatasetFormat;
 use tofsim_rtl::golden::bench::Language;
 use tofsim_rtl::timing::Part;
@@ -53,6 +54,13 @@ pub const REPLAY: &[Choice<ReplayKind>] = &[
     ("photons", ReplayKind::Photons, "When a photon arrived in each shot"),
     ("codes", ReplayKind::Codes, "The code of each shot, by the ROM in the TDC's place"),
     ("histogram", ReplayKind::Histogram, "The histogram that the estimator read"),
+];
+
+/// What a calibration of the pulse fits.
+pub const CALIBRATED: &[Choice<Kind>] = &[
+    ("gaussian", Kind::Gaussian, "A Gaussian: laser.pulse_sigma_ps"),
+    ("tail", Kind::Tail, "A Gaussian with an exponential tail: laser.pulse_tail_ps too"),
+    ("samples", Kind::Samples, "Samples of any pulse: laser.pulse_file"),
 ];
 
 /// What a design is timed for.

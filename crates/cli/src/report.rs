@@ -1,12 +1,17 @@
 //! What a run leaves behind for people and scripts.
 
 pub mod box_plot;
+pub mod calibration;
 pub mod causes;
 pub mod comparison;
+pub mod curves;
+pub mod decoders;
+pub mod error_budget;
 pub mod error_plots;
 pub mod evaluation;
 pub mod evaluation_csv;
 pub mod events;
+pub mod explained_likelihood;
 pub mod explanation;
 pub mod exploration;
 pub mod frame_log;
@@ -18,9 +23,14 @@ pub mod pair_table;
 pub mod pairs;
 pub mod readings;
 pub mod run_files;
+pub mod spad;
 pub mod statistics;
 pub mod summary;
 pub mod table;
+pub mod tdc;
+pub mod tdc_drift;
+pub mod tdc_plots;
+pub mod tdc_rom;
 pub mod timing;
 pub mod training;
 pub mod verification;

@@ -2,6 +2,7 @@
 
 pub mod budget;
 pub mod build;
+pub mod calibrate;
 pub mod compare;
 pub mod completions;
 pub mod dataset;
@@ -20,6 +21,8 @@ pub mod rerun;
 pub mod run;
 pub mod scenario;
 mod scenes;
+pub mod spad;
+pub mod tdc;
 pub mod terminal;
 pub mod timing;
 pub mod train;
@@ -57,6 +60,9 @@ enum Verb {
     Estimate(estimate::Args),
     Evaluate(Box<evaluate::Args>),
     Quantize(quantize::Args),
+    Calibrate(calibrate::Args),
+    Tdc(tdc::Args),
+    Spad(spad::Args),
     Vectors(vectors::Args),
     Verify(verify::Args),
     Timing(timing::Args),
@@ -107,6 +113,9 @@ impl Cli {
             Verb::Estimate(args) => estimate::run(args, talk),
             Verb::Evaluate(args) => return evaluate::run(args, talk),
             Verb::Quantize(args) => quantize::run(args, talk),
+            Verb::Calibrate(args) => calibrate::run(args, talk),
+            Verb::Tdc(args) => return tdc::run(args, talk),
+            Verb::Spad(args) => spad::run(args, talk),
             Verb::Vectors(args) => vectors::run(args, talk),
             Verb::Verify(args) => return verify::run(args, talk),
             Verb::Timing(args) => return timing::run(args, talk),

@@ -1,5 +1,6 @@
 //! Histograms through `estimate`, against a separate and deliberately naive integer implementation.
 
+mod likelihood;
 mod naive;
 
 use std::path::Path;

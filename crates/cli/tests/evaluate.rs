@@ -76,10 +76,15 @@ fn a_folder_gets_the_figures_and_the_plots() {
     let folder = empty();
     stdout(folder.path(), &with(&["-o", "out"]));
     let names = common::files(&folder.path().join("out"));
-    assert_eq!(names.len(), 3 + 3 * 3, "{names:?}");
+    assert_eq!(names.len(), 3 + 3 * 3 + 1, "{names:?}");
     let both = fs::read_to_string(folder.path().join("out/errors_by_distance_m.svg")).unwrap();
     for words in ["network-float", "specification (Table 5.2)", "tofsim-record"] {
         assert!(both.contains(words), "{words}");
+    }
+    let spread = fs::read_to_string(folder.path().join("out/spread_by_distance_m.svg")).unwrap();
+    for words in ["network-float", "Cramer-Rao bound", "2 sd [mm]", "distance [m]", "tofsim-record"]
+    {
+        assert!(spread.contains(words), "{words}");
     }
     let csv = fs::read_to_string(folder.path().join("out/evaluation.csv")).unwrap();
     assert_eq!(csv.lines().count(), 2 + 2 * (51 + 53 + 9));

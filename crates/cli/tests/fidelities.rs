@@ -53,7 +53,7 @@ pub fn two_sample(a: &Counts, b: &Counts) -> f64 {
 }
 
 fn random_setup(random: &mut ChaCha8Rng) -> Setup {
-    let chain = ["uniform", "table6_3", "ideal"][random.random_range(0..3)];
+    let chain = ["uniform", "table6_3", "ideal", "kintex7"][random.random_range(0..4)];
     let keys = [
         format!("target.distance_m={}", random.random_range(0.05..1.2)),
         format!("target.reflectance={}", random.random_range(0.02..0.9)),

@@ -70,7 +70,7 @@ fn any_other_key_may_be_on_a_grid_and_is_a_column() {
     assert_eq!(names, [&["reflectance", "irradiance_w_m2_nm"], &own[..]].concat());
     // A wider pulse spreads the same frame's photons.
     let wide = setup("kc705", &["laser.pulse_sigma_ps=200"]);
-    assert_eq!(wide.budget.pulse_sigma_ps, 200.0);
+    assert_eq!(wide.budget.pulse.sigma_ps(), 200.0);
 }
 
 #[test]
@@ -118,8 +118,8 @@ fn an_evaluation_follows_the_grid() {
     assert!(csv.contains("\nmatched,laser.pulse_sigma_ps,200,"), "{csv}");
     let picture = folder.path().join("out/likelihood_by_distance_m.svg");
     assert!(!fs::read_to_string(picture).unwrap().contains("thesis"));
-    // A picture of each estimator and one of all, for four quantities.
-    assert_eq!(files(&folder.path().join("out")).len(), 3 + 4 * 4);
+    // A picture of each estimator and one of all, for four quantities, and that of the spread.
+    assert_eq!(files(&folder.path().join("out")).len(), 3 + 4 * 4 + 1);
 
     let text = stdout(folder.path(), &[&args[..5], &grid[..2]].concat());
     assert!(!text.contains("thesis") && text.contains("Cramer-Rao") && text.contains("0.9 m"));

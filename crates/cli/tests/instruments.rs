@@ -156,6 +156,11 @@ fn instrument(random: &mut ChaCha8Rng, folder: &Path, longest_period: f64) -> Ve
     let period =
         |_| log_uniform(random, shortest as f64, shortest as f64 + longest_period).round() as u64;
     let periods: Vec<_> = (0..rates).map(period).collect();
+    // An event for each tap: Icarus takes minutes for the longest chains.
+    let decoders = match taps <= 400.0 {
+        true => &["ones", "leading", "reordered"][..],
+        false => &["ones", "leading"],
+    };
     vec![
         format!("pll.part={part}"),
         format!("pll.input_hz={}", input_mhz * 1_000_000),
@@ -173,12 +178,14 @@ fn instrument(random: &mut ChaCha8Rng, folder: &Path, longest_period: f64) -> Ve
         format!("tdc.bin_ps={bin_ps}"),
         format!("tdc.first_bin_ps={first_ps}"),
         format!("tdc.count_stages={}", random.random_range(2..=3)),
+        format!("tdc.decoder={}", decoders[random.random_range(0..decoders.len())]),
         format!("firmware.laser_periods={periods:?}"),
         format!("firmware.laser_freq={}", random.random_range(0..rates)),
         format!("firmware.pulse_half_cycles={}", random.random_range(1..=8)),
         format!("firmware.drain_cycles={}", random.random_range(last + 8..last + 100)),
         format!("firmware.mode={}", random.random_range(0..2)),
         format!("seed={}", random.random_range(0..u32::MAX)),
+        format!("laser.delay_ps={}", [0, 650][coarse_bits as usize % 2]),
     ]
 }
 

@@ -34,7 +34,8 @@ const OUTSIDE: &[(&str, &[&str])] = &[
     ("pll.jitter_rms_ps", &["50"]),
     ("firmware.mode", &["1"]),
     ("firmware.laser_en", &["false"]),
-    ("tdc.profile", &["ideal", "table6_3"]),
+    ("tdc.profile", &["ideal", "table6_3", "kintex7"]),
+    ("tdc.calibration", &["uniform"]),
     ("firmware.laser_freq", &["0", "1", "2"]),
 ];
 

@@ -119,7 +119,7 @@ fn the_top_passes_with_the_centroid_estimator_in_its_socket() {
 
 #[test]
 fn uneven_chains_and_passive_quenching_pass_in_icarus() {
-    for chain in ["table6_3", "ideal"] {
+    for chain in ["table6_3", "ideal", "kintex7"] {
         let chain = format!("tdc.profile={chain}");
         let short = ["--top", "-s", "firmware.shots_per_frame=300", "-s", "firmware.mode=1"];
         verified(&[&short[..], &["-s", &chain]].concat());
@@ -135,6 +135,18 @@ fn a_chain_whose_taps_are_reached_out_of_order_passes_in_icarus() {
     let chain = format!("tdc.profile={}", chain.display());
     verified(&["--block", "carry_chain", "--block", "tdc", "-s", &chain]);
     verified(&["--top", "-s", "firmware.shots_per_frame=300", "-s", &chain]);
+}
+
+#[test]
+fn each_calibration_of_a_silicon_chain_passes_in_icarus() {
+    let folder = common::empty();
+    for converter in &common::CONVERTERS[4..] {
+        let keys = common::converter(*converter, folder.path());
+        let set = keys.iter().flat_map(|key| ["-s", key]);
+        verified(&["--block", "tdc_decoder"].into_iter().chain(set.clone()).collect::<Vec<_>>());
+        let top = ["--top", "-s", "firmware.shots_per_frame=300"];
+        verified(&top.into_iter().chain(set).collect::<Vec<_>>());
+    }
 }
 
 #[test]

@@ -51,6 +51,7 @@ fn budgets_datasets_and_evaluations_are_made_again_too() {
         "evaluated/evaluation.json",
         "evaluated/evaluation.csv",
         "evaluated/network_by_distance_m.svg",
+        "evaluated/spread_by_distance_m.svg",
     ] {
         assert!(stdout(path, &["rerun", name]).contains("the same"), "{name}");
     }

@@ -5,6 +5,7 @@
 
 mod cells;
 mod clocks;
+mod decoders;
 mod gates;
 mod record;
 mod rounding;

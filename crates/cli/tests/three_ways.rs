@@ -12,12 +12,14 @@ use rand_distr::{Distribution, Normal};
 
 use tofsim::firmware::depth_estimator::{DepthEstimator, In, Params};
 use tofsim::kernel::U;
-use tofsim::network::mem::{self, lines};
+use tofsim::network::mem::{self, Mem, lines};
 use tofsim::network::{Histogram, Network};
 use tofsim_rtl::verify::process::Limits;
 use tofsim_rtl::verify::{Rtl, Simulator};
 
 use crate::common;
+
+mod likelihood;
 
 const HISTOGRAMS: usize = 10_000;
 /// Most hits of a histogram.
@@ -27,18 +29,15 @@ const BENCH: &str = r#"`timescale 1ps / 1fs
 module bench;
     reg clk_sys = 1'b0, rst = 1'b1, algo_start = 1'b0;
     wire read_en, algo_done;
+    WIRES
     wire [7:0] read_addr;
     wire signed [35:0] depth;
     integer n = 0, edges = 0;
     reg [15:0] words [0:HISTOGRAMS * 256 - 1];
     wire [15:0] count = read_en ? words[256 * n + read_addr] : 16'd0;
 
-    depth_estimator #(
-        .Neurons(NEURONS),
-        .W1File("w1.mem"), .B1File("b1.mem"), .W2File("w2.mem"), .B2File("b2.mem"),
-        .TansigFile("tansig.mem")
-    ) dut (
-        .clk_sys(clk_sys), .rst(rst), .algo_start(algo_start), .count(count),
+    MODULE dut (
+        .clk_sys(clk_sys), .rst(rst), .algo_start(algo_start), .count(count), PORTS
         .read_en(read_en), .read_addr(read_addr), .depth(depth), .algo_done(algo_done)
     );
 
@@ -53,7 +52,7 @@ module bench;
             @(negedge clk_sys) algo_start = 1'b0;
             edges = 0;
             while (!algo_done) @(negedge clk_sys) edges = edges + 1;
-            $display("depth %h %0d", depth, edges);
+            $display("found %h %0d SHOWN", depth, edges VALUES);
             n = n + 1;
         end
         $finish;
@@ -121,28 +120,56 @@ fn stepped(params: &Params, histograms: &[Histogram]) -> Vec<(String, u64)> {
     histograms.iter().map(depth).collect()
 }
 
-/// The same of the Verilog.
-fn simulated(folder: &Path, params: &Params, histograms: &[Histogram]) -> Vec<(String, u64)> {
+/// An estimator in the bench, and what it shows beside depth and edges.
+struct Dut {
+    /// Name and parameters of the module.
+    module: String,
+    roms: Vec<Mem>,
+    /// Wires and ports beside the socket's.
+    wires: &'static str,
+    ports: &'static str,
+    /// Of a line of `$display`.
+    shown: &'static str,
+    values: &'static str,
+}
+
+/// What the Verilog finds, a line for each histogram: depth, edges, and what else is shown.
+fn simulated(folder: &Path, dut: Dut, histograms: &[Histogram]) -> Vec<String> {
     let words = histograms.iter().flatten().map(|&count| count.into());
     fs::write(folder.join("histograms.mem"), lines(words, 4)).unwrap();
-    for rom in mem::depth_estimator(params) {
+    for rom in dut.roms {
         fs::write(folder.join(rom.name), rom.text).unwrap();
     }
-    let neurons = format!("5'd{}", params.neurons());
-    let bench = BENCH.replace("HISTOGRAMS", &histograms.len().to_string());
+    let mut bench = BENCH.replace("HISTOGRAMS", &histograms.len().to_string());
+    for (place, text) in [
+        ("MODULE", &dut.module[..]),
+        ("WIRES", dut.wires),
+        ("PORTS", dut.ports),
+        ("SHOWN", dut.shown),
+        ("VALUES", dut.values),
+    ] {
+        bench = bench.replace(place, text);
+    }
     let path = folder.join("bench.v");
-    fs::write(&path, bench.replace("NEURONS", &neurons)).unwrap();
+    fs::write(&path, bench).unwrap();
     let rtl = Rtl::folder(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rtl_ref")).unwrap();
     let limits = Limits::new(Duration::from_secs(600));
     let simulator = Simulator::Verilator;
     let compiled = simulator.compile(folder, "bench", &[path], &rtl, false, &limits).unwrap();
     let finished = compiled.run(&[], &limits).unwrap();
-    let depths = finished.output.lines().filter_map(|line| line.strip_prefix("depth "));
-    let split = |line: &str| {
-        let (depth, edges) = line.split_once(' ').unwrap();
-        (depth.to_owned(), edges.parse().unwrap())
-    };
-    depths.map(split).collect()
+    let found = finished.output.lines().filter_map(|line| line.strip_prefix("found "));
+    found.map(|line| line.trim_end().to_owned()).collect()
+}
+
+/// The network.
+fn network_of(params: &Params) -> Dut {
+    let module = format!(
+        "depth_estimator #(.Neurons(5'd{}), .W1File(\"w1.mem\"), .B1File(\"b1.mem\"), \
+         .W2File(\"w2.mem\"), .B2File(\"b2.mem\"), .TansigFile(\"tansig.mem\"))",
+        params.neurons()
+    );
+    let roms = mem::depth_estimator(params);
+    Dut { module, roms, wires: "", ports: "", shown: "", values: "" }
 }
 
 /// Depth words of the program.
@@ -165,7 +192,9 @@ fn agree(network: &str, edges: u64) {
     let params = Network::builtin(network).unwrap().unwrap().params(&Default::default());
     let stepped = stepped(&params, &histograms);
     assert!(stepped.iter().all(|(_, taken)| *taken == edges));
-    assert!(stepped == simulated(folder.path(), &params, &histograms), "the Verilog differs");
+    let lines = simulated(folder.path(), network_of(&params), &histograms);
+    let expected = stepped.iter().map(|(depth, edges)| format!("{depth} {edges}"));
+    assert!(expected.eq(lines), "the Verilog differs");
     let words: Vec<_> = stepped.into_iter().map(|(depth, _)| depth).collect();
     assert!(words == estimated(folder.path(), network, &histograms), "estimate differs");
     let mut different = words.clone();

@@ -8,6 +8,7 @@ mod subtraction;
 
 use tofsim::firmware::tdc;
 use tofsim::kernel::Time;
+use tofsim::kernel::pulse::Pulse;
 use tofsim::network::Histogram;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 use tofsim::scenario::builtin::Source as Place;
@@ -31,7 +32,7 @@ fn bins(profile: &str) -> Bins {
 }
 
 fn acquisition(bins: &Bins) -> Acquisition<'_> {
-    Acquisition::new(bins, SHOTS, 137.0)
+    Acquisition::new(bins, SHOTS, &Pulse::Gaussian { sigma_ps: 137.0 })
 }
 
 /// Calls `take` with the budget and `repeats` histograms of each scene: 15 irradiances from 0 to
@@ -48,7 +49,7 @@ fn grid(
         scenario.target.distance_m = distance_m;
         scenario.ambient.irradiance_w_m2_nm = 0.4 * (cell / 20) as f64 / 14.0;
         scenario.target.reflectance = 0.08 + 0.52 * (cell % 20) as f64 / 19.0;
-        let budget = Budget::new(&scenario);
+        let budget = Budget::new(&scenario, Pulse::default());
         let probabilities = BinProbabilities::new(&Hazard::new(&budget), bins);
         let draw = |_| -> Histogram {
             let drawn = probabilities.draw(SHOTS, &mut random);

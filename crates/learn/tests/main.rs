@@ -1,3 +1,5 @@
 //! Estimators, held to what others compute.
 
+mod calibration;
+mod characterisation;
 mod estimators;

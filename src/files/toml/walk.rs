@@ -77,7 +77,7 @@ impl<'a> Walk<'a> {
                 in_range(*number.value() as f64, resolved)
             }
             ("number", Value::Float(number)) => in_range(*number.value(), resolved),
-            ("boolean", Value::Boolean(_)) => true,
+            (_, Value::Boolean(_)) => may_be(resolved, "boolean"),
             (_, Value::String(word)) => match words(resolved) {
                 Some(words) => words.contains(&word.value().as_str()),
                 None => kind(resolved) == "string",
@@ -110,6 +110,7 @@ impl<'a> Walk<'a> {
             "integer" => "a whole number",
             "number" => "a number",
             "boolean" => "true or false",
+            "string" if may_be(resolved, "boolean") => "true or a text in quotes",
             "string" => "a text in quotes",
             "array" => return format!("expected a list{}", lengths(resolved)),
             _ => "a table",
@@ -134,6 +135,12 @@ fn kind(schema: &Json) -> &str {
         Some(Json::Array(kinds)) => kinds.first().and_then(Json::as_str).unwrap_or(""),
         _ => "",
     }
+}
+
+/// Whether it is one of the kinds that the schema has.
+fn may_be(schema: &Json, wanted: &str) -> bool {
+    let kinds = schema.get("type").and_then(Json::as_array);
+    kind(schema) == wanted || kinds.is_some_and(|kinds| kinds.iter().any(|kind| kind == wanted))
 }
 
 /// The words of an enumeration.

@@ -66,6 +66,25 @@ impl Delays {
         })
     }
 
+    /// A chain of as many taps, all alike and in order, that begins and ends when this one does.
+    pub fn evened(&self) -> Self {
+        let (taps, begin, end) = (self.taps() as u64, self.arrivals[0].fs(), self.end.fs());
+        let at = |tap: u64| begin + ((end - begin) * tap + taps / 2) / taps;
+        let delays: Vec<_> = (0..taps).map(|tap| (at(tap + 1) - at(tap)) as i64).collect();
+        Delays::new(Time::from_fs(begin), &delays).unwrap_or_else(|| self.clone())
+    }
+
+    /// The same chain with every delay so many times as long. `None` if a tap would be reached at time 0.
+    pub fn stretched(&self, factor: f64) -> Option<Self> {
+        let stretched = |at: Time| (at.fs() as f64 * factor).round() as i64;
+        let mut reached = vec![stretched(self.end); self.taps() + 1];
+        for (&tap, &at) in self.order.iter().zip(&self.arrivals) {
+            reached[tap as usize] = stretched(at);
+        }
+        let delays: Vec<_> = reached.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        Delays::new(Time::from_fs(u64::try_from(reached[0]).ok()?), &delays)
+    }
+
     /// Length of the chain [taps].
     #[inline]
     pub fn taps(&self) -> usize {
@@ -164,6 +183,19 @@ mod tests {
         let delays = Delays::new(Time::from_ns(2), &tap_delays).unwrap();
         assert_eq!(delays.order()[..4], [0, 2, 1, 3]);
         assert_eq!(delays.rank(Time::from_fs(2_020_000)), 2);
+    }
+
+    #[test]
+    fn a_stretched_chain_is_reached_in_the_same_order_so_many_times_as_late() {
+        let uneven: Vec<_> = (0..TAPS as i64).map(|tap| (tap * 7919 % 41 - 9) * 1_000).collect();
+        let delays = Delays::new(Time::from_ns(3), &uneven).unwrap();
+        assert_eq!(delays.stretched(1.0).as_ref(), Some(&delays));
+        let twice = delays.stretched(2.0).unwrap();
+        assert_eq!(twice.order(), delays.order());
+        for n in 0..=TAPS {
+            assert_eq!(twice.boundary(n).fs(), 2 * delays.boundary(n).fs());
+        }
+        assert_eq!(delays.stretched(0.0), None);
     }
 
     #[test]

@@ -4,8 +4,9 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::firmware::histogram_builder;
+use crate::kernel::pulse::Pulse;
 
-use super::pulse::{Pulse, PulseWord};
+use super::pulse::{PulseWord, step_log2, words};
 use super::words::{DEPTH_FRACTION, UNITS};
 
 /// The box, in deviations of the pulse: the part of a Gaussian in it is 0.84.
@@ -46,6 +47,8 @@ pub struct Params {
     pub metres: i64,
     /// See `metres`.
     pub metres_shift: u32,
+    /// Distance that light would go, there and back, in the laser's delay [2^-29 m].
+    pub delay: i64,
 }
 
 /// What an instrument is, as far as the estimator knows it.
@@ -61,8 +64,10 @@ pub struct Wanted<'a> {
     pub bin_ps: f64,
     /// How arrivals of an echo are spread.
     pub pulse: Pulse,
-    /// Distance for each time from laser edge to arrival, c / 2 [m/ps].
+    /// Distance for each time of flight, c / 2 [m/ps].
     pub metres_per_ps: f64,
+    /// Delay of the light after the laser edge [ps].
+    pub delay_ps: f64,
 }
 
 /// Why there is no estimator for an instrument.
@@ -98,9 +103,10 @@ impl fmt::Debug for Params {
             kappa,
             sigma,
             metres,
+            delay,
             ..
         } = self;
-        let words = (step_log2, before, after, box_bins, kappa, sigma, metres);
+        let words = (step_log2, before, after, box_bins, kappa, sigma, metres, delay);
         out.debug_struct("Params")
             .field("histogram", histogram)
             .field("shots", shots)
@@ -116,14 +122,20 @@ impl Params {
         let bin_ps = 25.0;
         let edges_ps: Vec<_> = (0..=histogram.bins).map(|bin| bin as f64 * bin_ps).collect();
         let (shots, pulse) = (histogram.most_hits(), Pulse::Gaussian { sigma_ps: bin_ps });
-        let metres_per_ps = 1.5e-4;
-        let wanted = Wanted { histogram, shots, edges_ps: &edges_ps, bin_ps, pulse, metres_per_ps };
+        let (metres_per_ps, delay_ps) = (1.5e-4, 0.0);
+        let edges_ps = &edges_ps;
+        let wanted = Wanted { histogram, shots, edges_ps, bin_ps, pulse, metres_per_ps, delay_ps };
         Params::of(&wanted)
     }
 
     /// Bits of the words of the steps: those of a sum, [`Params::word_bits`].
     pub fn word_bits(&self) -> u32 {
         word_bits(&self.histogram)
+    }
+
+    /// Bits of a weight: those of a count above its 6 fraction bits with two more, 24 at least.
+    pub fn weight_bits(&self) -> u32 {
+        (self.histogram.count_bits + 8).max(24)
     }
 
     /// Bits of an edge in half units.
@@ -172,15 +184,16 @@ impl Params {
         let Wanted { histogram, shots, bin_ps, pulse, metres_per_ps, .. } = wanted;
         let (unit_ps, sigma_ps) = (wanted.unit_ps(), pulse.sigma_ps());
         let [before, after] = wanted.reach();
-        let step_log2 = pulse.step_log2(unit_ps);
+        let step_log2 = step_log2(pulse, unit_ps);
         let deviation = sigma_ps / unit_ps / f64::from(1u32 << step_log2) / 4.0;
-        let distance = metres_per_ps * unit_ps / 16.0 * f64::from(DEPTH_FRACTION).exp2();
+        let depth_word = f64::from(DEPTH_FRACTION).exp2();
+        let distance = metres_per_ps * unit_ps / 16.0 * depth_word;
         let metres_shift = (METRES_BITS - 1) - libm::floor(libm::log2(distance)) as i32;
         Params {
             histogram: *histogram,
             shots: *shots,
             edges: wanted.edges().into(),
-            pulse: pulse.words(unit_ps, step_log2).into(),
+            pulse: words(pulse, unit_ps, step_log2).into(),
             step_log2,
             before,
             after,
@@ -190,6 +203,7 @@ impl Params {
             sigma: libm::round(sigma_ps / unit_ps) as i64,
             metres: libm::round(distance * (metres_shift as f64).exp2()) as i64,
             metres_shift: metres_shift as u32,
+            delay: libm::round(metres_per_ps * wanted.delay_ps * depth_word) as i64,
         }
     }
 }

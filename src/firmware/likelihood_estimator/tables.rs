@@ -45,8 +45,22 @@ pub static TABLES: LazyLock<Tables> = LazyLock::new(|| {
 impl Tables {
     /// k(lambda) = lambda / (1 - exp(-lambda)) of a hazard below 16 with 22 fraction bits; 12 fraction bits.
     pub fn k(hazard: i64) -> i64 {
-        let (place, part) = ((hazard >> 20) as usize, hazard >> 10 & 1023);
-        TABLES.k[place] + ((TABLES.growth[place] * part) >> 10)
+        Self::k_before(hazard) + (Self::k_grown(hazard) >> 10)
+    }
+
+    /// k(lambda) at the quarter before that hazard.
+    pub fn k_before(hazard: i64) -> i64 {
+        TABLES.k[(hazard >> 20) as usize]
+    }
+
+    /// What it grows by from there; 22 fraction bits.
+    pub fn k_grown(hazard: i64) -> i64 {
+        Self::k_growth(hazard) * (hazard >> 10 & 1023)
+    }
+
+    /// What it grows by in the quarter.
+    pub fn k_growth(hazard: i64) -> i64 {
+        TABLES.growth[(hazard >> 20) as usize]
     }
 
     /// Reciprocal of a mantissa whose leading one is bit `top`; 10 fraction bits.

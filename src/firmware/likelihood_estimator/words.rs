@@ -43,14 +43,17 @@ pub mod status {
     pub const NOT_SETTLED: u8 = 16;
     /// The histogram is not what the model makes.
     pub const NO_FIT: u8 = 32;
+    /// Some shots were not armed at the laser edge: MODE 1 has no closed form of which those are.
+    pub const UNARMED: u8 = 64;
     /// The bits, and what each says.
-    pub const ALL: [(u8, &str); 6] = [
+    pub const ALL: [(u8, &str); 7] = [
         (NO_ECHO, "no echo"),
         (CUT_OFF, "cut off by the window"),
         (USED_UP, "shots used up"),
         (ANOTHER, "another echo"),
         (NOT_SETTLED, "not settled"),
         (NO_FIT, "no fit"),
+        (UNARMED, "shots not armed"),
     ];
 
     /// All that a status says, in words.

@@ -60,6 +60,9 @@ pub const DEPTH: u8 = 32;
 /// See there.
 pub const SIGMA: u8 = 33;
 
+/// Cycles that the multiplier takes for a product.
+const MULTIPLIED: u8 = 2;
+
 /// What an instruction is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Op {
@@ -94,6 +97,11 @@ pub enum By {
     Metres,
 }
 
+impl By {
+    /// All of them, in the order of their numbers.
+    pub const ALL: [By; 6] = [By::Nothing, By::Bits, By::Exponent, By::Cut, By::Both, By::Metres];
+}
+
 /// Within what limits a result is kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clamp {
@@ -111,6 +119,19 @@ pub enum Clamp {
     Window,
     /// Those of a step in log b.
     Growth,
+}
+
+impl Clamp {
+    /// All of them, in the order of their numbers.
+    pub const ALL: [Clamp; 7] = [
+        Clamp::Word,
+        Clamp::Positive,
+        Clamp::Signal,
+        Clamp::Ambient,
+        Clamp::Chance,
+        Clamp::Window,
+        Clamp::Growth,
+    ];
 }
 
 /// What else is kept of a result.
@@ -147,12 +168,14 @@ pub struct Instruction {
     pub clamp: Clamp,
     /// What else is kept.
     pub mark: Mark,
+    /// Cycles until the next one begins.
+    pub wait: u8,
 }
 
 /// to = a b >> shift.
 const fn times(to: u8, a: u8, b: u8, shift: u8) -> Instruction {
     let (op, by, clamp, mark) = (Op::Alu, By::Nothing, Clamp::Word, Mark::Nothing);
-    Instruction { op, to, a, b, c: ZERO, minus: false, shift, by, clamp, mark }
+    Instruction { op, to, a, b, c: ZERO, minus: false, shift, by, clamp, mark, wait: MULTIPLIED }
 }
 
 impl Instruction {
@@ -180,6 +203,10 @@ impl Instruction {
         Instruction { mark: Mark::Flag(flag), ..self }
     }
 
+    const fn wait(self, wait: u8) -> Self {
+        Instruction { wait, ..self }
+    }
+
     const fn op(self, op: Op) -> Self {
         Instruction { op, ..self }
     }
@@ -192,10 +219,10 @@ const fn over(a: u8) -> Instruction {
 
 /// `exponent` or `cut` from what has been marked.
 const fn measure(op: Op) -> Instruction {
-    times(ZERO, ZERO, ZERO, 0).op(op)
+    times(ZERO, ZERO, ZERO, 0).op(op).wait(1)
 }
 
-const END_OF_PROGRAM: Instruction = times(ZERO, ZERO, ZERO, 0).op(Op::End);
+const END_OF_PROGRAM: Instruction = times(ZERO, ZERO, ZERO, 0).op(Op::End).wait(1);
 
 /// Where the programs begin.
 pub const AMBIENT_PROGRAM: u64 = 0;
@@ -209,74 +236,74 @@ pub const END_PROGRAM: u64 = 49;
 /// All programs.
 pub const PROGRAM: [Instruction; 64] = [
     // The chance of a bin, and -log(1 - chance) to the third power.
-    over(EXPOSURE),
-    times(T, ENDED, R, 2).by(By::Bits).clamp(Clamp::Chance),
-    times(X1, T, T, 24),
+    over(EXPOSURE).wait(26),
+    times(T, ENDED, R, 2).by(By::Bits).clamp(Clamp::Chance).wait(9),
+    times(X1, T, T, 24).wait(9),
     times(X2, X1, T, 24),
-    times(T, X1, ONE, 1).plus(T),
-    times(AMBIENT, X2, THIRD, 10).plus(T).clamp(Clamp::Ambient),
+    times(T, X1, ONE, 1).plus(T).wait(7),
+    times(AMBIENT, X2, THIRD, 10).plus(T).clamp(Clamp::Ambient).wait(9),
     END_OF_PROGRAM,
     // Where the box stands highest, and how high.
-    over(MIDDLE),
-    times(T, EXCESS, R, 0).by(By::Bits),
+    over(MIDDLE).wait(26),
+    times(T, EXCESS, R, 0).by(By::Bits).wait(9),
     times(T, LENGTH, T, 13),
-    times(SIGNAL, T, NINETEEN, 4).clamp(Clamp::Signal),
-    times(ARRIVAL, BOX, ONE, 0),
+    times(ARRIVAL, BOX, ONE, 0).wait(7),
+    times(SIGNAL, T, NINETEEN, 4).clamp(Clamp::Signal).wait(9),
     END_OF_PROGRAM,
     // log b is eliminated.
-    over(SUM_33),
+    over(SUM_33).wait(26),
     times(F1, SUM_13, R, 2).by(By::Bits),
     times(F2, SUM_23, R, 2).by(By::Bits),
-    times(F3, SCORE_3, R, 2).by(By::Bits),
+    times(F3, SCORE_3, R, 2).by(By::Bits).wait(5),
     times(A11, SUM_13, F1, 14).from(SUM_11).clamp(Clamp::Positive).large(),
     times(A12, SUM_23, F1, 14).from(SUM_12),
     times(A22, SUM_23, F2, 14).from(SUM_22).clamp(Clamp::Positive).large(),
     times(X1, SCORE_3, F1, 14).from(SCORE_1).large(),
-    times(X2, SCORE_3, F2, 14).from(SCORE_2).large(),
+    times(X2, SCORE_3, F2, 14).from(SCORE_2).large().wait(10),
     // The rest is shifted to 16 bits, and solved by Cramer's rule.
     measure(Op::Exponent),
     times(A11, A11, ONE, 0).by(By::Exponent),
-    times(A12, A12, ONE, 0).by(By::Exponent),
     times(A22, A22, ONE, 0).by(By::Exponent),
+    times(A12, A12, ONE, 0).by(By::Exponent),
     times(X1, X1, ONE, 0).by(By::Exponent),
-    times(X2, X2, ONE, 0).by(By::Exponent),
-    times(DET, A11, A22, 0),
+    times(X2, X2, ONE, 0).by(By::Exponent).wait(3),
+    times(DET, A11, A22, 0).wait(4),
     times(DET, A12, A12, 0).from(DET).clamp(Clamp::Positive),
-    times(N1, A22, X1, 0),
+    times(N1, A22, X1, 0).wait(4),
     times(N1, A12, X2, 0).from(N1),
-    times(N2, A11, X2, 0),
+    times(N2, A11, X2, 0).wait(4),
     times(N2, A12, X1, 0).from(N2),
-    over(DET),
+    over(DET).wait(26),
     times(D1, N1, R, 2).by(By::Bits),
-    times(D2, N2, R, 2).by(By::Bits).large(),
-    times(T, D1, KAPPA, 14).large(),
+    times(D2, N2, R, 2).by(By::Bits).large().wait(7),
+    times(T, D1, KAPPA, 14).large().wait(10),
     measure(Op::Cut),
     times(D1, D1, ONE, 0).by(By::Cut),
-    times(D2, D2, ONE, 0).by(By::Cut),
+    times(D2, D2, ONE, 0).by(By::Cut).wait(7),
     times(T, F1, D1, 14).from(F3),
-    times(T, F2, D2, 14).from(T).clamp(Clamp::Growth),
-    times(AMBIENT, AMBIENT, T, 14).plus(AMBIENT).clamp(Clamp::Ambient),
     times(X1, D1, STRIDE, 17),
+    times(X2, D2, D2, 15).plus(D2),
+    times(T, F2, D2, 14).from(T).clamp(Clamp::Growth).wait(5),
     times(ARRIVAL, X1, ONE, 0).plus(ARRIVAL).clamp(Clamp::Window),
-    times(T, D2, D2, 15).plus(D2),
-    times(SIGNAL, SIGNAL, T, 14).plus(SIGNAL).clamp(Clamp::Signal),
+    times(SIGNAL, SIGNAL, X2, 14).plus(SIGNAL).clamp(Clamp::Signal),
+    times(AMBIENT, AMBIENT, T, 14).plus(AMBIENT).clamp(Clamp::Ambient).wait(9),
     END_OF_PROGRAM,
     // Flags 0 and 1: log S is not known to a quarter, to a fifth; 2: nor mu to the pulse's deviation.
     times(N1, A11, R, 0).by(By::Both),
+    times(N2, A22, R, 0).op(Op::Root).wait(34),
     times(T, N1, ONE, 0).from(VARIANCE).flag(0),
     times(T, N1, ONE, 0).from(UNSURE).flag(1),
-    times(N2, A22, R, 0).op(Op::Root),
     times(N2, N2, STRIDE, 11).by(By::Bits),
-    times(T, N2, ONE, 0).from(WIDE).flag(2),
     // Flags 3 and 4: next to the begin or the end of the window; 5 and 6: the last step was long.
     times(T, MARGIN, ONE, 0).from(ARRIVAL).flag(3),
-    times(T, ARRIVAL, ONE, 0).from(END),
+    times(T, ARRIVAL, ONE, 0).from(END).wait(4),
     times(T, MARGIN, ONE, 0).from(T).flag(4),
+    times(T, N2, ONE, 0).from(WIDE).flag(2),
     times(T, N2, TWO, 0).plus(X1).flag(5),
-    times(X1, X1, ONE, 0).from(ZERO),
+    times(X1, X1, ONE, 0).from(ZERO).wait(4),
     times(T, N2, TWO, 0).plus(X1).flag(6),
     times(DEPTH, ARRIVAL, METRES, 0).by(By::Metres),
-    times(SIGMA, N2, METRES, 0).by(By::Metres),
+    times(SIGMA, N2, METRES, 0).by(By::Metres).wait(9),
     END_OF_PROGRAM,
 ];
 
@@ -284,11 +311,57 @@ pub const PROGRAM: [Instruction; 64] = [
 pub fn program_cycles(entry: u64) -> u64 {
     let instructions = PROGRAM[entry as usize..].iter();
     let instructions = instructions.take_while(|instruction| instruction.op != Op::End);
-    let cycles = instructions.map(|instruction| match instruction.op {
-        Op::Alu => 5,
-        Op::Reciprocal => 5 + 18,
-        Op::Root => 5 + 26,
-        Op::Exponent | Op::Cut | Op::End => 1,
-    });
-    cycles.sum::<u64>() + 3
+    instructions.map(|instruction| u64::from(instruction.wait)).sum::<u64>() + 3
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cycles from an instruction to one that has its result as `a` or `b`, as `c`, or in a measure.
+    const LATENCY: u64 = 9;
+    const LATE: u64 = 4;
+    const MARKED: u64 = 10;
+
+    #[test]
+    fn no_instruction_begins_before_it_has_its_operands() {
+        for entry in [AMBIENT_PROGRAM, START_PROGRAM, STEP_PROGRAM, END_PROGRAM] {
+            let (mut now, mut ready, mut marked, mut divided) = (LATENCY, [LATENCY; 64], 0, 0);
+            for (place, instruction) in PROGRAM.iter().enumerate().skip(entry as usize) {
+                let Instruction { op, to, a, b, c, mark, wait, .. } = *instruction;
+                let latency = match op {
+                    Op::Reciprocal => 26,
+                    Op::Root => 34,
+                    _ => LATENCY,
+                };
+                let early = match op {
+                    Op::End => ready.iter().max().is_some_and(|&last| now < last),
+                    Op::Exponent | Op::Cut => now < marked,
+                    _ => {
+                        let operands =
+                            ready[if a < 32 { a } else { 62 } as usize].max(ready[b as usize]);
+                        now < operands
+                            .max(divided)
+                            .max(ready[if c < 32 { c } else { 62 } as usize] + LATE - LATENCY)
+                    }
+                };
+                assert!(!early, "{place}");
+                if op == Op::End {
+                    break;
+                }
+                if !matches!(op, Op::Exponent | Op::Cut) {
+                    assert!(wait >= MULTIPLIED, "{place}");
+                    // Places of outputs are those of operands from other blocks.
+                    ready[if to < 32 { to } else { 63 } as usize] = now + latency;
+                }
+                if mark == Mark::Magnitude {
+                    marked = now + MARKED;
+                }
+                if latency > LATENCY {
+                    divided = now + latency;
+                }
+                now += u64::from(wait);
+            }
+        }
+    }
 }

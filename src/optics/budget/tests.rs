@@ -2,12 +2,28 @@
 
 use super::*;
 
+fn budget(scenario: &Scenario) -> Budget {
+    Budget::new(scenario, Pulse::default())
+}
+
 #[test]
 fn the_default_pulse_has_184_pj_and_returns_after_3_3_ns() {
-    let budget = Budget::new(&Scenario::default());
+    let budget = budget(&Scenario::default());
     assert!((budget.pulse_energy_j - 184e-12).abs() < 1e-18);
     assert_eq!(budget.mean_arrival.fs(), 3_335_641);
     assert_eq!(budget.background_rate_hz() - budget.ambient_rate_hz, 100.0);
+}
+
+#[test]
+fn the_laser_s_delay_moves_the_arrival_and_nothing_else() {
+    let mut scenario = Scenario::default();
+    let at_once = budget(&scenario);
+    scenario.laser.delay_ps = 1234.5;
+    let late = budget(&scenario);
+    assert_eq!(late.mean_arrival.fs(), 3_335_641 + 1_234_500);
+    assert_eq!((late.flight(), at_once.flight()), (at_once.mean_arrival, at_once.mean_arrival));
+    let moved = Budget { mean_arrival: late.mean_arrival, delay: late.delay, ..at_once };
+    assert_eq!(moved, late);
 }
 
 #[test]
@@ -16,7 +32,7 @@ fn a_black_target_returns_nothing() {
     scenario.target.reflectance = 0.0;
     for model in [AmbientModel::Fitted, AmbientModel::Physical] {
         scenario.ambient.model = model;
-        let budget = Budget::new(&scenario);
+        let budget = budget(&scenario);
         assert_eq!((budget.signal_per_shot, budget.ambient_rate_hz), (0.0, 0.0));
     }
 }
@@ -24,9 +40,9 @@ fn a_black_target_returns_nothing() {
 #[test]
 fn light_outside_the_field_of_view_is_not_seen() {
     let mut scenario = Scenario::default();
-    let whole = Budget::new(&scenario).signal_per_shot;
+    let whole = budget(&scenario).signal_per_shot;
     scenario.spad.field_of_view_deg = 10.5;
-    let half = Budget::new(&scenario).signal_per_shot / whole;
+    let half = budget(&scenario).signal_per_shot / whole;
     let cos4 = |deg: f64| deg.to_radians().cos().powi(4);
     let expected = (1.0 - cos4(5.25)) / (1.0 - cos4(10.5));
     assert!((half / expected - 1.0).abs() < 2e-4, "{half} {expected}");
@@ -57,7 +73,7 @@ fn the_thesis_optics_have_the_fitted_rate_to_the_bit_whatever_the_thesis_varies(
             let mut scenario = Scenario::default();
             scenario.target.distance_m = millimetres as f64 / 1000.0;
             change(&mut scenario);
-            let found = Budget::new(&scenario).ambient_rate_hz;
+            let found = budget(&scenario).ambient_rate_hz;
             assert_eq!(found.to_bits(), stated_hz(&scenario).to_bits(), "{name}, {millimetres} mm");
         }
     }
@@ -84,7 +100,7 @@ fn optics_move_the_fitted_rate_as_they_move_the_physical_one() {
                 scenario.target.distance_m = distance_m;
                 scenario.ambient.model = model;
                 change(&mut scenario);
-                Budget::new(&scenario).ambient_rate_hz
+                budget(&scenario).ambient_rate_hz
             };
             let moved = |model| rate(model, change) / rate(model, |_| ());
             let (fitted, physical) = (moved(AmbientModel::Fitted), moved(AmbientModel::Physical));
@@ -102,7 +118,7 @@ fn beyond_the_fit_the_rate_falls_with_the_targets_solid_angle() {
         if let Some(side_m) = side_m {
             (scenario.target.length_m, scenario.target.width_m) = (side_m, side_m);
         }
-        Budget::new(&scenario).ambient_rate_hz
+        budget(&scenario).ambient_rate_hz
     };
     let solid_angle = |distance_m: f64| 0.26 * 0.20 / (distance_m * distance_m);
     let expected = solid_angle(6.0) / solid_angle(3.0);

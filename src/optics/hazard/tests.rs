@@ -1,5 +1,7 @@
 //! The hazard and its inverse against the exact functions.
 
+use crate::kernel::pulse::{Pulse, Samples, normal_cdf};
+
 use super::*;
 
 fn budget(background_hz: f64, signal: f64, mean_ps: u64, sigma_ps: f64) -> Budget {
@@ -7,7 +9,7 @@ fn budget(background_hz: f64, signal: f64, mean_ps: u64, sigma_ps: f64) -> Budge
         signal_per_shot: signal,
         ambient_rate_hz: background_hz,
         mean_arrival: Time::from_fs(mean_ps * 1000),
-        pulse_sigma_ps: sigma_ps,
+        pulse: Pulse::Gaussian { sigma_ps },
         ..Budget::default()
     }
 }
@@ -26,12 +28,13 @@ const SCENES: [(f64, f64, u64, f64); 7] = [
 fn scenes() -> impl Iterator<Item = (Budget, Hazard)> {
     SCENES.iter().map(|&(n, s, mean_ps, sigma_ps)| {
         let budget = budget(n, s, mean_ps, sigma_ps);
-        (budget, Hazard::new(&budget))
+        let hazard = Hazard::new(&budget);
+        (budget, hazard)
     })
 }
 
 fn sigmas(budget: &Budget, t: Time) -> f64 {
-    (t.fs() as f64 - budget.mean_arrival.fs() as f64) / (budget.pulse_sigma_ps * 1e3)
+    (t.fs() as f64 - budget.mean_arrival.fs() as f64) / (budget.pulse.sigma_ps() * 1e3)
 }
 
 fn exact(budget: &Budget, t: Time) -> f64 {
@@ -41,7 +44,7 @@ fn exact(budget: &Budget, t: Time) -> f64 {
 
 /// Times within `reach` sigma of the mean, and after the laser edge.
 fn times(budget: &Budget, reach: f64) -> impl Iterator<Item = Time> {
-    let (mean_ps, sigma_ps) = (budget.mean_arrival.ps() as f64, budget.pulse_sigma_ps);
+    let (mean_ps, sigma_ps) = (budget.mean_arrival.ps() as f64, budget.pulse.sigma_ps());
     (0..10_007)
         .map(move |k| mean_ps + (k as f64 / 5003.0 - 1.0) * reach * sigma_ps)
         .filter(|&ps| ps > 0.002)
@@ -64,7 +67,7 @@ fn the_hazard_is_within_1e_5_of_the_signal() {
 fn an_arrival_is_within_a_4000th_of_sigma() {
     let mut worst = 0.0f64;
     for (budget, hazard) in scenes() {
-        let sigma_fs = budget.pulse_sigma_ps * 1e3;
+        let sigma_fs = budget.pulse.sigma_ps() * 1e3;
         for t in times(&budget, 7.0).filter(|&t| sigmas(&budget, t) < 5.0) {
             let found = hazard.inverse(exact(&budget, t)).fs() as f64;
             let error = (found - t.fs() as f64).abs() - 1.0;
@@ -101,6 +104,29 @@ fn what_would_come_before_the_laser_edge_arrives_at_it() {
     assert_eq!(hazard.inverse(0.99 * jump), Time::ZERO);
     assert!(hazard.inverse(1.1 * jump) > Time::ZERO);
     assert_eq!(hazard.cause(Time::ZERO, 0.9), Cause::Signal);
+}
+
+#[test]
+fn a_delayed_pulse_is_the_same_pulse_later_in_the_same_background() {
+    let variation = Variation { timing_ps: 80.0, energy: 0.2 };
+    let later = Time::from_fs(2_345_678);
+    for variation in [Variation::default(), variation] {
+        let own = Budget { variation, ..budget(0.27e9, 3.0, 3336, 137.0) };
+        let [own, late] = [Time::ZERO, later].map(|delay| {
+            Hazard::new(&Budget { mean_arrival: own.mean_arrival + delay, ..own.clone() })
+        });
+        let between = 0.27e9 * later.seconds();
+        for ps in (2_000..6_000).step_by(7) {
+            let t = Time::from_fs(ps * 1000 + 1);
+            let (expected, found) = (own.at(t) + between, late.at(t + later));
+            assert!((found / expected - 1.0).abs() < 1e-9, "{found} for {expected} at {t}");
+            let wait = (late.inverse(found), own.inverse(expected - between) + later);
+            assert!(wait.0.max(wait.1) - wait.0.min(wait.1) < Time::from_fs(20), "{wait:?}");
+            let [expected, found] =
+                [own.varied([0.5, -1.0]).at(t), late.varied([0.5, -1.0]).at(t + later)];
+            assert!((found / (expected + between) - 1.0).abs() < 1e-9, "{found} at {t}");
+        }
+    }
 }
 
 #[test]
@@ -163,4 +189,23 @@ fn causes_share_an_avalanche_by_their_rates() {
     }
     assert_eq!(hazard.cause(Time::from_ns(1), 0.499), Cause::Ambient);
     assert_eq!(hazard.cause(Time::ZERO, 0.501), Cause::Dark);
+}
+
+#[test]
+fn other_pulses_are_as_exact_as_their_length_allows() {
+    let bump: Vec<_> = (0..80).map(|k| k as f64 * (-0.1 * k as f64).exp()).collect();
+    let sampled = Pulse::Sampled(Samples::new(12.5, &bump).unwrap());
+    for pulse in [Pulse::tailed(137.0, 137.0), Pulse::tailed(137.0, 20.0), sampled] {
+        let budget = Budget { pulse, ..budget(0.27e9, 0.89, 3336, 137.0) };
+        let hazard = Hazard::new(&budget);
+        let (mean_ps, [from_ps, until_ps]) = (3336.0, budget.pulse.reach_ps());
+        for k in 0..10_007 {
+            let since_ps = from_ps + (until_ps - from_ps) * k as f64 / 10_007.0;
+            let t = Time::from_ps_f64(mean_ps + since_ps);
+            let exact = budget.background_rate_hz() * t.seconds()
+                + budget.signal_per_shot * budget.pulse.part(since_ps);
+            assert!((hazard.at(t) - exact).abs() < 5e-5, "{:?} at {since_ps}", budget.pulse);
+            assert!(hazard.at(hazard.inverse(exact)) <= exact * (1.0 + 1e-12));
+        }
+    }
 }

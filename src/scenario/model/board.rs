@@ -3,9 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::firmware::coarse_counter::DEFAULT_COARSE_BITS;
 use crate::firmware::frame_ctrl::DRAIN_CYCLES;
-use crate::firmware::histogram_builder::{BINS, COUNT_BITS};
+use crate::firmware::histogram_builder::COUNT_BITS;
 use crate::firmware::pll;
 use crate::firmware::vcsel_driver::PERIODS;
 use crate::kernel::Time;
@@ -67,31 +66,6 @@ impl Pll {
             output_divide: self.output_divide,
             lock_time: Time::from_ps_f64(self.lock_time_us * 1e6),
         }
-    }
-}
-
-table! {
-    /// The time-to-digital converter.
-    pub struct Tdc {
-        /// Carry chain: `uniform`, `table6_3`, `ideal`, or the path of a chain file.
-        #[schemars(extend("source" = "docs/model.md"))]
-        pub profile: String = "uniform".into(),
-        /// Registers of the ones count. A code comes this and four cycles after the edge that samples its
-        /// hit; with two, the second sums 50 numbers in a cycle.
-        #[schemars(range(min = 2, max = 3), extend("unit" = "cycles", "source" = "docs/timing.md"))]
-        pub count_stages: u64 = 3,
-        /// Width of the coarse count: a shot's window has as many cycles as it can count, 8 with three bits.
-        #[schemars(range(min = 1, max = 12), extend("unit" = "bit", "source" = "section 6.5"))]
-        pub coarse_bits: u32 = DEFAULT_COARSE_BITS,
-        /// Bins of the histogram, and so codes: a power of two.
-        #[schemars(range(min = 16, max = 1024), extend("unit" = "bins", "source" = "section 6.6"))]
-        pub bins: u64 = BINS as u64,
-        /// Width of a bin: what a code counts.
-        #[schemars(range(min = 5.0, max = 2000.0), extend("unit" = "ps", "source" = "section 6.5: 256 bins in 6.4 ns"))]
-        pub bin_ps: f64 = 25.0,
-        /// Time at which bin 0 begins, from the laser edge: a range gate, within the window.
-        #[schemars(range(min = 0.0, max = 32_768_000.0), extend("unit" = "ps", "source" = "choice: at the laser edge"))]
-        pub first_bin_ps: f64 = 0.0,
     }
 }
 
@@ -218,7 +192,8 @@ table! {
         /// Distance that is added to the centroid's.
         #[schemars(range(min = -0.99, max = 0.99), extend("unit" = "m", "source" = "choice: none, so that pile-up shows"))]
         pub centroid_offset_m: f64 = 0.0,
-        /// Standard deviation of the pulse that the likelihood estimator is told; 0: `laser.pulse_sigma_ps`.
+        /// Standard deviation of the Gaussian that the likelihood estimator is told the pulse is; 0: it is told the
+        /// laser's own pulse.
         #[schemars(range(min = 0.0, max = 1e6), extend("unit" = "ps", "source" = "choice: what it really is"))]
         pub told_sigma_ps: f64 = 0.0,
         /// Shots of a histogram that the likelihood estimator is told; 0: those of a frame.

@@ -67,9 +67,28 @@ table! {
         /// Wavelength. Limits of eye safety are known from 700 to 1050 nm.
         #[schemars(range(min = 350.0, max = 1700.0), extend("unit" = "nm", "source" = "Table 3.2"))]
         pub wavelength_nm: f64 = 940.0,
-        /// Standard deviation of the pulse as the detector times it.
+        /// Standard deviation of the pulse as the detector times it, without its tail.
         #[schemars(range(min = 1.0, max = 2000.0), extend("unit" = "ps", "source" = "fitted to Table 5.2"))]
         pub pulse_sigma_ps: f64 = 137.0,
+        /// Mean of an exponential time that comes on top, as of a laser that fades or of carriers that diffuse to a
+        /// SPAD's junction; 0: the pulse is a Gaussian. The mean of the whole stays where it is.
+        #[schemars(range(min = 0.0, max = 2000.0), extend("unit" = "ps", "source" = "choice: none, as in eq. 3.22"))]
+        pub pulse_tail_ps: f64 = 0.0,
+        /// A measured pulse, in place of the two above: a CSV file with columns `time_ps` (even steps) and `density`
+        /// (to a constant factor). Its mean stands where the others' does.
+        #[schemars(extend("source" = "a measured response, as `tofsim calibrate pulse` writes one"))]
+        pub pulse_file: Option<String> = None,
+        /// Delay of the light after the laser edge, that of the driver and of the VCSEL's turn-on: every echo comes so
+        /// much later. Photons of a list have their own times.
+        #[schemars(range(min = 0.0, max = 50_000.0), extend("unit" = "ps", "source" = "choice: none, as in eq. 3.23; laser drivers have a few ns"))]
+        pub delay_ps: f64 = 0.0,
+        /// Standard deviation of the time at which a pulse leaves the laser, from shot to shot; all photons of
+        /// a shot are late together.
+        #[schemars(range(min = 0.0, max = 2000.0), extend("unit" = "ps", "source" = "choice: none"))]
+        pub timing_jitter_ps: f64 = 0.0,
+        /// Standard deviation of a pulse's energy from shot to shot, as a part of the mean.
+        #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "choice: none"))]
+        pub energy_jitter: f64 = 0.0,
         /// Full angle of the illuminated cone (FOI).
         #[schemars(range(min = 0.1, max = 170.0), extend("unit" = "deg", "source" = "Table 3.2"))]
         pub field_of_illumination_deg: f64 = 21.0,
@@ -100,6 +119,17 @@ table! {
     }
 }
 
+/// What a photon does that comes within the dead time of MODE 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum DeadTimeKind {
+    /// Nothing: active recharge.
+    #[default]
+    Fixed,
+    /// It starts the dead time again, and the output stays high: passive recharge.
+    Paralysable,
+}
+
 table! {
     /// The detector.
     pub struct Spad {
@@ -121,9 +151,40 @@ table! {
         /// Time from an avalanche to the next possible one in MODE 1.
         #[schemars(range(min = 5.0, max = 1e6), extend("unit" = "ns", "source" = "Table 3.2"))]
         pub dead_time_ns: f64 = 20.0,
+        /// What a photon does that comes within the dead time of MODE 1: nothing (`fixed`), or the dead time
+        /// starts again and the output stays high (`paralysable`, passive recharge).
+        #[schemars(extend("source" = "choice: as the thesis's; both in Knoll, Radiation Detection and Measurement, chapter 4"))]
+        pub dead_time_kind: DeadTimeKind = DeadTimeKind::Fixed,
         /// Rate of avalanches in the dark; 0 switches them off.
         #[schemars(range(min = 0.0, max = 1e9), extend("unit" = "1/s", "source" = "choice: a quiet CMOS SPAD"))]
         pub dark_rate_hz: f64 = 100.0,
+        /// Temperature of the diode; `dark_rate_hz` is stated at 20.
+        #[schemars(range(min = -55.0, max = 125.0), extend("unit" = "deg C", "source" = "choice: a laboratory"))]
+        pub temperature_c: f64 = 20.0,
+        /// Degrees with which the dark rate doubles.
+        #[schemars(range(min = 1.0, max = 100.0), extend("unit" = "K", "source" = "choice: 0.64 eV at 20 deg C; half of silicon's gap, 0.56 eV, would be 9.2"))]
+        pub dark_doubling_c: f64 = 8.0,
+        /// Standard deviation of the logarithm of the dark rates of the SPADs on the TDC, whose median is
+        /// `dark_rate_hz`; they are the even quantiles of a log-normal distribution.
+        #[schemars(range(min = 0.0, max = 5.0), extend("unit" = "1", "source" = "choice: all alike"))]
+        pub dark_spread: f64 = 0.0,
+        /// Chance that an avalanche leaves a carrier in a trap, which fires the diode again when it is released, if
+        /// that is armed by then.
+        #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "choice: none, as in the thesis"))]
+        pub afterpulse_probability: f64 = 0.0,
+        /// Mean time that the carrier is trapped, which is exponential.
+        #[schemars(range(min = 0.1, max = 1e5), extend("unit" = "ns", "source" = "choice: tens of ns; trap levels differ from process to process"))]
+        pub afterpulse_ns: f64 = 50.0,
+        /// Mean time in a trap of a second kind, which is exponential too.
+        #[schemars(range(min = 0.1, max = 1e5), extend("unit" = "ns", "source" = "choice: ten times the first; a deep level beside a shallow one"))]
+        pub afterpulse_second_ns: f64 = 500.0,
+        /// Part of the trapped carriers that are in traps of the second kind; 0: there is one kind.
+        #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "choice: none"))]
+        pub afterpulse_second_share: f64 = 0.0,
+        /// Chance that an avalanche sets off a neighbour in the row at once, if both are on the TDC and that is
+        /// armed.
+        #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "choice: none, as in the thesis"))]
+        pub crosstalk_probability: f64 = 0.0,
     }
 }
 

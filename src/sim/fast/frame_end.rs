@@ -76,9 +76,10 @@ fn land_in_estimation(top: &mut TofTop, p: &Params) {
         Estimator::Likelihood => {
             let params = &p.likelihood_estimator;
             let likelihood = &mut top.likelihood_estimator;
+            let mode = top.control_sync.mode_sync;
             for _ in 1..params.done() {
                 let count = words[likelihood.likelihood_memory.registers.read_addr.index()];
-                let i = likelihood_estimator::In { rst: false, algo_start: false, count };
+                let i = likelihood_estimator::In { rst: false, algo_start: false, mode, count };
                 likelihood.rise(&i, params);
             }
         }

@@ -28,7 +28,7 @@ use super::outcomes::ShotOutcomes;
 /// for the error.
 ///
 /// # Errors
-/// When more than a shot's first avalanche decides what becomes of it (MODE 1, jitter, control
+/// When more than a shot's first avalanche decides what becomes of it (MODE 1, afterpulses, jitter, control
 /// changes, a stimulus in place of light, a chain too long for the laser rate), or a frame never ends.
 pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics, ShotOutcomes)> {
     let refusal = |field: &str, why: &str| {
@@ -48,6 +48,11 @@ pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics,
     if firmware.mode != QuenchMode::EachShot {
         let why = "expected 0: in MODE 1 a shot may have several avalanches";
         return Err(refusal("firmware.mode", why).value(u64::from(firmware.mode)).into());
+    }
+    let afterpulses = setup.scenario.spad.afterpulse_probability;
+    if afterpulses > 0.0 {
+        let why = "expected 0: an afterpulse of one shot may be the first avalanche of the next";
+        return Err(refusal("spad.afterpulse_probability", why).value(afterpulses).into());
     }
     if !setup.scenario.control.is_empty() {
         return Err(refusal("control", "nothing may change within it").into());
@@ -102,7 +107,7 @@ impl<'a> Histograms<'a> {
             let codes = BinProbabilities::new(hazard, &bins);
             let uncoded = 1.0 - codes.of_code().iter().sum::<f64>();
             let no_code = outcomes.ends().map(|end| {
-                let missed = (-hazard.at(end)).exp();
+                let missed = hazard.none_before(end);
                 if missed < uncoded { 1.0 - missed / uncoded } else { 0.0 }
             });
             Kind { lit, codes, no_code }

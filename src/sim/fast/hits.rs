@@ -91,8 +91,8 @@ impl Hits {
     #[inline(always)]
     fn count_oldest(&mut self, top: &mut TofTop, p: &Params) {
         let Some(hit) = self.0.pop_front() else { return };
-        let (coarse, ones) = (hit.coarse.get(), hit.taps.ones(p.tdc.delays.taps()));
-        if let Some(code) = p.tdc.decoder.code(coarse, ones) {
+        let (coarse, n) = (hit.coarse.get(), p.tdc.decoder.number(&hit.taps));
+        if let Some(code) = p.tdc.decoder.code(coarse, n) {
             top.tdc.tdc_decoder.tdc_code = code;
             top.nets.tdc_code = code;
             top.histogram_builder.count_at_once(code, &p.histogram);

@@ -12,22 +12,50 @@ use crate::firmware::likelihood_estimator::params::Params;
 use crate::firmware::likelihood_estimator::words::STEPS;
 
 use histogram::Shots;
-use step::{Information, Point, step};
+use step::step;
 use verdict::verdict;
 
+pub use histogram::{Ambient, Block};
+pub use scan::Best;
+pub use step::{Information, Point};
 pub use verdict::Found;
+
+/// An estimate, and all that it comes by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trace {
+    /// What the blocks of bins show of ambient light.
+    pub ambient: Ambient,
+    /// The highest place of the box.
+    pub start: Best,
+    /// Where the fit begins.
+    pub begin: Point,
+    /// Where each step leads, and what it knew.
+    pub steps: [(Point, Information); STEPS],
+    /// The highest place of the box outside of the fit.
+    pub other: Best,
+    /// What comes out.
+    pub found: Found,
+}
 
 /// The estimate of a histogram.
 pub fn estimate(p: &Params, histogram: &[u32]) -> Found {
+    trace(p, histogram).found
+}
+
+/// The same, with what each stage comes to.
+pub fn trace(p: &Params, histogram: &[u32]) -> Trace {
     let shots = Shots::new(p, histogram);
     let ambient = shots.ambient(p);
-    let start = scan::scan(p, &shots, ambient, 0..0);
-    let (mut point, mut information) = (Point::start(p, &start, ambient), Information::default());
-    for _ in 0..STEPS {
+    let start = scan::scan(p, &shots, ambient.hazard, 0..0);
+    let begin = Point::start(p, &start, ambient.hazard);
+    let (mut point, mut information) = (begin, Information::default());
+    let steps = std::array::from_fn(|_| {
         (point, information) = step(p, &shots, &point);
-    }
+        (point, information)
+    });
     let other = scan::scan(p, &shots, point.ambient, point.window(p));
-    verdict(p, &shots, &start, &other, &point, &information)
+    let found = verdict(p, &shots, &start, &other, &point, &information);
+    Trace { ambient, start, begin, steps, other, found }
 }
 
 #[cfg(test)]

@@ -37,6 +37,8 @@ impl Setup {
             && firmware.mode == QuenchMode::EachShot
             && matches!(self.params.code_source, CodeSource::Tdc)
             && !matches!(self.light, Light::List(_))
+            // A carrier that is trapped in one frame may be released in the next.
+            && self.scenario.spad.afterpulse_probability == 0.0
             && delays.tap_0() <= self.cycle()
             && delays.longest() <= self.cycle() + self.cycle()
     }
@@ -125,7 +127,7 @@ fn pass(device: &mut Device, cycles: u64, frame: u64) {
     let begun = device.pll.clk_sys.rise(device.cycle);
     device.cycle += cycles;
     device.timeline.pass(device.pll.clk_sys.rise(device.cycle) - begun);
-    device.light.begin_frame(frame);
+    device.begin_frame(frame);
     device.spads.arm_all(Time::NEVER);
     device.line = StopLine::default();
 }

@@ -1,8 +1,9 @@
 //! Shots of an undisturbed acquisition as a whole: a draw, a code and a count each.
 //!
-//! Exact where the first avalanche of a shot is all that decides: the light of optics, MODE 0, a chain
-//! that is clear in time, no control signal that changes. Registers that nothing reads again may
-//! differ: the TDC lands as after a reset.
+//! Exact where the first avalanche of a shot is all that decides: the light of optics, the same in every shot,
+//! MODE 0, diodes that only fire (an afterpulse of one shot may be the first avalanche of the next), a chain that
+//! is clear in time, no control signal that changes. Registers that nothing reads again may differ: the TDC lands
+//! as after a reset.
 
 use std::sync::Arc;
 
@@ -31,8 +32,12 @@ impl Tables {
     fn find(&mut self, rate: Rate, lit: bool, p: &Params, light: &Light) -> Option<Arc<Draws>> {
         let Light::Optics(optics) = light else { return None };
         let make = || {
+            let hazard = optics.hazard(lit);
+            if !hazard.variation().is_none() {
+                return None;
+            }
             let outcomes = ShotOutcomes::new(&p.tdc, p.vcsel_driver.period(rate))?;
-            Some(Arc::new(Draws::new(outcomes, optics.hazard(lit).clone())))
+            Some(Arc::new(Draws::new(outcomes, hazard.clone())))
         };
         self.draws[rate.index()][lit as usize].get_or_insert_with(make).clone()
     }
@@ -47,6 +52,9 @@ pub fn leap_shots(
     frames: &mut Frames,
     hits: &mut Hits,
 ) {
+    if device.spads.row().is_some() {
+        return;
+    }
     let Some((rate, lit)) = independent_shot(device) else { return };
     let Some(draws) = tables.find(rate, lit, p, &device.light) else { return };
     let Light::Optics(optics) = &mut device.light else { return };

@@ -14,6 +14,9 @@ fn a_dark_frame_of_a_pair_has_no_opinion() {
 fn where_its_model_does_not_hold_it_says_why_there_is_none() {
     for (set, key) in [
         ("firmware.mode=1", "firmware.mode"),
+        ("laser.timing_jitter_ps=5", "laser.timing_jitter_ps"),
+        ("laser.energy_jitter=0.1", "laser.energy_jitter"),
+        ("spad.afterpulse_probability=0.01", "spad.afterpulse_probability"),
         ("tdc.first_bin_ps=1000", "tdc.first_bin_ps"),
         ("pll.jitter_rms_ps=10", "pll.jitter_rms_ps"),
         ("laser.pulse_sigma_ps=5", "laser.pulse_sigma_ps"),

@@ -2,7 +2,8 @@
 
 use crate::error::Input;
 use crate::firmware::likelihood_estimator::params::{Params, Unfit, Wanted};
-use crate::firmware::likelihood_estimator::pulse::Pulse;
+use crate::kernel::pulse::Pulse;
+use crate::optics::Bins;
 use crate::optics::budget::LIGHT_M_S;
 use crate::scenario::QuenchMode;
 
@@ -16,6 +17,31 @@ impl Setup {
     /// (`tdc.first_bin_ps`), the SPAD is not armed for each shot (`firmware.mode`), or the pulse or the window
     /// is too long for its words.
     pub fn likelihood(&self, shots: u64) -> Result<Params, Input> {
+        self.likelihood_by(shots, Params::new)
+    }
+
+    /// The same for what is made of the instrument by `make`.
+    ///
+    /// # Errors
+    /// As for [`Setup::likelihood`].
+    pub fn likelihood_by<T>(
+        &self,
+        shots: u64,
+        make: impl FnOnce(&Wanted) -> Result<T, Unfit>,
+    ) -> Result<T, Input> {
+        self.likelihood_of(shots, &self.known_bins(), make)
+    }
+
+    /// The same for bins that are not the chain's.
+    ///
+    /// # Errors
+    /// As for [`Setup::likelihood`].
+    pub fn likelihood_of<T>(
+        &self,
+        shots: u64,
+        bins: &Bins,
+        make: impl FnOnce(&Wanted) -> Result<T, Unfit>,
+    ) -> Result<T, Input> {
         let scenario = &self.scenario;
         let fault = |field: &str, value: f64, expected: String| {
             let source = format!("scenario {}", self.name);
@@ -26,7 +52,6 @@ impl Setup {
                 "expected 0 for likelihood_estimator: its shots are armed at the laser edge";
             return Err(fault("firmware.mode", 1.0, expected.to_owned()));
         }
-        let bins = self.bins();
         if bins.first_ps() != 0.0 {
             let expected = "expected 0 for likelihood_estimator: hits before the first bin use up shots, and it \
                             does not hear of them";
@@ -38,22 +63,23 @@ impl Setup {
             let expected = format!("expected {most} or less, what a word of the histogram holds");
             return Err(fault("estimator.told_shots", told.told_shots as f64, expected));
         }
-        let or = |told: f64, own: f64| if told > 0.0 { told } else { own };
+        let pulse = match told.told_sigma_ps > 0.0 {
+            true => Pulse::Gaussian { sigma_ps: told.told_sigma_ps },
+            false => self.budget.pulse.clone(),
+        };
+        let sigma_ps = pulse.sigma_ps();
         let wanted = Wanted {
             histogram: self.params.histogram,
             shots: if told.told_shots > 0 { told.told_shots } else { shots },
             edges_ps: &bins.edges_ps(),
             bin_ps: bins.bin_ps(),
-            pulse: Pulse::Gaussian {
-                sigma_ps: or(told.told_sigma_ps, scenario.laser.pulse_sigma_ps),
-            },
+            pulse,
             metres_per_ps: LIGHT_M_S / 2e12,
+            delay_ps: scenario.laser.delay_ps,
         };
-        Params::new(&wanted).map_err(|unfit| {
+        make(&wanted).map_err(|unfit| {
             let (field, value) = match unfit {
-                Unfit::Short(_) | Unfit::Long(..) => {
-                    ("laser.pulse_sigma_ps", scenario.laser.pulse_sigma_ps)
-                }
+                Unfit::Short(_) | Unfit::Long(..) => ("laser.pulse_sigma_ps", sigma_ps),
                 Unfit::Late(_) | Unfit::Wide(_) | Unfit::Far(..) => ("tdc.bin_ps", bins.bin_ps()),
             };
             fault(field, value, format!("likelihood_estimator: {unfit}"))

@@ -21,18 +21,56 @@ impl Setup {
     }
 
     /// What the depths of a run lie outside of: what the scenario makes impossible, or else what the
-    /// network was trained for.
+    /// network was trained for, and that the TDC was calibrated under other conditions.
     ///
     /// # Errors
     /// When the network's file has a domain that is none.
     pub fn notes(&self) -> Result<Vec<Note>> {
-        match &self.no_depth {
-            Some(note) => Ok(vec![note.clone()]),
-            None if self.params.estimator == Estimator::Network => {
-                domain::notes(&self.network, &self.scenario, &[])
-            }
-            None => Ok(Vec::new()),
+        if let Some(note) = &self.no_depth {
+            return Ok(vec![note.clone()]);
         }
+        let mut notes = Vec::new();
+        if self.params.estimator == Estimator::Network {
+            notes = domain::notes(&self.network, &self.scenario, &[])?;
+        }
+        let is_network = self.params.estimator == Estimator::Network;
+        let drift = self.drift_for(is_network.then_some(&notes[..]));
+        notes.extend(drift);
+        Ok(notes)
+    }
+
+    /// That the chain has drifted since the TDC was calibrated, if it has; of estimators that are all the network, with
+    /// those notes of what it was trained for. It has learnt the drift that it was trained with.
+    pub fn drift_for(&self, of_network: Option<&[Note]>) -> Option<Note> {
+        let is_of_drift = |note: &Note| domain::OF_DRIFT.contains(&note.key.as_str());
+        let has_learnt = of_network
+            .is_some_and(|notes| self.network.domain.is_some() && !notes.iter().any(is_of_drift));
+        if has_learnt { None } else { self.drift() }
+    }
+
+    /// That the chain has drifted since the TDC was calibrated, if it has.
+    fn drift(&self) -> Option<Note> {
+        let known = self.calibrated.as_ref()?;
+        let tdc = &self.scenario.tdc;
+        let [then_c, then_mv] = [
+            tdc.calibrated_at_c.unwrap_or(tdc.temperature_c),
+            tdc.calibrated_at_mv.unwrap_or(tdc.supply_mv),
+        ];
+        let by_c = tdc.delay_per_c * (tdc.temperature_c - then_c);
+        let by_mv = tdc.delay_per_mv * (tdc.supply_mv - then_mv);
+        let (key, value, then) = match by_mv.abs() > by_c.abs() {
+            true => ("tdc.supply_mv", tdc.supply_mv, then_mv),
+            false => ("tdc.temperature_c", tdc.temperature_c, then_c),
+        };
+        // Every delay has grown by the same part: an age that is a period looks like this.
+        let [known, now] =
+            [known, &self.params.tdc.delays].map(|delays| delays.longest().seconds());
+        let off_ps = self.cycle().seconds() * 1e12 * (known / now - 1.0);
+        let text = format!(
+            "the TDC was calibrated at {then}: an age of a whole period of clk_sys is off by {off_ps:+.1} ps, \
+             others in proportion"
+        );
+        Some(Note::new(NoteCode::ChainDrifted, key, value, then.to_string(), text))
     }
 
     /// What makes it impossible that a depth is that of the target, if something does.
@@ -97,15 +135,29 @@ impl Setup {
         if arrival < end {
             return None;
         }
-        let (key, distance_m) = ("target.distance_m", self.scenario.target.distance_m);
-        let expected = format!("below {:.3}", end.seconds() * LIGHT_M_S / 2.0);
+        let delay = self.budget.delay;
+        let (key, value, expected) = match delay < end {
+            true => {
+                let below_m = (end - delay).seconds() * LIGHT_M_S / 2.0;
+                (
+                    "target.distance_m",
+                    self.scenario.target.distance_m,
+                    format!("below {below_m:.3}"),
+                )
+            }
+            // No distance is near enough.
+            false => {
+                let below_ps = end.fs() as f64 * 1e-3;
+                ("laser.delay_ps", self.scenario.laser.delay_ps, format!("below {below_ps}"))
+            }
+        };
         let text = match arrival.seconds() < self.laser_period_s() {
             true => "the echo comes after the last bin, so the depth is not the target's",
             false => {
                 "the echo comes after the next pulse and is not simulated, so the depth is not the target's"
             }
         };
-        Some(Note::new(NoteCode::EchoPastHistogram, key, distance_m, expected, text))
+        Some(Note::new(NoteCode::EchoPastHistogram, key, value, expected, text))
     }
 }
 
@@ -124,5 +176,73 @@ mod tests {
         assert_eq!(text("target.distance_m=0.9"), None);
         assert_eq!(text("target.distance_m=7.1"), Some((NoteCode::EchoPastHistogram, false)));
         assert_eq!(text("target.distance_m=7.3"), Some((NoteCode::EchoPastHistogram, true)));
+    }
+
+    #[test]
+    fn a_chain_that_has_drifted_is_noted_with_its_cause_and_by_how_much() {
+        let notes = |overrides: &[&str]| {
+            let set = [&["estimator.kind=centroid"], overrides].concat();
+            let notes = Setup::load("kc705", &set).unwrap().notes().unwrap();
+            notes.into_iter().map(|note| note.to_string()).collect::<Vec<_>>()
+        };
+        assert!(notes(&["tdc.temperature_c=65", "tdc.supply_mv=10"]).is_empty(), "calibrated now");
+        // 8 ns look like 8 ns / 1.04.
+        let warm = notes(&["tdc.temperature_c=65", "tdc.calibrated_at_c=25"]);
+        assert_eq!(
+            warm,
+            [
+                "note: tdc.temperature_c = 65: the TDC was calibrated at 25: an age of a whole period of clk_sys is \
+              off by -307.7 ps, others in proportion (expected 25) [chain-drifted]"
+            ]
+        );
+        // The supply of now makes more of it than three degrees; the chain is a hundredth faster.
+        let fast = ["tdc.supply_mv=13", "tdc.calibrated_at_mv=0", "tdc.calibrated_at_c=22"];
+        let fast = notes(&fast);
+        assert!(
+            fast[0].starts_with("note: tdc.supply_mv = 13: the TDC was calibrated at 0: "),
+            "{fast:?}"
+        );
+        assert!(fast.len() == 1 && fast[0].contains("off by +81.1 ps"), "{fast:?}");
+        // What makes up for each other is no drift.
+        let even = ["tdc.delay_per_c=0", "tdc.temperature_c=65", "tdc.calibrated_at_c=25"];
+        assert!(notes(&even).is_empty());
+        let far = ["target.distance_m=3", "tdc.temperature_c=65", "tdc.calibrated_at_c=25"];
+        assert!(notes(&far)[0].ends_with("[echo-past-histogram]"), "no depth to be off");
+    }
+
+    #[test]
+    fn a_network_that_was_trained_with_the_drift_has_learnt_it() {
+        let drift = ["tdc.temperature_c=45", "tdc.calibrated_at_c=25"];
+        let mut setup = Setup::load("kc705", &drift).unwrap();
+        let codes = |setup: &Setup| -> Vec<_> {
+            setup.notes().unwrap().into_iter().map(|note| (note.code, note.key)).collect()
+        };
+        let key = "tdc.temperature_c".to_owned();
+        let both =
+            [NoteCode::OutsideTraining, NoteCode::ChainDrifted].map(|code| (code, key.clone()));
+        assert_eq!(codes(&setup), both);
+        setup.network.domain = Some(domain::of(&setup.scenario, &[]).unwrap());
+        assert_eq!(codes(&setup), []);
+        setup.params.estimator = Estimator::Likelihood;
+        assert_eq!(codes(&setup), both[1..]);
+    }
+
+    #[test]
+    fn the_laser_s_delay_takes_its_part_of_the_histogram() {
+        let note = |overrides: &[&str]| {
+            let note = Setup::load("kc705", overrides).unwrap().no_depth().cloned();
+            note.map(|note| (note.key, note.expected))
+        };
+        let end = Setup::load("kc705", &[]).unwrap().bins().spans().last().unwrap().until;
+        let end_ps = end.fs() as f64 * 1e-3;
+        assert!((6_390.0..6_410.0).contains(&end_ps), "{end_ps}");
+        let far = "target.distance_m=0.9";
+        assert_eq!(note(&[far]), None);
+        let (key, expected) = note(&[far, "laser.delay_ps=2000"]).unwrap();
+        let below = format!("below {:.3}", (end_ps - 2000.0) * 1.498_962_29e-4);
+        assert_eq!((&*key, &*expected), ("target.distance_m", &*below));
+        assert_eq!(note(&["target.distance_m=0.65", "laser.delay_ps=2000"]), None);
+        let (key, expected) = note(&["target.distance_m=0.1", "laser.delay_ps=7000"]).unwrap();
+        assert_eq!((&*key, expected), ("laser.delay_ps", format!("below {end_ps}")));
     }
 }

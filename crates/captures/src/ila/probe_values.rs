@@ -2,6 +2,7 @@
 
 use bitvec::prelude::*;
 
+use tofsim::firmware::tdc_decoder::Encoder;
 use tofsim::firmware::tof_top::TofTop;
 use tofsim::hierarchy::{IDS, Part};
 use tofsim::kernel::Thermometer;
@@ -47,10 +48,15 @@ struct Packed {
 
 impl ProbeValues {
     /// At probes that stand side by side in a row of `stride` words, and at operands.
-    pub(super) fn new(probes: &[Bits], operands: &[Bits], stride: usize, order: &[u16]) -> Self {
+    pub(super) fn new(
+        probes: &[Bits],
+        operands: &[Bits],
+        stride: usize,
+        encoder: &Encoder,
+    ) -> Self {
         let mut present = Packed {
             places: vec![Vec::new(); IDS],
-            taps: TapDigits::new(order),
+            taps: TapDigits::new(encoder),
             words: vec![0; stride + 2 * operands.len()],
             stride,
             operands_changed: true,
@@ -180,7 +186,8 @@ mod tests {
         bits.extend(slices.collect::<Vec<_>>());
         let operands: Vec<Bits> = bits.iter().copied().filter(|bits| bits.width <= 128).collect();
         let stride = bits.iter().map(|bits| bits.width as usize).sum::<usize>().div_ceil(64);
-        let mut look = ProbeValues::new(&bits, &operands, stride, order);
+        let mut look =
+            ProbeValues::new(&bits, &operands, stride, &setup.params.tdc.decoder.encoder);
         let mut device = setup.device();
         device.power_up(&mut Off, &mut Off);
         for cycle in 0..600 {

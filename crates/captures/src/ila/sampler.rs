@@ -56,13 +56,13 @@ impl Analyser {
     /// Set up as planned for runs of `setup`.
     pub fn new(plan: &AnalyserPlan, setup: &Setup) -> Self {
         let stride = Capture::new(plan.probes.clone()).stride;
-        let order = setup.params.tdc.delays.order();
+        let encoder = &setup.params.tdc.decoder.encoder;
         let clock = plan.sampling.clock(setup.pll());
         // At power-up itself there is nothing before the edge.
         let armed = first_edge(&clock, plan.arm_at.max(Time::from_fs(1)));
         let mut analyser = Analyser {
             plan: plan.clone(),
-            look: ProbeValues::new(&plan.bits, &plan.operands, stride, order),
+            look: ProbeValues::new(&plan.bits, &plan.operands, stride, encoder),
             core: Core::new(plan.shape, stride),
             holds: [true; 2],
             operands_changed: false,

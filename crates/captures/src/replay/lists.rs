@@ -99,7 +99,8 @@ fn arrival(setup: &Setup, code: u64, edge: Option<u64>) -> Option<f64> {
     let (cal, scale) = (&decoder.cal, &decoder.scale);
     let of_edge = |edge: u64| {
         let is_it = |n: &usize| {
-            decoder.code(edge - 1, *n).is_some_and(|given| given.get() == code)
+            decoder.encoder.occurs(*n)
+                && decoder.code(edge - 1, *n).is_some_and(|given| given.get() == code)
                 && cal[*n].get() < cal[1].get() + scale.cycle()
         };
         let n = (1..cal.len()).find(is_it)?;

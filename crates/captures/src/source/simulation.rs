@@ -66,7 +66,7 @@ impl signals::Origin for Origin {
             places[id].push((signal, u64::MAX >> (64 - width.min(64))));
         }
         Ok(Cursor::spawn(widths, move |feed| {
-            let taps = TapDigits::new(setup.params.tdc.delays.order());
+            let taps = TapDigits::new(&setup.params.tdc.decoder.encoder);
             let values = Values { feed: &mut *feed, places, taps };
             let until = if frames.is_some() { Time::NEVER } else { LONGEST_SIMULATION };
             let mut probe = ChangeFeed { values, part: Part::of(0..IDS), until, gone: false };

@@ -70,8 +70,8 @@ fn fst() -> &'static [u8] {
         let setup = common::setup("kc705", &["firmware.shots_per_frame=1"]);
         let mut entries = hierarchy::entries(&setup.params);
         entries.retain(|entry| entry.scope.starts_with("tof_top.tdc"));
-        let order = setup.params.tdc.delays.order();
-        let waves = Waves::create(&path, WaveFormat::Fst, &entries, order, &[]).unwrap();
+        let encoder = &setup.params.tdc.decoder.encoder;
+        let waves = Waves::create(&path, WaveFormat::Fst, &entries, encoder, &[]).unwrap();
         let windows = setup.windows(&[], 1).unwrap();
         let watch = Observers { waves: Some((waves, windows)), ..Observers::default() };
         Run::new(&setup).observe(1, watch).unwrap();

@@ -11,17 +11,7 @@ use plotters::prelude::*;
 
 use tofsim_learn::evaluation::Group;
 
-use crate::text::svg::{Canvas, chart, picture};
-
-/// A colour for each estimator; more of them begin again.
-const COLOURS: [RGBColor; 6] = [
-    RGBColor(43, 108, 176),
-    RGBColor(221, 107, 32),
-    RGBColor(47, 133, 90),
-    RGBColor(128, 90, 213),
-    RGBColor(151, 90, 22),
-    RGBColor(74, 85, 104),
-];
+use crate::text::svg::{COLOURS, Canvas, chart, picture};
 
 /// Part of the place of a value that its boxes take.
 const FILLED: f64 = 0.7;

@@ -1,4 +1,4 @@
-//! The box plots of an evaluation.
+//! The pictures of an evaluation: box plots, and the spread by distance over the Cramer-Rao bound.
 
 use plotters::style::{BLACK, RED};
 
@@ -6,6 +6,7 @@ use tofsim_learn::dataset::axis::thinned;
 use tofsim_learn::evaluation::{Figures, Group, thesis};
 
 use super::box_plot::{BoxPlot, Limit, Series};
+use super::curves::{Curve, curves};
 
 /// Values of a picture of several estimators.
 const SHOWN: usize = 11;
@@ -46,6 +47,23 @@ pub fn all(figures: &[Figures], thesis: bool) -> Vec<ErrorPlot> {
         of_quantity(of.key, of.quantity, &series, limits)
     });
     quantities.collect()
+}
+
+/// Twice the standard deviation of each estimator by distance, with the bound below [m, mm]; nothing of a single
+/// distance.
+pub fn spread(figures: &[Figures], bound: &[(f64, f64)]) -> Option<ErrorPlot> {
+    let points = |one: &Figures| -> Vec<(f64, f64)> {
+        let groups = one.by_distance_m.iter();
+        groups.filter_map(|group| Some((group.value, group.spread.two_sd_mm?))).collect()
+    };
+    let each: Vec<_> = figures.iter().map(|one| (one.name, points(one))).collect();
+    let mut all: Vec<_> = each.iter().map(|(name, points)| Curve::new(name, points)).collect();
+    all.extend((!bound.is_empty()).then(|| Curve::bound(bound)));
+    let is_line = each.iter().any(|(_, points)| points.len() > 1);
+    is_line.then(|| ErrorPlot {
+        name: "spread_by_distance_m.svg".to_owned(),
+        svg: curves("twice the standard deviation of the depth", "2 sd [mm]", true, &all),
+    })
 }
 
 fn of_quantity(key: &str, quantity: &str, series: &[Series], limits: &[Limit]) -> Vec<ErrorPlot> {

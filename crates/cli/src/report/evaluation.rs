@@ -112,12 +112,14 @@ pub struct Evaluated<'a> {
     pub json: &'a Value,
     /// Of each estimator.
     pub figures: &'a [Figures],
+    /// The Cramer-Rao bound by distance, if the light is known [m, mm].
+    pub bound: &'a [(f64, f64)],
     /// The grid, if histograms were drawn over one; over the thesis's its line is drawn.
     pub grid: Option<&'a Grid>,
 }
 
 impl Evaluated<'_> {
-    /// Puts it in a folder, which is made: JSON, figures as CSV, and box plots. Their paths.
+    /// Puts it in a folder, which is made: JSON, figures as CSV, and pictures. Their paths.
     ///
     /// # Errors
     /// When a file cannot be written.
@@ -131,7 +133,8 @@ impl Evaluated<'_> {
             paths.push(folder.join("scenes.csv"));
             write_bytes(&paths[2], csv(evaluation_csv::scenes(self.figures, self.grid)))?;
         }
-        for picture in error_plots::all(self.figures, self.grid.is_some_and(Grid::is_thesis)) {
+        let boxes = error_plots::all(self.figures, self.grid.is_some_and(Grid::is_thesis));
+        for picture in boxes.into_iter().chain(error_plots::spread(self.figures, self.bound)) {
             let path = folder.join(picture.name);
             let svg = picture.svg.map_err(|why| Input::new(path.display(), why))?;
             write_bytes(&path, self.record.in_svg(&svg))?;

@@ -4,7 +4,6 @@ mod accuracy;
 mod cost;
 mod facts;
 mod html;
-mod plot;
 mod verified;
 
 use serde_json::Value;

@@ -108,7 +108,7 @@ impl PairLog {
 pub(super) fn right_of_echo(setup: &Setup) -> Option<usize> {
     setup.true_depth_m()?;
     let budget = &setup.budget;
-    let echo_ps = budget.mean_arrival.fs() as f64 * 1e-3 + REACH * budget.pulse_sigma_ps;
+    let echo_ps = budget.mean_arrival.fs() as f64 * 1e-3 + REACH * budget.pulse.sigma_ps();
     let tdc = &setup.scenario.tdc;
     let bin = ((echo_ps - tdc.first_bin_ps) / tdc.bin_ps).ceil().max(0.0) as usize;
     (bin < setup.params.histogram.bins).then_some(bin)

@@ -8,6 +8,16 @@ use plotters::prelude::*;
 /// Width and height of a picture [px].
 const SIZE: (u32, u32) = (1000, 520);
 
+/// A colour for each estimator; more of them begin again.
+pub const COLOURS: [RGBColor; 6] = [
+    RGBColor(43, 108, 176),
+    RGBColor(221, 107, 32),
+    RGBColor(47, 133, 90),
+    RGBColor(128, 90, 213),
+    RGBColor(151, 90, 22),
+    RGBColor(74, 85, 104),
+];
+
 /// Where a picture is drawn.
 pub type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 

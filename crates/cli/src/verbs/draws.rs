@@ -17,7 +17,7 @@ pub struct Draws {
     /// Set a key of the scenario, such as firmware.shots_per_frame=15000; may be repeated
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Carry chain: uniform, table6_3, ideal (bins of 25 ps), or the path of a chain file, from here
+    /// Carry chain: uniform, table6_3, ideal (bins of 25 ps), kintex7, or the path of a chain file, from here
     /// [default: the scenario's]
     #[arg(long, value_name = "P")]
     profile: Option<String>,

@@ -13,11 +13,11 @@ use tofsim::sim::setup::Setup;
 use tofsim::{Note, NoteCode};
 use tofsim_learn::dataset::labelled::histograms;
 use tofsim_learn::estimation::{EstimatorKind, Panel, Reading};
-use tofsim_learn::quantize::{Explanation, explain};
+use tofsim_learn::quantize::{ExplainedLikelihood, Explanation, LikelihoodExplainer, explain};
 
 use crate::choice::words;
 use crate::record::Record;
-use crate::report::explanation;
+use crate::report::{explained_likelihood, explanation};
 use crate::text;
 
 use super::draws::from_here;
@@ -43,7 +43,8 @@ pub struct Args {
     #[arg(short, long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Show every value of the datapath beside its twin in double precision, where they part, and
-    /// what each rounding adds to the depth
+    /// what each rounding adds to the depth; with --estimator likelihood_estimator the stages of that one instead,
+    /// and of both with network,likelihood_estimator
     #[arg(long)]
     explain: bool,
     /// Print one JSON object
@@ -64,6 +65,8 @@ struct Row<'a> {
     estimates: Vec<Reading>,
     #[serde(skip_serializing_if = "Option::is_none")]
     explanation: Option<Explanation>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    likelihood_explanation: Option<ExplainedLikelihood>,
 }
 
 #[derive(Serialize)]
@@ -84,15 +87,20 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let notes = args.notes(&setup)?;
     talk.heed(&notes)?;
     let panel = Panel::new(&args.estimator, &setup)?;
+    let explainer = args.explains_likelihood().then(|| LikelihoodExplainer::new(&setup));
+    let explainer = explainer.transpose()?;
     let names: Vec<String> = args.files.iter().map(|file| file.display().to_string()).collect();
     let mut rows = Vec::new();
     for (path, file) in args.files.iter().zip(&names) {
         for histogram in histograms(path, size)? {
             let histogram = histogram?;
             let numbers = Numbers::of(&estimate(&params, &histogram), params.neurons());
-            let explanation = args.explain.then(|| explain(network, &histogram));
+            let explanation = args.explains_network().then(|| explain(network, &histogram));
+            let likelihood_explanation =
+                explainer.as_ref().map(|explainer| explainer.explain(&histogram));
             let estimates = panel.read(&histogram);
-            rows.push(Row { index: rows.len(), file, numbers, estimates, explanation });
+            let index = rows.len();
+            rows.push(Row { index, file, numbers, estimates, explanation, likelihood_explanation });
         }
     }
     if !args.json && args.explain {
@@ -128,12 +136,23 @@ impl Args {
         Ok(setup)
     }
 
+    fn explains_likelihood(&self) -> bool {
+        self.explain && self.estimator.contains(&EstimatorKind::LikelihoodEstimator)
+    }
+
+    /// It is explained unless it is another one that is asked for.
+    fn explains_network(&self) -> bool {
+        let is_asked_for = self.estimator.contains(&EstimatorKind::Network);
+        self.explain && (is_asked_for || !self.explains_likelihood())
+    }
+
     /// What the depths lie outside of; the network's, only where it was said what the histograms are of.
     fn notes(&self, setup: &Setup) -> Result<Vec<Note>> {
         let is_said = self.scenario != scenario::DEFAULT || !self.set.is_empty();
         let mut notes = if is_said { setup.notes()? } else { Vec::new() };
         // Whether light can have made the histogram does not matter: it is there.
-        notes.retain(|note| note.code == NoteCode::OutsideTraining);
+        notes
+            .retain(|note| matches!(note.code, NoteCode::OutsideTraining | NoteCode::ChainDrifted));
         notes.extend(self.estimator.iter().flat_map(|kind| kind.notes(setup)));
         Ok(notes)
     }
@@ -149,11 +168,19 @@ impl Numbers {
     }
 }
 
-/// The values of one estimation, layer by layer.
+/// The values of one estimation, layer by layer, or stage by stage.
 fn explained(row: &Row) -> String {
-    let text = row.explanation.as_ref().map(explanation::text).unwrap_or_default();
-    let Numbers { depth_raw, depth_m, .. } = &row.numbers;
-    format!("{} #{}: {depth_m:.6} m ({depth_raw})\n{text}", row.file, row.index)
+    let Row { index, file, numbers: Numbers { depth_raw, depth_m, .. }, .. } = row;
+    let network = row.explanation.as_ref().map(|of| {
+        format!("{file} #{index}: {depth_m:.6} m ({depth_raw})\n{}", explanation::text(of))
+    });
+    let likelihood = row.likelihood_explanation.as_ref().map(|of| {
+        let ExplainedLikelihood { depth_raw, depth_m, sigma_m, .. } = of;
+        let name = EstimatorKind::LikelihoodEstimator.name();
+        let text = explained_likelihood::text(of);
+        format!("{file} #{index}: {depth_m:.6} m ({depth_raw}), {name}, sd {sigma_m:.6} m\n{text}")
+    });
+    network.into_iter().chain(likelihood).collect::<Vec<_>>().join("\n")
 }
 
 /// Rows of a table; what has more goes into several.

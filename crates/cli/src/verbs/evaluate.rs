@@ -15,7 +15,7 @@ use tofsim::sim::domain;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::axis::thinned;
 use tofsim_learn::dataset::{Grid, GridPurpose, Scene};
-use tofsim_learn::estimation::{Estimator, EstimatorInputs, EstimatorKind, subtraction};
+use tofsim_learn::estimation::{Estimator, EstimatorInputs, subtraction};
 use tofsim_learn::evaluation::bound;
 use tofsim_learn::evaluation::cross_check::CrossCheck;
 use tofsim_learn::evaluation::thesis::{self, DISTANCES_M};
@@ -72,6 +72,14 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let cross_check = args.cross_check(&scenes, &shown, stop.as_deref())?;
     let bound_at = if grid.is_thesis() { &shown } else { &drawn };
     let bound_mm = bound::two_sd_mm(source, &grid, bound_at)?;
+    // The picture has it at all distances.
+    let pictured_mm = match (&args.output, grid.is_thesis()) {
+        (Some(_), true) => bound::two_sd_mm(source, &grid, &drawn)?,
+        (Some(_), false) => bound_mm.clone(),
+        (None, _) => Vec::new(),
+    };
+    let bound = drawn.iter().zip(pictured_mm);
+    let bound: Vec<_> = bound.filter_map(|(&m, mm)| Some((m, mm?))).collect();
     let mut json = json!({
         "schema": "tofsim.evaluate/1",
         "network": network.name,
@@ -103,8 +111,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
     let thesis = grid.is_thesis();
     let figures = &figures[..];
     if let Some(folder) = &args.output {
-        let (record, json) = (&record, &json);
-        let evaluated = report::Evaluated { record, json, figures, grid: Some(&grid) };
+        let (record, json, bound) = (&record, &json, &bound[..]);
+        let evaluated = report::Evaluated { record, json, figures, bound, grid: Some(&grid) };
         evaluated.write(folder)?.iter().for_each(|path| talk.wrote(path));
     }
     if args.json {
@@ -137,10 +145,15 @@ impl Args {
     /// measured, and of what can be found.
     fn notes(&self, scenes: &Scenes, network: &Network) -> Result<Vec<Note>> {
         let mut notes = scenes.notes()?;
+        let mut of_network = Vec::new();
         if self.measures_a_network() {
             let scenario = &scenes.loaded[0].scenario;
-            notes.extend(domain::notes(network, scenario, &scenes.grid.ranges())?);
+            of_network = domain::notes(network, scenario, &scenes.grid.ranges())?;
         }
+        let of_all = self.measures_networks_only().then_some(&of_network[..]);
+        // Of several conditions the first that is another than that of the calibration.
+        notes.extend(scenes.setups.iter().find_map(|setup| setup.drift_for(of_all)));
+        notes.extend(of_network);
         Ok(notes)
     }
 
@@ -160,10 +173,11 @@ impl Args {
     }
 
     fn measures_a_network(&self) -> bool {
-        let is_one = |kind: &EstimatorKind| {
-            matches!(kind, EstimatorKind::Network | EstimatorKind::NetworkFloat)
-        };
-        self.estimator.iter().any(is_one)
+        self.estimator.iter().any(|kind| kind.is_network())
+    }
+
+    fn measures_networks_only(&self) -> bool {
+        self.estimator.iter().all(|kind| kind.is_network())
     }
 
     /// The estimators for the histograms of each setting.

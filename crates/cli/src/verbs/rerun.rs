@@ -16,7 +16,7 @@ use super::terminal::{Talk, print, print_json};
 
 /// Verbs whose outputs are made again. They write into the folder of `--output` and nowhere else, so
 /// that no record of another's can make them write over anything.
-const VERBS: [&str; 9] = [
+const VERBS: [&str; 14] = [
     "budget",
     "estimate",
     "quantize --explore",
@@ -26,7 +26,16 @@ const VERBS: [&str; 9] = [
     "train",
     "vectors",
     "ila capture",
+    "calibrate pulse",
+    "tdc",
+    TDC_CALIBRATE,
+    "spad",
+    BUDGET_ERRORS,
 ];
+/// Writes a file where the others write into a folder.
+const TDC_CALIBRATE: &str = "tdc calibrate";
+/// Writes into a folder, as the rest of `budget` does not.
+const BUDGET_ERRORS: &str = "budget --errors";
 /// Those that print and write nothing.
 const PRINTING: &[&str] = VERBS.split_at(3).0;
 
@@ -119,7 +128,9 @@ fn record(path: &Path, bytes: &[u8]) -> Result<Record> {
 fn again(file: &Path, given: &[u8], record: &Record, folder: &Path) -> Result<Vec<u8>> {
     let words: Vec<_> = record.command.iter().map(String::as_str).collect();
     let verb = match words[..] {
-        ["ila", command, ..] => format!("ila {command}"),
+        [verb @ ("ila" | "calibrate"), command, ..] => format!("{verb} {command}"),
+        ["tdc", "calibrate", ..] => TDC_CALIBRATE.to_owned(),
+        ["budget", ..] if words.contains(&"--errors") => BUDGET_ERRORS.to_owned(),
         ["quantize", ..] if words.iter().any(|word| word.starts_with("--explore=")) => {
             "quantize --explore".to_owned()
         }
@@ -134,9 +145,12 @@ fn again(file: &Path, given: &[u8], record: &Record, folder: &Path) -> Result<Ve
     let program = std::env::current_exe().map_err(Error::io(Path::new("tofsim"), "find"))?;
     let mut command = Command::new(program);
     command.args(record.command.iter().map(|word| with_events_in(folder, word))).arg("--quiet");
-    let prints = PRINTING.contains(&&verb[..]);
-    if !prints {
-        command.arg("--output").arg(folder);
+    let is_printed = given.starts_with(b"{");
+    match &verb[..] {
+        verb if PRINTING.contains(&verb) => {}
+        TDC_CALIBRATE if is_printed => {}
+        TDC_CALIBRATE => drop(command.arg("--output").arg(folder.join(name))),
+        _ => drop(command.arg("--output").arg(folder)),
     }
     if verb != "vectors" {
         command.arg("--json");
@@ -154,7 +168,7 @@ fn again(file: &Path, given: &[u8], record: &Record, folder: &Path) -> Result<Ve
     let path = own.filter(|_| verb == "vectors").unwrap_or_else(|| folder.join(name));
     match read(&path) {
         Ok(bytes) => Ok(bytes),
-        Err(_) if done.stdout.starts_with(b"{") && given.starts_with(b"{") => Ok(done.stdout),
+        Err(_) if done.stdout.starts_with(b"{") && is_printed => Ok(done.stdout),
         Err(_) => {
             let expected =
                 format!("`tofsim {}` writes no file of that name", record.command.join(" "));

@@ -291,8 +291,8 @@ impl WavePlan {
     }
 
     fn open(&self, record: &Record, setup: &Setup) -> Result<(Waves, Vec<Window>)> {
-        let (order, provenance) = (setup.params.tdc.delays.order(), record.lines(setup));
-        let waves = Waves::create(&self.path, self.format, &self.entries, order, &provenance)?;
+        let (encoder, provenance) = (&setup.params.tdc.decoder.encoder, record.lines(setup));
+        let waves = Waves::create(&self.path, self.format, &self.entries, encoder, &provenance)?;
         Ok((waves, self.windows.clone()))
     }
 

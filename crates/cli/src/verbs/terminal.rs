@@ -7,6 +7,8 @@ use serde_json::Value;
 
 use tofsim::Note;
 use tofsim::error::{Error, Input, Result};
+use tofsim::files::folder::FolderLock;
+use tofsim::files::output::write_bytes;
 
 pub use super::interrupt::stop_signal;
 use super::progress::Progress;
@@ -71,6 +73,24 @@ impl Talk {
         let Some(first) = notes.first().filter(|_| self.strict) else { return Ok(()) };
         let expected = format!("expected what no note [{}] has to be said of", first.code);
         Err(Input::new("--strict", expected).field(&first.key).value(&first.value).into())
+    }
+
+    /// Makes a folder, and writes files of such names and texts into it.
+    ///
+    /// # Errors
+    /// When another run writes there, or a file cannot be written.
+    pub fn write_into(
+        &self,
+        folder: &Path,
+        files: impl IntoIterator<Item = (&'static str, String)>,
+    ) -> Result<()> {
+        let _held = FolderLock::take(folder)?;
+        for (name, text) in files {
+            let path = folder.join(name);
+            write_bytes(&path, text)?;
+            self.wrote(&path);
+        }
+        Ok(())
     }
 
     /// That a file was written.

@@ -6,12 +6,23 @@ use crate::common;
 
 use super::{refused, same};
 
-/// Set-ups, and the waveform of the run: scenario, frames, window, signals.
-const SET_UPS: [(&str, &str, &str, &str, &[&str]); 4] = [
-    ("fig_6_6", "kc705", "1", "9us..16us", &[]),
-    ("fig_6_12", "histogram_validation", "1", "0us..14us", &[]),
-    ("fig_6_13", "histogram_validation", "1", "1319us..1337.6us", &["*", "ram_*"]),
-    ("fig_6_21", "estimator_validation", "3", "0us..13us", &[]),
+/// A set-up, and the waveform of the run: scenario, frames, window, signals, what is set.
+type SetUp =
+    (&'static str, &'static str, &'static str, &'static str, &'static [&'static str], &'static str);
+
+const SET_UPS: [SetUp; 5] = [
+    ("fig_6_6", "kc705", "1", "9us..16us", &[], "seed=1"),
+    ("fig_6_12", "histogram_validation", "1", "0us..14us", &[], "seed=1"),
+    ("fig_6_13", "histogram_validation", "1", "1319us..1337.6us", &["*", "ram_*"], "seed=1"),
+    ("fig_6_21", "estimator_validation", "3", "0us..13us", &[], "seed=1"),
+    (
+        "likelihood_estimator",
+        "estimator_validation",
+        "2",
+        "0us..40us",
+        &[],
+        "estimator.kind=likelihood",
+    ),
 ];
 const FORMATS: [&str; 3] = ["csv", "vcd", "ila"];
 
@@ -19,8 +30,9 @@ fn capture(folder: &Path, set_up: &str) {
     common::stdout(folder, &["ila", "capture", "--probes", set_up, "-o", "."]);
 }
 
-fn run(folder: &Path, (_, scenario, frames, window, signals): (&str, &str, &str, &str, &[&str])) {
+fn run(folder: &Path, (_, scenario, frames, window, signals, set): SetUp) {
     let mut args = vec!["run", scenario, "--frames", frames, "--window", window, "-o", "."];
+    args.extend(["-s", set]);
     signals.iter().for_each(|glob| args.extend(["--signals", glob]));
     common::stdout(folder, &args);
 }
@@ -49,11 +61,11 @@ fn each_set_up_in_each_format_is_the_waveform_of_its_run() {
 
 #[test]
 fn a_capture_is_the_same_as_a_simulation_on_the_fly() {
-    for (set_up, scenario, frames, ..) in SET_UPS {
+    for (set_up, scenario, frames, _, _, set) in SET_UPS {
         let folder = common::empty();
         capture(folder.path(), set_up);
         let file = format!("{set_up}.ila");
-        let args = ["--scenario", scenario, "--frames", frames, &file, "--map", set_up];
+        let args = ["--scenario", scenario, "--frames", frames, &file, "--map", set_up, "-s", set];
         same(folder.path(), &args);
     }
 }

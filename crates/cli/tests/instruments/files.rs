@@ -36,7 +36,7 @@ network = "network.toml"
 const CHAIN: &str = "offset_ps = 2230\ntap_ps = 40.0\ntaps = 220\n";
 
 /// A line of the scenario, what stands there instead, and what the message says.
-const OF_SCENARIO: [(&str, &str, &str); 28] = [
+const OF_SCENARIO: [(&str, &str, &str); 29] = [
     ("part = \"kintex7\"", "part = \"kintex8\"", "kintex8"),
     ("input_hz = 200000000", "input_hz = 2000000000", "pll.input_hz = 2000000000: expected"),
     ("multiply = 5", "multiply = 2", "pll.multiply = 2: the VCO would run at 400 MHz"),
@@ -65,6 +65,7 @@ const OF_SCENARIO: [(&str, &str, &str); 28] = [
         "tdc.first_bin_ps = 63901: expected 63900 ps at most",
     ),
     ("first_bin_ps = 0.0", "first_bin_ps = -1.0", "tdc.first_bin_ps = -1.0: expected"),
+    ("count_stages = 3", "decoder = \"leeding\"", "leeding"),
     ("count_stages = 3", "count_stages = 4", "tdc.count_stages = 4: expected"),
     ("[25, 13]", "[25, 3]", "firmware.laser_periods.1 = 3: expected a whole number from 4"),
     ("[25, 13]", "[]", "firmware.laser_periods = []: expected a list of 1 to 8"),

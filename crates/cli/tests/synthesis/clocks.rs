@@ -18,7 +18,7 @@ const EXPECTED: &[(&str, &str, u64)] = &[
     ("estimator_histogram", "RAM256X1S", 16),
     ("histogram_builder", "RAM256X1S", 16),
     ("histogram_builder", "CARRY4", 4),
-    ("tdc", "CARRY4", 325),
+    ("tdc", "CARRY4", 324),
     ("tdc", "RAMB18E1", 1),
     ("centroid_estimator", "DSP48E1", 3),
     ("centroid_estimator", "CARRY4", 52),

@@ -5,6 +5,7 @@
 
 use tofsim::error::{Input, Result};
 use tofsim::firmware::histogram_builder;
+use tofsim::kernel::pulse::Pulse;
 use tofsim::network::Histogram;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 use tofsim::scenario::Scenario;
@@ -27,6 +28,9 @@ pub struct HistogramSource {
 struct Setting {
     scenario: Scenario,
     bins: Bins,
+    /// What estimators know of them.
+    known_bins: Bins,
+    pulse: Pulse,
 }
 
 impl HistogramSource {
@@ -108,19 +112,21 @@ impl HistogramSource {
 
     /// How the histograms of a setting come about.
     pub fn acquisition(&self, setting: usize) -> Acquisition<'_> {
-        let Setting { scenario, bins } = &self.settings[setting];
+        let Setting { scenario, known_bins, pulse, .. } = &self.settings[setting];
         let shots = scenario.firmware.shots_per_frame;
-        Acquisition::new(bins, shots, scenario.laser.pulse_sigma_ps)
+        let delay_ps = scenario.laser.delay_ps;
+        Acquisition { delay_ps, ..Acquisition::new(known_bins, shots, pulse) }
     }
 
     /// Budget of a white target at a scene's distance, in an irradiance of 1 W/m^2/nm: what all scenes at
     /// that distance have in common, and what takes longest to find.
     pub fn white(&self, scene: &Scene) -> Budget {
-        let mut scenario = self.setting(scene).scenario.clone();
+        let Setting { scenario, pulse, .. } = self.setting(scene);
+        let mut scenario = scenario.clone();
         scenario.target.distance_m = scene.distance_m;
         scenario.target.reflectance = 1.0;
         scenario.ambient.irradiance_w_m2_nm = 1.0;
-        Budget::new(&scenario)
+        Budget::new(&scenario, pulse.clone())
     }
 
     /// Probability of each code in one shot.
@@ -159,7 +165,8 @@ impl Setting {
             let fault = Input::new(format!("scenario {}", setup.name), expected);
             return Err(fault.field("firmware.dark_frames").value(true).into());
         }
-        Ok(Setting { scenario: setup.scenario.clone(), bins: setup.bins() })
+        let (scenario, pulse) = (setup.scenario.clone(), setup.budget.pulse.clone());
+        Ok(Setting { scenario, bins: setup.bins(), known_bins: setup.known_bins(), pulse })
     }
 
     fn shots(&self) -> u32 {
@@ -173,7 +180,7 @@ pub fn scaled(white: &Budget, scene: &Scene) -> Budget {
     Budget {
         signal_per_shot: white.signal_per_shot * scene.reflectance,
         ambient_rate_hz: white.ambient_rate_hz * scene.reflectance * scene.irradiance_w_m2_nm,
-        ..*white
+        ..white.clone()
     }
 }
 

@@ -4,6 +4,7 @@ use std::f64::consts::SQRT_2;
 
 use tofsim::error::Input;
 use tofsim::kernel::Time;
+use tofsim::kernel::pulse::Pulse;
 use tofsim::network::Histogram;
 use tofsim::optics::budget::LIGHT_M_S;
 use tofsim::optics::{Bins, Budget};
@@ -14,20 +15,22 @@ use tofsim::sim::setup::Setup;
 pub const ARRIVAL_PS_PER_M: f64 = 2e12 / LIGHT_M_S;
 
 /// Most shots of a histogram: what the widest word holds [shots].
-const MOST_SHOTS: u64 = (1 << 24) - 1;
+pub const MOST_SHOTS: u64 = (1 << 24) - 1;
 
 /// How the histograms come about, as far as estimators know it.
 #[derive(Clone, Copy, Debug)]
 pub struct Acquisition<'a> {
-    /// Which avalanche times give which code.
+    /// Which avalanche times give which code, as the calibration knows it.
     pub bins: &'a Bins,
     /// Shots of a histogram, or of a dark and a lit one together [shots].
     pub shots: u64,
-    /// Standard deviation of the pulse as the detector times it [ps].
-    pub pulse_sigma_ps: f64,
+    /// The pulse as the detector times it.
+    pub pulse: &'a Pulse,
     /// Standard deviation that jitter gives to a time from the laser edge to the edge that samples
     /// it, both of which are early or late by themselves [ps].
     pub jitter_ps: f64,
+    /// Delay of the light after the laser edge: what an echo arrives later by than its flight takes [ps].
+    pub delay_ps: f64,
     /// How the diode comes back, where it is not armed anew for each shot (MODE 1).
     pub free_running: Option<FreeRunning>,
 }
@@ -76,18 +79,19 @@ impl FreeRunning {
 }
 
 impl<'a> Acquisition<'a> {
-    /// Of steady clocks and a diode that is armed for each shot.
-    pub fn new(bins: &'a Bins, shots: u64, pulse_sigma_ps: f64) -> Self {
-        Acquisition { bins, shots, pulse_sigma_ps, jitter_ps: 0.0, free_running: None }
+    /// Of steady clocks, light that leaves with the laser edge, and a diode that is armed for each shot.
+    pub fn new(bins: &'a Bins, shots: u64, pulse: &'a Pulse) -> Self {
+        Acquisition { bins, shots, pulse, jitter_ps: 0.0, delay_ps: 0.0, free_running: None }
     }
 
     /// Of a scenario, with the bins of its chain.
-    pub fn of(setup: &Setup, bins: &'a Bins, shots: u64) -> Self {
+    pub fn of(setup: &'a Setup, bins: &'a Bins, shots: u64) -> Self {
         let scenario = &setup.scenario;
         Acquisition {
             jitter_ps: SQRT_2 * scenario.pll.jitter_rms_ps,
+            delay_ps: scenario.laser.delay_ps,
             free_running: FreeRunning::of(setup),
-            ..Acquisition::new(bins, shots, scenario.laser.pulse_sigma_ps)
+            ..Acquisition::new(bins, shots, &setup.budget.pulse)
         }
     }
 
@@ -103,9 +107,10 @@ impl<'a> Acquisition<'a> {
         if !(1..=MOST_SHOTS).contains(&self.shots) {
             return Err(fault("shots", "expected 1 to 16777215").value(self.shots));
         }
-        if !(1.0..=1e6).contains(&self.pulse_sigma_ps) {
-            let value = self.pulse_sigma_ps;
-            return Err(fault("pulse_sigma_ps", "expected 1 to 1e6 [ps]").value(value));
+        let sigma_ps = self.pulse.sigma_ps();
+        if !(1.0..=1e6).contains(&sigma_ps) {
+            let expected = "expected a standard deviation of 1 to 1e6 [ps]";
+            return Err(fault("pulse", expected).value(sigma_ps));
         }
         Ok(())
     }

@@ -2,6 +2,7 @@
 
 use tofsim::error::Input;
 use tofsim::network::Network;
+use tofsim::scenario::{EstimatorKind as Socket, Scenario};
 use tofsim::sim::setup::Setup;
 
 use super::acquisition::Acquisition;
@@ -78,6 +79,20 @@ impl EstimatorKind {
         Self::ALL.iter().find(|(_, kind, _)| *kind == self).map_or("", |(name, ..)| name)
     }
 
+    /// Whether it is a network, which knows what it was trained for.
+    pub fn is_network(self) -> bool {
+        matches!(self, EstimatorKind::Network | EstimatorKind::NetworkFloat)
+    }
+
+    /// What is in the scenario's socket, bit for bit as the firmware.
+    pub fn in_socket(scenario: &Scenario) -> Self {
+        match scenario.estimator.kind {
+            Socket::Network => EstimatorKind::Network,
+            Socket::Centroid => EstimatorKind::Centroid,
+            Socket::Likelihood => EstimatorKind::LikelihoodEstimator,
+        }
+    }
+
     /// The estimator of that name.
     ///
     /// # Errors
@@ -104,21 +119,27 @@ impl EstimatorKind {
 
 #[cfg(test)]
 mod tests {
+    use tofsim::kernel::pulse::Pulse;
+
     use super::*;
+
     #[test]
     fn every_estimator_answers_to_its_name() {
         let setup = &Setup::load("kc705", &["tdc.profile=ideal"]).unwrap();
         let bins = &setup.bins();
         let network = &Network::builtin("ideal").unwrap().unwrap();
-        let acquisition = Acquisition::new(bins, 30_000, 137.0);
+        let gaussian = |sigma_ps| Pulse::Gaussian { sigma_ps };
+        let pulse = gaussian(137.0);
+        let acquisition = Acquisition::new(bins, 30_000, &pulse);
         let needs = EstimatorInputs { acquisition, network, setup };
         for (name, kind, _) in EstimatorKind::ALL {
             assert_eq!(kind.estimator(&needs).unwrap().name(), name);
         }
-        for (shots, pulse_sigma_ps, field) in
-            [(0, 137.0, "shots = 0"), (1 << 24, 137.0, "shots"), (1, f64::NAN, "sigma_ps = NaN")]
+        for (shots, sigma_ps, field) in
+            [(0, 137.0, "shots = 0"), (1 << 24, 137.0, "shots"), (1, f64::NAN, "pulse = NaN")]
         {
-            let acquisition = Acquisition::new(bins, shots, pulse_sigma_ps);
+            let pulse = gaussian(sigma_ps);
+            let acquisition = Acquisition::new(bins, shots, &pulse);
             let needs = EstimatorInputs { acquisition, network, setup };
             let fault = EstimatorKind::Peak.estimator(&needs).err().unwrap().to_string();
             assert!(fault.contains(field), "{fault}");

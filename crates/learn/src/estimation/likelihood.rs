@@ -8,12 +8,10 @@
 
 mod arming;
 pub mod model;
-mod solve;
+pub(crate) mod solve;
 mod stretches;
 
-use std::f64::consts::{LN_2, SQRT_2};
-
-use statrs::function::erf::erfc_inv;
+use std::f64::consts::LN_2;
 
 use tofsim::error::Input;
 
@@ -56,6 +54,8 @@ pub struct Likelihood {
     first_ps: f64,
     /// Width of a bin [ps].
     bin_ps: f64,
+    /// Delay of the light after the laser edge [ps].
+    delay_ps: f64,
 }
 
 /// The most likely scene.
@@ -76,7 +76,7 @@ impl Likelihood {
     pub fn new(acquisition: &Acquisition) -> Result<Self, Input> {
         let (model, start) = (Model::new(acquisition)?, MatchedFilter::new(acquisition)?);
         let (first_ps, bin_ps) = (acquisition.bins.first_ps(), acquisition.bins.bin_ps());
-        Ok(Likelihood { model, start, first_ps, bin_ps })
+        Ok(Likelihood { model, start, first_ps, bin_ps, delay_ps: acquisition.delay_ps })
     }
 
     /// The most likely scene of a histogram.
@@ -90,6 +90,19 @@ impl Likelihood {
             None => climb(&self.model, histogram, start),
             Some(_) => self.free_fit(histogram, start.arrival_ps),
         }
+    }
+
+    /// The same from a scene that is near it already.
+    ///
+    /// # Errors
+    /// When there is no echo, or the climb does not end.
+    pub fn fit_from(&self, histogram: &[u32], near: Echo) -> Result<Fit, Failure> {
+        climb(&self.model, histogram, near)
+    }
+
+    /// The model of the histograms.
+    pub fn model(&self) -> &Model {
+        &self.model
     }
 
     /// In MODE 1: the highest of the tops that are reached from the best starts.
@@ -115,9 +128,10 @@ impl Likelihood {
         let places_ps = [seen_ps, self.first_ps + (fullest as f64 + 0.5) * self.bin_ps];
         let best = |signal: f64| {
             // Half of the shots have had a photon where S Phi is ln 2.
-            let early = if signal > 2.0 * LN_2 { early_sigma(LN_2 / signal) } else { 0.0 };
+            let early_ps =
+                if signal > 2.0 * LN_2 { -self.model.when_ps(LN_2 / signal) } else { 0.0 };
             let echo = |(first_ps, background_per_ps): (f64, f64)| {
-                let arrival_ps = first_ps + early * self.model.sigma_ps;
+                let arrival_ps = first_ps + early_ps;
                 let echo = Echo { arrival_ps, signal, background_per_ps };
                 let at = self.model.coordinates(&echo);
                 (self.model.log_likelihood(&at, histogram), echo)
@@ -127,11 +141,6 @@ impl Likelihood {
         };
         SIGNALS.into_iter().filter_map(best).collect()
     }
-}
-
-/// How far before its mean a part of a pulse has come [sigma].
-fn early_sigma(part: f64) -> f64 {
-    SQRT_2 * erfc_inv(2.0 * part)
 }
 
 /// The top that is reached from `start`.
@@ -201,7 +210,7 @@ impl Estimator for Likelihood {
     }
 
     fn estimate(&self, histogram: &[u32]) -> Result<f64, Failure> {
-        Ok(self.fit(histogram)?.echo.arrival_ps / ARRIVAL_PS_PER_M)
+        Ok((self.fit(histogram)?.echo.arrival_ps - self.delay_ps) / ARRIVAL_PS_PER_M)
     }
 }
 

@@ -11,14 +11,14 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 use tofsim::error::Input;
+use tofsim::kernel::pulse;
 use tofsim::optics::Bins;
-use tofsim::optics::hazard::normal_cdf;
 
 use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo, spans_ps};
 use super::coates::{Corrected, correct};
 use super::estimator::{Estimator, Failure, hits};
 
-/// How far from its mean the pulse is taken into account [sigma].
+/// How far from its mean a Gaussian is taken into account [sigma].
 const REACH: f64 = 5.0;
 /// Steps of the grid of arrivals in the pulse's standard deviation, where bins are wider [1].
 const STEPS_IN_SIGMA: f64 = 4.0;
@@ -42,6 +42,8 @@ pub struct MatchedFilter {
     range_ps: f64,
     /// Standard deviation of jitter, and the bins that are 3 to 6 of it long after the laser edge.
     jitter: (f64, Range<usize>),
+    /// Delay of the light after the laser edge [ps].
+    delay_ps: f64,
     /// A step of the grid of arrivals [ps].
     step_ps: f64,
     /// For each arrival on the grid, from 0 on.
@@ -83,18 +85,40 @@ struct Pulse {
 }
 
 impl Pulse {
-    fn new(bins: &[Pieces], arrival_ps: f64, sigma_ps: f64) -> Self {
+    fn new(bins: &[Pieces], arrival_ps: f64, shape: &pulse::Pulse) -> Self {
         // What would come before the laser edge comes with it.
         let before = |t_ps: f64| match t_ps > 0.0 {
-            true => normal_cdf((t_ps - arrival_ps) / sigma_ps),
+            true => shape.part(t_ps - arrival_ps),
             false => 0.0,
         };
-        let (from_ps, until_ps) = (arrival_ps - REACH * sigma_ps, arrival_ps + REACH * sigma_ps);
+        let [from_ps, until_ps] = reach_ps(shape).map(|ps| arrival_ps + ps);
         let sees = |bin: &Pieces| bin.spans.iter().any(|[a, b]| *b > from_ps && *a < until_ps);
         let part = |bin: &Pieces| bin.spans.iter().map(|[a, b]| before(*b) - before(*a)).sum();
         let first = bins.iter().position(sees).unwrap_or(0);
         let past = bins.iter().rposition(sees).map_or(first, |last| last + 1);
         Pulse { first, parts: bins[first..past].iter().map(part).collect() }
+    }
+}
+
+/// The pulse as jitter leaves it. Exact for a faint one only, because pile-up comes before jitter, and of a
+/// measured one its width alone is left, where there is jitter.
+fn seen(acquisition: &Acquisition) -> pulse::Pulse {
+    use pulse::Pulse::{Gaussian, Tailed};
+    let jitter_ps = acquisition.jitter_ps;
+    match acquisition.pulse {
+        pulse if jitter_ps == 0.0 => pulse.clone(),
+        Tailed { sigma_ps, tail_ps } => {
+            Tailed { sigma_ps: sigma_ps.hypot(jitter_ps), tail_ps: *tail_ps }
+        }
+        pulse => Gaussian { sigma_ps: pulse.sigma_ps().hypot(jitter_ps) },
+    }
+}
+
+/// Where the pulse is taken into account, from its mean [ps].
+fn reach_ps(shape: &pulse::Pulse) -> [f64; 2] {
+    match shape {
+        pulse::Pulse::Gaussian { sigma_ps } => [-REACH * sigma_ps, REACH * sigma_ps],
+        other => other.ends_ps(),
     }
 }
 
@@ -117,21 +141,22 @@ impl MatchedFilter {
         let pieces = pieces(acquisition.bins);
         let range_ps: f64 = pieces.iter().map(Pieces::width_ps).sum();
         let end_ps = spans_ps(acquisition.bins).map(|(.., until)| until).fold(0.0, f64::max);
-        // Exact for a faint pulse only: pile-up comes before jitter.
-        let sigma_ps = acquisition.pulse_sigma_ps.hypot(acquisition.jitter_ps);
+        let shape = seen(acquisition);
+        let sigma_ps = shape.sigma_ps();
         let bin_at = |deviations: f64| {
             let t_ps = deviations * acquisition.jitter_ps;
             pieces.partition_point(|bin| bin.spans[0][0] < t_ps)
         };
         let jitter = (acquisition.jitter_ps, bin_at(3.0)..bin_at(6.0));
         let step_ps = acquisition.bins.bin_ps().min(FINEST_STEP_PS.max(sigma_ps / STEPS_IN_SIGMA));
-        let pulse = |place| Pulse::new(&pieces, place as f64 * step_ps, sigma_ps);
+        let pulse = |place| Pulse::new(&pieces, place as f64 * step_ps, &shape);
         Ok(MatchedFilter {
             shots: acquisition.shots,
             codes: pieces.iter().map(|bin| bin.code).collect(),
             widths: pieces.iter().map(|bin| bin.width_ps() / range_ps).collect(),
             range_ps,
             jitter,
+            delay_ps: acquisition.delay_ps,
             step_ps,
             pulses: (0..=(end_ps / step_ps) as usize).map(pulse).collect(),
         })
@@ -255,7 +280,7 @@ impl Estimator for MatchedFilter {
         hits(histogram, self.shots as u32)?;
         match self.best(histogram) {
             Some(found) if found.significance >= SIGNIFICANCE => {
-                Ok(found.echo.arrival_ps / ARRIVAL_PS_PER_M)
+                Ok((found.echo.arrival_ps - self.delay_ps) / ARRIVAL_PS_PER_M)
             }
             _ => Err(Failure::NoPeak),
         }

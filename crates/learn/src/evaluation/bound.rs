@@ -1,4 +1,5 @@
-//! The Cramer-Rao bound over a grid: no unbiased estimator that does not know the light is better.
+//! The Cramer-Rao bound over a grid: no unbiased estimator that does not know the light is better. It is worked out
+//! for shots that are alike.
 
 use rayon::prelude::*;
 
@@ -13,7 +14,7 @@ use crate::estimation::likelihood::Model;
 const MOST_LIGHTS: u64 = 1024;
 
 /// Twice the root mean square of the bound over the grid's lights at each distance; `None` where a
-/// scene tells nothing, as without a laser [mm].
+/// scene tells nothing, as without a laser, and where shots differ [mm].
 ///
 /// # Errors
 /// When the acquisition of a setting makes no sense.
@@ -32,6 +33,9 @@ pub fn two_sd_mm(
             let scene = Scene { distance_m, ..grid.scene_at(0, light) };
             let white = white.or(scene.setting, |_| source.white(&scene));
             let budget = scaled(white, &scene);
+            if !budget.variation.is_none() {
+                return None;
+            }
             let model = &models[scene.setting];
             let standard_deviation = model.cramer_rao_m(&(&budget).into())?;
             Some(standard_deviation * standard_deviation)

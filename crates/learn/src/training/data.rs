@@ -61,6 +61,15 @@ const MOST_SCENES: u64 = 51 * 477;
 /// Distances of the thesis's test grid: as many as another one has at most.
 const TEST_DISTANCES: usize = 51;
 
+/// When the photons of an echo come, beside their flight.
+#[derive(Clone, Copy, Debug)]
+pub struct PulseTimes {
+    /// Delay of the light after the laser edge [ps].
+    pub delay_ps: f64,
+    /// Standard deviation of the pulse [ps].
+    pub sigma_ps: f64,
+}
+
 /// Where the histograms of a training come from.
 pub trait TrainingMaterial: fmt::Debug + Sync {
     /// What a training has for a purpose, in order of distance.
@@ -72,15 +81,11 @@ pub trait TrainingMaterial: fmt::Debug + Sync {
     /// Places of the knots for these distances, so many if the recipe says; none are the thesis's.
     fn knots(&self, recipe: &Recipe) -> Vec<f64> {
         let bins = self.bins();
-        knots_for(
-            &echoes(self.distances_m(), bins, self.pulse_sigma_ps()),
-            bins.count(),
-            recipe.knots,
-        )
+        knots_for(&echoes(self.distances_m(), bins, self.pulse_times()), bins.count(), recipe.knots)
     }
 
-    /// Standard deviation of the pulse, in the first of the settings [ps].
-    fn pulse_sigma_ps(&self) -> f64;
+    /// Delay and width of the pulse, in the first of the settings.
+    fn pulse_times(&self) -> PulseTimes;
 
     /// Which times give which code, in the first of the settings.
     fn bins(&self) -> &Bins;
@@ -149,15 +154,12 @@ impl TrainingMaterial for TrainingScenes<'_> {
         if self.training.is_thesis() && bins.are_kc705() && recipe.knots.is_none() {
             return Vec::new();
         }
-        knots_for(
-            &echoes(self.distances_m(), bins, self.pulse_sigma_ps()),
-            bins.count(),
-            recipe.knots,
-        )
+        knots_for(&echoes(self.distances_m(), bins, self.pulse_times()), bins.count(), recipe.knots)
     }
 
-    fn pulse_sigma_ps(&self) -> f64 {
-        self.source.acquisition(0).pulse_sigma_ps
+    fn pulse_times(&self) -> PulseTimes {
+        let acquisition = self.source.acquisition(0);
+        PulseTimes { delay_ps: acquisition.delay_ps, sigma_ps: acquisition.pulse.sigma_ps() }
     }
 
     /// Equally many histograms at each distance.
@@ -182,10 +184,11 @@ impl TrainingMaterial for TrainingScenes<'_> {
 }
 
 /// Where the echoes of distances in rising order are expected.
-fn echoes(distances_m: &[f64], bins: &Bins, pulse_sigma_ps: f64) -> Echoes {
+fn echoes(distances_m: &[f64], bins: &Bins, pulse: PulseTimes) -> Echoes {
     let ends = [distances_m.first(), distances_m.last()];
-    let places = ends.map(|m| bins.place(m.copied().unwrap_or_default() * ARRIVAL_PS_PER_M));
-    Echoes { places, sigma: bins.place(pulse_sigma_ps) - bins.place(0.0) }
+    let arrival_ps = |m: f64| pulse.delay_ps + m * ARRIVAL_PS_PER_M;
+    let places = ends.map(|m| bins.place(arrival_ps(m.copied().unwrap_or_default())));
+    Echoes { places, sigma: bins.place(pulse.sigma_ps) - bins.place(0.0) }
 }
 
 /// A number that changes with the chain's bins and anything in the scenario, or in one of a grid's.

@@ -9,7 +9,7 @@ use tofsim::sensor::streams::{self, stream};
 
 use crate::dataset::Labelled;
 
-use super::data::{Purpose, Samples, TrainingMaterial};
+use super::data::{PulseTimes, Purpose, Samples, TrainingMaterial};
 use super::recipe::Recipe;
 use super::start::derived;
 
@@ -29,18 +29,18 @@ pub struct MeasuredParts {
     test: Samples,
     distances_m: Vec<f64>,
     bins: Bins,
-    pulse_sigma_ps: f64,
+    pulse: PulseTimes,
 }
 
 impl MeasuredParts {
-    /// Deals out histograms of those bins, of a pulse of that width [ps], by a seed.
+    /// Deals out histograms of those bins, of a pulse with that delay and width, by a seed.
     ///
     /// # Errors
     /// When there are fewer than ten histograms at a distance.
     pub fn new(
         labelled: &Labelled,
         bins: Bins,
-        pulse_sigma_ps: f64,
+        pulse: PulseTimes,
         seed: u64,
     ) -> Result<Self, Input> {
         let seed = derived(seed, DEALING);
@@ -56,7 +56,7 @@ impl MeasuredParts {
             test: Samples::default(),
             distances_m: Vec::new(),
             bins,
-            pulse_sigma_ps,
+            pulse,
         };
         for same in rows.chunk_by(|((a, _), _), ((b, _), _)| a == b) {
             let ((distance_m, _), _) = same[0];
@@ -96,8 +96,8 @@ impl TrainingMaterial for MeasuredParts {
         &self.bins
     }
 
-    fn pulse_sigma_ps(&self) -> f64 {
-        self.pulse_sigma_ps
+    fn pulse_times(&self) -> PulseTimes {
+        self.pulse
     }
 
     /// A stage has the training's histograms, or every so many one of them if it wants fewer.
@@ -139,13 +139,15 @@ mod tests {
         }
     }
 
+    const PULSE: PulseTimes = PulseTimes { delay_ps: 0.0, sigma_ps: 137.0 };
+
     fn bins() -> Bins {
         Setup::load("kc705", &[]).unwrap().bins()
     }
 
     #[test]
     fn every_histogram_is_in_one_part_with_its_distance() {
-        let parts = MeasuredParts::new(&labelled(400), bins(), 137.0, 1).unwrap();
+        let parts = MeasuredParts::new(&labelled(400), bins(), PULSE, 1).unwrap();
         let recipe = Recipe::quick();
         let of = |purpose| parts.draw(&recipe, 1, purpose);
         let [stage, choice, test] = [Purpose::Stage(0), Purpose::Choice, Purpose::Test].map(of);
@@ -160,14 +162,14 @@ mod tests {
             let fits = |(counts, m): (&Vec<u32>, &f64)| *m == [0.3, 0.2][counts[0] as usize % 2];
             assert!(part.counts.iter().zip(&part.distances_m).all(fits));
         }
-        let other = MeasuredParts::new(&labelled(400), bins(), 137.0, 2).unwrap();
+        let other = MeasuredParts::new(&labelled(400), bins(), PULSE, 2).unwrap();
         assert_ne!(other.draw(&recipe, 2, Purpose::Test), test);
         assert_ne!(other.digest(), parts.digest());
     }
 
     #[test]
     fn a_stage_that_wants_fewer_has_some_of_every_distance() {
-        let parts = MeasuredParts::new(&labelled(2000), bins(), 137.0, 1).unwrap();
+        let parts = MeasuredParts::new(&labelled(2000), bins(), PULSE, 1).unwrap();
         let recipe = Recipe::quick();
         let [a, b] = [0, 1].map(|stage| parts.draw(&recipe, 1, Purpose::Stage(stage)));
         assert_eq!((a.counts.len(), b.counts.len()), (603, 1005));
@@ -177,7 +179,7 @@ mod tests {
 
     #[test]
     fn few_histograms_of_a_distance_are_refused() {
-        let error = MeasuredParts::new(&labelled(19), bins(), 137.0, 1).unwrap_err().to_string();
+        let error = MeasuredParts::new(&labelled(19), bins(), PULSE, 1).unwrap_err().to_string();
         assert!(error.contains("9: histograms at 0.2 m, expected 10 or more"), "{error}");
     }
 }

@@ -58,8 +58,9 @@ impl Instrument {
         scenario.target.distance_m = place.distance_m;
         scenario.target.reflectance = place.reflectance;
         scenario.ambient.irradiance_w_m2_nm = place.irradiance_w_m2_nm;
-        let budget = Budget::new(&scenario);
-        let acquisition = Acquisition::new(&self.bins, shots, scenario.laser.pulse_sigma_ps);
+        let pulse = &self.setup.budget.pulse;
+        let budget = Budget::new(&scenario, pulse.clone());
+        let acquisition = Acquisition::new(&self.bins, shots, pulse);
         let bound_m = Model::new(&acquisition).unwrap().cramer_rao_m(&Echo::from(&budget))?;
         let codes = BinProbabilities::new(&Hazard::new(&budget), &self.bins);
         Some(Scene { instrument: self, shots, codes, bound_m })
@@ -83,7 +84,7 @@ struct Tally {
     drawn: f64,
     raised: f64,
     /// How often each reason was given.
-    reasons: [u32; 6],
+    reasons: [u32; 7],
     kept: f64,
     sum_m: f64,
     squares: f64,

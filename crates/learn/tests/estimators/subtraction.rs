@@ -1,5 +1,6 @@
 //! What is left after subtraction, and that it does not help the detector.
 
+use tofsim::kernel::pulse::Pulse;
 use tofsim::optics::{BinProbabilities, Budget, Hazard};
 use tofsim::scenario::Scenario;
 use tofsim::sensor::streams::{Source, stream};
@@ -19,7 +20,7 @@ fn subtraction_leaves_a_negative_tail_and_no_better_detection() {
         scenario.target.distance_m = 0.6;
         scenario.target.reflectance = 0.6;
         scenario.ambient.irradiance_w_m2_nm = irradiance_w_m2_nm;
-        let budget = Budget::new(&scenario);
+        let budget = Budget::new(&scenario, Pulse::default());
         let with = |hazard| BinProbabilities::new(&hazard, &bins);
         let (on, off) = (with(Hazard::new(&budget)), with(Hazard::dark(&budget)));
         let mut random = stream(5, Source::Histogram, 0);

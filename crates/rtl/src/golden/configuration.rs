@@ -37,6 +37,22 @@ pub const COUNT_STAGES_2: Configuration = Configuration {
     ..DEFAULTS
 };
 
+/// The leading bit of taps that are reached out of order.
+pub const LEADING: Configuration = Configuration {
+    name: "leading",
+    set: &["tdc.decoder=leading", "tdc.profile=kintex7"],
+    parameters: &[super::parameters::DECODER],
+    ..DEFAULTS
+};
+
+/// The leading bit of the same taps in the order in which they are reached.
+pub const REORDERED: Configuration = Configuration {
+    name: "reordered",
+    set: &["tdc.decoder=reordered", "tdc.profile=kintex7"],
+    parameters: &[super::parameters::DECODER, super::parameters::ORDER],
+    ..DEFAULTS
+};
+
 /// A faster clock, whose quarter of a period is no whole number of femtoseconds.
 pub const CLOCKS: Configuration = Configuration {
     name: "clocks",

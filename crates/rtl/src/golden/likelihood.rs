@@ -22,7 +22,7 @@ const STATES: u64 = State::End as u64 + 1;
 /// Every so many estimations is a whole one.
 const WHOLE: u64 = 2;
 /// Kinds of histograms, each of which shows one way in which an estimation ends.
-const KINDS: u64 = 11;
+const KINDS: u64 = 12;
 const EXTREME: u64 = 1;
 const AT_END: u64 = 2;
 const AT_BEGIN: u64 = 3;
@@ -33,6 +33,7 @@ const RISING: u64 = 7;
 const FALLING: u64 = 8;
 const ODD: u64 = 9;
 const EMPTY: u64 = 10;
+const UNARMED: u64 = 11;
 /// So often a histogram is drawn that is of its kind.
 const TRIES: u64 = 100;
 /// Kinds of extreme histograms.
@@ -64,6 +65,7 @@ impl Outcome {
             USED_UP => self.waiting.is_some_and(|waiting| (1..32).contains(&waiting)),
             RISING => flags(6) && !flags(5) && !self.cut,
             ODD => self.status == u64::from(status::NO_FIT),
+            UNARMED => self.status == 0,
             FALLING => flags(5) && !flags(6) && !self.cut,
             _ => true,
         }
@@ -84,6 +86,7 @@ pub struct Estimations<'a> {
     starts: Cover,
     resets: Cover,
     seen: Cover,
+    modes: Cover,
 }
 
 impl<'a> Estimations<'a> {
@@ -103,6 +106,7 @@ impl<'a> Estimations<'a> {
             over: false,
             starts: Cover::new("start in state", states.clone()),
             resets: Cover::new("reset in state but idle", states.skip(1)),
+            modes: Cover::new("shots armed and not", if cuts { 0..2 } else { 0..0 }),
             seen: Cover::new("depths without and with a status", if cuts { 0..2 } else { 0..0 }),
         }
     }
@@ -120,6 +124,7 @@ impl<'a> Estimations<'a> {
         self.line += 1;
         if block.registers.algo_done {
             self.seen.see(u64::from(!block.registers.valid));
+            self.modes.see(block.registers.status.get() >> 6);
         }
         let idle = block.state() == State::Idle;
         let algo_start = draw.one_in(if idle { 3 } else { 64 });
@@ -132,7 +137,11 @@ impl<'a> Estimations<'a> {
         }
         let memory = &block.likelihood_memory.registers;
         let word = if memory.read_en { self.histogram[memory.read_addr.index()] } else { 0 };
-        In { rst, algo_start, count: U::new(word.into()) }
+        // Of the two estimations of unarmed shots one sees them while the one before is under way.
+        let next = self.begun + 1;
+        let unarmed = next / WHOLE % KINDS == UNARMED;
+        let mode = unarmed && draw.one_in(if idle { 2 } else { 500 * (1 + next % WHOLE * 100) });
+        In { rst, algo_start, mode, count: U::new(word.into()) }
     }
 
     /// Whether these lines and all that follow are drawn for one block alone: from the middle of so many on, once
@@ -181,7 +190,8 @@ impl<'a> Estimations<'a> {
                 _ => {}
             }
             let word = if memory.read_en { histogram[memory.read_addr.index()] } else { 0 };
-            let i = In { rst: false, algo_start: line == 0, count: U::new(word.into()) };
+            let i =
+                In { mode: false, rst: false, algo_start: line == 0, count: U::new(word.into()) };
             block.rise(&i, self.params);
         }
         outcome.rescan = block.likelihood_scan.registers.best_score.get();
@@ -232,7 +242,7 @@ impl<'a> Estimations<'a> {
         scenario.target.distance_m = end_ps * 1.5e-4 * place;
         scenario.target.reflectance = reflectance;
         scenario.ambient.irradiance_w_m2_nm = irradiance;
-        let hazard = Hazard::new(&Budget::new(&scenario));
+        let hazard = Hazard::new(&Budget::new(&scenario, self.setup.budget.pulse.clone()));
         let chances = BinProbabilities::new(&hazard, &self.setup.bins());
         let counts = chances.draw(self.params.shots, draw.rng());
         counts.into_iter().map(|count| count as u32).collect()
@@ -271,7 +281,7 @@ impl<'a> Estimations<'a> {
     }
 
     /// What has been reached.
-    pub fn coverage(self) -> [Cover; 3] {
-        [self.starts, self.resets, self.seen]
+    pub fn coverage(self) -> [Cover; 4] {
+        [self.starts, self.resets, self.seen, self.modes]
     }
 }

@@ -55,7 +55,7 @@ impl<'a> Lines<'a> {
             }
         }
         let (stimulus, expected) = (Table::new(stimulus), Table::new(expected));
-        let taps = TapDigits::new(setting.order());
+        let taps = TapDigits::new(&setting.setup.params.tdc.decoder.encoder);
         Lines { spec, setting, stimulus, inputs: places, expected, compared, sample: 0, taps }
     }
 

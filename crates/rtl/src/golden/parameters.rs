@@ -2,6 +2,7 @@
 
 use tofsim::firmware::carry_chain::Delays;
 use tofsim::firmware::histogram_builder::{self, Bin, Count};
+use tofsim::firmware::tdc_decoder::Decoder;
 use tofsim::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Sizes};
 use tofsim::firmware::{
     centroid_estimator, depth_estimator, forward2, likelihood_estimator, pll, tdc_decoder,
@@ -55,6 +56,27 @@ pub const COUNT_STAGES: &str = "CountStages";
 pub fn count_stages(params: &tdc_decoder::Params) -> Option<(&'static str, Parameter)> {
     let stages = params.count_stages;
     (stages != tdc_decoder::COUNT_STAGES).then_some((COUNT_STAGES, Parameter::Number(stages)))
+}
+
+/// The parameter with the number of the decoder.
+pub const DECODER: &str = "Decoder";
+/// The parameter with what it takes to put the taps in the order of arrival.
+pub const ORDER: &str = "Order";
+
+/// Those of how the taps are read, where they are not the default.
+pub fn decoder(params: &tdc_decoder::Params) -> Parameters {
+    let encoder = &params.encoder;
+    let number = Decoder::ALL.iter().position(|one| *one == encoder.decoder()).unwrap_or_default();
+    let mut list = Vec::new();
+    if number > 0 {
+        list.push((DECODER, Parameter::Number(number as u64)));
+    }
+    if encoder.decoder() == Decoder::Reordered {
+        let places = (0u16..).zip(encoder.order());
+        let steps = places.map(|(place, tap)| tap.wrapping_sub(place).into());
+        list.push((ORDER, Parameter::Words(steps.collect())));
+    }
+    list
 }
 
 /// The parameters of some names that say how large things are, where they are not the default: as large
@@ -222,6 +244,7 @@ pub fn likelihood_estimator(params: &likelihood_estimator::params::Params) -> Pa
         ("WindowEnd", number(params.end() as u64)),
         ("Metres", number(params.metres as u64)),
         ("MetresShift", number(params.metres_shift.into())),
+        ("LaserDelay", number(params.delay as u64)),
     ];
     let names = ["EdgesFile", "PulseFile", "HazardFile", "LogFile"];
     list.extend(files(names, mem::likelihood_estimator(params)));
@@ -252,6 +275,7 @@ pub fn tof_top(setup: &Setup) -> Parameters {
     ]);
     list.extend(neurons(params.depth_estimator.neurons()));
     list.extend(count_stages(&params.tdc.decoder));
+    list.extend(decoder(&params.tdc.decoder));
     list.extend(sized(params, &OF_NETWORK));
     list.extend(sized(params, &OF_TOP));
     let (preloads_codes, rom) = match &params.code_source {
@@ -290,6 +314,8 @@ pub fn tof_top_in_full(setup: &Setup) -> Parameters {
     let mut all = every_clock(&setup.scenario.pll.params());
     all.push((NEURONS, Parameter::Number(params.depth_estimator.neurons() as u64)));
     all.push((COUNT_STAGES, Parameter::Number(params.tdc.decoder.count_stages)));
+    all.push((DECODER, Parameter::Number(0)));
+    all.push((ORDER, Parameter::Words(vec![0; params.tdc.delays.taps()])));
     let (sizes, laser) = (params.sizes(), &params.vcsel_driver);
     let named = OF_NETWORK.iter().chain(&OF_TOP);
     all.extend(named.map(|&name| (name, size(&sizes, laser, name))));

@@ -6,7 +6,9 @@ pub use tofsim::kernel::{Clocked, S, Time, U};
 pub use tofsim::network::mem;
 pub use tofsim::signals;
 
-pub use super::configuration::{CLOCKS, COUNT_STAGES_2, Configuration, NEURONS_16};
+pub use super::configuration::{
+    CLOCKS, COUNT_STAGES_2, Configuration, LEADING, NEURONS_16, REORDERED,
+};
 pub use super::cover::{Cover, bits, ends};
 pub use super::draw::{Draw, MEMORIES};
 pub use super::parameters::{self, Parameter, files, with_neurons};

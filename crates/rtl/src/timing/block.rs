@@ -34,6 +34,7 @@ pub static BLOCKS: &[TimedBlock] = &[
     block("tdc", &["tdc"], &["tdc_stop"]),
     block("centroid_estimator", &["centroid_estimator"], &[]),
     block("vcsel_driver", &["vcsel_driver"], &["laser_on"]),
+    TimedBlock { usual: false, ..block("likelihood_estimator", &["likelihood_estimator"], &[]) },
     TimedBlock { usual: false, ..block(TOP, &[], &[]) },
 ];
 

@@ -6,7 +6,7 @@ use crate::firmware::likelihood_estimator::tables::{log2_64, reciprocal};
 use super::arithmetic::shifted;
 
 /// Blocks that the window is divided in to find the ambient hazard.
-const BLOCKS: usize = 8;
+pub const BLOCKS: usize = 8;
 /// A block counts with a 64th of the first one's exposure, in 64ths of powers of two.
 const LEAST_EXPOSURE: i64 = 6 * 64;
 /// By how many bits hits are shifted up to be divided.
@@ -33,6 +33,30 @@ pub struct Shots<'a> {
     pub exposure: i64,
 }
 
+/// A block of bins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Block {
+    /// 64 log2 of the hazard that it shows [1 / unit].
+    pub level: i64,
+    /// Shots that end in it.
+    pub ended: i64,
+    /// Shots that wait in its bins, each times its bin's width [shots units].
+    pub exposure: i64,
+}
+
+/// What the blocks show of ambient light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ambient {
+    /// All blocks.
+    pub blocks: [Block; BLOCKS],
+    /// The one that is believed.
+    pub chosen: usize,
+    /// Whether no other one has shots left.
+    pub lone: bool,
+    /// Its hazard [1 / unit, 30 fraction bits].
+    pub hazard: i64,
+}
+
 impl<'a> Shots<'a> {
     /// Of a histogram.
     pub fn new(p: &Params, ended: &'a [u32]) -> Self {
@@ -50,27 +74,29 @@ impl<'a> Shots<'a> {
     }
 
     /// The hazard of ambient light: of eight blocks of bins, as far as shots are left, the one at 3/8
-    /// of the order [1 / unit, 30 fraction bits].
-    pub fn ambient(&self, p: &Params) -> i64 {
+    /// of the order.
+    pub fn ambient(&self, p: &Params) -> Ambient {
         let length_of_block = self.ended.len() / BLOCKS;
         let block = |k: usize| {
             let bins = k * length_of_block..(k + 1) * length_of_block;
             let ended: i64 = self.ended[bins.clone()].iter().map(|&count| i64::from(count)).sum();
             let exposure: i64 = bins.map(|bin| self.waiting[bin] * p.width(bin)).sum();
-            (log2_64(ended) - log2_64(exposure), ended, exposure)
+            Block { level: log2_64(ended) - log2_64(exposure), ended, exposure }
         };
         let blocks: [_; BLOCKS] = std::array::from_fn(block);
-        let least = log2_64(blocks[0].2) - LEAST_EXPOSURE;
-        let mut order: Vec<_> = blocks.iter().filter(|block| log2_64(block.2) > least).collect();
-        order.sort_by_key(|block| block.0);
-        let (_, ended, exposure) = order[(order.len() - 1) * 3 / 8];
-        let ended = (*ended).min(p.histogram.most_hits() as i64);
+        let least = log2_64(blocks[0].exposure) - LEAST_EXPOSURE;
+        let lit = |k: &usize| log2_64(blocks[*k].exposure) > least;
+        let mut order: Vec<_> = (0..BLOCKS).filter(lit).collect();
+        order.sort_by_key(|&k| blocks[k].level);
+        let (chosen, lone) = (order[(order.len() - 1) * 3 / 8], order.len() == 1);
+        let Block { ended, exposure, .. } = blocks[chosen];
+        let ended = ended.min(p.histogram.most_hits() as i64);
         // Where all shots end in one block, the echo is in it.
-        let ended = ended << if order.len() == 1 { ENDED_LOG2 - ECHO_LOG2 } else { ENDED_LOG2 };
-        let (mantissa, bits) = reciprocal((*exposure).max(1));
+        let ended = ended << if lone { ENDED_LOG2 - ECHO_LOG2 } else { ENDED_LOG2 };
+        let (mantissa, bits) = reciprocal(exposure.max(1));
         // A chance in 64 units has 24 fraction bits where one in a unit has 30.
         let chance = shifted(ended * mantissa, i64::from(bits) + 2);
-        hazard(chance.clamp(1, MOST_CHANCE))
+        Ambient { blocks, chosen, lone, hazard: hazard(chance.clamp(1, MOST_CHANCE)) }
     }
 }
 

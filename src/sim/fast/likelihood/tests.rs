@@ -11,7 +11,7 @@ use crate::sim::setup::Setup;
 
 /// The block, stepped from a start until `algo_done`, and the edges it took.
 fn step(block: &mut LikelihoodEstimator, p: &Params, histogram: &[u32]) -> (Found, u64) {
-    let mut i = In { rst: false, algo_start: true, count: U::new(0) };
+    let mut i = In { rst: false, algo_start: true, mode: false, count: U::new(0) };
     block.rise(&i, p);
     i.algo_start = false;
     let mut edges = 0;
@@ -58,12 +58,13 @@ fn extremes(bins: usize, most: u32, rng: &mut impl RngExt) -> Vec<Vec<u32>> {
 }
 
 /// Instruments: a scenario's name and what is set.
-const INSTRUMENTS: [(&str, &[&str]); 5] = [
+const INSTRUMENTS: [(&str, &[&str]); 6] = [
     ("kc705", &[]),
     ("kc705", &["tdc.profile=table6_3", "laser.pulse_sigma_ps=400"]),
     ("kc705", &["tdc.profile=ideal", "laser.pulse_sigma_ps=80", "target.distance_m=0.07"]),
     ("compact", &[]),
     ("fine", &["target.distance_m=0.06", "ambient.irradiance_w_m2_nm=1"]),
+    ("kc705", &["laser.delay_ps=1234.5", "target.distance_m=0.2"]),
 ];
 
 /// Compares block and estimate on so many drawn histograms of each instrument, and as many extreme ones.

@@ -94,7 +94,7 @@ pub fn verdict(
         (far, status::NO_FIT),
     ];
     Found {
-        depth: Depth::new(to_depth(last.arrival)),
+        depth: Depth::new(to_depth(last.arrival) - p.delay),
         sigma: to_depth(sigma) as u64,
         status: reasons.iter().filter(|(holds, _)| *holds).map(|(_, bit)| bit).sum(),
         chi_square: chi_square as u64,

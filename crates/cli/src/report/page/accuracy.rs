@@ -4,8 +4,9 @@ use serde_json::Value;
 
 use tofsim_learn::dataset::axis::thinned;
 
+use crate::report::curves::{Curve, curves};
+
 use super::html::{escaped, figure, table};
-use super::plot::{Curve, curves};
 
 /// Most distances of the table.
 const SHOWN: usize = 21;
@@ -98,8 +99,8 @@ pub fn section(evaluation: &Value) -> Result<String, String> {
         "2 sd [mm]",
         true,
         &[
-            Curve { name: &format!("{}, as the firmware computes it", named(0)), points: &spread },
-            Curve { name: "Cramer-Rao bound", points: &bound },
+            Curve::new(&format!("{}, as the firmware computes it", named(0)), &spread),
+            Curve::bound(&bound),
         ],
     )?;
     let mean = of(&own, "mean_mm");
@@ -107,7 +108,7 @@ pub fn section(evaluation: &Value) -> Result<String, String> {
         "Mean error by distance",
         "mean error [mm]",
         false,
-        &[Curve { name: &named(0), points: &mean }],
+        &[Curve::new(&named(0), &mean)],
     )?;
     Ok(words
         + &figure(

@@ -11,8 +11,8 @@ use super::html::table;
 
 /// Distances that the bins hold.
 pub fn range_m(setup: &Setup) -> String {
-    let tdc = &setup.scenario.tdc;
-    let metres = |ps: f64| ps * 1e-12 * LIGHT_M_S / 2.0;
+    let (tdc, laser) = (&setup.scenario.tdc, &setup.scenario.laser);
+    let metres = |ps: f64| (ps - laser.delay_ps).max(0.0) * 1e-12 * LIGHT_M_S / 2.0;
     let first = metres(tdc.first_bin_ps);
     let window_ps = setup.cycle().fs() as f64 / 1e3 * f64::from(1 << tdc.coarse_bits);
     let end = metres((tdc.first_bin_ps + tdc.bins as f64 * tdc.bin_ps).min(window_ps));
@@ -123,7 +123,7 @@ fn facts(setup: &Setup) -> Vec<(&'static str, String)> {
                 "{} nm, {} mW on average, pulses of sigma {} ps every {} ns",
                 short(laser.wavelength_nm),
                 short(laser.average_power_w * 1e3),
-                short(laser.pulse_sigma_ps),
+                short(setup.budget.pulse.sigma_ps()),
                 short(period_ns)
             ),
         ),

@@ -2,9 +2,10 @@
 
 use serde_json::{Value, json};
 
+use tofsim::error::Result;
 use tofsim::optics::Chances;
 use tofsim::optics::eye_safety::{Exposure, longest_exposure_s};
-use tofsim::{Note, Setup};
+use tofsim::{Note, NoteCode, Setup};
 
 /// What the command finds.
 pub(super) struct Findings {
@@ -30,9 +31,12 @@ impl Findings {
         }
     }
 
-    /// Why a depth cannot be that of the target, which limits the laser is above, and where there is
-    /// none to tell.
-    pub fn notes(&self) -> Vec<Note> {
+    /// Why a depth cannot be that of the target, or what its times are off by, which limits the laser is above, and
+    /// where there is none to tell.
+    ///
+    /// # Errors
+    /// When the network's file has a domain that is none.
+    pub fn notes(&self) -> Result<Vec<Note>> {
         // The laser does not run at the optics' rate, so only that there is no limit is worth a note.
         let design = Some(&self.at_the_optics_rate).filter(|design| design.limit_w.is_none());
         let exposures = [
@@ -43,8 +47,11 @@ impl Findings {
         let note = |(what, exposure): (&str, Option<&Exposure>)| {
             exposure.and_then(|exposure| self.setup.eye_safety_note(what, exposure))
         };
-        let impossible = self.setup.no_depth().cloned();
-        impossible.into_iter().chain(exposures.into_iter().filter_map(note)).collect()
+        // What the network was trained for matters to its depths, which are not asked for.
+        let mut notes = self.setup.notes()?;
+        notes.retain(|note| note.code != NoteCode::OutsideTraining);
+        notes.extend(exposures.into_iter().filter_map(note));
+        Ok(notes)
     }
 
     /// Longest stretch of frames within Class 1 [s].
@@ -66,7 +73,8 @@ impl Findings {
             "scenario": setup.name,
             "distance_m": setup.scenario.target.distance_m,
             "reflectance": setup.scenario.target.reflectance,
-            "time_of_flight_ps": budget.mean_arrival.fs() as f64 / 1e3,
+            "time_of_flight_ps": budget.flight().fs() as f64 / 1e3,
+            "laser_delay_ps": setup.scenario.laser.delay_ps,
             "signal_per_shot": budget.signal_per_shot,
             "noise_rate_hz": budget.ambient_rate_hz,
             "dark_rate_hz": budget.dark_rate_hz,

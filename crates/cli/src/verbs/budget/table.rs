@@ -33,7 +33,12 @@ fn row(name: &str, value: impl Into<String>, meaning: impl Into<String>) -> Row 
 }
 
 fn flight(findings: &Findings) -> String {
-    format!("{:.1} ps of flight", findings.setup.budget.mean_arrival.fs() as f64 / 1e3)
+    let budget = &findings.setup.budget;
+    let flight = format!("{:.1} ps of flight", budget.flight().fs() as f64 / 1e3);
+    match findings.setup.scenario.laser.delay_ps {
+        0.0 => flight,
+        delay_ps => format!("{flight}, {delay_ps:.1} ps after the laser edge"),
+    }
 }
 
 /// What a shot can expect.

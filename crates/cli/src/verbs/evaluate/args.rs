@@ -59,7 +59,8 @@ pub struct Args {
     /// Count an estimate as an outlier that is further than this from the truth
     #[arg(long, value_name = "MM", default_value_t = 100.0, value_parser = crate::choice::millimetres)]
     pub(super) outlier_limit_mm: f64,
-    /// Write evaluation.json, evaluation.csv and box plots of the errors there
+    /// Write evaluation.json, evaluation.csv, box plots of the errors, and the spread by distance over the
+    /// Cramer-Rao bound there
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
     /// Print one JSON object instead of tables

@@ -58,7 +58,7 @@ pub fn run(args: &Args, data: &Path, talk: &Talk) -> Result<()> {
     record.put_into(&mut json, &notes);
     if let Some(folder) = &args.output {
         let (record, json, figures) = (&record, &json, &figures[..]);
-        let evaluated = report::Evaluated { record, json, figures, grid: None };
+        let evaluated = report::Evaluated { record, json, figures, bound: &[], grid: None };
         evaluated.write(folder)?.iter().for_each(|path| talk.wrote(path));
     }
     if args.json {
@@ -94,11 +94,14 @@ fn figures(
 }
 
 impl Args {
-    /// Where the histograms lie outside of what the network was trained for.
+    /// Where the histograms lie outside of what the network was trained for, and that the chain has drifted.
     fn notes_on(&self, setup: &Setup, labelled: &Labelled) -> Result<Vec<Note>> {
-        match self.measures_a_network() {
-            true => domain::notes(&setup.network, &setup.scenario, &labelled.ranges()),
-            false => Ok(Vec::new()),
+        let mut notes = Vec::new();
+        if self.measures_a_network() {
+            notes = domain::notes(&setup.network, &setup.scenario, &labelled.ranges())?;
         }
+        let of_all = self.measures_networks_only().then_some(&notes[..]);
+        let drift = setup.drift_for(of_all);
+        Ok(drift.into_iter().chain(notes).collect())
     }
 }

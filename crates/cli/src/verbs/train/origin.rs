@@ -5,7 +5,7 @@ use tofsim::error::{Input, Result};
 use tofsim::scenario::{self, Loaded, Scenario};
 use tofsim::sim::setup::Setup;
 use tofsim_learn::dataset::{GridOption, GridPurpose, Labelled};
-use tofsim_learn::training::data::{TrainingMaterial, TrainingScenes, fingerprint};
+use tofsim_learn::training::data::{PulseTimes, TrainingMaterial, TrainingScenes, fingerprint};
 use tofsim_learn::training::measured::MeasuredParts;
 use tofsim_learn::training::weighting::Weighting;
 
@@ -47,9 +47,12 @@ impl Origin {
             let labelled =
                 Labelled::read(data, args.truth.as_deref(), &loaded.scenario.histogram())?;
             labelled.check(data, &loaded.scenario)?;
-            let bins = Setup::of_counts(loaded.clone())?.bins();
-            let sigma_ps = loaded.scenario.laser.pulse_sigma_ps;
-            let parts = MeasuredParts::new(&labelled, bins, sigma_ps, args.seed)?;
+            let setup = Setup::of_counts(loaded.clone())?;
+            let pulse = PulseTimes {
+                delay_ps: setup.scenario.laser.delay_ps,
+                sigma_ps: setup.budget.pulse.sigma_ps(),
+            };
+            let parts = MeasuredParts::new(&labelled, setup.bins(), pulse, args.seed)?;
             return Ok(Origin::Measured {
                 parts: Box::new(parts),
                 ranges: labelled.ranges(),

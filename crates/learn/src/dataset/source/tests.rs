@@ -80,7 +80,7 @@ fn the_budget_is_that_of_the_scenario_in_either_ambient_model() {
         scenario.target.distance_m = 0.6;
         scenario.target.reflectance = 0.37;
         scenario.ambient.irradiance_w_m2_nm = 0.35;
-        let expected = Budget::new(&scenario);
+        let expected = Budget::new(&scenario, Pulse::default());
         let scene =
             Scene { distance_m: 0.6, reflectance: 0.37, irradiance_w_m2_nm: 0.35, setting: 0 };
         let source = source(&[&format!("ambient.model={model}")]).unwrap();

@@ -13,7 +13,7 @@
 //! edge. What that one sees may seem as early as cycle - L; codes from there on have no cell.
 
 use crate::estimation::acquisition::{Echo, FreeRunning};
-use tofsim::optics::hazard::normal_cdf;
+use tofsim::kernel::pulse::Pulse;
 
 /// Longest step [ps].
 const STEP_PS: f64 = 25.0;
@@ -42,8 +42,8 @@ struct Steady {
 
 impl Arming {
     /// For an echo that comes in every period; stretches are `stretch_ps` long.
-    pub fn new(free: &FreeRunning, sigma_ps: f64, stretch_ps: f64, echo: &Echo) -> Self {
-        let steady = Steady::new(free, sigma_ps, echo);
+    pub fn new(free: &FreeRunning, pulse: &Pulse, stretch_ps: f64, echo: &Echo) -> Self {
+        let steady = Steady::new(free, pulse, echo);
         let empty_ps = free.empty_ps();
         let rate = echo.background_per_ps.max(0.0);
         let quiet = |before_ps: f64| libm::exp(-rate * before_ps);
@@ -69,12 +69,12 @@ impl Arming {
 }
 
 impl Steady {
-    fn new(free: &FreeRunning, sigma_ps: f64, echo: &Echo) -> Self {
+    fn new(free: &FreeRunning, pulse: &Pulse, echo: &Echo) -> Self {
         let count = (free.period_ps / STEP_PS).ceil() as usize;
         let step_ps = free.period_ps / count as f64;
         let hazard = |k: usize| {
             let t_ps = k as f64 * step_ps;
-            let signal = if k == 0 { 0.0 } else { normal_cdf((t_ps - echo.arrival_ps) / sigma_ps) };
+            let signal = if k == 0 { 0.0 } else { pulse.part(t_ps - echo.arrival_ps) };
             echo.background_per_ps.max(0.0) * t_ps + echo.signal * signal
         };
         let fires: Vec<_> = (0..count).map(|k| -libm::expm1(hazard(k) - hazard(k + 1))).collect();

@@ -1,7 +1,7 @@
 //! The probability of a histogram: the first avalanche of each shot, bin by bin.
 //!
-//! As [`tofsim::optics`] has it, with Phi itself in place of its broken line: H(t) = N t +
-//! S Phi((t - mu) / sigma), H(0) = 0, and a code has the probability exp(-H(a)) - exp(-H(b)), summed
+//! As [`tofsim::optics`] has it, with the pulse itself in place of its broken line: H(t) = N t +
+//! S F(t - mu), H(0) = 0, and a code has the probability exp(-H(a)) - exp(-H(b)), summed
 //! over its spans; what lies between the spans and after them has no code. The histogram, with the
 //! shots without a code as one more cell, is a multinomial number.
 //!
@@ -12,11 +12,10 @@
 //! Coordinates are mu / sigma, ln S and N times the end of the last bin: numbers of order 1, and S
 //! stays positive.
 
-use std::f64::consts::PI;
 use std::sync::Arc;
 
 use tofsim::error::Input;
-use tofsim::optics::hazard::normal_cdf;
+use tofsim::kernel::pulse::Pulse;
 
 use crate::estimation::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo, FreeRunning};
 
@@ -46,7 +45,8 @@ pub struct Model {
     pub(super) free_running: Option<FreeRunning>,
     /// Shots of the histogram [shots].
     pub(super) shots: u64,
-    /// Standard deviation of the pulse [ps].
+    pulse: Pulse,
+    /// Its standard deviation [ps].
     pub(super) sigma_ps: f64,
     /// End of the last bin [ps].
     pub(super) end_ps: f64,
@@ -66,9 +66,10 @@ impl Model {
     pub fn new(acquisition: &Acquisition) -> Result<Self, Input> {
         acquisition.check()?;
         let Stretches { stretches, known, step_ps, end_ps } = Stretches::new(acquisition);
-        let (shots, sigma_ps) = (acquisition.shots, acquisition.pulse_sigma_ps);
-        let free_running = acquisition.free_running;
-        Ok(Model { stretches, known, step_ps, free_running, shots, sigma_ps, end_ps })
+        let Acquisition { shots, free_running, .. } = *acquisition;
+        let pulse = acquisition.pulse.clone();
+        let sigma_ps = pulse.sigma_ps();
+        Ok(Model { stretches, known, step_ps, free_running, shots, pulse, sigma_ps, end_ps })
     }
 
     /// Cells: the codes, and last no code.
@@ -101,6 +102,11 @@ impl Model {
         }
     }
 
+    /// Logarithm of the histogram's probability at an echo, but for a constant.
+    pub fn log_likelihood_of(&self, echo: &Echo, histogram: &[u32]) -> f64 {
+        self.log_likelihood(&self.coordinates(echo), histogram)
+    }
+
     /// Logarithm of the histogram's probability, but for a constant.
     pub fn log_likelihood(&self, at: &[f64; 3], histogram: &[u32]) -> f64 {
         let terms = self.counts(histogram).zip(self.chances(at));
@@ -128,6 +134,11 @@ impl Model {
         let information = self.information(&self.cells(&self.coordinates(echo)));
         let variance = inverse_diagonal(&information, false)?[0];
         Some(variance.sqrt() * self.sigma_ps / ARRIVAL_PS_PER_M)
+    }
+
+    /// When a part of the pulse has come, from its mean [ps].
+    pub(super) fn when_ps(&self, part: f64) -> f64 {
+        self.pulse.when(part)
     }
 
     /// The probability of each code, where it has a cell of its own; 0 elsewhere [1].
@@ -161,9 +172,9 @@ impl Model {
 
     /// H and its derivatives at the end of a stretch.
     fn hazard(&self, at: &[f64; 3], signal: f64, t_ps: f64) -> (f64, [f64; 3]) {
-        let z = t_ps / self.sigma_ps - at[0];
-        let density = libm::exp(-0.5 * z * z) / (2.0 * PI).sqrt();
-        let (part, of_end) = (signal * normal_cdf(z), t_ps / self.end_ps);
+        let since_ps = t_ps - at[0] * self.sigma_ps;
+        let density = self.pulse.density(since_ps) * self.sigma_ps;
+        let (part, of_end) = (signal * self.pulse.part(since_ps), t_ps / self.end_ps);
         (at[2] * of_end + part, [-signal * density, part, of_end])
     }
 
@@ -210,7 +221,7 @@ impl Model {
             p
         });
         let first: Vec<_> = first.collect();
-        let arming = Arming::new(free, self.sigma_ps, self.step_ps, &self.echo(at));
+        let arming = Arming::new(free, &self.pulse, self.step_ps, &self.echo(at));
         let (last, mut of) = (self.known.len(), vec![0.0; self.cell_count()]);
         for (stretch, p) in self.stretches.iter().zip(arming.show(&first)) {
             stretch.cells.iter().for_each(|&(cell, part)| of[cell] += p * part);

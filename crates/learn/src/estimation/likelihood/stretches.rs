@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use tofsim::optics::hazard::normal_cdf;
+use tofsim::kernel::pulse::normal_cdf;
 
 use crate::estimation::acquisition::{Acquisition, spans_ps};
 
@@ -60,7 +60,7 @@ impl Stretches {
                 end_ps,
             };
         }
-        let step_ps = STEP_PS.min(STEP * acquisition.pulse_sigma_ps);
+        let step_ps = STEP_PS.min(STEP * acquisition.pulse.sigma_ps());
         let reach_ps = REACH * acquisition.jitter_ps;
         let count = ((end_ps + reach_ps) / step_ps).ceil() as usize;
         let cell = |&(code, from_ps, until_ps): &(u16, f64, f64)| {

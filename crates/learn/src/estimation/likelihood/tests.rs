@@ -1,6 +1,7 @@
 use tofsim::firmware::carry_chain::{Delays, TAPS};
 use tofsim::firmware::tdc;
 use tofsim::kernel::Time;
+use tofsim::kernel::pulse::Pulse;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 
 use super::super::acquisition::{FreeRunning, most_probable};
@@ -22,7 +23,7 @@ fn uneven() -> Bins {
 }
 
 fn likelihood(bins: &Bins) -> Likelihood {
-    Likelihood::new(&Acquisition::new(bins, 30_000, 137.0)).unwrap()
+    Likelihood::new(&Acquisition::new(bins, 30_000, &Pulse::Gaussian { sigma_ps: 137.0 })).unwrap()
 }
 
 fn scenes() -> [Echo; 4] {
@@ -42,7 +43,6 @@ fn expected(bins: &Bins, scene: &Echo) -> Vec<u32> {
         signal_per_shot: scene.signal,
         ambient_rate_hz: scene.background_per_ps * 1e12,
         mean_arrival: Time::from_ps_f64(scene.arrival_ps),
-        pulse_sigma_ps: 137.0,
         ..Budget::default()
     };
     let probabilities = BinProbabilities::new(&Hazard::new(&budget), bins);
@@ -168,7 +168,7 @@ const FREE: FreeRunning = FreeRunning {
 #[test]
 fn the_scene_of_an_expected_histogram_is_found_again_with_jitter_and_in_mode_1() {
     let bins = even(11_500, 2_230);
-    let steady = Acquisition::new(&bins, 30_000, 137.0);
+    let steady = Acquisition::new(&bins, 30_000, &Pulse::Gaussian { sigma_ps: 137.0 });
     let free_running = Acquisition { free_running: Some(FREE), ..steady };
     for acquisition in [Acquisition { jitter_ps: 70.0, ..steady }, free_running] {
         let likelihood = Likelihood::new(&acquisition).unwrap();
@@ -187,7 +187,7 @@ fn the_scene_of_an_expected_histogram_is_found_again_with_jitter_and_in_mode_1()
 fn a_diode_that_is_always_back_in_time_is_as_one_that_is_armed_for_each_shot() {
     // Without background the only avalanche of a shot is the echo's, long before the next one.
     let bins = even(11_500, 2_230);
-    let steady = Acquisition::new(&bins, 30_000, 137.0);
+    let steady = Acquisition::new(&bins, 30_000, &Pulse::Gaussian { sigma_ps: 137.0 });
     let free_running = Acquisition { free_running: Some(FREE), ..steady };
     let scene = Echo { arrival_ps: 2000.0, signal: 5.0, background_per_ps: 1e-12 };
     let [expected, found] = [steady, free_running]

@@ -1,6 +1,7 @@
 use tofsim::firmware::carry_chain::{Delays, TAPS};
 use tofsim::firmware::tdc;
 use tofsim::kernel::Time;
+use tofsim::kernel::pulse::Pulse;
 use tofsim::optics::{BinProbabilities, Budget, Hazard};
 
 use super::*;
@@ -11,7 +12,8 @@ fn even(tap_fs: i64, offset_ps: u64) -> Bins {
 }
 
 fn filter(bins: &Bins) -> MatchedFilter {
-    MatchedFilter::new(&Acquisition::new(bins, 60_000, 137.0)).unwrap()
+    MatchedFilter::new(&Acquisition::new(bins, 60_000, &Pulse::Gaussian { sigma_ps: 137.0 }))
+        .unwrap()
 }
 
 #[test]
@@ -24,7 +26,6 @@ fn an_expected_histogram_gives_its_scene_between_the_grids_places() {
                 signal_per_shot: signal,
                 ambient_rate_hz: rate_hz,
                 mean_arrival: Time::from_ps_f64(arrival_ps),
-                pulse_sigma_ps: 137.0,
                 ..Budget::default()
             };
             let probabilities = BinProbabilities::new(&Hazard::new(&budget), &bins);

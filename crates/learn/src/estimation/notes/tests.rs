@@ -43,8 +43,15 @@ fn what_an_estimator_does_not_know_is_named() {
         (Centroid, "laser.pulse_sigma_ps=200", "estimator.centroid_half_width"),
         (Centroid, "tdc.bin_ps=40", "estimator.centroid_slope_m"),
         (Centroid, "tdc.first_bin_ps=1000", "estimator.centroid_offset_m"),
+        (Centroid, "laser.delay_ps=600", "estimator.centroid_offset_m"),
+        (Peak, "laser.delay_ps=10", "laser.delay_ps"),
+        (Subtraction, "laser.delay_ps=10", "laser.delay_ps"),
         (Peak, "tdc.bin_ps=24", "tdc.bin_ps"),
         (Subtraction, "tdc.first_bin_ps=1000", "tdc.first_bin_ps"),
+        (Likelihood, "spad.afterpulse_probability=0.001", "spad.afterpulse_probability"),
+        (LikelihoodEstimator, "spad.afterpulse_probability=0.001", "spad.afterpulse_probability"),
+        (Matched, "spad.afterpulse_probability=0.001", "spad.afterpulse_probability"),
+        (Peak, "spad.afterpulse_probability=0.05", "spad.afterpulse_probability"),
         (Centroid, "target.distance_m=0.3", "--estimator"),
         (Peak, "target.distance_m=0.1", "--estimator"),
     ] {
@@ -55,6 +62,8 @@ fn what_an_estimator_does_not_know_is_named() {
     assert_eq!(found, ["spad.dead_time_ns"]);
     let found = keys(Likelihood, &["firmware.mode=1", "spad.on_tdc=2"]);
     assert_eq!(found, ["spad.on_tdc"]);
+    let found = keys(Likelihood, &["firmware.mode=1", "spad.dead_time_kind=paralysable"]);
+    assert_eq!(found, ["spad.dead_time_kind"]);
     let found = keys(Likelihood, &["firmware.mode=1", "target.distance_m=0.65"]);
     assert_eq!(found, ["target.distance_m"]);
     let found = keys(Likelihood, &["pll.jitter_rms_ps=50", "target.distance_m=0.86"]);
@@ -75,6 +84,21 @@ fn with_what_the_notes_expect_other_bins_are_known() {
     for kind in [EstimatorKind::Likelihood, EstimatorKind::Matched] {
         assert!(keys(kind, &bins).is_empty(), "{kind:?}");
     }
+}
+
+#[test]
+fn the_laser_s_delay_is_known_to_those_that_know_the_pulse_and_may_be_told_to_the_centroid() {
+    let late = ["laser.delay_ps=600", "target.distance_m=0.3"];
+    for kind in
+        [EstimatorKind::Likelihood, EstimatorKind::LikelihoodEstimator, EstimatorKind::Matched]
+    {
+        assert!(keys(kind, &late).is_empty(), "{kind:?}");
+    }
+    let faint = ["spad.pdp=0.00001", "spad.dark_rate_hz=0", "ambient.irradiance_w_m2_nm=0"];
+    let told = ["estimator.centroid_offset_m=-0.08993774"];
+    let found = keys(EstimatorKind::Centroid, &[&late[..], &faint].concat());
+    assert!(found.contains(&"estimator.centroid_offset_m".to_owned()), "{found:?}");
+    assert_eq!(keys(EstimatorKind::Centroid, &[&late[..], &faint, &told].concat()), [""; 0]);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use rand::RngExt;
 use rayon::prelude::*;
 
+use tofsim::kernel::pulse::Pulse;
 use tofsim::sensor::streams::{Source, stream};
 
 use super::*;
@@ -14,7 +15,10 @@ fn says_no_echo(instruments: &[Instrument], number: u64) -> bool {
     scenario.ambient.irradiance_w_m2_nm = random.random();
     scenario.target.reflectance = random.random_range(0.03..0.95);
     let shots = (3000.0 * 20f64.powf(random.random())) as u64;
-    let codes = BinProbabilities::new(&Hazard::dark(&Budget::new(&scenario)), &instrument.bins);
+    let codes = BinProbabilities::new(
+        &Hazard::dark(&Budget::new(&scenario, Pulse::default())),
+        &instrument.bins,
+    );
     let scene = Scene { instrument, shots, codes, bound_m: 0.0 };
     scene.look(&scene.draw(&mut random)).status & status::NO_ECHO != 0
 }

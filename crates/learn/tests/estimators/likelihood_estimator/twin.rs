@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use tofsim::optics::hazard::normal_cdf;
+use tofsim::kernel::pulse::normal_cdf;
 use tofsim::sensor::streams::{Source, stream};
 use tofsim_learn::estimation::acquisition::ARRIVAL_PS_PER_M;
 

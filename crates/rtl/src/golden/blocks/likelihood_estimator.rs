@@ -2,17 +2,27 @@
 
 use tofsim::firmware::likelihood_estimator::In;
 
+use crate::golden::configuration;
 use crate::golden::likelihood::Estimations;
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.likelihood_cycles }],
+    configurations: &[LATE],
     ..Spec::new("likelihood_estimator", "likelihood_estimator", record)
 };
 
+/// Light that leaves well after the laser edge.
+const LATE: Configuration = Configuration {
+    name: "late",
+    set: &["laser.delay_ps=1234.5"],
+    parameters: &["LaserDelay"],
+    ..configuration::DEFAULTS
+};
+
 /// Lines unless told otherwise: a reset in each of ten states, and as many whole estimations [clock cycles].
-const CYCLES: usize = 75_000;
+const CYCLES: usize = 85_000;
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut estimations = Estimations::new(setting, true);
@@ -24,7 +34,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     }
     let all = [
         "LikelihoodShots", "BoxBins", "BinsBefore", "BinsAfter", "Kappa", "StepLog2", "PulseSigma", "WindowEnd",
-        "Metres", "MetresShift", "EdgesFile", "PulseFile", "HazardFile", "LogFile",
+        "Metres", "MetresShift", "LaserDelay", "EdgesFile", "PulseFile", "HazardFile", "LogFile",
     ];
     let parameters = parameters::of_likelihood(&setting.setup.params, &all);
     Ok(Vectors { parameters, ..run.vectors(estimations.coverage()) })

@@ -61,9 +61,9 @@ impl Drawn {
         let (count, bin) = (histogram.count_bits, histogram.bins.ilog2());
         if self.line == self.ends[1] {
             let load = 9 * APART;
-            // One in three goes past the last bin.
+            // One in three goes past the last bin, and none so far that the count of bins wraps.
             let all = histogram.bins as u64;
-            let beats = if draw.one_in(3) { all + all / 16 } else { draw.below(80) };
+            let beats = if draw.one_in(3) { all + all / 16 } else { draw.below(80.min(all + all / 2)) };
             (self.line, self.ends) = (0, [load, load + 2 + 2 * beats]);
             self.block = [draw.unsigned_of(count), draw.unsigned_of(count + bin + 4)];
             self.size = 4 + draw.below(u64::from(count) + 6) as u32;
@@ -89,7 +89,7 @@ impl Drawn {
             let high = self.ends[1] - self.line < 30;
             now.residual = S::new(if high { most } else if draw.one_in(3) { 0 } else { draw.signed_within(self.size) });
             now.predicted = U::new(if draw.one_in(3) { 0 } else { draw.unsigned_of(self.size + 9) });
-            now.middle = U::new(draw.unsigned_of(count + bin + 1));
+            now.middle = U::new(draw.unsigned_of(count + 1));
         }
         self.line += 1;
         *now

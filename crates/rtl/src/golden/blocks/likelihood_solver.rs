@@ -62,7 +62,7 @@ fn operands(histogram: &histogram_builder::Params, draw: &mut Draw) -> In {
         ambient_exposure: U::new(draw.unsigned_of(count + bin + 10)),
         lone: draw.one_in(2),
         best_excess: S::new(draw.signed_within(count + bin + 14)),
-        best_middle: U::new(draw.unsigned_of(count + 2 * bin + 1)),
+        best_middle: U::new(draw.unsigned_of(count + bin + 1)),
         box_length: U::new(1 + draw.below(histogram.bins as u64)),
         box_sum: U::new([0, last, draw.near_ends(last + 1)][draw.below(3) as usize]),
         sum_11: S::new(draw.unsigned_of(count + 19) as i64),

@@ -39,7 +39,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
 }
 
 /// Lines in which what is on the way comes to its sum, with nothing after it.
-const FLUSHED: u64 = 14;
+const FLUSHED: u64 = 22;
 
 /// Passes over bins that are drawn, one after the other.
 #[derive(Default)]

@@ -3,6 +3,7 @@
 //! sweep through every number of taps that a hit can have.
 
 use tofsim::firmware::tdc::In;
+use tofsim::firmware::tdc_decoder::Decoder;
 
 use crate::golden::parameters::OF_DECODER;
 use crate::golden::prelude::*;
@@ -20,7 +21,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "tdc_stop", to: "tdc_valid", cycles: |vectors| vectors.count_stages + 4 },
         Latency { from: "tdc_stop", to: "tdc_code", cycles: |vectors| vectors.count_stages + 4 },
     ],
-    configurations: &[COUNT_STAGES_2],
+    configurations: &[COUNT_STAGES_2, LEADING, REORDERED],
     ..Spec::new("tdc", "tdc", record)
 };
 
@@ -36,12 +37,16 @@ signals! {
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let params = &setting.setup.params.tdc;
-    let mut light = Light::new(&params.delays, setting.setup.cycle());
+    let mut light = Light::new(&params.delays, &params.decoder.encoder, setting.setup.cycle());
     let code_of = |ages: &Ages| {
-        Some(params.decoder.code(light.coarse(ages.first), ages.taps as usize)?.get())
+        Some(params.decoder.code_of_rank(light.coarse(ages.first), ages.taps as usize)?.get())
     };
-    let mut hits = Cover::new("taps of a hit", light.ages.iter().map(|ages| ages.taps));
-    let mut codes = Cover::new("codes", light.ages.iter().filter_map(code_of));
+    let number = |ages: &Ages| params.decoder.encoder.of_rank(ages.taps as usize) as u64;
+    let mut hits = Cover::new("taps of a hit", light.ages.iter().map(number));
+    // Some code of an uneven chain has a single, narrow number; `tdc_decoder` reaches those of other decoders.
+    let counts_ones = params.decoder.encoder.decoder() == Decoder::Ones;
+    let all_codes = light.ages.iter().filter(|_| counts_ones);
+    let mut codes = Cover::new("codes", all_codes.filter_map(code_of));
     let window = params.coarse_counter.window();
     let mut coarses = Cover::new("coarse of a hit", 0..window.min(8));
     let mut rises = Cover::new("edges from the one of start to the one that sees a rise", 0..10);
@@ -108,6 +113,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let memories = [parameters::tap_delays(&params.delays), mem::tdc_decoder(&params.decoder)];
     let mut parameters = files(["DelaysFile", "CalFile"], memories);
     parameters.extend(parameters::count_stages(&params.decoder));
+    parameters.extend(parameters::decoder(&params.decoder));
     parameters.extend(parameters::sized(&setting.setup.params, &OF_DECODER));
     Ok(Vectors {
         parameters,

@@ -1,8 +1,8 @@
-//! Every number of ones, in one run or several, at every coarse count; with the scenario's
-//! calibration but for the last words, which give times exactly at both ends of the range.
+//! Every number that the decoder can make of a hit, of ones in one run or several, at every coarse count; with
+//! the scenario's calibration but for the last words, which give times exactly at both ends of the range.
 
 use tofsim::firmware::carry_chain::Taps;
-use tofsim::firmware::tdc_decoder::{In, Params};
+use tofsim::firmware::tdc_decoder::{Decoder, In, Params};
 
 use crate::golden::parameters::OF_DECODER;
 use crate::golden::prelude::*;
@@ -18,7 +18,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "hit", to: "tdc_valid", cycles: |vectors| vectors.count_stages + 2 },
         Latency { from: "hit_taps", to: "tdc_code", cycles: |vectors| vectors.count_stages + 2 },
     ],
-    configurations: &[COUNT_STAGES_2],
+    configurations: &[COUNT_STAGES_2, LEADING, REORDERED],
     ..Spec::new("tdc_decoder", "tdc.tdc_decoder", record)
 };
 
@@ -31,14 +31,22 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut edges = Vec::new();
     let ages = ages_at_ends(&params, window);
     let ages = ages.into_iter().filter(|_| !setting.constants.has("CalFile"));
-    for (n, (coarse, age)) in (0..=taps).rev().zip(ages) {
-        params.cal[n] = U::new(age);
-        edges.push((coarse, n));
+    let encoder = params.encoder.clone();
+    let of_rank = |rank: usize| encoder.of_rank(rank);
+    // The last number of taps with each number of the decoder's.
+    let mut last_ranks: Vec<_> = (0..=taps).rev().collect();
+    last_ranks.dedup_by_key(|rank| of_rank(*rank));
+    for (&rank, (coarse, age)) in last_ranks.iter().zip(ages) {
+        params.cal[of_rank(rank)] = U::new(age);
+        edges.push((coarse, rank));
     }
-    let all = (0..=taps).flat_map(|n| (0..coarse_used).map(move |coarse| (coarse, n)));
-    let reachable = all.filter_map(|(coarse, n)| Some(params.code(coarse, n)?.get()));
+    let all = (0..=taps).flat_map(|rank| (0..coarse_used).map(move |coarse| (coarse, rank)));
+    let reachable = all.filter_map(|(coarse, rank)| Some(params.code_of_rank(coarse, rank)?.get()));
+    // Of an uneven chain some code has a single number at a single coarse count, which few lines reach.
+    let counts_ones = encoder.decoder() == Decoder::Ones;
+    let reachable = reachable.filter(|_| counts_ones);
     let mut codes = Cover::new("codes", reachable);
-    let mut ones = Cover::new("ones count", 0..=taps as u64);
+    let mut ones = Cover::new("numbers of taps", (0..=taps).map(|rank| of_rank(rank) as u64));
     let mut coarses = Cover::new("coarse", ends(window));
     let mut times = Cover::new("times at both ends of the range", 0..edges.len() as u64);
     let mut situations = Cover::new("rst, hit, hit before as bits", 0..8);
@@ -66,17 +74,24 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         if let Some((n, coarse)) = counted[1].filter(|_| !rst) {
             ones.see(n);
             coarses.see(coarse);
-            let edges = edges.iter().zip(0..).filter(|(edge, _)| **edge == (coarse, n as usize));
+            let edges = edges.iter().zip(0..).filter(|((at, rank), _)| {
+                (*at, of_rank(*rank) as u64) == (coarse, n)
+            });
             edges.for_each(|(_, case)| times.see(case));
         }
         counted = if rst { [None; 2] } else { [decoder.counted(), counted[0]] };
-        let hit_taps = with_ones(n, (taps, count), draw);
+        // Other decoders see what most hits are: a single transition.
+        let hit_taps = match counts_ones || special > 0 && draw.one_in(4) {
+            true => with_ones(n, (taps, count), draw),
+            false => Taps::clipped(count, true, [n]),
+        };
         let i = In { rst, hit, hit_coarse: U::new(coarse), hit_taps };
         run.line(&i);
         run.top.tdc.tdc_decoder = decoder.next(&i, &params);
     }
     let mut parameters = files(["CalFile"], [mem::tdc_decoder(&params)]);
     parameters.extend(parameters::count_stages(&params));
+    parameters.extend(parameters::decoder(&params));
     parameters.extend(parameters::sized(&setting.setup.params, &OF_DECODER));
     Ok(Vectors { parameters, ..run.vectors([ones, coarses, codes, times, situations]) })
 }

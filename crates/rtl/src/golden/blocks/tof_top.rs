@@ -28,7 +28,7 @@ pub(super) const SPEC: Spec = Spec {
         "lvds_output.o",
         "lvds_output.ob",
     ],
-    configurations: &[NEURONS_16, COUNT_STAGES_2, CLOCKS, CENTROID, LIKELIHOOD, CODES, HISTOGRAM],
+    configurations: &[NEURONS_16, COUNT_STAGES_2, REORDERED, CLOCKS, CENTROID, LIKELIHOOD, CODES, HISTOGRAM],
     ..Spec::new("tof_top", "", record)
 };
 

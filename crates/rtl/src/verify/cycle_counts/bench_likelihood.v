@@ -16,6 +16,7 @@ module bench_likelihood;
         .clk_sys(clk_sys),
         .rst(rst),
         .algo_start(algo_start),
+        .mode(1'b0),
         .count(count),
         .algo_done(algo_done)
     );

@@ -8,20 +8,21 @@
 // estimation. `LIKELIHOOD sets the parameters where they are not the default; the other macros are of the same names
 // in any case.
 module check_likelihood #(
-    parameter Latency = 3825  // cycle of algo_done, counted from the edge that takes a start
+    parameter Latency = 3779  // cycle of algo_done, counted from the edge that takes a start
 ) (
     input wire clk_sys,
     input wire rst,
     input wire algo_start,
+    input wire mode,
     input wire [15:0] count
 );
     localparam [3:0] Idle = 4'd0, Load = 4'd1, Ambient = 4'd2, Scan = 4'd3, Start = 4'd4, Fit = 4'd5, Step = 4'd6,
         Check = 4'd7, Rescan = 4'd8, End = 4'd9;
     // Cycles of each state
-    localparam [15:0] LoadFor = `LIKELIHOOD_BINS + 10;
-    localparam [15:0] ScanFor = 2 * (`LIKELIHOOD_BINS + `LIKELIHOOD_BOX - `LIKELIHOOD_BOX / 2 - 1 + 18) + 1;
-    localparam [15:0] FitFor = 2 * (`LIKELIHOOD_BEFORE + 1 + `LIKELIHOOD_AFTER + 18) + 1;
-    localparam [15:0] AmbientFor = 51, StartFor = 46, StepFor = 206, EndFor = 99;
+    localparam [15:0] LoadFor = `LIKELIHOOD_BINS + 13;
+    localparam [15:0] ScanFor = 2 * (`LIKELIHOOD_BINS + `LIKELIHOOD_BOX - `LIKELIHOOD_BOX / 2 - 1 + 29) + 1;
+    localparam [15:0] FitFor = 2 * (`LIKELIHOOD_BEFORE + 1 + `LIKELIHOOD_AFTER + 29) + 1;
+    localparam [15:0] AmbientFor = 65, StartFor = 56, StepFor = 165, EndFor = 74;
     // Cycles of an estimation before each state first begins
     localparam [15:0] AmbientFrom = LoadFor, ScanFrom = AmbientFrom + AmbientFor, StartFrom = ScanFrom + ScanFor;
     localparam [15:0] FitFrom = StartFrom + StartFor, CheckFrom = FitFrom + 6 * (FitFor + StepFor);
@@ -36,7 +37,7 @@ module check_likelihood #(
     (* hierconn *) wire \dut.likelihood_solver.running ;
     (* hierconn *) wire \dut.likelihood_solver.ran ;
     (* hierconn *) wire [6:0] \dut.likelihood_solver.counter ;
-    (* hierconn *) wire [4:0] \dut.likelihood_solver.cycle ;
+    (* hierconn *) wire [5:0] \dut.likelihood_solver.pause ;
 
 `ifdef LIKELIHOOD
     likelihood_estimator #(`LIKELIHOOD) dut (
@@ -46,6 +47,7 @@ module check_likelihood #(
         .clk_sys(clk_sys),
         .rst(rst),
         .algo_start(algo_start),
+        .mode(mode),
         .count(count),
         .algo_done(algo_done)
     );
@@ -69,7 +71,7 @@ module check_likelihood #(
     wire [15:0] waited = \dut.waited ;
     wire [15:0] steps = \dut.steps ;
     wire [6:0] counter = \dut.likelihood_solver.counter ;
-    wire [15:0] cycle = \dut.likelihood_solver.cycle ;
+    wire [15:0] pause = \dut.likelihood_solver.pause ;
     wire solver_works = \dut.run || \dut.likelihood_solver.running || \dut.likelihood_solver.ran ;
 
     // The program of a state, its last instruction, and its cycles
@@ -85,31 +87,83 @@ module check_likelihood #(
             default: {solves, program, stop, program_for} = 31'd0;
         endcase
 
-    // Of an instruction: its last cycle, and how many cycles of the program are before it. Four reciprocals and a
-    // root take longer than five cycles; two instructions take one.
-    reg [15:0] last_cycle, before;
-    always @* begin
-        last_cycle = 16'd4;
-        before = 5 * (counter - program);
+    // Of an instruction: the cycle of the program in which it begins, and how long it waits for that at most
+    reg [15:0] begins, longest;
+    always @*
         case (counter)
-            7'd0, 7'd7, 7'd13, 7'd34: last_cycle = 16'd22;
-            7'd52: last_cycle = 16'd30;
-            7'd6, 7'd12, 7'd22, 7'd38, 7'd48, 7'd63: last_cycle = 16'd0;
-            default: ;
+            7'd0: {begins, longest} = {16'd0, 16'd0};
+            7'd1: {begins, longest} = {16'd26, 16'd25};
+            7'd2: {begins, longest} = {16'd35, 16'd8};
+            7'd3: {begins, longest} = {16'd44, 16'd8};
+            7'd4: {begins, longest} = {16'd46, 16'd1};
+            7'd5: {begins, longest} = {16'd53, 16'd6};
+            7'd6: {begins, longest} = {16'd62, 16'd8};
+            7'd7: {begins, longest} = {16'd0, 16'd0};
+            7'd8: {begins, longest} = {16'd26, 16'd25};
+            7'd9: {begins, longest} = {16'd35, 16'd8};
+            7'd10: {begins, longest} = {16'd37, 16'd1};
+            7'd11: {begins, longest} = {16'd44, 16'd6};
+            7'd12: {begins, longest} = {16'd53, 16'd8};
+            7'd13: {begins, longest} = {16'd0, 16'd0};
+            7'd14: {begins, longest} = {16'd26, 16'd25};
+            7'd15: {begins, longest} = {16'd28, 16'd1};
+            7'd16: {begins, longest} = {16'd30, 16'd1};
+            7'd17: {begins, longest} = {16'd35, 16'd4};
+            7'd18: {begins, longest} = {16'd37, 16'd1};
+            7'd19: {begins, longest} = {16'd39, 16'd1};
+            7'd20: {begins, longest} = {16'd41, 16'd1};
+            7'd21: {begins, longest} = {16'd43, 16'd1};
+            7'd22: {begins, longest} = {16'd53, 16'd9};
+            7'd23: {begins, longest} = {16'd54, 16'd0};
+            7'd24: {begins, longest} = {16'd56, 16'd1};
+            7'd25: {begins, longest} = {16'd58, 16'd1};
+            7'd26: {begins, longest} = {16'd60, 16'd1};
+            7'd27: {begins, longest} = {16'd62, 16'd1};
+            7'd28: {begins, longest} = {16'd65, 16'd2};
+            7'd29: {begins, longest} = {16'd69, 16'd3};
+            7'd30: {begins, longest} = {16'd71, 16'd1};
+            7'd31: {begins, longest} = {16'd75, 16'd3};
+            7'd32: {begins, longest} = {16'd77, 16'd1};
+            7'd33: {begins, longest} = {16'd81, 16'd3};
+            7'd34: {begins, longest} = {16'd83, 16'd1};
+            7'd35: {begins, longest} = {16'd109, 16'd25};
+            7'd36: {begins, longest} = {16'd111, 16'd1};
+            7'd37: {begins, longest} = {16'd118, 16'd6};
+            7'd38: {begins, longest} = {16'd128, 16'd9};
+            7'd39: {begins, longest} = {16'd129, 16'd0};
+            7'd40: {begins, longest} = {16'd131, 16'd1};
+            7'd41: {begins, longest} = {16'd138, 16'd6};
+            7'd42: {begins, longest} = {16'd140, 16'd1};
+            7'd43: {begins, longest} = {16'd142, 16'd1};
+            7'd44: {begins, longest} = {16'd144, 16'd1};
+            7'd45: {begins, longest} = {16'd149, 16'd4};
+            7'd46: {begins, longest} = {16'd151, 16'd1};
+            7'd47: {begins, longest} = {16'd153, 16'd1};
+            7'd48: {begins, longest} = {16'd162, 16'd8};
+            7'd49: {begins, longest} = {16'd0, 16'd0};
+            7'd50: {begins, longest} = {16'd2, 16'd1};
+            7'd51: {begins, longest} = {16'd36, 16'd33};
+            7'd52: {begins, longest} = {16'd38, 16'd1};
+            7'd53: {begins, longest} = {16'd40, 16'd1};
+            7'd54: {begins, longest} = {16'd42, 16'd1};
+            7'd55: {begins, longest} = {16'd44, 16'd1};
+            7'd56: {begins, longest} = {16'd48, 16'd3};
+            7'd57: {begins, longest} = {16'd50, 16'd1};
+            7'd58: {begins, longest} = {16'd52, 16'd1};
+            7'd59: {begins, longest} = {16'd54, 16'd1};
+            7'd60: {begins, longest} = {16'd58, 16'd3};
+            7'd61: {begins, longest} = {16'd60, 16'd1};
+            7'd62: {begins, longest} = {16'd62, 16'd1};
+            7'd63: {begins, longest} = {16'd71, 16'd8};
+            default: {begins, longest} = 32'd0;
         endcase
-        if (solves && counter > program && !(state == End)) before = before + 16'd18;
-        if (counter > 7'd34 && state == Step) before = before + 16'd18;
-        if (counter > 7'd22 && state == Step) before = before - 16'd4;
-        if (counter > 7'd38 && state == Step) before = before - 16'd4;
-        if (counter > 7'd52 && state == End) before = before + 16'd26;
-    end
 
     wire in_program = \dut.run ? \dut.entry == program && !\dut.likelihood_solver.running && !\dut.likelihood_solver.ran
-        : \dut.likelihood_solver.running ? counter >= program && counter <= stop && cycle <= last_cycle
+        : \dut.likelihood_solver.running ? counter >= program && counter <= stop && pause <= longest
             && !\dut.likelihood_solver.ran
         : \dut.likelihood_solver.ran ;
     wire [15:0] in_state = !solves ? waited
-        : \dut.run ? 16'd0 : \dut.likelihood_solver.running ? 16'd1 + before + cycle : program_for - 16'd1;
+        : \dut.run ? 16'd0 : \dut.likelihood_solver.running ? 16'd1 + begins - pause : program_for - 16'd1;
 
     reg [15:0] from, within;
     always @*

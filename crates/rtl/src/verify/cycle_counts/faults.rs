@@ -31,14 +31,13 @@ fn a_fault_of_the_centroid_estimator_is_counted_and_not_proven() {
 fn a_fault_of_the_likelihood_estimator_is_counted_and_not_proven() {
     let control = |from, to| [["likelihood_estimator.v", from, to]];
     let solver = |from, to| [["likelihood_solver.v", from, to]];
-    fault("likelihood_latency", &control("Bins + 9", "Bins + 10"), 3826);
-    fault("likelihood_latency", &control("steps == 3'd5", "steps == 3'd4"), 3476);
-    let root = solver("5'd22 : op == Root ? 5'd30", "5'd22 : op == Root ? 5'd29");
-    fault("likelihood_latency", &root, 3824);
+    fault("likelihood_latency", &control("Bins + 12", "Bins + 13"), 3780);
+    fault("likelihood_latency", &control("steps == 3'd5", "steps == 3'd4"), 3449);
+    let root = solver("6'd34}", "6'd33}");
+    fault("likelihood_latency", &root, 3778);
     // What only one operand in a billion does is not counted, but neither is it proven.
-    let rare =
-        solver("ends = cycle == last_cycle", "ends = cycle == last_cycle || a === 987654321");
-    fault("likelihood_latency", &rare, 3825);
+    let rare = solver("pause == 6'd0;", "pause == 6'd0 && a !== 987654321;");
+    fault("likelihood_latency", &rare, 3779);
 }
 
 #[test]

@@ -94,7 +94,7 @@ fn likelihood(params: &Likelihood, measured: &mut Measured) {
     let mut count = counts.next();
     let edge = |algo_start| {
         let count_now = U::new(count.unwrap_or(0));
-        let i = likelihood_estimator::In { rst: false, algo_start, count: count_now };
+        let i = likelihood_estimator::In { rst: false, algo_start, mode: false, count: count_now };
         estimator.rise(&i, params);
         if estimator.registers.algo_done {
             count = counts.next();

@@ -57,7 +57,7 @@ static LIKELIHOOD: Properties = Properties {
         "likelihood_solver.running",
         "likelihood_solver.ran",
         "likelihood_solver.counter",
-        "likelihood_solver.cycle",
+        "likelihood_solver.pause",
     ],
     logic: "proc -norom; delete */t:likelihood_memory */t:likelihood_terms */t:likelihood_sums */t:likelihood_scan \
             */t:$memwr*",

@@ -1,6 +1,7 @@
 //! The photons of a TDC's stimulus.
 
 use tofsim::firmware::carry_chain::Delays;
+use tofsim::firmware::tdc_decoder::Encoder;
 
 use crate::golden::prelude::*;
 
@@ -37,12 +38,13 @@ pub(super) struct Light {
     pub(super) ages: Vec<Ages>,
     turn: usize,
     delays: Delays,
+    encoder: Encoder,
 }
 
 impl Light {
-    pub(super) fn new(delays: &Delays, cycle: Time) -> Self {
+    pub(super) fn new(delays: &Delays, encoder: &Encoder, cycle: Time) -> Self {
         let ages = ages(delays, cycle).collect();
-        Light { stops: Stops::new(cycle), ages, turn: 0, delays: delays.clone() }
+        Light { stops: Stops::new(cycle), ages, turn: 0, delays: delays.clone(), encoder: encoder.clone() }
     }
 
     /// Coarse count of a hit that has that age at the edge which samples it, if it is not before the
@@ -51,9 +53,10 @@ impl Light {
         (age.fs() - 1) / self.stops.cycle.fs()
     }
 
-    /// A hit with so many taps high has been counted: the sweep goes on if it was its own.
-    pub(super) fn counted(&mut self, taps: u64) {
-        self.turn += usize::from(self.ages[self.turn % self.ages.len()].taps == taps);
+    /// A hit of which the decoder has made that number: the sweep goes on if it was its own.
+    pub(super) fn counted(&mut self, n: u64) {
+        let own = self.ages[self.turn % self.ages.len()].taps as usize;
+        self.turn += usize::from(self.encoder.of_rank(own) as u64 == n);
     }
 
     /// Plans the shot between two laser edges.

@@ -1,0 +1,196 @@
+//! An error budget for people, within 80 columns.
+
+use tofsim_learn::error_budget::figures::{ErrorChange, ErrorFigures};
+use tofsim_learn::error_budget::state::EffectState;
+use tofsim_learn::error_budget::{DepthBudget, EffectErrors};
+
+use crate::text::table::{grouped, number_or_dash, table};
+
+use super::DepthBudgets;
+
+/// Columns of a terminal.
+const WIDTH: usize = 80;
+
+/// Tables of each point, with what is off or left out below.
+pub fn text(of: &DepthBudgets) -> String {
+    let point = |(value, budget): &(f64, DepthBudget)| {
+        let at = of.key.map(|key| format!("{key} = {value}\n\n")).unwrap_or_default();
+        at + &one(budget)
+    };
+    of.points.iter().map(point).collect::<Vec<_>>().join("\n")
+}
+
+fn one(budget: &DepthBudget) -> String {
+    let frames = grouped(budget.frames);
+    let head = format!(
+        "Errors of {} at {} m [mm], {frames} frames a row\n2 sd alone are those beside shot noise\n\n",
+        budget.kind.name(),
+        budget.distance_m,
+    );
+    let changes = "\n\nWhat an effect changes, by the same random numbers [mm, mm^2]\n\n";
+    [
+        head,
+        figures(budget),
+        changes.to_owned(),
+        differences(budget),
+        String::from("\n\n"),
+        below(budget),
+    ]
+    .concat()
+}
+
+fn figures(budget: &DepthBudget) -> String {
+    let cells = |name: &str, alone: Option<&ErrorFigures>, all_but: Option<&ErrorFigures>| {
+        let pair = |of: Option<&ErrorFigures>| match of {
+            Some(of) => [bias(of.mean_mm, of.mean_se_mm), spread(of.two_sd_mm, of.two_sd_se_mm)],
+            None => ["-", "-"].map(str::to_owned),
+        };
+        let [[a, b], [c, d]] = [pair(alone), pair(all_but)];
+        [name.to_owned(), a, b, c, d]
+    };
+    let off = budget.none;
+    let rows = [cells("all off", Some(&off), None)];
+    let rows = rows.into_iter().chain(
+        measured(budget)
+            .map(|row| cells(row.effect.name(), row.alone.as_ref(), row.all_but.as_ref())),
+    );
+    let rows = rows.chain([cells("all together", None, Some(&budget.together))]);
+    table(["effect", "bias alone", "2 sd alone", "bias, all but", "2 sd, all but"], rows, 1..)
+}
+
+fn differences(budget: &DepthBudget) -> String {
+    let pair = |of: Option<&ErrorChange>| match of {
+        Some(of) => [bias(of.mean_mm, of.mean_se_mm), bias(of.variance_mm2, of.variance_se_mm2)],
+        None => ["-", "-"].map(str::to_owned),
+    };
+    let rows = measured(budget).map(|row| {
+        let [[a, b], [c, d]] = [pair(row.adds.as_ref()), pair(row.takes.as_ref())];
+        [row.effect.name().to_owned(), a, b, c, d]
+    });
+    table(["effect", "bias, alone", "variance", "bias, in all", "variance"], rows, 1..)
+}
+
+/// Bound, sums, failures, and the effects that are not measured.
+fn below(budget: &DepthBudget) -> String {
+    let mut lines = vec![
+        format!(
+            "Cramer-Rao bound: 2 sd of {} mm; {} mm in exact bins an eighth as wide",
+            number_or_dash(budget.bound.two_sd_mm, 3),
+            number_or_dash(budget.bound.fine_two_sd_mm, 3),
+        ),
+        format!(
+            "alone in sum: bias {:+.3} mm, 2 sd {:.3} mm; together {} and {} mm",
+            budget.sum_mean_mm,
+            budget.sum_two_sd_mm,
+            budget.together.mean_mm.map_or("-".to_owned(), |mm| format!("{mm:+.3}")),
+            number_or_dash(budget.together.two_sd_mm, 3),
+        ),
+    ];
+    lines.extend(missing(budget));
+    for (title, is_of) in [
+        ("off", (|state| matches!(state, EffectState::Off(_))) as fn(&EffectState) -> bool),
+        ("left out, and on in every row", |state| matches!(state, EffectState::LeftOut(_))),
+    ] {
+        let rows: Vec<_> = budget.effects.iter().filter(|row| is_of(&row.state)).collect();
+        if rows.is_empty() {
+            continue;
+        }
+        lines.push(format!("\n{title}:"));
+        lines.extend(rows.into_iter().map(|row| match &row.state {
+            EffectState::Off(why) | EffectState::LeftOut(why) => {
+                wrapped(&format!("{}: {why}", row.effect.name()))
+            }
+            EffectState::On => String::new(),
+        }));
+    }
+    lines.join("\n") + "\n"
+}
+
+/// How many histograms have no depth, or one far off, of all variants that are shown.
+fn missing(budget: &DepthBudget) -> Option<String> {
+    let rows = measured(budget).flat_map(|row| [row.alone, row.all_but]).flatten();
+    let most = |of: fn(&ErrorFigures) -> u64| {
+        rows.clone()
+            .chain([budget.none, budget.together])
+            .map(|figures| of(&figures))
+            .max()
+            .unwrap_or(0)
+    };
+    let (failures, outliers) = (most(|of| of.failures), most(|of| of.outliers));
+    (failures + outliers > 0).then(|| {
+        format!(
+            "frames of a row without a depth: up to {failures}; 0.1 m off or more: up to {outliers}"
+        )
+    })
+}
+
+fn measured(budget: &DepthBudget) -> impl Iterator<Item = &EffectErrors> + Clone {
+    budget.effects.iter().filter(|row| row.state == EffectState::On)
+}
+
+fn bias(value: Option<f64>, error: Option<f64>) -> String {
+    let (Some(value), Some(error)) = (value, error) else { return "-".to_owned() };
+    let digits = decimals(value, error);
+    format!("{value:+.digits$} +-{error:.digits$}")
+}
+
+fn spread(value: Option<f64>, error: Option<f64>) -> String {
+    match (value, error) {
+        (Some(0.0), _) => "0".to_owned(),
+        (Some(value), Some(error)) => {
+            let digits = decimals(value, error);
+            format!("{value:.digits$} +-{error:.digits$}")
+        }
+        _ => "-".to_owned(),
+    }
+}
+
+/// So many that the larger of both has four digits at most.
+fn decimals(value: f64, error: f64) -> usize {
+    match value.abs().max(error) {
+        ..9.9995 => 3,
+        ..99.995 => 2,
+        ..999.95 => 1,
+        _ => 0,
+    }
+}
+
+/// Lines no longer than the terminal, the first begun by two blanks and the others by four.
+fn wrapped(text: &str) -> String {
+    let (mut lines, mut line) = (Vec::new(), String::from(" "));
+    for word in text.split(' ') {
+        if line.chars().count() + 1 + word.chars().count() > WIDTH {
+            lines.push(std::mem::replace(&mut line, "   ".to_owned()));
+        }
+        line += " ";
+        line += word;
+    }
+    lines.push(line);
+    lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_as_many_decimals_as_fit() {
+        assert_eq!(bias(Some(-0.01234), Some(0.00021)), "-0.012 +-0.000");
+        assert_eq!(bias(Some(12.3456), Some(0.123)), "+12.35 +-0.12");
+        assert_eq!(spread(Some(0.5), Some(99.999)), "0.5 +-100.0");
+        assert_eq!([spread(Some(0.0), Some(0.0)), bias(None, None)], ["0", "-"]);
+        for value in [9.9996, 99.996, 999.96, -9.9996] {
+            assert!(
+                bias(Some(value), Some(value)).len() <= 14 + 1,
+                "{}",
+                bias(Some(value), Some(value))
+            );
+        }
+    }
+
+    #[test]
+    fn reasons_are_wrapped() {
+        let text = wrapped(&"word ".repeat(40));
+        assert!(text.lines().all(|line| line.len() <= WIDTH) && text.lines().count() > 2);
+    }
+}

@@ -1,0 +1,124 @@
+//! `tofsim budget --errors`: which effect makes the depth wrong by how much.
+
+use std::path::PathBuf;
+
+use tofsim::error::{Input, Result};
+use tofsim::files::output::create_directory_for;
+use tofsim::scenario::Loaded;
+use tofsim_learn::dataset::Axis;
+use tofsim_learn::error_budget::Plan;
+use tofsim_learn::estimation::EstimatorKind;
+
+use crate::choice::words;
+use crate::record::Record;
+use crate::report::error_budget::{DepthBudgets, csv, json, picture, text};
+use crate::verbs::draws::{load, use_threads};
+use crate::verbs::terminal::{Talk, print_json, stop_signal};
+
+/// The options that go with `--errors`.
+#[derive(Debug, clap::Args)]
+pub struct ErrorArgs {
+    /// Print the error budget of the depth instead: bias and spread with every effect off, with each alone, with all
+    /// but each, and with all together
+    #[arg(long)]
+    pub errors: bool,
+    /// With --errors: whose errors [default: the estimator in the firmware's socket]
+    #[arg(long, requires = "errors", value_parser = words(&EstimatorKind::ALL))]
+    estimator: Option<EstimatorKind>,
+    /// With --errors: frames to draw of each variant
+    #[arg(
+        long,
+        requires = "errors",
+        value_name = "N",
+        default_value_t = 1000,
+        allow_hyphen_values = true
+    )]
+    #[arg(value_parser = clap::value_parser!(u64).range(2..=10_000_000))]
+    frames: u64,
+    /// With --errors: a budget at each value of a key, such as target.distance_m=0.1..0.6:0.1 or
+    /// target.reflectance=0.08,0.34
+    #[arg(long, requires = "errors", value_name = "KEY=VALUES")]
+    grid: Option<String>,
+    /// With --errors: seed of every random stream, instead of the scenario's
+    #[arg(long, requires = "errors", value_name = "N", allow_hyphen_values = true)]
+    seed: Option<u64>,
+    /// With --errors: threads; the results are the same for any number [default: one a core]
+    #[arg(long, requires = "errors", value_name = "N", allow_hyphen_values = true)]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// With --errors: write errors.json, errors.csv and errors.svg into this folder
+    #[arg(short, long, requires = "errors", value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+impl ErrorArgs {
+    /// Measures and reports.
+    pub fn run(&self, scenario: &str, set: &[String], as_json: bool, talk: &Talk) -> Result<()> {
+        use_threads(self.threads)?;
+        let axis = self.grid.as_deref().map(|grid| Axis::parse("--grid", grid)).transpose()?;
+        let plans = self.plans(scenario, set, axis.as_ref())?;
+        let Some((_, first)) = plans.first() else {
+            return Err(Input::new("--grid", "expected one value at least").into());
+        };
+        let mut notes = Vec::new();
+        for (_, plan) in &plans {
+            let new = plan.notes()?.into_iter().filter(|note| !notes.contains(note));
+            notes.extend(new.collect::<Vec<_>>());
+        }
+        talk.heed(&notes)?;
+        let look = |folder: &PathBuf| create_directory_for(folder, "errors.json");
+        self.output.as_ref().map_or(Ok(()), look)?;
+        let stop = stop_signal();
+        let frames = plans.iter().map(|(_, plan)| plan.frames(self.frames)).sum();
+        let progress = talk.progress(frames, "frames");
+        let done = |more| progress.inc(more);
+        let measure = |(value, plan): &(f64, Plan)| {
+            Ok((*value, plan.measure(self.frames, stop.as_deref(), &done)?))
+        };
+        let measured: Result<Vec<_>> = plans.iter().map(measure).collect();
+        progress.finish_and_clear();
+        let budgets =
+            DepthBudgets { key: axis.as_ref().map(|axis| axis.key.as_str()), points: &measured? };
+        let record = Record::new(first.setup(), &talk.command);
+        let mut object = json::json(&budgets);
+        record.put_into(&mut object, &notes);
+        if let Some(folder) = &self.output {
+            let table = ("errors.csv", record.comment_line() + &csv::csv(&budgets));
+            let picture =
+                picture::svg(&budgets).map_err(|fault| Input::new("errors.svg", fault))?;
+            let picture = ("errors.svg", record.in_svg(&picture));
+            let whole = ("errors.json", format!("{object:#}\n"));
+            talk.write_into(folder, [table, picture, whole])?;
+        }
+        match as_json {
+            true => print_json(&object),
+            false => talk.report(&text::text(&budgets)),
+        }
+    }
+
+    /// What is to be measured at each value of the grid's key, or at the scenario's distance.
+    fn plans(
+        &self,
+        scenario: &str,
+        set: &[String],
+        axis: Option<&Axis>,
+    ) -> Result<Vec<(f64, Plan)>> {
+        let plan = |value: Option<(&str, f64)>| {
+            let more = value.map(|(key, value)| format!("{key}={value}"));
+            let set_here: Vec<_> = set.iter().cloned().chain(more).collect();
+            let loaded = load(scenario, &set_here, self.seed)?;
+            let loaded = Loaded { set: set.to_vec(), ..loaded };
+            let in_socket = || EstimatorKind::in_socket(&loaded.scenario);
+            let kind = self.estimator.unwrap_or_else(in_socket);
+            let distance_m = loaded.scenario.target.distance_m;
+            Ok((value.map_or(distance_m, |(_, value)| value), Plan::new(&loaded, kind)?))
+        };
+        let Some(axis) = axis else { return Ok(vec![plan(None)?]) };
+        let own = |text: &&String| text.split('=').next().is_some_and(|key| key.trim() == axis.key);
+        if let Some(text) = set.iter().find(own) {
+            let expected = format!("expected no -s of {}, which --grid has", axis.key);
+            return Err(Input::new("-s", expected).value(text).into());
+        }
+        axis.values.iter().map(|&value| plan(Some((axis.key.as_str(), value)))).collect()
+    }
+}

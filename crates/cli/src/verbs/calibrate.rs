@@ -1,0 +1,130 @@
+//! `tofsim calibrate`: what an instrument's own histograms tell of it.
+
+use std::path::PathBuf;
+
+use clap::Subcommand;
+use serde_json::json;
+
+use tofsim::error::{Input, Result};
+use tofsim::network::Histogram;
+use tofsim::scenario;
+use tofsim::sim::setup::Setup;
+use tofsim::{Note, NoteCode};
+use tofsim_learn::calibration::candidates::{Calibration, Kind};
+use tofsim_learn::dataset::labelled::histograms;
+use tofsim_learn::estimation::Acquisition;
+
+use crate::choice::{CALIBRATED, words};
+use crate::record::Record;
+use crate::report::calibration as report;
+
+use super::terminal::{Talk, print_json};
+
+/// Find what an instrument is from its own histograms
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    Pulse(Box<PulseArgs>),
+}
+
+/// Find width and shape of the pulse, with standard errors
+///
+/// Arrival, signal and background of each histogram need not be known: they are fitted together with the pulse
+/// that all have in common. A few histograms of echoes in the middle of the window, neither faint nor so strong
+/// that they use up their shots, tell the width to a part in a hundred or better.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+    tofsim calibrate pulse mine.npy --scenario mine.toml -o pulse\n  \
+    tofsim run mine.toml -s laser.pulse_file=pulse/pulse.csv")]
+struct PulseArgs {
+    /// Histograms: CSV with header bin,count and a row for each bin, .npy of 256 or n x 256 whole numbers, or
+    /// Parquet with columns b0 to b255
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Built-in scenario, or the path of a scenario file: shots and chain of the histograms, and the pulse to
+    /// compare
+    #[arg(long, default_value = scenario::DEFAULT)]
+    scenario: String,
+    /// Set a key of that, such as firmware.shots_per_frame=10000; may be repeated
+    #[arg(short, long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// What to fit [default: the first that describes the histograms]
+    #[arg(long, value_parser = words(CALIBRATED))]
+    shape: Option<Kind>,
+    /// From one sample of a measured pulse to the next [default: a bin]
+    #[arg(long, value_name = "PS")]
+    step_ps: Option<f64>,
+    /// Write the pulse into this folder: pulse.csv for laser.pulse_file, pulse.svg, calibration.json
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the verb.
+pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+    match &args.verb {
+        Verb::Pulse(args) => args.run(talk),
+    }
+}
+
+impl PulseArgs {
+    fn run(&self, talk: &Talk) -> Result<()> {
+        let setup = Setup::of_counts(scenario::load(&self.scenario, &self.set)?)?;
+        let bins = setup.known_bins();
+        let shots = setup.params.frame_ctrl.shots_per_frame.into();
+        let acquisition = Acquisition::of(&setup, &bins, shots);
+        let step_ps = self.step_ps.unwrap_or(bins.bin_ps());
+        let calibration = Calibration::new(&acquisition, self.all(&setup)?, self.shape, step_ps)?;
+        let notes = notes(&calibration);
+        talk.heed(&notes)?;
+        let record = Record::new(&setup, &talk.command);
+        let mut object = json!({ "schema": "tofsim.calibration/1", "shots": shots });
+        if let Some(object) = object.as_object_mut() {
+            object.extend(report::json(&calibration));
+        }
+        record.put_into(&mut object, &notes);
+        if let Some(folder) = &self.output {
+            let svg = report::svg(&calibration).map_err(|fault| Input::new("pulse.svg", fault))?;
+            let files = [
+                ("pulse.csv", record.comment_line() + &report::csv(&calibration)),
+                ("pulse.svg", record.in_svg(&svg)),
+                ("calibration.json", format!("{object:#}\n")),
+            ];
+            talk.write_into(folder, files)?;
+        }
+        if self.json {
+            return print_json(&object);
+        }
+        talk.report(&report::text(&calibration, shots))
+    }
+
+    /// The histograms of all files.
+    fn all(&self, setup: &Setup) -> Result<Vec<Histogram>> {
+        let mut all = Vec::new();
+        for path in &self.files {
+            for histogram in histograms(path, setup.params.histogram)? {
+                all.push(histogram?);
+            }
+        }
+        Ok(all)
+    }
+}
+
+/// That the pulse to take does not describe the histograms.
+fn notes(calibration: &Calibration) -> Vec<Note> {
+    let goodness = calibration.taken().goodness;
+    let text = "the pulse does not describe the histograms: try another --shape, and look whether shots and \
+                chain are those of the scenario";
+    let note = || {
+        let value = goodness.chi_square / goodness.degrees_of_freedom;
+        Note::new(NoteCode::DoubtfulFit, "chi_square", value, "about 1 a degree of freedom", text)
+    };
+    calibration.is_doubtful().then(note).into_iter().collect()
+}

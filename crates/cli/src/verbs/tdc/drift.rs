@@ -1,0 +1,132 @@
+//! `tofsim tdc drift`: the depth while the die heats up.
+
+use std::path::PathBuf;
+
+use tofsim::error::{Result, read_text};
+use tofsim::files::output::create_directory_for;
+use tofsim::scenario;
+use tofsim::scenario::drift::DIE_C;
+use tofsim::sim::domain;
+use tofsim::sim::setup::Setup;
+use tofsim_learn::drift::{Drift, Plan, Profile};
+use tofsim_learn::estimation::EstimatorKind;
+
+use crate::choice::words;
+use crate::record::Record;
+use crate::report::tdc_drift as report;
+
+use crate::verbs::draws::{load, use_threads};
+use crate::verbs::terminal::{Talk, print_json, stop_signal};
+
+/// Show the depth's error over time as the die heats up, with a TDC calibrated once and again and again
+///
+/// Delays of the chain grow with temperature (tdc.delay_per_c) and fall with the supply (tdc.delay_per_mv); a
+/// calibration knows them as they were.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+    tofsim tdc drift -s tdc.profile=kintex7               from 25 to 65 degC in ten minutes\n  \
+    tofsim tdc drift --every 10 --estimator likelihood_estimator -o drift\n  \
+    tofsim tdc drift mine.toml --temperatures log.csv     as a logger saw it")]
+pub struct Args {
+    /// Built-in scenario, or the path of a scenario file
+    #[arg(value_name = "SCENARIO", default_value = scenario::DEFAULT)]
+    scenario: String,
+    /// Set a key of that, such as target.distance_m=0.3; may be repeated
+    #[arg(short, long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Temperatures over time: CSV with header time_s,temperature_c,supply_mv, instead of a ramp
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["from", "to", "over", "points"])]
+    temperatures: Option<PathBuf>,
+    /// Temperature at which the ramp begins [degC]
+    #[arg(long, value_name = "C", default_value_t = 25.0, value_parser = celsius)]
+    from: f64,
+    /// Temperature at which it ends [degC]
+    #[arg(long, value_name = "C", default_value_t = 65.0, value_parser = celsius)]
+    to: f64,
+    /// How long it takes [s]
+    #[arg(long, value_name = "S", default_value_t = 600.0, value_parser = seconds)]
+    over: f64,
+    /// Moments of the ramp, evenly apart
+    #[arg(long, value_name = "N", default_value_t = 21, value_parser = clap::value_parser!(u32).range(2..=100_000))]
+    points: u32,
+    /// From one calibration to the next, where it is made again [s]
+    #[arg(long, value_name = "S", default_value_t = 60.0, value_parser = seconds)]
+    every: f64,
+    /// Histograms at each moment, for each of the two
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    repeats: u64,
+    /// What finds the depths [default: what is in the scenario's socket]
+    #[arg(long, value_parser = words(&EstimatorKind::ALL))]
+    estimator: Option<EstimatorKind>,
+    /// Seed of every random stream, instead of the scenario's
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Threads; the results are the same for any number [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Write drift.csv, drift.json and drift.svg into this folder
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// A temperature that the part is made for.
+fn celsius(text: &str) -> std::result::Result<f64, String> {
+    let value = text.parse().ok().filter(|value| DIE_C.contains(value));
+    value.ok_or_else(|| {
+        format!("expected {} to {} degC, the part's range", DIE_C.start(), DIE_C.end())
+    })
+}
+
+/// A duration above 0.
+fn seconds(text: &str) -> std::result::Result<f64, String> {
+    let value = text.parse().ok().filter(|value| *value > 0.0 && *value <= 1e9);
+    value.ok_or_else(|| "expected more than 0, and 1e9 s at most".to_owned())
+}
+
+/// Runs the verb.
+pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+    use_threads(args.threads)?;
+    let loaded = load(&args.scenario, &args.set, args.seed)?;
+    let tdc = &loaded.scenario.tdc;
+    let profile = match &args.temperatures {
+        Some(path) => Profile::parse(&path.display().to_string(), &read_text(path)?)?,
+        None => {
+            let moments = args.points as usize;
+            Profile::ramp(args.from, args.to, args.over, moments, tdc.supply_mv)
+        }
+    };
+    let setup = Setup::of_counts(loaded.clone())?;
+    let kind = args.estimator.unwrap_or(EstimatorKind::in_socket(&loaded.scenario));
+    let mut notes = kind.notes(&setup);
+    if matches!(kind, EstimatorKind::Network | EstimatorKind::NetworkFloat) {
+        let temperatures = [("tdc.temperature_c", profile.temperatures_c())];
+        notes.extend(domain::notes(&setup.network, &loaded.scenario, &temperatures)?);
+    }
+    talk.heed(&notes)?;
+    let look = |folder: &PathBuf| create_directory_for(folder, "drift.json");
+    args.output.as_ref().map_or(Ok(()), look)?;
+    let plan = Plan { kind, every_s: args.every, repeats: args.repeats };
+    let progress = talk.progress(2 * args.repeats * profile.moments().len() as u64, "histograms");
+    let stop = stop_signal();
+    let found = Drift::new(&loaded, &profile, plan, stop.as_deref(), |more| progress.inc(more));
+    progress.finish_and_clear();
+    let found = found?;
+    let record = Record::new(&setup, &talk.command);
+    let mut object = report::json(&found);
+    record.put_into(&mut object, &notes);
+    if let Some(folder) = &args.output {
+        let files = [
+            ("drift.csv", record.comment_line() + &report::csv(&found)),
+            ("drift.json", format!("{object:#}\n")),
+            ("drift.svg", record.in_svg(&report::svg(&found, &setup)?)),
+        ];
+        talk.write_into(folder, files)?;
+    }
+    match args.json {
+        true => print_json(&object),
+        false => talk.report(&report::text(&found, &setup)),
+    }
+}

@@ -1,0 +1,90 @@
+//! What an instrument's own histograms tell of it: the shape of its pulse.
+//!
+//! Arrival, signal and background of each histogram are not known, and are fitted together with the shape that
+//! all have in common: the profile likelihood of the shape's parameters, climbed by Fisher scoring
+//! ([`scoring`]). A pulse without a formula comes out of the same histograms by expectation and maximisation
+//! ([`samples`]).
+
+pub mod candidates;
+pub mod goodness;
+pub mod samples;
+pub mod scoring;
+pub mod shape;
+
+use rayon::prelude::*;
+
+use tofsim::error::{Input, Result};
+use tofsim::kernel::pulse::Pulse;
+use tofsim::network::Histogram;
+
+use crate::estimation::acquisition::{Acquisition, Echo};
+use crate::estimation::likelihood::Likelihood;
+
+/// Histograms with an echo, and where it is by the pulse of the moment.
+#[derive(Clone, Debug)]
+pub struct Sightings {
+    /// Counts by bin.
+    pub histograms: Vec<Histogram>,
+    /// Arrival, signal and background in each.
+    pub echoes: Vec<Echo>,
+    /// How many more there were, without an echo.
+    pub left_out: usize,
+}
+
+impl Sightings {
+    /// Of all histograms that have an echo.
+    ///
+    /// # Errors
+    /// When none has, one has more hits than shots, or [`Acquisition::check`] fails.
+    pub fn new(acquisition: &Acquisition, histograms: Vec<Histogram>) -> Result<Self> {
+        let likelihood = Likelihood::new(acquisition)?;
+        let all = histograms.len();
+        let hits = |histogram: &Histogram| histogram.iter().map(|&n| u64::from(n)).sum::<u64>();
+        if let Some(full) =
+            histograms.iter().position(|histogram| hits(histogram) > acquisition.shots)
+        {
+            let expected = format!(
+                "expected {} hits or fewer, as many as shots (firmware.shots_per_frame)",
+                acquisition.shots
+            );
+            let fault = Input::new("calibrate", expected).field(format!("histogram {full}"));
+            return Err(fault.value(hits(&histograms[full])).into());
+        }
+        let fits = histograms.into_par_iter().map(|histogram| {
+            let fit = likelihood.fit(&histogram).ok()?;
+            Some((histogram, fit.echo))
+        });
+        let found: Vec<_> = fits.collect::<Vec<_>>().into_iter().flatten().collect();
+        if found.is_empty() {
+            let expected = "expected a histogram with an echo of four standard deviations or more";
+            return Err(Input::new("calibrate", expected).value(format!("none of {all}")).into());
+        }
+        let left_out = all - found.len();
+        let (histograms, echoes) = found.into_iter().unzip();
+        Ok(Sightings { histograms, echoes, left_out })
+    }
+
+    /// The echoes as they are most likely with another pulse, and how likely all histograms are with them. One
+    /// whose climb does not end stays where it was.
+    fn refitted(&self, likelihood: &Likelihood) -> (Vec<Echo>, f64) {
+        let model = likelihood.model();
+        let each = self.histograms.par_iter().zip(&self.echoes).map(|(histogram, echo)| {
+            let fit = likelihood.fit_from(histogram, *echo);
+            let echo = fit.map_or(*echo, |fit| fit.echo);
+            (echo, model.log_likelihood_of(&echo, histogram))
+        });
+        let (echoes, values): (Vec<_>, Vec<_>) = each.collect::<Vec<_>>().into_iter().unzip();
+        (echoes, values.iter().sum())
+    }
+
+    /// Goes over to another pulse; how likely the histograms are with it.
+    ///
+    /// # Errors
+    /// When [`Acquisition::check`] fails.
+    pub fn refit(&mut self, acquisition: &Acquisition, pulse: &Pulse) -> Result<f64> {
+        let likelihood = Likelihood::new(&Acquisition { pulse, ..*acquisition })?;
+        let (echoes, value) = self.refitted(&likelihood);
+        self.echoes = echoes;
+        Ok(value)
+    }
+}

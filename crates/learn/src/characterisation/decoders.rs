@@ -1,0 +1,158 @@
+//! What each decoder makes of the same hits on the same chain.
+
+use std::collections::BTreeMap;
+
+use tofsim::firmware::tdc;
+use tofsim::firmware::tdc_decoder::{self, Decoder, Encoder};
+
+use super::bubbles;
+use super::density::{CodeDensity, Spread};
+use super::timing::TimeError;
+
+/// What the Verilog of a decoder takes of a Kintex-7, by Yosys (`docs/resources.md`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DecoderCost {
+    /// LUT1 to LUT6 and INV.
+    pub luts: u64,
+    /// Flip-flops.
+    pub ffs: u64,
+}
+
+/// Of [`Decoder::ALL`], each of `tdc_decoder` with 800 taps, those of `reordered` in the order of `kintex7`.
+pub const COSTS: [DecoderCost; 3] = [
+    DecoderCost { luts: 1660, ffs: 353 },
+    DecoderCost { luts: 1040, ffs: 353 },
+    DecoderCost { luts: 1049, ffs: 353 },
+];
+
+/// What a decoder is like.
+#[derive(Clone, Debug)]
+pub struct DecoderFigures {
+    /// `ones`, `leading`, `reordered`, or `states` where each pattern of the taps is a code of its own.
+    pub name: &'static str,
+    /// The code-density test.
+    pub density: CodeDensity,
+    /// Codes that hits have.
+    pub codes: usize,
+    /// Codes between the least and the largest that no hit has.
+    pub empty: usize,
+    /// By the delays [own LSB].
+    pub dnl: Spread,
+    /// Widest code [ps].
+    pub widest_ps: f64,
+    /// Equal codes as coarse as these are so wide [ps].
+    pub equivalent_ps: f64,
+    /// The time with the ROM of a converter that nobody has calibrated.
+    pub raw: TimeError,
+    /// The time with the decoder's own ROM.
+    pub calibrated: TimeError,
+    /// Part of the hits whose time is off by more than a bin of the histogram, raw and calibrated [1].
+    pub off: [f64; 2],
+    /// What it costs, where there is Verilog of it.
+    pub cost: Option<DecoderCost>,
+}
+
+/// A pattern of the taps, and the number that each decoder makes of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Read {
+    /// From the first zero to the last one, tap 0's side first; empty without a bubble.
+    pub levels: String,
+    /// Part of the phases at which it is seen [1].
+    pub share: f64,
+    /// By [`Decoder::ALL`], less the number of ones below the first zero [taps].
+    pub numbers: [usize; 3],
+}
+
+/// All decoders on one chain.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// The decoders, then `states`.
+    pub decoders: Vec<DecoderFigures>,
+    /// Patterns, the most frequent first.
+    pub patterns: Vec<Read>,
+    /// Width of a bin of the histogram [ps].
+    pub bin_ps: f64,
+}
+
+impl Comparison {
+    /// Of a converter's chain, with so many hits, the same for each decoder.
+    pub fn new(p: &tdc::Params, hits: u64, seed: u64) -> Self {
+        let bin_ps = p.decoder.scale.bin().fs() as f64 * 1e-3;
+        let figures = |(decoder, cost): (Decoder, DecoderCost)| {
+            let own = p.clone().with_decoder(decoder);
+            let density = density(&own, hits, seed);
+            DecoderFigures::new(decoder.name(), &own, density, bin_ps, Some(cost))
+        };
+        let mut decoders: Vec<_> = Decoder::ALL.into_iter().zip(COSTS).map(figures).collect();
+        // A hit that has reached one more tap shows another pattern, so the ones count tells all of them apart.
+        let ones = p.clone().with_decoder(Decoder::Ones);
+        let mut states = density(&ones, hits, seed);
+        states.bins.retain(|bin| bin.true_width_ps > 0.0);
+        decoders.push(DecoderFigures::new("states", &ones, states, bin_ps, None));
+        Comparison { decoders, patterns: patterns(p), bin_ps }
+    }
+}
+
+fn density(p: &tdc::Params, hits: u64, seed: u64) -> CodeDensity {
+    CodeDensity::new((&p.delays, &p.decoder.encoder), p.decoder.scale.period(), hits, seed)
+}
+
+impl DecoderFigures {
+    fn new(
+        name: &'static str,
+        p: &tdc::Params,
+        density: CodeDensity,
+        bin_ps: f64,
+        cost: Option<DecoderCost>,
+    ) -> Self {
+        let scale = p.decoder.scale;
+        let uncalibrated = tdc_decoder::Params::uniform_calibration(&p.delays, &scale);
+        let raw = TimeError::new(&p.clone().with_calibration(uncalibrated), &density);
+        let calibrated = TimeError::new(p, &density);
+        let widths_ps = density.true_ps();
+        let codes = widths_ps.iter().filter(|ps| **ps > 0.0).count();
+        DecoderFigures {
+            name,
+            codes,
+            empty: widths_ps.len() - codes,
+            dnl: Spread::of(&density.dnl(&widths_ps)),
+            widest_ps: Spread::of(&widths_ps).largest,
+            equivalent_ps: CodeDensity::equivalent_ps(&widths_ps),
+            off: [&raw, &calibrated].map(|error| off(error, &density, bin_ps)),
+            raw,
+            calibrated,
+            density,
+            cost,
+        }
+    }
+}
+
+/// Part of the hits whose time, but for the mean error, is off by more than that.
+fn off(error: &TimeError, density: &CodeDensity, most_ps: f64) -> f64 {
+    let bins = error.errors_ps.iter().zip(&density.bins);
+    let beyond = bins.map(|(middle_ps, bin)| {
+        // Errors of its hits are spread evenly over its width.
+        let half_ps = bin.true_width_ps / 2.0;
+        let above = (middle_ps + half_ps - most_ps).clamp(0.0, bin.true_width_ps);
+        let below = (half_ps - middle_ps - most_ps).clamp(0.0, bin.true_width_ps);
+        above + below
+    });
+    beyond.sum::<f64>() / density.period_ps
+}
+
+/// Each pattern that hits show, by the phases at which they do.
+fn patterns(p: &tdc::Params) -> Vec<Read> {
+    let encoders = Decoder::ALL.map(|decoder| Encoder::new(decoder, &p.delays));
+    let reached = density(&p.clone().with_decoder(Decoder::Ones), 0, 0);
+    let mut found: BTreeMap<(String, [usize; 3]), f64> = BTreeMap::new();
+    bubbles::each_phase(&p.delays, &reached, |levels, rank, share| {
+        let below = levels.iter().position(|level| !level).unwrap_or(levels.len());
+        let numbers = encoders.each_ref().map(|encoder| encoder.of_rank(rank) - below);
+        let pattern = bubbles::shown(bubbles::between(levels));
+        *found.entry((pattern, numbers)).or_default() += share;
+    });
+    let read = |((levels, numbers), share)| Read { levels, share, numbers };
+    let mut patterns: Vec<_> = found.into_iter().map(read).collect();
+    patterns.sort_by(|a, b| b.share.total_cmp(&a.share));
+    patterns
+}

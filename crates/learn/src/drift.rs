@@ -1,0 +1,136 @@
+//! What an instrument's depths do while its die heats up: with a TDC calibrated once, and calibrated again and
+//! again.
+//!
+//! The conditions stand still within a frame: a die takes seconds for a degree. Both calibrations are right as
+//! they are made, and what is drawn at a moment is drawn from the same random numbers for both.
+
+mod profile;
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use tofsim::error::{Error, Input, Result};
+use tofsim::scenario::Loaded;
+use tofsim::sim::setup::Setup;
+
+use crate::dataset::{HistogramSource, Scene};
+use crate::estimation::{EstimatorInputs, EstimatorKind};
+use crate::evaluation::Spread;
+
+pub use profile::{Moment, Profile};
+
+/// What is done at each moment of a profile.
+#[derive(Clone, Copy, Debug)]
+pub struct Plan {
+    /// What finds the depths.
+    pub kind: EstimatorKind,
+    /// From one calibration to the next [s].
+    pub every_s: f64,
+    /// Histograms at each moment, of each calibration.
+    pub repeats: u64,
+}
+
+/// The depths over time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Drift {
+    /// Name of the estimator on the command line.
+    pub estimator: &'static str,
+    /// From one calibration to the next [s].
+    pub every_s: f64,
+    /// Histograms at each moment, of each calibration.
+    pub repeats: u64,
+    /// In the order of the profile.
+    pub points: Vec<Point>,
+}
+
+/// The depths at one moment.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Point {
+    /// When, and in which conditions.
+    #[serde(flatten)]
+    pub moment: Moment,
+    /// When the TDC was calibrated last, where that is done again [s].
+    pub calibrated_s: f64,
+    /// Errors with the calibration of the first moment.
+    pub once: Spread,
+    /// Errors with the last of the calibrations that are made again.
+    pub repeated: Spread,
+}
+
+impl Drift {
+    /// Draws the histograms of a scenario at each moment of a profile, and lets the estimator see them, on all
+    /// threads of the current pool. `done` hears of histograms as they are done.
+    ///
+    /// # Errors
+    /// When the chain does not fit the clock at one of the temperatures, the estimator or the histograms cannot
+    /// be made for the scenario, or it is stopped.
+    pub fn new(
+        loaded: &Loaded,
+        profile: &Profile,
+        plan: Plan,
+        stop: Option<&AtomicBool>,
+        done: impl Fn(u64) + Sync,
+    ) -> Result<Self> {
+        let Plan { kind, every_s, repeats } = plan;
+        if kind == EstimatorKind::Subtraction {
+            let expected = "expected one that needs no dark histograms";
+            return Err(Input::new("--estimator", expected).value(kind.name()).into());
+        }
+        let (moments, begin) = (profile.moments(), profile.moments()[0]);
+        let point = |(index, &moment): (usize, &Moment)| {
+            if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+                return Err(Error::Interrupted);
+            }
+            let rounds = ((moment.time_s - begin.time_s) / every_s).floor();
+            let last = profile.at(begin.time_s + rounds * every_s);
+            let rows = index as u64 * repeats..(index as u64 + 1) * repeats;
+            let of = |then: Moment| {
+                let spread = spread(loaded, kind, (moment, then), rows.clone());
+                done(repeats);
+                spread
+            };
+            Ok(Point { moment, calibrated_s: last.time_s, once: of(begin)?, repeated: of(last)? })
+        };
+        let points = moments.par_iter().enumerate().map(point).collect::<Result<_>>()?;
+        Ok(Drift { estimator: kind.name(), every_s, repeats, points })
+    }
+}
+
+/// Errors of an instrument in conditions `now` that was calibrated in conditions `then`.
+fn spread(
+    loaded: &Loaded,
+    kind: EstimatorKind,
+    (now, then): (Moment, Moment),
+    rows: std::ops::Range<u64>,
+) -> Result<Spread> {
+    let mut loaded = loaded.clone();
+    let tdc = &mut loaded.scenario.tdc;
+    (tdc.temperature_c, tdc.supply_mv) = (now.temperature_c, now.supply_mv);
+    (tdc.calibrated_at_c, tdc.calibrated_at_mv) = (Some(then.temperature_c), Some(then.supply_mv));
+    let setup = Setup::of_counts(loaded)?;
+    if matches!(kind, EstimatorKind::Network | EstimatorKind::NetworkFloat) {
+        setup.check_network()?;
+    }
+    let source = HistogramSource::new(&setup)?;
+    let acquisition = source.acquisition(0);
+    let needs = EstimatorInputs { acquisition, network: &setup.network, setup: &setup };
+    let estimator = kind.estimator(&needs)?;
+    let scenario = &setup.scenario;
+    let scene = Scene {
+        distance_m: scenario.target.distance_m,
+        reflectance: scenario.target.reflectance,
+        irradiance_w_m2_nm: scenario.ambient.irradiance_w_m2_nm,
+        setting: 0,
+    };
+    let codes = source.probabilities(&scene);
+    let errors_m = rows.map(|row| {
+        let histogram = source.draw_from(&codes, &scene, scenario.seed, row);
+        estimator.estimate(&histogram).ok().map(|depth_m| depth_m - scene.distance_m)
+    });
+    Ok(Spread::of(errors_m))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,50 @@
+//! The least spread that is possible.
+
+use serde::Serialize;
+
+use tofsim::error::Result;
+use tofsim::firmware::tdc;
+use tofsim::firmware::tdc_decoder::TimeScale;
+use tofsim::kernel::Time;
+use tofsim::optics::Bins;
+use tofsim::sim::setup::Setup;
+
+use crate::estimation::Acquisition;
+use crate::estimation::likelihood::Model;
+
+/// Bins as good as none, of each bin.
+const FINER: u64 = 8;
+
+/// The Cramer-Rao bound of a distance, with signal and background unknown too: twice the standard deviation that no
+/// unbiased estimate is below. `None` where the model of the light does not hold, or nothing comes back [mm].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Bound {
+    /// With the chain's own bins [mm].
+    pub two_sd_mm: Option<f64>,
+    /// With exact bins of an eighth of the width [mm].
+    pub fine_two_sd_mm: Option<f64>,
+}
+
+impl Bound {
+    /// Of a scenario's scene.
+    ///
+    /// # Errors
+    /// When its acquisition makes no sense.
+    pub fn of(setup: &Setup) -> Result<Self> {
+        let alike = setup.budget.variation.is_none();
+        if !alike || setup.scenario.spad.afterpulse_probability > 0.0 {
+            return Ok(Bound::default());
+        }
+        let of = |bins: &Bins| -> Result<Option<f64>> {
+            let model = Model::new(&Acquisition::of(setup, bins, setup.shots(1)))?;
+            Ok(model.cramer_rao_m(&(&setup.budget).into()).map(|sd_m| 2e3 * sd_m))
+        };
+        let (own, scale) = (&setup.params.tdc, setup.params.tdc.decoder.scale);
+        let bin = Time::from_fs(scale.bin().fs() / FINER);
+        let (bins, coarse_bits) = (scale.bins() * FINER as usize, setup.scenario.tdc.coarse_bits);
+        let fine = TimeScale::new(scale.period(), bin, scale.first(), coarse_bits, bins);
+        let stages = own.decoder.count_stages;
+        let fine = tdc::Params::new(own.delays.clone(), fine, coarse_bits, stages);
+        Ok(Bound { two_sd_mm: of(&setup.bins())?, fine_two_sd_mm: of(&Bins::without_taps(&fine))? })
+    }
+}
