@@ -158,6 +158,14 @@ impl BinProbabilities {
         });
         BinProbabilities(of_code)
     }
+
+    /// Of such shots, all alike, in which the avalanches of several hazards come: that of one surface with the
+    /// ambient light, and those of others without.
+    pub fn of_all(hazards: &[Hazard], bins: &Bins) -> Self {
+        let together = |t| hazards.iter().map(|hazard| hazard.at(t)).sum();
+        BinProbabilities(first_avalanches(together, bins))
+    }
+
     /// By code.
     pub fn of_code(&self) -> &[f64] {
         &self.0

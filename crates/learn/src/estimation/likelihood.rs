@@ -5,11 +5,16 @@
 //! place; a step that gains nothing is damped as Levenberg and Marquardt do. In MODE 1 the
 //! matched filter cannot tell signal and background, and the climb begins at the best of several of
 //! both.
+//!
+//! An estimate is of one echo, because a pulse that is wider than told looks like two as well;
+//! [`Likelihood::fit_both`] fits two.
 
 mod arming;
+mod climb;
 pub mod model;
 pub(crate) mod solve;
 mod stretches;
+mod two_echoes;
 
 use std::f64::consts::LN_2;
 
@@ -19,25 +24,10 @@ use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo};
 use super::estimator::{Estimator, Failure, hits};
 use super::matched_filter::MatchedFilter;
 
+use climb::{Top, climb};
 pub use model::Model;
-use solve::{inverse_diagonal, solve};
+pub use two_echoes::Both;
 
-/// Largest step of any coordinate in one iteration [sigma, e-folds].
-const LONGEST: f64 = 1.0;
-/// The background falls to a tenth in one iteration at most [1].
-const FALL: f64 = 0.1;
-/// Where the signal is taken to have run away, either way [e-folds].
-const RUNAWAY: f64 = 20.0;
-/// A promised gain that rounding may swallow [1].
-const NOTHING: f64 = 1e-4;
-/// A damping that leaves no step worth trying [1].
-const STUCK: f64 = 1e6;
-/// Most steps, taken or not.
-const MOST_ITERATIONS: usize = 200;
-/// The climb is over when a step promises less than this gain of the log likelihood [1].
-const TOLERANCE: f64 = 1e-5;
-/// Signal that counts as one, in its own standard deviations [1].
-const SIGNIFICANCE: f64 = 4.0;
 /// Starts from which it is climbed in MODE 1.
 const CLIMBS: usize = 3;
 /// Signals to begin with in MODE 1 [1].
@@ -87,7 +77,7 @@ impl Likelihood {
         hits(histogram, self.model.shots as u32)?;
         let start = self.start.best(histogram).ok_or(Failure::NoPeak)?.echo;
         match self.model.free_running {
-            None => climb(&self.model, histogram, start),
+            None => self.fit_from(histogram, start),
             Some(_) => self.free_fit(histogram, start.arrival_ps),
         }
     }
@@ -97,7 +87,8 @@ impl Likelihood {
     /// # Errors
     /// When there is no echo, or the climb does not end.
     pub fn fit_from(&self, histogram: &[u32], near: Echo) -> Result<Fit, Failure> {
-        climb(&self.model, histogram, near)
+        let top = climb(&self.model, histogram, self.model.coordinates(&near))?;
+        Ok(Fit::of(&self.model, &top, 0))
     }
 
     /// The model of the histograms.
@@ -112,8 +103,10 @@ impl Likelihood {
         let mut best = Err(Failure::NoPeak);
         let mut most = f64::NEG_INFINITY;
         for (_, start) in starts.into_iter().take(CLIMBS) {
-            let Ok(fit) = climb(&self.model, histogram, start) else { continue };
-            let value = self.model.log_likelihood(&self.model.coordinates(&fit.echo), histogram);
+            let at = self.model.coordinates(&start);
+            let Ok(top) = climb(&self.model, histogram, at) else { continue };
+            let fit = Fit::of(&self.model, &top, 0);
+            let value = self.model.log_likelihood_of(&fit.echo, histogram);
             if value > most {
                 (most, best) = (value, Ok(fit));
             }
@@ -143,65 +136,12 @@ impl Likelihood {
     }
 }
 
-/// The top that is reached from `start`.
-fn climb(model: &Model, histogram: &[u32], start: Echo) -> Result<Fit, Failure> {
-    let mut at = model.coordinates(&start);
-    let mut value = model.log_likelihood(&at, histogram);
-    let mut damping = 0.0f64;
-    let mut slope = model.slope(&at, histogram);
-    for _ in 0..MOST_ITERATIONS {
-        let (gradient, information) = &slope;
-        // At its lowest the background stays, unless it is to rise.
-        let held = at[2] <= model.least_background() && gradient[2] <= 0.0;
-        let step = solve(information, gradient, damping, held);
-        let gain = step.map(|step| (0..3).map(|k| step[k] * gradient[k]).sum::<f64>());
-        if damping == 0.0 && gain.is_some_and(|gain| gain < TOLERANCE) {
-            return accept(model, &at, information, held);
-        }
-        let tried = step.map(|step| go(model, &at, &step));
-        let reached = tried.map(|to| (to, model.log_likelihood(&to, histogram)));
-        match reached.filter(|(_, reached)| *reached >= value) {
-            Some((to, reached)) => {
-                (at, value) = (to, reached);
-                damping = if damping > 1e-4 { damping * 0.1 } else { 0.0 };
-                slope = model.slope(&at, histogram);
-            }
-            None if damping == 0.0 && gain.is_some_and(|gain| gain < NOTHING) => {
-                return accept(model, &at, information, held);
-            }
-            None => damping = (damping * 10.0).max(1e-3),
-        }
-        if damping > STUCK || at[1].abs() > RUNAWAY {
-            break;
-        }
+impl Fit {
+    /// An echo of a top, the first or the second of its coordinates.
+    fn of<const N: usize>(model: &Model, top: &Top<N>, which: usize) -> Self {
+        let arrival_deviation_ps = top.variances[2 * which].sqrt() * model.sigma_ps;
+        Fit { echo: model.echo(&top.at, which), arrival_deviation_ps }
     }
-    Err(Failure::NoConvergence)
-}
-
-/// The end of a step, which is shortened so that no coordinate goes too far.
-fn go(model: &Model, at: &[f64; 3], step: &[f64; 3]) -> [f64; 3] {
-    let longest = step[0].abs().max(step[1].abs()).max(LONGEST);
-    let [place, signal, background] = [0, 1, 2].map(|k| at[k] + step[k] * LONGEST / longest);
-    let least = (at[2] * FALL).max(model.least_background());
-    [place, signal, background.max(least)]
-}
-
-/// The top as a scene, if its signal is one.
-fn accept(
-    model: &Model,
-    at: &[f64; 3],
-    information: &[[f64; 3]; 3],
-    held: bool,
-) -> Result<Fit, Failure> {
-    let variances = inverse_diagonal(information, held).ok_or(Failure::NoConvergence)?;
-    let echo = model.echo(at);
-    let within = -model.sigma_ps..=model.end_ps + model.sigma_ps;
-    // The deviation of ln S is that of S by S.
-    if variances[1].sqrt() * SIGNIFICANCE > 1.0 || !within.contains(&echo.arrival_ps) {
-        return Err(Failure::NoPeak);
-    }
-    let arrival_deviation_ps = variances[0].sqrt() * model.sigma_ps;
-    Ok(Fit { echo, arrival_deviation_ps })
 }
 
 impl Estimator for Likelihood {

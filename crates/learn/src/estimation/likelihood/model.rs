@@ -9,9 +9,10 @@
 //! comes before it. In MODE 1 not every shot finds the diode armed, nor the chain empty
 //! ([`super::arming`]).
 //!
-//! Coordinates are mu / sigma, ln S and N times the end of the last bin: numbers of order 1, and S
-//! stays positive.
+//! Coordinates are mu / sigma and ln S of each echo, and last N times the end of the last bin: numbers of
+//! order 1, and S stays positive. There are three of them, or five for two echoes, whose hazards add up.
 
+use std::array;
 use std::sync::Arc;
 
 use tofsim::error::Input;
@@ -53,9 +54,9 @@ pub struct Model {
 }
 
 /// Probabilities of the cells and their derivatives by the coordinates.
-struct Cells {
+struct Cells<const N: usize> {
     of: Vec<f64>,
-    by: Vec<[f64; 3]>,
+    by: Vec<[f64; N]>,
 }
 
 impl Model {
@@ -77,7 +78,7 @@ impl Model {
         self.known.len() + 1
     }
 
-    /// Lower limit of the third coordinate.
+    /// Lower limit of the last coordinate.
     pub fn least_background(&self) -> f64 {
         LEAST / self.shots as f64
     }
@@ -93,12 +94,12 @@ impl Model {
         ]
     }
 
-    /// The echo at coordinates.
-    pub fn echo(&self, at: &[f64; 3]) -> Echo {
+    /// An echo at coordinates, the first or the second.
+    pub fn echo<const N: usize>(&self, at: &[f64; N], which: usize) -> Echo {
         Echo {
-            arrival_ps: at[0] * self.sigma_ps,
-            signal: libm::exp(at[1]),
-            background_per_ps: at[2] / self.end_ps,
+            arrival_ps: at[2 * which] * self.sigma_ps,
+            signal: libm::exp(at[2 * which + 1]),
+            background_per_ps: at[N - 1] / self.end_ps,
         }
     }
 
@@ -108,7 +109,7 @@ impl Model {
     }
 
     /// Logarithm of the histogram's probability, but for a constant.
-    pub fn log_likelihood(&self, at: &[f64; 3], histogram: &[u32]) -> f64 {
+    pub fn log_likelihood<const N: usize>(&self, at: &[f64; N], histogram: &[u32]) -> f64 {
         let terms = self.counts(histogram).zip(self.chances(at));
         terms
             .map(|(count, p)| if count > 0.0 { count * libm::log(p.max(IMPROBABLE)) } else { 0.0 })
@@ -116,12 +117,12 @@ impl Model {
     }
 
     /// Derivatives of the log likelihood, and Fisher's information.
-    pub fn slope(&self, at: &[f64; 3], histogram: &[u32]) -> ([f64; 3], Matrix) {
+    pub fn slope<const N: usize>(&self, at: &[f64; N], histogram: &[u32]) -> ([f64; N], Matrix<N>) {
         let cells = self.cells(at);
-        let mut gradient = [0.0; 3];
+        let mut gradient = [0.0; N];
         for ((count, &p), by) in self.counts(histogram).zip(&cells.of).zip(&cells.by) {
             if count > 0.0 && p > IMPROBABLE {
-                gradient = [0, 1, 2].map(|k| gradient[k] + count * by[k] / p);
+                gradient = array::from_fn(|k| gradient[k] + count * by[k] / p);
             }
         }
         (gradient, self.information(&cells))
@@ -157,8 +158,8 @@ impl Model {
     }
 
     /// Expected curvature of the log likelihood.
-    fn information(&self, cells: &Cells) -> Matrix {
-        let mut matrix = [[0.0; 3]; 3];
+    fn information<const N: usize>(&self, cells: &Cells<N>) -> Matrix<N> {
+        let mut matrix = [[0.0; N]; N];
         for (&p, by) in cells.of.iter().zip(&cells.by) {
             if p > IMPROBABLE {
                 let weight = self.shots as f64 / p;
@@ -171,36 +172,46 @@ impl Model {
     }
 
     /// H and its derivatives at the end of a stretch.
-    fn hazard(&self, at: &[f64; 3], signal: f64, t_ps: f64) -> (f64, [f64; 3]) {
-        let since_ps = t_ps - at[0] * self.sigma_ps;
-        let density = self.pulse.density(since_ps) * self.sigma_ps;
-        let (part, of_end) = (signal * self.pulse.part(since_ps), t_ps / self.end_ps);
-        (at[2] * of_end + part, [-signal * density, part, of_end])
+    fn hazard<const N: usize>(
+        &self,
+        at: &[f64; N],
+        signals: &[f64; N],
+        t_ps: f64,
+    ) -> (f64, [f64; N]) {
+        let of_end = t_ps / self.end_ps;
+        let (mut h, mut by) = (at[N - 1] * of_end, [of_end; N]);
+        for k in (0..N - 1).step_by(2) {
+            let since_ps = t_ps - at[k] * self.sigma_ps;
+            let density = self.pulse.density(since_ps) * self.sigma_ps;
+            let part = signals[k + 1] * self.pulse.part(since_ps);
+            h += part;
+            (by[k], by[k + 1]) = (-signals[k + 1] * density, part);
+        }
+        (h, by)
     }
 
     /// The probability of each cell.
-    fn chances(&self, at: &[f64; 3]) -> Vec<f64> {
+    fn chances<const N: usize>(&self, at: &[f64; N]) -> Vec<f64> {
         match &self.free_running {
             None => self.cells(at).of,
             Some(free) => self.free_chances(free, at),
         }
     }
 
-    fn cells(&self, at: &[f64; 3]) -> Cells {
+    fn cells<const N: usize>(&self, at: &[f64; N]) -> Cells<N> {
         if let Some(free) = &self.free_running {
             return self.free_cells(free, at);
         }
         let mut cells =
-            Cells { of: vec![0.0; self.cell_count()], by: vec![[0.0; 3]; self.cell_count()] };
-        let signal = libm::exp(at[1]);
-        let (mut h, mut by) = (0.0, [0.0; 3]);
+            Cells { of: vec![0.0; self.cell_count()], by: vec![[0.0; N]; self.cell_count()] };
+        let signals = signals(at);
+        let (mut h, mut by) = (0.0, [0.0; N]);
         for stretch in self.stretches.iter() {
-            let (next, next_by) = self.hazard(at, signal, stretch.until_ps);
+            let (next, next_by) = self.hazard(at, &signals, stretch.until_ps);
             // In this form a small difference keeps its digits.
             let (none_yet, none_after) = (libm::exp(-h), libm::exp(-next));
             let p = -none_yet * libm::expm1(h - next);
-            let grown = |k: usize| (next_by[k] - by[k]) * none_after - by[k] * p;
-            let grown = [0, 1, 2].map(grown);
+            let grown: [f64; N] = array::from_fn(|k| (next_by[k] - by[k]) * none_after - by[k] * p);
             for &(cell, part) in &stretch.cells {
                 cells.add(cell, p * part, grown.map(|by| by * part));
             }
@@ -211,17 +222,17 @@ impl Model {
         cells
     }
 
-    /// The probabilities in MODE 1, where the scene decides how often the diode is armed too.
-    fn free_chances(&self, free: &FreeRunning, at: &[f64; 3]) -> Vec<f64> {
-        let (signal, mut h) = (libm::exp(at[1]), 0.0);
+    /// The probabilities in MODE 1, where the scene decides how often the diode is armed too: one echo alone.
+    fn free_chances<const N: usize>(&self, free: &FreeRunning, at: &[f64; N]) -> Vec<f64> {
+        let (signals, mut h) = (signals(at), 0.0);
         let first = self.stretches.iter().map(|stretch| {
-            let next = self.hazard(at, signal, stretch.until_ps).0;
+            let next = self.hazard(at, &signals, stretch.until_ps).0;
             let p = -libm::exp(-h) * libm::expm1(h - next);
             h = next;
             p
         });
         let first: Vec<_> = first.collect();
-        let arming = Arming::new(free, &self.pulse, self.step_ps, &self.echo(at));
+        let arming = Arming::new(free, &self.pulse, self.step_ps, &self.echo(at, 0));
         let (last, mut of) = (self.known.len(), vec![0.0; self.cell_count()]);
         for (stretch, p) in self.stretches.iter().zip(arming.show(&first)) {
             stretch.cells.iter().for_each(|&(cell, part)| of[cell] += p * part);
@@ -231,23 +242,29 @@ impl Model {
     }
 
     /// The same with derivatives, by differences.
-    fn free_cells(&self, free: &FreeRunning, at: &[f64; 3]) -> Cells {
-        let steps = [SMALL, SMALL, SMALL * at[2] + self.least_background()];
+    fn free_cells<const N: usize>(&self, free: &FreeRunning, at: &[f64; N]) -> Cells<N> {
+        let mut steps = [SMALL; N];
+        steps[N - 1] = SMALL * at[N - 1] + self.least_background();
         let moved = |k: usize, by: f64| {
             let mut to = *at;
             to[k] += by;
             self.free_chances(free, &to)
         };
-        let sides = [0, 1, 2].map(|k| [moved(k, steps[k]), moved(k, -steps[k])]);
+        let sides: [_; N] = array::from_fn(|k| [moved(k, steps[k]), moved(k, -steps[k])]);
         let slope =
             |cell: usize, k: usize| (sides[k][0][cell] - sides[k][1][cell]) / steps[k] / 2.0;
-        let by = (0..self.cell_count()).map(|cell| [0, 1, 2].map(|k| slope(cell, k))).collect();
+        let by = (0..self.cell_count()).map(|cell| array::from_fn(|k| slope(cell, k))).collect();
         Cells { of: self.free_chances(free, at), by }
     }
 }
 
-impl Cells {
-    fn add(&mut self, cell: usize, p: f64, by: [f64; 3]) {
+/// S, where the coordinates have ln S.
+fn signals<const N: usize>(at: &[f64; N]) -> [f64; N] {
+    array::from_fn(|k| if k % 2 == 1 { libm::exp(at[k]) } else { 0.0 })
+}
+
+impl<const N: usize> Cells<N> {
+    fn add(&mut self, cell: usize, p: f64, by: [f64; N]) {
         self.of[cell] += p;
         self.by[cell].iter_mut().zip(by).for_each(|(sum, by)| *sum += by);
     }

@@ -1,16 +1,21 @@
-//! Equations with a symmetric positive matrix of three rows.
+//! Equations with a symmetric positive matrix of a few rows.
 
 /// A symmetric matrix.
-pub type Matrix = [[f64; 3]; 3];
+pub type Matrix<const N: usize> = [[f64; N]; N];
 
 /// A pivot below this part of its diagonal element makes a matrix singular [1].
 const SINGULAR: f64 = 1e-13;
 
 /// `x` with `matrix x = right`, after the diagonal has grown by the part `damping`. If `held`, the
 /// last row and column are left out and the last of `x` is 0. `None` for a singular matrix.
-pub fn solve(matrix: &Matrix, right: &[f64; 3], damping: f64, held: bool) -> Option<[f64; 3]> {
-    let size = if held { 2 } else { 3 };
-    let mut lower = [[0.0; 3]; 3];
+pub fn solve<const N: usize>(
+    matrix: &Matrix<N>,
+    right: &[f64; N],
+    damping: f64,
+    held: bool,
+) -> Option<[f64; N]> {
+    let size = if held { N - 1 } else { N };
+    let mut lower = [[0.0; N]; N];
     for row in 0..size {
         for column in 0..=row {
             let done: f64 = (0..column).map(|k| lower[row][k] * lower[column][k]).sum();
@@ -27,7 +32,7 @@ pub fn solve(matrix: &Matrix, right: &[f64; 3], damping: f64, held: bool) -> Opt
             };
         }
     }
-    let mut x = [0.0; 3];
+    let mut x = [0.0; N];
     for row in 0..size {
         let done: f64 = (0..row).map(|k| lower[row][k] * x[k]).sum();
         x[row] = (right[row] - done) / lower[row][row];
@@ -40,10 +45,10 @@ pub fn solve(matrix: &Matrix, right: &[f64; 3], damping: f64, held: bool) -> Opt
 }
 
 /// The diagonal of the inverse; as in [`solve`] if `held`.
-pub fn inverse_diagonal(matrix: &Matrix, held: bool) -> Option<[f64; 3]> {
-    let mut diagonal = [0.0; 3];
+pub fn inverse_diagonal<const N: usize>(matrix: &Matrix<N>, held: bool) -> Option<[f64; N]> {
+    let mut diagonal = [0.0; N];
     for (k, element) in diagonal.iter_mut().enumerate() {
-        let mut unit = [0.0; 3];
+        let mut unit = [0.0; N];
         unit[k] = 1.0;
         *element = solve(matrix, &unit, 0.0, held)?[k];
     }
@@ -54,7 +59,7 @@ pub fn inverse_diagonal(matrix: &Matrix, held: bool) -> Option<[f64; 3]> {
 mod tests {
     use super::*;
 
-    const MATRIX: Matrix = [[4.0, 2.0, -2.0], [2.0, 5.0, 1.0], [-2.0, 1.0, 6.0]];
+    const MATRIX: Matrix<3> = [[4.0, 2.0, -2.0], [2.0, 5.0, 1.0], [-2.0, 1.0, 6.0]];
 
     #[test]
     fn a_solution_fulfils_its_equations() {

@@ -37,15 +37,18 @@ fn scenes() -> [Echo; 4] {
     ]
 }
 
-/// The most probable histogram of a scene.
-fn expected(bins: &Bins, scene: &Echo) -> Vec<u32> {
-    let budget = Budget {
+fn budget(scene: &Echo) -> Budget {
+    Budget {
         signal_per_shot: scene.signal,
         ambient_rate_hz: scene.background_per_ps * 1e12,
         mean_arrival: Time::from_ps_f64(scene.arrival_ps),
         ..Budget::default()
-    };
-    let probabilities = BinProbabilities::new(&Hazard::new(&budget), bins);
+    }
+}
+
+/// The most probable histogram of a scene.
+fn expected(bins: &Bins, scene: &Echo) -> Vec<u32> {
+    let probabilities = BinProbabilities::new(&Hazard::new(&budget(scene)), bins);
     most_probable(probabilities.of_code(), 30_000)
 }
 
@@ -110,6 +113,37 @@ fn the_scene_of_an_expected_histogram_is_found_again() {
             let deviation_m = fit.arrival_deviation_ps / ARRIVAL_PS_PER_M;
             assert!((deviation_m / bound_m - 1.0).abs() < 0.05, "{scene:?}: {fit:?} {bound_m}");
         }
+    }
+}
+
+#[test]
+fn both_echoes_of_an_expected_histogram_are_found_again() {
+    let bins = even(11_500, 2_230);
+    let likelihood = likelihood(&bins);
+    for (apart_ps, signal) in [(300.0, 0.6), (300.0, 2.0), (700.0, 0.1), (2000.0, 0.2)] {
+        let scene = scenes()[2];
+        let other =
+            Echo { arrival_ps: scene.arrival_ps + apart_ps, signal, background_per_ps: 0.0 };
+        let hazard = |echo: &Echo| Hazard::new(&budget(echo));
+        let together = BinProbabilities::of_all(&[hazard(&scene), hazard(&other)], &bins);
+        let histogram = most_probable(together.of_code(), 30_000);
+        let alone = likelihood.fit(&histogram).unwrap();
+        let both = likelihood.fit_both(&histogram, &alone).unwrap();
+        for (fit, echo) in [(both.first, scene), (both.second, other)] {
+            let error = (fit.echo.arrival_ps - echo.arrival_ps) / fit.arrival_deviation_ps;
+            assert!(error.abs() < 0.5, "{apart_ps} ps, {signal}: {both:?}");
+        }
+    }
+}
+
+#[test]
+fn one_echo_has_no_second() {
+    let bins = even(11_500, 2_230);
+    let likelihood = likelihood(&bins);
+    for scene in scenes() {
+        let histogram = expected(&bins, &scene);
+        let alone = likelihood.fit(&histogram).unwrap();
+        assert_eq!(likelihood.fit_both(&histogram, &alone), None);
     }
 }
 
