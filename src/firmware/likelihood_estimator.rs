@@ -10,6 +10,9 @@
 //! - w = R lambda (k - lambda), its variance and Fisher's information of log lambda.
 //!
 //! A scan with a box finds the start, and six steps of Fisher scoring in (mu, log S, log b) go on from there.
+//! One echo is fitted. What a second one adds outside of the fit's bins counts as ambient light, and a second scan
+//! looks for it; one that is nearer than 5 sigma is mixed up with the first, often without a status
+//! (`docs/accuracy.md`).
 //! The unit of time is a 64th of a bin; words are as `docs/model.md` has them.
 
 use crate::kernel::{Clocked, U};
@@ -409,3 +412,6 @@ impl Registers {
         (self.state, self.pass, self.scan, self.check) = (state, true, true, false);
     }
 }
+
+#[cfg(test)]
+mod tests;

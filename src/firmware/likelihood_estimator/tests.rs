@@ -1,0 +1,45 @@
+//! What the status makes of scores at their limits.
+
+use super::*;
+use crate::kernel::S;
+use crate::sim::setup::Setup;
+
+/// Status of an estimation whose scans have such scores; of an unsure one the signal's variance is over a 25th.
+fn status_of(start_score: i64, other_score: i64, unsure: bool) -> u64 {
+    let params = Setup::load("kc705", &[]).unwrap().likelihood(30_000).unwrap();
+    let mut block = LikelihoodEstimator::default();
+    (block.registers.state, block.registers.start_score) = (State::End, S::new(start_score));
+    block.likelihood_scan.registers.best_score = S::new(other_score);
+    let solver = &mut block.likelihood_solver.registers;
+    (solver.ran, solver.flags) = (true, U::new(u64::from(unsure) << 1));
+    let ended = block.next(&In::default(), &params);
+    assert!(ended.algo_done && ended.valid == (ended.status == 0));
+    ended.status.get()
+}
+
+/// Each limit, by the squared deviations that it stands for.
+#[test]
+fn limits_are_64_logarithms_of_squared_deviations() {
+    for (limit, squared) in [(LEAST_SCORE, 25.0f64), (SURE_SCORE, 100.0), (ANOTHER_SCORE, 36.0)] {
+        assert_eq!(limit, (64.0 * squared.log2()).round() as i64);
+    }
+}
+
+#[test]
+fn an_echo_has_at_least_the_least_score() {
+    let no_echo = [296, 297, 298].map(|score| status_of(score, 0, false));
+    assert_eq!(no_echo, [status::NO_ECHO.into(), 0, 0]);
+}
+
+#[test]
+fn an_unsure_echo_has_at_least_the_sure_score() {
+    let unsure = [424, 425, 426].map(|score| status_of(score, 0, true));
+    assert_eq!(unsure, [status::NO_ECHO.into(), 0, 0]);
+    assert_eq!(status_of(424, 0, false), 0);
+}
+
+#[test]
+fn another_echo_has_more_than_its_score() {
+    let another = [330, 331, 332].map(|score| status_of(500, score, false));
+    assert_eq!(another, [0, 0, status::ANOTHER.into()]);
+}
