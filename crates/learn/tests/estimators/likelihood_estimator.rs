@@ -6,6 +6,7 @@ mod no_light;
 mod other_pulse;
 mod thesis;
 mod twin;
+mod two_echoes;
 mod wide;
 
 use rand_chacha::ChaCha8Rng;
@@ -89,7 +90,8 @@ struct Tally {
     sum_m: f64,
     squares: f64,
     bounds: f64,
-    /// Squares of errors, each over its variance.
+    /// Errors in standard deviations of their own, and their squares.
+    deviations: f64,
     relative: f64,
     /// Kept ones that are off by more than six of their standard deviations.
     far: f64,
@@ -111,6 +113,7 @@ impl Tally {
         self.sum_m += error_m;
         self.squares += error_m * error_m;
         self.bounds += bound_m * bound_m;
+        self.deviations += deviations;
         self.relative += deviations * deviations;
         self.far += f64::from(deviations.abs() > 6.0);
     }
@@ -123,6 +126,11 @@ impl Tally {
     /// Root mean square of the errors in standard deviations of their own.
     fn own(&self) -> f64 {
         (self.relative / self.kept).sqrt()
+    }
+
+    /// Mean error in standard deviations of their own.
+    fn bias(&self) -> f64 {
+        self.deviations / self.kept
     }
 
     fn mean_mm(&self) -> f64 {
