@@ -11,7 +11,7 @@
 //!
 //! A scan with a box finds the start, and six steps of Fisher scoring in (mu, log S, log b) go on from there.
 //! One echo is fitted. What a second one adds outside of the fit's bins counts as ambient light, and a second scan
-//! looks for it; one that is nearer than 5 sigma is mixed up with the first, often without a status
+//! looks for it; one that is nearer than 4 sigma is mixed up with the first, at times without a status
 //! (`docs/accuracy.md`).
 //! The unit of time is a 64th of a bin; words are as `docs/model.md` has them.
 
