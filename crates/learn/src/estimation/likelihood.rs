@@ -14,7 +14,7 @@ mod climb;
 pub mod model;
 pub(crate) mod solve;
 mod stretches;
-mod two_echoes;
+pub mod two_echoes;
 
 use std::f64::consts::LN_2;
 
@@ -26,7 +26,6 @@ use super::matched_filter::MatchedFilter;
 
 use climb::{Top, climb};
 pub use model::Model;
-pub use two_echoes::Both;
 
 /// Starts from which it is climbed in MODE 1.
 const CLIMBS: usize = 3;
