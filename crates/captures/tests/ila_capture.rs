@@ -107,7 +107,7 @@ fn likelihood_estimator_shows_where_each_step_leads_and_what_comes_out() {
     let of = |name| values(&capture, name);
     let (steps, done) = (of("STEPS"), of("ALGO_DONE"));
     let at = done.iter().position(|&level| level == 1).unwrap();
-    assert_eq!((of("ALGO_START")[16], at), (1, 16 + 3826), "a cycle until it is taken");
+    assert_eq!((of("ALGO_START")[16], at), (1, 16 + 3780), "a cycle until it is taken");
     let setup = setup("estimator_validation", &["estimator.kind=likelihood"]);
     let histogram = &common::frames(&setup, 1)[0].histogram;
     let params = setup.likelihood(setup.params.frame_ctrl.shots_per_frame.into()).unwrap();
