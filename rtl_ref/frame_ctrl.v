@@ -7,7 +7,8 @@ module frame_ctrl #(
     parameter integer CountBits = 16,
     parameter [23:0] ShotsPerFrame = 24'd30000,  // [shots]
     parameter [0:0] Preloaded = 1'b0,            // skips Acquire and Drain
-    parameter [16:0] DrainCycles = 17'd16        // longer than a photon's way to its word
+    parameter [16:0] DrainCycles = 17'd16,       // longer than a photon's way to its word
+    parameter [0:0] Calibrated = 1'b0            // looks at calibrating
 ) (
     input wire clk_sys,
     input wire rst,
@@ -18,6 +19,10 @@ module frame_ctrl #(
     input wire dsp_rst,                   // abandons the frame
     input wire dsp_en,                    // lets the estimator start
     output reg frame_done,                // the frame has ended; one cycle
+    // tdc_calibration
+    // verilator lint_off UNUSEDSIGNAL
+    input wire calibrating,               // holds the last cycle of Clear
+    // verilator lint_on UNUSEDSIGNAL
     // histogram_builder
     output reg clear,                     // sets a word of the histogram to zero
     output reg [BinBits-1:0] clear_addr,  // which word
@@ -29,6 +34,7 @@ module frame_ctrl #(
     localparam [16:0] LastDrain = DrainCycles - 17'd1;
     localparam [1:0] Clear = 2'd0, Acquire = 2'd1, Drain = 2'd2, Estimate = 2'd3;
 
+    wire waits = Calibrated && calibrating;
     reg [1:0] state;            // state of the frame
     reg [CountBits-1:0] shots;  // shots begun in this frame
     reg [DrainBits-1:0] drain;  // cycles spent in Drain
@@ -61,13 +67,13 @@ module frame_ctrl #(
             Clear: begin
                 if (!(&clear_addr)) begin
                     clear_addr_next = clear_addr + 1'b1;
-                end else if (!Preloaded) begin
+                end else if (!Preloaded && !waits) begin
                     clear_next = 1'b0;
                     clear_addr_next = {BinBits{1'b0}};
                     acquire_next = 1'b1;
                     shots_next = {CountBits{1'b0}};
                     state_next = Acquire;
-                end else if (dsp_en) begin
+                end else if (dsp_en && !waits) begin
                     clear_next = 1'b0;
                     clear_addr_next = {BinBits{1'b0}};
                     algo_start_next = 1'b1;

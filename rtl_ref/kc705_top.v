@@ -44,6 +44,8 @@ module kc705_top (
         .laser_on_lvds_p(laser_on_lvds_p),
         .laser_on_lvds_n(laser_on_lvds_n),
         .tdc_stop(tdc_stop),
+        // The TDC has its ages from a ROM.
+        .ring_on(),
         .spad_rst(spad_rst),
         .spad_sel(spad_sel),
         .mode(mode),

@@ -17,12 +17,17 @@ module tdc #(
     parameter integer AgeBits = 14,
     parameter [1:0] CountStages = 2'd3,
     parameter [1:0] Decoder = 2'd0,
+    parameter [0:0] Calibrated = 1'b0,
     parameter [16*Taps-1:0] Order = 0
 ) (
     input wire clk_sys,
     input wire rst,
     input wire start,                    // a shot begins
     input wire tdc_stop,                 // output of the SPAD, asynchronous
+    input wire free,                     // every hit counts, whatever the shot: those of a calibration
+    input wire [AgeBits-1:0] calibrated_age,  // for the last hit's n by the last calibration [units]
+    output wire n_valid,                 // n is new; one cycle
+    output wire [$clog2(Taps+1)-1:0] n,  // taps that the hit had run through, by the decoder
     output wire [BinBits-1:0] tdc_code,  // time of the hit [bins]
     output wire tdc_valid                // tdc_code is new; one cycle
 );
@@ -54,12 +59,14 @@ module tdc #(
 
     tdc_latch #(
         .Taps(Taps),
-        .CoarseBits(CoarseBits)
+        .CoarseBits(CoarseBits),
+        .Calibrated(Calibrated)
     ) tdc_latch (
         .clk_sys(clk_sys),
         .rst(rst),
         .start(start),
         .window(window),
+        .free(free),
         .coarse(coarse),
         .taps(taps),
         .hit(hit),
@@ -77,6 +84,7 @@ module tdc #(
         .CalFile(CalFile),
         .CountStages(CountStages),
         .Decoder(Decoder),
+        .Calibrated(Calibrated),
         .Order(Order)
     ) tdc_decoder (
         .clk_sys(clk_sys),
@@ -84,6 +92,9 @@ module tdc #(
         .hit(hit),
         .hit_coarse(hit_coarse),
         .hit_taps(hit_taps),
+        .calibrated_age(calibrated_age),
+        .n_valid(n_valid),
+        .n(n),
         .tdc_valid(tdc_valid),
         .tdc_code(tdc_code)
     );

@@ -14,6 +14,7 @@ module tdc_decoder #(
     parameter CalFile = "rtl_ref/tdc_cal.mem",  // age of a hit for each n [units]
     parameter [1:0] CountStages = 2'd3,  // registers from the taps to n; 2: n comes of the sixteens
     parameter [1:0] Decoder = 2'd0,  // 0: ones count, 1: highest tap that is one, 2: the same once taps are in Order
+    parameter [0:0] Calibrated = 1'b0,  // ages come from tdc_calibration and not from CalFile
     parameter [16*Taps-1:0] Order = 0  // tap that is reached at each place less the place, in words of 16 bits
 ) (
     input wire clk_sys,
@@ -22,6 +23,12 @@ module tdc_decoder #(
     input wire hit,                          // hit_taps are those of a new hit
     input wire [CoarseBits-1:0] hit_coarse,  // its coarse count
     input wire [Taps-1:0] hit_taps,          // its taps
+    // tdc_calibration
+    // verilator lint_off UNUSEDSIGNAL
+    input wire [AgeBits-1:0] calibrated_age,  // its age for n, a cycle later [units]
+    // verilator lint_on UNUSEDSIGNAL
+    output reg n_valid,                      // n is new; one cycle
+    output reg [$clog2(Taps+1)-1:0] n,       // taps that the hit had run through, by the decoder
     // The code
     output reg tdc_valid,                    // tdc_code is new; one cycle
     output reg [BinBits-1:0] tdc_code        // time of the hit [bins]
@@ -36,13 +43,12 @@ module tdc_decoder #(
     // Each holds its last hit, is new for one cycle, and has that hit's coarse count.
     reg [5*Sixteens-1:0] sixteens;  // ones among 16 taps each, or the place of the highest
     reg [8*Hundreds-1:0] hundreds;  // ones among 128 taps each, or the place of the highest
-    reg [OnesBits-1:0] n;           // taps that the hit had run through, by the decoder
     reg [AgeBits-1:0] age;          // the time for that [units]
     // Its lowest bits are for the borrow.
     // verilator lint_off UNUSEDSIGNAL
     reg signed [TimeBits-1:0] t;  // time from the begin of bin 0 [units]
     // verilator lint_on UNUSEDSIGNAL
-    reg sixteens_valid, hundreds_valid, n_valid, age_valid, t_valid;
+    reg sixteens_valid, hundreds_valid, age_valid, t_valid;
     reg [CoarseBits-1:0] sixteens_coarse, hundreds_coarse, n_coarse, age_coarse;
     reg [5*Sixteens-1:0] sixteens_next;
     reg [8*Hundreds-1:0] hundreds_next;
@@ -167,7 +173,7 @@ module tdc_decoder #(
             age <= cal[n];
             age_coarse <= n_coarse;
         end
-        if (age_valid) t <= edge_time - {{TimeBits - AgeBits{1'b0}}, age};
+        if (age_valid) t <= edge_time - {{TimeBits - AgeBits{1'b0}}, Calibrated ? calibrated_age : age};
         if (rst) begin
             tdc_valid <= 1'b0;
             tdc_code <= {BinBits{1'b0}};

@@ -1,17 +1,21 @@
 `timescale 1ps / 1fs
 `default_nettype none
 
-// Says which taps are a shot's first hit. All pass through one register, at every edge: an enable that
+// Says which taps are a shot's first hit, or while free is high, any. All pass through one register, at every edge: an enable that
 // comes from tap 0 and has as many loads as there are taps would be the slowest path of the device.
 module tdc_latch #(
     parameter integer Taps = 800,
-    parameter integer CoarseBits = 3
+    parameter integer CoarseBits = 3,
+    parameter [0:0] Calibrated = 1'b0  // looks at free
 ) (
     input wire clk_sys,
     input wire rst,
     input wire start,                        // a shot begins
     // coarse_counter
     input wire window,                       // a hit now belongs to the shot
+    // verilator lint_off UNUSEDSIGNAL
+    input wire free,                         // every hit counts, whatever the shot
+    // verilator lint_on UNUSEDSIGNAL
     input wire [CoarseBits-1:0] coarse,      // coarse count, in step with the taps
     // carry_chain
     input wire [Taps-1:0] taps,              // taps sampled at the last edge
@@ -33,7 +37,7 @@ module tdc_latch #(
     end
 
     always @* begin
-        hit_next = taps[0] && !tap_0_last && window && !used;
+        hit_next = taps[0] && !tap_0_last && (Calibrated && free || window && !used);
         hit_coarse_next = hit_coarse;
         used_next = used;
         tap_0_last_next = taps[0];

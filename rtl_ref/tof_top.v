@@ -18,6 +18,11 @@ module tof_top #(
     parameter integer Cycle = 5120,              // see tdc_decoder
     parameter integer Digits = 4,
     parameter integer AgeBits = 14,
+    parameter [0:0] Calibrated = 1'b0,           // the TDC's ages are those of tdc_calibration
+    parameter integer HitsLog2 = 13,             // see tdc_calibration
+    parameter [15:0] CalibrationFrames = 16'd1,
+    parameter [63:0] YoungestAge = 64'd365363,
+    parameter [63:0] EdgeAge = 64'd1310720,
     parameter [0:0] CodeSource = 1'b0,           // 0: tdc, 1: code_preload
     parameter [0:0] HistogramSource = 1'b0,      // 0: histogram_builder, 1: histogram_preload
     parameter [1:0] Estimator = 2'd0,            // 0: depth_estimator, 1: centroid_estimator, 2: likelihood_estimator
@@ -85,6 +90,7 @@ module tof_top #(
     output wire laser_on_lvds_n,      // negative pin
     // SPAD array
     input wire tdc_stop,              // its output, asynchronous
+    output wire ring_on,              // tdc_stop is to come from a ring oscillator, for a calibration
     output wire spad_rst,             // recharges the SPAD and keeps it off
     output wire [39:0] spad_sel,      // row, one-hot
     // Acquisition computer
@@ -141,6 +147,12 @@ module tof_top #(
     assign status = Likelihood ? likelihood_status : 7'd0;
     assign valid = Likelihood && likelihood_valid;
 
+    // Nothing of it stays where the TDC has its ages from a ROM.
+    wire calibrating, rings, n_valid;
+    wire [$clog2(Taps+1)-1:0] n;
+    wire [AgeBits-1:0] calibrated_age;
+    assign ring_on = Calibrated && rings;
+
     // The acquisition computer's reset leaves the laser and the synchronisers alone.
     wire rst_dsp = rst_sys || dsp_rst_sync;
 
@@ -196,7 +208,8 @@ module tof_top #(
         .CountBits(CountBits),
         .ShotsPerFrame(ShotsPerFrame),
         .Preloaded(HistogramSource),
-        .DrainCycles(DrainCycles)
+        .DrainCycles(DrainCycles),
+        .Calibrated(Calibrated)
     ) frame_ctrl (
         .clk_sys(clk_sys),
         .rst(rst_sys),
@@ -205,6 +218,7 @@ module tof_top #(
         .dsp_rst(dsp_rst_sync),
         .dsp_en(dsp_en_sync),
         .frame_done(frame_done),
+        .calibrating(calibrating),
         .clear(clear),
         .clear_addr(clear_addr),
         .algo_start(algo_start),
@@ -254,6 +268,7 @@ module tof_top #(
         .DelaysFile(DelaysFile),
         .CountStages(CountStages),
         .Decoder(Decoder),
+        .Calibrated(Calibrated),
         .Order(Order),
         .CalFile(CalFile)
     ) tdc (
@@ -261,8 +276,32 @@ module tof_top #(
         .rst(rst_dsp),
         .start(start && !CodeSource),
         .tdc_stop(tdc_stop && !CodeSource),
+        .free(rings),
+        .calibrated_age(calibrated_age),
+        .n_valid(n_valid),
+        .n(n),
         .tdc_code(measured_code),
         .tdc_valid(measured_valid)
+    );
+
+    tdc_calibration #(
+        .Taps(Taps),
+        .AgeBits(AgeBits),
+        .Cycle(Cycle),
+        .HitsLog2(HitsLog2),
+        .CalibrationFrames(CalibrationFrames),
+        .YoungestAge(YoungestAge),
+        .EdgeAge(EdgeAge)
+    ) tdc_calibration (
+        .clk_sys(clk_sys),
+        .rst(rst_dsp),
+        .clear(clear && Calibrated),
+        .frame_done(frame_done && Calibrated),
+        .calibrating(calibrating),
+        .ring_on(rings),
+        .n_valid(n_valid && Calibrated),
+        .n(n),
+        .calibrated_age(calibrated_age)
     );
 
     code_preload #(

@@ -25,6 +25,7 @@ pub mod reset_sync;
 pub mod spad_control;
 pub mod tansig;
 pub mod tdc;
+pub mod tdc_calibration;
 pub mod tdc_decoder;
 pub mod tdc_latch;
 pub mod tof_top;

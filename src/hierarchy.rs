@@ -33,8 +33,24 @@ pub fn every_entry_of(sizes: &Sizes) -> Vec<Entry> {
 }
 
 fn fitted(entries: Vec<Entry>, sizes: &Sizes) -> Vec<Entry> {
-    let fit = |entry: Entry| Some(Entry { signal: sizes.fitted(entry.signal)?, ..entry });
-    entries.into_iter().filter_map(fit).collect()
+    // Those that read what nobody reads in such a design.
+    let reads = |entry: &Entry| {
+        let is_source = |other: &Entry| {
+            other.id == entry.id
+                && other.kind == Kind::Output
+                && other.scope.len() > entry.scope.len()
+        };
+        entries.iter().any(|other| is_source(other) && within(&other.scope, &entry.scope))
+    };
+    let fit = |entry: &Entry| {
+        let kind = match entry.kind {
+            kind if sizes.shares(&entry.signal) => kind,
+            Kind::Output if !reads(entry) => Kind::Internal,
+            _ => return None,
+        };
+        Some(Entry { signal: sizes.fitted(entry.signal.clone())?, kind, ..entry.clone() })
+    };
+    entries.iter().filter_map(fit).collect()
 }
 
 /// Every name in every scope that there can be, as wide as it can be, in the order of the hierarchy, without

@@ -2,6 +2,7 @@
 
 pub mod light;
 pub mod photon_list;
+pub mod ring;
 pub mod row;
 pub mod spad;
 pub mod streams;

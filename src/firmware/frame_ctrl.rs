@@ -9,7 +9,7 @@
 //! ```
 //!
 //! `P` is the laser period; the KC705 has 256 bins and a Drain of 16 cycles, and 268 are those of its network.
-//! `dsp_en` low holds the machine before the estimator's start (in the last cycle of Drain) and keeps the
+//! `calibrating` holds the last cycle of Clear. `dsp_en` low holds the machine before the estimator's start (in the last cycle of Drain) and keeps the
 //! histogram. With a preloaded histogram Acquire and Drain are skipped (thesis 6.7.4), and `dsp_en` low holds
 //! the last cycle of Clear.
 
@@ -70,6 +70,9 @@ signals! {
         pub dsp_en: bool,
         /// The estimator has finished.
         pub algo_done: bool,
+        /// Holds the last cycle of Clear: the TDC is being calibrated.
+        #[size("Calibration")]
+        pub calibrating: bool,
     }
 }
 
@@ -125,6 +128,7 @@ impl Clocked for FrameCtrl {
             State::Clear if q.clear_addr != p.histogram.last_bin() => {
                 d.clear_addr = q.clear_addr + 1
             }
+            State::Clear if i.calibrating => {}
             State::Clear if !p.preloaded => {
                 (d.clear, d.clear_addr) = (false, U::new(0));
                 (d.state, d.acquire, d.shots) = (State::Acquire, true, U::new(0));
@@ -185,8 +189,14 @@ mod tests {
         preloaded: false,
         drain_cycles: DRAIN_CYCLES,
     };
-    const ENABLED: In =
-        In { rst: false, start: false, dsp_rst: false, dsp_en: true, algo_done: false };
+    const ENABLED: In = In {
+        rst: false,
+        start: false,
+        dsp_rst: false,
+        dsp_en: true,
+        algo_done: false,
+        calibrating: false,
+    };
 
     fn after(mut ctrl: FrameCtrl, edges: usize, i: In, p: &Params) -> FrameCtrl {
         for _ in 0..edges {
@@ -221,6 +231,16 @@ mod tests {
         let held = after(draining(), 500, In { dsp_en: false, ..ENABLED }, &SHORT);
         assert_eq!(held.state, State::Drain);
         assert!(after(held, 1, ENABLED, &SHORT).algo_start);
+    }
+
+    #[test]
+    fn a_calibration_holds_the_last_cycle_of_clear() {
+        for p in [SHORT, Params { preloaded: true, ..SHORT }] {
+            let calibrating = In { calibrating: true, ..ENABLED };
+            let held = after(FrameCtrl::default(), 500, calibrating, &p);
+            assert!(held.clear && held.clear_addr == 255 && held.state == State::Clear);
+            assert!(!after(held, 1, ENABLED, &p).clear);
+        }
     }
 
     #[test]

@@ -25,6 +25,12 @@ signals! {
         pub start: bool,
         /// Output of the SPAD, asynchronous.
         pub tdc_stop: bool,
+        /// Every hit counts, whatever the shot: those of a calibration.
+        #[size("Calibration")]
+        pub free: bool,
+        /// Age for the last hit's `n` by the last calibration, where there are any [units].
+        #[size("Calibration AgeBits")]
+        pub calibrated_age: tdc_decoder::Age,
     }
 }
 
@@ -48,7 +54,7 @@ impl Params {
         let tap_0 = delays.tap_0_position();
         let cal = tdc_decoder::Params::calibration(&delays, Decoder::Ones, &scale);
         let encoder = Encoder::new(Decoder::Ones, &delays);
-        let decoder = tdc_decoder::Params { cal, count_stages, scale, encoder };
+        let decoder = tdc_decoder::Params { cal, count_stages, scale, encoder, calibrated: None };
         Params { delays, coarse_counter: coarse_counter::Params { coarse_bits }, decoder, tap_0 }
     }
 
@@ -62,6 +68,14 @@ impl Params {
     /// The same with another ROM, as long as the chain's own.
     pub fn with_calibration(self, cal: tdc_decoder::Calibration) -> Self {
         Params { decoder: tdc_decoder::Params { cal, ..self.decoder }, ..self }
+    }
+
+    /// The same with ages from a calibration of so many hits, as a power of two.
+    pub fn calibrated(self, hits_log2: u32) -> Self {
+        Params {
+            decoder: tdc_decoder::Params { calibrated: Some(hits_log2), ..self.decoder },
+            ..self
+        }
     }
 
     /// The same ROM behind a chain of as many taps with other delays.
@@ -107,6 +121,8 @@ connect! {
     pub struct Wires(this: &Tdc, i: &In) {
         output tdc_code <- this.tdc_decoder.tdc_code;
         output tdc_valid <- this.tdc_decoder.tdc_valid;
+        output n <- this.tdc_decoder.n;
+        output n_valid <- this.tdc_decoder.n_valid;
     }
     carry_chain(clk_sys): carry_chain::In {
         tdc_stop <- i.tdc_stop;
@@ -119,6 +135,7 @@ connect! {
         rst <- i.rst;
         start <- i.start;
         window <- this.coarse_counter.window;
+        free <- i.free;
         coarse <- this.coarse_counter.coarse;
         taps <- this.carry_chain.taps;
     }
@@ -127,6 +144,7 @@ connect! {
         hit <- this.tdc_latch.hit;
         hit_coarse <- this.tdc_latch.hit_coarse;
         hit_taps <- this.tdc_latch.hit_taps;
+        calibrated_age <- i.calibrated_age;
     }
 }
 
@@ -201,7 +219,8 @@ mod tests {
             if photon <= now && !line.level() {
                 line.toggle(photon);
             }
-            let i = In { rst: false, start: edge == 11, tdc_stop: line.level() };
+            let start = edge == 11;
+            let i = In { start, tdc_stop: line.level(), ..In::default() };
             tdc.rise(&i, &params, &mut line, now);
             if tdc.tdc_decoder.tdc_valid {
                 return Some((edge, tdc.tdc_decoder.tdc_code.get()));

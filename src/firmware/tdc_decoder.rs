@@ -12,7 +12,8 @@
 //! begins; the ages in the ROM know by how much that is after the laser edge. With two steps, `n` counts
 //! the sixteens and all after it comes an edge earlier. A time outside the bins has no code, and `tdc_code`
 //! keeps its value. What `n` is of the taps, [`Decoder`] says: their ones count, or the place of the highest one.
-//! Each register holds its last hit; only what says that a hit is new has a reset.
+//! Each register holds its last hit; only what says that a hit is new has a reset. Where the firmware calibrates
+//! itself the age is that of `tdc_calibration`, which reads its RAM as this block does its ROM.
 
 mod encoder;
 mod params;
@@ -25,8 +26,8 @@ use super::carry_chain::Taps;
 use super::coarse_counter::Coarse;
 use super::histogram_builder::Bin;
 pub use encoder::{Decoder, Encoder};
-use params::{Age, TimeWord};
-pub use params::{COUNT_STAGES, Calibration, Params};
+use params::TimeWord;
+pub use params::{Age, COUNT_STAGES, Calibration, Params};
 pub use scale::TimeScale;
 
 signals! {
@@ -42,6 +43,9 @@ signals! {
         /// Its taps.
         #[size("Taps")]
         pub hit_taps: Taps,
+        /// The time for `n` by the last calibration, a cycle after `n` [units].
+        #[size("Calibration AgeBits")]
+        pub calibrated_age: Age,
     }
 }
 
@@ -70,11 +74,12 @@ signals! {
         #[size("CoarseBits")]
         hundreds_coarse: Coarse,
         /// Taps that the last hit had run through, by the decoder.
-        #[size("CountOfTaps")]
+        #[size("Calibration CountOfTaps")]
         #[view(heading = "TDC", probe = true)]
-        n: U<11>,
+        pub n: U<11>,
         /// `n` is new.
-        n_valid: bool,
+        #[size("Calibration")]
+        pub n_valid: bool,
         /// Coarse count of `n`.
         #[size("CoarseBits")]
         n_coarse: Coarse,
@@ -128,7 +133,8 @@ impl Clocked for TdcDecoder {
         self.tdc_code = code.unwrap_or(self.tdc_code);
         self.t_valid = self.age_valid;
         if self.age_valid {
-            self.t = p.time(self.age_coarse.get(), self.age);
+            let age = if p.calibrated.is_some() { i.calibrated_age } else { self.age };
+            self.t = p.time(self.age_coarse.get(), age);
         }
         self.age_valid = self.n_valid;
         if self.n_valid {
@@ -170,7 +176,8 @@ mod tests {
     use super::*;
 
     fn params(cal: Calibration, count_stages: u64) -> Params {
-        Params { cal, count_stages, scale: TimeScale::default(), encoder: Encoder::default() }
+        let (scale, encoder) = (TimeScale::default(), Encoder::default());
+        Params { cal, count_stages, scale, encoder, calibrated: None }
     }
 
     fn decode(coarse: u64, n: usize, p: &Params) -> (bool, u64) {
@@ -179,6 +186,7 @@ mod tests {
             hit: true,
             hit_coarse: U::new(coarse),
             hit_taps: Taps::new(true, [n]),
+            calibrated_age: U::new(0),
         };
         let idle = In { hit: false, hit_taps: Taps::settled(false), ..hit };
         let mut decoder = TdcDecoder::default().next(&hit, p);

@@ -3,7 +3,7 @@
 //! Mirrors `rtl_ref/tdc_latch.v`. A hit is tap 0 high now and low at the edge before, inside the
 //! window, and only the first of a shot; a level held from before is none. Taps sampled at edge e
 //! are here after e + 1, whether they are a hit or not: an enable that comes from tap 0 and has as
-//! many loads as there are taps would be the slowest path of the device. At the edge that takes `start`, a hit of the shot
+//! many loads as there are taps would be the slowest path of the device. While `free` is high every rise is a hit. At the edge that takes `start`, a hit of the shot
 //! before may still be one (it is too late to have a code), and the new shot is unused.
 
 use crate::kernel::{Clocked, asleep_if};
@@ -21,6 +21,9 @@ signals! {
         pub start: bool,
         /// A hit now belongs to the shot.
         pub window: bool,
+        /// Every hit counts, whatever the shot.
+        #[size("Calibration")]
+        pub free: bool,
         /// Coarse count, in step with the taps.
         #[size("CoarseBits")]
         pub coarse: Coarse,
@@ -64,7 +67,7 @@ impl Clocked for TdcLatch {
     #[inline(always)]
     fn tick(&mut self, i: &In, tap_0: &usize) {
         let tap_0 = i.taps.tap(*tap_0);
-        let hit = tap_0 && !self.tap_0_last && i.window && !self.used;
+        let hit = tap_0 && !self.tap_0_last && (i.free || i.window && !self.used);
         let used = (self.used || hit) && !i.start;
         if hit {
             self.hit_coarse = i.coarse;
@@ -100,6 +103,7 @@ mod tests {
         rst: false,
         start: false,
         window: true,
+        free: false,
         coarse: Coarse::new(2),
         taps: Taps::settled(false),
     };
@@ -123,6 +127,15 @@ mod tests {
         let high = In { taps: Taps::settled(true), ..OPEN };
         let held = TdcLatch::default().next(&In { window: false, ..high }, &0);
         assert!(!held.next(&high, &0).hit);
+    }
+
+    #[test]
+    fn a_free_hit_needs_no_shot() {
+        let free = |i: In| In { free: true, window: false, ..i };
+        let first = TdcLatch::default().next(&free(high(40)), &0);
+        let second = first.next(&free(OPEN), &0).next(&free(high(7)), &0);
+        assert!(first.hit && second.hit);
+        assert!(!second.next(&free(high(9)), &0).hit, "the same rise");
     }
 
     #[test]

@@ -19,6 +19,7 @@ use super::likelihood_estimator::{self, LikelihoodEstimator};
 use super::reset_sync::{self, ResetSync};
 use super::spad_control::{self, SpadControl};
 use super::tdc::{self, Tdc};
+use super::tdc_calibration::{self, TdcCalibration};
 use super::vcsel_driver::{self, VcselDriver};
 use super::{lvds_output, pll};
 
@@ -56,6 +57,8 @@ pub struct TofTop {
     pub spad_control: SpadControl,
     /// Converter.
     pub tdc: Tdc,
+    /// What works out its ages.
+    pub tdc_calibration: TdcCalibration,
     /// Its stand-in.
     pub code_preload: CodePreload,
     /// Histogram.
@@ -93,6 +96,7 @@ connect! {
         wire read_addr <- this.socket.read_addr;
         output laser_on_lvds_p <- this.lvds_output.o;
         output laser_on_lvds_n <- this.lvds_output.ob;
+        output ring_on <- this.tdc_calibration.registers.ring_on;
         output spad_rst <- this.spad_control.spad_rst;
         output spad_sel <- this.spad_control.spad_sel;
         output depth <- this.socket.depth;
@@ -128,6 +132,7 @@ connect! {
         dsp_rst <- this.control_sync.dsp_rst_sync;
         dsp_en <- this.control_sync.dsp_en_sync;
         algo_done <- this.socket.algo_done;
+        calibrating <- this.tdc_calibration.registers.calibrating;
     }
     vcsel_driver(clk_sys, clk_laser): vcsel_driver::In {
         rst <- this.reset_sync_sys.rst_sync;
@@ -148,6 +153,15 @@ connect! {
         rst <- this.nets.rst_dsp;
         start <- this.vcsel_driver.registers.start;
         tdc_stop <- this.pins.tdc_stop;
+        free <- this.tdc_calibration.registers.ring_on;
+        calibrated_age <- this.tdc_calibration.registers.calibrated_age;
+    }
+    tdc_calibration(clk_sys): tdc_calibration::In {
+        rst <- this.nets.rst_dsp;
+        clear <- this.frame_ctrl.clear;
+        frame_done <- this.frame_ctrl.frame_done;
+        n_valid <- this.tdc.tdc_decoder.n_valid;
+        n <- this.tdc.tdc_decoder.n;
     }
     code_preload(clk_sys): code_preload::In {
         rst <- this.nets.rst_dsp;
@@ -186,7 +200,9 @@ impl TofTop {
     /// The firmware at power-up, with its control pins at `pins`.
     pub fn new(pins: Pins, p: &Params) -> Self {
         let histogram_builder = HistogramBuilder::new(&p.histogram);
-        let mut top = TofTop { pins, histogram_builder, ..TofTop::default() };
+        let tdc_calibration = p.tdc_calibration.as_ref().map(TdcCalibration::new);
+        let tdc_calibration = tdc_calibration.unwrap_or_default();
+        let mut top = TofTop { pins, histogram_builder, tdc_calibration, ..TofTop::default() };
         top.settle(p);
         top
     }
@@ -202,6 +218,7 @@ impl TofTop {
         let vcsel_driver = Wires::vcsel_driver(self);
         let spad_control = self.spad_control.next(&Wires::spad_control(self), &());
         let (tdc, code_preload) = (Wires::tdc(self), Wires::code_preload(self));
+        let tdc_calibration = Wires::tdc_calibration(self);
         let histogram_builder = Wires::histogram_builder(self);
         let (network, centroid) = (Wires::depth_estimator(self), Wires::centroid_estimator(self));
         let likelihood = Wires::likelihood_estimator(self);
@@ -211,6 +228,9 @@ impl TofTop {
         self.vcsel_driver.rise(&vcsel_driver, &p.vcsel_driver);
         self.spad_control = spad_control;
         self.convert(p, &tdc, &code_preload, line, now);
+        if let Some(p) = &p.tdc_calibration {
+            self.tdc_calibration.tick(&tdc_calibration, p);
+        }
         self.histogram_builder.tick(&histogram_builder, &p.histogram);
         self.estimate(p, &network, &centroid, &likelihood);
         self.settle(p);

@@ -133,6 +133,7 @@ mod tests {
             count_stages: 3,
             scale: TimeScale::default(),
             encoder: Encoder::default(),
+            calibrated: None,
         };
         let mut files = depth_estimator(&params);
         files.push(tdc_decoder(&decoder));

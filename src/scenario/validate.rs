@@ -11,7 +11,7 @@ use crate::files::toml::Checked;
 use crate::firmware::tdc_decoder::TimeScale;
 use crate::kernel::Time;
 
-use super::model::{Control, Firmware, Scenario, Stimulus, Tdc};
+use super::model::{Control, Firmware, Scenario, Stimulus, Tdc, TdcCalibration};
 use super::window::Window;
 
 /// Most units of the decoder in a period of `clk_sys`: times and ages have 42 bits.
@@ -21,6 +21,7 @@ const MOST_UNITS: u64 = 1 << 29;
 pub fn validate(scenario: &Scenario, checked: &Checked) -> Result<()> {
     clocks::check(&scenario.pll, checked)?;
     bins(scenario, checked)?;
+    calibration(scenario, checked)?;
     counts(scenario, checked)?;
     stimulus(scenario, checked)?;
     spads(scenario, checked)?;
@@ -68,6 +69,25 @@ fn bins(scenario: &Scenario, checked: &Checked) -> Result<()> {
         }
         _ => Ok(()),
     }
+}
+
+/// That a firmware that calibrates itself is told nothing else, and has a TDC.
+fn calibration(scenario: &Scenario, checked: &Checked) -> Result<()> {
+    let (tdc, stimulus) = (&scenario.tdc, &scenario.stimulus);
+    if tdc.recalibrate_frames == 0 {
+        return Ok(());
+    }
+    let expected = "expected nothing: the firmware calibrates itself (tdc.recalibrate_frames)";
+    for (key, is_told) in [
+        ("tdc.calibration", tdc.calibration != TdcCalibration::True),
+        ("tdc.calibrated_at_c", tdc.calibrated_at_c.is_some()),
+        ("tdc.calibrated_at_mv", tdc.calibrated_at_mv.is_some()),
+        ("stimulus.codes", stimulus.codes.is_some()),
+        ("stimulus.histogram", stimulus.histogram.is_some()),
+    ] {
+        ensure(!is_told, checked, key, expected)?;
+    }
+    Ok(())
 }
 
 /// That a word of the histogram holds the shots of a frame.

@@ -41,6 +41,8 @@ pub enum Source {
     Diode = 13,
     /// Hits of a code-density test of the TDC; the frame's place is the test's.
     CodeDensity = 14,
+    /// Edges of the ring oscillator; the frame's place is the run's.
+    Ring = 15,
 }
 
 /// Words of 32 bits that a shot may take from its stretch.

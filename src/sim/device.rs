@@ -10,6 +10,7 @@ use crate::kernel::Time;
 use crate::note::{Note, NoteCode};
 use crate::optics::hazard::Cause;
 use crate::sensor::light::Light;
+use crate::sensor::ring::Ring;
 use crate::sensor::spad::{Event, Spads};
 
 use super::jitter::Jitter;
@@ -27,6 +28,8 @@ pub struct Device {
     pub line: StopLine,
     pub light: Light,
     pub(super) spads: Spads,
+    /// What gives the TDC its hits during a calibration.
+    ring: Ring,
     pub(super) timeline: Timeline,
     pub(super) pll: Pll,
     pub(super) jitter: Option<Jitter>,
@@ -45,7 +48,7 @@ impl Device {
         pll: Pll,
         jitter: Option<Jitter>,
         mut light: Light,
-        mut spads: Spads,
+        (mut spads, ring): (Spads, Ring),
         timeline: Timeline,
     ) -> Self {
         spads.arm_all(light.next_avalanche(Time::ZERO, 1.0));
@@ -53,6 +56,7 @@ impl Device {
             top: TofTop::new(pins, p),
             line: StopLine::default(),
             spads,
+            ring,
             light,
             timeline,
             quarter: pll.clk_laser.fall(0) - pll.clk_laser.rise(0),
@@ -225,6 +229,7 @@ impl Device {
         let mut unseen = false;
         loop {
             let next = self.spads.next_event().min(self.timeline.next_event());
+            let next = next.min(self.ring.next_event());
             if T::ON {
                 while self.oscillator.next_edge() < next.min(until) {
                     let now = self.oscillator.next_edge();
@@ -253,6 +258,10 @@ impl Device {
         if self.spads.next_event() == now {
             self.detect(listener);
         }
+        if self.ring.next_event() == now {
+            self.ring.event();
+            self.drive_stop(now);
+        }
     }
 
     /// A new frame begins: its random numbers are taken up with the next shot.
@@ -280,7 +289,7 @@ impl Device {
             self.draw(now);
         }
         if self.spads.output() != output {
-            self.toggle_stop(now);
+            self.drive_stop(now);
         }
     }
 
@@ -294,6 +303,11 @@ impl Device {
             if self.spads.waits() {
                 self.draw(now);
             }
+        }
+        let ring_on = self.top.tdc_calibration.registers.ring_on;
+        if ring_on != self.ring.is_on() {
+            self.ring.switch(ring_on, now);
+            self.drive_stop(now);
         }
         let start = self.top.vcsel_driver.registers.start;
         let hold = self.top.spad_control.spad_rst;
@@ -310,7 +324,7 @@ impl Device {
             let output = self.spads.output();
             self.spads.hold();
             if output {
-                self.toggle_stop(now);
+                self.drive_stop(now);
             }
         } else if !hold && self.spads.is_off() {
             self.spads.arm_all(self.light.next_avalanche(now, 1.0));
@@ -323,8 +337,12 @@ impl Device {
         self.spads.arm(self.light.next_avalanche(now, self.spads.share()));
     }
 
-    fn toggle_stop(&mut self, now: Time) {
-        self.line.toggle(now);
-        self.top.pins.tdc_stop = self.line.level();
+    /// The wire to the firmware follows the detector, or the ring while that runs.
+    fn drive_stop(&mut self, now: Time) {
+        let level = if self.ring.is_on() { self.ring.level() } else { self.spads.output() };
+        if level != self.line.level() {
+            self.line.toggle(now);
+            self.top.pins.tdc_stop = level;
+        }
     }
 }

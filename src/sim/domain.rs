@@ -14,7 +14,7 @@ use crate::scenario::drift::REFERENCE_C;
 
 /// Keys of the scenario that decide how the histograms of a frame are distributed. The laser's rate is
 /// none of them: in MODE 0 every shot begins with a reset.
-const KEYS: [&str; 42] = [
+const KEYS: [&str; 43] = [
     "target.distance_m",
     "target.reflectance",
     "target.length_m",
@@ -53,6 +53,7 @@ const KEYS: [&str; 42] = [
     SUPPLY_THEN,
     PER_C,
     PER_MV,
+    RECALIBRATED,
     CLK_SYS,
     "pll.jitter_rms_ps",
     "firmware.mode",
@@ -76,6 +77,7 @@ const DIE_THEN: &str = "tdc.calibrated_at_c";
 const SUPPLY_THEN: &str = "tdc.calibrated_at_mv";
 const PER_C: &str = "tdc.delay_per_c";
 const PER_MV: &str = "tdc.delay_per_mv";
+const RECALIBRATED: &str = "tdc.recalibrate_frames";
 /// What a drift of the chain is of.
 pub(crate) const OF_DRIFT: [&str; 6] = [DIE, SUPPLY, DIE_THEN, SUPPLY_THEN, PER_C, PER_MV];
 /// Keys that say what follows from others, and decide nothing while these are all at a reference.
@@ -87,7 +89,7 @@ const FOLLOWING: [(&str, &[&str], f64); 3] = [
 /// What the dividers come to, which no key of a file says [MHz].
 const CLK_SYS: &str = "pll.clk_sys_mhz";
 /// Keys that older files do not have, and the only value that there was.
-const LATER: [(&str, f64); 18] = [
+const LATER: [(&str, f64); 19] = [
     (TAIL, 0.0),
     (DELAY, 0.0),
     (TIMING, 0.0),
@@ -105,6 +107,7 @@ const LATER: [(&str, f64); 18] = [
     (SUPPLY_THEN, 0.0),
     (PER_C, 0.001),
     (PER_MV, -0.001),
+    (RECALIBRATED, 0.0),
     (CLK_SYS, 125.0),
 ];
 const CHAIN: &str = "tdc.profile";

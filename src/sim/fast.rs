@@ -41,6 +41,13 @@ pub enum Stepping {
     LeapShots,
 }
 
+impl Stepping {
+    /// That way, or the plain step where the firmware calibrates itself: the others know nothing of its ring.
+    pub(super) fn at_most(self, p: &Params) -> Self {
+        if p.tdc_calibration.is_some() { Stepping::EveryCycle } else { self }
+    }
+}
+
 /// A way through time, and what it keeps between two calls.
 #[derive(Clone, Debug, Default)]
 pub(super) struct FastForward {
@@ -49,6 +56,10 @@ pub(super) struct FastForward {
 }
 
 impl FastForward {
+    pub(super) fn of(stepping: Stepping) -> Self {
+        FastForward { stepping, ..FastForward::default() }
+    }
+
     /// Goes on, by `limit` at the latest but for a shot, a Clear or an estimation that is leapt over, to
     /// where the plain step has to take the next cycle [cycles of clk_sys].
     #[inline(always)]

@@ -4,6 +4,7 @@ mod expectations;
 mod fits;
 mod instrument;
 mod notes;
+mod recalibration;
 mod stimulus;
 
 use std::path::Path;
@@ -33,6 +34,7 @@ use crate::scenario::{
     self, DeadTimeKind, EstimatorKind, Loaded, Scenario, calibration, chain, pulse,
 };
 use crate::sensor::light::{Light, Optics};
+use crate::sensor::ring::Ring;
 use crate::sensor::row::Effects;
 use crate::sensor::spad::Spads;
 use crate::waves::{self, WaveFormat, Waves};
@@ -139,6 +141,7 @@ impl Setup {
         let tdc = tdc::Params::new(chain.now, scale, coarse_bits, count_stages)
             .with_decoder(scenario.tdc.decoder)
             .with_calibration(rom.cal);
+        let (tdc, tdc_calibration) = recalibration::of(&scenario.tdc, tdc);
         let calibrated = chain.calibrated;
         let known_tdc = match (rom.chain, &calibrated) {
             // In order, and so that each decoder has the same.
@@ -159,6 +162,7 @@ impl Setup {
                 pulse_half_cycles: scenario.firmware.pulse_half_cycles,
             },
             tdc,
+            tdc_calibration,
             depth_estimator: match network.fits(&histogram) {
                 true => network.params(&histogram),
                 false => network::blank(&histogram),
@@ -176,6 +180,14 @@ impl Setup {
             histogram_source,
         };
         fits::check(&name, &params)?;
+        if params.tdc_calibration.is_some() {
+            fits::check_ring(
+                &name,
+                &recalibration::ring(&scenario.tdc),
+                &params.tdc,
+                scenario.tdc.calibration_hits_log2,
+            )?;
+        }
         let (pins, no_depth) = (pins_at_power_up(&scenario.firmware), None);
         let mut setup = Setup {
             name,
@@ -232,12 +244,13 @@ impl Setup {
         let scenario = &self.scenario;
         let rms_ps = scenario.pll.jitter_rms_ps;
         let jitter = (rms_ps > 0.0).then(|| Jitter::new(rms_ps, scenario.seed));
+        let ring = self.params.tdc_calibration.as_ref().map(|_| recalibration::ring(&scenario.tdc));
         Device::new(
             (self.pins, &self.params),
             self.pll.clone(),
             jitter,
             self.light.clone(),
-            self.spads(),
+            (self.spads(), Ring::new(ring, scenario.seed)),
             Timeline::new(scenario),
         )
     }
@@ -320,7 +333,9 @@ impl Setup {
     pub fn end(&self, frames: u64) -> Option<Time> {
         let firmware = &self.scenario.firmware;
         let held = firmware.rst || firmware.dsp_rst || !firmware.dsp_en;
-        if held || !self.scenario.control.is_empty() {
+        // A ring's edges come when they come.
+        let calibrates = self.params.tdc_calibration.is_some();
+        if held || calibrates || !self.scenario.control.is_empty() {
             return None;
         }
         let frame = self.frame_cycles(self.laser_period()) + 1;
@@ -400,7 +415,10 @@ impl Setup {
     pub fn longest_run(&self, frames: u64) -> u64 {
         let changes = &self.scenario.control;
         let last_us = changes.last().map_or(0.0, |change| change.at_us);
-        let longest_frame = self.frame_cycles(self.params.vcsel_driver.longest_period()) + 16;
+        let block = self.params.tdc_calibration.as_ref();
+        let longest_frame = self.frame_cycles(self.params.vcsel_driver.longest_period())
+            + recalibration::longest(&self.scenario.tdc, block, self.cycle())
+            + 16;
         let begun = frames.saturating_add(changes.len() as u64 + 1);
         let last = Time::from_ps_f64(last_us * 1e6).fs() / self.cycle().fs();
         begun.saturating_mul(longest_frame).saturating_add(last)

@@ -46,6 +46,7 @@ pub(super) fn with_delays(taps: &[i64]) -> Params {
         },
         vcsel_driver: vcsel_driver::Params::default(),
         tdc: tdc::Params::of_chain(delays),
+        tdc_calibration: None,
         depth_estimator: depth_estimator::Params {
             forward1: Arc::new(rom),
             tansig: Arc::new(tansig),

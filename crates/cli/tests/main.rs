@@ -26,6 +26,7 @@ mod limits;
 mod lockstep;
 mod measured;
 mod quantize;
+mod recalibration;
 mod replay;
 mod rerun;
 mod second_opinion;

@@ -3,3 +3,4 @@
 mod calibration;
 mod characterisation;
 mod estimators;
+mod recalibration;

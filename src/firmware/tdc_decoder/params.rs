@@ -10,7 +10,7 @@ use super::scale::TimeScale;
 /// Time from the begin of bin 0, with room for the longest window in the smallest units [units].
 pub(super) type TimeWord = S<44>;
 /// Word of the calibration ROM, with room for the same [units].
-pub(super) type Age = U<42>;
+pub type Age = U<42>;
 /// Age of a hit for each `n`, and the time from the laser edge to bin 0 [units].
 pub type Calibration = Vec<Age>;
 /// Registers of the ones count unless elaboration says otherwise.
@@ -32,9 +32,18 @@ pub struct Params {
     pub scale: TimeScale,
     /// How taps become `n`.
     pub encoder: Encoder,
+    /// Hits of a calibration, as a power of two, if ages come from `tdc_calibration` and not from the ROM.
+    pub calibrated: Option<u32>,
 }
 
 impl Params {
+    /// The same with a ROM that is empty, if ages do not come from it.
+    pub fn beside_calibration(&self) -> Self {
+        let cal =
+            self.cal.iter().map(|age| if self.calibrated.is_some() { U::new(0) } else { *age });
+        Params { cal: cal.collect(), ..self.clone() }
+    }
+
     /// Length of the chain [taps].
     #[inline(always)]
     pub fn taps(&self) -> usize {
@@ -42,10 +51,12 @@ impl Params {
     }
 
     /// Width of the ROM: for an age of two clock periods, and the time from the laser edge to bin 0, or for the
-    /// oldest hit, which may leave the last tap later [bits].
+    /// oldest hit, which may leave the last tap later; and for the counts that a calibration has in its place
+    /// [bits].
     pub fn age_bits(&self) -> u32 {
         let periods = self.scale.units(4 * self.scale.period().fs() + 2 * self.scale.first().fs());
-        periods.max(self.oldest()).ilog2() + 1
+        let age_bits = periods.max(self.oldest()).ilog2() + 1;
+        age_bits.max(self.calibrated.map_or(0, |hits_log2| hits_log2 + 1))
     }
 
     /// The largest word of the ROM [units].
@@ -221,7 +232,9 @@ mod tests {
         let oldest = cal[16].get();
         let two_periods = 2 * scale.cycle();
         assert!(two_periods.ilog2() < oldest.ilog2(), "{two_periods}, {oldest}");
-        let bits = Params { cal, count_stages: 3, scale, encoder: Encoder::default() }.age_bits();
+        let bits =
+            Params { cal, count_stages: 3, scale, encoder: Encoder::default(), calibrated: None }
+                .age_bits();
         assert!(oldest < 1 << bits, "{oldest} in {bits} bits");
     }
 }

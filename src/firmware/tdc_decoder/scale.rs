@@ -94,6 +94,12 @@ impl TimeScale {
         ((twice_fs << self.digits) + self.bin.fs()) / (2 * self.bin.fs())
     }
 
+    /// A time in units of which each has 2^`fraction` parts, rounded half up [2^-fraction units].
+    pub fn parts(&self, time: Time, fraction: u32) -> u64 {
+        let doubled = u128::from(time.fs()) << (self.digits + fraction + 1);
+        ((doubled + u128::from(self.bin.fs())) / u128::from(2 * self.bin.fs())) as u64
+    }
+
     /// Of a time in units, from the laser edge [ps].
     pub fn ps(&self, units: i64) -> f64 {
         let unit_fs = self.bin.fs() as f64 / (1u64 << self.digits) as f64;

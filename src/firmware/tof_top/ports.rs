@@ -7,6 +7,7 @@ use crate::firmware::histogram_builder::{self, Bin, Count};
 use crate::firmware::vcsel_driver::{self, Rate};
 use crate::firmware::{
     centroid_estimator, depth_estimator, frame_ctrl, histogram_preload, likelihood_estimator, tdc,
+    tdc_calibration,
 };
 use crate::signals;
 
@@ -129,6 +130,8 @@ pub struct Params {
     pub vcsel_driver: vcsel_driver::Params,
     /// Delay chain and its ROM.
     pub tdc: tdc::Params,
+    /// How it calibrates itself, if it does.
+    pub tdc_calibration: Option<tdc_calibration::Params>,
     /// ROMs of the network.
     pub depth_estimator: depth_estimator::Params,
     /// Window and scale of the centroid.
@@ -157,7 +160,8 @@ impl Params {
                 HistogramSource::Preload(_) => "histogram_builder",
             },
         ];
-        sources.into_iter().chain(others.map(Estimator::module)).collect()
+        let calibration = self.tdc_calibration.is_none().then_some("tdc_calibration");
+        sources.into_iter().chain(calibration).chain(others.map(Estimator::module)).collect()
     }
 
     /// From the edge that takes `algo_start` to the one that raises `algo_done`, for the estimator in

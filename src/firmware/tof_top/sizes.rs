@@ -27,6 +27,10 @@ pub struct Sizes {
     pub digits: u32,
     /// Bits of the calibration ROM.
     pub age_bits: u32,
+    /// Whether the firmware calibrates its TDC.
+    pub calibrates: bool,
+    /// Hits of such a calibration, as a power of two.
+    pub hits_log2: u32,
     /// Laser rates to choose from.
     pub rates: usize,
     /// The longest laser period [cycles of clk_sys].
@@ -55,6 +59,8 @@ impl Default for Sizes {
             cycle: scale.cycle(),
             digits: scale.digits(),
             age_bits: 14,
+            calibrates: false,
+            hits_log2: 13,
             rates: laser.periods.len(),
             longest_period: laser.longest_period(),
             pulse_half_cycles: laser.pulse_half_cycles,
@@ -67,6 +73,8 @@ impl Default for Sizes {
     }
 }
 
+/// In [`Signal::size`], of ports that only a TDC with a calibration has.
+const CALIBRATION: &str = "Calibration";
 /// Fewest bits of what counts pairs of neurons: as many as eight neurons have had.
 const FEWEST_PAIR_BITS: u32 = 3;
 
@@ -101,6 +109,8 @@ impl Sizes {
             "CountOfTaps" => bits_to(self.taps as u64),
             "CoarseBits" => self.coarse_bits,
             "AgeBits" => self.age_bits,
+            "HitsBits" => self.hits_log2 + 1,
+            "HitsSumBits" => self.age_bits + self.hits_log2 + 1,
             "TimeBits" => {
                 let edge_bits = bits_to(self.cycle) + self.coarse_bits;
                 let code_bits = bin_bits + self.digits;
@@ -182,6 +192,12 @@ impl Sizes {
         })
     }
 
+    /// Whether a signal that is a port is one in a design of these sizes: not if it is for a calibration of the TDC that
+    /// there is not.
+    pub fn shares(&self, signal: &Signal) -> bool {
+        self.calibrates || !signal.size.is_some_and(|size| size.starts_with(CALIBRATION))
+    }
+
     /// A signal as a design of these sizes has it, if it has it.
     pub fn fitted(&self, signal: Signal) -> Option<Signal> {
         let mut sizes =
@@ -192,6 +208,7 @@ impl Sizes {
                 return None;
             }
         }
+        sizes.next_if_eq(&CALIBRATION);
         let Some(size) = sizes.next() else { return Some(signal) };
         let (width, datapath) = (self.width(size)?, &self.datapath);
         let format = match (signal.format, size) {
@@ -214,12 +231,15 @@ impl Sizes {
 impl Params {
     /// Widths and numbers that they come to.
     pub fn sizes(&self) -> Sizes {
+        let usual = Sizes::default();
         Sizes {
             taps: self.tdc.delays.taps(),
             coarse_bits: self.tdc.coarse_counter.coarse_bits,
             cycle: self.tdc.decoder.scale.cycle(),
             digits: self.tdc.decoder.scale.digits(),
             age_bits: self.tdc.decoder.age_bits(),
+            calibrates: self.tdc_calibration.is_some(),
+            hits_log2: self.tdc_calibration.as_ref().map_or(usual.hits_log2, |p| p.hits_log2),
             rates: self.vcsel_driver.periods.len(),
             longest_period: self.vcsel_driver.longest_period(),
             pulse_half_cycles: self.vcsel_driver.pulse_half_cycles,

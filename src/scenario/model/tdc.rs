@@ -43,6 +43,21 @@ table! {
         /// By which part of itself every delay of the chain grows with each millivolt of supply.
         #[schemars(range(min = -0.005, max = 0.005), extend("unit" = "1/mV", "source" = "about -1 % for each 10 mV, a rule of thumb: not measured"))]
         pub delay_per_mv: f64 = -0.001,
+        /// Frames from one calibration in the firmware (`tdc_calibration`) to the next; the first is before the
+        /// first frame. 0 for none: then the ROM holds what `calibration` says.
+        #[schemars(range(max = 65_535), extend("unit" = "frames", "source" = "choice: none, as the thesis has none"))]
+        pub recalibrate_frames: u64 = 0,
+        /// Hits that such a calibration counts, as a power of two. By 2^17 the mean of random hits is known
+        /// to 11 ps at most, about a tap.
+        #[schemars(range(min = 10, max = 20), extend("unit" = "1", "source" = "docs/model.md"))]
+        pub calibration_hits_log2: u32 = 17,
+        /// Period of the ring oscillator that gives these hits. Half of it is longer than a clock period and
+        /// than the chain.
+        #[schemars(range(min = 5.0, max = 10_000.0), extend("unit" = "ns", "source" = "choice: no simple multiple of 8 ns"))]
+        pub ring_ns: f64 = 61.8,
+        /// Deviation of each half of its period; they add up.
+        #[schemars(range(min = 0.0, max = 1000.0), extend("unit" = "ps", "source" = "choice: not measured"))]
+        pub ring_jitter_ps: f64 = 5.0,
         /// Registers of the ones count. A code comes this and four cycles after the edge that samples its
         /// hit; with two, the second sums 50 numbers in a cycle.
         #[schemars(range(min = 2, max = 3), extend("unit" = "cycles", "source" = "docs/timing.md"))]

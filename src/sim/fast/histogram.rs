@@ -28,7 +28,7 @@ use super::outcomes::ShotOutcomes;
 /// for the error.
 ///
 /// # Errors
-/// When more than a shot's first avalanche decides what becomes of it (MODE 1, afterpulses, jitter, control
+/// When more than a shot's first avalanche decides what becomes of it (MODE 1, afterpulses, a calibration in the firmware, jitter, control
 /// changes, a stimulus in place of light, a chain too long for the laser rate), or a frame never ends.
 pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics, ShotOutcomes)> {
     let refusal = |field: &str, why: &str| {
@@ -53,6 +53,11 @@ pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics,
     if afterpulses > 0.0 {
         let why = "expected 0: an afterpulse of one shot may be the first avalanche of the next";
         return Err(refusal("spad.afterpulse_probability", why).value(afterpulses).into());
+    }
+    let recalibrated = setup.scenario.tdc.recalibrate_frames;
+    if recalibrated > 0 {
+        let why = "expected 0: ages are those of the hits of each calibration";
+        return Err(refusal("tdc.recalibrate_frames", why).value(recalibrated).into());
     }
     if !setup.scenario.control.is_empty() {
         return Err(refusal("control", "nothing may change within it").into());

@@ -70,7 +70,12 @@ impl Hits {
         let mut done = first.taken;
         for Hit { taken, coarse, taps } in self.0.drain(..).take_while(|hit| hit.taken < cycle) {
             come_to_rest(top, p, taken - done);
-            let hit = tdc_decoder::In { rst: false, hit: true, hit_coarse: coarse, hit_taps: taps };
+            let hit = tdc_decoder::In {
+                hit: true,
+                hit_coarse: coarse,
+                hit_taps: taps,
+                ..Default::default()
+            };
             decode(top, p, &hit);
             done = taken + 1;
         }

@@ -1,8 +1,7 @@
 //! The decoder's ROM from the counts of a code-density test.
 
 use tofsim::error::Input;
-use tofsim::firmware::tdc;
-use tofsim::firmware::tdc_decoder;
+use tofsim::firmware::{tdc, tdc_calibration};
 use tofsim::{Note, NoteCode};
 
 /// A word of the ROM.
@@ -16,7 +15,7 @@ pub struct RomEntry {
     pub age_ps: f64,
     /// Standard error of that, by the number of hits [ps].
     pub age_se_ps: f64,
-    /// The word [units of the decoder].
+    /// The word, as `tdc_calibration` works it out of the same counts [units of the decoder].
     pub units: u64,
 }
 
@@ -66,9 +65,8 @@ impl CalibratedRom {
                 (count, begin_ps + period_ps * place, period_ps * variance.sqrt())
             })
             .collect();
-        let at_start = p.decoder.encoder.of_rank(p.delays.rank(scale.period()));
-        let twice_fs = ages.iter().map(|(_, age_ps, _)| (2e3 * age_ps).round() as u64);
-        let words = tdc_decoder::Params::calibration_of(twice_fs, at_start, scale);
+        let own: Vec<_> = ages.iter().map(|(count, ..)| *count).collect();
+        let words = tdc_calibration::Params::stand_in(p).ages(&own);
         let entries = ages.into_iter().zip(words).enumerate();
         let entries: Vec<_> = entries
             .map(|(n, ((count, age_ps, age_se_ps), word))| RomEntry {
@@ -76,7 +74,7 @@ impl CalibratedRom {
                 count,
                 age_ps,
                 age_se_ps,
-                units: word.get(),
+                units: word,
             })
             .collect();
         let largest_se_ps = entries.iter().map(|entry| entry.age_se_ps).fold(0.0, f64::max);

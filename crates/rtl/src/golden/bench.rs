@@ -51,7 +51,7 @@ pub struct Bench<'a> {
     pub module: String,
     /// Whether the module has its parameters already and cannot be given any.
     pub fixed: bool,
-    /// Ports that the module has for neurons past the last: inputs that it does not look at, outputs that
+    /// Ports that the module has for neurons past the last or a calibration: inputs that it does not look at, outputs that
     /// stay 0.
     pub past: Vec<Port>,
     /// Parameters that are constants inside the module: it loads memories of its own for them.

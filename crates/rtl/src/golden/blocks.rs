@@ -44,6 +44,7 @@ blocks! {
     spad_control
     tansig
     tdc
+    tdc_calibration
     tdc_decoder
     tdc_latch
     tof_top

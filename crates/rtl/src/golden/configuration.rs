@@ -53,6 +53,15 @@ pub const REORDERED: Configuration = Configuration {
     ..DEFAULTS
 };
 
+/// Ages that the firmware works out, from few hits.
+pub const CALIBRATED: Configuration = Configuration {
+    name: "calibrated",
+    set: &["tdc.recalibrate_frames=6", "tdc.calibration_hits_log2=10", "tdc.ring_ns=30"],
+    parameters: &[super::parameters::CALIBRATED],
+    module: Some(super::parameters::CALIBRATION),
+    ..DEFAULTS
+};
+
 /// A faster clock, whose quarter of a period is no whole number of femtoseconds.
 pub const CLOCKS: Configuration = Configuration {
     name: "clocks",

@@ -35,7 +35,8 @@ impl<'a> Lines<'a> {
     ) -> Self {
         let (mut stimulus, mut places) = (Vec::new(), Vec::new());
         let sizes = setting.setup.params.sizes();
-        for signal in inputs.into_iter().map(|signal| sizes.fitted(signal)) {
+        let shared = |signal: Signal| sizes.shares(&signal).then(|| sizes.fitted(signal)).flatten();
+        for signal in inputs.into_iter().map(shared) {
             places.push(signal.iter().map(|_| stimulus.len()).collect());
             stimulus.extend(signal.map(|Signal { name, width, .. }| Column::new(name, width)));
         }

@@ -5,8 +5,8 @@ use tofsim::firmware::histogram_builder::{self, Bin, Count};
 use tofsim::firmware::tdc_decoder::Decoder;
 use tofsim::firmware::tof_top::{CodeSource, Estimator, HistogramSource, Params, Sizes};
 use tofsim::firmware::{
-    centroid_estimator, depth_estimator, forward2, likelihood_estimator, pll, tdc_decoder,
-    vcsel_driver,
+    centroid_estimator, depth_estimator, forward2, likelihood_estimator, pll, tdc_calibration,
+    tdc_decoder, vcsel_driver,
 };
 use tofsim::kernel::U;
 use tofsim::network::mem::{self, Mem, digits, lines};
@@ -77,6 +77,35 @@ pub fn decoder(params: &tdc_decoder::Params) -> Parameters {
         list.push((ORDER, Parameter::Words(steps.collect())));
     }
     list
+}
+
+/// The block that they are of.
+pub const CALIBRATION: &str = "tdc_calibration";
+
+/// Those of the TDC's calibration, if it has one.
+pub fn tdc_calibration(params: &Params) -> Parameters {
+    let Some(own) = &params.tdc_calibration else { return Vec::new() };
+    let mut list = sized(params, &["Taps", "AgeBits", "Cycle"]);
+    list.extend(of_calibration(own));
+    list
+}
+
+/// Those that it does not share.
+fn of_calibration(own: &tdc_calibration::Params) -> Parameters {
+    vec![
+        ("HitsLog2", Parameter::Number(own.hits_log2.into())),
+        ("CalibrationFrames", Parameter::Number(own.frames)),
+        ("YoungestAge", Parameter::Number(own.begin)),
+        ("EdgeAge", Parameter::Number(own.start)),
+    ]
+}
+
+/// The parameter that says where the decoder's ages come from.
+pub const CALIBRATED: &str = "Calibrated";
+
+/// That parameter, where they do not come from the ROM.
+pub fn calibrated(params: &tdc_decoder::Params) -> Option<(&'static str, Parameter)> {
+    params.calibrated.map(|_| (CALIBRATED, Parameter::Number(1)))
 }
 
 /// The parameters of some names that say how large things are, where they are not the default: as large
@@ -276,6 +305,8 @@ pub fn tof_top(setup: &Setup) -> Parameters {
     list.extend(neurons(params.depth_estimator.neurons()));
     list.extend(count_stages(&params.tdc.decoder));
     list.extend(decoder(&params.tdc.decoder));
+    list.extend(calibrated(&params.tdc.decoder));
+    list.extend(params.tdc_calibration.iter().flat_map(of_calibration));
     list.extend(sized(params, &OF_NETWORK));
     list.extend(sized(params, &OF_TOP));
     let (preloads_codes, rom) = match &params.code_source {
@@ -316,6 +347,8 @@ pub fn tof_top_in_full(setup: &Setup) -> Parameters {
     all.push((COUNT_STAGES, Parameter::Number(params.tdc.decoder.count_stages)));
     all.push((DECODER, Parameter::Number(0)));
     all.push((ORDER, Parameter::Words(vec![0; params.tdc.delays.taps()])));
+    all.push((CALIBRATED, Parameter::Number(0)));
+    all.extend(of_calibration(&tdc_calibration::Params::stand_in(&params.tdc)));
     let (sizes, laser) = (params.sizes(), &params.vcsel_driver);
     let named = OF_NETWORK.iter().chain(&OF_TOP);
     all.extend(named.map(|&name| (name, size(&sizes, laser, name))));

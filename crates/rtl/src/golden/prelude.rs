@@ -7,7 +7,7 @@ pub use tofsim::network::mem;
 pub use tofsim::signals;
 
 pub use super::configuration::{
-    CLOCKS, COUNT_STAGES_2, Configuration, LEADING, NEURONS_16, REORDERED,
+    CALIBRATED, CLOCKS, COUNT_STAGES_2, Configuration, LEADING, NEURONS_16, REORDERED,
 };
 pub use super::cover::{Cover, bits, ends};
 pub use super::draw::{Draw, MEMORIES};

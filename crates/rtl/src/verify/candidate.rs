@@ -111,7 +111,8 @@ impl<'a> Candidate<'a> {
 }
 
 impl Candidate<'_> {
-    /// The ports that it has for neurons past the last, where no map says what it has.
+    /// The ports that it has for neurons past the last, and for a calibration that there is none of, where no map
+    /// says what it has.
     pub(super) fn past(&self, task: &Task, sizes: &Sizes) -> Vec<Port> {
         let used = task.spec.ports(sizes);
         let is_past = |port: &Port| {
@@ -120,8 +121,14 @@ impl Candidate<'_> {
                 && !used.iter().any(|used| used.name == port.name)
         };
         let most = Sizes { neurons: MOST_NEURONS, ..*sizes };
+        let calibrated = Sizes { calibrates: true, ..*sizes };
         let all = if self.map.is_none() { task.spec.ports(&most) } else { Vec::new() };
-        all.into_iter().filter(is_past).collect()
+        let inputs = task
+            .spec
+            .ports(&calibrated)
+            .into_iter()
+            .filter(|port| !port.output && self.map.is_none());
+        all.into_iter().chain(inputs).filter(is_past).collect()
     }
 }
 

@@ -22,7 +22,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "dsp_en", to: "algo_start", cycles: |_| 0 },
         Latency { from: "algo_done", to: "frame_done", cycles: |_| 0 },
     ],
-    configurations: &[PRELOADED],
+    configurations: &[PRELOADED, CALIBRATED],
     ..Spec::new("frame_ctrl", "frame_ctrl", record)
 };
 
@@ -61,6 +61,8 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut kinds = Cover::new("state x 4 + rst x 2 + dsp_rst", each(4));
     let mut inputs = Cover::new("state x 8 + start, dsp_en, algo_done as bits", each(8));
 
+    // Most calibrations last into the last cycle of Clear, and a few cycles longer.
+    let calibrates = setting.setup.params.tdc_calibration.is_some();
     let histogram = setting.histogram();
     let params = Params { shots_per_frame: shots, histogram, preloaded, drain_cycles: length };
     let mut run = Recorder::new(spec, setting, In::list());
@@ -97,6 +99,7 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             start,
             dsp_en: dsp_en && !held,
             algo_done: draw.one_in(4),
+            calibrating: calibrates && state == State::Clear && draw.one_in(2),
         };
         resets.see_if(leave, (state.bits() << 25) + place);
         kinds.see(state.bits() * 4 + kind);
@@ -115,5 +118,6 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         ("Preloaded", Parameter::Number(preloaded.into())),
     ];
     parameters.extend(parameters::sized(&setting.setup.params, &["BinBits", "CountBits", "DrainCycles"]));
+    parameters.extend(parameters::calibrated(&setting.setup.params.tdc.decoder));
     Ok(Vectors { parameters, ..run.vectors([transitions, resets, kinds, inputs]) })
 }

@@ -3,7 +3,7 @@
 //! sweep through every number of taps that a hit can have.
 
 use tofsim::firmware::tdc::In;
-use tofsim::firmware::tdc_decoder::Decoder;
+use tofsim::firmware::tdc_decoder::{Age, Decoder};
 
 use crate::golden::parameters::OF_DECODER;
 use crate::golden::prelude::*;
@@ -12,6 +12,8 @@ mod light;
 
 use light::{Ages, Light};
 
+/// Cycles in which every hit counts, and after which they come again.
+const FREE: (usize, usize) = (60, 500);
 /// Last cycle after a start in which there is a reset.
 const LAST_RESET: usize = 15;
 
@@ -21,7 +23,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "tdc_stop", to: "tdc_valid", cycles: |vectors| vectors.count_stages + 4 },
         Latency { from: "tdc_stop", to: "tdc_code", cycles: |vectors| vectors.count_stages + 4 },
     ],
-    configurations: &[COUNT_STAGES_2, LEADING, REORDERED],
+    configurations: &[COUNT_STAGES_2, LEADING, REORDERED, CALIBRATED],
     ..Spec::new("tdc", "tdc", record)
 };
 
@@ -32,6 +34,12 @@ signals! {
         rst: bool,
         /// A shot begins.
         start: bool,
+        /// Every hit counts.
+        #[size("Calibration")]
+        free: bool,
+        /// Age for the last hit's `n` [units].
+        #[size("Calibration AgeBits")]
+        calibrated_age: Age,
     }
 }
 
@@ -56,6 +64,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         // Few shots are as long as a long window.
         (0..5).filter(|corner| *corner != 3 || window <= 16),
     );
+    // So that ages that are calibrated are none of the ROM.
+    let rom = params.clone().with_calibration(params.decoder.beside_calibration().cal);
+    let (calibrates, mut last_age) = (params.decoder.calibrated.is_some(), U::new(0));
     let (tap_0, mut last_code) = (params.delays.tap_0_position(), None);
     let mut run = Recorder::new(spec, setting, Stimulus::list());
     // Cycle of the last start and of the next; cycle after a start in which the next reset comes.
@@ -104,16 +115,22 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             let [begin, end] = [started, next].map(|line| light.stops.edge(line - 1));
             light.shoot(begin, end, draw);
         }
-        run.line(&Stimulus { rst, start });
+        let free = calibrates && cycle % FREE.1 < FREE.0;
+        let calibrated_age = last_age;
+        if let Some((n, _)) = run.top.tdc.tdc_decoder.counted() {
+            last_age = params.decoder.cal[n as usize];
+        }
+        run.line(&Stimulus { rst, start, free, calibrated_age });
         let (now, stops) = (light.stops.edge(cycle), &mut light.stops);
         stops.advance(now);
-        let i = In { rst, start, tdc_stop: stops.line.level() };
-        run.top.tdc.rise(&i, params, &mut stops.line, now);
+        let i = In { rst, start, tdc_stop: stops.line.level(), free, calibrated_age };
+        run.top.tdc.rise(&i, &rom, &mut stops.line, now);
     }
-    let memories = [parameters::tap_delays(&params.delays), mem::tdc_decoder(&params.decoder)];
+    let memories = [parameters::tap_delays(&params.delays), mem::tdc_decoder(&rom.decoder)];
     let mut parameters = files(["DelaysFile", "CalFile"], memories);
     parameters.extend(parameters::count_stages(&params.decoder));
     parameters.extend(parameters::decoder(&params.decoder));
+    parameters.extend(parameters::calibrated(&params.decoder));
     parameters.extend(parameters::sized(&setting.setup.params, &OF_DECODER));
     Ok(Vectors {
         parameters,

@@ -18,7 +18,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "hit", to: "tdc_valid", cycles: |vectors| vectors.count_stages + 2 },
         Latency { from: "hit_taps", to: "tdc_code", cycles: |vectors| vectors.count_stages + 2 },
     ],
-    configurations: &[COUNT_STAGES_2, LEADING, REORDERED],
+    configurations: &[COUNT_STAGES_2, LEADING, REORDERED, CALIBRATED],
     ..Spec::new("tdc_decoder", "tdc.tdc_decoder", record)
 };
 
@@ -50,8 +50,10 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut coarses = Cover::new("coarse", ends(window));
     let mut times = Cover::new("times at both ends of the range", 0..edges.len() as u64);
     let mut situations = Cover::new("rst, hit, hit before as bits", 0..8);
+    // So that ages that are calibrated are none of the ROM.
+    let rom = params.beside_calibration();
     let mut run = Recorder::new(spec, setting, In::list());
-    let mut hits_swept = 0;
+    let (mut hits_swept, mut last_age) = (0, U::new(0));
     // Whether the line before had a hit, and the hits counted one and two lines ago.
     let (mut hit_before, mut counted) = (false, [None; 2]);
     for cycle in 0..setting.cycles_of_chain() {
@@ -85,13 +87,17 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             true => with_ones(n, (taps, count), draw),
             false => Taps::clipped(count, true, [n]),
         };
-        let i = In { rst, hit, hit_coarse: U::new(coarse), hit_taps };
+        // Of the RAM as of the ROM: a cycle after `n`.
+        let calibrated_age = last_age;
+        last_age = decoder.counted().map_or(last_age, |(n, _)| params.cal[n as usize]);
+        let i = In { rst, hit, hit_coarse: U::new(coarse), hit_taps, calibrated_age };
         run.line(&i);
-        run.top.tdc.tdc_decoder = decoder.next(&i, &params);
+        run.top.tdc.tdc_decoder = decoder.next(&i, &rom);
     }
-    let mut parameters = files(["CalFile"], [mem::tdc_decoder(&params)]);
+    let mut parameters = files(["CalFile"], [mem::tdc_decoder(&rom)]);
     parameters.extend(parameters::count_stages(&params));
     parameters.extend(parameters::decoder(&params));
+    parameters.extend(parameters::calibrated(&params));
     parameters.extend(parameters::sized(&setting.setup.params, &OF_DECODER));
     Ok(Vectors { parameters, ..run.vectors([ones, coarses, codes, times, situations]) })
 }

@@ -14,6 +14,7 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "taps", to: "hit_taps", cycles: |_| 0 },
         Latency { from: "coarse", to: "hit_coarse", cycles: |_| 0 },
     ],
+    configurations: &[CALIBRATED],
     ..Spec::new("tdc_latch", "tdc.tdc_latch", record)
 };
 
@@ -27,6 +28,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let window = setting.setup.params.tdc.coarse_counter.window();
     let mut coarse = Cover::new("coarse of a hit", ends(window));
     let mut situations = Cover::new("rst, start, window, tap 0, before, used as bits", 0..64);
+    let calibrates = setting.setup.params.tdc_calibration.is_some();
+    let mut free = Cover::new("while free: window, tap 0, before, used as bits", 0..if calibrates { 16 } else { 0 });
+
     let mut run = Recorder::new(spec, setting, In::list());
     for cycle in 0..setting.cycles_of_chain() {
         let (latch, draw) = (run.top.tdc.tdc_latch, &mut run.draw);
@@ -38,11 +42,13 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
             rst: cycle == FIRST_RESET || !first && draw.one_in(10),
             start: draw.one_in(3),
             window: first || !draw.one_in(3),
+            free: calibrates && !first && draw.one_in(8),
             coarse: any_coarse(window, draw),
             taps: pulses(high, if high { rank } else { tap_0 + 1 }, (taps, count), draw),
         };
-        situations.see(bits([i.rst, i.start, i.window, high, before, used]));
-        if high && !before && i.window && !used && !i.rst {
+        situations.see_if(!i.free, bits([i.rst, i.start, i.window, high, before, used]));
+        free.see_if(i.free, bits([i.window, high, before, used]));
+        if high && !before && (i.free || i.window && !used) && !i.rst {
             hits.see(rank as u64);
             coarse.see(i.coarse.get());
             rank = if rank == taps { tap_0 + 1 } else { rank + 1 };
@@ -50,8 +56,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
         run.line(&i);
         run.top.tdc.tdc_latch = latch.next(&i, &tap_0);
     }
-    let parameters = parameters::sized(&setting.setup.params, &["Taps", "CoarseBits"]);
-    Ok(Vectors { parameters, ..run.vectors([hits, coarse, situations]) })
+    let mut parameters = parameters::sized(&setting.setup.params, &["Taps", "CoarseBits"]);
+    parameters.extend(parameters::calibrated(&setting.setup.params.tdc.decoder));
+    Ok(Vectors { parameters, ..run.vectors([hits, coarse, situations, free]) })
 }
 
 /// A coarse count in a window of so many cycles.

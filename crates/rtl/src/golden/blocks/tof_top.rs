@@ -28,7 +28,7 @@ pub(super) const SPEC: Spec = Spec {
         "lvds_output.o",
         "lvds_output.ob",
     ],
-    configurations: &[NEURONS_16, COUNT_STAGES_2, REORDERED, CLOCKS, CENTROID, LIKELIHOOD, CODES, HISTOGRAM],
+    configurations: &[NEURONS_16, COUNT_STAGES_2, REORDERED, CALIBRATED, CLOCKS, CENTROID, LIKELIHOOD, CODES, HISTOGRAM],
     ..Spec::new("tof_top", "", record)
 };
 
@@ -78,6 +78,9 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     if setting.as_told {
         return top::record(spec, setting, &mut |_| ());
     }
+    if setting.setup.params.tdc_calibration.is_some() {
+        return calibrated(spec, setting);
+    }
     let mut setting = setting.clone();
     setting.cycles = setting.cycles.or(Some(RANDOM + PLANTED));
     let shots = setting.shots(SHOTS);
@@ -119,6 +122,50 @@ fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     Ok(Vectors { coverage: vec![states, rates, coarse, resets, modes], ..vectors })
 }
 
+/// Frames between calibrations, some at other rates, and a calibration abandoned: under random control there would be
+/// none that comes to its end.
+fn calibrated(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
+    let mut setting = setting.clone();
+    let cycles = setting.cycles.unwrap_or(CALIBRATED_CYCLES);
+    (setting.cycles, setting.setup.params.frame_ctrl.shots_per_frame) = (Some(cycles), setting.shots(SHOTS));
+    let mut draw = Draw::new(setting.seed, u64::MAX);
+    let codes = setting.setup.params.vcsel_driver.periods.len() as u64;
+    let (pll, mut at) = (setting.setup.pll(), 8 * 500);
+    let mut change = |after: u64, change: Control| {
+        at += after;
+        let time = pll.locked_at + stops::of_eighths(at, pll.cycle);
+        Control { at_us: time.fs() as f64 * 1e-9, ..change }
+    };
+    let mut changes = vec![
+        change(0, Control { dsp_rst: Some(true), ..Control::default() }),
+        change(8 * 20, Control { dsp_rst: Some(false), ..Control::default() }),
+    ];
+    for _ in 0..cycles / 1000 {
+        let laser_freq = Some(draw.below(codes));
+        changes.push(change(8 * 500 + draw.below(8 * 1000), Control { laser_freq, ..Control::default() }));
+    }
+    setting.setup.scenario.control = changes;
+    let states = [(0, 1), (1, 2), (2, 3), (3, 0)].map(|(from, to)| from * 4 + to);
+    let mut states = Cover::new("states, from x 4 + to", states);
+    let mut calibrations = Cover::new("calibrations ended", 1..=2);
+    let mut codes = Cover::new("halves of the bins with codes after that", 0..2);
+    let bins = setting.setup.params.histogram.bins as u64;
+    let (mut before, mut ended) = (None, 0);
+    let vectors = top::record(spec, &setting, &mut |top| {
+        let now = (top.frame_ctrl.state(), top.tdc_calibration.registers.calibrating);
+        if let Some((state, calibrating)) = before {
+            states.see_if(state != now.0, state as u64 * 4 + now.0 as u64);
+            ended += u64::from(calibrating && !now.1);
+        }
+        calibrations.see_if(ended > 0, ended);
+        codes.see_if(ended > 0 && !top.frame_ctrl.clear && top.nets.tdc_valid, 2 * top.nets.tdc_code.get() / bins);
+        before = Some(now);
+    })?;
+    Ok(Vectors { coverage: vec![states, calibrations, codes], ..vectors })
+}
+
+/// Cycles between calibrations: two of some 9,000 and the frames after them.
+const CALIBRATED_CYCLES: usize = 26_000;
 /// Cycles under random control, and then under pulses planted in the first shots of a frame.
 const RANDOM: usize = 20_000;
 const PLANTED: usize = 28_000;

@@ -1,0 +1,127 @@
+//! A ring oscillator that calibrates the TDC: edges that know nothing of the clock.
+//!
+//! It runs only while it is asked for, and begins at any place of its period. Each half of a period is long or short
+//! by a normal time, and these add up.
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::Rng;
+
+use crate::kernel::Time;
+
+use super::streams::{Source, normal, stream, uniform};
+
+/// Half of its period, and by how much it varies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Params {
+    /// Half of a period.
+    pub half: Time,
+    /// Deviation of one half [fs].
+    pub jitter_fs: f64,
+}
+
+/// The oscillator.
+#[derive(Clone, Debug)]
+pub struct Ring {
+    params: Option<Params>,
+    seed: u64,
+    /// Times that it has begun to run.
+    runs: u64,
+    words: ChaCha8Rng,
+    level: bool,
+    next: Time,
+}
+
+impl Ring {
+    /// At rest; without parameters it never runs.
+    pub fn new(params: Option<Params>, seed: u64) -> Self {
+        let words = stream(seed, Source::Ring, 0);
+        Ring { params, seed, runs: 0, words, level: false, next: Time::NEVER }
+    }
+
+    /// Whether it runs.
+    #[inline(always)]
+    pub fn is_on(&self) -> bool {
+        self.next != Time::NEVER
+    }
+
+    /// Its level: low while it does not run.
+    pub fn level(&self) -> bool {
+        self.level
+    }
+
+    /// When its level changes next.
+    #[inline(always)]
+    pub fn next_event(&self) -> Time {
+        self.next
+    }
+
+    /// Begins or ends to run.
+    pub fn switch(&mut self, on: bool, now: Time) {
+        self.level = false;
+        let Some(params) = self.params.filter(|_| on) else {
+            self.next = Time::NEVER;
+            return;
+        };
+        self.words = stream(self.seed, Source::Ring, self.runs);
+        self.runs += 1;
+        let wait = uniform(self.words.next_u64()) * params.half.fs() as f64;
+        self.next = now + Time::from_fs(wait.round() as u64 + 1);
+    }
+
+    /// The level changes.
+    pub fn event(&mut self) {
+        let Some(params) = self.params else { return };
+        self.level = !self.level;
+        let late = (normal(self.words.next_u64()) * params.jitter_fs).round() as i64;
+        // However large the jitter, time goes on.
+        let half = params.half.fs().saturating_add_signed(late).max(1);
+        self.next += Time::from_fs(half);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn edges(ring: &mut Ring, count: usize) -> Vec<u64> {
+        (0..count)
+            .map(|_| {
+                let now = ring.next_event().fs();
+                ring.event();
+                now
+            })
+            .collect()
+    }
+
+    #[test]
+    fn halves_scatter_with_the_given_deviation_about_the_given_length() {
+        let params = Params { half: Time::from_fs(30_900_000), jitter_fs: 5_000.0 };
+        let mut ring = Ring::new(Some(params), 1);
+        assert!(!ring.is_on());
+        ring.switch(true, Time::from_ns(100));
+        let edges = edges(&mut ring, 20_001);
+        let halves: Vec<_> = edges.windows(2).map(|pair| (pair[1] - pair[0]) as f64).collect();
+        let mean = halves.iter().sum::<f64>() / halves.len() as f64;
+        let variance =
+            halves.iter().map(|half| (half - mean).powi(2)).sum::<f64>() / halves.len() as f64;
+        assert!((mean - 30_900_000.0).abs() < 5.0 * 5_000.0 / 141.0, "{mean} fs");
+        assert!((variance.sqrt() / 5_000.0 - 1.0).abs() < 0.03, "{} fs", variance.sqrt());
+    }
+
+    #[test]
+    fn each_run_begins_at_another_place_and_low() {
+        let mut ring = Ring::new(Some(Params { half: Time::from_ns(31), jitter_fs: 0.0 }), 1);
+        let mut first = |at: u64| {
+            ring.switch(true, Time::from_ns(at));
+            let wait = ring.next_event() - Time::from_ns(at);
+            ring.event();
+            assert!(ring.level());
+            ring.switch(false, Time::from_ns(at + 100));
+            assert!(!ring.level() && !ring.is_on());
+            wait
+        };
+        let waits = [first(0), first(1_000), first(2_000)];
+        assert!(waits[0] != waits[1] && waits[1] != waits[2], "{waits:?}");
+        assert!(waits.iter().all(|wait| *wait <= Time::from_fs(31_000_001)), "{waits:?}");
+    }
+}
