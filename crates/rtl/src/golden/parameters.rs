@@ -160,9 +160,10 @@ fn every_clock(p: &pll::Params) -> Parameters {
 /// The parameter with the laser periods.
 const LASER_PERIODS: &str = "LaserPeriods";
 /// Of [`sized`], those on which widths of ports depend.
-pub const SHAPES: [&str; 9] = [
+pub const SHAPES: [&str; 10] = [
     NEURONS,
     "Taps",
+    "AgeBits",
     "CoarseBits",
     "RateBits",
     "Halves",
