@@ -181,12 +181,7 @@ impl Setup {
         };
         fits::check(&name, &params)?;
         if params.tdc_calibration.is_some() {
-            fits::check_ring(
-                &name,
-                &recalibration::ring(&scenario.tdc),
-                &params.tdc,
-                scenario.tdc.calibration_hits_log2,
-            )?;
+            fits::check_ring(&name, &recalibration::ring(&scenario.tdc), &params.tdc)?;
         }
         let (pins, no_depth) = (pins_at_power_up(&scenario.firmware), None);
         let mut setup = Setup {

@@ -14,8 +14,6 @@ const CODES_APART: u64 = 3;
 const TO_ITS_WORD: u64 = 1;
 /// Deviations by which half a period of a ring may be short.
 const SPARE: f64 = 8.0;
-/// Hits whose places in a clock period are looked at, at most.
-const LOOKED_AT: u64 = 1 << 16;
 
 /// Refuses a laser period in which the code of a late photon would come too close to that of an early one of
 /// the next shot, and a Drain in which the last photon would not come to its word.
@@ -49,17 +47,12 @@ pub(super) fn check(scenario: &str, params: &Params) -> Result<()> {
     Ok(())
 }
 
-/// Refuses a ring of which two edges would be in the chain at once, or hide between two edges of the clock, one whose
-/// edges meet the clock's at a few places only, and a chain that hits reach so late that their age has no word.
+/// Refuses a ring of which two edges would be in the chain at once, or hide between two edges of the clock, and a
+/// chain that hits reach so late that their age has no word.
 ///
 /// # Errors
 /// The key, its value, and one that would fit.
-pub(super) fn check_ring(
-    scenario: &str,
-    ring: &ring::Params,
-    tdc: &tdc::Params,
-    hits_log2: u32,
-) -> Result<()> {
+pub(super) fn check_ring(scenario: &str, ring: &ring::Params, tdc: &tdc::Params) -> Result<()> {
     let fault = |key: &str, expected: String| {
         Input::new(format!("scenario {scenario}"), expected).field(key)
     };
@@ -81,28 +74,7 @@ pub(super) fn check_ring(
         );
         return Err(fault("tdc.ring_ns", expected).value(own).into());
     }
-    let hits = 1 << hits_log2;
-    let smear_fs = ring.jitter_fs * f64::sqrt(2.0 * hits as f64);
-    let tap_fs = (longest - tap_0).fs() as f64 / tdc.delays.taps() as f64;
-    let gap_fs = widest_gap(ring.half + ring.half, period, hits).fs() as f64;
-    if gap_fs > tap_fs + smear_fs / 4.0 {
-        let own = 2.0 * ring.half.fs() as f64 * 1e-6;
-        let expected = format!(
-            "expected no simple multiple of the clock period: no hit would come to {:.0} ps of it",
-            gap_fs * 1e-3
-        );
-        return Err(fault("tdc.ring_ns", expected).value(own).into());
-    }
     Ok(())
-}
-
-/// The widest part of a clock period that so many edges leave out, without jitter, a ring's period apart.
-fn widest_gap(ring: Time, period: Time, hits: u64) -> Time {
-    let place = |hit: u64| (hit * (ring.fs() % period.fs())) % period.fs();
-    let mut places: Vec<_> = (0..hits.min(LOOKED_AT)).map(place).collect();
-    places.push(period.fs());
-    places.sort_unstable();
-    Time::from_fs(places.windows(2).map(|pair| pair[1] - pair[0]).max().unwrap_or_default())
 }
 
 #[cfg(test)]
@@ -120,20 +92,6 @@ mod tests {
         assert!(message.contains("firmware.drain_cycles = 9: expected 10 cycles"), "{message}");
         let message = error(&["firmware.drain_cycles=8", "tdc.count_stages=2"]);
         assert!(message.contains("expected 9 cycles"), "{message}");
-    }
-
-    #[test]
-    fn a_ring_that_keeps_step_with_the_clock_is_refused() {
-        let error_of = |ring: &str, jitter: &str| {
-            let keys = ["tdc.recalibrate_frames=1", ring, jitter];
-            Setup::load("kc705", &keys).err().map(|error| error.to_string())
-        };
-        let message = error_of("tdc.ring_ns=62", "tdc.ring_jitter_ps=0").unwrap();
-        assert!(message.contains("tdc.ring_ns = 62: expected no simple multiple"), "{message}");
-        assert!(message.contains("come to 2000 ps of it"), "{message}");
-        assert!(error_of("tdc.ring_ns=64", "tdc.ring_jitter_ps=5").is_some());
-        assert_eq!(error_of("tdc.ring_ns=64", "tdc.ring_jitter_ps=100"), None);
-        assert_eq!(error_of("tdc.ring_ns=61.8", "tdc.ring_jitter_ps=0"), None);
     }
 
     #[test]
