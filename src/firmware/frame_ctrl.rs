@@ -9,8 +9,8 @@
 //! ```
 //!
 //! `P` is the laser period; the KC705 has 256 bins and a Drain of 16 cycles, and 268 are those of its network.
-//! `calibrating` holds the last cycle of Clear. `dsp_en` low holds the machine before the estimator's start (in the last cycle of Drain) and keeps the
-//! histogram. With a preloaded histogram Acquire and Drain are skipped (thesis 6.7.4), and `dsp_en` low holds
+//! `calibrating` holds the last cycle of Clear. `dsp_en` low holds the machine before the estimator's start (in the
+//! last cycle of Drain) and keeps the histogram. With a preloaded histogram Acquire and Drain are skipped (thesis 6.7.4), and `dsp_en` low holds
 //! the last cycle of Clear.
 
 use crate::kernel::{AWAKE, Clocked, U, asleep_if};

@@ -56,6 +56,7 @@ pub(super) struct FastForward {
 }
 
 impl FastForward {
+    /// That way, with nothing kept yet.
     pub(super) fn of(stepping: Stepping) -> Self {
         FastForward { stepping, ..FastForward::default() }
     }

@@ -28,8 +28,8 @@ use super::outcomes::ShotOutcomes;
 /// for the error.
 ///
 /// # Errors
-/// When more than a shot's first avalanche decides what becomes of it (MODE 1, afterpulses, a calibration in the firmware, jitter, control
-/// changes, a stimulus in place of light, a chain too long for the laser rate), or a frame never ends.
+/// When more than a shot's first avalanche decides what becomes of it (MODE 1, afterpulses, a calibration in the
+/// firmware, jitter, control changes, a stimulus in place of light, a chain too long for the laser rate), or a frame never ends.
 pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics, ShotOutcomes)> {
     let refusal = |field: &str, why: &str| {
         let expected = format!("{who} draws a frame as a whole: {why}");

@@ -1,4 +1,5 @@
-//! Whether the sizes of the firmware fit each other: what its chain asks of laser periods and Drain.
+//! Whether the sizes of the firmware fit each other: what its chain asks of laser periods, of Drain, and of the ring
+//! that calibrates it.
 
 use crate::error::{Input, Result};
 use crate::firmware::tdc;
