@@ -1,7 +1,7 @@
 //! Steps a block alone, and keeps what goes in and what comes out.
 
 use tofsim::firmware::tof_top::{Pins, TofTop};
-use tofsim::hierarchy;
+use tofsim::hierarchy::{self, Entry};
 use tofsim::kernel::signals::{Signal, Signals};
 
 use super::cover::Cover;
@@ -23,11 +23,26 @@ impl<'a> Recorder<'a> {
     /// The block before the first edge. A line of the stimulus has `inputs`: its input ports, or what
     /// the bench makes them from.
     pub fn new(spec: &'static Spec, setting: &'a Setting, inputs: Vec<Signal>) -> Self {
+        Self::with(spec, setting, inputs, |_| true)
+    }
+
+    /// As `new`, without what is inside its parts, which have benches of their own: where there is
+    /// so much of it that a simulator reads the lines for longer than it takes to simulate them.
+    pub fn without_parts(spec: &'static Spec, setting: &'a Setting, inputs: Vec<Signal>) -> Self {
+        Self::with(spec, setting, inputs, |entry| entry.scope == spec.path())
+    }
+
+    fn with(
+        spec: &'static Spec,
+        setting: &'a Setting,
+        inputs: Vec<Signal>,
+        wanted: impl Fn(&Entry) -> bool,
+    ) -> Self {
         let entries = hierarchy::every_entry_of(&setting.setup.params.sizes());
         Recorder {
             top: TofTop::new(Pins::default(), &setting.setup.params),
             draw: Draw::new(setting.seed, spec.stream()),
-            lines: Lines::new(spec, setting, inputs, &entries, |_| true),
+            lines: Lines::new(spec, setting, inputs, &entries, wanted),
         }
     }
 

@@ -37,6 +37,9 @@ pub struct BlockCheck<'a> {
 /// A bench that says nothing for so long stands still.
 const SILENCE: Duration = Duration::from_secs(15);
 
+/// It reads its lines before it says anything; Verilator reads 9 MB/s, and a busy machine less [B/s].
+const READING: u64 = 2_000_000;
+
 impl BlockCheck<'_> {
     /// Checks a block in `work`, a folder of its own.
     ///
@@ -91,7 +94,9 @@ impl BlockCheck<'_> {
         options.extend(self.from_power_up.then(|| "+from_power_up".to_owned()));
         options.extend(self.first_only.then(|| "+first".to_owned()));
         options.extend(got.map(|name| format!("+got={name}")));
-        let limits = Limits { silence: Some(SILENCE), ..self.dut.limits };
+        let lines = compiled.folder.join("expected.mem").metadata().map_or(0, |file| file.len());
+        let silence = Some(SILENCE + Duration::from_secs(lines / READING));
+        let limits = Limits { silence, ..self.dut.limits };
         let mut finished = compiled.run(&options, &limits)?;
         if data::bring(&compiled.folder, self.dut.rtl, &finished.output)? {
             finished = compiled.run(&options, &limits)?;

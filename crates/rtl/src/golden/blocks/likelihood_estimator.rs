@@ -26,7 +26,7 @@ const CYCLES: usize = 85_000;
 
 fn record(spec: &'static Spec, setting: &Setting) -> Result<Vectors> {
     let mut estimations = Estimations::new(setting, true);
-    let mut run = Recorder::new(spec, setting, In::list());
+    let mut run = Recorder::without_parts(spec, setting, In::list());
     for _ in 0..setting.cycles.unwrap_or(CYCLES) {
         let i = estimations.next(&run.top.likelihood_estimator, &mut run.draw);
         run.line(&i);
