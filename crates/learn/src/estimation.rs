@@ -8,7 +8,8 @@
 //! | `peak` | spline, one peak, straight line through the shift | Listings 5.1 to 5.3 |
 //! | `subtraction` | the same on a lit histogram less a dark one | Algorithm 2 |
 //! | `likelihood` | the most likely distance, with pile-up in the model | eq. 3.21 to 3.24 |
-//! | `likelihood_estimator` | the same in integers, bit for bit as the firmware would | eq. 3.21 to 3.24 |
+//! | `two-echoes` | the same with a second echo, where one is sure | eq. 3.21 to 3.24 |
+//! | `likelihood_estimator` | `likelihood` in integers, bit for bit as the firmware would | eq. 3.21 to 3.24 |
 //! | `matched` | pile-up taken out, background out, correlation with the pulse | Coates 1968 |
 //!
 //! 2 sd of the distance [mm] at 0.1 .. 0.6 m, chain `ideal`, over the grid of thesis section 4.4
@@ -22,8 +23,8 @@
 //! | `peak`, successes | 11.0 | 12.4 | 10.5 | 10.2 | 9.9 | 9.7 | 30,000 each |
 //! | `peak`, failures | 0 | 2 | 2 | 3 | 401 | 2510 | of 30,000 |
 //!
-//! The last three estimators know the edges of the bins, which are those of any carry chain; the last
-//! two, and [`likelihood::Model::cramer_rao_m`], the pulse's shape as well.
+//! The last four estimators know the edges of the bins, which are those of any carry chain; the last
+//! three, and [`likelihood::Model::cramer_rao_m`], the pulse's shape as well.
 
 pub mod acquisition;
 pub mod by_name;
@@ -43,5 +44,5 @@ pub mod subtraction;
 
 pub use acquisition::Acquisition;
 pub use by_name::{EstimatorInputs, EstimatorKind};
-pub use estimator::{Estimator, Failure, HistogramPair};
+pub use estimator::{EchoDepth, Estimator, Failure, Found, HistogramPair};
 pub use panel::{Panel, Reading};

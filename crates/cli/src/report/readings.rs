@@ -72,7 +72,9 @@ pub fn below_pairs(log: &FrameLog, cells: usize) -> Vec<Vec<String>> {
         .collect()
 }
 
-/// A depth, or why there is none.
-fn said(reading: &Reading, depth: impl Fn(f64) -> String) -> String {
-    reading.depth_m.map_or_else(|| reading.failure.clone().unwrap_or_default(), depth)
+/// A depth, and that of a second echo, or why there is none.
+pub fn said(reading: &Reading, depth: impl Fn(f64) -> String) -> String {
+    let Some(depth_m) = reading.depth_m else { return reading.failure.clone().unwrap_or_default() };
+    let second = reading.second.map(|second| format!(" and {:.6}", second.depth_m));
+    depth(depth_m) + &second.unwrap_or_default()
 }

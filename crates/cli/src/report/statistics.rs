@@ -125,7 +125,7 @@ mod tests {
     use super::*;
 
     fn reading(depth_m: Option<f64>) -> Vec<Reading> {
-        vec![Reading { estimator: "peak", depth_m, failure: None }]
+        vec![Reading { estimator: "peak", depth_m, sigma_m: None, second: None, failure: None }]
     }
 
     #[test]

@@ -17,7 +17,7 @@ use tofsim_learn::quantize::{ExplainedLikelihood, Explanation, LikelihoodExplain
 
 use crate::choice::words;
 use crate::record::Record;
-use crate::report::{explained_likelihood, explanation};
+use crate::report::{explained_likelihood, explanation, readings};
 use crate::text;
 
 use super::draws::from_here;
@@ -196,11 +196,8 @@ fn table(rows: &[Row], fraction: u32, several: bool) -> String {
         let sums = numbers.l1_in.iter().map(i64::to_string).collect::<Vec<_>>().join(" ");
         let depth_m = format!("{:.6}", numbers.depth_m);
         let mut cells = vec![index.to_string(), numbers.depth_raw.clone(), depth_m, sums];
-        let found = |reading: &Reading| match (reading.depth_m, &reading.failure) {
-            (Some(depth_m), _) => format!("{depth_m:.6}"),
-            (None, why) => why.clone().unwrap_or_default(),
-        };
-        cells.extend(estimates.iter().map(found));
+        let depth = |reading| readings::said(reading, |depth_m| format!("{depth_m:.6}"));
+        cells.extend(estimates.iter().map(depth));
         cells.extend(several.then(|| file.to_string()));
         cells
     });

@@ -9,6 +9,7 @@ use super::acquisition::Acquisition;
 use super::centroid::Centroid;
 use super::estimator::Estimator;
 use super::likelihood::Likelihood;
+use super::likelihood::two_echoes::{self, TwoEchoes};
 use super::likelihood_estimator::{self, LikelihoodEstimator};
 use super::matched_filter::MatchedFilter;
 use super::network::{fixed, float};
@@ -30,6 +31,8 @@ pub enum EstimatorKind {
     Subtraction,
     /// Maximum likelihood with pile-up in the model
     Likelihood,
+    /// Maximum likelihood of two echoes where two are sure, of one elsewhere
+    TwoEchoes,
     /// Maximum likelihood in integers, bit for bit as the firmware would
     LikelihoodEstimator,
     /// Matched filter after Coates's correction of pile-up
@@ -38,7 +41,7 @@ pub enum EstimatorKind {
 
 impl EstimatorKind {
     /// All of them: the word on the command line, the kind, what it does.
-    pub const ALL: [(&'static str, Self, &'static str); 8] = [
+    pub const ALL: [(&'static str, Self, &'static str); 9] = [
         ("network", Self::Network, "The network in fixed point, bit for bit as the firmware"),
         ("network-float", Self::NetworkFloat, "The network in double precision"),
         (
@@ -53,6 +56,11 @@ impl EstimatorKind {
             "Peak detection on a lit histogram less a dark one, of half the shots each",
         ),
         ("likelihood", Self::Likelihood, "Maximum likelihood with pile-up in the model"),
+        (
+            two_echoes::NAME,
+            Self::TwoEchoes,
+            "Maximum likelihood of two echoes where two are sure, of one elsewhere",
+        ),
         (
             likelihood_estimator::NAME,
             Self::LikelihoodEstimator,
@@ -109,6 +117,7 @@ impl EstimatorKind {
             EstimatorKind::Peak => Box::new(PeakDetection::of_bins(shots, bins)),
             EstimatorKind::Subtraction => Box::new(Subtraction::of_bins(shots, bins)?),
             EstimatorKind::Likelihood => Box::new(Likelihood::new(acquisition)?),
+            EstimatorKind::TwoEchoes => Box::new(TwoEchoes::new(acquisition)?),
             EstimatorKind::LikelihoodEstimator => {
                 Box::new(LikelihoodEstimator::new(setup.likelihood(shots)?))
             }

@@ -1,5 +1,7 @@
 //! What finds the distance of a target from a histogram, and why there may be none.
 
+use serde::Serialize;
+
 use tofsim::firmware::likelihood_estimator::words::status;
 use tofsim::network::Histogram;
 
@@ -30,6 +32,14 @@ pub trait Estimator: Send + Sync {
     /// When the histogram does not show one.
     fn estimate(&self, histogram: &[u32]) -> Result<f64, Failure>;
 
+    /// That distance, with all else that the estimator knows.
+    ///
+    /// # Errors
+    /// When the histogram does not show one.
+    fn find(&self, histogram: &[u32]) -> Result<Found, Failure> {
+        self.estimate(histogram).map(Found::depth)
+    }
+
     /// Whether it has to have a dark histogram too.
     fn needs_dark(&self) -> bool {
         false
@@ -43,6 +53,33 @@ pub trait Estimator: Send + Sync {
     fn estimate_pair(&self, pair: &HistogramPair) -> Result<f64, Failure> {
         self.estimate(&pair.lit)
     }
+}
+
+/// What an estimator finds in a histogram.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Found {
+    /// Distance of the target, the first one if there are two [m].
+    pub depth_m: f64,
+    /// Its standard deviation, from an estimator that states one [m].
+    pub sigma_m: Option<f64>,
+    /// The second echo, where the estimator looks for one and is sure of it.
+    pub second: Option<EchoDepth>,
+}
+
+impl Found {
+    /// A depth, of which nothing else is known.
+    pub fn depth(depth_m: f64) -> Self {
+        Found { depth_m, sigma_m: None, second: None }
+    }
+}
+
+/// Where an echo comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct EchoDepth {
+    /// Distance of what it comes from [m].
+    pub depth_m: f64,
+    /// Its standard deviation [m].
+    pub sigma_m: f64,
 }
 
 /// Why there is no distance.

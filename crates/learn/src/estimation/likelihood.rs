@@ -7,7 +7,7 @@
 //! both.
 //!
 //! An estimate is of one echo, because a pulse that is wider than told looks like two as well;
-//! [`Likelihood::fit_both`] fits two.
+//! [`two_echoes::TwoEchoes`] fits two.
 
 mod arming;
 mod climb;
@@ -21,7 +21,7 @@ use std::f64::consts::LN_2;
 use tofsim::error::Input;
 
 use super::acquisition::{ARRIVAL_PS_PER_M, Acquisition, Echo};
-use super::estimator::{Estimator, Failure, hits};
+use super::estimator::{EchoDepth, Estimator, Failure, Found, hits};
 use super::matched_filter::MatchedFilter;
 
 use climb::{Top, climb};
@@ -90,6 +90,14 @@ impl Likelihood {
         Ok(Fit::of(&self.model, &top, 0))
     }
 
+    /// Distance of what the echo of a fit comes from.
+    fn depth(&self, fit: &Fit) -> EchoDepth {
+        EchoDepth {
+            depth_m: (fit.echo.arrival_ps - self.delay_ps) / ARRIVAL_PS_PER_M,
+            sigma_m: fit.arrival_deviation_ps / ARRIVAL_PS_PER_M,
+        }
+    }
+
     /// The model of the histograms.
     pub fn model(&self) -> &Model {
         &self.model
@@ -149,7 +157,12 @@ impl Estimator for Likelihood {
     }
 
     fn estimate(&self, histogram: &[u32]) -> Result<f64, Failure> {
-        Ok((self.fit(histogram)?.echo.arrival_ps - self.delay_ps) / ARRIVAL_PS_PER_M)
+        Ok(self.depth(&self.fit(histogram)?).depth_m)
+    }
+
+    fn find(&self, histogram: &[u32]) -> Result<Found, Failure> {
+        let EchoDepth { depth_m, sigma_m } = self.depth(&self.fit(histogram)?);
+        Ok(Found { depth_m, sigma_m: Some(sigma_m), second: None })
     }
 }
 

@@ -3,7 +3,7 @@
 use tofsim::firmware::likelihood_estimator::params::Params;
 use tofsim::sim::fast::likelihood::estimate;
 
-use super::estimator::{Estimator, Failure};
+use super::estimator::{Estimator, Failure, Found};
 
 /// Its name on the command line.
 pub const NAME: &str = "likelihood_estimator";
@@ -25,9 +25,14 @@ impl Estimator for LikelihoodEstimator {
     }
 
     fn estimate(&self, histogram: &[u32]) -> Result<f64, Failure> {
+        Ok(self.find(histogram)?.depth_m)
+    }
+
+    fn find(&self, histogram: &[u32]) -> Result<Found, Failure> {
         let found = estimate(&self.0, histogram);
+        let sigma_m = Some(found.sigma_m());
         match found.status {
-            0 => Ok(found.depth.to_f64()),
+            0 => Ok(Found { depth_m: found.depth.to_f64(), sigma_m, second: None }),
             status => Err(Failure::NotBelieved(status)),
         }
     }

@@ -34,6 +34,13 @@ impl EstimatorKind {
                 teller.recharge(),
                 teller.afterpulses(0.0),
             ],
+            EstimatorKind::TwoEchoes => vec![
+                teller.mode(),
+                teller.row(),
+                teller.pulses(0.0, 0.0),
+                teller.control(),
+                teller.afterpulses(0.0),
+            ],
             EstimatorKind::LikelihoodEstimator => vec![
                 teller.jitter(0.0),
                 teller.pulses(0.0, 0.0),
@@ -73,7 +80,9 @@ impl EstimatorKind {
     pub fn notes_of_scene(self, setup: &Setup) -> Vec<Note> {
         let teller = Teller { name: self.name(), setup };
         let of_scene = match self {
-            EstimatorKind::Likelihood => teller.first_bin().or_else(|| teller.first_edge()),
+            EstimatorKind::Likelihood | EstimatorKind::TwoEchoes => {
+                teller.first_bin().or_else(|| teller.first_edge())
+            }
             EstimatorKind::Matched => teller.first_bin(),
             EstimatorKind::Centroid => teller
                 .expected(&Centroid(setup.params.centroid_estimator), "pile-up makes it early"),

@@ -7,7 +7,7 @@ use tofsim::sim::setup::Setup;
 
 use super::acquisition::Acquisition;
 use super::by_name::{EstimatorInputs, EstimatorKind};
-use super::estimator::{Estimator, Failure, HistogramPair};
+use super::estimator::{EchoDepth, Estimator, Failure, Found, HistogramPair};
 
 /// Estimators that look at each histogram of a run, beside the one in the firmware.
 #[derive(Default)]
@@ -22,6 +22,12 @@ pub struct Reading {
     pub estimator: &'static str,
     /// Distance of the target [m]; null where it failed.
     pub depth_m: Option<f64>,
+    /// Standard deviation of the depth, where the estimator states one [m].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sigma_m: Option<f64>,
+    /// A second echo, where the estimator looks for one and has found it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub second: Option<EchoDepth>,
     /// Why it failed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failure: Option<String>,
@@ -62,22 +68,32 @@ impl Panel {
 
     /// What each says of a frame, in the order in which they were named.
     pub fn read(&self, histogram: &[u32]) -> Vec<Reading> {
-        self.each(|estimator| estimator.estimate(histogram))
+        self.each(|estimator| estimator.find(histogram))
     }
 
     /// What each says of a dark and a lit frame; most look at the lit one only.
     pub fn read_pair(&self, pair: &HistogramPair) -> Vec<Reading> {
-        self.each(|estimator| estimator.estimate_pair(pair))
+        self.each(|estimator| match estimator.needs_dark() {
+            true => estimator.estimate_pair(pair).map(Found::depth),
+            false => estimator.find(&pair.lit),
+        })
     }
 
     fn each(
         &self,
-        estimate: impl Fn(&dyn Estimator) -> std::result::Result<f64, Failure>,
+        find: impl Fn(&dyn Estimator) -> std::result::Result<Found, Failure>,
     ) -> Vec<Reading> {
         let reading = |one: &dyn Estimator| {
-            let found = estimate(one);
+            let found = find(one);
             let failure = found.as_ref().err().map(ToString::to_string);
-            Reading { estimator: one.name(), failure, depth_m: found.ok() }
+            let found = found.ok();
+            Reading {
+                estimator: one.name(),
+                depth_m: found.map(|found| found.depth_m),
+                sigma_m: found.and_then(|found| found.sigma_m),
+                second: found.and_then(|found| found.second),
+                failure,
+            }
         };
         self.estimators.iter().map(|one| reading(one.as_ref())).collect()
     }

@@ -3,10 +3,16 @@
 //! The hazards of both add up ([`super::model`]), and all five coordinates are free. Climbs begin where a box
 //! stands out most of what one echo leaves, and, for two that seem to be a wide one, to either side of it.
 
-use crate::estimation::acquisition::Echo;
+use crate::estimation::acquisition::{Acquisition, Echo};
+use crate::estimation::estimator::{EchoDepth, Estimator, Failure, Found};
+
+use tofsim::error::Input;
 
 use super::climb::{Top, climb};
 use super::{Fit, Likelihood};
+
+/// Its name on the command line.
+pub const NAME: &str = "two-echoes";
 
 /// Gain of the log likelihood that chance does not make: with two coordinates more it is exponential, so that
 /// 18 come once in 6e7 at a given place [1].
@@ -28,6 +34,42 @@ pub struct Both {
     pub second: Fit,
     /// By how much they are more likely than one echo alone: difference of the logarithms [1].
     pub gain: f64,
+}
+
+/// Maximum likelihood of two echoes where two are sure, of one where they are not.
+#[derive(Clone, Debug)]
+pub struct TwoEchoes(Likelihood);
+
+impl TwoEchoes {
+    /// For histograms that come about so.
+    ///
+    /// # Errors
+    /// As [`Likelihood::new`].
+    pub fn new(acquisition: &Acquisition) -> Result<Self, Input> {
+        Likelihood::new(acquisition).map(TwoEchoes)
+    }
+}
+
+impl Estimator for TwoEchoes {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn estimate(&self, histogram: &[u32]) -> Result<f64, Failure> {
+        Ok(self.find(histogram)?.depth_m)
+    }
+
+    fn find(&self, histogram: &[u32]) -> Result<Found, Failure> {
+        let alone = self.0.fit(histogram)?;
+        let both = self.0.fit_both(histogram, &alone);
+        let (first, second) = both.map_or((alone, None), |both| (both.first, Some(both.second)));
+        let EchoDepth { depth_m, sigma_m } = self.0.depth(&first);
+        Ok(Found {
+            depth_m,
+            sigma_m: Some(sigma_m),
+            second: second.map(|second| self.0.depth(&second)),
+        })
+    }
 }
 
 impl Likelihood {

@@ -115,7 +115,7 @@ fn all(cells: &[(f64, f64)], count: u64) -> Vec<((f64, f64), Outcomes)> {
 
 #[test]
 #[ignore = "prints the table of docs/accuracy.md: 160,000 histograms take a minute or more"]
-fn what_is_said_of_two_echoes() {
+fn prints_what_is_said_of_two_echoes() {
     all(&cells(), 4000);
 }
 

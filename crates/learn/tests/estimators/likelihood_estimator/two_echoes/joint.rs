@@ -91,7 +91,7 @@ fn all(cells: Vec<(f64, f64)>, count: u64) -> Vec<((f64, f64), [Errors; 3])> {
 
 #[test]
 #[ignore = "prints the table of docs/accuracy.md: 40,000 fits take minutes"]
-fn what_a_fit_of_both_comes_to() {
+fn prints_what_a_fit_of_both_comes_to() {
     all(cells(), 1000);
 }
 
