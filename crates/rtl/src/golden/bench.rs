@@ -155,6 +155,7 @@ impl<'a> Bench<'a> {
             line_in = range(vectors.stimulus.width().max(1) as u32),
             line_out = range(vectors.expected.width() as u32),
             looks = looks(vectors),
+            got = pieces("got", vectors.expected.width()),
             allowances = allowances.collect::<String>(),
             beat = BEAT,
             quiet = self.allowed.quiet(vectors),
@@ -262,6 +263,17 @@ fn looks(vectors: &Vectors) -> String {
     (0..vectors.spec.timing.samples()).map(look).collect()
 }
 
+/// What shows all bits of a line: in pieces, because Verilator shows no more than 8192 bits at once.
+fn pieces(line: &str, width: usize) -> String {
+    const PIECE: usize = 4096;
+    if width <= PIECE {
+        return format!("\"%h\", {line}");
+    }
+    let piece = |low: usize| format!("{line}[{}:{low}]", (low + PIECE).min(width) - 1);
+    let pieces: Vec<_> = (0..width).step_by(PIECE).map(piece).rev().collect();
+    format!("\"{}\", {}", "%h".repeat(pieces.len()), pieces.join(", "))
+}
+
 /// Lines that say which columns differ.
 fn show(vectors: &Vectors) -> String {
     let show = |column: &Column| {
@@ -274,4 +286,15 @@ fn show(vectors: &Vectors) -> String {
         )
     };
     vectors.expected.columns().iter().map(show).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::pieces;
+
+    #[test]
+    fn a_wide_line_is_shown_in_pieces_from_the_highest_bit_down() {
+        assert_eq!(pieces("got", 4096), r#""%h", got"#);
+        assert_eq!(pieces("got", 8200), r#""%h%h%h", got[8199:8192], got[8191:4096], got[4095:0]"#);
+    }
 }

@@ -32,7 +32,7 @@ module tb_{name};
       if (mismatches == 0) show;
       mismatches = mismatches + 1;
     end
-    if (got_file != 0) $fdisplay(got_file, "%h", got);
+    if (got_file != 0) $fdisplay(got_file, {got});
     if (quiet > 0) quiet = quiet - 1;
 {resets}  end
   endtask
