@@ -16,7 +16,8 @@ pub fn rows(setup: &Setup, readings: &[Reading]) -> impl Iterator<Item = (&'stat
             let error = setup.true_depth_m().map_or(String::new(), |truth| error(depth_m, truth));
             format!("{depth_m:.6} m{error}")
         };
-        (reading.estimator, said(reading, depth))
+        let unit = if reading.second.is_some() { " m" } else { "" };
+        (reading.estimator, said(reading, depth) + unit)
     })
 }
 
@@ -77,4 +78,23 @@ pub fn said(reading: &Reading, depth: impl Fn(f64) -> String) -> String {
     let Some(depth_m) = reading.depth_m else { return reading.failure.clone().unwrap_or_default() };
     let second = reading.second.map(|second| format!(" and {:.6}", second.depth_m));
     depth(depth_m) + &second.unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use tofsim_learn::estimation::EchoDepth;
+
+    use super::*;
+
+    #[test]
+    fn a_second_surface_stands_beside_the_first_and_its_error() {
+        let setup = Setup::load("kc705", &[]).unwrap();
+        let second = Some(EchoDepth { depth_m: 0.75, sigma_m: 0.001 });
+        let depth_m = Some(0.501);
+        let reading =
+            Reading { estimator: "two-echoes", depth_m, sigma_m: None, second, failure: None };
+        let found: Vec<_> = rows(&setup, &[reading]).collect();
+        let said = "0.501000 m  +1.00 mm and 0.750000 m".to_owned();
+        assert_eq!(found, [("two-echoes", said)]);
+    }
 }
