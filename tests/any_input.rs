@@ -6,6 +6,7 @@ use tofsim::files::csv::CsvInput;
 use tofsim::network::Network;
 use tofsim::network::histogram_file;
 use tofsim::scenario;
+use tofsim::scenario::drift::Profile;
 use tofsim::scenario::window::Window;
 use tofsim::sensor::photon_list::PhotonList;
 
@@ -33,6 +34,12 @@ proptest! {
     fn histograms(text in nearly(&["bin,count", "\n", "0,", "1,5\n", "65535", "#x\n", "\"", " "])) {
         let _ = histogram_file::parse_csv("h", &text, &Default::default());
         let _ = CsvInput::new("h", &text, &["bin", "count"]);
+    }
+
+    #[test]
+    fn conditions(text in nearly(&["time_s,temperature_c,supply_mv", "\n", "0,", "25,", "1\n", "1e-3", "-", "\"", "#"])) {
+        let _ = Profile::parse("p", &format!("time_s,temperature_c,supply_mv\n{text}"));
+        let _ = Profile::parse("p", &text);
     }
 
     #[test]

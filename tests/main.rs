@@ -2,6 +2,7 @@
 
 mod any_input;
 mod common;
+mod conditions;
 mod depth;
 mod docs;
 mod fast_ways;

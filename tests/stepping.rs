@@ -82,6 +82,10 @@ struct Case {
     photons: Option<Vec<(u64, u64, i64)>>,
     /// Delays of a chain [fs].
     chain: Option<(u32, Vec<i64>)>,
+    /// Width of the registers' set-up window [ps].
+    window_ps: u8,
+    /// Temperatures at power-up and some time later.
+    heats: Option<[u8; 2]>,
     /// Whether every other frame is dark.
     pairs: bool,
     frames: u64,
@@ -170,11 +174,15 @@ prop_compose! {
         ],
         photons in prop::option::weighted(0.25, photons()),
         chain in prop::option::weighted(0.25, chain()),
+        window_ps in prop_oneof![4 => Just(0), 1 => 1..6u8],
+        heats in prop::option::weighted(0.2, [15..60u8, 15..60u8]),
         pairs in prop::bool::weighted(0.25),
         frames in 1..6u64,
         clock in prop_oneof![3 => Just(0), 1 => 1..4usize],
     ) -> Case {
-        Case { keys, control, photons, chain, pairs, frames, clock: common::CLOCKS[clock] }
+        Case {
+            keys, control, photons, chain, window_ps, heats, pairs, frames, clock: common::CLOCKS[clock],
+        }
     }
 }
 
@@ -236,6 +244,13 @@ fn set_up(case: &Case, folder: &Path) -> Option<Setup> {
         fs::write(&path, text).unwrap();
         keys.push(format!("tdc.profile={:?}", path.display().to_string()));
     }
+    keys.push(format!("tdc.setup_window_ps={}", case.window_ps));
+    if let Some([from_c, to_c]) = case.heats {
+        let path = folder.join("conditions.csv");
+        let rows = format!("2e-6,{from_c},0\n6e-5,{to_c},1\n");
+        fs::write(&path, format!("time_s,temperature_c,supply_mv\n{rows}")).unwrap();
+        keys.push(format!("tdc.conditions={:?}", path.display().to_string()));
+    }
     let mut loaded = scenario::load("kc705", &keys).unwrap();
     let scenario = &mut loaded.scenario;
     scenario.control = timeline(&case.control, &pll);
@@ -254,7 +269,8 @@ proptest! {
     fn every_way_gives_the_same_in_random_scenarios(case in case()) {
         let folder = tempfile::tempdir().unwrap();
         let Some(setup) = set_up(&case, folder.path()) else {
-            let may_be_refused = case.chain.is_some() || case.clock != common::CLOCKS[0];
+            let may_be_refused =
+                case.chain.is_some() || case.heats.is_some() || case.clock != common::CLOCKS[0];
             prop_assert!(may_be_refused, "only a chain may be refused");
             return Err(TestCaseError::reject("the chain does not fit the clock"));
         };

@@ -1,31 +1,66 @@
 //! What temperature and supply make of a chain: every delay of it grows by the same part.
 //!
-//! A die heats up in seconds, and a frame takes milliseconds: within a run both stand still. The ROM knows the
-//! delays as they were when it was calibrated, and a drift since then is an error of all ages.
+//! A die heats up in seconds, and a frame takes milliseconds: within a run both stand still, unless a profile says
+//! otherwise (`tdc.conditions`). The ROM knows the delays as they were when it was calibrated, and a drift since
+//! then is an error of all ages.
+
+mod profile;
 
 use std::ops::RangeInclusive;
 
 use crate::error::{Input, Result};
-use crate::firmware::carry_chain::Delays;
+use crate::firmware::carry_chain::{Delays, Pace};
 use crate::kernel::Time;
 
+use super::builtin::Source;
 use super::chain::{too_long, too_short};
 use super::model::Tdc;
+
+pub use profile::{Moment, Profile};
 
 /// Temperatures that a commercial part is made for (DS182), as the keys have it [degC].
 pub const DIE_C: RangeInclusive<f64> = 0.0..=85.0;
 /// What the supply may be off its nominal voltage by (DS182), as the keys have it [mV].
 pub const SUPPLY_MV: RangeInclusive<f64> = -30.0..=30.0;
+/// Latest time of a profile within a run: no run is longer [s].
+const LATEST_S: f64 = 10_000.0;
 /// Temperature at which the delays of a chain's file hold [degC].
 pub const REFERENCE_C: f64 = 25.0;
 
-/// A chain now, and as the ROM was calibrated.
+/// A chain at power-up, and as the ROM was calibrated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drifted {
-    /// Its delays in the run.
+    /// Its delays at power-up.
     pub now: Delays,
     /// Those that the calibration knows, if they are others.
     pub calibrated: Option<Delays>,
+    /// What becomes of them within the run, if something does.
+    pub course: Option<Course>,
+}
+
+/// What becomes of the delays within a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Course {
+    /// How many times as long they are over time.
+    pub pace: Pace,
+    /// The shortest and the longest of them against those that the calibration knows [1].
+    pub range: [f64; 2],
+}
+
+/// The conditions over time that a file has, if there is one; its path is taken from `base`.
+///
+/// # Errors
+/// When the file cannot be read, or a row is none.
+pub fn conditions(tdc: &Tdc, base: &Source) -> Result<Option<Profile>> {
+    let Some(name) = &tdc.conditions else { return Ok(None) };
+    let (source, text) = base.read(name)?;
+    let profile = Profile::parse(&source, &text)?;
+    let last_s = profile.moments().last().map_or(0.0, |moment| moment.time_s);
+    if last_s > LATEST_S {
+        let expected = format!("expected times of a run, {LATEST_S} s at most");
+        return Err(Input::new(source, expected).field("time_s").value(last_s).into());
+    }
+    Ok(Some(profile))
 }
 
 impl Drifted {
@@ -34,28 +69,74 @@ impl Drifted {
         self.calibrated.as_ref().unwrap_or(&self.now)
     }
 
-    /// A chain whose file has these delays, sampled with a clock of the period `cycle`.
+    /// A chain whose file has these delays, sampled with a clock of the period `cycle`, in the conditions of the keys
+    /// or of a profile.
     ///
     /// # Errors
-    /// When it is too short or too long for the clock at that temperature and supply.
-    pub fn new(own: Delays, tdc: &Tdc, cycle: Time) -> Result<Self> {
-        let (celsius, millivolts) = (tdc.temperature_c, tdc.supply_mv);
-        let at_c = tdc.calibrated_at_c.unwrap_or(celsius);
-        let at_mv = tdc.calibrated_at_mv.unwrap_or(millivolts);
-        let by = |conditions: [(&'static str, f64); 2]| {
-            let [(_, celsius), (_, millivolts)] = conditions;
-            let by_c = tdc.delay_per_c * (celsius - REFERENCE_C);
-            let by_mv = tdc.delay_per_mv * millivolts;
-            let [of_c, of_mv] = conditions;
-            let cause = if by_mv.abs() > by_c.abs() { of_mv } else { of_c };
-            ((1.0 + by_c) * (1.0 + by_mv), cause)
+    /// When it is too short or too long for the clock in one of the conditions.
+    pub fn new(own: Delays, tdc: &Tdc, profile: Option<&Profile>, cycle: Time) -> Result<Self> {
+        let given = Conditions {
+            celsius: ("tdc.temperature_c", tdc.temperature_c),
+            millivolts: ("tdc.supply_mv", tdc.supply_mv),
         };
-        let (now, cause) = by([("tdc.temperature_c", celsius), ("tdc.supply_mv", millivolts)]);
-        let (then, cause_then) =
-            by([("tdc.calibrated_at_c", at_c), ("tdc.calibrated_at_mv", at_mv)]);
-        let calibrated = (then != now).then(|| stretched(&own, then, cycle, cause_then));
+        let of_profile: Vec<_> = profile.into_iter().flat_map(Profile::moments).collect();
+        let now = of_profile.first().map_or(given, |moment| Conditions::of(moment));
+        let then = Conditions {
+            celsius: ("tdc.calibrated_at_c", tdc.calibrated_at_c.unwrap_or(now.celsius.1)),
+            millivolts: ("tdc.calibrated_at_mv", tdc.calibrated_at_mv.unwrap_or(now.millivolts.1)),
+        };
+        let [factor, factor_then] = [now, then].map(|conditions| conditions.factor(tdc));
+        let calibrated =
+            (factor_then != factor).then(|| stretched(&own, factor_then, cycle, then.cause(tdc)));
         let calibrated = calibrated.transpose()?;
-        Ok(Drifted { now: stretched(&own, now, cycle, cause)?, calibrated })
+        let mut range = [factor; 2];
+        for conditions in of_profile.iter().map(|moment| Conditions::of(moment)) {
+            let factor = conditions.factor(tdc);
+            if factor < range[0] || factor > range[1] {
+                stretched(&own, factor, cycle, conditions.cause(tdc))?;
+            }
+            range = [range[0].min(factor), range[1].max(factor)];
+        }
+        let point = |moment: &&Moment| {
+            let at = Time::from_ps_f64(moment.time_s * 1e12);
+            (at, Conditions::of(moment).factor(tdc) / factor)
+        };
+        let course = (range[0] < range[1]).then(|| Course {
+            pace: Pace::new(of_profile.iter().map(point).collect()),
+            range: range.map(|factor| factor / factor_then),
+        });
+        Ok(Drifted { now: stretched(&own, factor, cycle, now.cause(tdc))?, calibrated, course })
+    }
+}
+
+/// Temperature and supply, with the keys that say what they are.
+#[derive(Clone, Copy, Debug)]
+struct Conditions {
+    celsius: (&'static str, f64),
+    millivolts: (&'static str, f64),
+}
+
+impl Conditions {
+    fn of(moment: &Moment) -> Self {
+        let key = "tdc.conditions";
+        Conditions { celsius: (key, moment.temperature_c), millivolts: (key, moment.supply_mv) }
+    }
+
+    /// What they make of the delays, each by itself [1].
+    fn parts(&self, tdc: &Tdc) -> [f64; 2] {
+        [tdc.delay_per_c * (self.celsius.1 - REFERENCE_C), tdc.delay_per_mv * self.millivolts.1]
+    }
+
+    /// How many times as long as at the reference each delay is [1].
+    fn factor(&self, tdc: &Tdc) -> f64 {
+        let [by_c, by_mv] = self.parts(tdc);
+        (1.0 + by_c) * (1.0 + by_mv)
+    }
+
+    /// The key that makes most of it, and its value.
+    fn cause(&self, tdc: &Tdc) -> (&'static str, f64) {
+        let [by_c, by_mv] = self.parts(tdc);
+        if by_mv.abs() > by_c.abs() { self.millivolts } else { self.celsius }
     }
 }
 
@@ -90,24 +171,24 @@ mod tests {
 
     #[test]
     fn at_the_reference_the_chain_is_its_file_s() {
-        let drifted = Drifted::new(own(), &Tdc::default(), CYCLE).unwrap();
-        assert_eq!(drifted, Drifted { now: own(), calibrated: None });
+        let drifted = Drifted::new(own(), &Tdc::default(), None, CYCLE).unwrap();
+        assert_eq!(drifted, Drifted { now: own(), calibrated: None, course: None });
         // Calibrated anew at each temperature.
         let warm = Tdc { temperature_c: 65.0, ..Tdc::default() };
-        assert_eq!(Drifted::new(own(), &warm, CYCLE).unwrap().calibrated, None);
+        assert_eq!(Drifted::new(own(), &warm, None, CYCLE).unwrap().calibrated, None);
     }
 
     #[test]
     fn forty_degrees_are_four_percent_of_every_delay() {
         let warm = Tdc { temperature_c: 65.0, calibrated_at_c: Some(25.0), ..Tdc::default() };
-        let drifted = Drifted::new(own(), &warm, CYCLE).unwrap();
+        let drifted = Drifted::new(own(), &warm, None, CYCLE).unwrap();
         assert_eq!(drifted.known(), &own());
         for n in [0, 1, 400, 800] {
             let [now, own] = [&drifted.now, &own()].map(|delays| delays.boundary(n).fs() as f64);
             assert!((now / own - 1.04).abs() < 1e-9, "{n}");
         }
         let low = Tdc { supply_mv: -10.0, ..Tdc::default() };
-        let slow = Drifted::new(own(), &low, CYCLE).unwrap().now;
+        let slow = Drifted::new(own(), &low, None, CYCLE).unwrap().now;
         assert_eq!(slow.tap_0().fs(), 2_020_000);
     }
 
@@ -115,13 +196,13 @@ mod tests {
     fn a_chain_that_the_cold_makes_too_short_is_refused_by_key() {
         let scant = Delays::new(Time::from_ns(2), &[10_050; TAPS]).unwrap();
         let cold = Tdc { temperature_c: 5.0, ..Tdc::default() };
-        let error = Drifted::new(scant.clone(), &cold, CYCLE).unwrap_err().to_string();
+        let error = Drifted::new(scant.clone(), &cold, None, CYCLE).unwrap_err().to_string();
         assert!(error.contains("tdc.temperature_c = 5: with delays 0.9800 times those"), "{error}");
         let then = Tdc { calibrated_at_c: Some(5.0), ..Tdc::default() };
-        let error = Drifted::new(scant.clone(), &then, CYCLE).unwrap_err().to_string();
+        let error = Drifted::new(scant.clone(), &then, None, CYCLE).unwrap_err().to_string();
         assert!(error.contains("tdc.calibrated_at_c = 5"), "{error}");
         let high = Tdc { temperature_c: 20.0, supply_mv: 20.0, ..Tdc::default() };
-        let error = Drifted::new(scant, &high, CYCLE).unwrap_err().to_string();
+        let error = Drifted::new(scant, &high, None, CYCLE).unwrap_err().to_string();
         assert!(error.contains("tdc.supply_mv = 20"), "{error}");
     }
 }

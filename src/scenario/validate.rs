@@ -71,9 +71,19 @@ fn bins(scenario: &Scenario, checked: &Checked) -> Result<()> {
     }
 }
 
-/// That a firmware that calibrates itself is told nothing else, and has a TDC.
+/// That conditions are said once, and a firmware that calibrates itself is told nothing else, and has a TDC.
 fn calibration(scenario: &Scenario, checked: &Checked) -> Result<()> {
     let (tdc, stimulus) = (&scenario.tdc, &scenario.stimulus);
+    let usual = Tdc::default();
+    for (key, value, usual) in [
+        ("tdc.temperature_c", tdc.temperature_c, usual.temperature_c),
+        ("tdc.supply_mv", tdc.supply_mv, usual.supply_mv),
+    ] {
+        if tdc.conditions.is_some() && value != usual {
+            let expected = format!("expected {usual}: tdc.conditions says what it is");
+            return Err(checked.fault(key, expected).value(value).into());
+        }
+    }
     if tdc.recalibrate_frames == 0 {
         return Ok(());
     }

@@ -43,6 +43,8 @@ pub enum Source {
     CodeDensity = 14,
     /// Edges of the ring oscillator; the frame's place is the run's.
     Ring = 15,
+    /// When within its set-up window each register of the chain samples; the place in the stream is the edge's time.
+    SetupWindow = 16,
 }
 
 /// Words of 32 bits that a shot may take from its stretch.

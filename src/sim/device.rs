@@ -47,6 +47,7 @@ impl Device {
         (pins, p): (Pins, &Params),
         pll: Pll,
         jitter: Option<Jitter>,
+        line: StopLine,
         mut light: Light,
         (mut spads, ring): (Spads, Ring),
         timeline: Timeline,
@@ -54,7 +55,7 @@ impl Device {
         spads.arm_all(light.next_avalanche(Time::ZERO, 1.0));
         Device {
             top: TofTop::new(pins, p),
-            line: StopLine::default(),
+            line,
             spads,
             ring,
             light,

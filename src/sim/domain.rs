@@ -14,7 +14,7 @@ use crate::scenario::drift::REFERENCE_C;
 
 /// Keys of the scenario that decide how the histograms of a frame are distributed. The laser's rate is
 /// none of them: in MODE 0 every shot begins with a reset.
-const KEYS: [&str; 43] = [
+const KEYS: [&str; 44] = [
     "target.distance_m",
     "target.reflectance",
     "target.length_m",
@@ -54,6 +54,7 @@ const KEYS: [&str; 43] = [
     PER_C,
     PER_MV,
     RECALIBRATED,
+    WINDOW,
     CLK_SYS,
     "pll.jitter_rms_ps",
     "firmware.mode",
@@ -78,6 +79,7 @@ const SUPPLY_THEN: &str = "tdc.calibrated_at_mv";
 const PER_C: &str = "tdc.delay_per_c";
 const PER_MV: &str = "tdc.delay_per_mv";
 const RECALIBRATED: &str = "tdc.recalibrate_frames";
+const WINDOW: &str = "tdc.setup_window_ps";
 /// What a drift of the chain is of.
 pub(crate) const OF_DRIFT: [&str; 6] = [DIE, SUPPLY, DIE_THEN, SUPPLY_THEN, PER_C, PER_MV];
 /// Keys that say what follows from others, and decide nothing while these are all at a reference.
@@ -89,7 +91,7 @@ const FOLLOWING: [(&str, &[&str], f64); 3] = [
 /// What the dividers come to, which no key of a file says [MHz].
 const CLK_SYS: &str = "pll.clk_sys_mhz";
 /// Keys that older files do not have, and the only value that there was.
-const LATER: [(&str, f64); 19] = [
+const LATER: [(&str, f64); 20] = [
     (TAIL, 0.0),
     (DELAY, 0.0),
     (TIMING, 0.0),
@@ -108,6 +110,7 @@ const LATER: [(&str, f64); 19] = [
     (PER_C, 0.001),
     (PER_MV, -0.001),
     (RECALIBRATED, 0.0),
+    (WINDOW, 0.0),
     (CLK_SYS, 125.0),
 ];
 const CHAIN: &str = "tdc.profile";

@@ -22,6 +22,7 @@ use crate::firmware::tof_top::Params;
 
 use super::device::Device;
 use super::frames::Frames;
+use super::setup::Setup;
 
 pub use acquisition::acquire;
 pub use frame_end::leap_frame_end;
@@ -42,9 +43,16 @@ pub enum Stepping {
 }
 
 impl Stepping {
-    /// That way, or the plain step where the firmware calibrates itself: the others know nothing of its ring.
-    pub(super) fn at_most(self, p: &Params) -> Self {
-        if p.tdc_calibration.is_some() { Stepping::EveryCycle } else { self }
+    /// That way, or the plain step where the firmware calibrates itself: the others know nothing of its ring. Shots
+    /// through a chain that is another at each edge are not leapt over.
+    pub(super) fn at_most(self, setup: &Setup) -> Self {
+        if setup.params.tdc_calibration.is_some() {
+            Stepping::EveryCycle
+        } else if setup.has_disturbance() {
+            self.min(Stepping::SkipIdle)
+        } else {
+            self
+        }
     }
 }
 

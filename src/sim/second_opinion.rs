@@ -77,6 +77,14 @@ impl SecondOpinion {
         if jitter_ps > 0.0 {
             return Err(none("pll.jitter_rms_ps", jitter_ps.into(), "0: it blurs the pulse"));
         }
+        let tdc = &scenario.tdc;
+        if let (true, Some(file)) = (setup.course.is_some(), tdc.conditions.as_deref()) {
+            return Err(none("tdc.conditions", file.into(), "none: bins that stand still"));
+        }
+        let window_ps = tdc.setup_window_ps;
+        if window_ps > 0.0 {
+            return Err(none("tdc.setup_window_ps", window_ps.into(), "0: it blurs the bins"));
+        }
         let laser = &scenario.laser;
         for (key, value) in [
             ("laser.timing_jitter_ps", laser.timing_jitter_ps),

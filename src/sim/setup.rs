@@ -1,5 +1,6 @@
 //! From a scenario to a device: what elaboration, optics and stimuli come to.
 
+mod converter;
 mod expectations;
 mod fits;
 mod instrument;
@@ -12,7 +13,7 @@ use std::sync::Arc;
 
 use crate::error::{Input, Result};
 use crate::files::digest::digest_of;
-use crate::firmware::carry_chain::Delays;
+use crate::firmware::carry_chain::{Delays, StopLine};
 use crate::firmware::forward2::Depth;
 use crate::firmware::pll::Pll;
 use crate::firmware::tdc_decoder::TimeScale;
@@ -28,11 +29,9 @@ use crate::note::Note;
 use crate::optics::dark::dark_spread;
 use crate::optics::{Bins, Budget, Hazard};
 use crate::scenario::builtin::Source;
-use crate::scenario::drift::Drifted;
+use crate::scenario::drift::Course;
 use crate::scenario::window::Window;
-use crate::scenario::{
-    self, DeadTimeKind, EstimatorKind, Loaded, Scenario, calibration, chain, pulse,
-};
+use crate::scenario::{self, DeadTimeKind, EstimatorKind, Loaded, Scenario, pulse};
 use crate::sensor::light::{Light, Optics};
 use crate::sensor::ring::Ring;
 use crate::sensor::row::Effects;
@@ -44,6 +43,7 @@ use super::fast::centroid::locate;
 use super::fast::likelihood;
 use super::jitter::Jitter;
 use super::timeline::{Timeline, pins_at_power_up};
+use converter::Converter;
 use stimulus::stimulus;
 
 /// Cycles of a frame beside its shots, Clear, Drain and the estimator: the hand-overs.
@@ -75,6 +75,10 @@ pub struct Setup {
     calibrated: Option<Delays>,
     /// The converter as its calibration has it, if it is another.
     known_tdc: Option<tdc::Params>,
+    /// What becomes of the delays in a run, if something does.
+    pub(super) course: Option<Course>,
+    /// The wire to the chain at power-up.
+    line: StopLine,
     /// The network in the estimator.
     pub network: Network,
     /// Why no depth of a run can be that of the target, if none can.
@@ -122,33 +126,13 @@ impl Setup {
         let network = network(&scenario, &files)?;
         let pll = Pll::new(&scenario.pll.params());
         let histogram = scenario.histogram();
-        let own = chain::load(&scenario.tdc.profile, &files, pll.cycle)?;
-        let chain = Drifted::new(own, &scenario.tdc, pll.cycle)?;
-        let scale = time_scale(&scenario.tdc, pll.cycle);
-        let rom = calibration::load(
-            &scenario.tdc.calibration,
-            &files,
-            (chain.known(), scenario.tdc.decoder),
-            &scale,
-        )?;
+        let converter = Converter::new(&scenario, &files, pll.cycle)?;
         let (code_source, histogram_source, light) = stimulus(&scenario, &files, &histogram)?;
         let budget = Budget::new(&scenario, pulse::load(&scenario.laser, &files)?);
         let light = light.unwrap_or_else(|| {
             let (lit, dark) = (Hazard::new(&budget), Hazard::dark(&budget));
             Light::Optics(Box::new(Optics::new(lit, dark, scenario.seed)))
         });
-        let (coarse_bits, count_stages) = (scenario.tdc.coarse_bits, scenario.tdc.count_stages);
-        let tdc = tdc::Params::new(chain.now, scale, coarse_bits, count_stages)
-            .with_decoder(scenario.tdc.decoder)
-            .with_calibration(rom.cal);
-        let (tdc, tdc_calibration) = recalibration::of(&scenario.tdc, tdc);
-        let calibrated = chain.calibrated;
-        let known_tdc = match (rom.chain, &calibrated) {
-            // In order, and so that each decoder has the same.
-            (Some(chain), _) => Some(tdc.clone().in_order(chain)),
-            (None, Some(delays)) => Some(tdc.clone().with_delays(delays.clone())),
-            (None, None) => None,
-        };
         let params = Params {
             histogram,
             frame_ctrl: frame_ctrl::Params {
@@ -161,8 +145,8 @@ impl Setup {
                 periods: scenario.firmware.laser_periods.clone(),
                 pulse_half_cycles: scenario.firmware.pulse_half_cycles,
             },
-            tdc,
-            tdc_calibration,
+            tdc: converter.tdc,
+            tdc_calibration: converter.tdc_calibration,
             depth_estimator: match network.fits(&histogram) {
                 true => network.params(&histogram),
                 false => network::blank(&histogram),
@@ -181,7 +165,8 @@ impl Setup {
         };
         fits::check(&name, &params)?;
         if params.tdc_calibration.is_some() {
-            fits::check_ring(&name, &recalibration::ring(&scenario.tdc), &params.tdc)?;
+            let slowest = converter.course.as_ref().map_or(1.0, |course| course.range[1]);
+            fits::check_ring(&name, &recalibration::ring(&scenario.tdc), &params.tdc, slowest)?;
         }
         let (pins, no_depth) = (pins_at_power_up(&scenario.firmware), None);
         let mut setup = Setup {
@@ -190,8 +175,10 @@ impl Setup {
             set,
             budget,
             params,
-            calibrated,
-            known_tdc,
+            calibrated: converter.calibrated,
+            known_tdc: converter.known,
+            course: converter.course,
+            line: converter.line,
             network,
             pll,
             light,
@@ -244,6 +231,7 @@ impl Setup {
             (self.pins, &self.params),
             self.pll.clone(),
             jitter,
+            self.line.clone(),
             self.light.clone(),
             (self.spads(), Ring::new(ring, scenario.seed)),
             Timeline::new(scenario),
@@ -272,6 +260,17 @@ impl Setup {
     /// code density could not see.
     pub fn known_bins(&self) -> Bins {
         self.known_tdc.as_ref().map_or_else(|| self.bins(), Bins::of_tdc)
+    }
+
+    /// The wire to the chain at power-up.
+    pub fn stop_line(&self) -> &StopLine {
+        &self.line
+    }
+
+    /// Whether the chain is another at each edge: registers that sample at any instant of a set-up window, or
+    /// delays that follow conditions.
+    pub fn has_disturbance(&self) -> bool {
+        self.line.is_disturbed()
     }
 
     /// Whether the chain has drifted since its calibration.

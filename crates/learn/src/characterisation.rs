@@ -8,6 +8,7 @@ pub mod rom;
 pub mod timing;
 pub mod transfer;
 
+use tofsim::firmware::carry_chain::StopLine;
 use tofsim::firmware::tdc;
 use tofsim::firmware::tdc_decoder::{self, Decoder, Encoder};
 
@@ -55,8 +56,9 @@ pub struct Characterisation {
 }
 
 impl Characterisation {
-    /// Of a converter, with so many hits of the code-density test, and as many times at random.
-    pub fn new(p: &tdc::Params, hits: u64, seed: u64) -> Self {
+    /// Of a converter, with so many hits of the code-density test, and as many times at random, these through that
+    /// wire: all else is of registers that sample at the edge.
+    pub fn new((p, line): (&tdc::Params, &StopLine), hits: u64, seed: u64) -> Self {
         let scale = p.decoder.scale;
         let uncalibrated = tdc_decoder::Params::uniform_calibration(&p.delays, &scale);
         let raw = p.clone().with_calibration(uncalibrated);
@@ -76,7 +78,7 @@ impl Characterisation {
             bubbles: Bubbles::new(&p.delays, &reached),
             transfer: Transfer::new(p, &raw),
             edges: edges::edges(p),
-            phases: Phases::new(p, hits, seed),
+            phases: Phases::new(p, line, hits, seed),
             stops: STOPS_NS.into_iter().filter_map(stop).collect(),
             density,
         }

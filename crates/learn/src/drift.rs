@@ -4,8 +4,6 @@
 //! The conditions stand still within a frame: a die takes seconds for a degree. Both calibrations are right as
 //! they are made, and what is drawn at a moment is drawn from the same random numbers for both.
 
-mod profile;
-
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
@@ -13,13 +11,12 @@ use serde::Serialize;
 
 use tofsim::error::{Error, Input, Result};
 use tofsim::scenario::Loaded;
+use tofsim::scenario::drift::{Moment, Profile};
 use tofsim::sim::setup::Setup;
 
 use crate::dataset::{HistogramSource, Scene};
 use crate::estimation::{EstimatorInputs, EstimatorKind};
 use crate::evaluation::Spread;
-
-pub use profile::{Moment, Profile};
 
 /// What is done at each moment of a profile.
 #[derive(Clone, Copy, Debug)]

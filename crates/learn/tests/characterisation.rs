@@ -20,7 +20,7 @@ fn params(keys: &[&str]) -> tdc::Params {
 }
 
 fn of(keys: &[&str]) -> Characterisation {
-    Characterisation::new(&params(keys), HITS, 1)
+    Characterisation::new((&params(keys), &StopLine::default()), HITS, 1)
 }
 
 #[test]
@@ -107,7 +107,8 @@ fn a_calibration_comes_to_the_precision_that_the_widths_allow() {
     let rom = CalibratedRom::new("counts", &counts, &p).unwrap();
     assert!(rom.note().is_none());
     let cal = rom.entries.iter().map(|entry| tofsim::kernel::U::new(entry.units)).collect();
-    let found = Characterisation::new(&p.clone().with_calibration(cal), HITS, 2);
+    let found =
+        Characterisation::new((&p.clone().with_calibration(cal), &StopLine::default()), HITS, 2);
     let ratio = found.calibrated.precision_ps / sigma_ps;
     assert!((1.0..1.15).contains(&ratio), "{ratio}");
     // Each age is within its standard error of the truth, as often as it should be.
@@ -186,10 +187,37 @@ fn no_hit_at_any_of_a_million_phases_is_off_by_a_period() {
             largest = largest.max((time - t as f64 * 1e-3).abs());
         }
         assert!(largest < 0.03 * period as f64 * 1e-3, "{keys:?}: {largest}");
-        let found = Characterisation::new(&p, 100_000, 1);
+        let found = Characterisation::new((&p, &StopLine::default()), 100_000, 1);
         assert!(found.is_coarse_right(), "{keys:?}");
         assert!(found.phases.largest_error_ps <= largest + 5.0, "{keys:?}: {:?}", found.phases);
         assert_eq!(found.edges.len() as u64, p.coarse_counter.window() - 1, "{keys:?}");
+    }
+}
+
+/// Registers that sample up to half of their window early or late take a hit for one as much older or younger, and no
+/// more: each decoder's number lies between those of the two.
+#[test]
+fn metastable_taps_add_half_of_their_window_to_the_largest_error_at_any_of_a_million_phases() {
+    for (keys, window_ps) in [
+        (&["tdc.profile=uniform"][..], 40.0),
+        (&["tdc.profile=kintex7"], 19.0),
+        (&["tdc.profile=kintex7", "tdc.decoder=leading"], 19.0),
+        (&["tdc.profile=kintex7", "tdc.decoder=reordered"], 19.0),
+        (&["tdc.profile=ecp5", "pll.output_divide=10"], 100.0),
+    ] {
+        let phases = |window_ps: f64| {
+            let window = format!("tdc.setup_window_ps={window_ps}");
+            let setup = Setup::load("kc705", &[keys, &[&window]].concat()).unwrap();
+            let converter = (&setup.params.tdc, setup.stop_line());
+            Characterisation::new(converter, HITS, 1).phases
+        };
+        let (none, wide) = (phases(0.0), phases(window_ps));
+        println!("{keys:?} {window_ps} ps: {none:?} {wide:?}");
+        assert_eq!(wide.off, 0, "{keys:?}");
+        let most_ps = none.largest_error_ps + window_ps / 2.0;
+        assert!(wide.largest_error_ps > none.largest_error_ps, "{keys:?}: {wide:?}");
+        // A million phases do not come to the worst one.
+        assert!(wide.largest_error_ps < most_ps + 1.0, "{keys:?}: {wide:?} {none:?}");
     }
 }
 
@@ -203,7 +231,7 @@ fn a_coarse_count_that_does_not_go_with_the_taps_is_found() {
         _ => *age,
     });
     let folded = p.clone().with_calibration(folded.collect());
-    let found = Characterisation::new(&folded, 10_000, 1);
+    let found = Characterisation::new((&folded, &StopLine::default()), 10_000, 1);
     assert!(!found.is_coarse_right() && found.phases.off > 1_000, "{:?}", found.phases);
 }
 

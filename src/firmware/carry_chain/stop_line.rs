@@ -1,9 +1,12 @@
 //! The wire from the SPAD to the chain.
 
 use crate::kernel::Time;
-use crate::kernel::thermometer::MAX_TRANSITIONS;
 
 use super::delays::{Delays, Taps};
+use super::disturbance::Disturbance;
+
+/// Transitions that may travel in a chain at once.
+const MAX_TRANSITIONS: usize = 8;
 
 /// Its level and the transitions still travelling in the chain.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -14,9 +17,26 @@ pub struct StopLine {
     /// Place of the newest.
     newest: usize,
     travelling: usize,
+    /// What makes the chain another at each edge, if something does.
+    disturbance: Option<Box<Disturbance>>,
 }
 
 impl StopLine {
+    /// Low, to a chain that is another at each edge.
+    pub fn disturbed(disturbance: Disturbance) -> Self {
+        StopLine { disturbance: Some(Box::new(disturbance)), ..StopLine::default() }
+    }
+
+    /// Whether the chain is another at each edge.
+    pub fn is_disturbed(&self) -> bool {
+        self.disturbance.is_some()
+    }
+
+    /// It is low, and has been for long.
+    pub fn settle(&mut self) {
+        (self.level, self.travelling) = (false, 0);
+    }
+
     /// The level now.
     pub fn level(&self) -> bool {
         self.level
@@ -36,6 +56,12 @@ impl StopLine {
         }
     }
 
+    /// How old the `nth` transition that still travels is at `now`, 0 the newest.
+    #[cfg(test)]
+    pub(super) fn age_of(&self, nth: usize, now: Time) -> Option<Time> {
+        (nth < self.travelling).then(|| now - self.at(nth))
+    }
+
     /// When the `nth` transition was, 0 the newest.
     #[inline(always)]
     fn at(&self, nth: usize) -> Time {
@@ -51,6 +77,9 @@ impl StopLine {
     /// The taps at a clock edge; forgets transitions that have left the chain.
     #[inline(always)]
     pub fn sample(&mut self, now: Time, delays: &Delays) -> Taps {
+        if self.travelling > 0 && self.is_disturbed() {
+            return self.sample_disturbed(now, delays);
+        }
         while self.travelling > 0 && now - self.at(self.travelling - 1) >= delays.longest() {
             self.travelling -= 1;
         }
@@ -64,6 +93,20 @@ impl StopLine {
     fn sample_travelling(&self, now: Time, delays: &Delays) -> Taps {
         let ages = (0..self.travelling).map(|nth| now - self.at(nth));
         Taps::new(self.level, ages.map(|age| delays.rank_inside(age)))
+    }
+
+    #[cold]
+    fn sample_disturbed(&mut self, now: Time, delays: &Delays) -> Taps {
+        let mut ages = [Time::ZERO; MAX_TRANSITIONS];
+        let ages = &mut ages[..self.travelling];
+        for (nth, age) in ages.iter_mut().enumerate() {
+            *age = now - self.at(nth);
+        }
+        let Some(disturbance) = &mut self.disturbance else { return Taps::settled(self.level) };
+        disturbance.usual(ages, now);
+        let end = delays.longest() + disturbance.half_window();
+        self.travelling = ages.partition_point(|age| *age < end);
+        disturbance.sample((self.level, &ages[..self.travelling]), now, delays)
     }
 }
 

@@ -37,12 +37,20 @@ table! {
         /// Supply less its nominal voltage as the ROM was calibrated; without it that of now.
         #[schemars(range(min = -30.0, max = 30.0), extend("unit" = "mV", "source" = "choice: calibrated now"))]
         pub calibrated_at_mv: Option<f64> = None,
+        /// Temperature and supply over the time from power-up, in place of `temperature_c` and `supply_mv`: a CSV
+        /// file with columns `time_s`, `temperature_c` and `supply_mv`. Delays are linear between two rows.
+        #[schemars(extend("source" = "choice: they stand still"))]
+        pub conditions: Option<String> = None,
         /// By which part of itself every delay of the chain grows with each degree.
         #[schemars(range(min = -0.005, max = 0.005), extend("unit" = "1/degC", "source" = "ring oscillators on 7-series silicon: -0.097 and -0.101 % a degree, from 29 to 44 degC"))]
         pub delay_per_c: f64 = 0.001,
         /// By which part of itself every delay of the chain grows with each millivolt of supply.
         #[schemars(range(min = -0.005, max = 0.005), extend("unit" = "1/mV", "source" = "about -1 % for each 10 mV, a rule of thumb: not measured"))]
         pub delay_per_mv: f64 = -0.001,
+        /// Time about an edge within which each tap's register samples, at any instant alike: set-up and hold, within
+        /// which a register goes metastable. 0: all sample at the edge.
+        #[schemars(range(min = 0.0, max = 1000.0), extend("unit" = "ps", "source" = "choice: none; docs/model.md"))]
+        pub setup_window_ps: f64 = 0.0,
         /// Frames from one calibration in the firmware (`tdc_calibration`) to the next; the first is before the
         /// first frame. 0 for none: then the ROM holds what `calibration` says.
         #[schemars(range(max = 65_535), extend("unit" = "frames", "source" = "choice: none, as the thesis has none"))]

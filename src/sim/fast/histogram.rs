@@ -29,7 +29,7 @@ use super::outcomes::ShotOutcomes;
 ///
 /// # Errors
 /// When more than a shot's first avalanche decides what becomes of it (MODE 1, afterpulses, a calibration in the
-/// firmware, jitter, control changes, a stimulus in place of light, a chain too long for the laser rate), or a frame never ends.
+/// firmware, jitter, a chain that is another at each edge, control changes, a stimulus in place of light, a chain too long for the laser rate), or a frame never ends.
 pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics, ShotOutcomes)> {
     let refusal = |field: &str, why: &str| {
         let expected = format!("{who} draws a frame as a whole: {why}");
@@ -58,6 +58,15 @@ pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics,
     if recalibrated > 0 {
         let why = "expected 0: ages are those of the hits of each calibration";
         return Err(refusal("tdc.recalibrate_frames", why).value(recalibrated).into());
+    }
+    let tdc = &setup.scenario.tdc;
+    if tdc.setup_window_ps > 0.0 {
+        let why = "expected 0: each edge draws when its registers sample";
+        return Err(refusal("tdc.setup_window_ps", why).value(tdc.setup_window_ps).into());
+    }
+    if let (true, Some(file)) = (setup.has_disturbance(), &tdc.conditions) {
+        let why = "expected none: the chain changes within a frame";
+        return Err(refusal("tdc.conditions", why).value(file).into());
     }
     if !setup.scenario.control.is_empty() {
         return Err(refusal("control", "nothing may change within it").into());

@@ -11,7 +11,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::prelude::*;
 
 use crate::error::{Error, Result};
-use crate::firmware::carry_chain::StopLine;
 use crate::firmware::tof_top::CodeSource;
 use crate::kernel::Time;
 use crate::scenario::QuenchMode;
@@ -41,6 +40,7 @@ impl Setup {
             && self.scenario.spad.afterpulse_probability == 0.0
             // A frame has the ages of the calibration before it.
             && self.params.tdc_calibration.is_none()
+            && self.course.is_none()
             && delays.tap_0() <= self.cycle()
             && delays.longest() <= self.cycle() + self.cycle()
     }
@@ -131,7 +131,7 @@ fn pass(device: &mut Device, cycles: u64, frame: u64) {
     device.timeline.pass(device.pll.clk_sys.rise(device.cycle) - begun);
     device.begin_frame(frame);
     device.spads.arm_all(Time::NEVER);
-    device.line = StopLine::default();
+    device.line.settle();
 }
 
 /// Makes the frames of a range on all threads and hands them on in order, some at a time.

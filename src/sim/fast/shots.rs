@@ -7,7 +7,6 @@
 
 use std::sync::Arc;
 
-use crate::firmware::carry_chain::StopLine;
 use crate::firmware::tdc::Tdc;
 use crate::firmware::tof_top::{Params, TofTop};
 use crate::firmware::vcsel_driver::{MOST_RATES, Rate};
@@ -78,7 +77,7 @@ pub fn leap_shots(
     let now = device.pll.clk_sys.rise(device.cycle - 1);
     device.light.begin_shot(now, lit);
     device.spads.arm_all(device.light.next_avalanche(now, 1.0));
-    device.line = StopLine::default();
+    device.line.settle();
     frames.shots += shots;
     frames.tdc_hits += shots - u64::from(counts[NO_HIT as usize]);
 }

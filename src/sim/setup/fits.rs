@@ -49,16 +49,22 @@ pub(super) fn check(scenario: &str, params: &Params) -> Result<()> {
 }
 
 /// Refuses a ring of which two edges would be in the chain at once, or hide between two edges of the clock, and a
-/// chain that hits reach so late that their age has no word.
+/// chain that hits reach so late that their age has no word; in a run its delays are up to `slowest` times as long.
 ///
 /// # Errors
 /// The key, its value, and one that would fit.
-pub(super) fn check_ring(scenario: &str, ring: &ring::Params, tdc: &tdc::Params) -> Result<()> {
+pub(super) fn check_ring(
+    scenario: &str,
+    ring: &ring::Params,
+    tdc: &tdc::Params,
+    slowest: f64,
+) -> Result<()> {
     let fault = |key: &str, expected: String| {
         Input::new(format!("scenario {scenario}"), expected).field(key)
     };
-    let (period, longest, tap_0) =
-        (tdc.decoder.scale.period(), tdc.delays.longest(), tdc.delays.tap_0());
+    let at_most = |age: Time| Time::from_fs((age.fs() as f64 * slowest).ceil() as u64);
+    let period = tdc.decoder.scale.period();
+    let (longest, tap_0) = (at_most(tdc.delays.longest()), at_most(tdc.delays.tap_0()));
     if tap_0 > period {
         let (ps, most) = (tap_0.fs() as f64 * 1e-3, period.fs() as f64 * 1e-3);
         let expected = format!(

@@ -45,11 +45,36 @@ impl Setup {
         let is_of_drift = |note: &Note| domain::OF_DRIFT.contains(&note.key.as_str());
         let has_learnt = of_network
             .is_some_and(|notes| self.network.domain.is_some() && !notes.iter().any(is_of_drift));
-        if has_learnt { None } else { self.drift() }
+        if has_learnt && self.course.is_none() { None } else { self.drift() }
     }
 
-    /// That the chain has drifted since the TDC was calibrated, if it has.
+    /// That the chain drifts within a run, or has drifted since the TDC was calibrated, if it does.
     fn drift(&self) -> Option<Note> {
+        self.drift_in_run().or_else(|| self.drift_before())
+    }
+
+    /// An age of a whole period, of a chain whose delays are so many times as long as the TDC knows, is off by so
+    /// much [ps].
+    fn off_ps(&self, factor: f64) -> f64 {
+        // Every delay has grown by the same part: an age that is a period looks like this.
+        self.cycle().seconds() * 1e12 * (1.0 / factor - 1.0)
+    }
+
+    fn drift_in_run(&self) -> Option<Note> {
+        let [least, most] = self.course.as_ref()?.range.map(|factor| self.off_ps(factor));
+        let file = self.scenario.tdc.conditions.as_deref().unwrap_or_default();
+        let since = match self.scenario.tdc.recalibrate_frames {
+            0 => "it was calibrated",
+            _ => "power-up, but for what calibrations on the way make good",
+        };
+        let text = format!(
+            "the chain drifts within the run: an age of a whole period of clk_sys is off by {most:+.1} to {least:+.1} ps \
+             since {since}, others in proportion"
+        );
+        Some(Note::new(NoteCode::ChainDrifted, "tdc.conditions", file, "none", text))
+    }
+
+    fn drift_before(&self) -> Option<Note> {
         let known = self.calibrated.as_ref()?;
         let tdc = &self.scenario.tdc;
         let [then_c, then_mv] = [
@@ -62,10 +87,9 @@ impl Setup {
             true => ("tdc.supply_mv", tdc.supply_mv, then_mv),
             false => ("tdc.temperature_c", tdc.temperature_c, then_c),
         };
-        // Every delay has grown by the same part: an age that is a period looks like this.
         let [known, now] =
             [known, &self.params.tdc.delays].map(|delays| delays.longest().seconds());
-        let off_ps = self.cycle().seconds() * 1e12 * (known / now - 1.0);
+        let off_ps = self.off_ps(now / known);
         let text = format!(
             "the TDC was calibrated at {then}: an age of a whole period of clk_sys is off by {off_ps:+.1} ps, \
              others in proportion"

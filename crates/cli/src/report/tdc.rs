@@ -27,7 +27,7 @@ pub fn text(found: &Characterisation, setup: &Setup) -> String {
         taps(found, setup),
         linearity(found),
         bubbles(found),
-        edges(found),
+        edges(found, tdc.setup_window_ps),
         stops(found),
     ];
     sections.join("\n\n") + "\n"
@@ -142,7 +142,7 @@ fn bubbles(found: &Characterisation) -> String {
     )
 }
 
-fn edges(found: &Characterisation) -> String {
+fn edges(found: &Characterisation, window_ps: f64) -> String {
     let period_ps = found.density.period_ps;
     let largest = found.edges.iter().max_by(|a, b| a.largest_jump_ps.total_cmp(&b.largest_jump_ps));
     let mut text = String::new();
@@ -163,10 +163,18 @@ fn edges(found: &Characterisation) -> String {
     };
     let _ = write!(
         text,
-        "Of {} hits at random times {verdict}; the largest\nerror is {:.2} ps.",
+        "Of {} hits at random times {verdict}; the largest\nerror is {:.2} ps, {:.2} ps rms.",
         grouped(phases.count),
-        phases.largest_error_ps
+        phases.largest_error_ps,
+        phases.rms_error_ps
     );
+    if window_ps > 0.0 {
+        let _ = write!(
+            text,
+            " Their registers sample within {window_ps} ps about\nthe edge (tdc.setup_window_ps); all else here is of registers that \
+             sample at it."
+        );
+    }
     text
 }
 
@@ -285,6 +293,7 @@ pub fn json(found: &Characterisation, setup: &Setup) -> Value {
             "count": found.phases.count,
             "off_by_a_period": found.phases.off,
             "largest_error_ps": found.phases.largest_error_ps,
+            "rms_error_ps": found.phases.rms_error_ps,
         },
         "table_6_3": stops.collect::<Vec<_>>(),
     })

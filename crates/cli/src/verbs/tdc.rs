@@ -8,7 +8,7 @@ use std::process::ExitCode;
 
 use clap::Subcommand;
 
-use tofsim::error::Result;
+use tofsim::error::{Input, Result};
 use tofsim::scenario;
 use tofsim::sim::setup::Setup;
 use tofsim_learn::characterisation::Characterisation;
@@ -80,10 +80,18 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
 impl OwnArgs {
     fn run(&self, talk: &Talk) -> Result<ExitCode> {
         let setup = Setup::of_counts(scenario::load(&self.scenario, &self.set)?)?;
+        if let Some(file) = &setup.scenario.tdc.conditions {
+            let expected = "expected none: a chain is characterised in conditions that stand still";
+            return Err(Input::new("scenario", expected)
+                .field("tdc.conditions")
+                .value(file)
+                .into());
+        }
         if self.decoders {
             return self.compare(&setup, talk);
         }
-        let found = Characterisation::new(&setup.params.tdc, self.hits, setup.scenario.seed);
+        let converter = (&setup.params.tdc, setup.stop_line());
+        let found = Characterisation::new(converter, self.hits, setup.scenario.seed);
         let record = Record::new(&setup, &talk.command);
         let mut object = report::json(&found, &setup);
         record.put_into(&mut object, &[]);

@@ -2,10 +2,12 @@
 
 use rand::RngExt;
 
+use tofsim::firmware::carry_chain::StopLine;
 use tofsim::firmware::tdc;
+use tofsim::kernel::Time;
 use tofsim::sensor::streams::{Source, stream};
 
-use super::transfer::{hit, time_ps};
+use super::transfer::{Hit, hit, time_ps};
 
 /// From one delay to the next, 0.1 ps [fs].
 const STEP_FS: u64 = 100;
@@ -56,23 +58,51 @@ pub struct Phases {
     pub off: u64,
     /// Largest error [ps].
     pub largest_error_ps: f64,
+    /// Root of the mean square error [ps].
+    pub rms_error_ps: f64,
 }
 
 impl Phases {
-    /// So many of them.
-    pub fn new(p: &tdc::Params, count: u64, seed: u64) -> Self {
+    /// So many of them, through a wire to the chain that nothing has travelled on.
+    pub fn new(p: &tdc::Params, line: &StopLine, count: u64, seed: u64) -> Self {
         let period = p.decoder.scale.period().fs();
-        let end = (p.coarse_counter.window() * period).saturating_sub(p.delays.tap_0().fs()).max(1);
-        let mut random = stream(seed, Source::CodeDensity, 1);
-        let mut phases = Phases { count: 0, off: 0, largest_error_ps: 0.0 };
-        for _ in 0..count {
+        let window = p.coarse_counter.window() * period;
+        let end = window.saturating_sub(p.delays.tap_0().fs()).max(1);
+        let (mut random, mut line) = (stream(seed, Source::CodeDensity, 1), line.clone());
+        let mut phases = Phases { count: 0, off: 0, largest_error_ps: 0.0, rms_error_ps: 0.0 };
+        let mut squares = 0.0;
+        for nth in 0..count {
             let delay_fs = random.random_range(0..end);
-            let Some(hit) = hit(p, delay_fs) else { continue };
+            let found = match line.is_disturbed() {
+                true => sampled(p, &mut line, 2 * nth * window, delay_fs),
+                false => hit(p, delay_fs),
+            };
+            let Some(hit) = found else { continue };
             let error_ps = (time_ps(p, &hit) - delay_fs as f64 * 1e-3).abs();
             phases.count += 1;
             phases.off += u64::from(error_ps >= period as f64 * 0.5e-3);
             phases.largest_error_ps = phases.largest_error_ps.max(error_ps);
+            squares += error_ps * error_ps;
         }
+        phases.rms_error_ps = (squares / phases.count.max(1) as f64).sqrt();
         phases
     }
+}
+
+/// What the registers make of a hit so long after a laser edge, edge by edge; nothing if tap 0 is not seen before the
+/// window ends.
+fn sampled(p: &tdc::Params, line: &mut StopLine, laser_fs: u64, delay_fs: u64) -> Option<Hit> {
+    let period = p.decoder.scale.period().fs();
+    line.settle();
+    line.toggle(Time::from_fs(laser_fs + delay_fs));
+    let first = delay_fs.div_ceil(period).max(1);
+    (first..=p.coarse_counter.window()).find_map(|edge| {
+        let edge_fs = edge * period;
+        let taps = line.sample(Time::from_fs(laser_fs + edge_fs), &p.delays);
+        let hit = || {
+            let rank = p.delays.rank(Time::from_fs(edge_fs - delay_fs));
+            Hit { edge_fs, coarse: edge - 1, rank, n: p.decoder.number(&taps) }
+        };
+        taps.tap(p.delays.tap_0_position()).then(hit)
+    })
 }

@@ -109,6 +109,15 @@ pub(super) fn check(setup: &Setup) -> Result<()> {
         let expected = "expected 0: a Verilog bench has clocks without jitter";
         return fault("pll.jitter_rms_ps", pll.jitter_rms_ps.to_string(), expected);
     }
+    let tdc = &setup.scenario.tdc;
+    if tdc.setup_window_ps > 0.0 {
+        let expected = "expected 0: taps of a Verilog bench do not go metastable";
+        return fault("tdc.setup_window_ps", tdc.setup_window_ps.to_string(), expected);
+    }
+    if let (true, Some(file)) = (setup.has_disturbance(), &tdc.conditions) {
+        let expected = "expected none: delays of a Verilog bench stand still";
+        return fault("tdc.conditions", file.clone(), expected);
+    }
     if !setup.pll().locked_at.fs().is_multiple_of(1000) {
         let expected = "expected whole picoseconds, as pll.v counts them";
         return fault("pll.lock_time_us", pll.lock_time_us.to_string(), expected);

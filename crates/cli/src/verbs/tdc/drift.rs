@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use tofsim::error::{Result, read_text};
 use tofsim::files::output::create_directory_for;
 use tofsim::scenario;
-use tofsim::scenario::drift::DIE_C;
+use tofsim::scenario::drift::{DIE_C, Profile};
 use tofsim::sim::domain;
 use tofsim::sim::setup::Setup;
-use tofsim_learn::drift::{Drift, Plan, Profile};
+use tofsim_learn::drift::{Drift, Plan};
 use tofsim_learn::estimation::EstimatorKind;
 
 use crate::choice::words;

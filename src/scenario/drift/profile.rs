@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use tofsim::error::{Input, Result};
-use tofsim::files::csv::CsvInput;
-use tofsim::scenario::drift::{DIE_C, SUPPLY_MV};
+use super::{DIE_C, SUPPLY_MV};
+use crate::error::{Input, Result};
+use crate::files::csv::CsvInput;
 
 /// Columns of a profile's file.
 pub const HEADER: [&str; 3] = ["time_s", "temperature_c", "supply_mv"];
