@@ -19,6 +19,8 @@ pub enum NoteCode {
     EstimatorOutsideModel,
     /// The chain is not as it was when the TDC was calibrated.
     ChainDrifted,
+    /// The ring that calibrates the TDC keeps step with its clock.
+    RingInStep,
     /// The laser is above a limit, or there is none to tell.
     EyeSafety,
     /// The run ended before all of an input came due.

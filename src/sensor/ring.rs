@@ -19,6 +19,27 @@ pub struct Params {
     pub jitter_fs: f64,
 }
 
+/// Deviations of a random walk that it covers: one to either side.
+const COVERED: f64 = 2.0;
+
+impl Params {
+    /// The widest stretch of a clock's period into which none of so many rises comes, because the ring keeps step
+    /// with the clock; nothing if it is no wider than `finest`.
+    pub fn in_step(&self, period: Time, rises: u64, finest: Time) -> Option<Time> {
+        let [own, period] = [2 * self.half.fs(), period.fs()];
+        let walk = COVERED * self.jitter_fs * (2.0 * rises as f64).sqrt();
+        // After `turns` the ring is nearly where it was, off by `creep`; the places between are covered by creeping on.
+        let empty = |turns: u64| {
+            let past = (u128::from(own) * u128::from(turns) % u128::from(period)) as u64;
+            let creep = past.min(period - past) as f64;
+            let covered = creep * (rises / turns) as f64 + walk;
+            Time::from_fs((period as f64 / turns as f64 - covered).max(0.0) as u64)
+        };
+        let most = (period / finest.fs().max(1)).min(rises);
+        (1..=most).map(empty).max().filter(|empty| *empty > finest)
+    }
+}
+
 /// The oscillator.
 #[derive(Clone, Debug)]
 pub struct Ring {
@@ -106,6 +127,44 @@ mod tests {
             halves.iter().map(|half| (half - mean).powi(2)).sum::<f64>() / halves.len() as f64;
         assert!((mean - 30_900_000.0).abs() < 5.0 * 5_000.0 / 141.0, "{mean} fs");
         assert!((variance.sqrt() / 5_000.0 - 1.0).abs() < 0.03, "{} fs", variance.sqrt());
+    }
+
+    #[test]
+    fn a_ring_in_step_with_the_clock_leaves_stretches_empty() {
+        let [period, finest] = [8_000_000, 11_500].map(Time::from_fs);
+        // The stretch, and what the rises really leave.
+        let of = |ring_fs: u64, jitter_fs: f64| {
+            let (half, rises) = (Time::from_fs(ring_fs / 2), 1 << 14);
+            let params = Params { half, jitter_fs };
+            let mut ring = Ring::new(Some(params), 1);
+            ring.switch(true, Time::ZERO);
+            let edges = edges(&mut ring, 2 * rises);
+            let mut places: Vec<_> = edges.iter().step_by(2).map(|at| at % 8_000_000).collect();
+            places.sort_unstable();
+            places.push(places[0] + 8_000_000);
+            let widest = places.windows(2).map(|pair| pair[1] - pair[0]).max().unwrap();
+            (params.in_step(period, rises as u64, finest).map(Time::fs), widest)
+        };
+        for (ring_fs, empty_fs) in [
+            (64_000_000, 8_000_000),
+            (60_000_000, 4_000_000),
+            (61_800_000, 200_000),
+            (64_000_100, 6_361_600),
+        ] {
+            let (found, widest) = of(ring_fs, 0.0);
+            assert_eq!(found, Some(empty_fs), "{ring_fs}");
+            assert!(widest.abs_diff(empty_fs) < 1_000, "{ring_fs}: {widest}");
+        }
+        let (found, widest) = of(64_000_000, 2_000.0);
+        let found = found.unwrap();
+        assert!(found.abs_diff(widest) < 1_000_000, "{found} {widest}");
+        for (ring_fs, jitter_fs) in
+            [(61_803_000, 0.0), (61_800_000, 5_000.0), (64_000_000, 40_000.0)]
+        {
+            let (found, widest) = of(ring_fs, jitter_fs);
+            assert_eq!(found, None, "{ring_fs}: {widest}");
+        }
+        assert!(of(61_803_000, 0.0).1 < 11_500);
     }
 
     #[test]

@@ -10,6 +10,7 @@ mod cli;
 mod commands;
 mod common;
 mod compare;
+mod conditions;
 mod control;
 mod dataset;
 mod drift_note;

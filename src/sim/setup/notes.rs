@@ -8,8 +8,10 @@ use crate::optics::budget::LIGHT_M_S;
 use crate::sensor::light::Light;
 use crate::sim::domain;
 
-use super::Setup;
+use super::{Setup, recalibration};
 
+/// The part of a turn by which steps are spread best over turns (golden section) [1].
+const GOLDEN: f64 = 0.618_033_988_75;
 /// Laser photons that a frame has to expect, for a depth to be one [1].
 const FAINTEST_FRAME: f64 = 1.0;
 
@@ -36,7 +38,23 @@ impl Setup {
         let is_network = self.params.estimator == Estimator::Network;
         let drift = self.drift_for(is_network.then_some(&notes[..]));
         notes.extend(drift);
+        notes.extend(self.ring_in_step());
         Ok(notes)
+    }
+
+    /// That the ring's hits leave ages out, if they do.
+    fn ring_in_step(&self) -> Option<Note> {
+        let (p, keys) = (self.params.tdc_calibration.as_ref()?, &self.scenario.tdc);
+        let (cycle, delays) = (self.cycle(), &self.params.tdc.delays);
+        let lsb = Time::from_fs(delays.span().fs() / delays.taps() as u64);
+        let empty = recalibration::ring(keys).in_step(cycle, p.hits(), lsb)?;
+        let [cycle_ns, empty_ps] = [cycle.seconds() * 1e9, empty.seconds() * 1e12];
+        let expected =
+            format!("such as {:.3}", ((keys.ring_ns / cycle_ns).floor() + GOLDEN) * cycle_ns);
+        let text = format!(
+            "the ring keeps step with the clock: to {empty_ps:.0} ps in a row of ages no hit of a calibration comes"
+        );
+        Some(Note::new(NoteCode::RingInStep, "tdc.ring_ns", keys.ring_ns, expected, text))
     }
 
     /// That the chain has drifted since the TDC was calibrated, if it has; of estimators that are all the network, with
