@@ -2,6 +2,7 @@
 
 pub(crate) mod cycles;
 pub mod device;
+pub mod disturbance;
 pub mod domain;
 pub mod fast;
 pub mod frames;

@@ -7,11 +7,9 @@
 use crate::signals;
 
 mod delays;
-mod disturbance;
 mod stop_line;
 
 pub use delays::{Delays, LENGTHS, TAPS, Taps};
-pub use disturbance::{Disturbance, Pace};
 pub use stop_line::StopLine;
 
 signals! {

@@ -5,10 +5,10 @@ use std::ops::Range;
 use bitvec::prelude::*;
 
 /// Transitions that a [`Thermometer`] can hold.
-pub const CAPACITY: usize = 11;
+pub const MAX_TRANSITIONS: usize = 8;
 
-/// Bits of a rank, which is below 2048.
-const BITS: usize = 11;
+/// Bits of a rank.
+const BITS: usize = 16;
 
 /// The taps of a line, in order of arrival, that show the level which has reached them.
 ///
@@ -19,7 +19,7 @@ const BITS: usize = 11;
 /// that equal taps compare equal. How many taps there are is known to who asks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Thermometer {
-    /// [`BITS`] for each transition, the newest lowest. One word, like `shape`, because processors
+    /// 16 bits for each transition, the newest lowest. One word, like `shape`, because processors
     /// stall on reading together what was written apart.
     ranks: u128,
     /// Twice the number of transitions inside, and one more if the newest level is high.
@@ -35,7 +35,7 @@ impl Thermometer {
 
     /// The taps when the line's input is now at `level` and its last transitions, newest first,
     /// have reached `ranks` taps each (0 = none yet), fewer than there are. Transitions beyond
-    /// [`CAPACITY`] are not seen; the caller's limits keep them from being there.
+    /// [`MAX_TRANSITIONS`] are not seen; the caller's limits keep them from being there.
     pub fn new(level: bool, ranks: impl IntoIterator<Item = usize>) -> Self {
         let mut taps = Self::settled(level);
         ranks.into_iter().for_each(|rank| taps.push(rank));
@@ -70,7 +70,7 @@ impl Thermometer {
         } else if self.rank(len - 1) == rank {
             self.ranks ^= (rank as u128) << (BITS * (len - 1));
             self.shape -= 2;
-        } else if len < CAPACITY {
+        } else if len < MAX_TRANSITIONS {
             self.ranks |= (rank as u128) << (BITS * len);
             self.shape += 2;
         }
@@ -146,7 +146,7 @@ impl Thermometer {
     /// The rank of the `nth` newest transition.
     #[inline(always)]
     const fn rank(&self, nth: usize) -> usize {
-        (self.ranks >> (BITS * nth)) as usize & ((1 << BITS) - 1)
+        (self.ranks >> (BITS * nth)) as u16 as usize
     }
 
     #[inline(always)]

@@ -4,18 +4,20 @@
 //! otherwise (`tdc.conditions`). The ROM knows the delays as they were when it was calibrated, and a drift since
 //! then is an error of all ages.
 
+mod pace;
 mod profile;
 
 use std::ops::RangeInclusive;
 
 use crate::error::{Input, Result};
-use crate::firmware::carry_chain::{Delays, Pace};
+use crate::firmware::carry_chain::Delays;
 use crate::kernel::Time;
 
 use super::builtin::Source;
 use super::chain::{too_long, too_short};
 use super::model::Tdc;
 
+pub use pace::Pace;
 pub use profile::{Moment, Profile};
 
 /// Temperatures that a commercial part is made for (DS182), as the keys have it [degC].

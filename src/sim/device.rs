@@ -13,6 +13,7 @@ use crate::sensor::light::Light;
 use crate::sensor::ring::Ring;
 use crate::sensor::spad::{Event, Spads};
 
+use super::disturbance::Disturbance;
 use super::jitter::Jitter;
 use super::oscillator::Oscillator;
 use super::timeline::Timeline;
@@ -26,6 +27,7 @@ pub struct Device {
     pub top: TofTop,
     /// The wire from detector to firmware.
     pub line: StopLine,
+    disturbance: Option<Box<Disturbance>>,
     pub light: Light,
     pub(super) spads: Spads,
     /// What gives the TDC its hits during a calibration.
@@ -47,7 +49,7 @@ impl Device {
         (pins, p): (Pins, &Params),
         pll: Pll,
         jitter: Option<Jitter>,
-        line: StopLine,
+        disturbance: Option<Disturbance>,
         mut light: Light,
         (mut spads, ring): (Spads, Ring),
         timeline: Timeline,
@@ -55,7 +57,8 @@ impl Device {
         spads.arm_all(light.next_avalanche(Time::ZERO, 1.0));
         Device {
             top: TofTop::new(pins, p),
-            line,
+            line: StopLine::default(),
+            disturbance: disturbance.map(Box::new),
             spads,
             ring,
             light,
@@ -136,6 +139,9 @@ impl Device {
         self.settle(now, probe, listener);
         let lit = self.top.nets.laser_on;
         self.top.rise(p, &mut self.line, now);
+        if let Some(disturbance) = &mut self.disturbance {
+            self.top.tdc.carry_chain.taps = disturbance.sample(&self.line, now, &p.tdc.delays);
+        }
         if self.top.socket.algo_done {
             self.timeline.take_depth(self.pll.clk_sys.rise(self.cycle));
         }

@@ -43,16 +43,11 @@ pub enum Stepping {
 }
 
 impl Stepping {
-    /// That way, or the plain step where the firmware calibrates itself: the others know nothing of its ring. Shots
-    /// through a chain that is another at each edge are not leapt over.
+    /// That way, or the plain step where the firmware calibrates itself or its chain is another at each edge: the
+    /// others know nothing of ring and disturbance.
     pub(super) fn at_most(self, setup: &Setup) -> Self {
-        if setup.params.tdc_calibration.is_some() {
-            Stepping::EveryCycle
-        } else if setup.has_disturbance() {
-            self.min(Stepping::SkipIdle)
-        } else {
-            self
-        }
+        let is_known = setup.params.tdc_calibration.is_none() && setup.disturbance().is_none();
+        if is_known { self } else { Stepping::EveryCycle }
     }
 }
 

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use crate::error::{Input, Result};
 use crate::files::digest::digest_of;
-use crate::firmware::carry_chain::{Delays, StopLine};
+use crate::firmware::carry_chain::Delays;
 use crate::firmware::forward2::Depth;
 use crate::firmware::pll::Pll;
 use crate::firmware::tdc_decoder::TimeScale;
@@ -39,6 +39,7 @@ use crate::sensor::spad::Spads;
 use crate::waves::{self, WaveFormat, Waves};
 
 use super::device::Device;
+use super::disturbance::Disturbance;
 use super::fast::centroid::locate;
 use super::fast::likelihood;
 use super::jitter::Jitter;
@@ -77,8 +78,8 @@ pub struct Setup {
     known_tdc: Option<tdc::Params>,
     /// What becomes of the delays in a run, if something does.
     pub(super) course: Option<Course>,
-    /// The wire to the chain at power-up.
-    line: StopLine,
+    /// What makes the chain another at each edge, if something does.
+    disturbance: Option<Disturbance>,
     /// The network in the estimator.
     pub network: Network,
     /// Why no depth of a run can be that of the target, if none can.
@@ -178,7 +179,7 @@ impl Setup {
             calibrated: converter.calibrated,
             known_tdc: converter.known,
             course: converter.course,
-            line: converter.line,
+            disturbance: converter.disturbance,
             network,
             pll,
             light,
@@ -231,7 +232,7 @@ impl Setup {
             (self.pins, &self.params),
             self.pll.clone(),
             jitter,
-            self.line.clone(),
+            self.disturbance.clone(),
             self.light.clone(),
             (self.spads(), Ring::new(ring, scenario.seed)),
             Timeline::new(scenario),
@@ -262,15 +263,11 @@ impl Setup {
         self.known_tdc.as_ref().map_or_else(|| self.bins(), Bins::of_tdc)
     }
 
-    /// The wire to the chain at power-up.
-    pub fn stop_line(&self) -> &StopLine {
-        &self.line
-    }
-
-    /// Whether the chain is another at each edge: registers that sample at any instant of a set-up window, or
-    /// delays that follow conditions.
-    pub fn has_disturbance(&self) -> bool {
-        self.line.is_disturbed()
+    /// What makes the chain another at each edge, if something does: registers that sample at any instant of a set-up
+    /// window, or delays that follow conditions.
+    #[doc(hidden)]
+    pub fn disturbance(&self) -> Option<&Disturbance> {
+        self.disturbance.as_ref()
     }
 
     /// Whether the chain has drifted since its calibration.

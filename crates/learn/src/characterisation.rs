@@ -8,9 +8,9 @@ pub mod rom;
 pub mod timing;
 pub mod transfer;
 
-use tofsim::firmware::carry_chain::StopLine;
 use tofsim::firmware::tdc;
 use tofsim::firmware::tdc_decoder::{self, Decoder, Encoder};
+use tofsim::sim::disturbance::Disturbance;
 
 use bubbles::Bubbles;
 use density::CodeDensity;
@@ -56,9 +56,13 @@ pub struct Characterisation {
 }
 
 impl Characterisation {
-    /// Of a converter, with so many hits of the code-density test, and as many times at random, these through that
-    /// wire: all else is of registers that sample at the edge.
-    pub fn new((p, line): (&tdc::Params, &StopLine), hits: u64, seed: u64) -> Self {
+    /// Of a converter, with so many hits of the code-density test, and as many times at random, these with what makes
+    /// the chain another at each edge: all else is of one that stands still.
+    pub fn new(
+        (p, disturbance): (&tdc::Params, Option<&Disturbance>),
+        hits: u64,
+        seed: u64,
+    ) -> Self {
         let scale = p.decoder.scale;
         let uncalibrated = tdc_decoder::Params::uniform_calibration(&p.delays, &scale);
         let raw = p.clone().with_calibration(uncalibrated);
@@ -78,7 +82,7 @@ impl Characterisation {
             bubbles: Bubbles::new(&p.delays, &reached),
             transfer: Transfer::new(p, &raw),
             edges: edges::edges(p),
-            phases: Phases::new(p, line, hits, seed),
+            phases: Phases::new(p, disturbance, hits, seed),
             stops: STOPS_NS.into_iter().filter_map(stop).collect(),
             density,
         }

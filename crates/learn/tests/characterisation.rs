@@ -20,7 +20,7 @@ fn params(keys: &[&str]) -> tdc::Params {
 }
 
 fn of(keys: &[&str]) -> Characterisation {
-    Characterisation::new((&params(keys), &StopLine::default()), HITS, 1)
+    Characterisation::new((&params(keys), None), HITS, 1)
 }
 
 #[test]
@@ -107,8 +107,7 @@ fn a_calibration_comes_to_the_precision_that_the_widths_allow() {
     let rom = CalibratedRom::new("counts", &counts, &p).unwrap();
     assert!(rom.note().is_none());
     let cal = rom.entries.iter().map(|entry| tofsim::kernel::U::new(entry.units)).collect();
-    let found =
-        Characterisation::new((&p.clone().with_calibration(cal), &StopLine::default()), HITS, 2);
+    let found = Characterisation::new((&p.clone().with_calibration(cal), None), HITS, 2);
     let ratio = found.calibrated.precision_ps / sigma_ps;
     assert!((1.0..1.15).contains(&ratio), "{ratio}");
     // Each age is within its standard error of the truth, as often as it should be.
@@ -187,7 +186,7 @@ fn no_hit_at_any_of_a_million_phases_is_off_by_a_period() {
             largest = largest.max((time - t as f64 * 1e-3).abs());
         }
         assert!(largest < 0.03 * period as f64 * 1e-3, "{keys:?}: {largest}");
-        let found = Characterisation::new((&p, &StopLine::default()), 100_000, 1);
+        let found = Characterisation::new((&p, None), 100_000, 1);
         assert!(found.is_coarse_right(), "{keys:?}");
         assert!(found.phases.largest_error_ps <= largest + 5.0, "{keys:?}: {:?}", found.phases);
         assert_eq!(found.edges.len() as u64, p.coarse_counter.window() - 1, "{keys:?}");
@@ -208,7 +207,7 @@ fn metastable_taps_add_half_of_their_window_to_the_largest_error_at_any_of_a_mil
         let phases = |window_ps: f64| {
             let window = format!("tdc.setup_window_ps={window_ps}");
             let setup = Setup::load("kc705", &[keys, &[&window]].concat()).unwrap();
-            let converter = (&setup.params.tdc, setup.stop_line());
+            let converter = (&setup.params.tdc, setup.disturbance());
             Characterisation::new(converter, HITS, 1).phases
         };
         let (none, wide) = (phases(0.0), phases(window_ps));
@@ -231,7 +230,7 @@ fn a_coarse_count_that_does_not_go_with_the_taps_is_found() {
         _ => *age,
     });
     let folded = p.clone().with_calibration(folded.collect());
-    let found = Characterisation::new((&folded, &StopLine::default()), 10_000, 1);
+    let found = Characterisation::new((&folded, None), 10_000, 1);
     assert!(!found.is_coarse_right() && found.phases.off > 1_000, "{:?}", found.phases);
 }
 

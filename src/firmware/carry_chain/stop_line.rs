@@ -1,42 +1,29 @@
 //! The wire from the SPAD to the chain.
 
 use crate::kernel::Time;
+use crate::kernel::thermometer::MAX_TRANSITIONS;
 
 use super::delays::{Delays, Taps};
-use super::disturbance::Disturbance;
-
-/// Transitions that may travel in a chain at once.
-const MAX_TRANSITIONS: usize = 8;
 
 /// Its level and the transitions still travelling in the chain.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct StopLine {
     level: bool,
-    /// Times of the last transitions, a ring.
+    /// Times of the last transitions, a ring; never where there has been none.
     recent: [Time; MAX_TRANSITIONS],
     /// Place of the newest.
     newest: usize,
     travelling: usize,
-    /// What makes the chain another at each edge, if something does.
-    disturbance: Option<Box<Disturbance>>,
+}
+
+impl Default for StopLine {
+    fn default() -> Self {
+        let recent = [Time::NEVER; MAX_TRANSITIONS];
+        StopLine { level: false, recent, newest: 0, travelling: 0 }
+    }
 }
 
 impl StopLine {
-    /// Low, to a chain that is another at each edge.
-    pub fn disturbed(disturbance: Disturbance) -> Self {
-        StopLine { disturbance: Some(Box::new(disturbance)), ..StopLine::default() }
-    }
-
-    /// Whether the chain is another at each edge.
-    pub fn is_disturbed(&self) -> bool {
-        self.disturbance.is_some()
-    }
-
-    /// It is low, and has been for long.
-    pub fn settle(&mut self) {
-        (self.level, self.travelling) = (false, 0);
-    }
-
     /// The level now.
     pub fn level(&self) -> bool {
         self.level
@@ -49,6 +36,7 @@ impl StopLine {
         if self.travelling > 0 && self.at(0) == now {
             self.newest = (self.newest + 1) % MAX_TRANSITIONS;
             self.travelling -= 1;
+            self.recent[(self.newest + MAX_TRANSITIONS - 1) % MAX_TRANSITIONS] = Time::NEVER;
         } else {
             self.newest = (self.newest + MAX_TRANSITIONS - 1) % MAX_TRANSITIONS;
             self.recent[self.newest] = now;
@@ -56,10 +44,16 @@ impl StopLine {
         }
     }
 
-    /// How old the `nth` transition that still travels is at `now`, 0 the newest.
-    #[cfg(test)]
-    pub(super) fn age_of(&self, nth: usize, now: Time) -> Option<Time> {
-        (nth < self.travelling).then(|| now - self.at(nth))
+    /// It is low, and has been for long.
+    pub fn settle(&mut self) {
+        *self = StopLine::default();
+    }
+
+    /// How old the last transitions are at `now`, the newest first, also those that have left the chain.
+    pub fn ages(&self, now: Time) -> impl Iterator<Item = Time> {
+        let known =
+            (0..MAX_TRANSITIONS).map(|nth| self.at(nth)).take_while(|at| *at != Time::NEVER);
+        known.map(move |at| now - at)
     }
 
     /// When the `nth` transition was, 0 the newest.
@@ -77,9 +71,6 @@ impl StopLine {
     /// The taps at a clock edge; forgets transitions that have left the chain.
     #[inline(always)]
     pub fn sample(&mut self, now: Time, delays: &Delays) -> Taps {
-        if self.travelling > 0 && self.is_disturbed() {
-            return self.sample_disturbed(now, delays);
-        }
         while self.travelling > 0 && now - self.at(self.travelling - 1) >= delays.longest() {
             self.travelling -= 1;
         }
@@ -93,20 +84,6 @@ impl StopLine {
     fn sample_travelling(&self, now: Time, delays: &Delays) -> Taps {
         let ages = (0..self.travelling).map(|nth| now - self.at(nth));
         Taps::new(self.level, ages.map(|age| delays.rank_inside(age)))
-    }
-
-    #[cold]
-    fn sample_disturbed(&mut self, now: Time, delays: &Delays) -> Taps {
-        let mut ages = [Time::ZERO; MAX_TRANSITIONS];
-        let ages = &mut ages[..self.travelling];
-        for (nth, age) in ages.iter_mut().enumerate() {
-            *age = now - self.at(nth);
-        }
-        let Some(disturbance) = &mut self.disturbance else { return Taps::settled(self.level) };
-        disturbance.usual(ages, now);
-        let end = delays.longest() + disturbance.half_window();
-        self.travelling = ages.partition_point(|age| *age < end);
-        disturbance.sample((self.level, &ages[..self.travelling]), now, delays)
     }
 }
 

@@ -64,7 +64,7 @@ pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics,
         let why = "expected 0: each edge draws when its registers sample";
         return Err(refusal("tdc.setup_window_ps", why).value(tdc.setup_window_ps).into());
     }
-    if let (true, Some(file)) = (setup.has_disturbance(), &tdc.conditions) {
+    if let (true, Some(file)) = (setup.disturbance().is_some(), &tdc.conditions) {
         let why = "expected none: the chain changes within a frame";
         return Err(refusal("tdc.conditions", why).value(file).into());
     }

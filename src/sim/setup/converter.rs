@@ -1,18 +1,19 @@
 //! The converter of a scenario: its chain, what its calibration knows of that, and what the chain does in a run.
 
 use crate::error::{Input, Result};
-use crate::firmware::carry_chain::{Delays, Disturbance, StopLine};
+use crate::firmware::carry_chain::Delays;
 use crate::firmware::{tdc, tdc_calibration};
 use crate::kernel::Time;
 use crate::scenario::builtin::Source;
 use crate::scenario::drift::{Course, Drifted, conditions};
 use crate::scenario::{Scenario, calibration, chain};
 use crate::sensor::streams::{Source as Noise, stream};
+use crate::sim::disturbance::Disturbance;
 
 use super::{recalibration, time_scale};
 
 /// Taps about a transition that may be unsure, for two transitions in the chain to be shown whole.
-const MOST_UNSURE: usize = 4;
+const MOST_UNSURE: usize = 3;
 
 /// What comes of the scenario's keys.
 pub(super) struct Converter {
@@ -26,8 +27,8 @@ pub(super) struct Converter {
     pub known: Option<tdc::Params>,
     /// What becomes of the delays in a run, if something does.
     pub course: Option<Course>,
-    /// The wire to the chain.
-    pub line: StopLine,
+    /// What makes the chain another at each edge, if something does.
+    pub disturbance: Option<Disturbance>,
 }
 
 impl Converter {
@@ -43,7 +44,7 @@ impl Converter {
         let scale = time_scale(keys, cycle);
         let known = (chain.known(), keys.decoder);
         let rom = calibration::load(&keys.calibration, files, known, &scale)?;
-        let line = line(scenario, &chain)?;
+        let disturbance = disturbance(scenario, &chain)?;
         let tdc = tdc::Params::new(chain.now, scale, keys.coarse_bits, keys.count_stages)
             .with_decoder(keys.decoder)
             .with_calibration(rom.cal);
@@ -55,19 +56,19 @@ impl Converter {
             (None, None) => None,
         };
         let (calibrated, course) = (chain.calibrated, chain.course);
-        Ok(Converter { tdc, tdc_calibration, calibrated, known, course, line })
+        Ok(Converter { tdc, tdc_calibration, calibrated, known, course, disturbance })
     }
 }
 
-/// The wire to a chain, with what makes that another at each edge.
+/// What makes the chain another at each edge, if something does.
 ///
 /// # Errors
 /// When more taps may be unsure than can be shown, or one that is reached at once.
-fn line(scenario: &Scenario, chain: &Drifted) -> Result<StopLine> {
+fn disturbance(scenario: &Scenario, chain: &Drifted) -> Result<Option<Disturbance>> {
     let window_ps = scenario.tdc.setup_window_ps;
     let window = Time::from_ps_f64(window_ps);
     if window == Time::ZERO && chain.course.is_none() {
-        return Ok(StopLine::default());
+        return Ok(None);
     }
     let arrivals = chain.now.arrivals();
     let narrowest = arrivals.windows(MOST_UNSURE + 1).map(|taps| taps[MOST_UNSURE] - taps[0]).min();
@@ -85,5 +86,5 @@ fn line(scenario: &Scenario, chain: &Drifted) -> Result<StopLine> {
     }
     let pace = chain.course.as_ref().map_or_else(Default::default, |course| course.pace.clone());
     let words = stream(scenario.seed, Noise::SetupWindow, 0);
-    Ok(StopLine::disturbed(Disturbance::new(window, words, pace)))
+    Ok(Some(Disturbance::new(window, words, pace)))
 }

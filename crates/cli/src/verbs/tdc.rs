@@ -90,7 +90,7 @@ impl OwnArgs {
         if self.decoders {
             return self.compare(&setup, talk);
         }
-        let converter = (&setup.params.tdc, setup.stop_line());
+        let converter = (&setup.params.tdc, setup.disturbance());
         let found = Characterisation::new(converter, self.hits, setup.scenario.seed);
         let record = Record::new(&setup, &talk.command);
         let mut object = report::json(&found, &setup);

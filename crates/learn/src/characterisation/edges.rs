@@ -6,6 +6,7 @@ use tofsim::firmware::carry_chain::StopLine;
 use tofsim::firmware::tdc;
 use tofsim::kernel::Time;
 use tofsim::sensor::streams::{Source, stream};
+use tofsim::sim::disturbance::Disturbance;
 
 use super::transfer::{Hit, hit, time_ps};
 
@@ -63,19 +64,20 @@ pub struct Phases {
 }
 
 impl Phases {
-    /// So many of them, through a wire to the chain that nothing has travelled on.
-    pub fn new(p: &tdc::Params, line: &StopLine, count: u64, seed: u64) -> Self {
+    /// So many of them, of a chain that is another at each edge if there is a disturbance.
+    pub fn new(p: &tdc::Params, disturbance: Option<&Disturbance>, count: u64, seed: u64) -> Self {
         let period = p.decoder.scale.period().fs();
         let window = p.coarse_counter.window() * period;
         let end = window.saturating_sub(p.delays.tap_0().fs()).max(1);
-        let (mut random, mut line) = (stream(seed, Source::CodeDensity, 1), line.clone());
+        let (mut random, mut disturbance) =
+            (stream(seed, Source::CodeDensity, 1), disturbance.cloned());
         let mut phases = Phases { count: 0, off: 0, largest_error_ps: 0.0, rms_error_ps: 0.0 };
         let mut squares = 0.0;
         for nth in 0..count {
             let delay_fs = random.random_range(0..end);
-            let found = match line.is_disturbed() {
-                true => sampled(p, &mut line, 2 * nth * window, delay_fs),
-                false => hit(p, delay_fs),
+            let found = match &mut disturbance {
+                Some(disturbance) => sampled(p, disturbance, 2 * nth * window, delay_fs),
+                None => hit(p, delay_fs),
             };
             let Some(hit) = found else { continue };
             let error_ps = (time_ps(p, &hit) - delay_fs as f64 * 1e-3).abs();
@@ -91,14 +93,19 @@ impl Phases {
 
 /// What the registers make of a hit so long after a laser edge, edge by edge; nothing if tap 0 is not seen before the
 /// window ends.
-fn sampled(p: &tdc::Params, line: &mut StopLine, laser_fs: u64, delay_fs: u64) -> Option<Hit> {
+fn sampled(
+    p: &tdc::Params,
+    disturbance: &mut Disturbance,
+    laser_fs: u64,
+    delay_fs: u64,
+) -> Option<Hit> {
     let period = p.decoder.scale.period().fs();
-    line.settle();
+    let mut line = StopLine::default();
     line.toggle(Time::from_fs(laser_fs + delay_fs));
     let first = delay_fs.div_ceil(period).max(1);
     (first..=p.coarse_counter.window()).find_map(|edge| {
         let edge_fs = edge * period;
-        let taps = line.sample(Time::from_fs(laser_fs + edge_fs), &p.delays);
+        let taps = disturbance.sample(&line, Time::from_fs(laser_fs + edge_fs), &p.delays);
         let hit = || {
             let rank = p.delays.rank(Time::from_fs(edge_fs - delay_fs));
             Hit { edge_fs, coarse: edge - 1, rank, n: p.decoder.number(&taps) }

@@ -114,7 +114,7 @@ pub(super) fn check(setup: &Setup) -> Result<()> {
         let expected = "expected 0: taps of a Verilog bench do not go metastable";
         return fault("tdc.setup_window_ps", tdc.setup_window_ps.to_string(), expected);
     }
-    if let (true, Some(file)) = (setup.has_disturbance(), &tdc.conditions) {
+    if let (true, Some(file)) = (setup.disturbance().is_some(), &tdc.conditions) {
         let expected = "expected none: delays of a Verilog bench stand still";
         return fault("tdc.conditions", file.clone(), expected);
     }

@@ -13,52 +13,44 @@ fn disturbance(window: Time, seed: u64, pace: Pace) -> Disturbance {
     Disturbance::new(window, ChaCha8Rng::seed_from_u64(seed), pace)
 }
 
-/// The taps of a hit that is so old at `now`.
-fn taps(line: &mut StopLine, age: Time, now: Time, delays: &Delays) -> Taps {
-    line.settle();
+/// A line with one hit, which is so old at `now`.
+fn hit(age: Time, now: Time) -> StopLine {
+    let mut line = StopLine::default();
     line.toggle(now - age);
-    line.sample(now, delays)
+    line
 }
 
 #[test]
 fn without_a_window_and_at_a_steady_pace_taps_are_the_usual_ones() {
-    let (delays, mut usual) = (delays(), StopLine::default());
-    let pace = Pace::new(vec![(Time::ZERO, 1.0)]);
-    let mut line = StopLine::disturbed(disturbance(Time::ZERO, 1, pace));
-    let mut now = Time::from_ns(100);
+    let (delays, mut line) = (delays(), StopLine::default());
+    let mut disturbance = disturbance(Time::ZERO, 1, Pace::new(vec![(Time::ZERO, 1.0)]));
+    // From power-up on; pulses of all lengths, some of them of none.
+    let mut now = Time::ZERO;
     for k in 0..5_000u64 {
-        // Pulses of all lengths, so that up to eight transitions travel.
         if k % 3 > 0 {
             let at = now + Time::from_fs(k * 7_919_000 % 2_000_000);
-            usual.toggle(at);
             line.toggle(at);
+            if k % 7 == 0 {
+                line.toggle(at);
+            }
         }
         now += Time::from_ns(2);
-        assert_eq!(line.sample(now, &delays), usual.sample(now, &delays), "{k}");
+        assert_eq!(disturbance.sample(&line, now, &delays), line.sample(now, &delays), "{k}");
     }
-}
-
-#[test]
-fn a_pace_is_linear_between_its_points_and_still_beyond_them() {
-    let pace = Pace::new(vec![(Time::from_ns(10), 1.0), (Time::from_ns(30), 1.04)]);
-    for (ns, factor) in [(0, 1.0), (10, 1.0), (15, 1.01), (30, 1.04), (99, 1.04)] {
-        assert!((pace.at(Time::from_ns(ns)) - factor).abs() < 1e-12, "{ns}");
-    }
-    assert_eq!(Pace::default().at(Time::ZERO), 1.0);
 }
 
 #[test]
 fn a_chain_of_another_pace_shows_what_a_stretched_one_does() {
     let slow = delays().stretched(1.04).unwrap();
     let pace = Pace::new(vec![(Time::from_ns(1000), 1.0), (Time::from_ns(2000), 1.04)]);
-    let mut line = StopLine::disturbed(disturbance(Time::ZERO, 1, pace));
+    let mut disturbance = disturbance(Time::ZERO, 1, pace);
     for (now, delays) in [(Time::from_ns(900), &delays()), (Time::from_ns(3000), &slow)] {
         for k in 0..2_000u64 {
             // Off the boundaries by more than rounding.
             let age = Time::from_fs(k * 6_007 + 3);
-            let mut usual = StopLine::default();
-            let expected = self::taps(&mut usual, age, now, delays);
-            assert_eq!(self::taps(&mut line, age, now, &self::delays()), expected, "{now:?} {k}");
+            let mut line = hit(age, now);
+            let found = disturbance.sample(&line, now, &self::delays());
+            assert_eq!(found, line.sample(now, delays), "{now:?} {k}");
         }
     }
 }
@@ -66,12 +58,13 @@ fn a_chain_of_another_pace_shows_what_a_stretched_one_does() {
 #[test]
 fn a_tap_within_the_window_is_high_as_often_as_its_register_samples_late() {
     let (delays, draws) = (delays(), 40_000u64);
-    let mut line = StopLine::disturbed(disturbance(WINDOW, 1, Pace::default()));
+    let mut disturbance = disturbance(WINDOW, 1, Pace::default());
     // Taps 100 .. 103 are reached 15, 4 ps before the edge, and 7, 18 ps after it.
     let age = Time::from_fs(delays.boundary(100).fs() + 15_000);
     let mut high = [0u64; 6];
     for k in 0..draws {
-        let taps = taps(&mut line, age, Time::from_ns(1000 + 40 * k), &delays);
+        let now = Time::from_ns(1000 + 40 * k);
+        let taps = disturbance.sample(&hit(age, now), now, &delays);
         (0..6).for_each(|tap| high[tap] += u64::from(taps.tap(99 + tap)));
     }
     for (tap, chance) in
@@ -91,9 +84,12 @@ fn a_tap_within_the_window_is_high_as_often_as_its_register_samples_late() {
 fn registers_draw_by_themselves_and_the_same_again() {
     let delays = delays();
     let sampled = |seed| {
-        let mut line = StopLine::disturbed(disturbance(WINDOW, seed, Pace::default()));
+        let mut disturbance = disturbance(WINDOW, seed, Pace::default());
         let age = Time::from_fs(delays.boundary(100).fs() + 15_000);
-        let of = |k: u64| taps(&mut line, age, Time::from_ns(1000 + 40 * k), &delays);
+        let of = |k: u64| {
+            let now = Time::from_ns(1000 + 40 * k);
+            disturbance.sample(&hit(age, now), now, &delays)
+        };
         (0..1000).map(of).collect::<Vec<_>>()
     };
     let first = sampled(1);
@@ -103,11 +99,10 @@ fn registers_draw_by_themselves_and_the_same_again() {
     let bubbles = first.iter().filter(|taps| !taps.tap(101) && taps.tap(102)).count();
     assert!((bubbles as f64 - 130.0).abs() < 4.0 * (1000.0f64 * 0.13 * 0.87).sqrt(), "{bubbles}");
     // Both edges of a pulse, and an edge of the other kind.
-    let mut line = StopLine::disturbed(disturbance(WINDOW, 1, Pace::default()));
-    let now = Time::from_ns(500);
+    let (mut line, now) = (StopLine::default(), Time::from_ns(500));
     line.toggle(now - Time::from_ns(7));
     line.toggle(now - Time::from_ns(4));
-    let taps = line.sample(now, &delays);
+    let taps = disturbance(WINDOW, 1, Pace::default()).sample(&line, now, &delays);
     let (from, to) = (delays.rank(Time::from_ns(4)), delays.rank(Time::from_ns(7)));
     assert!((0..from - 2).chain(to + 2..TAPS).all(|tap| !taps.tap(tap)));
     assert!((from + 2..to - 2).all(|tap| taps.tap(tap)));
@@ -116,19 +111,19 @@ fn registers_draw_by_themselves_and_the_same_again() {
 #[test]
 fn however_many_transitions_there_are_taps_have_room_for_them() {
     let delays = delays();
-    let mut line = StopLine::disturbed(disturbance(Time::from_fs(43_000), 1, Pace::default()));
-    let mut now = Time::from_ns(100);
+    let (window, half_fs) = (Time::from_fs(32_000), 16_000);
+    let [mut none, mut wide] =
+        [Time::ZERO, window].map(|window| disturbance(window, 1, Pace::default()));
+    let (mut line, mut now) = (StopLine::default(), Time::from_ns(100));
     for k in 0..20_000u64 {
         line.toggle(now + Time::from_fs(k * 104_729_000 % 1_900_000));
         now += Time::from_ns(2);
-        let taps = line.sample(now, &delays);
-        // As bits, every tap more than half a window from a transition is what it should be.
-        let usual = Disturbance::new(Time::ZERO, ChaCha8Rng::seed_from_u64(1), Pace::default());
-        let ages: Vec<_> = (0..8).filter_map(|nth| line.age_of(nth, now)).collect();
-        let expected = usual.clone().sample((line.level(), &ages), now, &delays);
+        let (taps, expected) = (wide.sample(&line, now, &delays), none.sample(&line, now, &delays));
+        // Every tap more than half a window from a transition is what it should be.
+        let ages: Vec<_> = line.ages(now).collect();
         let near = |tap: usize| {
-            let off = |age: &Time| delays.boundary(tap).fs().abs_diff(age.fs()) <= 21_500;
-            ages.iter().any(off)
+            let at = delays.boundary(tap).fs();
+            ages.iter().any(|age| at.abs_diff(age.fs()) <= half_fs)
         };
         for tap in (0..TAPS).filter(|tap| !near(*tap)) {
             assert_eq!(taps.tap(tap), expected.tap(tap), "{k} {tap}");

@@ -1,0 +1,97 @@
+//! What makes a chain another at each edge: registers that sample too early or too late, and delays that grow and
+//! shrink with the conditions of the die.
+//!
+//! The plain step knows a chain that stands still. This takes the place of what its registers took.
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::Rng;
+
+use crate::firmware::carry_chain::{Delays, StopLine, Taps};
+use crate::kernel::Time;
+use crate::kernel::thermometer::MAX_TRANSITIONS;
+use crate::scenario::drift::Pace;
+use crate::sensor::streams::uniform;
+
+/// The state of it.
+#[derive(Clone, Debug)]
+pub struct Disturbance {
+    /// Half of the time about an edge within which a register samples, at any instant alike.
+    half_window: Time,
+    /// Where in it: for each edge a block of words of its own.
+    words: ChaCha8Rng,
+    pace: Pace,
+}
+
+impl Disturbance {
+    /// Registers that sample anywhere within `window` about an edge, by `words`, of a chain whose delays follow
+    /// `pace`.
+    pub fn new(window: Time, words: ChaCha8Rng, pace: Pace) -> Self {
+        Disturbance { half_window: Time::from_fs(window.fs() / 2), words, pace }
+    }
+
+    /// The taps at an edge, of a chain that has these delays at a pace of 1.
+    #[cold]
+    pub fn sample(&mut self, line: &StopLine, now: Time, delays: &Delays) -> Taps {
+        let pace = self.pace.at(now);
+        // A whole number stays one at a pace of 1.
+        let usual = |age: Time| Time::from_fs((age.fs() as f64 / pace).round() as u64);
+        let end = delays.longest() + self.half_window;
+        let ages: Vec<_> = line.ages(now).map(usual).take_while(|age| *age < end).collect();
+        let level = line.level();
+        if self.half_window == Time::ZERO || ages.is_empty() {
+            return Taps::clipped(delays.taps(), level, ages.iter().map(|age| delays.rank(*age)));
+        }
+        self.metastable(level, &ages, now, delays)
+    }
+
+    /// The same with taps about each transition, whose ages are given, the newest first, that are high or low at
+    /// random.
+    ///
+    /// Where more transitions travel than [`Taps`] have room for the taps about, those nearest to the edge are
+    /// random, and the others are by the tie rule.
+    fn metastable(&mut self, level: bool, ages: &[Time], now: Time, delays: &Delays) -> Taps {
+        let most = (MAX_TRANSITIONS / ages.len()).saturating_sub(1);
+        let unsure = |age: &Time| {
+            let begin = age.since(self.half_window);
+            let [begin, middle, end] =
+                [begin, *age, *age + self.half_window].map(|age| delays.rank(age));
+            let begin = begin.max(middle.saturating_sub(most / 2));
+            begin..end.min(begin + most)
+        };
+        let unsure: Vec<_> = ages.iter().map(unsure).collect();
+        let mut taps = Taps::settled(level);
+        // The level of the taps before `done`.
+        let (mut shown, mut done) = (level, 0);
+        let mut show = |level: bool, from: usize| {
+            if level != shown {
+                taps.push(from);
+                shown = level;
+            }
+        };
+        self.words.set_word_pos(u128::from(now.fs()) << 4);
+        for (nth, places) in unsure.iter().enumerate() {
+            for place in places.start.max(done)..places.end {
+                let late = self.instant();
+                let reached =
+                    |age: &Time| delays.boundary(place).fs() as i64 <= age.fs() as i64 + late;
+                let since = ages.iter().position(reached).unwrap_or(ages.len());
+                show(level ^ (since % 2 == 1), place);
+            }
+            done = done.max(places.end);
+            let next = unsure.get(nth + 1).map_or(delays.taps(), |next| next.start);
+            if done < next {
+                show(level ^ (nth % 2 == 0), done);
+            }
+        }
+        taps
+    }
+
+    /// How much later than the edge a register samples [fs].
+    fn instant(&mut self) -> i64 {
+        let half = self.half_window.fs() as i64;
+        (uniform(self.words.next_u64()) * (2 * half + 1) as f64) as i64 - half
+    }
+}
+
+#[cfg(test)]
+mod tests;
