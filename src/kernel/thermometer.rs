@@ -5,10 +5,10 @@ use std::ops::Range;
 use bitvec::prelude::*;
 
 /// Transitions that a [`Thermometer`] can hold.
-pub const MAX_TRANSITIONS: usize = 8;
+pub const CAPACITY: usize = 11;
 
-/// Bits of a rank.
-const BITS: usize = 16;
+/// Bits of a rank: lines have less than 2048 taps.
+const BITS: usize = 11;
 
 /// The taps of a line, in order of arrival, that show the level which has reached them.
 ///
@@ -19,7 +19,7 @@ const BITS: usize = 16;
 /// that equal taps compare equal. How many taps there are is known to who asks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Thermometer {
-    /// 16 bits for each transition, the newest lowest. One word, like `shape`, because processors
+    /// A rank for each transition, the newest lowest. One word, like `shape`, because processors
     /// stall on reading together what was written apart.
     ranks: u128,
     /// Twice the number of transitions inside, and one more if the newest level is high.
@@ -35,7 +35,7 @@ impl Thermometer {
 
     /// The taps when the line's input is now at `level` and its last transitions, newest first,
     /// have reached `ranks` taps each (0 = none yet), fewer than there are. Transitions beyond
-    /// [`MAX_TRANSITIONS`] are not seen; the caller's limits keep them from being there.
+    /// [`CAPACITY`] are not seen; the caller's limits keep them from being there.
     pub fn new(level: bool, ranks: impl IntoIterator<Item = usize>) -> Self {
         let mut taps = Self::settled(level);
         ranks.into_iter().for_each(|rank| taps.push(rank));
@@ -70,7 +70,7 @@ impl Thermometer {
         } else if self.rank(len - 1) == rank {
             self.ranks ^= (rank as u128) << (BITS * (len - 1));
             self.shape -= 2;
-        } else if len < MAX_TRANSITIONS {
+        } else if len < CAPACITY {
             self.ranks |= (rank as u128) << (BITS * len);
             self.shape += 2;
         }
@@ -146,7 +146,7 @@ impl Thermometer {
     /// The rank of the `nth` newest transition.
     #[inline(always)]
     const fn rank(&self, nth: usize) -> usize {
-        (self.ranks >> (BITS * nth)) as u16 as usize
+        (self.ranks >> (BITS * nth)) as usize & ((1 << BITS) - 1)
     }
 
     #[inline(always)]

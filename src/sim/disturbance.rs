@@ -8,7 +8,7 @@ use rand_chacha::rand_core::Rng;
 
 use crate::firmware::carry_chain::{Delays, StopLine, Taps};
 use crate::kernel::Time;
-use crate::kernel::thermometer::MAX_TRANSITIONS;
+use crate::kernel::thermometer::CAPACITY;
 use crate::scenario::drift::Pace;
 use crate::sensor::streams::uniform;
 
@@ -50,7 +50,7 @@ impl Disturbance {
     /// Where more transitions travel than [`Taps`] have room for the taps about, those nearest to the edge are
     /// random, and the others are by the tie rule.
     fn metastable(&mut self, level: bool, ages: &[Time], now: Time, delays: &Delays) -> Taps {
-        let most = (MAX_TRANSITIONS / ages.len()).saturating_sub(1);
+        let most = (CAPACITY / ages.len()).saturating_sub(1);
         let unsure = |age: &Time| {
             let begin = age.since(self.half_window);
             let [begin, middle, end] =

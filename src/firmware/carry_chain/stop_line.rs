@@ -1,9 +1,11 @@
 //! The wire from the SPAD to the chain.
 
 use crate::kernel::Time;
-use crate::kernel::thermometer::MAX_TRANSITIONS;
 
 use super::delays::{Delays, Taps};
+
+/// Transitions that may travel in a chain at once.
+const MAX_TRANSITIONS: usize = 8;
 
 /// Its level and the transitions still travelling in the chain.
 #[derive(Clone, Debug, PartialEq)]

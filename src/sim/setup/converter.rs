@@ -13,7 +13,7 @@ use crate::sim::disturbance::Disturbance;
 use super::{recalibration, time_scale};
 
 /// Taps about a transition that may be unsure, for two transitions in the chain to be shown whole.
-const MOST_UNSURE: usize = 3;
+const MOST_UNSURE: usize = 4;
 
 /// What comes of the scenario's keys.
 pub(super) struct Converter {
