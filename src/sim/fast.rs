@@ -22,6 +22,7 @@ use crate::firmware::tof_top::Params;
 
 use super::device::Device;
 use super::frames::Frames;
+use super::setup::Setup;
 
 pub use acquisition::acquire;
 pub use frame_end::leap_frame_end;
@@ -42,9 +43,11 @@ pub enum Stepping {
 }
 
 impl Stepping {
-    /// That way, or the plain step where the firmware calibrates itself: the others know nothing of its ring.
-    pub(super) fn at_most(self, p: &Params) -> Self {
-        if p.tdc_calibration.is_some() { Stepping::EveryCycle } else { self }
+    /// That way, or the plain step where the firmware calibrates itself or pulses are shaped: the others know
+    /// nothing of a ring and of pulses that end by themselves.
+    pub(super) fn at_most(self, setup: &Setup) -> Self {
+        let has_events = setup.params.tdc_calibration.is_some() || setup.shaper().is_some();
+        if has_events { Stepping::EveryCycle } else { self }
     }
 }
 

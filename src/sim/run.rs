@@ -73,7 +73,7 @@ impl<'a> Run<'a> {
             params: &setup.params,
             frames: Frames::default(),
             limit: 0,
-            fast: FastForward::of(Stepping::default().at_most(&setup.params)),
+            fast: FastForward::of(Stepping::default().at_most(setup)),
             next_poll: POLL_INTERVAL,
         }
     }
@@ -81,7 +81,7 @@ impl<'a> Run<'a> {
     /// Goes through time that way while nobody looks at signals or shots; what comes of it is the
     /// same.
     pub fn stepping(mut self, stepping: Stepping) -> Self {
-        self.fast.stepping = stepping.at_most(self.params);
+        self.fast.stepping = stepping.at_most(self.setup);
         self
     }
 

@@ -25,17 +25,20 @@ use crate::kernel::{S, Time, U};
 use crate::network::estimate::estimate;
 use crate::network::{self, Network};
 use crate::note::Note;
-use crate::optics::dark::dark_spread;
+use crate::optics::dark::DarkRates;
 use crate::optics::{Bins, Budget, Hazard};
 use crate::scenario::builtin::Source;
 use crate::scenario::drift::Drifted;
 use crate::scenario::window::Window;
+use crate::scenario::wiring::Wiring;
 use crate::scenario::{
-    self, DeadTimeKind, EstimatorKind, Loaded, Scenario, calibration, chain, pulse,
+    self, DeadTimeKind, EstimatorKind, Loaded, Scenario, calibration, chain, dark, pulse,
 };
+use crate::sensor::front_end::FrontEnd;
 use crate::sensor::light::{Light, Optics};
 use crate::sensor::ring::Ring;
 use crate::sensor::row::Effects;
+use crate::sensor::shaper::{self, Shaper};
 use crate::sensor::spad::Spads;
 use crate::waves::{self, WaveFormat, Waves};
 
@@ -68,6 +71,9 @@ pub struct Setup {
     pub set: Vec<String>,
     /// The link budget.
     pub budget: Budget,
+    /// Avalanches in the dark.
+    #[doc(hidden)]
+    pub dark: DarkRates,
     /// What elaboration fixes in the firmware.
     #[doc(hidden)]
     pub params: Params,
@@ -80,7 +86,10 @@ pub struct Setup {
     /// Why no depth of a run can be that of the target, if none can.
     no_depth: Option<Note>,
     pll: Pll,
+    /// What reaches the SPADs on the TDC.
     pub(super) light: Light,
+    /// What reaches all that are simulated, if these are more.
+    row_light: Option<Light>,
     pins: Pins,
 }
 
@@ -132,11 +141,14 @@ impl Setup {
             &scale,
         )?;
         let (code_source, histogram_source, light) = stimulus(&scenario, &files, &histogram)?;
-        let budget = Budget::new(&scenario, pulse::load(&scenario.laser, &files)?);
-        let light = light.unwrap_or_else(|| {
-            let (lit, dark) = (Hazard::new(&budget), Hazard::dark(&budget));
-            Light::Optics(Box::new(Optics::new(lit, dark, scenario.seed)))
-        });
+        let measured = dark::load(&scenario.spad, &files)?;
+        let (dark, wiring) =
+            (DarkRates::new(&scenario.spad, measured.as_ref()), Wiring::of(&scenario.spad));
+        let pulse = pulse::load(&scenario.laser, &files)?;
+        let budget = Budget::new(&scenario, pulse).with_dark_rates(&dark);
+        let of_row = (light.is_none() && wiring.has_unwired())
+            .then(|| by_budget(&budget.of_row(&wiring, &dark), scenario.seed));
+        let light = light.unwrap_or_else(|| by_budget(&budget, scenario.seed));
         let (coarse_bits, count_stages) = (scenario.tdc.coarse_bits, scenario.tdc.count_stages);
         let tdc = tdc::Params::new(chain.now, scale, coarse_bits, count_stages)
             .with_decoder(scenario.tdc.decoder)
@@ -180,6 +192,7 @@ impl Setup {
             histogram_source,
         };
         fits::check(&name, &params)?;
+        fits::check_pulses(&name, &scenario, params.tdc.delays.longest())?;
         if params.tdc_calibration.is_some() {
             fits::check_ring(&name, &recalibration::ring(&scenario.tdc), &params.tdc)?;
         }
@@ -189,12 +202,14 @@ impl Setup {
             scenario,
             set,
             budget,
+            dark,
             params,
             calibrated,
             known_tdc,
             network,
             pll,
             light,
+            row_light: of_row,
             pins,
             no_depth,
         };
@@ -240,22 +255,32 @@ impl Setup {
         let rms_ps = scenario.pll.jitter_rms_ps;
         let jitter = (rms_ps > 0.0).then(|| Jitter::new(rms_ps, scenario.seed));
         let ring = self.params.tdc_calibration.as_ref().map(|_| recalibration::ring(&scenario.tdc));
+        let ring = Ring::new(ring, scenario.seed);
         Device::new(
             (self.pins, &self.params),
             self.pll.clone(),
             jitter,
-            self.light.clone(),
-            (self.spads(), Ring::new(ring, scenario.seed)),
+            self.row_light.as_ref().unwrap_or(&self.light).clone(),
+            (self.spads(), FrontEnd::new(ring, self.shaper().map(Shaper::new))),
             Timeline::new(scenario),
         )
     }
 
-    /// The diodes on the TDC at power-up.
+    /// The diodes of the row that are simulated, at power-up.
     fn spads(&self) -> Spads {
         let spad = &self.scenario.spad;
         let dead_time = Time::from_ps_f64(spad.dead_time_ns * 1e3);
-        Spads::new(spad.on_tdc as usize, dead_time, Time::NEVER)
-            .with_effects(effects(spad), self.scenario.seed)
+        let count = Wiring::of(spad).simulated.len();
+        Spads::new(count, dead_time, Time::NEVER)
+            .with_effects(effects(spad, &self.dark), self.scenario.seed)
+    }
+
+    /// What makes the pulses on `tdc_stop`, if not the diodes alone.
+    pub(super) fn shaper(&self) -> Option<shaper::Params> {
+        let spad = &self.scenario.spad;
+        let [width, gap] = [spad.pulse_ns, spad.pulse_gap_ns].map(|ns| Time::from_ps_f64(ns * 1e3));
+        let width = (width > Time::ZERO).then_some(width);
+        (width.is_some() || gap > Time::ZERO).then_some(shaper::Params { width, gap })
     }
 
     /// Period of the laser at power-up [cycles of clk_sys].
@@ -374,11 +399,20 @@ impl Setup {
     /// When a glob matches no signal, or the file cannot be written.
     pub fn waves(&self, path: &Path, format: WaveFormat, globs: &[&str]) -> Result<Waves> {
         let globs: Vec<_> = globs.iter().map(|&glob| glob.to_owned()).collect();
-        let entries = hierarchy::entries(&self.params);
-        let entries =
-            waves::select(entries, hierarchy::ram_entries(&self.params.histogram), &globs)?;
+        let entries = self.entries(&globs)?;
         let encoder = &self.params.tdc.decoder.encoder;
         Waves::create(path, format, &entries, encoder, &self.provenance())
+    }
+
+    /// The signals of a waveform that match one of `globs`, or without globs all but the words of the RAM.
+    ///
+    /// # Errors
+    /// When a glob matches no signal.
+    #[doc(hidden)]
+    pub fn entries(&self, globs: &[String]) -> Result<Vec<hierarchy::Entry>> {
+        let mut entries = hierarchy::entries(&self.params);
+        entries.extend(hierarchy::row_entries(self.scenario.spad.row_outputs as usize));
+        waves::select(entries, hierarchy::ram_entries(&self.params.histogram), globs)
     }
 
     /// What a file that comes of it says of where it comes from, a line each.
@@ -402,7 +436,9 @@ impl Setup {
             Light::Optics(_) | Light::None => None,
         };
         let pulse = &self.budget.pulse;
-        format!("{:016x}", digest_of(format_args!("{scenario:?} {params:?} {given:?} {pulse:?}")))
+        let dark = &self.dark;
+        let all = format_args!("{scenario:?} {params:?} {given:?} {pulse:?} {dark:?}");
+        format!("{:016x}", digest_of(all))
     }
 
     /// A number of cycles that no run of `frames` frames reaches unless its control signals keep
@@ -420,8 +456,13 @@ impl Setup {
     }
 }
 
+/// Light of the link budget.
+fn by_budget(budget: &Budget, seed: u64) -> Light {
+    Light::Optics(Box::new(Optics::new(Hazard::new(budget), Hazard::dark(budget), seed)))
+}
+
 /// What a scenario's diodes do beside firing.
-pub(super) fn effects(spad: &scenario::Spad) -> Effects {
+pub(super) fn effects(spad: &scenario::Spad, dark: &DarkRates) -> Effects {
     Effects {
         afterpulse_probability: spad.afterpulse_probability,
         afterpulse_fs: spad.afterpulse_ns * 1e6,
@@ -429,7 +470,8 @@ pub(super) fn effects(spad: &scenario::Spad) -> Effects {
         afterpulse_second_share: spad.afterpulse_second_share,
         paralysable: spad.dead_time_kind == DeadTimeKind::Paralysable,
         crosstalk_probability: spad.crosstalk_probability,
-        dark_rates: dark_spread(spad),
+        dark_rates: dark.parts().to_vec(),
+        on_tdc: (spad.row_outputs > 0).then(|| Wiring::of(spad).places()),
     }
 }
 
