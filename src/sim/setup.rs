@@ -1,5 +1,6 @@
 //! From a scenario to a device: what elaboration, optics and stimuli come to.
 
+mod detector;
 mod expectations;
 mod fits;
 mod instrument;
@@ -26,20 +27,13 @@ use crate::network::estimate::estimate;
 use crate::network::{self, Network};
 use crate::note::Note;
 use crate::optics::dark::DarkRates;
-use crate::optics::{Bins, Budget, Hazard};
+use crate::optics::{Bins, Budget};
 use crate::scenario::builtin::Source;
 use crate::scenario::drift::Drifted;
 use crate::scenario::window::Window;
 use crate::scenario::wiring::Wiring;
-use crate::scenario::{
-    self, DeadTimeKind, EstimatorKind, Loaded, Scenario, calibration, chain, dark, pulse,
-};
-use crate::sensor::front_end::FrontEnd;
-use crate::sensor::light::{Light, Optics};
-use crate::sensor::ring::Ring;
-use crate::sensor::row::Effects;
-use crate::sensor::shaper::{self, Shaper};
-use crate::sensor::spad::Spads;
+use crate::scenario::{self, EstimatorKind, Loaded, Scenario, calibration, chain, dark, pulse};
+use crate::sensor::light::Light;
 use crate::waves::{self, WaveFormat, Waves};
 
 use super::device::Device;
@@ -47,7 +41,10 @@ use super::fast::centroid::locate;
 use super::fast::likelihood;
 use super::jitter::Jitter;
 use super::timeline::{Timeline, pins_at_power_up};
+use detector::by_budget;
 use stimulus::stimulus;
+
+pub(super) use detector::effects;
 
 /// Cycles of a frame beside its shots, Clear, Drain and the estimator: the hand-overs.
 const HAND_OVERS: u64 = 2;
@@ -254,33 +251,14 @@ impl Setup {
         let scenario = &self.scenario;
         let rms_ps = scenario.pll.jitter_rms_ps;
         let jitter = (rms_ps > 0.0).then(|| Jitter::new(rms_ps, scenario.seed));
-        let ring = self.params.tdc_calibration.as_ref().map(|_| recalibration::ring(&scenario.tdc));
-        let ring = Ring::new(ring, scenario.seed);
         Device::new(
             (self.pins, &self.params),
             self.pll.clone(),
             jitter,
             self.row_light.as_ref().unwrap_or(&self.light).clone(),
-            (self.spads(), FrontEnd::new(ring, self.shaper().map(Shaper::new))),
+            (self.spads(), self.front_end()),
             Timeline::new(scenario),
         )
-    }
-
-    /// The diodes of the row that are simulated, at power-up.
-    fn spads(&self) -> Spads {
-        let spad = &self.scenario.spad;
-        let dead_time = Time::from_ps_f64(spad.dead_time_ns * 1e3);
-        let count = Wiring::of(spad).simulated.len();
-        Spads::new(count, dead_time, Time::NEVER)
-            .with_effects(effects(spad, &self.dark), self.scenario.seed)
-    }
-
-    /// What makes the pulses on `tdc_stop`, if not the diodes alone.
-    pub(super) fn shaper(&self) -> Option<shaper::Params> {
-        let spad = &self.scenario.spad;
-        let [width, gap] = [spad.pulse_ns, spad.pulse_gap_ns].map(|ns| Time::from_ps_f64(ns * 1e3));
-        let width = (width > Time::ZERO).then_some(width);
-        (width.is_some() || gap > Time::ZERO).then_some(shaper::Params { width, gap })
     }
 
     /// Period of the laser at power-up [cycles of clk_sys].
@@ -453,25 +431,6 @@ impl Setup {
         let begun = frames.saturating_add(changes.len() as u64 + 1);
         let last = Time::from_ps_f64(last_us * 1e6).fs() / self.cycle().fs();
         begun.saturating_mul(longest_frame).saturating_add(last)
-    }
-}
-
-/// Light of the link budget.
-fn by_budget(budget: &Budget, seed: u64) -> Light {
-    Light::Optics(Box::new(Optics::new(Hazard::new(budget), Hazard::dark(budget), seed)))
-}
-
-/// What a scenario's diodes do beside firing.
-pub(super) fn effects(spad: &scenario::Spad, dark: &DarkRates) -> Effects {
-    Effects {
-        afterpulse_probability: spad.afterpulse_probability,
-        afterpulse_fs: spad.afterpulse_ns * 1e6,
-        afterpulse_second_fs: spad.afterpulse_second_ns * 1e6,
-        afterpulse_second_share: spad.afterpulse_second_share,
-        paralysable: spad.dead_time_kind == DeadTimeKind::Paralysable,
-        crosstalk_probability: spad.crosstalk_probability,
-        dark_rates: dark.parts().to_vec(),
-        on_tdc: (spad.row_outputs > 0).then(|| Wiring::of(spad).places()),
     }
 }
 
