@@ -133,7 +133,8 @@ impl Row {
 
     /// How many have fired, that are not on the TDC.
     pub fn unwired(&self) -> usize {
-        self.dead.iter().flatten().count() - self.dead[self.on_tdc.clone()].iter().flatten().count()
+        let others = self.dead.iter().enumerate().filter(|(place, _)| !self.on_tdc.contains(place));
+        others.filter(|(_, dead)| dead.is_some()).count()
     }
 
     /// The outputs that are high, a bit each.

@@ -121,8 +121,12 @@ fn network_and_second_opinion_say_what_they_do_not_know() {
         );
         String::from_utf8(said.stderr).unwrap()
     };
-    assert!(said("likelihood", "spad.pulse_ns=20").contains("note: spad.pulse_ns = 20: "));
-    assert!(said("matched", "seed=2").contains("note: spad.crosstalk_probability = 0.2: "));
+    assert!(
+        said("likelihood", "spad.pulse_ns=20").contains("it takes the TDC to see an avalanche")
+    );
+    let found = said("matched", "seed=2");
+    assert!(found.contains("it takes hits to be of light and of the dark"), "{found}");
+    assert!(said("centroid", "spad.pulse_ns=20").contains("it takes the TDC to see"));
 }
 
 #[test]
