@@ -55,14 +55,19 @@ impl FrontEnd {
     }
 
     /// The level of `tdc_stop`, with the output of the diodes as it is from `now` on.
+    #[inline(always)]
     pub fn drive(&mut self, output: bool, now: Time) -> bool {
-        let mut level = output;
-        if let Some(shaper) = &mut self.shaper {
-            shaper.follow(output, now);
-            level = shaper.level();
-            self.look_ahead();
-        }
+        let level = if self.shaper.is_some() { self.shape(output, now) } else { output };
         if self.ring.is_on() { self.ring.level() } else { level }
+    }
+
+    #[cold]
+    fn shape(&mut self, output: bool, now: Time) -> bool {
+        let Some(shaper) = &mut self.shaper else { return output };
+        shaper.follow(output, now);
+        let level = shaper.level();
+        self.look_ahead();
+        level
     }
 
     /// Whether an avalanche at `now` may be seen: where there is a shaper, if it makes the output rise, which was
