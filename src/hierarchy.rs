@@ -14,8 +14,8 @@ mod entry;
 mod part;
 
 use build::Build;
-use entry::RAM;
-pub use entry::{Entry, IDS, Kind, TOP, below_top};
+pub use entry::{Entry, IDS, Kind, ROW, TOP, below_top};
+use entry::{MOST_OUTPUTS, RAM};
 pub use part::{Part, changes, copy};
 
 /// Every name in every scope that those parameters have, without the RAM's words.
@@ -76,6 +76,25 @@ pub fn ram_entries(size: &histogram_builder::Params) -> Vec<Entry> {
         id: RAM + bin,
     };
     (0..size.bins).map(word).collect()
+}
+
+/// The outputs of a row of SPADs, which is no module of the firmware: `spad_row.spad_out_0` to that of the last one.
+pub fn row_entries(outputs: usize) -> Vec<Entry> {
+    let output = |place| Entry {
+        scope: "spad_row".to_owned(),
+        signal: Signal {
+            name: format!("spad_out_{place}"),
+            width: 1,
+            size: None,
+            format: SignalFormat::Bits,
+            output: true,
+            view: View::NONE,
+            doc: "Output of a SPAD of the selected row, before the OR and the monostable.",
+        },
+        kind: Kind::Output,
+        id: ROW + place,
+    };
+    (0..outputs.min(MOST_OUTPUTS)).map(output).collect()
 }
 
 /// Whether a dotted path lies in another or is the same.

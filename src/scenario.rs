@@ -7,6 +7,8 @@ pub mod calibration;
 #[doc(hidden)]
 pub mod chain;
 #[doc(hidden)]
+pub mod dark;
+#[doc(hidden)]
 pub mod drift;
 mod illuminance;
 mod load;
@@ -18,6 +20,8 @@ pub mod show;
 mod validate;
 #[doc(hidden)]
 pub mod window;
+#[doc(hidden)]
+pub mod wiring;
 
 pub use load::{DEFAULT, Loaded, load};
 pub use model::*;

@@ -12,5 +12,6 @@ mod leap;
 mod physics;
 mod public_face;
 mod spad;
+mod spad_row;
 mod stepping;
 mod whole_chain;

@@ -10,7 +10,7 @@ mod delays;
 mod stop_line;
 
 pub use delays::{Delays, LENGTHS, TAPS, Taps};
-pub use stop_line::StopLine;
+pub use stop_line::{MAX_TRANSITIONS, StopLine};
 
 signals! {
     /// Input ports.

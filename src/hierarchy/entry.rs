@@ -45,15 +45,21 @@ impl Entry {
 
     /// Whether it is a word of the histogram's RAM.
     pub fn in_ram(&self) -> bool {
-        self.id >= RAM
+        (RAM..ROW).contains(&self.id)
     }
 }
 
 /// First id of the RAM's words, after those of all registers and wires.
 pub(super) const RAM: usize = TofTop::COUNT;
 
+/// First id of the outputs of the row of SPADs.
+pub const ROW: usize = RAM + MOST_BINS;
+
+/// Longest row.
+pub const MOST_OUTPUTS: usize = 64;
+
 /// Number of ids.
-pub const IDS: usize = RAM + MOST_BINS;
+pub const IDS: usize = ROW + MOST_OUTPUTS;
 
 /// A path without the top.
 pub fn below_top(path: &str) -> &str {

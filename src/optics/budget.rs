@@ -4,9 +4,10 @@ use std::f64::consts::PI;
 
 use crate::kernel::Time;
 use crate::kernel::pulse::Pulse;
+use crate::scenario::wiring::Wiring;
 use crate::scenario::{AmbientModel, Filter, Scenario};
 
-use super::dark::dark_rate_on_tdc_hz;
+use super::dark::DarkRates;
 use super::geometry;
 use super::variation::Variation;
 
@@ -41,7 +42,7 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// Of a scene, with the pulse that its laser has.
+    /// Of a scene, with the pulse that its laser has, and without measured dark rates ([`Budget::with_dark_rates`]).
     pub fn new(scenario: &Scenario, pulse: Pulse) -> Self {
         let on_tdc = f64::from(scenario.spad.on_tdc);
         let ambient_rate_hz = match scenario.ambient.model {
@@ -53,7 +54,7 @@ impl Budget {
         Budget {
             signal_per_shot: on_tdc * signal_per_shot(scenario),
             ambient_rate_hz: on_tdc * ambient_rate_hz,
-            dark_rate_hz: dark_rate_on_tdc_hz(&scenario.spad),
+            dark_rate_hz: DarkRates::new(&scenario.spad, None).on_tdc_hz(),
             pulse_energy_j: scenario.laser.pulse_energy_j(),
             mean_arrival: delay + flight,
             delay,
@@ -62,6 +63,22 @@ impl Budget {
                 timing_ps: scenario.laser.timing_jitter_ps,
                 energy: scenario.laser.energy_jitter,
             },
+        }
+    }
+
+    /// The same with dark rates that may have been measured.
+    pub fn with_dark_rates(self, dark: &DarkRates) -> Self {
+        Budget { dark_rate_hz: dark.on_tdc_hz(), ..self }
+    }
+
+    /// That of all outputs that are simulated, where this is of those on the TDC: each has the same light.
+    pub fn of_row(&self, wiring: &Wiring, dark: &DarkRates) -> Self {
+        let share = wiring.simulated.len() as f64 / wiring.on_tdc.len() as f64;
+        Budget {
+            signal_per_shot: self.signal_per_shot * share,
+            ambient_rate_hz: self.ambient_rate_hz * share,
+            dark_rate_hz: dark.of_row_hz(),
+            ..self.clone()
         }
     }
 

@@ -1,7 +1,11 @@
 //! Avalanches in the dark: how many at a temperature, and how diodes differ.
 
+use std::ops::Range;
+
 use crate::kernel::pulse::normal_quantile;
 use crate::scenario::Spad;
+use crate::scenario::dark::Measured;
+use crate::scenario::wiring::{ON_TDC, Wiring};
 
 /// The temperature at which `spad.dark_rate_hz` is stated [deg C].
 pub const STATED_AT_C: f64 = 20.0;
@@ -9,32 +13,81 @@ pub const STATED_AT_C: f64 = 20.0;
 /// Dark rate of a diode in the middle of all at the scenario's temperature: it doubles with every
 /// `spad.dark_doubling_c` degrees [1/s].
 pub fn dark_rate_hz(spad: &Spad) -> f64 {
-    spad.dark_rate_hz * libm::exp2((spad.temperature_c - STATED_AT_C) / spad.dark_doubling_c)
+    spad.dark_rate_hz * growth(spad)
 }
 
-/// Dark rates of the diodes on the TDC against that, if they differ: the quantiles (k + 1/2) / n of a log-normal
-/// distribution, quiet and hot ones side by side in turn, so that no chance decides which there are [1].
-pub fn dark_spread(spad: &Spad) -> Vec<f64> {
-    let count = spad.on_tdc as usize;
-    if spad.dark_spread == 0.0 || count == 1 {
+/// What dark rates grow by from 20 deg C to the scenario's temperature [1].
+fn growth(spad: &Spad) -> f64 {
+    libm::exp2((spad.temperature_c - STATED_AT_C) / spad.dark_doubling_c)
+}
+
+/// Dark rates of the outputs of the row that are simulated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DarkRates {
+    /// Of each, in units of `unit_hz`; none if all have that [1].
+    parts: Vec<f64>,
+    /// [1/s].
+    unit_hz: f64,
+    wiring: Wiring,
+    /// Of output 15 alone, of which others are told to be no more than neighbours [1/s].
+    one_hz: f64,
+}
+
+impl DarkRates {
+    /// Those of a detector: all alike, spread, or as measured.
+    pub fn new(spad: &Spad, measured: Option<&Measured>) -> Self {
+        let (wiring, middle_hz) = (Wiring::of(spad), dark_rate_hz(spad));
+        let count = wiring.simulated.len();
+        let Some(measured) = measured else {
+            let parts = if count == 1 { Vec::new() } else { quantiles(spad.dark_spread, count) };
+            return DarkRates { parts, unit_hz: middle_hz, wiring, one_hz: middle_hz };
+        };
+        let rate = |output| measured.get(output).copied().flatten().unwrap_or(spad.dark_rate_hz);
+        let (parts, unit_hz) = (wiring.simulated.clone().map(rate).collect(), growth(spad));
+        DarkRates { parts, unit_hz, wiring, one_hz: rate(ON_TDC) * unit_hz }
+    }
+
+    /// Rate of all on the TDC together [1/s].
+    pub fn on_tdc_hz(&self) -> f64 {
+        self.sum_hz(self.wiring.places())
+    }
+
+    /// Rate of all that are simulated together [1/s].
+    pub fn of_row_hz(&self) -> f64 {
+        self.sum_hz(0..self.wiring.simulated.len())
+    }
+
+    /// Rate of one diode by itself: that of output 15 as measured, or one in the middle of all [1/s].
+    pub fn one_hz(&self) -> f64 {
+        self.one_hz
+    }
+
+    /// Rate of each to a common factor, if there are several that differ [1].
+    pub fn parts(&self) -> &[f64] {
+        if self.parts.len() > 1 { &self.parts } else { &[] }
+    }
+
+    fn sum_hz(&self, places: Range<usize>) -> f64 {
+        let parts = match self.parts.is_empty() {
+            true => places.len() as f64,
+            false => self.parts.iter().skip(places.start).take(places.len()).sum(),
+        };
+        parts * self.unit_hz
+    }
+}
+
+/// The quantiles (k + 1/2) / n of a log-normal distribution, quiet and hot ones side by side in turn, so that no chance
+/// decides which there are; none if they are all alike [1].
+fn quantiles(spread: f64, count: usize) -> Vec<f64> {
+    if spread == 0.0 {
         return Vec::new();
     }
     let quantile = |k: usize| {
         let part = (k as f64 + 0.5) / count as f64;
-        libm::exp(spad.dark_spread * normal_quantile(part))
+        libm::exp(spread * normal_quantile(part))
     };
     let place = |k: usize| if k.is_multiple_of(2) { k / 2 } else { count - 1 - k / 2 };
     (0..count).map(|k| quantile(place(k))).collect()
-}
-
-/// Dark rate of all diodes on the TDC [1/s].
-pub fn dark_rate_on_tdc_hz(spad: &Spad) -> f64 {
-    let spread = dark_spread(spad);
-    let diodes = match spread.is_empty() {
-        true => f64::from(spad.on_tdc),
-        false => spread.iter().sum(),
-    };
-    diodes * dark_rate_hz(spad)
 }
 
 #[cfg(test)]
@@ -61,16 +114,47 @@ mod tests {
     #[test]
     fn diodes_that_differ_have_the_median_and_the_mean_of_a_log_normal_distribution() {
         let spad = |on_tdc, dark_spread| Spad { on_tdc, dark_spread, ..Spad::default() };
-        assert!(dark_spread(&spad(1, 1.0)).is_empty());
-        assert!(dark_spread(&spad(40, 0.0)).is_empty());
-        let mut rates = dark_spread(&spad(39, 0.8));
+        let rates = |on_tdc, dark_spread| DarkRates::new(&spad(on_tdc, dark_spread), None);
+        assert!(rates(1, 1.0).parts().is_empty() && rates(40, 0.0).parts().is_empty());
+        let (on_tdc, parts) = (rates(40, 0.8).on_tdc_hz(), rates(39, 0.8).parts().to_vec());
+        let (alike_hz, mut rates) = (rates(40, 0.0).on_tdc_hz(), parts);
         assert!(rates[0] < 0.2 && rates[1] > 5.0, "{rates:?}");
         rates.sort_by(f64::total_cmp);
         assert!((rates[19] - 1.0).abs() < 1e-12);
         // The quantile 0.5 / 39 lies 2.2319 deviations below the middle.
         assert!((rates[0] - (-0.8f64 * 2.2319).exp()).abs() < 1e-4, "{}", rates[0]);
-        let mean = dark_rate_on_tdc_hz(&spad(40, 0.8)) / 4000.0;
+        let mean = on_tdc / 4000.0;
         assert!((mean / (0.32f64).exp() - 1.0).abs() < 0.03, "{mean}");
-        assert_eq!(dark_rate_on_tdc_hz(&spad(40, 0.0)), 4000.0);
+        assert_eq!(alike_hz, 4000.0);
+    }
+
+    #[test]
+    fn of_a_row_those_on_the_tdc_have_their_own_share() {
+        let spad = Spad { on_tdc: 3, row_outputs: 30, dark_spread: 0.8, ..Spad::default() };
+        let rates = DarkRates::new(&spad, None);
+        let whole = DarkRates::new(&Spad { on_tdc: 30, row_outputs: 0, ..spad }, None);
+        assert_eq!(rates.parts(), whole.parts());
+        assert_eq!(rates.of_row_hz(), whole.on_tdc_hz());
+        assert_eq!(rates.on_tdc_hz(), 100.0 * whole.parts()[14..17].iter().sum::<f64>());
+        assert_eq!(rates.one_hz(), 100.0);
+    }
+
+    #[test]
+    fn measured_rates_are_those_of_the_outputs_and_grow_with_temperature_as_all_do() {
+        let mut measured = [None; 30];
+        (measured[15], measured[16], measured[2]) = (Some(500.0), Some(0.0), Some(9000.0));
+        let rates = |on_tdc, row_outputs| {
+            let spad = Spad { on_tdc, row_outputs, temperature_c: 28.0, ..Spad::default() };
+            let rates = DarkRates::new(&spad, Some(&measured));
+            (rates.on_tdc_hz(), rates.of_row_hz(), rates.one_hz())
+        };
+        assert_eq!(rates(1, 0), (1000.0, 1000.0, 1000.0));
+        assert_eq!(rates(3, 0), (1200.0, 1200.0, 1000.0), "14 is not named");
+        assert_eq!(rates(3, 30), (1200.0, 2.0 * (500.0 + 9000.0 + 27.0 * 100.0), 1000.0));
+        assert_eq!(
+            rates(40, 0).0,
+            2.0 * (500.0 + 9000.0 + 37.0 * 100.0),
+            "the others are not measured"
+        );
     }
 }

@@ -47,6 +47,8 @@ pub struct Course {
     pub pace: Pace,
     /// The shortest and the longest of them against those that the calibration knows [1].
     pub range: [f64; 2],
+    /// The longest of them against those at power-up [1].
+    pub slowest: f64,
 }
 
 /// The conditions over time that a file has, if there is one; its path is taken from `base`.
@@ -106,6 +108,7 @@ impl Drifted {
         let course = (range[0] < range[1]).then(|| Course {
             pace: Pace::new(of_profile.iter().map(point).collect()),
             range: range.map(|factor| factor / factor_then),
+            slowest: range[1] / factor,
         });
         Ok(Drifted { now: stretched(&own, factor, cycle, now.cause(tdc))?, calibrated, course })
     }

@@ -11,8 +11,9 @@ use crate::files::toml::Checked;
 use crate::firmware::tdc_decoder::TimeScale;
 use crate::kernel::Time;
 
-use super::model::{Control, Firmware, Scenario, Stimulus, Tdc, TdcCalibration};
+use super::model::{Control, Firmware, Scenario, Spad, Stimulus, Tdc, TdcCalibration};
 use super::window::Window;
+use super::wiring::ON_TDC;
 
 /// Most units of the decoder in a period of `clk_sys`: times and ages have 42 bits.
 const MOST_UNITS: u64 = 1 << 29;
@@ -141,11 +142,46 @@ fn spads(scenario: &Scenario, checked: &Checked) -> Result<()> {
     let fault = |expected: &str| {
         Err(checked.fault("spad.on_tdc", format!("expected {expected}")).value(on_tdc).into())
     };
+    row(&scenario.spad, checked)?;
     if on_tdc > count {
         return fault(&format!("{count} at most, as many as share the light (spad.count)"));
     }
-    if on_tdc > 1 && scenario.stimulus.photons.is_some() {
+    let Some(_) = scenario.stimulus.photons else { return Ok(()) };
+    if on_tdc > 1 {
         return fault("1: the photons of a list (stimulus.photons) are those of one");
+    }
+    let row = scenario.spad.row_outputs;
+    let expected = "expected 0: the photons of a list (stimulus.photons) are those of one SPAD";
+    if row > 0 {
+        Err(checked.fault("spad.row_outputs", expected).value(row).into())
+    } else {
+        Ok(())
+    }
+}
+
+/// That the row has the outputs on the TDC, light for each, and dark rates of one kind.
+fn row(spad: &Spad, checked: &Checked) -> Result<()> {
+    let &Spad { on_tdc, count, row_outputs: row, dark_spread, .. } = spad;
+    let refused = match row {
+        0 => None,
+        _ if row as usize <= ON_TDC => {
+            Some(format!("{} or more, so that output {ON_TDC} is in the row", ON_TDC + 1))
+        }
+        _ if row < on_tdc => {
+            Some(format!("{on_tdc} or more, as many as are on the TDC (spad.on_tdc)"))
+        }
+        _ if row > count => {
+            Some(format!("{count} at most, as many as share the light (spad.count)"))
+        }
+        _ => None,
+    };
+    if let Some(expected) = refused {
+        let expected = format!("expected 0, or {expected}");
+        return Err(checked.fault("spad.row_outputs", expected).value(row).into());
+    }
+    if spad.dark_file.is_some() && dark_spread > 0.0 {
+        let expected = "expected 0: spad.dark_file says what the rates are";
+        return Err(checked.fault("spad.dark_spread", expected).value(dark_spread).into());
     }
     Ok(())
 }

@@ -82,10 +82,11 @@ impl Light {
         }
     }
 
-    /// What set off the avalanche at `at`, in the present shot; unknown for given photons.
-    pub fn cause(&mut self, at: Time) -> Option<Cause> {
+    /// What set off the avalanche at `at`, in the present shot, of a diode of whose rate `dark` comes without any light,
+    /// if that is another part than of all; unknown for given photons.
+    pub fn cause(&mut self, at: Time, dark: Option<f64>) -> Option<Cause> {
         match self {
-            Light::Optics(optics) => Some(optics.cause(at)),
+            Light::Optics(optics) => Some(optics.cause(at, dark)),
             Light::List(_) | Light::None => None,
         }
     }
@@ -235,11 +236,18 @@ impl Optics {
         }
     }
 
-    fn cause(&mut self, at: Time) -> Cause {
+    fn cause(&mut self, at: Time, dark: Option<f64>) -> Cause {
         seek(&mut self.causes, self.shot, self.causes_drawn);
         self.causes_drawn += 1;
+        let (since, mut draw) = (at.since(self.origin), uniform(self.causes.next_u64()));
+        if let Some(dark) = dark {
+            if draw >= 1.0 - dark {
+                return Cause::Dark;
+            }
+            // Among those that come of light it is uniform up to their part.
+            draw *= (1.0 - self.dark_part(at)) / (1.0 - dark);
+        }
         let hazard = &self.hazards[self.lit as usize];
-        let (since, draw) = (at.since(self.origin), uniform(self.causes.next_u64()));
         match self.pulse {
             Some(pulse) => hazard.varied(pulse).cause(since, draw),
             None => hazard.cause(since, draw),

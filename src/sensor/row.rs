@@ -6,6 +6,8 @@
 //! chance, and it comes back after an exponential time as a carrier of that diode; traps of a second kind may
 //! have another mean time. An avalanche sets off each neighbour with some chance too, at the same instant.
 
+use std::ops::Range;
+
 use crate::kernel::Time;
 
 use super::streams::{Source, Stretches, exponential, uniform};
@@ -27,6 +29,8 @@ pub struct Effects {
     pub crosstalk_probability: f64,
     /// Dark rate of each diode, if they differ, to a common factor [1].
     pub dark_rates: Vec<f64>,
+    /// Those whose OR is `tdc_stop`, where a whole row is followed; otherwise all.
+    pub on_tdc: Option<Range<usize>>,
 }
 
 impl Effects {
@@ -51,8 +55,11 @@ impl Effects {
         self.afterpulse_probability * self.traps().map(late).iter().sum::<f64>()
     }
 
-    /// Whether that many diodes do nothing but fire, all of them alike.
+    /// Whether that many diodes do nothing but fire, all of them alike and on the TDC.
     pub fn are_none(&self, count: usize) -> bool {
+        if self.on_tdc.is_some() {
+            return false;
+        }
         let together = self.crosstalk_probability == 0.0 && self.dark_rates.is_empty();
         self.afterpulse_probability == 0.0 && !self.paralysable && (together || count == 1)
     }
@@ -62,6 +69,8 @@ impl Effects {
 #[derive(Clone, Debug)]
 pub struct Row {
     effects: Effects,
+    /// Those on the TDC.
+    on_tdc: Range<usize>,
     /// When the dead time of each ends that has fired.
     dead: Vec<Option<Time>>,
     /// Trapped carriers, the next one to be released last: when, and in which diode.
@@ -76,6 +85,7 @@ impl Row {
     pub fn new(count: usize, effects: Effects, seed: u64) -> Self {
         let stretches = |source| Stretches::new(seed, source);
         Row {
+            on_tdc: effects.on_tdc.clone().unwrap_or(0..count),
             effects,
             dead: vec![None; count],
             trapped: Vec::new(),
@@ -121,6 +131,27 @@ impl Row {
         fired.into_iter()
     }
 
+    /// How many have fired, that are not on the TDC.
+    pub fn unwired(&self) -> usize {
+        let others = self.dead.iter().enumerate().filter(|(place, _)| !self.on_tdc.contains(place));
+        others.filter(|(_, dead)| dead.is_some()).count()
+    }
+
+    /// The outputs that are high, a bit each.
+    pub fn outputs(&self) -> u64 {
+        let bit = |(place, dead): (usize, &Option<Time>)| u64::from(dead.is_some()) << place;
+        self.dead.iter().take(u64::BITS as usize).enumerate().map(bit).sum()
+    }
+
+    /// The part of the rate that a diode has in the dark, where `dark` of all diodes' rate is that of the dark [1].
+    pub fn dark_part(&self, diode: usize, dark: f64) -> f64 {
+        let rates = &self.effects.dark_rates;
+        let Some(own) = rates.get(diode) else { return dark };
+        let own = dark * own / rates.iter().sum::<f64>();
+        let light = (1.0 - dark) / self.dead.len() as f64;
+        if own > 0.0 { own / (own + light) } else { 0.0 }
+    }
+
     /// When the next trapped carrier is released.
     pub fn release(&self) -> Time {
         self.trapped.last().map_or(Time::NEVER, |(at, _)| *at)
@@ -157,7 +188,7 @@ impl Row {
         found.unwrap_or(count - 1)
     }
 
-    /// A carrier in a diode at `now`; whether there is an avalanche. `again` if it starts a dead time
+    /// A carrier in a diode at `now`; whether there is an avalanche of one on the TDC. `again` if it starts a dead time
     /// again.
     pub fn carrier(&mut self, diode: usize, now: Time, dead_time: Time, again: bool) -> bool {
         let until = now.saturating_add(dead_time);
@@ -169,7 +200,7 @@ impl Row {
                 Some(_) => {}
                 armed => {
                     *armed = Some(until);
-                    fires = true;
+                    fires |= self.on_tdc.contains(&diode);
                     self.trap(diode, now);
                     self.light_neighbours(diode, &mut coming);
                 }

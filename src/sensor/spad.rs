@@ -4,7 +4,8 @@
 //! diode's output stays high until the next `spad_rst` (MODE 0, active reset) or until its dead time
 //! has passed, when it is armed again (MODE 1, passive quenching). `tdc_stop` is high while any output
 //! is (thesis Fig. 4.3). In MODE 0 nobody sees the avalanches after a first one, so they are left out:
-//! where MODE 1 begins behind it, all diodes but that one are taken as armed.
+//! where MODE 1 begins behind it, all diodes but that one are taken as armed. Of a whole row, of which some are on the TDC
+//! and others are not, each is followed to the end of the shot.
 //!
 //! What diodes do beside that, and which of them, is the matter of a [`Row`].
 
@@ -39,6 +40,10 @@ pub struct Spads {
     dead_time: Time,
     /// When the dead time of each that has fired ends, the oldest first.
     fired: VecDeque<Time>,
+    /// How many of those are not on the TDC.
+    unwired: usize,
+    /// The part of the last avalanche's rate that came without any light, where diodes differ in it [1].
+    dark_part: Option<f64>,
     /// The next avalanche of one that is armed; never until it has been drawn.
     avalanche: Time,
     /// The next avalanche, recovery or release.
@@ -58,6 +63,8 @@ impl Spads {
             passive: false,
             dead_time,
             fired: VecDeque::new(),
+            unwired: 0,
+            dark_part: None,
             avalanche: first,
             next: first,
             most: 1,
@@ -86,6 +93,7 @@ impl Spads {
         match &self.row {
             Some(row) if self.passive && row.effects().paralysable => usize::MAX,
             Some(row) if row.effects().afterpulse_probability > 0.0 => self.count,
+            Some(row) if row.effects().on_tdc.is_some() => self.count,
             _ if self.passive => self.count,
             _ => 1,
         }
@@ -133,12 +141,16 @@ impl Spads {
         } else {
             self.avalanche = Time::NEVER;
             light.take(now);
-            let diode = row.pick(light.dark_part(now));
+            let dark = light.dark_part(now);
+            let diode = row.pick(dark);
+            let differ = row.effects().on_tdc.is_some();
+            self.dark_part = differ.then(|| row.dark_part(diode, dark));
             let fires = row.carrier(diode, now, dead_time, again);
             (fires && !was_high, Event::Avalanche)
         };
         self.fired.clear();
         self.fired.extend(row.fired());
+        self.unwired = row.unwired();
         let kept = if self.is_armed() { self.avalanche } else { Time::NEVER };
         self.arm(kept);
         if fires { seen } else { Event::Unseen }
@@ -147,7 +159,17 @@ impl Spads {
     /// Whether `tdc_stop` is high.
     #[inline(always)]
     pub fn output(&self) -> bool {
-        !self.fired.is_empty()
+        self.fired.len() > self.unwired
+    }
+
+    /// The outputs that are high, a bit each, where the diodes are told apart.
+    pub fn outputs(&self) -> u64 {
+        self.row.as_ref().map_or(0, |row| row.outputs())
+    }
+
+    /// The part of the last avalanche's rate that came without any light, where diodes differ in it [1].
+    pub fn dark_part(&self) -> Option<f64> {
+        self.dark_part
     }
 
     /// Whether an avalanche of an armed diode would be seen, or matters otherwise.
@@ -213,6 +235,7 @@ impl Spads {
         self.fired.clear();
         if let Some(row) = &mut self.row {
             row.arm_all();
+            self.unwired = 0;
         }
     }
 

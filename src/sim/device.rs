@@ -9,8 +9,8 @@ use crate::firmware::tof_top::{Params, Pins, TofTop};
 use crate::kernel::Time;
 use crate::note::{Note, NoteCode};
 use crate::optics::hazard::Cause;
+use crate::sensor::front_end::FrontEnd;
 use crate::sensor::light::Light;
-use crate::sensor::ring::Ring;
 use crate::sensor::spad::{Event, Spads};
 
 use super::disturbance::Disturbance;
@@ -30,8 +30,8 @@ pub struct Device {
     disturbance: Option<Box<Disturbance>>,
     pub light: Light,
     pub(super) spads: Spads,
-    /// What gives the TDC its hits during a calibration.
-    ring: Ring,
+    /// From the diodes to the wire.
+    front_end: FrontEnd,
     pub(super) timeline: Timeline,
     pub(super) pll: Pll,
     pub(super) jitter: Option<Jitter>,
@@ -51,7 +51,7 @@ impl Device {
         jitter: Option<Jitter>,
         disturbance: Option<Disturbance>,
         mut light: Light,
-        (mut spads, ring): (Spads, Ring),
+        (mut spads, front_end): (Spads, FrontEnd),
         timeline: Timeline,
     ) -> Self {
         spads.arm_all(light.next_avalanche(Time::ZERO, 1.0));
@@ -60,7 +60,7 @@ impl Device {
             line: StopLine::default(),
             disturbance: disturbance.map(Box::new),
             spads,
-            ring,
+            front_end,
             light,
             timeline,
             quarter: pll.clk_laser.fall(0) - pll.clk_laser.rise(0),
@@ -122,7 +122,7 @@ impl Device {
         self.settle(self.pll.locked_at, probe, listener);
         self.top.pll.locked = true;
         if T::ON {
-            probe.sample(self.pll.locked_at, &self.top);
+            self.sample(self.pll.locked_at, probe);
         }
     }
 
@@ -148,7 +148,7 @@ impl Device {
         self.react(now, self.top.nets.laser_on && !lit);
         if T::ON {
             self.clocks(true, true);
-            probe.sample(now, &self.top);
+            self.sample(now, probe);
         }
         let middle = self.rise_laser_at(2 * self.cycle + 1);
         let quarter = self.quarter;
@@ -160,7 +160,7 @@ impl Device {
         if T::ON {
             self.clocks(false, true);
             if unseen || self.top.registers_laser() != before {
-                probe.sample(middle, &self.top);
+                self.sample(middle, probe);
             } else {
                 probe.tick(middle, &self.top);
             }
@@ -205,9 +205,16 @@ impl Device {
             if only_clocks {
                 probe.tick(at, &self.top);
             } else {
-                probe.sample(at, &self.top);
+                self.sample(at, probe);
             }
         }
+    }
+
+    /// Shows the signals, and the outputs of the row.
+    #[inline(always)]
+    fn sample<T: SignalProbe>(&self, now: Time, probe: &mut T) {
+        probe.outputs(self.spads.outputs());
+        probe.sample(now, &self.top);
     }
 
     fn clocks(&mut self, clk_sys: bool, clk_laser: bool) {
@@ -236,7 +243,7 @@ impl Device {
         let mut unseen = false;
         loop {
             let next = self.spads.next_event().min(self.timeline.next_event());
-            let next = next.min(self.ring.next_event());
+            let next = next.min(self.front_end.next_event());
             if T::ON {
                 while self.oscillator.next_edge() < next.min(until) {
                     let now = self.oscillator.next_edge();
@@ -253,7 +260,7 @@ impl Device {
             self.happen::<R>(next, listener);
             unseen = next == until;
             if T::ON && !unseen {
-                probe.sample(next, &self.top);
+                self.sample(next, probe);
             }
         }
     }
@@ -265,8 +272,8 @@ impl Device {
         if self.spads.next_event() == now {
             self.detect(listener);
         }
-        if self.ring.next_event() == now {
-            self.ring.event();
+        if self.front_end.next_event() == now {
+            self.front_end.event();
             self.drive_stop(now);
         }
     }
@@ -285,9 +292,11 @@ impl Device {
         let now = self.spads.next_event();
         let output = self.spads.output();
         let event = self.spads.event(&mut self.light);
-        if R::ON {
+        if R::ON && self.front_end.shows(output, now) {
             match event {
-                Event::Avalanche => listener.avalanche(now, self.light.cause(now)),
+                Event::Avalanche => {
+                    listener.avalanche(now, self.light.cause(now, self.spads.dark_part()))
+                }
                 Event::Afterpulse => listener.avalanche(now, Some(Cause::Afterpulse)),
                 Event::Recovery | Event::Unseen => {}
             }
@@ -312,8 +321,8 @@ impl Device {
             }
         }
         let ring_on = self.top.tdc_calibration.registers.ring_on;
-        if ring_on != self.ring.is_on() {
-            self.ring.switch(ring_on, now);
+        if ring_on != self.front_end.ring_is_on() {
+            self.front_end.switch_ring(ring_on, now);
             self.drive_stop(now);
         }
         let start = self.top.vcsel_driver.registers.start;
@@ -344,9 +353,9 @@ impl Device {
         self.spads.arm(self.light.next_avalanche(now, self.spads.share()));
     }
 
-    /// The wire to the firmware follows the detector, or the ring while that runs.
+    /// The wire to the firmware follows its front end.
     fn drive_stop(&mut self, now: Time) {
-        let level = if self.ring.is_on() { self.ring.level() } else { self.spads.output() };
+        let level = self.front_end.drive(self.spads.output(), now);
         if level != self.line.level() {
             self.line.toggle(now);
             self.top.pins.tdc_stop = level;

@@ -14,7 +14,7 @@ use crate::scenario::drift::REFERENCE_C;
 
 /// Keys of the scenario that decide how the histograms of a frame are distributed. The laser's rate is
 /// none of them: in MODE 0 every shot begins with a reset.
-const KEYS: [&str; 44] = [
+const KEYS: [&str; 47] = [
     "target.distance_m",
     "target.reflectance",
     "target.length_m",
@@ -45,6 +45,9 @@ const KEYS: [&str; 44] = [
     DOUBLING,
     SPREAD,
     AFTERPULSES,
+    ROW_OUTPUTS,
+    PULSE,
+    PULSE_GAP,
     BIN,
     FIRST_BIN,
     DIE,
@@ -70,6 +73,11 @@ const TEMPERATURE: &str = "spad.temperature_c";
 const DOUBLING: &str = "spad.dark_doubling_c";
 const SPREAD: &str = "spad.dark_spread";
 const AFTERPULSES: &str = "spad.afterpulse_probability";
+const ROW_OUTPUTS: &str = "spad.row_outputs";
+const CROSSTALK: &str = "spad.crosstalk_probability";
+const PULSE: &str = "spad.pulse_ns";
+const PULSE_GAP: &str = "spad.pulse_gap_ns";
+const DARK_FILE: &str = "spad.dark_file";
 const BIN: &str = "tdc.bin_ps";
 const FIRST_BIN: &str = "tdc.first_bin_ps";
 const DIE: &str = "tdc.temperature_c";
@@ -83,7 +91,9 @@ const WINDOW: &str = "tdc.setup_window_ps";
 /// What a drift of the chain is of.
 pub(crate) const OF_DRIFT: [&str; 6] = [DIE, SUPPLY, DIE_THEN, SUPPLY_THEN, PER_C, PER_MV];
 /// Keys that say what follows from others, and decide nothing while these are all at a reference.
-const FOLLOWING: [(&str, &[&str], f64); 3] = [
+const FOLLOWING: [(&str, &[&str], f64); 4] = [
+    // Outputs that are not on the TDC come to it by crosstalk alone.
+    (ROW_OUTPUTS, &[CROSSTALK], 0.0),
     (DOUBLING, &[TEMPERATURE], STATED_AT_C),
     (PER_C, &[DIE, DIE_THEN], REFERENCE_C),
     (PER_MV, &[SUPPLY, SUPPLY_THEN], 0.0),
@@ -91,7 +101,7 @@ const FOLLOWING: [(&str, &[&str], f64); 3] = [
 /// What the dividers come to, which no key of a file says [MHz].
 const CLK_SYS: &str = "pll.clk_sys_mhz";
 /// Keys that older files do not have, and the only value that there was.
-const LATER: [(&str, f64); 20] = [
+const LATER: [(&str, f64); 23] = [
     (TAIL, 0.0),
     (DELAY, 0.0),
     (TIMING, 0.0),
@@ -101,6 +111,9 @@ const LATER: [(&str, f64); 20] = [
     (DOUBLING, 8.0),
     (SPREAD, 0.0),
     (AFTERPULSES, 0.0),
+    (ROW_OUTPUTS, 0.0),
+    (PULSE, 0.0),
+    (PULSE_GAP, 0.0),
     (BIN, 25.0),
     (FIRST_BIN, 0.0),
     (DIE, 25.0),
@@ -137,7 +150,7 @@ pub type GridRange<'a> = (&'a str, [f64; 2]);
 pub fn of(scenario: &Scenario, grid: &[GridRange]) -> Result<Domain> {
     let values = Values::new(scenario, grid)?;
     let mut domain = Domain::default();
-    for key in KEYS.into_iter().chain([CHAIN, CALIBRATION, DECODER, PULSE_FILE]) {
+    for key in KEYS.into_iter().chain([CHAIN, CALIBRATION, DECODER, PULSE_FILE, DARK_FILE]) {
         match values.get(key) {
             Some(Found::Word(word)) if UNSAID.contains(&(key, word.as_str())) => {}
             Some(Found::Range([_, most])) if key == DARK_RATE => {
@@ -191,9 +204,12 @@ pub fn notes(network: &Network, scenario: &Scenario, grid: &[GridRange]) -> Resu
             _ => notes.push(outside(key, NoteValue::None, in_words(range))),
         }
     }
-    if let (Some(file), false) = (&scenario.laser.pulse_file, domain.words.contains_key(PULSE_FILE))
+    for (key, file) in
+        [(PULSE_FILE, &scenario.laser.pulse_file), (DARK_FILE, &scenario.spad.dark_file)]
     {
-        notes.push(outside(PULSE_FILE, file.as_str().into(), "none".to_owned()));
+        if let (Some(file), false) = (file, domain.words.contains_key(key)) {
+            notes.push(outside(key, file.as_str().into(), "none".to_owned()));
+        }
     }
     let trained = domain.words.get(CALIBRATION).map_or(OWN_DELAYS, String::as_str);
     let own = scenario.tdc.calibration.to_string();

@@ -43,11 +43,13 @@ pub enum Stepping {
 }
 
 impl Stepping {
-    /// That way, or the plain step where the firmware calibrates itself or its chain is another at each edge: the
-    /// others know nothing of ring and disturbance.
+    /// That way, or the plain step where the firmware calibrates itself, its chain is another at each edge, or pulses
+    /// are shaped: the others know nothing of ring, disturbance, and pulses that end by themselves.
     pub(super) fn at_most(self, setup: &Setup) -> Self {
-        let is_known = setup.params.tdc_calibration.is_none() && setup.disturbance().is_none();
-        if is_known { self } else { Stepping::EveryCycle }
+        let is_plain = setup.params.tdc_calibration.is_some()
+            || setup.disturbance().is_some()
+            || setup.shaper().is_some();
+        if is_plain { Stepping::EveryCycle } else { self }
     }
 }
 

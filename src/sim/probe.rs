@@ -12,6 +12,9 @@ pub trait SignalProbe {
     const EDGES: bool = false;
     /// The signals as they are from `now` on.
     fn sample(&mut self, now: Time, top: &TofTop);
+    /// The outputs of the row of SPADs as they are in the samples to come, a bit each, where the diodes are told apart.
+    #[inline(always)]
+    fn outputs(&mut self, _outputs: u64) {}
     /// The same where only levels of clocks have changed since the last sample or tick.
     #[inline(always)]
     fn tick(&mut self, now: Time, top: &TofTop) {

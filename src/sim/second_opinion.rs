@@ -10,6 +10,7 @@ use crate::firmware::tof_top::Estimator;
 use crate::network::file::Accuracy;
 use crate::note::{Note, NoteCode, NoteValue};
 use crate::optics::budget::LIGHT_M_S;
+use crate::scenario::wiring::Wiring;
 use crate::sensor::light::Light;
 
 use super::fast::likelihood::estimate;
@@ -98,6 +99,15 @@ impl SecondOpinion {
         if afterpulses > 0.0 {
             let (key, expected) = ("spad.afterpulse_probability", "0: shots are independent");
             return Err(none(key, afterpulses.into(), expected));
+        }
+        let crosstalk = scenario.spad.crosstalk_probability;
+        if crosstalk > 0.0 && Wiring::of(&scenario.spad).has_unwired() {
+            let (key, expected) =
+                ("spad.crosstalk_probability", "0 with spad.row_outputs: hits come of light");
+            return Err(none(key, crosstalk.into(), expected));
+        }
+        if let Some((key, ns)) = scenario.spad.shaping().next() {
+            return Err(none(key, ns.into(), "0: the TDC sees every first avalanche"));
         }
         let params = setup.likelihood(setup.shots(1)).map_err(|fault| refused(&fault))?;
         let (name, accuracy) = match setup.params.estimator {

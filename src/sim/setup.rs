@@ -1,6 +1,7 @@
 //! From a scenario to a device: what elaboration, optics and stimuli come to.
 
 mod converter;
+mod detector;
 mod expectations;
 mod fits;
 mod instrument;
@@ -26,16 +27,14 @@ use crate::kernel::{S, Time, U};
 use crate::network::estimate::estimate;
 use crate::network::{self, Network};
 use crate::note::Note;
-use crate::optics::dark::dark_spread;
-use crate::optics::{Bins, Budget, Hazard};
+use crate::optics::dark::DarkRates;
+use crate::optics::{Bins, Budget};
 use crate::scenario::builtin::Source;
 use crate::scenario::drift::Course;
 use crate::scenario::window::Window;
-use crate::scenario::{self, DeadTimeKind, EstimatorKind, Loaded, Scenario, pulse};
-use crate::sensor::light::{Light, Optics};
-use crate::sensor::ring::Ring;
-use crate::sensor::row::Effects;
-use crate::sensor::spad::Spads;
+use crate::scenario::wiring::Wiring;
+use crate::scenario::{self, EstimatorKind, Loaded, Scenario, dark, pulse};
+use crate::sensor::light::Light;
 use crate::waves::{self, WaveFormat, Waves};
 
 use super::device::Device;
@@ -45,7 +44,10 @@ use super::fast::likelihood;
 use super::jitter::Jitter;
 use super::timeline::{Timeline, pins_at_power_up};
 use converter::Converter;
+use detector::by_budget;
 use stimulus::stimulus;
+
+pub(super) use detector::effects;
 
 /// Cycles of a frame beside its shots, Clear, Drain and the estimator: the hand-overs.
 const HAND_OVERS: u64 = 2;
@@ -69,6 +71,9 @@ pub struct Setup {
     pub set: Vec<String>,
     /// The link budget.
     pub budget: Budget,
+    /// Avalanches in the dark.
+    #[doc(hidden)]
+    pub dark: DarkRates,
     /// What elaboration fixes in the firmware.
     #[doc(hidden)]
     pub params: Params,
@@ -85,7 +90,10 @@ pub struct Setup {
     /// Why no depth of a run can be that of the target, if none can.
     no_depth: Option<Note>,
     pll: Pll,
+    /// What reaches the SPADs on the TDC.
     pub(super) light: Light,
+    /// What reaches all that are simulated, if these are more.
+    row_light: Option<Light>,
     pins: Pins,
 }
 
@@ -129,11 +137,14 @@ impl Setup {
         let histogram = scenario.histogram();
         let converter = Converter::new(&scenario, &files, pll.cycle)?;
         let (code_source, histogram_source, light) = stimulus(&scenario, &files, &histogram)?;
-        let budget = Budget::new(&scenario, pulse::load(&scenario.laser, &files)?);
-        let light = light.unwrap_or_else(|| {
-            let (lit, dark) = (Hazard::new(&budget), Hazard::dark(&budget));
-            Light::Optics(Box::new(Optics::new(lit, dark, scenario.seed)))
-        });
+        let measured = dark::load(&scenario.spad, &files)?;
+        let (dark, wiring) =
+            (DarkRates::new(&scenario.spad, measured.as_ref()), Wiring::of(&scenario.spad));
+        let pulse = pulse::load(&scenario.laser, &files)?;
+        let budget = Budget::new(&scenario, pulse).with_dark_rates(&dark);
+        let of_row = (light.is_none() && wiring.has_unwired())
+            .then(|| by_budget(&budget.of_row(&wiring, &dark), scenario.seed));
+        let light = light.unwrap_or_else(|| by_budget(&budget, scenario.seed));
         let params = Params {
             histogram,
             frame_ctrl: frame_ctrl::Params {
@@ -165,8 +176,10 @@ impl Setup {
             histogram_source,
         };
         fits::check(&name, &params)?;
+        let slowest = converter.course.as_ref().map_or(1.0, |course| course.slowest);
+        let longest = params.tdc.delays.longest().fs() as f64 * slowest;
+        fits::check_pulses(&name, &scenario, Time::from_fs(longest.ceil() as u64))?;
         if params.tdc_calibration.is_some() {
-            let slowest = converter.course.as_ref().map_or(1.0, |course| course.range[1]);
             fits::check_ring(&name, &recalibration::ring(&scenario.tdc), &params.tdc, slowest)?;
         }
         let (pins, no_depth) = (pins_at_power_up(&scenario.firmware), None);
@@ -175,6 +188,7 @@ impl Setup {
             scenario,
             set,
             budget,
+            dark,
             params,
             calibrated: converter.calibrated,
             known_tdc: converter.known,
@@ -183,6 +197,7 @@ impl Setup {
             network,
             pll,
             light,
+            row_light: of_row,
             pins,
             no_depth,
         };
@@ -227,24 +242,15 @@ impl Setup {
         let scenario = &self.scenario;
         let rms_ps = scenario.pll.jitter_rms_ps;
         let jitter = (rms_ps > 0.0).then(|| Jitter::new(rms_ps, scenario.seed));
-        let ring = self.params.tdc_calibration.as_ref().map(|_| recalibration::ring(&scenario.tdc));
         Device::new(
             (self.pins, &self.params),
             self.pll.clone(),
             jitter,
             self.disturbance.clone(),
-            self.light.clone(),
-            (self.spads(), Ring::new(ring, scenario.seed)),
+            self.row_light.as_ref().unwrap_or(&self.light).clone(),
+            (self.spads(), self.front_end()),
             Timeline::new(scenario),
         )
-    }
-
-    /// The diodes on the TDC at power-up.
-    fn spads(&self) -> Spads {
-        let spad = &self.scenario.spad;
-        let dead_time = Time::from_ps_f64(spad.dead_time_ns * 1e3);
-        Spads::new(spad.on_tdc as usize, dead_time, Time::NEVER)
-            .with_effects(effects(spad), self.scenario.seed)
     }
 
     /// Period of the laser at power-up [cycles of clk_sys].
@@ -370,11 +376,20 @@ impl Setup {
     /// When a glob matches no signal, or the file cannot be written.
     pub fn waves(&self, path: &Path, format: WaveFormat, globs: &[&str]) -> Result<Waves> {
         let globs: Vec<_> = globs.iter().map(|&glob| glob.to_owned()).collect();
-        let entries = hierarchy::entries(&self.params);
-        let entries =
-            waves::select(entries, hierarchy::ram_entries(&self.params.histogram), &globs)?;
+        let entries = self.entries(&globs)?;
         let encoder = &self.params.tdc.decoder.encoder;
         Waves::create(path, format, &entries, encoder, &self.provenance())
+    }
+
+    /// The signals of a waveform that match one of `globs`, or without globs all but the words of the RAM.
+    ///
+    /// # Errors
+    /// When a glob matches no signal.
+    #[doc(hidden)]
+    pub fn entries(&self, globs: &[String]) -> Result<Vec<hierarchy::Entry>> {
+        let mut entries = hierarchy::entries(&self.params);
+        entries.extend(hierarchy::row_entries(self.scenario.spad.row_outputs as usize));
+        waves::select(entries, hierarchy::ram_entries(&self.params.histogram), globs)
     }
 
     /// What a file that comes of it says of where it comes from, a line each.
@@ -398,7 +413,9 @@ impl Setup {
             Light::Optics(_) | Light::None => None,
         };
         let pulse = &self.budget.pulse;
-        format!("{:016x}", digest_of(format_args!("{scenario:?} {params:?} {given:?} {pulse:?}")))
+        let dark = &self.dark;
+        let all = format_args!("{scenario:?} {params:?} {given:?} {pulse:?} {dark:?}");
+        format!("{:016x}", digest_of(all))
     }
 
     /// A number of cycles that no run of `frames` frames reaches unless its control signals keep
@@ -413,19 +430,6 @@ impl Setup {
         let begun = frames.saturating_add(changes.len() as u64 + 1);
         let last = Time::from_ps_f64(last_us * 1e6).fs() / self.cycle().fs();
         begun.saturating_mul(longest_frame).saturating_add(last)
-    }
-}
-
-/// What a scenario's diodes do beside firing.
-pub(super) fn effects(spad: &scenario::Spad) -> Effects {
-    Effects {
-        afterpulse_probability: spad.afterpulse_probability,
-        afterpulse_fs: spad.afterpulse_ns * 1e6,
-        afterpulse_second_fs: spad.afterpulse_second_ns * 1e6,
-        afterpulse_second_share: spad.afterpulse_second_share,
-        paralysable: spad.dead_time_kind == DeadTimeKind::Paralysable,
-        crosstalk_probability: spad.crosstalk_probability,
-        dark_rates: dark_spread(spad),
     }
 }
 

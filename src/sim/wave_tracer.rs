@@ -137,6 +137,10 @@ impl SignalProbe for WaveTracer {
         self.mark(now, top);
     }
 
+    fn outputs(&mut self, outputs: u64) {
+        self.waves.outputs(outputs);
+    }
+
     #[inline]
     fn tick(&mut self, now: Time, top: &TofTop) {
         if self.state == State::Writing {

@@ -32,6 +32,7 @@ const FLOW: &[(&str, &[&str])] = &[
         &["vcsel_driver.count", "pre_start", "vcsel_driver.laser_pulse", "laser_on", "start"],
     ),
     ("SPAD", &["spad_rst", "tdc_stop"]),
+    ("Row of SPADs", &["spad_row.spad_out_*"]),
     ("TDC", &[VIEWED, "tdc_valid", "tdc_code"]),
     ("Histogram", &["hist_valid", "hist_bin", "hist_count"]),
     ("Estimator", &["algo_start", VIEWED]),
@@ -97,7 +98,7 @@ fn matches(name: &str, pattern: &str) -> bool {
 mod tests {
     use super::super::bench::params;
     use super::*;
-    use crate::hierarchy::{entries, every_entry, ram_entries};
+    use crate::hierarchy::{entries, every_entry, ram_entries, row_entries};
 
     #[test]
     fn every_value_is_shown_once() {
@@ -112,7 +113,7 @@ mod tests {
 
     #[test]
     fn every_name_in_the_flow_is_a_signal() {
-        let all = [every_entry(), ram_entries(&Default::default())].concat();
+        let all = [every_entry(), ram_entries(&Default::default()), row_entries(30)].concat();
         let is_name = |pattern: &&&str| **pattern != VIEWED;
         let patterns = FLOW.iter().flat_map(|(_, patterns)| *patterns).chain(&CURVES);
         for pattern in patterns.filter(is_name) {

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use crate::error::{Error, Result};
 use crate::firmware::TofTop;
 use crate::firmware::tdc_decoder::Encoder;
-use crate::hierarchy::{Entry, Part};
+use crate::hierarchy::{Entry, Part, ROW};
 use crate::kernel::Time;
+use crate::kernel::signals::Sink;
 
 use super::body::{Body, Step};
 use super::fst::Fst;
@@ -29,6 +30,7 @@ pub struct Waves {
     state: State,
     /// What the file shows, since the first window.
     shown: Box<Part>,
+    row: Row,
     /// Time of the last call [ps].
     last: u64,
     /// The first error of writing.
@@ -71,8 +73,8 @@ impl Waves {
             }
         };
         let shown = Box::new(Part::of(entries.iter().map(|entry| entry.id)));
-        let (path, state) = (path.to_owned(), State::Blank);
-        Ok(Waves { path, writer, state, shown, last: 0, failed: None })
+        let (path, state, row) = (path.to_owned(), State::Blank, Row::of(entries));
+        Ok(Waves { path, writer, state, shown, row, last: 0, failed: None })
     }
 
     /// A window begins: every signal is shown as it is now. Within a window, only what has changed.
@@ -103,6 +105,12 @@ impl Waves {
             let at = self.at(now);
             self.write(at, Step::Change, Some(top));
         }
+    }
+
+    /// The outputs of the row of SPADs as the coming steps show them, a bit each.
+    #[inline]
+    pub(crate) fn outputs(&mut self, outputs: u64) {
+        self.row.now = outputs;
     }
 
     /// The same where only levels of clocks have changed.
@@ -162,7 +170,7 @@ impl Waves {
 
     #[inline(always)]
     fn write(&mut self, at: u64, step: Step, top: Option<&TofTop>) {
-        let shown = &mut self.shown;
+        let shown = (&mut *self.shown, &mut self.row);
         let written = match &mut self.writer {
             Writer::Vcd(file) => write(&mut **file, at, step, shown, top),
             Writer::Fst(file) => write(&mut **file, at, step, shown, top),
@@ -173,13 +181,41 @@ impl Waves {
     }
 }
 
+/// The outputs of the row of SPADs, a bit each.
+#[derive(Clone, Copy, Default)]
+struct Row {
+    /// Which of them the file has.
+    has: u64,
+    now: u64,
+    shown: u64,
+}
+
+impl Row {
+    fn of(entries: &[Entry]) -> Self {
+        let places = entries.iter().filter_map(|entry| entry.id.checked_sub(ROW));
+        Row { has: places.fold(0, |has, place| has | 1 << place), ..Row::default() }
+    }
+
+    /// Reports those that have changed, or all.
+    #[cold]
+    fn show(&mut self, all: bool, sink: &mut impl Sink) {
+        let mut left = self.has & if all { u64::MAX } else { self.now ^ self.shown };
+        while left > 0 {
+            let place = left.trailing_zeros();
+            sink.word(ROW + place as usize, self.now >> place & 1);
+            left &= left - 1;
+        }
+        self.shown = self.now;
+    }
+}
+
 /// A step of a file: the signals of `top` that belong to it, or none that are known.
 #[inline(always)]
 fn write(
     file: &mut impl Body,
     at: u64,
     step: Step,
-    shown: &mut Part,
+    (shown, row): (&mut Part, &mut Row),
     top: Option<&TofTop>,
 ) -> io::Result<()> {
     let begun = file.begin(at, step);
@@ -188,6 +224,10 @@ fn write(
         (Step::Change, Some(top)) => shown.follow(top, file),
         (Step::Clocks, Some(top)) => shown.tick(top, file),
         (_, Some(top)) => shown.show(top, file),
+    }
+    let changes_only = matches!(step, Step::Change | Step::Clocks);
+    if top.is_some() && row.has > 0 && !(changes_only && row.now == row.shown) {
+        row.show(!changes_only, file);
     }
     file.end(begun)
 }

@@ -33,6 +33,7 @@ mod rerun;
 mod second_opinion;
 mod sources;
 mod spad;
+mod spad_row;
 mod subtraction;
 mod synthesis;
 mod tdc;

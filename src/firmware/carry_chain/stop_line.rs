@@ -5,7 +5,7 @@ use crate::kernel::Time;
 use super::delays::{Delays, Taps};
 
 /// Transitions that may travel in a chain at once.
-const MAX_TRANSITIONS: usize = 8;
+pub const MAX_TRANSITIONS: usize = 8;
 
 /// Its level and the transitions still travelling in the chain.
 #[derive(Clone, Debug, PartialEq)]

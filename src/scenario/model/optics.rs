@@ -145,6 +145,10 @@ table! {
         /// How many of them are connected: SPADs of a row whose outputs, joined by an OR, are `tdc_stop`.
         #[schemars(range(min = 1, max = 40), extend("unit" = "1", "source" = "Fig. 4.3"))]
         pub on_tdc: u32 = 1,
+        /// Outputs of the selected row that are simulated, on the TDC or not, from `spad_out_0` on: 16 or more, so that
+        /// output 15 is among them; 0: only those on the TDC.
+        #[schemars(range(min = 0, max = 64), extend("unit" = "outputs", "source" = "choice: none; the thesis's row has 30 (Fig. 4.3)"))]
+        pub row_outputs: u32 = 0,
         /// Full angle of the field of view (FOV).
         #[schemars(range(min = 0.1, max = 170.0), extend("unit" = "deg", "source" = "Table 3.2"))]
         pub field_of_view_deg: f64 = 24.0,
@@ -155,6 +159,13 @@ table! {
         /// starts again and the output stays high (`paralysable`, passive recharge).
         #[schemars(extend("source" = "choice: as the thesis's; both in Knoll, Radiation Detection and Measurement, chapter 4"))]
         pub dead_time_kind: DeadTimeKind = DeadTimeKind::Fixed,
+        /// Width of the pulse that a rise of their output gives on `tdc_stop`, as of a monostable that cannot be triggered
+        /// again; 0: the wire is high as long as the output is.
+        #[schemars(range(min = 0.0, max = 1e5), extend("unit" = "ns", "source" = "choice: no monostable, as in the thesis"))]
+        pub pulse_ns: f64 = 0.0,
+        /// Time after a pulse within which `tdc_stop` cannot rise again: such a rise is lost.
+        #[schemars(range(min = 0.0, max = 1e5), extend("unit" = "ns", "source" = "choice: none, as in the thesis"))]
+        pub pulse_gap_ns: f64 = 0.0,
         /// Rate of avalanches in the dark; 0 switches them off.
         #[schemars(range(min = 0.0, max = 1e9), extend("unit" = "1/s", "source" = "choice: a quiet CMOS SPAD"))]
         pub dark_rate_hz: f64 = 100.0,
@@ -164,7 +175,11 @@ table! {
         /// Degrees with which the dark rate doubles.
         #[schemars(range(min = 1.0, max = 100.0), extend("unit" = "K", "source" = "choice: 0.64 eV at 20 deg C; half of silicon's gap, 0.56 eV, would be 9.2"))]
         pub dark_doubling_c: f64 = 8.0,
-        /// Standard deviation of the logarithm of the dark rates of the SPADs on the TDC, whose median is
+        /// Measured dark rates of the array at 20 deg C: a CSV file with columns `row` (0 to 39; row 0 is selected), `output`
+        /// (0 to 29) and `rate_hz`. Outputs that it does not name have `dark_rate_hz`.
+        #[schemars(extend("source" = "choice: none"))]
+        pub dark_file: Option<String> = None,
+        /// Standard deviation of the logarithm of the dark rates of the SPADs that are simulated, whose median is
         /// `dark_rate_hz`; they are the even quantiles of a log-normal distribution.
         #[schemars(range(min = 0.0, max = 5.0), extend("unit" = "1", "source" = "choice: all alike"))]
         pub dark_spread: f64 = 0.0,
@@ -181,8 +196,8 @@ table! {
         /// Part of the trapped carriers that are in traps of the second kind; 0: there is one kind.
         #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "choice: none"))]
         pub afterpulse_second_share: f64 = 0.0,
-        /// Chance that an avalanche sets off a neighbour in the row at once, if both are on the TDC and that is
-        /// armed.
+        /// Chance that an avalanche sets off a neighbour in the row at once, if both are simulated (on the TDC,
+        /// or with `row_outputs`) and that is armed.
         #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "choice: none, as in the thesis"))]
         pub crosstalk_probability: f64 = 0.0,
     }
@@ -192,6 +207,12 @@ impl Spad {
     /// Photon detection efficiency, PDE = PDP FF (section 3.2.1).
     pub fn detection_efficiency(&self) -> f64 {
         self.pdp * self.fill_factor
+    }
+
+    /// The keys of what shapes the pulses on `tdc_stop`, that do something [ns].
+    pub fn shaping(&self) -> impl Iterator<Item = (&'static str, f64)> {
+        let keys = [("spad.pulse_ns", self.pulse_ns), ("spad.pulse_gap_ns", self.pulse_gap_ns)];
+        keys.into_iter().filter(|(_, ns)| *ns > 0.0)
     }
 }
 

@@ -23,7 +23,7 @@ fn first_avalanches(more: usize, causes: bool) -> Vec<Time> {
             assert!(light.next_avalanche(begun + Time::from_ns(20), 1.0) > begun);
         }
         if causes {
-            light.cause(first);
+            light.cause(first, None);
         }
         first
     };
@@ -90,7 +90,7 @@ fn causes_differ_from_shot_to_shot() {
     let at_peak = |shot: u64| {
         let begun = Time::from_ns(1000 * shot);
         light.begin_shot(begun, true);
-        light.cause(begun + Time::from_fs(3_300_000))
+        light.cause(begun + Time::from_fs(3_300_000), None)
     };
     let causes: Vec<_> = (0..200).map(at_peak).collect();
     for cause in [Cause::Signal, Cause::Ambient] {

@@ -166,3 +166,42 @@ fn what_a_shot_draws_does_not_hang_on_how_much_the_one_before_drew() {
     assert_eq!(release(1), release(7));
     assert!(release(1).last().is_some_and(|trapped| trapped.len() > 1));
 }
+
+/// Effects of a row of which those places are on the TDC.
+fn whole_row(on_tdc: std::ops::Range<usize>, crosstalk_probability: f64) -> Effects {
+    Effects { on_tdc: Some(on_tdc), crosstalk_probability, ..Effects::default() }
+}
+
+#[test]
+fn crosstalk_goes_through_diodes_that_are_not_on_the_tdc() {
+    let mut row = row(5, whole_row(2..3, 0.5));
+    let (mut seen, mut alone) = (0, 0);
+    let shots = 40_000;
+    for _ in 0..shots {
+        row.begin_shot();
+        row.arm_all();
+        let fires = row.carrier(0, Time::ZERO, DEAD, false);
+        assert_eq!(fires, row.outputs() & 1 << 2 != 0);
+        assert_eq!(row.unwired(), (row.outputs() & 0b11011).count_ones() as usize);
+        seen += u32::from(fires);
+        alone += u32::from(row.outputs() == 1);
+    }
+    for (found, chance) in [(seen, 0.25f64), (alone, 0.5)] {
+        let expected = f64::from(shots) * chance;
+        let off = (f64::from(found) - expected) / (expected * (1.0 - chance)).sqrt();
+        assert!(off.abs() < 4.0, "{found} for {expected}");
+    }
+}
+
+#[test]
+fn a_quiet_diode_beside_a_hot_one_fires_of_light() {
+    let rates = vec![1.0, 0.0, 9.0, 10.0];
+    let row = row(4, Effects { dark_rates: rates, ..whole_row(0..2, 0.0) });
+    // Of 8 carriers to all, 4 are of the dark, and each diode has one of the others.
+    let parts = [0, 1, 2, 3].map(|diode| row.dark_part(diode, 0.5));
+    for (found, expected) in parts.into_iter().zip([0.2 / 1.2, 0.0, 1.8 / 2.8, 2.0 / 3.0]) {
+        assert!((found - expected).abs() < 1e-12, "{parts:?}");
+    }
+    assert_eq!(row.dark_part(1, 1.0), 0.0);
+    assert_eq!(Row::new(2, whole_row(0..1, 0.0), 1).dark_part(0, 0.3), 0.3);
+}

@@ -1,4 +1,6 @@
 use super::*;
+use crate::optics::{Budget, Hazard};
+use crate::sensor::light::Optics;
 
 const DEAD: Time = Time::from_ns(20);
 
@@ -135,4 +137,50 @@ fn a_change_of_mode_finds_a_diode_that_has_fired() {
     assert_eq!(spad.next_event(), Time::NEVER);
     spad.set_passive(true, Time::from_ns(90));
     assert_eq!(spad.next_event(), Time::from_ns(90));
+}
+
+/// Two diodes, the second of which is on the TDC, with a first avalanche at 5 ns in the first.
+fn one_of_two(crosstalk_probability: f64) -> Spads {
+    let effects = Effects {
+        on_tdc: Some(1..2),
+        crosstalk_probability,
+        dark_rates: vec![1.0, 0.0],
+        ..Effects::default()
+    };
+    Spads::new(2, DEAD, Time::from_ns(5)).with_effects(effects, 1)
+}
+
+/// Light in which all is dark.
+fn dark() -> Light {
+    let budget = Budget { dark_rate_hz: 1e8, ..Budget::default() };
+    let hazard = Hazard::dark(&budget);
+    let mut light = Light::Optics(Box::new(Optics::new(hazard.clone(), hazard, 1)));
+    light.begin_shot(Time::ZERO, false);
+    light
+}
+
+#[test]
+fn in_mode_0_a_diode_that_is_not_on_the_tdc_fires_unseen_and_the_others_stay_armed() {
+    let (mut spads, mut light) = (one_of_two(0.0), dark());
+    assert_eq!(spads.event(&mut light), Event::Unseen);
+    assert_eq!((spads.output(), spads.outputs()), (false, 0b01));
+    assert!(spads.is_armed() && spads.waits());
+    assert_eq!(spads.next_event(), Time::NEVER);
+    spads.hold();
+    assert_eq!((spads.output(), spads.outputs()), (false, 0));
+    spads.arm_all(Time::from_ns(70));
+    assert_eq!(spads.next_event(), Time::from_ns(70));
+}
+
+#[test]
+fn a_diode_that_is_not_on_the_tdc_sets_off_one_that_is() {
+    let (mut spads, mut light) = (one_of_two(1.0), dark());
+    assert_eq!(spads.event(&mut light), Event::Avalanche);
+    assert_eq!((spads.output(), spads.outputs()), (true, 0b11));
+    assert_eq!(spads.dark_part(), Some(1.0));
+    assert!(!spads.is_armed());
+    spads.set_passive(true, Time::from_ns(6));
+    assert_eq!(spads.next_event(), Time::from_ns(25));
+    assert_eq!(spads.event(&mut light), Event::Recovery);
+    assert_eq!((spads.output(), spads.outputs()), (false, 0));
 }

@@ -13,6 +13,7 @@ use crate::kernel::Time;
 use crate::network::Histogram;
 use crate::optics::BinProbabilities;
 use crate::scenario::QuenchMode;
+use crate::scenario::wiring::Wiring;
 use crate::sensor::light::{Light, Optics};
 use crate::sensor::streams::{Source, stream};
 use crate::sim::frames::Frame;
@@ -28,8 +29,9 @@ use super::outcomes::ShotOutcomes;
 /// for the error.
 ///
 /// # Errors
-/// When more than a shot's first avalanche decides what becomes of it (MODE 1, afterpulses, a calibration in the
-/// firmware, jitter, a chain that is another at each edge, control changes, a stimulus in place of light, a chain too long for the laser rate), or a frame never ends.
+/// When more than a shot's first avalanche decides what becomes of it (MODE 1, afterpulses, crosstalk from SPADs that
+/// are not on the TDC, shaped pulses, a calibration in the firmware, jitter, a chain that is another at each edge,
+/// control changes, a stimulus in place of light, a chain too long for the laser rate), or a frame never ends.
 pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics, ShotOutcomes)> {
     let refusal = |field: &str, why: &str| {
         let expected = format!("{who} draws a frame as a whole: {why}");
@@ -53,6 +55,16 @@ pub fn independent_shots<'a>(setup: &'a Setup, who: &str) -> Result<(&'a Optics,
     if afterpulses > 0.0 {
         let why = "expected 0: an afterpulse of one shot may be the first avalanche of the next";
         return Err(refusal("spad.afterpulse_probability", why).value(afterpulses).into());
+    }
+    let spad = &setup.scenario.spad;
+    if spad.crosstalk_probability > 0.0 && Wiring::of(spad).has_unwired() {
+        let why = "expected 0 with spad.row_outputs: SPADs that are not on the TDC set off those that are";
+        let refused = refusal("spad.crosstalk_probability", why);
+        return Err(refused.value(spad.crosstalk_probability).into());
+    }
+    if let Some((field, value)) = spad.shaping().next() {
+        let why = "expected 0: what pulses the TDC sees is not worked out for a shaper";
+        return Err(refusal(field, why).value(value).into());
     }
     let recalibrated = setup.scenario.tdc.recalibrate_frames;
     if recalibrated > 0 {

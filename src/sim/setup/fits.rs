@@ -1,11 +1,13 @@
-//! Whether the sizes of the firmware fit each other: what its chain asks of laser periods, of Drain, and of the ring
-//! that calibrates it.
+//! Whether the sizes of the firmware fit each other: what its chain asks of laser periods, of Drain, of pulses, and of
+//! the ring that calibrates it.
 
 use crate::error::{Input, Result};
+use crate::firmware::carry_chain::MAX_TRANSITIONS;
 use crate::firmware::tdc;
 use crate::firmware::tof_top::{CodeSource, Params};
 use crate::firmware::vcsel_driver::PERIOD_RANGE;
 use crate::kernel::Time;
+use crate::scenario::{QuenchMode, Scenario};
 use crate::sensor::ring;
 
 /// Clock cycles that codes have to be apart, so that each comes to its word of the histogram.
@@ -48,6 +50,38 @@ pub(super) fn check(scenario: &str, params: &Params) -> Result<()> {
     Ok(())
 }
 
+/// Refuses dead times and pulses so short that more changes of `tdc_stop` could travel in the chain at once than it
+/// shows. In MODE 0 there is one rise a shot.
+///
+/// # Errors
+/// The key, its value, and what would fit.
+pub(super) fn check_pulses(scenario: &str, keys: &Scenario, longest: Time) -> Result<()> {
+    let spad = &keys.spad;
+    let begins = QuenchMode::FreeRunning;
+    let changes = keys.control.iter().any(|change| change.mode == Some(begins));
+    if keys.firmware.mode != begins && !changes {
+        return Ok(());
+    }
+    // An output is high for a dead time at least, so that rises are as far apart; one more change than there is room
+    // for comes half as many rises later.
+    let least_ns = longest.fs() as f64 * 1e-6 / (MAX_TRANSITIONS / 2) as f64;
+    let shaped_ns = spad.pulse_ns + spad.pulse_gap_ns;
+    if spad.dead_time_ns.max(shaped_ns) >= least_ns {
+        return Ok(());
+    }
+    let (key, value, what) = match spad.pulse_ns > 0.0 {
+        true => {
+            ("spad.pulse_ns", spad.pulse_ns, " with spad.pulse_gap_ns, or such a spad.dead_time_ns")
+        }
+        false => ("spad.dead_time_ns", spad.dead_time_ns, ""),
+    };
+    let expected = format!(
+        "expected {least_ns} ns or more{what}: a chain of {} ns shows {MAX_TRANSITIONS} changes at once",
+        longest.fs() as f64 * 1e-6,
+    );
+    Err(Input::new(format!("scenario {scenario}"), expected).field(key).value(value).into())
+}
+
 /// Refuses a ring of which two edges would be in the chain at once, or hide between two edges of the clock, and a
 /// chain that hits reach so late that their age has no word; in a run its delays are up to `slowest` times as long.
 ///
@@ -86,11 +120,35 @@ pub(super) fn check_ring(
 
 #[cfg(test)]
 mod tests {
+    use super::check_pulses;
+    use crate::kernel::Time;
     use crate::sim::run::Run;
     use crate::sim::setup::Setup;
 
     fn error(overrides: &[&str]) -> String {
         Setup::load("kc705", overrides).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn pulses_of_which_more_would_travel_in_the_chain_than_it_shows_are_refused() {
+        let check = |longest_ns: u64, keys: &[&str]| {
+            let setup = Setup::load("kc705", keys).unwrap();
+            let longest = Time::from_ns(longest_ns);
+            let refused = check_pulses("s", &setup.scenario, longest).err();
+            refused.map(|error| error.to_string()).unwrap_or_default()
+        };
+        let free = ["firmware.mode=1", "spad.dead_time_ns=10"];
+        let with = |more: &[&str]| check(60, &[&free, more].concat());
+        let message = with(&[]);
+        assert!(
+            message.contains("spad.dead_time_ns = 10: expected 15 ns or more: a chain of 60 ns"),
+            "{message}"
+        );
+        let message = with(&["spad.pulse_ns=6", "spad.pulse_gap_ns=8"]);
+        assert!(message.contains("spad.pulse_ns = 6: expected 15 ns or more with"), "{message}");
+        assert_eq!(with(&["spad.pulse_ns=6", "spad.pulse_gap_ns=9"]), "");
+        assert_eq!(check(40, &free), "", "rises are 10 ns apart");
+        assert_eq!(check(60, &free[1..]), "", "one rise a shot");
     }
 
     #[test]

@@ -16,7 +16,7 @@ use tofsim::sim::second_opinion::SecondOpinion;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::shot_recorder::Shot;
 use tofsim::sim::{Run, Stepping};
-use tofsim::waves::{self, Marks, WaveFormat, Waves, write_views};
+use tofsim::waves::{Marks, WaveFormat, Waves, write_views};
 use tofsim_learn::estimation::notes::notes_of_firmware;
 use tofsim_learn::estimation::{EstimatorKind, Panel};
 
@@ -281,9 +281,7 @@ impl WavePlan {
             WaveFormat::Vcd => "vcd",
             WaveFormat::Fst => "fst",
         };
-        let entries = hierarchy::entries(&setup.params);
-        let entries =
-            waves::select(entries, hierarchy::ram_entries(&setup.params.histogram), &args.signals)?;
+        let entries = setup.entries(&args.signals)?;
         let windows = setup.windows(&args.window, frames)?;
         let folder = args.output.as_deref().unwrap_or(Path::new("waves"));
         let path = folder.join(format!("{}.{ending}", setup.name));

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use serde_json::json;
 
 use tofsim::error::Result;
-use tofsim::optics::dark::dark_rate_hz;
 use tofsim::scenario;
 use tofsim::sim::free_running::FreeRunning;
 use tofsim::sim::free_running::afterpulses::afterpulses;
@@ -49,7 +48,7 @@ pub struct Args {
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let setup = Setup::of_counts(scenario::load(&args.scenario, &args.set)?)?;
     let diode = FreeRunning::new(&setup);
-    let dark_hz = dark_rate_hz(&setup.scenario.spad);
+    let dark_hz = setup.dark.one_hz();
     let found = Characterisation {
         spad: &setup.scenario.spad,
         dark_hz,

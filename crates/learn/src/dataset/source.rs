@@ -7,6 +7,7 @@ use tofsim::error::{Input, Result};
 use tofsim::firmware::histogram_builder;
 use tofsim::kernel::pulse::Pulse;
 use tofsim::network::Histogram;
+use tofsim::optics::dark::DarkRates;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 use tofsim::scenario::Scenario;
 use tofsim::sensor::streams::{self, stream};
@@ -31,6 +32,7 @@ struct Setting {
     /// What estimators know of them.
     known_bins: Bins,
     pulse: Pulse,
+    dark: DarkRates,
 }
 
 impl HistogramSource {
@@ -121,12 +123,12 @@ impl HistogramSource {
     /// Budget of a white target at a scene's distance, in an irradiance of 1 W/m^2/nm: what all scenes at
     /// that distance have in common, and what takes longest to find.
     pub fn white(&self, scene: &Scene) -> Budget {
-        let Setting { scenario, pulse, .. } = self.setting(scene);
+        let Setting { scenario, pulse, dark, .. } = self.setting(scene);
         let mut scenario = scenario.clone();
         scenario.target.distance_m = scene.distance_m;
         scenario.target.reflectance = 1.0;
         scenario.ambient.irradiance_w_m2_nm = 1.0;
-        Budget::new(&scenario, pulse.clone())
+        Budget::new(&scenario, pulse.clone()).with_dark_rates(dark)
     }
 
     /// Probability of each code in one shot.
@@ -166,7 +168,8 @@ impl Setting {
             return Err(fault.field("firmware.dark_frames").value(true).into());
         }
         let (scenario, pulse) = (setup.scenario.clone(), setup.budget.pulse.clone());
-        Ok(Setting { scenario, bins: setup.bins(), known_bins: setup.known_bins(), pulse })
+        let (bins, known_bins, dark) = (setup.bins(), setup.known_bins(), setup.dark.clone());
+        Ok(Setting { scenario, bins, known_bins, pulse, dark })
     }
 
     fn shots(&self) -> u32 {

@@ -109,7 +109,9 @@ pub fn shortest_ps(scenario: &Scenario) -> f64 {
 fn switch_off(effect: Effect, scenario: &mut Scenario) {
     match effect {
         Effect::Ambient => scenario.ambient.irradiance_w_m2_nm = 0.0,
-        Effect::DarkCounts => scenario.spad.dark_rate_hz = 0.0,
+        Effect::DarkCounts => {
+            (scenario.spad.dark_rate_hz, scenario.spad.dark_file) = (0.0, None);
+        }
         Effect::PulseWidth => {
             let shortest_ps = shortest_ps(scenario);
             scenario.laser.pulse_sigma_ps = match scenario.laser.pulse_file.take() {

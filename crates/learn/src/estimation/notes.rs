@@ -33,6 +33,8 @@ impl EstimatorKind {
                 teller.control(),
                 teller.recharge(),
                 teller.afterpulses(0.0),
+                teller.neighbours(),
+                teller.shaping(),
             ],
             EstimatorKind::TwoEchoes => vec![
                 teller.mode(),
@@ -40,12 +42,16 @@ impl EstimatorKind {
                 teller.pulses(0.0, 0.0),
                 teller.control(),
                 teller.afterpulses(0.0),
+                teller.neighbours(),
+                teller.shaping(),
             ],
             EstimatorKind::LikelihoodEstimator => vec![
                 teller.jitter(0.0),
                 teller.pulses(0.0, 0.0),
                 teller.control(),
                 teller.afterpulses(0.0),
+                teller.neighbours(),
+                teller.shaping(),
             ],
             EstimatorKind::Matched => vec![
                 teller.mode(),
@@ -53,6 +59,8 @@ impl EstimatorKind {
                 teller.pulses(0.0, 0.0),
                 teller.control(),
                 teller.afterpulses(0.0),
+                teller.neighbours(),
+                teller.shaping(),
             ],
             EstimatorKind::Centroid => vec![
                 teller.mode(),
@@ -61,6 +69,7 @@ impl EstimatorKind {
                 teller.window(),
                 teller.scale(),
                 teller.afterpulses(FEW_AFTERPULSES),
+                teller.shaping(),
             ],
             EstimatorKind::Peak | EstimatorKind::Subtraction => vec![
                 teller.mode(),
@@ -70,6 +79,7 @@ impl EstimatorKind {
                 teller.thesis_bins(),
                 teller.delay(),
                 teller.afterpulses(FEW_AFTERPULSES),
+                teller.shaping(),
             ],
         };
         found.into_iter().flatten().collect()

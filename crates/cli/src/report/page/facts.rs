@@ -134,7 +134,7 @@ fn facts(setup: &Setup) -> Vec<(&'static str, String)> {
                 spad.on_tdc,
                 spad.count,
                 short(spad.pdp * 100.0),
-                short(spad.dark_rate_hz)
+                short(setup.dark.one_hz())
             ),
         ),
         (

@@ -1,5 +1,6 @@
 use super::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
+use std::io::Write;
 use tofsim::kernel::Time;
 use tofsim::scenario;
 
@@ -91,6 +92,14 @@ fn the_budget_is_that_of_the_scenario_in_either_ambient_model() {
         let Budget { signal_per_shot, ambient_rate_hz, .. } = expected;
         assert_eq!(Budget { signal_per_shot, ambient_rate_hz, ..found }, expected);
     }
+}
+
+#[test]
+fn measured_dark_rates_are_those_of_every_scene() {
+    let mut file = tempfile::NamedTempFile::new().unwrap();
+    writeln!(file, "row,output,rate_hz\n0,15,7000").unwrap();
+    let key = format!("spad.dark_file={}", file.path().display());
+    assert_eq!(source(&[&key]).unwrap().white(&SCENE).dark_rate_hz, 7000.0);
 }
 
 #[test]

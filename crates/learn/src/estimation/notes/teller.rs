@@ -1,6 +1,7 @@
 //! What of a scenario an estimator's model does not have, condition by condition.
 
 use tofsim::optics::BinProbabilities;
+use tofsim::scenario::wiring::Wiring;
 use tofsim::scenario::{DeadTimeKind, QuenchMode};
 use tofsim::sim::fast::histogram::independent_shots;
 use tofsim::sim::setup::Setup;
@@ -107,6 +108,22 @@ impl Teller<'_> {
         let expected = format!("{most} at most");
         let are_many = afterpulses > most;
         are_many.then(|| self.note("spad.afterpulse_probability", afterpulses, expected, text))
+    }
+
+    /// That only light and the dark fire the SPADs on the TDC.
+    pub fn neighbours(&self) -> Option<Note> {
+        let spad = &self.setup.scenario.spad;
+        let crosstalk = spad.crosstalk_probability;
+        let text = "it takes hits to be of light and of the dark, and SPADs that are not on the TDC set off those that are";
+        let are_there = crosstalk > 0.0 && Wiring::of(spad).has_unwired();
+        are_there.then(|| self.note("spad.crosstalk_probability", crosstalk, "0", text))
+    }
+
+    /// That the TDC sees every avalanche of a SPAD that is armed.
+    pub fn shaping(&self) -> Option<Note> {
+        let (key, ns) = self.setup.scenario.spad.shaping().next()?;
+        let text = "it takes the TDC to see an avalanche as long as the output of the SPAD is high";
+        Some(self.note(key, ns, "0", text))
     }
 
     /// That the dead time is fixed.

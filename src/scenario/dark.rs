@@ -1,0 +1,80 @@
+//! The measured dark rates of an array: a CSV file of `row,output,rate_hz`, at 20 deg C.
+
+use crate::error::Result;
+use crate::files::csv::CsvInput;
+
+use super::builtin::Source;
+use super::model::Spad;
+use super::wiring::{OUTPUTS, ROWS, SELECTED};
+
+/// Columns of the file.
+const HEADER: [&str; 3] = ["row", "output", "rate_hz"];
+/// Largest rate, as of `spad.dark_rate_hz` [1/s].
+const MOST_HZ: f64 = 1e9;
+
+/// Rate of each output of the selected row, if the file names it [1/s].
+pub type Measured = [Option<f64>; OUTPUTS];
+
+/// What the file of a detector has of the selected row, if there is one; its path is taken from `base`.
+///
+/// # Errors
+/// When the file cannot be read, or a row of it is wrong.
+pub fn load(spad: &Spad, base: &Source) -> Result<Option<Measured>> {
+    let Some(name) = &spad.dark_file else { return Ok(None) };
+    let (source, text) = base.read(name)?;
+    parse(&source, &text).map(Some)
+}
+
+fn parse(source: &str, text: &str) -> Result<Measured> {
+    let mut input = CsvInput::new(source, text, &HEADER)?;
+    let mut array = [[None; OUTPUTS]; ROWS];
+    while input.advance()? {
+        let place = |column: usize, count: usize| {
+            let found = input.field::<usize>(column).filter(|place| *place < count);
+            let last = count - 1;
+            found.ok_or_else(|| input.fault(column, format!("expected 0 to {last}")))
+        };
+        let (row, output) = (place(0, ROWS)?, place(1, OUTPUTS)?);
+        let rate_hz = input.field::<f64>(2).filter(|rate| (0.0..=MOST_HZ).contains(rate));
+        let expected = "expected a rate from 0 to 1e9 [1/s]";
+        let rate_hz = rate_hz.ok_or_else(|| input.fault(2, expected))?;
+        if array[row][output].replace(rate_hz).is_some() {
+            let expected = format!("expected each output once, row {row} has it already");
+            return Err(input.fault(1, expected).into());
+        }
+    }
+    Ok(array[SELECTED])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_selected_row_is_taken_and_what_is_not_named_is_not_known() {
+        let text = "# of chip 7\nrow,output,rate_hz\n0,15,250.5\n39,15,7\n0,0,0\n";
+        let found = parse("d.csv", text).unwrap();
+        assert_eq!((found[15], found[0], found[14]), (Some(250.5), Some(0.0), None));
+        assert_eq!(parse("d.csv", "row,output,rate_hz\n").unwrap(), [None; OUTPUTS]);
+    }
+
+    #[test]
+    fn faults_are_named_by_line_column_and_field() {
+        let error = |rows: &str| {
+            parse("d.csv", &format!("row,output,rate_hz\n{rows}")).unwrap_err().to_string()
+        };
+        assert_eq!(error("40,0,1\n"), "d.csv:2:1: row = 40: expected 0 to 39");
+        assert_eq!(error("0,0,1\n0,30,1\n"), "d.csv:3:3: output = 30: expected 0 to 29");
+        let expected = "d.csv:2:5: rate_hz = -1: expected a rate from 0 to 1e9 [1/s]";
+        assert_eq!(error("0,1,-1\n"), expected);
+        assert!(error("0,1,NaN\n").contains("rate_hz = NaN"));
+        assert!(error("0,1,1e10\n").contains("rate_hz = 1e10"));
+        assert!(error("-1,1,1\n").contains("row = -1"));
+        assert!(error("0,1.5,1\n").contains("output = 1.5"));
+        let twice = error("3,7,1\n3,8,1\n3,7,2\n");
+        assert_eq!(twice, "d.csv:4:3: output = 7: expected each output once, row 3 has it already");
+        assert!(error("0,1\n").contains("has 2 fields, expected 3"));
+        assert!(parse("d.csv", "output,rate_hz\n").unwrap_err().to_string().contains("header"));
+        assert!(parse("d.csv", "").is_err());
+    }
+}
