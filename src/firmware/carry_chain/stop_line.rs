@@ -11,17 +11,14 @@ pub const MAX_TRANSITIONS: usize = 8;
 #[derive(Clone, Debug, PartialEq)]
 pub struct StopLine {
     level: bool,
-    /// Times of the last transitions, a ring; never where there has been none.
+    /// Times of the last transitions, the newest first; never where there has been none.
     recent: [Time; MAX_TRANSITIONS],
-    /// Place of the newest.
-    newest: usize,
     travelling: usize,
 }
 
 impl Default for StopLine {
     fn default() -> Self {
-        let recent = [Time::NEVER; MAX_TRANSITIONS];
-        StopLine { level: false, recent, newest: 0, travelling: 0 }
+        StopLine { level: false, recent: [Time::NEVER; MAX_TRANSITIONS], travelling: 0 }
     }
 }
 
@@ -34,14 +31,15 @@ impl StopLine {
     /// The level changes. A change at the same instant as the last one undoes it: a pulse of no
     /// width is none.
     pub fn toggle(&mut self, now: Time) {
+        const OLDEST: usize = MAX_TRANSITIONS - 1;
         self.level = !self.level;
-        if self.travelling > 0 && self.at(0) == now {
-            self.newest = (self.newest + 1) % MAX_TRANSITIONS;
+        if self.travelling > 0 && self.recent[0] == now {
+            self.recent.copy_within(1.., 0);
+            self.recent[OLDEST] = Time::NEVER;
             self.travelling -= 1;
-            self.recent[(self.newest + MAX_TRANSITIONS - 1) % MAX_TRANSITIONS] = Time::NEVER;
         } else {
-            self.newest = (self.newest + MAX_TRANSITIONS - 1) % MAX_TRANSITIONS;
-            self.recent[self.newest] = now;
+            self.recent.copy_within(..OLDEST, 1);
+            self.recent[0] = now;
             self.travelling = (self.travelling + 1).min(MAX_TRANSITIONS);
         }
     }
@@ -53,15 +51,8 @@ impl StopLine {
 
     /// How old the last transitions are at `now`, the newest first, also those that have left the chain.
     pub fn ages(&self, now: Time) -> impl Iterator<Item = Time> {
-        let known =
-            (0..MAX_TRANSITIONS).map(|nth| self.at(nth)).take_while(|at| *at != Time::NEVER);
-        known.map(move |at| now - at)
-    }
-
-    /// When the `nth` transition was, 0 the newest.
-    #[inline(always)]
-    fn at(&self, nth: usize) -> Time {
-        self.recent[(self.newest + nth) % MAX_TRANSITIONS]
+        let known = self.recent.iter().take_while(|at| **at != Time::NEVER);
+        known.map(move |at| now - *at)
     }
 
     /// Whether the taps of the last edge are those of every edge to come, until the level changes.
@@ -73,19 +64,19 @@ impl StopLine {
     /// The taps at a clock edge; forgets transitions that have left the chain.
     #[inline(always)]
     pub fn sample(&mut self, now: Time, delays: &Delays) -> Taps {
-        while self.travelling > 0 && now - self.at(self.travelling - 1) >= delays.longest() {
+        while self.travelling > 0 && now - self.recent[self.travelling - 1] >= delays.longest() {
             self.travelling -= 1;
         }
         match self.travelling {
             0 => Taps::settled(self.level),
-            1 => Taps::single(self.level, delays.rank_inside(now - self.at(0))),
+            1 => Taps::single(self.level, delays.rank_inside(now - self.recent[0])),
             _ => self.sample_travelling(now, delays),
         }
     }
 
     fn sample_travelling(&self, now: Time, delays: &Delays) -> Taps {
-        let ages = (0..self.travelling).map(|nth| now - self.at(nth));
-        Taps::new(self.level, ages.map(|age| delays.rank_inside(age)))
+        let ranks = self.recent[..self.travelling].iter().map(|at| delays.rank_inside(now - *at));
+        Taps::new(self.level, ranks)
     }
 }
 
