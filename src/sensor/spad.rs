@@ -9,8 +9,6 @@
 //!
 //! What diodes do beside that, and which of them, is the matter of a [`Row`].
 
-use std::collections::VecDeque;
-
 use crate::kernel::Time;
 
 use super::light::Light;
@@ -39,7 +37,7 @@ pub struct Spads {
     passive: bool,
     dead_time: Time,
     /// When the dead time of each that has fired ends, the oldest first.
-    fired: VecDeque<Time>,
+    fired: Vec<Time>,
     /// How many of those are not on the TDC.
     unwired: usize,
     /// The part of the last avalanche's rate that came without any light, where diodes differ in it [1].
@@ -62,7 +60,7 @@ impl Spads {
             is_off: false,
             passive: false,
             dead_time,
-            fired: VecDeque::new(),
+            fired: Vec::new(),
             unwired: 0,
             dark_part: None,
             avalanche: first,
@@ -114,9 +112,9 @@ impl Spads {
         let now = self.next;
         let recovers = self.recovery() == now;
         if recovers {
-            self.fired.pop_front();
+            self.fired.remove(0);
         } else {
-            self.fired.push_back(now + self.dead_time);
+            self.fired.push(now + self.dead_time);
         }
         self.avalanche = Time::NEVER;
         self.next = self.recovery();
@@ -255,7 +253,7 @@ impl Spads {
 
     #[inline(always)]
     fn recovery(&self) -> Time {
-        match self.fired.front() {
+        match self.fired.first() {
             Some(&until) if self.passive => until,
             _ => Time::NEVER,
         }
