@@ -43,7 +43,7 @@ fn conditions_that_stand_still_are_those_of_the_keys() {
     );
     for rows in [&[(0.0, 65.0)][..], &[(0.0, 65.0), (1.0, 65.0)]] {
         let still = heated(rows, &["tdc.calibrated_at_c=25"]);
-        assert!(!still.disturbance().is_some());
+        assert!(still.disturbance().is_none());
         assert_eq!(frames(&still, 2), frames(&warm, 2));
     }
 }
