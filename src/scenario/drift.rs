@@ -7,8 +7,6 @@
 mod pace;
 mod profile;
 
-use std::ops::RangeInclusive;
-
 use crate::error::{Input, Result};
 use crate::firmware::carry_chain::Delays;
 use crate::kernel::Time;
@@ -18,12 +16,8 @@ use super::chain::{too_long, too_short};
 use super::model::Tdc;
 
 pub use pace::Pace;
-pub use profile::{Moment, Profile};
+pub use profile::{DIE_C, Moment, Profile, SUPPLY_MV};
 
-/// Temperatures that a commercial part is made for (DS182), as the keys have it [degC].
-pub const DIE_C: RangeInclusive<f64> = 0.0..=85.0;
-/// What the supply may be off its nominal voltage by (DS182), as the keys have it [mV].
-pub const SUPPLY_MV: RangeInclusive<f64> = -30.0..=30.0;
 /// Latest time of a profile within a run: no run is longer [s].
 const LATEST_S: f64 = 10_000.0;
 /// Temperature at which the delays of a chain's file hold [degC].

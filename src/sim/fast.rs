@@ -48,7 +48,7 @@ impl Stepping {
     pub(super) fn at_most(self, setup: &Setup) -> Self {
         let is_plain = setup.params.tdc_calibration.is_some()
             || setup.disturbance().is_some()
-            || setup.shaper().is_some();
+            || setup.scenario.spad.shaping().next().is_some();
         if is_plain { Stepping::EveryCycle } else { self }
     }
 }

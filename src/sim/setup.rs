@@ -17,7 +17,6 @@ use crate::files::digest::digest_of;
 use crate::firmware::carry_chain::Delays;
 use crate::firmware::forward2::Depth;
 use crate::firmware::pll::Pll;
-use crate::firmware::tdc_decoder::TimeScale;
 use crate::firmware::tof_top::{Estimator, HistogramSource, Params, Pins};
 use crate::firmware::{
     centroid_estimator, frame_ctrl, histogram_builder, likelihood_estimator, tdc, vcsel_driver,
@@ -242,13 +241,15 @@ impl Setup {
         let scenario = &self.scenario;
         let rms_ps = scenario.pll.jitter_rms_ps;
         let jitter = (rms_ps > 0.0).then(|| Jitter::new(rms_ps, scenario.seed));
+        let calibrates = self.params.tdc_calibration.is_some();
+        let front_end = detector::front_end(scenario, calibrates);
         Device::new(
             (self.pins, &self.params),
             self.pll.clone(),
             jitter,
             self.disturbance.clone(),
             self.row_light.as_ref().unwrap_or(&self.light).clone(),
-            (self.spads(), self.front_end()),
+            (detector::spads(scenario, &self.dark), front_end),
             Timeline::new(scenario),
         )
     }
@@ -454,9 +455,4 @@ fn centroid(
         slope: U::new(word(keys.centroid_slope_m, centroid_estimator::SLOPE_FRACTION) as u64),
         offset: S::new(word(keys.centroid_offset_m, 29)),
     }
-}
-
-fn time_scale(tdc: &scenario::Tdc, cycle: Time) -> TimeScale {
-    let [bin, first] = [tdc.bin_ps, tdc.first_bin_ps].map(Time::from_ps_f64);
-    TimeScale::new(cycle, bin, first, tdc.coarse_bits, tdc.bins as usize)
 }

@@ -1,13 +1,18 @@
 //! Temperature and supply over time.
 
+use std::ops::RangeInclusive;
+
 use serde::Serialize;
 
-use super::{DIE_C, SUPPLY_MV};
 use crate::error::{Input, Result};
 use crate::files::csv::CsvInput;
 
+/// Temperatures that a commercial part is made for (DS182), as the keys have it [degC].
+pub const DIE_C: RangeInclusive<f64> = 0.0..=85.0;
+/// What the supply may be off its nominal voltage by (DS182), as the keys have it [mV].
+pub const SUPPLY_MV: RangeInclusive<f64> = -30.0..=30.0;
 /// Columns of a profile's file.
-pub const HEADER: [&str; 3] = ["time_s", "temperature_c", "supply_mv"];
+const HEADER: [&str; 3] = ["time_s", "temperature_c", "supply_mv"];
 /// Most moments of a profile.
 const MOST: usize = 100_000;
 
@@ -47,7 +52,7 @@ impl Profile {
         let mut moments: Vec<Moment> = Vec::new();
         let mut input = CsvInput::new(source, text, &HEADER)?;
         while input.advance()? {
-            let field = |index: usize, range: std::ops::RangeInclusive<f64>, expected: &str| {
+            let field = |index: usize, range: RangeInclusive<f64>, expected: &str| {
                 let value = input.field::<f64>(index).filter(|value| range.contains(value));
                 value.ok_or_else(|| input.fault(index, format!("expected {expected}")))
             };

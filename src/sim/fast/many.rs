@@ -39,7 +39,7 @@ impl Setup {
             // A carrier that is trapped in one frame may be released in the next.
             && self.scenario.spad.afterpulse_probability == 0.0
             // A pulse of one frame may end in the next.
-            && self.shaper().is_none()
+            && self.scenario.spad.shaping().next().is_none()
             // A frame has the ages of the calibration before it.
             && self.params.tdc_calibration.is_none()
             && self.course.is_none()

@@ -2,15 +2,16 @@
 
 use crate::error::{Input, Result};
 use crate::firmware::carry_chain::Delays;
+use crate::firmware::tdc_decoder::TimeScale;
 use crate::firmware::{tdc, tdc_calibration};
 use crate::kernel::Time;
 use crate::scenario::builtin::Source;
 use crate::scenario::drift::{Course, Drifted, conditions};
-use crate::scenario::{Scenario, calibration, chain};
+use crate::scenario::{Scenario, Tdc, calibration, chain};
 use crate::sensor::streams::{Source as Noise, stream};
 use crate::sim::disturbance::Disturbance;
 
-use super::{recalibration, time_scale};
+use super::recalibration;
 
 /// Taps about a transition that may be unsure, for two transitions in the chain to be shown whole.
 const MOST_UNSURE: usize = 4;
@@ -87,4 +88,9 @@ fn disturbance(scenario: &Scenario, chain: &Drifted) -> Result<Option<Disturbanc
     let pace = chain.course.as_ref().map_or_else(Default::default, |course| course.pace.clone());
     let words = stream(scenario.seed, Noise::SetupWindow, 0);
     Ok(Some(Disturbance::new(window, words, pace)))
+}
+
+fn time_scale(tdc: &Tdc, cycle: Time) -> TimeScale {
+    let [bin, first] = [tdc.bin_ps, tdc.first_bin_ps].map(Time::from_ps_f64);
+    TimeScale::new(cycle, bin, first, tdc.coarse_bits, tdc.bins as usize)
 }

@@ -4,7 +4,7 @@ use crate::kernel::Time;
 use crate::optics::dark::DarkRates;
 use crate::optics::{Budget, Hazard};
 use crate::scenario::wiring::Wiring;
-use crate::scenario::{DeadTimeKind, Spad};
+use crate::scenario::{DeadTimeKind, Scenario, Spad};
 use crate::sensor::front_end::FrontEnd;
 use crate::sensor::light::{Light, Optics};
 use crate::sensor::ring::Ring;
@@ -12,36 +12,30 @@ use crate::sensor::row::Effects;
 use crate::sensor::shaper::{self, Shaper};
 use crate::sensor::spad::Spads;
 
-use super::{Setup, recalibration};
+use super::recalibration;
 
-impl Setup {
-    /// The diodes of the row that are simulated, at power-up.
-    pub(super) fn spads(&self) -> Spads {
-        let spad = &self.scenario.spad;
-        let dead_time = Time::from_ps_f64(spad.dead_time_ns * 1e3);
-        let count = Wiring::of(spad).simulated.len();
-        Spads::new(count, dead_time, Time::NEVER)
-            .with_effects(effects(spad, &self.dark), self.scenario.seed)
-    }
+/// The diodes of the row that are simulated, at power-up.
+pub(super) fn spads(scenario: &Scenario, dark: &DarkRates) -> Spads {
+    let spad = &scenario.spad;
+    let dead_time = Time::from_ps_f64(spad.dead_time_ns * 1e3);
+    let count = Wiring::of(spad).simulated.len();
+    Spads::new(count, dead_time, Time::NEVER).with_effects(effects(spad, dark), scenario.seed)
+}
 
-    /// What makes the pulses on `tdc_stop`, if not the diodes alone.
-    pub(in crate::sim) fn shaper(&self) -> Option<shaper::Params> {
-        let spad = &self.scenario.spad;
-        // However short, it is none of no length.
-        let span = |ns: f64| Time::from_ps_f64(ns * 1e3).max(Time::from_fs(1));
-        let width = (spad.pulse_ns > 0.0).then(|| span(spad.pulse_ns));
-        let gap = (spad.pulse_gap_ns > 0.0).then(|| span(spad.pulse_gap_ns));
-        let params = shaper::Params { width, gap: gap.unwrap_or(Time::ZERO) };
-        spad.shaping().next().map(|_| params)
-    }
+/// What makes the pulses on `tdc_stop`, if not the diodes alone.
+pub(super) fn shaper(spad: &Spad) -> Option<shaper::Params> {
+    // However short, it is none of no length.
+    let span = |ns: f64| Time::from_ps_f64(ns * 1e3).max(Time::from_fs(1));
+    let width = (spad.pulse_ns > 0.0).then(|| span(spad.pulse_ns));
+    let gap = (spad.pulse_gap_ns > 0.0).then(|| span(spad.pulse_gap_ns));
+    let params = shaper::Params { width, gap: gap.unwrap_or(Time::ZERO) };
+    spad.shaping().next().map(|_| params)
+}
 
-    /// What drives `tdc_stop`, at power-up.
-    pub(super) fn front_end(&self) -> FrontEnd {
-        let scenario = &self.scenario;
-        let ring = self.params.tdc_calibration.as_ref().map(|_| recalibration::ring(&scenario.tdc));
-        let ring = Ring::new(ring, scenario.seed);
-        FrontEnd::new(ring, self.shaper().map(Shaper::new))
-    }
+/// What drives `tdc_stop`, at power-up, with a ring if the firmware calibrates itself.
+pub(super) fn front_end(scenario: &Scenario, calibrates: bool) -> FrontEnd {
+    let ring = calibrates.then(|| recalibration::ring(&scenario.tdc));
+    FrontEnd::new(Ring::new(ring, scenario.seed), shaper(&scenario.spad).map(Shaper::new))
 }
 
 /// Light of the link budget.
@@ -50,7 +44,7 @@ pub(super) fn by_budget(budget: &Budget, seed: u64) -> Light {
 }
 
 /// What a scenario's diodes do beside firing.
-pub(in crate::sim) fn effects(spad: &Spad, dark: &DarkRates) -> Effects {
+pub(crate) fn effects(spad: &Spad, dark: &DarkRates) -> Effects {
     Effects {
         afterpulse_probability: spad.afterpulse_probability,
         afterpulse_fs: spad.afterpulse_ns * 1e6,
