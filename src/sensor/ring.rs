@@ -150,6 +150,7 @@ mod tests {
             (60_000_000, 4_000_000),
             (61_800_000, 200_000),
             (64_000_100, 6_361_600),
+            (63_999_900, 6_361_600),
         ] {
             let (found, widest) = of(ring_fs, 0.0);
             assert_eq!(found, Some(empty_fs), "{ring_fs}");

@@ -24,14 +24,16 @@ fn hit(age: Time, now: Time) -> StopLine {
 fn without_a_window_and_at_a_steady_pace_taps_are_the_usual_ones() {
     let (delays, mut line) = (delays(), StopLine::default());
     let mut disturbance = disturbance(Time::ZERO, 1, Pace::new(vec![(Time::ZERO, 1.0)]));
-    // From power-up on; pulses of all lengths, some of them of none.
+    // From power-up on; pulses of all lengths, some of them of none, and sometimes more than the line keeps.
     let mut now = Time::ZERO;
     for k in 0..5_000u64 {
         if k % 3 > 0 {
-            let at = now + Time::from_fs(k * 7_919_000 % 2_000_000);
-            line.toggle(at);
-            if k % 7 == 0 {
-                line.toggle(at);
+            let at = now + Time::from_fs(k * 7_919_000 % 1_900_000);
+            let burst = if k % 40 == 1 { 9 } else { 0 };
+            let last = at + Time::from_fs(burst * 9_000);
+            (0..=burst).for_each(|nth| line.toggle(at + Time::from_fs(nth * 9_000)));
+            if k % 7 == 0 || burst > 0 {
+                line.toggle(last);
             }
         }
         now += Time::from_ns(2);
