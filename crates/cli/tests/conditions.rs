@@ -121,6 +121,11 @@ fn a_set_up_window_is_refused_where_it_holds_more_taps_than_can_be_shown_and_whe
     let report = json(folder.path(), &given);
     assert!(has(&report, "outside-training", "tdc.setup_window_ps"), "{report}");
     assert!(has(&report, "second-opinion", "tdc.setup_window_ps"), "{report}");
+    for (estimator, is_told) in [("likelihood", true), ("matched", true), ("centroid", false)] {
+        let report = json(folder.path(), &[&given[..], &["--estimator", estimator]].concat());
+        let key = "tdc.setup_window_ps";
+        assert_eq!(has(&report, "estimator-outside-model", key), is_told, "{estimator}: {report}");
+    }
     let text = stdout(folder.path(), &["tdc", "-s", "tdc.setup_window_ps=5", "--hits", "20000"]);
     assert!(text.contains("sample within 5 ps about\nthe edge (tdc.setup_window_ps)"), "{text}");
 }

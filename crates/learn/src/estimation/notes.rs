@@ -35,6 +35,7 @@ impl EstimatorKind {
                 teller.afterpulses(0.0),
                 teller.neighbours(),
                 teller.shaping(),
+                teller.metastable(),
             ],
             EstimatorKind::TwoEchoes => vec![
                 teller.mode(),
@@ -44,6 +45,7 @@ impl EstimatorKind {
                 teller.afterpulses(0.0),
                 teller.neighbours(),
                 teller.shaping(),
+                teller.metastable(),
             ],
             EstimatorKind::LikelihoodEstimator => vec![
                 teller.jitter(0.0),
@@ -52,6 +54,7 @@ impl EstimatorKind {
                 teller.afterpulses(0.0),
                 teller.neighbours(),
                 teller.shaping(),
+                teller.metastable(),
             ],
             EstimatorKind::Matched => vec![
                 teller.mode(),
@@ -61,6 +64,7 @@ impl EstimatorKind {
                 teller.afterpulses(0.0),
                 teller.neighbours(),
                 teller.shaping(),
+                teller.metastable(),
             ],
             EstimatorKind::Centroid => vec![
                 teller.mode(),

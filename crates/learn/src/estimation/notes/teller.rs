@@ -68,6 +68,13 @@ impl Teller<'_> {
         (rms_ps > most_ps).then(|| self.note("pll.jitter_rms_ps", rms_ps, expected, text))
     }
 
+    /// That each tap's register samples at the edge.
+    pub fn metastable(&self) -> Option<Note> {
+        let window_ps = self.setup.scenario.tdc.setup_window_ps;
+        let text = "it takes taps to be sampled at the edge, and so bins to have sharp borders";
+        (window_ps > 0.0).then(|| self.note("tdc.setup_window_ps", window_ps, "0", text))
+    }
+
     /// That pulses are alike, or nearly.
     pub fn pulses(&self, most_ps: f64, most_energy: f64) -> Option<Note> {
         let laser = &self.setup.scenario.laser;
