@@ -1,6 +1,8 @@
 //! The network file: a TOML text with weights, their formats and where they come from.
 
+use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -88,7 +90,16 @@ impl Network {
 
     /// A network that comes with the program; `None` if it has none of that name.
     pub fn builtin(name: &str) -> Option<Result<Network>> {
-        Network::builtin_text(name).map(|text| Network::parse(text, name))
+        // A sweep makes thousands of setups.
+        static PARSED: Mutex<BTreeMap<&str, Network>> = Mutex::new(BTreeMap::new());
+        let (name, text) = BUILTIN.iter().find(|(builtin, _)| *builtin == name)?;
+        let mut parsed = PARSED.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(network) = parsed.get(name) {
+            return Some(Ok(network.clone()));
+        }
+        let network = Network::parse(text, name);
+        network.iter().for_each(|network| drop(parsed.insert(name, network.clone())));
+        Some(network)
     }
 
     /// A network from a file.

@@ -14,8 +14,18 @@ use tofsim::sim::setup::Setup;
 const MARK: &str = "tofsim-record ";
 
 /// Options that leave the bytes of an output as they are, or only say where it goes.
-const LEFT_OUT: [&str; 8] =
-    ["output", "threads", "quiet", "verbose", "strict", "json", "resume", "checkpoints"];
+const LEFT_OUT: [&str; 10] = [
+    "output",
+    "threads",
+    "quiet",
+    "verbose",
+    "strict",
+    "json",
+    "resume",
+    "restart",
+    "shard",
+    "checkpoints",
+];
 
 /// Where an output comes from.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

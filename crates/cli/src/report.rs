@@ -26,6 +26,8 @@ pub mod run_files;
 pub mod spad;
 pub mod statistics;
 pub mod summary;
+pub mod sweep;
+pub mod sweep_plot;
 pub mod table;
 pub mod tdc;
 pub mod tdc_drift;

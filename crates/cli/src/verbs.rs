@@ -22,6 +22,7 @@ pub mod run;
 pub mod scenario;
 mod scenes;
 pub mod spad;
+pub mod sweep;
 pub mod tdc;
 pub mod terminal;
 pub mod timing;
@@ -66,6 +67,7 @@ enum Verb {
     Vectors(vectors::Args),
     Verify(verify::Args),
     Timing(timing::Args),
+    Sweep(sweep::Args),
     Build(build::Args),
     Ila(ila::Args),
     Compare(Box<compare::Args>),
@@ -119,6 +121,7 @@ impl Cli {
             Verb::Vectors(args) => vectors::run(args, talk),
             Verb::Verify(args) => return verify::run(args, talk),
             Verb::Timing(args) => return timing::run(args, talk),
+            Verb::Sweep(args) => sweep::run(args, talk),
             Verb::Build(args) => return build::run(args, talk, Cli::run_within),
             Verb::Ila(args) => ila::run(args, talk),
             Verb::Compare(args) => return compare::run(args, talk),

@@ -27,5 +27,6 @@ pub mod state;
 mod told;
 mod variant;
 
+pub use bound::Bound;
 pub use budget::{DepthBudget, EffectErrors};
 pub use plan::Plan;

@@ -54,7 +54,7 @@ impl Events {
             let schema = format!("message shots {{ {SCHEMA} {laser} }}");
             let provenance = ("provenance", record.to_owned());
             let fill = move |group: &mut RowGroup, shots: &[Shot]| columns(group, shots, pairs);
-            EventFile::Parquet(Box::new(ParquetTable::create(file, &schema, provenance, fill)?))
+            EventFile::Parquet(Box::new(ParquetTable::create(file, &schema, [provenance], fill)?))
         } else {
             let laser = if pairs { format!(",{LASER}") } else { String::new() };
             writeln!(file, "# {record}\n{COLUMNS}{laser}").map_err(|error| fault(path, error))?;

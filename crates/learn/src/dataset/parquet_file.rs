@@ -40,7 +40,7 @@ pub(super) fn create(
     let columns: String = (0..bins).map(column).collect();
     let schema = format!("message dataset {{ {HEAD} {others} {columns} }}");
     let file = OutputFile::create(path)?;
-    ParquetTable::create(file, &schema, (KEY, text.to_owned()), move |group, rows: &[Sample]| {
+    ParquetTable::create(file, &schema, [(KEY, text.to_owned())], move |group, rows: &[Sample]| {
         let rows = || rows.iter();
         group.required::<Int64Type>(rows().map(|sample| sample.row as i64))?;
         group.required::<Int64Type>(rows().map(|sample| sample.seed as i64))?;

@@ -33,19 +33,20 @@ pub struct ParquetTable<R> {
 pub struct RowGroup<'a>(SerializedRowGroupWriter<'a, OutputFile>);
 
 impl<R: Clone> ParquetTable<R> {
-    /// Begins the file with the columns of `schema`, a key and its value in the metadata, and what
+    /// Begins the file with the columns of `schema`, keys and their values in the metadata, and what
     /// writes the columns of some rows in order.
     pub fn create(
         file: OutputFile,
         schema: &str,
-        (key, value): (&str, String),
+        metadata: impl IntoIterator<Item = (&'static str, String)>,
         fill: impl Fn(&mut RowGroup, &[R]) -> Written<()> + Send + 'static,
     ) -> Result<Self> {
         let path = file.target().to_owned();
-        let metadata = KeyValue::new(key.to_owned(), value);
+        let metadata =
+            metadata.into_iter().map(|(key, value)| KeyValue::new(key.to_owned(), value));
         let properties = WriterProperties::builder()
             .set_compression(Compression::SNAPPY)
-            .set_key_value_metadata(Some(vec![metadata]))
+            .set_key_value_metadata(Some(metadata.collect()))
             .build();
         let schema = parse_message_type(schema).map_err(|error| fault(&path, error))?;
         let writer = SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties));

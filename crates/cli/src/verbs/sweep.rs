@@ -1,0 +1,236 @@
+//! `tofsim sweep`: a scenario at many points.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use tofsim::Note;
+use tofsim::error::{Input, Result};
+use tofsim::files::digest::digest;
+use tofsim::files::output::{create_directory, write_bytes};
+use tofsim::sim::setup::Setup;
+use tofsim_studies::sweep::{ABOUT, Finished};
+use tofsim_studies::table::Row;
+use tofsim_studies::table::reader::TableReader;
+use tofsim_studies::{Plan, Shard, Sweep};
+
+use crate::record::Record;
+use crate::report::{sweep as report, sweep_plot};
+
+use super::draws::use_threads;
+use super::terminal::{Talk, print_json, stop_signal};
+
+mod catalogue;
+mod merge;
+
+/// Work a scenario out at many points, or search for where limits are just met
+#[derive(Debug, clap::Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+#[command(
+    after_help = "A plan is a TOML file: axes (lists, ranges, distributions) over any keys of the \
+    scenario, what is\nsimulated at each point, which columns the table has, and what is searched for. \
+    docs/studies.md\nexplains it. A sweep that was stopped or killed goes on where it was.\n\nExamples:\n  \
+    tofsim sweep fig-4-2                        a plan that comes with the program, printed\n  \
+    tofsim sweep plan.toml -o out               out/sweep.parquet, sweep.csv and, with [plot], sweep.svg\n  \
+    tofsim sweep plan.toml --shard 3/7 -o out   one of seven parts, for an array of jobs\n  \
+    tofsim sweep merge out -o whole             one table of all seven\n  \
+    tofsim sweep list                           plans that come with the program\n  \
+    tofsim sweep columns                        what a point can give"
+)]
+pub struct Args {
+    #[command(subcommand)]
+    action: Option<Action>,
+    #[command(flatten)]
+    sweep: SweepArgs,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum Action {
+    Merge(merge::Args),
+    List(catalogue::ListArgs),
+    Show(catalogue::ShowArgs),
+    Columns(catalogue::ColumnsArgs),
+}
+
+#[derive(Debug, clap::Args)]
+struct SweepArgs {
+    /// Built-in plan, or the path of a plan file (see `sweep list`)
+    #[arg(required = true)]
+    plan: Option<String>,
+    /// Set a key of the scenario at all points, such as spad.pdp=0.02; may be repeated
+    #[arg(short, long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Seed of every random number, instead of the plan's
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    seed: Option<u64>,
+    /// Work out one of N parts, every Nth point from the Ith on
+    #[arg(long, value_name = "I/N", requires = "output")]
+    shard: Option<Shard>,
+    /// Forget what is in the folder, and begin anew
+    #[arg(long, requires = "output")]
+    restart: bool,
+    /// Threads; the results are the same for any number [default: one a core]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Write the table there, as Parquet and CSV, and a picture if the plan has one
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Print one JSON object instead of a table
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the verb.
+pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+    match &args.action {
+        Some(Action::Merge(args)) => merge::run(args, talk),
+        Some(Action::List(args)) => catalogue::list(args, talk),
+        Some(Action::Show(args)) => catalogue::show(args),
+        Some(Action::Columns(args)) => catalogue::columns(args, talk),
+        None => args.sweep.run(talk),
+    }
+}
+
+impl SweepArgs {
+    fn run(&self, talk: &Talk) -> Result<()> {
+        let Some(name) = &self.plan else {
+            return Err(Input::new("plan", "expected a built-in plan or the path of one").into());
+        };
+        let plan = Plan::load(name, &self.set, self.seed)?;
+        let setup = Setup::of_counts(plan.base()?)?;
+        let record = Record::new(&setup, &talk.command);
+        let about = about(&plan, &record);
+        let sweep = Sweep {
+            plan: &plan,
+            shard: self.shard.unwrap_or(Shard::WHOLE),
+            about: about.to_string(),
+            comment: record.comment_line(),
+        };
+        use_threads(self.threads)?;
+        let mut finished = self.finished(&sweep, talk)?;
+        let notes = notes(&finished, sweep.shard.size(plan.points.count()));
+        if let (Some(folder), Some(plot), Shard::WHOLE) =
+            (&self.output, &plan.file.plot, sweep.shard)
+        {
+            let path = folder.join("sweep.svg");
+            let rows = &finished.rows[..];
+            let fields = tofsim_studies::point::header(&plan);
+            write_bytes(&path, record.in_svg(&sweep_plot::svg(plot, &fields, rows)?))?;
+            finished.files.push(path);
+        }
+        finished.files.iter().for_each(|path| talk.wrote(path));
+        talk.heed(&notes)?;
+        if self.json {
+            return print_json(&self.object(about, &plan, &finished, &notes));
+        }
+        let shown = plan.points.count();
+        talk.report(&report::text(&plan, &finished.rows, shown))
+    }
+
+    fn finished(&self, sweep: &Sweep, talk: &Talk) -> Result<Finished> {
+        let stop = stop_signal();
+        let count = sweep.shard.size(sweep.plan.points.count());
+        let Some(folder) = &self.output else {
+            let progress = talk.progress(count, "points");
+            let finished = sweep.in_memory(stop.as_deref(), &|more| progress.inc(more));
+            progress.finish_and_clear();
+            return finished;
+        };
+        create_directory(folder)?;
+        if !self.restart && sweep.is_done(folder) {
+            talk.note(format_args!("{} is there and whole", sweep.table(folder).display()));
+            return read(sweep, folder);
+        }
+        let progress = talk.progress(count, "points");
+        let is_first = std::sync::atomic::AtomicBool::new(true);
+        let done = |more| {
+            progress.inc(more);
+            // Those that were there took no time.
+            if is_first.swap(false, std::sync::atomic::Ordering::Relaxed) {
+                progress.reset_eta();
+            }
+        };
+        let finished = sweep.run(folder, self.restart, stop.as_deref(), &done);
+        progress.finish_and_clear();
+        if let Err(tofsim::Error::Interrupted) = &finished {
+            talk.note(format_args!(
+                "finished points are kept in {}; the same command goes on",
+                folder.display()
+            ));
+        }
+        let finished = finished?;
+        if finished.resumed > 0 {
+            talk.note(format_args!("{} of {count} points were there already", finished.resumed));
+        }
+        Ok(finished)
+    }
+
+    fn object(&self, mut about: Value, plan: &Plan, finished: &Finished, notes: &[Note]) -> Value {
+        let files: Vec<_> = finished.files.iter().map(|path| path.display().to_string()).collect();
+        about["shard"] = json!(self.shard.map(|shard| shard.to_string()));
+        about["files"] = json!(files);
+        if self.output.is_none() {
+            let names: Vec<_> = tofsim_studies::point::header(plan);
+            let object = |row: &Row| -> Value {
+                let pairs = names.iter().zip(&row.cells);
+                pairs
+                    .map(|(field, cell)| (field.name.clone(), json!(cell)))
+                    .collect::<serde_json::Map<_, _>>()
+                    .into()
+            };
+            about["rows"] = finished.rows.iter().map(object).collect();
+        }
+        about["notes"] = json!(notes);
+        about
+    }
+}
+
+/// The rows of a sweep whose table is there.
+fn read(sweep: &Sweep, folder: &Path) -> Result<Finished> {
+    let path = sweep.table(folder);
+    let mut table = TableReader::open(&path)?;
+    let mut finished = Finished { resumed: table.count, ..Finished::default() };
+    while let Some(row) = table.next_row()? {
+        if finished.rows.len() < tofsim_studies::sweep::SHOWN {
+            finished.rows.push(row);
+        }
+    }
+    finished.files.push(path);
+    Ok(finished)
+}
+
+/// What a table says of itself, the same for all shards.
+fn about(plan: &Plan, record: &Record) -> Value {
+    let column = |column: &tofsim_studies::columns::Column| json!({ "name": column.name, "unit": column.unit, "meaning": column.meaning });
+    let mut about = json!({
+        "schema": "tofsim.sweep/1",
+        "plan": plan.name,
+        "plan_text": plan.text,
+        "plan_digest": format!("{:016x}", digest(0, plan.text.as_bytes())),
+        "points": plan.points.count(),
+        "columns": plan.outputs.iter().map(column).collect::<Vec<_>>(),
+    });
+    if let (Some(object), Value::Object(own)) = (about.as_object_mut(), json!(record)) {
+        object.extend(own);
+        object.insert("seed".to_owned(), json!(plan.seed));
+    }
+    about
+}
+
+/// What the values lie outside of, each cause once.
+fn notes(finished: &Finished, points: u64) -> Vec<Note> {
+    let counted = |(note, count): &(Note, u64)| {
+        let text = match points {
+            1 => note.text.clone(),
+            _ => format!("{}, and so at {count} of {points} points", note.text),
+        };
+        Note { text, ..note.clone() }
+    };
+    finished.notes.iter().map(counted).collect()
+}
+
+/// What a table that is about a sweep says of it.
+fn record_of(about: &str) -> Result<Record> {
+    let record = Record::find(about.as_bytes());
+    record.ok_or_else(|| Input::new(ABOUT, "expected what a sweep says of itself").into())
+}

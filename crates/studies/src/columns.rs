@@ -1,0 +1,212 @@
+//! What a point can give: the columns of a sweep's table by name.
+
+use tofsim::error::{Result, hint};
+use tofsim::files::toml::Checked;
+use tofsim::optics::Chances;
+use tofsim::sim::setup::Setup;
+use tofsim_learn::error_budget::Bound;
+use tofsim_learn::estimation::EstimatorKind;
+
+use crate::errors::Errors;
+use crate::figure::Figure;
+use crate::plan::file::Fidelity;
+use crate::tally::Tally;
+
+/// A column.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// Unit.
+    pub unit: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+    /// Where it comes from.
+    pub quantity: Quantity,
+}
+
+/// Where a value comes from.
+#[derive(Clone, Copy, Debug)]
+pub enum Quantity {
+    /// The scenario, without a run.
+    Expected(fn(&Setup) -> Result<Option<f64>>),
+    /// The frames.
+    Frames(fn(&Tally) -> Figure),
+    /// What the estimator of that place makes of them.
+    Errors(usize, fn(&Errors) -> Figure),
+}
+
+/// Two are the same that stand in the same column.
+impl PartialEq for Quantity {
+    fn eq(&self, other: &Self) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(other)
+    }
+}
+
+impl Column {
+    /// Whether noise moves its values, so that they have standard errors.
+    pub fn is_random(&self) -> bool {
+        match self.quantity {
+            Quantity::Expected(_) => false,
+            Quantity::Frames(_) => {
+                self.name.starts_with("hits") || self.name.starts_with("tdc_hits")
+            }
+            Quantity::Errors(..) => true,
+        }
+    }
+}
+
+/// A column of [`Quantity::Expected`]: name, unit, meaning, value.
+type Expected = (&'static str, &'static str, &'static str, fn(&Setup) -> Result<Option<f64>>);
+
+/// What a scenario is expected to give.
+const EXPECTED: [Expected; 13] = [
+    ("signal_per_shot", "1", "Detected laser photons of a shot, S_p of eq. 3.14", |setup| {
+        Ok(Some(setup.budget.signal_per_shot))
+    }),
+    ("ambient_rate_hz", "1/s", "Rate of avalanches by ambient light, N_r of eq. 3.20", |setup| {
+        Ok(Some(setup.budget.ambient_rate_hz))
+    }),
+    ("dark_rate_hz", "1/s", "Rate of avalanches in the dark", |setup| {
+        Ok(Some(setup.budget.dark_rate_hz))
+    }),
+    ("hit_probability", "1", "Chance that a shot has a hit", |setup| {
+        Ok(setup.chances().map(|chances| chances.hit))
+    }),
+    ("signal_first_probability", "1", "Chance that a laser photon is a shot's hit", |setup| {
+        Ok(setup.chances().map(|chances| chances.signal_first))
+    }),
+    (
+        "signal_to_noise",
+        "1",
+        "Hits of laser photons to one of any other cause, in the histogram",
+        |setup| Ok(setup.chances().as_ref().and_then(Chances::signal_to_noise)),
+    ),
+    ("pulse_energy_j", "J", "Energy of a laser pulse", |setup| {
+        Ok(Some(setup.budget.pulse_energy_j))
+    }),
+    ("average_power_w", "W", "Average power of the laser at the firmware's rate", |setup| {
+        Ok(Some(setup.exposure_to_a_frame().average_w))
+    }),
+    ("eye_safety_limit_w", "W", "Class 1 limit for an eye that sees a frame (eq. 3.3)", |setup| {
+        Ok(setup.exposure_to_a_frame().limit_w)
+    }),
+    (
+        "eye_safety_margin",
+        "1",
+        "That limit to the average power: from 1 on it is Class 1",
+        |setup| Ok(margin(&setup.exposure_to_a_frame())),
+    ),
+    (
+        "eye_safety_margin_at_stated_rate",
+        "1",
+        "The same at the rate at which the laser's power is stated, as in the thesis",
+        |setup| Ok(margin(&setup.exposure_at_the_optics_rate())),
+    ),
+    (
+        "cramer_rao_two_sd_mm",
+        "mm",
+        "Twice the standard deviation that no unbiased estimate of one frame is below",
+        |setup| Ok(Bound::of(setup)?.two_sd_mm),
+    ),
+    ("range_m", "m", "Distance whose echo comes with the end of the last bin", |setup| {
+        Ok(range_m(setup))
+    }),
+];
+
+/// A column of [`Quantity::Frames`]: name, unit, meaning, value.
+type OfFrames = (&'static str, &'static str, &'static str, fn(&Tally) -> Figure);
+
+/// What frames give.
+const OF_FRAMES: [OfFrames; 5] = [
+    ("hits_per_frame", "hits", "Hits in a frame's histogram", |tally| tally.hits.mean()),
+    (
+        "tdc_hits_per_frame",
+        "hits",
+        "Hits that the TDC keeps in a frame, with a code or without",
+        |tally| tally.tdc_hits.mean(),
+    ),
+    ("estimator_cycles", "cycles of clk_sys", "From algo_start to algo_done", |tally| {
+        Figure::exact(tally.estimator_cycles)
+    }),
+    ("frame_cycles", "cycles of clk_sys", "From Clear to algo_done", |tally| {
+        Figure::exact(tally.frame_cycles)
+    }),
+    ("frame_ms", "ms", "The same in time", |tally| Figure::exact(tally.frame_ms)),
+];
+
+/// A column of [`Quantity::Errors`]: its name after the estimator's, unit, meaning, value.
+type OfErrors = (&'static str, &'static str, &'static str, fn(&Errors) -> Figure);
+
+/// What an estimator gives.
+const OF_ERRORS: [OfErrors; 6] = [
+    ("bias_mm", "mm", "Mean error of the depths, b of eq. 4.1", Errors::bias),
+    ("sd_mm", "mm", "Standard deviation of the depths, sigma of eq. 4.1", Errors::sd),
+    ("two_sd_mm", "mm", "Twice that", Errors::two_sd),
+    ("root_mse_mm", "mm", "Root of the mean squared error, eq. 4.2", Errors::root_mse),
+    ("failure_rate", "1", "Part of the frames without a depth", Errors::failure_rate),
+    ("outlier_rate", "1", "Part of the depths that are far off, or negative", Errors::outlier_rate),
+];
+
+/// All columns that a fidelity and estimators give.
+pub fn all(fidelity: Fidelity, estimators: &[EstimatorKind]) -> Vec<Column> {
+    let expected = EXPECTED.iter().map(|&(name, unit, meaning, of)| {
+        let (name, quantity) = (name.to_owned(), Quantity::Expected(of));
+        Column { name, unit, meaning, quantity }
+    });
+    let of_frames = OF_FRAMES.iter().map(|&(name, unit, meaning, of)| {
+        let (name, quantity) = (name.to_owned(), Quantity::Frames(of));
+        Column { name, unit, meaning, quantity }
+    });
+    let of_errors = estimators.iter().enumerate().flat_map(|(place, kind)| {
+        OF_ERRORS.iter().map(move |&(name, unit, meaning, of)| {
+            let (name, quantity) = (format!("{}.{name}", kind.name()), Quantity::Errors(place, of));
+            Column { name, unit, meaning, quantity }
+        })
+    });
+    match fidelity {
+        Fidelity::Budget => expected.collect(),
+        _ => expected.chain(of_frames).chain(of_errors).collect(),
+    }
+}
+
+/// Those of the known columns that a plan asks for, in their own order; all if it asks for none.
+///
+/// # Errors
+/// When it asks for one that there is not.
+pub fn chosen(checked: &Checked, asked: &[String], known: &[Column]) -> Result<Vec<Column>> {
+    if asked.is_empty() {
+        return Ok(known.to_vec());
+    }
+    let mut is_asked = vec![false; known.len()];
+    for (place, pattern) in asked.iter().enumerate() {
+        let key = format!("outputs.{place}");
+        let glob = globset::Glob::new(pattern);
+        let glob = glob.map_err(|error| checked.fault(&key, error))?.compile_matcher();
+        let mut found = false;
+        for (is_asked, column) in is_asked.iter_mut().zip(known) {
+            let matches = glob.is_match(&column.name);
+            *is_asked |= matches;
+            found |= matches;
+        }
+        if !found {
+            let (hint, known) = hint(pattern, known.iter().map(|column| column.name.as_str()));
+            let expected = format!("no such column{hint}; expected one of {known}");
+            return Err(checked.fault(&key, expected).into());
+        }
+    }
+    let chosen = known.iter().zip(is_asked).filter(|(_, is_asked)| *is_asked);
+    Ok(chosen.map(|(column, _)| column.clone()).collect())
+}
+
+/// How many times an exposure could be stronger and still within its limit.
+fn margin(exposure: &tofsim::optics::eye_safety::Exposure) -> Option<f64> {
+    exposure.limit_w.map(|limit_w| limit_w / exposure.average_w)
+}
+
+/// Distance of an echo at the end of the histogram.
+fn range_m(setup: &Setup) -> Option<f64> {
+    use tofsim::optics::budget::LIGHT_M_S;
+    let end = setup.bins().spans().iter().map(|span| span.until).max()?;
+    (end > setup.budget.delay).then(|| (end - setup.budget.delay).seconds() * LIGHT_M_S / 2.0)
+}

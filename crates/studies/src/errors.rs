@@ -1,0 +1,72 @@
+//! What an estimator makes of the frames of a run.
+
+use tofsim_learn::evaluation::Spread;
+
+use crate::figure::{Figure, mean};
+
+/// What an estimator makes of frames.
+#[derive(Clone, Debug)]
+pub struct Errors {
+    spread: Spread,
+    /// Mean squared error, and its standard error; none without a truth [mm^2].
+    mse_mm2: Figure,
+    has_truth: bool,
+}
+
+impl Errors {
+    /// Of depths less a truth, those of failures missing; what is further off than `limit_m` is an outlier [m].
+    pub fn of(errors_m: &[Option<f64>], truth_m: Option<f64>, limit_m: f64) -> Errors {
+        let judged = errors_m.iter().map(|error| (*error, truth_m.unwrap_or(f64::INFINITY)));
+        let spread = Spread::judged(judged, limit_m);
+        let squares_mm2 =
+            errors_m.iter().flatten().map(|m| 1e6 * m * m).filter(|mm2| mm2.is_finite());
+        Errors { spread, mse_mm2: mean(squares_mm2), has_truth: truth_m.is_some() }
+    }
+
+    /// Mean error [mm].
+    pub fn bias(&self) -> Figure {
+        self.where_known(Figure { value: self.spread.mean_mm, se: self.spread.mean_se_mm })
+    }
+
+    /// Twice the standard deviation [mm].
+    pub fn two_sd(&self) -> Figure {
+        Figure { value: self.spread.two_sd_mm, se: self.spread.two_sd_se_mm }
+    }
+
+    /// Standard deviation [mm].
+    pub fn sd(&self) -> Figure {
+        let Figure { value, se } = self.two_sd();
+        Figure { value: value.map(|two| two / 2.0), se: se.map(|two| two / 2.0) }
+    }
+
+    /// Root of the mean squared error [mm].
+    pub fn root_mse(&self) -> Figure {
+        let Figure { value, se } = self.mse_mm2;
+        let root = value.map(f64::sqrt);
+        let se = se.zip(root).map(|(se, root)| if root > 0.0 { se / (2.0 * root) } else { 0.0 });
+        self.where_known(Figure { value: root, se })
+    }
+
+    /// Part of the frames without a depth [1].
+    pub fn failure_rate(&self) -> Figure {
+        part(self.spread.failures, self.spread.failures + self.spread.estimates)
+    }
+
+    /// Part of the depths that are far off [1].
+    pub fn outlier_rate(&self) -> Figure {
+        self.where_known(part(self.spread.outliers, self.spread.estimates))
+    }
+
+    fn where_known(&self, figure: Figure) -> Figure {
+        if self.has_truth { figure } else { Figure::default() }
+    }
+}
+
+/// A part of so many, with the standard error of a binomial number.
+fn part(of_them: u64, all: u64) -> Figure {
+    if all == 0 {
+        return Figure::default();
+    }
+    let part = of_them as f64 / all as f64;
+    Figure { value: Some(part), se: Some((part * (1.0 - part) / all as f64).sqrt()) }
+}

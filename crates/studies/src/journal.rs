@@ -1,0 +1,180 @@
+//! The finished points of a sweep, a line each as they come: what a sweep goes on from after it was killed.
+//!
+//! The first line says what the sweep is. A line that was being written when the system stopped has no end, and is cut
+//! off. While a sweep writes it holds the file, so that there are never two.
+
+use std::fs::{File, TryLockError};
+use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use serde::{Deserialize, Serialize};
+
+use tofsim::error::{Error, Input, Result};
+use tofsim::note::Note;
+
+use crate::table::{Cell, Row};
+
+/// A journal to which points are added.
+pub struct Journal {
+    path: PathBuf,
+    file: Mutex<File>,
+}
+
+/// A finished point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// The cells of its row, the first of which is the point's number.
+    pub cells: Vec<Cell>,
+    /// What its values lie outside of.
+    pub notes: Vec<Note>,
+}
+
+impl Entry {
+    /// Number of the point.
+    pub fn point(&self) -> Option<u64> {
+        match self.cells.first() {
+            Some(Cell::Whole(point)) => Some(*point),
+            _ => None,
+        }
+    }
+
+    /// Its row.
+    pub fn into_row(self) -> Option<Row> {
+        Some(Row { point: self.point()?, cells: self.cells })
+    }
+}
+
+/// What a journal begins with.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+struct Head {
+    schema: String,
+    about: String,
+}
+
+const SCHEMA: &str = "tofsim.sweep-journal/1";
+
+impl Journal {
+    /// Begins a journal, or goes on with the one that is there; `about` says what the sweep is. Shows `take` the number
+    /// of every point that is in it.
+    ///
+    /// # Errors
+    /// When it cannot be written, another sweep writes to it, it is another sweep's, or damaged.
+    pub fn open(path: &Path, about: &str, mut take: impl FnMut(u64)) -> Result<Self> {
+        let options = File::options().read(true).append(true).create(true).open(path);
+        let mut file = options.map_err(Error::io(path, "write"))?;
+        match file.try_lock() {
+            Err(TryLockError::WouldBlock) => {
+                let expected =
+                    "another sweep is writing there, expected a folder or a shard of its own";
+                return Err(Input::new(path.display(), expected).into());
+            }
+            // A file system without locks has to do.
+            Ok(()) | Err(TryLockError::Error(_)) => {}
+        }
+        let head = Head { schema: SCHEMA.to_owned(), about: about.to_owned() };
+        let whole = scan(path, &file, |line, _, entry| match entry {
+            Line::Head(found) if found == head => Ok(()),
+            Line::Head(_) => {
+                let expected = "the sweep that was begun there is another: expected the same plan, seed and version, \
+                    another folder, or --restart";
+                Err(Input::new(path.display(), expected).into())
+            }
+            Line::Entry(entry) => {
+                take(entry.point().ok_or_else(|| damaged(path, line))?);
+                Ok(())
+            }
+        })?;
+        file.set_len(whole).map_err(Error::io(path, "write"))?;
+        if whole == 0 {
+            let line = serde_json::json!(head).to_string() + "\n";
+            file.write_all(line.as_bytes()).map_err(Error::io(path, "write"))?;
+        }
+        Ok(Journal { path: path.to_owned(), file: Mutex::new(file) })
+    }
+
+    /// Adds a finished point.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn add(&self, entry: &Entry) -> Result<()> {
+        let line = serde_json::json!(entry).to_string() + "\n";
+        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        file.write_all(line.as_bytes()).map_err(Error::io(&self.path, "write"))
+    }
+
+    /// Shows `take` all points in the order of their numbers.
+    ///
+    /// # Errors
+    /// When it cannot be read, or `take` fails.
+    pub fn in_order(&self, mut take: impl FnMut(Entry) -> Result<()>) -> Result<()> {
+        let file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut places = Vec::new();
+        scan(&self.path, &file, |line, begin, entry| {
+            if let Line::Entry(entry) = entry {
+                places.push((entry.point().ok_or_else(|| damaged(&self.path, line))?, begin));
+            }
+            Ok(())
+        })?;
+        places.sort_unstable();
+        let mut reader = BufReader::new(&*file);
+        let mut text = String::new();
+        let mut here = u64::MAX;
+        for (_, begin) in places {
+            let read = Error::io(&self.path, "read");
+            let line = (|| {
+                if here != begin {
+                    reader.seek(SeekFrom::Start(begin))?;
+                }
+                text.clear();
+                reader.read_line(&mut text)
+            })();
+            here = begin + line.map_err(read)? as u64;
+            let entry = serde_json::from_str(&text).map_err(|_| damaged(&self.path, 0))?;
+            take(entry)?;
+        }
+        Ok(())
+    }
+
+    /// Removes it.
+    pub fn remove(self) -> Result<()> {
+        std::fs::remove_file(&self.path).map_err(Error::io(&self.path, "remove"))
+    }
+}
+
+/// A line of a journal.
+enum Line {
+    Head(Head),
+    Entry(Entry),
+}
+
+/// Shows `take` every whole line with its number and where it begins; returns where the last one ends.
+fn scan(
+    path: &Path,
+    mut file: &File,
+    mut take: impl FnMut(usize, u64, Line) -> Result<()>,
+) -> Result<u64> {
+    file.rewind().map_err(Error::io(path, "read"))?;
+    let mut reader = BufReader::new(file);
+    let (mut begin, mut number) = (0, 0);
+    let mut line = Vec::new();
+    loop {
+        line.clear();
+        let read = reader.by_ref().read_until(b'\n', &mut line).map_err(Error::io(path, "read"))?;
+        if line.last() != Some(&b'\n') {
+            return Ok(begin);
+        }
+        number += 1;
+        let parsed = match number {
+            1 => serde_json::from_slice(&line).map(Line::Head),
+            _ => serde_json::from_slice(&line).map(Line::Entry),
+        };
+        take(number, begin, parsed.map_err(|_| damaged(path, number))?)?;
+        begin += read as u64;
+    }
+}
+
+fn damaged(path: &Path, line: usize) -> Error {
+    let expected = "no line of a sweep's journal: expected the one that a sweep left, or --restart";
+    Input::new(path.display(), expected).at(line.max(1), 1).into()
+}

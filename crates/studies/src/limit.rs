@@ -1,0 +1,97 @@
+//! A limit on a column: `peak.failure_rate < 0.1`.
+
+use std::fmt;
+
+use tofsim::error::{Result, hint};
+use tofsim::files::toml::Checked;
+
+use crate::columns::Column;
+
+/// A limit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limit {
+    /// The column's name.
+    pub column: String,
+    /// How the value has to lie to the number.
+    pub relation: Relation,
+    /// The number, in the column's unit.
+    pub number: f64,
+}
+
+/// How a value has to lie to a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// Below it.
+    Below,
+    /// Below it, or as large.
+    AtMost,
+    /// Above it.
+    Above,
+    /// Above it, or as large.
+    AtLeast,
+}
+
+/// Relations as a plan has them, the longer ones first.
+const RELATIONS: [(&str, Relation); 4] = [
+    ("<=", Relation::AtMost),
+    (">=", Relation::AtLeast),
+    ("<", Relation::Below),
+    (">", Relation::Above),
+];
+
+impl Limit {
+    /// From the text that stands at a key of a plan.
+    ///
+    /// # Errors
+    /// When it is no limit, or on no column.
+    pub fn parse(checked: &Checked, key: &str, text: &str, known: &[Column]) -> Result<Self> {
+        let found = RELATIONS.iter().find_map(|(sign, relation)| {
+            let (column, number) = text.split_once(sign)?;
+            Some((column.trim(), *relation, number.trim().parse().ok()?))
+        });
+        let number = |(_, _, number): &(&str, Relation, f64)| number.is_finite();
+        let Some((column, relation, number)) = found.filter(number) else {
+            let expected =
+                "expected a column, <, <=, > or >=, and a number, such as peak.failure_rate < 0.1";
+            return Err(checked.fault(key, expected).into());
+        };
+        if !known.iter().any(|other| other.name == column) {
+            let (hint, known) = hint(column, known.iter().map(|column| column.name.as_str()));
+            let expected = format!("no column `{column}`{hint}; expected one of {known}");
+            return Err(checked.fault(key, expected).into());
+        }
+        Ok(Limit { column: column.to_owned(), relation, number })
+    }
+
+    /// Whether a value meets it; none does not.
+    pub fn is_met(&self, value: Option<f64>) -> bool {
+        let Some(value) = value else { return false };
+        match self.relation {
+            Relation::Below => value < self.number,
+            Relation::AtMost => value <= self.number,
+            Relation::Above => value > self.number,
+            Relation::AtLeast => value >= self.number,
+        }
+    }
+
+    /// How near a value is to the limit, larger being worse: the part of it that is used up, or how far it is away
+    /// where the limit is 0; infinite without a value.
+    pub fn use_of(&self, value: Option<f64>) -> f64 {
+        let Some(value) = value else { return f64::INFINITY };
+        let is_upper = matches!(self.relation, Relation::Below | Relation::AtMost);
+        match (is_upper, self.number != 0.0) {
+            (true, true) => value / self.number,
+            (true, false) => value,
+            (false, true) => self.number / value,
+            (false, false) => -value,
+        }
+    }
+}
+
+impl fmt::Display for Limit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let sign = RELATIONS.iter().find(|(_, relation)| *relation == self.relation);
+        let sign = sign.map_or("", |(sign, _)| sign);
+        write!(f, "{} {sign} {}", self.column, self.number)
+    }
+}

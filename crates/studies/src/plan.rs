@@ -1,0 +1,211 @@
+//! A plan: which points of a scenario, and what is wanted of them.
+
+pub mod axis;
+pub mod builtin;
+pub mod combination;
+pub mod distribution;
+mod fault;
+pub mod file;
+pub mod search;
+
+use std::path::{Path, PathBuf};
+
+use toml_edit::Table;
+
+use tofsim::error::{Input, Result, hint, read_text};
+use tofsim::files::toml::{Checked, assign};
+use tofsim::scenario::{self, Loaded, Scenario};
+use tofsim_learn::estimation::EstimatorKind;
+
+use crate::columns::{self, Column};
+use crate::limit::Limit;
+use axis::Axis;
+use combination::{Combination, scenes};
+use fault::at_key;
+use file::{PlanFile, Plot};
+use search::Search;
+
+/// What is to be worked out.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Built-in name, or the file's stem.
+    pub name: String,
+    /// The plan as its file has it.
+    pub text: String,
+    /// What the file says, with the defaults.
+    pub file: PlanFile,
+    /// The scenario, by built-in name or path.
+    pub scenario: String,
+    /// Keys that are the same at all points: the plan's, and after them the command line's.
+    pub set: Vec<String>,
+    /// Seed of the whole.
+    pub seed: u64,
+    /// Estimators that look at each histogram.
+    pub estimators: Vec<EstimatorKind>,
+    /// The points.
+    pub points: Combination,
+    /// Scenes of each point, over which values are means, an assignment for each key.
+    pub mean_over: Vec<Vec<String>>,
+    /// What is looked for at each, if something is.
+    pub search: Option<Search>,
+    /// What a point gives, in the order of the table.
+    pub outputs: Vec<Column>,
+}
+
+impl Plan {
+    /// Reads a plan that comes with the program, by name, or a file, with `key=value` overrides of the scenario and a
+    /// seed in place of its own.
+    ///
+    /// # Errors
+    /// When there is no such plan, it says what no plan can say, or the scenario has no such key or value.
+    pub fn load(name: &str, set: &[String], seed: Option<u64>) -> Result<Self> {
+        if let Some(text) = builtin::plan(name) {
+            return Plan::parse(name, &format!("plan {name}"), text, Path::new(""), set, seed);
+        }
+        let path = Path::new(name);
+        if !path.exists() && !name.contains(['/', '.']) {
+            let (hint, known) = hint(name, builtin::PLANS.iter().map(|(name, _)| *name));
+            let expected =
+                format!("no such file or built-in plan{hint}; expected a path or one of {known}");
+            return Err(Input::new("plan", expected).value(name).into());
+        }
+        let text = read_text(path)?;
+        let stem = path.file_stem().map_or(name.into(), |stem| stem.to_string_lossy());
+        Plan::parse(&stem, name, &text, path.parent().unwrap_or(Path::new("")), set, seed)
+    }
+
+    fn parse(
+        name: &str,
+        source: &str,
+        text: &str,
+        folder: &Path,
+        overrides: &[String],
+        seed: Option<u64>,
+    ) -> Result<Self> {
+        let checked = Checked::parse::<PlanFile>(source, text)?;
+        let file: PlanFile = checked.read()?;
+        let scenario = from_folder(&file.scenario, folder);
+        let set: Vec<_> = file.set.iter().chain(overrides).cloned().collect();
+        for (place, assignment) in file.set.iter().enumerate() {
+            let fault = |error| at_key(&checked, &format!("set.{place}"), error);
+            assign::<Scenario>(&mut Table::new(), "set", assignment).map_err(fault)?;
+        }
+        let loaded = scenario::load(&scenario, &set)?;
+        let seed = seed.or(file.seed).unwrap_or(loaded.scenario.seed);
+        let axes = Axis::all(&checked, "axis", &file.axis)?;
+        check_overrides(&file, overrides)?;
+        let mean_over = Axis::all(&checked, "mean_over", &file.mean_over)?;
+        let taken: Vec<_> = axes.iter().map(|axis| axis.key.as_str()).collect();
+        let mean_over = scenes(&checked, "mean_over", &mean_over, &taken)?;
+        let points = Combination::new(&checked, &file, axes, seed)?;
+        let estimators = estimators(&checked, &file, &loaded)?;
+        let known = columns::all(file.fidelity, &estimators);
+        let outputs = columns::chosen(&checked, &file.outputs, &known)?;
+        let search = file.search.as_ref();
+        let search = search.map(|search| Search::new(&checked, search, &points, &known));
+        let search = search.transpose()?;
+        let text = text.to_owned();
+        let plan = Plan {
+            name: name.to_owned(),
+            text,
+            file,
+            scenario,
+            set,
+            seed,
+            estimators,
+            points,
+            mean_over,
+            search,
+            outputs,
+        };
+        plan.file.plot.iter().try_for_each(|plot| plan.check_plot(&checked, plot))?;
+        Ok(plan)
+    }
+
+    /// The scenario with what is the same at all points.
+    ///
+    /// # Errors
+    /// When it is none any more.
+    pub fn base(&self) -> Result<Loaded> {
+        self.loaded(&[])
+    }
+
+    /// The scenario at a point.
+    ///
+    /// # Errors
+    /// When its settings do not go together.
+    pub fn loaded(&self, settings: &[String]) -> Result<Loaded> {
+        let set: Vec<_> = self.set.iter().chain(settings).cloned().collect();
+        let mut loaded = scenario::load(&self.scenario, &set)?;
+        loaded.scenario.seed = self.seed;
+        Ok(loaded)
+    }
+
+    /// All limits that a search has to meet.
+    pub fn limits(&self) -> &[Limit] {
+        self.search.as_ref().map_or(&[], |search| &search.meets)
+    }
+
+    /// Names of the columns that a plot can show.
+    fn shown(&self) -> Vec<String> {
+        let axes = self.points.axes.iter().map(|axis| axis.key.clone());
+        let found = self.search.iter().map(|search| search.key.clone());
+        axes.chain(found).chain(self.outputs.iter().map(|column| column.name.clone())).collect()
+    }
+
+    fn check_plot(&self, checked: &Checked, plot: &Plot) -> Result<()> {
+        let shown = self.shown();
+        let series = plot.series.iter().enumerate();
+        let series = series.map(|(k, name)| (format!("plot.series.{k}"), name));
+        let y = plot.y.iter().enumerate().map(|(k, name)| (format!("plot.y.{k}"), name));
+        for (key, name) in [("plot.x".to_owned(), &plot.x)].into_iter().chain(series).chain(y) {
+            if !shown.contains(name) {
+                let (hint, known) = hint(name, shown.iter().map(String::as_str));
+                let expected = format!("no such column{hint}; expected one of {known}");
+                return Err(checked.fault(&key, expected).into());
+            }
+        }
+        Ok(())
+    }
+}
+
+/// That the command line sets nothing that the plan varies.
+fn check_overrides(file: &PlanFile, overrides: &[String]) -> Result<()> {
+    let searched = file.search.iter().flat_map(|search| {
+        [&search.key].into_iter().chain(search.over.iter().map(|axis| &axis.key))
+    });
+    let axes = file.axis.iter().chain(&file.mean_over).map(|axis| &axis.key);
+    let varied: Vec<_> = axes.chain(searched).collect();
+    for assignment in overrides {
+        let key = assignment.split('=').next().unwrap_or_default().trim();
+        if varied.iter().any(|varied| *varied == key) {
+            let expected = "the plan has the values of this key";
+            return Err(Input::new(format!("-s {assignment}"), expected).into());
+        }
+    }
+    Ok(())
+}
+
+/// A name as it is, and a path as seen from the plan's folder.
+fn from_folder(name: &str, folder: &Path) -> String {
+    let is_path = name.contains(['/', '.']) && Path::new(name).is_relative();
+    let path = if is_path { folder.join(name) } else { PathBuf::from(name) };
+    path.display().to_string()
+}
+
+fn estimators(checked: &Checked, file: &PlanFile, loaded: &Loaded) -> Result<Vec<EstimatorKind>> {
+    let names = EstimatorKind::ALL.iter().map(|(name, ..)| *name);
+    let kind = |(place, given): (usize, &String)| {
+        let found = EstimatorKind::ALL.iter().find(|(name, ..)| name == given);
+        found.map(|(_, kind, _)| *kind).ok_or_else(|| {
+            let (hint, known) = hint(given, names.clone());
+            let expected = format!("no such estimator{hint}; expected one of {known}");
+            checked.fault(&format!("estimators.{place}"), expected).into()
+        })
+    };
+    let kinds: Result<Vec<_>> = file.estimators.iter().enumerate().map(kind).collect();
+    Ok(match kinds? {
+        none if none.is_empty() => vec![EstimatorKind::in_socket(&loaded.scenario)],
+        kinds => kinds,
+    })
+}

@@ -1,0 +1,171 @@
+//! What is looked for at a point: the end of the stretch of a key's values where limits are met.
+
+use tofsim::error::Result;
+use tofsim::files::toml::{Checked, assign};
+use tofsim::scenario::Scenario;
+use toml_edit::Table;
+
+use crate::columns::Column;
+use crate::limit::Limit;
+
+use super::axis::{Axis, between, is_whole, rounded};
+use super::combination::{Combination, scenes};
+use super::fault::at_key;
+use super::file::{Find, Scale, SearchFile};
+
+/// A search.
+#[derive(Clone, Debug)]
+pub struct Search {
+    /// Key of the scenario.
+    pub key: String,
+    /// Limits that have to be met.
+    pub meets: Vec<Limit>,
+    /// Keys of the scenes in all of which they have to be.
+    pub over: Vec<Axis>,
+    /// Those scenes, an assignment for each key.
+    pub scenes: Vec<Vec<String>>,
+    find: Find,
+    ends: [f64; 2],
+    resolution: f64,
+    scale: Scale,
+    steps: u64,
+    is_whole: bool,
+}
+
+/// What a search comes to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Answer {
+    /// The end of the stretch.
+    Found(f64),
+    /// The limits are met at all values.
+    Everywhere,
+    /// They are met at none, or of a largest value not at the first.
+    Nowhere,
+}
+
+impl Search {
+    /// As a plan has it.
+    ///
+    /// # Errors
+    /// When it makes no sense, or the scenario has no such key or value.
+    pub fn new(
+        checked: &Checked,
+        file: &SearchFile,
+        points: &Combination,
+        known: &[Column],
+    ) -> Result<Self> {
+        let fault =
+            |field: &str, expected: &str| checked.fault(&format!("search.{field}"), expected);
+        if !(file.from.is_finite() && file.to.is_finite() && file.from < file.to) {
+            return Err(fault("to", "expected a number above from: the range is empty").into());
+        }
+        if file.scale == Scale::Log && file.from <= 0.0 {
+            return Err(fault("from", "expected a number above 0 for a logarithmic range").into());
+        }
+        if !(file.resolution.is_finite() && file.resolution > 0.0) {
+            return Err(fault("resolution", "expected a number above 0").into());
+        }
+        if file.meets.is_empty() {
+            return Err(
+                fault("meets", "expected a limit, such as [\"peak.failure_rate < 0.1\"]").into()
+            );
+        }
+        for end in [file.from, file.to] {
+            let assignment = format!("{}={end}", file.key);
+            let checked_value = assign::<Scenario>(&mut Table::new(), "search", &assignment);
+            checked_value.map_err(|error| at_key(checked, "search.key", error))?;
+        }
+        let over = Axis::all(checked, "search.over", &file.over)?;
+        let mut taken: Vec<_> = points.axes.iter().map(|axis| axis.key.as_str()).collect();
+        if taken.contains(&file.key.as_str()) || over.iter().any(|axis| axis.key == file.key) {
+            return Err(fault("key", "expected a key that no axis has").into());
+        }
+        taken.push(&file.key);
+        let scenes = scenes(checked, "search.over", &over, &taken)?;
+        let limit = |(k, text): (usize, &String)| {
+            Limit::parse(checked, &format!("search.meets.{k}"), text, known)
+        };
+        Ok(Search {
+            key: file.key.clone(),
+            meets: file.meets.iter().enumerate().map(limit).collect::<Result<_>>()?,
+            over,
+            scenes,
+            find: file.find,
+            ends: [file.from, file.to],
+            resolution: file.resolution,
+            scale: file.scale,
+            steps: file.steps,
+            is_whole: is_whole(&file.key),
+        })
+    }
+
+    /// Looks from the first value on, step by step, for where limits begin or cease to be met, and halves that step
+    /// until it is as short as the resolution. `are_met` says whether they are at a value.
+    ///
+    /// # Errors
+    /// When `are_met` fails.
+    pub fn run(&self, mut are_met: impl FnMut(f64) -> Result<bool>) -> Result<Answer> {
+        let wanted = self.find == Find::Least;
+        let mut before = self.value(0.0);
+        if are_met(before)? {
+            if wanted {
+                return Ok(Answer::Everywhere);
+            }
+        } else if !wanted {
+            return Ok(Answer::Nowhere);
+        }
+        for step in 1..=self.steps {
+            let next = self.value(step as f64 / self.steps as f64);
+            if are_met(next)? == wanted {
+                return self.halve([before, next], wanted, are_met).map(Answer::Found);
+            }
+            before = next;
+        }
+        Ok(if wanted { Answer::Nowhere } else { Answer::Everywhere })
+    }
+
+    /// Between a value before the change and one after it.
+    fn halve(
+        &self,
+        [mut before, mut after]: [f64; 2],
+        wanted: bool,
+        mut are_met: impl FnMut(f64) -> Result<bool>,
+    ) -> Result<f64> {
+        while !self.is_near(before, after) {
+            let middle = self.settled(between([before, after], self.scale, 0.5));
+            if middle <= before || middle >= after {
+                break;
+            }
+            if are_met(middle)? == wanted { after = middle } else { before = middle }
+        }
+        Ok(if wanted { after } else { before })
+    }
+
+    fn is_near(&self, before: f64, after: f64) -> bool {
+        let apart = match self.scale {
+            Scale::Linear => after - before,
+            Scale::Log => after / before - 1.0,
+        };
+        // A resolution that is a power of ten is not to be missed by a rounding.
+        apart <= self.resolution * (1.0 + 1e-9)
+    }
+
+    /// The value of a part of the way.
+    fn value(&self, part: f64) -> f64 {
+        self.settled(between(self.ends, self.scale, part))
+    }
+
+    /// A value as the scenario can have it.
+    pub fn settled(&self, value: f64) -> f64 {
+        if self.is_whole { value.round() } else { rounded(value) }
+    }
+
+    /// The value whose outputs are shown for an answer.
+    pub fn shown(&self, answer: Answer) -> f64 {
+        match (answer, self.find) {
+            (Answer::Found(value), _) => value,
+            (Answer::Everywhere, Find::Largest) | (Answer::Nowhere, Find::Least) => self.ends[1],
+            (Answer::Everywhere, Find::Least) | (Answer::Nowhere, Find::Largest) => self.ends[0],
+        }
+    }
+}

@@ -1,0 +1,311 @@
+//! A point of a plan: worked out, and as a row of the table.
+
+use std::sync::atomic::AtomicBool;
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+use tofsim::error::{Error, Input, Result};
+use tofsim::files::digest::digest_of;
+use tofsim::note::Note;
+use tofsim::scenario::Loaded;
+
+use crate::columns::Column;
+use crate::figure::{Figure, mean};
+use crate::plan::Plan;
+use crate::plan::axis::number;
+use crate::plan::file::Refused;
+use crate::plan::search::{Answer, Search};
+use crate::table::{Cell, Field, Kind, Row};
+use crate::trial::{Outcome, Trial};
+
+/// Bits of a point's seed, so that a double holds it.
+const SEED_BITS: u32 = 53;
+
+/// The columns of a plan's table.
+pub fn header(plan: &Plan) -> Vec<Field> {
+    let axis = |axis: &crate::plan::axis::Axis| {
+        let kind = if axis.is_text { Kind::Text } else { Kind::Number };
+        Field::new(&axis.key, kind)
+    };
+    let mut fields = vec![Field::new("point", Kind::Whole)];
+    fields.extend(plan.points.axes.iter().map(axis));
+    fields.push(Field::new("seed", Kind::Whole));
+    if let Some(search) = &plan.search {
+        fields.push(Field::new(&search.key, Kind::Number));
+        fields.push(Field::new(&format!("{}_se", search.key), Kind::Number));
+        fields.push(Field::new("search", Kind::Text));
+        fields.push(Field::new("found_repeats", Kind::Whole));
+        fields.extend(search.over.iter().map(axis));
+    }
+    for column in &plan.outputs {
+        fields.push(Field::new(&column.name, Kind::Number));
+        if column.is_random() {
+            fields.push(Field::new(&format!("{}_se", column.name), Kind::Number));
+        }
+    }
+    fields.push(Field::new("notes", Kind::Text));
+    if plan.file.refused == Refused::Keep {
+        fields.push(Field::new("refused", Kind::Text));
+    }
+    fields
+}
+
+/// What a point comes to.
+pub struct Worked {
+    /// Its row.
+    pub row: Row,
+    /// What its values lie outside of.
+    pub notes: Vec<Note>,
+}
+
+/// Works a point out.
+///
+/// # Errors
+/// When the scenario refuses it and the plan does not keep such points, or it is stopped.
+pub fn work(plan: &Plan, point: u64, stop: Option<&AtomicBool>) -> Result<Worked> {
+    let at = Point { plan, point, settings: plan.points.settings(point), stop };
+    match (at.work(), plan.file.refused) {
+        (Err(Error::Input(why)), Refused::Keep) => Ok(at.refused(&why)),
+        (Err(Error::Input(why)), Refused::Stop) => {
+            let expected =
+                format!("{why}; refused = \"keep\" in the plan goes on without such points");
+            let source = format!("plan {}, point {point}", plan.name);
+            Err(Input::new(source, expected).value(at.settings.join(", ")).into())
+        }
+        (worked, _) => worked,
+    }
+}
+
+struct Point<'a> {
+    plan: &'a Plan,
+    point: u64,
+    settings: Vec<String>,
+    stop: Option<&'a AtomicBool>,
+}
+
+/// What a search found in all repeats.
+struct Searched {
+    cells: Vec<Cell>,
+    /// The settings at which outputs are shown.
+    settings: Vec<String>,
+    notes: Vec<Note>,
+}
+
+impl Point<'_> {
+    fn work(&self) -> Result<Worked> {
+        let searched = match &self.plan.search {
+            Some(search) => self.search(search)?,
+            None => Searched { cells: Vec::new(), settings: Vec::new(), notes: Vec::new() },
+        };
+        let columns: Vec<_> = self.plan.outputs.iter().collect();
+        let mut repeats = Vec::new();
+        let mut notes = searched.notes;
+        for repeat in 0..self.plan.file.repeats {
+            let outcome = self.measure(&columns, &searched.settings, repeat)?;
+            repeats.push(outcome.figures);
+            add(&mut notes, outcome.notes);
+        }
+        let mut cells = self.head();
+        cells.extend(searched.cells);
+        for (place, column) in columns.iter().enumerate() {
+            let of = repeats.iter().map(|figures: &Vec<Figure>| figures[place]);
+            let figure = pooled(column, of);
+            cells.push(Cell::number(figure.value));
+            if column.is_random() {
+                cells.push(Cell::number(figure.se));
+            }
+        }
+        cells.push(Cell::Text(codes(&notes)));
+        if self.plan.file.refused == Refused::Keep {
+            cells.push(Cell::None);
+        }
+        Ok(Worked { row: Row { point: self.point, cells }, notes })
+    }
+
+    /// The cells that say which point it is.
+    fn head(&self) -> Vec<Cell> {
+        let values = self.plan.points.values(self.point);
+        let axes =
+            self.plan.points.axes.iter().zip(values).map(|(axis, value)| match axis.is_text {
+                true => Cell::Text(value.trim_matches('"').to_owned()),
+                false => Cell::number(value.parse().ok()),
+            });
+        let seed = Cell::Whole(self.seed(&self.plan.mean_over[0], 0));
+        [Cell::Whole(self.point)].into_iter().chain(axes).chain([seed]).collect()
+    }
+
+    fn refused(&self, why: &Input) -> Worked {
+        let mut cells = self.head();
+        let all = header(self.plan).len();
+        cells.resize(all - 1, Cell::None);
+        cells.push(Cell::Text(why.to_string()));
+        Worked { row: Row { point: self.point, cells }, notes: Vec::new() }
+    }
+
+    /// Seed of a repeat in a scene of the plan: of the whole, or found from that and the settings, so that other points
+    /// of the plan do not move it.
+    fn seed(&self, scene: &[String], repeat: u64) -> u64 {
+        let first = match self.plan.file.common_random_numbers {
+            true => self.plan.seed,
+            false => {
+                let settings: Vec<_> = self.settings.iter().chain(scene).cloned().collect();
+                let settings = settings.join("\n");
+                let digest = digest_of(format_args!("{}\n{settings}", self.plan.seed));
+                ChaCha8Rng::seed_from_u64(digest).random::<u64>() >> (64 - SEED_BITS)
+            }
+        };
+        first.wrapping_add(repeat)
+    }
+
+    fn loaded(&self, further: &[String], scene: &[String], repeat: u64) -> Result<Loaded> {
+        let settings: Vec<_> = self.settings.iter().chain(further).chain(scene).cloned().collect();
+        let mut loaded = self.plan.loaded(&settings)?;
+        loaded.scenario.seed = self.seed(scene, repeat);
+        Ok(loaded)
+    }
+
+    /// What a repeat gives, in the mean over the plan's scenes.
+    fn measure(&self, columns: &[&Column], further: &[String], repeat: u64) -> Result<Outcome> {
+        let trial = Trial::new(self.plan, columns.to_vec(), self.stop);
+        let (mut figures, mut notes) = (Vec::new(), Vec::new());
+        for scene in &self.plan.mean_over {
+            let outcome = trial.measure(self.loaded(further, scene, repeat)?)?;
+            figures.push(outcome.figures);
+            add(&mut notes, outcome.notes);
+        }
+        let of = |place: usize| {
+            mean_of_scenes(figures.iter().map(|figures: &Vec<Figure>| figures[place]))
+        };
+        Ok(Outcome { figures: (0..columns.len()).map(of).collect(), notes })
+    }
+
+    fn search(&self, search: &Search) -> Result<Searched> {
+        let scenes = &search.scenes;
+        let mut answers = Vec::new();
+        // What fails once is likely to fail again, and is asked first.
+        let mut hardest = 0;
+        for repeat in 0..self.plan.file.repeats {
+            answers.push(search.run(|value| {
+                let order = (0..scenes.len()).map(|k| (k + hardest) % scenes.len());
+                for scene in order {
+                    let uses = self.uses(search, value, &scenes[scene], repeat)?;
+                    if !uses.iter().all(|(is_met, _)| *is_met) {
+                        hardest = scene;
+                        return Ok(false);
+                    }
+                }
+                Ok(true)
+            })?);
+        }
+        let found = answers.iter().filter_map(|answer| match answer {
+            Answer::Found(value) => Some(*value),
+            _ => None,
+        });
+        let figure = mean(found.clone());
+        let repeats = found.count() as u64;
+        let word = match &answers[..] {
+            _ if repeats > 0 => "found",
+            all if all.iter().all(|answer| *answer == Answer::Everywhere) => "everywhere",
+            all if all.iter().all(|answer| *answer == Answer::Nowhere) => "nowhere",
+            _ => "unclear",
+        };
+        let shown = figure.value.unwrap_or_else(|| search.shown(answers[0]));
+        let shown = search.settled(shown);
+        let scene = &scenes[self.tightest(search, shown, scenes)?];
+        let mut settings = vec![assignment(search, shown)];
+        settings.extend(scene.iter().cloned());
+        let mut cells = vec![Cell::number(figure.value), Cell::number(figure.se)];
+        cells.extend([Cell::Text(word.to_owned()), Cell::Whole(repeats)]);
+        for (axis, assignment) in search.over.iter().zip(scene) {
+            let value = assignment.split_once('=').map_or("", |(_, value)| value);
+            cells.push(match axis.is_text {
+                true => Cell::Text(value.trim_matches('"').to_owned()),
+                false => Cell::number(value.parse().ok()),
+            });
+        }
+        Ok(Searched { cells, settings, notes: Vec::new() })
+    }
+
+    /// For each limit whether it is met at a value in a scene, and how much of it is used up.
+    fn uses(
+        &self,
+        search: &Search,
+        value: f64,
+        scene: &[String],
+        repeat: u64,
+    ) -> Result<Vec<(bool, f64)>> {
+        let known = crate::columns::all(self.plan.file.fidelity, &self.plan.estimators);
+        let columns: Vec<_> = search
+            .meets
+            .iter()
+            .filter_map(|limit| known.iter().find(|column| column.name == limit.column))
+            .collect();
+        let mut settings = vec![assignment(search, value)];
+        settings.extend(scene.iter().cloned());
+        let outcome = self.measure(&columns, &settings, repeat)?;
+        let figures = search.meets.iter().zip(outcome.figures);
+        Ok(figures
+            .map(|(limit, figure)| (limit.is_met(figure.value), limit.use_of(figure.value)))
+            .collect())
+    }
+
+    /// The scene that is nearest to a limit, or furthest beyond one.
+    fn tightest(&self, search: &Search, value: f64, scenes: &[Vec<String>]) -> Result<usize> {
+        let mut worst = (f64::NEG_INFINITY, 0);
+        for (k, scene) in scenes.iter().enumerate().filter(|_| scenes.len() > 1) {
+            let uses = self.uses(search, value, scene, 0)?;
+            let most = uses.iter().map(|(_, used)| *used).fold(f64::NEG_INFINITY, f64::max);
+            if most > worst.0 {
+                worst = (most, k);
+            }
+        }
+        Ok(worst.1)
+    }
+}
+
+fn assignment(search: &Search, value: f64) -> String {
+    format!("{}={}", search.key, number(value))
+}
+
+/// The figure of several repeats: their mean, with the standard error that their scatter shows; of one, its own.
+fn pooled(column: &Column, mut repeats: impl ExactSizeIterator<Item = Figure> + Clone) -> Figure {
+    if repeats.len() == 1 || !column.is_random() {
+        return repeats.next().unwrap_or_default();
+    }
+    mean(repeats.filter_map(|figure| figure.value))
+}
+
+/// The mean of figures that do not depend on each other; of one, itself.
+fn mean_of_scenes(figures: impl Iterator<Item = Figure>) -> Figure {
+    let (mut count, mut sum, mut variance) = (0.0, 0.0, Some(0.0));
+    for figure in figures {
+        let Some(value) = figure.value else { continue };
+        count += 1.0;
+        sum += value;
+        variance = variance.zip(figure.se).map(|(sum, se)| sum + se * se);
+    }
+    match count > 0.0 {
+        true => {
+            Figure { value: Some(sum / count), se: variance.map(|sum: f64| sum.sqrt() / count) }
+        }
+        false => Figure::default(),
+    }
+}
+
+fn add(notes: &mut Vec<Note>, more: Vec<Note>) {
+    for note in more {
+        if !notes.iter().any(|known| known.code == note.code && known.key == note.key) {
+            notes.push(note);
+        }
+    }
+}
+
+/// The codes of notes, each once, with spaces between.
+fn codes(notes: &[Note]) -> String {
+    let mut codes: Vec<_> = notes.iter().map(|note| note.code.to_string()).collect();
+    codes.sort();
+    codes.dedup();
+    codes.join(" ")
+}

@@ -1,0 +1,51 @@
+//! A table as CSV: what made it in the first line, then names, then rows.
+
+use std::path::Path;
+
+use tofsim::error::{Error, Result};
+use tofsim::files::output::OutputFile;
+
+use super::{Field, Row};
+
+/// A CSV file under construction; nothing is left of it unless it is finished.
+pub struct CsvFile {
+    writer: csv::Writer<OutputFile>,
+    path: std::path::PathBuf,
+}
+
+impl CsvFile {
+    /// Begins the file; `comment` is its first line, with the line's end.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn create(path: &Path, comment: &str, fields: &[Field]) -> Result<Self> {
+        use std::io::Write;
+        let mut file = OutputFile::create(path)?;
+        file.write_all(comment.as_bytes()).map_err(Error::io(path, "write"))?;
+        let mut csv = CsvFile { writer: csv::Writer::from_writer(file), path: path.to_owned() };
+        csv.record(fields.iter().map(|field| field.name.clone()))?;
+        Ok(csv)
+    }
+
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn write(&mut self, row: &Row) -> Result<()> {
+        self.record(row.cells.iter().map(super::Cell::text))
+    }
+
+    fn record(&mut self, cells: impl Iterator<Item = String>) -> Result<()> {
+        let written = self.writer.write_record(cells);
+        written.map_err(|error| Error::io(&self.path, "write")(std::io::Error::other(error)))
+    }
+
+    /// Completes the file and puts it in place.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn finish(self) -> Result<()> {
+        let file = self.writer.into_inner();
+        file.map_err(|error| Error::io(&self.path, "write")(error.into_error()))?.commit()
+    }
+}

@@ -1,0 +1,61 @@
+//! What the frames of a run come to.
+
+use tofsim::sim::frames::Frame;
+
+use crate::figure::Figure;
+
+/// Sums over frames.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    /// Hits in the histograms.
+    pub hits: Counts,
+    /// Hits that the TDC kept.
+    pub tdc_hits: Counts,
+    /// Of the last frame [cycles of `clk_sys`].
+    pub estimator_cycles: f64,
+    /// Of the last frame [cycles of `clk_sys`].
+    pub frame_cycles: f64,
+    /// The same in time [ms].
+    pub frame_ms: f64,
+    /// Period of `clk_sys` [ms].
+    pub cycle_ms: f64,
+}
+
+impl Tally {
+    /// Takes the next frame.
+    pub fn take(&mut self, frame: &Frame) {
+        self.hits.add(frame.hits());
+        self.tdc_hits.add(frame.tdc_hits);
+        self.estimator_cycles = frame.estimator_cycles as f64;
+        self.frame_cycles = frame.frame_cycles as f64;
+        self.frame_ms = self.frame_cycles * self.cycle_ms;
+    }
+}
+
+/// Sums of whole numbers and of their squares, which no order of summing changes.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Counts {
+    count: u64,
+    sum: u128,
+    squares: u128,
+}
+
+impl Counts {
+    fn add(&mut self, number: u64) {
+        self.count += 1;
+        self.sum += u128::from(number);
+        self.squares += u128::from(number) * u128::from(number);
+    }
+
+    /// Their mean.
+    pub fn mean(&self) -> Figure {
+        let (count, sum) = (self.count as f64, self.sum as f64);
+        if self.count == 0 {
+            return Figure::default();
+        }
+        // Exact as long as the product fits, which it does for 10^9 frames of 2^24 hits.
+        let scatter = (u128::from(self.count) * self.squares).saturating_sub(self.sum * self.sum);
+        let se = (self.count > 1).then(|| (scatter as f64 / (count - 1.0)).sqrt() / count);
+        Figure { value: Some(sum / count), se }
+    }
+}

@@ -1,0 +1,171 @@
+//! One scenario, simulated once with one seed, and what that gives.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use tofsim::error::{Error, Result};
+use tofsim::network::Histogram;
+use tofsim::note::{Note, NoteCode};
+use tofsim::scenario::Loaded;
+use tofsim::sim::fast::histogram::Histograms;
+use tofsim::sim::frames::Frame;
+use tofsim::sim::run::Observers;
+use tofsim::sim::setup::Setup;
+use tofsim::sim::{Run, Stepping, domain};
+use tofsim_learn::estimation::{Estimator, EstimatorKind, HistogramPair, Panel};
+
+use crate::columns::{Column, Quantity};
+use crate::errors::Errors;
+use crate::figure::Figure;
+use crate::plan::Plan;
+use crate::plan::file::Fidelity;
+use crate::tally::Tally;
+
+/// What is simulated of a plan's scenarios.
+pub struct Trial<'a> {
+    plan: &'a Plan,
+    columns: Vec<&'a Column>,
+    stop: Option<&'a AtomicBool>,
+}
+
+/// What a scenario gives.
+pub struct Outcome {
+    /// A value for each column.
+    pub figures: Vec<Figure>,
+    /// What these lie outside of.
+    pub notes: Vec<Note>,
+}
+
+impl<'a> Trial<'a> {
+    /// Of what is needed for some columns; `stop` ends it.
+    pub fn new(plan: &'a Plan, columns: Vec<&'a Column>, stop: Option<&'a AtomicBool>) -> Self {
+        Trial { plan, columns, stop }
+    }
+
+    /// Simulates a scenario.
+    ///
+    /// # Errors
+    /// When the scenario cannot be simulated so, or it is stopped.
+    pub fn measure(&self, loaded: Loaded) -> Result<Outcome> {
+        let setup = Setup::of_counts(loaded)?;
+        let kinds = &self.plan.estimators;
+        let simulates = self.plan.file.fidelity != Fidelity::Budget;
+        let needs_frames = |column: &&Column| !matches!(column.quantity, Quantity::Expected(_));
+        let measured = match simulates && self.columns.iter().any(needs_frames) {
+            true => Some(self.simulate(&setup)?),
+            false => None,
+        };
+        let figure = |column: &&Column| {
+            Ok(match (column.quantity, &measured) {
+                (Quantity::Expected(of), _) => Figure { value: finite(of(&setup)?), se: None },
+                (Quantity::Frames(of), Some((tally, _))) => of(tally),
+                (Quantity::Errors(place, of), Some((_, errors))) => of(&errors[place]),
+                _ => Figure::default(),
+            })
+        };
+        let figures = self.columns.iter().map(figure).collect::<Result<_>>()?;
+        let notes = if simulates {
+            notes(&setup, kinds)?
+        } else {
+            setup.no_depth().cloned().into_iter().collect()
+        };
+        Ok(Outcome { figures, notes })
+    }
+
+    fn simulate(&self, setup: &Setup) -> Result<(Tally, Vec<Errors>)> {
+        let plan = self.plan;
+        let estimators = Panel::new(&plan.estimators, setup)?.into_estimators();
+        let mut taker = Taker {
+            truth_m: truth_m(setup),
+            errors: estimators.iter().map(|_| Vec::new()).collect(),
+            estimators,
+            tally: Tally { cycle_ms: setup.cycle().seconds() * 1e3, ..Tally::default() },
+            dark: None,
+        };
+        let frames = plan.file.frames * setup.frames_together();
+        let mut take = |frame: &Frame| {
+            taker.take(frame);
+            Ok(())
+        };
+        let stepping = match plan.file.fidelity {
+            Fidelity::Shot => Stepping::LeapShots,
+            _ => Stepping::SkipIdle,
+        };
+        match plan.file.fidelity {
+            Fidelity::Budget => {}
+            Fidelity::Histogram => {
+                let histograms = Histograms::new(setup)?;
+                for index in 0..frames {
+                    if self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+                        return Err(Error::Interrupted);
+                    }
+                    take(&histograms.frame(index))?;
+                }
+            }
+            Fidelity::Shot | Fidelity::Cycle => {
+                let frames_to =
+                    Observers { frames: Some(&mut take), stop: self.stop, ..Observers::default() };
+                Run::new(setup).stepping(stepping).observe(frames, frames_to)?;
+            }
+        }
+        let limit_m = 1e-3 * plan.file.outlier_limit_mm;
+        let errors = taker.errors.iter().map(|errors| Errors::of(errors, taker.truth_m, limit_m));
+        Ok((taker.tally, errors.collect()))
+    }
+}
+
+fn finite(value: Option<f64>) -> Option<f64> {
+    value.filter(|value| value.is_finite())
+}
+
+/// Distance of the target, where light that it reflects is simulated [m].
+fn truth_m(setup: &Setup) -> Option<f64> {
+    let is_dark = setup.no_depth().is_some_and(|note| note.code == NoteCode::NoLight);
+    (!is_dark).then_some(setup.scenario.target.distance_m)
+}
+
+/// What depths of a scenario lie outside of.
+fn notes(setup: &Setup, kinds: &[EstimatorKind]) -> Result<Vec<Note>> {
+    if let Some(note) = setup.no_depth() {
+        return Ok(vec![note.clone()]);
+    }
+    let mut notes = Vec::new();
+    if kinds.iter().any(|kind| kind.is_network()) {
+        notes = domain::notes(&setup.network, &setup.scenario, &[])?;
+    }
+    let are_networks = kinds.iter().all(|kind| kind.is_network());
+    let drift = setup.drift_for(are_networks.then_some(&notes[..]));
+    notes.extend(drift);
+    notes.extend(kinds.iter().flat_map(|kind| kind.notes_of_scene(setup)));
+    Ok(notes)
+}
+
+/// Takes frames as they come.
+struct Taker {
+    truth_m: Option<f64>,
+    estimators: Vec<Box<dyn Estimator>>,
+    /// For each estimator the depth of each frame, or none [m].
+    errors: Vec<Vec<Option<f64>>>,
+    tally: Tally,
+    dark: Option<Histogram>,
+}
+
+impl Taker {
+    fn take(&mut self, frame: &Frame) {
+        self.tally.take(frame);
+        let is_dark_of_a_pair =
+            !frame.laser_en && self.estimators.iter().any(|one| one.needs_dark());
+        if is_dark_of_a_pair {
+            self.dark = Some(frame.histogram.clone());
+            return;
+        }
+        let pair =
+            self.dark.take().map(|dark| HistogramPair { dark, lit: frame.histogram.clone() });
+        for (estimator, errors) in self.estimators.iter().zip(&mut self.errors) {
+            let found = match &pair {
+                Some(pair) => estimator.estimate_pair(pair),
+                None => estimator.estimate(&frame.histogram),
+            };
+            errors.push(found.ok().map(|depth_m| depth_m - self.truth_m.unwrap_or(0.0)));
+        }
+    }
+}
