@@ -35,6 +35,7 @@ mod sources;
 mod spad;
 mod spad_row;
 mod subtraction;
+mod sweep;
 mod synthesis;
 mod tdc;
 mod terminal;

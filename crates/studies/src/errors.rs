@@ -70,3 +70,30 @@ fn part(of_them: u64, all: u64) -> Figure {
     let part = of_them as f64 / all as f64;
     Figure { value: Some(part), se: Some((part * (1.0 - part) / all as f64).sqrt()) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mean_squared_error_is_that_of_bias_and_scatter() {
+        let errors = [Some(0.001), Some(0.003), None, Some(0.005)];
+        let found = Errors::of(&errors, Some(0.3), 0.0045);
+        let near = |figure: Figure, expected: f64| {
+            assert!((figure.value.unwrap() - expected).abs() < 1e-12, "{figure:?} for {expected}");
+        };
+        near(found.bias(), 3.0);
+        near(found.sd(), 2.0);
+        near(found.root_mse(), (35.0f64 / 3.0).sqrt());
+        near(found.failure_rate(), 0.25);
+        near(found.outlier_rate(), 1.0 / 3.0);
+        assert!((found.failure_rate().se.unwrap() - (0.25f64 * 0.75 / 4.0).sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn without_a_truth_there_is_a_scatter_and_no_error() {
+        let found = Errors::of(&[Some(0.301), Some(0.303)], None, 0.1);
+        assert!(found.sd().value.is_some() && found.failure_rate().value == Some(0.0));
+        assert_eq!([found.bias(), found.root_mse(), found.outlier_rate()], [Figure::default(); 3]);
+    }
+}

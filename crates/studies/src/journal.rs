@@ -178,3 +178,90 @@ fn damaged(path: &Path, line: usize) -> Error {
     let expected = "no line of a sweep's journal: expected the one that a sweep left, or --restart";
     Input::new(path.display(), expected).at(line.max(1), 1).into()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entry(point: u64) -> Entry {
+        let cells = vec![
+            Cell::Whole(point),
+            Cell::Number(0.1 * point as f64 + 1e-17),
+            Cell::None,
+            Cell::Text("a,\"b\"".to_owned()),
+        ];
+        Entry { cells, notes: Vec::new() }
+    }
+
+    fn points(path: &Path, about: &str) -> Result<Vec<u64>> {
+        let mut points = Vec::new();
+        Journal::open(path, about, |point| points.push(point)).map(|_| points)
+    }
+
+    #[test]
+    fn points_come_back_in_order_and_to_the_last_bit() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("j");
+        let journal = Journal::open(&path, "a", |_| panic!("nothing is there")).unwrap();
+        let order = [3, 0, 2, 1];
+        order.iter().for_each(|&point| journal.add(&entry(point)).unwrap());
+        let mut found = Vec::new();
+        journal
+            .in_order(|entry| {
+                found.push(entry);
+                Ok(())
+            })
+            .unwrap();
+        assert_eq!(found, [0, 1, 2, 3].map(entry));
+        drop(journal);
+        assert_eq!(points(&path, "a").unwrap(), order);
+    }
+
+    #[test]
+    fn a_line_without_an_end_is_cut_off_wherever_it_was_torn() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("j");
+        let journal = Journal::open(&path, "a", |_| ()).unwrap();
+        [0, 1].iter().for_each(|&point| journal.add(&entry(point)).unwrap());
+        drop(journal);
+        let whole = std::fs::read(&path).unwrap();
+        let lines: Vec<_> = whole
+            .iter()
+            .enumerate()
+            .filter(|(_, byte)| **byte == b'\n')
+            .map(|(k, _)| k + 1)
+            .collect();
+        for length in 0..=whole.len() {
+            std::fs::write(&path, &whole[..length]).unwrap();
+            let expected = lines.iter().filter(|end| **end <= length).count().saturating_sub(1);
+            assert_eq!(points(&path, "a").unwrap().len(), expected, "{length} bytes");
+            let journal = Journal::open(&path, "a", |_| ()).unwrap();
+            journal.add(&entry(7)).unwrap();
+            drop(journal);
+            assert_eq!(points(&path, "a").unwrap().last(), Some(&7));
+        }
+    }
+
+    #[test]
+    fn another_sweeps_journal_and_a_damaged_one_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("j");
+        Journal::open(&path, "a", |_| ()).unwrap().add(&entry(0)).unwrap();
+        let error = points(&path, "b").unwrap_err().to_string();
+        assert!(error.contains("the sweep that was begun there is another"), "{error}");
+        let mut text = std::fs::read_to_string(&path).unwrap();
+        text += "nonsense\n";
+        std::fs::write(&path, text).unwrap();
+        let error = points(&path, "a").unwrap_err().to_string();
+        assert!(error.contains("j:3:1: no line of a sweep's journal"), "{error}");
+    }
+
+    #[test]
+    fn a_journal_is_written_by_one_at_a_time() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("j");
+        let _held = Journal::open(&path, "a", |_| ()).unwrap();
+        let error = points(&path, "a").unwrap_err().to_string();
+        assert!(error.contains("another sweep is writing there"), "{error}");
+    }
+}

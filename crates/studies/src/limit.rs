@@ -95,3 +95,31 @@ impl fmt::Display for Limit {
         write!(f, "{} {sign} {}", self.column, self.number)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_limit_is_met_as_its_sign_says_and_never_without_a_value() {
+        for (relation, at_1, at_2, at_3) in [
+            (Relation::Below, true, false, false),
+            (Relation::AtMost, true, true, false),
+            (Relation::Above, false, false, true),
+            (Relation::AtLeast, false, true, true),
+        ] {
+            let limit = Limit { column: "c".to_owned(), relation, number: 2.0 };
+            let met = [1.0, 2.0, 3.0].map(|value| limit.is_met(Some(value)));
+            assert_eq!(met, [at_1, at_2, at_3], "{limit}");
+            assert!(!limit.is_met(None) && limit.use_of(None) > 1e9);
+        }
+    }
+
+    #[test]
+    fn use_grows_towards_the_limit() {
+        let limit = |relation, number| Limit { column: "c".to_owned(), relation, number };
+        assert_eq!(limit(Relation::AtMost, 4.0).use_of(Some(1.0)), 0.25);
+        assert_eq!(limit(Relation::AtLeast, 4.0).use_of(Some(16.0)), 0.25);
+        assert!(limit(Relation::AtLeast, 0.0).use_of(Some(1.0)) < 0.0);
+    }
+}

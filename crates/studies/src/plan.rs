@@ -209,3 +209,6 @@ fn estimators(checked: &Checked, file: &PlanFile, loaded: &Loaded) -> Result<Vec
         kinds => kinds,
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -7,14 +7,15 @@ use tofsim_studies::table::{Cell, Field, Row};
 use crate::text::table::{fitted, grouped, width};
 
 /// Rows that are printed; the files have all.
-const SHOWN: usize = 60;
+const SHOWN: usize = 36;
 /// Digits of a number.
 const DIGITS: usize = 5;
 
 /// The table, with each standard error beside its value; of `points` in all.
 pub fn text(plan: &Plan, rows: &[Row], points: u64) -> String {
     let fields = header(plan);
-    let columns = columns(&fields, rows);
+    let (same, columns): (Vec<_>, Vec<_>) =
+        columns(&fields, rows).into_iter().partition(|&(place, _)| is_same(rows, place));
     let head: Vec<_> = columns.iter().map(|(place, _)| fields[*place].name.clone()).collect();
     let cells = |row: &Row| {
         let cell = |&(place, se): &(usize, Option<usize>)| {
@@ -42,10 +43,24 @@ pub fn text(plan: &Plan, rows: &[Row], points: u64) -> String {
     );
     text += &fitted(&head, &some, width());
     text += "\n";
+    for (place, _) in same {
+        let value = rows.first().map_or(String::new(), |row| shown(&row.cells[place]));
+        text += &format!("\n{} = {value} at all points", fields[place].name);
+    }
+    text += "\n";
     if points > some.len() as u64 {
-        text += &format!("\nand {} points more\n", grouped(points - some.len() as u64));
+        text += &format!(
+            "\nand {} points more, which -o writes\n",
+            grouped(points - some.len() as u64)
+        );
     }
     text
+}
+
+/// Whether a column says the same of several rows.
+fn is_same(rows: &[Row], place: usize) -> bool {
+    let first = rows.first().map(|row| &row.cells[place]);
+    rows.len() > 1 && rows.iter().all(|row| Some(&row.cells[place]) == first)
 }
 
 /// Which columns are shown, each with that of its standard error; those without any value are not.

@@ -169,3 +169,71 @@ impl Search {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn search(find: Find, ends: [f64; 2], resolution: f64, scale: Scale) -> Search {
+        Search {
+            key: "target.distance_m".to_owned(),
+            meets: Vec::new(),
+            over: Vec::new(),
+            scenes: vec![Vec::new()],
+            find,
+            ends,
+            resolution,
+            scale,
+            steps: 10,
+            is_whole: false,
+        }
+    }
+
+    fn found(search: &Search, are_met: impl Fn(f64) -> bool) -> (Answer, usize) {
+        let mut asked = 0;
+        let answer = search.run(|value| {
+            asked += 1;
+            Ok(are_met(value))
+        });
+        (answer.unwrap(), asked)
+    }
+
+    #[test]
+    fn the_end_of_a_stretch_is_found_to_the_resolution_from_the_side_that_meets() {
+        let largest = search(Find::Largest, [0.1, 0.9], 0.001, Scale::Linear);
+        let (Answer::Found(value), asked) = found(&largest, |value| value <= 0.4321) else {
+            panic!()
+        };
+        assert!((0.4311..=0.4321).contains(&value), "{value}");
+        assert!(asked <= 6 + 7, "{asked}");
+        let least = search(Find::Least, [1e-6, 1.0], 0.01, Scale::Log);
+        let (Answer::Found(value), _) = found(&least, |value| value >= 3e-4) else { panic!() };
+        assert!((3e-4..=3.03e-4).contains(&value), "{value}");
+    }
+
+    #[test]
+    fn the_first_change_counts() {
+        let largest = search(Find::Largest, [0.0, 1.0], 1e-6, Scale::Linear);
+        let (answer, _) = found(&largest, |value| value < 0.25 || value > 0.5);
+        let Answer::Found(value) = answer else { panic!("{answer:?}") };
+        assert!((value - 0.25).abs() < 2e-6);
+    }
+
+    #[test]
+    fn limits_that_are_met_everywhere_or_nowhere_have_no_end() {
+        for (find, at_all, at_none) in [(Find::Largest, 1.0, 0.0), (Find::Least, 0.0, 1.0)] {
+            let search = search(find, [0.0, 1.0], 0.1, Scale::Linear);
+            assert_eq!(found(&search, |_| true).0, Answer::Everywhere);
+            assert_eq!(found(&search, |_| false).0, Answer::Nowhere);
+            assert_eq!(search.shown(Answer::Everywhere), at_all);
+            assert_eq!(search.shown(Answer::Nowhere), at_none);
+        }
+    }
+
+    #[test]
+    fn whole_numbers_are_searched_one_by_one() {
+        let mut search = search(Find::Least, [1.0, 1000.0], 1.0, Scale::Linear);
+        search.is_whole = true;
+        assert_eq!(found(&search, |value| value >= 777.0).0, Answer::Found(777.0));
+    }
+}
