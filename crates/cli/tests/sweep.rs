@@ -1,14 +1,14 @@
 //! Sweeps as a user plans, kills, resumes, shares out and merges them.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Stdio;
+use std::path::Path;
+use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
 use serde_json::Value;
 
-use crate::common::{empty, json, refused, stdout, tofsim};
+use crate::common::{device, empty, json, refused, stdout, tofsim};
 
 /// A plan of 48 points with words among its values.
 const PLAN: &str = "
@@ -33,10 +33,10 @@ values = [\"uniform\", \"ideal\"]
 ";
 
 /// A folder with that plan in it.
-fn folder(name: &str) -> PathBuf {
-    let folder = empty(name);
-    fs::write(folder.join("plan.toml"), PLAN).unwrap();
-    folder
+fn with_plan() -> tempfile::TempDir {
+    let home = empty();
+    fs::write(home.path().join("plan.toml"), PLAN).unwrap();
+    home
 }
 
 fn sweep(folder: &Path, args: &[&str]) {
@@ -69,16 +69,17 @@ fn cell<'a>(row: &'a [(String, String)], name: &str) -> &'a str {
 
 #[test]
 fn threads_kills_and_shards_change_no_byte_of_a_table() {
-    let folder = folder("sweep-bytes");
-    sweep(&folder, &["-o", "one", "--threads", "1"]);
-    sweep(&folder, &["-o", "three", "--threads", "3"]);
-    same(&folder, "one", "three");
+    let home = with_plan();
+    let folder = home.path();
+    sweep(folder, &["-o", "one", "--threads", "1"]);
+    sweep(folder, &["-o", "three", "--threads", "3"]);
+    same(folder, "one", "three");
 
     let killed = folder.join("killed");
     let mut kills = 0;
     while !killed.join("sweep.parquet").exists() {
         let mut command =
-            tofsim(&folder, &["sweep", "plan.toml", "-q", "-o", "killed", "--threads", "1"]);
+            tofsim(folder, &["sweep", "plan.toml", "-q", "-o", "killed", "--threads", "1"]);
         let mut child = command.stderr(Stdio::null()).stdout(Stdio::null()).spawn().unwrap();
         // Later each time, so that it comes to an end on any machine.
         thread::sleep(Duration::from_millis(150 + 60 * kills));
@@ -87,20 +88,21 @@ fn threads_kills_and_shards_change_no_byte_of_a_table() {
         kills += 1;
         assert!(kills < 200, "it never ends");
     }
-    same(&folder, "one", "killed");
+    same(folder, "one", "killed");
     assert!(!killed.join("sweep.journal").exists() || kills > 0);
 
     for index in 1..=7 {
-        sweep(&folder, &["-o", "shards", "--shard", &format!("{index}/7")]);
+        sweep(folder, &["-o", "shards", "--shard", &format!("{index}/7")]);
     }
-    stdout(&folder, &["sweep", "merge", "shards", "-o", "merged", "-q"]);
-    same(&folder, "one", "merged");
+    stdout(folder, &["sweep", "merge", "shards", "-o", "merged", "-q"]);
+    same(folder, "one", "merged");
 }
 
 #[test]
 fn a_row_is_what_run_makes_of_the_same_settings_and_seed() {
-    let folder = folder("sweep-row");
-    sweep(&folder, &["-o", "out"]);
+    let home = with_plan();
+    let folder = home.path();
+    sweep(folder, &["-o", "out"]);
     let row = &rows(&folder.join("out/sweep.csv"))[17];
     let seed: u64 = cell(row, "seed").parse().unwrap();
     let mut hits = Vec::new();
@@ -110,7 +112,7 @@ fn a_row_is_what_run_makes_of_the_same_settings_and_seed() {
             ["target.distance_m", "target.reflectance", "tdc.profile"]
                 .map(|key| format!("{key}={}", cell(row, key)));
         let run = json(
-            &folder,
+            folder,
             &[
                 "run",
                 "-s",
@@ -142,7 +144,8 @@ fn a_row_is_what_run_makes_of_the_same_settings_and_seed() {
 
 #[test]
 fn fidelities_that_follow_shots_give_the_same_and_the_budget_alone_has_no_frames() {
-    let folder = empty("sweep-fidelity");
+    let home = empty();
+    let folder = home.path();
     let plan = |fidelity: &str| {
         format!(
             "fidelity = \"{fidelity}\"\nframes = 2\nset = [\"firmware.shots_per_frame=500\"]\n\
@@ -151,7 +154,7 @@ fn fidelities_that_follow_shots_give_the_same_and_the_budget_alone_has_no_frames
     };
     let of = |fidelity: &str| {
         fs::write(folder.join("p.toml"), plan(fidelity)).unwrap();
-        json(&folder, &["sweep", "p.toml", "--json"])["rows"].clone()
+        json(folder, &["sweep", "p.toml", "--json"])["rows"].clone()
     };
     let (shot, cycle, budget) = (of("shot"), of("cycle"), of("budget"));
     assert_eq!(shot, cycle);
@@ -162,13 +165,14 @@ fn fidelities_that_follow_shots_give_the_same_and_the_budget_alone_has_no_frames
 
 #[test]
 fn a_search_finds_the_depth_range_of_the_worst_case() {
-    let folder = empty("sweep-search");
-    let text = stdout(&folder, &["sweep", "show", "fig-4-2"]);
+    let home = empty();
+    let folder = home.path();
+    let text = stdout(folder, &["sweep", "show", "fig-4-2"]);
     let text = text
         .replace("range = \"0.010..0.020:0.002\"", "values = [0.012, 0.020]")
         .replace("repeats = 20", "repeats = 5");
     fs::write(folder.join("p.toml"), text).unwrap();
-    let found = json(&folder, &["sweep", "p.toml", "-o", "out", "--json"]);
+    let found = json(folder, &["sweep", "p.toml", "-o", "out", "--json"]);
     assert_eq!(found["notes"][0]["code"], "estimator-outside-model");
     let rows = rows(&folder.join("out/sweep.csv"));
     // A first look in steps of 1 cm, by another program: 0.45 and 0.31 m are the first that fail.
@@ -182,13 +186,14 @@ fn a_search_finds_the_depth_range_of_the_worst_case() {
     let picture = roxmltree::Document::parse(&svg).unwrap();
     let words: Vec<_> = picture.descendants().filter_map(|node| node.text()).collect();
     assert!(words.iter().any(|word| word.contains("specification: 0.6 m")), "{words:?}");
-    let again = json(&folder, &["rerun", "out/sweep.parquet", "--json"]);
+    let again = json(folder, &["rerun", "out/sweep.parquet", "--json"]);
     assert_eq!(again["same"], true);
 }
 
 #[test]
 fn a_mean_over_scenes_is_the_mean_of_their_rows() {
-    let folder = empty("sweep-mean");
+    let home = empty();
+    let folder = home.path();
     let plan = |axis: &str| {
         format!(
             "frames = 20\nestimators = [\"peak\"]\nset = [\"firmware.shots_per_frame=2000\", \"target.distance_m=0.5\"]\n\
@@ -197,7 +202,7 @@ fn a_mean_over_scenes_is_the_mean_of_their_rows() {
     };
     let rows = |axis: &str| {
         fs::write(folder.join("p.toml"), plan(axis)).unwrap();
-        json(&folder, &["sweep", "p.toml", "--json"])["rows"].as_array().unwrap().clone()
+        json(folder, &["sweep", "p.toml", "--json"])["rows"].as_array().unwrap().clone()
     };
     let (each, mean) = (rows("axis"), rows("mean_over"));
     assert_eq!((each.len(), mean.len()), (3, 1));
@@ -209,17 +214,18 @@ fn a_mean_over_scenes_is_the_mean_of_their_rows() {
 
 #[test]
 fn points_that_the_scenario_refuses_end_the_sweep_or_are_kept_with_the_reason() {
-    let folder = empty("sweep-refused");
+    let home = empty();
+    let folder = home.path();
     let plan = "frames = 1\n[[axis]]\nkey = \"firmware.mode\"\nvalues = [0, 1]\n";
     fs::write(folder.join("p.toml"), plan).unwrap();
-    let error = refused(&folder, &["sweep", "p.toml"]);
+    let error = refused(folder, &["sweep", "p.toml"]);
     assert!(
         error.contains("plan p, point 1: firmware.mode=1: scenario kc705: firmware.mode = 1: "),
         "{error}"
     );
     assert!(error.contains("refused = \"keep\""), "{error}");
     fs::write(folder.join("p.toml"), format!("refused = \"keep\"\n{plan}")).unwrap();
-    let rows = json(&folder, &["sweep", "p.toml", "--json"])["rows"].clone();
+    let rows = json(folder, &["sweep", "p.toml", "--json"])["rows"].clone();
     assert_eq!(
         (rows[0]["refused"].clone(), rows[1]["hits_per_frame"].clone()),
         (Value::Null, Value::Null)
@@ -229,29 +235,29 @@ fn points_that_the_scenario_refuses_end_the_sweep_or_are_kept_with_the_reason() 
 
 #[test]
 fn shards_that_are_missing_damaged_or_of_another_sweep_are_not_merged() {
-    let folder = folder("sweep-shards");
+    let home = with_plan();
+    let folder = home.path();
     for index in ["1/3", "2/3", "3/3"] {
-        sweep(&folder, &["-o", "s", "--shard", index]);
+        sweep(folder, &["-o", "s", "--shard", index]);
     }
-    sweep(&folder, &["-o", "other", "--shard", "2/3", "--seed", "9"]);
-    sweep(&folder, &["-o", "halves", "--shard", "2/2"]);
+    sweep(folder, &["-o", "other", "--shard", "2/3", "--seed", "9"]);
+    sweep(folder, &["-o", "halves", "--shard", "2/2"]);
     let merge = |shards: &[&str]| {
         let args: Vec<_> =
             ["sweep", "merge"].iter().chain(shards).chain(&["-o", "m"]).copied().collect();
-        refused(&folder, &args)
+        refused(folder, &args)
     };
     let [one, two, three] = ["1", "2", "3"].map(|k| format!("s/shard-{k}-of-3.parquet"));
     assert!(merge(&[&one, &three]).contains("shard 2/3 missing, expected all 3"));
     assert!(merge(&[&one]).contains("shard 2/3 and 1 more missing"));
     let other = merge(&[&one, "other/shard-2-of-3.parquet", &three]);
     assert!(
-        other.contains("other/shard-2-of-3.parquet: it is a shard of another sweep than s/"),
+        other.contains("it is a shard of another sweep than other/shard-2-of-3.parquet"),
         "{other}"
     );
     let other = merge(&["halves/shard-2-of-2.parquet", &one, &two, &three]);
     assert!(
-        other.contains("3: expected a shard of 2, as halves")
-            || other.contains("expected a shard of"),
+        other.contains("1/3: expected a shard of 2, as halves/shard-2-of-2.parquet is"),
         "{other}"
     );
     fs::copy(folder.join(&two), folder.join("copy.parquet")).unwrap();
@@ -268,25 +274,26 @@ fn shards_that_are_missing_damaged_or_of_another_sweep_are_not_merged() {
     }
     assert!(!folder.join("m/sweep.parquet").exists(), "no table is left half done");
     fs::write(folder.join(&two), whole).unwrap();
-    stdout(&folder, &["sweep", "merge", "s", "-o", "m", "-q"]);
+    stdout(folder, &["sweep", "merge", "s", "-o", "m", "-q"]);
 }
 
 #[test]
 fn what_is_there_is_not_done_again_and_another_plans_journal_is_not_gone_on_with() {
-    let folder = folder("sweep-again");
-    sweep(&folder, &["-o", "out"]);
+    let home = with_plan();
+    let folder = home.path();
+    sweep(folder, &["-o", "out"]);
     let table = folder.join("out/sweep.parquet");
     let before = fs::metadata(&table).unwrap().modified().unwrap();
-    sweep(&folder, &["-o", "out"]);
+    sweep(folder, &["-o", "out"]);
     assert_eq!(fs::metadata(&table).unwrap().modified().unwrap(), before);
-    sweep(&folder, &["-o", "out", "--restart"]);
+    sweep(folder, &["-o", "out", "--restart"]);
     assert_ne!(fs::metadata(&table).unwrap().modified().unwrap(), before);
     fs::write(
         folder.join("out/sweep.journal"),
         "{\"schema\":\"tofsim.sweep-journal/1\",\"about\":\"x\"}\n",
     )
     .unwrap();
-    let error = refused(&folder, &["sweep", "plan.toml", "-o", "out", "--seed", "2"]);
+    let error = refused(folder, &["sweep", "plan.toml", "-o", "out", "--seed", "2"]);
     assert!(
         error.contains("out/sweep.journal: the sweep that was begun there is another"),
         "{error}"
@@ -301,18 +308,34 @@ fn what_is_there_is_not_done_again_and_another_plans_journal_is_not_gone_on_with
         (&["sweep", "show", "fig-44a"], "no built-in plan (`fig-4-4a`?)"),
         (&["sweep"], "<PLAN>"),
     ] {
-        let error = refused(&folder, args);
+        let error = refused(folder, args);
         assert!(error.contains(expected), "{args:?}: {error}");
     }
 }
 
 #[cfg(unix)]
 #[test]
-fn a_disk_that_is_full_is_named_and_what_was_finished_is_kept() {
-    let folder = folder("sweep-full");
-    fs::create_dir(folder.join("out")).unwrap();
-    std::os::unix::fs::symlink("/dev/full", folder.join("out/sweep.journal")).unwrap();
-    let error = refused(&folder, &["sweep", "plan.toml", "-o", "out"]);
-    assert!(error.contains("out/sweep.journal: cannot write"), "{error}");
+fn a_disk_that_fills_up_is_named_and_what_was_finished_is_kept() {
+    let home = with_plan();
+    let folder = home.path();
+    sweep(folder, &["-o", "one"]);
+    // A file may have so many blocks; writing more fails as on a full disk.
+    let limited = format!(
+        "trap '' XFSZ; ulimit -f 16; exec '{}' sweep plan.toml -o out --threads 1",
+        env!("CARGO_BIN_EXE_tofsim")
+    );
+    let output = Command::new("sh").current_dir(folder).args(["-c", &limited]).output().unwrap();
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{error}");
+    assert!(error.contains("out/sweep.journal: cannot write: File too large"), "{error}");
     assert!(!folder.join("out/sweep.parquet").exists());
+    let again = json(folder, &["sweep", "plan.toml", "-o", "out", "--json"]);
+    assert_eq!(again["points"], 48);
+    same(folder, "one", "out");
+
+    let full = device(folder, "full");
+    fs::create_dir(folder.join("device")).unwrap();
+    std::os::unix::fs::symlink(full, folder.join("device/sweep.journal")).unwrap();
+    let error = refused(folder, &["sweep", "plan.toml", "-o", "device"]);
+    assert!(error.contains("device/sweep.journal: expected a regular file"), "{error}");
 }

@@ -63,6 +63,10 @@ impl Journal {
     pub fn open(path: &Path, about: &str, mut take: impl FnMut(u64)) -> Result<Self> {
         let options = File::options().read(true).append(true).create(true).open(path);
         let mut file = options.map_err(Error::io(path, "write"))?;
+        if !file.metadata().is_ok_and(|found| found.is_file()) {
+            let expected = "expected a regular file: a sweep goes on from what it reads there";
+            return Err(Input::new(path.display(), expected).into());
+        }
         match file.try_lock() {
             Err(TryLockError::WouldBlock) => {
                 let expected =

@@ -13,6 +13,11 @@ use crate::text::svg::{COLOURS, chart, legend, picture};
 
 use super::{place, range};
 
+/// The part of a picture's height that a line of the legend takes [1].
+const LEGEND_LINE: f64 = 0.046;
+/// Colours of limits along the vertical axis and along the horizontal one.
+const LIMITS: [RGBColor; 2] = [RGBColor(200, 30, 30), RGBColor(128, 0, 128)];
+
 /// A line: its name, and its points with their standard errors.
 struct Line {
     name: String,
@@ -35,10 +40,11 @@ pub fn svg(plot: &Plot, fields: &[Field], rows: &[Row]) -> Result<String, String
         return Err("no point has what the plot shows".to_owned());
     };
     // Room above the lines for what they stand for.
-    let lines_of_legend = (lines.len() + plot.limits.len()).min(8) as f64;
+    let legend = (LEGEND_LINE * (lines.len() + plot.limits.len()) as f64).min(0.5);
+    let room = legend / (1.0 - legend);
     let high = match plot.log_y {
-        true => high * (high / low).powf(0.05 * lines_of_legend),
-        false => high + 0.05 * lines_of_legend * (high - low),
+        true => high * (high / low).powf(room),
+        false => high + room * (high - low),
     };
     picture(|canvas| {
         let mut chart = chart(canvas, &plot.title);
@@ -118,6 +124,8 @@ impl Frame<'_> {
             .y_desc(plot.y_label.as_deref().unwrap_or(&y_names))
             .light_line_style(TRANSPARENT)
             .bold_line_style(BLACK.mix(0.08))
+            .label_style(("sans-serif", 14))
+            .axis_desc_style(("sans-serif", 16))
             .x_label_formatter(&label)
             .y_label_formatter(&label)
             .draw()?;
@@ -137,12 +145,12 @@ impl Frame<'_> {
         }
         let [left, right, low, high] = self.ends;
         for limit in &plot.limits {
-            let ends = match (limit.x, limit.y) {
-                (Some(x), _) => [(x, low), (x, high)],
-                (None, Some(y)) => [(left, y), (right, y)],
+            let (ends, colour) = match (limit.x, limit.y) {
+                (Some(x), _) => ([(x, low), (x, high)], LIMITS[1]),
+                (None, Some(y)) => ([(left, y), (right, y)], LIMITS[0]),
                 (None, None) => continue,
             };
-            let style = RED.mix(0.7).stroke_width(1);
+            let style = colour.mix(0.8).stroke_width(1);
             chart
                 .draw_series([DashedPathElement::new(ends, 6, 4, style)])?
                 .label(&limit.label)
