@@ -90,8 +90,12 @@ impl Limit {
 
 impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let sign = RELATIONS.iter().find(|(_, relation)| *relation == self.relation);
-        let sign = sign.map_or("", |(sign, _)| sign);
+        let sign = match self.relation {
+            Relation::Below => "<",
+            Relation::AtMost => "<=",
+            Relation::Above => ">",
+            Relation::AtLeast => ">=",
+        };
         write!(f, "{} {sign} {}", self.column, self.number)
     }
 }

@@ -87,6 +87,13 @@ fn a_latin_hypercube_has_one_point_in_each_part_of_each_axis() {
         parts.sort_unstable();
         parts
     };
+    let order = |k: usize| {
+        let values = column(k);
+        let mut order: Vec<_> = (0..50).collect();
+        order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+        order
+    };
+    assert!(order(0) != order(1) && order(1) != order(2), "each axis has an order of its own");
     let all: Vec<_> = (0..50).collect();
     assert_eq!(parts(column(0), &|value| (value - 0.1) / 0.5), all);
     assert_eq!(
@@ -181,7 +188,13 @@ fn a_search_has_to_make_sense() {
         )
     };
     let meets = "meets = [\"peak.failure_rate < 0.1\"]\n";
+    let meets_of = |limits: &str| {
+        let plan = plan(&search(&format!("meets = [{limits}]\n"))).unwrap();
+        plan.search.unwrap().meets.iter().map(|limit| limit.to_string()).collect::<Vec<_>>()
+    };
     plan(&search(meets)).unwrap();
+    let all = ["peak.sd_mm < 1", "peak.sd_mm <= 2", "peak.sd_mm > 3", "peak.sd_mm >= 4"];
+    assert_eq!(meets_of(&format!("\"{}\"", all.join("\", \""))), all);
     for (text, expected) in [
         (search("meets = []"), "search.meets = []: expected a limit"),
         (
