@@ -22,7 +22,7 @@ use crate::limit::Limit;
 use axis::Axis;
 use combination::{Combination, scenes};
 use fault::at_key;
-use file::{PlanFile, Plot};
+use file::{PlanFile, Plot, PlotKind};
 use search::Search;
 
 /// What is to be worked out.
@@ -155,6 +155,11 @@ impl Plan {
 
     fn check_plot(&self, checked: &Checked, plot: &Plot) -> Result<()> {
         let shown = self.shown();
+        if plot.y.is_empty() || (plot.kind == PlotKind::Surface && plot.y.len() != 2) {
+            let expected =
+                "expected a column at least, and two of a surface: one up, one as its colour";
+            return Err(checked.fault("plot.y", expected).into());
+        }
         let series = plot.series.iter().enumerate();
         let series = series.map(|(k, name)| (format!("plot.series.{k}"), name));
         let y = plot.y.iter().enumerate().map(|(k, name)| (format!("plot.y.{k}"), name));

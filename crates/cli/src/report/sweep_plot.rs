@@ -3,7 +3,6 @@
 mod lines;
 mod surface;
 
-use tofsim::error::{Input, Result};
 use tofsim_studies::plan::file::{Plot, PlotKind};
 use tofsim_studies::table::{Field, Row};
 
@@ -11,12 +10,11 @@ use tofsim_studies::table::{Field, Row};
 ///
 /// # Errors
 /// When no row has what it shows, or the plotting library fails.
-pub fn svg(plot: &Plot, fields: &[Field], rows: &[Row]) -> Result<String> {
-    let drawn = match plot.kind {
+pub fn svg(plot: &Plot, fields: &[Field], rows: &[Row]) -> Result<String, String> {
+    match plot.kind {
         PlotKind::Lines => lines::svg(plot, fields, rows),
         PlotKind::Surface => surface::svg(plot, fields, rows),
-    };
-    drawn.map_err(|fault| Input::new("sweep.svg", fault).into())
+    }
 }
 
 /// The place of a column.

@@ -113,10 +113,15 @@ impl SweepArgs {
             (&self.output, &plan.file.plot, sweep.shard)
         {
             let path = folder.join("sweep.svg");
-            let rows = &finished.rows[..];
             let fields = tofsim_studies::point::header(&plan);
-            write_bytes(&path, record.in_svg(&sweep_plot::svg(plot, &fields, rows)?))?;
-            finished.files.push(path);
+            match sweep_plot::svg(plot, &fields, &finished.rows) {
+                Ok(svg) => {
+                    write_bytes(&path, record.in_svg(&svg))?;
+                    finished.files.push(path);
+                }
+                // The table is there all the same.
+                Err(fault) => talk.note(format_args!("no sweep.svg: {fault}")),
+            }
         }
         finished.files.iter().for_each(|path| talk.wrote(path));
         talk.heed(&notes)?;

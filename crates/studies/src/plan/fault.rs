@@ -7,7 +7,8 @@ use tofsim::files::toml::Checked;
 pub fn at_key(checked: &Checked, key: &str, error: Error) -> Error {
     match error {
         Error::Input(input) => {
-            let what = input.field.map_or(String::new(), |field| format!("{field}: "));
+            let value = input.value.map_or(String::new(), |value| format!(" = {value}"));
+            let what = input.field.map_or(String::new(), |field| format!("{field}{value}: "));
             checked.fault(key, format!("{what}{}", input.expected)).into()
         }
         other => other,

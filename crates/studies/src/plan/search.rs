@@ -214,7 +214,7 @@ mod tests {
     #[test]
     fn the_first_change_counts() {
         let largest = search(Find::Largest, [0.0, 1.0], 1e-6, Scale::Linear);
-        let (answer, _) = found(&largest, |value| value < 0.25 || value > 0.5);
+        let (answer, _) = found(&largest, |value| !(0.25..=0.5).contains(&value));
         let Answer::Found(value) = answer else { panic!("{answer:?}") };
         assert!((value - 0.25).abs() < 2e-6);
     }

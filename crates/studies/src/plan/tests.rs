@@ -160,6 +160,12 @@ fn what_no_plan_can_say_is_refused_with_its_place() {
             "[plot]\ntitle = \"\"\nx = \"point\"\ny = [\"hits_per_frame\"]".to_owned(),
             "plot.x = \"point\": no such column",
         ),
+        (distance("values = [0.1, \"a\"]"), "target.distance_m = \"a\": expected a number from"),
+        (
+            "[plot]\ntitle = \"\"\nx = \"target.distance_m\"\ny = []\n".to_owned()
+                + &distance("values = [1]"),
+            "plot.y = []: expected a column at least",
+        ),
     ] {
         let found = error(&text);
         assert!(found.contains(expected), "{text}\n{found}");

@@ -161,7 +161,6 @@ impl Frame<'_> {
 }
 
 /// A number along an axis.
-#[allow(clippy::trivially_copy_pass_by_ref)]
 fn label(number: &f64) -> String {
     super::tick(*number)
 }
