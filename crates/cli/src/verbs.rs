@@ -17,6 +17,7 @@ pub mod interrupt;
 pub mod man;
 mod progress;
 pub mod quantize;
+pub mod reproduce;
 pub mod rerun;
 pub mod run;
 pub mod scenario;
@@ -67,6 +68,7 @@ enum Verb {
     Verify(verify::Args),
     Timing(timing::Args),
     Build(build::Args),
+    Reproduce(reproduce::Args),
     Ila(ila::Args),
     Compare(Box<compare::Args>),
     Dataset(dataset::Args),
@@ -120,6 +122,7 @@ impl Cli {
             Verb::Verify(args) => return verify::run(args, talk),
             Verb::Timing(args) => return timing::run(args, talk),
             Verb::Build(args) => return build::run(args, talk, Cli::run_within),
+            Verb::Reproduce(args) => reproduce::run(args, talk),
             Verb::Ila(args) => ila::run(args, talk),
             Verb::Compare(args) => return compare::run(args, talk),
             Verb::Dataset(args) => dataset::run(args, talk),

@@ -16,7 +16,7 @@ pub fn escaped(text: &str) -> String {
 }
 
 /// A picture's text without what comes before its first element and after its last.
-pub fn inlined(svg: &str) -> String {
+fn inlined(svg: &str) -> String {
     match (svg.find("<svg"), svg.rfind("</svg>")) {
         (Some(begin), Some(end)) if begin < end => svg[begin..end + "</svg>".len()].to_owned(),
         _ => String::new(),
@@ -34,12 +34,23 @@ pub fn table<const N: usize>(
     header: &[&str; N],
     rows: impl IntoIterator<Item = [String; N]>,
 ) -> String {
+    table_with(header, rows, N)
+}
+
+/// The same where the cells of one column, counted from 0, are HTML already.
+pub fn table_with<const N: usize>(
+    header: &[&str; N],
+    rows: impl IntoIterator<Item = [String; N]>,
+    html: usize,
+) -> String {
     let rows: Vec<_> = rows.into_iter().collect();
     let of_numbers = |column: usize| rows.iter().all(|row| is_number(&row[column]));
     let class: [&str; N] = std::array::from_fn(|k| if of_numbers(k) { " class=\"n\"" } else { "" });
     let cells = |kind: &str, row: &[String; N]| -> String {
-        let cell =
-            |(k, text): (usize, &String)| format!("<{kind}{}>{}</{kind}>", class[k], escaped(text));
+        let cell = |(k, text): (usize, &String)| {
+            let text = if k == html && kind == "td" { text.clone() } else { escaped(text) };
+            format!("<{kind}{}>{text}</{kind}>", class[k])
+        };
         format!("<tr>{}</tr>\n", row.iter().enumerate().map(cell).collect::<String>())
     };
     let head = match header.iter().all(|name| name.is_empty()) {
@@ -50,13 +61,28 @@ pub fn table<const N: usize>(
     format!("<div class=\"scroll\"><table>\n{head}<tbody>\n{body}</tbody>\n</table></div>\n")
 }
 
-/// A picture with words below it; nothing without a picture.
+/// A picture with words below it, which shrinks with the page; nothing without a picture.
 pub fn figure(svg: &str, words: &str) -> String {
-    if svg.is_empty() {
-        String::new()
-    } else {
-        format!("<figure>\n{svg}\n<figcaption>{words}</figcaption>\n</figure>\n")
+    in_figure("", svg, words)
+}
+
+/// The same with a picture that is hard to read where it is small: a narrow page moves it within its box.
+pub fn wide_figure(svg: &str, words: &str) -> String {
+    in_figure(" class=\"wide\"", svg, words)
+}
+
+fn in_figure(class: &str, svg: &str, words: &str) -> String {
+    match inlined(svg) {
+        svg if svg.is_empty() => String::new(),
+        svg => {
+            format!("<figure{class}>\n{svg}\n<figcaption>{words}</figcaption>\n</figure>\n")
+        }
     }
+}
+
+/// A word in the colour of its class.
+pub fn badge(class: &str, word: &str) -> String {
+    format!("<span class=\"badge {class}\">{word}</span>")
 }
 
 #[cfg(test)]
@@ -72,5 +98,8 @@ mod tests {
         );
         assert_eq!(inlined("<?xml?><svg a=\"\"><g/></svg><!-- x -->\n"), "<svg a=\"\"><g/></svg>");
         assert_eq!(inlined("none"), "");
+        assert_eq!(figure("none", "words"), "");
+        let badge = table_with(&["", "a"], [["<b>".to_owned(), badge("same", "same")]], 1);
+        assert!(badge.contains("<td>&lt;b&gt;</td><td><span class=\"badge same\">"), "{badge}");
     }
 }
