@@ -34,23 +34,12 @@ pub fn table<const N: usize>(
     header: &[&str; N],
     rows: impl IntoIterator<Item = [String; N]>,
 ) -> String {
-    table_with(header, rows, N)
-}
-
-/// The same where the cells of one column, counted from 0, are HTML already.
-pub fn table_with<const N: usize>(
-    header: &[&str; N],
-    rows: impl IntoIterator<Item = [String; N]>,
-    html: usize,
-) -> String {
     let rows: Vec<_> = rows.into_iter().collect();
     let of_numbers = |column: usize| rows.iter().all(|row| is_number(&row[column]));
     let class: [&str; N] = std::array::from_fn(|k| if of_numbers(k) { " class=\"n\"" } else { "" });
     let cells = |kind: &str, row: &[String; N]| -> String {
-        let cell = |(k, text): (usize, &String)| {
-            let text = if k == html && kind == "td" { text.clone() } else { escaped(text) };
-            format!("<{kind}{}>{text}</{kind}>", class[k])
-        };
+        let cell =
+            |(k, text): (usize, &String)| format!("<{kind}{}>{}</{kind}>", class[k], escaped(text));
         format!("<tr>{}</tr>\n", row.iter().enumerate().map(cell).collect::<String>())
     };
     let head = match header.iter().all(|name| name.is_empty()) {
@@ -59,6 +48,23 @@ pub fn table_with<const N: usize>(
     };
     let body: String = rows.iter().map(|row| cells("td", row)).collect();
     format!("<div class=\"scroll\"><table>\n{head}<tbody>\n{body}</tbody>\n</table></div>\n")
+}
+
+/// Rows of what is compared, both sides, and a verdict as HTML; a narrow page has the cells of a row below each other.
+pub fn comparison(sides: [&str; 2], rows: impl IntoIterator<Item = [String; 4]>) -> String {
+    let row = |[what, left, right, verdict]: [String; 4]| {
+        let side = |name: &str, text: &str| {
+            format!("<td data-side=\"{}\">{}</td>", escaped(name), escaped(text))
+        };
+        let (left, right) = (side(sides[0], &left), side(sides[1], &right));
+        format!("<tr><td>{}</td>{left}{right}<td>{verdict}</td></tr>\n", escaped(&what))
+    };
+    let body: String = rows.into_iter().map(row).collect();
+    let [left, right] = sides.map(escaped);
+    format!(
+        "<table class=\"comparison\">\n<thead>\n<tr><th></th><th>{left}</th><th>{right}</th><th></th></tr>\n</thead>\n\
+         <tbody>\n{body}</tbody>\n</table>\n"
+    )
 }
 
 /// A picture with words below it, which shrinks with the page; nothing without a picture.
@@ -99,7 +105,10 @@ mod tests {
         assert_eq!(inlined("<?xml?><svg a=\"\"><g/></svg><!-- x -->\n"), "<svg a=\"\"><g/></svg>");
         assert_eq!(inlined("none"), "");
         assert_eq!(figure("none", "words"), "");
-        let badge = table_with(&["", "a"], [["<b>".to_owned(), badge("same", "same")]], 1);
-        assert!(badge.contains("<td>&lt;b&gt;</td><td><span class=\"badge same\">"), "{badge}");
+        let row = ["<b>", "1", "2"].map(str::to_owned);
+        let [what, left, right] = row;
+        let text = comparison(["a", "b"], [[what, left, right, badge("same", "same")]]);
+        assert!(text.contains("<td>&lt;b&gt;</td><td data-side=\"a\">1</td>"), "{text}");
+        assert!(text.contains("<td><span class=\"badge same\">same</span></td>"), "{text}");
     }
 }

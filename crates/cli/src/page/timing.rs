@@ -16,6 +16,8 @@ const WAVE: f64 = 18.0;
 const HEAD: f64 = 22.0;
 /// Height of the axis below [px].
 const AXIS: f64 = 34.0;
+/// A value that is there for less is not told apart [px].
+const FAST: f64 = 3.5;
 /// Width of a letter [px].
 const LETTER: f64 = 7.4;
 
@@ -91,23 +93,38 @@ impl Diagram<'_> {
         let _ = writeln!(text, "<path d=\"{path}\" fill=\"none\" stroke=\"currentColor\"/>");
     }
 
-    /// A box for each value, which is written in it if there is room.
+    /// A box for each value, which is written in it if there is room; a grey one where values change too fast to tell.
     fn word(&self, text: &mut String, (top, bottom): (f64, f64), wave: &Wave) {
-        for (range, value) in wave.stretches() {
-            let (from, to) = (self.at(range.start), self.at(range.end));
-            let lean = ((to - from) / 4.0).min(3.0);
-            let middle = (top + bottom) / 2.0;
+        let mut fast: Option<(f64, f64)> = None;
+        let grey = |text: &mut String, (from, to): (f64, f64)| {
+            let (width, height) = (to - from, bottom - top);
             let _ = writeln!(
                 text,
-                "<path d=\"M{from:.1} {middle:.1}L{:.1} {top:.1}L{:.1} {top:.1}L{to:.1} {middle:.1}L{:.1} {bottom:.1}L{:.1} {bottom:.1}Z\" fill=\"none\" stroke=\"currentColor\"/>",
-                from + lean,
-                to - lean,
-                to - lean,
-                from + lean,
+                "<rect x=\"{from:.1}\" y=\"{top:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" opacity=\"0.35\"/>"
             );
-            if to - from > LETTER * value.len() as f64 + 4.0 {
-                self.words(text, ((from + to) / 2.0, bottom - 5.0), "middle", value);
+        };
+        for (range, value) in wave.stretches() {
+            let (from, to) = (self.at(range.start), self.at(range.end));
+            if to - from < FAST {
+                fast = Some((fast.map_or(from, |(begin, _)| begin), to));
+                continue;
             }
+            fast.take().into_iter().for_each(|span| grey(text, span));
+            self.boxed(text, [from, to, top, bottom], value);
+        }
+        fast.into_iter().for_each(|span| grey(text, span));
+    }
+
+    fn boxed(&self, text: &mut String, [from, to, top, bottom]: [f64; 4], value: &str) {
+        let (lean, middle) = (((to - from) / 4.0).min(3.0), (top + bottom) / 2.0);
+        let (left, right) = (from + lean, to - lean);
+        let _ = writeln!(
+            text,
+            "<path d=\"M{from:.1} {middle:.1}L{left:.1} {top:.1}L{right:.1} {top:.1}L{to:.1} {middle:.1}L{right:.1} \
+             {bottom:.1}L{left:.1} {bottom:.1}Z\" fill=\"none\" stroke=\"currentColor\"/>"
+        );
+        if to - from > LETTER * value.len() as f64 + 4.0 {
+            self.words(text, ((from + to) / 2.0, bottom - 5.0), "middle", value);
         }
     }
 

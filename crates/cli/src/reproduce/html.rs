@@ -1,7 +1,7 @@
 //! The page of what was found.
 
 use crate::page::document::{Document, commands, section, tiles};
-use crate::page::html::{badge, escaped, figure, table_with, wide_figure};
+use crate::page::html::{badge, comparison, escaped, figure, wide_figure};
 use crate::page::timing;
 use crate::record::Record;
 
@@ -85,7 +85,9 @@ fn rows(rows: &[Row]) -> String {
         let unit = if row.unit.is_empty() { String::new() } else { format!(" [{}]", row.unit) };
         let thesis = row.thesis.as_ref().map_or("-".to_owned(), |side| side.words());
         let judged = row.verdict.map_or(String::new(), verdict);
-        [format!("{}{unit}", row.what), thesis, row.ours.words(), judged]
+        let sides = [thesis, row.ours.words()].map(|words| words.replace("+-", "\u{b1}"));
+        let [thesis, ours] = sides;
+        [format!("{}{unit}", row.what), thesis, ours, judged]
     };
-    table_with(&["", "thesis", "here", ""], rows.iter().map(row), 3)
+    comparison(["thesis", "here"], rows.iter().map(row))
 }

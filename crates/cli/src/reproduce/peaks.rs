@@ -15,7 +15,7 @@ pub const SHOTS: u64 = 30_000;
 /// Irradiances and reflectances, the factors of the 300 that are ours to choose.
 const LIGHTS: [u64; 2] = [15, 20];
 /// A single peak further off than that is not the signal's [m].
-const WRONG_M: f64 = 0.08;
+pub const WRONG_M: f64 = 0.08;
 
 /// What the detector found at each of the six distances.
 pub struct Peaks {

@@ -67,7 +67,7 @@ impl Number {
             value
         };
         match self.standard_error {
-            Some(error) => format!("{value} +- {error:.decimals$}"),
+            Some(error) => format!("{value} +- {error:.0$}", decimals + 1),
             None => value,
         }
     }
@@ -182,7 +182,7 @@ mod tests {
 
     #[test]
     fn a_number_is_written_with_its_standard_error_and_without_a_minus_at_nothing() {
-        assert_eq!(Number::new(-5.66, 1).with_error(0.06).words(), "-5.7 +- 0.1");
+        assert_eq!(Number::new(-5.66, 1).with_error(0.06).words(), "-5.7 +- 0.06");
         assert_eq!(Number::new(-0.04, 1).words(), "0.0");
     }
 }

@@ -110,8 +110,8 @@ fn chosen(names: &[String]) -> Result<Vec<&'static Item>> {
     for name in names {
         if all.iter().all(|item| item.id != name) {
             let near = nearest(name, all.iter().map(|item| item.id));
-            let hint = near.map_or(String::new(), |near| format!("; did you mean {near}?"));
-            let expected = format!("there is no item of that name{hint} See --list");
+            let hint = near.map_or(String::new(), |near| format!(" ({near}?)"));
+            let expected = format!("there is no item of that name{hint}; --list has all");
             return Err(Input::new("ITEM", expected).value(name).into());
         }
     }

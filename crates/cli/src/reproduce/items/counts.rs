@@ -114,8 +114,8 @@ fn printed(study: &Study) -> Result<Finding> {
         Layer::new("expected at 0.4 W/m^2/nm and 60 %", BLUE, Shape::Line, by(&expected)),
     ];
     let plot = Plot { title: "The first bins", axes: ["bin", "hits"], layers };
-    let reason = "Not reconciled. 30,000 shots with these counts have 1.26 avalanches a nanosecond, more than the 0.95 that the most \
-                  ambient light of the specification gives with the rate fitted to Table 4.3; with 1.26 peak detection would \
+    let reason = "Not reconciled. 30,000 shots with these counts have 1.28 avalanches a nanosecond, more than the 0.95 that the most \
+                  ambient light of the specification gives with the rate fitted to Table 4.3; with that peak detection would \
                   fail thousands of times at 0.5 m, and Table 4.3 has 332. So the histogram was taken with other settings, or \
                   the figure is misread: its text is hard to read in bins 3 to 6. Nothing here is fitted to it.";
     Finding::of(rows).because(reason).with_plot(&plot, "Counts as printed, and as expected.")

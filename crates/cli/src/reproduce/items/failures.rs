@@ -37,8 +37,8 @@ fn failures(study: &Study) -> Result<Finding> {
     let reason = format!(
         "300 lights, of which the thesis does not say which: here 15 irradiances from 0 to 0.4 W/m^2/nm times 20 \
          reflectances from 8 to 60 %, {} histograms of each. Failure: not exactly one peak. The rate of ambient light is \
-         fitted to the failures at 0.6 m, so that row is no test; no grid of 300 and no width of the largest peak that was \
-         tried has all six.",
+         fitted to the failures at 0.6 m, so that row is no test. With all grids of 300 that were tried there are more failures \
+         at 0.5 m than the thesis's and fewer at 0.4 m, by about two standard errors.",
         peaks.trials / 300
     );
     let grid: Vec<_> = peaks.options.iter().map(|option| format!("--grid {option}")).collect();

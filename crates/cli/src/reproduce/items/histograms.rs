@@ -119,7 +119,7 @@ fn shift(study: &Study) -> Result<Finding> {
     ];
     let plot = Plot { title: "0.2 m, 34 %, 0.2 W/m^2/nm, 30,000 shots", axes: AXES, layers };
     let reason = "The first photon of several in a pulse is an early one: the peak is before the target. The figure's own scene \
-                  is not printed.";
+                  is not printed. The smoothed curve has a point each 64 ps, and the peak is one of them.";
     let words =
         format!("Shift of the peak, over {draws} draws, and background, marked in one histogram.");
     Finding::of(rows).because(reason).with_plot(&plot, words)

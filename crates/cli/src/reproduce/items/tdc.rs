@@ -19,19 +19,19 @@ pub const ITEMS: [Item; 2] = [
 /// Period of `clk_sys` [ns].
 const CYCLE_NS: f64 = 8.0;
 
-/// The clock, start, stop and count, as an analyser at 2 GHz sees them.
-const SCOPE: &str = "scenario = \"tdc_validation\"\nclock = \"2000MHz\"\ndepth = 1024\nposition = 40\n\
+/// The clock, start, stop and count, as an analyser at 1 GHz sees them.
+const SCOPE: &str = "scenario = \"tdc_validation\"\nclock = \"1000MHz\"\ndepth = 1024\nposition = 40\n\
     trigger = \"start rising\"\n\
     [[probe]]\nname = \"clk_125\"\nsignal = \"pll.clk_sys\"\n\
     [[probe]]\nname = \"start\"\nsignal = \"start\"\n\
     [[probe]]\nname = \"tdc_stop\"\nsignal = \"tdc_stop\"\n\
     [[probe]]\nname = \"hit\"\nsignal = \"tdc.tdc_latch.hit\"\n\
     [[probe]]\nname = \"n\"\nsignal = \"tdc.tdc_decoder.n\"\nradix = \"unsigned\"\n";
-const STEP_NS: f64 = 0.5;
+const STEP_NS: f64 = 1.0;
 
 fn timing(study: &Study) -> Result<Finding> {
     let (_, seen) = captured_by(study, SCOPE, &[])?;
-    let mut trace = Trace::of_capture(&seen, 24..130, STEP_NS);
+    let mut trace = Trace::of_capture(&seen, 32..100, STEP_NS);
     let start = trace.rises_ns("start").first().copied().unwrap_or(f64::NAN);
     let stop = trace.rises_ns("tdc_stop").first().copied().unwrap_or(f64::NAN);
     let clocks = trace.rises_ns("clk_125");
@@ -58,7 +58,7 @@ fn timing(study: &Study) -> Result<Finding> {
         ),
         Row::claim("start rises with the clock", clocks.contains(&start), format!("at {start} ns")),
     ];
-    let words = "The first stop of Table 6.3, 2 ns after start; hit and n follow in the pipeline. An analyser at 2 GHz samples.";
+    let words = "The first stop of Table 6.3, 2 ns after start; hit and n follow in the pipeline. An analyser at 1 GHz samples.";
     let command = "tofsim run tdc_validation -o out";
     Ok(Finding::of(rows).with_trace(words, trace).as_by(command))
 }
