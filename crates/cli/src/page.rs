@@ -3,6 +3,7 @@
 pub mod document;
 pub mod html;
 pub mod plot;
+pub mod scope;
 pub mod timing;
 pub mod trace;
 pub mod wavejson;

@@ -29,6 +29,7 @@ mod measured;
 mod quantize;
 mod recalibration;
 mod replay;
+mod report;
 mod reproduce;
 mod rerun;
 mod second_opinion;

@@ -1,6 +1,6 @@
 //! `tofsim reproduce`, as its user meets it.
 
-mod page;
+pub mod page;
 
 use std::collections::BTreeSet;
 

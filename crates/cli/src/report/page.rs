@@ -3,6 +3,8 @@
 pub mod accuracy;
 mod cost;
 pub mod facts;
+pub mod frame;
+pub mod notes;
 pub mod verified;
 
 use serde_json::Value;
@@ -11,8 +13,11 @@ use tofsim::scenario::Part;
 use tofsim::sim::setup::Setup;
 
 use crate::page::document::{Document, commands, section, tiles};
-use crate::page::html::{escaped, table, wide_figure};
+use crate::page::html::{table, wide_figure};
 use crate::record::Record;
+
+/// What stands below the picture of the frame.
+const FRAME: &str = "Its histogram, by what caused each count. Its waveform, and set-ups for GTKWave and Surfer, are in frame/.";
 
 /// What the page shows; results are null where a step was not done.
 pub struct Page<'a> {
@@ -67,10 +72,10 @@ impl Page<'_> {
             self.tiles(),
             section("What it is", &facts::section(self.setup, &self.network)),
             section("What it sees, how far and how exactly", &self.accuracy()?),
-            section("A frame", &self.a_frame()),
+            section("A frame", &frame::section(&self.frame, self.histogram.as_deref(), FRAME)),
             section("What it costs", &cost::section(&self.cost)),
             section("What was verified", &verified::section(&self.verify, &self.cycles)),
-            section("Notes", &self.listed_notes()),
+            section("Notes", &notes::section(&self.notes)),
             section("What made it", &self.origin()),
         ];
         let name = &self.setup.name;
@@ -117,46 +122,6 @@ impl Page<'_> {
                 self.errors.as_deref().unwrap_or_default(),
                 "Errors by distance: boxes from quartile to quartile, with whiskers, and dots for what lies beyond. Black lines are what Table 5.2 of the thesis allows.",
             ))
-    }
-
-    fn a_frame(&self) -> String {
-        let frame = &self.frame["frames"][0];
-        if frame.is_null() {
-            return "<p class=\"bad\">No frame was simulated.</p>\n".to_owned();
-        }
-        let m = |key: &str| frame[key].as_f64().map_or("none".to_owned(), |m| format!("{m:.6} m"));
-        let second = &frame["second_opinion"];
-        let second = match (second["depth_m"].as_f64(), second["status"].as_array()) {
-            (Some(m), Some(status)) if status.is_empty() => format!("{m:.6} m"),
-            (Some(_), Some(status)) => {
-                status.iter().filter_map(Value::as_str).collect::<Vec<_>>().join(", ")
-            }
-            _ => "none".to_owned(),
-        };
-        let count = |key: &str| frame[key].as_u64().map_or("-".to_owned(), |n| n.to_string());
-        let rows = [
-            ("true distance", m("true_depth_m")),
-            ("depth found", m("depth_m")),
-            ("second opinion", second),
-            ("shots", count("shots")),
-            ("hits counted", count("hits")),
-            ("estimator [cycles of clk_sys]", count("estimator_cycles")),
-            ("frame [cycles of clk_sys]", count("frame_cycles")),
-        ];
-        let rows = rows.map(|(what, value)| [what.to_owned(), value]);
-        table(&["", "one frame of the file's scene"], rows)
-            + &wide_figure(
-                self.histogram.as_deref().unwrap_or_default(),
-                "Its histogram, by what caused each count. Its waveform, and set-ups for GTKWave and Surfer, are in frame/.",
-            )
-    }
-
-    fn listed_notes(&self) -> String {
-        if self.notes.is_empty() {
-            return "<p>There are none: the scenario is one that this network was trained for.</p>\n".to_owned();
-        }
-        let item = |note: &String| format!("<li>{}</li>\n", escaped(note));
-        format!("<ul>\n{}</ul>\n", self.notes.iter().map(item).collect::<String>())
     }
 
     fn origin(&self) -> String {

@@ -1,9 +1,10 @@
 //! Captures of the simulated firmware by a logic analyser, for timing diagrams.
 
 use tofsim::error::{Input, Result};
-use tofsim::sim::Run;
 use tofsim::sim::setup::Setup;
-use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, capture};
+use tofsim_captures::ila::{AnalyserSetup, Capture};
+
+use crate::page::scope;
 
 use super::study::Study;
 
@@ -15,14 +16,9 @@ pub fn captured(study: &Study, set_up: &AnalyserSetup, set: &[&str]) -> Result<(
     let own = set_up.file.set.iter().map(String::as_str);
     let set: Vec<_> = own.chain(set.iter().copied()).collect();
     let setup = study.setup(&set_up.file.scenario, &set)?;
-    let plan = AnalyserPlan { stop_when_full: true, ..AnalyserPlan::new(set_up, &setup)? };
-    let mut analyser = Analyser::new(&plan, &setup);
-    capture(Run::new(&setup), set_up.file.frames, &mut analyser, study.stop())?;
-    let seen = analyser.finish();
-    match seen.samples() {
-        0 => Err(Input::new(&set_up.name, "never triggered").into()),
-        _ => Ok((setup, seen)),
-    }
+    let seen = scope::captured(&setup, set_up, study.stop())?;
+    let seen = seen.ok_or_else(|| Input::new(&set_up.name, "never triggered"))?;
+    Ok((setup, seen))
 }
 
 /// The same by the text of a set-up.

@@ -71,7 +71,7 @@ fn counts(made: &[Made]) -> String {
 
 /// At most as much of a title as fits beside the rest.
 fn shortened(title: &str) -> String {
-    const MOST: usize = 36;
+    const MOST: usize = 30;
     match title.char_indices().nth(MOST) {
         None => title.to_owned(),
         Some((end, _)) => format!("{}...", title[..end].trim_end()),
