@@ -8,8 +8,8 @@ use crate::text::svg::{Canvas, legend, picture_of};
 
 /// Width and height [px].
 const SIZE: (u32, u32) = (660, 400);
-/// Room above the highest value, for the legend [1].
-const ABOVE: f64 = 0.25;
+/// Part of the height that a line of the legend takes, and its border [1].
+const LEGEND_LINE: f64 = 0.062;
 
 pub const BLUE: RGBColor = RGBColor(43, 108, 176);
 pub const ORANGE: RGBColor = RGBColor(221, 107, 32);
@@ -69,7 +69,9 @@ impl Plot<'_> {
         }
         let has_bars = self.layers.iter().any(|layer| layer.shape == Shape::Bars);
         let x = range(points().map(|point| point.0), 0.0);
-        let mut y = range(points().map(|point| point.1), ABOVE);
+        let names = self.layers.iter().filter(|layer| !layer.name.is_empty()).count();
+        let legend = (LEGEND_LINE * (names as f64 + 1.0)).min(0.6);
+        let mut y = range(points().map(|point| point.1), legend / (1.0 - legend));
         y.start = if has_bars { y.start.min(0.0) } else { y.start - 0.08 * (y.end - y.start) };
         picture_of(SIZE, |canvas| self.draw(canvas, x, y))
     }

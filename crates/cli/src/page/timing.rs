@@ -7,8 +7,8 @@ use super::html::escaped;
 use super::trace::{Trace, Wave};
 
 /// Width of the picture, and of the names at its left [px].
-const WIDTH: f64 = 660.0;
-const NAMES: f64 = 138.0;
+const WIDTH: f64 = 540.0;
+const NAMES: f64 = 134.0;
 /// Height of a signal, and of its wave within that [px].
 const ROW: f64 = 30.0;
 const WAVE: f64 = 18.0;
@@ -19,7 +19,7 @@ const AXIS: f64 = 34.0;
 /// A value that is there for less is not told apart [px].
 const FAST: f64 = 3.5;
 /// Width of a letter [px].
-const LETTER: f64 = 7.4;
+const LETTER: f64 = 7.9;
 
 /// The picture as SVG text.
 pub fn svg(trace: &Trace) -> String {
@@ -28,7 +28,7 @@ pub fn svg(trace: &Trace) -> String {
     let height = diagram.head + rows as f64 * ROW + AXIS;
     let mut text = format!(
         "<svg class=\"ink\" viewBox=\"0 0 {WIDTH} {height:.0}\" xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" \
-         font-family=\"ui-monospace, 'Liberation Mono', monospace\" font-size=\"12\" fill=\"currentColor\" \
+         font-family=\"ui-monospace, 'Liberation Mono', monospace\" font-size=\"13\" fill=\"currentColor\" \
          stroke-width=\"1.5\">\n"
     );
     diagram.axis(&mut text, height);
@@ -75,7 +75,9 @@ impl Diagram<'_> {
 
     fn wave(&self, text: &mut String, row: usize, wave: &Wave) {
         let (top, bottom) = self.levels(row);
-        self.words(text, (NAMES - 8.0, bottom - 4.0), "end", &wave.name);
+        // The last part of a path says what it is.
+        let name = wave.name.rsplit('/').next().unwrap_or_default();
+        self.words(text, (NAMES - 8.0, bottom - 4.0), "end", name);
         if wave.is_word {
             return self.word(text, (top, bottom), wave);
         }

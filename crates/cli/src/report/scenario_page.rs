@@ -89,7 +89,7 @@ impl ScenarioPage<'_> {
             Err(why) => without(why),
             Ok(trace) => figure(
                 &timing::svg(trace),
-                "The first shot, as an analyser at clk_laser samples it. waveform.json beside is the same for WaveDrom.",
+                "The first shots, as an analyser at clk_laser samples them. waveform.json beside is the same for WaveDrom.",
             ),
         }
     }

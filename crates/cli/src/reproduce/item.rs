@@ -58,7 +58,7 @@ impl Finding {
     }
 
     /// A command of another verb that shows the same.
-    pub fn as_by(mut self, command: impl Into<String>) -> Self {
+    pub fn shown_by(mut self, command: impl Into<String>) -> Self {
         self.commands.push(command.into());
         self
     }

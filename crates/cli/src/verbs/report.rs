@@ -39,7 +39,7 @@ use super::verify;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     tofsim report far -o far\n  \
-    tofsim report mine.toml -o mine --verify      with the Verilog held to the model, and cycle counts proven\n  \
+    tofsim report mine.toml -o mine --verify\n  \
     tofsim report -s tdc.profile=kintex7 -o k7 --quick\n\n\
     Exit status: 0 written, 1 the verification found a fault, 2 usage or input error.")]
 pub struct Args {
@@ -72,7 +72,7 @@ pub struct Args {
 /// Hits of the TDC's code density, frames of each variant of the error budget, histograms of the accuracy.
 const SIZES: [u64; 3] = [1_000_000, 1_000, 30_600];
 
-/// What the waveform shows: one shot, at clk_laser.
+/// What the waveform shows, from 8 samples of clk_laser before the first laser edge on.
 const SCOPE: &str = "scenario = \"kc705\"\nclock = \"clk_laser\"\ndepth = 1024\nposition = 8\ntrigger = \"start rising\"\n\
     [[probe]]\nname = \"pre_start\"\nsignal = \"pre_start\"\n\
     [[probe]]\nname = \"spad_rst\"\nsignal = \"spad_rst\"\n\
@@ -205,7 +205,9 @@ impl Parts<'_> {
         let none = || Input::new("waveform", "no shot begins in the run");
         let seen = seen.ok_or_else(none)?;
         let step_ns = self.setup.cycle().fs() as f64 * 0.5e-6;
-        Ok(Trace::of_capture(&seen, 0..SAMPLES, step_ns))
+        let mut trace = Trace::of_capture(&seen, 0..SAMPLES, step_ns);
+        trace.marks = vec![(8.0 * step_ns, "laser edge".to_owned())];
+        Ok(trace)
     }
 
     fn run(&self) -> Result<(Value, String)> {

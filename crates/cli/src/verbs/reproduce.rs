@@ -27,8 +27,8 @@ use super::terminal::{Talk, print, print_json, stop_signal};
 /// names of items only these are made, and their rows are printed.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
-    tofsim reproduce --quick -o thesis          all in a minute, with a tenth of the histograms\n  \
-    tofsim reproduce -o thesis                  all, as many as the thesis has\n  \
+    tofsim reproduce -o thesis\n  \
+    tofsim reproduce --quick -o thesis     in seconds, with a tenth of the draws\n  \
     tofsim reproduce table-4.3 table-6.3\n  \
     tofsim reproduce --list\n\n\
     Exit status: 0 whatever the verdicts, 2 usage or input error.")]

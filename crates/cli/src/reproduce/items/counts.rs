@@ -48,7 +48,7 @@ fn preload(study: &Study) -> Result<Finding> {
     Ok(Finding::of(rows)
         .because(reason)
         .with_trace("The set-up fig_6_12, an analyser at 125 MHz.", trace)
-        .as_by("tofsim ila capture --probes fig_6_12 -o out"))
+        .shown_by("tofsim ila capture --probes fig_6_12 -o out"))
 }
 
 fn words(study: &Study) -> Result<Finding> {
@@ -72,7 +72,7 @@ fn words(study: &Study) -> Result<Finding> {
     Ok(Finding::of(rows)
         .because(reason)
         .with_trace("The set-up fig_6_13: the first words as the acquisition ends.", trace)
-        .as_by("tofsim ila capture --probes fig_6_13 -o out"))
+        .shown_by("tofsim ila capture --probes fig_6_13 -o out"))
 }
 
 fn printed(study: &Study) -> Result<Finding> {

@@ -45,7 +45,7 @@ fn clocks(study: &Study) -> Result<Finding> {
     ];
     let reason = "Counted in a simulation of the registers, from the edge that takes the start to the one that raises algo_done. The \
                   shortest frame is 30,000 periods of 6 cycles, which is what Table 6.1 has for 20 MHz, and so 20.8 MHz.";
-    Ok(Finding::of(rows).because(reason).as_by("tofsim verify --cycle-counts"))
+    Ok(Finding::of(rows).because(reason).shown_by("tofsim verify --cycle-counts"))
 }
 
 /// The capture of Fig. 6.21, and where the steps are.
@@ -126,5 +126,5 @@ fn word(study: &Study) -> Result<Finding> {
     Ok(Finding::of(rows)
         .because(reason)
         .with_trace("The set-up fig_6_21, an analyser at 125 MHz.", trace)
-        .as_by("tofsim ila capture --probes fig_6_21 -o out"))
+        .shown_by("tofsim ila capture --probes fig_6_21 -o out"))
 }

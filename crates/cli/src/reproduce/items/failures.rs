@@ -48,7 +48,7 @@ fn failures(study: &Study) -> Result<Finding> {
         study.seed,
         grid.join(" ")
     );
-    Ok(Finding::of(rows).because(reason).as_by(command))
+    Ok(Finding::of(rows).because(reason).shown_by(command))
 }
 
 fn failure(study: &Study) -> Result<Finding> {

@@ -56,7 +56,7 @@ fn model(study: &Study) -> Result<Finding> {
     let reason = "The figure's distance, reflectance and light are not printed.";
     Finding::of(rows)
         .because(reason)
-        .as_by("tofsim run --fidelity histogram -s tdc.profile=ideal -o out")
+        .shown_by("tofsim run --fidelity histogram -s tdc.profile=ideal -o out")
         .with_plot(&plot, "Ambient avalanches end shots before the echo, and the echo ends shots before later ones.")
 }
 
@@ -164,5 +164,5 @@ fn by_cause(study: &Study) -> Result<Finding> {
     let words = "Counts by their cause, which only a simulation knows.";
     let command = "tofsim run -s tdc.profile=ideal -s estimator.network=ideal -s target.distance_m=0.3 -o out";
     let reason = "The figure's scene is random within the ranges of Table 3.2.";
-    Ok(Finding::of(rows).because(reason).with_figure(svg, words, true).as_by(command))
+    Ok(Finding::of(rows).because(reason).with_figure(svg, words, true).shown_by(command))
 }

@@ -109,7 +109,7 @@ fn modes(study: &Study) -> Result<Finding> {
             format!("{} of {} samples", free.high("spad_rst"), free.samples()),
         ),
     ];
-    Ok(Finding::of(rows).as_by("tofsim run spad_validation -o out"))
+    Ok(Finding::of(rows).shown_by("tofsim run spad_validation -o out"))
 }
 
 fn trigger(study: &Study) -> Result<Finding> {
@@ -130,5 +130,5 @@ fn trigger(study: &Study) -> Result<Finding> {
     let words = "The set-up fig_6_6: an analyser at 250 MHz sees the laser's trigger, and the reset before it.";
     Ok(Finding::of(rows)
         .with_trace(words, Trace::of_capture(&seen, from..from + 64, LASER_NS))
-        .as_by("tofsim ila capture --probes fig_6_6 -o out"))
+        .shown_by("tofsim ila capture --probes fig_6_6 -o out"))
 }

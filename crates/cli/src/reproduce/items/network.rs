@@ -61,7 +61,7 @@ fn float(study: &Study) -> Result<Finding> {
     );
     let mut rows = rows(&FLOAT, TEST, &networks.float);
     rows.push(never_fails(&networks));
-    Ok(Finding::of(rows).because(about).as_by(COMMAND))
+    Ok(Finding::of(rows).because(about).shown_by(COMMAND))
 }
 
 fn never_fails(networks: &Networks) -> Row {
@@ -90,7 +90,7 @@ fn hardware(study: &Study) -> Result<Finding> {
          Ten say little of a spread. A table of activations of 9 or 10 bits gives spreads as large as the thesis's; its own \
          size is not printed, and the one here has 12 bits."
     );
-    Ok(Finding::of(all).because(reason).as_by(COMMAND))
+    Ok(Finding::of(all).because(reason).shown_by(COMMAND))
 }
 
 /// Errors by distance as boxes, each less the median of its distance, between the limits of the specification.
@@ -149,7 +149,7 @@ fn depths(study: &Study) -> Result<Finding> {
     let axes = ["target depth [m]", "estimated depth [m]"];
     let plot = Plot { title: "Estimated depth over target depth", axes, layers };
     let words = "On this scale the boxes are no higher than the dots.";
-    Finding::of(rows).because(OTHER).as_by(COMMAND).with_plot(&plot, words)
+    Finding::of(rows).because(OTHER).shown_by(COMMAND).with_plot(&plot, words)
 }
 
 /// That errors are within the specification, and which part is.
@@ -164,7 +164,7 @@ fn errors(study: &Study) -> Result<Finding> {
     let words =
         "Errors, each less the median of its distance, and the error that Table 5.2 requests.";
     let rows = [within("floating point", networks.within[0])];
-    Ok(Finding::of(rows).because(INSIDE).with_figure(svg, words, true).as_by(COMMAND))
+    Ok(Finding::of(rows).because(INSIDE).with_figure(svg, words, true).shown_by(COMMAND))
 }
 
 fn both(study: &Study) -> Result<Finding> {
@@ -180,7 +180,7 @@ fn both(study: &Study) -> Result<Finding> {
             format!("2 sd over all: {fixed:.3} mm after {float:.3} mm"),
         ),
     ];
-    let mut finding = Finding::of(rows).because(INSIDE).as_by(COMMAND);
+    let mut finding = Finding::of(rows).because(INSIDE).shown_by(COMMAND);
     for (title, figures) in
         [("(a) floating point", &networks.float), ("(b) fixed point", &networks.fixed)]
     {

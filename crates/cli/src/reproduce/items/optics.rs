@@ -61,7 +61,7 @@ fn eye_safety(study: &Study) -> Result<Finding> {
     ];
     let reason = "30,000 shots at 40 MHz. A frame at the firmware's own 20.8 MHz, and frames that repeat, are other \
                   exposures: tofsim budget has them.";
-    Ok(Finding::of(rows).because(reason).as_by("tofsim budget"))
+    Ok(Finding::of(rows).because(reason).shown_by("tofsim budget"))
 }
 
 fn specifications(study: &Study) -> Result<Finding> {
@@ -84,7 +84,7 @@ fn specifications(study: &Study) -> Result<Finding> {
         row("A_l of a lens of 11 mm", "mm^2", (95.0, 0), std::f64::consts::PI * 5.5 * 5.5),
         row("eta_l", "%", (80.0, 0), 1e2 * scenario.lens.efficiency),
         row("eta_f", "%", (67.0, 0), 1e2 * scenario.filter.efficiency),
-        row("M", "", (40.0, 0), f64::from(spad.count as u32)),
+        row("M", "", (40.0, 0), f64::from(spad.count)),
         row("FOV", "deg", (24.0, 0), spad.field_of_view_deg),
         row("PDP (section 4.2)", "%", (1.2, 1), 1e2 * spad.pdp),
         row("FF", "%", (25.0, 0), 1e2 * spad.fill_factor),
@@ -97,5 +97,5 @@ fn specifications(study: &Study) -> Result<Finding> {
                   passband; with the filter's peak of 67 % counted here, it is 0.39. Which of the two is meant is not said.";
     Ok(Finding::of(rows)
         .because(reason)
-        .as_by("tofsim scenario show kc705 -s ambient.illuminance_klux=14"))
+        .shown_by("tofsim scenario show kc705 -s ambient.illuminance_klux=14"))
 }

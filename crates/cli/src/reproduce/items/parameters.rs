@@ -35,7 +35,7 @@ fn adjustable(_: &Study) -> Result<Finding> {
         ("TCSPC, total cycles", "firmware.shots_per_frame", "10000"),
         ("TDC resolution, average bin size", "tdc.bin_ps", "50"),
     ];
-    Ok(keys(&parameters).as_by("tofsim scenario schema"))
+    Ok(keys(&parameters).shown_by("tofsim scenario schema"))
 }
 
 fn given(_: &Study) -> Result<Finding> {
@@ -43,7 +43,7 @@ fn given(_: &Study) -> Result<Finding> {
         ("E_e, noise irradiance", "ambient.irradiance_w_m2_nm", "0.4"),
         ("rho, reflectivity of the target", "target.reflectance", "0.08"),
     ];
-    Ok(keys(&parameters).as_by("tofsim scenario schema"))
+    Ok(keys(&parameters).shown_by("tofsim scenario schema"))
 }
 
 fn attributes(_: &Study) -> Result<Finding> {
@@ -106,7 +106,7 @@ fn grids(_: &Study) -> Result<Finding> {
     let reason = "A step of 0.01 m is four of 0.0025 m, so that each distance of the test is one of training, against the \
                   text (section 5.4.1). The histograms of the test are other draws.";
     let command = "tofsim dataset --grid train -o train";
-    Ok(Finding::of(rows).because(reason).as_by(command))
+    Ok(Finding::of(rows).because(reason).shown_by(command))
 }
 
 fn training(_: &Study) -> Result<Finding> {
@@ -130,5 +130,7 @@ fn training(_: &Study) -> Result<Finding> {
     let reason = "The optimiser has trainlm's constants, but the recipe is another: many random starts of which the best go \
                   on, penalties that keep the weights within the words of Table 6.4, and an end that weighs distances by \
                   their errors. Plain trainlm gave weights that Table 6.4's words cannot hold.";
-    Ok(Finding::of(rows).because(reason).as_by("tofsim train --profile ideal --seed 1 -o trained"))
+    Ok(Finding::of(rows)
+        .because(reason)
+        .shown_by("tofsim train --profile ideal --seed 1 -o trained"))
 }

@@ -132,7 +132,7 @@ fn errors(study: &Study) -> Result<Finding> {
         ));
     }
     let command = "tofsim evaluate ideal --profile ideal --estimator peak --check 0";
-    Ok(Finding::of(rows).because(WHY).as_by(command))
+    Ok(Finding::of(rows).because(WHY).shown_by(command))
 }
 
 /// Reflectance and light of the cells' histograms, within the ranges of the specification.

@@ -51,7 +51,7 @@ fn subtraction(study: &Study) -> error::Result<Finding> {
                   detector does not find the echo more often than in one lit histogram of all 30,000.";
     Ok(finding
         .because(reason)
-        .as_by("tofsim evaluate ideal --profile ideal --estimator peak,subtraction --check 0"))
+        .shown_by("tofsim evaluate ideal --profile ideal --estimator peak,subtraction --check 0"))
 }
 
 /// Whether a detector has found the target, and nothing else.

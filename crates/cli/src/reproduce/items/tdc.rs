@@ -37,7 +37,6 @@ fn timing(study: &Study) -> Result<Finding> {
     let clocks = trace.rises_ns("clk_125");
     let after = clocks.iter().copied().find(|edge| *edge > stop).unwrap_or(f64::NAN);
     let (t1, t2, t3) = (after - start, stop - start, after - stop);
-    trace.marks = vec![(start, "start".to_owned()), (stop, "stop".to_owned())];
     trace.spans = vec![
         (start..after, format!("T1 = {t1} ns")),
         (start..stop, format!("T2 = {t2} ns")),
@@ -60,7 +59,7 @@ fn timing(study: &Study) -> Result<Finding> {
     ];
     let words = "The first stop of Table 6.3, 2 ns after start; hit and n follow in the pipeline. An analyser at 1 GHz samples.";
     let command = "tofsim run tdc_validation -o out";
-    Ok(Finding::of(rows).with_trace(words, trace).as_by(command))
+    Ok(Finding::of(rows).with_trace(words, trace).shown_by(command))
 }
 
 fn cells(study: &Study) -> Result<Finding> {
@@ -98,5 +97,5 @@ fn cells(study: &Study) -> Result<Finding> {
                   the row of 8 ns would not fit the two others. Of the three pairs only that of 2 and 4 ns gives the 11.5 ps \
                   that the thesis prints. At 8 ns the edge comes after the clock's, so that T1 is 16 ns without any violation \
                   of a set-up time.";
-    Ok(Finding::of(rows).because(reason).as_by("tofsim run tdc_validation --waves none"))
+    Ok(Finding::of(rows).because(reason).shown_by("tofsim run tdc_validation --waves none"))
 }

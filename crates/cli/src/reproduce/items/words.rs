@@ -31,7 +31,7 @@ fn formats(study: &Study) -> Result<Finding> {
         of("B2", "1, 16, 17", path.b2),
         of("tansig LUT output", "1, 16, 15", path.l1_out),
     ];
-    Ok(Finding::of(rows).as_by("tofsim quantize ideal"))
+    Ok(Finding::of(rows).shown_by("tofsim quantize ideal"))
 }
 
 /// Relative differences of the rounded from the exact, number by number, where the exact is not nothing [%].
