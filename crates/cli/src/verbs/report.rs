@@ -32,6 +32,10 @@ use super::interrupt::look_no_more;
 use super::terminal::{RunCommand, Talk, print_json, stop_signal};
 use super::verify;
 
+mod words;
+
+use words::Words;
+
 /// Write a page about a scenario: light, waveform, histogram, TDC, errors by cause, accuracy, cycles, verification
 ///
 /// The page is one file without scripts, for a screen, a phone or paper. What a scenario does not allow is left out,
@@ -95,7 +99,14 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
     notes.extend(notes_of_firmware(&setup));
     talk.heed(&notes)?;
     let _held = FolderLock::take(&args.output)?;
-    let parts = Parts { args, talk, run_command, loaded: &loaded, setup: &setup };
+    let words = Words {
+        scenario: &args.scenario,
+        set: &args.set,
+        seed: args.seed,
+        grid: loaded.scenario.training.grid_options(),
+    };
+    let parts =
+        Parts { quick: args.quick, words, talk, run_command, loaded: &loaded, setup: &setup };
     let progress = talk.progress(6, "parts");
     let waveform = made(parts.waveform())?;
     progress.inc(1);
@@ -139,7 +150,7 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
         errors,
         evaluation,
         verified,
-        commands: parts.commands(),
+        commands: parts.words.by_hand(),
     };
     let html = page.html().map_err(|fault| Input::new("report.html", fault))?;
     let stage = StagedFolder::new(&args.output)?;
@@ -165,7 +176,8 @@ fn made<T>(part: Result<T>) -> Result<Part<T>> {
 }
 
 struct Parts<'a> {
-    args: &'a Args,
+    quick: bool,
+    words: Words<'a>,
     talk: &'a Talk,
     run_command: RunCommand,
     loaded: &'a Loaded,
@@ -174,18 +186,7 @@ struct Parts<'a> {
 
 impl Parts<'_> {
     fn size(&self, part: usize) -> u64 {
-        if self.args.quick { SIZES[part] / 10 } else { SIZES[part] }
-    }
-
-    /// A verb with the scenario, its keys and its seed.
-    fn words(&self, verb: &str, scenario: &[&str]) -> Vec<String> {
-        let Args { set, seed, .. } = self.args;
-        let mut words = vec![verb.to_owned()];
-        words.extend(scenario.iter().map(|word| (*word).to_owned()));
-        words.push(self.args.scenario.clone());
-        words.extend(set.iter().flat_map(|set| ["-s".to_owned(), set.clone()]));
-        words.extend(seed.iter().flat_map(|seed| ["--seed".to_owned(), seed.to_string()]));
-        words
+        if self.quick { SIZES[part] / 10 } else { SIZES[part] }
     }
 
     /// Another verb's files of these names, in a folder of their own.
@@ -211,7 +212,7 @@ impl Parts<'_> {
     }
 
     fn run(&self) -> Result<(Value, String)> {
-        let mut words = self.words("run", &[]);
+        let mut words = self.words.of(&["run"]);
         words.extend(["--waves", "none"].map(str::to_owned));
         let files = self.files(words, &["summary.json", "histogram.svg"])?;
         let [run, histogram] = <[String; 2]>::try_from(files).unwrap_or_default();
@@ -243,7 +244,7 @@ impl Parts<'_> {
     }
 
     fn evaluation(&self) -> Result<Value> {
-        let mut words = self.words("evaluate", &["--scenario"]);
+        let mut words = self.words.evaluation();
         let kind = EstimatorKind::in_socket(&self.loaded.scenario).name();
         let rows = self.size(2).to_string();
         words.extend(["--estimator", kind, "--check", "2", "--rows", &rows].map(str::to_owned));
@@ -253,7 +254,7 @@ impl Parts<'_> {
 
     /// Blocks and cycle counts of the Verilog in rtl_ref, and whether all is well.
     fn verified(&self) -> Result<(Part<(Value, Value)>, bool)> {
-        let mut words = self.words("verify", &["--scenario"]);
+        let mut words = self.words.of(&["verify", "--scenario"]);
         words.remove(0);
         let words: Vec<_> = words.iter().map(String::as_str).collect();
         let checked = || -> Result<(Value, Value, bool)> {
@@ -270,23 +271,6 @@ impl Parts<'_> {
             Ok((blocks, counts, passed)) => (Ok((blocks, counts)), passed),
             Err(why) => (Err(why), false),
         })
-    }
-
-    /// How each part is made by itself.
-    fn commands(&self) -> Vec<String> {
-        let line = |words: Vec<String>| format!("tofsim {}", words.join(" "));
-        let mut budget = self.words("budget", &[]);
-        budget.truncate(2 + 2 * self.args.set.len());
-        vec![
-            line(budget.clone()),
-            line(self.words("run", &[])) + " -o frame",
-            line([vec!["tdc".to_owned()], budget[1..].to_vec()].concat()) + " -o tdc",
-            line(self.words("budget", &["--errors"])),
-            line(self.words("evaluate", &["--scenario"])),
-            line(
-                [vec!["verify".to_owned(), "--scenario".to_owned()], budget[1..].to_vec()].concat(),
-            ),
-        ]
     }
 }
 
