@@ -1,8 +1,10 @@
 //! The command `tofsim`.
 
 mod choice;
+mod page;
 mod record;
 mod report;
+mod reproduce;
 mod text;
 mod verbs;
 

@@ -23,6 +23,7 @@ pub mod pair_table;
 pub mod pairs;
 pub mod readings;
 pub mod run_files;
+pub mod scenario_page;
 pub mod spad;
 pub mod statistics;
 pub mod summary;

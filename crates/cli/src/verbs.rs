@@ -17,6 +17,8 @@ pub mod interrupt;
 pub mod man;
 mod progress;
 pub mod quantize;
+pub mod report;
+pub mod reproduce;
 pub mod rerun;
 pub mod run;
 pub mod scenario;
@@ -69,6 +71,8 @@ enum Verb {
     Timing(timing::Args),
     Sweep(sweep::Args),
     Build(build::Args),
+    Reproduce(reproduce::Args),
+    Report(report::Args),
     Ila(ila::Args),
     Compare(Box<compare::Args>),
     Dataset(dataset::Args),
@@ -123,6 +127,8 @@ impl Cli {
             Verb::Timing(args) => return timing::run(args, talk),
             Verb::Sweep(args) => sweep::run(args, talk),
             Verb::Build(args) => return build::run(args, talk, Cli::run_within),
+            Verb::Reproduce(args) => reproduce::run(args, talk),
+            Verb::Report(args) => return report::run(args, talk, Cli::run_within),
             Verb::Ila(args) => ila::run(args, talk),
             Verb::Compare(args) => return compare::run(args, talk),
             Verb::Dataset(args) => dataset::run(args, talk),

@@ -29,6 +29,8 @@ mod measured;
 mod quantize;
 mod recalibration;
 mod replay;
+mod report;
+mod reproduce;
 mod rerun;
 mod second_opinion;
 mod sources;

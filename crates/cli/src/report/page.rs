@@ -1,22 +1,23 @@
 //! The report of an instrument: one HTML file with all in it, and no scripts.
 
-mod accuracy;
+pub mod accuracy;
 mod cost;
-mod facts;
-mod html;
-mod verified;
+pub mod facts;
+pub mod frame;
+pub mod notes;
+pub mod verified;
 
 use serde_json::Value;
 
 use tofsim::scenario::Part;
 use tofsim::sim::setup::Setup;
 
+use crate::page::document::{Document, commands, section, tiles};
+use crate::page::html::{table, wide_figure};
 use crate::record::Record;
 
-use html::{escaped, figure, inlined, table};
-
-/// How the page looks, on a screen, in a narrow window and on paper.
-const STYLE: &str = include_str!("page/style.css");
+/// What stands below the picture of the frame.
+const FRAME: &str = "Its histogram, by what caused each count. Its waveform, and set-ups for GTKWave and Surfer, are in frame/.";
 
 /// What the page shows; results are null where a step was not done.
 pub struct Page<'a> {
@@ -59,11 +60,6 @@ pub struct StepRow {
 impl Page<'_> {
     /// The whole page; an error only if the plotting library fails.
     pub fn html(&self) -> Result<String, String> {
-        let name = escaped(&self.setup.name);
-        let description = match self.setup.scenario.description.as_str() {
-            "" => String::new(),
-            text => format!("<p class=\"lead\">{}</p>\n", escaped(text)),
-        };
         let quick = match self.quick {
             true => {
                 "<p class=\"bad\">This was a quick build: its network is poor, and its figures rest on few \
@@ -72,24 +68,25 @@ impl Page<'_> {
             false => "",
         };
         let body = [
-            format!("<header>\n<h1>{name}</h1>\n{description}{quick}</header>\n"),
+            quick.to_owned(),
             self.tiles(),
             section("What it is", &facts::section(self.setup, &self.network)),
             section("What it sees, how far and how exactly", &self.accuracy()?),
-            section("A frame", &self.a_frame()),
+            section("A frame", &frame::section(&self.frame, self.histogram.as_deref(), FRAME)),
             section("What it costs", &cost::section(&self.cost)),
             section("What was verified", &verified::section(&self.verify, &self.cycles)),
-            section("Notes", &self.listed_notes()),
+            section("Notes", &notes::section(&self.notes)),
             section("What made it", &self.origin()),
         ];
-        Ok(format!(
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
-             <title>{name}: an instrument</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n{}</main>\n\
-             <!-- {} -->\n</body>\n</html>\n",
-            body.concat(),
-            self.record.line(),
-        ))
+        let name = &self.setup.name;
+        let document = Document {
+            title: &format!("{name}: an instrument"),
+            heading: name,
+            lead: &self.setup.scenario.description,
+            body: body.concat(),
+            record: &self.record,
+        };
+        Ok(document.html())
     }
 
     /// The numbers that a reader looks for first.
@@ -106,71 +103,25 @@ impl Page<'_> {
             let passed = blocks.iter().filter(|block| block["verdict"] == "pass").count();
             format!("{passed} of {}", blocks.len())
         });
-        let tiles = [
+        tiles([
             ("range", facts::range_m(self.setup)),
             ("2 sd over the grid", mm("two_sd_mm")),
             ("mean error", mm("mean_mm")),
             ("frames", facts::frame_rate(self.setup)),
             (luts_of, luts.map_or("-".to_owned(), |luts| luts.to_string())),
             ("benches passed", verified),
-        ];
-        let tile = |(what, value): &(&str, String)| {
-            format!("<div><b>{}</b><span>{what}</span></div>\n", escaped(value))
-        };
-        format!("<div class=\"tiles\">\n{}</div>\n", tiles.iter().map(tile).collect::<String>())
+        ])
     }
 
     fn accuracy(&self) -> Result<String, String> {
         if self.evaluation.is_null() {
             return Ok("<p class=\"bad\">This was not measured.</p>\n".to_owned());
         }
-        let errors = self.errors.as_deref().map(inlined).unwrap_or_default();
         Ok(accuracy::section(&self.evaluation)?
-            + &figure(
-                &errors,
+            + &wide_figure(
+                self.errors.as_deref().unwrap_or_default(),
                 "Errors by distance: boxes from quartile to quartile, with whiskers, and dots for what lies beyond. Black lines are what Table 5.2 of the thesis allows.",
             ))
-    }
-
-    fn a_frame(&self) -> String {
-        let frame = &self.frame["frames"][0];
-        if frame.is_null() {
-            return "<p class=\"bad\">No frame was simulated.</p>\n".to_owned();
-        }
-        let m = |key: &str| frame[key].as_f64().map_or("none".to_owned(), |m| format!("{m:.6} m"));
-        let second = &frame["second_opinion"];
-        let second = match (second["depth_m"].as_f64(), second["status"].as_array()) {
-            (Some(m), Some(status)) if status.is_empty() => format!("{m:.6} m"),
-            (Some(_), Some(status)) => {
-                status.iter().filter_map(Value::as_str).collect::<Vec<_>>().join(", ")
-            }
-            _ => "none".to_owned(),
-        };
-        let count = |key: &str| frame[key].as_u64().map_or("-".to_owned(), |n| n.to_string());
-        let rows = [
-            ("true distance", m("true_depth_m")),
-            ("depth found", m("depth_m")),
-            ("second opinion", second),
-            ("shots", count("shots")),
-            ("hits counted", count("hits")),
-            ("estimator [cycles of clk_sys]", count("estimator_cycles")),
-            ("frame [cycles of clk_sys]", count("frame_cycles")),
-        ];
-        let rows = rows.map(|(what, value)| [what.to_owned(), value]);
-        let picture = self.histogram.as_deref().map(inlined).unwrap_or_default();
-        table(&["", "one frame of the file's scene"], rows)
-            + &figure(
-                &picture,
-                "Its histogram, by what caused each count. Its waveform, and set-ups for GTKWave and Surfer, are in frame/.",
-            )
-    }
-
-    fn listed_notes(&self) -> String {
-        if self.notes.is_empty() {
-            return "<p>There are none: the scenario is one that this network was trained for.</p>\n".to_owned();
-        }
-        let item = |note: &String| format!("<li>{}</li>\n", escaped(note));
-        format!("<ul>\n{}</ul>\n", self.notes.iter().map(item).collect::<String>())
     }
 
     fn origin(&self) -> String {
@@ -187,22 +138,17 @@ impl Page<'_> {
             [step.name.to_owned(), step.about.to_owned(), state.to_owned(), step.summary.clone()]
         });
         let quick = if self.quick { " --quick" } else { "" };
-        let commands = [
+        let lines = [
             format!("tofsim build {file} -o again{quick}"),
             format!("tofsim run {file}"),
             format!("tofsim evaluate network.toml --scenario {file}"),
             format!("tofsim verify --rtl rtl --scenario {file}"),
             format!("tofsim verify --cycle-counts --rtl rtl --scenario {file}"),
         ];
-        let commands: String = commands.iter().map(|line| escaped(line) + "\n").collect();
         table(&["", ""], rows)
             + "<h3>Steps</h3>\n"
             + &table(&["step", "what it does", "state", "what it came to"], steps)
             + "<h3>By hand, in the folder of this page</h3>\n"
-            + &format!("<pre>{commands}</pre>\n")
+            + &commands(&lines)
     }
-}
-
-fn section(title: &str, inside: &str) -> String {
-    format!("<section>\n<h2>{title}</h2>\n{inside}</section>\n")
 }

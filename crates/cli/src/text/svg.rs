@@ -47,8 +47,16 @@ pub fn legend<'a, 'b: 'a, C: CoordTranslate>(
 pub fn picture(
     draw: impl FnOnce(&Canvas) -> Result<(), DrawingAreaErrorKind<io::Error>>,
 ) -> Result<String, String> {
+    picture_of(SIZE, draw)
+}
+
+/// The same of that width and height [px].
+pub fn picture_of(
+    size: (u32, u32),
+    draw: impl FnOnce(&Canvas) -> Result<(), DrawingAreaErrorKind<io::Error>>,
+) -> Result<String, String> {
     let mut text = String::new();
-    let canvas = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+    let canvas = SVGBackend::with_string(&mut text, size).into_drawing_area();
     let drawn = canvas.fill(&WHITE).and_then(|()| draw(&canvas)).and_then(|()| canvas.present());
     drawn.map_err(|fault| fault.to_string())?;
     drop(canvas);

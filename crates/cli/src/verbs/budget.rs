@@ -2,8 +2,8 @@
 //! makes its depth wrong by how much.
 
 mod errors;
-mod findings;
-mod table;
+pub(super) mod findings;
+pub(super) mod table;
 
 use tofsim::Setup;
 use tofsim::error::Result;

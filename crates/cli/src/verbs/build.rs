@@ -14,7 +14,7 @@ use crate::choice::words;
 
 use super::draws::use_threads;
 use super::interrupt::look_no_more;
-use super::terminal::{Talk, print_json};
+use super::terminal::{RunCommand, Talk, print_json};
 
 mod accuracy;
 mod cost;
@@ -30,7 +30,7 @@ mod vectors;
 mod verilog;
 
 use journal::{Journal, StepRecord};
-use site::{RunCommand, Site};
+use site::Site;
 use step::{Outcome, Step};
 
 /// Build an instrument: network, Verilog, proofs, accuracy, cost and a report, from one scenario file

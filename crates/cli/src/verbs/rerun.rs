@@ -16,7 +16,7 @@ use super::terminal::{Talk, print, print_json};
 
 /// Verbs whose outputs are made again. They write into the folder of `--output` and nowhere else, so
 /// that no record of another's can make them write over anything.
-const VERBS: [&str; 15] = [
+const VERBS: [&str; 16] = [
     "budget",
     "estimate",
     "quantize --explore",
@@ -31,6 +31,7 @@ const VERBS: [&str; 15] = [
     TDC_CALIBRATE,
     "spad",
     "sweep",
+    "reproduce",
     BUDGET_ERRORS,
 ];
 /// Writes a file where the others write into a folder.

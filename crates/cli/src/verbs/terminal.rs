@@ -2,6 +2,7 @@
 
 use std::io::{self, BufWriter, StdoutLock, Write};
 use std::path::Path;
+use std::process::ExitCode;
 
 use serde_json::Value;
 
@@ -29,6 +30,9 @@ pub fn print_with(fill: impl FnOnce(&mut BufWriter<StdoutLock>) -> io::Result<()
     let written = fill(&mut out).and_then(|()| out.flush());
     written.map_err(Error::io(Path::new("stdout"), "write"))
 }
+
+/// Does what a command line asks for, the first word of which is a verb, and speaks as another one's part.
+pub type RunCommand = fn(&[&str], &Talk) -> Result<ExitCode>;
 
 /// The voice, and how much it says.
 #[derive(Debug, clap::Args)]

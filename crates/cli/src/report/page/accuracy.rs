@@ -6,7 +6,7 @@ use tofsim_learn::dataset::axis::thinned;
 
 use crate::report::curves::{Curve, curves};
 
-use super::html::{escaped, figure, table};
+use crate::page::html::{escaped, table, wide_figure};
 
 /// Most distances of the table.
 const SHOWN: usize = 21;
@@ -111,11 +111,11 @@ pub fn section(evaluation: &Value) -> Result<String, String> {
         &[Curve::new(&named(0), &mean)],
     )?;
     Ok(words
-        + &figure(
+        + &wide_figure(
             &picture,
             "Twice the standard deviation over all light and reflectances of the grid. The bound takes the light as unknown.",
         )
-        + &figure(&means, "The mean error, over the same.")
+        + &wide_figure(&means, "The mean error, over the same.")
         + &table(&header, rows))
 }
 

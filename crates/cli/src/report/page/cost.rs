@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::html::table;
+use crate::page::html::table;
 
 /// What the parts have: LUT, FF, block RAM, multipliers (docs/resources.md; Lattice FPGA-DS-02012).
 const PARTS: [(&str, &str, [u64; 4]); 2] = [

@@ -7,7 +7,7 @@ use tofsim::scenario::show::schema;
 use tofsim::scenario::{EstimatorKind, Part, Scenario};
 use tofsim::sim::setup::Setup;
 
-use super::html::table;
+use crate::page::html::table;
 
 /// Distances that the bins hold.
 pub fn range_m(setup: &Setup) -> String {

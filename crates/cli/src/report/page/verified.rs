@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::html::table;
+use crate::page::html::table;
 
 fn word(value: &Value) -> String {
     match value {

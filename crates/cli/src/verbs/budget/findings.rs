@@ -8,7 +8,7 @@ use tofsim::optics::eye_safety::{Exposure, longest_exposure_s};
 use tofsim::{Note, NoteCode, Setup};
 
 /// What the command finds.
-pub(super) struct Findings {
+pub struct Findings {
     pub setup: Setup,
     /// Of a shot; `None` where shots depend on each other.
     pub chances: Option<Chances>,

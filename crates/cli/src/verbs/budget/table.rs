@@ -8,8 +8,13 @@ use super::findings::Findings;
 
 type Row = [String; 3];
 
-/// Rows of what is found: light, shot, laser, verdicts.
+/// What is found.
 pub fn table(findings: &Findings) -> String {
+    plain(rows(findings))
+}
+
+/// Rows of what is found: light, shot, laser, verdicts; what, how much, and what that means.
+pub fn rows(findings: &Findings) -> Vec<Row> {
     let setup = &findings.setup;
     let (budget, target) = (&setup.budget, &setup.scenario.target);
     let light = [
@@ -24,8 +29,8 @@ pub fn table(findings: &Findings) -> String {
         row("pulse energy", format!("{:.1} pJ", budget.pulse_energy_j * 1e12), ""),
         row("average power", average, format!("at {rate_mhz:.3} MHz")),
     ];
-    let rows = light.into_iter().chain(shot(findings)).chain(laser).chain(eye_safety(findings));
-    plain(rows)
+    let light = light.into_iter().chain(shot(findings));
+    light.chain(laser).chain(eye_safety(findings)).collect()
 }
 
 fn row(name: &str, value: impl Into<String>, meaning: impl Into<String>) -> Row {

@@ -9,15 +9,12 @@ use tofsim::scenario::{self, Loaded};
 use tofsim::sim::setup::Setup;
 use tofsim_learn::estimation::notes::notes_of_firmware;
 
-use crate::verbs::terminal::Talk;
+use crate::verbs::terminal::{RunCommand, Talk};
 use crate::verbs::{train, verify};
 
 use super::files::InstrumentFiles;
 use super::journal::Journal;
 use super::step::Step;
-
-/// Does what a command line asks for, the first word of which is a verb, and speaks as another one's part.
-pub type RunCommand = fn(&[&str], &Talk) -> Result<ExitCode>;
 
 /// The folder of a build, which is the current one, and what its steps know.
 pub struct Site<'a> {

@@ -16,7 +16,7 @@ pub fn escaped(text: &str) -> String {
 }
 
 /// A picture's text without what comes before its first element and after its last.
-pub fn inlined(svg: &str) -> String {
+fn inlined(svg: &str) -> String {
     match (svg.find("<svg"), svg.rfind("</svg>")) {
         (Some(begin), Some(end)) if begin < end => svg[begin..end + "</svg>".len()].to_owned(),
         _ => String::new(),
@@ -50,13 +50,45 @@ pub fn table<const N: usize>(
     format!("<div class=\"scroll\"><table>\n{head}<tbody>\n{body}</tbody>\n</table></div>\n")
 }
 
-/// A picture with words below it; nothing without a picture.
+/// Rows of what is compared, both sides, and a verdict as HTML; a narrow page has the cells of a row below each other.
+pub fn comparison(sides: [&str; 2], rows: impl IntoIterator<Item = [String; 4]>) -> String {
+    let row = |[what, left, right, verdict]: [String; 4]| {
+        let side = |name: &str, text: &str| {
+            format!("<td data-side=\"{}\">{}</td>", escaped(name), escaped(text))
+        };
+        let (left, right) = (side(sides[0], &left), side(sides[1], &right));
+        format!("<tr><td>{}</td>{left}{right}<td>{verdict}</td></tr>\n", escaped(&what))
+    };
+    let body: String = rows.into_iter().map(row).collect();
+    let [left, right] = sides.map(escaped);
+    format!(
+        "<table class=\"comparison\">\n<thead>\n<tr><th></th><th>{left}</th><th>{right}</th><th></th></tr>\n</thead>\n\
+         <tbody>\n{body}</tbody>\n</table>\n"
+    )
+}
+
+/// A picture with words below it, which shrinks with the page; nothing without a picture.
 pub fn figure(svg: &str, words: &str) -> String {
-    if svg.is_empty() {
-        String::new()
-    } else {
-        format!("<figure>\n{svg}\n<figcaption>{words}</figcaption>\n</figure>\n")
+    in_figure("", svg, words)
+}
+
+/// The same with a picture that is hard to read where it is small: a narrow page moves it within its box.
+pub fn wide_figure(svg: &str, words: &str) -> String {
+    in_figure(" class=\"wide\"", svg, words)
+}
+
+fn in_figure(class: &str, svg: &str, words: &str) -> String {
+    match inlined(svg) {
+        svg if svg.is_empty() => String::new(),
+        svg => {
+            format!("<figure{class}>\n{svg}\n<figcaption>{words}</figcaption>\n</figure>\n")
+        }
     }
+}
+
+/// A word in the colour of its class.
+pub fn badge(class: &str, word: &str) -> String {
+    format!("<span class=\"badge {class}\">{word}</span>")
 }
 
 #[cfg(test)]
@@ -72,5 +104,11 @@ mod tests {
         );
         assert_eq!(inlined("<?xml?><svg a=\"\"><g/></svg><!-- x -->\n"), "<svg a=\"\"><g/></svg>");
         assert_eq!(inlined("none"), "");
+        assert_eq!(figure("none", "words"), "");
+        let row = ["<b>", "1", "2"].map(str::to_owned);
+        let [what, left, right] = row;
+        let text = comparison(["a", "b"], [[what, left, right, badge("same", "same")]]);
+        assert!(text.contains("<td>&lt;b&gt;</td><td data-side=\"a\">1</td>"), "{text}");
+        assert!(text.contains("<td><span class=\"badge same\">same</span></td>"), "{text}");
     }
 }

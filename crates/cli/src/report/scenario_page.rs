@@ -1,0 +1,176 @@
+//! The page of a scenario: light, waveform, histogram, TDC, errors, accuracy, cycles, verification.
+
+use serde_json::Value;
+
+use tofsim::sim::setup::Setup;
+
+use crate::page::document::{Document, commands, section, tiles};
+use crate::page::html::{escaped, figure, table, wide_figure};
+use crate::page::timing;
+use crate::page::trace::Trace;
+use crate::record::Record;
+
+use super::page::{accuracy, facts, frame, notes, verified};
+
+/// A part of the page, or why it is not there.
+pub type Part<T> = Result<T, String>;
+
+/// What the page shows.
+pub struct ScenarioPage<'a> {
+    pub setup: &'a Setup,
+    pub record: &'a Record,
+    pub notes: Vec<String>,
+    /// Of the link budget: what, how much, and what that means.
+    pub budget: Vec<[String; 3]>,
+    /// The first shots.
+    pub waveform: Part<Trace>,
+    /// `tofsim.run/1`, and its histogram as SVG.
+    pub run: Part<(Value, String)>,
+    /// `tofsim.tdc/1`, and its pictures.
+    pub tdc: Part<(Value, Vec<String>)>,
+    /// `tofsim.error_budget/1`, its picture, and its tables.
+    pub errors: Part<(String, String)>,
+    /// `tofsim.evaluate/1`.
+    pub evaluation: Part<Value>,
+    /// `tofsim.verify/1` and `tofsim.cycle_counts/1`, null where they were not asked for.
+    pub verified: Part<(Value, Value)>,
+    /// What each part is made by.
+    pub commands: Vec<String>,
+}
+
+impl ScenarioPage<'_> {
+    /// The whole page; an error only if the plotting library fails.
+    pub fn html(&self) -> Result<String, String> {
+        let evaluation = match &self.evaluation {
+            Ok(evaluation) => accuracy::section(evaluation)?,
+            Err(why) => without(why),
+        };
+        let body = [
+            self.tiles(),
+            section("What it is", &facts::section(self.setup, &Value::Null)),
+            section("Light", &table(&["", "", ""], self.budget.iter().cloned())),
+            section("Waveform", &self.waveform()),
+            section("A frame", &self.frame()),
+            section("Clock cycles", &self.cycles()),
+            section("TDC", &self.tdc()),
+            section("What makes the depth wrong", &self.errors()),
+            section("Accuracy over the range", &evaluation),
+            section("What was verified", &self.verified()),
+            section("Notes", &notes::section(&self.notes)),
+            section("By hand", &commands(&self.commands)),
+        ];
+        let name = &self.setup.name;
+        let document = Document {
+            title: &format!("{name}: a report"),
+            heading: name,
+            lead: &self.setup.scenario.description,
+            body: body.concat(),
+            record: self.record,
+        };
+        Ok(document.html())
+    }
+
+    fn tiles(&self) -> String {
+        let frame = self.run.as_ref().map(|(run, _)| run["frames"][0].clone()).unwrap_or_default();
+        let m = |key: &str| frame[key].as_f64().map_or("-".to_owned(), |m| format!("{m:.4} m"));
+        let all = self.evaluation.as_ref().map(|of| of["estimators"][0]["all"].clone());
+        let two_sd = all.unwrap_or_default()["two_sd_mm"].as_f64();
+        tiles([
+            ("true distance", m("true_depth_m")),
+            ("depth of one frame", m("depth_m")),
+            ("range", facts::range_m(self.setup)),
+            ("2 sd over the range", two_sd.map_or("-".to_owned(), |mm| format!("{mm:.2} mm"))),
+            ("frames", facts::frame_rate(self.setup)),
+        ])
+    }
+
+    fn waveform(&self) -> String {
+        match &self.waveform {
+            Err(why) => without(why),
+            Ok(trace) => figure(
+                &timing::svg(trace),
+                "The first shots, as an analyser at clk_laser samples them. waveform.json beside is the same for WaveDrom.",
+            ),
+        }
+    }
+
+    fn frame(&self) -> String {
+        match &self.run {
+            Err(why) => without(why),
+            Ok((run, histogram)) => {
+                let words = "Its histogram, by what caused each count.";
+                frame::section(run, Some(histogram), words)
+            }
+        }
+    }
+
+    /// What a frame should take, and what it took.
+    fn cycles(&self) -> String {
+        let (setup, run) = (self.setup, self.run.as_ref().ok());
+        let counted = |key: &str| {
+            let frame = run.map(|(run, _)| &run["frames"][0][key]);
+            frame.and_then(Value::as_u64).map_or("-".to_owned(), |n| n.to_string())
+        };
+        let rows = [
+            [
+                "estimator".to_owned(),
+                setup.params.estimator_cycles().to_string(),
+                counted("estimator_cycles"),
+            ],
+            [
+                "frame, undisturbed".to_owned(),
+                setup.frame_cycles(setup.laser_period()).to_string(),
+                counted("frame_cycles"),
+            ],
+        ];
+        table(&["cycles of clk_sys", "by the formula", "counted in the run"], rows)
+    }
+
+    fn tdc(&self) -> String {
+        let (tdc, pictures) = match &self.tdc {
+            Err(why) => return without(why),
+            Ok(both) => both,
+        };
+        let number = |path: &str, decimals: usize| {
+            let value = tdc.pointer(path).and_then(Value::as_f64);
+            value.map_or("-".to_owned(), |value| format!("{value:.decimals$}"))
+        };
+        let rows = [
+            ["taps".to_owned(), number("/taps", 0)],
+            ["mean bin (LSB) [ps]".to_owned(), number("/lsb_ps", 3)],
+            ["DNL, rms [LSB]".to_owned(), number("/bins/dnl_lsb/rms", 3)],
+            ["INL, rms [LSB]".to_owned(), number("/bins/inl_lsb/rms", 3)],
+            ["precision of one shot [ps]".to_owned(), number("/times/precision_ps", 2)],
+        ];
+        let rows = rows.into_iter().filter(|row| row[1] != "-");
+        let pictures = pictures.iter().zip([
+            "Widths of the bins.",
+            "Differential, and",
+            "integral nonlinearity.",
+        ]);
+        let pictures = pictures.map(|(svg, words)| wide_figure(svg, words));
+        table(&["", ""], rows) + &pictures.collect::<String>()
+    }
+
+    fn errors(&self) -> String {
+        match &self.errors {
+            Err(why) => without(why),
+            Ok((picture, text)) => {
+                let words = "What each effect alone adds to bias and variance; the line is what all together are.";
+                wide_figure(picture, words) + &format!("<pre>{}</pre>\n", escaped(text))
+            }
+        }
+    }
+
+    fn verified(&self) -> String {
+        match &self.verified {
+            Err(why) => without(why),
+            Ok((verify, cycles)) => verified::section(verify, cycles),
+        }
+    }
+}
+
+/// Why a part is not there.
+fn without(why: &str) -> String {
+    format!("<p class=\"reason\">Not shown: {}</p>\n", escaped(why))
+}

@@ -1,0 +1,16 @@
+//! The tables and figures of the thesis made again, each with a verdict.
+
+pub mod html;
+pub mod item;
+mod items;
+pub mod json;
+mod networks;
+mod peaks;
+pub mod results;
+mod scenes;
+mod scopes;
+pub mod study;
+pub mod text;
+pub mod verdict;
+
+pub use items::all;

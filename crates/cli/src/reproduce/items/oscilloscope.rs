@@ -1,0 +1,101 @@
+//! Fig. 6.7: the SPAD's output on an oscilloscope, as a stated model.
+
+use plotters::style::RGBColor;
+
+use tofsim::error::Result;
+use tofsim::sim::Run;
+use tofsim::sim::run::Observers;
+use tofsim::sim::shot_recorder::Shot;
+
+use crate::page::plot::{BLUE, GREY, Layer, Plot, Shape};
+use crate::reproduce::item::{Finding, Item};
+use crate::reproduce::study::Study;
+use crate::reproduce::verdict::{Number, Row, Verdict};
+
+pub const ITEMS: [Item; 1] =
+    [Item::made("fig-6.7", "The SPAD's output on an oscilloscope", screen)];
+
+/// Time constants of the path, each a low pass of the first order: the pad's driver into its pair, and the board with
+/// the probe. Our assumptions: edges of 0.4 and 0.9 ns from 10 to 90 % [ns].
+const LVDS_NS: f64 = 0.4 / 2.197;
+const BOARD_NS: f64 = 0.9 / 2.197;
+/// Width of the screen, step of its curves, and width of its histogram's bins [ns].
+const SCREEN_NS: f64 = 12.0;
+const STEP_NS: f64 = 0.1;
+const BIN_NS: f64 = 0.2;
+/// Shots drawn, and shots of the accumulated histogram.
+const DRAWN: usize = 12;
+
+/// The edge that a step at 0 becomes after both low passes [1].
+fn edge(ns: f64) -> f64 {
+    if ns <= 0.0 {
+        return 0.0;
+    }
+    let [a, b] = [LVDS_NS, BOARD_NS];
+    1.0 - (a * (-ns / a).exp() - b * (-ns / b).exp()) / (a - b)
+}
+
+fn screen(study: &Study) -> Result<Finding> {
+    let setup = study.setup("kc705", &["target.distance_m=0.6"])?;
+    let mut arrivals = Vec::new();
+    let mut take = |shot: &Shot| {
+        arrivals.extend(shot.arrival_fs.map(|fs| fs as f64 * 1e-6));
+        Ok(())
+    };
+    let watch = Observers { shots: Some(&mut take), stop: study.stop(), ..Observers::default() };
+    Run::new(&setup).observe(1, watch)?;
+    arrivals.retain(|ns| (0.0..SCREEN_NS).contains(ns));
+    let curve = |arrival: &f64| {
+        let steps = (SCREEN_NS / STEP_NS) as usize;
+        let at = move |k: usize| k as f64 * STEP_NS;
+        let points = (0..=steps).map(|k| (at(k), edge(at(k) - arrival))).collect::<Vec<_>>();
+        Layer::new("", RGBColor(160, 190, 220), Shape::Line, points)
+    };
+    let mut counts = vec![0u32; (SCREEN_NS / BIN_NS) as usize];
+    arrivals.iter().for_each(|ns| counts[(ns / BIN_NS) as usize] += 1);
+    let highest = f64::from(counts.iter().copied().max().unwrap_or(1).max(1));
+    let bars = counts.iter().enumerate();
+    let bars = bars.map(|(bin, count)| (bin as f64 * BIN_NS, 0.5 * f64::from(*count) / highest));
+    let mut layers =
+        vec![Layer::new("accumulated histogram of the edges", GREY, Shape::Bars, bars)];
+    layers.extend(arrivals.iter().take(DRAWN).map(curve));
+    let mean = |k: usize| {
+        let at = k as f64 * STEP_NS;
+        let sum: f64 = arrivals.iter().map(|arrival| edge(at - arrival)).sum();
+        (at, sum / arrivals.len().max(1) as f64)
+    };
+    let means: Vec<_> = (0..=(SCREEN_NS / STEP_NS) as usize).map(mean).collect();
+    layers.push(Layer::new("mean of all shots with a hit", BLUE, Shape::Line, means));
+    let rise = |part: f64| (0..100_000).map(|k| k as f64 * 1e-4).find(|ns| edge(*ns) >= part);
+    let rise_ns = rise(0.9).unwrap_or(f64::NAN) - rise(0.1).unwrap_or(f64::NAN);
+    let rows = [
+        Row::ours_alone("edge from 10 to 90 %, as modelled", "ns", Number::new(rise_ns, 2)),
+        Row::ours_alone(
+            "shots of a frame with a hit on the screen",
+            "",
+            Number::new(arrivals.len() as f64, 0),
+        ),
+    ];
+    let axes = ["time from the laser edge [ns]", "tdc_stop, of its swing"];
+    let plot = Plot { title: "0.6 m, 34 %, 0.2 W/m^2/nm", axes, layers };
+    let reason = "A photo of a screen, without a scale that can be read and of a board that was not measured. What is drawn is \
+                  a model: tdc_stop of the simulation, level by level, through two low passes of the first order, 0.4 ns for \
+                  the LVDS driver and 0.9 ns for board and probe (10 to 90 %), which are our assumptions.";
+    let words = format!(
+        "The edges of {DRAWN} shots, the mean of all, and the histogram that the instrument accumulates."
+    );
+    let finding = Finding { overruled: Some(Verdict::CannotBeReproduced), ..Finding::of(rows) };
+    finding.because(reason).with_plot(&plot, words)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_edge_begins_at_nothing_and_ends_at_all() {
+        assert_eq!(edge(-1.0), 0.0);
+        assert!(edge(0.01) < 0.01 && edge(10.0) > 0.999);
+        assert!((0..50).all(|k| edge(0.1 * f64::from(k)) <= edge(0.1 * f64::from(k + 1))));
+    }
+}

@@ -1,0 +1,109 @@
+//! What all items share: seed, size, the thesis's instrument, and what several of them look at.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use tofsim::error::Result;
+use tofsim::network::Histogram;
+use tofsim::optics::BinProbabilities;
+use tofsim::scenario;
+use tofsim::sim::setup::Setup;
+use tofsim_learn::dataset::{HistogramSource, Scene};
+
+use super::networks::Networks;
+use super::peaks::Peaks;
+
+/// Row numbers of single histograms, which no grid has.
+const OWN_ROWS: u64 = 8 << 40;
+
+/// How items are made.
+pub struct Study {
+    pub seed: u64,
+    /// Few histograms instead of as many as the thesis has.
+    pub quick: bool,
+    pub stop: Option<Arc<AtomicBool>>,
+    peaks: RefCell<Option<Rc<Peaks>>>,
+    networks: RefCell<Option<Rc<Networks>>>,
+}
+
+impl Study {
+    pub fn new(seed: u64, quick: bool, stop: Option<Arc<AtomicBool>>) -> Self {
+        Study { seed, quick, stop, peaks: RefCell::new(None), networks: RefCell::new(None) }
+    }
+
+    /// One of two sizes.
+    pub fn size(&self, full: u64, quick: u64) -> u64 {
+        if self.quick { quick } else { full }
+    }
+
+    /// Looked at between blocks of work.
+    pub fn stop(&self) -> Option<&AtomicBool> {
+        self.stop.as_deref()
+    }
+
+    /// A scenario with keys set, with the study's seed.
+    ///
+    /// # Errors
+    /// When a key or value is wrong.
+    pub fn setup(&self, name: &str, set: &[&str]) -> Result<Setup> {
+        let set: Vec<_> = set.iter().map(|&text| text.to_owned()).collect();
+        let mut loaded = scenario::load(name, &set)?;
+        loaded.scenario.seed = self.seed;
+        Setup::new(loaded)
+    }
+
+    /// The thesis's instrument of chapters 3 to 5: bins of exactly 25 ps, and a network for them.
+    ///
+    /// # Errors
+    /// As [`Study::setup`].
+    pub fn ideal(&self) -> Result<Setup> {
+        self.setup(scenario::DEFAULT, &["tdc.profile=ideal", "estimator.network=ideal"])
+    }
+
+    /// What its histograms are drawn from.
+    ///
+    /// # Errors
+    /// As [`Study::setup`].
+    pub fn source(&self) -> Result<HistogramSource> {
+        HistogramSource::new(&self.ideal()?)
+    }
+
+    /// A histogram of a scene; each `number` is another.
+    pub fn draw(
+        &self,
+        source: &HistogramSource,
+        codes: &BinProbabilities,
+        number: u64,
+    ) -> Histogram {
+        source.draw_from(codes, &Scene::default(), self.seed, OWN_ROWS + number)
+    }
+
+    /// Peak detection over the grid of Table 4.3; worked out once.
+    ///
+    /// # Errors
+    /// When it is stopped.
+    pub fn peaks(&self) -> Result<Rc<Peaks>> {
+        let made = || Peaks::measure(&self.source()?, self.size(100, 10), self.seed, self.stop());
+        once(&self.peaks, made)
+    }
+
+    /// The networks over the thesis's test grid; worked out once.
+    ///
+    /// # Errors
+    /// When it is stopped.
+    pub fn networks(&self) -> Result<Rc<Networks>> {
+        once(&self.networks, || Networks::measure(&self.ideal()?, self.quick, self.stop()))
+    }
+}
+
+/// What is there, or else is made and kept.
+fn once<T>(place: &RefCell<Option<Rc<T>>>, make: impl FnOnce() -> Result<T>) -> Result<Rc<T>> {
+    if let Some(made) = &*place.borrow() {
+        return Ok(Rc::clone(made));
+    }
+    let made = Rc::new(make()?);
+    *place.borrow_mut() = Some(Rc::clone(&made));
+    Ok(made)
+}

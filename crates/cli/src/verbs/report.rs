@@ -1,0 +1,279 @@
+//! `tofsim report`: a page of a scenario.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use serde_json::{Value, json};
+
+use tofsim::error::{Error, Input, Result, read_text};
+use tofsim::files::folder::FolderLock;
+use tofsim::files::output::write_bytes;
+use tofsim::files::staged::{ScratchFolder, StagedFolder};
+use tofsim::scenario::Loaded;
+use tofsim::sim::setup::Setup;
+use tofsim_captures::ila::AnalyserSetup;
+use tofsim_learn::characterisation::Characterisation;
+use tofsim_learn::error_budget::Plan;
+use tofsim_learn::estimation::EstimatorKind;
+use tofsim_learn::estimation::notes::notes_of_firmware;
+
+use crate::page::scope;
+use crate::page::trace::Trace;
+use crate::page::wavejson::wavejson;
+use crate::record::Record;
+use crate::report::error_budget::{DepthBudgets, picture, text};
+use crate::report::scenario_page::{Part, ScenarioPage};
+use crate::report::{tdc, tdc_plots, verification};
+
+use super::budget::findings::Findings;
+use super::budget::table;
+use super::draws::{load, use_threads};
+use super::interrupt::look_no_more;
+use super::terminal::{RunCommand, Talk, print_json, stop_signal};
+use super::verify;
+
+mod words;
+
+use words::Words;
+
+/// Write a page about a scenario: light, waveform, histogram, TDC, errors by cause, accuracy, cycles, verification
+///
+/// The page is one file without scripts, for a screen, a phone or paper. What a scenario does not allow is left out,
+/// with the reason.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+    tofsim report far -o far\n  \
+    tofsim report mine.toml -o mine --verify\n  \
+    tofsim report -s tdc.profile=kintex7 -o k7 --quick\n\n\
+    Exit status: 0 written, 1 the verification found a fault, 2 usage or input error.")]
+pub struct Args {
+    /// Built-in scenario, or the path of a scenario file (see `scenario list`)
+    #[arg(default_value = tofsim::scenario::DEFAULT)]
+    scenario: String,
+    /// Set a key of the scenario, such as target.distance_m=0.3; may be repeated
+    #[arg(short, long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Folder for report.html, report.json and waveform.json
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// A tenth of the histograms
+    #[arg(long)]
+    quick: bool,
+    /// Hold the Verilog to the model, and prove its cycle counts; takes minutes, Icarus Verilog and Yosys
+    #[arg(long)]
+    verify: bool,
+    /// Seed of every random stream, instead of the scenario's
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Threads; the results are the same for any number [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// Hits of the TDC's code density, frames of each variant of the error budget, histograms of the accuracy.
+const SIZES: [u64; 3] = [1_000_000, 1_000, 30_600];
+
+/// What the waveform shows, from 8 samples of clk_laser before the first laser edge on.
+const SCOPE: &str = "scenario = \"kc705\"\nclock = \"clk_laser\"\ndepth = 1024\nposition = 8\ntrigger = \"start rising\"\n\
+    [[probe]]\nname = \"pre_start\"\nsignal = \"pre_start\"\n\
+    [[probe]]\nname = \"spad_rst\"\nsignal = \"spad_rst\"\n\
+    [[probe]]\nname = \"laser_pulse\"\nsignal = \"vcsel_driver.laser_pulse\"\n\
+    [[probe]]\nname = \"start\"\nsignal = \"start\"\n\
+    [[probe]]\nname = \"tdc_stop\"\nsignal = \"tdc_stop\"\n\
+    [[probe]]\nname = \"hit\"\nsignal = \"tdc.tdc_latch.hit\"\n\
+    [[probe]]\nname = \"n\"\nsignal = \"tdc.tdc_decoder.n\"\nradix = \"unsigned\"\n\
+    [[probe]]\nname = \"tdc_valid\"\nsignal = \"tdc_valid\"\n\
+    [[probe]]\nname = \"tdc_code\"\nsignal = \"tdc_code\"\nradix = \"unsigned\"\n";
+/// Samples of it that are shown.
+const SAMPLES: usize = 48;
+
+/// Runs the verb, with others' commands through `run_command`.
+pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode> {
+    use_threads(args.threads)?;
+    let loaded = load(&args.scenario, &args.set, args.seed)?;
+    let setup = Setup::new(loaded.clone())?;
+    let mut notes = setup.notes()?;
+    notes.extend(notes_of_firmware(&setup));
+    talk.heed(&notes)?;
+    let _held = FolderLock::take(&args.output)?;
+    let words = Words {
+        scenario: &args.scenario,
+        set: &args.set,
+        seed: args.seed,
+        grid: loaded.scenario.training.grid_options(),
+    };
+    let parts =
+        Parts { quick: args.quick, words, talk, run_command, loaded: &loaded, setup: &setup };
+    let progress = talk.progress(6, "parts");
+    let waveform = made(parts.waveform())?;
+    progress.inc(1);
+    let run = made(parts.run())?;
+    progress.inc(1);
+    let tdc = made(parts.tdc())?;
+    progress.inc(1);
+    let errors = made(parts.errors())?;
+    progress.inc(1);
+    let evaluation = made(parts.evaluation())?;
+    progress.inc(1);
+    let (verified, passed) = match args.verify {
+        true => parts.verified()?,
+        false => (Err("it was not asked for; --verify runs it".to_owned()), true),
+    };
+    progress.finish_and_clear();
+    look_no_more();
+    let findings = Findings::of(setup.clone());
+    let record = Record::new(&setup, &talk.command);
+    let value = |part: &Part<Value>| part.as_ref().map_or(Value::Null, Value::clone);
+    let verify = verified.as_ref().map_or(Value::Null, |(verify, _)| verify.clone());
+    let mut object = json!({
+        "schema": "tofsim.report/1",
+        "quick": args.quick,
+        "budget": findings.json(),
+        "run": run.as_ref().map_or(Value::Null, |(run, _)| run.clone()),
+        "tdc": tdc.as_ref().map_or(Value::Null, |(tdc, _)| tdc.clone()),
+        "evaluation": value(&evaluation),
+        "verify": verify,
+    });
+    record.put_into(&mut object, &notes);
+    let trace = waveform.as_ref().ok().map(|trace| wavejson(trace, &setup.name));
+    let page = ScenarioPage {
+        setup: &setup,
+        record: &record,
+        notes: notes.iter().map(ToString::to_string).collect(),
+        budget: table::rows(&findings),
+        waveform,
+        run,
+        tdc,
+        errors,
+        evaluation,
+        verified,
+        commands: parts.words.by_hand(),
+    };
+    let html = page.html().map_err(|fault| Input::new("report.html", fault))?;
+    let stage = StagedFolder::new(&args.output)?;
+    write_bytes(&stage.path().join("report.html"), html)?;
+    write_bytes(&stage.path().join("report.json"), format!("{object:#}\n"))?;
+    if let Some(trace) = trace {
+        write_bytes(&stage.path().join("waveform.json"), format!("{trace}\n"))?;
+    }
+    stage.commit()?.iter().for_each(|path| talk.wrote(path));
+    if args.json {
+        print_json(&object)?;
+    }
+    Ok(if passed { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// What a scenario does not allow is a reason, and no end of the report.
+fn made<T>(part: Result<T>) -> Result<Part<T>> {
+    match part {
+        Ok(part) => Ok(Ok(part)),
+        Err(Error::Input(why)) => Ok(Err(why.to_string())),
+        Err(other) => Err(other),
+    }
+}
+
+struct Parts<'a> {
+    quick: bool,
+    words: Words<'a>,
+    talk: &'a Talk,
+    run_command: RunCommand,
+    loaded: &'a Loaded,
+    setup: &'a Setup,
+}
+
+impl Parts<'_> {
+    fn size(&self, part: usize) -> u64 {
+        if self.quick { SIZES[part] / 10 } else { SIZES[part] }
+    }
+
+    /// Another verb's files of these names, in a folder of their own.
+    fn files(&self, mut words: Vec<String>, names: &[&str]) -> Result<Vec<String>> {
+        let scratch = ScratchFolder::new()?;
+        let folder = scratch.path().join("made");
+        words.extend(["-o".to_owned(), folder.display().to_string()]);
+        let words: Vec<_> = words.iter().map(String::as_str).collect();
+        (self.run_command)(&words, self.talk)?;
+        names.iter().map(|name| read_text(&folder.join(name))).collect()
+    }
+
+    fn waveform(&self) -> Result<Trace> {
+        let set_up = AnalyserSetup::parse("report", "set-up", SCOPE)?;
+        let stop = stop_signal();
+        let seen = scope::captured(self.setup, &set_up, stop.as_deref())?;
+        let none = || Input::new("waveform", "no shot begins in the run");
+        let seen = seen.ok_or_else(none)?;
+        let step_ns = self.setup.cycle().fs() as f64 * 0.5e-6;
+        let mut trace = Trace::of_capture(&seen, 0..SAMPLES, step_ns);
+        trace.marks = vec![(8.0 * step_ns, "laser edge".to_owned())];
+        Ok(trace)
+    }
+
+    fn run(&self) -> Result<(Value, String)> {
+        let mut words = self.words.of(&["run"]);
+        words.extend(["--waves", "none"].map(str::to_owned));
+        let files = self.files(words, &["summary.json", "histogram.svg"])?;
+        let [run, histogram] = <[String; 2]>::try_from(files).unwrap_or_default();
+        Ok((parsed("summary.json", &run)?, histogram))
+    }
+
+    fn tdc(&self) -> Result<(Value, Vec<String>)> {
+        let setup = self.setup;
+        if setup.scenario.tdc.conditions.is_some() {
+            let expected = "a chain is characterised in conditions that stand still";
+            return Err(Input::new("tdc.conditions", expected).into());
+        }
+        let converter = (&setup.params.tdc, setup.disturbance());
+        let found = Characterisation::new(converter, self.size(0), setup.scenario.seed);
+        let pictures = tdc_plots::all(&found, &setup.scenario.tdc)?;
+        let pictures = pictures.into_iter().take(3).map(|(_, svg)| svg).collect();
+        Ok((tdc::json(&found, setup), pictures))
+    }
+
+    fn errors(&self) -> Result<(String, String)> {
+        let kind = EstimatorKind::in_socket(&self.loaded.scenario);
+        let plan = Plan::new(self.loaded, kind)?;
+        let stop = stop_signal();
+        let budget = plan.measure(self.size(1), stop.as_deref(), &|_| {})?;
+        let points = [(self.loaded.scenario.target.distance_m, budget)];
+        let budgets = DepthBudgets { key: None, points: &points };
+        let svg = picture::svg(&budgets).map_err(|fault| Input::new("errors.svg", fault))?;
+        Ok((svg, text::text(&budgets)))
+    }
+
+    fn evaluation(&self) -> Result<Value> {
+        let mut words = self.words.evaluation();
+        let kind = EstimatorKind::in_socket(&self.loaded.scenario).name();
+        let rows = self.size(2).to_string();
+        words.extend(["--estimator", kind, "--check", "2", "--rows", &rows].map(str::to_owned));
+        let files = self.files(words, &["evaluation.json"])?;
+        parsed("evaluation.json", &files.concat())
+    }
+
+    /// Blocks and cycle counts of the Verilog in rtl_ref, and whether all is well.
+    fn verified(&self) -> Result<(Part<(Value, Value)>, bool)> {
+        let mut words = self.words.of(&["verify", "--scenario"]);
+        words.remove(0);
+        let words: Vec<_> = words.iter().map(String::as_str).collect();
+        let checked = || -> Result<(Value, Value, bool)> {
+            let args = verify::Args::of(&words)?;
+            let talk = self.talk.within(Vec::new());
+            let (source, blocks) = verify::blocks(&args, &talk)?;
+            let (counted, counts) = verify::cycle_counts(&args, &talk)?;
+            let passed =
+                blocks.iter().all(|block| !block.failed()) && counts.iter().all(|one| one.holds());
+            let blocks = verification::json(&source, "icarus", &blocks);
+            Ok((blocks, verification::counts_json(&counted, &counts), passed))
+        };
+        Ok(match made(checked())? {
+            Ok((blocks, counts, passed)) => (Ok((blocks, counts)), passed),
+            Err(why) => (Err(why), false),
+        })
+    }
+}
+
+fn parsed(name: &str, text: &str) -> Result<Value> {
+    serde_json::from_str(text).map_err(|error| Input::new(name, error).into())
+}

@@ -1,0 +1,130 @@
+//! `tofsim reproduce`: the tables and figures of the thesis, beside what comes out here.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+
+use tofsim::error::{Input, Result, nearest};
+use tofsim::files::folder::FolderLock;
+use tofsim::files::output::write_bytes;
+use tofsim::files::staged::StagedFolder;
+
+use crate::page::wavejson::wavejson;
+use crate::record::Record;
+use crate::reproduce::item::Item;
+use crate::reproduce::results::Made;
+use crate::reproduce::study::Study;
+use crate::reproduce::{all, html, json, text};
+use crate::text::table::facts;
+
+use super::draws::use_threads;
+use super::interrupt::look_no_more;
+use super::terminal::{Talk, print, print_json, stop_signal};
+
+/// Make the tables and figures of the thesis again, each with a verdict: same, differs, cannot be reproduced
+///
+/// Each number stands beside the thesis's, with its standard error; where something differs, the reason is said. With
+/// names of items only these are made, and their rows are printed.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+    tofsim reproduce -o thesis\n  \
+    tofsim reproduce --quick -o thesis     in seconds, with a tenth of the draws\n  \
+    tofsim reproduce table-4.3 table-6.3\n  \
+    tofsim reproduce --list\n\n\
+    Exit status: 0 whatever the verdicts, 2 usage or input error.")]
+pub struct Args {
+    /// Tables, figures and others by name, such as table-4.3 or fig-6.21 [default: all]
+    #[arg(value_name = "ITEM")]
+    items: Vec<String>,
+    /// Write reproduce.html, a page with all in it, reproduce.json, and timing diagrams as WaveJSON there
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// A tenth of the histograms
+    #[arg(long)]
+    quick: bool,
+    /// Print the names of the items, and make none
+    #[arg(long)]
+    list: bool,
+    /// Seed of every random stream
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Threads; the results are the same for any number [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Print one JSON object instead of tables
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the verb.
+pub fn run(args: &Args, talk: &Talk) -> Result<()> {
+    let items = chosen(&args.items)?;
+    if args.list {
+        return list(&items, args.json);
+    }
+    use_threads(args.threads)?;
+    let _held = args.output.as_deref().map(FolderLock::take).transpose()?;
+    let study = Study::new(args.seed, args.quick, stop_signal());
+    let progress = talk.progress(items.len() as u64, "items");
+    let mut made = Vec::new();
+    for item in items {
+        talk.detail(item.id);
+        made.push(Made::new(item, item.find(&study)?, args.seed, args.quick));
+        progress.inc(1);
+    }
+    progress.finish_and_clear();
+    look_no_more();
+    let setup = study.ideal()?;
+    let record = Record::new(&setup, &talk.command);
+    let mut object = json::json(&made, args.quick);
+    record.put_into(&mut object, &setup.notes()?);
+    if let Some(folder) = &args.output {
+        let stage = StagedFolder::new(folder)?;
+        let object = format!("{object:#}\n");
+        write_bytes(&stage.path().join("reproduce.html"), html::page(&made, &record, args.quick))?;
+        write_bytes(&stage.path().join("reproduce.json"), object)?;
+        write_waves(&made, stage.path())?;
+        stage.commit()?.iter().for_each(|path| talk.wrote(path));
+    }
+    match (args.json, args.items.is_empty() && !talk.verbose) {
+        (true, _) => print_json(&object),
+        (false, true) => talk.report(&text::overview(&made)),
+        (false, false) => talk.report(&text::in_full(&made)),
+    }
+}
+
+/// The timing diagrams of all items.
+fn write_waves(made: &[Made], folder: &Path) -> Result<()> {
+    for one in made {
+        for (words, trace) in &one.finding.traces {
+            let path = folder.join(format!("{}.wave.json", one.item.id));
+            write_bytes(&path, format!("{}\n", wavejson(trace, words)))?;
+        }
+    }
+    Ok(())
+}
+
+/// The items of such names, in the order of the thesis; all without names.
+fn chosen(names: &[String]) -> Result<Vec<&'static Item>> {
+    let all = all();
+    for name in names {
+        if all.iter().all(|item| item.id != name) {
+            let near = nearest(name, all.iter().map(|item| item.id));
+            let hint = near.map_or(String::new(), |near| format!(" ({near}?)"));
+            let expected = format!("there is no item of that name{hint}; --list has all");
+            return Err(Input::new("ITEM", expected).value(name).into());
+        }
+    }
+    Ok(all
+        .into_iter()
+        .filter(|item| names.is_empty() || names.iter().any(|name| name == item.id))
+        .collect())
+}
+
+fn list(items: &[&Item], as_json: bool) -> Result<()> {
+    if as_json {
+        let object = |item: &&Item| json!({ "id": item.id, "title": item.title });
+        return print_json(&items.iter().map(object).collect());
+    }
+    print(&format!("{}\n", facts(items.iter().map(|item| (item.id, item.title.to_owned())))))
+}
