@@ -11,6 +11,7 @@ mod scenes;
 mod scopes;
 pub mod study;
 pub mod text;
+mod tradeoffs;
 pub mod verdict;
 
 pub use items::all;
