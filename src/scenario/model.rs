@@ -44,12 +44,14 @@ macro_rules! table {
 
 mod board;
 mod optics;
+mod scene;
 mod tdc;
 mod training;
 
 pub use crate::firmware::tdc_decoder::Decoder;
 pub use board::{Control, Estimator, EstimatorKind, Firmware, Part, Pll, QuenchMode};
-pub use optics::{Ambient, AmbientModel, DeadTimeKind, Filter, Laser, Lens, Spad, Target};
+pub use optics::{Ambient, AmbientModel, DeadTimeKind, Filter, Laser, Lens, Spad};
+pub use scene::{Atmosphere, Shape, Target, VisibilityModel};
 pub use tdc::{Tdc, TdcCalibration};
 pub use training::{Training, WordFormats};
 
@@ -62,6 +64,8 @@ table! {
         pub seed: u64 = 1,
         /// What is measured.
         pub target: Target = Target::default(),
+        /// The air on the way.
+        pub atmosphere: Atmosphere = Atmosphere::default(),
         /// Light that is not ours.
         pub ambient: Ambient = Ambient::default(),
         /// The VCSEL.
