@@ -222,8 +222,8 @@ fn signal_per_shot(scenario: &Scenario) -> f64 {
 /// The same of a white target for which the sum of eq. 3.13 is one to a square metre [m^2].
 fn white_per_shot(scenario: &Scenario) -> f64 {
     let sin = libm::sin((scenario.laser.field_of_illumination_deg / 4.0).to_radians());
-    let lens_energy_j_m2 = scenario.laser.pulse_energy_j() * scenario.lens.area_m2
-        / (4.0 * PI * PI * sin * sin);
+    let lens_energy_j_m2 =
+        scenario.laser.pulse_energy_j() * scenario.lens.area_m2 / (4.0 * PI * PI * sin * sin);
     lens_energy_j_m2 * scenario.filter.efficiency * avalanches_per_joule(scenario)
 }
 
@@ -240,11 +240,10 @@ fn longest_period_s(scenario: &Scenario) -> f64 {
 /// the optics make of ambient light from a projected solid angle, against the optics that the constant is stated for.
 fn fitted_ambient_rate_hz(scenario: &Scenario, reflectance: f64, seen_sr: f64) -> f64 {
     let ambient = &scenario.ambient;
-    let of_the_thesis_optics = ambient.fitted_rate_hz_per_w_m2_nm
-        * ambient.irradiance_w_m2_nm
-        * reflectance
-        / FITTED_EFFICIENCY
-        * scenario.spad.detection_efficiency();
+    let of_the_thesis_optics =
+        ambient.fitted_rate_hz_per_w_m2_nm * ambient.irradiance_w_m2_nm * reflectance
+            / FITTED_EFFICIENCY
+            * scenario.spad.detection_efficiency();
     of_the_thesis_optics * against_the_thesis_optics(scenario, seen_sr)
 }
 
@@ -272,10 +271,8 @@ fn ambient_photons_hz(scenario: &Scenario, seen_sr: f64) -> f64 {
 
 /// N_r of one SPAD by eq. 3.20, with what eq. 3.19 lacks: the factor pi of a diffuse reflector and the solid angle.
 fn physical_ambient_rate_hz(scenario: &Scenario, reflectance: f64, seen_sr: f64) -> f64 {
-    let radiance_w_m2_sr = scenario.ambient.irradiance_w_m2_nm
-        * passband_nm(&scenario.filter)
-        * reflectance
-        / PI;
+    let radiance_w_m2_sr =
+        scenario.ambient.irradiance_w_m2_nm * passband_nm(&scenario.filter) * reflectance / PI;
     radiance_w_m2_sr * scenario.lens.area_m2 * seen_sr * avalanches_per_joule(scenario)
 }
 

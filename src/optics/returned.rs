@@ -106,9 +106,10 @@ impl Returned {
     /// Nearest and farthest distance of a surface that sends light back [m].
     pub fn ends_m(&self) -> Option<[f64; 2]> {
         let parts = self.diffuse.parts().iter().chain(self.retro.parts());
-        let ends = |span: Option<[f64; 2]>, [at_m, ..]: &[f64; 3]| match span {
-            Some([near_m, far_m]) => Some([near_m.min(*at_m), far_m.max(*at_m)]),
-            None => Some([*at_m; 2]),
+        let ends = |span: Option<[f64; 2]>, [at_m, spread_m, _]: &[f64; 3]| {
+            let half_m = 3f64.sqrt() * spread_m;
+            let [near_m, far_m] = span.unwrap_or([f64::INFINITY, 0.0]);
+            Some([near_m.min(at_m - half_m), far_m.max(at_m + half_m)])
         };
         parts.fold(None, ends)
     }

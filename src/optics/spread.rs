@@ -3,7 +3,7 @@
 //! The parts are put on an even grid in time, so that their mean stays where it is, and the pulse is laid over each. A
 //! step is 1/1024 of the pulse's length, 1/64 sigma of a Gaussian, unless that would be more than 65,000 steps; then it
 //! is a 65,000th of the whole. A broken line of steps of s sigma is off by 0.03 s^2 of an echo at most, and putting
-//! an echo on the grid widens it by s^2 / 8 of its variance at most.
+//! an echo on the grid adds s^2 / 4 to its variance of 1 sigma^2 at most.
 
 use std::sync::Arc;
 
@@ -146,7 +146,8 @@ impl Grid {
         let mut parts = vec![0.0; self.weights.len() + kernel.len()];
         // What has come with all of its pulse, and what is on its way.
         let mut begun = vec![0.0; parts.len()];
-        for (place, weight) in self.weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
+        for (place, weight) in self.weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0)
+        {
             let part = weight / sum;
             begun[place + kernel.len()] += part;
             let nodes = &mut parts[place..place + kernel.len()];

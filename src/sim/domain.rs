@@ -14,11 +14,18 @@ use crate::scenario::drift::REFERENCE_C;
 
 /// Keys of the scenario that decide how the histograms of a frame are distributed. The laser's rate is
 /// none of them: in MODE 0 every shot begins with a reset.
-const KEYS: [&str; 47] = [
+const KEYS: [&str; 54] = [
     "target.distance_m",
     "target.reflectance",
     "target.length_m",
     "target.width_m",
+    TILT,
+    YAW,
+    OFFSET_X,
+    OFFSET_Y,
+    PATCH,
+    VISIBILITY,
+    RAIN,
     "ambient.model",
     "ambient.irradiance_w_m2_nm",
     "ambient.fitted_rate_hz_per_w_m2_nm",
@@ -63,6 +70,13 @@ const KEYS: [&str; 47] = [
     "firmware.mode",
     SHOTS,
 ];
+const TILT: &str = "target.tilt_deg";
+const YAW: &str = "target.yaw_deg";
+const OFFSET_X: &str = "target.offset_x_m";
+const OFFSET_Y: &str = "target.offset_y_m";
+const PATCH: &str = "target.retro_side_m";
+const VISIBILITY: &str = "atmosphere.visibility_m";
+const RAIN: &str = "atmosphere.rain_mm_h";
 const TAIL: &str = "laser.pulse_tail_ps";
 const DELAY: &str = "laser.delay_ps";
 const TIMING: &str = "laser.timing_jitter_ps";
@@ -101,7 +115,14 @@ const FOLLOWING: [(&str, &[&str], f64); 4] = [
 /// What the dividers come to, which no key of a file says [MHz].
 const CLK_SYS: &str = "pll.clk_sys_mhz";
 /// Keys that older files do not have, and the only value that there was.
-const LATER: [(&str, f64); 23] = [
+const LATER: [(&str, f64); 30] = [
+    (TILT, 0.0),
+    (YAW, 0.0),
+    (OFFSET_X, 0.0),
+    (OFFSET_Y, 0.0),
+    (PATCH, 0.0),
+    (VISIBILITY, 0.0),
+    (RAIN, 0.0),
     (TAIL, 0.0),
     (DELAY, 0.0),
     (TIMING, 0.0),
@@ -129,8 +150,37 @@ const LATER: [(&str, f64); 23] = [
 const CHAIN: &str = "tdc.profile";
 const CALIBRATION: &str = "tdc.calibration";
 const DECODER: &str = "tdc.decoder";
-/// What files say nothing of: the only calibration and the only decoder that there was.
-const UNSAID: [(&str, &str); 2] = [(CALIBRATION, OWN_DELAYS), (DECODER, ONES)];
+const SHAPE: &str = "target.shape";
+const EXTENDED: &str = "target.extended";
+/// What files say nothing of: the only calibration and the only decoder that there was, and the only target.
+const UNSAID: [(&str, &str); 4] =
+    [(CALIBRATION, OWN_DELAYS), (DECODER, ONES), (SHAPE, RECTANGLE), (EXTENDED, "false")];
+const RECTANGLE: &str = "rectangle";
+/// Keys that decide something with one shape.
+const OF_SHAPE: [(&str, &[&str]); 4] = [
+    ("disc", &["target.radius_m"]),
+    ("sphere", &["target.radius_m"]),
+    ("step", &["target.second_distance_m", "target.edge_m"]),
+    ("mesh", &["target.mesh_unit_m", "target.mesh_file"]),
+];
+/// Keys that decide something where another one is not 0.
+const OF_NUMBER: [(&str, &[&str]); 3] = [
+    (PATCH, &["target.retro_x_m", "target.retro_y_m", "target.retro_cd_lx_m2"]),
+    (
+        VISIBILITY,
+        &[
+            "atmosphere.visibility_model",
+            "atmosphere.visibility_contrast",
+            LIDAR_RATIO,
+            OVERLAP,
+            AIRLIGHT,
+        ],
+    ),
+    (RAIN, &["atmosphere.rain_db_km", "atmosphere.rain_exponent", LIDAR_RATIO, OVERLAP, AIRLIGHT]),
+];
+const LIDAR_RATIO: &str = "atmosphere.lidar_ratio_sr";
+const OVERLAP: &str = "atmosphere.overlap_m";
+const AIRLIGHT: &str = "atmosphere.airlight";
 const OWN_DELAYS: &str = "true";
 const ONES: &str = "ones";
 const DARK_RATE: &str = "spad.dark_rate_hz";
@@ -150,7 +200,8 @@ pub type GridRange<'a> = (&'a str, [f64; 2]);
 pub fn of(scenario: &Scenario, grid: &[GridRange]) -> Result<Domain> {
     let values = Values::new(scenario, grid)?;
     let mut domain = Domain::default();
-    for key in KEYS.into_iter().chain([CHAIN, CALIBRATION, DECODER, PULSE_FILE, DARK_FILE]) {
+    let words = [CHAIN, CALIBRATION, DECODER, PULSE_FILE, DARK_FILE, SHAPE, EXTENDED];
+    for key in KEYS.into_iter().chain(words).chain(values.of_scene()) {
         match values.get(key) {
             Some(Found::Word(word)) if UNSAID.contains(&(key, word.as_str())) => {}
             Some(Found::Range([_, most])) if key == DARK_RATE => {
@@ -221,10 +272,19 @@ pub fn notes(network: &Network, scenario: &Scenario, grid: &[GridRange]) -> Resu
     if trained != own {
         notes.push(outside(DECODER, own.into(), trained.to_owned()));
     }
+    for (key, usual) in [(SHAPE, RECTANGLE), (EXTENDED, "false")] {
+        let trained = domain.words.get(key).map_or(usual, String::as_str);
+        match values.get(key) {
+            Some(Found::Word(own)) if own != trained => {
+                notes.push(outside(key, own.as_str().into(), trained.to_owned()));
+            }
+            _ => {}
+        }
+    }
     for (key, trained) in &domain.words {
         match values.get(key) {
             _ if key == CHAIN => notes.extend(chain(trained)),
-            _ if key == CALIBRATION || key == DECODER => {}
+            _ if UNSAID.iter().any(|(unsaid, _)| key == unsaid) => {}
             Some(Found::Word(word)) if word == *trained => {}
             Some(Found::Word(word)) => {
                 notes.push(outside(key, word.as_str().into(), trained.clone()))
@@ -270,6 +330,17 @@ impl<'a> Values<'a> {
 
     fn at(&self, key: &str) -> Option<&Value> {
         self.scenario.pointer(&format!("/{}", key.replace('.', "/")))
+    }
+
+    /// Keys that decide something of a scene like this one, and nothing of a plain rectangle in clear air.
+    fn of_scene(&self) -> Vec<&'static str> {
+        let is_shape =
+            |shape: &str| matches!(self.get(SHAPE), Some(Found::Word(own)) if own == shape);
+        let is_there =
+            |key: &str| matches!(self.get(key), Some(Found::Range(range)) if range != [0.0; 2]);
+        let shapes = OF_SHAPE.into_iter().filter(|(shape, _)| is_shape(shape));
+        let numbers = OF_NUMBER.into_iter().filter(|(key, _)| is_there(key));
+        shapes.chain(numbers).flat_map(|(_, keys)| keys).copied().collect()
     }
 
     /// Whether all that the key would have an effect by is at the reference.

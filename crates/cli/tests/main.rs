@@ -30,6 +30,7 @@ mod quantize;
 mod recalibration;
 mod replay;
 mod rerun;
+mod scene;
 mod second_opinion;
 mod sources;
 mod spad;

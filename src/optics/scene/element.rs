@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::outline::{Span, common, without};
+use super::outline::{Outline, Span, common, without};
 use super::surface::{Kind, Surface};
 
 /// A cell of what is seen.
@@ -49,33 +49,41 @@ impl Cell {
     }
 }
 
-/// Shows the elements of a surface inside a cone of that full angle, with so many rows and so many cells to a span.
+/// Shows the elements of a surface inside a cone of that full angle, with so many rows to a band and so many cells to a
+/// span. A band ends where what hides the surface does.
 ///
-/// Rows are closer towards the ends of the surface, where circles have theirs: at the sines of even angles, so that
+/// Rows are closer towards the ends of a band, where circles have theirs: at the sines of even angles, so that
 /// the sum over them errs with the square of their number, whatever the ends look like.
-pub fn elements(
-    surface: &Surface,
-    full_angle_deg: f64,
-    cells: u32,
-    mut take: impl FnMut(Element),
-) {
+pub fn elements(surface: &Surface, full_angle_deg: f64, cells: u32, mut take: impl FnMut(Element)) {
     let reach = libm::tan((full_angle_deg / 2.0).to_radians());
     let Some(rows) = common(&surface.outline.rows(), &[-reach, reach]) else { return };
-    let (middle, half) = ((rows[0] + rows[1]) / 2.0, (rows[1] - rows[0]) / 2.0);
     let step = PI / f64::from(cells);
-    for row in 0..cells {
-        let angle = (f64::from(row) + 0.5) * step - PI / 2.0;
-        let v = middle + half * libm::sin(angle);
-        let dv = half * libm::cos(angle) * step;
-        let end = (reach * reach - v * v).max(0.0).sqrt();
-        for span in seen(surface, v, &[-end, end]) {
-            let du = (span[1] - span[0]) / f64::from(cells);
-            for cell in 0..cells {
-                let u = span[0] + (f64::from(cell) + 0.5) * du;
-                take(Cell { u, v, du, dv }.element(surface.kind, |u, v| surface.body.hit(u, v)));
+    for band in bands(surface, rows) {
+        let (middle, half) = ((band[0] + band[1]) / 2.0, (band[1] - band[0]) / 2.0);
+        for row in 0..cells {
+            let angle = (f64::from(row) + 0.5) * step - PI / 2.0;
+            let v = middle + half * libm::sin(angle);
+            let dv = half * libm::cos(angle) * step;
+            let end = (reach * reach - v * v).max(0.0).sqrt();
+            for span in seen(surface, v, &[-end, end]) {
+                let du = (span[1] - span[0]) / f64::from(cells);
+                for cell in 0..cells {
+                    let u = span[0] + (f64::from(cell) + 0.5) * du;
+                    let hit = |u, v| surface.body.hit(u, v);
+                    take(Cell { u, v, du, dv }.element(surface.kind, hit));
+                }
             }
         }
     }
+}
+
+/// Rows without an end of what hides the surface among them.
+fn bands(surface: &Surface, rows: Span) -> Vec<Span> {
+    let hidden = surface.hidden_by.iter().flat_map(Outline::rows);
+    let within = hidden.filter(|row| (rows[0]..rows[1]).contains(row));
+    let mut ends: Vec<_> = rows.into_iter().chain(within).collect();
+    ends.sort_by(f64::total_cmp);
+    ends.windows(2).map(|pair| [pair[0], pair[1]]).filter(|band| band[0] < band[1]).collect()
 }
 
 /// The parts of a row that are of a surface.

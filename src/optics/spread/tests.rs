@@ -28,7 +28,12 @@ fn budget(change: impl FnOnce(&mut Scenario)) -> Budget {
 /// A budget of the laser's light alone, of which one photon comes back.
 fn alone(budget: &Budget) -> Budget {
     let all = budget.laser_per_shot();
-    Budget { ambient_rate_hz: 0.0, airlight_rate_hz: 0.0, dark_rate_hz: 0.0, ..budget.dimmed(1.0 / all) }
+    Budget {
+        ambient_rate_hz: 0.0,
+        airlight_rate_hz: 0.0,
+        dark_rate_hz: 0.0,
+        ..budget.dimmed(1.0 / all)
+    }
 }
 
 fn times() -> impl Iterator<Item = Time> {
@@ -39,7 +44,8 @@ fn times() -> impl Iterator<Item = Time> {
 fn one_distance_comes_as_the_pulse_does() {
     let mut returned = Returned::default();
     returned.diffuse.add(0.500_123, 0.0, 2.0, 2.0);
-    for pulse in [Pulse::default(), Pulse::tailed(137.0, 150.0), Pulse::Gaussian { sigma_ps: 12.5 }] {
+    for pulse in [Pulse::default(), Pulse::tailed(137.0, 150.0), Pulse::Gaussian { sigma_ps: 12.5 }]
+    {
         let delay = Time::from_ps_f64(700.0);
         let (spread, air) = Spread::new(&returned, &pulse, delay, 7.0);
         assert_eq!(air, 0.0);
@@ -62,8 +68,9 @@ fn a_slope_of_distances_comes_as_the_integral_over_the_pulse_does() {
     }
     let pulse = Pulse::default();
     let (spread, _) = Spread::new(&returned, &pulse, Time::ZERO, 7.0);
-    assert_eq!(spread.ends.map(|end| end.ps()), [2735, 3936]);
-    let over_time = Budget { signal_per_shot: 1.0, spread: Some(Arc::new(spread)), ..Budget::default() };
+    assert_eq!(spread.ends.map(|end| end.ps()), [2668, 4002]);
+    let over_time =
+        Budget { signal_per_shot: 1.0, spread: Some(Arc::new(spread)), ..Budget::default() };
     let hazard = Hazard::new(&over_time);
     for t in times().step_by(7) {
         let part = |k: u32| {
@@ -100,7 +107,9 @@ fn closed_backscatter(air: &Air, plane_m: Option<f64>, end_m: f64) -> f64 {
 
 #[test]
 fn what_the_air_sends_back_is_the_closed_integral() {
-    for (visibility_m, rain_mm_h, overlap_m) in [(20.0, 0.0, 0.1), (5.0, 0.0, 0.3), (0.0, 100.0, 0.05)] {
+    for (visibility_m, rain_mm_h, overlap_m) in
+        [(20.0, 0.0, 0.1), (5.0, 0.0, 0.3), (0.0, 100.0, 0.05)]
+    {
         for plane in [Some(0.5), Some(2.0), None] {
             let scenario = scenario(|s| {
                 s.atmosphere.visibility_m = visibility_m;

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::error::{Input, Result};
 
-use super::{Facets, Point};
+use super::facets::{Facets, Point};
 
 /// Triangles at an edge.
 #[derive(Clone, Copy, Default)]

@@ -4,11 +4,23 @@
 
 use crate::error::{Input, Result};
 
-use super::{Facets, Place, Point, lines, point, words};
+use super::facets::{Facets, Place, Point, lines, point, words};
 
 /// What a file may have beside, which makes no surface.
 const PASSED_OVER: [&str; 14] = [
-    "vt", "vn", "vp", "g", "o", "s", "mg", "l", "p", "usemtl", "mtllib", "usemap", "maplib",
+    "vt",
+    "vn",
+    "vp",
+    "g",
+    "o",
+    "s",
+    "mg",
+    "l",
+    "p",
+    "usemtl",
+    "mtllib",
+    "usemap",
+    "maplib",
     "shadow_obj",
 ];
 

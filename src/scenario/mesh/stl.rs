@@ -3,7 +3,7 @@
 
 use crate::error::{Input, Result};
 
-use super::{Facets, Place, Point, lines, point, words};
+use super::facets::{Facets, Place, Point, lines, point, words};
 
 /// Bytes before the count of a binary file.
 const HEADER: usize = 80;
@@ -71,7 +71,8 @@ fn ascii(source: &str, text: &str) -> Result<Facets> {
             }
             "solid" | "endsolid" | "outer" | "endloop" => {}
             _ => {
-                let expected = "expected solid, facet, outer loop, vertex, endloop, endfacet or endsolid";
+                let expected =
+                    "expected solid, facet, outer loop, vertex, endloop, endfacet or endsolid";
                 return Err(Input::new(source, expected).at(line, column).value(word).into());
             }
         }

@@ -27,6 +27,13 @@ f 2 3 7 6
 f 1 5 8 4
 ";
 
+/// Of triangles that are known to be a surface.
+pub fn of(triangles: Vec<[Point; 3]>) -> Mesh {
+    let bytes = binary(&triangles);
+    parse("made.stl", &bytes).expect("a closed surface");
+    Mesh { triangles }
+}
+
 /// A cube, from lines of OBJ.
 pub fn cube() -> Mesh {
     parse("cube.obj", CUBE.as_bytes()).unwrap()

@@ -5,6 +5,7 @@ use crate::firmware::tof_top::{Estimator, HistogramSource};
 use crate::kernel::Time;
 use crate::note::{Note, NoteCode, NoteValue};
 use crate::optics::budget::LIGHT_M_S;
+use crate::scenario::Shape;
 use crate::sensor::light::Light;
 use crate::sim::domain;
 
@@ -39,6 +40,7 @@ impl Setup {
         let drift = self.drift_for(is_network.then_some(&notes[..]));
         notes.extend(drift);
         notes.extend(self.ring_in_step());
+        notes.extend(self.partly_past_the_end());
         Ok(notes)
     }
 
@@ -152,7 +154,8 @@ impl Setup {
             return note("firmware.laser_en", false.into(), "true");
         }
         let shots = scenario.firmware.shots_of_a_frame() as f64;
-        if self.budget.signal_per_shot * shots >= FAINTEST_FRAME {
+        let target = self.budget.signal_per_shot + self.budget.retro_per_shot;
+        if target * shots >= FAINTEST_FRAME {
             return None;
         }
         let factors = [
@@ -165,15 +168,42 @@ impl Setup {
             ("target.reflectance", scenario.target.reflectance),
         ];
         let cause = factors.into_iter().find(|(_, factor)| *factor == 0.0);
-        let (key, value) = cause.unwrap_or(("target.reflectance", scenario.target.reflectance));
-        note(key, value.into(), "a photon a frame at least")
+        let cause = cause.map(|(key, factor)| (key, factor.into()));
+        let of_scene = || scenario.beside_one_echo().map(|(key, value, _)| (key, value));
+        let usual = ("target.reflectance", scenario.target.reflectance.into());
+        let (key, value) = cause.or_else(of_scene).unwrap_or(usual);
+        note(key, value, "a photon a frame at least")
+    }
+
+    /// When the last bin ends, from the laser edge.
+    fn last_bin_ends(&self) -> Time {
+        self.bins().spans().last().map_or(Time::ZERO, |span| span.until)
+    }
+
+    /// That only a part of the target's light comes before the end of the last bin.
+    fn partly_past_the_end(&self) -> Option<Note> {
+        let (end, [first, last]) = (self.last_bin_ends(), self.budget.target_ends());
+        if last < end || first >= end {
+            return None;
+        }
+        let target = &self.scenario.target;
+        let (key, distance_m) = match target.shape {
+            Shape::Step if target.second_distance_m > target.distance_m => {
+                ("target.second_distance_m", target.second_distance_m)
+            }
+            _ => ("target.distance_m", target.distance_m),
+        };
+        let too_far_m = (last - end).seconds() * LIGHT_M_S / 2.0;
+        let expected = format!("{:.3} m less at least", too_far_m);
+        let text =
+            "a part of the target's light comes after the last bin, and is not in the histogram";
+        Some(Note::new(NoteCode::EchoPastHistogram, key, distance_m, expected, text))
     }
 
     /// An echo that comes after the last bin, which is before the next pulse.
     fn past_the_end(&self) -> Option<Note> {
-        let bins = self.bins();
-        let end = bins.spans().last().map_or(Time::ZERO, |span| span.until);
-        let arrival = self.budget.mean_arrival;
+        let end = self.last_bin_ends();
+        let [arrival, _] = self.budget.target_ends();
         if arrival < end {
             return None;
         }
@@ -218,6 +248,23 @@ mod tests {
         assert_eq!(text("target.distance_m=0.9"), None);
         assert_eq!(text("target.distance_m=7.1"), Some((NoteCode::EchoPastHistogram, false)));
         assert_eq!(text("target.distance_m=7.3"), Some((NoteCode::EchoPastHistogram, true)));
+    }
+
+    #[test]
+    fn a_target_of_which_a_part_is_too_far_is_noted() {
+        let notes = |set: &[&str]| {
+            let set = [&["estimator.kind=centroid"], set].concat();
+            let notes = Setup::load("kc705", &set).unwrap().notes().unwrap();
+            notes.into_iter().map(|note| (note.code, note.key)).collect::<Vec<_>>()
+        };
+        let step = ["target.shape=step", "target.second_distance_m=1.5"];
+        let past = |key: &str| vec![(NoteCode::EchoPastHistogram, key.to_owned())];
+        assert_eq!(notes(&step), past("target.second_distance_m"));
+        assert_eq!(notes(&step[..1]), []);
+        let both = [&step[..], &["target.distance_m=1.2"]].concat();
+        assert_eq!(notes(&both), past("target.distance_m"));
+        let beside = notes(&["target.offset_x_m=9"]);
+        assert_eq!(beside, [(NoteCode::NoLight, "target.offset_x_m".to_owned())]);
     }
 
     #[test]
