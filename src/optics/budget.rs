@@ -85,8 +85,7 @@ impl Budget {
 
     /// The same of a scene that may have a mesh.
     pub fn of_scene(scenario: &Scenario, pulse: Pulse, mesh: Option<&Mesh>) -> Self {
-        let is_one_echo = scenario.beside_one_echo().is_none();
-        let scene = (!is_one_echo).then(|| Scene::new(scenario, mesh));
+        let scene = scenario.beside_one_echo().map(|_| Scene::new(scenario, mesh));
         let seen = match &scene {
             None => Ambient { target_sr: seen_sr(scenario), air_sr: 0.0 },
             Some(scene) => scene.ambient(),
@@ -97,10 +96,7 @@ impl Budget {
             AmbientModel::Physical => physical_ambient_rate_hz,
         };
         let ambient_rate_hz = rate_hz(scenario, scenario.target.reflectance, seen.target_sr);
-        let airlight_rate_hz = match seen.air_sr {
-            0.0 => 0.0,
-            air_sr => rate_hz(scenario, 1.0, air_sr),
-        };
+        let airlight_rate_hz = rate_hz(scenario, 1.0, seen.air_sr);
         let delay = Time::from_ps_f64(scenario.laser.delay_ps);
         let flight = Time::from_ps_f64(2e12 * scenario.target.distance_m / LIGHT_M_S);
         let budget = Budget {

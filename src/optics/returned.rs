@@ -68,7 +68,7 @@ impl Haze {
     }
 
     /// Nearer air sends nothing back [m].
-    pub fn from_m(&self) -> f64 {
+    pub fn nearest_m(&self) -> f64 {
         self.air.from_m
     }
 

@@ -49,7 +49,7 @@ impl Spread {
         let (begin, length) = (begin_ps * 1e3, (end_ps - begin_ps) * 1e3);
         let surfaces_m = returned.ends_m().unwrap_or([horizon_m; 2]);
         let [near_m, far_m] = match &returned.air {
-            Some(haze) => [surfaces_m[0].min(haze.from_m()), horizon_m],
+            Some(haze) => [surfaces_m[0].min(haze.nearest_m()), horizon_m],
             None => surfaces_m,
         };
         let [near_m, far_m] = [near_m.min(horizon_m), far_m.min(horizon_m)];
@@ -127,7 +127,7 @@ impl Grid {
     fn add_air(&mut self, haze: &Haze, horizon_m: f64) {
         let at_m = |place: usize| (self.from + place as f64 * self.step) / FS_PER_M;
         let cells: Vec<_> = (0..self.weights.len() - 1)
-            .map(|place| [at_m(place).max(haze.from_m()), at_m(place + 1).min(horizon_m)])
+            .map(|place| [at_m(place).max(haze.nearest_m()), at_m(place + 1).min(horizon_m)])
             .filter(|[near_m, far_m]| near_m < far_m)
             .collect();
         for [near_m, far_m] in cells {
