@@ -44,17 +44,21 @@ fn times() -> impl Iterator<Item = Time> {
 fn one_distance_comes_as_the_pulse_does() {
     let mut returned = Returned::default();
     returned.diffuse.add(0.500_123, 0.0, 2.0, 2.0);
+    // So that the other one lies between two places of the grid.
+    returned.retro.add(0.3, 0.0, 1.0, 1.0);
     for pulse in [Pulse::default(), Pulse::tailed(137.0, 150.0), Pulse::Gaussian { sigma_ps: 12.5 }]
     {
         let delay = Time::from_ps_f64(700.0);
         let (spread, air) = Spread::new(&returned, &pulse, delay, 7.0);
         assert_eq!(air, 0.0);
         let mean_arrival = delay + Time::from_ps_f64(0.500_123 * 2e12 / C);
+        let echo_pulse = pulse.clone();
         let echo = Budget { signal_per_shot: 1.0, mean_arrival, pulse, ..Budget::default() };
         let over_time = Budget { spread: Some(Arc::new(spread)), ..echo.clone() };
         let [echo, over_time] = [echo, over_time].map(|budget| Hazard::new(&budget));
         let worst = times().map(|t| (echo.at(t) - over_time.at(t)).abs()).fold(0.0, f64::max);
-        assert!(worst < 2e-5, "{worst:e}");
+        let most = if matches!(echo_pulse, Pulse::Gaussian { .. }) { 2e-5 } else { 1e-4 };
+        assert!(worst < most, "{echo_pulse:?}: {worst:e}");
     }
 }
 
