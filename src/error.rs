@@ -4,4 +4,4 @@ mod fault;
 pub mod open;
 
 pub use fault::{Error, Input, Result, hint, line_and_column, nearest, shortened};
-pub use open::read_text;
+pub use open::{read_bytes, read_text};

@@ -1,5 +1,6 @@
 //! From the scene to photons: link budget, eye safety and the statistics of the first avalanche.
 
+mod air;
 pub mod budget;
 pub mod chances;
 pub(crate) mod closed_form;
@@ -7,6 +8,9 @@ pub mod dark;
 pub mod eye_safety;
 mod geometry;
 pub mod hazard;
+mod returned;
+mod scene;
+mod spread;
 pub mod variation;
 
 pub use budget::Budget;

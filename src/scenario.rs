@@ -12,6 +12,8 @@ pub mod dark;
 pub mod drift;
 mod illuminance;
 mod load;
+#[doc(hidden)]
+pub mod mesh;
 mod model;
 #[doc(hidden)]
 pub mod pulse;

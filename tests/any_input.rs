@@ -7,6 +7,7 @@ use tofsim::network::Network;
 use tofsim::network::histogram_file;
 use tofsim::scenario;
 use tofsim::scenario::drift::Profile;
+use tofsim::scenario::mesh;
 use tofsim::scenario::window::Window;
 use tofsim::sensor::photon_list::PhotonList;
 
@@ -40,6 +41,25 @@ proptest! {
     fn conditions(text in nearly(&["time_s,temperature_c,supply_mv", "\n", "0,", "25,", "1\n", "1e-3", "-", "\"", "#"])) {
         let _ = Profile::parse("p", &format!("time_s,temperature_c,supply_mv\n{text}"));
         let _ = Profile::parse("p", &text);
+    }
+
+    #[test]
+    fn meshes(text in nearly(&[
+        "v ", "f ", "1 ", "-1", "/", "\n", "\\\n", "0 0 0\n", "1 0 0\n", "0 1 0\n", "#", "nan", "vn 0 0 1\n",
+        "solid\n", "facet normal 0 0 1\n", "outer loop\n", "vertex ", "endloop\n", "endfacet\n", "endsolid",
+    ])) {
+        let _ = mesh::parse("m.obj", text.as_bytes());
+        let _ = mesh::parse("m.stl", text.as_bytes());
+        let _ = mesh::parse("m.stl", format!("solid {text}").as_bytes());
+    }
+
+    #[test]
+    fn binary_meshes(bytes in proptest::collection::vec(any::<u8>(), 0..400), count in 0u8..8) {
+        let header = [vec![b'x'; 80], vec![count, 0, 0, 0]].concat();
+        let _ = mesh::parse("m.stl", &[header, bytes.clone()].concat());
+        let length = bytes.len() / 50 * 50;
+        let header = [vec![b'x'; 80], vec![(length / 50) as u8, 0, 0, 0]].concat();
+        let _ = mesh::parse("m.stl", &[&header, &bytes[..length]].concat());
     }
 
     #[test]

@@ -11,6 +11,7 @@ mod layers;
 mod leap;
 mod physics;
 mod public_face;
+mod scene;
 mod spad;
 mod spad_row;
 mod stepping;

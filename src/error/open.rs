@@ -140,15 +140,20 @@ impl Read for Opened {
 /// Longest text that is read [bytes].
 const LONGEST: u64 = 1 << 28;
 
-/// The text of a file or a pipe, which has to be UTF-8 and end within 256 MiB.
-pub fn read_text(path: &Path) -> Result<String> {
+/// What is in a file or a pipe, which has to end within 256 MiB.
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let file = open(path)?;
     file.take(LONGEST + 1).read_to_end(&mut bytes).map_err(Error::io(path, "read"))?;
-    if bytes.len() as u64 > LONGEST {
-        return Err(Input::new(path.display(), "expected 256 MiB at most").into());
+    match bytes.len() as u64 > LONGEST {
+        true => Err(Input::new(path.display(), "expected 256 MiB at most").into()),
+        false => Ok(bytes),
     }
-    String::from_utf8(bytes).map_err(|error| {
+}
+
+/// The text of a file or a pipe, which has to be UTF-8 and end within 256 MiB.
+pub fn read_text(path: &Path) -> Result<String> {
+    String::from_utf8(read_bytes(path)?).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let text = String::from_utf8_lossy(&error.as_bytes()[..valid]).into_owned();
         let (line, column) = line_and_column(&text, valid);

@@ -1,14 +1,18 @@
 //! The link budget: photons and avalanches that a shot can expect.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use crate::kernel::Time;
 use crate::kernel::pulse::Pulse;
+use crate::scenario::mesh::Mesh;
 use crate::scenario::wiring::Wiring;
 use crate::scenario::{AmbientModel, Filter, Scenario};
 
 use super::dark::DarkRates;
 use super::geometry;
+use super::scene::{Ambient, Scene};
+use super::spread::Spread;
 use super::variation::Variation;
 
 /// Planck constant, exact in the SI [J s].
@@ -21,18 +25,28 @@ const FITTED_EFFICIENCY: f64 = 0.003;
 const FARTHEST_FITTED_M: f64 = 0.6;
 
 /// What the SPADs on the TDC can expect of the scene together.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Budget {
-    /// Mean number of detected laser photons per shot, S_p of eq. 3.14 [1].
+    /// Mean number of detected laser photons per shot that the target diffuses, S_p of eq. 3.14 [1].
     pub signal_per_shot: f64,
-    /// Rate of avalanches from ambient light, N_r of eq. 3.20 [1/s].
+    /// The same of those that a retroreflecting patch on it sends back [1].
+    pub retro_per_shot: f64,
+    /// The same of those that the air sends back [1].
+    pub backscatter_per_shot: f64,
+    /// The part of the target's light that the air leaves, on both ways together [1].
+    pub transmission: f64,
+    /// Rate of avalanches from ambient light that the target diffuses, N_r of eq. 3.20 [1/s].
     pub ambient_rate_hz: f64,
+    /// The same of ambient light that the air scatters [1/s].
+    pub airlight_rate_hz: f64,
     /// Rate of avalanches in the dark [1/s].
     pub dark_rate_hz: f64,
     /// Energy of a laser pulse [J].
     pub pulse_energy_j: f64,
-    /// Mean arrival of the echo, from the laser edge: eq. 3.23 after the laser's delay.
+    /// Mean arrival of what the target diffuses, from the laser edge: eq. 3.23 after the laser's delay.
     pub mean_arrival: Time,
+    /// How the laser's light is spread over time, where it is not one echo.
+    pub spread: Option<Arc<Spread>>,
     /// How long after the laser edge the light leaves.
     pub delay: Time,
     /// The pulse as the detector times it.
@@ -41,19 +55,53 @@ pub struct Budget {
     pub variation: Variation,
 }
 
+/// No light at all, of the default pulse.
+impl Default for Budget {
+    fn default() -> Self {
+        Budget {
+            signal_per_shot: 0.0,
+            retro_per_shot: 0.0,
+            backscatter_per_shot: 0.0,
+            transmission: 1.0,
+            ambient_rate_hz: 0.0,
+            airlight_rate_hz: 0.0,
+            dark_rate_hz: 0.0,
+            pulse_energy_j: 0.0,
+            mean_arrival: Time::ZERO,
+            spread: None,
+            delay: Time::ZERO,
+            pulse: Pulse::default(),
+            variation: Variation::default(),
+        }
+    }
+}
+
 impl Budget {
-    /// Of a scene, with the pulse that its laser has, and without measured dark rates ([`Budget::with_dark_rates`]).
+    /// Of a scene that has no mesh, with the pulse that its laser has, and without measured dark rates
+    /// ([`Budget::with_dark_rates`]).
     pub fn new(scenario: &Scenario, pulse: Pulse) -> Self {
-        let on_tdc = f64::from(scenario.spad.on_tdc);
-        let ambient_rate_hz = match scenario.ambient.model {
-            AmbientModel::Fitted => fitted_ambient_rate_hz(scenario),
-            AmbientModel::Physical => physical_ambient_rate_hz(scenario),
+        Budget::of_scene(scenario, pulse, None)
+    }
+
+    /// The same of a scene that may have a mesh.
+    pub fn of_scene(scenario: &Scenario, pulse: Pulse, mesh: Option<&Mesh>) -> Self {
+        let scene = scenario.beside_one_echo().map(|_| Scene::new(scenario, mesh));
+        let seen = match &scene {
+            None => Ambient { target_sr: seen_sr(scenario), air_sr: 0.0 },
+            Some(scene) => scene.ambient(),
         };
+        let on_tdc = f64::from(scenario.spad.on_tdc);
+        let rate_hz = match scenario.ambient.model {
+            AmbientModel::Fitted => fitted_ambient_rate_hz,
+            AmbientModel::Physical => physical_ambient_rate_hz,
+        };
+        let ambient_rate_hz = rate_hz(scenario, scenario.target.reflectance, seen.target_sr);
+        let airlight_rate_hz = rate_hz(scenario, 1.0, seen.air_sr);
         let delay = Time::from_ps_f64(scenario.laser.delay_ps);
         let flight = Time::from_ps_f64(2e12 * scenario.target.distance_m / LIGHT_M_S);
-        Budget {
-            signal_per_shot: on_tdc * signal_per_shot(scenario),
+        let budget = Budget {
             ambient_rate_hz: on_tdc * ambient_rate_hz,
+            airlight_rate_hz: on_tdc * airlight_rate_hz,
             dark_rate_hz: DarkRates::new(&scenario.spad, None).on_tdc_hz(),
             pulse_energy_j: scenario.laser.pulse_energy_j(),
             mean_arrival: delay + flight,
@@ -63,6 +111,33 @@ impl Budget {
                 timing_ps: scenario.laser.timing_jitter_ps,
                 energy: scenario.laser.energy_jitter,
             },
+            ..Budget::default()
+        };
+        match &scene {
+            None => Budget { signal_per_shot: on_tdc * signal_per_shot(scenario), ..budget },
+            Some(scene) => budget.with_light_of(scene, scenario),
+        }
+    }
+
+    /// The same with the laser's light that comes back from a scene, each part of it when it comes.
+    fn with_light_of(self, scene: &Scene, scenario: &Scenario) -> Self {
+        let returned = scene.returned();
+        let horizon_m = longest_period_s(scenario) * LIGHT_M_S / 2.0;
+        let (spread, air) = Spread::new(&returned, &self.pulse, self.delay, horizon_m);
+        let white = f64::from(scenario.spad.on_tdc) * white_per_shot(scenario);
+        let target = &scenario.target;
+        let mean_m = returned.diffuse.mean_m().or_else(|| returned.retro.mean_m());
+        let mean_m = mean_m.unwrap_or(target.distance_m);
+        let flight = Time::from_ps_f64(2e12 * mean_m / LIGHT_M_S);
+        Budget {
+            signal_per_shot: white * target.reflectance * returned.diffuse.sum(),
+            // Reflectance is per steradian of a hemisphere's pi.
+            retro_per_shot: white * PI * target.retro_cd_lx_m2 * returned.retro.sum(),
+            backscatter_per_shot: white * PI * air,
+            transmission: returned.transmission(),
+            mean_arrival: self.delay + flight,
+            spread: Some(Arc::new(spread)),
+            ..self
         }
     }
 
@@ -74,12 +149,47 @@ impl Budget {
     /// That of all outputs that are simulated, where this is of those on the TDC: each has the same light.
     pub fn of_row(&self, wiring: &Wiring, dark: &DarkRates) -> Self {
         let share = wiring.simulated.len() as f64 / wiring.on_tdc.len() as f64;
+        Budget { dark_rate_hz: dark.of_row_hz(), ..self.dimmed(share) }
+    }
+
+    /// A part of all of it, light and dark.
+    pub fn dimmed(&self, part: f64) -> Self {
         Budget {
-            signal_per_shot: self.signal_per_shot * share,
-            ambient_rate_hz: self.ambient_rate_hz * share,
-            dark_rate_hz: dark.of_row_hz(),
+            signal_per_shot: self.signal_per_shot * part,
+            retro_per_shot: self.retro_per_shot * part,
+            backscatter_per_shot: self.backscatter_per_shot * part,
+            ambient_rate_hz: self.ambient_rate_hz * part,
+            airlight_rate_hz: self.airlight_rate_hz * part,
+            dark_rate_hz: self.dark_rate_hz * part,
             ..self.clone()
         }
+    }
+
+    /// That of a target with a reflectance in an irradiance [W/m^2/nm], where this is of a white one in 1 W/m^2/nm:
+    /// what it diffuses is proportional to its reflectance (eq. 3.13), and ambient light to irradiance too (eq. 3.19 and
+    /// 3.20). A retroreflecting patch and the air send back what they do, whatever is around them.
+    pub fn of_white(&self, reflectance: f64, irradiance_w_m2_nm: f64) -> Self {
+        Budget {
+            signal_per_shot: self.signal_per_shot * reflectance,
+            ambient_rate_hz: self.ambient_rate_hz * reflectance * irradiance_w_m2_nm,
+            airlight_rate_hz: self.airlight_rate_hz * irradiance_w_m2_nm,
+            ..self.clone()
+        }
+    }
+
+    /// Mean number of detected laser photons per shot, wherever they come back from [1].
+    pub fn laser_per_shot(&self) -> f64 {
+        self.signal_per_shot + self.retro_per_shot + self.backscatter_per_shot
+    }
+
+    /// When light of the nearest and of the farthest part of the target comes.
+    pub fn target_ends(&self) -> [Time; 2] {
+        self.spread.as_ref().map_or([self.mean_arrival; 2], |spread| spread.ends)
+    }
+
+    /// Rate of avalanches from light that is not the laser's [1/s].
+    pub fn ambient_light_hz(&self) -> f64 {
+        self.ambient_rate_hz + self.airlight_rate_hz
     }
 
     /// Mean time of flight, eq. 3.23.
@@ -89,7 +199,7 @@ impl Budget {
 
     /// Rate of avalanches that no laser photon causes [1/s].
     pub fn background_rate_hz(&self) -> f64 {
-        self.ambient_rate_hz + self.dark_rate_hz
+        self.ambient_light_hz() + self.dark_rate_hz
     }
 }
 
@@ -105,16 +215,32 @@ fn signal_per_shot(scenario: &Scenario) -> f64 {
     lens_energy_j * scenario.filter.efficiency * avalanches_per_joule(scenario)
 }
 
+/// The same of a white target for which the sum of eq. 3.13 is one to a square metre [m^2].
+fn white_per_shot(scenario: &Scenario) -> f64 {
+    let sin = libm::sin((scenario.laser.field_of_illumination_deg / 4.0).to_radians());
+    let lens_energy_j_m2 =
+        scenario.laser.pulse_energy_j() * scenario.lens.area_m2 / (4.0 * PI * PI * sin * sin);
+    lens_energy_j_m2 * scenario.filter.efficiency * avalanches_per_joule(scenario)
+}
+
+/// The longest time from one pulse to the next that the run may have [s].
+fn longest_period_s(scenario: &Scenario) -> f64 {
+    let firmware = &scenario.firmware;
+    let changes = scenario.control.iter().filter_map(|change| change.laser_freq);
+    let codes = [firmware.laser_freq].into_iter().chain(changes);
+    let cycles = codes.filter_map(|code| firmware.laser_periods.get(code as usize)).max();
+    cycles.map_or(0.0, |cycles| *cycles as f64) * scenario.pll.params().cycle().seconds()
+}
+
 /// N_r of one SPAD, proportional to irradiance and reflectance, with the constant fitted to Table 4.3, and to what
-/// the optics make of ambient light, against the optics that the constant is stated for.
-fn fitted_ambient_rate_hz(scenario: &Scenario) -> f64 {
+/// the optics make of ambient light from a projected solid angle, against the optics that the constant is stated for.
+fn fitted_ambient_rate_hz(scenario: &Scenario, reflectance: f64, seen_sr: f64) -> f64 {
     let ambient = &scenario.ambient;
-    let of_the_thesis_optics = ambient.fitted_rate_hz_per_w_m2_nm
-        * ambient.irradiance_w_m2_nm
-        * scenario.target.reflectance
-        / FITTED_EFFICIENCY
-        * scenario.spad.detection_efficiency();
-    of_the_thesis_optics * against_the_thesis_optics(scenario)
+    let of_the_thesis_optics =
+        ambient.fitted_rate_hz_per_w_m2_nm * ambient.irradiance_w_m2_nm * reflectance
+            / FITTED_EFFICIENCY
+            * scenario.spad.detection_efficiency();
+    of_the_thesis_optics * against_the_thesis_optics(scenario, seen_sr)
 }
 
 /// Ambient photons of a scenario's optics against those of the thesis's: exactly 1 for its own, at its
@@ -124,28 +250,26 @@ fn fitted_ambient_rate_hz(scenario: &Scenario) -> f64 {
 /// all of its distances, although that target does not fill the view from 0.47 m on. Beyond the last of
 /// them nothing was fitted, and the reference stays there: the rate falls with the target's solid angle,
 /// and a wall that fills the view has the same rate from everywhere.
-fn against_the_thesis_optics(scenario: &Scenario) -> f64 {
+fn against_the_thesis_optics(scenario: &Scenario, own_sr: f64) -> f64 {
     let mut thesis = Scenario::default();
     thesis.target.distance_m = scenario.target.distance_m.min(FARTHEST_FITTED_M);
     thesis.target.cells = scenario.target.cells;
-    ambient_photons_hz(scenario) / ambient_photons_hz(&thesis)
+    ambient_photons_hz(scenario, own_sr) / ambient_photons_hz(&thesis, seen_sr(&thesis))
 }
 
-/// Ambient photons on one SPAD, of a white target in an irradiance of 1 W/m^2/nm [1/s].
-fn ambient_photons_hz(scenario: &Scenario) -> f64 {
+/// Ambient photons on one SPAD, of a white target under a projected solid angle, in an irradiance of 1 W/m^2/nm [1/s].
+fn ambient_photons_hz(scenario: &Scenario, seen_sr: f64) -> f64 {
     passband_nm(&scenario.filter) / PI
         * scenario.lens.area_m2
-        * seen_sr(scenario)
+        * seen_sr
         * photons_per_joule(scenario)
 }
 
 /// N_r of one SPAD by eq. 3.20, with what eq. 3.19 lacks: the factor pi of a diffuse reflector and the solid angle.
-fn physical_ambient_rate_hz(scenario: &Scenario) -> f64 {
-    let radiance_w_m2_sr = scenario.ambient.irradiance_w_m2_nm
-        * passband_nm(&scenario.filter)
-        * scenario.target.reflectance
-        / PI;
-    radiance_w_m2_sr * scenario.lens.area_m2 * seen_sr(scenario) * avalanches_per_joule(scenario)
+fn physical_ambient_rate_hz(scenario: &Scenario, reflectance: f64, seen_sr: f64) -> f64 {
+    let radiance_w_m2_sr =
+        scenario.ambient.irradiance_w_m2_nm * passband_nm(&scenario.filter) * reflectance / PI;
+    radiance_w_m2_sr * scenario.lens.area_m2 * seen_sr * avalanches_per_joule(scenario)
 }
 
 /// Integral of the filter's transmission, eq. 3.17 [nm].
@@ -153,7 +277,7 @@ fn passband_nm(filter: &Filter) -> f64 {
     filter.efficiency * (2.0 * PI).sqrt() * filter.sigma_nm
 }
 
-/// Projected solid angle of the part of the target that is seen [sr].
+/// Projected solid angle of the part of a plain target that is seen [sr].
 fn seen_sr(scenario: &Scenario) -> f64 {
     geometry::projected_solid_angle(&scenario.target, scenario.spad.field_of_view_deg)
 }

@@ -7,10 +7,11 @@
 //!
 //! H(0) is 0: a photon that the pulse puts before the laser edge arrives at it, and H jumps at 0.
 //!
-//! F is a broken line of 1024 pieces, 0 before and 1 after, in `at` and `inverse` alike. That of a Gaussian
+//! F is a broken line, 0 before and 1 after, in `at` and `inverse` alike, of 1024 pieces for one echo. That of a Gaussian
 //! goes from -8 to 8 sigma: against the exact function H is off by 7.4e-6 S at most, and an arrival by
 //! 3e-5 |z| sigma at z sigma from the mean: 4 fs at 1 sigma of 137 ps, 21 fs at 5. That of another
-//! pulse is as long as the pulse is; with a tail as long as sigma H is off by 5e-5 S at most.
+//! pulse is as long as the pulse is; with a tail as long as sigma H is off by 5e-5 S at most. Light that comes back over
+//! a time has as many pieces as [`Spread`](super::spread) says.
 
 use std::hint::select_unpredictable;
 use std::sync::Arc;
@@ -19,7 +20,7 @@ use crate::kernel::Time;
 
 use super::budget::Budget;
 use super::variation::Variation;
-use line::{Line, PIECES};
+use line::Line;
 
 mod line;
 pub mod varied;
@@ -96,18 +97,18 @@ impl Hazard {
     /// Of a shot with the laser on.
     pub fn new(budget: &Budget) -> Self {
         let mut hazard = Hazard::dark(budget);
-        if budget.signal_per_shot > FAINTEST {
-            let Line { from, step, parts } = Line::of(&budget.pulse);
-            let start = budget.mean_arrival.fs() as f64 + from;
-            hazard.signal = budget.signal_per_shot;
+        if budget.laser_per_shot() > FAINTEST {
+            let Line { start, step, parts } = Line::of(budget);
+            let pieces = parts.len() - 1;
+            hazard.signal = budget.laser_per_shot();
             (hazard.step, hazard.parts) = (step, parts);
             hazard.variation = budget.variation;
             let node = |node: usize| {
                 let time = start + node as f64 * hazard.step;
                 Node { time, h: hazard.background * time + hazard.signal * hazard.parts[node] }
             };
-            hazard.nodes = (0..=PIECES).map(|k| node(k).h).chain([f64::NAN]).collect();
-            (hazard.first, hazard.last) = (node(0), node(PIECES));
+            hazard.nodes = (0..=pieces).map(|k| node(k).h).chain([f64::NAN]).collect();
+            (hazard.first, hazard.last) = (node(0), node(pieces));
             hazard.scale = 1.0 / (hazard.last.h - hazard.first.h);
             hazard.guide = hazard.make_guide();
         }
@@ -118,7 +119,7 @@ impl Hazard {
     pub fn dark(budget: &Budget) -> Self {
         Hazard {
             signal: 0.0,
-            ambient: budget.ambient_rate_hz * 1e-15,
+            ambient: budget.ambient_light_hz() * 1e-15,
             background: budget.background_rate_hz() * 1e-15,
             pause: 1e15 / budget.background_rate_hz(),
             step: 1.0,
@@ -146,7 +147,8 @@ impl Hazard {
             self.background * time
         } else if time < self.last.time {
             let place = (time - self.first.time) / self.step;
-            let node = (place as usize).min(PIECES - 1);
+            // The last entry is no node.
+            let node = (place as usize).min(self.nodes.len() - 3);
             let (below, above) = (self.nodes[node], self.nodes[node + 1]);
             below + (place - node as f64) * (above - below)
         } else {
@@ -208,11 +210,12 @@ impl Hazard {
     /// The guide: for each cell the number of nodes in the cells before it.
     fn make_guide(&self) -> Vec<u16> {
         let mut guide = Vec::with_capacity(CELLS);
-        for (before, &node) in self.nodes[..=PIECES].iter().enumerate() {
+        let nodes = &self.nodes[..self.nodes.len() - 1];
+        for (before, &node) in nodes.iter().enumerate() {
             let filled = guide.len().max(self.cell(node) + 1);
             guide.resize(filled, before as u16);
         }
-        guide.resize(CELLS, PIECES as u16 + 1);
+        guide.resize(CELLS, nodes.len() as u16);
         guide
     }
 

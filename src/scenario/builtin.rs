@@ -1,8 +1,8 @@
 //! Files built into the program, and where a scenario's own files are looked for.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use crate::error::{Result, read_text};
+use crate::error::{Result, read_bytes, read_text};
 
 macro_rules! files {
     ($folder:literal, $extension:literal: $($name:literal),* $(,)?) => {
@@ -19,7 +19,7 @@ const INSTRUMENTS: &[(&str, &str)] =
 
 /// Name and text of each other built-in scenario.
 const SCENARIOS: &[(&str, &str)] = files!("scenarios", "toml":
-    "near", "far", "bright",
+    "near", "far", "bright", "fog", "step",
     "spad_validation", "tdc_validation", "histogram_validation", "estimator_validation",
 );
 
@@ -66,14 +66,23 @@ pub enum Source {
 impl Source {
     /// The full name and the text of the file called `name`.
     pub fn read(&self, name: &str) -> Result<(String, String)> {
-        let folder = match self {
-            Source::BuiltIn => match find(STIMULI, name) {
-                Some(text) => return Ok((name.trim_start_matches("../").to_owned(), text.into())),
-                None => Path::new(""),
-            },
-            Source::Folder(folder) => folder,
-        };
-        let path = folder.join(name);
+        if let (Source::BuiltIn, Some(text)) = (self, find(STIMULI, name)) {
+            return Ok((name.trim_start_matches("../").to_owned(), text.into()));
+        }
+        let path = self.path(name);
         Ok((path.display().to_string(), read_text(&path)?))
+    }
+
+    /// The same of a file that need not be text, which none in the program is.
+    pub fn read_bytes(&self, name: &str) -> Result<(String, Vec<u8>)> {
+        let path = self.path(name);
+        Ok((path.display().to_string(), read_bytes(&path)?))
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        match self {
+            Source::BuiltIn => PathBuf::from(name),
+            Source::Folder(folder) => folder.join(name),
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! What the scenario's keys must be to one another.
 
 mod clocks;
+mod target;
 
 use std::fmt::Display;
 
@@ -27,6 +28,7 @@ pub fn validate(scenario: &Scenario, checked: &Checked) -> Result<()> {
     stimulus(scenario, checked)?;
     spads(scenario, checked)?;
     laser(scenario, checked)?;
+    target::check(&scenario.target, checked)?;
     control(scenario, checked)?;
     dark_frames(scenario, checked)
 }

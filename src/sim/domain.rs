@@ -1,5 +1,8 @@
 //! A scenario beside what a network was trained for.
 
+mod keys;
+mod scene;
+
 use std::path::Path;
 
 use serde_json::Value;
@@ -8,133 +11,22 @@ use crate::error::{Input, Result};
 use crate::network::Network;
 use crate::network::domain::{Domain, holds, in_words};
 use crate::note::{Note, NoteCode, NoteValue};
-use crate::optics::dark::STATED_AT_C;
 use crate::scenario::Scenario;
-use crate::scenario::drift::REFERENCE_C;
 
-/// Keys of the scenario that decide how the histograms of a frame are distributed. The laser's rate is
-/// none of them: in MODE 0 every shot begins with a reset.
-const KEYS: [&str; 47] = [
-    "target.distance_m",
-    "target.reflectance",
-    "target.length_m",
-    "target.width_m",
-    "ambient.model",
-    "ambient.irradiance_w_m2_nm",
-    "ambient.fitted_rate_hz_per_w_m2_nm",
-    "laser.average_power_w",
-    "laser.repetition_rate_hz",
-    "laser.wavelength_nm",
-    "laser.pulse_sigma_ps",
-    TAIL,
-    DELAY,
-    TIMING,
-    ENERGY,
-    "laser.field_of_illumination_deg",
-    "lens.area_m2",
-    "lens.efficiency",
-    "filter.efficiency",
-    "filter.sigma_nm",
-    "spad.pdp",
-    "spad.fill_factor",
-    "spad.count",
-    ON_TDC,
-    "spad.field_of_view_deg",
-    "spad.dark_rate_hz",
-    TEMPERATURE,
-    DOUBLING,
-    SPREAD,
-    AFTERPULSES,
-    ROW_OUTPUTS,
-    PULSE,
-    PULSE_GAP,
-    BIN,
-    FIRST_BIN,
-    DIE,
-    SUPPLY,
-    DIE_THEN,
-    SUPPLY_THEN,
-    PER_C,
-    PER_MV,
-    RECALIBRATED,
-    WINDOW,
-    CLK_SYS,
-    "pll.jitter_rms_ps",
-    "firmware.mode",
-    SHOTS,
-];
-const TAIL: &str = "laser.pulse_tail_ps";
-const DELAY: &str = "laser.delay_ps";
-const TIMING: &str = "laser.timing_jitter_ps";
-const ENERGY: &str = "laser.energy_jitter";
-const PULSE_FILE: &str = "laser.pulse_file";
-const ON_TDC: &str = "spad.on_tdc";
-const TEMPERATURE: &str = "spad.temperature_c";
-const DOUBLING: &str = "spad.dark_doubling_c";
-const SPREAD: &str = "spad.dark_spread";
-const AFTERPULSES: &str = "spad.afterpulse_probability";
-const ROW_OUTPUTS: &str = "spad.row_outputs";
-const CROSSTALK: &str = "spad.crosstalk_probability";
-const PULSE: &str = "spad.pulse_ns";
-const PULSE_GAP: &str = "spad.pulse_gap_ns";
-const DARK_FILE: &str = "spad.dark_file";
-const BIN: &str = "tdc.bin_ps";
-const FIRST_BIN: &str = "tdc.first_bin_ps";
-const DIE: &str = "tdc.temperature_c";
-const SUPPLY: &str = "tdc.supply_mv";
-const DIE_THEN: &str = "tdc.calibrated_at_c";
-const SUPPLY_THEN: &str = "tdc.calibrated_at_mv";
-const PER_C: &str = "tdc.delay_per_c";
-const PER_MV: &str = "tdc.delay_per_mv";
-const RECALIBRATED: &str = "tdc.recalibrate_frames";
-const WINDOW: &str = "tdc.setup_window_ps";
-/// What a drift of the chain is of.
-pub(crate) const OF_DRIFT: [&str; 6] = [DIE, SUPPLY, DIE_THEN, SUPPLY_THEN, PER_C, PER_MV];
-/// Keys that say what follows from others, and decide nothing while these are all at a reference.
-const FOLLOWING: [(&str, &[&str], f64); 4] = [
-    // Outputs that are not on the TDC come to it by crosstalk alone.
-    (ROW_OUTPUTS, &[CROSSTALK], 0.0),
-    (DOUBLING, &[TEMPERATURE], STATED_AT_C),
-    (PER_C, &[DIE, DIE_THEN], REFERENCE_C),
-    (PER_MV, &[SUPPLY, SUPPLY_THEN], 0.0),
-];
-/// What the dividers come to, which no key of a file says [MHz].
-const CLK_SYS: &str = "pll.clk_sys_mhz";
-/// Keys that older files do not have, and the only value that there was.
-const LATER: [(&str, f64); 23] = [
-    (TAIL, 0.0),
-    (DELAY, 0.0),
-    (TIMING, 0.0),
-    (ENERGY, 0.0),
-    (ON_TDC, 1.0),
-    (TEMPERATURE, 20.0),
-    (DOUBLING, 8.0),
-    (SPREAD, 0.0),
-    (AFTERPULSES, 0.0),
-    (ROW_OUTPUTS, 0.0),
-    (PULSE, 0.0),
-    (PULSE_GAP, 0.0),
-    (BIN, 25.0),
-    (FIRST_BIN, 0.0),
-    (DIE, 25.0),
-    (SUPPLY, 0.0),
-    (DIE_THEN, 25.0),
-    (SUPPLY_THEN, 0.0),
-    (PER_C, 0.001),
-    (PER_MV, -0.001),
-    (RECALIBRATED, 0.0),
-    (WINDOW, 0.0),
-    (CLK_SYS, 125.0),
-];
+use keys::{DARK_FILE, FOLLOWING, KEYS, LATER, PULSE_FILE};
+use scene::{EXTENDED, RECTANGLE, SHAPE};
+
+pub(crate) use keys::OF_DRIFT;
+
 const CHAIN: &str = "tdc.profile";
 const CALIBRATION: &str = "tdc.calibration";
 const DECODER: &str = "tdc.decoder";
-/// What files say nothing of: the only calibration and the only decoder that there was.
-const UNSAID: [(&str, &str); 2] = [(CALIBRATION, OWN_DELAYS), (DECODER, ONES)];
+/// What files say nothing of: the only calibration and the only decoder that there was, and the only target.
+const UNSAID: [(&str, &str); 4] =
+    [(CALIBRATION, OWN_DELAYS), (DECODER, ONES), (SHAPE, RECTANGLE), (EXTENDED, "false")];
 const OWN_DELAYS: &str = "true";
 const ONES: &str = "ones";
 const DARK_RATE: &str = "spad.dark_rate_hz";
-const SHOTS: &str = "firmware.shots_per_frame";
 
 /// What a note says of a network outside its domain.
 const TEXT: &str = "the network was not trained for it";
@@ -150,7 +42,8 @@ pub type GridRange<'a> = (&'a str, [f64; 2]);
 pub fn of(scenario: &Scenario, grid: &[GridRange]) -> Result<Domain> {
     let values = Values::new(scenario, grid)?;
     let mut domain = Domain::default();
-    for key in KEYS.into_iter().chain([CHAIN, CALIBRATION, DECODER, PULSE_FILE, DARK_FILE]) {
+    let words = [CHAIN, CALIBRATION, DECODER, PULSE_FILE, DARK_FILE, SHAPE, EXTENDED];
+    for key in KEYS.into_iter().chain(words).chain(values.of_scene()) {
         match values.get(key) {
             Some(Found::Word(word)) if UNSAID.contains(&(key, word.as_str())) => {}
             Some(Found::Range([_, most])) if key == DARK_RATE => {
@@ -221,10 +114,19 @@ pub fn notes(network: &Network, scenario: &Scenario, grid: &[GridRange]) -> Resu
     if trained != own {
         notes.push(outside(DECODER, own.into(), trained.to_owned()));
     }
+    for (key, usual) in [(SHAPE, RECTANGLE), (EXTENDED, "false")] {
+        let trained = domain.words.get(key).map_or(usual, String::as_str);
+        match values.get(key) {
+            Some(Found::Word(own)) if own != trained => {
+                notes.push(outside(key, own.as_str().into(), trained.to_owned()));
+            }
+            _ => {}
+        }
+    }
     for (key, trained) in &domain.words {
         match values.get(key) {
             _ if key == CHAIN => notes.extend(chain(trained)),
-            _ if key == CALIBRATION || key == DECODER => {}
+            _ if UNSAID.iter().any(|(unsaid, _)| key == unsaid) => {}
             Some(Found::Word(word)) if word == *trained => {}
             Some(Found::Word(word)) => {
                 notes.push(outside(key, word.as_str().into(), trained.clone()))
@@ -270,6 +172,18 @@ impl<'a> Values<'a> {
 
     fn at(&self, key: &str) -> Option<&Value> {
         self.scenario.pointer(&format!("/{}", key.replace('.', "/")))
+    }
+
+    /// Keys that decide something of a scene like this one, and nothing of a plain rectangle in clear air.
+    fn of_scene(&self) -> Vec<&'static str> {
+        let shape = match self.get(SHAPE) {
+            Some(Found::Word(shape)) => shape,
+            _ => String::new(),
+        };
+        scene::keys(
+            &shape,
+            |key| matches!(self.get(key), Some(Found::Range(range)) if range != [0.0; 2]),
+        )
     }
 
     /// Whether all that the key would have an effect by is at the reference.

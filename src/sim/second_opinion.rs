@@ -95,6 +95,10 @@ impl SecondOpinion {
                 return Err(none(key, value.into(), "0: pulses of all shots that are alike"));
             }
         }
+        if let Some((key, value, usual)) = scenario.beside_one_echo() {
+            let expected = format!("{usual}: one echo of the laser's pulse");
+            return Err(none(key, value, &expected));
+        }
         let afterpulses = scenario.spad.afterpulse_probability;
         if afterpulses > 0.0 {
             let (key, expected) = ("spad.afterpulse_probability", "0: shots are independent");

@@ -30,6 +30,7 @@ use crate::optics::dark::DarkRates;
 use crate::optics::{Bins, Budget};
 use crate::scenario::builtin::Source;
 use crate::scenario::drift::Course;
+use crate::scenario::mesh::{self, Mesh};
 use crate::scenario::window::Window;
 use crate::scenario::wiring::Wiring;
 use crate::scenario::{self, EstimatorKind, Loaded, Scenario, dark, pulse};
@@ -73,6 +74,9 @@ pub struct Setup {
     /// Avalanches in the dark.
     #[doc(hidden)]
     pub dark: DarkRates,
+    /// The triangles of the target, if it is a mesh.
+    #[doc(hidden)]
+    pub mesh: Option<Arc<Mesh>>,
     /// What elaboration fixes in the firmware.
     #[doc(hidden)]
     pub params: Params,
@@ -140,7 +144,8 @@ impl Setup {
         let (dark, wiring) =
             (DarkRates::new(&scenario.spad, measured.as_ref()), Wiring::of(&scenario.spad));
         let pulse = pulse::load(&scenario.laser, &files)?;
-        let budget = Budget::new(&scenario, pulse).with_dark_rates(&dark);
+        let mesh = mesh::load(&scenario.target, &files)?;
+        let budget = Budget::of_scene(&scenario, pulse, mesh.as_deref()).with_dark_rates(&dark);
         let of_row = (light.is_none() && wiring.has_unwired())
             .then(|| by_budget(&budget.of_row(&wiring, &dark), scenario.seed));
         let light = light.unwrap_or_else(|| by_budget(&budget, scenario.seed));
@@ -188,6 +193,7 @@ impl Setup {
             set,
             budget,
             dark,
+            mesh,
             params,
             calibrated: converter.calibrated,
             known_tdc: converter.known,
@@ -414,8 +420,8 @@ impl Setup {
             Light::Optics(_) | Light::None => None,
         };
         let pulse = &self.budget.pulse;
-        let dark = &self.dark;
-        let all = format_args!("{scenario:?} {params:?} {given:?} {pulse:?} {dark:?}");
+        let (dark, mesh) = (&self.dark, &self.mesh);
+        let all = format_args!("{scenario:?} {params:?} {given:?} {pulse:?} {dark:?} {mesh:?}");
         format!("{:016x}", digest_of(all))
     }
 

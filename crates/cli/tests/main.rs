@@ -32,6 +32,7 @@ mod replay;
 mod report;
 mod reproduce;
 mod rerun;
+mod scene;
 mod second_opinion;
 mod sources;
 mod spad;

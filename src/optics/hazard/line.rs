@@ -3,9 +3,10 @@
 use std::sync::{Arc, LazyLock};
 
 use crate::kernel::pulse::{Pulse, normal_cdf};
+use crate::optics::budget::Budget;
 
-/// Pieces of the broken line [1].
-pub const PIECES: usize = 1024;
+/// Pieces of the broken line of a pulse [1].
+const PIECES: usize = 1024;
 /// Pieces of a Gaussian's to a sigma [1].
 const PER_SIGMA: usize = 64;
 
@@ -20,25 +21,37 @@ fn nodes(part: impl Fn(usize) -> f64) -> Arc<[f64]> {
     [0.0].into_iter().chain(inner).chain([1.0]).collect()
 }
 
-/// The broken line of a pulse.
+/// The broken line of a shot's light.
 pub struct Line {
-    /// First node, from the mean [fs].
-    pub from: f64,
+    /// First node, from the laser edge [fs].
+    pub start: f64,
     /// From one to the next [fs].
     pub step: f64,
-    /// The part of the pulse that has come, at the nodes [1].
+    /// The part of the light that has come, at the nodes [1].
     pub parts: Arc<[f64]>,
 }
 
 impl Line {
-    /// Of a Gaussian, every 1/64 sigma; of another, over its length.
-    pub fn of(pulse: &Pulse) -> Self {
+    /// Of a scene's light.
+    pub fn of(budget: &Budget) -> Self {
+        match &budget.spread {
+            None => Line::of_echo(&budget.pulse, budget.mean_arrival.fs() as f64),
+            Some(spread) => {
+                let Budget { signal_per_shot, retro_per_shot, backscatter_per_shot, .. } = *budget;
+                let parts = spread.of([signal_per_shot, retro_per_shot, backscatter_per_shot]);
+                Line { start: spread.from, step: spread.step, parts }
+            }
+        }
+    }
+
+    /// Of one echo: of a Gaussian, every 1/64 sigma; of another, over its length.
+    fn of_echo(pulse: &Pulse, mean: f64) -> Self {
         let [from_ps, until_ps] = pulse.reach_ps();
         let (from, step) = (from_ps * 1e3, (until_ps - from_ps) * 1e3 / PIECES as f64);
         let parts = match pulse {
             Pulse::Gaussian { .. } => NORMAL.clone(),
             _ => nodes(|node| pulse.part((from + node as f64 * step) * 1e-3)),
         };
-        Line { from, step, parts }
+        Line { start: mean + from, step, parts }
     }
 }

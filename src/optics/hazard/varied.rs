@@ -9,7 +9,7 @@ use crate::kernel::Time;
 
 use crate::optics::variation::Variation;
 
-use super::{Cause, Hazard, PIECES};
+use super::{Cause, Hazard};
 
 /// How far a mean over shots goes, either side [standard deviations].
 const REACH: i32 = 6;
@@ -86,6 +86,11 @@ impl Varied<'_> {
         self.hazard.first.time + self.late + node as f64 * self.hazard.step
     }
 
+    /// Pieces of the broken line.
+    fn pieces(&self) -> usize {
+        self.hazard.parts.len().saturating_sub(1)
+    }
+
     /// H at a node.
     fn node(&self, node: usize) -> f64 {
         self.hazard.background * self.time(node) + self.signal * self.hazard.parts[node]
@@ -96,8 +101,8 @@ impl Varied<'_> {
         let place = (time - self.time(0)) / self.hazard.step;
         if place < 0.0 || self.signal == 0.0 {
             self.hazard.background * time
-        } else if place < PIECES as f64 {
-            let node = (place as usize).min(PIECES - 1);
+        } else if place < self.pieces() as f64 {
+            let node = (place as usize).min(self.pieces() - 1);
             let (below, above) = (self.node(node), self.node(node + 1));
             below + (place - node as f64) * (above - below)
         } else {
@@ -119,13 +124,13 @@ impl Varied<'_> {
         if self.signal == 0.0 || h < self.node(0) {
             return Time::from_fs(dark(h) as u64);
         }
-        if h >= self.node(PIECES) {
+        if h >= self.node(self.pieces()) {
             // A step up, however small, so that without background it takes forever.
-            let past = (h - self.node(PIECES)).max(f64::MIN_POSITIVE);
-            return Time::from_fs((self.time(PIECES) + dark(past)) as u64);
+            let past = (h - self.node(self.pieces())).max(f64::MIN_POSITIVE);
+            return Time::from_fs((self.time(self.pieces()) + dark(past)) as u64);
         }
         // The last node at or below `h` is between these two.
-        let (mut low, mut high) = (0, PIECES);
+        let (mut low, mut high) = (0, self.pieces());
         while high - low > 1 {
             let middle = (low + high) / 2;
             if self.node(middle) <= h {
@@ -180,7 +185,7 @@ impl Varied<'_> {
         let mut chance = -libm::expm1(-before);
         let mut from = self.time(0).max(0.0);
         let mut passed = before + self.hazard.background * from;
-        for node in 0..PIECES {
+        for node in 0..self.pieces() {
             let end = self.time(node + 1).min(until);
             if end > from {
                 let width = end - from;

@@ -1,28 +1,7 @@
-//! Target, light and sensor.
+//! Light and sensor.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-table! {
-    /// What is measured: a rectangle, perpendicular to the axis, centred on it.
-    pub struct Target {
-        /// Distance from the sensor. Light that comes after the next pulse is not simulated.
-        #[schemars(range(min = 0.001, max = 1000.0), extend("unit" = "m", "source" = "Table 3.2: 0.1 .. 0.6"))]
-        pub distance_m: f64 = 0.5,
-        /// Fraction of light that is diffused back.
-        #[schemars(range(min = 0.0, max = 1.0), extend("unit" = "1", "source" = "Table 3.2: 0.08 .. 0.60"))]
-        pub reflectance: f64 = 0.34,
-        /// Length of the target.
-        #[schemars(range(min = 0.0001, max = 1000.0), extend("unit" = "m", "source" = "Table 3.2"))]
-        pub length_m: f64 = 0.26,
-        /// Width of the target.
-        #[schemars(range(min = 0.0001, max = 1000.0), extend("unit" = "m", "source" = "Table 3.2"))]
-        pub width_m: f64 = 0.20,
-        /// Sub-elements of the lit part of a quadrant, along each side (eq. 3.6).
-        #[schemars(range(min = 8, max = 4096), extend("unit" = "1", "source" = "choice: below 0.05 % of error"))]
-        pub cells: u32 = 128,
-    }
-}
 
 /// How ambient irradiance becomes a rate of avalanches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

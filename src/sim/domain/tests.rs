@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::firmware::tdc_decoder::Decoder;
-use crate::scenario::{self, TdcCalibration, builtin};
+use crate::scenario::{self, Shape, TdcCalibration, VisibilityModel, builtin};
 
 const THESIS: [GridRange; 3] = [
     ("target.distance_m", [0.1, 0.6]),
@@ -62,6 +62,13 @@ fn each_thing_that_the_network_was_not_trained_for_is_named() {
     assert_eq!(keys(|s| s.laser.delay_ps = 500.0), ["laser.delay_ps"]);
     let afterpulses = |s: &mut Scenario| s.spad.afterpulse_probability = 0.01;
     assert_eq!(keys(afterpulses), ["spad.afterpulse_probability"]);
+    assert_eq!(keys(|s| s.target.shape = Shape::Step), ["target.shape"]);
+    assert_eq!(keys(|s| s.target.extended = true), ["target.extended"]);
+    assert_eq!(keys(|s| s.target.tilt_deg = 5.0), ["target.tilt_deg"]);
+    assert_eq!(keys(|s| s.atmosphere.visibility_m = 50.0), ["atmosphere.visibility_m"]);
+    assert_eq!(keys(|s| s.atmosphere.rain_mm_h = 5.0), ["atmosphere.rain_mm_h"]);
+    // What only other shapes have, or fog, decides nothing.
+    assert_eq!(keys(|s| (s.target.radius_m, s.atmosphere.airlight) = (0.3, 0.0)), [""; 0]);
     let mode = |s: &mut Scenario| s.firmware.mode = crate::scenario::QuenchMode::FreeRunning;
     assert_eq!(keys(mode), ["firmware.mode"]);
 }
@@ -106,6 +113,33 @@ fn what_dark_rate_and_delays_change_by_is_of_the_domain_of_other_conditions() {
         let over = keys(&|s| s.spad.dark_doubling_c = 9.0, &grid);
         assert!(over.contains(&"spad.dark_doubling_c".to_owned()), "{over:?}");
     }
+}
+
+#[test]
+fn what_shape_and_fog_were_trained_with_is_of_the_domain() {
+    let mut trained = Scenario::default();
+    (trained.target.shape, trained.atmosphere.visibility_m) = (Shape::Sphere, 50.0);
+    let domain = of(&trained, &[]).unwrap();
+    assert_eq!(domain.words["target.shape"], "sphere");
+    assert_eq!(domain.ranges["target.radius_m"], [0.1; 2]);
+    assert_eq!(domain.words["atmosphere.visibility_model"], "kim");
+    assert!(!domain.ranges.contains_key("target.edge_m"));
+    assert!(!domain.ranges.contains_key("atmosphere.rain_db_km"));
+    let network = Network { domain: Some(domain), ..network() };
+    let keys = |change: &dyn Fn(&mut Scenario)| {
+        let mut scenario = trained.clone();
+        change(&mut scenario);
+        let notes = notes(&network, &scenario, &[]).unwrap();
+        notes.into_iter().map(|note| note.key).collect::<Vec<_>>()
+    };
+    assert_eq!(keys(&|_| ()), [""; 0]);
+    assert_eq!(keys(&|s| s.target.radius_m = 0.2), ["target.radius_m"]);
+    assert_eq!(keys(&|s| s.target.shape = Shape::Disc), ["target.shape"]);
+    assert_eq!(keys(&|s| s.atmosphere.airlight = 0.0), ["atmosphere.airlight"]);
+    let kruse = |s: &mut Scenario| s.atmosphere.visibility_model = VisibilityModel::Kruse;
+    assert_eq!(keys(&kruse), ["atmosphere.visibility_model"]);
+    let fogs = [("atmosphere.visibility_m", [0.0, 100.0])];
+    assert!(of(&Scenario::default(), &fogs).unwrap().ranges.contains_key("atmosphere.overlap_m"));
 }
 
 #[test]

@@ -5,6 +5,7 @@ use crate::firmware::tof_top::{Estimator, HistogramSource};
 use crate::kernel::Time;
 use crate::note::{Note, NoteCode, NoteValue};
 use crate::optics::budget::LIGHT_M_S;
+use crate::scenario::Shape;
 use crate::sensor::light::Light;
 use crate::sim::domain;
 
@@ -39,6 +40,7 @@ impl Setup {
         let drift = self.drift_for(is_network.then_some(&notes[..]));
         notes.extend(drift);
         notes.extend(self.ring_in_step());
+        notes.extend(self.partly_past_the_end());
         Ok(notes)
     }
 
@@ -152,7 +154,8 @@ impl Setup {
             return note("firmware.laser_en", false.into(), "true");
         }
         let shots = scenario.firmware.shots_of_a_frame() as f64;
-        if self.budget.signal_per_shot * shots >= FAINTEST_FRAME {
+        let target = self.budget.signal_per_shot + self.budget.retro_per_shot;
+        if target * shots >= FAINTEST_FRAME {
             return None;
         }
         let factors = [
@@ -165,15 +168,42 @@ impl Setup {
             ("target.reflectance", scenario.target.reflectance),
         ];
         let cause = factors.into_iter().find(|(_, factor)| *factor == 0.0);
-        let (key, value) = cause.unwrap_or(("target.reflectance", scenario.target.reflectance));
-        note(key, value.into(), "a photon a frame at least")
+        let cause = cause.map(|(key, factor)| (key, factor.into()));
+        let of_scene = || scenario.beside_one_echo().map(|(key, value, _)| (key, value));
+        let usual = ("target.reflectance", scenario.target.reflectance.into());
+        let (key, value) = cause.or_else(of_scene).unwrap_or(usual);
+        note(key, value, "a photon a frame at least")
+    }
+
+    /// When the last bin ends, from the laser edge.
+    fn last_bin_ends(&self) -> Time {
+        self.bins().spans().last().map_or(Time::ZERO, |span| span.until)
+    }
+
+    /// That only a part of the target's light comes before the end of the last bin.
+    fn partly_past_the_end(&self) -> Option<Note> {
+        let (end, [first, last]) = (self.last_bin_ends(), self.budget.target_ends());
+        if last < end || first >= end {
+            return None;
+        }
+        let target = &self.scenario.target;
+        let (key, distance_m) = match target.shape {
+            Shape::Step if target.second_distance_m > target.distance_m => {
+                ("target.second_distance_m", target.second_distance_m)
+            }
+            _ => ("target.distance_m", target.distance_m),
+        };
+        let too_far_m = (last - end).seconds() * LIGHT_M_S / 2.0;
+        let expected = format!("{:.3} m less at least", too_far_m);
+        let text =
+            "a part of the target's light comes after the last bin, and is not in the histogram";
+        Some(Note::new(NoteCode::EchoPastHistogram, key, distance_m, expected, text))
     }
 
     /// An echo that comes after the last bin, which is before the next pulse.
     fn past_the_end(&self) -> Option<Note> {
-        let bins = self.bins();
-        let end = bins.spans().last().map_or(Time::ZERO, |span| span.until);
-        let arrival = self.budget.mean_arrival;
+        let end = self.last_bin_ends();
+        let [arrival, _] = self.budget.target_ends();
         if arrival < end {
             return None;
         }
@@ -204,87 +234,4 @@ impl Setup {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_echo_after_the_next_pulse_is_said_not_to_be_simulated() {
-        let text = |distance_m: &str| {
-            let wall = ["target.length_m=10", "target.width_m=10", distance_m];
-            let setup = Setup::load("kc705", &wall).unwrap();
-            setup.no_depth().map(|note| (note.code, note.text.contains("after the next pulse")))
-        };
-        // The laser's period is 48 ns, 7.19 m.
-        assert_eq!(text("target.distance_m=0.9"), None);
-        assert_eq!(text("target.distance_m=7.1"), Some((NoteCode::EchoPastHistogram, false)));
-        assert_eq!(text("target.distance_m=7.3"), Some((NoteCode::EchoPastHistogram, true)));
-    }
-
-    #[test]
-    fn a_chain_that_has_drifted_is_noted_with_its_cause_and_by_how_much() {
-        let notes = |overrides: &[&str]| {
-            let set = [&["estimator.kind=centroid"], overrides].concat();
-            let notes = Setup::load("kc705", &set).unwrap().notes().unwrap();
-            notes.into_iter().map(|note| note.to_string()).collect::<Vec<_>>()
-        };
-        assert!(notes(&["tdc.temperature_c=65", "tdc.supply_mv=10"]).is_empty(), "calibrated now");
-        // 8 ns look like 8 ns / 1.04.
-        let warm = notes(&["tdc.temperature_c=65", "tdc.calibrated_at_c=25"]);
-        assert_eq!(
-            warm,
-            [
-                "note: tdc.temperature_c = 65: the TDC was calibrated at 25: an age of a whole period of clk_sys is \
-              off by -307.7 ps, others in proportion (expected 25) [chain-drifted]"
-            ]
-        );
-        // The supply of now makes more of it than three degrees; the chain is a hundredth faster.
-        let fast = ["tdc.supply_mv=13", "tdc.calibrated_at_mv=0", "tdc.calibrated_at_c=22"];
-        let fast = notes(&fast);
-        assert!(
-            fast[0].starts_with("note: tdc.supply_mv = 13: the TDC was calibrated at 0: "),
-            "{fast:?}"
-        );
-        assert!(fast.len() == 1 && fast[0].contains("off by +81.1 ps"), "{fast:?}");
-        // What makes up for each other is no drift.
-        let even = ["tdc.delay_per_c=0", "tdc.temperature_c=65", "tdc.calibrated_at_c=25"];
-        assert!(notes(&even).is_empty());
-        let far = ["target.distance_m=3", "tdc.temperature_c=65", "tdc.calibrated_at_c=25"];
-        assert!(notes(&far)[0].ends_with("[echo-past-histogram]"), "no depth to be off");
-    }
-
-    #[test]
-    fn a_network_that_was_trained_with_the_drift_has_learnt_it() {
-        let drift = ["tdc.temperature_c=45", "tdc.calibrated_at_c=25"];
-        let mut setup = Setup::load("kc705", &drift).unwrap();
-        let codes = |setup: &Setup| -> Vec<_> {
-            setup.notes().unwrap().into_iter().map(|note| (note.code, note.key)).collect()
-        };
-        let key = "tdc.temperature_c".to_owned();
-        let both =
-            [NoteCode::OutsideTraining, NoteCode::ChainDrifted].map(|code| (code, key.clone()));
-        assert_eq!(codes(&setup), both);
-        setup.network.domain = Some(domain::of(&setup.scenario, &[]).unwrap());
-        assert_eq!(codes(&setup), []);
-        setup.params.estimator = Estimator::Likelihood;
-        assert_eq!(codes(&setup), both[1..]);
-    }
-
-    #[test]
-    fn the_laser_s_delay_takes_its_part_of_the_histogram() {
-        let note = |overrides: &[&str]| {
-            let note = Setup::load("kc705", overrides).unwrap().no_depth().cloned();
-            note.map(|note| (note.key, note.expected))
-        };
-        let end = Setup::load("kc705", &[]).unwrap().bins().spans().last().unwrap().until;
-        let end_ps = end.fs() as f64 * 1e-3;
-        assert!((6_390.0..6_410.0).contains(&end_ps), "{end_ps}");
-        let far = "target.distance_m=0.9";
-        assert_eq!(note(&[far]), None);
-        let (key, expected) = note(&[far, "laser.delay_ps=2000"]).unwrap();
-        let below = format!("below {:.3}", (end_ps - 2000.0) * 1.498_962_29e-4);
-        assert_eq!((&*key, &*expected), ("target.distance_m", &*below));
-        assert_eq!(note(&["target.distance_m=0.65", "laser.delay_ps=2000"]), None);
-        let (key, expected) = note(&["target.distance_m=0.1", "laser.delay_ps=7000"]).unwrap();
-        assert_eq!((&*key, expected), ("laser.delay_ps", format!("below {end_ps}")));
-    }
-}
+mod tests;

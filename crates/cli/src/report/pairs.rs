@@ -104,11 +104,15 @@ impl PairLog {
     }
 }
 
-/// The first bin that the echo has no part in any more.
+/// The first bin that the echo has no part in any more; none where air sends light back from behind it.
 pub(super) fn right_of_echo(setup: &Setup) -> Option<usize> {
     setup.true_depth_m()?;
     let budget = &setup.budget;
-    let echo_ps = budget.mean_arrival.fs() as f64 * 1e-3 + REACH * budget.pulse.sigma_ps();
+    if budget.backscatter_per_shot > 0.0 {
+        return None;
+    }
+    let [_, last] = budget.target_ends();
+    let echo_ps = last.fs() as f64 * 1e-3 + REACH * budget.pulse.sigma_ps();
     let tdc = &setup.scenario.tdc;
     let bin = ((echo_ps - tdc.first_bin_ps) / tdc.bin_ps).ceil().max(0.0) as usize;
     (bin < setup.params.histogram.bins).then_some(bin)
@@ -158,5 +162,9 @@ mod tests {
         // 2 d / c is 3335.64 ps, 4 sigma are 548 ps, and 3883.64 / 25 is 155.3.
         assert_eq!(right_of_echo(&setup(&[])), Some(156));
         assert_eq!(right_of_echo(&setup(&["target.distance_m=0.9"])), None);
+        assert_eq!(right_of_echo(&setup(&["atmosphere.visibility_m=50"])), None);
+        // The half of a step that stands at 0.7 m, and up to 1 / cos 10.5 deg as far.
+        let step = right_of_echo(&setup(&["target.shape=step"])).unwrap();
+        assert!((208..=213).contains(&step), "{step}");
     }
 }

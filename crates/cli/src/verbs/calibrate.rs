@@ -82,7 +82,7 @@ impl PulseArgs {
         let acquisition = Acquisition::of(&setup, &bins, shots);
         let step_ps = self.step_ps.unwrap_or(bins.bin_ps());
         let calibration = Calibration::new(&acquisition, self.all(&setup)?, self.shape, step_ps)?;
-        let notes = notes(&calibration);
+        let notes = notes(&setup, &calibration);
         talk.heed(&notes)?;
         let record = Record::new(&setup, &talk.command);
         let mut object = json!({ "schema": "tofsim.calibration/1", "shots": shots });
@@ -117,8 +117,12 @@ impl PulseArgs {
     }
 }
 
-/// That the pulse to take does not describe the histograms.
-fn notes(calibration: &Calibration) -> Vec<Note> {
+/// That the light is not one echo, and that the pulse to take does not describe the histograms.
+fn notes(setup: &Setup, calibration: &Calibration) -> Vec<Note> {
+    let not_one_echo = setup.scenario.beside_one_echo().map(|(key, value, usual)| {
+        let text = "calibrate pulse: it takes a shot's light to be one echo of the laser's pulse";
+        Note::new(NoteCode::EstimatorOutsideModel, key, value, usual, text)
+    });
     let goodness = calibration.taken().goodness;
     let text = "the pulse does not describe the histograms: try another --shape, and look whether shots and \
                 chain are those of the scenario";
@@ -126,5 +130,6 @@ fn notes(calibration: &Calibration) -> Vec<Note> {
         let value = goodness.chi_square / goodness.degrees_of_freedom;
         Note::new(NoteCode::DoubtfulFit, "chi_square", value, "about 1 a degree of freedom", text)
     };
-    calibration.is_doubtful().then(note).into_iter().collect()
+    let doubtful = calibration.is_doubtful().then(note);
+    not_one_echo.into_iter().chain(doubtful).collect()
 }

@@ -3,6 +3,8 @@
 //! The thesis's bins, edges every 25 ps and no chain, are those of profile `ideal` to the
 //! femtosecond: two taps of 12.5 ps to a bin.
 
+use std::sync::Arc;
+
 use tofsim::error::{Input, Result};
 use tofsim::firmware::histogram_builder;
 use tofsim::kernel::pulse::Pulse;
@@ -10,6 +12,7 @@ use tofsim::network::Histogram;
 use tofsim::optics::dark::DarkRates;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
 use tofsim::scenario::Scenario;
+use tofsim::scenario::mesh::Mesh;
 use tofsim::sensor::streams::{self, stream};
 use tofsim::sim::fast::histogram::independent_shots;
 use tofsim::sim::setup::Setup;
@@ -33,6 +36,7 @@ struct Setting {
     known_bins: Bins,
     pulse: Pulse,
     dark: DarkRates,
+    mesh: Option<Arc<Mesh>>,
 }
 
 impl HistogramSource {
@@ -123,12 +127,12 @@ impl HistogramSource {
     /// Budget of a white target at a scene's distance, in an irradiance of 1 W/m^2/nm: what all scenes at
     /// that distance have in common, and what takes longest to find.
     pub fn white(&self, scene: &Scene) -> Budget {
-        let Setting { scenario, pulse, dark, .. } = self.setting(scene);
+        let Setting { scenario, pulse, dark, mesh, .. } = self.setting(scene);
         let mut scenario = scenario.clone();
         scenario.target.distance_m = scene.distance_m;
         scenario.target.reflectance = 1.0;
         scenario.ambient.irradiance_w_m2_nm = 1.0;
-        Budget::new(&scenario, pulse.clone()).with_dark_rates(dark)
+        Budget::of_scene(&scenario, pulse.clone(), mesh.as_deref()).with_dark_rates(dark)
     }
 
     /// Probability of each code in one shot.
@@ -169,7 +173,8 @@ impl Setting {
         }
         let (scenario, pulse) = (setup.scenario.clone(), setup.budget.pulse.clone());
         let (bins, known_bins, dark) = (setup.bins(), setup.known_bins(), setup.dark.clone());
-        Ok(Setting { scenario, bins, known_bins, pulse, dark })
+        let mesh = setup.mesh.clone();
+        Ok(Setting { scenario, bins, known_bins, pulse, dark, mesh })
     }
 
     fn shots(&self) -> u32 {
@@ -177,14 +182,9 @@ impl Setting {
     }
 }
 
-/// Budget of a scene from that of the white target at its distance: signal is proportional to reflectance (eq. 3.13), ambient light to reflectance
-/// and irradiance (eq. 3.19 and 3.20).
+/// Budget of a scene from that of the white target at its distance.
 pub fn scaled(white: &Budget, scene: &Scene) -> Budget {
-    Budget {
-        signal_per_shot: white.signal_per_shot * scene.reflectance,
-        ambient_rate_hz: white.ambient_rate_hz * scene.reflectance * scene.irradiance_w_m2_nm,
-        ..white.clone()
-    }
+    white.of_white(scene.reflectance, scene.irradiance_w_m2_nm)
 }
 
 #[cfg(test)]

@@ -31,7 +31,7 @@ impl Bound {
     /// # Errors
     /// When its acquisition makes no sense.
     pub fn of(setup: &Setup) -> Result<Self> {
-        let alike = setup.budget.variation.is_none();
+        let alike = setup.budget.variation.is_none() && setup.budget.spread.is_none();
         if !alike || setup.scenario.spad.afterpulse_probability > 0.0 {
             return Ok(Bound::default());
         }

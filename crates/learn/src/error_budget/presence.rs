@@ -40,7 +40,9 @@ pub fn present(effect: Effect, setup: &Setup, kind: EstimatorKind) -> EffectStat
             "the network was trained on histograms with pile-up, and cannot be told of others",
         ),
         Effect::PileUp => EffectState::On,
-        Effect::Ambient => above_zero("ambient.irradiance_w_m2_nm", setup.budget.ambient_rate_hz),
+        Effect::Ambient => {
+            above_zero("ambient.irradiance_w_m2_nm", setup.budget.ambient_light_hz())
+        }
         Effect::DarkCounts => above_zero("spad.dark_rate_hz", setup.budget.dark_rate_hz),
         Effect::PulseWidth => {
             let is_short =

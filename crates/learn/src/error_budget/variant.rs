@@ -4,7 +4,7 @@ use tofsim::error::Result;
 use tofsim::firmware::tdc;
 use tofsim::firmware::tdc_decoder::Calibration;
 use tofsim::kernel::U;
-use tofsim::optics::{Bins, Budget, Hazard};
+use tofsim::optics::{Bins, Hazard};
 use tofsim::scenario::{Loaded, QuenchMode, Scenario, TdcCalibration};
 use tofsim::sim::setup::Setup;
 
@@ -88,13 +88,7 @@ impl Variant {
     /// estimator is told of. It has no effect that joins shots.
     pub fn histograms(&self) -> Histograms {
         let part = self.setup.shots(1) as f64 / self.told_shots as f64;
-        let own = &self.setup.budget;
-        let budget = Budget {
-            signal_per_shot: own.signal_per_shot * part,
-            ambient_rate_hz: own.ambient_rate_hz * part,
-            dark_rate_hz: own.dark_rate_hz * part,
-            ..own.clone()
-        };
+        let budget = self.setup.budget.dimmed(part);
         let per_shot = per_shot(&Hazard::new(&budget), &self.bins, self.acquisition().jitter_ps);
         Histograms { per_shot, shots: self.told_shots }
     }

@@ -27,6 +27,7 @@ impl EstimatorKind {
         let found = match self {
             EstimatorKind::Network | EstimatorKind::NetworkFloat => vec![],
             EstimatorKind::Likelihood => vec![
+                teller.echo(),
                 teller.dead_time(),
                 teller.row(),
                 teller.pulses(0.0, 0.0),
@@ -38,6 +39,7 @@ impl EstimatorKind {
                 teller.metastable(),
             ],
             EstimatorKind::TwoEchoes => vec![
+                teller.echo(),
                 teller.mode(),
                 teller.row(),
                 teller.pulses(0.0, 0.0),
@@ -48,6 +50,7 @@ impl EstimatorKind {
                 teller.metastable(),
             ],
             EstimatorKind::LikelihoodEstimator => vec![
+                teller.echo(),
                 teller.jitter(0.0),
                 teller.pulses(0.0, 0.0),
                 teller.control(),
@@ -57,6 +60,7 @@ impl EstimatorKind {
                 teller.metastable(),
             ],
             EstimatorKind::Matched => vec![
+                teller.echo(),
                 teller.mode(),
                 teller.jitter(0.0),
                 teller.pulses(0.0, 0.0),
@@ -67,6 +71,7 @@ impl EstimatorKind {
                 teller.metastable(),
             ],
             EstimatorKind::Centroid => vec![
+                teller.echo(),
                 teller.mode(),
                 teller.jitter(JITTER_PS),
                 teller.pulses(JITTER_PS, f64::INFINITY),
@@ -76,6 +81,7 @@ impl EstimatorKind {
                 teller.shaping(),
             ],
             EstimatorKind::Peak | EstimatorKind::Subtraction => vec![
+                teller.echo(),
                 teller.mode(),
                 teller.jitter(JITTER_PS),
                 teller.pulses(JITTER_PS, f64::INFINITY),
@@ -114,8 +120,14 @@ impl EstimatorKind {
 /// What the estimator in the firmware's socket takes for granted of the scenario and its scene; the
 /// network's limits are those of its training.
 pub fn notes_of_firmware(setup: &Setup) -> Vec<Note> {
-    let Estimator::Centroid = setup.params.estimator else { return Vec::new() };
-    let mut notes = EstimatorKind::Centroid.notes_of_scene(setup);
+    let mut notes = match setup.params.estimator {
+        Estimator::Network => return Vec::new(),
+        Estimator::Centroid => EstimatorKind::Centroid.notes_of_scene(setup),
+        Estimator::Likelihood => {
+            let name = EstimatorKind::LikelihoodEstimator.name();
+            return Teller { name, setup }.echo().into_iter().collect();
+        }
+    };
     for note in notes.iter_mut().filter(|note| note.key == OPTION) {
         "estimator.kind".clone_into(&mut note.key);
         "network".clone_into(&mut note.expected);

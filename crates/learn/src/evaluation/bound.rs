@@ -14,7 +14,7 @@ use crate::estimation::likelihood::Model;
 const MOST_LIGHTS: u64 = 1024;
 
 /// Twice the root mean square of the bound over the grid's lights at each distance; `None` where a
-/// scene tells nothing, as without a laser, and where shots differ [mm].
+/// scene tells nothing, as without a laser, and where shots differ or their light is not one echo [mm].
 ///
 /// # Errors
 /// When the acquisition of a setting makes no sense.
@@ -33,7 +33,7 @@ pub fn two_sd_mm(
             let scene = Scene { distance_m, ..grid.scene_at(0, light) };
             let white = white.or(scene.setting, |_| source.white(&scene));
             let budget = scaled(white, &scene);
-            if !budget.variation.is_none() {
+            if !budget.variation.is_none() || budget.spread.is_some() {
                 return None;
             }
             let model = &models[scene.setting];

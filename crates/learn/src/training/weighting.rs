@@ -64,12 +64,18 @@ fn reach_m(distances_m: &[f64]) -> f64 {
 
 impl Weighting {
     /// For scenes of one's own: the line is in proportion to the bound at each distance of the tests, the
-    /// rest is to the line and to the training's distances as the thesis's is.
+    /// rest is to the line and to the training's distances as the thesis's is. Where light is not one echo, which has no
+    /// bound, the line is flat.
     ///
     /// # Errors
     /// When a scene tells nothing of its distance, as without signal.
     pub fn of_scenes(source: &HistogramSource, training: &Grid, test: &Grid) -> Result<Self> {
         let distances_m = test.distances_m.values.clone();
+        if source.scenarios().any(|scenario| scenario.beside_one_echo().is_some()) {
+            // There is no bound to go by.
+            let flat = Weighting::flat(&distances_m);
+            return Ok(Weighting { reach_m: reach_m(&training.distances_m.values), ..flat });
+        }
         let bound = bound::two_sd_mm(source, test, &distances_m)?;
         let mut two_sd_mm = Vec::with_capacity(bound.len());
         for (distance_m, bound_mm) in distances_m.iter().zip(bound) {

@@ -242,7 +242,8 @@ impl<'a> Estimations<'a> {
         scenario.target.distance_m = end_ps * 1.5e-4 * place;
         scenario.target.reflectance = reflectance;
         scenario.ambient.irradiance_w_m2_nm = irradiance;
-        let budget = Budget::new(&scenario, self.setup.budget.pulse.clone());
+        let (pulse, mesh) = (self.setup.budget.pulse.clone(), self.setup.mesh.as_deref());
+        let budget = Budget::of_scene(&scenario, pulse, mesh);
         let hazard = Hazard::new(&budget.with_dark_rates(&self.setup.dark));
         let chances = BinProbabilities::new(&hazard, &self.setup.bins());
         let counts = chances.draw(self.params.shots, draw.rng());

@@ -68,7 +68,7 @@ impl Findings {
         eye_safety["repeated"] = verdict(&self.frames);
         eye_safety["repeated"]["longest_s"] = json!(self.longest_s());
         let chance = |of: fn(&Chances) -> f64| self.chances.as_ref().map(of);
-        json!({
+        let mut object = json!({
             "schema": "tofsim.budget/1",
             "scenario": setup.name,
             "distance_m": setup.scenario.target.distance_m,
@@ -91,7 +91,15 @@ impl Findings {
             "eye_safety_exposure_s": self.at_the_optics_rate.exposure_s,
             "eye_safety_limit_at_laser_rate_w": self.a_frame.limit_w,
             "eye_safety_exposure_at_laser_rate_s": self.a_frame.exposure_s,
-        })
+        });
+        // What a plain rectangle in clear air has not.
+        if budget.spread.is_some() {
+            object["retro_per_shot"] = json!(budget.retro_per_shot);
+            object["backscatter_per_shot"] = json!(budget.backscatter_per_shot);
+            object["transmission"] = json!(budget.transmission);
+            object["airlight_rate_hz"] = json!(budget.airlight_rate_hz);
+        }
+        object
     }
 }
 

@@ -1,5 +1,6 @@
 //! The budget as a table.
 
+use tofsim::optics::Budget;
 use tofsim::optics::eye_safety::Exposure;
 
 use crate::text::table::{grouped, number_or_dash, plain};
@@ -17,12 +18,18 @@ pub fn table(findings: &Findings) -> String {
 pub fn rows(findings: &Findings) -> Vec<Row> {
     let setup = &findings.setup;
     let (budget, target) = (&setup.budget, &setup.scenario.target);
-    let light = [
+    let mut light = vec![
         row("distance", format!("{} m", target.distance_m), flight(findings)),
         row("signal", format!("{:.4}", budget.signal_per_shot), "detected photons per shot"),
-        row("ambient", format!("{:.4e} /s", budget.ambient_rate_hz), "avalanches"),
-        row("dark", format!("{:.4e} /s", budget.dark_rate_hz), "avalanches"),
     ];
+    light.extend(retro(budget));
+    light.extend(air(budget));
+    light.push(row("ambient", format!("{:.4e} /s", budget.ambient_rate_hz), "avalanches"));
+    if budget.airlight_rate_hz > 0.0 {
+        let rate = format!("{:.4e} /s", budget.airlight_rate_hz);
+        light.push(row("airlight", rate, "avalanches, of ambient light that the air scatters"));
+    }
+    light.push(row("dark", format!("{:.4e} /s", budget.dark_rate_hz), "avalanches"));
     let average = format!("{:.2} mW", findings.a_frame.average_w * 1e3);
     let rate_mhz = 1e-6 / setup.laser_period_s();
     let laser = [
@@ -35,6 +42,25 @@ pub fn rows(findings: &Findings) -> Vec<Row> {
 
 fn row(name: &str, value: impl Into<String>, meaning: impl Into<String>) -> Row {
     [name.to_owned(), value.into(), meaning.into()]
+}
+
+/// What a retroreflecting patch sends back, if there is one.
+fn retro(budget: &Budget) -> Option<Row> {
+    let photons = budget.retro_per_shot;
+    (photons > 0.0).then(|| row("patch", format!("{photons:.4}"), "the same of the patch"))
+}
+
+/// What the air does, if there is something in it.
+fn air(budget: &Budget) -> Vec<Row> {
+    if budget.backscatter_per_shot == 0.0 && budget.transmission == 1.0 {
+        return vec![];
+    }
+    let scattered = format!("{:.4}", budget.backscatter_per_shot);
+    let passes = format!("{:.4}", budget.transmission);
+    vec![
+        row("backscatter", scattered, "the same of the air"),
+        row("transmission", passes, "of the target's light, on both ways together"),
+    ]
 }
 
 fn flight(findings: &Findings) -> String {

@@ -137,3 +137,29 @@ fn what_has_no_closed_form_is_refused() {
     assert!(refused("pll.jitter_rms_ps=7.7").contains("pll.jitter_rms_ps = 7.7"));
     assert!(refused("firmware.rst=true").contains("firmware.rst = true"));
 }
+
+#[test]
+fn what_air_and_patch_send_back_does_not_go_with_the_reflectance() {
+    let keys = ["atmosphere.visibility_m=10", "target.retro_side_m=0.01"];
+    let source = source(&keys).unwrap();
+    for reflectance in [0.05, 0.8] {
+        let scene = Scene { reflectance, ..SCENE };
+        let mut scenario = source.scenario().clone();
+        scenario.target.distance_m = scene.distance_m;
+        scenario.target.reflectance = scene.reflectance;
+        scenario.ambient.irradiance_w_m2_nm = scene.irradiance_w_m2_nm;
+        let expected = Budget::new(&scenario, Pulse::default());
+        let found = scaled(&source.white(&scene), &scene);
+        assert!(found.backscatter_per_shot > 0.0 && found.retro_per_shot > 0.0);
+        for (found, expected) in [
+            (found.signal_per_shot, expected.signal_per_shot),
+            (found.retro_per_shot, expected.retro_per_shot),
+            (found.backscatter_per_shot, expected.backscatter_per_shot),
+            (found.ambient_rate_hz, expected.ambient_rate_hz),
+            (found.airlight_rate_hz, expected.airlight_rate_hz),
+        ] {
+            assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
+        }
+        assert_eq!(found.spread, expected.spread);
+    }
+}

@@ -61,6 +61,13 @@ impl Teller<'_> {
         self.is_free_running().then(|| self.note("firmware.mode", 1.0, "0", text))
     }
 
+    /// That a shot's light is one echo of the laser's pulse.
+    pub fn echo(&self) -> Option<Note> {
+        let (key, value, usual) = self.setup.scenario.beside_one_echo()?;
+        let text = "it takes a shot's light to be one echo of the laser's pulse, after the way along the axis";
+        Some(self.note(key, value, usual, text))
+    }
+
     pub fn jitter(&self, most_ps: f64) -> Option<Note> {
         let rms_ps = self.setup.scenario.pll.jitter_rms_ps;
         let text = "jitter blurs what pile-up has left of the pulse, and so moves it";
@@ -273,7 +280,7 @@ impl Teller<'_> {
     pub fn expected(&self, estimator: &dyn estimator::Estimator, why: &str) -> Option<Note> {
         let setup = self.setup;
         let (optics, _) = independent_shots(setup, self.name).ok()?;
-        let is_lit = setup.scenario.firmware.laser_en && setup.budget.signal_per_shot > 0.0;
+        let is_lit = setup.scenario.firmware.laser_en && setup.budget.laser_per_shot() > 0.0;
         let truth_m = setup.true_depth_m().filter(|_| is_lit)?;
         let codes = BinProbabilities::new(optics.hazard(true), &self.setup.bins());
         let histogram = most_probable(codes.of_code(), self.shots());

@@ -1,0 +1,97 @@
+//! Elements of what is seen: cells of rows within a cone around the axis.
+
+use std::f64::consts::PI;
+
+use super::outline::{Outline, Span, common, without};
+use super::surface::{Kind, Surface};
+
+/// A cell of what is seen.
+#[derive(Clone, Copy, Debug)]
+pub struct Element {
+    pub kind: Kind,
+    /// Length of the line of sight to it [m].
+    pub sight_m: f64,
+    /// Standard deviation of those to its parts, as if they were spread evenly over sqrt(12) of it [m].
+    pub spread_m: f64,
+    /// Cosine of the line of sight to the surface's normal [1].
+    pub cos: f64,
+    /// Cosine of the line of sight to the axis [1].
+    pub axis_cos: f64,
+    /// Solid angle [sr].
+    pub sr: f64,
+}
+
+/// A cell in the plane one metre before the sensor.
+pub struct Cell {
+    pub u: f64,
+    pub v: f64,
+    pub du: f64,
+    pub dv: f64,
+}
+
+impl Cell {
+    /// The element of a surface there.
+    pub fn element(&self, kind: Kind, hit: impl Fn(f64, f64) -> [f64; 2]) -> Element {
+        let &Cell { u, v, du, dv } = self;
+        let [sight_m, cos] = hit(u, v);
+        let across = |from: [f64; 2], to: [f64; 2]| from[0] - to[0];
+        let along_u = across(hit(u + du / 2.0, v), hit(u - du / 2.0, v));
+        let along_v = across(hit(u, v + dv / 2.0), hit(u, v - dv / 2.0));
+        let axis_cos = 1.0 / (1.0 + u * u + v * v).sqrt();
+        Element {
+            kind,
+            sight_m,
+            spread_m: along_u.hypot(along_v).min(sight_m) / 12f64.sqrt(),
+            cos,
+            axis_cos,
+            sr: du * dv * axis_cos * axis_cos * axis_cos,
+        }
+    }
+}
+
+/// Shows the elements of a surface inside a cone of that full angle, with so many rows to a band and so many cells to a
+/// span. A band ends where what hides the surface does.
+///
+/// Rows are closer towards the ends of a band, where circles have theirs: at the sines of even angles, so that
+/// the sum over them errs with the square of their number, whatever the ends look like.
+pub fn elements(surface: &Surface, full_angle_deg: f64, cells: u32, mut take: impl FnMut(Element)) {
+    let reach = libm::tan((full_angle_deg / 2.0).to_radians());
+    let Some(rows) = common(&surface.outline.rows(), &[-reach, reach]) else { return };
+    let step = PI / f64::from(cells);
+    for band in bands(surface, rows) {
+        let (middle, half) = ((band[0] + band[1]) / 2.0, (band[1] - band[0]) / 2.0);
+        for row in 0..cells {
+            let angle = (f64::from(row) + 0.5) * step - PI / 2.0;
+            let v = middle + half * libm::sin(angle);
+            let dv = half * libm::cos(angle) * step;
+            let end = (reach * reach - v * v).max(0.0).sqrt();
+            for span in seen(surface, v, &[-end, end]) {
+                let du = (span[1] - span[0]) / f64::from(cells);
+                for cell in 0..cells {
+                    let u = span[0] + (f64::from(cell) + 0.5) * du;
+                    let hit = |u, v| surface.body.hit(u, v);
+                    take(Cell { u, v, du, dv }.element(surface.kind, hit));
+                }
+            }
+        }
+    }
+}
+
+/// Rows without an end of what hides the surface among them.
+fn bands(surface: &Surface, rows: Span) -> Vec<Span> {
+    let hidden = surface.hidden_by.iter().flat_map(Outline::rows);
+    let within = hidden.filter(|row| (rows[0]..rows[1]).contains(row));
+    let mut ends: Vec<_> = rows.into_iter().chain(within).collect();
+    ends.sort_by(f64::total_cmp);
+    ends.windows(2).map(|pair| [pair[0], pair[1]]).filter(|band| band[0] < band[1]).collect()
+}
+
+/// The parts of a row that are of a surface.
+fn seen(surface: &Surface, v: f64, cone: &Span) -> Vec<Span> {
+    let within = |span: &Span| common(span, cone);
+    let mut spans: Vec<_> = surface.outline.spans(v).iter().filter_map(within).collect();
+    for other in surface.hidden_by.iter().flat_map(|other| other.spans(v)) {
+        spans = spans.iter().flat_map(|span| without(span, &other)).collect();
+    }
+    spans
+}

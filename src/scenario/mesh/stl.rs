@@ -1,0 +1,84 @@
+//! STL, in ASCII or binary. The normals that a file states are passed over: the turn of the corners says what is
+//! outside, as it does where both are right.
+
+use crate::error::{Input, Result};
+
+use super::facets::{Facets, Place, Point, lines, point, words};
+
+/// Bytes before the count of a binary file.
+const HEADER: usize = 80;
+/// Bytes up to its first triangle.
+const FIRST: usize = HEADER + 4;
+/// Bytes of a triangle: normal, three corners, and two that mean nothing.
+const TRIANGLE: usize = 50;
+/// Where the corners of a triangle begin.
+const CORNERS: usize = 12;
+
+pub fn parse(source: &str, bytes: &[u8]) -> Result<Facets> {
+    // Binary files may begin with `solid` too; their length tells.
+    let count = bytes.get(HEADER..FIRST).and_then(|count| count.try_into().ok());
+    let count = count.map_or(0, |count| u32::from_le_bytes(count) as usize);
+    let is_binary = bytes.len() >= FIRST && bytes.len() - FIRST == count.saturating_mul(TRIANGLE);
+    match bytes.trim_ascii_start().get(..5) {
+        _ if is_binary => binary(source, &bytes[FIRST..]),
+        Some(word) if word.eq_ignore_ascii_case(b"solid") => {
+            ascii(source, &String::from_utf8_lossy(bytes))
+        }
+        _ => {
+            let expected = format!(
+                "expected text that begins with `solid`, or {FIRST} + {TRIANGLE} n bytes of which those from \
+                 {HEADER} on say n = {count}"
+            );
+            Err(Input::new(source, expected).value(format!("{} bytes", bytes.len())).into())
+        }
+    }
+}
+
+fn binary(source: &str, triangles: &[u8]) -> Result<Facets> {
+    let mut facets = Facets::default();
+    for (index, triangle) in triangles.chunks_exact(TRIANGLE).enumerate() {
+        let place = Place::Triangle(index + 1);
+        let mut corners = [[0.0; 3]; 3];
+        let words = triangle[CORNERS..].chunks_exact(4);
+        for (place_of, word) in corners.as_flattened_mut().iter_mut().zip(words) {
+            let number = f32::from_le_bytes([word[0], word[1], word[2], word[3]]);
+            if !number.is_finite() {
+                let fault = place.fault(source, "expected finite numbers");
+                return Err(fault.value(number).into());
+            }
+            *place_of = f64::from(number);
+        }
+        facets.push(source, corners, place)?;
+    }
+    Ok(facets)
+}
+
+fn ascii(source: &str, text: &str) -> Result<Facets> {
+    let (mut facets, mut corners) = (Facets::default(), Vec::<Point>::new());
+    for (line, text) in lines(text) {
+        let mut words = words(text);
+        let Some((column, word)) = words.next() else { continue };
+        match word.to_ascii_lowercase().as_str() {
+            "vertex" => corners.push(point(source, line, &mut words)?),
+            "facet" => corners.clear(),
+            "endfacet" => {
+                let found = <[Point; 3]>::try_from(std::mem::take(&mut corners));
+                let three = found.map_err(|found| {
+                    let fault = Input::new(source, "expected three `vertex` in a facet");
+                    fault.at(line, column).value(found.len())
+                })?;
+                facets.push(source, three, Place::Line(line))?;
+            }
+            "solid" | "endsolid" | "outer" | "endloop" => {}
+            _ => {
+                let expected =
+                    "expected solid, facet, outer loop, vertex, endloop, endfacet or endsolid";
+                return Err(Input::new(source, expected).at(line, column).value(word).into());
+            }
+        }
+    }
+    match corners.is_empty() {
+        true => Ok(facets),
+        false => Err(Input::new(source, "expected `endfacet` before the end").into()),
+    }
+}
