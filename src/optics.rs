@@ -6,6 +6,7 @@ pub mod chances;
 pub(crate) mod closed_form;
 pub mod dark;
 pub mod eye_safety;
+pub mod first_photon;
 mod geometry;
 pub mod hazard;
 mod returned;

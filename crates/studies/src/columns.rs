@@ -2,7 +2,8 @@
 
 use tofsim::error::{Result, hint};
 use tofsim::files::toml::Checked;
-use tofsim::optics::Chances;
+use tofsim::optics::first_photon::FirstPhoton;
+use tofsim::optics::{Chances, Hazard};
 use tofsim::sim::setup::Setup;
 use tofsim_learn::error_budget::Bound;
 use tofsim_learn::estimation::EstimatorKind;
@@ -49,7 +50,7 @@ impl Column {
         match self.quantity {
             Quantity::Expected(_) => false,
             Quantity::Frames(_) => {
-                self.name.starts_with("hits") || self.name.starts_with("tdc_hits")
+                ["hits_per_frame", "tdc_hits_per_frame", "echo_shift_mm"].contains(&&*self.name)
             }
             Quantity::Errors(..) => true,
         }
@@ -60,7 +61,7 @@ impl Column {
 type Expected = (&'static str, &'static str, &'static str, fn(&Setup) -> Result<Option<f64>>);
 
 /// What a scenario is expected to give.
-const EXPECTED: [Expected; 13] = [
+const EXPECTED: [Expected; 16] = [
     ("signal_per_shot", "1", "Detected laser photons of a shot, S_p of eq. 3.14", |setup| {
         Ok(Some(setup.budget.signal_per_shot))
     }),
@@ -109,6 +110,24 @@ const EXPECTED: [Expected; 13] = [
         "Twice the standard deviation that no unbiased estimate of one frame is below",
         |setup| Ok(Bound::of(setup)?.two_sd_mm),
     ),
+    (
+        "first_photon_chance",
+        "1",
+        "Chance that a shot's first avalanche comes around the echo, by the first-photon model",
+        |setup| Ok(first_photon(setup).map(|first| first.chance)),
+    ),
+    (
+        "first_photon_peak_shift_mm",
+        "mm",
+        "Shift of the histogram's peak by pile-up, by the first-photon model",
+        |setup| Ok(first_photon(setup).map(|first| FirstPhoton::shift_mm(first.peak_ps))),
+    ),
+    (
+        "first_photon_shift_mm",
+        "mm",
+        "Shift of the mean of hits around the echo, by the same; `echo_shift_mm` is what frames have",
+        |setup| Ok(first_photon(setup).map(|first| FirstPhoton::shift_mm(first.mean_ps))),
+    ),
     ("range_m", "m", "Distance whose echo comes with the end of the last bin", |setup| {
         Ok(range_m(setup))
     }),
@@ -118,7 +137,7 @@ const EXPECTED: [Expected; 13] = [
 type OfFrames = (&'static str, &'static str, &'static str, fn(&Tally) -> Figure);
 
 /// What frames give.
-const OF_FRAMES: [OfFrames; 5] = [
+const OF_FRAMES: [OfFrames; 6] = [
     ("hits_per_frame", "hits", "Hits in a frame's histogram", |tally| tally.hits.mean()),
     (
         "tdc_hits_per_frame",
@@ -126,6 +145,9 @@ const OF_FRAMES: [OfFrames; 5] = [
         "Hits that the TDC keeps in a frame, with a code or without",
         |tally| tally.tdc_hits.mean(),
     ),
+    ("echo_shift_mm", "mm", "Mean of a frame's hits around the echo, from where it is", |tally| {
+        tally.echo.mean()
+    }),
     ("estimator_cycles", "cycles of clk_sys", "From algo_start to algo_done", |tally| {
         Figure::exact(tally.estimator_cycles)
     }),
@@ -209,4 +231,10 @@ fn range_m(setup: &Setup) -> Option<f64> {
     use tofsim::optics::budget::LIGHT_M_S;
     let end = setup.bins().spans().iter().map(|span| span.until).max()?;
     (end > setup.budget.delay).then(|| (end - setup.budget.delay).seconds() * LIGHT_M_S / 2.0)
+}
+
+/// The first avalanches around the echo, where shots do not depend on each other.
+fn first_photon(setup: &Setup) -> Option<FirstPhoton> {
+    setup.chances()?;
+    FirstPhoton::new(&setup.budget, &Hazard::new(&setup.budget))
 }

@@ -5,6 +5,7 @@
 //! [`merge`] makes one table of those of a sweep's shards.
 
 pub mod columns;
+pub mod echo;
 pub mod errors;
 pub mod figure;
 pub mod journal;

@@ -150,7 +150,12 @@ impl Plan {
     fn shown(&self) -> Vec<String> {
         let axes = self.points.axes.iter().map(|axis| axis.key.clone());
         let found = self.search.iter().map(|search| search.key.clone());
-        axes.chain(found).chain(self.outputs.iter().map(|column| column.name.clone())).collect()
+        ["point".to_owned()]
+            .into_iter()
+            .chain(axes)
+            .chain(found)
+            .chain(self.outputs.iter().map(|column| column.name.clone()))
+            .collect()
     }
 
     fn check_plot(&self, checked: &Checked, plot: &Plot) -> Result<()> {

@@ -2,6 +2,7 @@
 
 use tofsim::sim::frames::Frame;
 
+use crate::echo::EchoShift;
 use crate::figure::Figure;
 
 /// Sums over frames.
@@ -11,6 +12,8 @@ pub struct Tally {
     pub hits: Counts,
     /// Hits that the TDC kept.
     pub tdc_hits: Counts,
+    /// Hits around the echo.
+    pub echo: EchoShift,
     /// Of the last frame [cycles of `clk_sys`].
     pub estimator_cycles: f64,
     /// Of the last frame [cycles of `clk_sys`].
@@ -26,6 +29,9 @@ impl Tally {
     pub fn take(&mut self, frame: &Frame) {
         self.hits.add(frame.hits());
         self.tdc_hits.add(frame.tdc_hits);
+        if frame.laser_en {
+            self.echo.take(frame);
+        }
         self.estimator_cycles = frame.estimator_cycles as f64;
         self.frame_cycles = frame.frame_cycles as f64;
         self.frame_ms = self.frame_cycles * self.cycle_ms;

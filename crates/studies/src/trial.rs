@@ -14,6 +14,7 @@ use tofsim::sim::{Run, Stepping, domain};
 use tofsim_learn::estimation::{Estimator, EstimatorKind, HistogramPair, Panel};
 
 use crate::columns::{Column, Quantity};
+use crate::echo::EchoShift;
 use crate::errors::Errors;
 use crate::figure::Figure;
 use crate::plan::Plan;
@@ -78,7 +79,11 @@ impl<'a> Trial<'a> {
             truth_m: truth_m(setup),
             errors: estimators.iter().map(|_| Vec::new()).collect(),
             estimators,
-            tally: Tally { cycle_ms: setup.cycle().seconds() * 1e3, ..Tally::default() },
+            tally: Tally {
+                echo: EchoShift::new(setup),
+                cycle_ms: setup.cycle().seconds() * 1e3,
+                ..Tally::default()
+            },
             dark: None,
         };
         let frames = plan.file.frames * setup.frames_together();

@@ -9,7 +9,7 @@ use tofsim::error::{Input, Result};
 use tofsim::files::digest::digest;
 use tofsim::files::output::{create_directory, write_bytes};
 use tofsim::sim::setup::Setup;
-use tofsim_studies::sweep::{ABOUT, Finished};
+use tofsim_studies::sweep::Finished;
 use tofsim_studies::table::Row;
 use tofsim_studies::table::reader::TableReader;
 use tofsim_studies::{Plan, Shard, Sweep};
@@ -232,10 +232,4 @@ fn notes(finished: &Finished, points: u64) -> Vec<Note> {
         Note { text, ..note.clone() }
     };
     finished.notes.iter().map(counted).collect()
-}
-
-/// What a table that is about a sweep says of it.
-fn record_of(about: &str) -> Result<Record> {
-    let record = Record::find(about.as_bytes());
-    record.ok_or_else(|| Input::new(ABOUT, "expected what a sweep says of itself").into())
 }

@@ -25,6 +25,9 @@ pub const PLANS: &[(&str, &str)] = plans!(
     "fig-4-9cd",
     "table-4-3",
     "least-power",
+    "pile-up",
+    "weather",
+    "shapes",
 );
 
 /// The text of a plan.

@@ -157,8 +157,8 @@ fn what_no_plan_can_say_is_refused_with_its_place() {
             "scenario: kc750: no such file or built-in scenario (`kc705`?)",
         ),
         (
-            "[plot]\ntitle = \"\"\nx = \"point\"\ny = [\"hits_per_frame\"]".to_owned(),
-            "plot.x = \"point\": no such column",
+            "[plot]\ntitle = \"\"\nx = \"pont\"\ny = [\"hits_per_frame\"]".to_owned(),
+            "plot.x = \"pont\": no such column (`point`?)",
         ),
         (distance("values = [0.1, \"a\"]"), "target.distance_m = \"a\": expected a number from"),
         (

@@ -11,7 +11,7 @@ use tofsim_studies::table::{Cell, Field, Row};
 
 use crate::text::svg::{COLOURS, chart, legend, picture};
 
-use super::{place, range};
+use super::axes::{place, range, tick};
 
 /// The part of a picture's height that a line of the legend takes [1].
 const LEGEND_LINE: f64 = 0.046;
@@ -162,5 +162,5 @@ impl Frame<'_> {
 
 /// A number along an axis.
 fn label(number: &f64) -> String {
-    super::tick(*number)
+    tick(*number)
 }

@@ -8,7 +8,7 @@ use tofsim_studies::table::{Cell, Field, Row};
 
 use crate::text::svg::{chart, picture};
 
-use super::{place, tick};
+use super::axes::{place, tick};
 
 /// Most cells along a side that have their value written in.
 const WRITTEN: usize = 16;

@@ -4,10 +4,12 @@ use std::path::PathBuf;
 
 use serde_json::json;
 
-use tofsim::error::Result;
+use tofsim::error::{Input, Result};
 use tofsim::files::output::create_directory;
 use tofsim_studies::merge::{Shards, files};
+use tofsim_studies::sweep::ABOUT;
 
+use crate::record::Record;
 use crate::verbs::terminal::{Talk, print_json};
 
 /// Make one table of the shards of a sweep, when all are there
@@ -28,7 +30,7 @@ pub struct Args {
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let files = files(&args.shards)?;
     let shards = Shards::open(&files)?;
-    let record = super::record_of(&shards.about)?;
+    let record = record_of(&shards.about)?;
     create_directory(&args.output)?;
     let written = shards.write(&args.output, &record.comment_line())?;
     written.iter().for_each(|path| talk.wrote(path));
@@ -47,4 +49,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         print_json(&object)?;
     }
     Ok(())
+}
+
+/// What a table that is about a sweep says of it.
+fn record_of(about: &str) -> Result<Record> {
+    let record = Record::find(about.as_bytes());
+    record.ok_or_else(|| Input::new(ABOUT, "expected what a sweep says of itself").into())
 }

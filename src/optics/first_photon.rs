@@ -1,0 +1,154 @@
+//! What pile-up makes of an echo: when the first avalanche of a shot comes, in closed form.
+//!
+//! A TDC keeps the first avalanche of a shot, whose density is `f(t) = h(t) exp(-H(t))`, with the rate `h` and its integral
+//! `H`: photons that come late in the pulse are seen only where none came before. So the histogram's peak is early, the
+//! more so the stronger the echo is, and it lies where `h' = h^2` (thesis section 3.3.2; Coates, J. Phys. E 1, 1968). A weak
+//! Gaussian echo's mean is early by `S sigma / (2 sqrt(pi))`, half of what the first of two photons is, for every photon.
+
+use crate::kernel::Time;
+
+use super::budget::{Budget, LIGHT_M_S};
+use super::hazard::Hazard;
+
+/// Stretches that an echo is cut into [1].
+const STRETCHES: usize = 1024;
+/// Neighbouring stretches among which the peak is looked for: finer ones show the pieces of the pulse's broken line [1].
+const TOGETHER: usize = 4;
+
+/// Where first avalanches come around the echo.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FirstPhoton {
+    /// That the first avalanche of a shot comes there [1].
+    pub chance: f64,
+    /// Mean time of those, from the light's mean arrival [ps].
+    pub mean_ps: f64,
+    /// Where most come, from the light's mean arrival [ps].
+    pub peak_ps: f64,
+}
+
+/// The stretch of time around the echo that is looked at: from the nearest light's mean arrival to the farthest's, and half as
+/// far as the pulse reaches on both sides, which is four sigma of a Gaussian.
+pub fn around_the_echo(budget: &Budget) -> [Time; 2] {
+    let [nearest, farthest] = budget.target_ends();
+    let [before_ps, after_ps] = budget.pulse.reach_ps().map(|ps| ps / 2.0);
+    let before = Time::from_ps_f64(-before_ps).min(nearest);
+    [nearest - before, farthest + Time::from_ps_f64(after_ps)]
+}
+
+impl FirstPhoton {
+    /// Of a shot of `budget`, whose avalanches are those of `hazard`; `None` where none comes there.
+    pub fn new(budget: &Budget, hazard: &Hazard) -> Option<Self> {
+        let [from, until] = around_the_echo(budget).map(|time| time.fs() as f64);
+        let step = (until - from) / STRETCHES as f64;
+        let time = |k: usize| from + k as f64 * step;
+        let left: Vec<_> =
+            (0..=STRETCHES).map(|k| hazard.none_before(Time::from_fs(time(k) as u64))).collect();
+        let parts: Vec<_> = left.windows(2).map(|pair| pair[0] - pair[1]).collect();
+        let chance: f64 = parts.iter().sum();
+        if chance < f64::MIN_POSITIVE {
+            return None;
+        }
+        let arrival = budget.mean_arrival.fs() as f64;
+        let middle = |k: f64| time(0) + (k + 0.5) * step;
+        let moment: f64 = (0..).zip(&parts).map(|(k, part)| middle(f64::from(k)) * part).sum();
+        let mean_ps = (moment / chance - arrival) * 1e-3;
+        let wide: Vec<f64> = parts.chunks(TOGETHER).map(|few| few.iter().sum()).collect();
+        let most = (0..wide.len()).max_by(|&a, &b| wide[a].total_cmp(&wide[b])).unwrap_or(0);
+        let place = (most as f64 + 0.5 + between(&wide, most)) * TOGETHER as f64;
+        let peak_ps = (from + place * step - arrival) * 1e-3;
+        Some(FirstPhoton { chance, mean_ps, peak_ps })
+    }
+
+    /// A time as the distance that it stands for [mm].
+    pub fn shift_mm(ps: f64) -> f64 {
+        ps * 1e-12 * LIGHT_M_S / 2.0 * 1e3
+    }
+}
+
+/// How far beside the largest value the top of the parabola through it and its neighbours lies [places].
+fn between(values: &[f64], largest: usize) -> f64 {
+    let [Some(&before), Some(&after)] =
+        [largest.checked_sub(1), Some(largest + 1)].map(|place| values.get(place?))
+    else {
+        return 0.0;
+    };
+    let bend = before - 2.0 * values[largest] + after;
+    if bend < 0.0 { 0.5 * (before - after) / bend } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+    use crate::kernel::pulse::Pulse;
+
+    const SIGMA_PS: f64 = 137.0;
+
+    fn budget(signal: f64, background_hz: f64) -> Budget {
+        Budget {
+            signal_per_shot: signal,
+            ambient_rate_hz: background_hz,
+            mean_arrival: Time::from_ns(4),
+            pulse: Pulse::Gaussian { sigma_ps: SIGMA_PS },
+            ..Budget::default()
+        }
+    }
+    fn found(signal: f64, background_hz: f64) -> FirstPhoton {
+        let budget = budget(signal, background_hz);
+        FirstPhoton::new(&budget, &Hazard::new(&budget)).unwrap()
+    }
+
+    #[test]
+    fn a_weak_echo_is_early_in_proportion_to_its_strength() {
+        for signal in [0.003, 0.01, 0.03] {
+            let expected = -signal / 2.0 / (1.0 + signal / 2.0) * SIGMA_PS / PI.sqrt();
+            let shift = found(signal, 0.0).mean_ps;
+            assert!((shift / expected - 1.0).abs() < 0.03, "{shift} for {expected}");
+        }
+    }
+
+    #[test]
+    fn most_come_where_the_rate_falls_as_fast_as_its_square() {
+        for signal in [0.1, 1.0, 5.0, 39.4] {
+            // -z = S phi(z), which falls in z.
+            let rest = |z: f64| -z - signal * (-0.5 * z * z).exp() / (2.0 * PI).sqrt();
+            let (mut low, mut high) = (-4.0, 0.0);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if rest(middle) > 0.0 { low = middle } else { high = middle }
+            }
+            let peak = found(signal, 0.0).peak_ps;
+            assert!((peak - low * SIGMA_PS).abs() < 1.5, "{peak} for {}", low * SIGMA_PS);
+        }
+    }
+
+    #[test]
+    fn chance_and_mean_are_those_of_drawn_avalanches() {
+        for (signal, background_hz) in [(0.2, 0.0), (2.0, 1e8), (20.0, 1e9), (0.05, 1e9)] {
+            let budget = budget(signal, background_hz);
+            let hazard = Hazard::new(&budget);
+            let [from, until] = around_the_echo(&budget);
+            let draws = 200_000;
+            let time = |k: u32| {
+                let part = (f64::from(k) + 0.5) / f64::from(draws);
+                hazard.inverse(-libm::log1p(-part))
+            };
+            let within: Vec<_> =
+                (0..draws).map(time).filter(|time| (from..until).contains(time)).collect();
+            let sum: f64 = within.iter().map(|time| time.fs() as f64 * 1e-3).sum();
+            let mean_ps = sum / within.len() as f64 - 4000.0;
+            let found = found(signal, background_hz);
+            let chance = within.len() as f64 / f64::from(draws);
+            assert!((found.chance - chance).abs() < 2e-5, "{} for {chance}", found.chance);
+            assert!((found.mean_ps - mean_ps).abs() < 0.1, "{} for {mean_ps}", found.mean_ps);
+        }
+    }
+
+    #[test]
+    fn without_light_there_is_no_first_photon() {
+        let budget = budget(0.0, 0.0);
+        assert_eq!(FirstPhoton::new(&budget, &Hazard::new(&budget)), None);
+        assert!((FirstPhoton::shift_mm(6.671_281_9) - 1.0).abs() < 1e-6);
+    }
+}
