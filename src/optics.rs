@@ -3,7 +3,7 @@
 mod air;
 pub mod budget;
 pub mod chances;
-pub(crate) mod closed_form;
+pub mod closed_form;
 pub mod dark;
 pub mod eye_safety;
 pub mod first_photon;

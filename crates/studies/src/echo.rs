@@ -1,5 +1,6 @@
 //! Where a frame's hits lie around the echo.
 
+use tofsim::optics::closed_form::Span;
 use tofsim::optics::first_photon::{FirstPhoton, around_the_echo};
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
@@ -9,37 +10,45 @@ use crate::figure::{Figure, mean};
 /// The bins around the echo, and the mean of the hits in them, frame by frame.
 #[derive(Clone, Debug, Default)]
 pub struct EchoShift {
-    /// Code, and how far its middle lies from the light's mean arrival [bins, mm].
-    bins: Vec<(usize, f64)>,
+    bins: Vec<Bin>,
     /// The mean of each frame that has hits there [mm].
     means: Vec<f64>,
+}
+
+/// A bin, or the part of it that lies around the echo.
+#[derive(Clone, Copy, Debug)]
+struct Bin {
+    code: usize,
+    /// How much of it lies there [1].
+    part: f64,
+    /// How far the middle of that lies from the light's mean arrival [mm].
+    shift_mm: f64,
 }
 
 impl EchoShift {
     /// Of a setup's frames, none of which was seen yet.
     pub fn new(setup: &Setup) -> Self {
-        let around = around_the_echo(&setup.budget);
+        let [begin, end] = around_the_echo(&setup.budget);
         let arrival_ps = setup.budget.mean_arrival.fs() as f64 * 1e-3;
-        let bins = setup.bins();
-        let spans = bins.spans().iter().map(|span| {
-            let middle = (span.from.fs() + span.until.fs()) / 2;
-            (usize::from(span.code), middle)
-        });
-        let within =
-            |&(_, middle): &(usize, u64)| (around[0].fs()..around[1].fs()).contains(&middle);
-        let shift = |(code, middle): (usize, u64)| {
-            (code, FirstPhoton::shift_mm(middle as f64 * 1e-3 - arrival_ps))
+        let bin = |span: &Span| {
+            let [from, until] =
+                [span.from.max(begin), span.until.min(end)].map(|time| time.fs() as f64);
+            let width = (span.until - span.from).fs() as f64;
+            let shift_mm = FirstPhoton::shift_mm((from + until) / 2.0 * 1e-3 - arrival_ps);
+            let bin = Bin { code: span.code.into(), part: (until - from) / width, shift_mm };
+            (from < until).then_some(bin)
         };
-        EchoShift { bins: spans.filter(within).map(shift).collect(), means: Vec::new() }
+        let bins = setup.bins().spans().iter().filter_map(bin).collect();
+        EchoShift { bins, means: Vec::new() }
     }
 
     /// Takes the next frame.
     pub fn take(&mut self, frame: &Frame) {
         let (mut hits, mut sum) = (0.0, 0.0);
-        for &(code, mm) in &self.bins {
-            let count = f64::from(frame.histogram[code]);
+        for &Bin { code, part, shift_mm } in &self.bins {
+            let count = part * f64::from(frame.histogram[code]);
             hits += count;
-            sum += count * mm;
+            sum += count * shift_mm;
         }
         if hits > 0.0 {
             self.means.push(sum / hits);
@@ -76,7 +85,7 @@ mod tests {
             let hazard = tofsim::optics::Hazard::new(&setup.budget);
             let first = FirstPhoton::new(&setup.budget, &hazard).unwrap();
             let expected = FirstPhoton::shift_mm(first.mean_ps);
-            // The window's ends cut bins.
+            // Hits do not lie evenly in a bin.
             assert!((found - expected).abs() < 0.1 + 4.0 * se, "{found} +-{se} for {expected}");
         }
     }
