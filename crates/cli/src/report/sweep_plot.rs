@@ -1,7 +1,7 @@
 //! A sweep's picture, as its plan has it.
 
 mod axes;
-mod lines;
+pub mod lines;
 mod surface;
 
 use tofsim_studies::plan::file::{Plot, PlotKind};

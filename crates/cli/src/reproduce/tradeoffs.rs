@@ -1,11 +1,13 @@
 //! The studies of chapter 4, each a plan that comes with the program.
 
-use tofsim::error::{Input, Result};
+use tofsim::error::Result;
 use tofsim_studies::point::header;
 use tofsim_studies::table::{Cell, Field, Row as Point};
 use tofsim_studies::{Plan, Shard, Sweep};
 
-use crate::report::sweep_plot;
+use crate::page::plot::{GREY, Layer, Plot, Shape};
+use crate::report::sweep_plot::lines::lines;
+use crate::text::svg::COLOURS;
 
 use super::item::Finding;
 use super::study::Study;
@@ -68,11 +70,38 @@ impl TradeOff {
     pub fn shown_in(&self, finding: Finding) -> Result<Finding> {
         let finding = finding
             .shown_by(format!("tofsim sweep {} --seed {} -o {0}", self.name, self.plan.seed));
-        let Some(plot) = &self.plan.file.plot else { return Ok(finding) };
-        let svg = sweep_plot::svg(plot, &self.fields, &self.points);
-        let svg = svg.map_err(|fault| Input::new(self.name, fault))?;
-        Ok(finding.with_figure(svg, self.plan.file.description.clone(), true))
+        let Some(plan) = &self.plan.file.plot else { return Ok(finding) };
+        let lines = lines(plan, &self.fields, &self.points);
+        let points = || lines.iter().flat_map(|line| line.points.iter().map(|point| point.0));
+        let across =
+            [points().fold(f64::INFINITY, f64::min), points().fold(f64::NEG_INFINITY, f64::max)];
+        let mut layers = Vec::new();
+        for (line, colour) in lines.iter().zip(COLOURS.into_iter().cycle()) {
+            let points: Vec<_> = line.points.iter().map(|&(x, y, _)| (x, y)).collect();
+            layers.push(Layer::new(short(&line.name), colour, Shape::Line, points.clone()));
+            layers.push(Layer::new("", colour, Shape::Dots, points));
+        }
+        for limit in plan.limits.iter().filter(|limit| limit.y.is_some()) {
+            let y = limit.y.unwrap_or_default();
+            let ends = across.map(|x| (x, y));
+            layers.push(Layer::between(limit.label.clone(), GREY, ends));
+        }
+        let y = plan.y_label.clone().unwrap_or(plan.y.join(", "));
+        let axes = [plan.x_label.as_deref().unwrap_or(&plan.x), &y];
+        let picture = Plot { title: &plan.title, axes, layers };
+        finding.with_plot(&picture, self.plan.file.description.clone())
     }
+}
+
+/// A name without what stands before the last point of each key in it.
+fn short(name: &str) -> String {
+    let parts = name.split(", ").map(|part| {
+        let (key, value) =
+            part.split_once(" = ").map_or((part, None), |(key, value)| (key, Some(value)));
+        let key = key.rsplit('.').next().unwrap_or(key);
+        value.map_or(key.to_owned(), |value| format!("{key} {value}"))
+    });
+    parts.collect::<Vec<_>>().join(", ")
 }
 
 /// Whether values rise (`sign` 1) or fall (-1) along a line, as far as their standard errors tell, and do so in all.
@@ -110,5 +139,11 @@ mod tests {
         assert!(!goes(&line([1.0, 0.9, 3.0], Some(0.01)), 1.0));
         assert!(goes(&line([1.0, 0.97, 3.0], None), 1.0));
         assert!(!goes(&line([3.0, 3.0, 3.0], Some(0.1)), 1.0), "nothing moves");
+    }
+
+    #[test]
+    fn names_in_a_legend_are_short() {
+        assert_eq!(short("peak.sd_mm, target.distance_m = 0.4"), "sd_mm, distance_m 0.4");
+        assert_eq!(short("spad.pdp = 0.01"), "pdp 0.01");
     }
 }

@@ -19,9 +19,11 @@ const LEGEND_LINE: f64 = 0.046;
 const LIMITS: [RGBColor; 2] = [RGBColor(200, 30, 30), RGBColor(128, 0, 128)];
 
 /// A line: its name, and its points with their standard errors.
-struct Line {
-    name: String,
-    points: Vec<(f64, f64, Option<f64>)>,
+pub struct Line {
+    /// What it stands for.
+    pub name: String,
+    /// Across, up, and the standard error of that.
+    pub points: Vec<(f64, f64, Option<f64>)>,
 }
 
 /// The picture; an error if no row has a value.
@@ -65,7 +67,8 @@ pub fn svg(plot: &Plot, fields: &[Field], rows: &[Row]) -> Result<String, String
     })
 }
 
-fn lines(plot: &Plot, fields: &[Field], rows: &[Row]) -> Vec<Line> {
+/// The lines of a plot, each in rising order.
+pub fn lines(plot: &Plot, fields: &[Field], rows: &[Row]) -> Vec<Line> {
     let x = place(fields, &plot.x);
     let series: Vec<_> = plot.series.iter().filter_map(|name| place(fields, name)).collect();
     let mut lines: Vec<Line> = Vec::new();
