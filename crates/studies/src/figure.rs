@@ -27,3 +27,55 @@ pub fn mean(numbers: impl Iterator<Item = f64> + Clone) -> Figure {
     let se = (count > 1.0).then(|| (squares / (count - 1.0) / count).sqrt());
     Figure { value: Some(mean), se }
 }
+
+/// The figure of several repeats: their mean, with the standard error that their scatter shows; of one, or where no noise
+/// moves it, the first.
+pub fn of_repeats(
+    is_random: bool,
+    mut repeats: impl ExactSizeIterator<Item = Figure> + Clone,
+) -> Figure {
+    if repeats.len() == 1 || !is_random {
+        return repeats.next().unwrap_or_default();
+    }
+    mean(repeats.filter_map(|figure| figure.value))
+}
+
+/// The mean of figures that do not depend on each other; of one, itself.
+pub fn mean_of_scenes(figures: impl Iterator<Item = Figure>) -> Figure {
+    let (mut count, mut sum, mut variance) = (0.0, 0.0, Some(0.0));
+    for figure in figures {
+        let Some(value) = figure.value else { continue };
+        count += 1.0;
+        sum += value;
+        variance = variance.zip(figure.se).map(|(sum, se)| sum + se * se);
+    }
+    match count > 0.0 {
+        true => {
+            Figure { value: Some(sum / count), se: variance.map(|sum: f64| sum.sqrt() / count) }
+        }
+        false => Figure::default(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn figures(values: [f64; 3]) -> [Figure; 3] {
+        values.map(|value| Figure { value: Some(value), se: Some(0.3) })
+    }
+
+    #[test]
+    fn repeats_have_the_error_of_their_scatter_and_scenes_that_of_each() {
+        let three = figures([1.0, 2.0, 3.0]);
+        let repeats = of_repeats(true, three.iter().copied());
+        assert_eq!(repeats.value, Some(2.0));
+        assert!((repeats.se.unwrap() - (1.0f64 / 3.0).sqrt()).abs() < 1e-12);
+        assert_eq!(of_repeats(false, three.iter().copied()), three[0]);
+        assert_eq!(of_repeats(true, three[..1].iter().copied()), three[0]);
+        let scenes = mean_of_scenes(three.into_iter().chain([Figure::default()]));
+        assert_eq!(scenes.value, Some(2.0));
+        assert!((scenes.se.unwrap() - 0.3 / 3f64.sqrt()).abs() < 1e-12);
+        assert_eq!(mean_of_scenes([Figure::default()].into_iter()), Figure::default());
+    }
+}

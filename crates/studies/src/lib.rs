@@ -8,6 +8,7 @@ pub mod columns;
 pub mod echo;
 pub mod errors;
 pub mod figure;
+pub mod header;
 pub mod journal;
 pub mod limit;
 pub mod merge;

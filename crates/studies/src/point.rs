@@ -12,45 +12,17 @@ use tofsim::note::Note;
 use tofsim::scenario::Loaded;
 
 use crate::columns::Column;
-use crate::figure::{Figure, mean};
+use crate::figure::{Figure, mean, mean_of_scenes, of_repeats};
+use crate::header::header;
 use crate::plan::Plan;
 use crate::plan::axis::number;
 use crate::plan::file::Refused;
 use crate::plan::search::{Answer, Search};
-use crate::table::{Cell, Field, Kind, Row};
+use crate::table::{Cell, Row};
 use crate::trial::{Outcome, Trial};
 
 /// Bits of a point's seed, so that a double holds it.
 const SEED_BITS: u32 = 53;
-
-/// The columns of a plan's table.
-pub fn header(plan: &Plan) -> Vec<Field> {
-    let axis = |axis: &crate::plan::axis::Axis| {
-        let kind = if axis.is_text { Kind::Text } else { Kind::Number };
-        Field::new(&axis.key, kind)
-    };
-    let mut fields = vec![Field::new("point", Kind::Whole)];
-    fields.extend(plan.points.axes.iter().map(axis));
-    fields.push(Field::new("seed", Kind::Whole));
-    if let Some(search) = &plan.search {
-        fields.push(Field::new(&search.key, Kind::Number));
-        fields.push(Field::new(&format!("{}_se", search.key), Kind::Number));
-        fields.push(Field::new("search", Kind::Text));
-        fields.push(Field::new("found_repeats", Kind::Whole));
-        fields.extend(search.over.iter().map(axis));
-    }
-    for column in &plan.outputs {
-        fields.push(Field::new(&column.name, Kind::Number));
-        if column.is_random() {
-            fields.push(Field::new(&format!("{}_se", column.name), Kind::Number));
-        }
-    }
-    fields.push(Field::new("notes", Kind::Text));
-    if plan.file.refused == Refused::Keep {
-        fields.push(Field::new("refused", Kind::Text));
-    }
-    fields
-}
 
 /// What a point comes to.
 pub struct Worked {
@@ -111,7 +83,7 @@ impl Point<'_> {
         cells.extend(searched.cells);
         for (place, column) in columns.iter().enumerate() {
             let of = repeats.iter().map(|figures: &Vec<Figure>| figures[place]);
-            let figure = pooled(column, of);
+            let figure = of_repeats(column.is_random(), of);
             cells.push(Cell::number(figure.value));
             if column.is_random() {
                 cells.push(Cell::number(figure.se));
@@ -267,31 +239,6 @@ impl Point<'_> {
 
 fn assignment(search: &Search, value: f64) -> String {
     format!("{}={}", search.key, number(value))
-}
-
-/// The figure of several repeats: their mean, with the standard error that their scatter shows; of one, its own.
-fn pooled(column: &Column, mut repeats: impl ExactSizeIterator<Item = Figure> + Clone) -> Figure {
-    if repeats.len() == 1 || !column.is_random() {
-        return repeats.next().unwrap_or_default();
-    }
-    mean(repeats.filter_map(|figure| figure.value))
-}
-
-/// The mean of figures that do not depend on each other; of one, itself.
-fn mean_of_scenes(figures: impl Iterator<Item = Figure>) -> Figure {
-    let (mut count, mut sum, mut variance) = (0.0, 0.0, Some(0.0));
-    for figure in figures {
-        let Some(value) = figure.value else { continue };
-        count += 1.0;
-        sum += value;
-        variance = variance.zip(figure.se).map(|(sum, se)| sum + se * se);
-    }
-    match count > 0.0 {
-        true => {
-            Figure { value: Some(sum / count), se: variance.map(|sum: f64| sum.sqrt() / count) }
-        }
-        false => Figure::default(),
-    }
 }
 
 fn add(notes: &mut Vec<Note>, more: Vec<Note>) {

@@ -11,9 +11,10 @@ use rayon::prelude::*;
 use tofsim::error::{Error, Result};
 use tofsim::note::Note;
 
+use crate::header::header;
 use crate::journal::{Entry, Journal};
 use crate::plan::Plan;
-use crate::point::{header, work};
+use crate::point::work;
 use crate::shard::Shard;
 use crate::table::csv_file::CsvFile;
 use crate::table::reader::TableReader;

@@ -1,7 +1,7 @@
 //! The table of a sweep, for people.
 
 use tofsim_studies::Plan;
-use tofsim_studies::point::header;
+use tofsim_studies::header::header;
 use tofsim_studies::table::{Cell, Field, Row};
 
 use crate::text::table::{fitted, grouped, width};

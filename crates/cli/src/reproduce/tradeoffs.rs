@@ -1,7 +1,7 @@
 //! The studies of chapter 4, each a plan that comes with the program.
 
 use tofsim::error::Result;
-use tofsim_studies::point::header;
+use tofsim_studies::header::header;
 use tofsim_studies::table::{Cell, Field, Row as Point};
 use tofsim_studies::{Plan, Shard, Sweep};
 

@@ -113,7 +113,7 @@ impl SweepArgs {
             (&self.output, &plan.file.plot, sweep.shard)
         {
             let path = folder.join("sweep.svg");
-            let fields = tofsim_studies::point::header(&plan);
+            let fields = tofsim_studies::header::header(&plan);
             match sweep_plot::svg(plot, &fields, &finished.rows) {
                 Ok(svg) => {
                     write_bytes(&path, record.in_svg(&svg))?;
@@ -175,7 +175,7 @@ impl SweepArgs {
         about["shard"] = json!(self.shard.map(|shard| shard.to_string()));
         about["files"] = json!(files);
         if self.output.is_none() {
-            let names: Vec<_> = tofsim_studies::point::header(plan);
+            let names: Vec<_> = tofsim_studies::header::header(plan);
             let object = |row: &Row| -> Value {
                 let pairs = names.iter().zip(&row.cells);
                 pairs
