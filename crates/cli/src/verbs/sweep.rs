@@ -27,15 +27,15 @@ mod merge;
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 #[command(
-    after_help = "A plan is a TOML file: axes (lists, ranges, distributions) over any keys of the \
-    scenario, what is\nsimulated at each point, which columns the table has, and what is searched for. \
-    docs/studies.md\nexplains it. A sweep that was stopped or killed goes on where it was.\n\nExamples:\n  \
-    tofsim sweep fig-4-2                        a plan that comes with the program, printed\n  \
-    tofsim sweep plan.toml -o out               out/sweep.parquet, sweep.csv and, with [plot], sweep.svg\n  \
-    tofsim sweep plan.toml --shard 3/7 -o out   one of seven parts, for an array of jobs\n  \
-    tofsim sweep merge out -o whole             one table of all seven\n  \
-    tofsim sweep list                           plans that come with the program\n  \
-    tofsim sweep columns                        what a point can give"
+    after_help = "A plan is a TOML file: axes (lists, ranges, distributions) over any keys of \
+    the scenario,\nwhat is simulated at each point, which columns the table has, what is searched for.\n\
+    docs/studies.md explains it. A sweep that was stopped or killed goes on where it was.\n\nExamples:\n  \
+    tofsim sweep fig-4-2                    a plan of the program's, printed\n  \
+    tofsim sweep p.toml -o out              sweep.parquet and .csv, and .svg with [plot]\n  \
+    tofsim sweep p.toml --shard 3/7 -o out  one of seven parts, for an array of jobs\n  \
+    tofsim sweep merge out -o whole         one table of all seven\n  \
+    tofsim sweep list                       plans that come with the program\n  \
+    tofsim sweep columns                    what a point can give"
 )]
 pub struct Args {
     #[command(subcommand)]
