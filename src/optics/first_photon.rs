@@ -2,8 +2,9 @@
 //!
 //! A TDC keeps the first avalanche of a shot, whose density is `f(t) = h(t) exp(-H(t))`, with the rate `h` and its integral
 //! `H`: photons that come late in the pulse are seen only where none came before. So the histogram's peak is early, the
-//! more so the stronger the echo is, and it lies where `h' = h^2` (thesis section 3.3.2; Coates, J. Phys. E 1, 1968). A weak
-//! Gaussian echo's mean is early by `S sigma / (2 sqrt(pi))`, half of what the first of two photons is, for every photon.
+//! more so the stronger the echo is, and it lies where `h' = h^2` (order statistics, thesis section 4.3; Coates, J. Phys. E 1,
+//! 1968). The mean of a weak Gaussian echo is early by `S sigma / (2 sqrt(pi))`: with a chance of S/2 there is a second photon,
+//! and the first of two is early by `sigma / sqrt(pi)`.
 
 use crate::kernel::Time;
 

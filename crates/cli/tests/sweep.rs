@@ -2,13 +2,15 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 use std::thread;
 use std::time::Duration;
 
 use serde_json::Value;
 
-use crate::common::{device, empty, json, refused, stdout, tofsim};
+use crate::common::{empty, json, refused, stdout, tofsim};
+
+mod files;
 
 /// A plan of 48 points with words among its values.
 const PLAN: &str = "
@@ -231,111 +233,4 @@ fn points_that_the_scenario_refuses_end_the_sweep_or_are_kept_with_the_reason() 
         (Value::Null, Value::Null)
     );
     assert!(rows[1]["refused"].as_str().unwrap().contains("in MODE 1"), "{rows}");
-}
-
-#[test]
-fn shards_that_are_missing_damaged_or_of_another_sweep_are_not_merged() {
-    let home = with_plan();
-    let folder = home.path();
-    for index in ["1/3", "2/3", "3/3"] {
-        sweep(folder, &["-o", "s", "--shard", index]);
-    }
-    sweep(folder, &["-o", "other", "--shard", "2/3", "--seed", "9"]);
-    sweep(folder, &["-o", "halves", "--shard", "2/2"]);
-    let merge = |shards: &[&str]| {
-        let args: Vec<_> =
-            ["sweep", "merge"].iter().chain(shards).chain(&["-o", "m"]).copied().collect();
-        refused(folder, &args)
-    };
-    let [one, two, three] = ["1", "2", "3"].map(|k| format!("s/shard-{k}-of-3.parquet"));
-    assert!(merge(&[&one, &three]).contains("shard 2/3 missing, expected all 3"));
-    assert!(merge(&[&one]).contains("shard 2/3 and 1 more missing"));
-    let other = merge(&[&one, "other/shard-2-of-3.parquet", &three]);
-    assert!(
-        other.contains("it is a shard of another sweep than other/shard-2-of-3.parquet"),
-        "{other}"
-    );
-    let other = merge(&["halves/shard-2-of-2.parquet", &one, &two, &three]);
-    assert!(
-        other.contains("1/3: expected a shard of 2, as halves/shard-2-of-2.parquet is"),
-        "{other}"
-    );
-    fs::copy(folder.join(&two), folder.join("copy.parquet")).unwrap();
-    assert!(
-        merge(&["copy.parquet", &one, &two, &three])
-            .contains("the same shard is in copy.parquet too")
-    );
-    assert!(merge(&["other/../plan.toml"]).contains("unreadable Parquet"));
-    let whole = fs::read(folder.join(&two)).unwrap();
-    for length in [0, 3, whole.len() / 2, whole.len() - 1] {
-        fs::write(folder.join(&two), &whole[..length]).unwrap();
-        let error = merge(&["s"]);
-        assert!(error.contains("shard-2-of-3.parquet: unreadable Parquet"), "{length}: {error}");
-    }
-    assert!(!folder.join("m/sweep.parquet").exists(), "no table is left half done");
-    fs::write(folder.join(&two), whole).unwrap();
-    stdout(folder, &["sweep", "merge", "s", "-o", "m", "-q"]);
-}
-
-#[test]
-fn what_is_there_is_not_done_again_and_another_plans_journal_is_not_gone_on_with() {
-    let home = with_plan();
-    let folder = home.path();
-    sweep(folder, &["-o", "out"]);
-    let table = folder.join("out/sweep.parquet");
-    let before = fs::metadata(&table).unwrap().modified().unwrap();
-    sweep(folder, &["-o", "out"]);
-    assert_eq!(fs::metadata(&table).unwrap().modified().unwrap(), before);
-    sweep(folder, &["-o", "out", "--restart"]);
-    assert_ne!(fs::metadata(&table).unwrap().modified().unwrap(), before);
-    fs::write(
-        folder.join("out/sweep.journal"),
-        "{\"schema\":\"tofsim.sweep-journal/1\",\"about\":\"x\"}\n",
-    )
-    .unwrap();
-    let error = refused(folder, &["sweep", "plan.toml", "-o", "out", "--seed", "2"]);
-    assert!(
-        error.contains("out/sweep.journal: the sweep that was begun there is another"),
-        "{error}"
-    );
-    for (args, expected) in [
-        (
-            &["sweep", "plan.toml", "--shard", "8/7", "-o", "out"][..],
-            "expected I/N with I from 1 to N",
-        ),
-        (&["sweep", "plan.toml", "--shard", "1/7"], "--output <DIR>"),
-        (&["sweep", "fig-4-22"], "plan: fig-4-22: no such file or built-in plan (`fig-4-2`?)"),
-        (&["sweep", "show", "fig-44a"], "no built-in plan (`fig-4-4a`?)"),
-        (&["sweep"], "<PLAN>"),
-    ] {
-        let error = refused(folder, args);
-        assert!(error.contains(expected), "{args:?}: {error}");
-    }
-}
-
-#[cfg(unix)]
-#[test]
-fn a_disk_that_fills_up_is_named_and_what_was_finished_is_kept() {
-    let home = with_plan();
-    let folder = home.path();
-    sweep(folder, &["-o", "one"]);
-    // A file may have so many blocks; writing more fails as on a full disk.
-    let limited = format!(
-        "trap '' XFSZ; ulimit -f 16; exec '{}' sweep plan.toml -o out --threads 1",
-        env!("CARGO_BIN_EXE_tofsim")
-    );
-    let output = Command::new("sh").current_dir(folder).args(["-c", &limited]).output().unwrap();
-    let error = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{error}");
-    assert!(error.contains("out/sweep.journal: cannot write: File too large"), "{error}");
-    assert!(!folder.join("out/sweep.parquet").exists());
-    let again = json(folder, &["sweep", "plan.toml", "-o", "out", "--json"]);
-    assert_eq!(again["points"], 48);
-    same(folder, "one", "out");
-
-    let full = device(folder, "full");
-    fs::create_dir(folder.join("device")).unwrap();
-    std::os::unix::fs::symlink(full, folder.join("device/sweep.journal")).unwrap();
-    let error = refused(folder, &["sweep", "plan.toml", "-o", "device"]);
-    assert!(error.contains("device/sweep.journal: expected a regular file"), "{error}");
 }

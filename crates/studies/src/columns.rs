@@ -14,7 +14,7 @@ use crate::plan::file::Fidelity;
 use crate::tally::Tally;
 
 /// A column.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Column {
     /// Its name.
     pub name: String,
@@ -31,29 +31,18 @@ pub struct Column {
 pub enum Quantity {
     /// The scenario, without a run.
     Expected(fn(&Setup) -> Result<Option<f64>>),
-    /// The frames.
-    Frames(fn(&Tally) -> Figure),
+    /// The hits of the frames.
+    Hits(fn(&Tally) -> Figure),
+    /// How long a frame takes, which no noise moves.
+    Duration(fn(&Tally) -> f64),
     /// What the estimator of that place makes of them.
     Errors(usize, fn(&Errors) -> Figure),
-}
-
-/// Two are the same that stand in the same column.
-impl PartialEq for Quantity {
-    fn eq(&self, other: &Self) -> bool {
-        std::mem::discriminant(self) == std::mem::discriminant(other)
-    }
 }
 
 impl Column {
     /// Whether noise moves its values, so that they have standard errors.
     pub fn is_random(&self) -> bool {
-        match self.quantity {
-            Quantity::Expected(_) => false,
-            Quantity::Frames(_) => {
-                ["hits_per_frame", "tdc_hits_per_frame", "echo_shift_mm"].contains(&&*self.name)
-            }
-            Quantity::Errors(..) => true,
-        }
+        matches!(self.quantity, Quantity::Hits(_) | Quantity::Errors(..))
     }
 }
 
@@ -133,28 +122,39 @@ const EXPECTED: [Expected; 16] = [
     }),
 ];
 
-/// A column of [`Quantity::Frames`]: name, unit, meaning, value.
-type OfFrames = (&'static str, &'static str, &'static str, fn(&Tally) -> Figure);
-
-/// What frames give.
-const OF_FRAMES: [OfFrames; 6] = [
-    ("hits_per_frame", "hits", "Hits in a frame's histogram", |tally| tally.hits.mean()),
+/// What frames give: name, unit, meaning, quantity.
+const OF_FRAMES: [(&str, &str, &str, Quantity); 6] = [
+    (
+        "hits_per_frame",
+        "hits",
+        "Hits in a frame's histogram",
+        Quantity::Hits(|tally| tally.hits.mean()),
+    ),
     (
         "tdc_hits_per_frame",
         "hits",
         "Hits that the TDC keeps in a frame, with a code or without",
-        |tally| tally.tdc_hits.mean(),
+        Quantity::Hits(|tally| tally.tdc_hits.mean()),
     ),
-    ("echo_shift_mm", "mm", "Mean of a frame's hits around the echo, from where it is", |tally| {
-        tally.echo.mean()
-    }),
-    ("estimator_cycles", "cycles of clk_sys", "From algo_start to algo_done", |tally| {
-        Figure::exact(tally.estimator_cycles)
-    }),
-    ("frame_cycles", "cycles of clk_sys", "From Clear to algo_done", |tally| {
-        Figure::exact(tally.frame_cycles)
-    }),
-    ("frame_ms", "ms", "The same in time", |tally| Figure::exact(tally.frame_ms)),
+    (
+        "echo_shift_mm",
+        "mm",
+        "Mean of a frame's hits around the echo, from where it is",
+        Quantity::Hits(|tally| tally.echo.mean()),
+    ),
+    (
+        "estimator_cycles",
+        "cycles of clk_sys",
+        "From algo_start to algo_done",
+        Quantity::Duration(|tally| tally.estimator_cycles),
+    ),
+    (
+        "frame_cycles",
+        "cycles of clk_sys",
+        "From Clear to algo_done",
+        Quantity::Duration(|tally| tally.frame_cycles),
+    ),
+    ("frame_ms", "ms", "The same in time", Quantity::Duration(|tally| tally.frame_ms)),
 ];
 
 /// A column of [`Quantity::Errors`]: its name after the estimator's, unit, meaning, value.
@@ -176,8 +176,8 @@ pub fn all(fidelity: Fidelity, estimators: &[EstimatorKind]) -> Vec<Column> {
         let (name, quantity) = (name.to_owned(), Quantity::Expected(of));
         Column { name, unit, meaning, quantity }
     });
-    let of_frames = OF_FRAMES.iter().map(|&(name, unit, meaning, of)| {
-        let (name, quantity) = (name.to_owned(), Quantity::Frames(of));
+    let of_frames = OF_FRAMES.iter().map(|&(name, unit, meaning, quantity)| {
+        let name = name.to_owned();
         Column { name, unit, meaning, quantity }
     });
     let of_errors = estimators.iter().enumerate().flat_map(|(place, kind)| {

@@ -9,13 +9,6 @@ pub struct Figure {
     pub se: Option<f64>,
 }
 
-impl Figure {
-    /// A value that no noise moves.
-    pub fn exact(value: f64) -> Figure {
-        Figure { value: Some(value), se: None }
-    }
-}
-
 /// The mean of numbers, with its standard error.
 pub fn mean(numbers: impl Iterator<Item = f64> + Clone) -> Figure {
     let count = numbers.clone().count() as f64;

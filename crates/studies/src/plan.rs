@@ -18,7 +18,6 @@ use tofsim::scenario::{self, Loaded, Scenario};
 use tofsim_learn::estimation::EstimatorKind;
 
 use crate::columns::{self, Column};
-use crate::limit::Limit;
 use axis::Axis;
 use combination::{Combination, scenes};
 use fault::at_key;
@@ -139,11 +138,6 @@ impl Plan {
         let mut loaded = scenario::load(&self.scenario, &set)?;
         loaded.scenario.seed = self.seed;
         Ok(loaded)
-    }
-
-    /// All limits that a search has to meet.
-    pub fn limits(&self) -> &[Limit] {
-        self.search.as_ref().map_or(&[], |search| &search.meets)
     }
 
     /// Names of the columns that a plot can show.

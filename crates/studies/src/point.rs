@@ -5,6 +5,7 @@ use std::sync::atomic::AtomicBool;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
+use toml_edit::Value;
 
 use tofsim::error::{Error, Input, Result};
 use tofsim::files::digest::digest_of;
@@ -15,7 +16,7 @@ use crate::columns::Column;
 use crate::figure::{Figure, mean, mean_of_scenes, of_repeats};
 use crate::header::header;
 use crate::plan::Plan;
-use crate::plan::axis::number;
+use crate::plan::axis::{Axis, number};
 use crate::plan::file::Refused;
 use crate::plan::search::{Answer, Search};
 use crate::table::{Cell, Row};
@@ -57,23 +58,22 @@ struct Point<'a> {
     stop: Option<&'a AtomicBool>,
 }
 
-/// What a search found in all repeats.
+/// What a search found in all repeats; nothing without one.
+#[derive(Default)]
 struct Searched {
     cells: Vec<Cell>,
     /// The settings at which outputs are shown.
     settings: Vec<String>,
-    notes: Vec<Note>,
 }
 
 impl Point<'_> {
     fn work(&self) -> Result<Worked> {
         let searched = match &self.plan.search {
             Some(search) => self.search(search)?,
-            None => Searched { cells: Vec::new(), settings: Vec::new(), notes: Vec::new() },
+            None => Searched::default(),
         };
         let columns: Vec<_> = self.plan.outputs.iter().collect();
-        let mut repeats = Vec::new();
-        let mut notes = searched.notes;
+        let (mut repeats, mut notes) = (Vec::new(), Vec::new());
         for repeat in 0..self.plan.file.repeats {
             let outcome = self.measure(&columns, &searched.settings, repeat)?;
             repeats.push(outcome.figures);
@@ -100,10 +100,7 @@ impl Point<'_> {
     fn head(&self) -> Vec<Cell> {
         let values = self.plan.points.values(self.point);
         let axes =
-            self.plan.points.axes.iter().zip(values).map(|(axis, value)| match axis.is_text {
-                true => Cell::Text(value.trim_matches('"').to_owned()),
-                false => Cell::number(value.parse().ok()),
-            });
+            self.plan.points.axes.iter().zip(values).map(|(axis, value)| axis_cell(axis, &value));
         let seed = Cell::Whole(self.seed(&self.plan.mean_over[0], 0));
         [Cell::Whole(self.point)].into_iter().chain(axes).chain([seed]).collect()
     }
@@ -192,12 +189,9 @@ impl Point<'_> {
         cells.extend([Cell::Text(word.to_owned()), Cell::Whole(repeats)]);
         for (axis, assignment) in search.over.iter().zip(scene) {
             let value = assignment.split_once('=').map_or("", |(_, value)| value);
-            cells.push(match axis.is_text {
-                true => Cell::Text(value.trim_matches('"').to_owned()),
-                false => Cell::number(value.parse().ok()),
-            });
+            cells.push(axis_cell(axis, value));
         }
-        Ok(Searched { cells, settings, notes: Vec::new() })
+        Ok(Searched { cells, settings })
     }
 
     /// For each limit whether it is met at a value in a scene, and how much of it is used up.
@@ -208,12 +202,7 @@ impl Point<'_> {
         scene: &[String],
         repeat: u64,
     ) -> Result<Vec<(bool, f64)>> {
-        let known = crate::columns::all(self.plan.file.fidelity, &self.plan.estimators);
-        let columns: Vec<_> = search
-            .meets
-            .iter()
-            .filter_map(|limit| known.iter().find(|column| column.name == limit.column))
-            .collect();
+        let columns: Vec<_> = search.columns.iter().collect();
         let mut settings = vec![assignment(search, value)];
         settings.extend(scene.iter().cloned());
         let outcome = self.measure(&columns, &settings, repeat)?;
@@ -235,6 +224,15 @@ impl Point<'_> {
         }
         Ok(worst.1)
     }
+}
+
+/// The cell of an axis's value, which is as TOML has it.
+fn axis_cell(axis: &Axis, value: &str) -> Cell {
+    if !axis.is_text {
+        return Cell::number(value.parse().ok());
+    }
+    let text = value.parse().ok().and_then(|value: Value| value.as_str().map(str::to_owned));
+    Cell::Text(text.unwrap_or_else(|| value.to_owned()))
 }
 
 fn assignment(search: &Search, value: f64) -> String {

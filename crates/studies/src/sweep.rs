@@ -100,10 +100,9 @@ impl Sweep<'_> {
             done(1);
             Ok(())
         })?;
-        let mut finished = Finished { resumed, ..self.write(folder, &journal)? };
+        let finished = self.write(folder, &journal)?;
         journal.remove()?;
-        finished.files.retain(|file| file.exists());
-        Ok(finished)
+        Ok(Finished { resumed, ..finished })
     }
 
     /// Works out all points, in memory.

@@ -58,7 +58,10 @@ impl<'a> Trial<'a> {
         let figure = |column: &&Column| {
             Ok(match (column.quantity, &measured) {
                 (Quantity::Expected(of), _) => Figure { value: finite(of(&setup)?), se: None },
-                (Quantity::Frames(of), Some((tally, _))) => of(tally),
+                (Quantity::Hits(of), Some((tally, _))) => of(tally),
+                (Quantity::Duration(of), Some((tally, _))) => {
+                    Figure { value: Some(of(tally)), se: None }
+                }
                 (Quantity::Errors(place, of), Some((_, errors))) => of(&errors[place]),
                 _ => Figure::default(),
             })

@@ -20,6 +20,8 @@ pub struct Search {
     pub key: String,
     /// Limits that have to be met.
     pub meets: Vec<Limit>,
+    /// The column of each.
+    pub columns: Vec<Column>,
     /// Keys of the scenes in all of which they have to be.
     pub over: Vec<Axis>,
     /// Those scenes, an assignment for each key.
@@ -85,9 +87,13 @@ impl Search {
         let limit = |(k, text): (usize, &String)| {
             Limit::parse(checked, &format!("search.meets.{k}"), text, known)
         };
+        let meets: Vec<_> = file.meets.iter().enumerate().map(limit).collect::<Result<_>>()?;
+        let column = |limit: &Limit| known.iter().find(|column| column.name == limit.column);
+        let columns = meets.iter().filter_map(column).cloned().collect();
         Ok(Search {
             key: file.key.clone(),
-            meets: file.meets.iter().enumerate().map(limit).collect::<Result<_>>()?,
+            meets,
+            columns,
             over,
             scenes,
             find: file.find,
@@ -178,6 +184,7 @@ mod tests {
         Search {
             key: "target.distance_m".to_owned(),
             meets: Vec::new(),
+            columns: Vec::new(),
             over: Vec::new(),
             scenes: vec![Vec::new()],
             find,
