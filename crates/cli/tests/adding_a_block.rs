@@ -68,6 +68,8 @@ impl Piece<'_> {
 }
 
 /// A copy of the files that git knows.
+///
+/// It has another version, or what is built of it would take the names of this repository's own libraries.
 fn copy(to: &Path) {
     let listed = Command::new("git").args(["ls-files", "-z"]).current_dir(ROOT).output().unwrap();
     assert!(listed.status.success());
@@ -76,6 +78,11 @@ fn copy(to: &Path) {
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::copy(Path::new(ROOT).join(name), path).unwrap();
     }
+    let manifest = to.join("Cargo.toml");
+    let text = fs::read_to_string(&manifest).unwrap();
+    let version = concat!("version = \"", env!("CARGO_PKG_VERSION"), "\"");
+    assert_eq!(text.matches(version).count(), 1);
+    fs::write(manifest, text.replace(version, "version = \"0.0.0\"")).unwrap();
 }
 
 /// What a program writes, which has to succeed.
