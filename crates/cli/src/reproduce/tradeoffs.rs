@@ -80,6 +80,9 @@ impl TradeOff {
             let points: Vec<_> = line.points.iter().map(|&(x, y, _)| (x, y)).collect();
             layers.push(Layer::new(short(&line.name), colour, Shape::Line, points.clone()));
             layers.push(Layer::new("", colour, Shape::Dots, points));
+            let ends =
+                line.points.iter().filter_map(|&(x, y, se)| Some([(x, y - se?), (x, y + se?)]));
+            layers.push(Layer::new("", colour, Shape::Whiskers, ends.flatten()));
         }
         for limit in plan.limits.iter().filter(|limit| limit.y.is_some()) {
             let y = limit.y.unwrap_or_default();
@@ -88,8 +91,10 @@ impl TradeOff {
         }
         let y = plan.y_label.clone().unwrap_or(plan.y.join(", "));
         let axes = [plan.x_label.as_deref().unwrap_or(&plan.x), &y];
+        let has_errors = lines.iter().flat_map(|line| &line.points).any(|point| point.2.is_some());
+        let errors = if has_errors { "; bars are standard errors" } else { "" };
         let picture = Plot { title: &plan.title, axes, layers };
-        finding.with_plot(&picture, self.plan.file.description.clone())
+        finding.with_plot(&picture, format!("{}{errors}", self.plan.file.description))
     }
 }
 
