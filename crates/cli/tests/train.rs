@@ -55,6 +55,27 @@ fn the_same_command_writes_the_same_files_on_any_number_of_threads() {
 }
 
 #[test]
+fn plain_trainlm_stops_by_its_validation_and_has_no_end_of_ours() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let few = "stages=[{candidates=1,epochs=1000,samples=603}]";
+    let start = ["train", "--recipe", "trainlm", "--profile", "ideal", "--seed", "1"];
+    stdout(folder, &[&start[..], &["--with", few, "--with", "validation=402", "-o", "a"]].concat());
+    let curve = read(folder, "a/curve.csv");
+    let last: Vec<_> = curve.lines().last().unwrap().split(',').collect();
+    let [stage, block, start, epochs, cost, _, validation, ratio] = last[..] else {
+        panic!("{last:?}")
+    };
+    assert_eq!([stage, block, start, ratio], ["0", "0", "0", ""]);
+    assert!(epochs.parse::<u32>().unwrap() < 1000, "{epochs} epochs");
+    let [cost, validation] = [cost, validation].map(|text| text.parse::<f64>().unwrap());
+    // In square metres: the histograms that it learned by are closer than those that stopped it.
+    assert!(cost < validation && validation < 0.02f64.powi(2), "{cost} {validation}");
+    let origin = Network::load(&folder.join("a/network.toml")).unwrap().training.origin;
+    assert_eq!(origin, "Levenberg-Marquardt on simulated histograms");
+}
+
+#[test]
 #[ignore = "long: ./check --full"]
 fn a_training_that_was_stopped_ends_as_one_that_was_not() {
     let folder = tempfile::tempdir().unwrap();

@@ -127,7 +127,7 @@ fn check(state: &TournamentState, recipe: &Recipe) -> std::result::Result<(), &'
     let fits = |x: &[f64]| x.len() == size && x.iter().all(|x| x.is_finite());
     let mut least = state.candidates.iter().filter_map(|candidate| candidate.lm.least.as_ref());
     let (scaling, knots) =
-        ([&state.scaling.mean, &state.scaling.inverse_sd], state.scaling.mean.len());
+        ([&state.scaling.centre, &state.scaling.inverse_scale], state.scaling.centre.len());
     let checks = [
         ("stage", state.stage <= stages),
         ("block", state.block <= blocks),
@@ -154,7 +154,7 @@ fn are_knots(scaling: &Scaling) -> bool {
     let (knots, last_bin) = (&scaling.knots, scaling.bins as f64 - 1.0);
     let ends = (knots.first(), knots.last());
     let holds_all = matches!(ends, (Some(&first), Some(&last)) if first == 0.0 && last >= last_bin);
-    knots.len() == scaling.mean.len()
+    knots.len() == scaling.centre.len()
         && fill_tiles(knots.len())
         && holds_all
         && knots.is_sorted_by(|a, b| a < b)
@@ -182,8 +182,8 @@ mod tests {
             epochs: 3,
             data: "0123456789abcdef".to_owned(),
             scaling: Scaling {
-                mean: vec![0.1; KNOTS],
-                inverse_sd: vec![1.0 / 3.0; KNOTS],
+                centre: vec![0.1; KNOTS],
+                inverse_scale: vec![1.0 / 3.0; KNOTS],
                 ..Scaling::default()
             },
             candidates: (0..recipe.stages[0].candidates).map(candidate).collect(),

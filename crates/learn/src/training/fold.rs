@@ -9,10 +9,10 @@ pub fn fold(x: &[f64], neurons: usize, scaling: &Scaling) -> Float {
     let columns = scaling.columns();
     let rows = || x.chunks_exact(columns).take(neurons);
     let raw = |row: &[f64]| -> Vec<f64> {
-        row.iter().zip(&scaling.inverse_sd).map(|(weight, scale)| weight * scale).collect()
+        row.iter().zip(&scaling.inverse_scale).map(|(weight, scale)| weight * scale).collect()
     };
     let bias = |row: &[f64]| {
-        let centre = raw(row).iter().zip(&scaling.mean).map(|(w, mean)| w * mean).sum::<f64>();
+        let centre = raw(row).iter().zip(&scaling.centre).map(|(w, at)| w * at).sum::<f64>();
         row[columns - 1] - centre
     };
     let (output, basis) = (&x[neurons * columns..], scaling.basis());
@@ -37,9 +37,9 @@ mod tests {
         let mut x: Vec<f64> = (0..8 * columns).map(|k| (k as f64 * 0.37).sin() * 0.05).collect();
         x.extend((0..8).map(|k| 0.1 * (k as f64 - 3.5)));
         x.push(0.2);
-        let mean = (0..knots.len()).map(|k| 50.0 + k as f64).collect();
-        let inverse_sd = vec![0.02; knots.len()];
-        (x, Scaling { mean, inverse_sd, knots, ..Scaling::default() })
+        let centre = (0..knots.len()).map(|k| 50.0 + k as f64).collect();
+        let inverse_scale = vec![0.02; knots.len()];
+        (x, Scaling { centre, inverse_scale, knots, ..Scaling::default() })
     }
 
     fn histogram(seed: usize) -> Histogram {

@@ -146,7 +146,7 @@ fn multiply(of: &[Tile], lane: usize, by: &[Tile], weights: &[[f32; GROUP]; BLOC
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::training::features::{Scaling, blocks};
+    use crate::training::features::{InputScale, Scaling, blocks};
 
     #[test]
     fn sums_are_those_of_a_loop_over_the_samples() {
@@ -154,7 +154,7 @@ mod tests {
             (0..256).map(|bin| ((s * 37 + bin * s) % 101) as u32).collect()
         };
         let counts: Vec<_> = (0..BLOCK).map(histogram).collect();
-        let scaling = Scaling::of(&counts, &[]);
+        let scaling = Scaling::of(&counts, &[], InputScale::Deviation);
         let block = &blocks(&counts, &scaling)[0];
         let weight = |s: usize, w: usize| ((s * 5 + w * 3) % 17) as f32 - 8.0;
         let mut weights = vec![[[0.0; GROUP]; BLOCK]; groups(14)];

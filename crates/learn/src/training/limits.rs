@@ -101,12 +101,12 @@ impl Hinges {
             // B1 is what the centring leaves of the bias.
             let mut slopes = vec![(first + columns - 1, 1.0)];
             let mut bias = row[columns - 1];
-            let of_raw = scaling.inverse_sd.iter().zip(&scaling.mean);
-            for ((place, weight), (of_raw, mean)) in (first..).zip(row).zip(of_raw) {
+            let of_raw = scaling.inverse_scale.iter().zip(&scaling.centre);
+            for ((place, weight), (of_raw, centre)) in (first..).zip(row).zip(of_raw) {
                 let relative = of_raw / w1;
                 outside(weight * relative, 1.0, 1.0, &mut [(place, relative)]);
-                bias -= weight * of_raw * mean;
-                slopes.push((place, -of_raw * mean));
+                bias -= weight * of_raw * centre;
+                slopes.push((place, -of_raw * centre));
             }
             outside(bias, b1, 1.0, &mut slopes);
         }
@@ -127,8 +127,8 @@ mod tests {
 
     #[test]
     fn the_penalties_derivatives_are_their_differences() {
-        let mean = (0..71).map(|k| k as f64).collect();
-        let scaling = Scaling { mean, inverse_sd: vec![0.004; 71], ..Scaling::default() };
+        let centre = (0..71).map(|k| k as f64).collect();
+        let scaling = Scaling { centre, inverse_scale: vec![0.004; 71], ..Scaling::default() };
         // Two neurons; every kind of hinge is above zero.
         let mut x: Vec<f64> = (0..2 * 72).map(|k| (k as f64 * 0.37).sin() * 1.5).collect();
         x[71] = 9.0;
@@ -155,7 +155,7 @@ mod tests {
     #[test]
     fn a_network_well_inside_costs_nothing() {
         let scaling =
-            Scaling { mean: vec![10.0; 71], inverse_sd: vec![0.1; 71], ..Scaling::default() };
+            Scaling { centre: vec![10.0; 71], inverse_scale: vec![0.1; 71], ..Scaling::default() };
         let x = vec![0.001; 8 * 72 + 9];
         let hinges = |words: Datapath| Hinges { limits: WordLimits::default(), words };
         assert_eq!(hinges(Datapath::THESIS).cost(&x, 8, &scaling), 0.0);

@@ -7,6 +7,7 @@ use tofsim::firmware::forward2::NEURONS;
 
 use tofsim::firmware::depth_estimator::datapath::Datapath;
 
+use super::features::InputScale;
 use super::limits::WordLimits;
 use super::lm::LmSettings;
 use super::weighting::Weighting;
@@ -33,6 +34,8 @@ pub struct Recipe {
     /// many as the width of the pulse asks for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub knots: Option<usize>,
+    /// By what the inputs are scaled.
+    pub inputs: InputScale,
     /// Noise of a neuron's sum from the activation table's steps [steps].
     pub table_noise: f64,
     /// Random starts.
@@ -82,7 +85,7 @@ pub struct Stage {
 pub struct Finish {
     /// Networks that take part.
     pub candidates: usize,
-    /// Blocks.
+    /// Blocks; with 0 the best of the last stage is what counts.
     pub blocks: usize,
     /// Epochs of a block.
     pub epochs: u64,
@@ -112,6 +115,7 @@ impl Default for Recipe {
             least_gain: 0.0,
             validation: 0,
             knots: None,
+            inputs: InputScale::Deviation,
             table_noise: 0.4096,
             start: RandomStart { lengths: vec![0.1, 0.3], bias: 1.0, output_m: 0.1 },
             stages: vec![

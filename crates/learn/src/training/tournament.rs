@@ -61,7 +61,7 @@ impl<'a> Tournament<'a> {
         let samples = draw(Purpose::Stage(stage));
         let held_out = (recipe.validation > 0).then(|| draw(Purpose::Validation));
         let state = resumed.unwrap_or_else(|| {
-            let scaling = Scaling::of(&samples.counts, &material.knots(recipe));
+            let scaling = Scaling::of(&samples.counts, &material.knots(recipe), recipe.inputs);
             let mut state = TournamentState::new(recipe, seed, scaling);
             [Some(&samples), held_out.as_ref()]
                 .into_iter()

@@ -4,6 +4,7 @@ use tofsim::error::Result;
 use tofsim::scenario;
 use tofsim_learn::dataset::{Axis, Grid};
 use tofsim_learn::estimation::findpeaks::{self, Criteria};
+use tofsim_learn::training::features::InputScale;
 use tofsim_learn::training::recipe::Recipe;
 
 use crate::reproduce::item::{Finding, Item};
@@ -110,27 +111,35 @@ fn grids(_: &Study) -> Result<Finding> {
 }
 
 fn training(_: &Study) -> Result<Finding> {
-    let recipe = Recipe::default();
+    let name = "trainlm";
+    let text = Recipe::builtin_text(name).unwrap_or_default();
+    let recipe = Recipe::parse(text, &Recipe::default(), &[], name)?;
     let settings = recipe.optimiser;
-    let most: u64 = recipe.stages.iter().map(|stage| stage.epochs).sum();
-    let epochs = most + recipe.finish.blocks as u64 * recipe.finish.epochs;
+    let epochs: u64 = recipe.stages.iter().map(|stage| stage.epochs).sum();
     let row = |what, thesis: f64, ours: f64, decimals| {
         Row::numbers(what, "", Number::new(thesis, decimals), Number::new(ours, decimals))
     };
+    let inputs = match recipe.inputs {
+        InputScale::Range => "mapminmax",
+        InputScale::Deviation => "standard deviations",
+    };
     let rows = [
         row("hidden neurons (Listing 5.4)", 8.0, recipe.neurons as f64, 0),
-        Row::words("training function", "trainlm", "trainlm, with penalties"),
+        Row::words("input normalisation", "mapminmax", inputs),
+        row("starts", 1.0, recipe.stages[0].candidates as f64, 0),
+        row("epochs", 1000.0, epochs as f64, 0),
         row("mu to begin with (default)", 1e-3, settings.mu, 3),
         row("mu_dec (default)", 0.1, settings.mu_dec, 1),
         row("mu_inc (default)", 10.0, settings.mu_inc, 0),
-        row("epochs at most", 1000.0, epochs as f64, 0),
+        row("mu_max (default)", 1e10, settings.mu_max, 0),
         row("min_grad", 1e-7, settings.min_grad, 7),
         row("max_fail", 6.0, f64::from(settings.max_fail), 0),
     ];
-    let reason = "The optimiser has trainlm's constants, but the recipe is another: many random starts of which the best go \
-                  on, penalties that keep the weights within the words of Table 6.4, and an end that weighs distances by \
-                  their errors. Plain trainlm gave weights that Table 6.4's words cannot hold.";
+    let reason = "The recipe is the table's, with fewer histograms than the thesis's 335,570. The networks that come with the \
+                  program have another one: many random starts of which the best go on, penalties that keep the weights \
+                  within the words of Table 6.4, and an end that weighs distances by their errors. What plain trainlm comes \
+                  to, and that Table 6.4's words cannot hold it, stands in docs/accuracy.md.";
     Ok(Finding::of(rows)
         .because(reason)
-        .shown_by("tofsim train --profile ideal --seed 1 -o trained"))
+        .shown_by("tofsim train --profile ideal --recipe trainlm --seed 1 -o trained"))
 }

@@ -1,6 +1,6 @@
 use tofsim::network::Histogram;
 
-use crate::training::features::blocks;
+use crate::training::features::{InputScale, blocks};
 use crate::training::limits::{Hinges, WordLimits};
 use crate::training::lm::{Lm, LmSettings};
 use crate::training::recipe::Recipe;
@@ -20,7 +20,7 @@ fn counts() -> Vec<Histogram> {
 
 fn with_problem<T>(neurons: usize, check: impl FnOnce(&NetworkProblem, &[f64]) -> T) -> T {
     let counts = counts();
-    let scaling = Scaling::of(&counts, &[]);
+    let scaling = Scaling::of(&counts, &[], InputScale::Deviation);
     let blocks = blocks(&counts, &scaling);
     let distances_m: Vec<f64> = (0..300).map(|s| 0.1 + s as f64 / 600.0).collect();
     let weights: Vec<f64> = (0..300).map(|s| 500.0 + s as f64).collect();
@@ -136,8 +136,8 @@ fn bins_that_never_count_do_no_harm() {
     let counts: Vec<_> = (0..400).map(histogram).collect();
     let distances_m: Vec<f64> =
         counts.iter().map(|counts| 0.1 + f64::from(counts[60]) / 100.0).collect();
-    let scaling = Scaling::of(&counts, &[]);
-    assert!(scaling.inverse_sd.contains(&0.0));
+    let scaling = Scaling::of(&counts, &[], InputScale::Deviation);
+    assert!(scaling.inverse_scale.contains(&0.0));
     let blocks = blocks(&counts, &scaling);
     let (recipe, weights) = (Recipe::default(), vec![1000.0; 400]);
     let problem = NetworkProblem {

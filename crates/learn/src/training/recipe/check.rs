@@ -40,7 +40,6 @@ impl Recipe {
         ensure(!stages.is_empty(), "stages", 0, "expected one stage or more")?;
         ensure(!start.lengths.is_empty(), "start.lengths", "[]", "expected one length or more")?;
         self.check_stages()?;
-        at_least("finish.blocks", finish.blocks as u64, 1)?;
         let is_choice = (1..=MOST_CHOICE).contains(&finish.choice);
         let expected = format!("expected 1 to {MOST_CHOICE}");
         ensure(is_choice, "finish.choice", finish.choice, expected)?;

@@ -11,6 +11,7 @@ use super::Recipe;
 const BUILTIN: &[(&str, &str)] = &[
     ("short", include_str!("../../../../../stimuli/recipes/short.toml")),
     ("long", include_str!("../../../../../stimuli/recipes/long.toml")),
+    ("trainlm", include_str!("../../../../../stimuli/recipes/trainlm.toml")),
     ("uniform-16", include_str!("../../../../../stimuli/recipes/uniform-16.toml")),
 ];
 

@@ -58,6 +58,30 @@ fn pauses_and_saved_states_move_nothing() {
 }
 
 #[test]
+fn without_blocks_the_best_of_the_last_stage_is_what_counts() {
+    let setup = Setup::new(scenario::load("kc705", &[]).unwrap()).unwrap();
+    let (source, mut recipe) = (HistogramSource::new(&setup).unwrap(), recipe());
+    recipe.finish.blocks = 0;
+    recipe.check().unwrap();
+    let scenes = TrainingScenes::thesis(&source);
+    let watch = Watch { stop: None, done: &|_| {}, until: None };
+    let mut tournament = Tournament::new(&recipe, &scenes, 5, None);
+    while !tournament.is_over() {
+        tournament.advance(&watch).unwrap();
+    }
+    assert!(tournament.state.best.is_none() && tournament.state.stage == recipe.stages.len());
+    assert_eq!(tournament.progress().0, tournament.progress().1);
+    let costs = |stage| {
+        let curve = tournament.state.curve.iter().filter(move |point| point.stage == stage);
+        curve.map(|point| (point.start, point.cost)).collect::<std::collections::BTreeMap<_, _>>()
+    };
+    let (best, cost) = (tournament.state.candidates[0].start, costs(1));
+    assert!(cost.len() == 2 && cost.values().all(|other| *other >= cost[&best]));
+    let x = &tournament.state.candidates[0].lm.x;
+    assert_eq!(tournament.result(), fold(x, recipe.neurons, &tournament.state.scaling));
+}
+
+#[test]
 fn an_interruption_leaves_a_state_to_go_on_from() {
     let setup = Setup::new(scenario::load("kc705", &[]).unwrap()).unwrap();
     let (source, recipe) = (HistogramSource::new(&setup).unwrap(), recipe());
