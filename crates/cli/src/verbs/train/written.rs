@@ -17,7 +17,6 @@ use tofsim_learn::training::tournament::Tournament;
 
 use crate::record::Record;
 use crate::report::{learning_curve, training as report};
-use crate::text::table::counted;
 use crate::verbs::terminal::Talk;
 
 /// What a network comes from.
@@ -59,9 +58,9 @@ pub fn write(
     if rounded.saturated > 0 {
         // The errors below are those with the saturated ones.
         talk.note(format_args!(
-            "note: {} do not fit their words and are saturated (expected none: train longer, or with \
-             a larger limits.penalty)",
-            counted(rounded.saturated as u64, "weights")
+            "note: weights that do not fit their words and are saturated: {} (expected none: train longer, \
+             or with a larger limits.penalty)",
+            rounded.saturated
         ));
     }
     let rows = tournament.test(&Circuit::of_words(&rounded.fixed, &recipe.formats));
