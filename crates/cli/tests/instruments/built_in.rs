@@ -82,7 +82,7 @@ fn what_a_file_says_of_its_training_is_refused_where_it_stands() {
         (
             "\"short\"",
             "\"shrot\"",
-            "shrot: no such file; built-in recipes are short, long, trainlm, uniform-16, quick",
+            "shrot: no such file; built-in recipes are short, brief, long, trainlm, uniform-16, quick",
         ),
         (
             "0.15..0.6:0.0025",

@@ -52,7 +52,7 @@ pub struct Args {
     /// A training of seconds, whose network is poor
     #[arg(long)]
     pub(super) quick: bool,
-    /// Recipe: short (minutes), quick (seconds), uniform-16, long, trainlm, or a TOML file; what it does not say is the default one's
+    /// Recipe: short (minutes), brief, quick (seconds), uniform-16, long, trainlm, or a TOML file; what it does not say is the default one's
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) recipe: Option<PathBuf>,
     /// Set a key of the recipe, such as finish.blocks=10 or table_noise=0; may be repeated

@@ -10,6 +10,7 @@ use super::Recipe;
 /// Name and text of each recipe that comes with the program.
 const BUILTIN: &[(&str, &str)] = &[
     ("short", include_str!("../../../../../stimuli/recipes/short.toml")),
+    ("brief", include_str!("../../../../../stimuli/recipes/brief.toml")),
     ("long", include_str!("../../../../../stimuli/recipes/long.toml")),
     ("trainlm", include_str!("../../../../../stimuli/recipes/trainlm.toml")),
     ("uniform-16", include_str!("../../../../../stimuli/recipes/uniform-16.toml")),
