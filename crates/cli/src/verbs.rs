@@ -33,6 +33,7 @@ mod usage;
 pub mod vectors;
 pub mod verify;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -83,10 +84,10 @@ enum Verb {
 }
 
 impl Cli {
-    /// The command line of this process; a fault in it ends the process.
-    pub fn read() -> Cli {
+    /// A command line; a fault in it ends the process.
+    pub fn read(words: impl IntoIterator<Item = OsString>) -> Cli {
         let mut command = Cli::command();
-        let given = command.try_get_matches_from_mut(std::env::args_os()).and_then(|matches| {
+        let given = command.try_get_matches_from_mut(words).and_then(|matches| {
             let mut cli = Cli::from_arg_matches(&matches)?;
             cli.talk.command = command_line(&command, &matches);
             Ok(cli)
