@@ -1,19 +1,28 @@
 //! The command `tofsim`, for the program of that name and for the Python package, which has it too.
 
-mod choice;
+#[doc(hidden)]
+pub mod choice;
 mod page;
-mod record;
-mod report;
+#[doc(hidden)]
+pub mod record;
+#[doc(hidden)]
+pub mod report;
 mod reproduce;
 mod text;
-mod verbs;
+#[doc(hidden)]
+pub mod verbs;
 
 use std::ffi::OsString;
+use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::OnceLock;
 
 use verbs::{Cli, interrupt};
 
 use tofsim::error::Error;
+
+/// The program that `rerun` runs, where it is not that of this process.
+pub static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
 
 /// Differences found, or a check failed.
 const DIFFERENT: u8 = 1;

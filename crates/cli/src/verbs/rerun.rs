@@ -144,7 +144,10 @@ fn again(file: &Path, given: &[u8], record: &Record, folder: &Path) -> Result<Ve
         return Err(Input::new(file.display(), expected).field("command").value(verb).into());
     }
     let name = file.file_name().unwrap_or_default();
-    let program = std::env::current_exe().map_err(Error::io(Path::new("tofsim"), "find"))?;
+    let program = match crate::PROGRAM.get() {
+        Some(program) => program.clone(),
+        None => std::env::current_exe().map_err(Error::io(Path::new("tofsim"), "find"))?,
+    };
     let mut command = Command::new(program);
     command.args(record.command.iter().map(|word| with_events_in(folder, word))).arg("--quiet");
     let is_printed = given.starts_with(b"{");
