@@ -13,16 +13,11 @@ mod text;
 pub mod verbs;
 
 use std::ffi::OsString;
-use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::OnceLock;
 
 use verbs::{Cli, interrupt};
 
 use tofsim::error::Error;
-
-/// The program that `rerun` runs, where it is not that of this process.
-pub static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
 
 /// Differences found, or a check failed.
 const DIFFERENT: u8 = 1;

@@ -38,6 +38,7 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand};
+use host::Host;
 use terminal::Talk;
 
 use tofsim::error::{Input, Result};
@@ -55,6 +56,15 @@ pub struct Cli {
     verb: Verb,
     #[command(flatten)]
     talk: Talk,
+}
+
+/// What came of a command within another program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Answer {
+    /// Whether all was the same or fine.
+    pub is_fine: bool,
+    /// What it printed.
+    pub text: String,
 }
 
 #[derive(Debug, Subcommand)]
@@ -111,6 +121,20 @@ impl Cli {
         cli.run()
     }
 
+    /// Does what a command line asks for within another program, which has what is printed.
+    ///
+    /// # Errors
+    /// When the command line is wrong, the verb fails, or is stopped.
+    pub fn answer(words: &[String], host: Host) -> Result<Answer> {
+        let mut command = Cli::command().no_binary_name(true);
+        let fault = |fault| Input::new("command", usage::shortened(fault).to_string().trim());
+        let matches = command.try_get_matches_from_mut(words).map_err(fault)?;
+        let mut cli = Cli::from_arg_matches(&matches).map_err(fault)?;
+        cli.talk = cli.talk.silent(command_line(&command, &matches));
+        let (status, text) = host.around(|| cli.run());
+        Ok(Answer { is_fine: status? == ExitCode::SUCCESS, text })
+    }
+
     /// Does what the command line asks for; the status says whether all was the same or fine.
     pub fn run(&self) -> Result<ExitCode> {
         let talk = &self.talk;
@@ -140,5 +164,34 @@ impl Cli {
             Verb::Man(args) => man::run(args, Cli::without_help(), talk),
         }?;
         Ok(ExitCode::SUCCESS)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+
+    fn answer(words: &[&str]) -> Result<Answer> {
+        let words: Vec<_> = words.iter().map(|word| word.to_string()).collect();
+        Cli::answer(&words, Host::new(Arc::default(), Arc::new(|_, _| {})))
+    }
+
+    #[test]
+    fn what_a_command_prints_within_another_program_is_its_answer() {
+        let answer = answer(&["budget", "near", "--json"]).unwrap();
+        assert!(answer.is_fine && answer.text.starts_with('{'), "{answer:?}");
+        assert!(answer.text.contains(r#""command":["budget","near"]"#), "{answer:?}");
+        assert!(host::host().is_none());
+    }
+
+    #[test]
+    fn a_wrong_command_line_within_another_program_ends_nothing() {
+        let error = answer(&["budget", "--bogus"]).unwrap_err().to_string();
+        assert!(error.contains("--bogus"), "{error}");
+        let error = answer(&["budget", "-s", "target.distance_m=-1"]).unwrap_err().to_string();
+        assert!(error.starts_with("-s target.distance_m=-1: "), "{error}");
+        assert!(host::host().is_none());
     }
 }
