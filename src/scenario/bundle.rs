@@ -7,8 +7,9 @@ use tempfile::TempDir;
 
 use crate::error::{Error, Result, read_bytes};
 
+use super::builtin::Source;
 use super::chain::Chain;
-use super::model::{Scenario, TdcCalibration};
+use super::model::{Scenario, Stimulus, TdcCalibration};
 
 /// Folders that a file may lie above the one that names it.
 const ABOVE: usize = 8;
@@ -21,15 +22,27 @@ pub struct Bundle {
 }
 
 impl Bundle {
-    /// The files of `folder` that a scenario names, and those that a chain among them names. What is built in, and what
-    /// is not there, is left out.
+    /// The files that a scenario names, and those that a chain among them names. What is built in, and what is not
+    /// there, is left out; beside files, what a built-in scenario has of the program's is among them.
     ///
     /// # Errors
     /// When one cannot be read.
-    pub fn of(folder: &Path, scenario: &Scenario) -> Result<Bundle> {
+    pub fn of(files: &Source, scenario: &Scenario) -> Result<Bundle> {
         let mut bundle = Bundle::default();
+        let folder = match files {
+            Source::BuiltIn => Path::new(""),
+            Source::Folder(folder) => folder,
+        };
         for name in names(scenario) {
             bundle.add(folder, name)?;
+        }
+        if *files == Source::BuiltIn && !bundle.files.is_empty() {
+            let Stimulus { photons, codes, histogram } = &scenario.stimulus;
+            for name in [photons, codes, histogram].into_iter().flatten() {
+                if !bundle.files.contains_key(name) {
+                    bundle.files.insert(name.clone(), files.read(name)?.1.into_bytes());
+                }
+            }
         }
         Ok(bundle)
     }
@@ -117,7 +130,7 @@ mod tests {
         let text = "[tdc]\nprofile = \"../chains/own.toml\"\n";
         std::fs::write(folder.join("s.toml"), text).unwrap();
         let loaded = load(&folder.join("s.toml").display().to_string(), &[]).unwrap();
-        let bundle = Bundle::of(&folder, &loaded.scenario).unwrap();
+        let bundle = Bundle::of(&loaded.files, &loaded.scenario).unwrap();
         let names: Vec<_> = bundle.files.keys().collect();
         assert_eq!(names, ["../chains/own.toml", "../chains/taps.csv"]);
         let (_home, unpacked) = bundle.unpack().unwrap();
