@@ -187,6 +187,12 @@ impl Frames {
         })
     }
 
+    fn __iter__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        let builtins = slf.py().import("builtins")?;
+        let places = builtins.getattr("range")?.call1((slf.len()?,))?;
+        builtins.getattr("map")?.call1((slf.getattr("__getitem__")?, places))
+    }
+
     fn __repr__(&self) -> String {
         format!("<tofsim.Frames {} of {}>", self.__len__(), self.setup.name)
     }

@@ -2,7 +2,7 @@
 
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString};
+use pyo3::types::{PyBool, PyDict, PyFloat, PyList, PyString};
 use serde_json::Value;
 
 /// A JSON value as Python has it.
@@ -63,13 +63,10 @@ fn toml(value: &Bound<'_, PyAny>) -> PyResult<String> {
         let pairs: PyResult<Vec<_>> = table.iter().map(pair).collect();
         return Ok(format!("{{ {} }}", pairs?.join(", ")));
     }
-    if value.is_instance_of::<PyInt>() || value.is_instance_of::<PyFloat>() {
-        return Ok(value.repr()?.to_string());
-    }
-    // Numbers of NumPy say what they are.
+    // Numbers of NumPy are none of Python's, but can be made ones.
     for convert in ["__index__", "__float__"] {
         if value.hasattr(convert)? {
-            return toml(&value.call_method0(convert)?);
+            return Ok(value.call_method0(convert)?.repr()?.to_string());
         }
     }
     if value.hasattr("__iter__")? {

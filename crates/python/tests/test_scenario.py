@@ -106,9 +106,9 @@ def test_another_network_may_stand_in_the_estimator() -> None:
 
 
 def test_a_scenario_that_was_made_is_taken_by_every_function(tmp_path: Path) -> None:
-    scenario = tofsim.Scenario({"target": {"distance_m": 0.2}})
+    scenario = tofsim.Scenario({"laser": {"pulse_sigma_ps": 150}})
     for given in [scenario, pickle.loads(pickle.dumps(scenario))]:
         evaluation = tofsim.evaluate(scenario=given, rows=102, check=0)
-        assert evaluation.figures["set"] == ["target.distance_m=0.2"]
-    assert tofsim.link_budget(scenario)["distance_m"] == 0.2
+        assert evaluation.figures["set"] == ["laser.pulse_sigma_ps=150"]
+    assert tofsim.link_budget(scenario)["distance_m"] == 0.5
     assert len(tofsim.dataset(scenario, rows=102)) == 1
