@@ -33,6 +33,7 @@ pub fn histogram(
         causes
     };
     let causes = causes.cloned().unwrap_or_else(unknown);
-    let svg = histogram_svg::svg(title, &causes, &setup.scenario.tdc, setup.true_depth_m(), depth_m);
+    let svg =
+        histogram_svg::svg(title, &causes, &setup.scenario.tdc, setup.true_depth_m(), depth_m);
     Ok(svg.map_err(|why| Input::new("picture", why))?)
 }

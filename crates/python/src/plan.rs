@@ -112,9 +112,8 @@ impl Plan {
         // The task may be left to itself, and the plan not.
         let own = plan.plan.clone();
         let terms = Terms { threads, progress: None };
-        let entries = running::run(slf.py(), terms, move |watch| {
-            work_out(&own, &points, Some(&watch.stop))
-        })?;
+        let entries =
+            running::run(slf.py(), terms, move |watch| work_out(&own, &points, Some(&watch.stop)))?;
         let line = |entry: &Entry| serde_json::to_string(entry);
         let lines: std::result::Result<Vec<_>, _> = entries.iter().map(line).collect();
         lines.map_err(|fault| internal(&fault.to_string()))
@@ -142,7 +141,8 @@ impl Plan {
         }
         let make = py.get_type::<Plan>().getattr("_travelled")?;
         let (set, seed) = plan.given.clone();
-        let parts = (&plan.plan.name, &plan.source, &plan.plan.text, scenario, files.files, set, seed);
+        let parts =
+            (&plan.plan.name, &plan.source, &plan.plan.text, scenario, files.files, set, seed);
         Ok((make, parts.into_pyobject(py)?))
     }
 
@@ -157,7 +157,11 @@ impl Plan {
         seed: Option<u64>,
     ) -> Result<Self> {
         let (home, folder) = Bundle { files }.unpack()?;
-        let label = if builtin::plan(name) == Some(text) { format!("plan {name}") } else { source.to_owned() };
+        let label = if builtin::plan(name) == Some(text) {
+            format!("plan {name}")
+        } else {
+            source.to_owned()
+        };
         let plan = Planned::parse_for(name, &label, text, (scenario, &folder), &set, seed)?;
         let given = (set, seed);
         Ok(Plan { plan, source: source.to_owned(), given, _home: Some(home) })

@@ -228,7 +228,11 @@ impl Scenario {
 
     fn __repr__(&self) -> String {
         let set = self.loaded.set.join(", ");
-        format!("<tofsim.Scenario {}{}{set}>", self.loaded.name, if set.is_empty() { "" } else { ": " })
+        format!(
+            "<tofsim.Scenario {}{}{set}>",
+            self.loaded.name,
+            if set.is_empty() { "" } else { ": " }
+        )
     }
 
     fn _repr_html_(&self) -> Result<String> {

@@ -28,6 +28,8 @@ fn fidelity_of(name: &str) -> Result<Fidelity> {
 ///
 /// `by_cause` counts the hits of each bin by what set them off too, which takes fidelity `cycle` and one thread.
 /// `progress` is called with how many frames of how many are done.
+// As many as Python's function has.
+#[allow(clippy::too_many_arguments)]
 #[pyfunction]
 #[pyo3(signature = (scenario = None, frames = 1, fidelity = "cycle", seed = None, threads = None, *, by_cause = false, progress = None))]
 pub fn simulate(
@@ -78,7 +80,9 @@ fn simulated(
     let is_by_cause = columns.causes.is_some();
     let mut by_cause = columns.causes.take();
     let mut take_shot = |shot: &Shot| {
-        by_cause.iter_mut().for_each(|frames| causes::count(&mut frames[shot.frame as usize], shot));
+        by_cause
+            .iter_mut()
+            .for_each(|frames| causes::count(&mut frames[shot.frame as usize], shot));
         Ok(())
     };
     let mut take_frame = |frame: &Frame| {

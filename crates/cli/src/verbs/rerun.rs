@@ -2,8 +2,8 @@
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
 use std::process::{Command, ExitCode, Stdio};
+use std::sync::OnceLock;
 
 use regex::{Captures, Regex};
 use serde_json::json;

@@ -11,8 +11,8 @@ use tofsim::error::{Error, Input, Result};
 use tofsim::files::folder::FolderLock;
 use tofsim::files::output::write_bytes;
 
-pub use super::interrupt::stop_signal;
 use super::host;
+pub use super::interrupt::stop_signal;
 use super::progress::Progress;
 
 /// Where a verb prints.

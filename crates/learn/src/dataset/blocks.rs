@@ -33,9 +33,9 @@ impl HistogramSource {
     /// pool. The same for any number of threads; memory is that of a block.
     pub fn blocks(&self, rows: &Rows, seed: u64) -> impl Iterator<Item = Vec<Sample>> + Send {
         let last = rows.count();
-        (0..last).step_by(BLOCK as usize).map(move |begin| {
-            self.block(rows, seed, begin..last.min(begin + BLOCK))
-        })
+        (0..last)
+            .step_by(BLOCK as usize)
+            .map(move |begin| self.block(rows, seed, begin..last.min(begin + BLOCK)))
     }
 
     /// Draws neighbouring rows on all threads of the current pool, the same as in any other block.
