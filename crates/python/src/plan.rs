@@ -15,7 +15,9 @@ use tofsim::scenario::builtin::Source;
 use tofsim::scenario::bundle::Bundle;
 use tofsim_cli::record::Record;
 use tofsim_cli::verbs::sweep::about;
+use tofsim_studies::header::header;
 use tofsim_studies::journal::Entry;
+use tofsim_studies::parts::Parts;
 use tofsim_studies::plan::{Plan as Planned, builtin};
 use tofsim_studies::sweep::{Begun, work_out};
 use tofsim_studies::{Shard, Sweep};
@@ -87,7 +89,7 @@ impl Plan {
     /// Names of the table's columns.
     #[getter]
     fn columns(&self) -> Vec<String> {
-        let fields = tofsim_studies::header::header(&self.plan);
+        let fields = header(&self.plan);
         fields.into_iter().map(|field| field.name).collect()
     }
 
@@ -174,6 +176,7 @@ pub struct PlanTable {
     plan: Py<Plan>,
     folder: PathBuf,
     about: (String, String),
+    parts: Parts,
     begun: Mutex<Option<Begun>>,
 }
 
@@ -193,7 +196,11 @@ impl PlanTable {
         let sweep = plan.get().sweep(about.clone());
         let is_done = !restart && sweep.is_done(&folder);
         let begun = if is_done { None } else { Some(sweep.begin(&folder, restart)?) };
-        Ok(PlanTable { plan: plan.unbind(), folder, about, begun: Mutex::new(begun) })
+        let parts = Parts::new(&folder, header(&plan.get().plan));
+        if restart {
+            parts.remove()?;
+        }
+        Ok(PlanTable { plan: plan.unbind(), folder, about, parts, begun: Mutex::new(begun) })
     }
 
     /// Points that are not there yet; none of a table that is whole.
@@ -203,10 +210,12 @@ impl PlanTable {
         (0..).zip(is_there).filter(|(_, is_there)| !**is_there).map(|(point, _)| point).collect()
     }
 
-    /// Takes points that were worked out.
+    /// Takes points that were worked out: into the journal, and as a Parquet file of their own until the table is
+    /// whole.
     fn add(&self, lines: Vec<String>) -> Result<()> {
         let mut begun = self.begun();
         let Some(begun) = begun.as_mut() else { return Ok(()) };
+        let mut rows = Vec::new();
         for line in lines {
             let entry: std::result::Result<Entry, _> = serde_json::from_str(&line);
             let entry = entry.map_err(|fault| internal(&fault.to_string()))?;
@@ -218,9 +227,10 @@ impl PlanTable {
             // A block that was worked out twice is the same.
             if !std::mem::replace(is_there, true) {
                 begun.journal.add(&entry)?;
+                rows.extend(entry.into_row());
             }
         }
-        Ok(())
+        Ok(self.parts.add(rows)?)
     }
 
     /// Writes the table, as Parquet and CSV; their paths.
@@ -233,7 +243,11 @@ impl PlanTable {
             return Err(Input::new(parquet.display(), expected).into());
         }
         match self.begun().take() {
-            Some(begun) => Ok(py.detach(|| sweep.finish(&self.folder, begun))?.files),
+            Some(begun) => {
+                let finished = py.detach(|| sweep.finish(&self.folder, begun))?;
+                self.parts.remove()?;
+                Ok(finished.files)
+            }
             None => Ok(vec![parquet.clone(), parquet.with_extension("csv")]),
         }
     }

@@ -74,7 +74,7 @@ def test_a_worker_that_is_killed_changes_nothing(
     assert [path.name for path in files] == ["sweep.parquet", "sweep.csv"]
     for path in files:
         assert path.read_bytes() == (tmp_path / "one" / path.name).read_bytes(), path.name
-    assert not list((tmp_path / "many").glob("*.journal"))
+    assert sorted(path.name for path in (tmp_path / "many").iterdir()) == ["sweep.csv", "sweep.parquet"]
     # A table that is whole is not worked out again.
     began = time.monotonic()
     assert tofsim.dask.sweep("plan.toml", client, tmp_path / "many") == files
@@ -96,6 +96,7 @@ def test_a_sweep_that_was_stopped_goes_on_here_and_with_the_command(
         with pytest.raises(KeyboardInterrupt):
             tofsim.dask.sweep("plan.toml", client, goes_on, block=5, progress=stop)
         assert (tmp_path / goes_on / "sweep.journal").is_file()
+        assert len(list((tmp_path / goes_on / "sweep.parts").glob("from-*.parquet"))) >= 10
         if goes_on == "here":
             told: list[int] = []
             tofsim.dask.sweep("plan.toml", client, goes_on, progress=lambda done, _: told.append(done))

@@ -36,7 +36,8 @@ def sweep(
 
     The table is the same, byte by byte, as that of `tofsim sweep PLAN -o OUTPUT`. Points travel in blocks; those of a
     worker that dies are worked out by another one. Each block goes to the journal in `output` as it comes, so that a
-    sweep that was stopped goes on where it was, with this function or with the command. Each block has so many
+    sweep that was stopped goes on where it was, with this function or with the command; and to a file of its own in
+    `sweep.parts`, to be looked at with `pandas.read_parquet` until the table is whole. Each block has so many
     `threads`; a worker with one thread wants one.
     """
     if not isinstance(plan, Plan):
