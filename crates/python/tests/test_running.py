@@ -25,7 +25,7 @@ def test_a_thread_that_counts_goes_on() -> None:
     thread = threading.Thread(target=count)
     thread.start()
     began = time.monotonic()
-    tofsim.simulate("kc705", 400, "shot", threads=1)
+    tofsim.simulate("kc705", 150, "cycle", threads=1)
     took = time.monotonic() - began
     stop.set()
     thread.join()
