@@ -3,6 +3,8 @@
 #[doc(hidden)]
 pub mod builtin;
 #[doc(hidden)]
+pub mod bundle;
+#[doc(hidden)]
 pub mod calibration;
 #[doc(hidden)]
 pub mod chain;
@@ -25,5 +27,5 @@ pub mod window;
 #[doc(hidden)]
 pub mod wiring;
 
-pub use load::{DEFAULT, Loaded, load};
+pub use load::{DEFAULT, Loaded, from_text, load};
 pub use model::*;

@@ -16,6 +16,7 @@ pub mod second_opinion;
 pub mod setup;
 pub mod shot_recorder;
 pub(crate) mod sinks;
+pub mod stepped;
 mod timeline;
 mod wave_tracer;
 

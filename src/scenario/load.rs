@@ -31,7 +31,7 @@ pub struct Loaded {
 /// Loads a built-in scenario by name or a file by path, with `key=value` overrides.
 pub fn load(name: &str, overrides: &[String]) -> Result<Loaded> {
     if let Some(text) = builtin::scenario(name) {
-        return parse(name, &format!("scenario {name}"), text, Source::BuiltIn, overrides);
+        return from_text(name, &format!("scenario {name}"), text, Source::BuiltIn, overrides);
     }
     let path = Path::new(name);
     if !path.exists() && !name.contains(['/', '.']) {
@@ -42,10 +42,15 @@ pub fn load(name: &str, overrides: &[String]) -> Result<Loaded> {
     let text = read_text(path)?;
     let stem = path.file_stem().map_or(name.into(), |stem| stem.to_string_lossy());
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    parse(&stem, name, &text, Source::Folder(folder), overrides)
+    from_text(&stem, name, &text, Source::Folder(folder), overrides)
 }
 
-fn parse(
+/// A scenario from the text of its file, with `key=value` overrides: `source` is what errors call it, `files` where the
+/// files are that it names.
+///
+/// # Errors
+/// When it is none, or an override is none.
+pub fn from_text(
     name: &str,
     source: &str,
     text: &str,
@@ -74,7 +79,7 @@ mod tests {
 
     fn from_text(text: &str, overrides: &[&str]) -> std::result::Result<Scenario, String> {
         let overrides: Vec<_> = overrides.iter().map(|&o| o.to_owned()).collect();
-        parse("t", "t.toml", text, Source::BuiltIn, &overrides)
+        super::from_text("t", "t.toml", text, Source::BuiltIn, &overrides)
             .map(|loaded| loaded.scenario)
             .map_err(|error| error.to_string())
     }

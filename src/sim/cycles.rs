@@ -47,7 +47,7 @@ impl Run<'_> {
         let part = Part::of(found.iter().map(|entry| entry.id));
         let shown = std::array::from_fn(|k| Shown::new(found[k]));
         let taps = self.setup.params.tdc.delays.taps();
-        let values = Values { of_id: Box::new([0; IDS]), taps };
+        let values = Values::new(taps);
         let mut stepper = Stepper { shown, part, values, number: 0, each, end: None };
         let outcome = self.traced(count, &mut stepper, None)?;
         stepper.end.unwrap_or(Ok(()))?;
@@ -56,7 +56,7 @@ impl Run<'_> {
 }
 
 /// Every signal, words of the RAM among them if there is one.
-fn entries(params: &Params) -> Vec<Entry> {
+pub(super) fn entries(params: &Params) -> Vec<Entry> {
     let (mut entries, ram) =
         (hierarchy::entries(params), hierarchy::ram_entries(&params.histogram));
     if entries.iter().any(|entry| entry.scope == ram[0].scope) {
@@ -66,7 +66,7 @@ fn entries(params: &Params) -> Vec<Entry> {
 }
 
 /// The signal of that path, with the top or without.
-fn find<'a>(entries: &'a [Entry], name: &str) -> Result<&'a Entry> {
+pub(super) fn find<'a>(entries: &'a [Entry], name: &str) -> Result<&'a Entry> {
     let wanted = below_top(name);
     let paths: Vec<_> = entries.iter().map(Entry::below_top).collect();
     if let Some(place) = paths.iter().position(|path| path == wanted) {
@@ -81,25 +81,38 @@ fn find<'a>(entries: &'a [Entry], name: &str) -> Result<&'a Entry> {
 }
 
 /// How a value is read.
-struct Shown {
-    id: usize,
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shown {
+    pub(super) id: usize,
     /// Bits above the word, if it has a sign.
     unused: u32,
 }
 
 impl Shown {
-    fn new(entry: &Entry) -> Self {
+    pub(super) fn new(entry: &Entry) -> Self {
         let signal = &entry.signal;
         let is_signed = matches!(signal.format, SignalFormat::Signed { .. });
         Shown { id: entry.id, unused: if is_signed { 64 - signal.width } else { 0 } }
     }
+
+    pub(super) fn value(self, values: &Values) -> i64 {
+        (values.of_id[self.id] << self.unused) as i64 >> self.unused
+    }
 }
 
 /// The value of each id.
-struct Values {
+#[derive(Clone, Debug)]
+pub(super) struct Values {
     of_id: Box<[u64; IDS]>,
     /// Length of the chain.
     taps: usize,
+}
+
+impl Values {
+    /// All 0, with a chain of so many taps.
+    pub(super) fn new(taps: usize) -> Self {
+        Values { of_id: Box::new([0; IDS]), taps }
+    }
 }
 
 impl Sink for Values {
@@ -138,8 +151,7 @@ where
 
     fn before_edge(&mut self, _: Edge, now: Time, top: &TofTop) {
         self.part.follow(top, &mut self.values);
-        let value =
-            |shown: &Shown| (self.values.of_id[shown.id] << shown.unused) as i64 >> shown.unused;
+        let value = |shown: &Shown| shown.value(&self.values);
         let cycle = Cycle { number: self.number, begin: now };
         self.number += 1;
         self.end = match (self.each)(cycle, self.shown.each_ref().map(value)) {

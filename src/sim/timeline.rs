@@ -55,12 +55,7 @@ impl Timeline {
         if self.turn == self.next {
             (pins.laser_en, self.turn) = (!pins.laser_en, Time::NEVER);
         } else if let Some((_, change)) = self.changes.next() {
-            pins.laser_freq = change.laser_freq.map_or(pins.laser_freq, U::new);
-            pins.mode = change.mode.map_or(pins.mode, |mode| mode == QuenchMode::FreeRunning);
-            pins.laser_en = change.laser_en.unwrap_or(pins.laser_en);
-            pins.dsp_en = change.dsp_en.unwrap_or(pins.dsp_en);
-            pins.dsp_rst = change.dsp_rst.unwrap_or(pins.dsp_rst);
-            pins.rst = change.rst.unwrap_or(pins.rst);
+            drive(&change, pins);
         }
         self.look_ahead();
     }
@@ -74,6 +69,16 @@ impl Timeline {
         let change = self.changes.as_slice().first().map_or(Time::NEVER, |(at, _)| *at);
         self.next = change.min(self.turn);
     }
+}
+
+/// Makes a change.
+pub(super) fn drive(change: &Control, pins: &mut Pins) {
+    pins.laser_freq = change.laser_freq.map_or(pins.laser_freq, U::new);
+    pins.mode = change.mode.map_or(pins.mode, |mode| mode == QuenchMode::FreeRunning);
+    pins.laser_en = change.laser_en.unwrap_or(pins.laser_en);
+    pins.dsp_en = change.dsp_en.unwrap_or(pins.dsp_en);
+    pins.dsp_rst = change.dsp_rst.unwrap_or(pins.dsp_rst);
+    pins.rst = change.rst.unwrap_or(pins.rst);
 }
 
 /// The pins at power-up.

@@ -11,7 +11,8 @@ pub mod draws;
 pub mod estimate;
 pub mod evaluate;
 mod formats;
-mod frames;
+pub mod frames;
+pub mod host;
 pub mod ila;
 pub mod interrupt;
 pub mod man;
@@ -22,7 +23,7 @@ pub mod reproduce;
 pub mod rerun;
 pub mod run;
 pub mod scenario;
-mod scenes;
+pub mod scenes;
 pub mod spad;
 pub mod sweep;
 pub mod tdc;
@@ -33,9 +34,11 @@ mod usage;
 pub mod vectors;
 pub mod verify;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand};
+use host::Host;
 use terminal::Talk;
 
 use tofsim::error::{Input, Result};
@@ -53,6 +56,15 @@ pub struct Cli {
     verb: Verb,
     #[command(flatten)]
     talk: Talk,
+}
+
+/// What came of a command within another program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Answer {
+    /// Whether all was the same or fine.
+    pub is_fine: bool,
+    /// What it printed.
+    pub text: String,
 }
 
 #[derive(Debug, Subcommand)]
@@ -83,10 +95,10 @@ enum Verb {
 }
 
 impl Cli {
-    /// The command line of this process; a fault in it ends the process.
-    pub fn read() -> Cli {
+    /// A command line; a fault in it ends the process.
+    pub fn read(words: impl IntoIterator<Item = OsString>) -> Cli {
         let mut command = Cli::command();
-        let given = command.try_get_matches_from_mut(std::env::args_os()).and_then(|matches| {
+        let given = command.try_get_matches_from_mut(words).and_then(|matches| {
             let mut cli = Cli::from_arg_matches(&matches)?;
             cli.talk.command = command_line(&command, &matches);
             Ok(cli)
@@ -107,6 +119,20 @@ impl Cli {
         let mut cli = Cli::from_arg_matches(&matches).map_err(fault)?;
         cli.talk = talk.within(command_line(&command, &matches));
         cli.run()
+    }
+
+    /// Does what a command line asks for within another program, which has what is printed.
+    ///
+    /// # Errors
+    /// When the command line is wrong, the verb fails, or is stopped.
+    pub fn answer(words: &[String], host: Host) -> Result<Answer> {
+        let mut command = Cli::command().no_binary_name(true);
+        let fault = |fault| Input::new("command", usage::shortened(fault).to_string().trim());
+        let matches = command.try_get_matches_from_mut(words).map_err(fault)?;
+        let mut cli = Cli::from_arg_matches(&matches).map_err(fault)?;
+        cli.talk = cli.talk.silent(command_line(&command, &matches));
+        let (status, text) = host.around(|| cli.run());
+        Ok(Answer { is_fine: status? == ExitCode::SUCCESS, text })
     }
 
     /// Does what the command line asks for; the status says whether all was the same or fine.
@@ -138,5 +164,34 @@ impl Cli {
             Verb::Man(args) => man::run(args, Cli::without_help(), talk),
         }?;
         Ok(ExitCode::SUCCESS)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+
+    fn answer(words: &[&str]) -> Result<Answer> {
+        let words: Vec<_> = words.iter().map(|word| word.to_string()).collect();
+        Cli::answer(&words, Host::new(Arc::default(), Arc::new(|_, _| {})))
+    }
+
+    #[test]
+    fn what_a_command_prints_within_another_program_is_its_answer() {
+        let answer = answer(&["budget", "near", "--json"]).unwrap();
+        assert!(answer.is_fine && answer.text.starts_with('{'), "{answer:?}");
+        assert!(answer.text.contains(r#""command":["budget","near"]"#), "{answer:?}");
+        assert!(host::host().is_none());
+    }
+
+    #[test]
+    fn a_wrong_command_line_within_another_program_ends_nothing() {
+        let error = answer(&["budget", "--bogus"]).unwrap_err().to_string();
+        assert!(error.contains("--bogus"), "{error}");
+        let error = answer(&["budget", "-s", "target.distance_m=-1"]).unwrap_err().to_string();
+        assert!(error.starts_with("-s target.distance_m=-1: "), "{error}");
+        assert!(host::host().is_none());
     }
 }

@@ -12,6 +12,7 @@ pub mod header;
 pub mod journal;
 pub mod limit;
 pub mod merge;
+pub mod parts;
 pub mod plan;
 pub mod point;
 pub mod shard;

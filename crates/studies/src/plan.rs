@@ -73,7 +73,11 @@ impl Plan {
         Plan::parse(&stem, name, &text, path.parent().unwrap_or(Path::new("")), set, seed)
     }
 
-    fn parse(
+    /// The same from the text of a plan's file: `source` is what errors call it, `folder` where its paths begin.
+    ///
+    /// # Errors
+    /// As [`Plan::load`].
+    pub fn parse(
         name: &str,
         source: &str,
         text: &str,
@@ -84,6 +88,34 @@ impl Plan {
         let checked = Checked::parse::<PlanFile>(source, text)?;
         let file: PlanFile = checked.read()?;
         let scenario = from_folder(&file.scenario, folder);
+        Plan::checked(name, text, (checked, file, scenario), overrides, seed)
+    }
+
+    /// The same where the scenario, by built-in name or path from `folder`, is not where the plan says.
+    ///
+    /// # Errors
+    /// As [`Plan::load`].
+    pub fn parse_for(
+        name: &str,
+        source: &str,
+        text: &str,
+        (scenario, folder): (&str, &Path),
+        overrides: &[String],
+        seed: Option<u64>,
+    ) -> Result<Self> {
+        let checked = Checked::parse::<PlanFile>(source, text)?;
+        let file: PlanFile = checked.read()?;
+        let scenario = from_folder(scenario, folder);
+        Plan::checked(name, text, (checked, file, scenario), overrides, seed)
+    }
+
+    fn checked(
+        name: &str,
+        text: &str,
+        (checked, file, scenario): (Checked, PlanFile, String),
+        overrides: &[String],
+        seed: Option<u64>,
+    ) -> Result<Self> {
         let set: Vec<_> = file.set.iter().chain(overrides).cloned().collect();
         for (place, assignment) in file.set.iter().enumerate() {
             let fault = |error| at_key(&checked, &format!("set.{place}"), error);

@@ -37,6 +37,31 @@ pub struct Sweep<'a> {
     pub comment: String,
 }
 
+/// A sweep under way.
+pub struct Begun {
+    /// Takes finished points.
+    pub journal: Journal,
+    /// Of each point of the shard whether it is in the journal from before.
+    pub is_there: Vec<bool>,
+    /// How many are.
+    pub resumed: u64,
+}
+
+/// Works out some points of a plan, in that order, on all threads of the current pool.
+///
+/// # Errors
+/// When a point is refused, or it is stopped.
+pub fn work_out(plan: &Plan, points: &[u64], stop: Option<&AtomicBool>) -> Result<Vec<Entry>> {
+    let of_point = |point: &u64| {
+        if stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+            return Err(Error::Interrupted);
+        }
+        let worked = work(plan, *point, stop)?;
+        Ok(Entry { cells: worked.row.cells, notes: worked.notes })
+    };
+    points.par_iter().map(of_point).collect()
+}
+
 /// What a sweep comes to.
 #[derive(Debug, Default)]
 pub struct Finished {
@@ -79,6 +104,21 @@ impl Sweep<'_> {
         stop: Option<&AtomicBool>,
         done: Done,
     ) -> Result<Finished> {
+        let begun = self.begin(folder, restart)?;
+        done(begun.resumed);
+        self.each(&begun.is_there, stop, |entry| {
+            begun.journal.add(&entry)?;
+            done(1);
+            Ok(())
+        })?;
+        self.finish(folder, begun)
+    }
+
+    /// Begins a journal in the folder, or goes on with the one that is there, for who works points out elsewhere.
+    ///
+    /// # Errors
+    /// When it is another sweep's, another process writes to it, or it cannot be written.
+    pub fn begin(&self, folder: &Path, restart: bool) -> Result<Begun> {
         let path = folder.join(format!("{}.journal", self.shard.stem()));
         if restart && path.exists() {
             fs::remove_file(&path).map_err(Error::io(&path, "remove"))?;
@@ -94,15 +134,17 @@ impl Sweep<'_> {
                 *is_there = true;
             }
         })?;
-        done(resumed);
-        self.each(&is_there, stop, |entry| {
-            journal.add(&entry)?;
-            done(1);
-            Ok(())
-        })?;
-        let finished = self.write(folder, &journal)?;
-        journal.remove()?;
-        Ok(Finished { resumed, ..finished })
+        Ok(Begun { journal, is_there, resumed })
+    }
+
+    /// Writes the table of a journal that has all points, and removes that.
+    ///
+    /// # Errors
+    /// When a file cannot be read or written.
+    pub fn finish(&self, folder: &Path, begun: Begun) -> Result<Finished> {
+        let finished = self.write(folder, &begun.journal)?;
+        begun.journal.remove()?;
+        Ok(Finished { resumed: begun.resumed, ..finished })
     }
 
     /// Works out all points, in memory.

@@ -2,8 +2,8 @@
 //! makes its depth wrong by how much.
 
 mod errors;
-pub(super) mod findings;
-pub(super) mod table;
+pub mod findings;
+pub mod table;
 
 use tofsim::Setup;
 use tofsim::error::Result;

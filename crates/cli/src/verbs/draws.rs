@@ -9,6 +9,7 @@ use tofsim::scenario::{self, Loaded, builtin};
 use tofsim_learn::dataset::grid::MOST_ROWS;
 use tofsim_learn::dataset::{Grid, Rows, Subset};
 
+use super::host::host;
 use super::terminal::Talk;
 
 /// Which histograms.
@@ -92,9 +93,9 @@ pub fn load(scenario: &str, set: &[String], seed: Option<u64>) -> Result<Loaded>
     Ok(loaded)
 }
 
-/// Makes the pool of so many threads, if a number is asked for.
+/// Makes the pool of so many threads, if a number is asked for; within another program, that makes it.
 pub fn use_threads(threads: Option<u16>) -> Result<()> {
-    let Some(threads) = threads else { return Ok(()) };
+    let Some(threads) = threads.filter(|_| host().is_none()) else { return Ok(()) };
     let pool = ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
     pool.map_err(|error| Input::new("--threads", error).value(threads).into())
 }

@@ -8,6 +8,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use tofsim::files::unfinished::discard_all;
 
+use super::host::host;
+
 /// Exit status of an interrupted program, as shells have it.
 pub const INTERRUPTED: u8 = 130;
 
@@ -33,8 +35,11 @@ pub fn say() {
     eprintln!("tofsim: interrupted");
 }
 
-/// Set when the user interrupts; from now on the verb looks at it.
+/// Set when the user interrupts, or the program around the verb stops it; from now on the verb looks at it.
 pub fn stop_signal() -> Option<Arc<AtomicBool>> {
+    if let Some(host) = host() {
+        return Some(host.stop);
+    }
     let stop = Arc::new(AtomicBool::new(false));
     *LOOKS.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::clone(&stop));
     Some(stop)
@@ -42,5 +47,8 @@ pub fn stop_signal() -> Option<Arc<AtomicBool>> {
 
 /// From now on the verb does not look any more.
 pub fn look_no_more() {
+    if host().is_some() {
+        return;
+    }
     *LOOKS.lock().unwrap_or_else(PoisonError::into_inner) = None;
 }

@@ -12,6 +12,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use crate::text::table::grouped;
 
+use super::host::{HearProgress, host};
+
 /// Time between two lines.
 const EVERY: Duration = Duration::from_secs(10);
 /// Time between two pictures of the bar.
@@ -25,6 +27,8 @@ pub struct Progress {
 
 enum Shown {
     Nowhere,
+    /// To the program around the verb.
+    Told(HearProgress),
     Bar(ProgressBar),
     Lines(Ticker),
 }
@@ -33,6 +37,9 @@ impl Progress {
     /// Over `count` of `things`, or in percent alone if they have no name.
     pub fn new(count: u64, things: &'static str, is_quiet: bool) -> Progress {
         let meter = Arc::new(Meter::new(count, things));
+        if let Some(host) = host() {
+            return Progress { meter, shown: Shown::Told(host.progress) };
+        }
         let shown = match (is_quiet || count < 2, stderr().is_terminal()) {
             (true, _) => Shown::Nowhere,
             (_, true) => Shown::Bar(bar(&meter)),
@@ -54,8 +61,11 @@ impl Progress {
     }
 
     fn draw(&self) {
-        if let Shown::Bar(bar) = &self.shown {
-            bar.set_position(self.meter.done.load(Ordering::Relaxed));
+        let done = self.meter.done.load(Ordering::Relaxed);
+        match &self.shown {
+            Shown::Bar(bar) => bar.set_position(done),
+            Shown::Told(hear) => hear(done, self.meter.all),
+            _ => {}
         }
     }
 
@@ -75,7 +85,7 @@ impl Progress {
     /// Shows nothing more.
     pub fn finish_and_clear(&self) {
         match &self.shown {
-            Shown::Nowhere => {}
+            Shown::Nowhere | Shown::Told(_) => {}
             Shown::Bar(bar) => bar.finish_and_clear(),
             Shown::Lines(ticker) => ticker.end(),
         }

@@ -3,6 +3,7 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
+use std::sync::OnceLock;
 
 use regex::{Captures, Regex};
 use serde_json::json;
@@ -40,6 +41,9 @@ const TDC_CALIBRATE: &str = "tdc calibrate";
 const BUDGET_ERRORS: &str = "budget --errors";
 /// Those that print and write nothing.
 const PRINTING: &[&str] = VERBS.split_at(3).0;
+
+/// The program that makes an output again, where it is not that of this process.
+pub static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
 
 /// Make an output again from what it records, and compare the two byte by byte
 #[derive(Debug, clap::Args)]
@@ -144,7 +148,10 @@ fn again(file: &Path, given: &[u8], record: &Record, folder: &Path) -> Result<Ve
         return Err(Input::new(file.display(), expected).field("command").value(verb).into());
     }
     let name = file.file_name().unwrap_or_default();
-    let program = std::env::current_exe().map_err(Error::io(Path::new("tofsim"), "find"))?;
+    let program = match PROGRAM.get() {
+        Some(program) => program.clone(),
+        None => std::env::current_exe().map_err(Error::io(Path::new("tofsim"), "find"))?,
+    };
     let mut command = Command::new(program);
     command.args(record.command.iter().map(|word| with_events_in(folder, word))).arg("--quiet");
     let is_printed = given.starts_with(b"{");

@@ -205,7 +205,7 @@ fn read(sweep: &Sweep, folder: &Path) -> Result<Finished> {
 }
 
 /// What a table says of itself, the same for all shards.
-fn about(plan: &Plan, record: &Record) -> Value {
+pub fn about(plan: &Plan, record: &Record) -> Value {
     let column = |column: &tofsim_studies::columns::Column| json!({ "name": column.name, "unit": column.unit, "meaning": column.meaning });
     let mut about = json!({
         "schema": "tofsim.sweep/1",

@@ -1,6 +1,6 @@
 //! What the program prints, and what it says while it works.
 
-use std::io::{self, BufWriter, StdoutLock, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -11,8 +11,12 @@ use tofsim::error::{Error, Input, Result};
 use tofsim::files::folder::FolderLock;
 use tofsim::files::output::write_bytes;
 
+use super::host;
 pub use super::interrupt::stop_signal;
 use super::progress::Progress;
+
+/// Where a verb prints.
+pub type Output = BufWriter<Box<dyn Write>>;
 
 /// Prints `text` as it is; a closed pipe or a full disk is an error.
 pub fn print(text: &str) -> Result<()> {
@@ -25,8 +29,8 @@ pub fn print_json(object: &Value) -> Result<()> {
 }
 
 /// Prints what `fill` writes; a closed pipe or a full disk is an error.
-pub fn print_with(fill: impl FnOnce(&mut BufWriter<StdoutLock>) -> io::Result<()>) -> Result<()> {
-    let mut out = BufWriter::new(io::stdout().lock());
+pub fn print_with(fill: impl FnOnce(&mut Output) -> io::Result<()>) -> Result<()> {
+    let mut out = BufWriter::new(host::output());
     let written = fill(&mut out).and_then(|()| out.flush());
     written.map_err(Error::io(Path::new("stdout"), "write"))
 }
@@ -59,6 +63,11 @@ impl Talk {
     pub fn within(&self, command: Vec<String>) -> Talk {
         let Talk { quiet, verbose, strict, .. } = *self;
         Talk { quiet, verbose, strict, command, within: true }
+    }
+
+    /// That of a command within another program, which says nothing but what is asked for.
+    pub fn silent(&self, command: Vec<String>) -> Talk {
+        Talk { quiet: true, verbose: false, strict: self.strict, command, within: false }
     }
 
     /// Something worth knowing.

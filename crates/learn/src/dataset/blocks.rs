@@ -33,15 +33,20 @@ impl HistogramSource {
     /// pool. The same for any number of threads; memory is that of a block.
     pub fn blocks(&self, rows: &Rows, seed: u64) -> impl Iterator<Item = Vec<Sample>> + Send {
         let last = rows.count();
-        (0..last).step_by(BLOCK as usize).map(move |begin| {
-            let end = last.min(begin + BLOCK);
-            let runs: Vec<_> = (begin..end).step_by(RUN as usize).collect();
-            let draw = |&from: &u64| self.run(rows, seed, from..end.min(from + RUN));
-            runs.par_iter().flat_map(draw).collect()
-        })
+        (0..last)
+            .step_by(BLOCK as usize)
+            .map(move |begin| self.block(rows, seed, begin..last.min(begin + BLOCK)))
     }
 
-    /// Draws neighbouring rows; those of one distance or scene share what they have in common.
+    /// Draws neighbouring rows on all threads of the current pool, the same as in any other block.
+    pub fn block(&self, rows: &Rows, seed: u64, range: Range<u64>) -> Vec<Sample> {
+        let end = range.end;
+        let runs: Vec<_> = range.step_by(RUN as usize).collect();
+        let draw = |&from: &u64| self.run(rows, seed, from..end.min(from + RUN));
+        runs.par_iter().flat_map(draw).collect()
+    }
+
+    /// The same on one thread; those of one distance or scene share what they have in common.
     fn run(&self, rows: &Rows, seed: u64, range: Range<u64>) -> Vec<Sample> {
         let mut white = Last(None);
         let mut codes = Last(None);

@@ -55,6 +55,16 @@ impl Axis {
         Ok(axes)
     }
 
+    /// Its values that are words.
+    pub fn texts(&self) -> Vec<String> {
+        let Values::List(list) = &self.values else { return Vec::new() };
+        let text = |value: &String| {
+            let value = value.parse::<toml_edit::Value>().ok()?;
+            value.as_str().map(str::to_owned)
+        };
+        list.iter().filter_map(text).collect()
+    }
+
     fn new(checked: &Checked, place: &str, file: &AxisFile) -> Result<Axis> {
         let fault = |field: &str, expected: &str| -> Input {
             checked.fault(&format!("{place}.{field}"), expected)

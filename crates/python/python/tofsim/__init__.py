@@ -1,0 +1,47 @@
+"""tofsim: a cycle-accurate simulator of the FPGA firmware of a time-of-flight rangefinder."""
+
+from . import ila, waves
+from ._evaluation import Evaluation, evaluate
+from ._sets import dataset
+from ._tofsim import (
+    Device,
+    Frame,
+    Frames,
+    InputError,
+    Network,
+    Plan,
+    Scenario,
+    estimate,
+    explain,
+    link_budget,
+    networks,
+    scenarios,
+    simulate,
+)
+from ._training import quantize, train
+from ._verbs import command, compare
+
+__all__ = [
+    "Device",
+    "Evaluation",
+    "Frame",
+    "Frames",
+    "InputError",
+    "Network",
+    "Plan",
+    "Scenario",
+    "command",
+    "compare",
+    "dataset",
+    "estimate",
+    "evaluate",
+    "explain",
+    "ila",
+    "link_budget",
+    "networks",
+    "quantize",
+    "scenarios",
+    "simulate",
+    "train",
+    "waves",
+]

@@ -1,0 +1,141 @@
+//! The files that a scenario names, as bytes that travel with it to another machine.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use tempfile::TempDir;
+
+use crate::error::{Error, Result, read_bytes};
+
+use super::builtin::Source;
+use super::chain::Chain;
+use super::model::{Scenario, Stimulus, TdcCalibration};
+
+/// Folders that a file may lie above the one that names it.
+const ABOVE: usize = 8;
+
+/// Files by the names that they are found by from a folder.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Bundle {
+    /// Their bytes.
+    pub files: BTreeMap<String, Vec<u8>>,
+}
+
+impl Bundle {
+    /// The files that a scenario names, and those that a chain among them names. What is built in, and what is not
+    /// there, is left out; beside files, what a built-in scenario has of the program's is among them.
+    ///
+    /// # Errors
+    /// When one cannot be read.
+    pub fn of(files: &Source, scenario: &Scenario) -> Result<Bundle> {
+        let mut bundle = Bundle::default();
+        let folder = match files {
+            Source::BuiltIn => Path::new(""),
+            Source::Folder(folder) => folder,
+        };
+        for name in names(scenario) {
+            bundle.add(folder, name)?;
+        }
+        if *files == Source::BuiltIn && !bundle.files.is_empty() {
+            let Stimulus { photons, codes, histogram } = &scenario.stimulus;
+            for name in [photons, codes, histogram].into_iter().flatten() {
+                if !bundle.files.contains_key(name) {
+                    bundle.files.insert(name.clone(), files.read(name)?.1.into_bytes());
+                }
+            }
+        }
+        Ok(bundle)
+    }
+
+    /// Adds a file, if `folder` has one of that name; an absolute one has to be there where it is read.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn add(&mut self, folder: &Path, name: &str) -> Result<()> {
+        let path = folder.join(name);
+        if Path::new(name).is_absolute() || !name.contains(['/', '.']) || !path.is_file() {
+            return Ok(());
+        }
+        let bytes = read_bytes(&path)?;
+        let chain = std::str::from_utf8(&bytes).ok().and_then(|text| toml::from_str(text).ok());
+        self.files.insert(name.to_owned(), bytes);
+        if let Some(Chain { delays_file, counts_file, .. }) = chain {
+            let beside = Path::new(name).parent().unwrap_or(Path::new(""));
+            for own in [delays_file, counts_file].into_iter().flatten() {
+                self.add(folder, &beside.join(own).display().to_string())?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the files; the folder from which their names lead to them, within one that goes with the first value.
+    ///
+    /// # Errors
+    /// When one cannot be written.
+    pub fn unpack(&self) -> Result<(TempDir, PathBuf)> {
+        let temporary = Path::new("temporary folder");
+        let home = TempDir::with_prefix("tofsim-").map_err(Error::io(temporary, "create"))?;
+        // Names may begin with `..`.
+        let folder = (0..ABOVE).fold(home.path().to_owned(), |folder, _| folder.join("files"));
+        std::fs::create_dir_all(&folder).map_err(Error::io(&folder, "create"))?;
+        for (name, bytes) in &self.files {
+            let path = folder.join(name);
+            let parent = path.parent().unwrap_or(&folder);
+            std::fs::create_dir_all(parent).map_err(Error::io(parent, "create"))?;
+            std::fs::write(&path, bytes).map_err(Error::io(&path, "write"))?;
+        }
+        Ok((home, folder))
+    }
+}
+
+/// What a scenario has at keys that may name files.
+fn names(scenario: &Scenario) -> impl Iterator<Item = &str> {
+    let Scenario { target, laser, spad, tdc, stimulus, training, estimator, .. } = scenario;
+    let given = [
+        &target.mesh_file,
+        &laser.pulse_file,
+        &spad.dark_file,
+        &tdc.conditions,
+        &stimulus.photons,
+        &stimulus.codes,
+        &stimulus.histogram,
+        &training.recipe,
+    ];
+    let always = [&estimator.network, &tdc.profile];
+    let calibration = match &tdc.calibration {
+        TdcCalibration::File(name) => Some(name.as_str()),
+        TdcCalibration::True | TdcCalibration::Uniform => None,
+    };
+    given
+        .into_iter()
+        .filter_map(Option::as_deref)
+        .chain(always.into_iter().map(String::as_str))
+        .chain(calibration)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::load;
+
+    #[test]
+    fn a_scenario_reads_its_files_where_they_were_unpacked() {
+        let here = tempfile::tempdir().unwrap();
+        let folder = here.path().join("scenarios");
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::create_dir_all(here.path().join("chains")).unwrap();
+        let chain = "description = \"own\"\noffset_ps = 2230\ndelays_file = \"taps.csv\"\n";
+        std::fs::write(here.path().join("chains/own.toml"), chain).unwrap();
+        std::fs::write(here.path().join("chains/taps.csv"), "tap,ps\n0,1\n").unwrap();
+        let text = "[tdc]\nprofile = \"../chains/own.toml\"\n";
+        std::fs::write(folder.join("s.toml"), text).unwrap();
+        let loaded = load(&folder.join("s.toml").display().to_string(), &[]).unwrap();
+        let bundle = Bundle::of(&loaded.files, &loaded.scenario).unwrap();
+        let names: Vec<_> = bundle.files.keys().collect();
+        assert_eq!(names, ["../chains/own.toml", "../chains/taps.csv"]);
+        let (_home, unpacked) = bundle.unpack().unwrap();
+        let read = |name| std::fs::read_to_string(unpacked.join(name)).unwrap();
+        assert_eq!(read("../chains/own.toml"), chain);
+        assert_eq!(read("../chains/taps.csv"), "tap,ps\n0,1\n");
+    }
+}

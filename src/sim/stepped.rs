@@ -1,0 +1,200 @@
+//! A device that its owner steps edge by edge, and whose pins and signals are at hand in between.
+
+use std::sync::Arc;
+
+use crate::error::{Input, Result};
+use crate::firmware::tof_top::TofTop;
+use crate::hierarchy::{Entry, Part};
+use crate::kernel::Time;
+use crate::scenario::{Control, QuenchMode};
+
+use super::cycles::{Cycle, Shown, Values, entries, find};
+use super::device::{Device, Edge, Off, SignalProbe};
+use super::frames::{Frame, Frames};
+use super::setup::Setup;
+use super::timeline::drive;
+
+/// A run in the hands of its owner. A signal's value is the one that the last edge took, as a logic analyser sees it.
+#[derive(Clone, Debug)]
+pub struct SteppedRun {
+    setup: Arc<Setup>,
+    device: Device,
+    frames: Frames,
+    /// Frames whose random numbers have been taken up.
+    begun: u64,
+    entries: Vec<Entry>,
+    seen: Seen,
+}
+
+/// What the last edge took.
+#[derive(Clone, Debug)]
+struct Seen {
+    part: Part,
+    values: Values,
+    begin: Time,
+}
+
+impl SignalProbe for Seen {
+    const ON: bool = false;
+    const EDGES: bool = true;
+
+    fn sample(&mut self, _: Time, _: &TofTop) {}
+
+    fn looks_before(&self, edge: Edge) -> bool {
+        edge == Edge::Both
+    }
+
+    fn before_edge(&mut self, _: Edge, now: Time, top: &TofTop) {
+        self.part.follow(top, &mut self.values);
+        self.begin = now;
+    }
+}
+
+impl SteppedRun {
+    /// From power-up, just before the first edge.
+    pub fn new(setup: Arc<Setup>) -> Self {
+        let mut device = setup.device();
+        device.power_up(&mut Off, &mut Off);
+        let entries = entries(&setup.params);
+        let mut seen = Seen {
+            part: Part::of(entries.iter().map(|entry| entry.id)),
+            values: Values::new(setup.params.tdc.delays.taps()),
+            begin: Time::ZERO,
+        };
+        seen.part.show(&device.top, &mut seen.values);
+        SteppedRun { setup, device, frames: Frames::default(), begun: 0, entries, seen }
+    }
+
+    /// Takes an edge of `clk_sys`; the frame that it finished, if it did.
+    pub fn step(&mut self) -> Option<Frame> {
+        let SteppedRun { setup, device, frames, seen, .. } = self;
+        device.step(&setup.params, seen, &mut Off);
+        let frame = frames.edge(device.cycle() - 1, &device.top, &setup.params);
+        let done = frames.done();
+        if done > self.begun && !device.top.socket.algo_done {
+            self.begun = done;
+            device.begin_frame(done);
+        }
+        frame
+    }
+
+    /// The last edge.
+    pub fn cycle(&self) -> Option<Cycle> {
+        let number = self.device.cycle().checked_sub(1)?;
+        Some(Cycle { number, begin: self.seen.begin })
+    }
+
+    /// Every signal.
+    pub fn signals(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// How the signal of that name is read, with its path or a part of it that
+    /// [`Run::step_cycles`](crate::Run::step_cycles) takes.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn find(&self, name: &str) -> Result<SignalHandle> {
+        find(&self.entries, name).map(|entry| SignalHandle(Shown::new(entry)))
+    }
+
+    /// The value that the last edge took.
+    pub fn value(&self, signal: SignalHandle) -> i64 {
+        signal.0.value(&self.seen.values)
+    }
+
+    /// Drives pins of the acquisition computer from now on, as a `[[control]]` of the scenario does; its time is not
+    /// looked at.
+    pub fn drive(&mut self, control: &Control) {
+        drive(control, &mut self.device.top.pins);
+    }
+}
+
+/// A signal that was found by its name.
+#[derive(Clone, Copy, Debug)]
+pub struct SignalHandle(Shown);
+
+/// One pin of the acquisition computer with a value, as [`SteppedRun::drive`] takes it.
+///
+/// # Errors
+/// When there is no such pin, or it has no such value.
+pub fn pin(name: &str, value: i64) -> Result<Control> {
+    let mut control = Control::default();
+    let fault = |expected: &str| Input::new("pin", expected).field(name).value(value);
+    let level = || match value {
+        0 | 1 => Ok(Some(value == 1)),
+        _ => Err(fault("expected 0 or 1")),
+    };
+    match name {
+        "rst" => control.rst = level()?,
+        "laser_en" => control.laser_en = level()?,
+        "dsp_en" => control.dsp_en = level()?,
+        "dsp_rst" => control.dsp_rst = level()?,
+        "mode" if level()? == Some(true) => control.mode = Some(QuenchMode::FreeRunning),
+        "mode" => control.mode = Some(QuenchMode::EachShot),
+        "laser_freq" if (0..4).contains(&value) => control.laser_freq = Some(value as _),
+        "laser_freq" => return Err(fault("expected 0 to 3").into()),
+        _ => {
+            let known = "expected one of rst, mode, laser_freq, laser_en, dsp_en, dsp_rst";
+            return Err(Input::new("pin", known).value(name).into());
+        }
+    }
+    Ok(control)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use super::*;
+    use crate::sim::Run;
+
+    fn setup(set: &[&str]) -> Arc<Setup> {
+        Arc::new(Setup::load("kc705", &[&["firmware.shots_per_frame=40"], set].concat()).unwrap())
+    }
+
+    #[test]
+    fn an_owner_s_steps_show_what_a_run_s_do() {
+        let setup = setup(&[]);
+        let signals = ["tdc_stop", "tdc.tdc_code", "frame_ctrl.state"];
+        let (mut run, mut frames) = (SteppedRun::new(Arc::clone(&setup)), Vec::new());
+        let handles = signals.map(|name| run.find(name).unwrap());
+        let outcome = Run::new(&setup).step_cycles(3, signals, |cycle, values| {
+            frames.extend(run.step());
+            assert_eq!(run.cycle(), Some(cycle));
+            assert_eq!(handles.map(|signal| run.value(signal)), values, "{}", cycle.number);
+            Ok(ControlFlow::Continue(()))
+        });
+        while frames.len() < 3 {
+            frames.extend(run.step());
+        }
+        outcome.unwrap();
+        assert_eq!(frames, Run::new(&setup).frames(3).unwrap());
+    }
+
+    #[test]
+    fn a_pin_that_is_driven_does_what_it_does_at_power_up() {
+        let pulses = |drives: &[(&str, i64)]| {
+            let mut run = SteppedRun::new(setup(&[]));
+            drives.iter().for_each(|(name, value)| run.drive(&pin(name, *value).unwrap()));
+            let pulse = run.find("vcsel_driver.laser_pulse").unwrap();
+            let mut pulses = 0;
+            for _ in 0..600 {
+                run.step();
+                pulses += run.value(pulse);
+            }
+            pulses
+        };
+        assert!(pulses(&[]) > 20, "{}", pulses(&[]));
+        assert_eq!(pulses(&[("laser_en", 0)]), 0);
+        assert!(pulses(&[("laser_freq", 0)]) < pulses(&[("laser_freq", 3)]));
+    }
+
+    #[test]
+    fn no_pin_takes_what_it_cannot_be() {
+        let said = |name, value| pin(name, value).unwrap_err().to_string();
+        assert_eq!(said("laser_en", 2), "pin: laser_en = 2: expected 0 or 1");
+        assert_eq!(said("laser_freq", 4), "pin: laser_freq = 4: expected 0 to 3");
+        assert!(said("laser", 1).contains("expected one of rst, mode"), "{}", said("laser", 1));
+    }
+}
