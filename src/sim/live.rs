@@ -107,14 +107,19 @@ impl Live {
         self.device.next_edge()
     }
 
-    /// Changes control signals after the coming edge of `clk_sys`, as a scenario's `[[control]]` does; returns the
-    /// change with its instant, a whole number of nanoseconds and later than the one before.
-    pub fn control(&mut self, change: Control) -> Control {
-        let earliest = self.device.next_edge().max(self.changed);
+    /// Changes control signals so long after the coming edge of `clk_sys`, as a scenario's `[[control]]` does; returns
+    /// the change with its instant, a whole number of nanoseconds and later than the one before.
+    pub fn control(&mut self, change: Control, after: Time) -> Control {
+        let earliest = (self.device.next_edge() + after).max(self.changed);
         let at_us = (earliest.fs() / 1_000_000 + 1) as f64 / 1e3;
         let change = Control { at_us, ..change };
         self.repeat(&change);
         change
+    }
+
+    /// Whether a change made by [`Live::control`] is still to come.
+    pub fn is_changing(&self) -> bool {
+        self.device.timeline.next_event() <= self.changed
     }
 
     /// Makes a change of another run in this one, which has not come to its instant.

@@ -34,7 +34,7 @@ fn a_change_on_the_way_is_a_change_of_the_scenario() {
     let mut live = Live::new(Arc::clone(&setup), Stepping::LeapShots);
     next(&mut live);
     live.advance(1000, &mut Off, None).unwrap();
-    let change = live.control(off);
+    let change = live.control(off, Time::ZERO);
     let found = [next(&mut live), next(&mut live)];
     let mut loaded = crate::scenario::load("kc705", &[SMALL, no_light].map(str::to_owned)).unwrap();
     loaded.scenario.control.push(change);
@@ -64,11 +64,11 @@ fn dsp_rst_abandons_the_frame() {
     next(&mut live);
     live.advance(1000, &mut Off, None).unwrap();
     let level = |dsp_rst| Control { dsp_rst: Some(dsp_rst), ..Control::default() };
-    live.control(level(true));
+    live.control(level(true), Time::ZERO);
     let over = live.advance(10_000, &mut Off, None).unwrap();
     assert!(matches!(over, Progress::Abandoned), "{over:?}");
     assert!(matches!(live.advance(100_000, &mut Off, None), Ok(Progress::Going)));
     assert_eq!((live.done(), live.abandoned(), live.shots_of_frame()), (1, 1, 0));
-    live.control(level(false));
+    live.control(level(false), Time::from_ns(1000));
     assert_eq!(next(&mut live).shots, 300);
 }

@@ -93,11 +93,6 @@ impl Analyser {
         self.core.taken()
     }
 
-    /// What it is to do.
-    pub fn plan(&self) -> &AnalyserPlan {
-        &self.plan
-    }
-
     /// What it has stored.
     pub fn finish(self) -> Capture {
         self.core.finish(self.plan.probes)
