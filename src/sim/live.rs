@@ -128,7 +128,13 @@ impl Live {
         self.device.timeline.insert(self.changed, change.clone());
     }
 
-    /// Has another scene from the next frame on; whether the light can change, which given photons cannot.
+    /// Whether the present frame is in Clear, before its first shot.
+    pub fn is_clearing(&self) -> bool {
+        self.device.top.frame_ctrl.clear
+    }
+
+    /// Has another scene from the next frame on, or from the present one if that is in Clear; whether the light can
+    /// change, which given photons cannot.
     ///
     /// All but the scene (target, air, ambient light) and the control signals at power-up has to be the same. Draws
     /// go on where they are.
@@ -136,6 +142,9 @@ impl Live {
         let changes = self.device.light.can_change();
         if changes {
             self.coming = Some(setup);
+        }
+        if self.is_clearing() {
+            self.take_scene();
         }
         changes
     }
@@ -230,14 +239,18 @@ impl Live {
         Ok(Progress::Going)
     }
 
-    /// A frame begins, with the scene that is to come; whether the one before is abandoned by it.
-    #[cold]
-    fn begin_frame(&mut self) -> bool {
+    fn take_scene(&mut self) {
         if let Some(setup) = self.coming.take() {
             self.device.change_light(&setup);
             self.fast = FastForward::of(self.fast.stepping);
             self.setup = setup;
         }
+    }
+
+    /// A frame begins, with the scene that is to come; whether the one before is abandoned by it.
+    #[cold]
+    fn begin_frame(&mut self) -> bool {
+        self.take_scene();
         let abandons = self.shots_of_frame() > 0 && self.ended.is_none();
         self.abandoned += u64::from(abandons);
         self.shots_before = self.frames.shots();

@@ -61,8 +61,9 @@ export function show(next) {
   say($("about"), `scenario ${state.scenario}, seed ${state.seed}, fidelity ${state.fidelity}`);
   say($("time-board"), seconds(time.board_s));
   say($("time-here"), seconds(time.here_s));
-  const here = time.frames_per_s ? time.frames_per_s.toFixed(1) : "–";
-  say($("time-rate"), `${here} here, ${time.board_frames_per_s.toFixed(1)} on the board`);
+  say($("time-slower"), time.board_s > 0 ? (time.here_s / time.board_s).toFixed(1) : "–");
+  say($("time-rate"), time.frames_per_s ? time.frames_per_s.toFixed(1) : "–");
+  say($("time-board-rate"), time.board_frames_per_s.toFixed(1));
   say($("time-frames"), String(time.frames));
   say($("time-abandoned"), String(progress.abandoned));
 }

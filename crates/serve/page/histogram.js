@@ -85,7 +85,7 @@ function table({ strip }, frame) {
   const bound = frame.bound_two_sd_mm;
   const rows = [row("true distance", frame.true_m === null ? "none" : frame.true_m.toFixed(4), "", bound === null ? "" : bound.toFixed(2), bound === null ? "" : "bound")];
   frame.depths.forEach(({ estimator, in_socket, depth_m, failure }, which) => {
-    const name = in_socket ? `${estimator} (firmware)` : estimator;
+    const name = in_socket ? html("span", {}, `${estimator} `, html("small", {}, "in the firmware")) : estimator;
     if (depth_m === null) return rows.push(row(name, html("td", { class: "why", colspan: 4 }, failure || "no depth")));
     const error = frame.true_m === null ? "" : (1e3 * (depth_m - frame.true_m)).toFixed(2).replace("-", "−");
     const sd = frame.true_m === null ? null : spread(strip, which);

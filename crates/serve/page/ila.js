@@ -1,8 +1,8 @@
 // The logic analyser: set-up, trigger, and the window that it has captured.
 
-import { $, html, say } from "./svg.js";
+import { $, digits, html, say } from "./svg.js";
 import { ask, text } from "./server.js";
-import { digits, readCsv, view } from "./waves.js";
+import { readCsv, view } from "./waves.js";
 
 // Samples about the trigger that are shown at first.
 const SHOWN = 100;
@@ -24,7 +24,14 @@ export function setUp() {
 
 export function show(state) {
   const { status, armed, capture } = state.ila;
-  if (!$("ila-set-up").options.length) $("ila-set-up").replaceChildren(...state.set_ups.map((name) => html("option", {}, name)));
+  if (!$("ila-set-up").options.length) $("ila-set-up").replaceChildren(...state.set_ups.map(({ name }) => html("option", {}, name)));
+  const chosen = state.set_ups.find(({ name }) => name === $("ila-set-up").value);
+  if (chosen) {
+    $("ila-set-up").title = chosen.description;
+    $("ila-trigger").placeholder = chosen.trigger ?? "any sample";
+    $("ila-clock").placeholder = chosen.clock;
+    say($("ila-depth").options[0], chosen.depth.toLocaleString("en"));
+  }
   $("ila-disarm").disabled = status !== "armed";
   if (status === "armed") {
     const waits = armed.trigger ? `waits for ${armed.trigger}` : "takes any sample";
@@ -48,13 +55,13 @@ async function load(capture) {
   const { signals, end } = readCsv(found, capture.probes, capture.windows[0], capture.depth);
   const label = `Capture ${capture.name}: ${capture.probes.length} probes, ${end} samples of ${capture.clock}, trigger at sample ${capture.position}`;
   picture = view($("ila-waves"), {
-    signals, from: 0, to: end, mark: capture.position, label, unit: "sample",
+    signals, from: 0, to: end, zero: capture.position, mark: capture.position, label, unit: "sample",
     axis: (sample, step) => digits(sample - capture.position, Math.max(step, 1)),
   });
   picture.move(capture.position - SHOWN / 2, SHOWN);
   $("ila-files").hidden = false;
   $("ila-command").hidden = false;
-  const same = capture.exact ? "makes the same files of run.toml" : "needs a run without a change of the scene since power-up";
+  const same = capture.exact ? "makes the same files of the run as a scenario" : "would make the same files of a run whose scene had not changed since power-up";
   say($("ila-command"), `# ${same}\n${capture.command}`);
 }
 

@@ -1,9 +1,14 @@
 // The waveform of the last frame's last shot.
 
-import { $, seldom } from "./svg.js";
+import { $, digits, seldom } from "./svg.js";
 import { text } from "./server.js";
-import { digits, readVcd, view } from "./waves.js";
+import { readVcd, view } from "./waves.js";
 
+// In the order in which a shot goes through them.
+const ORDER = ["clk_sys", "pre_start", "spad_rst", "laser_on", "start", "tdc_stop", "tdc.coarse_counter.window", "tdc.coarse_counter.coarse",
+  "tdc.tdc_latch.hit", "tdc.tdc_latch.hit_coarse", "tdc.tdc_decoder.n_valid", "tdc.tdc_decoder.n", "tdc_valid", "tdc_code"];
+// Shown at first, from the laser edge on [ps].
+const SHOWN = 150e3;
 let [drawn, busy, picture] = [null, false, null];
 
 async function draw({ quiet = false } = {}) {
@@ -13,6 +18,8 @@ async function draw({ quiet = false } = {}) {
   busy = false;
   if (found === null) return;
   const { signals, end } = readVcd(found);
+  const place = ({ name }) => (ORDER.includes(name) ? ORDER.indexOf(name) : ORDER.length);
+  signals.sort((one, other) => place(one) - place(other));
   const named = (name) => signals.find((signal) => signal.name === name);
   const known = signals.flatMap(({ changes }) => changes.map(([time]) => time)).filter((time) => time > 0);
   const from = known.reduce((least, time) => Math.min(least, time), Infinity);
@@ -20,10 +27,11 @@ async function draw({ quiet = false } = {}) {
   const zero = laser ?? from;
   const hit = named("tdc_valid")?.changes.some(([time, value]) => time > from && value === 1n);
   picture = view($("shot-waves"), {
-    signals, from, to: end, mark: laser, unit: "ns",
+    signals, from, to: end, zero, mark: laser, unit: "ns",
     label: `Waveform of the last shot, ${((end - from) / 1e3).toFixed(0)} ns; ${hit ? "with" : "without"} a code`,
     axis: (time, step) => digits((time - zero) / 1e3, step / 1e3),
   });
+  if (end - from > 2 * SHOWN) picture.move(from, SHOWN);
 }
 
 export const setUp = () => { $("shot-draw").onclick = () => draw(); };

@@ -36,7 +36,7 @@ export function digits(value, step) {
 }
 
 // The frame of a plot: its size, its scales and its axes.
-export function plot(place, [x0, x1], [y0, y1], { left = 52, bottom = 30, top = 8, right = 8, xLabel, yLabel }) {
+export function plot(place, [x0, x1], [y0, y1], { left = 52, bottom = 34, top = 8, right = 8, xLabel, yLabel }) {
   const [width, height] = [Math.max(place.clientWidth, 120), Math.max(place.clientHeight, 100)];
   const x = (value) => left + ((value - x0) / (x1 - x0)) * (width - left - right);
   const y = (value) => height - bottom - ((value - y0) / (y1 - y0)) * (height - bottom - top);
@@ -56,7 +56,7 @@ export function plot(place, [x0, x1], [y0, y1], { left = 52, bottom = 30, top = 
     const end = x(value) > width - 24 ? "end" : "middle";
     root.append(svg("text", { x: Math.min(x(value), width - 2), y: under + 16, "text-anchor": end }, text));
   }
-  if (xLabel) root.append(svg("text", { x: left, y: height - 1 }, xLabel));
+  if (xLabel) root.append(svg("text", { x: width - 2, y: height - 2, "text-anchor": "end" }, xLabel));
   if (yLabel) root.append(svg("text", { x: left + 4, y: top + 9 }, yLabel));
   return { root, x, y, width, height, under, top, left };
 }

@@ -61,8 +61,8 @@ export function readCsv(text, probes, from, samples) {
   return { signals, end: rows.length };
 }
 
-// A view of signals in `place`; `axis` turns a time into a text.
-export function view(place, { signals, from, to, mark, label, axis, unit }) {
+// A view of signals in `place`, with times told from `zero` on; `axis` turns a time into a text.
+export function view(place, { signals, from, to, zero, mark, label, axis, unit }) {
   let [begin, end] = [from, to];
   const names = 14 + 6.7 * Math.max(...signals.map(({ name }) => name.length));
   const canvas = html("div", { class: "canvas", tabindex: 0, role: "group", "data-keys": "" , "aria-label": `${label}; plus and minus zoom, arrows move` });
@@ -73,7 +73,7 @@ export function view(place, { signals, from, to, mark, label, axis, unit }) {
     const height = signals.length * ROW + 24;
     const x = (time) => left + ((time - begin) / (end - begin)) * (width - left - 2);
     const root = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": label });
-    const steps = ticks(begin, end, (width - left) / 90);
+    const steps = ticks(begin - zero, end - zero, (width - left) / 90).map((time) => time + zero);
     for (const time of steps) {
       root.append(svg("line", { class: "grid", x1: x(time), x2: x(time), y1: 0, y2: height - 18 }));
       const anchor = x(time) > width - 30 ? "end" : "middle";
@@ -146,5 +146,3 @@ function one(root, { name, width, changes }, top, { x, begin, end, left, width: 
   }
   root.append(svg("path", { class: "bus", d }));
 }
-
-export { digits };

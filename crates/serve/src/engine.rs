@@ -15,8 +15,8 @@ use crate::session::{Reply, Session};
 
 /// Requests that may wait.
 const WAITING: usize = 64;
-/// Cycles between two looks at requests: some milliseconds.
-const CYCLES: u64 = 1 << 16;
+/// Cycles between two looks at requests: a millisecond.
+const CYCLES: u64 = 1 << 14;
 /// The longest time between two states of a frame that takes long.
 const SHOWN_EVERY: Duration = Duration::from_millis(100);
 
@@ -104,11 +104,12 @@ impl Thread {
                 self.show.send_replace(self.session.state());
                 shown = Instant::now();
             }
+            // The pause is spread over the frame, so that requests meet any part of it.
             let until = match (ended, self.session.is_held()) {
                 (true, _) => begun + self.pause,
                 // There is nothing to see but time.
                 (false, true) => Instant::now() + SHOWN_EVERY,
-                (false, false) => Instant::now(),
+                (false, false) => begun + self.pause.mul_f64(self.session.part_of_frame()),
             };
             if self.answer_until(until).is_err() {
                 return;

@@ -79,7 +79,6 @@ impl Server {
 fn router(engine: Engine, guard: &Arc<Guard>) -> Router {
     let followers = Arc::new(Semaphore::new(FOLLOWERS));
     let page = Router::new()
-        .route("/", get(assets::index))
         .route("/page/{name}", get(assets::asset))
         .route("/state", get(requests::state))
         .route("/events", get(events))
@@ -92,6 +91,7 @@ fn router(engine: Engine, guard: &Arc<Guard>) -> Router {
         .route("/run.toml", get(files::scenario))
         .with_state(Shared { engine, followers });
     Router::new()
+        .route(&format!("{}/", guard.path()), get(assets::index))
         .nest(&guard.path(), page)
         .fallback(|| async { StatusCode::NOT_FOUND })
         .layer(DefaultBodyLimit::max(LONGEST))

@@ -16,12 +16,15 @@ use tofsim_serve::http::Server;
 
 /// Usage or input error.
 const FAULT: u8 = 2;
+/// Ended by Ctrl-C or from outside.
+const INTERRUPTED: u8 = 130;
 
 fn main() -> ExitCode {
     let options = Options::parse();
     match serve(&options) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
+        Err(Error::Interrupted) => ExitCode::from(INTERRUPTED),
         Err(error) => {
             eprintln!("tofsim-serve: {error}");
             ExitCode::from(FAULT)
@@ -31,7 +34,7 @@ fn main() -> ExitCode {
 
 fn serve(options: &Options) -> Result<()> {
     let setup = Setup::new(options.load(&[])?)?;
-    if !options.quiet {
+    if !options.quiet && !options.without_notes {
         setup.notes()?.iter().for_each(|note| eprintln!("{note}"));
     }
     let engine = Engine::start(options.clone())?;
@@ -45,8 +48,8 @@ fn serve(options: &Options) -> Result<()> {
         let mut terminate = stop(SignalKind::terminate())?;
         tokio::select! {
             served = server.run() => served,
-            _ = interrupt.recv() => Ok(()),
-            _ = terminate.recv() => Ok(()),
+            _ = interrupt.recv() => Err(Error::Interrupted),
+            _ = terminate.recv() => Err(Error::Interrupted),
         }
     })
 }

@@ -35,6 +35,9 @@ pub struct Options {
     /// Print one JSON object instead of the address
     #[arg(long)]
     pub json: bool,
+    /// Leave out the notes on what results lie outside of; the page has them
+    #[arg(long)]
+    pub without_notes: bool,
     /// Print nothing but errors and the address
     #[arg(short, long)]
     pub quiet: bool,

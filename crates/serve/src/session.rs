@@ -25,7 +25,7 @@ use tofsim::sim::{Live, Progress};
 use tofsim::{Shot, WaveFormat};
 
 use crate::options::{Fidelity, Options};
-use analyser::Ila;
+use analyser::{Ila, SetUpView, set_ups};
 use causes::{Causes, expected};
 use clock::Clock;
 use instrument::Instrument;
@@ -81,6 +81,7 @@ pub struct Session {
     frame_notes: Vec<String>,
     strip: Strip,
     ila: Ila,
+    set_ups: Vec<SetUpView>,
     clock: Clock,
     rates: Vec<RateView>,
     running: bool,
@@ -118,6 +119,7 @@ impl Session {
             frame_notes: Vec::new(),
             strip: Strip::default(),
             ila: Ila::default(),
+            set_ups: set_ups(&setup),
             clock: Clock::default(),
             rates: setup.params.vcsel_driver.periods.iter().map(rate).collect(),
             origin: setup,
@@ -160,6 +162,12 @@ impl Session {
         self.held().is_some()
     }
 
+    /// How much of the present frame has gone by [1].
+    pub fn part_of_frame(&self) -> f64 {
+        let shots = self.live.setup().shots(1).max(1);
+        (self.live.shots_of_frame() as f64 / shots as f64).min(1.0)
+    }
+
     /// Goes on for so many cycles, or to the end of a frame; whether one has ended.
     pub fn advance(&mut self, cycles: u64) -> bool {
         let began = Instant::now();
@@ -177,7 +185,8 @@ impl Session {
 
     fn step(&mut self, cycles: u64) -> Result<bool> {
         if self.live.now() > LONGEST {
-            let expected = "the run has come to the last instant that can be counted: power up again";
+            let expected =
+                "the run has come to the last instant that can be counted: power up again";
             return Err(Input::new("run", expected).into());
         }
         let causes = &mut self.causes;
@@ -216,12 +225,12 @@ impl Session {
         self.frame_notes = notes.iter().map(ToString::to_string).collect();
         if self.mixed {
             self.frame_notes.push(
-                "note: a control signal changed within the frame: its shots are not alike".to_owned(),
+                "note: a control signal changed within the frame: its shots are not alike"
+                    .to_owned(),
             );
         }
         let causes_seen = self.options.fidelity == Fidelity::Cycle;
-        let layers =
-            if causes_seen { self.causes.seen(frame) } else { expected(&now, frame) };
+        let layers = if causes_seen { self.causes.seen(frame) } else { expected(&now, frame) };
         self.frame = Some(FrameView {
             layers,
             causes_seen,
@@ -323,7 +332,8 @@ impl Session {
     fn make(&mut self, change: Control, after: Time) {
         let change = self.live.control(change, after);
         self.keyframe.change(&change);
-        self.mixed = true;
+        // A shot comes long after Clear.
+        self.mixed |= !self.live.is_clearing();
         if self.changes.len() < MOST_CHANGES && change.at_us <= LAST_US {
             self.changes.push(change);
         } else {
@@ -338,20 +348,25 @@ impl Session {
         let mut scene = self.scene.clone();
         scene::lay_over(&mut scene, asked)?;
         let before = std::mem::replace(&mut self.scene, scene);
-        if let Err(error) = self.prepare() {
-            self.scene = before;
-            return Err(error);
+        let is_new = self.live.device().cycle() == 0 && self.changes.is_empty();
+        let changed = match is_new && !self.ila.is_armed() {
+            true => self.power_up(),
+            false => self.prepare(),
+        };
+        match changed {
+            Ok(()) => self.exact &= is_new && !self.ila.is_armed(),
+            Err(_) => self.scene = before,
         }
-        if self.live.device().cycle() > 0 {
-            self.exact = false;
-        }
-        Ok(())
+        changed
     }
 
     /// Has the next frame be of the scene and the switches as they are.
     fn prepare(&mut self) -> Result<()> {
         let setup = self.setup_now()?;
         let instrument = Arc::new(Instrument::new(Arc::clone(&setup))?);
+        if self.live.is_clearing() {
+            self.keyframe.change_scene(&setup);
+        }
         if self.live.change_scene(setup) {
             self.next = Some(instrument);
         }
@@ -363,12 +378,7 @@ impl Session {
         if request.arm { self.ila.arm(request, &mut self.live) } else { Ok(()) }
     }
 
-    fn waves(
-        &self,
-        shot: Option<u64>,
-        format: WaveFormat,
-        signals: &[String],
-    ) -> Result<File> {
+    fn waves(&self, shot: Option<u64>, format: WaveFormat, signals: &[String]) -> Result<File> {
         let none = || Input::new("shot", "no frame has ended yet");
         let finished = self.finished.as_ref().ok_or_else(none)?;
         Ok(File::of_waves(format, finished.waves(shot, format, signals)?))

@@ -47,9 +47,8 @@ fn a_change_on_the_way_is_a_change_of_the_scenario() {
 #[test]
 fn a_frame_is_of_one_scene() {
     let [near, far] = [setup(&["target.distance_m=0.2"]), setup(&["target.distance_m=0.6"])];
-    let peak = |frame: &Frame| {
-        (0..256).max_by_key(|&bin| frame.histogram[bin]).unwrap_or_default() as i64
-    };
+    let peak =
+        |frame: &Frame| (0..256).max_by_key(|&bin| frame.histogram[bin]).unwrap_or_default() as i64;
     let mut live = Live::new(near, Stepping::SkipIdle);
     live.advance(1000, &mut Off, None).unwrap();
     assert!(live.change_scene(far));

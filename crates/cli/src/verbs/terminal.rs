@@ -61,6 +61,11 @@ impl Talk {
         Talk { quiet, verbose, strict, command, within: true }
     }
 
+    /// Whether nothing but errors is to be said.
+    pub fn is_quiet(&self) -> bool {
+        self.quiet
+    }
+
     /// Something worth knowing.
     pub fn note(&self, text: impl std::fmt::Display) {
         if !self.quiet && (!self.within || self.verbose) {

@@ -124,11 +124,14 @@ mod tests {
         let own = (HOST, "127.0.0.1:8080");
         assert!(!refused(&[own.clone()], &path));
         assert!(!refused(&[(HOST, "localhost:8080"), (ORIGIN, "http://localhost:8080")], &path));
-        for host in ["127.0.0.1", "127.0.0.1:80", "evil.example:8080", "127.0.0.1:8080.evil.example"] {
+        for host in
+            ["127.0.0.1", "127.0.0.1:80", "evil.example:8080", "127.0.0.1:8080.evil.example"]
+        {
             assert!(refused(&[(HOST, host)], &path), "{host}");
         }
         assert!(refused(&[], &path), "no host");
-        let origins = ["null", "http://evil.example", "https://127.0.0.1:8080", "http://127.0.0.1:81"];
+        let origins =
+            ["null", "http://evil.example", "https://127.0.0.1:8080", "http://127.0.0.1:81"];
         for origin in origins {
             assert!(refused(&[own.clone(), (ORIGIN, origin)], &path), "{origin}");
         }

@@ -60,9 +60,7 @@ pub async fn ask(shared: &Shared, request: Request) -> Response {
         Ok(Reply::File(file)) => attachment(&file),
         Err(NoAnswer::Refused(error)) => fault(StatusCode::BAD_REQUEST, &error.to_string()),
         Err(NoAnswer::Busy) => fault(StatusCode::SERVICE_UNAVAILABLE, "too many requests wait"),
-        Err(NoAnswer::Gone) => {
-            fault(StatusCode::INTERNAL_SERVER_ERROR, "the simulation has ended")
-        }
+        Err(NoAnswer::Gone) => fault(StatusCode::INTERNAL_SERVER_ERROR, "the simulation has ended"),
     }
 }
 

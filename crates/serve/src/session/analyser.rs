@@ -10,7 +10,9 @@ use tofsim::kernel::Time;
 use tofsim::sim::setup::Setup;
 use tofsim::sim::{Live, Progress};
 use tofsim::{Shot, Taker};
+use tofsim_captures::ila::builtin::SET_UPS;
 use tofsim_captures::ila::export::{CaptureFormat, export};
+use tofsim_captures::ila::setup::AnalyserSetupFile;
 use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, capture_live};
 
 use super::request::IlaRequest;
@@ -37,6 +39,27 @@ struct Armed {
 struct Done {
     view: CaptureView,
     files: Vec<(CaptureFormat, Arc<[u8]>)>,
+}
+
+/// A built-in set-up.
+#[derive(Clone, Debug, Serialize)]
+pub struct SetUpView {
+    name: &'static str,
+    description: String,
+    clock: String,
+    depth: u64,
+    trigger: Option<String>,
+}
+
+/// The built-in set-ups that the design has all signals of.
+pub fn set_ups(setup: &Setup) -> Vec<SetUpView> {
+    let of_design = |name: &'static str| {
+        let set_up = AnalyserSetup::load(name).ok()?;
+        AnalyserPlan::new(&set_up, setup).ok()?;
+        let AnalyserSetupFile { description, clock, depth, trigger, .. } = set_up.file;
+        Some(SetUpView { name, description, clock, depth, trigger })
+    };
+    SET_UPS.iter().rev().filter_map(|(name, _)| of_design(name)).collect()
 }
 
 /// What the page shows of the logic analyser.
@@ -95,7 +118,8 @@ impl Ila {
         let mut set_up = match (&request.set_up, &request.text) {
             (Some(name), None) if !name.contains(['/', '.']) => AnalyserSetup::load(name)?,
             (Some(name), None) => {
-                let expected = "expected the name of a built-in set-up; a set-up of your own goes into `text`";
+                let expected =
+                    "expected the name of a built-in set-up; a set-up of your own goes into `text`";
                 return Err(Input::new("ila", expected).field("set_up").value(name).into());
             }
             (None, Some(text)) => AnalyserSetup::parse("own", "set-up", text)?,
@@ -245,5 +269,9 @@ fn command(set_up: &AnalyserSetup, frames: u64, setup: &Setup) -> String {
 /// A word as a shell takes it.
 fn quoted(text: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
-    if text.chars().all(is_plain) { text.to_owned() } else { format!("'{}'", text.replace('\'', "'\\''")) }
+    if text.chars().all(is_plain) {
+        text.to_owned()
+    } else {
+        format!("'{}'", text.replace('\'', "'\\''"))
+    }
 }

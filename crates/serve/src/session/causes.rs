@@ -86,9 +86,8 @@ pub fn expected(instrument: &Instrument, frame: &Frame) -> Vec<Layer> {
     // Without light there is nothing to expect.
     let is_known = |bin: usize| layers.iter().any(|layer| layer.counts[bin] > 0.0);
     let unknown = frame.histogram.iter().enumerate();
-    let unknown = unknown
-        .map(|(bin, &count)| if is_known(bin) { 0.0 } else { f64::from(count) })
-        .collect();
+    let unknown =
+        unknown.map(|(bin, &count)| if is_known(bin) { 0.0 } else { f64::from(count) }).collect();
     layers.push(Layer { cause: "unknown", counts: unknown });
     layers.retain(Layer::is_any);
     layers

@@ -71,8 +71,7 @@ impl Instrument {
                 None
             }
         };
-        let bound_two_sd_mm =
-            if has_depth { Bound::of(&setup)?.two_sd_mm } else { None };
+        let bound_two_sd_mm = if has_depth { Bound::of(&setup)?.two_sd_mm } else { None };
         let bins = setup.bins();
         let hazards = [Hazard::dark(&setup.budget), Hazard::new(&setup.budget)];
         let parts = hazards.map(|hazard| cause_parts(&hazard, &bins));

@@ -81,9 +81,8 @@ pub struct Slider {
 
 /// The sliders of a scene.
 pub fn sliders(setup: &Setup) -> Vec<Slider> {
-    let window_m = setup.bins().spans().last().map_or(1.0, |span| span.until.seconds())
-        * LIGHT_M_S
-        / 2.0;
+    let window_m =
+        setup.bins().spans().last().map_or(1.0, |span| span.until.seconds()) * LIGHT_M_S / 2.0;
     let slider = |key: &Key| {
         let [least, most, step] = key.range;
         let most = if key.key == DISTANCE { (window_m * 20.0).floor() / 20.0 } else { most };

@@ -49,6 +49,11 @@ impl Keyframe {
         Keyframe { live: live.clone(), changes: Vec::new() }
     }
 
+    /// The scene changes, in Clear.
+    pub fn change_scene(&mut self, setup: &Arc<Setup>) {
+        self.live.change_scene(Arc::clone(setup));
+    }
+
     /// A control signal changes.
     pub fn change(&mut self, change: &Control) {
         if self.changes.len() <= MOST_CHANGES {

@@ -8,7 +8,6 @@ use tofsim::firmware::tof_top::Pins;
 use tofsim::optics::budget::LIGHT_M_S;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
-use tofsim_captures::ila::builtin::SET_UPS;
 
 use super::Session;
 use super::scene;
@@ -82,7 +81,7 @@ impl Session {
                 first_m: setup.scenario.tdc.first_bin_ps * 1e-12 * LIGHT_M_S / 2.0,
             },
             ila: self.ila.view(),
-            set_ups: SET_UPS.iter().map(|(name, _)| *name).collect(),
+            set_ups: &self.set_ups,
             exact: self.exact,
         };
         serde_json::to_string(&view).unwrap_or_default().into()

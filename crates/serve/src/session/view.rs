@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::analyser::IlaView;
+use super::analyser::{IlaView, SetUpView};
 use super::causes::Layer;
 use super::instrument::Depth;
 use super::scene::Slider;
@@ -57,7 +57,7 @@ pub struct View<'a> {
     /// The logic analyser.
     pub ila: IlaView,
     /// Set-ups of captures that are built in.
-    pub set_ups: Vec<&'static str>,
+    pub set_ups: &'a [SetUpView],
     /// Whether the run's scenario says all that has been done to it.
     pub exact: bool,
 }
