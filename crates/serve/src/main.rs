@@ -41,11 +41,11 @@ fn serve(options: &Options) -> Result<()> {
     let threads = tokio::runtime::Builder::new_current_thread().enable_all().build();
     let threads = threads.map_err(|error| Input::new("server", error))?;
     threads.block_on(async {
-        let server = Server::bind(engine, options.port).await?;
-        say(options, &setup, &server.url())?;
         let stop = |kind| signal(kind).map_err(|error| Input::new("signals", error));
         let mut interrupt = stop(SignalKind::interrupt())?;
         let mut terminate = stop(SignalKind::terminate())?;
+        let server = Server::bind(engine, options.port).await?;
+        say(options, &setup, &server.url())?;
         tokio::select! {
             served = server.run() => served,
             _ = interrupt.recv() => Err(Error::Interrupted),

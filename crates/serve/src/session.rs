@@ -17,7 +17,7 @@ use std::time::Instant;
 use tofsim::error::{Input, Result};
 use tofsim::firmware::tof_top::Pins;
 use tofsim::kernel::Time;
-use tofsim::scenario::{self, Control};
+use tofsim::scenario::{self, Control, Loaded};
 use tofsim::sim::device::Off;
 use tofsim::sim::frames::Frame;
 use tofsim::sim::setup::Setup;
@@ -60,6 +60,8 @@ pub enum Reply {
 /// The run that every browser sees.
 pub struct Session {
     options: Options,
+    /// The scenario as it was read at the start.
+    base: Loaded,
     /// What the scene has been asked to be.
     scene: BTreeMap<String, f64>,
     /// The switches.
@@ -95,7 +97,8 @@ impl Session {
     /// # Errors
     /// When the scenario cannot be run.
     pub fn new(options: Options) -> Result<Self> {
-        let setup = Arc::new(Setup::new(options.load(&[])?)?);
+        let base = options.load(&[])?;
+        let setup = Arc::new(Setup::new(base.clone())?);
         let instrument = Arc::new(Instrument::new(Arc::clone(&setup))?);
         let live = Live::new(Arc::clone(&setup), options.fidelity.stepping());
         let rate = |&cycles: &u64| RateView {
@@ -125,6 +128,7 @@ impl Session {
             origin: setup,
             fault: None,
             version: 0,
+            base,
             options,
         })
     }

@@ -30,6 +30,11 @@ fn two_hours_of_use_do_not_grow() {
     let small =
         ["--fidelity", "shot", "-s", "firmware.shots_per_frame=300", "--rate", "1000", "--stopped"];
     let server = Server::start(&small);
+    // One browser that has fallen asleep, for which nothing is kept.
+    let mut asleep = std::net::TcpStream::connect(server.host()).unwrap();
+    let request =
+        format!("GET {}events HTTP/1.1\r\nHost: {}\r\n\r\n", server.path(), server.host());
+    std::io::Write::write_all(&mut asleep, request.as_bytes()).unwrap();
     let use_it = |rounds: u32| {
         for round in 0..rounds {
             server.frames(200);

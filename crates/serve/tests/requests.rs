@@ -64,6 +64,51 @@ fn a_wrong_request_says_what_was_expected() {
 }
 
 #[test]
+fn a_scenario_s_file_that_changes_under_the_run_is_not_mixed_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let text = "[firmware]\nshots_per_frame = 300\n";
+    std::fs::write(&path, text).unwrap();
+    let server = Server::start(&["--stopped", path.to_str().unwrap()]);
+    server.frames(1);
+    std::fs::write(&path, format!("{text}[tdc]\nbins = 128\n")).unwrap();
+    let answer = server.post("scene", "{\"target.distance_m\":0.3}");
+    assert!(answer.fault().contains("has changed since the start"), "{}", answer.fault());
+    std::fs::remove_file(&path).unwrap();
+    assert_eq!(server.post("control", "{\"mode\":1}").status, 400);
+    assert_eq!(server.frames(1)["index"], 1);
+    std::fs::write(&path, text).unwrap();
+    server.act("scene", "{\"target.distance_m\":0.3}");
+    assert_eq!(server.frames(1)["true_m"], 0.3);
+}
+
+#[test]
+fn every_built_in_scenario_has_a_page() {
+    for (name, _) in tofsim::scenario::builtin::scenarios() {
+        let server = Server::start(&["--stopped", "--fidelity", "shot", name]);
+        let answer = server.post("run", "{\"frames\":1}");
+        assert!(
+            answer.status == 200 || answer.fault().contains("does not end"),
+            "{name}: {}",
+            answer.fault()
+        );
+        let laser = server.post("control", "{\"laser_en\":false}");
+        assert!(
+            laser.status == 200 || laser.fault().contains("dark_frames"),
+            "{name}: {}",
+            laser.fault()
+        );
+        let scene = server.post("scene", "{\"target.distance_m\":0.3}");
+        assert!(
+            scene.status == 200 || scene.fault().contains("stimulus"),
+            "{name}: {}",
+            scene.fault()
+        );
+        assert_eq!(server.get("run.toml").status, 200, "{name}");
+    }
+}
+
+#[test]
 fn random_bytes_are_refused_and_the_run_goes_on() {
     let server = Server::small(&[]);
     let mut word = 1u64;
@@ -80,6 +125,14 @@ fn random_bytes_are_refused_and_the_run_goes_on() {
         }
     }
     assert_eq!(server.frames(1)["index"], 0);
+}
+
+#[test]
+fn ctrl_c_ends_it_with_130() {
+    let server = Server::start(&[]);
+    let stopped = Command::new("kill").args(["-INT", &server.id().to_string()]).status();
+    assert!(stopped.unwrap().success());
+    assert_eq!(server.end().code(), Some(130));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use tofsim::error::Result;
+use tofsim::error::{Input, Result};
 use tofsim::firmware::frame_ctrl::State;
 use tofsim::firmware::tof_top::Pins;
 use tofsim::optics::budget::LIGHT_M_S;
@@ -116,7 +116,11 @@ impl Session {
 
     /// The scenario with the scene and the switches as they are.
     pub(super) fn setup_now(&self) -> Result<Arc<Setup>> {
-        let (base, pins) = (self.options.load(&[])?.scenario.firmware, &self.pins);
+        if self.options.load(&[])? != self.base {
+            let expected = "the file has changed since the start: start again to have it as it is";
+            return Err(Input::new("scenario", expected).value(&self.options.scenario).into());
+        }
+        let (base, pins) = (&self.base.scenario.firmware, &self.pins);
         let mut further = scene::overrides(&self.scene);
         let mut switch = |key: &str, value: u64, base: u64, is_flag: bool| {
             if value == base {

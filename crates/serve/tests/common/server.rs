@@ -64,6 +64,11 @@ impl Server {
         self.process.id()
     }
 
+    /// Waits for its end.
+    pub fn end(mut self) -> std::process::ExitStatus {
+        self.process.wait().unwrap()
+    }
+
     /// Host and port.
     pub fn host(&self) -> &str {
         self.url["http://".len()..].split('/').next().unwrap()
