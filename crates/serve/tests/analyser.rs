@@ -29,8 +29,10 @@ fn an_armed_analyser_captures_what_a_run_of_the_scenario_shows() {
         "{\"arm\":true,\"set_up\":\"fig_6_6\"}",
         "{\"arm\":true,\"set_up\":\"fig_6_21\",\"windows\":2,\"position\":5}",
         "{\"arm\":true,\"set_up\":\"fig_6_6\",\"clock\":\"100MHz + 250ps\",\"trigger\":\"VCSEL_ON rising\"}",
+        // The first sample triggers, so that the instant of arming shows.
+        "{\"arm\":true,\"set_up\":\"fig_6_6\",\"trigger\":\"SPAD_RST_DO == 0\",\"position\":0}",
     ];
-    for (fidelity, request) in ["shot", "cycle", "shot"].into_iter().zip(requests) {
+    for (fidelity, request) in ["shot", "cycle", "shot", "cycle"].into_iter().zip(requests) {
         let server = Server::small(&["--fidelity", fidelity]);
         let found = captured(&server, request);
         let folder = tempfile::tempdir().unwrap();
@@ -43,6 +45,7 @@ fn an_armed_analyser_captures_what_a_run_of_the_scenario_shows() {
         file.arm_at_us = found["arm_at_us"].as_f64().unwrap();
         file.windows = asked["windows"].as_u64().unwrap_or(file.windows);
         file.position = asked["position"].as_u64().or(file.position);
+        file.trigger = asked["trigger"].as_str().map(str::to_owned).or(file.trigger.take());
         file.clock = asked["clock"].as_str().unwrap_or(&file.clock).to_owned();
         let mut plan = AnalyserPlan::new(&set_up, &setup).unwrap();
         plan.stop_when_full = true;
