@@ -16,7 +16,6 @@ use crate::sensor::spad::{Event, Spads};
 use super::disturbance::Disturbance;
 use super::jitter::Jitter;
 use super::oscillator::Oscillator;
-use super::setup::Setup;
 use super::timeline::Timeline;
 
 pub use super::probe::{AvalancheListener, Edge, Off, SignalProbe};
@@ -285,11 +284,6 @@ impl Device {
         if let Some(row) = self.spads.row() {
             row.begin_frame(frame);
         }
-    }
-
-    /// Has the light of another scene from the next draw on.
-    pub(super) fn change_light(&mut self, setup: &Setup) {
-        self.light.change(setup.light_of_row());
     }
 
     /// The detector does what is due.

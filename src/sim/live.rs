@@ -241,7 +241,7 @@ impl Live {
 
     fn take_scene(&mut self) {
         if let Some(setup) = self.coming.take() {
-            self.device.change_light(&setup);
+            self.device.light.change(setup.light_of_row());
             self.fast = FastForward::of(self.fast.stepping);
             self.setup = setup;
         }

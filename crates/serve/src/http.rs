@@ -1,9 +1,11 @@
 //! What browsers see: the page, states as they come, and requests.
 
+mod answers;
 mod assets;
 mod files;
 mod guard;
 mod requests;
+mod shared;
 
 use std::convert::Infallible;
 use std::net::{Ipv4Addr, SocketAddr};
@@ -26,6 +28,7 @@ use tofsim::error::{Input, Result};
 
 use crate::engine::Engine;
 use guard::Guard;
+use shared::Shared;
 
 /// Longest request [bytes]; a set-up of a capture is by far the longest.
 const LONGEST: usize = 1 << 16;
@@ -37,13 +40,6 @@ pub struct Server {
     listener: TcpListener,
     guard: Arc<Guard>,
     engine: Engine,
-}
-
-/// What handlers work with.
-#[derive(Clone)]
-struct Shared {
-    engine: Engine,
-    followers: Arc<Semaphore>,
 }
 
 impl Server {
@@ -102,7 +98,7 @@ fn router(engine: Engine, guard: &Arc<Guard>) -> Router {
 async fn events(State(shared): State<Shared>) -> Response {
     let Ok(place) = shared.followers.try_acquire_owned() else {
         let expected = format!("{FOLLOWERS} browsers follow the run already");
-        return requests::fault(StatusCode::SERVICE_UNAVAILABLE, &expected);
+        return answers::fault(StatusCode::SERVICE_UNAVAILABLE, &expected);
     };
     let states = WatchStream::new(shared.engine.states());
     let events = states.map(move |state| {

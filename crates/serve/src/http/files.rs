@@ -2,15 +2,14 @@
 
 use axum::extract::{Path, RawQuery, State};
 use axum::http::StatusCode;
-use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
 use axum::response::{IntoResponse, Response};
 
 use tofsim::WaveFormat;
 use tofsim_captures::ila::export::CaptureFormat;
 
-use super::Shared;
-use super::requests::{ask, fault};
-use crate::session::File;
+use super::answers::fault;
+use super::requests::ask;
+use super::shared::Shared;
 use crate::session::request::Request;
 
 /// A file of the capture.
@@ -59,11 +58,4 @@ fn question(query: &str) -> Result<(Option<u64>, Vec<String>), String> {
         }
     }
     Ok((shot, signals))
-}
-
-/// A file as an answer, which a browser saves under its name.
-pub fn attachment(file: &File) -> Response {
-    let disposition = format!("attachment; filename=\"{}\"", file.name);
-    let headers = [(CONTENT_TYPE, file.media_type.to_owned()), (CONTENT_DISPOSITION, disposition)];
-    (headers, file.bytes.to_vec()).into_response()
 }

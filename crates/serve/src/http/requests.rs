@@ -6,10 +6,9 @@ use axum::http::StatusCode;
 use axum::http::header::CONTENT_TYPE;
 use axum::response::{IntoResponse, Response};
 use serde::de::DeserializeOwned;
-use serde_json::json;
 
-use super::Shared;
-use super::files::attachment;
+use super::answers::{attachment, fault};
+use super::shared::Shared;
 use crate::engine::NoAnswer;
 use crate::session::Reply;
 use crate::session::request::Request;
@@ -62,10 +61,4 @@ pub async fn ask(shared: &Shared, request: Request) -> Response {
         Err(NoAnswer::Busy) => fault(StatusCode::SERVICE_UNAVAILABLE, "too many requests wait"),
         Err(NoAnswer::Gone) => fault(StatusCode::INTERNAL_SERVER_ERROR, "the simulation has ended"),
     }
-}
-
-/// An answer that says what is wrong.
-pub fn fault(status: StatusCode, text: &str) -> Response {
-    let body = json!({ "error": text }).to_string();
-    (status, [(CONTENT_TYPE, "application/json")], body).into_response()
 }
