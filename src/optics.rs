@@ -2,6 +2,7 @@
 
 mod air;
 pub mod budget;
+pub mod cause_parts;
 pub mod chances;
 pub mod closed_form;
 pub mod dark;

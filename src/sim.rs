@@ -8,6 +8,7 @@ pub mod fast;
 pub mod frames;
 pub mod free_running;
 mod jitter;
+pub mod live;
 mod oscillator;
 pub mod partings;
 mod probe;
@@ -22,5 +23,6 @@ mod wave_tracer;
 
 pub use device::Device;
 pub use fast::Stepping;
+pub use live::{Live, Progress};
 pub use run::{Outcome, Run};
 pub use wave_tracer::WindowedProbe;

@@ -156,6 +156,13 @@ impl Hazard {
         }
     }
 
+    /// What laser, ambient light and no light at all add to H from `from` to `until` [1].
+    pub fn by_cause(&self, from: Time, until: Time) -> [f64; 3] {
+        let span = until.since(from).fs() as f64;
+        let signal = self.at(until) - self.at(from) - self.background * span;
+        [signal.max(0.0), self.ambient * span, (self.background - self.ambient) * span]
+    }
+
     /// How shots differ.
     pub fn variation(&self) -> Variation {
         self.variation

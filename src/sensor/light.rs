@@ -82,6 +82,18 @@ impl Light {
         }
     }
 
+    /// Whether it is of a scene that can change.
+    pub fn can_change(&self) -> bool {
+        matches!(self, Light::Optics(_))
+    }
+
+    /// Has the hazards of another scene from the next draw on; the streams go on where they are.
+    pub fn change(&mut self, other: &Light) {
+        if let (Light::Optics(own), Light::Optics(other)) = (self, other) {
+            own.hazards = Arc::clone(&other.hazards);
+        }
+    }
+
     /// What set off the avalanche at `at`, in the present shot, of a diode of whose rate `dark` comes without any light,
     /// if that is another part than of all; unknown for given photons.
     pub fn cause(&mut self, at: Time, dark: Option<f64>) -> Option<Cause> {

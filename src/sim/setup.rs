@@ -254,10 +254,15 @@ impl Setup {
             self.pll.clone(),
             jitter,
             self.disturbance.clone(),
-            self.row_light.as_ref().unwrap_or(&self.light).clone(),
+            self.light_of_row().clone(),
             (detector::spads(scenario, &self.dark), front_end),
             Timeline::new(scenario),
         )
+    }
+
+    /// What reaches all SPADs that are simulated.
+    pub(super) fn light_of_row(&self) -> &Light {
+        self.row_light.as_ref().unwrap_or(&self.light)
     }
 
     /// Period of the laser at power-up [cycles of clk_sys].

@@ -35,7 +35,7 @@ pub struct Shot {
 }
 
 /// Follows shots through the TDC's pipeline.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct ShotRecorder {
     /// Shots whose result may still come, oldest first.
     open: VecDeque<Shot>,

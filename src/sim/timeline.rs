@@ -60,6 +60,15 @@ impl Timeline {
         self.look_ahead();
     }
 
+    /// Adds a change, behind those of the same instant.
+    pub fn insert(&mut self, at: Time, change: Control) {
+        let mut changes: Vec<_> = self.changes.by_ref().collect();
+        let place = changes.partition_point(|(other, _)| *other <= at);
+        changes.insert(place, (at, change));
+        self.changes = changes.into_iter();
+        self.look_ahead();
+    }
+
     /// Changes still to come.
     pub fn left(&self) -> usize {
         self.changes.len()

@@ -16,5 +16,5 @@ pub mod write;
 
 pub use capture::{Capture, Probe, Radix};
 pub use plan::AnalyserPlan;
-pub use sampler::{Analyser, capture};
+pub use sampler::{Analyser, capture, capture_live};
 pub use setup::AnalyserSetup;

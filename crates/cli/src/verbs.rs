@@ -24,6 +24,7 @@ pub mod rerun;
 pub mod run;
 pub mod scenario;
 pub mod scenes;
+pub mod serve;
 pub mod spad;
 pub mod sweep;
 pub mod tdc;
@@ -85,6 +86,7 @@ enum Verb {
     Build(build::Args),
     Reproduce(reproduce::Args),
     Report(report::Args),
+    Serve(serve::Args),
     Ila(ila::Args),
     Compare(Box<compare::Args>),
     Dataset(dataset::Args),
@@ -155,6 +157,7 @@ impl Cli {
             Verb::Build(args) => return build::run(args, talk, Cli::run_within),
             Verb::Reproduce(args) => reproduce::run(args, talk),
             Verb::Report(args) => return report::run(args, talk, Cli::run_within),
+            Verb::Serve(args) => return serve::run(args, talk),
             Verb::Ila(args) => ila::run(args, talk),
             Verb::Compare(args) => return compare::run(args, talk),
             Verb::Dataset(args) => dataset::run(args, talk),

@@ -34,6 +34,7 @@ mod reproduce;
 mod rerun;
 mod scene;
 mod second_opinion;
+mod serve;
 mod sources;
 mod spad;
 mod spad_row;

@@ -12,7 +12,8 @@ use tofsim::kernel::clock::Clock;
 use tofsim::sim::device::{Edge, SignalProbe};
 use tofsim::sim::frames::Frames;
 use tofsim::sim::setup::Setup;
-use tofsim::sim::{Device, Outcome, Run, WindowedProbe};
+use tofsim::sim::{Device, Live, Outcome, Progress, Run, WindowedProbe};
+use tofsim::{Shot, Taker};
 
 use crate::condition::{Bound, Level};
 
@@ -163,6 +164,23 @@ pub fn capture(
     match analyser.plan.every_change {
         true => run.traced(count, &mut Tap::<true>(analyser), stop),
         false => run.traced(count, &mut Tap::<false>(analyser), stop),
+    }
+}
+
+/// Goes on with a live run under the eyes of the analyser, as [`Live::advance`] says. The analyser has to be armed
+/// at an instant to come, and to see all that follows.
+///
+/// # Errors
+/// Those of `shots`.
+pub fn capture_live(
+    live: &mut Live,
+    cycles: u64,
+    analyser: &mut Analyser,
+    shots: Option<Taker<Shot>>,
+) -> Result<Progress> {
+    match analyser.plan.every_change {
+        true => live.advance(cycles, &mut Tap::<true>(analyser), shots),
+        false => live.advance(cycles, &mut Tap::<false>(analyser), shots),
     }
 }
 

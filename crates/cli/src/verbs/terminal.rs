@@ -70,6 +70,11 @@ impl Talk {
         Talk { quiet: true, verbose: false, strict: self.strict, command, within: false }
     }
 
+    /// Whether nothing but errors is to be said.
+    pub fn is_quiet(&self) -> bool {
+        self.quiet
+    }
+
     /// Something worth knowing.
     pub fn note(&self, text: impl std::fmt::Display) {
         if !self.quiet && (!self.within || self.verbose) {

@@ -34,7 +34,7 @@ use crate::verbs::terminal::{Talk, print_json, stop_signal};
 #[command(after_help = "Examples:\n  \
     tofsim ila capture --probes fig_6_21 -o out\n  \
     tofsim ila capture near --probes my_ila.toml -o out --trigger 'hit rising' --windows 8\n\n\
-    Built-in set-ups: fig_6_6, fig_6_12, fig_6_13, fig_6_21 (the thesis's screen captures), likelihood_estimator")]
+    Built-in set-ups: fig_6_6, fig_6_12, fig_6_13, fig_6_21 (the thesis's screen captures), likelihood_estimator, shot")]
 pub struct Args {
     /// Built-in scenario or the path of a scenario file [default: the set-up's]
     scenario: Option<String>,

@@ -1,0 +1,122 @@
+//! `tofsim serve`: the acquisition computer as a page, by the program `tofsim-serve`.
+//!
+//! The server is a program of its own, so that nobody who wants a depth compiles one.
+
+use std::path::PathBuf;
+use std::process::{Command, ExitCode};
+
+use tofsim::error::{Error, Result};
+use tofsim::scenario::DEFAULT;
+use tofsim::sim::setup::Setup;
+
+use super::draws::load;
+use super::terminal::Talk;
+
+/// What serves the page; it lies beside this program.
+const PROGRAM: &str = "tofsim-serve";
+
+/// Open the acquisition computer as a page in a browser on this computer
+///
+/// The page has the computer's signals, acting on a running model; the histogram by cause, the depths and their
+/// bound; the scene; a logic analyser; and the waveform of a shot. Its address, which holds a secret, is printed;
+/// Ctrl-C ends it.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+    tofsim serve\n  \
+    tofsim serve far -s target.reflectance=0.6 --fidelity shot --port 8080")]
+pub struct Args {
+    /// Built-in scenario or the path of a scenario file
+    #[arg(default_value = DEFAULT)]
+    scenario: String,
+    /// Set a key of the scenario, such as target.distance_m=0.3; may be repeated
+    #[arg(short, long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Seed of every random stream, instead of the scenario's
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// How to go through time; the frames are the same
+    #[arg(long, value_enum, default_value_t = Way::Cycle)]
+    fidelity: Way,
+    /// Port on 127.0.0.1; 0 takes any that is free
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    port: u16,
+    /// Frames a second at most
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    rate: u32,
+    /// Wait for a press of Start before the first frame
+    #[arg(long)]
+    stopped: bool,
+    /// Print one JSON object instead of the address
+    #[arg(long)]
+    json: bool,
+}
+
+/// How the page goes through time.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Way {
+    /// Every cycle, with the cause of every avalanche
+    Cycle,
+    /// Leaps over shots that are alike; causes are what is to be expected
+    Shot,
+}
+
+/// Runs the command.
+pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+    let setup = Setup::new(load(&args.scenario, &args.set, args.seed)?)?;
+    talk.heed(&setup.notes()?)?;
+    let program = program()?;
+    if !program.is_file() {
+        eprintln!(
+            "tofsim: {} is missing: build it with `cargo build --release -p {PROGRAM}`",
+            program.display()
+        );
+        return Ok(ExitCode::FAILURE);
+    }
+    become_program(Command::new(&program).args(args.words(talk)))
+        .map_err(Error::io(&program, "run"))
+}
+
+impl Args {
+    /// The same for the program.
+    fn words(&self, talk: &Talk) -> Vec<String> {
+        let fidelity = match self.fidelity {
+            Way::Cycle => "cycle",
+            Way::Shot => "shot",
+        };
+        let mut words = vec![
+            format!("--fidelity={fidelity}"),
+            format!("--port={}", self.port),
+            format!("--rate={}", self.rate),
+        ];
+        words.extend(self.set.iter().map(|set| format!("--set={set}")));
+        words.extend(self.seed.map(|seed| format!("--seed={seed}")));
+        // Notes have been said.
+        words.push("--without-notes".to_owned());
+        let flags =
+            [("--stopped", self.stopped), ("--json", self.json), ("--quiet", talk.is_quiet())];
+        words
+            .extend(flags.iter().filter(|(_, is_set)| *is_set).map(|(flag, _)| (*flag).to_owned()));
+        words.extend(["--".to_owned(), self.scenario.clone()]);
+        words
+    }
+}
+
+/// The program beside this one.
+fn program() -> Result<PathBuf> {
+    let own = std::env::current_exe().map_err(Error::io(PROGRAM.as_ref(), "find"))?;
+    Ok(own.with_file_name(format!("{PROGRAM}{}", std::env::consts::EXE_SUFFIX)))
+}
+
+/// Goes on as another program, which has the terminal and its signals.
+#[cfg(unix)]
+fn become_program(command: &mut Command) -> std::io::Result<ExitCode> {
+    use std::os::unix::process::CommandExt;
+    Err(command.exec())
+}
+
+/// Runs another program to its end.
+#[cfg(not(unix))]
+fn become_program(command: &mut Command) -> std::io::Result<ExitCode> {
+    let status = command.status()?;
+    Ok(ExitCode::from(status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(1)))
+}

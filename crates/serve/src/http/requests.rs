@@ -1,0 +1,64 @@
+//! Requests that act on the run, as JSON, and how they are answered.
+
+use axum::body::Bytes;
+use axum::extract::State;
+use axum::http::StatusCode;
+use axum::http::header::CONTENT_TYPE;
+use axum::response::{IntoResponse, Response};
+use serde::de::DeserializeOwned;
+
+use super::answers::{attachment, fault};
+use super::shared::Shared;
+use crate::engine::NoAnswer;
+use crate::session::Reply;
+use crate::session::request::Request;
+
+/// The state.
+pub async fn state(State(shared): State<Shared>) -> Response {
+    ask(&shared, Request::State).await
+}
+
+/// Start, stop, go on for some frames, or power up again.
+pub async fn run(State(shared): State<Shared>, body: Bytes) -> Response {
+    read(&shared, "run", &body, Request::Run).await
+}
+
+/// Change signals of the acquisition computer.
+pub async fn control(State(shared): State<Shared>, body: Bytes) -> Response {
+    read(&shared, "control", &body, Request::Control).await
+}
+
+/// Change the scene.
+pub async fn scene(State(shared): State<Shared>, body: Bytes) -> Response {
+    read(&shared, "scene", &body, Request::Scene).await
+}
+
+/// Arm the logic analyser.
+pub async fn ila(State(shared): State<Shared>, body: Bytes) -> Response {
+    read(&shared, "ila", &body, Request::Ila).await
+}
+
+async fn read<T: DeserializeOwned>(
+    shared: &Shared,
+    what: &str,
+    body: &[u8],
+    request: impl FnOnce(T) -> Request,
+) -> Response {
+    match serde_json::from_slice(body) {
+        Ok(read) => ask(shared, request(read)).await,
+        Err(error) => fault(StatusCode::BAD_REQUEST, &format!("{what}: {error}")),
+    }
+}
+
+/// Asks the thread that simulates, and passes its answer on.
+pub async fn ask(shared: &Shared, request: Request) -> Response {
+    match shared.engine.ask(request).await {
+        Ok(Reply::State(state)) => {
+            ([(CONTENT_TYPE, "application/json")], state.to_string()).into_response()
+        }
+        Ok(Reply::File(file)) => attachment(&file),
+        Err(NoAnswer::Refused(error)) => fault(StatusCode::BAD_REQUEST, &error.to_string()),
+        Err(NoAnswer::Busy) => fault(StatusCode::SERVICE_UNAVAILABLE, "too many requests wait"),
+        Err(NoAnswer::Gone) => fault(StatusCode::INTERNAL_SERVER_ERROR, "the simulation has ended"),
+    }
+}

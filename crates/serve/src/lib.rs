@@ -1,0 +1,11 @@
+//! The acquisition computer of the thesis (section 2.4) as a page in a browser on this computer.
+//!
+//! One thread simulates ([`session`], driven by [`engine`]); the others answer browsers ([`http`]). Every browser
+//! sees the same run.
+
+pub mod engine;
+pub mod http;
+pub mod options;
+pub mod session;
+
+pub use options::{Fidelity, Options};

@@ -1,0 +1,80 @@
+//! The program `tofsim-serve`, which `tofsim serve` runs.
+
+use std::io::{self, Write};
+use std::path::Path;
+use std::process::ExitCode;
+
+use clap::Parser;
+use serde_json::json;
+use tokio::signal::unix::{SignalKind, signal};
+
+use tofsim::error::{Error, Input, Result};
+use tofsim::sim::setup::Setup;
+use tofsim_serve::Options;
+use tofsim_serve::engine::Engine;
+use tofsim_serve::http::Server;
+
+/// Usage or input error.
+const FAULT: u8 = 2;
+/// Ended by Ctrl-C or from outside.
+const INTERRUPTED: u8 = 130;
+
+fn main() -> ExitCode {
+    let options = Options::parse();
+    match serve(&options) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
+        Err(Error::Interrupted) => ExitCode::from(INTERRUPTED),
+        Err(error) => {
+            eprintln!("tofsim-serve: {error}");
+            ExitCode::from(FAULT)
+        }
+    }
+}
+
+fn serve(options: &Options) -> Result<()> {
+    let setup = Setup::new(options.load(&[])?)?;
+    if !options.quiet && !options.without_notes {
+        setup.notes()?.iter().for_each(|note| eprintln!("{note}"));
+    }
+    let engine = Engine::start(options.clone())?;
+    let threads = tokio::runtime::Builder::new_current_thread().enable_all().build();
+    let threads = threads.map_err(|error| Input::new("server", error))?;
+    threads.block_on(async {
+        let stop = |kind| signal(kind).map_err(|error| Input::new("signals", error));
+        let mut interrupt = stop(SignalKind::interrupt())?;
+        let mut terminate = stop(SignalKind::terminate())?;
+        let server = Server::bind(engine, options.port).await?;
+        say(options, &setup, &server.url())?;
+        tokio::select! {
+            served = server.run() => served,
+            _ = interrupt.recv() => Err(Error::Interrupted),
+            _ = terminate.recv() => Err(Error::Interrupted),
+        }
+    })
+}
+
+/// Prints where the page is.
+fn say(options: &Options, setup: &Setup, url: &str) -> Result<()> {
+    let line = match options.json {
+        false => url.to_owned(),
+        true => json!({
+            "schema": "tofsim.serve/1",
+            "url": url,
+            "scenario": setup.name,
+            "seed": setup.scenario.seed,
+            "fidelity": options.fidelity.name(),
+            "set": setup.set,
+            "hash": setup.hash(),
+            "notes": setup.notes()?,
+        })
+        .to_string(),
+    };
+    let mut out = io::stdout().lock();
+    let written = writeln!(out, "{line}").and_then(|()| out.flush());
+    written.map_err(Error::io(Path::new("stdout"), "write"))?;
+    if !options.quiet && !options.json {
+        eprintln!("open this address in a browser on this computer; Ctrl-C ends it");
+    }
+    Ok(())
+}

@@ -1,0 +1,398 @@
+//! The run that every browser sees: what is done to it, and what has become of it.
+
+mod analyser;
+mod causes;
+mod clock;
+mod instrument;
+pub mod request;
+mod scene;
+mod shot;
+mod strip;
+pub mod view;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::Instant;
+
+use tofsim::error::{Input, Result};
+use tofsim::firmware::tof_top::Pins;
+use tofsim::kernel::Time;
+use tofsim::scenario::{self, Control, Loaded};
+use tofsim::sim::device::Off;
+use tofsim::sim::frames::Frame;
+use tofsim::sim::setup::Setup;
+use tofsim::sim::{Live, Progress};
+use tofsim::{Shot, WaveFormat};
+
+use crate::options::{Fidelity, Options};
+use analyser::{Ila, SetUpView, set_ups};
+use causes::{Causes, expected};
+use clock::Clock;
+use instrument::Instrument;
+use request::{ControlRequest, IlaRequest, Request, RunRequest, changed};
+use shot::{Finished, Keyframe};
+use strip::Strip;
+use view::{FrameView, RateView};
+
+mod file;
+mod state;
+
+pub use file::File;
+
+/// How long `dsp_rst` is high when it is pulsed.
+const PULSE: Time = Time::from_ns(1000);
+/// Changes that the scenario of the run so far may have.
+const MOST_CHANGES: usize = 10_000;
+/// Last instant that such a scenario may have [us].
+const LAST_US: f64 = 1e9;
+/// Last instant of a run: well within what [`Time`] can count.
+const LONGEST: Time = Time::from_ns(8 << 40);
+
+/// What a request is answered with.
+#[derive(Clone, Debug)]
+pub enum Reply {
+    /// The state as JSON.
+    State(Arc<str>),
+    /// A file to save.
+    File(File),
+}
+
+/// The run that every browser sees.
+pub struct Session {
+    options: Options,
+    /// The scenario as it was read at the start.
+    base: Loaded,
+    /// What the scene has been asked to be.
+    scene: BTreeMap<String, f64>,
+    /// The switches.
+    pins: Pins,
+    live: Live,
+    /// Of the present frame, and of the next one if that is another.
+    now: Arc<Instrument>,
+    next: Option<Arc<Instrument>>,
+    /// At power-up, with the control signals since.
+    origin: Arc<Setup>,
+    changes: Vec<Control>,
+    exact: bool,
+    causes: Causes,
+    keyframe: Keyframe,
+    finished: Option<Finished>,
+    /// Whether a control signal has changed in the present frame.
+    mixed: bool,
+    frame: Option<FrameView>,
+    frame_notes: Vec<String>,
+    strip: Strip,
+    ila: Ila,
+    set_ups: Vec<SetUpView>,
+    clock: Clock,
+    rates: Vec<RateView>,
+    running: bool,
+    fault: Option<String>,
+    version: u64,
+}
+
+impl Session {
+    /// At power-up.
+    ///
+    /// # Errors
+    /// When the scenario cannot be run.
+    pub fn new(options: Options) -> Result<Self> {
+        let base = options.load(&[])?;
+        let setup = Arc::new(Setup::new(base.clone())?);
+        let instrument = Arc::new(Instrument::new(Arc::clone(&setup))?);
+        let live = Live::new(Arc::clone(&setup), options.fidelity.stepping());
+        let rate = |&cycles: &u64| RateView {
+            cycles,
+            mhz: 1e-6 / (cycles as f64 * setup.cycle().seconds()),
+        };
+        Ok(Session {
+            running: !options.stopped,
+            scene: BTreeMap::new(),
+            pins: live.device().top.pins,
+            keyframe: Keyframe::new(&live),
+            live,
+            now: instrument,
+            next: None,
+            changes: Vec::new(),
+            exact: true,
+            causes: Causes::new(setup.params.histogram.bins),
+            finished: None,
+            mixed: false,
+            frame: None,
+            frame_notes: Vec::new(),
+            strip: Strip::default(),
+            ila: Ila::default(),
+            set_ups: set_ups(&setup),
+            clock: Clock::default(),
+            rates: setup.params.vcsel_driver.periods.iter().map(rate).collect(),
+            origin: setup,
+            fault: None,
+            version: 0,
+            base,
+            options,
+        })
+    }
+
+    /// Does what a browser asks for.
+    ///
+    /// # Errors
+    /// What is wrong with the request; nothing has happened then.
+    pub fn answer(&mut self, request: Request) -> Result<Reply> {
+        match request {
+            Request::Run(request) => self.run(&request)?,
+            Request::Control(request) => self.control(&request)?,
+            Request::Scene(asked) => self.change_scene(asked)?,
+            Request::Ila(request) => self.arm(&request)?,
+            Request::State => {}
+            Request::IlaFile(format) => {
+                let (name, bytes) = self.ila.file(format)?;
+                return Ok(Reply::File(File::of_capture(name, format, bytes)));
+            }
+            Request::Shot { shot, format, signals } => {
+                return Ok(Reply::File(self.waves(shot, format, &signals)?));
+            }
+            Request::Scenario => return Ok(Reply::File(self.scenario())),
+        }
+        Ok(Reply::State(self.state()))
+    }
+
+    /// Whether frames follow each other.
+    pub fn is_running(&self) -> bool {
+        self.running
+    }
+
+    /// Whether the firmware is kept from a frame's end for as long as the switches stay.
+    pub fn is_held(&self) -> bool {
+        self.held().is_some()
+    }
+
+    /// How much of the present frame has gone by [1].
+    pub fn part_of_frame(&self) -> f64 {
+        let shots = self.live.setup().shots(1).max(1);
+        (self.live.shots_of_frame() as f64 / shots as f64).min(1.0)
+    }
+
+    /// Goes on for so many cycles, or to the end of a frame; whether one has ended.
+    pub fn advance(&mut self, cycles: u64) -> bool {
+        let began = Instant::now();
+        let ended = self.step(cycles);
+        self.clock.busy += began.elapsed();
+        match ended {
+            Ok(ended) => ended,
+            Err(error) => {
+                self.fault = Some(error.to_string());
+                self.stop();
+                true
+            }
+        }
+    }
+
+    fn step(&mut self, cycles: u64) -> Result<bool> {
+        if self.live.now() > LONGEST {
+            let expected =
+                "the run has come to the last instant that can be counted: power up again";
+            return Err(Input::new("run", expected).into());
+        }
+        let causes = &mut self.causes;
+        let mut take = |shot: &Shot| {
+            causes.add(shot);
+            Ok(())
+        };
+        let shots: Option<tofsim::Taker<Shot>> = match self.options.fidelity {
+            Fidelity::Cycle => Some(&mut take),
+            Fidelity::Shot => None,
+        };
+        let progress = match self.ila.is_armed() {
+            true => self.ila.advance(&mut self.live, cycles, shots)?,
+            false => self.live.advance(cycles, &mut Off, shots)?,
+        };
+        self.ila.take(&self.live, &self.origin, self.exact)?;
+        let is_frame = matches!(progress, Progress::Frame(..));
+        match progress {
+            Progress::Frame(frame, setup) => self.take_frame(&frame, &setup),
+            Progress::Abandoned => self.begin_frame(),
+            Progress::Going => {}
+        }
+        Ok(is_frame)
+    }
+
+    fn take_frame(&mut self, frame: &Frame, setup: &Arc<Setup>) {
+        if let Some(next) = self.next.take_if(|next| Arc::ptr_eq(&next.setup, setup)) {
+            self.now = next;
+        }
+        let now = Arc::clone(&self.now);
+        let depths = now.depths(frame);
+        let true_m = if frame.laser_en { now.setup.true_depth_m() } else { None };
+        let bound = true_m.and(now.bound_two_sd_mm);
+        self.strip.push(frame.index, true_m, &depths, bound);
+        let notes = now.notes_of(frame);
+        self.frame_notes = notes.iter().map(ToString::to_string).collect();
+        if self.mixed {
+            self.frame_notes.push(
+                "note: a control signal changed within the frame: its shots are not alike"
+                    .to_owned(),
+            );
+        }
+        let causes_seen = self.options.fidelity == Fidelity::Cycle;
+        let layers = if causes_seen { self.causes.seen(frame) } else { expected(&now, frame) };
+        self.frame = Some(FrameView {
+            layers,
+            causes_seen,
+            depths,
+            true_m,
+            bound_two_sd_mm: bound,
+            ..FrameView::of(frame, &now.setup, self.mixed)
+        });
+        self.clock.frame();
+        self.begin_frame();
+    }
+
+    fn begin_frame(&mut self) {
+        self.causes.clear();
+        let next = Keyframe::new(&self.live);
+        let last = std::mem::replace(&mut self.keyframe, next);
+        self.finished = Some(Finished::new(last, &self.live));
+        self.mixed = false;
+    }
+
+    fn run(&mut self, request: &RunRequest) -> Result<()> {
+        request.check()?;
+        if request.power_up {
+            self.power_up()?;
+        }
+        if let Some(running) = request.running {
+            self.stop();
+            self.running = running && self.fault.is_none();
+        }
+        if let Some(frames) = request.frames {
+            self.stop();
+            self.go(frames)?;
+        }
+        Ok(())
+    }
+
+    fn stop(&mut self) {
+        self.running = false;
+        self.clock.stop();
+    }
+
+    /// Goes on for some frames.
+    fn go(&mut self, frames: u32) -> Result<()> {
+        for _ in 0..frames {
+            let begun = self.live.device().cycle();
+            let longest = self.live.setup().longest_run(1);
+            while !self.advance(1 << 16) {
+                if self.live.device().cycle() - begun > longest {
+                    let held = self.held().unwrap_or("the control signals keep it from ending");
+                    return Err(Input::new("run", format!("the frame does not end: {held}")).into());
+                }
+            }
+            if let Some(fault) = &self.fault {
+                return Err(Input::new("run", fault).into());
+            }
+        }
+        Ok(())
+    }
+
+    fn power_up(&mut self) -> Result<()> {
+        let setup = self.setup_now()?;
+        let instrument = Arc::new(Instrument::new(Arc::clone(&setup))?);
+        self.live = Live::new(Arc::clone(&setup), self.options.fidelity.stepping());
+        (self.now, self.next, self.origin) = (instrument, None, setup);
+        (self.changes, self.exact, self.mixed) = (Vec::new(), true, false);
+        (self.frame, self.finished, self.fault) = (None, None, None);
+        self.pins = self.live.device().top.pins;
+        self.keyframe = Keyframe::new(&self.live);
+        self.frame_notes.clear();
+        self.causes.clear();
+        self.strip.clear();
+        self.ila.disarm();
+        self.clock = Clock::default();
+        Ok(())
+    }
+
+    fn control(&mut self, request: &ControlRequest) -> Result<()> {
+        let change = request.change(self.rates.len())?;
+        if change.laser_en.is_some() && self.origin.has_pairs() {
+            let expected = "firmware.dark_frames switches the laser from frame to frame";
+            return Err(Input::new("control", expected).field("laser_en").into());
+        }
+        let mut pins = changed(&self.pins(), &change);
+        if request.pulse_dsp_rst {
+            pins.dsp_rst = false;
+        }
+        let before = std::mem::replace(&mut self.pins, pins);
+        if let Err(error) = self.prepare() {
+            self.pins = before;
+            return Err(error);
+        }
+        self.make(change, Time::ZERO);
+        if request.pulse_dsp_rst {
+            self.make(Control { dsp_rst: Some(false), ..Control::default() }, PULSE);
+        }
+        Ok(())
+    }
+
+    fn make(&mut self, change: Control, after: Time) {
+        let change = self.live.control(change, after);
+        self.keyframe.change(&change);
+        // A shot comes long after Clear.
+        self.mixed |= !self.live.is_clearing();
+        if self.changes.len() < MOST_CHANGES && change.at_us <= LAST_US {
+            self.changes.push(change);
+        } else {
+            self.exact = false;
+        }
+    }
+
+    fn change_scene(&mut self, asked: BTreeMap<String, f64>) -> Result<()> {
+        if let Some(why) = self.scene_fixed() {
+            return Err(Input::new("scene", why).into());
+        }
+        let mut scene = self.scene.clone();
+        scene::lay_over(&mut scene, asked)?;
+        let before = std::mem::replace(&mut self.scene, scene);
+        let is_new = self.live.device().cycle() == 0 && self.changes.is_empty();
+        let changed = match is_new && !self.ila.is_armed() {
+            true => self.power_up(),
+            false => self.prepare(),
+        };
+        match changed {
+            Ok(()) => self.exact &= is_new && !self.ila.is_armed(),
+            Err(_) => self.scene = before,
+        }
+        changed
+    }
+
+    /// Has the next frame be of the scene and the switches as they are.
+    fn prepare(&mut self) -> Result<()> {
+        let setup = self.setup_now()?;
+        let instrument = Arc::new(Instrument::new(Arc::clone(&setup))?);
+        if self.live.is_clearing() {
+            self.keyframe.change_scene(&setup);
+        }
+        if self.live.change_scene(setup) {
+            self.next = Some(instrument);
+        }
+        Ok(())
+    }
+
+    fn arm(&mut self, request: &IlaRequest) -> Result<()> {
+        self.ila.disarm();
+        if request.arm { self.ila.arm(request, &mut self.live) } else { Ok(()) }
+    }
+
+    fn waves(&self, shot: Option<u64>, format: WaveFormat, signals: &[String]) -> Result<File> {
+        let none = || Input::new("shot", "no frame has ended yet");
+        let finished = self.finished.as_ref().ok_or_else(none)?;
+        Ok(File::of_waves(format, finished.waves(shot, format, signals)?))
+    }
+
+    /// The run so far as a scenario.
+    fn scenario(&self) -> File {
+        let mut scenario = self.origin.scenario.clone();
+        scenario.control.extend(self.changes.iter().cloned());
+        scenario.control.sort_by(|a, b| a.at_us.total_cmp(&b.at_us));
+        File::of_scenario(&self.origin.name, scenario::show::show(&scenario))
+    }
+}

@@ -1,0 +1,277 @@
+//! The logic analyser of the page: armed in the run, and what it has captured.
+
+use std::fs;
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use tofsim::error::{Error, Input, Result};
+use tofsim::kernel::Time;
+use tofsim::sim::setup::Setup;
+use tofsim::sim::{Live, Progress};
+use tofsim::{Shot, Taker};
+use tofsim_captures::ila::builtin::SET_UPS;
+use tofsim_captures::ila::export::{CaptureFormat, export};
+use tofsim_captures::ila::setup::AnalyserSetupFile;
+use tofsim_captures::ila::{Analyser, AnalyserPlan, AnalyserSetup, Capture, capture_live};
+
+use super::request::IlaRequest;
+
+/// Cycles from now to the first sample: those that have gone through the most input stages there can be, and some.
+const AHEAD: u64 = 16;
+
+/// The logic analyser.
+#[derive(Default)]
+pub struct Ila {
+    armed: Option<Armed>,
+    done: Option<Done>,
+    /// Captures since the program began.
+    captures: u64,
+}
+
+struct Armed {
+    set_up: AnalyserSetup,
+    plan: AnalyserPlan,
+    analyser: Analyser,
+}
+
+/// A capture, and its files.
+struct Done {
+    view: CaptureView,
+    files: Vec<(CaptureFormat, Arc<[u8]>)>,
+}
+
+/// A built-in set-up.
+#[derive(Clone, Debug, Serialize)]
+pub struct SetUpView {
+    name: &'static str,
+    description: String,
+    clock: String,
+    depth: u64,
+    trigger: Option<String>,
+}
+
+/// The built-in set-ups that the design has all signals of.
+pub fn set_ups(setup: &Setup) -> Vec<SetUpView> {
+    let of_design = |name: &'static str| {
+        let set_up = AnalyserSetup::load(name).ok()?;
+        AnalyserPlan::new(&set_up, setup).ok()?;
+        let AnalyserSetupFile { description, clock, depth, trigger, .. } = set_up.file;
+        Some(SetUpView { name, description, clock, depth, trigger })
+    };
+    SET_UPS.iter().rev().filter_map(|(name, _)| of_design(name)).collect()
+}
+
+/// What the page shows of the logic analyser.
+#[derive(Clone, Debug, Serialize)]
+pub struct IlaView {
+    /// `idle`, `armed` or `full`.
+    status: &'static str,
+    armed: Option<ArmedView>,
+    capture: Option<CaptureView>,
+}
+
+/// What it waits for.
+#[derive(Clone, Debug, Serialize)]
+pub struct ArmedView {
+    name: String,
+    trigger: Option<String>,
+    samples: u64,
+    triggers: usize,
+    windows: usize,
+}
+
+/// What it has captured.
+#[derive(Clone, Debug, Serialize)]
+pub struct CaptureView {
+    /// Of the captures since the program began, from 1.
+    number: u64,
+    name: String,
+    description: String,
+    trigger: Option<String>,
+    clock: String,
+    arm_at_us: f64,
+    depth: usize,
+    position: usize,
+    /// Sample with which each window begins.
+    windows: Vec<usize>,
+    trigger_times_us: Vec<f64>,
+    probes: Vec<ProbeView>,
+    /// The command that makes the same files of the run's scenario.
+    command: String,
+    /// Whether the run's scenario says all that has been done to it.
+    exact: bool,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct ProbeView {
+    name: String,
+    width: u32,
+}
+
+impl Ila {
+    /// Arms it, to begin with samples that are still to come.
+    ///
+    /// # Errors
+    /// When the set-up is none, or not one for the design.
+    pub fn arm(&mut self, request: &IlaRequest, live: &mut Live) -> Result<()> {
+        let mut set_up = match (&request.set_up, &request.text) {
+            (Some(name), None) if !name.contains(['/', '.']) => AnalyserSetup::load(name)?,
+            (Some(name), None) => {
+                let expected =
+                    "expected the name of a built-in set-up; a set-up of your own goes into `text`";
+                return Err(Input::new("ila", expected).field("set_up").value(name).into());
+            }
+            (None, Some(text)) => AnalyserSetup::parse("own", "set-up", text)?,
+            _ => {
+                let expected = "expected either set_up, a name, or text, a set-up file";
+                return Err(Input::new("ila", expected).into());
+            }
+        };
+        let IlaRequest { clock, depth, windows, position, trigger, capture, .. } = request.clone();
+        set_up.override_with("clock", "clock", clock, |file| &mut file.clock);
+        set_up.override_with("depth", "depth", depth, |file| &mut file.depth);
+        set_up.override_with("windows", "windows", windows, |file| &mut file.windows);
+        set_up.override_with("position", "position", position, |file| &mut file.position);
+        set_up.override_with("trigger", "trigger", trigger, |file| &mut file.trigger);
+        set_up.override_with("capture", "capture", capture, |file| &mut file.capture);
+        let setup = Arc::clone(live.setup());
+        let ahead = Time::from_fs(AHEAD * setup.cycle().fs());
+        let arm_at_us = ((live.now() + ahead).fs() / 1_000_000 + 1) as f64 / 1e3;
+        set_up.override_with("arm_at_us", "arm_at_us", Some(arm_at_us), |file| &mut file.arm_at_us);
+        let mut plan = AnalyserPlan::new(&set_up, &setup)?;
+        plan.stop_when_full = true;
+        let analyser = Analyser::new(&plan, &setup);
+        self.armed = Some(Armed { set_up, plan, analyser });
+        Ok(())
+    }
+
+    /// Lets it be; what it has captured before stays.
+    pub fn disarm(&mut self) {
+        self.armed = None;
+    }
+
+    /// Whether it looks at the run.
+    pub fn is_armed(&self) -> bool {
+        self.armed.is_some()
+    }
+
+    /// Goes on with a run under its eyes, as [`Live::advance`] says.
+    ///
+    /// # Errors
+    /// Those of `shots`.
+    pub fn advance(
+        &mut self,
+        live: &mut Live,
+        cycles: u64,
+        shots: Option<Taker<Shot>>,
+    ) -> Result<Progress> {
+        match &mut self.armed {
+            Some(armed) => capture_live(live, cycles, &mut armed.analyser, shots),
+            None => Ok(Progress::Going),
+        }
+    }
+
+    /// Takes the capture, if it is full; `exact` if the run's scenario says all that has been done to it.
+    ///
+    /// # Errors
+    /// When the files cannot be written.
+    pub fn take(&mut self, live: &Live, setup: &Setup, exact: bool) -> Result<()> {
+        if !self.armed.as_ref().is_some_and(|armed| armed.analyser.is_full()) {
+            return Ok(());
+        }
+        let Some(armed) = self.armed.take() else { return Ok(()) };
+        self.captures += 1;
+        let triggers = armed.analyser.triggers();
+        let capture = armed.analyser.finish();
+        let files = files(&capture, &armed.set_up.name)?;
+        let file = &armed.set_up.file;
+        let view = CaptureView {
+            number: self.captures,
+            name: armed.set_up.name.clone(),
+            description: file.description.clone(),
+            trigger: file.trigger.clone(),
+            clock: armed.plan.sampling.to_string(),
+            arm_at_us: file.arm_at_us,
+            depth: armed.plan.shape.depth,
+            position: armed.plan.shape.position,
+            windows: capture.windows.clone(),
+            trigger_times_us: triggers.iter().map(|time| time.fs() as f64 / 1e9).collect(),
+            probes: capture
+                .probes
+                .iter()
+                .map(|probe| ProbeView { name: probe.head(), width: probe.width })
+                .collect(),
+            command: command(&armed.set_up, live.done() + 1, setup),
+            exact,
+        };
+        self.done = Some(Done { view, files });
+        Ok(())
+    }
+
+    /// A file of the capture, and its name.
+    ///
+    /// # Errors
+    /// When nothing has been captured.
+    pub fn file(&self, format: CaptureFormat) -> Result<(String, Arc<[u8]>)> {
+        let none = || Input::new("ila", "nothing has been captured yet: arm it first");
+        let done = self.done.as_ref().ok_or_else(none)?;
+        let file = done.files.iter().find(|(known, _)| *known == format);
+        let (_, bytes) = file.ok_or_else(none)?;
+        Ok((format!("{}.{}", done.view.name, format.ending()), Arc::clone(bytes)))
+    }
+
+    /// What the page shows.
+    pub fn view(&self) -> IlaView {
+        let armed = self.armed.as_ref().map(|armed| ArmedView {
+            name: armed.set_up.name.clone(),
+            trigger: armed.set_up.file.trigger.clone(),
+            samples: armed.analyser.taken(),
+            triggers: armed.analyser.triggers().len(),
+            windows: armed.plan.shape.windows,
+        });
+        let capture = self.done.as_ref().map(|done| done.view.clone());
+        let status = match (&armed, &capture) {
+            (Some(_), _) => "armed",
+            (None, Some(_)) => "full",
+            (None, None) => "idle",
+        };
+        IlaView { status, armed, capture }
+    }
+}
+
+fn files(capture: &Capture, name: &str) -> Result<Vec<(CaptureFormat, Arc<[u8]>)>> {
+    let folder = tempfile::tempdir().map_err(Error::io(&std::env::temp_dir(), "create"))?;
+    let paths = export(capture, folder.path(), name, &CaptureFormat::ALL, true)?;
+    let read = |(format, path): (CaptureFormat, &std::path::PathBuf)| {
+        let bytes = fs::read(path).map_err(Error::io(path, "read"))?;
+        Ok((format, Arc::from(bytes)))
+    };
+    CaptureFormat::ALL.into_iter().zip(&paths).map(read).collect()
+}
+
+/// The command that makes the same capture of the run's scenario.
+fn command(set_up: &AnalyserSetup, frames: u64, setup: &Setup) -> String {
+    let file = &set_up.file;
+    let mut words = vec![
+        format!("tofsim ila capture {}_run.toml --probes {}", setup.name, set_up.name),
+        format!("--clock {}", quoted(&file.clock)),
+        format!("--depth {} --windows {}", file.depth, file.windows),
+    ];
+    words.extend(file.position.map(|position| format!("--position {position}")));
+    words.extend(file.trigger.as_ref().map(|text| format!("--trigger {}", quoted(text))));
+    words.extend(file.capture.as_ref().map(|text| format!("--capture {}", quoted(text))));
+    words.push(format!("--arm-at-us {} --frames {frames}", file.arm_at_us));
+    words.push("--stop-when-full -o ila".to_owned());
+    words.join(" ")
+}
+
+/// A word as a shell takes it.
+fn quoted(text: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
+    if text.chars().all(is_plain) {
+        text.to_owned()
+    } else {
+        format!("'{}'", text.replace('\'', "'\\''"))
+    }
+}

@@ -1,0 +1,94 @@
+//! The histogram's counts by what set the avalanche off.
+
+use serde::Serialize;
+
+use tofsim::Shot;
+use tofsim::optics::Cause;
+use tofsim::sim::frames::Frame;
+
+use super::instrument::Instrument;
+
+/// Causes in the order in which they are stacked; `None` is unknown.
+const CAUSES: [(Option<Cause>, &str); 5] = [
+    (Some(Cause::Dark), "dark"),
+    (Some(Cause::Ambient), "ambient"),
+    (Some(Cause::Signal), "signal"),
+    (Some(Cause::Afterpulse), "afterpulse"),
+    (None, "unknown"),
+];
+
+/// Counts of one cause, a number for each bin.
+#[derive(Clone, Debug, Serialize)]
+pub struct Layer {
+    cause: &'static str,
+    counts: Vec<f64>,
+}
+
+/// What has been seen of a frame's shots.
+#[derive(Clone, Debug)]
+pub struct Causes {
+    seen: [Vec<u32>; CAUSES.len()],
+}
+
+impl Causes {
+    /// Nothing yet, of so many bins.
+    pub fn new(bins: usize) -> Self {
+        Causes { seen: std::array::from_fn(|_| vec![0; bins]) }
+    }
+
+    /// Counts a shot, if it has a code.
+    pub fn add(&mut self, shot: &Shot) {
+        let Some(code) = shot.code else { return };
+        for ((cause, _), counts) in CAUSES.iter().zip(&mut self.seen) {
+            if *cause == shot.cause
+                && let Some(count) = counts.get_mut(code as usize)
+            {
+                *count += 1;
+            }
+        }
+    }
+
+    /// Forgets all.
+    pub fn clear(&mut self) {
+        self.seen.iter_mut().for_each(|counts| counts.fill(0));
+    }
+
+    /// A frame's histogram by cause, as it was seen; what was not seen is unknown.
+    pub fn seen(&self, frame: &Frame) -> Vec<Layer> {
+        let mut seen = self.seen.clone();
+        for (bin, &count) in frame.histogram.iter().enumerate() {
+            let known: u32 = seen.iter().map(|counts| counts[bin]).sum();
+            seen[CAUSES.len() - 1][bin] += count.saturating_sub(known);
+        }
+        let layers = CAUSES.iter().zip(seen);
+        layers
+            .map(|((_, cause), counts)| {
+                let counts = counts.into_iter().map(f64::from).collect();
+                Layer { cause, counts }
+            })
+            .filter(Layer::is_any)
+            .collect()
+    }
+}
+
+impl Layer {
+    fn is_any(&self) -> bool {
+        self.counts.iter().any(|count| *count > 0.0)
+    }
+}
+
+/// A frame's histogram by cause, as it is to be expected.
+pub fn expected(instrument: &Instrument, frame: &Frame) -> Vec<Layer> {
+    let [signal, ambient, dark] = instrument.expected_causes(frame);
+    let layers = [("dark", dark), ("ambient", ambient), ("signal", signal)];
+    let mut layers: Vec<_> =
+        layers.into_iter().map(|(cause, counts)| Layer { cause, counts }).collect();
+    // Without light there is nothing to expect.
+    let is_known = |bin: usize| layers.iter().any(|layer| layer.counts[bin] > 0.0);
+    let unknown = frame.histogram.iter().enumerate();
+    let unknown =
+        unknown.map(|(bin, &count)| if is_known(bin) { 0.0 } else { f64::from(count) }).collect();
+    layers.push(Layer { cause: "unknown", counts: unknown });
+    layers.retain(Layer::is_any);
+    layers
+}

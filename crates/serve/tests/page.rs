@@ -1,0 +1,104 @@
+//! The page in a browser.
+
+use std::path::PathBuf;
+
+use serde_json::Value;
+
+use super::common::Server;
+use super::common::chromium::Chromium;
+
+/// Where pictures go, if somebody wants to look at them.
+fn pictures() -> Option<PathBuf> {
+    let folder = PathBuf::from(std::env::var_os("TOFSIM_SCREENSHOTS")?);
+    std::fs::create_dir_all(&folder).unwrap();
+    Some(folder)
+}
+
+const SWITCH: &str = "document.getElementById('laser_en').getAttribute('aria-checked')";
+const NO_SIGNAL: &str = "!document.querySelector('#histogram .area.signal')";
+
+#[test]
+#[ignore = "long: ./check --full"]
+fn what_is_pressed_acts_on_the_run_and_shows() {
+    let server = Server::start(&[]);
+    let mut browser = Chromium::open(&server.url, (1600, 1000), "light");
+    browser.wait("!!document.querySelector('#histogram .area.signal')");
+    browser.press("l");
+    browser.wait(&format!("{SWITCH} === 'false' && {NO_SIGNAL}"));
+    assert_eq!(server.state()["control"]["laser_en"], false);
+    browser.wait("document.getElementById('notes').textContent.includes('firmware.laser_en')");
+    // A second browser sees the same.
+    let mut second = Chromium::open(&server.url, (1000, 900), "dark");
+    assert_eq!(second.value(SWITCH), "false");
+    second.value("document.getElementById('laser_en').click()");
+    browser.wait(&format!("{SWITCH} === 'true' && !({NO_SIGNAL})"));
+    browser.value(
+        "(() => { const slider = document.getElementById('slider-target.distance_m'); \
+         slider.value = 0.3; slider.dispatchEvent(new Event('input')); })()",
+    );
+    let near = "[...document.querySelectorAll('#depths tbody tr')].find(row => row.cells[0].textContent.startsWith('network'))?.cells[1].textContent.startsWith('0.30')";
+    browser.wait(near);
+    second.wait(near);
+    browser.press("r");
+    // In Clear there is nothing to abandon.
+    browser.wait("document.getElementById('time-abandoned').textContent !== '0'");
+    browser.press(" ");
+    browser.wait("document.getElementById('run-state').textContent === 'stopped'");
+    browser.press("a");
+    browser.wait("document.getElementById('ila-status').textContent.includes('stands still')");
+    browser.press("n");
+    browser.wait("document.getElementById('ila-status').textContent.includes('has triggered')");
+    browser.wait("document.querySelectorAll('#ila-waves .name').length > 10");
+    browser.press("w");
+    browser.wait("document.querySelectorAll('#shot-waves .name').length > 10");
+    assert_eq!(browser.complaints, Vec::<String>::new());
+    assert_eq!(second.complaints, Vec::<String>::new());
+}
+
+#[test]
+#[ignore = "long: ./check --full"]
+fn every_control_has_a_name_and_can_be_reached_by_keys() {
+    let server = Server::small(&[]);
+    let mut browser = Chromium::open(&server.url, (1600, 1000), "light");
+    let unnamed = browser.value(
+        "[...document.querySelectorAll('button, input, select, textarea, a')].filter(e => \
+         !(e.textContent.trim() || e.labels?.length || e.getAttribute('aria-label'))).map(e => e.outerHTML)",
+    );
+    assert_eq!(unnamed, Value::Array(vec![]));
+    let tabbed =
+        browser.value("[...document.querySelectorAll('[tabindex]')].every(e => e.tabIndex <= 0)");
+    assert_eq!(tabbed, true);
+    browser.press("?");
+    browser.wait("document.getElementById('help').open");
+}
+
+#[test]
+#[ignore = "long: ./check --full"]
+fn it_fits_a_phone_and_a_wide_screen_in_the_light_and_in_the_dark() {
+    let server = Server::start(&["--rate", "50"]);
+    server.wait(|state| state["time"]["frames"].as_u64() > Some(250));
+    server.act("ila", "{\"arm\":true,\"set_up\":\"shot\"}");
+    server.wait(|state| state["ila"]["status"] == "full");
+    server.act("scene", "{\"target.distance_m\":0.3}");
+    server.wait(|state| state["frame"]["true_m"] == 0.3);
+    server.act("scene", "{\"target.distance_m\":0.65}");
+    server.act("run", "{\"frames\":60}");
+    for (width, scheme) in
+        [(400, "light"), (400, "dark"), (1000, "light"), (1600, "light"), (1600, "dark")]
+    {
+        let mut browser = Chromium::open(&server.url, (width, 900), scheme);
+        browser.press("w");
+        browser.wait("document.querySelectorAll('#shot-waves .name').length > 10");
+        browser.wait("document.querySelectorAll('#ila-waves .name').length > 1");
+        let wide = browser.value("document.documentElement.scrollWidth");
+        let over = browser.value(
+            "[...document.querySelectorAll('body *')].filter(e => !e.closest('.unseen, .skip, pre, svg, .scroll') && \
+             e.getBoundingClientRect().right > innerWidth + 1).map(e => e.tagName + '#' + e.id)",
+        );
+        if let Some(folder) = pictures() {
+            browser.screenshot(&folder.join(format!("page-{width}-{scheme}.png")));
+        }
+        assert_eq!((wide.as_u64(), over), (Some(u64::from(width)), Value::Array(vec![])));
+        assert_eq!(browser.complaints, Vec::<String>::new());
+    }
+}

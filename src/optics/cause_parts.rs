@@ -1,0 +1,59 @@
+//! What the hits of each code are to be expected to come of, where nobody has seen their avalanches.
+
+use super::closed_form::Bins;
+use super::hazard::Hazard;
+
+/// Of the hits of each code the parts that come of the laser, of ambient light and of no light at all, where the
+/// first avalanche of a shot decides; zeros for a code without hits [1].
+pub fn cause_parts(hazard: &Hazard, bins: &Bins) -> Vec<[f64; 3]> {
+    let mut parts = vec![[0.0; 3]; bins.count()];
+    for span in bins.spans() {
+        // Within a span, which is a few taps, the chance that nothing came before hardly changes.
+        let before = (-hazard.at(span.from)).exp();
+        let added = hazard.by_cause(span.from, span.until);
+        let code = &mut parts[span.code as usize];
+        code.iter_mut().zip(added).for_each(|(part, added)| *part += before * added);
+    }
+    for code in &mut parts {
+        let all: f64 = code.iter().sum();
+        code.iter_mut().for_each(|part| *part = if all > 0.0 { *part / all } else { 0.0 });
+    }
+    parts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::optics::hazard::Cause;
+    use crate::{Observers, Run, Setup, Shot};
+
+    #[test]
+    fn they_are_those_of_a_run() {
+        let setup = Setup::load("kc705", &["spad.dark_rate_hz=2e8"]).unwrap();
+        let mut counts = vec![[0u32; 3]; 256];
+        let mut take = |shot: &Shot| {
+            let cause = [Cause::Signal, Cause::Ambient, Cause::Dark].map(Some);
+            let cause = cause.iter().position(|cause| *cause == shot.cause);
+            if let (Some(code), Some(cause)) = (shot.code, cause) {
+                counts[code as usize][cause] += 1;
+            }
+            Ok(())
+        };
+        let observers = Observers { shots: Some(&mut take), ..Observers::default() };
+        Run::new(&setup).observe(1, observers).unwrap();
+        let parts = cause_parts(&Hazard::new(&setup.budget), &setup.bins());
+        let (mut square, mut degrees) = (0.0, 0.0);
+        for (counts, parts) in counts.iter().zip(&parts) {
+            let all: u32 = counts.iter().sum();
+            for (count, part) in counts.iter().zip(parts) {
+                let expected = f64::from(all) * part;
+                if expected > 5.0 {
+                    square += (f64::from(*count) - expected).powi(2) / expected;
+                    degrees += 1.0;
+                }
+            }
+        }
+        // A third of the terms is decided by the sums.
+        assert!(degrees > 300.0 && square < 0.9 * degrees, "{square} of {degrees}");
+    }
+}
