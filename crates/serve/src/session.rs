@@ -1,5 +1,6 @@
 //! The run that every browser sees: what is done to it, and what has become of it.
 
+mod actions;
 mod analyser;
 mod causes;
 mod clock;
@@ -29,7 +30,7 @@ use analyser::{Ila, SetUpView, set_ups};
 use causes::{Causes, expected};
 use clock::Clock;
 use instrument::Instrument;
-use request::{ControlRequest, IlaRequest, Request, RunRequest, changed};
+use request::Request;
 use shot::{Finished, Keyframe};
 use strip::Strip;
 use view::{FrameView, RateView};
@@ -39,12 +40,6 @@ mod state;
 
 pub use file::File;
 
-/// How long `dsp_rst` is high when it is pulsed.
-const PULSE: Time = Time::from_ns(1000);
-/// Changes that the scenario of the run so far may have.
-const MOST_CHANGES: usize = 10_000;
-/// Last instant that such a scenario may have [us].
-const LAST_US: f64 = 1e9;
 /// Last instant of a run: well within what [`Time`] can count.
 const LONGEST: Time = Time::from_ns(8 << 40);
 
@@ -253,133 +248,6 @@ impl Session {
         let last = std::mem::replace(&mut self.keyframe, next);
         self.finished = Some(Finished::new(last, &self.live));
         self.mixed = false;
-    }
-
-    fn run(&mut self, request: &RunRequest) -> Result<()> {
-        request.check()?;
-        if request.power_up {
-            self.power_up()?;
-        }
-        if let Some(running) = request.running {
-            self.stop();
-            self.running = running && self.fault.is_none();
-        }
-        if let Some(frames) = request.frames {
-            self.stop();
-            self.go(frames)?;
-        }
-        Ok(())
-    }
-
-    fn stop(&mut self) {
-        self.running = false;
-        self.clock.stop();
-    }
-
-    /// Goes on for some frames.
-    fn go(&mut self, frames: u32) -> Result<()> {
-        for _ in 0..frames {
-            let begun = self.live.device().cycle();
-            let longest = self.live.setup().longest_run(1);
-            while !self.advance(1 << 16) {
-                if self.live.device().cycle() - begun > longest {
-                    let held = self.held().unwrap_or("the control signals keep it from ending");
-                    return Err(Input::new("run", format!("the frame does not end: {held}")).into());
-                }
-            }
-            if let Some(fault) = &self.fault {
-                return Err(Input::new("run", fault).into());
-            }
-        }
-        Ok(())
-    }
-
-    fn power_up(&mut self) -> Result<()> {
-        let setup = self.setup_now()?;
-        let instrument = Arc::new(Instrument::new(Arc::clone(&setup))?);
-        self.live = Live::new(Arc::clone(&setup), self.options.fidelity.stepping());
-        (self.now, self.next, self.origin) = (instrument, None, setup);
-        (self.changes, self.exact, self.mixed) = (Vec::new(), true, false);
-        (self.frame, self.finished, self.fault) = (None, None, None);
-        self.pins = self.live.device().top.pins;
-        self.keyframe = Keyframe::new(&self.live);
-        self.frame_notes.clear();
-        self.causes.clear();
-        self.strip.clear();
-        self.ila.disarm();
-        self.clock = Clock::default();
-        Ok(())
-    }
-
-    fn control(&mut self, request: &ControlRequest) -> Result<()> {
-        let change = request.change(self.rates.len())?;
-        if change.laser_en.is_some() && self.origin.has_pairs() {
-            let expected = "firmware.dark_frames switches the laser from frame to frame";
-            return Err(Input::new("control", expected).field("laser_en").into());
-        }
-        let mut pins = changed(&self.pins(), &change);
-        if request.pulse_dsp_rst {
-            pins.dsp_rst = false;
-        }
-        let before = std::mem::replace(&mut self.pins, pins);
-        if let Err(error) = self.prepare() {
-            self.pins = before;
-            return Err(error);
-        }
-        self.make(change, Time::ZERO);
-        if request.pulse_dsp_rst {
-            self.make(Control { dsp_rst: Some(false), ..Control::default() }, PULSE);
-        }
-        Ok(())
-    }
-
-    fn make(&mut self, change: Control, after: Time) {
-        let change = self.live.control(change, after);
-        self.keyframe.change(&change);
-        // A shot comes long after Clear.
-        self.mixed |= !self.live.is_clearing();
-        if self.changes.len() < MOST_CHANGES && change.at_us <= LAST_US {
-            self.changes.push(change);
-        } else {
-            self.exact = false;
-        }
-    }
-
-    fn change_scene(&mut self, asked: BTreeMap<String, f64>) -> Result<()> {
-        if let Some(why) = self.scene_fixed() {
-            return Err(Input::new("scene", why).into());
-        }
-        let mut scene = self.scene.clone();
-        scene::lay_over(&mut scene, asked)?;
-        let before = std::mem::replace(&mut self.scene, scene);
-        let is_new = self.live.device().cycle() == 0 && self.changes.is_empty();
-        let changed = match is_new && !self.ila.is_armed() {
-            true => self.power_up(),
-            false => self.prepare(),
-        };
-        match changed {
-            Ok(()) => self.exact &= is_new && !self.ila.is_armed(),
-            Err(_) => self.scene = before,
-        }
-        changed
-    }
-
-    /// Has the next frame be of the scene and the switches as they are.
-    fn prepare(&mut self) -> Result<()> {
-        let setup = self.setup_now()?;
-        let instrument = Arc::new(Instrument::new(Arc::clone(&setup))?);
-        if self.live.is_clearing() {
-            self.keyframe.change_scene(&setup);
-        }
-        if self.live.change_scene(setup) {
-            self.next = Some(instrument);
-        }
-        Ok(())
-    }
-
-    fn arm(&mut self, request: &IlaRequest) -> Result<()> {
-        self.ila.disarm();
-        if request.arm { self.ila.arm(request, &mut self.live) } else { Ok(()) }
     }
 
     fn waves(&self, shot: Option<u64>, format: WaveFormat, signals: &[String]) -> Result<File> {
