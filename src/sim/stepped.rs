@@ -108,39 +108,42 @@ impl SteppedRun {
     pub fn drive(&mut self, control: &Control) {
         drive(control, &mut self.device.top.pins);
     }
+
+    /// One pin of the acquisition computer with a value, as [`SteppedRun::drive`] takes it.
+    ///
+    /// # Errors
+    /// When there is no such pin, or it has no such value.
+    pub fn pin(&self, name: &str, value: i64) -> Result<Control> {
+        let mut control = Control::default();
+        let periods = self.setup.params.vcsel_driver.periods.len();
+        let fault = |expected: &str| Input::new("pin", expected).field(name).value(value);
+        let level = || match value {
+            0 | 1 => Ok(Some(value == 1)),
+            _ => Err(fault("expected 0 or 1")),
+        };
+        match name {
+            "rst" => control.rst = level()?,
+            "laser_en" => control.laser_en = level()?,
+            "dsp_en" => control.dsp_en = level()?,
+            "dsp_rst" => control.dsp_rst = level()?,
+            "mode" if level()? == Some(true) => control.mode = Some(QuenchMode::FreeRunning),
+            "mode" => control.mode = Some(QuenchMode::EachShot),
+            "laser_freq" => match usize::try_from(value) {
+                Ok(place) if place < periods => control.laser_freq = Some(value as _),
+                _ => return Err(fault(&format!("expected 0 to {}", periods - 1)).into()),
+            },
+            _ => {
+                let known = "expected one of rst, mode, laser_freq, laser_en, dsp_en, dsp_rst";
+                return Err(Input::new("pin", known).value(name).into());
+            }
+        }
+        Ok(control)
+    }
 }
 
 /// A signal that was found by its name.
 #[derive(Clone, Copy, Debug)]
 pub struct SignalHandle(Shown);
-
-/// One pin of the acquisition computer with a value, as [`SteppedRun::drive`] takes it.
-///
-/// # Errors
-/// When there is no such pin, or it has no such value.
-pub fn pin(name: &str, value: i64) -> Result<Control> {
-    let mut control = Control::default();
-    let fault = |expected: &str| Input::new("pin", expected).field(name).value(value);
-    let level = || match value {
-        0 | 1 => Ok(Some(value == 1)),
-        _ => Err(fault("expected 0 or 1")),
-    };
-    match name {
-        "rst" => control.rst = level()?,
-        "laser_en" => control.laser_en = level()?,
-        "dsp_en" => control.dsp_en = level()?,
-        "dsp_rst" => control.dsp_rst = level()?,
-        "mode" if level()? == Some(true) => control.mode = Some(QuenchMode::FreeRunning),
-        "mode" => control.mode = Some(QuenchMode::EachShot),
-        "laser_freq" if (0..4).contains(&value) => control.laser_freq = Some(value as _),
-        "laser_freq" => return Err(fault("expected 0 to 3").into()),
-        _ => {
-            let known = "expected one of rst, mode, laser_freq, laser_en, dsp_en, dsp_rst";
-            return Err(Input::new("pin", known).value(name).into());
-        }
-    }
-    Ok(control)
-}
 
 #[cfg(test)]
 mod tests {
@@ -176,7 +179,10 @@ mod tests {
     fn a_pin_that_is_driven_does_what_it_does_at_power_up() {
         let pulses = |drives: &[(&str, i64)]| {
             let mut run = SteppedRun::new(setup(&[]));
-            drives.iter().for_each(|(name, value)| run.drive(&pin(name, *value).unwrap()));
+            for (name, value) in drives {
+                let control = run.pin(name, *value).unwrap();
+                run.drive(&control);
+            }
             let pulse = run.find("vcsel_driver.laser_pulse").unwrap();
             let mut pulses = 0;
             for _ in 0..600 {
@@ -192,9 +198,15 @@ mod tests {
 
     #[test]
     fn no_pin_takes_what_it_cannot_be() {
-        let said = |name, value| pin(name, value).unwrap_err().to_string();
+        let run = SteppedRun::new(setup(&[]));
+        let said = |name, value| run.pin(name, value).unwrap_err().to_string();
         assert_eq!(said("laser_en", 2), "pin: laser_en = 2: expected 0 or 1");
         assert_eq!(said("laser_freq", 4), "pin: laser_freq = 4: expected 0 to 3");
+        let two =
+            SteppedRun::new(setup(&["firmware.laser_periods=[25, 13]", "firmware.laser_freq=1"]));
+        assert!(two.pin("laser_freq", 1).is_ok());
+        let error = two.pin("laser_freq", 2).unwrap_err().to_string();
+        assert_eq!(error, "pin: laser_freq = 2: expected 0 to 1");
         assert!(said("laser", 1).contains("expected one of rst, mode"), "{}", said("laser", 1));
     }
 }

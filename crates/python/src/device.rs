@@ -9,7 +9,7 @@ use pyo3::types::PyDict;
 
 use tofsim::Setup;
 use tofsim::error::Error;
-use tofsim::sim::stepped::{SignalHandle, SteppedRun, pin};
+use tofsim::sim::stepped::{SignalHandle, SteppedRun};
 
 use crate::arrays::table;
 use crate::errors::Result;
@@ -149,9 +149,9 @@ impl Device {
             Ok((name.extract::<String>()?, value.extract::<i64>()?))
         };
         let given: PyResult<Vec<_>> = given.map(pair).collect();
-        let controls: tofsim::Result<Vec<_>> =
-            given?.iter().map(|(name, value)| pin(name, *value)).collect();
         let mut state = locked(&self.state);
+        let controls: tofsim::Result<Vec<_>> =
+            given?.iter().map(|(name, value)| state.run.pin(name, *value)).collect();
         controls?.iter().for_each(|control| state.run.drive(control));
         Ok(())
     }

@@ -182,10 +182,9 @@ mod tests {
             [3, 11, 5].map(|hits| (0..256).map(|bin| hits * (bin + 1)).collect()).to_vec();
         let scaling = Scaling::of(&counts, &[], InputScale::Range);
         let inputs = counts.iter().map(|counts| scaling.apply(counts)).collect::<Vec<_>>();
-        for k in 0..KNOTS - 1 {
-            let found = [0, 1, 2].map(|sample| inputs[sample][k]);
-            let close = found.iter().zip([-1.0, 1.0, -0.5]).all(|(x, y)| (x - y).abs() < 1e-6);
-            assert!(close, "{k}: {found:?}");
+        for (inputs, expected) in inputs.iter().zip([-1.0, 1.0, -0.5]) {
+            let close = |input: &f32| (input - expected).abs() < 1e-6;
+            assert!(inputs[..KNOTS - 1].iter().all(close), "{expected}: {inputs:?}");
         }
     }
 
