@@ -11,6 +11,7 @@ mod jitter;
 pub mod live;
 mod oscillator;
 pub mod partings;
+pub mod photons;
 mod probe;
 pub mod run;
 pub mod second_opinion;

@@ -65,6 +65,14 @@ pub trait Sink {
     fn taps(&mut self, id: usize, value: &Thermometer, group: usize);
 }
 
+/// Gives signal values; `id` is as in [`Sink`].
+pub trait Source {
+    /// A word, its sign extended to 64 bits if it has one.
+    fn word(&mut self, id: usize) -> u64;
+    /// The taps of a delay line.
+    fn taps(&mut self, id: usize) -> Thermometer;
+}
+
 /// A value that stands for one or more signals.
 pub trait Field: Copy + PartialEq {
     /// How many signals.
@@ -73,6 +81,8 @@ pub trait Field: Copy + PartialEq {
     fn declare(like: Signal, list: &mut Vec<Signal>);
     /// Reports what differs from `before`, or everything.
     fn changes(&self, before: Option<&Self>, id: usize, sink: &mut impl Sink);
+    /// The value with what the source gives.
+    fn given(id: usize, source: &mut impl Source) -> Self;
 }
 
 /// A struct of signals: the ports or the registers of one module.
@@ -83,6 +93,8 @@ pub trait Signals: Copy + PartialEq {
     fn list() -> Vec<Signal>;
     /// Reports what differs from `before`, or everything.
     fn changes(&self, before: Option<&Self>, id: usize, sink: &mut impl Sink);
+    /// All signals as the source gives them.
+    fn given(id: usize, source: &mut impl Source) -> Self;
 }
 
 /// A field that is a single word.
@@ -92,6 +104,8 @@ pub trait Word: Copy + PartialEq {
     /// How to show it.
     const FORMAT: SignalFormat;
     fn bits(&self) -> u64;
+    /// The word of those bits; a number has its sign extended.
+    fn of_bits(bits: u64) -> Self;
 }
 
 impl Word for bool {
@@ -99,6 +113,9 @@ impl Word for bool {
     const FORMAT: SignalFormat = SignalFormat::Bits;
     fn bits(&self) -> u64 {
         *self as u64
+    }
+    fn of_bits(bits: u64) -> Self {
+        bits & 1 == 1
     }
 }
 
@@ -108,6 +125,9 @@ impl<const N: u32> Word for U<N> {
     fn bits(&self) -> u64 {
         self.get()
     }
+    fn of_bits(bits: u64) -> Self {
+        U::new(bits)
+    }
 }
 
 impl<const N: u32, const F: u32> Word for S<N, F> {
@@ -115,6 +135,9 @@ impl<const N: u32, const F: u32> Word for S<N, F> {
     const FORMAT: SignalFormat = SignalFormat::Signed { fraction: F };
     fn bits(&self) -> u64 {
         S::bits(*self)
+    }
+    fn of_bits(bits: u64) -> Self {
+        S::new(bits as i64)
     }
 }
 
@@ -128,6 +151,9 @@ impl<T: Word> Field for T {
         if before != Some(self) {
             sink.word(id, self.bits());
         }
+    }
+    fn given(id: usize, source: &mut impl Source) -> Self {
+        T::of_bits(source.word(id))
     }
 }
 
@@ -143,6 +169,9 @@ impl<T: Word, const K: usize> Field for [T; K] {
             self[k].changes(before.map(|b| &b[k]), id + k, sink);
         }
     }
+    fn given(id: usize, source: &mut impl Source) -> Self {
+        std::array::from_fn(|k| T::given(id + k, source))
+    }
 }
 
 impl Field for Thermometer {
@@ -155,6 +184,9 @@ impl Field for Thermometer {
             sink.taps(id, self, 1);
         }
     }
+    fn given(id: usize, source: &mut impl Source) -> Self {
+        source.taps(id)
+    }
 }
 
 impl<const GROUP: usize> Field for PartialOnes<GROUP> {
@@ -166,6 +198,9 @@ impl<const GROUP: usize> Field for PartialOnes<GROUP> {
         if before != Some(self) {
             sink.taps(id, &self.0, GROUP);
         }
+    }
+    fn given(id: usize, source: &mut impl Source) -> Self {
+        PartialOnes(source.taps(id))
     }
 }
 
@@ -230,6 +265,16 @@ macro_rules! signals {
                     let _next = _next + <$ty as $crate::kernel::signals::Field>::COUNT;
                 )*
             }
+
+            #[allow(unused_variables, reason = "a module may have no signals of one kind")]
+            fn given(id: usize, source: &mut impl $crate::kernel::signals::Source) -> Self {
+                let _next = id;
+                $(
+                    let $field = <$ty as $crate::kernel::signals::Field>::given(_next, source);
+                    let _next = _next + <$ty as $crate::kernel::signals::Field>::COUNT;
+                )*
+                $name { $($field,)* }
+            }
         }
     };
     (@size) => { None };
@@ -255,6 +300,10 @@ macro_rules! states {
                 $crate::kernel::signals::SignalFormat::State(&[$(stringify!($state)),+]);
             fn bits(&self) -> u64 {
                 *self as u64
+            }
+            fn of_bits(bits: u64) -> Self {
+                let states = [$($name::$state),+];
+                states.get(bits as usize).copied().unwrap_or_default()
             }
         }
     };

@@ -242,8 +242,7 @@ impl Device {
     ) -> bool {
         let mut unseen = false;
         loop {
-            let next = self.spads.next_event().min(self.timeline.next_event());
-            let next = next.min(self.front_end.next_event());
+            let next = self.next_event();
             if T::ON {
                 while self.oscillator.next_edge() < next.min(until) {
                     let now = self.oscillator.next_edge();
@@ -263,6 +262,13 @@ impl Device {
                 self.sample(next, probe);
             }
         }
+    }
+
+    /// When something next happens between edges.
+    #[inline(always)]
+    pub(super) fn next_event(&self) -> Time {
+        let next = self.spads.next_event().min(self.timeline.next_event());
+        next.min(self.front_end.next_event())
     }
 
     fn happen<R: AvalancheListener>(&mut self, now: Time, listener: &mut R) {

@@ -3,6 +3,7 @@
 use bitvec::prelude::*;
 
 use crate::firmware::tdc_decoder::{Decoder, Encoder};
+use crate::kernel::thermometer::CAPACITY;
 use crate::kernel::{Thermometer, ones_width, partial_highest, partial_ones};
 
 /// The binary digits of a byte, the highest first.
@@ -75,6 +76,20 @@ impl TapDigits {
         }
         Bits { words: self.counts.as_raw_slice(), width }
     }
+
+    /// The taps that have those bits, physical tap 0 first; none where their level changes more often than that of a
+    /// chain in the model can.
+    pub fn taps(&mut self, bits: impl Iterator<Item = bool>) -> Option<Thermometer> {
+        let into = if self.order.is_empty() { &mut self.arrived } else { &mut self.taps };
+        into.iter_mut().zip(bits).for_each(|(mut tap, level)| *tap = level);
+        for (&tap, mut arrived) in self.order.iter().zip(self.arrived.iter_mut()) {
+            *arrived = self.taps[usize::from(tap)];
+        }
+        let first = self.arrived.first().is_some_and(|level| *level);
+        let changes = |place: &usize| self.arrived[place - 1] != self.arrived[*place];
+        let ranks = (1..self.arrived.len()).filter(changes);
+        (ranks.clone().count() <= CAPACITY).then(|| Thermometer::new(first, ranks))
+    }
 }
 
 #[cfg(test)]
@@ -122,6 +137,27 @@ mod tests {
         assert_eq!(text(&mut own, &Thermometer::new(true, [1, 3])), "0110");
         assert_eq!(text(&mut own, &Thermometer::settled(true)), "1111");
         assert_eq!(text(&mut own, &Thermometer::settled(false)), "0000");
+    }
+
+    #[test]
+    fn bits_give_the_taps_that_show_them() {
+        for order in
+            [vec![2, 0, 3, 1, 5, 4, 7, 6], (0..130).map(|place| place * 37 % 130).collect()]
+        {
+            let mut own = digits(&order);
+            let levels = [true, false].into_iter();
+            let cases = levels.flat_map(|level| {
+                [vec![], vec![1], vec![3, 4], vec![2, 5, 7]].map(|ranks| (level, ranks))
+            });
+            for (level, ranks) in cases {
+                let taps = Thermometer::new(level, ranks);
+                let text = text(&mut own, &taps);
+                let bits = text.chars().rev().map(|digit| digit == '1');
+                assert_eq!(own.taps(bits), Some(taps), "{text}");
+            }
+        }
+        let mut long = digits(&(0..32).collect::<Vec<_>>());
+        assert_eq!(long.taps((0..32).map(|tap| tap % 2 == 1)), None);
     }
 
     #[test]

@@ -39,15 +39,17 @@ fn what_is_pressed_acts_on_the_run_and_shows() {
     let near = "[...document.querySelectorAll('#depths tbody tr')].find(row => row.cells[0].textContent.startsWith('network'))?.cells[1].textContent.startsWith('0.30')";
     browser.wait(near);
     second.wait(near);
-    browser.press("r");
-    // In Clear there is nothing to abandon.
-    browser.wait("document.getElementById('time-abandoned').textContent !== '0'");
+    // In Clear there is nothing to abandon: then once more.
+    browser.press_until("r", "document.getElementById('time-abandoned').textContent !== '0'");
     browser.press(" ");
     browser.wait("document.getElementById('run-state').textContent === 'stopped'");
     browser.press("a");
     browser.wait("document.getElementById('ila-status').textContent.includes('stands still')");
-    browser.press("n");
-    browser.wait("document.getElementById('ila-status').textContent.includes('has triggered')");
+    // The first only ends the frame in which the run stopped, of which too little may be left for a window.
+    browser.press_until(
+        "n",
+        "document.getElementById('ila-status').textContent.includes('has triggered')",
+    );
     browser.wait("document.querySelectorAll('#ila-waves .name').length > 10");
     browser.press("w");
     browser.wait("document.querySelectorAll('#shot-waves .name').length > 10");

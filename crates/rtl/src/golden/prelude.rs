@@ -11,6 +11,7 @@ pub use super::configuration::{
 };
 pub use super::cover::{Cover, bits, ends};
 pub use super::draw::{Draw, MEMORIES};
+pub use super::model::{Edge, Model};
 pub use super::parameters::{self, Parameter, files, with_neurons};
 pub use super::record::Recorder;
 pub use super::setting::Setting;

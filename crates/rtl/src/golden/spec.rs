@@ -9,6 +9,7 @@ use tofsim::network::mem::Mem;
 
 use super::configuration::Configuration;
 use super::cover::Cover;
+use super::model::Model;
 use super::parameters::{Parameters, memories};
 use super::setting::Setting;
 use super::table::Table;
@@ -68,8 +69,10 @@ pub struct Spec {
     pub configurations: &'static [Configuration],
     /// A loop around the block, if it needs one.
     pub glue: Option<Glue>,
-    /// Steps the Rust model.
+    /// Steps the Rust model with input of its own.
     pub record: Record,
+    /// Steps it with somebody else's; none of a block that has no checker.
+    pub model: Option<Model>,
 }
 
 impl Spec {
@@ -86,6 +89,7 @@ impl Spec {
             configurations: &[],
             glue: None,
             record,
+            model: None,
         }
     }
 

@@ -100,7 +100,7 @@ fn run(setting: &Setting, device: &mut Device, sampler: &mut Sampler) -> Result<
 }
 
 /// What the Verilog's PLL and the bench's clocks cannot do.
-pub(super) fn check(setup: &Setup) -> Result<()> {
+pub(crate) fn check(setup: &Setup) -> Result<()> {
     let (pll, source) = (&setup.scenario.pll, format!("scenario {}", setup.name));
     let fault = |field: &str, value: String, expected: &str| {
         Err(Input::new(&source, expected).field(field).value(value).into())

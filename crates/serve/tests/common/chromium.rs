@@ -102,6 +102,21 @@ impl Chromium {
         }
     }
 
+    /// Presses a key again each second until an expression is true.
+    pub fn press_until(&mut self, key: &str, expression: &str) {
+        for _ in 0..60 {
+            self.press(key);
+            let until = Instant::now() + Duration::from_secs(1);
+            while Instant::now() < until {
+                if self.value(expression) == Value::Bool(true) {
+                    return;
+                }
+                std::thread::sleep(Duration::from_millis(20));
+            }
+        }
+        panic!("{key} never makes it true: {expression}; {:?}", self.complaints);
+    }
+
     /// All of the page as a picture.
     pub fn screenshot(&mut self, path: &Path) {
         let asked = json!({ "format": "png", "captureBeyondViewport": true });

@@ -1,12 +1,16 @@
 //! Pulses of every width and distance, changes exactly on a clock edge and exactly on a tap's
 //! boundary, and several pulses in the chain at once.
 
-use tofsim::firmware::carry_chain::{CarryChain, Delays};
+use tofsim::firmware::carry_chain::{CarryChain, Delays, In};
 
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     latency: &[Latency { from: "tdc_stop", to: "taps", cycles: |_| 0 }],
+    model: Some(Model::new::<In>(|at| {
+        let taps = at.line.sample(at.now, &at.params.tdc.delays);
+        at.top.tdc.carry_chain = CarryChain { taps };
+    })),
     ..Spec::new("carry_chain", "tdc.carry_chain", record)
 };
 

@@ -16,6 +16,10 @@ pub(super) const SPEC: Spec = Spec {
     latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.centroid().done() }],
     glue: Some(histograms::GLUE),
     configurations: &[LEVEL],
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        at.top.centroid_estimator.rise(&i, &at.params.centroid_estimator);
+    })),
     ..Spec::new("centroid_estimator", "centroid_estimator", record)
 };
 

@@ -7,6 +7,10 @@ use crate::golden::prelude::*;
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[Latency { from: "start", to: "window", cycles: |_| 0 }],
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        at.top.tdc.coarse_counter.tick(&i, &at.params.tdc.coarse_counter);
+    })),
     ..Spec::new("coarse_counter", "tdc.coarse_counter", record)
 };
 

@@ -12,6 +12,12 @@ const CODES: u64 = 37;
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[Latency { from: "start", to: "tdc_valid", cycles: |_| 1 }],
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        if let CodeSource::Preload(rom) = &at.params.code_source {
+            at.top.code_preload.tick(&i, rom);
+        }
+    })),
     ..Spec::new("code_preload", "code_preload", record)
 };
 

@@ -13,6 +13,10 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "dsp_en", to: "dsp_en_sync", cycles: |_| 1 },
         Latency { from: "dsp_rst", to: "dsp_rst_sync", cycles: |_| 1 },
     ],
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        at.top.control_sync.tick(&i, &());
+    })),
     ..Spec::new("control_sync", "control_sync", record)
 };
 

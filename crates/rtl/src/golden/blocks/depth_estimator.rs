@@ -15,6 +15,10 @@ pub(super) const SPEC: Spec = Spec {
     latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.network().done() }],
     glue: Some(histograms::GLUE),
     configurations: &[NEURONS_16],
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        at.top.depth_estimator.rise(&i, &at.params.depth_estimator);
+    })),
     ..Spec::new("depth_estimator", "depth_estimator", record)
 };
 

@@ -12,6 +12,10 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.network().done() },
     ],
     configurations: &[NEURONS_16],
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        at.top.depth_estimator.estimator_ctrl.tick(&i, &at.params.depth_estimator.ctrl());
+    })),
     ..Spec::new("estimator_ctrl", "depth_estimator.estimator_ctrl", record)
 };
 

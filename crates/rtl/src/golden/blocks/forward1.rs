@@ -18,6 +18,10 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "rom_addr", to: "l1_in_0", cycles: |_| 3 },
     ],
     configurations: &[NEURONS_16],
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        at.top.depth_estimator.forward1.tick(&i, &at.params.depth_estimator.forward1);
+    })),
     ..Spec::new("forward1", "depth_estimator.forward1", record)
 };
 

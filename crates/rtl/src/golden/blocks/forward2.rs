@@ -22,6 +22,10 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "depth_en", to: "depth", cycles: |_| 0 },
     ],
     configurations: &[NEURONS_16],
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        at.top.depth_estimator.forward2.tick(&i, &at.params.depth_estimator.forward2);
+    })),
     ..Spec::new("forward2", "depth_estimator.forward2", record)
 };
 

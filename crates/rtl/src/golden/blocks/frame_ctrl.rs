@@ -23,6 +23,10 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "algo_done", to: "frame_done", cycles: |_| 0 },
     ],
     configurations: &[PRELOADED, CALIBRATED],
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        at.top.frame_ctrl.tick(&i, &at.params.frame_ctrl);
+    })),
     ..Spec::new("frame_ctrl", "frame_ctrl", record)
 };
 

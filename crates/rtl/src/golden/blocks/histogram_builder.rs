@@ -25,6 +25,16 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "clear", to: "count", cycles: |_| 0 },
         Latency { from: "tdc_valid", to: "count", cycles: |_| 2 },
     ],
+    model: Some(Model {
+        settle: |at| {
+            let i = at.input();
+            at.top.nets.count = at.top.histogram_builder.count(&i);
+        },
+        ..Model::new::<In>(|at| {
+            let i = at.input();
+            at.top.histogram_builder.tick(&i, &at.params.histogram);
+        })
+    }),
     ..Spec::new("histogram_builder", "histogram_builder", record)
 };
 

@@ -10,6 +10,10 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[Latency { from: "algo_start", to: "algo_done", cycles: |vectors| vectors.sizes.likelihood_cycles }],
     configurations: &[LATE],
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        at.top.likelihood_estimator.rise(&i, &at.params.likelihood_estimator);
+    })),
     ..Spec::new("likelihood_estimator", "likelihood_estimator", record)
 };
 

@@ -8,6 +8,10 @@ use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        at.top.likelihood_estimator.likelihood_memory.rise(&i, &at.params.likelihood_estimator);
+    })),
     ..Spec::new("likelihood_memory", "likelihood_estimator.likelihood_memory", record)
 };
 

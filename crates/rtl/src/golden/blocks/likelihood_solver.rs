@@ -12,6 +12,10 @@ use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        at.top.likelihood_estimator.likelihood_solver.rise(&i, &at.params.likelihood_estimator);
+    })),
     ..Spec::new("likelihood_solver", "likelihood_estimator.likelihood_solver", record)
 };
 

@@ -8,6 +8,10 @@ use crate::golden::likelihood::Estimations;
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        at.top.likelihood_estimator.likelihood_sums.tick(&i, &at.params.likelihood_estimator);
+    })),
     ..Spec::new("likelihood_sums", "likelihood_estimator.likelihood_sums", record)
 };
 

@@ -9,6 +9,10 @@ use crate::golden::likelihood::Estimations;
 use crate::golden::prelude::*;
 
 pub(super) const SPEC: Spec = Spec {
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        at.top.likelihood_estimator.likelihood_terms.tick(&i, &at.params.likelihood_estimator);
+    })),
     ..Spec::new("likelihood_terms", "likelihood_estimator.likelihood_terms", record)
 };
 

@@ -1,5 +1,6 @@
 //! The oscillator from power-up: before lock, the first edges, and the clocks running.
 
+use tofsim::firmware::pll::In;
 use tofsim::kernel::clock::Clock;
 
 use crate::golden::prelude::*;
@@ -9,6 +10,11 @@ pub(super) const SPEC: Spec = Spec {
     timing: timing::OWN,
     configurations: &[CLOCKS],
     fast: &["clk_sys", "clk_laser", "locked"],
+    model: Some(Model::combinational::<In>(|at| {
+        at.top.clocks.clk_sys = level(&at.pll.clk_sys, at.now);
+        at.top.clocks.clk_laser = level(&at.pll.clk_laser, at.now);
+        at.top.pll.locked = at.now >= at.pll.locked_at;
+    })),
     ..Spec::new("pll", "pll", record)
 };
 

@@ -12,6 +12,10 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     latency: &[Latency { from: "l1_in_0", to: "l1_out_0", cycles: |_| 1 }],
     configurations: &[NEURONS_16],
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        at.top.depth_estimator.tansig.tick(&i, &at.params.depth_estimator.tansig);
+    })),
     ..Spec::new("tansig", "depth_estimator.tansig", record)
 };
 

@@ -24,6 +24,10 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "tdc_stop", to: "tdc_code", cycles: |vectors| vectors.count_stages + 4 },
     ],
     configurations: &[COUNT_STAGES_2, LEADING, REORDERED, CALIBRATED],
+    model: Some(Model::new::<In>(|at| {
+        let i = In { tdc_stop: at.line.level(), ..at.input() };
+        at.top.tdc.rise(&i, &at.params.tdc, at.line, at.now);
+    })),
     ..Spec::new("tdc", "tdc", record)
 };
 

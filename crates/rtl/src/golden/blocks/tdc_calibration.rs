@@ -25,6 +25,12 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "n_valid", to: "calibrated_age", cycles: |_| 0 },
         Latency { from: "n", to: "calibrated_age", cycles: |_| 0 },
     ],
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        if let Some(params) = &at.params.tdc_calibration {
+            at.top.tdc_calibration.tick(&i, params);
+        }
+    })),
     ..Spec::new("tdc_calibration", "tdc_calibration", record)
 };
 

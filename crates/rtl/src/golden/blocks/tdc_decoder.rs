@@ -19,6 +19,10 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "hit_taps", to: "tdc_code", cycles: |vectors| vectors.count_stages + 2 },
     ],
     configurations: &[COUNT_STAGES_2, LEADING, REORDERED, CALIBRATED],
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        at.top.tdc.tdc_decoder.tick(&i, &at.params.tdc.decoder);
+    })),
     ..Spec::new("tdc_decoder", "tdc.tdc_decoder", record)
 };
 

@@ -15,6 +15,10 @@ pub(super) const SPEC: Spec = Spec {
         Latency { from: "coarse", to: "hit_coarse", cycles: |_| 0 },
     ],
     configurations: &[CALIBRATED],
+    model: Some(Model::new::<In>(|at| {
+        let i = at.input();
+        at.top.tdc.tdc_latch.tick(&i, &at.params.tdc.delays.tap_0_position());
+    })),
     ..Spec::new("tdc_latch", "tdc.tdc_latch", record)
 };
 

@@ -1,7 +1,7 @@
 //! The whole firmware: a scenario as it is, or short frames under control signals that change at
 //! random, also in the middle of a frame, and abandon some.
 
-use tofsim::firmware::tof_top::CodeSource;
+use tofsim::firmware::tof_top::{CodeSource, Pins};
 use tofsim::scenario::{Control, QuenchMode};
 
 use crate::golden::configuration;
@@ -29,6 +29,18 @@ pub(super) const SPEC: Spec = Spec {
         "lvds_output.ob",
     ],
     configurations: &[NEURONS_16, COUNT_STAGES_2, REORDERED, CALIBRATED, CLOCKS, CENTROID, LIKELIHOOD, CODES, HISTOGRAM],
+    model: Some(Model {
+        // It is looked at once its clocks run.
+        settle: |at| at.top.pll.locked = true,
+        ..Model::new::<Pins>(|at| {
+            at.top.pins = Pins { tdc_stop: at.line.level(), ..at.input() };
+            match at.edge {
+                Edge::Rise => at.top.rise(at.params, at.line, at.now),
+                Edge::Middle => at.top.rise_laser(at.params),
+                Edge::Fall => at.top.fall_laser(),
+            }
+        })
+    }),
     ..Spec::new("tof_top", "", record)
 };
 

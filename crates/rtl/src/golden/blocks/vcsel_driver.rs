@@ -10,6 +10,14 @@ pub(super) const SPEC: Spec = Spec {
     reset: Some("rst"),
     fast: &["laser_on", "fire_last", "pulse_0", "pulse_1", "laser_pulse", "stretch", "ddr_output.q", "ddr_output.second"],
     latency: &[Latency { from: "acquire", to: "start", cycles: |_| 5 }],
+    model: Some(Model::new::<In>(|at| {
+        let (i, driver) = (at.input(), &mut at.top.vcsel_driver);
+        match at.edge {
+            Edge::Rise => driver.rise(&i, &at.params.vcsel_driver),
+            Edge::Middle => driver.rise_laser(&i, &at.params.vcsel_driver),
+            Edge::Fall => driver.fall_laser(),
+        }
+    })),
     ..Spec::new("vcsel_driver", "vcsel_driver", record)
 };
 

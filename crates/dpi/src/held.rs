@@ -1,0 +1,139 @@
+//! What handles stand for, and the errors of each.
+
+use std::collections::BTreeMap;
+use std::ffi::CString;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Mutex, PoisonError};
+
+use crate::checker::Checker;
+use crate::photons::Source;
+
+/// What has been made, by the numbers that are its handles; 0 has the errors of what could not be.
+static HELD: Mutex<All> = Mutex::new(All { last: 0, held: BTreeMap::new() });
+
+struct All {
+    last: usize,
+    held: BTreeMap<usize, Held>,
+}
+
+/// What a handle stands for.
+#[derive(Default)]
+pub struct Held {
+    pub errors: Vec<CString>,
+    pub what: What,
+}
+
+#[derive(Default)]
+pub enum What {
+    /// What belongs to none.
+    #[default]
+    Nothing,
+    Checker(Box<Checker>),
+    Photons(Box<Source>),
+}
+
+impl Held {
+    /// Keeps an error, of which a zero would be the end in C.
+    pub fn say(&mut self, error: impl ToString) {
+        let text = error.to_string().replace('\0', " ");
+        self.errors.extend(CString::new(text));
+    }
+
+    pub fn checker(&mut self) -> Result<&mut Checker, String> {
+        match &mut self.what {
+            What::Checker(checker) => Ok(checker),
+            _ => Err("this handle is of no block".to_owned()),
+        }
+    }
+
+    pub fn photons(&mut self) -> Result<&mut Source, String> {
+        match &mut self.what {
+            What::Photons(source) => Ok(source),
+            _ => Err("this handle is of no photons".to_owned()),
+        }
+    }
+}
+
+/// Makes something; its handle, or 0.
+pub fn make(function: &str, run: impl FnOnce() -> Result<What, String>) -> usize {
+    let made = guarded(run);
+    let mut all = HELD.lock().unwrap_or_else(PoisonError::into_inner);
+    match made {
+        Ok(what) => {
+            all.last += 1;
+            let handle = all.last;
+            all.held.insert(handle, Held { what, ..Held::default() });
+            handle
+        }
+        Err(error) => {
+            all.held.entry(0).or_default().say(format_args!("{function}: {error}"));
+            0
+        }
+    }
+}
+
+/// Does something with what a handle stands for; `otherwise` if that fails, which is kept as an error.
+pub fn with<T>(
+    function: &str,
+    handle: usize,
+    otherwise: T,
+    run: impl FnOnce(&mut Held) -> Result<T, String>,
+) -> T {
+    let mut all = HELD.lock().unwrap_or_else(PoisonError::into_inner);
+    let all = &mut *all;
+    let known = handle != 0 && all.held.contains_key(&handle);
+    let held = all.held.entry(if known { handle } else { 0 }).or_default();
+    if !known {
+        held.say(match handle {
+            0 => format!(
+                "{function}: the handle is null: nothing was made, and what that said is above"
+            ),
+            _ => format!("{function}: no such handle: it was never given, or deleted"),
+        });
+        return otherwise;
+    }
+    guarded(|| run(held)).unwrap_or_else(|error| {
+        held.say(format_args!("{function}: {error}"));
+        otherwise
+    })
+}
+
+/// Does something with the errors of a handle, or of none.
+pub fn errors<T>(handle: usize, run: impl FnOnce(&mut Vec<CString>) -> T) -> T {
+    let mut all = HELD.lock().unwrap_or_else(PoisonError::into_inner);
+    let known = all.held.contains_key(&handle);
+    let held = all.held.entry(if known { handle } else { 0 }).or_default();
+    run(&mut held.errors)
+}
+
+/// Takes a handle back.
+pub fn delete(handle: usize) {
+    let mut all = HELD.lock().unwrap_or_else(PoisonError::into_inner);
+    all.held.remove(&handle);
+}
+
+/// A panic is an error like others.
+fn guarded<T>(run: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|panic| {
+        let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+        let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
+        Err(format!("a fault of tofsim: {}", text.unwrap_or_default()))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_an_error() {
+        let handle = make("tofsim_new", || Ok(What::Nothing));
+        let got = with("tofsim_step", handle, -1, |_| panic!("out of range"));
+        let said = errors(handle, |errors| errors[0].to_str().unwrap().to_owned());
+        assert_eq!((got, said.as_str()), (-1, "tofsim_step: a fault of tofsim: out of range"));
+        delete(handle);
+        assert_eq!(with("tofsim_step", handle, -1, |_| Ok(1)), -1);
+        let said = errors(0, |errors| errors.pop().unwrap().into_string().unwrap());
+        assert_eq!(said, "tofsim_step: no such handle: it was never given, or deleted");
+    }
+}

@@ -1,0 +1,29 @@
+//! Photons and the detector for a design of the bench's.
+
+use tofsim::sim::photons::{Photons, Shown};
+
+use crate::checker::{instant, setup};
+
+pub struct Source {
+    photons: Photons,
+}
+
+impl Source {
+    pub fn new(scenario: &str) -> Result<Self, String> {
+        Ok(Source { photons: Photons::new(&*setup(scenario)?) })
+    }
+
+    pub fn edge(&mut self, time_fs: i64, shown: Shown) -> Result<(), String> {
+        self.photons.edge(instant(time_fs)?, shown);
+        Ok(())
+    }
+
+    /// The next change of `tdc_stop` that no edge comes before [fs], or -1.
+    pub fn next_change(&mut self) -> i64 {
+        self.photons.next_change().map_or(-1, |time| time.fs() as i64)
+    }
+
+    pub fn level(&self) -> bool {
+        self.photons.level()
+    }
+}

@@ -1,0 +1,158 @@
+//! The light, the detector and its wire for firmware that is somebody else's.
+
+use crate::kernel::Time;
+
+use super::device::{Device, Off};
+use super::setup::Setup;
+
+/// A target, its light and a detector, without the firmware that drives and reads them.
+#[derive(Clone, Debug)]
+pub struct Photons {
+    device: Device,
+    /// Until then no edge can come between.
+    until: Time,
+    cycle: Time,
+    frames: u64,
+}
+
+/// What firmware shows the laser and the detector after an edge of `clk_sys`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Shown {
+    /// A shot begins.
+    pub start: bool,
+    /// This edge has switched the laser on.
+    pub laser: bool,
+    /// Recharges the SPAD and keeps it off.
+    pub spad_rst: bool,
+    /// SPAD quench mode, as the SPAD has it: MODE 1 is free running.
+    pub mode: bool,
+    /// `tdc_stop` is to come from the ring oscillator.
+    pub ring_on: bool,
+    /// A frame has ended: the random numbers of the next one are taken up, which are those of a run's.
+    pub frame_done: bool,
+}
+
+impl Photons {
+    /// From power-up.
+    pub fn new(setup: &Setup) -> Self {
+        let (device, cycle) = (setup.device(), setup.cycle());
+        Photons { device, until: setup.pll().locked_at, cycle, frames: 0 }
+    }
+
+    /// The level of `tdc_stop`.
+    pub fn level(&self) -> bool {
+        self.device.line.level()
+    }
+
+    /// Goes on to where `tdc_stop` next changes before the firmware's coming edge, or on it; when that is.
+    pub fn next_change(&mut self) -> Option<Time> {
+        let level = self.level();
+        while self.device.next_event() <= self.until {
+            let now = self.device.next_event();
+            self.device.settle(now, &mut Off, &mut Off);
+            if self.level() != level {
+                return Some(now);
+            }
+        }
+        None
+    }
+
+    /// An edge of `clk_sys` at `now`, after which the firmware shows that.
+    pub fn edge(&mut self, now: Time, shown: Shown) {
+        self.device.settle(now, &mut Off, &mut Off);
+        let top = &mut self.device.top;
+        top.vcsel_driver.registers.start = shown.start;
+        top.spad_control.spad_rst = shown.spad_rst;
+        top.control_sync.mode_sync = shown.mode;
+        top.tdc_calibration.registers.ring_on = shown.ring_on;
+        self.device.react(now, shown.laser);
+        if shown.frame_done {
+            self.frames += 1;
+            self.device.begin_frame(self.frames);
+        }
+        self.until = now + self.cycle;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::firmware::tof_top::TofTop;
+    use crate::sim::device::{Edge, SignalProbe};
+
+    /// Keeps the instants at which the wire changes, and what each edge of both clocks shows.
+    #[derive(Default)]
+    struct Kept {
+        level: bool,
+        stops: Vec<Time>,
+        lit: bool,
+        edges: Vec<(Time, Shown)>,
+    }
+
+    impl SignalProbe for Kept {
+        const ON: bool = true;
+        const EDGES: bool = true;
+
+        fn sample(&mut self, now: Time, top: &TofTop) {
+            if top.pins.tdc_stop != self.level {
+                self.level = top.pins.tdc_stop;
+                self.stops.push(now);
+            }
+            if let Some((edge, shown)) = self.edges.last_mut()
+                && *edge == now
+            {
+                *shown = Shown {
+                    start: top.vcsel_driver.registers.start,
+                    laser: top.nets.laser_on && !self.lit,
+                    spad_rst: top.spad_control.spad_rst,
+                    mode: top.control_sync.mode_sync,
+                    ring_on: top.tdc_calibration.registers.ring_on,
+                    frame_done: top.frame_ctrl.frame_done,
+                };
+            }
+        }
+
+        fn looks_before(&self, edge: Edge) -> bool {
+            edge == Edge::Both
+        }
+
+        fn before_edge(&mut self, _: Edge, now: Time, top: &TofTop) {
+            self.lit = top.nets.laser_on;
+            self.edges.push((now, Shown::default()));
+        }
+    }
+
+    /// The changes of the wire in three frames of a run, and beside the run's own firmware.
+    fn both(set: &[&str]) -> [Vec<Time>; 2] {
+        let short = ["firmware.shots_per_frame=200"];
+        let setup = Setup::load("bright", &[&short, set].concat()).unwrap();
+        let (mut device, mut kept, mut frames) = (setup.device(), Kept::default(), 0);
+        device.power_up(&mut kept, &mut Off);
+        while frames < 3 {
+            device.step(&setup.params, &mut kept, &mut Off);
+            if device.top.frame_ctrl.frame_done {
+                frames += 1;
+                device.begin_frame(frames);
+            }
+        }
+        let (mut photons, mut stops) = (Photons::new(&setup), Vec::new());
+        stops.extend(std::iter::from_fn(|| photons.next_change()));
+        for (now, shown) in kept.edges {
+            let level = photons.level();
+            photons.edge(now, shown);
+            stops.extend((photons.level() != level).then_some(now));
+            stops.extend(std::iter::from_fn(|| photons.next_change()));
+        }
+        [kept.stops, stops]
+    }
+
+    #[test]
+    fn the_wire_changes_when_it_does_in_a_run() {
+        for set in [&[][..], &["firmware.mode=1", "spad.dead_time_ns=30"]] {
+            let [run, own] = both(set);
+            assert!(run.len() > 200, "{set:?}: {}", run.len());
+            assert_eq!(run.len(), own.len(), "{set:?}");
+            assert_eq!(run, own, "{set:?}");
+        }
+    }
+}
