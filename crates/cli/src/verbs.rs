@@ -7,6 +7,7 @@ pub mod compare;
 pub mod completions;
 pub mod dataset;
 mod design;
+pub mod dpi;
 pub mod draws;
 pub mod estimate;
 pub mod evaluate;
@@ -81,6 +82,7 @@ enum Verb {
     Spad(spad::Args),
     Vectors(vectors::Args),
     Verify(verify::Args),
+    Dpi(dpi::Args),
     Timing(timing::Args),
     Sweep(sweep::Args),
     Build(build::Args),
@@ -152,6 +154,7 @@ impl Cli {
             Verb::Spad(args) => spad::run(args, talk),
             Verb::Vectors(args) => vectors::run(args, talk),
             Verb::Verify(args) => return verify::run(args, talk),
+            Verb::Dpi(args) => dpi::run(args, talk),
             Verb::Timing(args) => return timing::run(args, talk),
             Verb::Sweep(args) => sweep::run(args, talk),
             Verb::Build(args) => return build::run(args, talk, Cli::run_within),

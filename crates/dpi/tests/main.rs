@@ -1,1 +1,3 @@
-fn main() {}
+//! What a bench sees of the library.
+
+mod header;

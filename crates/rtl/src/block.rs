@@ -112,6 +112,11 @@ impl Block {
         self.quiet = Some(0);
     }
 
+    /// What it is.
+    pub fn spec(&self) -> &'static Spec {
+        self.spec
+    }
+
     /// Its module.
     pub fn name(&self) -> &'static str {
         self.spec.name

@@ -4,6 +4,7 @@
 //! a design to them ([`verify`]); and how fast it can be clocked ([`timing`]).
 
 pub mod block;
+pub mod checkers;
 pub mod golden;
 pub mod instrument;
 pub mod timing;
