@@ -99,7 +99,7 @@ impl Checkers {
             )
         };
         let text: String = self.blocks.iter().map(checker).collect();
-        format!("// Checkers of tofsim {}, scenario {}.{text}", env!("CARGO_PKG_VERSION"), self.setup.name)
+        format!("`timescale 1fs / 1fs\n\n// Checkers of tofsim {}, scenario {}.\n{text}", env!("CARGO_PKG_VERSION"), self.setup.name)
     }
 
     fn binds(&self) -> String {

@@ -6,8 +6,6 @@ module tofsim_{name} #(
 ) (
 {ports}
 );
-  timeunit 1fs;
-  timeprecision 1fs;
   import tofsim_pkg::*;
 
   chandle tofsim_model;

@@ -1,3 +1,5 @@
+`timescale 1fs / 1fs
+
 // The target, its light and the detector of scenario {name}: tdc_stop for a design that fires the laser and holds the
 // SPAD. Its statistics are the simulator's, and with firmware that does as the model does its photons are, too.
 module tofsim_photons #(
@@ -12,13 +14,12 @@ module tofsim_photons #(
     input bit frame_done,  // the frame has ended; one cycle
     output bit tdc_stop
 );
-  timeunit 1fs;
-  timeprecision 1fs;
+  // In Verilator 5.006 the delays of a module that is inlined are those of the module around it.
+  /* verilator no_inline_module */
   import tofsim_pkg::*;
 
   chandle photons;
-  bit lit;
-  longint now, due;
+  longint now, due, lit;
   int asked, served;
 
   initial begin
@@ -27,11 +28,12 @@ module tofsim_photons #(
     asked = 1;
   end
 
+  always @(posedge laser_on) lit = longint'($time);
+
   always @(posedge clk_sys) begin
     now = longint'($time);
-    lit = laser_on;
     #(Settles);
-    tofsim_photons_edge(photons, now, int'(start), int'(laser_on && !lit), int'(spad_rst), int'(mode),
+    tofsim_photons_edge(photons, now, int'(start), int'(laser_on && lit >= now), int'(spad_rst), int'(mode),
                         int'(ring_on), int'(frame_done));
     if (tofsim_get_num_errors(photons) != 0) $fatal(1, "%m: %s", tofsim_get_error(photons, 0));
     tdc_stop = tofsim_photons_level(photons) != 0;

@@ -12,9 +12,8 @@ module tofsim_photons #(
     input frame_done,
     output reg tdc_stop = 1'b0
 );
-  reg [63:0] photons, now;
+  reg [63:0] photons, now, lit = 64'd0;
   reg signed [63:0] due;
-  reg lit;
   integer asked = 0, served = 0;
 
   initial begin
@@ -26,11 +25,12 @@ module tofsim_photons #(
     asked = 1;
   end
 
+  always @(posedge laser_on) lit = $time;
+
   always @(posedge clk_sys) begin
     now = $time;
-    lit = laser_on;
     #(Settles);
-    $tofsim_photons_edge(photons, now, start, laser_on && !lit, spad_rst, mode, ring_on, frame_done);
+    $tofsim_photons_edge(photons, now, start, laser_on && lit >= now, spad_rst, mode, ring_on, frame_done);
     tdc_stop = $tofsim_photons_level(photons) != 0;
     asked = asked + 1;
   end

@@ -1,3 +1,5 @@
+  // In Verilator 5.006 the delays of a module that is inlined are those of the module around it.
+  /* verilator no_inline_module */
   // A look 1 ps before the end of each part of a cycle of clk_sys.
   localparam longint Cycle = {cycle};  // [fs]
   longint tofsim_look;
