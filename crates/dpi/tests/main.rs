@@ -1,3 +1,8 @@
 //! What a bench sees of the library.
 
+mod abi;
+mod common;
+mod faults;
 mod header;
+mod refused;
+mod whole;

@@ -57,7 +57,8 @@ impl Block {
     /// # Errors
     /// When there is no such block, or the scenario does not have it, or what it has cannot be at the side of Verilog.
     pub fn new(setup: Arc<Setup>, name: &str) -> Result<Self> {
-        let fault = |expected: String| Input::new("block", expected).value(name);
+        let source = format!("scenario {}", setup.name);
+        let fault = |expected: String| Input::new(&source, expected).field("block").value(name);
         let Some(spec) = blocks::find(name) else {
             let (hint, names) = hint(name, BLOCKS.iter().map(|spec| spec.name));
             return Err(fault(format!("no such block{hint}; there are {names}")).into());
@@ -66,7 +67,9 @@ impl Block {
             return Err(fault("this block cannot be stepped by itself".to_owned()).into());
         };
         if let Some(key) = lacks(&setup, name) {
-            return Err(fault(format!("scenario {} has none: {key}", setup.name)).into());
+            return Err(
+                fault(format!("expected one that this scenario has: {key} is not set")).into()
+            );
         }
         top::check(&setup)?;
         let sizes = setup.params.sizes();

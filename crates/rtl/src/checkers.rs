@@ -48,7 +48,10 @@ impl Checkers {
     pub fn files(&self) -> Vec<(&'static str, String)> {
         vec![
             ("tofsim_pkg.sv", self.package()),
-            ("tofsim_photons.sv", include_str!("checkers/photons.sv").replace("{name}", &self.setup.name)),
+            (
+                "tofsim_photons.sv",
+                include_str!("checkers/photons.sv").replace("{name}", &self.setup.name),
+            ),
             ("tofsim_checkers.sv", self.checkers()),
             ("tofsim_bind.sv", self.binds()),
         ]
@@ -63,8 +66,10 @@ impl Checkers {
     }
 
     fn package(&self) -> String {
-        let ([inputs, outputs], version) = ([0, 1].map(|which| self.line(which).0), env!("CARGO_PKG_VERSION"));
-        let escape = |text: &str| text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n");
+        let ([inputs, outputs], version) =
+            ([0, 1].map(|which| self.line(which).0), env!("CARGO_PKG_VERSION"));
+        let escape =
+            |text: &str| text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n");
         format!(
             include_str!("checkers/package.sv"),
             version = version,
@@ -82,15 +87,23 @@ impl Checkers {
             let [given, shown] = block.layouts();
             let ports = ports(block);
             let widths = ports.iter().map(|(name, _)| format!("    parameter int {name}_bits = 1"));
-            let port = |(name, _): &(String, u32)| format!("    input bit [{name}_bits-1:0] {name}");
+            let port =
+                |(name, _): &(String, u32)| format!("    input bit [{name}_bits-1:0] {name}");
             let check = |(name, _): &(String, u32)| {
-                format!("    wrong += int'(tofsim_port(tofsim_model, \"{name}\", {name}_bits) == 0);")
+                format!(
+                    "    wrong += int'(tofsim_port(tofsim_model, \"{name}\", {name}_bits) == 0);"
+                )
             };
             format!(
                 include_str!("checkers/checker.sv"),
                 name = block.name(),
                 widths = join(widths, ",\n"),
-                ports = join(clocks(block).map(|clock| format!("    input bit {clock}")).chain(ports.iter().map(port)), ",\n"),
+                ports = join(
+                    clocks(block)
+                        .map(|clock| format!("    input bit {clock}"))
+                        .chain(ports.iter().map(port)),
+                    ",\n"
+                ),
                 checks = join(ports.iter().map(check), "\n"),
                 inputs = line(given, inputs),
                 outputs = line(shown, outputs),
@@ -99,7 +112,11 @@ impl Checkers {
             )
         };
         let text: String = self.blocks.iter().map(checker).collect();
-        format!("`timescale 1fs / 1fs\n\n// Checkers of tofsim {}, scenario {}.\n{text}", env!("CARGO_PKG_VERSION"), self.setup.name)
+        format!(
+            "`timescale 1fs / 1fs\n\n// Checkers of tofsim {}, scenario {}.\n{text}",
+            env!("CARGO_PKG_VERSION"),
+            self.setup.name
+        )
     }
 
     fn binds(&self) -> String {
@@ -115,7 +132,9 @@ impl Checkers {
             )
         };
         let text: String = self.blocks.iter().map(bind).collect();
-        format!("// Binds checkers to modules of these names; yours may have others, or fewer of them.\n{text}")
+        format!(
+            "// Binds checkers to modules of these names; yours may have others, or fewer of them.\n{text}"
+        )
     }
 }
 

@@ -1,0 +1,90 @@
+//! Benches with checkers, compiled by Verilator and run.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::Arc;
+
+use tofsim::Setup;
+use tofsim_rtl::checkers::{Checkers, blocks_of};
+
+/// The root of the repository.
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
+}
+
+/// The folder with the library, which is that of the tests.
+pub fn library() -> PathBuf {
+    let own = std::env::current_exe().unwrap();
+    let folder = own.parent().unwrap().parent().unwrap().to_owned();
+    assert!(
+        folder.join("libtofsim_dpi.so").is_file(),
+        "{}: cargo build -p tofsim-dpi",
+        folder.display()
+    );
+    folder
+}
+
+/// The design: every file of rtl_ref but the tops of boards, which have primitives of their makers.
+pub fn design() -> Vec<PathBuf> {
+    let files = std::fs::read_dir(root().join("rtl_ref")).unwrap().map(|file| file.unwrap().path());
+    let is_board = |name: &str| ["kc705_top.v", "ecp5_top.v"].contains(&name);
+    let mut files: Vec<_> = files
+        .filter(|path| path.extension().is_some_and(|end| end == "v"))
+        .filter(|path| !is_board(path.file_name().unwrap().to_str().unwrap()))
+        .collect();
+    files.sort();
+    files
+}
+
+/// Writes the checkers of a scenario, for those blocks or all.
+pub fn write(folder: &Path, (scenario, set): (&str, &[&str]), blocks: Option<&[&str]>) {
+    let setup = Arc::new(Setup::load(scenario, set).unwrap());
+    let all: Vec<_> = blocks_of(&setup).iter().map(|spec| spec.name).collect();
+    let told = [&[scenario], set].concat().join("\n");
+    let names = blocks.map_or(all, <[_]>::to_vec);
+    for (name, text) in Checkers::new(setup, told, names).unwrap().files() {
+        std::fs::write(folder.join(name), text).unwrap();
+    }
+}
+
+/// What a simulation printed, and whether it came to its end.
+pub struct Run {
+    pub text: String,
+    pub is_fine: bool,
+}
+
+/// Compiles files with the checkers in a folder; the program.
+pub fn compile(folder: &Path, top: &str, files: &[PathBuf], options: &[&str]) -> PathBuf {
+    let checkers =
+        ["tofsim_pkg.sv", "tofsim_photons.sv", "tofsim_checkers.sv"].map(|name| folder.join(name));
+    let rpath = format!("-Wl,-rpath,{}", library().display());
+    let built = Command::new("verilator")
+        .args([
+            "--binary",
+            "--timing",
+            "-Wno-fatal",
+            "-Wno-lint",
+            "-Wno-style",
+            "-Wno-TIMESCALEMOD",
+        ])
+        .args(["-CFLAGS", "-O0", "--top-module", top, "-o", "bench", "--Mdir"])
+        .arg(folder.join("build"))
+        .args(options)
+        .args(checkers)
+        .args(files)
+        .arg(folder.join("tofsim_bind.sv"))
+        .arg(library().join("libtofsim_dpi.so"))
+        .args(["-LDFLAGS", &rpath])
+        .output()
+        .expect("verilator: apt-get install verilator");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    assert!(built.status.success(), "{}{}", text(&built.stdout), text(&built.stderr));
+    folder.join("build/bench")
+}
+
+/// Runs a program in a folder.
+pub fn run(program: &Path, folder: &Path, plusargs: &[&str]) -> Run {
+    let run = Command::new(program).args(plusargs).current_dir(folder).output().unwrap();
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    Run { text: text(&run.stdout) + &text(&run.stderr), is_fine: run.status.success() }
+}
