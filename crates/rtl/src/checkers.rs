@@ -14,6 +14,8 @@ use crate::golden::ports::Port;
 use crate::golden::timing;
 use crate::golden::{BLOCKS, Spec};
 
+mod vpi;
+
 /// What checkers are written for.
 pub struct Checkers {
     setup: Arc<Setup>,
@@ -68,8 +70,6 @@ impl Checkers {
     fn package(&self) -> String {
         let ([inputs, outputs], version) =
             ([0, 1].map(|which| self.line(which).0), env!("CARGO_PKG_VERSION"));
-        let escape =
-            |text: &str| text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n");
         format!(
             include_str!("checkers/package.sv"),
             version = version,
@@ -183,6 +183,11 @@ fn edges(spec: &Spec, cycle: u64) -> String {
         timing::NONE => format!(include_str!("checkers/quarters.sv"), cycle = cycle, looks = 1),
         timing => format!("  always @(posedge {}) tofsim_check(1);\n", timing.clock),
     }
+}
+
+/// A text as Verilog writes it between quotes.
+fn escape(text: &str) -> String {
+    text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n")
 }
 
 fn join(lines: impl Iterator<Item = String>, between: &str) -> String {

@@ -24,6 +24,9 @@ use super::terminal::Talk;
 ///
 ///   verilator --binary --timing DIR/*.sv ... target/release/libtofsim_dpi.so
 ///
+/// For Icarus, which has neither DPI nor bind, DIR gets tofsim_vpi.v (the same in Verilog, and tofsim_attach, a second
+/// top that connects it) and tofsim_vpi.c (the functions over VPI).
+///
 /// docs/bench.md has a whole example. The first mismatch ends the simulation with cycle, signal, expected and got.
 #[derive(Debug, clap::Args)]
 pub struct Args {
@@ -52,6 +55,8 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     let _held = FolderLock::take(&args.output)?;
     let stage = StagedFolder::new(&args.output)?;
     let files = checkers.files().into_iter().chain([
+        ("tofsim_vpi.v", checkers.verilog()),
+        ("tofsim_vpi.c", include_str!("../../../dpi/vpi/tofsim_vpi.c").to_owned()),
         ("tofsim.h", include_str!("../../../dpi/include/tofsim.h").to_owned()),
         ("Makefile", include_str!("dpi/Makefile").to_owned()),
     ]);
