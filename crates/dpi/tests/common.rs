@@ -42,9 +42,41 @@ pub fn write(folder: &Path, (scenario, set): (&str, &[&str]), blocks: Option<&[&
     let all: Vec<_> = blocks_of(&setup).iter().map(|spec| spec.name).collect();
     let told = [&[scenario], set].concat().join("\n");
     let names = blocks.map_or(all, <[_]>::to_vec);
-    for (name, text) in Checkers::new(setup, told, names).unwrap().files() {
+    let checkers = Checkers::new(setup, told, names).unwrap();
+    for (name, text) in checkers.files() {
         std::fs::write(folder.join(name), text).unwrap();
     }
+    std::fs::write(folder.join("tofsim_vpi.v"), checkers.verilog()).unwrap();
+}
+
+/// Builds and runs the example's bench with a design by the Makefile that `tofsim dpi` writes.
+pub fn make(folder: &Path, target: &str, design: &[PathBuf], plusargs: &str) -> Run {
+    let own = [
+        ("crates/cli/src/verbs/dpi/Makefile", "Makefile"),
+        ("crates/dpi/vpi/tofsim_vpi.c", "tofsim_vpi.c"),
+        ("crates/dpi/include/tofsim.h", "tofsim.h"),
+    ];
+    for (from, to) in own {
+        std::fs::copy(root().join(from), folder.join(to)).unwrap();
+    }
+    let files = design.iter().map(|path| path.display().to_string());
+    let files: Vec<_> = files.chain(["examples/bench/tb.sv".to_owned()]).collect();
+    let run = Command::new("make")
+        .arg("-f")
+        .arg(folder.join("Makefile"))
+        .args([
+            target,
+            "TOP=tb",
+            &format!("DESIGN={}", files.join(" ")),
+            &format!("ARGS={plusargs}"),
+        ])
+        .arg(format!("LIB={}", library().display()))
+        .arg(format!("BUILD={}", folder.join("build").display()))
+        .current_dir(root())
+        .output()
+        .expect("make: apt-get install make");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    Run { text: text(&run.stdout) + &text(&run.stderr), is_fine: run.status.success() }
 }
 
 /// What a simulation printed, and whether it came to its end.

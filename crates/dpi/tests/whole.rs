@@ -1,20 +1,42 @@
 //! The whole reference design with photons and all checkers, as docs/bench.md has it.
 
-use tofsim::{Run, Setup};
+use std::path::{Path, PathBuf};
 
-use super::common::{compile, design, root, run, write};
+use tofsim::Setup;
+
+use super::common::{Run, compile, design, make, root, run, write};
 
 const SHOTS: &[&str] = &["firmware.shots_per_frame=300"];
 
 /// Its frames as the bench prints them.
 fn frames(count: u64) -> String {
     let setup = Setup::load("kc705", SHOTS).unwrap();
-    let frames = Run::new(&setup).frames(count).unwrap();
+    let frames = tofsim::Run::new(&setup).frames(count).unwrap();
     frames
         .iter()
         .map(|frame| format!("frame {}: depth {}\n", frame.index, frame.depth.get()))
         .collect()
 }
+
+/// That of a simulation.
+fn printed(run: &Run) -> String {
+    let lines = run.text.lines().filter(|line| line.starts_with("frame "));
+    lines.map(|line| format!("{line}\n")).collect()
+}
+
+/// The design with a fault in its frame controller: it leaves Clear a word too early.
+fn faulty(folder: &Path) -> Vec<PathBuf> {
+    let (name, mut files) = ("frame_ctrl.v", design());
+    files.retain(|path| !path.ends_with(name));
+    let text = std::fs::read_to_string(root().join("rtl_ref").join(name)).unwrap();
+    let [old, new] = ["(!(&clear_addr))", "(!(&clear_addr[BinBits-1:1]))"];
+    assert_eq!(text.matches(old).count(), 1);
+    std::fs::write(folder.join(name), text.replace(old, new)).unwrap();
+    files.push(folder.join(name));
+    files
+}
+
+const MISMATCH: &str = "frame_ctrl: cycle ";
 
 #[test]
 #[ignore = "long: ./check --full"]
@@ -25,11 +47,31 @@ fn frames_of_the_reference_are_those_of_a_run_and_no_checker_objects() {
     let program = compile(folder.path(), "tb", &files, &["-GFrames=2"]);
     let run = run(&program, &root(), &["+tofsim_from_power_up"]);
     assert!(run.is_fine, "{}", run.text);
-    let printed: String = run
-        .text
-        .lines()
-        .filter(|line| line.starts_with("frame "))
-        .map(|line| format!("{line}\n"))
-        .collect();
-    assert_eq!(printed, frames(2), "{}", run.text);
+    assert_eq!(printed(&run), frames(2), "{}", run.text);
+}
+
+#[test]
+#[ignore = "long: ./check --full"]
+fn the_makefile_builds_and_a_fault_stops_it() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), ("kc705", SHOTS), Some(&["frame_ctrl", "tof_top"]));
+    let run = make(folder.path(), "verilator", &faulty(folder.path()), "");
+    assert!(!run.is_fine && run.text.contains(MISMATCH), "{}", run.text);
+    assert!(run.text.contains("frame_ctrl is not as the model has it"), "{}", run.text);
+    assert_eq!(printed(&run), "");
+}
+
+#[test]
+fn icarus_has_the_same_over_vpi() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), ("kc705", SHOTS), None);
+    let run = make(folder.path(), "icarus", &design(), "+tofsim_from_power_up");
+    assert!(run.is_fine, "{}", run.text);
+    assert_eq!(printed(&run), frames(1), "{}", run.text);
+    let run = make(folder.path(), "icarus", &faulty(folder.path()), "");
+    assert!(!run.is_fine && run.text.contains(MISMATCH), "{}", run.text);
+    write(folder.path(), ("long", SHOTS), Some(&["frame_ctrl"]));
+    let run = make(folder.path(), "icarus", &design(), "");
+    let said = "frame_ctrl.clear_addr: the design has 8 bits, the scenario 10";
+    assert!(!run.is_fine && run.text.contains(said), "{}", run.text);
 }

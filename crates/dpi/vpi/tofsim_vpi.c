@@ -3,7 +3,7 @@
  *   iverilog-vpi tofsim_vpi.c -L<folder of libtofsim_dpi.so> -ltofsim_dpi
  *   vvp -M . -m tofsim_vpi <simulation>
  *
- * A handle is a number of 64 bits. $tofsim_report(handle) prints the errors of a handle and forgets them. */
+ * A handle is a number. $tofsim_report(handle) prints the errors of a handle and forgets them. */
 #include <stdlib.h>
 #include <string.h>
 #include <vpi_user.h>
@@ -56,10 +56,9 @@ static uint32_t *bits(vpiHandle arg) {
   return all;
 }
 
-static PLI_INT32 give(struct call call, long long result) {
-  s_vpi_vecval words[2] = {{(PLI_INT32)result, 0}, {(PLI_INT32)(result >> 32), 0}};
-  s_vpi_value value = {.format = vpiVectorVal};
-  value.value.vector = words;
+static PLI_INT32 give(struct call call, int result) {
+  s_vpi_value value = {.format = vpiIntVal};
+  value.value.integer = result;
   vpi_put_value(call.itself, &value, NULL, vpiNoDelay);
   return 0;
 }
@@ -70,7 +69,7 @@ static PLI_INT32 make(PLI_BYTE8 *data) {
   void *made = block ? tofsim_new(version, scenario, block) : tofsim_photons_new(version, scenario);
   free(version), free(scenario), free(block);
   (void)data;
-  return give(call, (long long)(size_t)made);
+  return give(call, (int)(size_t)made);
 }
 
 /* The width is that of the signal itself. */
@@ -124,10 +123,16 @@ static PLI_INT32 photons_edge(PLI_BYTE8 *data) {
   return 0;
 }
 
+/* Into its second argument: a function of more than 32 bits would need a table beside it. */
 static PLI_INT32 photons_next(PLI_BYTE8 *data) {
   struct call call = begin();
+  long long next = tofsim_photons_next(handle(call.args[0]));
+  s_vpi_vecval words[2] = {{(PLI_INT32)next, 0}, {(PLI_INT32)(next >> 32), 0}};
+  s_vpi_value value = {.format = vpiVectorVal};
+  value.value.vector = words;
   (void)data;
-  return give(call, tofsim_photons_next(handle(call.args[0])));
+  if (call.args[1]) vpi_put_value(call.args[1], &value, NULL, vpiNoDelay);
+  return 0;
 }
 
 static PLI_INT32 photons_level(PLI_BYTE8 *data) {
@@ -136,17 +141,9 @@ static PLI_INT32 photons_level(PLI_BYTE8 *data) {
   return give(call, tofsim_photons_level(handle(call.args[0])));
 }
 
-static PLI_INT32 of_64(PLI_BYTE8 *data) {
-  (void)data;
-  return 64;
-}
-
 static void add(PLI_INT32 type, const char *name, PLI_INT32 (*called)(PLI_BYTE8 *)) {
   s_vpi_systf_data data = {.type = type, .tfname = (PLI_BYTE8 *)name, .calltf = called};
-  if (type == vpiSysFunc) {
-    data.sysfunctype = vpiSizedSignedFunc;
-    data.sizetf = of_64;
-  }
+  if (type == vpiSysFunc) data.sysfunctype = vpiIntFunc;
   vpi_register_systf(&data);
 }
 
@@ -159,7 +156,7 @@ static void all(void) {
   add(vpiSysTask, "$tofsim_stop", stop);
   add(vpiSysTask, "$tofsim_report", report);
   add(vpiSysTask, "$tofsim_photons_edge", photons_edge);
-  add(vpiSysFunc, "$tofsim_photons_next", photons_next);
+  add(vpiSysTask, "$tofsim_photons_next", photons_next);
   add(vpiSysFunc, "$tofsim_photons_level", photons_level);
 }
 

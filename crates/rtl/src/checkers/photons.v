@@ -40,11 +40,11 @@ module tofsim_photons #(
     forever begin
       wait (asked != served);
       served = asked;
-      due = $tofsim_photons_next(photons);
+      $tofsim_photons_next(photons, due);
       while (due >= 0) begin
         if (due > $time) #(due - $time);
         tdc_stop = $tofsim_photons_level(photons) != 0;
-        due = $tofsim_photons_next(photons);
+        $tofsim_photons_next(photons, due);
       end
     end
 endmodule
