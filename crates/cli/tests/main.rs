@@ -13,6 +13,7 @@ mod compare;
 mod conditions;
 mod control;
 mod dataset;
+mod dpi;
 mod drift_note;
 mod error_budget;
 mod estimate;
