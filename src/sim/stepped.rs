@@ -24,6 +24,9 @@ pub struct SteppedRun {
     begun: u64,
     entries: Vec<Entry>,
     seen: Seen,
+    /// Instants at which the wire from the detector changed.
+    stops: Vec<Time>,
+    keeps_stops: bool,
 }
 
 /// What the last edge took.
@@ -54,7 +57,7 @@ impl SteppedRun {
     /// From power-up, just before the first edge.
     pub fn new(setup: Arc<Setup>) -> Self {
         let mut device = setup.device();
-        device.power_up(&mut Off, &mut Off);
+        let stops = power_up(&mut device);
         let entries = entries(&setup.params);
         let mut seen = Seen {
             part: Part::of(entries.iter().map(|entry| entry.id)),
@@ -62,13 +65,39 @@ impl SteppedRun {
             begin: Time::ZERO,
         };
         seen.part.show(&device.top, &mut seen.values);
-        SteppedRun { setup, device, frames: Frames::default(), begun: 0, entries, seen }
+        SteppedRun {
+            setup,
+            device,
+            frames: Frames::default(),
+            begun: 0,
+            entries,
+            seen,
+            stops,
+            keeps_stops: false,
+        }
+    }
+
+    /// The same, not yet stepped, but it keeps when `tdc_stop` changes, for [`SteppedRun::take_stops`].
+    pub fn keeping_stops(self) -> Self {
+        SteppedRun { keeps_stops: true, ..self }
+    }
+
+    /// The instants at which `tdc_stop` changed since they were last taken, in order, if they are kept; the first of all
+    /// is a rise. A step goes on past its edge for three quarters of a cycle, and has what changes until then.
+    pub fn take_stops(&mut self) -> Option<Vec<Time>> {
+        self.keeps_stops.then(|| std::mem::take(&mut self.stops))
     }
 
     /// Takes an edge of `clk_sys`; the frame that it finished, if it did.
     pub fn step(&mut self) -> Option<Frame> {
-        let SteppedRun { setup, device, frames, seen, .. } = self;
+        let SteppedRun { setup, device, frames, seen, stops, .. } = self;
+        let past = device.line.since(Time::ZERO).next().unwrap_or(Time::ZERO);
         device.step(&setup.params, seen, &mut Off);
+        if self.keeps_stops {
+            let begin = stops.len();
+            stops.extend(device.line.since(past));
+            stops[begin..].reverse();
+        }
         let frame = frames.edge(device.cycle() - 1, &device.top, &setup.params);
         let done = frames.done();
         if done > self.begun && !device.top.socket.algo_done {
@@ -141,6 +170,18 @@ impl SteppedRun {
     }
 }
 
+/// From power-up until just before the first edge; when the wire changes in that time.
+fn power_up(device: &mut Device) -> Vec<Time> {
+    let (until, mut changes) = (device.pll.locked_at, Vec::new());
+    while device.next_event() <= until {
+        let (now, level) = (device.next_event(), device.line.level());
+        device.settle(now, &mut Off, &mut Off);
+        changes.extend((device.line.level() != level).then_some(now));
+    }
+    device.power_up(&mut Off, &mut Off);
+    changes
+}
+
 /// A signal that was found by its name.
 #[derive(Clone, Copy, Debug)]
 pub struct SignalHandle(Shown);
@@ -173,6 +214,47 @@ mod tests {
         }
         outcome.unwrap();
         assert_eq!(frames, Run::new(&setup).frames(3).unwrap());
+    }
+
+    /// Keeps when the wire changes, as every sample of a run shows it.
+    #[derive(Default)]
+    struct Wire {
+        level: bool,
+        changes: Vec<Time>,
+    }
+
+    impl SignalProbe for Wire {
+        const ON: bool = true;
+
+        fn sample(&mut self, now: Time, top: &TofTop) {
+            if top.pins.tdc_stop != self.level {
+                self.level = top.pins.tdc_stop;
+                self.changes.push(now);
+            }
+        }
+    }
+
+    #[test]
+    fn the_stops_that_are_kept_are_a_run_s() {
+        for set in [&[][..], &["firmware.mode=1", "spad.dead_time_ns=30"]] {
+            let setup = setup(set);
+            let mut run = SteppedRun::new(Arc::clone(&setup));
+            assert_eq!(run.take_stops(), None);
+            run = run.keeping_stops();
+            let (mut device, mut wire) = (setup.device(), Wire::default());
+            device.power_up(&mut wire, &mut Off);
+            let mut stops = Vec::new();
+            for edge in 0..600 {
+                run.step();
+                device.step(&setup.params, &mut wire, &mut Off);
+                if edge % 7 == 0 {
+                    stops.extend(run.take_stops().unwrap());
+                }
+            }
+            stops.extend(run.take_stops().unwrap());
+            assert!(stops.len() > 60, "{}", stops.len());
+            assert_eq!(stops, wire.changes, "{set:?}");
+        }
     }
 
     #[test]

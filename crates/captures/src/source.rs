@@ -18,6 +18,7 @@ mod signals;
 mod simulation;
 mod span;
 mod state;
+mod stopped;
 mod stream;
 mod tick;
 mod translated;

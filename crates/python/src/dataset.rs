@@ -1,15 +1,16 @@
 //! `tofsim.dataset`: histograms of many scenes, some at a time.
 
+use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use tofsim::error::Input;
+use tofsim::error::{Error, Input};
 use tofsim_cli::verbs::scenes::Scenes;
 use tofsim_learn::dataset::grid::{DISTANCE, IRRADIANCE, MOST_ROWS, REFLECTANCE};
-use tofsim_learn::dataset::{Grid, GridPurpose, Rows, Sample, Subset};
+use tofsim_learn::dataset::{BLOCK, Grid, GridPurpose, Rows, Sample, Subset};
 
 use crate::arrays::table;
 use crate::errors::Result;
@@ -91,8 +92,16 @@ impl Batches {
         }
         let drawn = Arc::clone(&self.drawn);
         let terms = Terms { threads: self.threads, progress: None };
-        let samples = running::run(py, terms, move |_| {
-            Ok(drawn.scenes.source.block(&drawn.rows, drawn.seed, begin..end))
+        let samples = running::run(py, terms, move |watch| {
+            let mut samples = Vec::new();
+            for from in (begin..end).step_by(BLOCK as usize) {
+                if watch.stop.load(Ordering::Relaxed) {
+                    return Err(Error::Interrupted);
+                }
+                let block = from..end.min(from + BLOCK);
+                samples.extend(drawn.scenes.source.block(&drawn.rows, drawn.seed, block));
+            }
+            Ok(samples)
         })?;
         self.batch_of(py, &samples).map(Some)
     }

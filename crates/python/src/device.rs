@@ -3,12 +3,12 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use numpy::PyArray2;
+use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use tofsim::Setup;
-use tofsim::error::Error;
+use tofsim::error::{Error, Input};
 use tofsim::sim::stepped::{SignalHandle, SteppedRun};
 
 use crate::arrays::table;
@@ -57,10 +57,15 @@ fn locked(state: &Mutex<State>) -> MutexGuard<'_, State> {
 #[pymethods]
 impl Device {
     #[new]
-    #[pyo3(signature = (scenario = None, *, seed = None))]
-    fn new(scenario: Option<&Bound<'_, PyAny>>, seed: Option<u64>) -> Result<Self> {
+    #[pyo3(signature = (scenario = None, *, seed = None, keep_stops = false))]
+    fn new(
+        scenario: Option<&Bound<'_, PyAny>>,
+        seed: Option<u64>,
+        keep_stops: bool,
+    ) -> Result<Self> {
         let setup = Arc::new(Setup::new(Scenario::of(scenario)?.seeded(seed))?);
         let run = SteppedRun::new(Arc::clone(&setup));
+        let run = if keep_stops { run.keeping_stops() } else { run };
         let state = State { run, frames: Vec::new(), handles: HashMap::new() };
         Ok(Device { setup, state: Arc::new(Mutex::new(state)) })
     }
@@ -139,6 +144,15 @@ impl Device {
     fn frames(&self) -> Vec<Frame> {
         let frames = std::mem::take(&mut locked(&self.state).frames);
         frames.iter().map(|frame| Frame::new(Arc::clone(&self.setup), frame)).collect()
+    }
+
+    /// The instants at which `tdc_stop` changed since this was last asked for [fs]; the first change is a rise. The last
+    /// step goes on past its edge for three quarters of a cycle.
+    fn stops<'py>(&self, py: Python<'py>) -> Result<Bound<'py, PyArray1<u64>>> {
+        let kept = locked(&self.state).run.take_stops();
+        let fault = || Input::new("stops", "expected a device with keep_stops=True");
+        let stops = kept.ok_or_else(fault)?.iter().map(|at| at.fs()).collect();
+        Ok(PyArray1::from_vec(py, stops))
     }
 
     /// Drives pins of the acquisition computer from now on: `rst`, `mode`, `laser_freq`, `laser_en`, `dsp_en`, `dsp_rst`.

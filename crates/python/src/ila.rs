@@ -1,12 +1,13 @@
 //! `tofsim.ila`: captures of logic analysers as arrays.
 
 use std::path::PathBuf;
+use std::sync::atomic::Ordering;
 
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use tofsim::error::Input;
+use tofsim::error::{Error, Input};
 use tofsim_captures::ila::Radix;
 use tofsim_captures::ila::read::{CaptureForm, CaptureRow, Column, open};
 use tofsim_cli::choice::RADIX;
@@ -14,6 +15,9 @@ use tofsim_cli::choice::RADIX;
 use crate::arrays::table;
 use crate::errors::Result;
 use crate::running::{self, Terms};
+
+/// Samples between two looks at whether to stop.
+const BETWEEN: usize = 1 << 10;
 
 /// The radix of that name.
 pub fn radix_of(name: Option<&str>) -> Result<Option<Radix>> {
@@ -47,7 +51,7 @@ pub fn read_ila<'py>(
 ) -> Result<Bound<'py, PyDict>> {
     let radix = radix_of(radix)?;
     let terms = Terms { threads: Some(1), progress: None };
-    let read = running::run(py, terms, move |_| {
+    let read = running::run(py, terms, move |watch| {
         let mut opened = open(&path, radix)?;
         let columns = opened.columns;
         let mut read = Read {
@@ -63,6 +67,9 @@ pub fn read_ila<'py>(
         };
         let mut row = CaptureRow::default();
         while opened.rows.next(&mut row)? {
+            if read.samples % BETWEEN == 0 && watch.stop.load(Ordering::Relaxed) {
+                return Err(Error::Interrupted);
+            }
             read.take(&row);
         }
         Ok(read)

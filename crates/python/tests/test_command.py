@@ -39,3 +39,11 @@ def test_an_answer_is_what_the_command_prints() -> None:
     assert found[0]["name"] == "kc705"
     with pytest.raises(tofsim.InputError, match="unexpected argument '--bogus'"):
         tofsim.command("run", "--bogus")
+
+
+def test_the_page_is_refused_for_there_is_no_server() -> None:
+    said = "serve: is not in the Python package, which has no server"
+    done = run("serve")
+    assert done.returncode == 2 and said in done.stderr
+    with pytest.raises(tofsim.InputError, match=said):
+        tofsim.command("serve")

@@ -37,6 +37,21 @@ def test_a_trace_has_what_single_steps_show() -> None:
     assert len(codes) > 10
 
 
+def test_the_stops_are_where_the_wire_changes() -> None:
+    device = tofsim.Device(FEW, keep_stops=True)
+    stops: list[int] = []
+    for _ in range(600):
+        device.step()
+        stops += device.stops().tolist()
+        # What the edge took is what changed before it.
+        time = device.time_fs
+        assert time is not None
+        assert device["tdc_stop"] == sum(at < time for at in stops) % 2
+    assert len(stops) > 50 and stops == sorted(stops)
+    with pytest.raises(tofsim.InputError, match="expected a device with keep_stops=True"):
+        tofsim.Device(FEW).stops()
+
+
 def test_a_pin_that_is_driven_does_what_the_acquisition_computer_does() -> None:
     device = tofsim.Device(FEW)
     device.step(400)

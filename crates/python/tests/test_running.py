@@ -5,6 +5,7 @@ import signal
 import threading
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 import tofsim
@@ -74,6 +75,36 @@ def test_an_interruption_is_answered_at_once(name: str) -> None:
     took = interrupted(TASKS[name])
     print(f"{name}: {took:.3f} s")
     assert took < ALLOWED
+
+
+@pytest.fixture(scope="module")
+def captures(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """A long capture and a long waveform."""
+    folder = tmp_path_factory.mktemp("long")
+    rows = "\n".join(f"{k},{k},0,{k & 1:x},{k & 0xFFFF:04x}" for k in range(3_000_000))
+    head = "Sample in Buffer,Sample in Window,TRIGGER,start,tdc_code[15:0]\nRadix - UNSIGNED,UNSIGNED,UNSIGNED,HEX,HEX\n"
+    (folder / "long.csv").write_text(head + rows + "\n")
+    body = "\n".join(f"#{k}\n{k & 1}!" for k in range(4_000_000))
+    vcd = "$timescale 1ns $end\n$scope module tof_top $end\n$var wire 1 ! start $end\n$upscope $end\n$enddefinitions $end\n"
+    (folder / "long.vcd").write_text(f"{vcd}{body}\n")
+    return {"csv": folder / "long.csv", "vcd": folder / "long.vcd"}
+
+
+@pytest.mark.parametrize("name", ["dataset", "compare", "ila.read"])
+def test_what_is_interrupted_ends(name: str, captures: dict[str, Path]) -> None:
+    csv, vcd = captures["csv"], captures["vcd"]
+    tasks: dict[str, Callable[[], object]] = {
+        "dataset": lambda: list(tofsim.dataset(rows=5_000_000, batch=5_000_000)),
+        "compare": lambda: tofsim.compare(vcd, vcd),
+        "ila.read": lambda: tofsim.ila.read(csv),
+    }
+    took = interrupted(tasks[name], 0.15)
+    spent = time.process_time()
+    time.sleep(0.5)
+    spent = time.process_time() - spent
+    print(f"{name}: {took:.3f} s, {spent:.3f} s of work after it")
+    assert took < ALLOWED
+    assert spent < 0.25, "it works on"
 
 
 def test_a_run_after_an_interruption_is_as_any_other() -> None:

@@ -63,7 +63,7 @@ export function show(state) {
     input.value = toPosition(slider, slider.value);
     put(slider, input, output, slider.value);
   });
-  say($("scene-hint"), state.scene_fixed ? `The scene is fixed: ${state.scene_fixed}.` : "The next frame is of the new scene.");
+  say($("scene-hint"), state.scene_fixed ? `The scene is fixed: ${state.scene_fixed}.` : state.scene_coming ? "The next frame is of the new scene." : "");
   const notes = state.notes.join("\n");
   if ($("notes").dataset.notes === notes) return;
   $("notes").dataset.notes = notes;

@@ -2,6 +2,7 @@
 
 import { $, digits, seldom } from "./svg.js";
 import { text } from "./server.js";
+import { save } from "./picture.js";
 import { readVcd, view } from "./waves.js";
 
 // In the order in which a shot goes through them.
@@ -31,10 +32,14 @@ async function draw({ quiet = false } = {}) {
     label: `Waveform of the last shot, ${((end - from) / 1e3).toFixed(0)} ns; ${hit ? "with" : "without"} a code`,
     axis: (time, step) => digits((time - zero) / 1e3, step / 1e3),
   });
+  $("shot-svg").disabled = false;
   if (end - from > 2 * SHOWN) picture.move(from, SHOWN);
 }
 
-export const setUp = () => { $("shot-draw").onclick = () => draw(); };
+export function setUp() {
+  $("shot-draw").onclick = () => draw();
+  $("shot-svg").onclick = () => save($("shot-waves").querySelector("svg"), "shot.svg");
+}
 
 const follow = seldom(2000, () => draw({ quiet: true }));
 

@@ -77,6 +77,25 @@ fn a_moved_target_moves_the_depth() {
 }
 
 #[test]
+fn a_new_scene_is_coming_until_the_first_frame_of_it() {
+    let server = Server::start(&["--stopped", "--fidelity", "shot"]);
+    let coming = || server.state()["scene_coming"].as_bool().unwrap();
+    server.frames(1);
+    assert!(!coming());
+    server.stop_within_a_frame();
+    server.act("scene", "{\"target.distance_m\":0.3}");
+    assert!(coming());
+    // This frame is of the old scene still.
+    assert_eq!((&server.frames(1)["true_m"], coming()), (&0.5.into(), true));
+    assert_eq!((&server.frames(1)["true_m"], coming()), (&0.3.into(), false));
+    server.act("control", "{\"laser_freq\":1}");
+    assert!(!coming(), "a switch is no part of the scene");
+    server.act("scene", "{\"target.distance_m\":0.5}");
+    server.act("scene", "{\"target.distance_m\":0.3}");
+    assert!(!coming(), "it is as before");
+}
+
+#[test]
 fn light_and_fog_are_seen_too() {
     let server = Server::small(&[]);
     let before = server.frames(1);

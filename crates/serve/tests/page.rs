@@ -1,6 +1,7 @@
 //! The page in a browser.
 
 use std::path::PathBuf;
+use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
@@ -55,6 +56,51 @@ fn what_is_pressed_acts_on_the_run_and_shows() {
     browser.wait("document.querySelectorAll('#shot-waves .name').length > 10");
     assert_eq!(browser.complaints, Vec::<String>::new());
     assert_eq!(second.complaints, Vec::<String>::new());
+}
+
+#[test]
+#[ignore = "long: ./check --full"]
+fn the_picture_of_a_shot_is_a_file_of_its_own() {
+    let server = Server::small(&[]);
+    server.frames(1);
+    let mut browser = Chromium::open(&server.url, (1000, 900), "light");
+    let folder = tempfile::tempdir().unwrap();
+    browser.save_into(folder.path());
+    browser.press("w");
+    browser.wait("document.querySelectorAll('#shot-waves .name').length > 10");
+    browser.wait("!document.getElementById('shot-svg').disabled");
+    let signals = browser.value("document.querySelectorAll('#shot-waves .name').length");
+    browser.value("document.getElementById('shot-svg').click()");
+    let path = folder.path().join("shot.svg");
+    let until = Instant::now() + Duration::from_secs(30);
+    while !path.is_file() {
+        assert!(Instant::now() < until, "nothing was saved; {:?}", browser.complaints);
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let text = std::fs::read_to_string(path).unwrap();
+    assert!(text.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\""), "{text:.80}");
+    assert_eq!(text.matches("<title ").count() as u64, signals.as_u64().unwrap());
+    // The colour of a bit, which the page has from its style sheet.
+    assert!(
+        text.contains("stroke=\"rgb(11, 107, 58)\"") && !text.contains("class="),
+        "{text:.900}"
+    );
+    assert_eq!(browser.complaints, Vec::<String>::new());
+}
+
+#[test]
+#[ignore = "long: ./check --full"]
+fn the_hint_of_a_new_scene_is_there_until_a_frame_of_it_is() {
+    let server = Server::small(&[]);
+    server.frames(1);
+    let mut browser = Chromium::open(&server.url, (1000, 900), "light");
+    let hint = "document.getElementById('scene-hint').textContent";
+    assert_eq!(browser.value(hint), "");
+    server.act("scene", "{\"target.distance_m\":0.3}");
+    browser.wait(&format!("{hint} === 'The next frame is of the new scene.'"));
+    server.frames(1);
+    browser.wait(&format!("{hint} === ''"));
+    assert_eq!(browser.complaints, Vec::<String>::new());
 }
 
 #[test]

@@ -55,6 +55,11 @@ impl StopLine {
         known.map(move |at| now - *at)
     }
 
+    /// Instants of the last transitions that came after `past`, the newest first, as far back as it knows.
+    pub fn since(&self, past: Time) -> impl Iterator<Item = Time> {
+        self.recent.into_iter().take_while(move |at| *at != Time::NEVER && *at > past)
+    }
+
     /// Whether the taps of the last edge are those of every edge to come, until the level changes.
     #[inline(always)]
     pub fn is_shown_by(&self, taps: &Taps) -> bool {

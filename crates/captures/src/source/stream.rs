@@ -1,9 +1,12 @@
 //! Changes on their way from a reading thread to the comparison, in blocks.
 
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
+use std::time::Duration;
 
-use tofsim::error::Result;
+use tofsim::error::{Error, Result};
 
 use super::guard::guarded;
 use super::state::SourceState;
@@ -12,6 +15,8 @@ use super::state::SourceState;
 const BLOCK: usize = 1 << 15;
 /// Blocks under way.
 const DEPTH: usize = 4;
+/// Time between two looks at whether to stop, while a block is waited for.
+const LOOK: Duration = Duration::from_millis(50);
 
 /// What a logic analyser says of a sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -115,6 +120,8 @@ pub struct Cursor {
     instant: usize,
     change: usize,
     word: usize,
+    /// Set by somebody else to end it.
+    pub(super) stop: Arc<AtomicBool>,
     /// Values after the last instant taken.
     pub state: SourceState,
 }
@@ -139,18 +146,24 @@ impl Cursor {
             let _ = failed.try_send(Err(error));
         }
         let (block, state) = (Block::default(), SourceState::new(widths));
-        Cursor { blocks, block, instant: 0, change: 0, word: 0, state }
+        Cursor { blocks, block, instant: 0, change: 0, word: 0, stop: Arc::default(), state }
     }
 
     /// Place of the next instant, `None` at the end.
     ///
     /// # Errors
-    /// When the source cannot be read on.
+    /// When the source cannot be read on, or is stopped.
     #[inline]
     pub fn peek(&mut self) -> Result<Option<u64>> {
         while self.instant == self.block.instants.len() {
-            let Ok(block) = self.blocks.recv() else { return Ok(None) };
-            self.block = block?;
+            if self.stop.load(Ordering::Relaxed) {
+                return Err(Error::Interrupted);
+            }
+            self.block = match self.blocks.recv_timeout(LOOK) {
+                Ok(block) => block?,
+                Err(RecvTimeoutError::Timeout) => continue,
+                Err(RecvTimeoutError::Disconnected) => return Ok(None),
+            };
             (self.instant, self.change, self.word) = (0, 0, 0);
         }
         Ok(Some(self.block.instants[self.instant].at))
@@ -216,6 +229,23 @@ mod tests {
         assert_eq!(cursor.peek().unwrap(), Some(5));
         cursor.take(|_| ());
         assert_eq!(cursor.peek().unwrap_err().to_string(), "a.vcd: broken");
+    }
+
+    #[test]
+    fn who_waits_for_a_reader_can_be_stopped() {
+        let mut cursor = Cursor::spawn(&[1], |feed| {
+            while feed.at(0).is_ok() {
+                thread::sleep(LOOK);
+            }
+            Ok(())
+        });
+        let stop = Arc::clone(&cursor.stop);
+        let setter = thread::spawn(move || {
+            thread::sleep(LOOK);
+            stop.store(true, Ordering::Relaxed);
+        });
+        assert!(matches!(cursor.peek(), Err(Error::Interrupted)));
+        setter.join().unwrap();
     }
 
     #[test]

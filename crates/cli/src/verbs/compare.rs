@@ -4,6 +4,7 @@ mod values;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use values::{latency, time, tolerance, valid};
 
@@ -26,6 +27,7 @@ use crate::record::Record;
 use crate::report::comparison;
 
 use super::draws::load;
+use super::host::{Host, host};
 use super::terminal::{Talk, print};
 
 /// Compare two waveforms or captures: what A has is expected, what B has was got
@@ -188,6 +190,10 @@ pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
             let expected = "expected two files, or one and --scenario";
             return Err(Input::new("compare", expected).into());
         }
+    };
+    let (a, b) = match host() {
+        Some(Host { stop, .. }) => (a.stopped_by(Arc::clone(&stop)), b.stopped_by(stop)),
+        None => (a, b),
     };
     no_input_is_written(args)?;
     let options = options(args)?;

@@ -5,11 +5,13 @@
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 
-use tofsim::error::{Error, Result};
+use tofsim::error::{Error, Input, Result};
 use tofsim::scenario::DEFAULT;
 use tofsim::sim::setup::Setup;
 
 use super::draws::load;
+use super::host::host;
+use super::rerun;
 use super::terminal::Talk;
 
 /// What serves the page; it lies beside this program.
@@ -62,6 +64,11 @@ enum Way {
 
 /// Runs the command.
 pub fn run(args: &Args, talk: &Talk) -> Result<ExitCode> {
+    if rerun::PROGRAM.get().is_some() || host().is_some() {
+        let expected = "is not in the Python package, which has no server: install the command with \
+            `cargo install --path crates/cli` and `cargo install --path crates/serve`";
+        return Err(Input::new("serve", expected).into());
+    }
     let setup = Setup::new(load(&args.scenario, &args.set, args.seed)?)?;
     talk.heed(&setup.notes()?)?;
     let program = program()?;

@@ -93,6 +93,11 @@ pub fn sliders(setup: &Setup) -> Vec<Slider> {
     KEYS.iter().map(slider).collect()
 }
 
+/// Whether the scenes of two set-ups are not the same.
+pub fn differ(one: &Setup, other: &Setup) -> bool {
+    KEYS.iter().any(|key| (key.of)(&one.scenario) != (key.of)(&other.scenario))
+}
+
 fn of(key: &str) -> fn(&Scenario) -> f64 {
     KEYS.iter().find(|known| known.key == key).map_or(|_| 0.0, |known| known.of)
 }

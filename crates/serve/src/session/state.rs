@@ -51,6 +51,7 @@ impl Session {
                 .has_pairs()
                 .then_some("firmware.dark_frames switches the laser from frame to frame"),
             scene: scene::sliders(setup),
+            scene_coming: scene::differ(setup, &self.now.setup),
             scene_fixed: self.scene_fixed(),
             frame: self.frame.as_ref(),
             progress: ProgressView {

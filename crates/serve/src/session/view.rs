@@ -40,6 +40,8 @@ pub struct View<'a> {
     pub laser_fixed: Option<&'static str>,
     /// The scene.
     pub scene: Vec<Slider>,
+    /// Whether it has changed, and no frame of the new one has ended yet.
+    pub scene_coming: bool,
     /// Why the scene cannot be changed, if it cannot.
     pub scene_fixed: Option<&'static str>,
     /// The last frame.

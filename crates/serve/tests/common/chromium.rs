@@ -117,6 +117,12 @@ impl Chromium {
         panic!("{key} never makes it true: {expression}; {:?}", self.complaints);
     }
 
+    /// Where the page's files are saved.
+    pub fn save_into(&mut self, folder: &Path) {
+        let asked = json!({ "behavior": "allow", "downloadPath": folder });
+        self.call("Page.setDownloadBehavior", asked);
+    }
+
     /// All of the page as a picture.
     pub fn screenshot(&mut self, path: &Path) {
         let asked = json!({ "format": "png", "captureBeyondViewport": true });
