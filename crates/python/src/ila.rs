@@ -67,7 +67,7 @@ pub fn read_ila<'py>(
         };
         let mut row = CaptureRow::default();
         while opened.rows.next(&mut row)? {
-            if read.samples % BETWEEN == 0 && watch.stop.load(Ordering::Relaxed) {
+            if read.samples.is_multiple_of(BETWEEN) && watch.stop.load(Ordering::Relaxed) {
                 return Err(Error::Interrupted);
             }
             read.take(&row);
