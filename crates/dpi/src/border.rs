@@ -6,9 +6,10 @@ use std::ffi::{CStr, c_char, c_int, c_longlong, c_void};
 
 use tofsim::sim::photons::Shown;
 
-use crate::checker::{self, Checker, check_version};
+use crate::checker::Checker;
 use crate::held::{What, delete, errors, make, with};
 use crate::photons::Source;
+use crate::told::{self, check_version};
 
 /// The text of a string of C.
 ///
@@ -96,7 +97,7 @@ pub extern "C" fn tofsim_from_power_up(handle: *mut c_void) {
 #[unsafe(no_mangle)]
 pub extern "C" fn tofsim_stop(handle: *mut c_void, time_fs: c_longlong, level: c_int) {
     with("tofsim_stop", handle as usize, (), |held| {
-        let now = checker::instant(time_fs)?;
+        let now = told::instant(time_fs)?;
         held.checker()?.block.stop(now, level != 0);
         Ok(())
     });
@@ -123,7 +124,9 @@ pub unsafe extern "C" fn tofsim_step(
         let lines = unsafe {
             [vector("inputs", inputs, in_words)?, vector("outputs", outputs, out_words)?]
         };
-        checker::step(held, what, time_fs, lines).map(c_int::from)
+        let found = held.checker()?.step(what, time_fs, lines)?;
+        found.iter().for_each(|sentence| held.say(sentence));
+        Ok(found.is_empty().into())
     })
 }
 
@@ -143,7 +146,7 @@ pub unsafe extern "C" fn tofsim_outputs(
         let [in_words, out_words] = block.layouts().map(|layout| layout.words());
         // SAFETY: as of this function.
         let inputs = unsafe { vector("inputs", inputs, in_words)? };
-        let now = checker::instant(time_fs)?;
+        let now = told::instant(time_fs)?;
         let words = block.outputs(now, inputs).map_err(|error| error.to_string())?;
         if outputs.is_null() {
             return Err("outputs are null".to_owned());

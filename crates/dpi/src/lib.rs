@@ -8,5 +8,6 @@ mod border;
 mod checker;
 mod held;
 mod photons;
+mod told;
 
 pub use border::*;

@@ -2,7 +2,7 @@
 
 use tofsim::sim::photons::{Photons, Shown};
 
-use crate::checker::{instant, setup};
+use crate::told::{instant, setup};
 
 pub struct Source {
     photons: Photons,

@@ -52,7 +52,7 @@ pub fn write(folder: &Path, (scenario, set): (&str, &[&str]), blocks: Option<&[&
 /// Builds and runs the example's bench with a design by the Makefile that `tofsim dpi` writes.
 pub fn make(folder: &Path, target: &str, design: &[PathBuf], plusargs: &str) -> Run {
     let own = [
-        ("crates/cli/src/verbs/dpi/Makefile", "Makefile"),
+        ("crates/cli/src/verbs/dpi/bench.mk", "Makefile"),
         ("crates/dpi/vpi/tofsim_vpi.c", "tofsim_vpi.c"),
         ("crates/dpi/include/tofsim.h", "tofsim.h"),
     ];

@@ -35,7 +35,9 @@ pub struct Block {
     part: Part,
     outputs: Outputs,
     edges: u64,
+    /// Edges until outputs are compared; none before a reset.
     quiet: Option<u64>,
+    last_stop: Time,
     /// The bit of its reset, if it has one.
     reset: Option<usize>,
 }
@@ -100,6 +102,7 @@ impl Block {
             outputs,
             edges: 0,
             quiet,
+            last_stop: Time::ZERO,
             reset,
         })
     }
@@ -181,8 +184,9 @@ impl Block {
 
     /// `tdc_stop` changes; an instant before the last one is taken for that one.
     pub fn stop(&mut self, now: Time, level: bool) {
+        self.last_stop = now.max(self.last_stop);
         if level != self.line.level() {
-            self.line.toggle(now);
+            self.line.toggle(self.last_stop);
         }
     }
 

@@ -22,7 +22,7 @@ use super::terminal::Talk;
 ///
 ///   cargo build --release -p tofsim-dpi
 ///
-///   verilator --binary --timing DIR/*.sv ... target/release/libtofsim_dpi.so
+///   make -f DIR/Makefile verilator TOP=tb DESIGN="your files"
 ///
 /// For Icarus, which has neither DPI nor bind, DIR gets tofsim_vpi.v (the same in Verilog, and tofsim_attach, a second
 /// top that connects it) and tofsim_vpi.c (the functions over VPI).
@@ -58,7 +58,7 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
         ("tofsim_vpi.v", checkers.verilog()),
         ("tofsim_vpi.c", include_str!("../../../dpi/vpi/tofsim_vpi.c").to_owned()),
         ("tofsim.h", include_str!("../../../dpi/include/tofsim.h").to_owned()),
-        ("Makefile", include_str!("dpi/Makefile").to_owned()),
+        ("Makefile", include_str!("dpi/bench.mk").to_owned()),
     ]);
     for (name, text) in files {
         write_bytes(&stage.path().join(name), text)?;

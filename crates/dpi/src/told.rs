@@ -1,0 +1,45 @@
+//! What a bench tells in words and numbers.
+
+use std::sync::Arc;
+
+use tofsim::Setup;
+use tofsim::kernel::Time;
+use tofsim_rtl::golden::model::Edge;
+
+/// The scenario of a text: its name or path, and in further lines `key=value` overrides.
+pub fn setup(text: &str) -> Result<Arc<Setup>, String> {
+    let mut lines = text.lines().map(str::trim);
+    let name = lines.next().unwrap_or_default();
+    let set: Vec<_> = lines.filter(|line| !line.is_empty()).collect();
+    Setup::load(name, &set).map(Arc::new).map_err(|error| error.to_string())
+}
+
+/// Whether the other side was written by this version.
+pub fn check_version(version: &str) -> Result<(), String> {
+    let own = env!("CARGO_PKG_VERSION");
+    match version == own {
+        true => Ok(()),
+        false => Err(format!(
+            "the SystemVerilog is of tofsim {version}, this library of {own}: write it anew with `tofsim dpi`"
+        )),
+    }
+}
+
+/// What an edge's number in C means; 0 is none, a look only.
+pub fn edge(number: i32) -> Result<Option<Edge>, String> {
+    match number {
+        0 => Ok(None),
+        1 => Ok(Some(Edge::Rise)),
+        2 => Ok(Some(Edge::Middle)),
+        3 => Ok(Some(Edge::Fall)),
+        _ => Err(format!("edge {number}: expected 0 (none), 1 (rise), 2 (middle) or 3 (fall)")),
+    }
+}
+
+/// An instant of the bench's clock [fs].
+pub fn instant(time_fs: i64) -> Result<Time, String> {
+    match u64::try_from(time_fs) {
+        Ok(fs) if fs < u64::MAX / 2 => Ok(Time::from_fs(fs)),
+        _ => Err(format!("time {time_fs} fs: expected 0 or more")),
+    }
+}
