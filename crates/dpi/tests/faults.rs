@@ -120,6 +120,7 @@ fn plant(every: usize, least: usize) {
     let wrong: Vec<_> = seen.iter().filter_map(|seen| seen.as_ref().err()).cloned().collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     let count = seen.iter().filter(|seen| **seen == Ok(true)).count();
+    println!("{count} of {} faults are seen at ports", faults.len());
     assert!(count >= least, "{count} of {} are seen at ports", faults.len());
 }
 
