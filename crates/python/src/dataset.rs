@@ -1,11 +1,13 @@
-//! `tofsim.dataset`: histograms of many scenes, some at a time.
+//! Histograms of many scenes, which are drawn anywhere, some at a time.
 
+use std::ops::Range;
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::sync::{Arc, Mutex, PoisonError};
 
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
+use serde_json::json;
 
 use tofsim::error::{Error, Input};
 use tofsim_cli::verbs::scenes::Scenes;
@@ -14,56 +16,111 @@ use tofsim_learn::dataset::{BLOCK, Grid, GridPurpose, Rows, Sample, Subset};
 
 use crate::arrays::table;
 use crate::errors::Result;
+use crate::objects::object;
 use crate::running::{self, Terms};
 use crate::scenario::Scenario;
 
-/// Batches of drawn histograms, each a dictionary of arrays.
-#[pyclass(module = "tofsim", frozen)]
-pub struct Batches {
-    drawn: Arc<Drawn>,
-    batch: u64,
-    threads: Option<usize>,
-    next: Mutex<u64>,
+/// Which scenes, and what draws their histograms: the rows of `tofsim dataset` with the same options. It travels as the
+/// text of its scenario.
+#[pyclass(module = "tofsim._tofsim", frozen)]
+pub struct Dataset {
+    scenario: Scenario,
+    /// `--grid`, `--rows`, `--repeats` and `--seed`, as they were given.
+    options: (Vec<String>, Option<u64>, u64, Option<u64>),
+    pub(crate) drawn: Arc<Drawn>,
 }
 
 /// What is drawn.
-struct Drawn {
-    scenes: Scenes,
-    rows: Rows,
-    seed: u64,
+pub struct Drawn {
+    pub scenes: Scenes,
+    pub rows: Rows,
+    pub seed: u64,
+}
+
+impl Dataset {
+    /// The command that draws the same, but for the formats of its files.
+    pub fn command(&self) -> Vec<String> {
+        let (grid, rows, repeats, seed) = &self.options;
+        let set = self.scenario.loaded.set.iter().map(|set| format!("--set={set}"));
+        let rows = rows.map(|rows| format!("--rows={rows}"));
+        let seed = seed.map(|seed| format!("--seed={seed}"));
+        let grid = grid.iter().map(|grid| format!("--grid={grid}"));
+        let repeats = (*repeats != 5).then(|| format!("--repeats={repeats}"));
+        let options = set.chain(rows).chain(seed).chain(grid).chain(repeats);
+        ["dataset".to_owned()].into_iter().chain(options).chain([self.scenario.word()]).collect()
+    }
+
+    /// Draws neighbouring rows, on so many threads.
+    fn samples(
+        &self,
+        py: Python<'_>,
+        range: Range<u64>,
+        threads: Option<usize>,
+    ) -> Result<Vec<Sample>> {
+        let count = self.drawn.rows.count();
+        if range.end > count || range.start > range.end {
+            let value = format!("{range:?}");
+            return Err(Input::new("rows", format!("expected rows of {count}"))
+                .value(value)
+                .into());
+        }
+        // The task may be left to itself.
+        let drawn = Arc::clone(&self.drawn);
+        running::run(py, Terms { threads, progress: None }, move |watch| {
+            let mut samples = Vec::new();
+            for from in range.clone().step_by(BLOCK as usize) {
+                if watch.stop.load(Ordering::Relaxed) {
+                    return Err(Error::Interrupted);
+                }
+                let block = from..range.end.min(from + BLOCK);
+                samples.extend(drawn.scenes.source.block(&drawn.rows, drawn.seed, block));
+            }
+            Ok(samples)
+        })
+    }
+
+    fn counts_of<'py>(
+        &self,
+        py: Python<'py>,
+        samples: &[Sample],
+    ) -> Result<Bound<'py, PyArray2<u32>>> {
+        let counts = samples.iter().flat_map(|sample| sample.histogram.iter().copied()).collect();
+        Ok(table(py, counts, self.drawn.scenes.source.size().bins)?)
+    }
 }
 
 #[pymethods]
-impl Batches {
+impl Dataset {
     #[new]
-    #[pyo3(signature = (scenario, grid, rows, repeats, batch, seed, threads))]
+    #[pyo3(signature = (scenario = None, grid = Vec::new(), rows = None, repeats = 5, seed = None))]
     fn new(
         scenario: Option<&Bound<'_, PyAny>>,
         grid: Vec<String>,
         rows: Option<u64>,
         repeats: u64,
-        batch: u64,
         seed: Option<u64>,
-        threads: Option<usize>,
     ) -> Result<Self> {
-        for (name, given) in [("batch", batch), ("repeats", repeats), ("rows", rows.unwrap_or(1))] {
+        for (name, given) in [("repeats", repeats), ("rows", rows.unwrap_or(1))] {
             if !(1..=MOST_ROWS).contains(&given) {
                 let expected = format!("expected 1 to {MOST_ROWS}");
                 return Err(Input::new(name, expected).value(given).into());
             }
         }
         let scenario = Scenario::of(scenario)?;
-        let seed = seed.unwrap_or(scenario.loaded.scenario.seed);
-        let load = |set: &[String]| scenario.with_set(set);
-        let set = &scenario.loaded.set;
-        let scenes = Scenes::new(&grid, set, GridPurpose::Training, load)?;
-        let grid = Grid { repeats, ..scenes.grid.clone() };
-        let rows = match rows {
-            None => Rows::All(grid.clone().repeated(repeats)?),
-            Some(rows) => Rows::Subset(Subset::new(grid, rows, seed)),
+        let load = |set: &[String]| {
+            let mut loaded = scenario.with_set(set)?;
+            loaded.scenario.seed = seed.unwrap_or(loaded.scenario.seed);
+            Ok(loaded)
         };
-        let drawn = Arc::new(Drawn { scenes, rows, seed });
-        Ok(Batches { drawn, batch, threads, next: Mutex::new(0) })
+        let scenes = Scenes::new(&grid, &scenario.loaded.set, GridPurpose::Training, load)?;
+        let first_seed = scenes.loaded[0].scenario.seed;
+        let all = Grid { repeats, ..scenes.grid.clone() };
+        let drawn_rows = match rows {
+            None => Rows::All(all.clone().repeated(repeats)?),
+            Some(rows) => Rows::Subset(Subset::new(all, rows, first_seed)),
+        };
+        let drawn = Arc::new(Drawn { scenes, rows: drawn_rows, seed: first_seed });
+        Ok(Dataset { scenario, options: (grid, rows, repeats, seed), drawn })
     }
 
     /// Histograms in all.
@@ -72,48 +129,35 @@ impl Batches {
         self.drawn.rows.count()
     }
 
-    fn __len__(&self) -> usize {
-        self.drawn.rows.count().div_ceil(self.batch) as usize
+    /// What makes depths of some scenes impossible.
+    fn notes<'py>(&self, py: Python<'py>) -> Result<Bound<'py, PyAny>> {
+        Ok(object(py, &json!(self.drawn.scenes.notes()?))?)
     }
 
-    fn __iter__(batches: PyRef<'_, Self>) -> PyRef<'_, Self> {
-        batches
+    /// The histograms of the rows from `begin` to before `end`.
+    #[pyo3(signature = (begin, end, threads = None))]
+    fn counts<'py>(
+        &self,
+        py: Python<'py>,
+        begin: u64,
+        end: u64,
+        threads: Option<usize>,
+    ) -> Result<Bound<'py, PyArray2<u32>>> {
+        self.counts_of(py, &self.samples(py, begin..end, threads)?)
     }
 
-    fn __next__<'py>(&self, py: Python<'py>) -> Result<Option<Bound<'py, PyDict>>> {
-        let begin = {
-            let mut next = self.next.lock().unwrap_or_else(PoisonError::into_inner);
-            let after = next.saturating_add(self.batch);
-            std::mem::replace(&mut *next, after)
-        };
-        let end = self.drawn.rows.count().min(begin.saturating_add(self.batch));
-        if begin >= end {
-            return Ok(None);
-        }
-        let drawn = Arc::clone(&self.drawn);
-        let terms = Terms { threads: self.threads, progress: None };
-        let samples = running::run(py, terms, move |watch| {
-            let mut samples = Vec::new();
-            for from in (begin..end).step_by(BLOCK as usize) {
-                if watch.stop.load(Ordering::Relaxed) {
-                    return Err(Error::Interrupted);
-                }
-                let block = from..end.min(from + BLOCK);
-                samples.extend(drawn.scenes.source.block(&drawn.rows, drawn.seed, block));
-            }
-            Ok(samples)
-        })?;
-        self.batch_of(py, &samples).map(Some)
-    }
-}
-
-impl Batches {
-    fn batch_of<'py>(&self, py: Python<'py>, samples: &[Sample]) -> Result<Bound<'py, PyDict>> {
+    /// The same rows as a dictionary of arrays: histograms, row numbers, and what varies from row to row.
+    #[pyo3(signature = (begin, end, threads = None))]
+    fn batch<'py>(
+        &self,
+        py: Python<'py>,
+        begin: u64,
+        end: u64,
+        threads: Option<usize>,
+    ) -> Result<Bound<'py, PyDict>> {
+        let samples = self.samples(py, begin..end, threads)?;
         let found = PyDict::new(py);
-        let bins = self.drawn.scenes.source.size().bins;
-        let counts = samples.iter().flat_map(|sample| sample.histogram.iter().copied()).collect();
-        let counts: Bound<'py, PyArray2<u32>> = table(py, counts, bins)?;
-        found.set_item("histograms", counts)?;
+        found.set_item("histograms", self.counts_of(py, &samples)?)?;
         let rows = samples.iter().map(|sample| sample.row).collect();
         found.set_item("row", PyArray1::<u64>::from_vec(py, rows))?;
         let column = |of: &dyn Fn(&Sample) -> f64| {
@@ -128,5 +172,18 @@ impl Batches {
             found.set_item(&axis.key, column(&value))?;
         }
         Ok(found)
+    }
+
+    fn __repr__(&self) -> String {
+        let name = &self.scenario.loaded.name;
+        format!("<tofsim.Dataset {name}: {} histograms>", self.drawn.rows.count())
+    }
+
+    /// Travels as its scenario and options.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> Result<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let Dataset { scenario, options: (grid, rows, repeats, seed), .. } = slf.get();
+        let scenario = Bound::new(slf.py(), scenario.clone())?;
+        let parts = (scenario, grid, rows, repeats, seed).into_pyobject(slf.py())?;
+        Ok((slf.get_type().into_any(), parts))
     }
 }

@@ -77,6 +77,18 @@ fn raised(input: &Input) -> PyErr {
     told.map_or_else(|fault| fault, |()| error)
 }
 
+/// Refuses what a function was given, as the library does.
+#[pyfunction]
+#[pyo3(name = "_refuse", signature = (source, expected, *, key = None, value = None))]
+pub fn refuse(
+    source: String,
+    expected: String,
+    key: Option<String>,
+    value: Option<String>,
+) -> Result<()> {
+    Err(Input { field: key, value, ..Input::new(source, expected) }.into())
+}
+
 /// A fault of ours.
 pub fn internal(what: &str) -> Fault {
     Fault::Python(PyRuntimeError::new_err(what.to_owned()))

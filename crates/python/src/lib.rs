@@ -3,6 +3,7 @@
 mod arrays;
 mod command;
 mod dataset;
+mod dataset_files;
 mod device;
 mod errors;
 mod estimates;
@@ -24,11 +25,13 @@ mod _tofsim {
     #[pymodule_export]
     use crate::command::{answer, main};
     #[pymodule_export]
-    use crate::dataset::Batches;
+    use crate::dataset::Dataset;
+    #[pymodule_export]
+    use crate::dataset_files::DatasetFiles;
     #[pymodule_export]
     use crate::device::Device;
     #[pymodule_export]
-    use crate::errors::InputError;
+    use crate::errors::{InputError, refuse};
     #[pymodule_export]
     use crate::estimates::{estimate, explain, link_budget};
     #[pymodule_export]

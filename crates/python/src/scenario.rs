@@ -69,6 +69,16 @@ impl Scenario {
         loaded
     }
 
+    /// How a command line names it where it is: a built-in name, or a path.
+    pub fn word(&self) -> String {
+        let name = &self.loaded.name;
+        match builtin::scenario(name) == Some(&self.text) {
+            true => name.clone(),
+            false if self.source.ends_with(".toml") => self.source.clone(),
+            false => format!("{name}.toml"),
+        }
+    }
+
     /// The same with other overrides.
     ///
     /// # Errors

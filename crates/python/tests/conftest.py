@@ -1,10 +1,11 @@
-"""What the tests share: the command that is in the wheel."""
+"""What the tests share: the command that is in the wheel, and a cluster."""
 
 import json
 import os
+import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -43,3 +44,22 @@ def printed(command: Command) -> Callable[..., Any]:
         return json.loads(done.stdout)
 
     return run
+
+
+@pytest.fixture(scope="session")
+def client() -> Iterator[Any]:
+    """Of a Dask cluster of four processes with one thread each."""
+    from distributed import Client, LocalCluster
+
+    cluster = LocalCluster(
+        n_workers=4, threads_per_worker=1, processes=True, dashboard_address=None
+    )
+    with cluster, Client(cluster) as client:
+        yield client
+
+
+def kill_one(client: Any) -> int:
+    """Kills a worker of the cluster; its process, in whose place another one comes."""
+    pid: int = next(iter(client.run(os.getpid).values()))
+    os.kill(pid, signal.SIGKILL)
+    return pid

@@ -1,18 +1,15 @@
 """A sweep on a cluster of processes, one of which is killed."""
 
-import os
 import pickle
-import signal
 import threading
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 import tofsim
 import tofsim.dask
-from conftest import Command
-from distributed import Client, LocalCluster
+from conftest import Command, kill_one
+from distributed import Client
 
 PLAN = """
 scenario = "{scenario}"
@@ -32,26 +29,10 @@ values = [0.1, 0.3, 0.5, 0.6]
 """
 
 
-@pytest.fixture(scope="module")
-def client() -> Iterator[Client]:
-    """Four processes of one thread each."""
-    cluster = LocalCluster(
-        n_workers=4, threads_per_worker=1, processes=True, dashboard_address=None
-    )
-    with cluster, Client(cluster) as client:
-        yield client
-
-
 def plan(folder: Path, count: int, scenario: str = "kc705") -> Path:
     path = folder / "plan.toml"
     path.write_text(PLAN.format(count=count, scenario=scenario))
     return path
-
-
-def kill_one(client: Client) -> int:
-    pid: int = next(iter(client.run(os.getpid).values()))
-    os.kill(pid, signal.SIGKILL)
-    return pid
 
 
 def test_a_worker_that_is_killed_changes_nothing(

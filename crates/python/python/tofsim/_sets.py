@@ -2,8 +2,41 @@
 
 from __future__ import annotations
 
-from ._tofsim import Batches
+from collections.abc import Iterator
+from typing import Any, final
+
+from numpy.typing import NDArray
+
+from ._tofsim import Dataset, _refuse
 from ._verbs import Given, Grid, grid_words
+
+
+@final
+class Batches(Iterator[dict[str, NDArray[Any]]]):
+    """Batches of drawn histograms, each a dictionary of arrays."""
+
+    def __init__(self, drawn: Dataset, batch: int, threads: int | None) -> None:
+        if batch < 1:
+            _refuse("batch", "expected 1 at least", value=str(batch))
+        self._drawn, self._batch, self._threads = drawn, batch, threads
+        self._begins = iter(range(0, drawn.rows, batch))
+
+    @property
+    def rows(self) -> int:
+        """Histograms in all."""
+        return self._drawn.rows
+
+    def notes(self) -> list[dict[str, Any]]:
+        """What makes depths of some scenes impossible."""
+        return self._drawn.notes()
+
+    def __len__(self) -> int:
+        return -(-self._drawn.rows // self._batch)
+
+    def __next__(self) -> dict[str, NDArray[Any]]:
+        begin = next(self._begins)
+        end = min(self._drawn.rows, begin + self._batch)
+        return self._drawn.batch(begin, end, self._threads)
 
 
 def dataset(
@@ -19,6 +52,7 @@ def dataset(
     """Draws histograms of many scenes, some at a time: those of `tofsim dataset` with the same options.
 
     A batch has `histograms` (n x bins, `uint32`), `row`, and a column for each key that varies, as
-    `target.distance_m`. The same rows come for any `batch` and any number of threads.
+    `target.distance_m`. The same rows come for any `batch` and any number of threads. `notes()` of the batches says what
+    makes depths of some scenes impossible.
     """
-    return Batches(scenario, grid_words(grid), rows, repeats, batch, seed, threads)
+    return Batches(Dataset(scenario, grid_words(grid), rows, repeats, seed), batch, threads)

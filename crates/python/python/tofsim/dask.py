@@ -1,22 +1,28 @@
-"""Sweeps on a cluster, over `dask.distributed`."""
+"""Sweeps and data sets on a cluster, over `dask.distributed`."""
 
 from __future__ import annotations
 
 import os
 import pickle
-from collections.abc import Mapping
+import warnings
+from collections import deque
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from distributed import Client, as_completed
+from numpy.typing import NDArray
 
-from ._tofsim import Plan, PlanTable
-from ._verbs import Progress
+from ._tofsim import Dataset, DatasetFiles, Plan, PlanTable, _refuse
+from ._verbs import Given, Grid, Progress, grid_words
 
 # Blocks for each worker, so that the last ones end together, and points that a block has at most.
 _BLOCKS = 16
 _MOST = 200
+# Blocks of a data set for each worker that are under way, or wait for one before them.
+_AHEAD = 4
 
 
 def sweep(
@@ -69,17 +75,82 @@ def sweep(
     return [Path(path) for path in table.finish()]
 
 
+def dataset(
+    scenario: Given,
+    client: Client,
+    output: str | os.PathLike[str],
+    *,
+    grid: Grid = None,
+    rows: int | None = None,
+    repeats: int = 5,
+    seed: int | None = None,
+    formats: Sequence[str] = ("parquet",),
+    block: int = 2048,
+    threads: int = 1,
+    retries: int = 10,
+    progress: Progress | None = None,
+) -> list[Path]:
+    """Draws histograms of many scenes on the workers of a cluster; the paths of the files.
+
+    The files are the same, byte by byte, as those of `tofsim dataset SCENARIO -o OUTPUT` with the same options. Blocks
+    of so many rows come in order, few at a time, so that memory is that of some blocks whatever the rows; those of a
+    worker that dies are drawn by another one. Where depths of some scenes are impossible there is a warning.
+    """
+    drawn = Dataset(scenario, grid_words(grid), rows, repeats, seed)
+    if block < 1:
+        _refuse("block", "expected 1 at least", value=str(block))
+    for note in drawn.notes():
+        warnings.warn(note["text"], stacklevel=2)
+    text = pickle.dumps(drawn)
+    begins = iter(range(0, drawn.rows, block))
+    files = DatasetFiles(drawn, Path(output), list(formats))
+    under_way: deque[Any] = deque()
+
+    def begin_blocks() -> None:
+        while len(under_way) < _AHEAD * _workers(client) and (begin := next(begins, None)) is not None:
+            end = min(drawn.rows, begin + block)
+            job = (_draw, begin, end)
+            under_way.append(
+                client.submit(*job, text=text, threads=threads, pure=False, retries=retries)
+            )
+
+    try:
+        done = 0
+        begin_blocks()
+        while under_way:
+            future = under_way.popleft()
+            counts = future.result()
+            future.release()
+            begin_blocks()
+            # What came over the network may begin at any byte.
+            files.add(np.require(counts, np.uint32, ["C", "A"]))
+            done += len(counts)
+            if progress is not None:
+                progress(done, drawn.rows)
+        return [Path(path) for path in files.finish()]
+    finally:
+        client.cancel(list(under_way))
+        files.abandon()
+
+
+def _workers(client: Client) -> int:
+    return max(1, len(client.scheduler_info(n_workers=-1)["workers"]))
+
+
 def _block(points: int, client: Client) -> int:
-    workers = max(1, len(client.scheduler_info(n_workers=-1)["workers"]))
-    return max(1, min(_MOST, points // (workers * _BLOCKS)))
+    return max(1, min(_MOST, points // (_workers(client) * _BLOCKS)))
 
 
 @lru_cache(maxsize=4)
-def _plan(text: bytes) -> Plan:
-    plan = pickle.loads(text)
-    assert isinstance(plan, Plan)
-    return plan
+def _arrived(text: bytes) -> Any:
+    return pickle.loads(text)
 
 
 def _work(points: list[int], *, text: bytes, threads: int) -> list[str]:
-    return _plan(text).work(points, threads=threads)
+    plan: Plan = _arrived(text)
+    return plan.work(points, threads=threads)
+
+
+def _draw(begin: int, end: int, *, text: bytes, threads: int) -> NDArray[np.uint32]:
+    drawn: Dataset = _arrived(text)
+    return drawn.counts(begin, end, threads)

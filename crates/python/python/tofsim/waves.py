@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._tofsim import InputError, _read_waves, _wave_signals
+from ._tofsim import _refuse, _read_waves, _wave_signals
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ def read(path: str | os.PathLike[str], signals: str | Iterable[str] = "*") -> Wa
     for glob in wanted:
         found = [name for name in known if fnmatchcase(name, glob) or fnmatchcase(name, f"*.{glob}")]
         if not found:
-            raise InputError(f"{os.fspath(path)}: signals = {glob}: there is no such signal")
+            _refuse(os.fspath(path), "there is no such signal", key="signals", value=glob)
         names += [name for name in found if name not in names]
     read = _read_waves(path, names)
     read["signals"] = {name: Signal(**one) for name, one in read["signals"].items()}
