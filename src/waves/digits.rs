@@ -77,18 +77,31 @@ impl TapDigits {
         Bits { words: self.counts.as_raw_slice(), width }
     }
 
-    /// The taps that have those bits, physical tap 0 first; none where their level changes more often than that of a
-    /// chain in the model can.
-    pub fn taps(&mut self, bits: impl Iterator<Item = bool>) -> Option<Thermometer> {
+    /// The taps that have the bits of those words, physical tap 0 lowest in the first one and no bit beyond the last tap;
+    /// none where their level changes more often than that of a chain in the model can.
+    pub fn taps(&mut self, words: impl Iterator<Item = u64>) -> Option<Thermometer> {
         let into = if self.order.is_empty() { &mut self.arrived } else { &mut self.taps };
-        into.iter_mut().zip(bits).for_each(|(mut tap, level)| *tap = level);
+        into.as_raw_mut_slice().iter_mut().zip(words).for_each(|(into, word)| *into = word);
         for (&tap, mut arrived) in self.order.iter().zip(self.arrived.iter_mut()) {
             *arrived = self.taps[usize::from(tap)];
         }
-        let first = self.arrived.first().is_some_and(|level| *level);
-        let changes = |place: &usize| self.arrived[place - 1] != self.arrived[*place];
-        let ranks = (1..self.arrived.len()).filter(changes);
-        (ranks.clone().count() <= CAPACITY).then(|| Thermometer::new(first, ranks))
+        let (first, count) = (self.arrived.first().is_some_and(|level| *level), self.arrived.len());
+        let mut level = first;
+        let (mut ranks, mut changes) = ([0; CAPACITY], 0);
+        for (begin, word) in (0..).step_by(64).zip(self.arrived.as_raw_slice()) {
+            let mut left = word ^ (word << 1 | u64::from(level));
+            level = word >> 63 == 1;
+            while left != 0 {
+                let rank = begin + left.trailing_zeros() as usize;
+                // Where the taps end there is no change.
+                if rank < count {
+                    *ranks.get_mut(changes)? = rank;
+                    changes += 1;
+                }
+                left &= left - 1;
+            }
+        }
+        Some(Thermometer::new(first, ranks.into_iter().take(changes)))
     }
 }
 
@@ -110,6 +123,11 @@ mod tests {
             (words[0] & 7, words[0] >> 3, width)
         });
         assert_eq!(shown, [(3, 0, 6), (4, 0, 6), (3, 0, 6)]);
+    }
+
+    /// The words of bits, the first one lowest.
+    fn packed(bits: impl IntoIterator<Item = bool>) -> Vec<u64> {
+        bits.into_iter().collect::<BitVec<u64>>().into_vec()
     }
 
     /// Physical tap 0 last.
@@ -152,12 +170,22 @@ mod tests {
             for (level, ranks) in cases {
                 let taps = Thermometer::new(level, ranks);
                 let text = text(&mut own, &taps);
-                let bits = text.chars().rev().map(|digit| digit == '1');
-                assert_eq!(own.taps(bits), Some(taps), "{text}");
+                let words = packed(text.chars().rev().map(|digit| digit == '1'));
+                assert_eq!(own.taps(words.into_iter()), Some(taps), "{text}");
             }
         }
         let mut long = digits(&(0..32).collect::<Vec<_>>());
-        assert_eq!(long.taps((0..32).map(|tap| tap % 2 == 1)), None);
+        let alternating = packed((0..32).map(|tap| tap % 2 == 1));
+        assert_eq!(long.taps(alternating.into_iter()), None);
+        // Transitions at a word's border and at the last tap, and taps that end with a word.
+        for (count, ranks) in [(492, vec![63, 64, 65, 128, 320, 491]), (128, vec![64, 127])] {
+            let mut own = digits(&(0..count).collect::<Vec<_>>());
+            for level in [true, false] {
+                let taps = Thermometer::new(level, ranks.clone());
+                let words = own.bits(&taps, 1).words.to_vec();
+                assert_eq!(own.taps(words.into_iter()), Some(taps));
+            }
+        }
     }
 
     #[test]

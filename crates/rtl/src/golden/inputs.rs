@@ -61,8 +61,8 @@ impl Source for Inputs {
 
     fn taps(&mut self, id: usize) -> Thermometer {
         let Some(Place { low, width, .. }) = self.places[id] else { return Thermometer::default() };
-        let bit = |place: usize| bits(&self.words, low + place, 1) == 1;
-        self.taps.taps((0..width).map(bit)).unwrap_or_else(|| {
+        let word = |from: usize| bits(&self.words, low + from, (width - from).min(64));
+        self.taps.taps((0..width).step_by(64).map(word)).unwrap_or_else(|| {
             self.strange = Some(id);
             Thermometer::default()
         })
