@@ -1,0 +1,135 @@
+//! What the scenario's keys and files come to: firmware, optics, light.
+
+use std::sync::Arc;
+
+use crate::error::Result;
+use crate::firmware::pll::Pll;
+use crate::firmware::tof_top::{Estimator, HistogramSource, Params};
+use crate::firmware::{
+    centroid_estimator, frame_ctrl, histogram_builder, likelihood_estimator, vcsel_driver,
+};
+use crate::kernel::{S, Time, U};
+use crate::network::{self, Network};
+use crate::optics::Budget;
+use crate::optics::dark::DarkRates;
+use crate::scenario::builtin::Source;
+use crate::scenario::wiring::Wiring;
+use crate::scenario::{self, EstimatorKind, Loaded, Scenario, dark, mesh, pulse};
+use crate::sim::timeline::pins_at_power_up;
+
+use super::converter::Converter;
+use super::detector::by_budget;
+use super::stimulus::stimulus;
+use super::{Setup, fits, recalibration};
+
+impl Setup {
+    /// Loads the files that the scenario names and works out what it sets, as [`Setup::new`], for who wants
+    /// histograms and not what the estimator makes of them: the network may be one for another histogram, and finds
+    /// nothing then.
+    ///
+    /// # Errors
+    /// When one of the files cannot be read or used.
+    pub fn of_counts(loaded: Loaded) -> Result<Self> {
+        let Loaded { name, scenario, set, files } = loaded;
+        let network = network(&scenario, &files)?;
+        let pll = Pll::new(&scenario.pll.params());
+        let histogram = scenario.histogram();
+        let converter = Converter::new(&scenario, &files, pll.cycle)?;
+        let (code_source, histogram_source, light) = stimulus(&scenario, &files, &histogram)?;
+        let measured = dark::load(&scenario.spad, &files)?;
+        let (dark, wiring) =
+            (DarkRates::new(&scenario.spad, measured.as_ref()), Wiring::of(&scenario.spad));
+        let pulse = pulse::load(&scenario.laser, &files)?;
+        let mesh = mesh::load(&scenario.target, &files)?;
+        let budget = Budget::of_scene(&scenario, pulse, mesh.as_deref()).with_dark_rates(&dark);
+        let of_row = (light.is_none() && wiring.has_unwired())
+            .then(|| by_budget(&budget.of_row(&wiring, &dark), scenario.seed));
+        let light = light.unwrap_or_else(|| by_budget(&budget, scenario.seed));
+        let params = Params {
+            histogram,
+            frame_ctrl: frame_ctrl::Params {
+                shots_per_frame: scenario.firmware.shots_of_a_frame() as u32,
+                histogram,
+                preloaded: matches!(histogram_source, HistogramSource::Preload(_)),
+                drain_cycles: scenario.firmware.drain_cycles,
+            },
+            vcsel_driver: vcsel_driver::Params {
+                periods: scenario.firmware.laser_periods.clone(),
+                pulse_half_cycles: scenario.firmware.pulse_half_cycles,
+            },
+            tdc: converter.tdc,
+            tdc_calibration: converter.tdc_calibration,
+            depth_estimator: match network.fits(&histogram) {
+                true => network.params(&histogram),
+                false => network::blank(&histogram),
+            },
+            centroid_estimator: centroid(&scenario.estimator, histogram),
+            likelihood_estimator: Arc::new(likelihood_estimator::params::Params::stand_in(
+                histogram,
+            )),
+            estimator: match scenario.estimator.kind {
+                EstimatorKind::Network => Estimator::Network,
+                EstimatorKind::Centroid => Estimator::Centroid,
+                EstimatorKind::Likelihood => Estimator::Likelihood,
+            },
+            code_source,
+            histogram_source,
+        };
+        fits::check(&name, &params)?;
+        let slowest = converter.course.as_ref().map_or(1.0, |course| course.slowest);
+        let longest = params.tdc.delays.longest().fs() as f64 * slowest;
+        fits::check_pulses(&name, &scenario, Time::from_fs(longest.ceil() as u64))?;
+        if params.tdc_calibration.is_some() {
+            fits::check_ring(&name, &recalibration::ring(&scenario.tdc), &params.tdc, slowest)?;
+        }
+        let (pins, no_depth) = (pins_at_power_up(&scenario.firmware), None);
+        let mut setup = Setup {
+            name,
+            scenario,
+            set,
+            budget,
+            dark,
+            mesh,
+            params,
+            calibrated: converter.calibrated,
+            known_tdc: converter.known,
+            course: converter.course,
+            disturbance: converter.disturbance,
+            network,
+            pll,
+            light,
+            row_light: of_row,
+            pins,
+            no_depth,
+        };
+        let shots = setup.params.frame_ctrl.shots_per_frame.into();
+        // One that the estimator is not for has a stand-in, which nothing starts.
+        if let Ok(own) = setup.likelihood(shots) {
+            setup.params.likelihood_estimator = Arc::new(own);
+        }
+        Ok(Setup { no_depth: setup.why_no_depth(), ..setup })
+    }
+}
+
+fn network(scenario: &Scenario, files: &Source) -> Result<Network> {
+    let folder = match files {
+        Source::BuiltIn => None,
+        Source::Folder(folder) => Some(folder.as_path()),
+    };
+    Network::find(&scenario.estimator.network, folder)
+}
+
+/// The scale's words round half away from zero.
+fn centroid(
+    keys: &scenario::Estimator,
+    histogram: histogram_builder::Params,
+) -> centroid_estimator::Params {
+    let word = |value: f64, fraction: u32| (value * (1u64 << fraction) as f64).round() as i64;
+    centroid_estimator::Params {
+        histogram,
+        half_width: keys.centroid_half_width,
+        background: keys.centroid_background,
+        slope: U::new(word(keys.centroid_slope_m, centroid_estimator::SLOPE_FRACTION) as u64),
+        offset: S::new(word(keys.centroid_offset_m, 29)),
+    }
+}
