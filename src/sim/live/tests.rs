@@ -1,4 +1,6 @@
 use super::*;
+use crate::Observers;
+use crate::scenario::QuenchMode;
 
 const SMALL: &str = "firmware.shots_per_frame=300";
 
@@ -70,4 +72,120 @@ fn dsp_rst_abandons_the_frame() {
     assert_eq!((live.done(), live.abandoned(), live.shots_of_frame()), (1, 1, 0));
     live.control(level(false), Time::from_ns(1000));
     assert_eq!(next(&mut live).shots, 300);
+}
+
+#[test]
+fn a_change_comes_after_its_instant_and_after_the_one_before() {
+    let mut live = Live::new(setup(&[]), Stepping::SkipIdle);
+    live.advance(500, &mut Off, None).unwrap();
+    let mut edge = live.now().fs();
+    let mut last_ns = 0.0;
+    for after in [3000, 0, 0, 7000].map(Time::from_ns) {
+        let change = live
+            .control(Control { mode: Some(QuenchMode::FreeRunning), ..Control::default() }, after);
+        let at_ns = (change.at_us * 1e3).round();
+        assert_eq!(Time::from_ps_f64(change.at_us * 1e6).fs() % 1_000_000, 0);
+        assert!(at_ns * 1e6 > (edge + after.fs()) as f64, "not later than asked for");
+        assert!(at_ns > last_ns, "{at_ns} ns does not come after {last_ns} ns");
+        assert!(live.is_changing());
+        (last_ns, edge) = (at_ns, live.now().fs());
+    }
+    live.advance(2000, &mut Off, None).unwrap();
+    assert!(!live.is_changing());
+}
+
+#[test]
+fn a_scene_comes_with_the_next_frame_or_at_once_in_clear() {
+    let [near, far] = [setup(&["target.distance_m=0.2"]), setup(&["target.distance_m=0.6"])];
+    let mut live = Live::new(Arc::clone(&near), Stepping::SkipIdle);
+    live.advance(20, &mut Off, None).unwrap();
+    assert!(live.is_clearing() && live.change_scene(Arc::clone(&far)));
+    assert!(Arc::ptr_eq(live.setup(), &far), "in Clear it comes at once");
+    live.advance(1000, &mut Off, None).unwrap();
+    assert!(!live.is_clearing() && live.change_scene(Arc::clone(&near)));
+    assert!(Arc::ptr_eq(live.setup(), &far), "a frame is of one scene");
+    let ended = loop {
+        match live.advance(10_000, &mut Off, None).unwrap() {
+            Progress::Frame(_, setup) => break setup,
+            Progress::Abandoned | Progress::Going => {}
+        }
+    };
+    assert!(Arc::ptr_eq(&ended, &far), "the frame that has ended was of that scene");
+    live.advance(1000, &mut Off, None).unwrap();
+    assert!(Arc::ptr_eq(live.setup(), &near));
+}
+
+#[test]
+fn scenes_and_signals_change_the_same_whichever_way_time_goes() {
+    let [near, far] = [setup(&["target.distance_m=0.2"]), setup(&["target.distance_m=0.6"])];
+    let frames = [Stepping::EveryCycle, Stepping::SkipIdle, Stepping::LeapShots].map(|stepping| {
+        let mut live = Live::new(Arc::clone(&near), stepping);
+        let mut frames = vec![next(&mut live)];
+        for (scene, mode) in [
+            (&far, QuenchMode::FreeRunning),
+            (&near, QuenchMode::EachShot),
+            (&far, QuenchMode::EachShot),
+        ] {
+            live.change_scene(Arc::clone(scene));
+            live.control(Control { mode: Some(mode), ..Control::default() }, Time::from_ns(5000));
+            frames.extend([next(&mut live), next(&mut live)]);
+        }
+        frames
+    });
+    assert_eq!(frames[0], frames[1]);
+    assert_eq!(frames[0], frames[2]);
+}
+
+#[test]
+fn given_photons_have_no_scene_to_change() {
+    let given = |distance: &str| {
+        Arc::new(Setup::load("tdc_validation", &[distance, "firmware.shots_per_frame=4"]).unwrap())
+    };
+    let own = given("target.distance_m=0.2");
+    let mut live = Live::new(Arc::clone(&own), Stepping::SkipIdle);
+    live.advance(20, &mut Off, None).unwrap();
+    assert!(live.is_clearing() && !live.change_scene(given("target.distance_m=0.6")));
+    assert!(Arc::ptr_eq(live.setup(), &own));
+}
+
+#[test]
+fn its_shots_are_those_of_a_run_however_the_time_is_cut() {
+    let setup = setup(&[]);
+    let (mut expected, mut found) = (Vec::new(), Vec::new());
+    let mut take = |shot: &Shot| Ok(expected.push(*shot));
+    let observers = Observers { shots: Some(&mut take), ..Default::default() };
+    crate::Run::new(&setup).observe(2, observers).unwrap();
+    let mut live = Live::new(Arc::clone(&setup), Stepping::SkipIdle);
+    while live.done() < 2 {
+        let mut take = |shot: &Shot| Ok(found.push(*shot));
+        live.advance(101, &mut Off, Some(&mut take)).unwrap();
+    }
+    assert_eq!(expected.len(), 600);
+    assert_eq!(found, expected);
+    // Of a frame that is abandoned, too, and at once.
+    let mut shots = 0;
+    let mut take = |_: &Shot| Ok(shots += 1);
+    live.advance(1000, &mut Off, Some(&mut take)).unwrap();
+    live.control(Control { dsp_rst: Some(true), ..Control::default() }, Time::ZERO);
+    let over = live.advance(10_000, &mut Off, Some(&mut take)).unwrap();
+    assert!(matches!(over, Progress::Abandoned), "{over:?}");
+    assert_eq!(shots, live.shots() - 600);
+}
+
+#[test]
+fn a_waveform_ends_with_the_frame() {
+    let setup = setup(&[]);
+    let folder = tempfile::tempdir().unwrap();
+    let mut live = Live::new(Arc::clone(&setup), Stepping::SkipIdle);
+    live.advance(1000, &mut Off, None).unwrap();
+    let trace = |from: u64, cycles: u64| {
+        let path = folder.path().join("shot.vcd");
+        let waves = setup.waves(&path, crate::WaveFormat::Vcd, &["tdc_code"]).unwrap();
+        let window = Window::Shots { from, to: from + 1 };
+        live.clone().trace(waves, vec![window], cycles).map(|_| std::fs::read(path).unwrap())
+    };
+    assert!(!trace(299, 10_000).unwrap().is_empty());
+    // The next frame's first shot, and one that comes after so many cycles.
+    assert!(trace(300, 100_000).is_err());
+    assert!(trace(299, 100).is_err());
 }
