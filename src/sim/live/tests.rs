@@ -166,6 +166,8 @@ fn its_shots_are_those_of_a_run_however_the_time_is_cut() {
     let mut shots = 0;
     let mut take = |_: &Shot| Ok(shots += 1);
     live.advance(1000, &mut Off, Some(&mut take)).unwrap();
+    assert!(shots > 100, "each call hands on what is complete");
+    let mut take = |_: &Shot| Ok(shots += 1);
     live.control(Control { dsp_rst: Some(true), ..Control::default() }, Time::ZERO);
     let over = live.advance(10_000, &mut Off, Some(&mut take)).unwrap();
     assert!(matches!(over, Progress::Abandoned), "{over:?}");
