@@ -134,6 +134,11 @@ impl Dataset {
         Ok(object(py, &json!(self.drawn.scenes.notes()?))?)
     }
 
+    /// The same, a sentence each.
+    fn sentences(&self) -> Result<Vec<String>> {
+        Ok(self.drawn.scenes.notes()?.iter().map(ToString::to_string).collect())
+    }
+
     /// The histograms of the rows from `begin` to before `end`.
     #[pyo3(signature = (begin, end, threads = None))]
     fn counts<'py>(

@@ -14,7 +14,7 @@ use tofsim::files::output::create_directory;
 use tofsim::scenario::builtin::Source;
 use tofsim::scenario::bundle::Bundle;
 use tofsim_cli::record::Record;
-use tofsim_cli::verbs::sweep::about;
+use tofsim_cli::verbs::sweep::{about, draw, notes};
 use tofsim_studies::header::header;
 use tofsim_studies::journal::Entry;
 use tofsim_studies::parts::Parts;
@@ -38,20 +38,20 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// What the table says of itself, as JSON, and the first line of its CSV.
-    fn about(&self) -> Result<(String, String)> {
+    /// What the table says of where it comes from.
+    fn record(&self) -> Result<Record> {
         let (set, seed) = &self.given;
         let setup = Setup::of_counts(self.plan.base()?)?;
         let set = set.iter().map(|set| format!("--set={set}"));
         let seed = seed.map(|seed| format!("--seed={seed}"));
         let command = ["sweep".to_owned()].into_iter().chain(set).chain(seed);
         let command: Vec<_> = command.chain([self.source.clone()]).collect();
-        let record = Record::new(&setup, &command);
-        Ok((about(&self.plan, &record).to_string(), record.comment_line()))
+        Ok(Record::new(&setup, &command))
     }
 
-    fn sweep(&self, (about, comment): (String, String)) -> Sweep<'_> {
-        Sweep { plan: &self.plan, shard: Shard::WHOLE, about, comment }
+    fn sweep(&self, record: &Record) -> Sweep<'_> {
+        let about = about(&self.plan, record).to_string();
+        Sweep { plan: &self.plan, shard: Shard::WHOLE, about, comment: record.comment_line() }
     }
 }
 
@@ -175,7 +175,7 @@ impl Plan {
 pub struct PlanTable {
     plan: Py<Plan>,
     folder: PathBuf,
-    about: (String, String),
+    record: Record,
     parts: Parts,
     begun: Mutex<Option<Begun>>,
 }
@@ -191,16 +191,16 @@ impl PlanTable {
     #[new]
     #[pyo3(signature = (plan, folder, *, restart = false))]
     fn new(plan: Bound<'_, Plan>, folder: PathBuf, restart: bool) -> Result<Self> {
-        let about = plan.get().about()?;
+        let record = plan.get().record()?;
         create_directory(&folder)?;
-        let sweep = plan.get().sweep(about.clone());
+        let sweep = plan.get().sweep(&record);
         let is_done = !restart && sweep.is_done(&folder);
         let begun = if is_done { None } else { Some(sweep.begin(&folder, restart)?) };
         let parts = Parts::new(&folder, header(&plan.get().plan));
         if restart {
             parts.remove()?;
         }
-        Ok(PlanTable { plan: plan.unbind(), folder, about, parts, begun: Mutex::new(begun) })
+        Ok(PlanTable { plan: plan.unbind(), folder, record, parts, begun: Mutex::new(begun) })
     }
 
     /// Points that are not there yet; none of a table that is whole.
@@ -233,22 +233,30 @@ impl PlanTable {
         Ok(self.parts.add(rows)?)
     }
 
-    /// Writes the table, as Parquet and CSV; their paths.
-    fn finish(&self, py: Python<'_>) -> Result<Vec<PathBuf>> {
-        let sweep = self.plan.get().sweep(self.about.clone());
+    /// Writes the table, as Parquet and CSV, and its plan's picture; their paths, and what has to be said of them.
+    fn finish(&self, py: Python<'_>) -> Result<(Vec<PathBuf>, Vec<String>)> {
+        let plan = &self.plan.get().plan;
+        let sweep = self.plan.get().sweep(&self.record);
         let parquet = sweep.table(&self.folder);
         let missing = self.missing().len();
         if missing > 0 {
             let expected = format!("expected all points, {missing} are missing");
             return Err(Input::new(parquet.display(), expected).into());
         }
-        match self.begun().take() {
-            Some(begun) => {
-                let finished = py.detach(|| sweep.finish(&self.folder, begun))?;
-                self.parts.remove()?;
-                Ok(finished.files)
-            }
-            None => Ok(vec![parquet.clone(), parquet.with_extension("csv")]),
+        let Some(begun) = self.begun().take() else {
+            let all = ["parquet", "csv", "svg"].map(|end| parquet.with_extension(end));
+            return Ok((all.into_iter().filter(|path| path.is_file()).collect(), Vec::new()));
+        };
+        let finished = py.detach(|| sweep.finish(&self.folder, begun))?;
+        self.parts.remove()?;
+        let notes = notes(&finished, plan.points.count());
+        let mut said: Vec<_> = notes.iter().map(ToString::to_string).collect();
+        let mut files = finished.files;
+        match draw(plan, &self.record, &finished.rows, &self.folder)? {
+            Some(Ok(path)) => files.push(path),
+            Some(Err(fault)) => said.push(fault),
+            None => {}
         }
+        Ok((files, said))
     }
 }

@@ -29,6 +29,16 @@ values = [0.1, 0.3, 0.5, 0.6]
 """
 
 
+PLOT = """
+[plot]
+title = "Hits of a frame"
+x = "target.distance_m"
+y = ["hits_per_frame"]
+x_label = "distance [m]"
+y_label = "hits"
+"""
+
+
 def plan(folder: Path, count: int, scenario: str = "kc705") -> Path:
     path = folder / "plan.toml"
     path.write_text(PLAN.format(count=count, scenario=scenario))
@@ -107,6 +117,22 @@ def test_a_plan_travels_as_text_with_its_scenario_and_network(tmp_path: Path) ->
     assert len(arrived) == 12 and arrived.columns == there.columns
 
 
+def test_a_plan_with_a_picture_has_it_and_what_values_lie_outside_of_is_said(
+    command: Command, client: Client, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    text = PLAN.format(scenario="kc705", count=3).replace("to = 0.6", "to = 1.2")
+    Path("plan.toml").write_text(text + PLOT)
+    done = command("sweep", "plan.toml", "-o", "one", cwd=tmp_path)
+    with pytest.warns(UserWarning, match="target.distance_m = 1.2: the echo .* and so at 4 of 12 points"):
+        files = tofsim.dask.sweep("plan.toml", client, tmp_path / "many")
+    assert "and so at 4 of 12 points" in done.stderr
+    assert [path.name for path in files] == ["sweep.parquet", "sweep.csv", "sweep.svg"]
+    for path in files:
+        assert path.read_bytes() == (tmp_path / "one" / path.name).read_bytes(), path.name
+    assert tofsim.dask.sweep("plan.toml", client, tmp_path / "many") == files
+
+
 def test_what_is_refused_at_a_point_is_said_here(client: Client, tmp_path: Path) -> None:
     text = PLAN.format(count=2, scenario="kc705").replace("[0.1, 0.3, 0.5, 0.6]", "[0.1, 0.3]")
     wrong = text + '\n[[axis]]\nkey = "tdc.bins"\nvalues = [256, 64]\n'
@@ -125,6 +151,7 @@ def test_a_table_without_all_points_is_not_written(tmp_path: Path) -> None:
         table.finish()
     # A block that was worked out twice, as when a worker dies late, is there once.
     table.add(some.work([1, 2, 3, 4, 5, 6, 7]))
-    [_, csv] = table.finish()
+    ([_, csv], said) = table.finish()
+    assert said == []
     rows = [line for line in Path(csv).read_text().splitlines() if not line.startswith("#")]
     assert [row.split(",")[0] for row in rows] == ["point", *map(str, range(8))]

@@ -102,7 +102,7 @@ def test_what_is_wrong_is_refused_before_anything_is_drawn(client: Client, tmp_p
 
 
 def test_a_depth_that_nothing_can_find_is_warned_of(client: Client, tmp_path: Path) -> None:
-    with pytest.warns(UserWarning, match="after the last bin"):
+    with pytest.warns(UserWarning, match="target.distance_m = 5: the echo comes after the last bin"):
         tofsim.dask.dataset("kc705", client, tmp_path, grid={"target.distance_m": [5]}, repeats=1)
 
 

@@ -109,18 +109,12 @@ impl SweepArgs {
         use_threads(self.threads)?;
         let mut finished = self.finished(&sweep, talk)?;
         let notes = notes(&finished, sweep.shard.size(plan.points.count()));
-        if let (Some(folder), Some(plot), Shard::WHOLE) =
-            (&self.output, &plan.file.plot, sweep.shard)
-        {
-            let path = folder.join("sweep.svg");
-            let fields = tofsim_studies::header::header(&plan);
-            match sweep_plot::svg(plot, &fields, &finished.rows) {
-                Ok(svg) => {
-                    write_bytes(&path, record.in_svg(&svg))?;
-                    finished.files.push(path);
-                }
+        if let (Some(folder), Shard::WHOLE) = (&self.output, sweep.shard) {
+            match draw(&plan, &record, &finished.rows, folder)? {
+                Some(Ok(path)) => finished.files.push(path),
                 // The table is there all the same.
-                Err(fault) => talk.note(format_args!("no sweep.svg: {fault}")),
+                Some(Err(fault)) => talk.note(fault),
+                None => {}
             }
         }
         finished.files.iter().for_each(|path| talk.wrote(path));
@@ -222,8 +216,29 @@ pub fn about(plan: &Plan, record: &Record) -> Value {
     about
 }
 
+/// Draws the picture of a plan that has one, beside its table; its path, or why its rows cannot be drawn.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn draw(
+    plan: &Plan,
+    record: &Record,
+    rows: &[Row],
+    folder: &Path,
+) -> Result<Option<std::result::Result<PathBuf, String>>> {
+    let Some(plot) = &plan.file.plot else { return Ok(None) };
+    let path = folder.join("sweep.svg");
+    match sweep_plot::svg(plot, &tofsim_studies::header::header(plan), rows) {
+        Ok(svg) => {
+            write_bytes(&path, record.in_svg(&svg))?;
+            Ok(Some(Ok(path)))
+        }
+        Err(fault) => Ok(Some(Err(format!("no sweep.svg: {fault}")))),
+    }
+}
+
 /// What the values lie outside of, each cause once.
-fn notes(finished: &Finished, points: u64) -> Vec<Note> {
+pub fn notes(finished: &Finished, points: u64) -> Vec<Note> {
     let counted = |(note, count): &(Note, u64)| {
         let text = match points {
             1 => note.text.clone(),

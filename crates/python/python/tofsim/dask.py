@@ -38,7 +38,8 @@ def sweep(
     restart: bool = False,
     progress: Progress | None = None,
 ) -> list[Path]:
-    """Works out the points of a plan on the workers of a cluster; the paths of the table, as Parquet and CSV.
+    """Works out the points of a plan on the workers of a cluster; the paths of the table, as Parquet and CSV, and of
+    the picture of a plan that has one.
 
     The table is the same, byte by byte, as that of `tofsim sweep PLAN -o OUTPUT`. Points travel in blocks; those of a
     worker that dies are worked out by another one. Each block goes to the journal in `output` as it comes, so that a
@@ -72,7 +73,10 @@ def sweep(
                     progress(done, all_points)
         finally:
             client.cancel(futures)
-    return [Path(path) for path in table.finish()]
+    files, said = table.finish()
+    for sentence in said:
+        warnings.warn(sentence, stacklevel=2)
+    return [Path(path) for path in files]
 
 
 def dataset(
@@ -99,8 +103,8 @@ def dataset(
     drawn = Dataset(scenario, grid_words(grid), rows, repeats, seed)
     if block < 1:
         _refuse("block", "expected 1 at least", value=str(block))
-    for note in drawn.notes():
-        warnings.warn(note["text"], stacklevel=2)
+    for sentence in drawn.sentences():
+        warnings.warn(sentence, stacklevel=2)
     text = pickle.dumps(drawn)
     begins = iter(range(0, drawn.rows, block))
     files = DatasetFiles(drawn, Path(output), list(formats))
