@@ -1,14 +1,13 @@
 """A sweep on a cluster of processes, one of which is killed."""
 
 import pickle
-import threading
 import time
 from pathlib import Path
 
 import pytest
 import tofsim
 import tofsim.dask
-from conftest import Command, kill_one
+from conftest import Command, kill_one_on_the_way
 from distributed import Client
 
 PLAN = """
@@ -52,14 +51,7 @@ def test_a_worker_that_is_killed_changes_nothing(
     plan(tmp_path, 1250)
     done = command("sweep", "plan.toml", "-o", "one", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
-    killed: list[int] = []
-    is_killed = threading.Event()
-
-    def progress(done: int, of: int) -> None:
-        if done > of // 4 and not is_killed.is_set():
-            is_killed.set()
-            killed.append(kill_one(client))
-
+    progress, killed = kill_one_on_the_way(client)
     files = tofsim.dask.sweep("plan.toml", client, tmp_path / "many", progress=progress)
     assert killed, "nothing was killed"
     assert [path.name for path in files] == ["sweep.parquet", "sweep.csv"]

@@ -1,14 +1,13 @@
 """Data sets that are drawn on a cluster of processes."""
 
 import pickle
-import threading
 from pathlib import Path
 
 import numpy as np
 import pytest
 import tofsim
 import tofsim.dask
-from conftest import Command, kill_one
+from conftest import Command, kill_one_on_the_way
 from distributed import Client
 from tofsim._tofsim import Dataset, DatasetFiles
 
@@ -27,14 +26,7 @@ def test_a_worker_that_is_killed_changes_no_data_set(
     options = ["--rows=40000", "--seed=5", "--set=firmware.shots_per_frame=3000", "--format=parquet,npy"]
     done = command("dataset", "kc705", *options, "-o", "one", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
-    killed: list[int] = []
-    is_killed = threading.Event()
-
-    def progress(done: int, of: int) -> None:
-        if done > of // 4 and not is_killed.is_set():
-            is_killed.set()
-            killed.append(kill_one(client))
-
+    progress, killed = kill_one_on_the_way(client)
     scenario = tofsim.Scenario("kc705").with_({"firmware.shots_per_frame": 3000})
     files = tofsim.dask.dataset(
         scenario,
