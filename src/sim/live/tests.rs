@@ -152,26 +152,34 @@ fn given_photons_have_no_scene_to_change() {
 fn its_shots_are_those_of_a_run_however_the_time_is_cut() {
     let setup = setup(&[]);
     let (mut expected, mut found) = (Vec::new(), Vec::new());
-    let mut take = |shot: &Shot| Ok(expected.push(*shot));
+    let mut take = |shot: &Shot| {
+        expected.push(*shot);
+        Ok(())
+    };
     let observers = Observers { shots: Some(&mut take), ..Default::default() };
     crate::Run::new(&setup).observe(2, observers).unwrap();
     let mut live = Live::new(Arc::clone(&setup), Stepping::SkipIdle);
     while live.done() < 2 {
-        let mut take = |shot: &Shot| Ok(found.push(*shot));
+        let mut take = |shot: &Shot| {
+            found.push(*shot);
+            Ok(())
+        };
         live.advance(101, &mut Off, Some(&mut take)).unwrap();
     }
     assert_eq!(expected.len(), 600);
     assert_eq!(found, expected);
     // Of a frame that is abandoned, too, and at once.
-    let mut shots = 0;
-    let mut take = |_: &Shot| Ok(shots += 1);
+    let shots = std::cell::Cell::new(0);
+    let mut take = |_: &Shot| {
+        shots.set(shots.get() + 1);
+        Ok(())
+    };
     live.advance(1000, &mut Off, Some(&mut take)).unwrap();
-    assert!(shots > 100, "each call hands on what is complete");
-    let mut take = |_: &Shot| Ok(shots += 1);
+    assert!(shots.get() > 100, "each call hands on what is complete");
     live.control(Control { dsp_rst: Some(true), ..Control::default() }, Time::ZERO);
     let over = live.advance(10_000, &mut Off, Some(&mut take)).unwrap();
     assert!(matches!(over, Progress::Abandoned), "{over:?}");
-    assert_eq!(shots, live.shots() - 600);
+    assert_eq!(shots.get(), live.shots() - 600);
 }
 
 #[test]
