@@ -89,7 +89,7 @@ impl Bundle {
 }
 
 /// What a scenario has at keys that may name files.
-fn names(scenario: &Scenario) -> impl Iterator<Item = &str> {
+pub fn names(scenario: &Scenario) -> impl Iterator<Item = &str> {
     let Scenario { target, laser, spad, tdc, stimulus, training, estimator, .. } = scenario;
     let given = [
         &target.mesh_file,

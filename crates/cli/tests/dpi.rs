@@ -46,3 +46,45 @@ fn what_cannot_be_checked_is_refused_by_name() {
     assert!(fault.contains("nowhere: no such file or built-in scenario"), "{fault}");
     assert!(!folder.path().join("dpi").exists());
 }
+
+#[test]
+fn a_file_of_an_override_is_found_from_anywhere() {
+    let folder = empty();
+    std::fs::write(folder.path().join("ph.csv"), "shot,arrival_ps\n0,3000\n").unwrap();
+    let scenario = |args: &[&str]| {
+        stdout(folder.path(), &[&["dpi", "-b", "spad_control", "-o", "dpi"], args].concat());
+        let text = std::fs::read_to_string(folder.path().join("dpi/tofsim_pkg.sv")).unwrap();
+        let line = text.lines().find(|line| line.contains("Scenario = ")).unwrap();
+        line.split_once(" = ").unwrap().1.to_owned()
+    };
+    let path = folder.path().join("ph.csv").canonicalize().unwrap();
+    let expected = format!(r#""kc705\nstimulus.photons=\"{}\"";"#, path.display());
+    assert_eq!(scenario(&["-s", "stimulus.photons=ph.csv"]), expected);
+    assert_eq!(scenario(&["-s", "tdc.profile=ideal"]), r#""kc705\ntdc.profile=ideal";"#);
+    // A scenario's own files are seen from its folder.
+    std::fs::create_dir(folder.path().join("sub")).unwrap();
+    std::fs::write(folder.path().join("sub/own.toml"), "[target]\ndistance_m = 0.3\n").unwrap();
+    std::fs::rename(path, folder.path().join("sub/ph.csv")).unwrap();
+    let found = scenario(&["sub/own.toml", "-s", "stimulus.photons=ph.csv"]);
+    assert!(found.ends_with(r#"sub/own.toml\nstimulus.photons=ph.csv";"#), "{found}");
+}
+
+#[test]
+fn blocks_are_chosen_or_left_out_and_each_is_there_once() {
+    let folder = empty();
+    let bound = |args: &[&str]| {
+        stdout(folder.path(), &[&["dpi", "-o", "dpi"], args].concat());
+        let text = std::fs::read_to_string(folder.path().join("dpi/tofsim_bind.sv")).unwrap();
+        text.lines().filter(|line| line.starts_with("bind ")).count()
+    };
+    let all = bound(&[]);
+    assert_eq!(bound(&["--without", "pll", "--without", "tof_top"]), all - 2);
+    assert_eq!(bound(&["-b", "tdc", "-b", "frame_ctrl", "-b", "tdc"]), 2);
+    let fault = refused(folder.path(), &["dpi", "-o", "dpi", "--without", "pl"]);
+    assert!(fault.contains("--without: pl: no such block (`pll`?)"), "{fault}");
+    let fault = refused(folder.path(), &["dpi", "-o", "dpi", "a\nb=c"]);
+    assert!(fault.contains("no such file"), "{fault}");
+    std::fs::write(folder.path().join("a\nb.toml"), "").unwrap();
+    let fault = refused(folder.path(), &["dpi", "-o", "dpi", "a\nb.toml"]);
+    assert!(fault.contains("without line ends"), "{fault}");
+}

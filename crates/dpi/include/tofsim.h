@@ -35,6 +35,14 @@ void tofsim_from_power_up(void *handle);
 // `tdc_stop` has changed to `level`.
 void tofsim_stop(void *handle, long long time_fs, int level);
 
+// Bits of the outputs of the coming `tofsim_step` that are neither 0 nor 1: they differ from any. A simulator that has
+// no others need not call it.
+//
+// # Safety
+// The vector is null or as long as the block's outputs.
+void tofsim_unknown(void *handle,
+                    const uint32_t *bits);
+
 // Compares a block's outputs with those of the model just before an edge, and takes the edge; 1 if they agree, or 0,
 // and an error for each that does not. `what` is 0 for a look without an edge, 1 for an edge of the block's clock
 // (of both clocks, where it has two), 2 for one of clk_laser alone, and 3 for its fall. `inputs` and `outputs` are all

@@ -103,6 +103,22 @@ pub extern "C" fn tofsim_stop(handle: *mut c_void, time_fs: c_longlong, level: c
     });
 }
 
+/// Bits of the outputs of the coming `tofsim_step` that are neither 0 nor 1: they differ from any. A simulator that has
+/// no others need not call it.
+///
+/// # Safety
+/// The vector is null or as long as the block's outputs.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tofsim_unknown(handle: *mut c_void, bits: *const u32) {
+    with("tofsim_unknown", handle as usize, (), |held| {
+        let checker = held.checker()?;
+        let [_, words] = checker.block.layouts().map(|layout| layout.words());
+        // SAFETY: as of this function.
+        checker.unknown = unsafe { vector("bits", bits, words)? }.to_vec();
+        Ok(())
+    });
+}
+
 /// Compares a block's outputs with those of the model just before an edge, and takes the edge; 1 if they agree, or 0,
 /// and an error for each that does not. `what` is 0 for a look without an edge, 1 for an edge of the block's clock
 /// (of both clocks, where it has two), 2 for one of clk_laser alone, and 3 for its fall. `inputs` and `outputs` are all

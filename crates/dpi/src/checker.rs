@@ -6,12 +6,14 @@ use crate::told;
 
 pub struct Checker {
     pub block: Block,
+    /// Bits of the next step's outputs that are neither 0 nor 1.
+    pub unknown: Vec<u32>,
 }
 
 impl Checker {
     pub fn new(scenario: &str, block: &str) -> Result<Self, String> {
         let block = Block::new(told::setup(scenario)?, block).map_err(|error| error.to_string())?;
-        Ok(Checker { block })
+        Ok(Checker { block, unknown: Vec::new() })
     }
 
     /// Whether the bench's port is as wide as the model's.
@@ -41,9 +43,10 @@ impl Checker {
         let text = |error: tofsim::error::Error| error.to_string();
         self.block.outputs(now, inputs).map_err(text)?;
         let found = match self.block.is_settled() {
-            true => self.block.mismatches(outputs),
+            true => self.block.mismatches(outputs, &self.unknown),
             false => Vec::new(),
         };
+        self.unknown.clear();
         if let Some(edge) = edge {
             self.block.edge(edge, now, inputs).map_err(text)?;
         }

@@ -94,6 +94,17 @@ fn a_block_steps_and_what_differs_is_named() {
         error(handle),
         "spad_control: cycle 3, time 32000 ps, spad_sel: expected 0000000001, got 0000000003"
     );
+    // A bit that is unknown differs from any, and the next step's are known again.
+    outputs[0] ^= 2;
+    unsafe { tofsim_unknown(handle, [0x10, 0x100].as_ptr()) };
+    assert_eq!(step(40_000_000, 0b000, &outputs), 0);
+    let said = tofsim_get_num_errors(handle);
+    let [spad_rst, spad_sel] = [2, 1].map(|back| unsafe {
+        CStr::from_ptr(tofsim_get_error(handle, said - back)).to_str().unwrap()
+    });
+    assert_eq!(spad_rst, "spad_control: cycle 4, time 40000 ps, spad_rst: expected 0, got x");
+    assert!(spad_sel.ends_with("spad_sel: expected 0000000001, got 00000000x1"), "{spad_sel}");
+    assert_eq!(step(48_000_000, 0b000, &outputs), 1);
     assert_eq!(unsafe { tofsim_step(handle, 7, 0, &0, outputs.as_ptr()) }, 0);
     assert_eq!(
         error(handle),

@@ -26,10 +26,15 @@ fn printed(run: &Run) -> String {
 
 /// The design with a fault in its frame controller: it leaves Clear a word too early.
 fn faulty(folder: &Path) -> Vec<PathBuf> {
-    let (name, mut files) = ("frame_ctrl.v", design());
+    let fault = ["(!(&clear_addr))", "(!(&clear_addr[BinBits-1:1]))"];
+    with_fault(folder, "frame_ctrl.v", fault)
+}
+
+/// The design with another text at one place of a file.
+fn with_fault(folder: &Path, name: &str, [old, new]: [&str; 2]) -> Vec<PathBuf> {
+    let mut files = design();
     files.retain(|path| !path.ends_with(name));
     let text = std::fs::read_to_string(root().join("rtl_ref").join(name)).unwrap();
-    let [old, new] = ["(!(&clear_addr))", "(!(&clear_addr[BinBits-1:1]))"];
     assert_eq!(text.matches(old).count(), 1);
     std::fs::write(folder.join(name), text.replace(old, new)).unwrap();
     files.push(folder.join(name));
@@ -70,6 +75,12 @@ fn icarus_has_the_same_over_vpi() {
     assert_eq!(printed(&run), frames(1), "{}", run.text);
     let run = make(folder.path(), "icarus", &faulty(folder.path()), "");
     assert!(!run.is_fine && run.text.contains(MISMATCH), "{}", run.text);
+    // What is unknown is not 0.
+    let unknown = ["spad_sel <= spad_sel_next;", "spad_sel <= {39'bx, 1'b1};"];
+    let unknown = with_fault(folder.path(), "spad_control.v", unknown);
+    let run = make(folder.path(), "icarus", &unknown, "");
+    let said = "spad_sel: expected 0000000001, got xxxxxxxxxx";
+    assert!(!run.is_fine && run.text.contains(said), "{}", run.text);
     write(folder.path(), ("long", SHOTS), Some(&["frame_ctrl"]));
     let run = make(folder.path(), "icarus", &design(), "");
     let said = "frame_ctrl.clear_addr: the design has 8 bits, the scenario 10";

@@ -45,6 +45,9 @@ impl DatasetFiles {
     #[new]
     fn new(dataset: Bound<'_, Dataset>, folder: PathBuf, formats: Vec<String>) -> Result<Self> {
         let (set, mut command) = (&dataset.get().drawn, dataset.get().command());
+        if formats.is_empty() {
+            return Err(Input::new("formats", "expected one at least: parquet, npy").into());
+        }
         let wanted = formats.iter().map(format_of).collect::<Result<Vec<_>>>()?;
         if formats != ["parquet"] {
             let place = command.len() - 1;

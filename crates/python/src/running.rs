@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 use rayon::ThreadPoolBuilder;
 
 use tofsim::error::{Input, Result};
+use tofsim_cli::verbs::draws::MOST_THREADS;
 
 use crate::errors::{self, internal};
 
@@ -64,10 +65,11 @@ pub fn run<T: Send + 'static>(
     terms: Terms,
     task: impl FnOnce(&Watch) -> Result<T> + Send + 'static,
 ) -> errors::Result<T> {
-    let threads = match terms.threads {
-        Some(0) => return Err(Input::new("threads", "expected 1 at least").value(0).into()),
-        threads => threads.unwrap_or(0),
-    };
+    let most = MOST_THREADS as usize;
+    if let Some(threads) = terms.threads.filter(|threads| !(1..=most).contains(threads)) {
+        return Err(Input::new("threads", format!("expected 1 to {most}")).value(threads).into());
+    }
+    let threads = terms.threads.unwrap_or(0);
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| Input::new("threads", error))?;
     let watch = Watch::default();

@@ -129,9 +129,14 @@ def test_what_is_refused_at_a_point_is_said_here(client: Client, tmp_path: Path)
     text = PLAN.format(count=2, scenario="kc705").replace("[0.1, 0.3, 0.5, 0.6]", "[0.1, 0.3]")
     wrong = text + '\n[[axis]]\nkey = "tdc.bins"\nvalues = [256, 64]\n'
     with pytest.raises(ValueError, match="point"):
-        tofsim.dask.sweep(tofsim.Plan(wrong), client, tmp_path / "out", retries=0)
+        tofsim.dask.sweep(tofsim.Plan(wrong), client, tmp_path / "out")
     with pytest.raises(tofsim.InputError, match="expected points below"):
         tofsim.Plan(text).work([99])
+    with pytest.raises(tofsim.InputError, match="block: -1: expected 1 at least"):
+        tofsim.dask.sweep(tofsim.Plan(text), client, tmp_path / "no", block=-1)
+    with pytest.raises(TypeError, match="expected a distributed.Client"):
+        tofsim.dask.sweep(tofsim.Plan(text), "tcp://localhost:8786", tmp_path / "no")
+    assert not (tmp_path / "no").exists()
 
 
 def test_a_table_without_all_points_is_not_written(tmp_path: Path) -> None:

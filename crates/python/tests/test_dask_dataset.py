@@ -8,7 +8,7 @@ import pytest
 import tofsim
 import tofsim.dask
 from conftest import Command, kill_one_on_the_way
-from distributed import Client
+from distributed import Client, LocalCluster
 from tofsim._tofsim import Dataset, DatasetFiles
 
 
@@ -85,12 +85,28 @@ def test_what_is_wrong_is_refused_before_anything_is_drawn(client: Client, tmp_p
     for expected, options in {
         "rows: 0: expected 1 to": {"rows": 0},
         "block: 0: expected 1 at least": {"block": 0},
-        "formats: csv: expected some of parquet, npy": {"formats": ["csv"]},
+        "formats: csv: expected some of parquet, npy": {"formats": "csv"},
+        "formats: expected one at least": {"formats": []},
+        "threads: 0: expected 1 at least": {"threads": 0},
+        "grid: expected a key at least": {"grid": {}},
         "target.distance": {"grid": {"target.distance": [1]}},
     }.items():
         with pytest.raises(tofsim.InputError, match=expected):
             tofsim.dask.dataset("kc705", client, tmp_path / "out", **options)  # type: ignore[arg-type]
     assert not (tmp_path / "out").exists()
+
+
+def test_a_client_that_goes_away_leaves_no_files(tmp_path: Path) -> None:
+    with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None) as own:
+        client = Client(own)
+
+        def close(done: int, of: int) -> None:
+            client.close()
+
+        with pytest.raises(Exception) as raised:
+            tofsim.dask.dataset("kc705", client, tmp_path, rows=30_000, block=500, progress=close)
+        assert "cancel" not in str(raised.value)
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_depth_that_nothing_can_find_is_warned_of(client: Client, tmp_path: Path) -> None:

@@ -49,7 +49,7 @@ pub struct Mismatch {
     pub port: String,
     /// The model's bits, in hexadecimal.
     pub expected: String,
-    /// The other's.
+    /// The other's, of which a digit with an unknown bit is x.
     pub got: String,
 }
 
@@ -153,17 +153,18 @@ impl Block {
         Ok(&self.outputs.words)
     }
 
-    /// The outputs that differ from those of the model, which [`Block::outputs`] gave last.
-    pub fn mismatches(&self, got: &[u32]) -> Vec<Mismatch> {
+    /// The outputs that differ from those of the model, which [`Block::outputs`] gave last; a bit that is `unknown`
+    /// differs from any. Words of it that are not there have none.
+    pub fn mismatches(&self, got: &[u32], unknown: &[u32]) -> Vec<Mismatch> {
         let Outputs { layout, words, .. } = &self.outputs;
-        if words.iter().zip(got).all(|(want, got)| want == got) {
+        if unknown.is_empty() && words.iter().zip(got).all(|(want, got)| want == got) {
             return Vec::new();
         }
-        let differs = |place: &&Place| !place.agrees(words, got);
+        let differs = |place: &&Place| !place.agrees(words, got) || place.has_any(unknown);
         let mismatch = |place: &Place| Mismatch {
             port: place.name.clone(),
             expected: place.hex(words),
-            got: place.hex(got),
+            got: place.hex_or_x(got, unknown),
         };
         layout.places().iter().filter(differs).map(mismatch).collect()
     }

@@ -81,7 +81,7 @@ mod tests {
             let mut echo = EchoShift::new(&setup);
             let run = Run::new(&setup).stepping(tofsim::Stepping::LeapShots);
             run.frames(8).unwrap().iter().for_each(|frame| echo.take(frame));
-            let Figure { value: Some(found), se: Some(se) } = echo.mean() else { panic!() };
+            let Figure { value: Some(found), se: Some(se), .. } = echo.mean() else { panic!() };
             let hazard = tofsim::optics::Hazard::new(&setup.budget);
             let first = FirstPhoton::new(&setup.budget, &hazard).unwrap();
             let expected = FirstPhoton::shift_mm(first.mean_ps);

@@ -25,26 +25,26 @@ impl Errors {
 
     /// Mean error [mm].
     pub fn bias(&self) -> Figure {
-        self.where_known(Figure { value: self.spread.mean_mm, se: self.spread.mean_se_mm })
+        self.where_known(Figure::new(self.spread.mean_mm, self.spread.mean_se_mm))
     }
 
     /// Twice the standard deviation [mm].
     pub fn two_sd(&self) -> Figure {
-        Figure { value: self.spread.two_sd_mm, se: self.spread.two_sd_se_mm }
+        Figure::new(self.spread.two_sd_mm, self.spread.two_sd_se_mm)
     }
 
     /// Standard deviation [mm].
     pub fn sd(&self) -> Figure {
-        let Figure { value, se } = self.two_sd();
-        Figure { value: value.map(|two| two / 2.0), se: se.map(|two| two / 2.0) }
+        let Figure { value, se, .. } = self.two_sd();
+        Figure::new(value.map(|two| two / 2.0), se.map(|two| two / 2.0))
     }
 
     /// Root of the mean squared error [mm].
     pub fn root_mse(&self) -> Figure {
-        let Figure { value, se } = self.mse_mm2;
+        let Figure { value, se, .. } = self.mse_mm2;
         let root = value.map(f64::sqrt);
         let se = se.zip(root).map(|(se, root)| if root > 0.0 { se / (2.0 * root) } else { 0.0 });
-        self.where_known(Figure { value: root, se })
+        self.where_known(Figure::new(root, se))
     }
 
     /// Part of the frames without a depth [1].
@@ -68,7 +68,8 @@ fn part(of_them: u64, all: u64) -> Figure {
         return Figure::default();
     }
     let part = of_them as f64 / all as f64;
-    Figure { value: Some(part), se: Some((part * (1.0 - part) / all as f64).sqrt()) }
+    let se = (part * (1.0 - part) / all as f64).sqrt();
+    Figure { value: Some(part), se: Some(se), of: Some(all as f64) }
 }
 
 #[cfg(test)]

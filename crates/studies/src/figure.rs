@@ -7,6 +7,15 @@ pub struct Figure {
     pub value: Option<f64>,
     /// Its standard error.
     pub se: Option<f64>,
+    /// Of a rate what it is a part of [1].
+    pub of: Option<f64>,
+}
+
+impl Figure {
+    /// A value with its standard error.
+    pub fn new(value: Option<f64>, se: Option<f64>) -> Self {
+        Figure { value, se, of: None }
+    }
 }
 
 /// The mean of numbers, with its standard error.
@@ -18,7 +27,7 @@ pub fn mean(numbers: impl Iterator<Item = f64> + Clone) -> Figure {
     let mean = numbers.clone().sum::<f64>() / count;
     let squares: f64 = numbers.map(|number| (number - mean) * (number - mean)).sum();
     let se = (count > 1.0).then(|| (squares / (count - 1.0) / count).sqrt());
-    Figure { value: Some(mean), se }
+    Figure::new(Some(mean), se)
 }
 
 /// The figure of several repeats: their mean, with the standard error that their scatter shows; of one, or where no noise
@@ -33,19 +42,19 @@ pub fn of_repeats(
     mean(repeats.filter_map(|figure| figure.value))
 }
 
-/// The mean of figures that do not depend on each other; of one, itself.
+/// The mean of figures that do not depend on each other, or of rates the rate over all that they are parts of; of one,
+/// itself.
 pub fn mean_of_scenes(figures: impl Iterator<Item = Figure>) -> Figure {
-    let (mut count, mut sum, mut variance) = (0.0, 0.0, Some(0.0));
+    let (mut all, mut sum, mut variance) = (0.0, 0.0, Some(0.0));
     for figure in figures {
         let Some(value) = figure.value else { continue };
-        count += 1.0;
-        sum += value;
-        variance = variance.zip(figure.se).map(|(sum, se)| sum + se * se);
+        let weight = figure.of.unwrap_or(1.0);
+        all += weight;
+        sum += weight * value;
+        variance = variance.zip(figure.se).map(|(sum, se)| sum + weight * weight * se * se);
     }
-    match count > 0.0 {
-        true => {
-            Figure { value: Some(sum / count), se: variance.map(|sum: f64| sum.sqrt() / count) }
-        }
+    match all > 0.0 {
+        true => Figure::new(Some(sum / all), variance.map(|sum: f64| sum.sqrt() / all)),
         false => Figure::default(),
     }
 }
@@ -55,7 +64,7 @@ mod tests {
     use super::*;
 
     fn figures(values: [f64; 3]) -> [Figure; 3] {
-        values.map(|value| Figure { value: Some(value), se: Some(0.3) })
+        values.map(|value| Figure::new(Some(value), Some(0.3)))
     }
 
     #[test]
@@ -70,5 +79,14 @@ mod tests {
         assert_eq!(scenes.value, Some(2.0));
         assert!((scenes.se.unwrap() - 0.3 / 3f64.sqrt()).abs() < 1e-12);
         assert_eq!(mean_of_scenes([Figure::default()].into_iter()), Figure::default());
+    }
+
+    #[test]
+    fn the_mean_of_rates_is_the_rate_over_all() {
+        // One of one, and none of 99.
+        let rate = |value, of| Figure { of: Some(of), ..Figure::new(Some(value), Some(0.1)) };
+        let all = mean_of_scenes([rate(1.0, 1.0), rate(0.0, 99.0), Figure::default()].into_iter());
+        assert_eq!(all.value, Some(0.01));
+        assert!((all.se.unwrap() - 0.1 * (1.0f64 + 99.0 * 99.0).sqrt() / 100.0).abs() < 1e-12);
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use tofsim::error::{Error, Input, Result};
 
 use crate::shard::Shard;
-use crate::sweep::{ABOUT, SHARD};
+use crate::sweep::{ABOUT, SHARD, identity};
 use crate::table::csv_file::CsvFile;
 use crate::table::parquet_file;
 use crate::table::reader::TableReader;
@@ -68,7 +68,7 @@ impl Shards {
             })?;
             let (other, expected_about, count) =
                 first.get_or_insert_with(|| (path.clone(), about.clone(), shard.count));
-            if about != *expected_about {
+            if identity(&about) != identity(expected_about) {
                 let expected = format!(
                     "it is a shard of another sweep than {}: plan, seed, settings or version differ",
                     other.display()
@@ -98,10 +98,12 @@ impl Shards {
             let expected = format!("shard {first}/{most}{others} missing, expected all {most}");
             return Err(Input::new("shards", expected).into());
         }
-        let Some((_, about, _)) = first else {
-            return Err(Input::new("shards", "expected the shards of a sweep").into());
-        };
-        Ok(Shards { tables: tables.into_iter().flatten().collect(), about })
+        let tables: Vec<_> = tables.into_iter().flatten().collect();
+        // The words of the first shard's command.
+        let about = tables.first().and_then(|(_, table)| table.metadata.get(ABOUT)).cloned();
+        let expected = || Input::new("shards", "expected the shards of a sweep");
+        let about = about.ok_or_else(expected)?;
+        Ok(Shards { tables, about })
     }
 
     /// Writes their rows, in order, as the table that the sweep would have written as a whole. `comment` is the first

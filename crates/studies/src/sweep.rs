@@ -25,6 +25,17 @@ pub const ABOUT: &str = "tofsim.sweep";
 /// Key of which shard it is.
 pub const SHARD: &str = "tofsim.shard";
 
+/// Of what a table is about, which sweep it is: all but the command, which names the same plan in many ways.
+pub fn identity(about: &str) -> String {
+    match serde_json::from_str::<serde_json::Map<_, _>>(about) {
+        Ok(mut all) => {
+            all.remove("command");
+            serde_json::Value::Object(all).to_string()
+        }
+        Err(_) => about.to_owned(),
+    }
+}
+
 /// A sweep into a folder.
 pub struct Sweep<'a> {
     /// What is worked out.
@@ -87,10 +98,13 @@ impl Sweep<'_> {
         folder.join(format!("{}.parquet", self.shard.stem()))
     }
 
-    /// Whether a folder has the table of this very sweep.
+    /// Whether a folder has both tables of this very sweep: it may have been killed between the two.
     pub fn is_done(&self, folder: &Path) -> bool {
-        let table = TableReader::open(&self.table(folder));
-        table.is_ok_and(|table| table.metadata.get(ABOUT) == Some(&self.about))
+        let path = self.table(folder);
+        let is_own = |table: TableReader| {
+            table.metadata.get(ABOUT).is_some_and(|found| identity(found) == identity(&self.about))
+        };
+        path.with_extension("csv").is_file() && TableReader::open(&path).is_ok_and(is_own)
     }
 
     /// Works out what is not in the folder's journal, on all threads of the current pool, and writes the table.
@@ -126,7 +140,7 @@ impl Sweep<'_> {
         let size = self.shard.size(self.plan.points.count());
         let mut is_there = vec![false; size as usize];
         let mut resumed = 0;
-        let about = format!("{} {}", self.shard, self.about);
+        let about = format!("{} {}", self.shard, identity(&self.about));
         let journal = Journal::open(&path, &about, |point| {
             let place = (point / self.shard.count) as usize;
             if let Some(is_there) = is_there.get_mut(place) {

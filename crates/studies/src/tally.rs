@@ -62,6 +62,6 @@ impl Counts {
         // Exact as long as the product fits, which it does for 10^9 frames of 2^24 hits.
         let scatter = (u128::from(self.count) * self.squares).saturating_sub(self.sum * self.sum);
         let se = (self.count > 1).then(|| (scatter as f64 / (count - 1.0)).sqrt() / count);
-        Figure { value: Some(sum / count), se }
+        Figure::new(Some(sum / count), se)
     }
 }

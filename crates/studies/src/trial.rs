@@ -57,11 +57,9 @@ impl<'a> Trial<'a> {
         };
         let figure = |column: &&Column| {
             Ok(match (column.quantity, &measured) {
-                (Quantity::Expected(of), _) => Figure { value: finite(of(&setup)?), se: None },
+                (Quantity::Expected(of), _) => Figure::new(finite(of(&setup)?), None),
                 (Quantity::Hits(of), Some((tally, _))) => of(tally),
-                (Quantity::Duration(of), Some((tally, _))) => {
-                    Figure { value: Some(of(tally)), se: None }
-                }
+                (Quantity::Duration(of), Some((tally, _))) => Figure::new(Some(of(tally)), None),
                 (Quantity::Errors(place, of), Some((_, errors))) => of(&errors[place]),
                 _ => Figure::default(),
             })

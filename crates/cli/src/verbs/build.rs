@@ -12,7 +12,7 @@ use tofsim_rtl::verify::strays;
 
 use crate::choice::words;
 
-use super::draws::use_threads;
+use super::draws::{MOST_THREADS, use_threads};
 use super::interrupt::look_no_more;
 use super::terminal::{RunCommand, Talk, print_json};
 
@@ -60,7 +60,7 @@ pub struct Args {
     #[arg(long)]
     force: bool,
     /// Threads; the results are the same for any number [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
     threads: Option<u16>,
     /// Print one JSON object
     #[arg(long)]

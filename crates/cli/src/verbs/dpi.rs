@@ -1,13 +1,15 @@
 //! `tofsim dpi`: checkers and photons in SystemVerilog, for a bench of the user's.
 
-use std::path::PathBuf;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use tofsim::error::{Error, Result};
+use tofsim::error::{Error, Input, Result, hint};
 use tofsim::files::folder::FolderLock;
 use tofsim::files::output::write_bytes;
 use tofsim::files::staged::StagedFolder;
-use tofsim::scenario::{self, builtin};
+use tofsim::scenario::builtin::{self, Source};
+use tofsim::scenario::{self, Loaded, bundle};
 use tofsim::sim::setup::Setup;
 use tofsim_rtl::checkers::{Checkers, blocks_of};
 
@@ -18,17 +20,20 @@ use super::terminal::Talk;
 /// DIR gets tofsim_pkg.sv (the imports), tofsim_photons.sv (tdc_stop as the scenario's light and detector make it),
 /// tofsim_checkers.sv (a module for each block, which compares its outputs with the model's at every edge),
 /// tofsim_bind.sv (binds them to modules of the same names, so that your RTL stays as it is), tofsim.h (the same for C)
-/// and a Makefile. The model is a library:
+/// and a Makefile. For Icarus, which has neither DPI nor bind, there are tofsim_vpi.v (the same in Verilog, and
+/// tofsim_attach, a second top that connects it) and tofsim_vpi.c (the functions over VPI). The scenario's file is read
+/// when the simulation begins.
 ///
-///   cargo build --release -p tofsim-dpi
-///
-///   make -f DIR/Makefile verilator TOP=tb DESIGN="your files"
-///
-/// For Icarus, which has neither DPI nor bind, DIR gets tofsim_vpi.v (the same in Verilog, and tofsim_attach, a second
-/// top that connects it) and tofsim_vpi.c (the functions over VPI).
-///
-/// docs/bench.md has a whole example. The first mismatch ends the simulation with cycle, signal, expected and got.
+/// The first mismatch ends the simulation with cycle, signal, expected and got. docs/bench.md has a whole example, all
+/// plusargs and variables, and what was tried in which simulator.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+    tofsim dpi -o dpi                            a checker for each block of the KC705's design\n  \
+    tofsim dpi mine.toml -b tdc -o dpi           for one block of an instrument of one's own\n  \
+    tofsim dpi --without pll -o dpi              where the bench has a PLL with jitter\n  \
+    cargo build --release -p tofsim-dpi          makes the library, in a clone\n  \
+    make -f dpi/Makefile verilator LIB=target/release TOP=tb DESIGN=\"your files\" ARGS=+plusargs\n  \
+    make -f dpi/Makefile icarus TOP=tb PATH_OF_TOP=tb.dut DESIGN=\"your files\"")]
 pub struct Args {
     /// Built-in scenario or file: the instrument, and for photons its target and light
     #[arg(default_value = scenario::DEFAULT)]
@@ -39,6 +44,9 @@ pub struct Args {
     /// A block that is to have a checker; may be repeated [default: all that the scenario has]
     #[arg(short, long = "block", value_name = "BLOCK")]
     blocks: Vec<String>,
+    /// A block that is to have none, as pll where yours has jitter; may be repeated
+    #[arg(long, value_name = "BLOCK", conflicts_with = "blocks")]
+    without: Vec<String>,
     /// Directory to write to
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -46,12 +54,10 @@ pub struct Args {
 
 /// Runs the verb.
 pub fn run(args: &Args, talk: &Talk) -> Result<()> {
-    let setup = Arc::new(Setup::new(scenario::load(&args.scenario, &args.set)?)?);
-    let blocks: Vec<_> = match args.blocks.as_slice() {
-        [] => blocks_of(&setup).iter().map(|spec| spec.name).collect(),
-        blocks => blocks.iter().map(String::as_str).collect(),
-    };
-    let checkers = Checkers::new(setup, told(args)?, blocks)?;
+    let loaded = scenario::load(&args.scenario, &args.set)?;
+    let told = told(args, &loaded)?;
+    let setup = Arc::new(Setup::new(loaded)?);
+    let checkers = Checkers::new(Arc::clone(&setup), told, blocks(args, &setup)?)?;
     let _held = FolderLock::take(&args.output)?;
     let stage = StagedFolder::new(&args.output)?;
     let files = checkers.files().into_iter().chain([
@@ -67,15 +73,53 @@ pub fn run(args: &Args, talk: &Talk) -> Result<()> {
     Ok(())
 }
 
-/// The scenario as the library is told it, from whatever folder the simulation runs.
-fn told(args: &Args) -> Result<String> {
-    let name = match builtin::scenario(&args.scenario) {
-        Some(_) => args.scenario.clone(),
-        None => {
-            let path = PathBuf::from(&args.scenario);
-            let path = path.canonicalize().map_err(Error::io(&path, "read"))?;
-            path.display().to_string()
-        }
+/// The blocks that are to have checkers, each once.
+fn blocks<'a>(args: &'a Args, setup: &Setup) -> Result<Vec<&'a str>> {
+    let all: Vec<&str> = blocks_of(setup).iter().map(|spec| spec.name).collect();
+    if let Some(other) = args.without.iter().find(|name| !all.contains(&name.as_str())) {
+        let (hint, names) = hint(other, all.iter().copied());
+        let expected = format!("no such block{hint}; there are {names}");
+        return Err(Input::new("--without", expected).value(other).into());
+    }
+    let mut blocks: Vec<&str> = args.blocks.iter().map(String::as_str).collect();
+    if blocks.is_empty() {
+        blocks =
+            all.into_iter().filter(|name| !args.without.iter().any(|own| own == name)).collect();
+    }
+    let mut seen = BTreeSet::new();
+    blocks.retain(|name| seen.insert(*name));
+    Ok(blocks)
+}
+
+/// The scenario as the library is told it, from whatever folder the simulation runs: a line for its name or path, and
+/// one for each key that is set.
+fn told(args: &Args, loaded: &Loaded) -> Result<String> {
+    let absolute = |path: &Path| -> Result<String> {
+        let path = path.canonicalize().map_err(Error::io(path, "read"))?;
+        Ok(path.display().to_string())
     };
-    Ok([&[name], args.set.as_slice()].concat().join("\n"))
+    let named: Vec<_> = bundle::names(&loaded.scenario).collect();
+    // From a file's scenario, files are seen from its folder.
+    let is_file_from_here = |value: &str| {
+        let is_path = value.contains(['/', '.']) && named.contains(&value);
+        loaded.files == Source::BuiltIn && is_path && Path::new(value).is_file()
+    };
+    let mut lines = vec![match builtin::scenario(&args.scenario) {
+        Some(_) => args.scenario.clone(),
+        None => absolute(Path::new(&args.scenario))?,
+    }];
+    for set in &args.set {
+        let (key, value) = set.split_once('=').unwrap_or((set, ""));
+        let value = value.trim().trim_matches('"');
+        lines.push(match is_file_from_here(value) {
+            true => format!("{key}={}", toml::Value::from(absolute(Path::new(value))?)),
+            false => set.clone(),
+        });
+    }
+    if let Some(line) = lines.iter().find(|line| line.contains('\n')) {
+        let expected =
+            "expected a path and values without line ends, which a bench is told in lines";
+        return Err(Input::new("scenario", expected).value(format!("{line:?}")).into());
+    }
+    Ok(lines.join("\n"))
 }

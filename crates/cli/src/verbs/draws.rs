@@ -12,6 +12,9 @@ use tofsim_learn::dataset::{Grid, Rows, Subset};
 use super::host::host;
 use super::terminal::Talk;
 
+/// Threads that may be asked for; each has to be made before it can help.
+pub const MOST_THREADS: i64 = 1024;
+
 /// Which histograms.
 #[derive(Debug, clap::Args)]
 pub struct Draws {
@@ -29,7 +32,7 @@ pub struct Draws {
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     seed: Option<u64>,
     /// Threads; the results are the same for any number [default: one a core]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
     threads: Option<u16>,
 }
 

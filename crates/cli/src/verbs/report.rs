@@ -27,7 +27,7 @@ use crate::report::{tdc, tdc_plots, verification};
 
 use super::budget::findings::Findings;
 use super::budget::table;
-use super::draws::{load, use_threads};
+use super::draws::{MOST_THREADS, load, use_threads};
 use super::interrupt::look_no_more;
 use super::terminal::{RunCommand, Talk, print_json, stop_signal};
 use super::verify;
@@ -66,7 +66,7 @@ pub struct Args {
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     /// Threads; the results are the same for any number [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
     threads: Option<u16>,
     /// Print one JSON object
     #[arg(long)]

@@ -17,7 +17,7 @@ use crate::reproduce::study::Study;
 use crate::reproduce::{all, html, json, text};
 use crate::text::table::facts;
 
-use super::draws::use_threads;
+use super::draws::{MOST_THREADS, use_threads};
 use super::interrupt::look_no_more;
 use super::terminal::{Talk, print, print_json, stop_signal};
 
@@ -49,7 +49,7 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Threads; the results are the same for any number [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
     threads: Option<u16>,
     /// Print one JSON object instead of tables
     #[arg(long)]

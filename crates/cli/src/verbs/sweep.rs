@@ -17,7 +17,7 @@ use tofsim_studies::{Plan, Shard, Sweep};
 use crate::record::Record;
 use crate::report::{sweep as report, sweep_plot};
 
-use super::draws::use_threads;
+use super::draws::{MOST_THREADS, use_threads};
 use super::terminal::{Talk, print_json, stop_signal};
 
 mod catalogue;
@@ -70,7 +70,7 @@ struct SweepArgs {
     #[arg(long, requires = "output")]
     restart: bool,
     /// Threads; the results are the same for any number [default: one a core]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
     threads: Option<u16>,
     /// Write the table there, as Parquet and CSV, and a picture if the plan has one
     #[arg(short, long, value_name = "DIR")]

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, Union
 
-from ._tofsim import Scenario, _answer
+from ._tofsim import Scenario, _answer, _refuse
 
 Given = Union[Scenario, str, "os.PathLike[str]", Mapping[str, Any], None]
 Progress = Callable[[int, int], object]
@@ -26,9 +26,12 @@ def grid_words(grid: Grid) -> list[str]:
         return []
     if isinstance(grid, str):
         return [grid]
-    if not isinstance(grid, Mapping):
-        return list(grid)
-    return [f"{key}={_values(values)}" for key, values in grid.items()]
+    if isinstance(grid, Mapping):
+        words = [f"{key}={_values(values)}" for key, values in grid.items()]
+    else:
+        words = list(grid)
+    # Without any it would be the grid of the scenario.
+    return words or _refuse("grid", "expected a key at least, or None for the scenario's own")
 
 
 def _values(values: Any) -> str:

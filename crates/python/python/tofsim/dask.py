@@ -7,16 +7,19 @@ import pickle
 import warnings
 from collections import deque
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from distributed import Client, as_completed
 from numpy.typing import NDArray
 
-from ._tofsim import Dataset, DatasetFiles, Plan, PlanTable, _refuse
+from ._tofsim import Dataset, DatasetFiles, InputError, Plan, PlanTable, _refuse
 from ._verbs import Given, Grid, Progress, grid_words
+
+_Result = TypeVar("_Result")
 
 # Blocks for each worker, so that the last ones end together, and points that a block has at most.
 _BLOCKS = 16
@@ -47,6 +50,7 @@ def sweep(
     `sweep.parts`, to be looked at with `pandas.read_parquet` until the table is whole. Each block has so many
     `threads`; a worker with one thread wants one.
     """
+    _check(client, block, threads)
     if not isinstance(plan, Plan):
         plan = Plan(plan, set, seed=seed)
     elif set is not None or seed is not None:
@@ -66,13 +70,13 @@ def sweep(
         try:
             for batch in as_completed(futures, with_results=True).batches():
                 for future, lines in batch:
-                    table.add(lines)
+                    table.add(_checked(lines))
                     done += len(lines)
                     future.release()
                 if progress is not None:
                     progress(done, all_points)
         finally:
-            client.cancel(futures)
+            _cancel(client, futures)
     files, said = table.finish()
     for sentence in said:
         warnings.warn(sentence, stacklevel=2)
@@ -88,7 +92,7 @@ def dataset(
     rows: int | None = None,
     repeats: int = 5,
     seed: int | None = None,
-    formats: Sequence[str] = ("parquet",),
+    formats: str | Sequence[str] = ("parquet",),
     block: int = 2048,
     threads: int = 1,
     retries: int = 10,
@@ -100,14 +104,14 @@ def dataset(
     of so many rows come in order, few at a time, so that memory is that of some blocks whatever the rows; those of a
     worker that dies are drawn by another one. Where depths of some scenes are impossible there is a warning.
     """
+    _check(client, block, threads)
     drawn = Dataset(scenario, grid_words(grid), rows, repeats, seed)
-    if block < 1:
-        _refuse("block", "expected 1 at least", value=str(block))
     for sentence in drawn.sentences():
         warnings.warn(sentence, stacklevel=2)
     text = pickle.dumps(drawn)
     begins = iter(range(0, drawn.rows, block))
-    files = DatasetFiles(drawn, Path(output), list(formats))
+    wanted = [formats] if isinstance(formats, str) else list(formats)
+    files = DatasetFiles(drawn, Path(output), wanted)
     under_way: deque[Any] = deque()
 
     def begin_blocks() -> None:
@@ -123,7 +127,7 @@ def dataset(
         begin_blocks()
         while under_way:
             future = under_way.popleft()
-            counts = future.result()
+            counts = _checked(future.result())
             future.release()
             begin_blocks()
             # What came over the network may begin at any byte.
@@ -133,8 +137,28 @@ def dataset(
                 progress(done, drawn.rows)
         return [Path(path) for path in files.finish()]
     finally:
-        client.cancel(list(under_way))
         files.abandon()
+        _cancel(client, list(under_way))
+
+
+def _check(client: Client, block: int | None, threads: int) -> None:
+    if not isinstance(client, Client) or client.asynchronous:
+        raise TypeError("client: expected a distributed.Client that is not asynchronous")
+    for name, number in [("block", block), ("threads", threads)]:
+        if number is not None and number < 1:
+            _refuse(name, "expected 1 at least", value=str(number))
+
+
+def _cancel(client: Client, futures: list[Any]) -> None:
+    # A client that is closed has nothing under way, and why it was closed is to be told.
+    with suppress(Exception):
+        client.cancel(futures)
+
+
+def _checked(result: _Result | InputError) -> _Result:
+    if isinstance(result, InputError):
+        raise result
+    return result
 
 
 def _workers(client: Client) -> int:
@@ -150,11 +174,18 @@ def _arrived(text: bytes) -> Any:
     return pickle.loads(text)
 
 
-def _work(points: list[int], *, text: bytes, threads: int) -> list[str]:
+# What is refused is a result: it would be refused again, and a retry is for workers that die.
+def _work(points: list[int], *, text: bytes, threads: int) -> list[str] | InputError:
     plan: Plan = _arrived(text)
-    return plan.work(points, threads=threads)
+    try:
+        return plan.work(points, threads=threads)
+    except InputError as refused:
+        return refused
 
 
-def _draw(begin: int, end: int, *, text: bytes, threads: int) -> NDArray[np.uint32]:
+def _draw(begin: int, end: int, *, text: bytes, threads: int) -> NDArray[np.uint32] | InputError:
     drawn: Dataset = _arrived(text)
-    return drawn.counts(begin, end, threads)
+    try:
+        return drawn.counts(begin, end, threads)
+    except InputError as refused:
+        return refused

@@ -32,6 +32,19 @@ impl Place {
         self.words(one).eq(self.words(other))
     }
 
+    /// Whether one of its bits is 1.
+    pub fn has_any(&self, line: &[u32]) -> bool {
+        self.words(line).any(|word| word != 0)
+    }
+
+    /// Its bits in hexadecimal, all digits, with an x for each that has an unknown bit.
+    pub fn hex_or_x(&self, line: &[u32], unknown: &[u32]) -> String {
+        let digits = self.hex(line).into_bytes().into_iter().zip(self.hex(unknown).into_bytes());
+        digits
+            .map(|(digit, unknown)| char::from(if unknown == b'0' { digit } else { b'x' }))
+            .collect()
+    }
+
     /// Its bits in hexadecimal, all digits.
     pub fn hex(&self, line: &[u32]) -> String {
         let digits = self.width.div_ceil(4);
@@ -149,6 +162,12 @@ mod tests {
         assert_eq!(layout.find("a").unwrap().hex(&line), "1");
         assert_eq!(layout.find("c").unwrap().hex(&line), "fffffffff");
         assert_eq!(layout.find("d").unwrap().hex(&line), "3fffffff");
+        let unknown = [0, 0, 0x0000_0f10, 0, 0];
+        assert!(b.has_any(&unknown) && !layout.find("d").unwrap().has_any(&unknown));
+        let mut x = vec![0; 5];
+        put(&mut x, b.low, b.width, 0x0010_0000_0000_000f);
+        assert_eq!(b.hex_or_x(&line, &x), "12x456789abcdefx");
+        assert_eq!(b.hex_or_x(&line, &[]), "123456789abcdef0");
         let mut other = line.clone();
         put(&mut other, 0, 30, 5);
         assert!(b.agrees(&line, &other) && !layout.find("d").unwrap().agrees(&line, &other));

@@ -109,7 +109,7 @@ fn first_mismatch(
             if fault == Some(row) {
                 got[0] ^= 1;
             }
-            if let Some(Mismatch { port, expected, got }) = block.mismatches(&got).first() {
+            if let Some(Mismatch { port, expected, got }) = block.mismatches(&got, &[]).first() {
                 return Some(format!("{name}, {row}.{sample}: {port}: {expected}, {got}"));
             }
             if let Some(edge) = edge

@@ -15,7 +15,7 @@ use crate::choice::words;
 use crate::record::Record;
 use crate::report::tdc_drift as report;
 
-use crate::verbs::draws::{load, use_threads};
+use crate::verbs::draws::{MOST_THREADS, load, use_threads};
 use crate::verbs::terminal::{Talk, print_json, stop_signal};
 
 /// Show the depth's error over time as the die heats up, with a TDC calibrated once and again and again
@@ -62,7 +62,7 @@ pub struct Args {
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     /// Threads; the results are the same for any number [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
     threads: Option<u16>,
     /// Write drift.csv, drift.json and drift.svg into this folder
     #[arg(short, long, value_name = "DIR")]

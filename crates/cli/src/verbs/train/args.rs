@@ -9,6 +9,7 @@ use tofsim::scenario::builtin::Source;
 use tofsim::scenario::{self, Loaded};
 use tofsim_learn::training::recipe::Recipe;
 
+use crate::verbs::draws::MOST_THREADS;
 use crate::verbs::formats::Formats;
 
 /// Train a depth network on simulated histograms, within the thesis's number formats or others
@@ -76,7 +77,7 @@ pub struct Args {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) checkpoints: Option<u64>,
     /// Threads; the network is the same for any number [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
     pub(super) threads: Option<u16>,
     /// Write network.toml, accuracy.csv, curve.csv, curve.svg and checkpoint there
     #[arg(short, long, value_name = "DIR", default_value = "training")]
