@@ -135,7 +135,7 @@ def test_what_is_refused_at_a_point_is_said_here(client: Client, tmp_path: Path)
     with pytest.raises(tofsim.InputError, match="block: -1: expected 1 at least"):
         tofsim.dask.sweep(tofsim.Plan(text), client, tmp_path / "no", block=-1)
     with pytest.raises(TypeError, match="expected a distributed.Client"):
-        tofsim.dask.sweep(tofsim.Plan(text), "tcp://localhost:8786", tmp_path / "no")
+        tofsim.dask.sweep(tofsim.Plan(text), "tcp://localhost:8786", tmp_path / "no")  # type: ignore[arg-type]
     assert not (tmp_path / "no").exists()
 
 

@@ -3,6 +3,7 @@
 import re
 
 import tofsim
+import tofsim.dask
 from conftest import ROOT
 
 
@@ -21,7 +22,7 @@ def test_every_function_of_the_table_is_there() -> None:
     text = (ROOT / "docs" / "python.md").read_text()
     table = text.split("## Everything else")[1].split("\n## ")[0]
     named = re.findall(r"^\| `([\w.]+)\(", table, re.MULTILINE)
-    assert len(named) == 11
+    assert len(named) == 12
     for name in named:
         thing: object = tofsim
         for part in name.split("."):

@@ -51,8 +51,9 @@ pub fn check(source: &str, facets: &Facets) -> Result<()> {
     if volume > 0.0 {
         return Ok(());
     }
+    let why = if volume < 0.0 { "the mesh is inside out" } else { "there is nothing in the mesh" };
     let expected =
-        "expected more than 0, with corners counter-clockwise from outside: the mesh is inside out";
+        format!("expected more than 0, with corners counter-clockwise from outside: {why}");
     Err(Input::new(source, expected).field("volume").value(volume).into())
 }
 

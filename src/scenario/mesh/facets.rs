@@ -8,6 +8,9 @@ pub type Point = [f64; 3];
 /// Most triangles of a mesh.
 const MOST_TRIANGLES: usize = 1_000_000;
 
+/// Furthest that a corner may be from the origin, in the file's unit; the squares of what is further need not be numbers.
+const FURTHEST: f64 = 1e6;
+
 /// What a file has, before it is known to be a surface.
 #[derive(Debug, Default)]
 pub struct Facets {
@@ -41,6 +44,10 @@ impl Facets {
         if self.corners.len() == MOST_TRIANGLES {
             let expected = format!("expected {MOST_TRIANGLES} triangles at most");
             return Err(place.fault(source, expected).into());
+        }
+        if let Some(far) = corners.as_flattened().iter().find(|number| number.abs() > FURTHEST) {
+            let expected = format!("expected coordinates of {FURTHEST} at most");
+            return Err(place.fault(source, expected).value(format!("{far:e}")).into());
         }
         self.corners.push(corners);
         self.places.push(place);

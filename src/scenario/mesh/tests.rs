@@ -121,6 +121,13 @@ fn a_mesh_that_is_inside_out_is_refused_with_its_volume() {
 }
 
 #[test]
+fn a_corner_that_is_far_beyond_all_is_refused() {
+    let far = CUBE.replacen("v 1 ", "v 1e200 ", 1);
+    assert_ne!(far, CUBE);
+    assert!(error("c.obj", &far).contains("1e200: expected coordinates of 1000000 at most"));
+}
+
+#[test]
 fn what_is_no_mesh_is_refused() {
     assert!(error("c.ply", CUBE).contains("ends in .obj or .stl"));
     assert!(error("c.obj", "v 0 0 0\n").contains("one triangle at least"));

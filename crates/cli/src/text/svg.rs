@@ -18,6 +18,9 @@ pub const COLOURS: [RGBColor; 6] = [
     RGBColor(74, 85, 104),
 ];
 
+/// Longest title that is drawn at full size [characters].
+const TITLE: usize = 72;
+
 /// Where a picture is drawn.
 pub type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
@@ -27,7 +30,9 @@ pub fn chart<'a, 'b, 'c>(
     title: &str,
 ) -> ChartBuilder<'a, 'c, SVGBackend<'b>> {
     let mut chart = ChartBuilder::on(canvas);
-    chart.margin(12).caption(title, ("sans-serif", 18));
+    // As wide as the picture at most, and room for the half of the last number that stands beyond the axis.
+    let size = 18 * TITLE / title.chars().count().max(TITLE);
+    chart.margin(12).margin_right(24).caption(title, ("sans-serif", size as u32));
     chart.x_label_area_size(42).y_label_area_size(64);
     chart
 }

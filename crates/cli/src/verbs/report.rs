@@ -97,6 +97,8 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
     let setup = Setup::new(loaded.clone())?;
     let mut notes = setup.notes()?;
     notes.extend(notes_of_firmware(&setup));
+    let findings = Findings::of(setup.clone());
+    notes.extend(findings.eye_safety_notes());
     talk.heed(&notes)?;
     let _held = FolderLock::take(&args.output)?;
     let words = Words {
@@ -124,7 +126,6 @@ pub fn run(args: &Args, talk: &Talk, run_command: RunCommand) -> Result<ExitCode
     };
     progress.finish_and_clear();
     look_no_more();
-    let findings = Findings::of(setup.clone());
     let record = Record::new(&setup, &talk.command);
     let value = |part: &Part<Value>| part.as_ref().map_or(Value::Null, Value::clone);
     let verify = verified.as_ref().map_or(Value::Null, |(verify, _)| verify.clone());

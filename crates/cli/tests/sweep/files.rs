@@ -113,3 +113,30 @@ fn a_disk_that_fills_up_is_named_and_what_was_finished_is_kept() {
     let error = refused(folder, &["sweep", "plan.toml", "-o", "device"]);
     assert!(error.contains("device/sweep.journal: expected a regular file"), "{error}");
 }
+
+#[test]
+fn a_sweep_is_the_same_whatever_the_path_of_its_plan() {
+    let home = with_plan();
+    let folder = home.path();
+    sweep(folder, &["-o", "one"]);
+    stdout(folder, &["sweep", "plan.toml", "-o", "s", "--shard", "1/2", "-q"]);
+    stdout(folder, &["sweep", "./plan.toml", "-o", "s", "--shard", "2/2", "-q"]);
+    stdout(folder, &["sweep", "merge", "s", "-o", "merged", "-q"]);
+    same(folder, "one", "merged");
+    let before = fs::metadata(folder.join("one/sweep.parquet")).unwrap().modified().unwrap();
+    stdout(folder, &["sweep", "./plan.toml", "-o", "one", "-q"]);
+    let after = fs::metadata(folder.join("one/sweep.parquet")).unwrap().modified().unwrap();
+    assert_eq!(before, after, "it is there and whole");
+}
+
+#[test]
+fn a_sweep_that_lost_its_csv_makes_it_again() {
+    let home = with_plan();
+    let folder = home.path();
+    for out in ["one", "two"] {
+        sweep(folder, &["-o", out]);
+    }
+    fs::remove_file(folder.join("two/sweep.csv")).unwrap();
+    sweep(folder, &["-o", "two"]);
+    same(folder, "one", "two");
+}

@@ -91,13 +91,14 @@ fn over_power(study: &Study) -> Result<Finding> {
         [.., before, last] => last.1 - before.1 < 0.05 * last.1,
         _ => false,
     };
+    let furthest = few.iter().map(|point| point.1).fold(0.0, f64::max);
+    let reach = match few.len() {
+        0 => "no power reaches 0.1 m".to_owned(),
+        count => format!("{count} of 6 powers reach {furthest:.3} m at most, the others not 0.1 m"),
+    };
     let rows = [
         trend("range grows with laser power [m]", &by_power, 1.0, 3),
-        Row::claim(
-            "500 cycles fail",
-            few.iter().all(|point| point.1 < 0.11),
-            format!("{} of 6 powers reach 0.1 m and no more, the others nothing", few.len()),
-        ),
+        Row::claim("500 cycles fail", furthest < 0.11, reach),
         trend("range grows with the cycles [m]", &by_cycles, 1.0, 3),
         trend("range grows with the bin [m]", &bins.line("tdc.bin_ps", RANGE, &full), 1.0, 3),
         trend("range falls with ambient light [m]", &light.line(LIGHT, RANGE, &full), -1.0, 3),
@@ -125,18 +126,22 @@ fn improved(study: &Study) -> Result<Finding> {
     let apart: Vec<_> = dark.iter().zip(&bright).map(|(dark, bright)| bright.1 - dark.1).collect();
     let cross = apart.first().is_some_and(|first| *first > -0.02)
         && apart.last().is_some_and(|last| *last < 0.0);
-    let reached = by_cycles.last().map_or(0.0, |point| point.1);
+    let (_, reached, se) = by_cycles.last().copied().unwrap_or_default();
     let rows = [
         trend("range grows from 500 to 2,000 cycles [m]", &by_cycles, 1.0, 3),
-        Row::claim("2,000 cycles reach 0.3 m", reached >= 0.25, format!("{reached:.3} m")),
+        Row::claim(
+            "2,000 cycles reach 0.3 m",
+            reached + 3.0 * se.unwrap_or_default() >= 0.3,
+            format!("{reached:.3} m"),
+        ),
         Row::claim(
             "with E 0.4 the range of 60 % is no longer than that of 8 % at full power, and is at little",
             cross,
             format!("8 %: {}; 60 %: {} m", words(&dark, 3), words(&bright, 3)),
         ),
     ];
-    let reason = "Where the curves of both targets cross is not printed: here at the least power of the plan with E 0.4, and \
-                  near full power with E 0.2.";
+    let reason = "Where the curves of both targets cross is not printed: here near the least power of the plan with E 0.4, \
+                  and nowhere with E 0.2, where the bright target is seen further.";
     two.shown_in(few.shown_in(Finding::of(rows).because(reason))?)
 }
 

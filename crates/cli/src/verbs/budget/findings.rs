@@ -37,6 +37,15 @@ impl Findings {
     /// # Errors
     /// When the network's file has a domain that is none.
     pub fn notes(&self) -> Result<Vec<Note>> {
+        // What the network was trained for matters to its depths, which are not asked for.
+        let mut notes = self.setup.notes()?;
+        notes.retain(|note| note.code != NoteCode::OutsideTraining);
+        notes.extend(self.eye_safety_notes());
+        Ok(notes)
+    }
+
+    /// Which limits the laser is above, and where there is none to tell.
+    pub fn eye_safety_notes(&self) -> impl Iterator<Item = Note> {
         // The laser does not run at the optics' rate, so only that there is no limit is worth a note.
         let design = Some(&self.at_the_optics_rate).filter(|design| design.limit_w.is_none());
         let exposures = [
@@ -47,11 +56,7 @@ impl Findings {
         let note = |(what, exposure): (&str, Option<&Exposure>)| {
             exposure.and_then(|exposure| self.setup.eye_safety_note(what, exposure))
         };
-        // What the network was trained for matters to its depths, which are not asked for.
-        let mut notes = self.setup.notes()?;
-        notes.retain(|note| note.code != NoteCode::OutsideTraining);
-        notes.extend(exposures.into_iter().filter_map(note));
-        Ok(notes)
+        exposures.into_iter().filter_map(note)
     }
 
     /// Longest stretch of frames within Class 1 [s].
