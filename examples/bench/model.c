@@ -12,7 +12,7 @@ static void print_errors(void *handle) {
 int main(int count, char **words) {
   /* Inputs are rst, mode and pre_start, from the highest bit on; outputs are spad_rst and the 40 bits of spad_sel. */
   static const uint32_t inputs[] = {4, 0, 1, 0, 0};
-  void *model = tofsim_new(tofsim_version(), count > 1 ? words[1] : "kc705", "spad_control");
+  void *model = tofsim_new(TOFSIM_VERSION, count > 1 ? words[1] : "kc705", "spad_control");
   if (!model) {
     print_errors(NULL);
     return 1;

@@ -5,6 +5,9 @@
 
 #include <stdint.h>
 
+// The version of this header, for the functions that take that of whoever calls.
+#define TOFSIM_VERSION "0.1.0"
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus

@@ -6,7 +6,12 @@ use std::path::Path;
 #[test]
 fn the_header_is_that_of_the_functions() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let config = cbindgen::Config::from_file(here.join("cbindgen.toml")).unwrap();
+    let mut config = cbindgen::Config::from_file(here.join("cbindgen.toml")).unwrap();
+    let version = env!("CARGO_PKG_VERSION");
+    config.after_includes = Some(format!(
+        "\n// The version of this header, for the functions that take that of whoever calls.\n\
+         #define TOFSIM_VERSION \"{version}\""
+    ));
     let source = here.join("src/border.rs");
     let bindings =
         cbindgen::Builder::new().with_src(source).with_config(config).generate().unwrap();

@@ -45,22 +45,22 @@ static char *text(vpiHandle arg) {
   return strdup(value.value.str);
 }
 
-/* The bits of a vector, the lowest word first, x and z as 0, or where it is told those that are x or z; the caller frees
-   them. There are none of a vector without any. */
-static uint32_t *bits(vpiHandle arg, int are_unknown) {
+/* The bits of a vector, the lowest word first, x and z as 0, and behind as many words those that are x or z, if there
+   are any: `unknown` is there. The caller frees them. */
+static uint32_t *bits(vpiHandle arg, uint32_t **unknown) {
   s_vpi_value value = {.format = vpiVectorVal};
+  *unknown = NULL;
   if (!arg) return NULL;
   int words = (vpi_get(vpiSize, arg) + 31) / 32;
-  uint32_t *all = calloc(words + 1, sizeof *all), any = 0;
+  uint32_t *all = calloc(2 * words + 1, sizeof *all);
   vpi_get_value(arg, &value);
   for (int n = 0; n < words; n++) {
     uint32_t a = value.value.vector[n].aval, b = value.value.vector[n].bval;
-    all[n] = are_unknown ? b : a & ~b;
-    any |= b;
+    all[n] = a & ~b;
+    all[words + n] = b;
+    if (b) *unknown = all + words;
   }
-  if (!are_unknown || any) return all;
-  free(all);
-  return NULL;
+  return all;
 }
 
 static PLI_INT32 give(struct call call, int result) {
@@ -91,10 +91,10 @@ static PLI_INT32 port(PLI_BYTE8 *data) {
 
 static PLI_INT32 step(PLI_BYTE8 *data) {
   struct call call = begin();
-  uint32_t *inputs = bits(call.args[3], 0), *outputs = bits(call.args[4], 0), *unknown = bits(call.args[4], 1);
+  uint32_t *unknown, *inputs = bits(call.args[3], &unknown), *outputs = bits(call.args[4], &unknown);
   if (unknown) tofsim_unknown(handle(call.args[0]), unknown);
   int same = tofsim_step(handle(call.args[0]), (int)number(call.args[1]), number(call.args[2]), inputs, outputs);
-  free(inputs), free(outputs), free(unknown);
+  free(inputs), free(outputs);
   (void)data;
   return give(call, same);
 }

@@ -72,9 +72,9 @@ impl TradeOff {
             .shown_by(format!("tofsim sweep {} --seed {} -o {0}", self.name, self.plan.seed));
         let Some(plan) = &self.plan.file.plot else { return Ok(finding) };
         let lines = lines(plan, &self.fields, &self.points);
-        let points = || lines.iter().flat_map(|line| line.points.iter().map(|point| point.0));
-        let across =
-            [points().fold(f64::INFINITY, f64::min), points().fold(f64::NEG_INFINITY, f64::max)];
+        let points = || lines.iter().flat_map(|line| &line.points);
+        let across = ends(points().map(|point| point.0));
+        let up = ends(points().map(|point| point.1));
         let mut layers = Vec::new();
         for (line, colour) in lines.iter().zip(COLOURS.into_iter().cycle()) {
             let points: Vec<_> = line.points.iter().map(|&(x, y, _)| (x, y)).collect();
@@ -84,10 +84,12 @@ impl TradeOff {
                 line.points.iter().filter_map(|&(x, y, se)| Some([(x, y - se?), (x, y + se?)]));
             layers.push(Layer::new("", colour, Shape::Whiskers, ends.flatten()));
         }
-        for limit in plan.limits.iter().filter(|limit| limit.y.is_some()) {
-            let y = limit.y.unwrap_or_default();
-            let ends = across.map(|x| (x, y));
-            layers.push(Layer::between(limit.label.clone(), GREY, ends));
+        for limit in &plan.limits {
+            let along = limit.y.map(|y| across.map(|x| (x, y)));
+            let upright = limit.x.map(|x| up.map(|y| (x, y)));
+            for ends in along.into_iter().chain(upright) {
+                layers.push(Layer::between(limit.label.clone(), GREY, ends));
+            }
         }
         let y = plan.y_label.clone().unwrap_or(plan.y.join(", "));
         let axes = [plan.x_label.as_deref().unwrap_or(&plan.x), &y];
@@ -96,6 +98,11 @@ impl TradeOff {
         let picture = Plot { title: &plan.title, axes, layers };
         finding.with_plot(&picture, format!("{}{errors}", self.plan.file.description))
     }
+}
+
+/// The least and the largest of numbers.
+fn ends(numbers: impl Iterator<Item = f64> + Clone) -> [f64; 2] {
+    [numbers.clone().fold(f64::INFINITY, f64::min), numbers.fold(f64::NEG_INFINITY, f64::max)]
 }
 
 /// A name without what stands before the last point of each key in it.

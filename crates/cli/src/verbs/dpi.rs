@@ -28,12 +28,12 @@ use super::terminal::Talk;
 /// plusargs and variables, and what was tried in which simulator.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
-    tofsim dpi -o dpi                            a checker for each block of the KC705's design\n  \
-    tofsim dpi mine.toml -b tdc -o dpi           for one block of an instrument of one's own\n  \
-    tofsim dpi --without pll -o dpi              where the bench has a PLL with jitter\n  \
-    cargo build --release -p tofsim-dpi          makes the library, in a clone\n  \
-    make -f dpi/Makefile verilator LIB=target/release TOP=tb DESIGN=\"your files\" ARGS=+plusargs\n  \
-    make -f dpi/Makefile icarus TOP=tb PATH_OF_TOP=tb.dut DESIGN=\"your files\"")]
+    tofsim dpi -o dpi                    all blocks of the KC705's design\n  \
+    tofsim dpi mine.toml -b tdc -o dpi   one block of one's own instrument\n  \
+    tofsim dpi --without pll -o dpi      where the bench's PLL has jitter\n  \
+    cargo build --release -p tofsim-dpi  makes the library, in a clone\n  \
+    make -f dpi/Makefile verilator LIB=target/release TOP=tb DESIGN=\"FILES\"\n  \
+    make -f dpi/Makefile icarus LIB=target/release TOP=tb DESIGN=\"FILES\"")]
 pub struct Args {
     /// Built-in scenario or file: the instrument, and for photons its target and light
     #[arg(default_value = scenario::DEFAULT)]

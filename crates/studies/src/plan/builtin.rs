@@ -27,6 +27,7 @@ pub const PLANS: &[(&str, &str)] = plans!(
     "least-power",
     "pile-up",
     "weather",
+    "rain",
     "shapes",
 );
 
