@@ -10,11 +10,11 @@ use crate::scenario::window::Window;
 use crate::waves::{Marks, Waves};
 
 use super::device::{Device, Off};
-use super::fast::{FastForward, Stepping};
 use super::frames::{Frame, Frames};
 use super::setup::Setup;
 use super::shot_recorder::{Shot, ShotRecorder};
 use super::sinks::{OptionalRecorder, Sinks, Taker};
+use super::stepping::{FastForward, Stepping};
 use super::wave_tracer::{WaveTracer, WindowedProbe};
 
 /// Cycles between two looks at whether to stop.

@@ -13,7 +13,7 @@ use crate::optics::budget::LIGHT_M_S;
 use crate::scenario::wiring::Wiring;
 use crate::sensor::light::Light;
 
-use super::fast::likelihood::estimate;
+use super::estimates::likelihood::estimate;
 use super::frames::Frame;
 use super::setup::Setup;
 

@@ -33,8 +33,8 @@ use crate::sensor::light::Light;
 
 use super::device::Device;
 use super::disturbance::Disturbance;
-use super::fast::centroid::locate;
-use super::fast::likelihood;
+use super::estimates::centroid::locate;
+use super::estimates::likelihood;
 use super::jitter::Jitter;
 use super::timeline::Timeline;
 

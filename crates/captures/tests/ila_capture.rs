@@ -111,7 +111,7 @@ fn likelihood_estimator_shows_where_each_step_leads_and_what_comes_out() {
     let setup = setup("estimator_validation", &["estimator.kind=likelihood"]);
     let histogram = &common::frames(&setup, 1)[0].histogram;
     let params = setup.likelihood(setup.params.frame_ctrl.shots_per_frame.into()).unwrap();
-    let expected = tofsim::sim::fast::likelihood::trace(&params, histogram);
+    let expected = tofsim::sim::estimates::likelihood::trace(&params, histogram);
     let words = ["ARRIVAL", "STRENGTH", "AMBIENT", "CUT"].map(of);
     for (taken, (point, information)) in (1..).zip(expected.steps) {
         let sample = steps.iter().position(|&steps| steps == taken).unwrap();

@@ -21,9 +21,8 @@ use crate::sim::run::{Observers, Outcome, Run};
 use crate::sim::setup::Setup;
 use crate::sim::shot_recorder::ShotRecorder;
 use crate::sim::sinks::{Sinks, Taker};
+use crate::sim::stepping::Stepping;
 use crate::waves::Marks;
-
-use super::Stepping;
 
 /// Frames that each thread simulates between two deliveries.
 const BATCH: u64 = 64;

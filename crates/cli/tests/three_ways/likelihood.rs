@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use tofsim::firmware::likelihood_estimator::params::Params;
 use tofsim::network::Histogram;
 use tofsim::optics::{BinProbabilities, Hazard};
-use tofsim::sim::fast::likelihood::estimate;
+use tofsim::sim::estimates::likelihood::estimate;
 use tofsim::sim::setup::Setup;
 use tofsim_rtl::golden::parameters::{self, Parameter};
 

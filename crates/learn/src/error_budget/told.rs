@@ -6,7 +6,7 @@ use tofsim::firmware::depth_estimator::Params as NetworkParams;
 use tofsim::firmware::forward1::L1In;
 use tofsim::firmware::likelihood_estimator::params::Params;
 use tofsim::network::float::Float;
-use tofsim::sim::fast::centroid::locate;
+use tofsim::sim::estimates::centroid::locate;
 
 use crate::estimation::estimator::Failure;
 use crate::estimation::likelihood_estimator::LikelihoodEstimator;

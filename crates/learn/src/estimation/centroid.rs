@@ -1,7 +1,7 @@
 //! The firmware's other estimator: argmax with centroid correction, bit for bit.
 
 use tofsim::firmware::centroid_estimator::Params;
-use tofsim::sim::fast::centroid::{Found, locate};
+use tofsim::sim::estimates::centroid::{Found, locate};
 
 use super::estimator::{Estimator, Failure, hits};
 

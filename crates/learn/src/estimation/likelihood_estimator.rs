@@ -1,7 +1,7 @@
 //! Maximum likelihood in integers as an estimator: what the firmware's block would say.
 
 use tofsim::firmware::likelihood_estimator::params::Params;
-use tofsim::sim::fast::likelihood::estimate;
+use tofsim::sim::estimates::likelihood::estimate;
 
 use super::estimator::{Estimator, Failure, Found};
 

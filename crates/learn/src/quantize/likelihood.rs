@@ -16,7 +16,7 @@ use tofsim::firmware::likelihood_estimator::words::{
     AMBIENT_FRACTION, CHI_FRACTION, DEPTH_FRACTION, SIGNAL_FRACTION, UNITS, status,
 };
 use tofsim::optics::Bins;
-use tofsim::sim::fast::likelihood::{Best, Point, Trace, trace};
+use tofsim::sim::estimates::likelihood::{Best, Point, Trace, trace};
 use tofsim::sim::setup::Setup;
 
 use model::Model;

@@ -16,7 +16,7 @@ use tofsim::firmware::likelihood_estimator::params::Params;
 use tofsim::firmware::likelihood_estimator::words::status;
 use tofsim::network::Histogram;
 use tofsim::optics::{BinProbabilities, Bins, Budget, Hazard};
-use tofsim::sim::fast::likelihood::{Found, estimate};
+use tofsim::sim::estimates::likelihood::{Found, estimate};
 use tofsim_learn::estimation::Acquisition;
 use tofsim_learn::estimation::acquisition::Echo;
 use tofsim_learn::estimation::likelihood::Model;

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use tofsim::firmware::likelihood_estimator::words::status;
 use tofsim::sensor::streams::{Source, stream};
-use tofsim::sim::fast::likelihood::Found;
+use tofsim::sim::estimates::likelihood::Found;
 
 use super::{Instrument, Tally};
 use pair::Pair;

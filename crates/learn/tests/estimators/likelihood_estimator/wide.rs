@@ -6,7 +6,7 @@ use rand::{Rng, RngExt};
 use rayon::prelude::*;
 
 use tofsim::sensor::streams::{Source, stream};
-use tofsim::sim::fast::likelihood::Found;
+use tofsim::sim::estimates::likelihood::Found;
 
 use super::{Instrument, Place, Tally};
 

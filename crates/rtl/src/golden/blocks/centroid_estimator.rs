@@ -3,7 +3,7 @@
 //! measured; starts while busy, and a reset in each part.
 
 use tofsim::firmware::centroid_estimator::In;
-use tofsim::sim::fast::centroid::locate;
+use tofsim::sim::estimates::centroid::locate;
 
 use crate::golden::estimations::{Estimations, memory};
 use crate::golden::configuration;

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use tofsim::network::Histogram;
 use tofsim::sensor::streams::{Source, stream};
-use tofsim::sim::fast::likelihood::estimate;
+use tofsim::sim::estimates::likelihood::estimate;
 
 use super::super::super::{DISTANCES_M, SHOTS};
 use super::super::Instrument;

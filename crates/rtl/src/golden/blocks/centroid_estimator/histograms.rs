@@ -2,7 +2,7 @@
 
 use tofsim::firmware::centroid_estimator::Params;
 use tofsim::firmware::histogram_builder;
-use tofsim::sim::fast::centroid::Found;
+use tofsim::sim::estimates::centroid::Found;
 
 use crate::golden::estimations::{Histogram, draws};
 use crate::golden::prelude::*;
